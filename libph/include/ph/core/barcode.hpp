@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "ph/core/filtration.hpp"
+
+namespace ph {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// One interval [birth, death) of the barcode: a class of H_dim born at `birth`, zero from `death`.
+struct Bar {
+  int dim = 0;
+  double birth = 0;
+  double death = kInfinity;
+
+  bool is_infinite() const { return death == kInfinity; }
+  double persistence() const { return birth == death ? 0.0 : death - birth; }
+  friend bool operator==(const Bar&, const Bar&) = default;
+};
+
+/// A cell as the user knows it. `numbers` points into the barcode it came from.
+struct InputCell {
+  CellKind kind;
+  std::span<const Index> numbers;
+};
+
+/// The result of persistent homology: bars ordered by dimension, birth, death (an infinite death
+/// last) and birth cell, each with the cell that gave birth to it and, if it died, the cell that
+/// killed it. A value: it owns all it shows.
+class Barcode {
+ public:
+  explicit Barcode(CellKind kind = CellKind::vertices) : kind_(kind) {}
+
+  std::size_t size() const { return bars_.size(); }
+  bool empty() const { return bars_.empty(); }
+  const Bar& operator[](std::size_t i) const { return bars_[i]; }
+  auto begin() const { return bars_.begin(); }
+  auto end() const { return bars_.end(); }
+
+  /// The bars of one dimension, in order.
+  std::span<const Bar> bars(int dim) const;
+  /// Position of the longest bar of a dimension, infinite ones first, the first among equals.
+  /// @throws Error (usage) if there is none.
+  std::size_t longest(int dim) const;
+
+  CellKind cell_kind() const { return kind_; }
+  InputCell birth_cell(std::size_t i) const { return {kind_, numbers_of(cells_[i].birth)}; }
+  /// The cell that killed bar i; nothing for an infinite bar.
+  std::optional<InputCell> death_cell(std::size_t i) const {
+    if (cells_[i].death.begin == cells_[i].death.end) return std::nullopt;
+    return InputCell{kind_, numbers_of(cells_[i].death)};
+  }
+
+  /// Appends a bar; an empty `death_cell` says that the class lives for ever.
+  void add(const Bar& bar, std::span<const Index> birth_cell, std::span<const Index> death_cell);
+  /// Brings the bars into the order stated above.
+  void sort();
+
+ private:
+  struct Range {
+    std::size_t begin = 0, end = 0;
+  };
+  struct Cells {
+    Range birth, death;
+  };
+  Range store(std::span<const Index> numbers);
+  std::span<const Index> numbers_of(Range r) const {
+    return std::span(numbers_).subspan(r.begin, r.end - r.begin);
+  }
+
+  CellKind kind_;
+  std::vector<Bar> bars_;
+  std::vector<Cells> cells_;     // parallel to bars_
+  std::vector<Index> numbers_;   // all cells, one after another
+};
+
+/// Where an engine puts its pairs: turns cells into bars and drops what the user does not want.
+template <Filtration F>
+class BarcodeBuilder {
+ public:
+  using Cell = typename F::Cell;
+
+  /// Keeps bars of dimension <= max_dim with death - birth > min_persistence; a negative
+  /// `min_persistence` keeps the zero-length bars too.
+  BarcodeBuilder(const F& filtration, int max_dim, double min_persistence)
+      : filtration_(filtration),
+        max_dim_(max_dim),
+        min_persistence_(min_persistence),
+        barcode_(filtration.cell_kind()) {}
+
+  int max_dim() const { return max_dim_; }
+  /// Whether an engine must report pairs of equal value.
+  bool wants_zero_length() const { return min_persistence_ < 0; }
+
+  /// A class of H_dim born with `birth`, killed by `death` (a cell of dimension dim + 1).
+  void add_pair(int dim, const Cell& birth, const Cell& death) {
+    if (dim > max_dim_) return;
+    const Bar bar{dim, filtration_.value(birth), filtration_.value(death)};
+    if (!(bar.persistence() > min_persistence_)) return;
+    add(bar, birth, &death);
+  }
+  /// A class of H_dim that never dies.
+  void add_essential(int dim, const Cell& birth) {
+    if (dim > max_dim_) return;
+    add(Bar{dim, filtration_.value(birth), kInfinity}, birth, nullptr);
+  }
+
+  Barcode finish() {
+    barcode_.sort();
+    return std::move(barcode_);
+  }
+
+ private:
+  void add(const Bar& bar, const Cell& birth, const Cell* death) {
+    numbers_.clear();
+    filtration_.append_input_cell(bar.dim, birth, numbers_);
+    const std::size_t split = numbers_.size();
+    if (death) filtration_.append_input_cell(bar.dim + 1, *death, numbers_);
+    const std::span<const Index> all(numbers_);
+    barcode_.add(bar, all.first(split), all.subspan(split));
+  }
+
+  const F& filtration_;
+  int max_dim_;
+  double min_persistence_;
+  Barcode barcode_;
+  std::vector<Index> numbers_;
+};
+
+}  // namespace ph

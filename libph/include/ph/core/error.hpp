@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <stdexcept>
+#include <string>
+
+namespace ph {
+
+/// What went wrong, in the classes a caller can act on. The programs turn each into an exit code.
+enum class ErrorKind {
+  usage,          ///< an argument or option makes no sense
+  bad_data,       ///< the input is malformed or breaks a precondition
+  no_input,       ///< the input is missing or unreadable
+  not_built_in,   ///< the feature was left out of this build
+  cannot_create,  ///< the output cannot be created
+  io,             ///< reading or writing broke off
+  resource,       ///< memory or another limit would be exceeded
+  cancelled,      ///< the caller asked to stop
+  internal,       ///< a bug in libph
+};
+
+/// The one exception type of libph. `what()` is one line: what, found, expected, hint.
+class Error : public std::runtime_error {
+ public:
+  Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+  ErrorKind kind() const noexcept { return kind_; }
+
+ private:
+  ErrorKind kind_;
+};
+
+}  // namespace ph

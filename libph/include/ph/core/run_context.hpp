@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory_resource>
+#include <stop_token>
+#include <string_view>
+
+namespace ph {
+
+/// A memory resource that counts, and refuses what would exceed a limit. The large containers of a
+/// computation allocate through it. Thread-safe.
+class MemoryBudget final : public std::pmr::memory_resource {
+ public:
+  static constexpr std::size_t kUnlimited = SIZE_MAX;
+
+  explicit MemoryBudget(std::size_t limit_bytes = kUnlimited) : limit_(limit_bytes) {}
+  MemoryBudget(const MemoryBudget&) = delete;
+  MemoryBudget& operator=(const MemoryBudget&) = delete;
+
+  std::size_t limit() const { return limit_; }
+  void set_limit(std::size_t bytes) { limit_ = bytes; }
+  std::size_t used() const { return used_.load(std::memory_order_relaxed); }
+  std::size_t peak() const { return peak_.load(std::memory_order_relaxed); }
+
+  /// @throws Error (resource) if `bytes` more would exceed the limit. Allocates nothing.
+  void require(std::size_t bytes) const;
+
+ private:
+  void* do_allocate(std::size_t bytes, std::size_t alignment) override;
+  void do_deallocate(void* p, std::size_t bytes, std::size_t alignment) override;
+  bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
+
+  std::size_t limit_;
+  std::atomic<std::size_t> used_{0};
+  std::atomic<std::size_t> peak_{0};
+};
+
+/// How far a computation is. `total` is 0 where it cannot be known.
+struct Progress {
+  std::string_view stage;
+  std::uint64_t done = 0;
+  std::uint64_t total = 0;
+};
+
+/// What a long computation needs from its caller: a way to stop it, to watch it and to bound it.
+/// Outlives every object that was built with it.
+struct RunContext {
+  std::stop_token stop;                               ///< asked for often; see `poll`
+  std::function<void(const Progress&)> on_progress;   ///< called at most ten times a second
+  MemoryBudget memory;                                ///< unlimited unless `set_limit` is called
+  int threads = 0;                                    ///< threads to use; 0: one for each core
+
+  /// @throws Error (cancelled) once a stop was requested.
+  void poll() const;
+};
+
+/// Counts steps of one stage, polls and reports now and then. Cheap enough for inner loops.
+class Ticker {
+ public:
+  Ticker(const RunContext& context, std::string_view stage, std::uint64_t total = 0);
+  ~Ticker();
+  Ticker(const Ticker&) = delete;
+  Ticker& operator=(const Ticker&) = delete;
+
+  void tick(std::uint64_t steps = 1) {
+    progress_.done += steps;
+    work(steps);
+  }
+  /// Work that is not progress (an addition inside a column): polls, does not count.
+  void work(std::uint64_t steps = 1) {
+    pending_ += steps;
+    if (pending_ >= kPollInterval) poll();
+  }
+
+ private:
+  static constexpr std::uint64_t kPollInterval = 4096;
+  void poll();
+
+  const RunContext& context_;
+  Progress progress_;
+  std::uint64_t pending_ = 0;
+  std::chrono::steady_clock::time_point last_report_;
+};
+
+}  // namespace ph

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <vector>
+
+#include "ph/metric/metric.hpp"
+
+namespace ph {
+
+/// All distances of a finite set, stored once for each pair: the strict lower triangle row by row,
+/// d(1,0), d(2,0), d(2,1), d(3,0), …
+class DistanceMatrix {
+ public:
+  /// @param size number of points. @param lower size*(size-1)/2 distances, each >= 0 or +infinity.
+  /// @throws Error (bad_data) on a wrong count, a NaN or a negative distance.
+  DistanceMatrix(Index size, std::vector<double> lower);
+
+  Index size() const { return size_; }
+  double operator()(Index i, Index j) const {
+    if (i == j) return 0.0;
+    if (i < j) std::swap(i, j);
+    return lower_[static_cast<std::size_t>(i * (i - 1) / 2 + j)];
+  }
+
+ private:
+  Index size_;
+  std::vector<double> lower_;
+};
+
+}  // namespace ph
