@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "ph/complex/explicit.hpp"
+#include "ph/core/run_context.hpp"
+#include "ph/image/image.hpp"
+#include "ph/io/reader.hpp"
+#include "ph/metric/distance_matrix.hpp"
+#include "ph/metric/metric.hpp"
+#include "ph/metric/sparse_distances.hpp"
+
+namespace ph {
+
+/// How an asymmetric square matrix becomes a distance matrix.
+enum class Symmetrise {
+  none,   ///< it is an error, if it differs by more than 1e-6 of the larger entry
+  max,    ///< d(i,j) = max of both entries
+  min,    ///< d(i,j) = min of both entries
+  lower,  ///< the entry below the diagonal
+};
+
+/// What a NaN in the input means.
+enum class NanPolicy {
+  error,  ///< bad data; only a hole of a point cloud is accepted
+  drop,   ///< points: the row is left out; distances: the pair is never joined (+infinity);
+          ///< images: the voxel never enters (+infinity)
+};
+
+/// What a two-dimensional array (NPY) holds.
+enum class ArrayMeaning {
+  image,      ///< values of pixels
+  points,     ///< a point a row
+  distances,  ///< a square distance matrix
+};
+
+/// How input is taken. The defaults refuse whatever is doubtful, with an error that names the
+/// option.
+struct ReadOptions {
+  bool allow_empty = false;                    ///< an input without data is an empty result
+  Symmetrise symmetrise = Symmetrise::none;    ///< of square matrices
+  bool from_correlation = false;               ///< d = 1 - r; the diagonal must be 1
+  NanPolicy nan = NanPolicy::error;            ///< see NanPolicy
+  ArrayMeaning array = ArrayMeaning::image;    ///< used by read_any for 2-D arrays
+  const RunContext* context = nullptr;         ///< budget and stop token; may be null
+  std::function<void(std::string)> note = {};  ///< told what was assumed, one line each
+  std::vector<Index>* dropped = nullptr;       ///< receives the rows left out, ascending
+};
+
+// Every reader takes a path ("-" is standard input) or an open Input. All throw
+//   Error (bad_data)   "name:line:column (or byte): what, found X, expected Y; hint"
+//   Error (no_input)   the file is missing, unreadable or a directory
+//   Error (io)         reading broke off
+//   Error (resource)   the budget of options.context would be exceeded
+// They need linear time, and never allocate more than in proportion to the bytes that are there.
+
+/// Points, one a line: numbers separated by blanks, commas or semicolons. A first row without any
+/// number is skipped with a note. Also takes NPY (2-D), PCD and PLY, by content.
+/// @return one point a row. No points are an error unless options.allow_empty.
+Points read_points(const std::filesystem::path& path, const ReadOptions& options = {});
+Points read_points(const Input& input, const ReadOptions& options = {});
+
+/// A full square matrix: as many columns as rows, zero diagonal, symmetric (see Symmetrise);
+/// +infinity: never joined. With options.from_correlation a correlation matrix. Also takes NPY.
+DistanceMatrix read_distances(const std::filesystem::path& path, const ReadOptions& options = {});
+DistanceMatrix read_distances(const Input& input, const ReadOptions& options = {});
+
+/// The strict lower triangle, row i with i numbers (the empty row 0 may be left out), or all of it
+/// on one line.
+DistanceMatrix read_lower_distances(const std::filesystem::path& path,
+                                    const ReadOptions& options = {});
+DistanceMatrix read_lower_distances(const Input& input, const ReadOptions& options = {});
+
+/// The strict upper triangle, row i with n-1-i numbers, or all of it on one line (the condensed
+/// form of SciPy).
+DistanceMatrix read_upper_distances(const std::filesystem::path& path,
+                                    const ReadOptions& options = {});
+DistanceMatrix read_upper_distances(const Input& input, const ReadOptions& options = {});
+
+/// The strict lower triangle as float32, little endian, without a header.
+DistanceMatrix read_binary_distances(const std::filesystem::path& path,
+                                     const ReadOptions& options = {});
+DistanceMatrix read_binary_distances(const Input& input, const ReadOptions& options = {});
+
+/// Pairs of points, one a line: `i j d`, ids from 0; the number of points is the largest id + 1.
+/// A pair may be listed twice if its distance is the same.
+SparseDistances read_sparse(const std::filesystem::path& path, const ReadOptions& options = {});
+SparseDistances read_sparse(const Input& input, const ReadOptions& options = {});
+
+/// An array of any dimension from NPY, PNG (grey) or PGM, by content. The axes are those of the
+/// file, in C order. +-infinity is legal; NaN is an error or, with NanPolicy::drop, +infinity.
+Image read_image(const std::filesystem::path& path, const ReadOptions& options = {});
+Image read_image(const Input& input, const ReadOptions& options = {});
+/// NumPy's .npy: booleans, integers, floats (16, 32, 64 bits), both byte orders and both storage
+/// orders; the result is in C order.
+Image read_npy_image(const Input& input, const ReadOptions& options = {});
+
+/// Filtered simplices with the lines they come from.
+struct SimplicesInput {
+  SimplexList simplices;
+  std::vector<std::size_t> lines;  ///< simplex i is on lines[i], from 1
+  std::string name;                ///< of the file, printable
+
+  /// "name:line" for messages about a simplex; a copy that may outlive this object.
+  CellNamer namer() const;
+};
+
+/// Simplices `v0 v1 … : value`, one a line in any order; a value may be infinite but not NaN.
+SimplicesInput read_simplices(const std::filesystem::path& path, const ReadOptions& options = {});
+SimplicesInput read_simplices(const Input& input, const ReadOptions& options = {});
+
+/// A boundary matrix with the places its columns come from.
+struct BoundaryInput {
+  BoundaryMatrix matrix;
+  std::vector<std::size_t> places;  ///< of column i: line (text, from 1) or byte offset (binary)
+  bool binary = false;
+  std::string name;  ///< of the file, printable
+
+  CellNamer namer() const;
+};
+
+/// PHAT's boundary matrices over Z/2. Text: a cell a line, its dimension, then the indices of its
+/// facets. Binary: int64 little endian: number of cells, then for each cell dimension, number of
+/// facets, facets. Indices count from 0 and name earlier columns, ascending.
+/// @param values_path one value a cell: text, or float64 little endian; empty: positions are
+/// values.
+BoundaryInput read_phat(const std::filesystem::path& path,
+                        const std::filesystem::path& values_path = {},
+                        const ReadOptions& options = {});
+BoundaryInput read_phat(const Input& input, const ReadOptions& options = {});
+
+/// `count` numbers, as text or as raw float64 little endian. @throws Error (bad_data) on another
+/// count or a NaN.
+std::vector<double> read_values(const Input& input, std::size_t count,
+                                const ReadOptions& options = {});
+
+/// A polygon mesh: face f has the vertices corners[offsets[f] .. offsets[f+1]).
+struct Mesh {
+  Points vertices;  ///< one a row, three columns
+  std::vector<Index> corners;
+  std::vector<std::size_t> offsets{0};
+  std::vector<double> values;  ///< one a vertex, or empty
+
+  std::size_t faces() const { return offsets.size() - 1; }
+};
+
+/// OFF (Geomview), text. @throws Error (bad_data) also on a face that names a missing vertex.
+Mesh read_off(const std::filesystem::path& path, const ReadOptions& options = {});
+Mesh read_off(const Input& input, const ReadOptions& options = {});
+/// The vertices and faces of a PLY file; reading clouds with all their fields: cloud_io.hpp.
+Mesh read_ply_mesh(const std::filesystem::path& path, const ReadOptions& options = {});
+Mesh read_ply_mesh(const Input& input, const ReadOptions& options = {});
+
+}  // namespace ph
