@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace ph::app {
+
+enum class ProgressMode { automatic, bar, json, none };
+
+/// The options that all programs share.
+struct CommonOptions {
+  int threads = 0;                            ///< 0: one for each core
+  std::optional<std::uint64_t> memory_limit;  ///< bytes; default: what the machine has
+  ProgressMode progress = ProgressMode::automatic;
+  bool quiet = false;
+  bool verbose = false;
+  bool help = false;
+  bool version = false;
+};
+
+/// Registers them. `options` must outlive `app`.
+void add_common_options(CLI::App& app, CommonOptions& options);
+
+/// An option with a value that a function of yours reads: strict, its errors pass unchanged. Given
+/// twice it is an error. @param names "--max-dim" or "-o,--output". @param placeholder "D".
+CLI::Option* add_value(CLI::App& app, const std::string& names, const std::string& placeholder,
+                       const std::string& description,
+                       std::function<void(const std::string& value)> take);
+
+/// Parses the command line. Answers --help and --version on stdout.
+/// @return the exit code if there is nothing left to do.
+/// @throws Error (usage), one line that names the option and the nearest known one.
+std::optional<int> parse_command_line(CLI::App& app, const CommonOptions& options, int argc,
+                                      const char* const* argv);
+
+/// "ph-barcode 0.1.0"
+std::string program_and_version(const std::string& program);
+
+}  // namespace ph::app

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "ph/core/error.hpp"
+
+namespace ph::app {
+
+/// What the programs return to the shell: sysexits and the shell's own numbers for signals.
+enum ExitCode : int {
+  kOk = 0,
+  kDifference = 1,  ///< a check found a difference; the result is written all the same
+  kUsage = 64,
+  kBadData = 65,
+  kNoInput = 66,
+  kNotBuiltIn = 69,
+  kInternal = 70,
+  kCannotCreate = 73,
+  kIo = 74,
+  kResource = 75,
+  kHangup = 129,
+  kInterrupted = 130,
+  kTerminated = 143,
+};
+
+/// The exit code of a kind of error; a cancelled run counts as interrupted.
+int exit_code(ErrorKind kind);
+
+}  // namespace ph::app

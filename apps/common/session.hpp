@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <stop_token>
+#include <string>
+#include <string_view>
+
+#include "command_line.hpp"
+#include "ph/core/run_context.hpp"
+#include "ph/io/output_file.hpp"
+#include "progress.hpp"
+
+namespace ph::app {
+
+/// One run of a program: the context its computations run in and the way it talks to the user.
+class Session {
+ public:
+  /// Sets up threads, memory limit, progress and stopping as the common options say.
+  Session(std::string_view program, const CommonOptions& options, std::stop_token stop);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  const RunContext& context() const { return context_; }
+  const CommonOptions& options() const { return options_; }
+
+  /// One line on stderr: `program: text`. Nothing with --quiet.
+  void note(std::string_view text);
+  /// The same, only with --verbose.
+  void explain(std::string_view text);
+
+ private:
+  std::string program_;
+  CommonOptions options_;
+  ProgressReporter progress_;
+  RunContext context_;
+};
+
+/// An output file whose temporary name is removed even if a signal ends the program at once. Open
+/// outputs before long computations: what cannot be created is said first.
+class Output {
+ public:
+  explicit Output(const std::string& path);
+  ~Output();
+  Output(Output&&) noexcept;
+  Output& operator=(Output&&) = delete;
+
+  OutputFile& file() { return file_; }
+  void write(std::string_view bytes) { file_.write(bytes); }
+  void commit();
+
+ private:
+  OutputFile file_;
+  int slot_ = -1;  // in the table of names to remove
+};
+
+/// Largest resident memory of the process so far, bytes.
+std::uint64_t peak_memory();
+
+}  // namespace ph::app

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "ph/core/barcode.hpp"
+#include "ph/io/output_file.hpp"
+
+namespace ph {
+
+/// The formats of a barcode file.
+enum class BarcodeFormat {
+  csv,     ///< header `dim,birth,death`, a bar a line
+  json,    ///< with the cells of each bar and where the barcode came from
+  ripser,  ///< what Ripser prints: intervals by dimension, 6 significant digits
+  pers,    ///< GUDHI: `dim birth death` a line
+  dipha,   ///< DIPHA's binary persistence diagram
+  npy,     ///< NumPy: float64 rows dim, birth, death
+  none,    ///< nothing
+};
+
+/// Where a barcode came from: what the JSON format says beside the bars. Empty fields are left out.
+struct BarcodeInfo {
+  std::string program;            ///< name and version
+  std::string input;              ///< path of the input
+  std::string input_description;  ///< "1024 points in R^3, CSV"
+  std::string complex;            ///< "rips", "cubical", "explicit", "lower-star"
+  std::int64_t field = 2;
+  int max_dim = 0;
+  std::optional<double> threshold;
+  std::string engine;
+  std::vector<std::pair<std::string, double>> timings;  ///< stage, seconds
+  std::uint64_t peak_memory = 0;                        ///< bytes; 0: unknown
+};
+
+/// The name of a format on the command line, and back.
+std::string_view barcode_format_name(BarcodeFormat format);
+std::optional<BarcodeFormat> barcode_format_named(std::string_view name);
+/// The format that a file name's extension stands for (.csv, .json, .txt: ripser, .pers, .dipha or
+/// .complex: dipha, .npy); nothing for an unknown one. Case does not matter.
+std::optional<BarcodeFormat> barcode_format_of_path(std::string_view path);
+
+/// Writes a barcode; the caller commits the file.
+/// @throws Error (io) as OutputFile.
+void write_barcode(OutputFile& file, const Barcode& barcode, BarcodeFormat format,
+                   const BarcodeInfo& info = {});
+
+/// The shortest text that reads back to the same double; `inf`, `-inf`, `nan`; -0 as 0.
+std::string shortest(double value);
+/// A JSON string with its quotes. Bytes that are not UTF-8 become U+FFFD.
+std::string json_string(std::string_view text);
+
+}  // namespace ph
