@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <chrono>
-#include <string>
 #include <string_view>
 
 #include "command_line.hpp"
@@ -25,7 +24,6 @@ class ProgressReporter {
   void draw_bar(const Progress& progress);
 
   ProgressMode mode_;
-  std::string stage_;
   std::chrono::steady_clock::time_point start_;
   bool drawn_ = false;
 };

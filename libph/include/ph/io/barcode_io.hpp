@@ -40,8 +40,8 @@ struct BarcodeInfo {
 /// The name of a format on the command line, and back.
 std::string_view barcode_format_name(BarcodeFormat format);
 std::optional<BarcodeFormat> barcode_format_named(std::string_view name);
-/// The format that a file name's extension stands for (.csv, .json, .txt: ripser, .pers, .dipha or
-/// .complex: dipha, .npy); nothing for an unknown one. Case does not matter.
+/// The format that a file name's extension stands for (.csv, .json, .txt or .ripser, .pers,
+/// .dipha or .diagram, .npy); nothing for an unknown one. Case does not matter.
 std::optional<BarcodeFormat> barcode_format_of_path(std::string_view path);
 
 /// Writes a barcode; the caller commits the file.

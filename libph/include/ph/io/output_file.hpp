@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <array>
 #include <cstddef>
+#include <ostream>
 #include <span>
+#include <streambuf>
 #include <string>
 #include <string_view>
 
@@ -56,6 +59,22 @@ class OutputFile {
   std::string buffer_;
   int descriptor_ = -1;
   bool owned_ = false;  // whether to close the descriptor
+};
+
+/// A stream into an output file, for writers that take a std::ostream. Errors of the file pass
+/// through as exceptions.
+class OutputStream : private std::streambuf, public std::ostream {
+ public:
+  explicit OutputStream(OutputFile& file);
+  ~OutputStream() override;
+
+ private:
+  using Byte = std::streambuf::int_type;
+  Byte overflow(Byte c) override;
+  std::streamsize xsputn(const char* text, std::streamsize size) override;
+  int sync() override;
+
+  OutputFile& file_;
 };
 
 /// Writes a whole file at once.

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "choices.hpp"
+#include "exit_code.hpp"
+#include "numbers.hpp"
+#include "ph/io/output_file.hpp"
+
+namespace ph::app {
+namespace {
+
+constexpr std::array<std::string_view, 4> kProgressModes{"auto", "bar", "json", "none"};
+constexpr std::string_view kCommon = "Common options";
+
+/// All long names of a program's options, with their dashes.
+std::vector<std::string> long_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+[[noreturn]] void reject_unknown(const CLI::App& app, const std::string& typed) {
+  const std::string name = typed.substr(0, typed.find('='));
+  const std::vector<std::string> known = long_names(app);
+  const std::vector<std::string_view> views(known.begin(), known.end());
+  // One dash where there should be two: find the name all the same.
+  const std::string dashed = name.starts_with("--") ? name : "-" + name;
+  const auto near = nearest_name(dashed, views);
+  throw Error(ErrorKind::usage, fmt::format("unknown option '{}'; {}", name,
+                                            near ? fmt::format("did you mean '{}'?", *near)
+                                                 : "--help lists the options"));
+}
+
+/// What CLI11 says, on one line.
+std::string one_line(std::string text) {
+  for (char& c : text)
+    if (c == '\n') c = ' ';
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text;
+}
+
+std::string build_information() {
+  return fmt::format(
+      "compiler    g++ {}\n"
+      "C++         {}\n"
+      "fmt         {}.{}.{}\n"
+      "CLI11       {}\n"
+      "assertions  {}\n",
+      __VERSION__, __cplusplus, FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100,
+      CLI11_VERSION,
+#ifdef NDEBUG
+      "off"
+#else
+      "on"
+#endif
+  );
+}
+
+}  // namespace
+
+void add_common_options(CLI::App& app, CommonOptions& options) {
+  app.set_help_flag();  // ours comes below: it must not depend on the order of the options
+  const std::string group(kCommon);
+  add_value(app, "--threads", "N", "threads to use (default: one for each core)",
+            [&options](const std::string& text) {
+              options.threads = static_cast<int>(parse_integer("--threads", text, 1, 4096));
+            })
+      ->group(group);
+  add_value(app, "--memory-limit", "SIZE",
+            "bytes the computation may take, such as 4GiB, 500MB or 1e9 (default: 90 % of the "
+            "memory of the machine)",
+            [&options](const std::string& text) {
+              options.memory_limit = parse_size("--memory-limit", text);
+            })
+      ->group(group);
+  add_value(app, "--progress", "auto|bar|json|none",
+            "progress on stderr (default auto: a bar on a terminal, else silent)",
+            [&options](const std::string& text) {
+              options.progress =
+                  static_cast<ProgressMode>(choose("--progress", text, kProgressModes));
+            })
+      ->group(group);
+  app.add_flag("--quiet", options.quiet, "no messages but errors")->group(group);
+  app.add_flag("--verbose", options.verbose, "say what was chosen and why")->group(group);
+  app.add_flag("--version", options.version,
+               "print the version and exit; with --verbose also what was built in")
+      ->group(group);
+  app.add_flag("--help", options.help, "print this text and exit")->group(group);
+}
+
+CLI::Option* add_value(CLI::App& app, const std::string& names, const std::string& placeholder,
+                       const std::string& description,
+                       std::function<void(const std::string& value)> take) {
+  CLI::Option* option = app.add_option_function<std::string>(names, std::move(take), description);
+  return option->type_name(placeholder)->type_size(1);
+}
+
+std::string program_and_version(const std::string& program) {
+  return fmt::format("{} {}", program, PH_VERSION);
+}
+
+std::optional<int> parse_command_line(CLI::App& app, const CommonOptions& options, int argc,
+                                      const char* const* argv) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ExtrasError&) {
+    const std::vector<std::string> extras = app.remaining();
+    for (const std::string& word : extras)
+      if (word.starts_with('-')) reject_unknown(app, word);
+    throw Error(ErrorKind::usage,
+                fmt::format("unexpected argument '{}'", extras.empty() ? "" : extras.front()));
+  } catch (const CLI::ArgumentMismatch& error) {
+    throw Error(ErrorKind::usage, one_line(error.what()));
+  } catch (const CLI::Error& error) {
+    throw Error(ErrorKind::usage, one_line(error.what()));
+  }
+  if (options.help) {
+    write_file("-", app.help());
+    return kOk;
+  }
+  if (options.version) {
+    write_file("-", program_and_version(app.get_name()) + "\n" +
+                        (options.verbose ? build_information() : ""));
+    return kOk;
+  }
+  return std::nullopt;
+}
+
+}  // namespace ph::app

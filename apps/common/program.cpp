@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "program.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <exception>
+#include <new>
+#include <system_error>
+
+#include "exit_code.hpp"
+#include "messages.hpp"
+#include "ph/io/output_file.hpp"
+#include "signals.hpp"
+
+namespace ph::app {
+namespace {
+
+constexpr std::string_view kWaysOut =
+    "lower the threshold, the dimension (--max-dim) or the number of points, or raise "
+    "--memory-limit";
+
+/// Occupies the standard descriptors that the caller closed, so that no file we open becomes
+/// "standard output" by accident. Opened the wrong way round: using them is an error, as it should.
+void occupy_standard_descriptors() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(descriptor, F_GETFD) < 0)
+      static_cast<void>(open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+}
+
+}  // namespace
+
+int report_current_exception(std::string_view prefix) {
+  const auto report = [&](std::string_view what, int code) {
+    print_line(fmt::format("{}: {}", prefix, what));
+    return code;
+  };
+  try {
+    throw;
+  } catch (const BrokenPipe&) {
+    return kIo;
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::cancelled) {
+      const int signal = SignalWatch::received();
+      return signal == 0 ? exit_code(error.kind()) : 128 + signal;
+    }
+    if (error.kind() == ErrorKind::internal)
+      return report(fmt::format("internal error: {}; please report", error.what()), kInternal);
+    if (error.kind() == ErrorKind::resource &&
+        std::string_view(error.what()).find("--memory-limit") == std::string_view::npos)
+      return report(fmt::format("{}; {}", error.what(), kWaysOut), kResource);
+    return report(error.what(), exit_code(error.kind()));
+  } catch (const std::bad_alloc&) {
+    return report(fmt::format("out of memory; {}", kWaysOut), kResource);
+  } catch (const std::length_error&) {
+    return report(fmt::format("out of memory: a container would be too large; {}", kWaysOut),
+                  kResource);
+  } catch (const std::system_error& error) {
+    // What threads throw if the system has no room for another one.
+    if (error.code() == std::errc::resource_unavailable_try_again)
+      return report("cannot create a thread; use fewer (--threads)", kResource);
+    return report(fmt::format("internal error: {}; please report", error.what()), kInternal);
+  } catch (const std::exception& error) {
+    return report(fmt::format("internal error: {}; please report", error.what()), kInternal);
+  } catch (...) {
+    return report("internal error: unknown exception; please report", kInternal);
+  }
+}
+
+int run_program(std::string_view name, const std::function<int(std::stop_token)>& body) {
+  occupy_standard_descriptors();
+  signal(SIGPIPE, SIG_IGN);  // a write then fails with EPIPE
+  signal(SIGXFSZ, SIG_IGN);  // a write then fails with EFBIG
+  try {
+    const SignalWatch signals;
+    try {
+      return body(signals.token());
+    } catch (...) {
+      return report_current_exception(name);
+    }
+  } catch (...) {
+    return report_current_exception(name);
+  }
+}
+
+}  // namespace ph::app

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <stop_token>
+#include <string>
+#include <thread>
+
+namespace ph::app {
+
+/// Turns SIGINT, SIGTERM and SIGHUP into a stop request while it lives; there is one at a time.
+/// The first signal requests a stop; if the process is still there 0.15 s later, or on a second
+/// signal, it ends at once: registered temporary files are removed, nothing is unwound.
+class SignalWatch {
+ public:
+  SignalWatch();
+  ~SignalWatch();
+  SignalWatch(const SignalWatch&) = delete;
+  SignalWatch& operator=(const SignalWatch&) = delete;
+
+  std::stop_token token() const { return stop_.get_token(); }
+  /// The first signal that came; 0: none.
+  static int received();
+
+ private:
+  void watch();
+
+  std::stop_source stop_;
+  int pipe_[2] = {-1, -1};
+  std::thread thread_;
+};
+
+/// Has a file removed if a signal ends the process at once. @return a slot to forget it by; -1 if
+/// the name is empty or too long, or if there are too many.
+int remember_temporary(const std::string& path);
+void forget_temporary(int slot);
+
+}  // namespace ph::app

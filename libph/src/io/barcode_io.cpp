@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "ph/io/barcode_io.hpp"
+
+#include <array>
+#include <string>
+
+#include "barcode_formats.hpp"
+
+namespace ph {
+namespace {
+
+constexpr std::array<std::pair<BarcodeFormat, std::string_view>, 7> kNames{{
+    {BarcodeFormat::csv, "csv"},
+    {BarcodeFormat::json, "json"},
+    {BarcodeFormat::ripser, "ripser"},
+    {BarcodeFormat::pers, "pers"},
+    {BarcodeFormat::dipha, "dipha"},
+    {BarcodeFormat::npy, "npy"},
+    {BarcodeFormat::none, "none"},
+}};
+
+}  // namespace
+
+std::string_view barcode_format_name(BarcodeFormat format) {
+  for (const auto& [known, name] : kNames)
+    if (known == format) return name;
+  return "";
+}
+
+std::optional<BarcodeFormat> barcode_format_named(std::string_view name) {
+  for (const auto& [format, known] : kNames)
+    if (known == name) return format;
+  return std::nullopt;
+}
+
+std::optional<BarcodeFormat> barcode_format_of_path(std::string_view path) {
+  const std::size_t dot = path.rfind('.');
+  const std::size_t slash = path.rfind('/');
+  if (dot == std::string_view::npos || (slash != std::string_view::npos && dot < slash))
+    return std::nullopt;
+  std::string extension(path.substr(dot + 1));
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');  // as in no locale
+  if (extension == "none") return std::nullopt;
+  if (extension == "txt") return BarcodeFormat::ripser;
+  if (extension == "diagram") return BarcodeFormat::dipha;
+  return barcode_format_named(extension);
+}
+
+void write_barcode(OutputFile& file, const Barcode& barcode, BarcodeFormat format,
+                   const BarcodeInfo& info) {
+  switch (format) {
+    case BarcodeFormat::csv:
+      return write_barcode_csv(file, barcode);
+    case BarcodeFormat::json:
+      return write_barcode_json(file, barcode, info);
+    case BarcodeFormat::ripser:
+      return write_barcode_ripser(file, barcode, info.max_dim);
+    case BarcodeFormat::pers:
+      return write_barcode_pers(file, barcode);
+    case BarcodeFormat::dipha:
+      return write_barcode_dipha(file, barcode, info.threshold);
+    case BarcodeFormat::npy:
+      return write_barcode_npy(file, barcode);
+    case BarcodeFormat::none:
+      return;
+  }
+}
+
+}  // namespace ph

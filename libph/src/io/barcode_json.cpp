@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "barcode_formats.hpp"
+
+namespace ph {
+namespace {
+
+/// Length of the UTF-8 sequence at the start of `text`; 0 if it is none (overlong forms,
+/// surrogates and code points beyond U+10FFFF are none).
+std::size_t utf8_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(0);
+  if (first < 0x80) return 1;
+  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  if (first < 0xc2 || first > 0xf4 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  if (first == 0xe0 && byte(1) < 0xa0) return 0;
+  if (first == 0xed && byte(1) > 0x9f) return 0;
+  if (first == 0xf0 && byte(1) < 0x90) return 0;
+  if (first == 0xf4 && byte(1) > 0x8f) return 0;
+  return length;
+}
+
+/// JSON knows no infinities: one that dies never is null, any other is its name as a string.
+std::string json_number(double value) {
+  if (std::isfinite(value)) return shortest(value);
+  return value > 0 ? "null" : "\"-inf\"";
+}
+
+std::string json_cell(const InputCell& cell) {
+  switch (cell.kind) {
+    case CellKind::vertices:
+      return fmt::format("{{\"vertices\": [{}]}}", fmt::join(cell.numbers, ", "));
+    case CellKind::grid:
+      return fmt::format("{{\"grid\": [{}]}}", fmt::join(cell.numbers, ", "));
+    case CellKind::row:
+      return fmt::format("{{\"row\": {}}}", fmt::join(cell.numbers, ", "));
+  }
+  return "null";
+}
+
+std::string json_timings(const BarcodeInfo& info) {
+  std::string text;
+  for (const auto& [stage, seconds] : info.timings) {
+    if (!text.empty()) text += ", ";
+    text += fmt::format("{}: {:.6g}", json_string(stage), seconds);
+  }
+  return "{" + text + "}";
+}
+
+}  // namespace
+
+std::string json_string(std::string_view text) {
+  std::string out = "\"";
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    const char c = text.front();
+    if (length == 0) {
+      out += "\xef\xbf\xbd";  // U+FFFD
+    } else if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (c == '\n') {
+      out += "\\n";
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    } else {
+      out += text.substr(0, length);
+    }
+    text.remove_prefix(length == 0 ? 1 : length);
+  }
+  return out + "\"";
+}
+
+void write_barcode_json(OutputFile& file, const Barcode& barcode, const BarcodeInfo& info) {
+  file.write("{\n  \"format\": \"ph-barcode\",\n  \"version\": 1,\n");
+  file.write(fmt::format("  \"program\": {},\n", json_string(info.program)));
+  file.write(fmt::format("  \"input\": {{\"path\": {}, \"description\": {}}},\n",
+                         json_string(info.input), json_string(info.input_description)));
+  file.write(fmt::format("  \"complex\": {},\n  \"field\": {},\n  \"max_dim\": {},\n",
+                         json_string(info.complex), info.field, info.max_dim));
+  file.write(fmt::format("  \"threshold\": {},\n",
+                         info.threshold ? json_number(*info.threshold) : "null"));
+  file.write(fmt::format("  \"engine\": {},\n  \"bars\": [", json_string(info.engine)));
+  for (std::size_t i = 0; i < barcode.size(); ++i) {
+    const Bar& bar = barcode[i];
+    const auto death = barcode.death_cell(i);
+    file.write(i == 0 ? "\n" : ",\n");
+    file.write(fmt::format("    {{\"dim\": {}, \"birth\": {}, \"death\": {}, ", bar.dim,
+                           json_number(bar.birth), json_number(bar.death)));
+    file.write(fmt::format("\"birth_cell\": {}, \"death_cell\": {}}}",
+                           json_cell(barcode.birth_cell(i)), death ? json_cell(*death) : "null"));
+  }
+  file.write(barcode.empty() ? "],\n" : "\n  ],\n");
+  file.write(fmt::format("  \"timings\": {},\n", json_timings(info)));
+  file.write(info.peak_memory == 0 ? "  \"peak_memory\": null\n}\n"
+                                   : fmt::format("  \"peak_memory\": {}\n}}\n", info.peak_memory));
+}
+
+}  // namespace ph

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "barcode_formats.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ph {
+
+std::string shortest(double value) {
+  return fmt::format("{}", value == 0 ? 0.0 : value);  // -0.0 is 0
+}
+
+void write_barcode_csv(OutputFile& file, const Barcode& barcode) {
+  file.write("dim,birth,death\n");
+  for (const Bar& bar : barcode)
+    file.write(fmt::format("{},{},{}\n", bar.dim, shortest(bar.birth), shortest(bar.death)));
+}
+
+void write_barcode_pers(OutputFile& file, const Barcode& barcode) {
+  for (const Bar& bar : barcode)
+    file.write(fmt::format("{} {} {}\n", bar.dim, shortest(bar.birth), shortest(bar.death)));
+}
+
+void write_barcode_ripser(OutputFile& file, const Barcode& barcode, int max_dim) {
+  for (const Bar& bar : barcode) max_dim = std::max(max_dim, bar.dim);
+  for (int dim = 0; dim <= max_dim; ++dim) {
+    file.write(fmt::format("persistence intervals in dim {}:\n", dim));
+    // Ripser prints the infinite ones last.
+    for (const Bar& bar : barcode.bars(dim))
+      if (!bar.is_infinite()) file.write(fmt::format(" [{:g},{:g})\n", bar.birth, bar.death));
+    for (const Bar& bar : barcode.bars(dim))
+      if (bar.is_infinite()) file.write(fmt::format(" [{:g}, )\n", bar.birth));
+  }
+}
+
+}  // namespace ph
