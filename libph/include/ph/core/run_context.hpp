@@ -50,12 +50,15 @@ struct Progress {
 struct RunContext {
   std::stop_token stop;                               ///< asked for often; see `poll`
   std::function<void(const Progress&)> on_progress;   ///< called at most ten times a second
-  MemoryBudget memory;                                ///< unlimited unless `set_limit` is called
+  mutable MemoryBudget memory;                        ///< unlimited unless `set_limit` is called
   int threads = 0;                                    ///< threads to use; 0: one for each core
 
   /// @throws Error (cancelled) once a stop was requested.
   void poll() const;
 };
+
+/// No limits, no progress, no stop: what functions use that were given no context.
+const RunContext& default_context();
 
 /// Counts steps of one stage, polls and reports now and then. Cheap enough for inner loops.
 class Ticker {

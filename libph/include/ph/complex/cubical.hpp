@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <memory_resource>
+#include <optional>
+#include <vector>
+
+#include "ph/core/filtration.hpp"
+#include "ph/core/run_context.hpp"
+#include "ph/image/image.hpp"
+
+namespace ph {
+
+/// How voxels become cubes.
+struct CubicalOptions {
+  enum class Construction {
+    vertices,  ///< voxels are vertices, a cube enters with its last vertex (V): 4/6-neighbours join
+    cells,     ///< voxels are top cubes, a face enters with its first cube (T): 8/26-neighbours join
+  };
+  Construction construction = Construction::vertices;
+  /// Superlevel sets of f: the sublevel filtration of -f; values are reported as -f.
+  bool superlevel = false;
+  /// The axes (of the input) that close up on themselves; empty: none.
+  std::vector<bool> periodic;
+  /// Largest value that enters, inclusive (of -f with `superlevel`).
+  std::optional<double> threshold;
+};
+
+/// The cubical filtration of an image of any dimension, in doubled grid coordinates: an axis of n
+/// voxels has 2n-1 coordinates in the V-construction (even: a voxel, odd: between two), 2n+1 in the
+/// T-construction (odd: a voxel), 2n in both if it is periodic. A cell's dimension is the number of
+/// its odd coordinates. Order: (rank of the voxel that decides the value, dimension, grid index).
+///
+/// Stores 4 bytes a cell: 2^d cells a voxel. +infinity never enters; -infinity is born at -infinity.
+class Cubical {
+ public:
+  struct Cell {
+    std::uint32_t key = 0;    ///< rank of the deciding voxel
+    std::uint64_t index = 0;  ///< position in the doubled grid
+    friend bool operator==(const Cell&, const Cell&) = default;
+  };
+  static constexpr int kMaxDim = 8;
+  static constexpr bool first_equal_cofacet_is_oldest = true;
+
+  /// @throws Error (bad_data) on NaN, an axis of length 0 or sizes that disagree; Error (usage) on
+  ///         more than 8 axes or a periodic axis that does not exist; Error (resource) on more
+  ///         than 2^32 - 2 voxels or beyond the context's memory limit.
+  explicit Cubical(const Image& image, const CubicalOptions& options = {},
+                   const RunContext& context = default_context());
+
+  int top_dim() const { return dim_; }
+  std::uint32_t key(const Cell& c) const { return c.key; }
+  double value(const Cell& c) const { return values_[c.key]; }
+  static bool precedes(const Cell& a, const Cell& b) {
+    return a.key != b.key ? a.key < b.key : a.index < b.index;
+  }
+  std::size_t slot_count() const { return keys_.size(); }
+  static std::size_t slot(const Cell& c) { return c.index; }
+  static bool edges_join_vertices() { return true; }
+  static CellKind cell_kind() { return CellKind::grid; }
+  void append_input_cell(int dim, const Cell& cell, std::vector<Index>& numbers) const;
+
+  template <class Visit>
+  void for_each_cell(int dim, Visit&& visit) const;
+  template <class Visit>
+  void for_each_facet(int dim, const Cell& cell, Visit&& visit) const;
+  template <class Visit>
+  void for_each_cofacet(int dim, const Cell& cell, Visit&& visit) const;
+
+ private:
+  static constexpr std::uint32_t kNever = UINT32_MAX;
+  struct Axis {
+    std::uint64_t stride = 0;
+    std::uint64_t length = 0;  // doubled coordinates
+    bool periodic = false;
+  };
+  std::uint64_t coordinate(std::uint64_t index, const Axis& axis) const {
+    return index / axis.stride % axis.length;
+  }
+
+  int dim_ = 0;
+  std::array<Axis, kMaxDim> axes_;           // in the input's order, the last one fastest
+  std::pmr::vector<std::uint32_t> keys_;     // by grid index; kNever: never enters
+  std::pmr::vector<double> values_;          // by key
+};
+
+}  // namespace ph
+
+template <>
+struct std::hash<ph::Cubical::Cell> {
+  std::size_t operator()(const ph::Cubical::Cell& c) const { return c.index; }
+};
+
+#include "ph/complex/cubical_cells.ipp"

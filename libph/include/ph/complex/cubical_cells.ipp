@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+// How Cubical visits cells, facets and cofacets. Included by cubical.hpp.
+
+namespace ph {
+
+template <class Visit>
+void Cubical::for_each_cell(int dim, Visit&& visit) const {
+  if (dim < 0 || dim > dim_ || keys_.empty()) return;
+  // One set of odd axes after the other; within a set the cells in grid order.
+  for (unsigned odd = 0; odd < (1U << dim_); ++odd) {
+    if (std::popcount(odd) != dim) continue;
+    std::array<std::uint64_t, kMaxDim> at{};
+    std::uint64_t index = 0;
+    bool empty = false;
+    for (int k = 0; k < dim_; ++k) {
+      at[k] = odd >> k & 1;
+      empty = empty || at[k] >= axes_[k].length;
+      index += at[k] * axes_[k].stride;
+    }
+    while (!empty) {
+      if (keys_[index] != kNever) visit(Cell{keys_[index], index});
+      int k = dim_ - 1;
+      for (; k >= 0; --k) {
+        at[k] += 2;
+        index += 2 * axes_[k].stride;
+        if (at[k] < axes_[k].length) break;
+        const std::uint64_t first = odd >> k & 1;
+        index -= (at[k] - first) * axes_[k].stride;
+        at[k] = first;
+      }
+      if (k < 0) break;
+    }
+  }
+}
+
+// Incidence: the boundary of a product of intervals, axis by axis,
+//   d(I_1 x … x I_d) = sum over the odd axes k of (-1)^(odd axes before k) (upper - lower end),
+// see Kaczynski, Mischaikow, Mrozek, Computational Homology, section 2.2.
+template <class Visit>
+void Cubical::for_each_facet(int, const Cell& cell, Visit&& visit) const {
+  int sign = 1;
+  for (int k = 0; k < dim_; ++k) {
+    const Axis& axis = axes_[k];
+    const std::uint64_t x = coordinate(cell.index, axis);
+    if (x % 2 == 0) continue;
+    // On a circle of one edge both ends are the same vertex and cancel.
+    if (axis.length > 2 || !axis.periodic) {
+      const std::uint64_t lower = cell.index - axis.stride;
+      const std::uint64_t upper =
+          x + 1 < axis.length ? cell.index + axis.stride : cell.index - x * axis.stride;
+      visit(Cell{keys_[upper], upper}, sign);
+      visit(Cell{keys_[lower], lower}, -sign);
+    }
+    sign = -sign;
+  }
+}
+
+template <class Visit>
+void Cubical::for_each_cofacet(int, const Cell& cell, Visit&& visit) const {
+  struct Cofacet {
+    std::uint64_t index;
+    int incidence;
+  };
+  // Visited in grid order, so that the first with the cell's key is the oldest. Without wrapping
+  // that is: downwards from the slowest axis to the fastest, then upwards from the fastest.
+  std::array<Cofacet, 2 * kMaxDim> cofacets;
+  int down = 0, up = 2 * kMaxDim;
+  int sign = 1;
+  bool wrapped = false;
+  for (int k = 0; k < dim_; ++k) {
+    const Axis& axis = axes_[k];
+    const std::uint64_t x = coordinate(cell.index, axis);
+    if (x % 2 == 1) {
+      sign = -sign;
+      continue;
+    }
+    if (axis.periodic && axis.length == 2) continue;
+    const std::uint64_t last = axis.length - 1;
+    // The cell is the upper end of the cofacet below it and the lower end of the one above.
+    if (x > 0) {
+      cofacets[down++] = {cell.index - axis.stride, sign};
+    } else if (axis.periodic) {
+      cofacets[down++] = {cell.index + last * axis.stride, sign};
+      wrapped = true;
+    }
+    if (x < last) cofacets[--up] = {cell.index + axis.stride, -sign};
+  }
+  int count = down;
+  for (; up < 2 * kMaxDim; ++up) cofacets[count++] = cofacets[up];
+  if (wrapped) {
+    for (int i = 1; i < count; ++i)  // insertion sort: a handful, nearly in order
+      for (int j = i; j > 0 && cofacets[j].index < cofacets[j - 1].index; --j)
+        std::swap(cofacets[j], cofacets[j - 1]);
+  }
+  for (int i = 0; i < count; ++i) {
+    const std::uint32_t key = keys_[cofacets[i].index];
+    if (key != kNever && !visit(Cell{key, cofacets[i].index}, cofacets[i].incidence)) return;
+  }
+}
+
+}  // namespace ph

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <memory>
+#include <optional>
+
+#include "ph/complex/rips_filtration.hpp"
+#include "ph/complex/rips_graph.hpp"
+#include "ph/metric/distance_matrix.hpp"
+#include "ph/metric/metric.hpp"
+#include "ph/metric/point_metric.hpp"
+#include "ph/metric/sparse_distances.hpp"
+
+namespace ph {
+
+/// How a Vietoris-Rips filtration is built.
+struct RipsOptions {
+  /// Largest distance at which two points are joined, inclusive. Default: the enclosing radius
+  /// min_i max_j d(i,j) if all distances are known (beyond it nothing but one component is left,
+  /// so the barcode is complete), no limit for sparse distances.
+  std::optional<double> threshold;
+  PointDistance distance = PointDistance::euclidean;  ///< for points
+  double minkowski_p = 2;                             ///< exponent of PointDistance::minkowski
+};
+
+/// The Vietoris-Rips filtration of a finite set with distances: a simplex enters at its diameter,
+/// the largest distance between two of its vertices. Vertices enter at 0. Vertex i is point i.
+///
+/// Holds the graph of all edges up to the threshold, no simplices. A value, cheap to copy.
+class Rips {
+ public:
+  /// @param points one point a row. O(n^2) distances, or a k-d tree for Euclidean points with a
+  /// threshold. @throws Error (bad_data) as PointMetric; Error (usage) on a NaN or negative
+  /// threshold; Error (resource) if the context's memory limit would be exceeded.
+  explicit Rips(const Points& points, const RipsOptions& options = {},
+                const RunContext& context = default_context());
+  explicit Rips(const DistanceMatrix& distances, const RipsOptions& options = {},
+                const RunContext& context = default_context());
+  explicit Rips(const SparseDistances& distances, const RipsOptions& options = {},
+                const RunContext& context = default_context());
+  /// Any metric of the user's own: `size()` and `operator()(Index, Index)`.
+  template <Metric M>
+    requires(!std::derived_from<M, Eigen::EigenBase<M>>)  // a matrix holds points
+  explicit Rips(const M& metric, const RipsOptions& options = {},
+                const RunContext& context = default_context())
+      : graph_(std::make_shared<const RipsGraph>(
+            RipsGraph::of_metric(metric, options.threshold, context))) {}
+
+  const RipsGraph& graph() const { return *graph_; }
+  Index size() const { return graph_->size(); }
+  /// The largest distance at which two points are joined: the given one or the enclosing radius.
+  double threshold() const { return graph_->threshold(); }
+  std::size_t edge_count() const { return graph_->edge_count(); }
+
+  /// Calls `use(filtration)` with the representation whose cells are small enough for homology up
+  /// to `max_dim`. @throws Error (resource) if simplices of dimension max_dim + 1 have too many
+  /// vertices for any representation.
+  template <class Use>
+  decltype(auto) with_filtration(int max_dim, Use&& use) const {
+    return with_rips_filtration(*graph_, max_dim, std::forward<Use>(use));
+  }
+
+ private:
+  std::shared_ptr<const RipsGraph> graph_;
+};
+
+}  // namespace ph

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <memory_resource>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "ph/core/run_context.hpp"
+
+namespace ph {
+
+/// Disjoint sets of 0 … size-1 by rank-free linking with path halving. The caller decides which
+/// root survives.
+class DisjointSets {
+ public:
+  DisjointSets(std::size_t size, std::pmr::memory_resource* memory) : parent_(size, memory) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+  }
+  std::uint32_t find(std::uint32_t v) {
+    while (parent_[v] != v) {
+      parent_[v] = parent_[parent_[v]];
+      v = parent_[v];
+    }
+    return v;
+  }
+  /// Precondition: both are roots.
+  void link(std::uint32_t child, std::uint32_t root) { parent_[child] = root; }
+
+ private:
+  std::pmr::vector<std::uint32_t> parent_;
+};
+
+/// An edge of a filtered graph; the two ends of a loop are equal.
+struct GraphEdge {
+  std::uint32_t u = 0, v = 0;
+};
+
+/// Kruskal's algorithm with the elder rule (Edelsbrunner & Harer, Computational Topology, VII.2):
+/// when an edge joins two components, the one whose oldest vertex is younger dies.
+/// @param age by vertex: its position in the order of the filtration.
+/// @param edges in the order of the filtration.
+/// @param on_merge called with (position of the edge, oldest vertex of the elder component, oldest
+///        vertex of the younger one).
+template <class OnMerge>
+void join_by_elder_rule(std::span<const std::uint32_t> age, std::span<const GraphEdge> edges,
+                        const RunContext& context, OnMerge&& on_merge) {
+  DisjointSets sets(age.size(), &context.memory);
+  Ticker ticker(context, "components", edges.size());
+  std::size_t components = age.size();
+  // The root of each set is its oldest vertex.
+  for (std::size_t i = 0; i < edges.size() && components > 1; ++i) {
+    ticker.tick();
+    std::uint32_t elder = sets.find(edges[i].u), younger = sets.find(edges[i].v);
+    if (elder == younger) continue;
+    if (age[younger] < age[elder]) std::swap(elder, younger);
+    sets.link(younger, elder);
+    --components;
+    on_merge(i, elder, younger);
+  }
+}
+
+}  // namespace ph

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace ph {
+
+/// The engines a user can ask for; see registry.hpp.
+enum class Engine {
+  automatic,   ///< chosen from the complex and the dimension
+  standard,    ///< the oracle: textbook reduction, slow, any filtration
+  twist,       ///< boundary matrix with clearing
+  cohomology,  ///< coboundary matrix with clearing and shortcuts
+  union_find,  ///< H0 only
+};
+
+}  // namespace ph

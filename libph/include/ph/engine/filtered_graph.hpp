@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <memory_resource>
+#include <numeric>
+#include <vector>
+
+#include "ph/core/filtration.hpp"
+#include "ph/core/run_context.hpp"
+#include "ph/engine/cell_map.hpp"
+#include "ph/engine/elder_rule.hpp"
+
+namespace ph {
+
+/// The vertices and edges of a filtration, numbered and sorted for union-find. Vertices are numbered
+/// in the order in which the filtration visits them.
+/// Precondition: `filtration.edges_join_vertices()`.
+template <GraphFiltration F>
+struct FilteredGraph {
+  using Cell = typename F::Cell;
+
+  FilteredGraph(const F& filtration, const RunContext& context)
+      : vertices(&context.memory),
+        age(&context.memory),
+        edges(&context.memory),
+        ends(&context.memory) {
+    const auto precedes = [&](const Cell& a, const Cell& b) { return filtration.precedes(a, b); };
+    CellMap<F> number(filtration, &context.memory);
+    filtration.for_each_cell(0, [&](const Cell& v) {
+      number.insert(v, static_cast<std::uint32_t>(vertices.size()));
+      vertices.push_back(v);
+    });
+    std::pmr::vector<std::uint32_t> order(vertices.size(), &context.memory);
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return precedes(vertices[a], vertices[b]);
+    });
+    age.resize(order.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) age[order[i]] = i;
+    context.poll();
+
+    filtration.for_each_cell(1, [&](const Cell& e) { edges.push_back(e); });
+    if (!std::is_sorted(edges.begin(), edges.end(), precedes))
+      std::sort(edges.begin(), edges.end(), precedes);
+    context.poll();
+    ends.reserve(edges.size());
+    for (const Cell& e : edges) {
+      GraphEdge edge;
+      int count = 0;
+      filtration.for_each_facet(1, e, [&](const Cell& v, int) {
+        (count++ == 0 ? edge.u : edge.v) = number.find(v);
+      });
+      ends.push_back(count == 2 ? edge : GraphEdge{});
+    }
+  }
+
+  std::pmr::vector<Cell> vertices;
+  std::pmr::vector<std::uint32_t> age;  ///< by vertex number: position in the order
+  std::pmr::vector<Cell> edges;         ///< in the order of the filtration
+  std::pmr::vector<GraphEdge> ends;     ///< by edge: vertex numbers; a loop joins 0 to 0
+};
+
+}  // namespace ph

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <vector>
+
+#include "ph/core/filtration.hpp"
+#include "ph/core/run_context.hpp"
+
+namespace ph {
+
+class Rips;
+class Cubical;
+class ExplicitComplex;
+
+/// Two components become one. The elder (born first; the smaller vertex among equals) lives on.
+struct Merge {
+  double value = 0;          ///< filtration value of the edge
+  Index u = 0, v = 0;        ///< the edge that joined them: an edge of a minimum spanning forest
+  Index elder = 0;           ///< vertex that gave birth to the surviving component
+  Index younger = 0;         ///< vertex that gave birth to the component that dies here
+  Index elder_size = 0;      ///< vertices of the surviving component just before
+  Index younger_size = 0;    ///< vertices of the dying component just before
+  double elder_birth = 0;    ///< filtration value at which each was born
+  double younger_birth = 0;
+
+  double persistence() const { return value == younger_birth ? 0 : value - younger_birth; }
+  friend bool operator==(const Merge&, const Merge&) = default;
+};
+
+/// H0 as a tree: how the components of the sublevel sets join as the value grows. For points under
+/// the Rips filtration this is the single-linkage dendrogram and `u`, `v` are the edges of the
+/// Euclidean minimum spanning tree.
+struct MergeTree {
+  std::vector<double> births;  ///< by vertex; kInfinity for a vertex that never enters
+  std::vector<Merge> merges;   ///< in the order of the filtration
+
+  Index size() const { return static_cast<Index>(births.size()); }
+  /// For each vertex the vertex that gave birth to its component in the sublevel set `value`
+  /// (merges at values <= value done); -1 for a vertex that has not entered.
+  std::vector<Index> components(double value) const;
+};
+
+/// The merge tree of a filtration. Vertices are numbered as in the input: points, voxels in C order
+/// (V-construction; grid corners in the T-construction), vertices of a complex in input order.
+MergeTree merge_tree(const Rips& rips, const RunContext& context = default_context());
+MergeTree merge_tree(const Cubical& cubical, const RunContext& context = default_context());
+/// @throws Error (usage) if an edge does not join two vertices.
+MergeTree merge_tree(const ExplicitComplex& complex, const RunContext& context = default_context());
+
+}  // namespace ph

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <concepts>
+#include <memory_resource>
+#include <optional>
+#include <vector>
+
+#include "ph/core/barcode.hpp"
+#include "ph/core/chain.hpp"
+#include "ph/core/run_context.hpp"
+#include "ph/engine/apparent_pairs.hpp"
+#include "ph/engine/cell_map.hpp"
+
+namespace ph {
+
+/// Which matrix is reduced. Both directions are one algorithm read forwards and backwards in the
+/// order of the filtration (de Silva, Morozov, Vejdemo-Johansson, Dualities in persistent
+/// (co)homology): they find the same pairs.
+enum class Direction {
+  homology,    ///< columns: boundaries, oldest first; pivot: the youngest facet
+  cohomology,  ///< columns: coboundaries, youngest first; pivot: the oldest cofacet
+};
+
+/// Reduces the columns of one dimension after the other with clearing (Chen & Kerber, Persistent
+/// homology computation with a twist): a cell found as a pivot needs no column of its own in the
+/// next dimension. Columns that were never added to are not stored but listed again when needed.
+///
+/// A column that was added to is kept
+///  - in homology as the reduced boundary itself, a cycle that is a boundary from the death on;
+///  - in cohomology as the cochain whose coboundary it is, a cocycle until the death: coboundaries
+///    are far longer than the cochains.
+template <Filtration F, Field K, Direction direction>
+class Reduction {
+ public:
+  using Cell = typename F::Cell;
+
+  Reduction(const F& filtration, const K& field, BarcodeBuilder<F>& bars, const RunContext& context)
+      : f_(filtration),
+        field_(field),
+        bars_(bars),
+        context_(context),
+        apparent_(filtration, field),
+        pivots_(filtration, &context.memory),
+        previous_pivots_(filtration, &context.memory),
+        columns_(&context.memory),
+        terms_(&context.memory),
+        to_reduce_(&context.memory),
+        working_(&context.memory),
+        chain_(&context.memory) {}
+
+  /// Reduces all columns of dimension `dim`. Call with descending dimensions in homology and
+  /// ascending ones in cohomology.
+  void reduce_dimension(int dim) {
+    dim_ = dim;
+    collect_columns();
+    Ticker ticker(context_, direction == Direction::homology ? "homology" : "cohomology",
+                  to_reduce_.size());
+    columns_.clear();
+    terms_.clear();
+    for (const Cell& cell : to_reduce_) {
+      reduce_column(cell, ticker);
+      ticker.tick();
+    }
+    previous_pivots_ = std::move(pivots_);
+    pivots_ = CellMap<F>(f_, &context_.memory);
+  }
+
+  /// The cells of dimension `dim` that are pivots of the dimension before: for the first call to
+  /// `reduce_dimension`, when another engine did that dimension.
+  void set_cleared(CellMap<F> pivots) { previous_pivots_ = std::move(pivots); }
+
+ private:
+  using Term = Entry<Cell, K>;
+  static constexpr bool kIsHomology = direction == Direction::homology;
+
+  struct Column {
+    Cell cell;
+    typename K::Element pivot{};     // coefficient of the pivot in the reduced (co)boundary
+    std::size_t begin = 0, end = 0;  // range of terms_; empty: the plain (co)boundary of `cell`
+  };
+
+  // Whether `a` is further from being the pivot than `b`.
+  bool is_below(const Cell& a, const Cell& b) const {
+    return kIsHomology ? f_.precedes(a, b) : f_.precedes(b, a);
+  }
+
+  void collect_columns();
+  void reduce_column(const Cell& cell, Ticker& ticker);
+  void report(const Cell& column, const Cell& pivot) {
+    if constexpr (kIsHomology) bars_.add_pair(dim_ - 1, pivot, column);
+    else bars_.add_pair(dim_, column, pivot);
+  }
+
+  template <class Visit>
+  void for_each_entry(const Cell& cell, Visit&& visit) const {
+    if constexpr (kIsHomology) f_.for_each_facet(dim_, cell, visit);
+    else f_.for_each_cofacet(dim_, cell, visit);
+  }
+  // Adds a (co)boundary, `scale` times, to the working column.
+  void add_boundary(const Cell& cell, typename K::Element scale, Ticker& ticker) {
+    for_each_entry(cell, [&](const Cell& entry, int incidence) {
+      push(entry, field_.multiply(scale, field_.from_int(incidence)));
+      ticker.work();
+      return true;
+    });
+  }
+  void push(const Cell& cell, typename K::Element a) {
+    if (field_.is_zero(a)) return;
+    working_.emplace_back(cell, a);
+    std::push_heap(working_.begin(), working_.end(), below_);
+  }
+  // Fills the empty working column. True if the pivot showed itself on the way, an emergent pair
+  // (Bauer, Ripser, section 3.5); the working column is unfinished then.
+  bool start_column(const Cell& cell, Term& pivot, Ticker& ticker);
+  void add_column(const Column& column, typename K::Element scale, Ticker& ticker);
+
+  // Takes the pivot out of the working column, equal cells added up; false if nothing is left.
+  bool pop_pivot(Term& pivot);
+  // The column whose pivot `cell` is; nothing if there is none yet.
+  std::optional<Column> owner_of(const Cell& cell) const;
+  void finish_column(const Cell& cell, const Term& pivot, bool was_added_to);
+
+  const F& f_;
+  const K& field_;
+  BarcodeBuilder<F>& bars_;
+  const RunContext& context_;
+  ApparentPairs<F, K> apparent_;
+  int dim_ = 0;
+  CellMap<F> pivots_;           // pivot -> position in columns_
+  CellMap<F> previous_pivots_;  // of the dimension reduced before
+  std::pmr::vector<Column> columns_;
+  std::pmr::vector<Term> terms_;
+  std::pmr::vector<Cell> to_reduce_;
+  std::pmr::vector<Term> working_;  // a heap with lazy cancellation
+  std::pmr::vector<Term> chain_;    // cohomology: the cochain of the working column
+
+  struct Below {
+    const Reduction* self;
+    bool operator()(const Term& a, const Term& b) const { return self->is_below(a.cell, b.cell); }
+  };
+  Below below_{this};
+};
+
+template <Filtration F, Field K, Direction direction>
+void Reduction<F, K, direction>::collect_columns() {
+  to_reduce_.clear();
+  Ticker ticker(context_, "columns");
+  f_.for_each_cell(dim_, [&](const Cell& cell) {
+    ticker.tick();
+    if (previous_pivots_.find(cell) != CellMap<F>::kAbsent) return;
+    if constexpr (kIsHomology) {
+      // A pivot of the dimension above; if that dimension is not wanted its cells stay unseen.
+      if (dim_ <= bars_.max_dim() && apparent_.killer_of(dim_, cell)) return;
+      if (const auto victim = apparent_.victim_of(dim_, cell)) {
+        if (bars_.wants_zero_length()) report(cell, *victim);
+        return;
+      }
+    } else {
+      if (apparent_.victim_of(dim_, cell)) return;  // a pivot of the dimension below
+      if (const auto killer = apparent_.killer_of(dim_, cell)) {
+        if (bars_.wants_zero_length()) report(cell, *killer);
+        return;
+      }
+    }
+    to_reduce_.push_back(cell);
+  });
+  std::sort(to_reduce_.begin(), to_reduce_.end(), [&](const Cell& a, const Cell& b) {
+    return kIsHomology ? f_.precedes(a, b) : f_.precedes(b, a);
+  });
+}
+
+template <Filtration F, Field K, Direction direction>
+bool Reduction<F, K, direction>::pop_pivot(Term& pivot) {
+  const auto pop = [&] {
+    std::pop_heap(working_.begin(), working_.end(), below_);
+    const Term term = working_.back();
+    working_.pop_back();
+    return term;
+  };
+  while (!working_.empty()) {
+    pivot = pop();
+    typename K::Element sum = pivot.coefficient();
+    while (!working_.empty() && working_.front().cell == pivot.cell)
+      sum = field_.add(sum, pop().coefficient());
+    if (!field_.is_zero(sum)) {
+      pivot = Term(pivot.cell, sum);
+      return true;
+    }
+  }
+  return false;
+}
+
+template <Filtration F, Field K, Direction direction>
+void Reduction<F, K, direction>::add_column(const Column& column, typename K::Element scale,
+                                            Ticker& ticker) {
+  if constexpr (kIsHomology) {
+    if (column.begin == column.end) {
+      add_boundary(column.cell, scale, ticker);
+      return;
+    }
+    for (std::size_t i = column.begin; i < column.end; ++i)
+      push(terms_[i].cell, field_.multiply(scale, terms_[i].coefficient()));
+    ticker.work(column.end - column.begin);
+  } else {
+    chain_.emplace_back(column.cell, scale);
+    add_boundary(column.cell, scale, ticker);
+    for (std::size_t i = column.begin; i < column.end; ++i) {
+      const auto a = field_.multiply(scale, terms_[i].coefficient());
+      chain_.emplace_back(terms_[i].cell, a);
+      add_boundary(terms_[i].cell, a, ticker);
+    }
+  }
+}
+
+template <Filtration F, Field K, Direction direction>
+auto Reduction<F, K, direction>::owner_of(const Cell& cell) const -> std::optional<Column> {
+  if (const auto at = pivots_.find(cell); at != CellMap<F>::kAbsent) return columns_[at];
+  const auto partner =
+      kIsHomology ? apparent_.killer_of(dim_ - 1, cell) : apparent_.victim_of(dim_ + 1, cell);
+  if (!partner) return std::nullopt;
+  Column column{*partner, field_.from_int(1)};
+  if constexpr (!std::same_as<K, Z2>) {
+    for_each_entry(*partner, [&](const Cell& entry, int incidence) {
+      if (!(entry == cell)) return true;
+      column.pivot = field_.from_int(incidence);
+      return false;
+    });
+  }
+  return column;
+}
+
+template <Filtration F, Field K, Direction direction>
+bool Reduction<F, K, direction>::start_column(const Cell& cell, Term& pivot, Ticker& ticker) {
+  working_.clear();
+  chain_.clear();
+  bool look_for_pivot = !kIsHomology, found = false;
+  for_each_entry(cell, [&](const Cell& entry, int incidence) {
+    const auto a = field_.from_int(incidence);
+    if (field_.is_zero(a)) return true;
+    working_.emplace_back(entry, a);
+    if constexpr (!kIsHomology && F::first_equal_cofacet_is_oldest) {
+      if (look_for_pivot && f_.key(entry) == f_.key(cell)) {
+        look_for_pivot = false;
+        if (!owner_of(entry)) {
+          pivot = working_.back();
+          found = true;
+          return false;
+        }
+      }
+    }
+    return true;
+  });
+  ticker.work(working_.size() + 1);
+  if (!found) std::make_heap(working_.begin(), working_.end(), below_);
+  return found;
+}
+
+template <Filtration F, Field K, Direction direction>
+void Reduction<F, K, direction>::reduce_column(const Cell& cell, Ticker& ticker) {
+  Term pivot;
+  if (start_column(cell, pivot, ticker)) {
+    finish_column(cell, pivot, false);
+    return;
+  }
+  bool was_added_to = false;
+  while (pop_pivot(pivot)) {
+    const auto owner = owner_of(pivot.cell);
+    if (!owner) {
+      finish_column(cell, pivot, was_added_to);
+      return;
+    }
+    push(pivot.cell, pivot.coefficient());
+    add_column(*owner,
+               field_.negate(field_.multiply(pivot.coefficient(), field_.inverse(owner->pivot))),
+               ticker);
+    was_added_to = true;
+  }
+  bars_.add_essential(dim_, cell);
+}
+
+template <Filtration F, Field K, Direction direction>
+void Reduction<F, K, direction>::finish_column(const Cell& cell, const Term& pivot,
+                                               bool was_added_to) {
+  report(cell, pivot.cell);
+  pivots_.insert(pivot.cell, static_cast<std::uint32_t>(columns_.size()));
+  const std::size_t begin = terms_.size();
+  if (was_added_to) {
+    if constexpr (kIsHomology) {
+      terms_.push_back(pivot);
+      for (Term term; pop_pivot(term);) terms_.push_back(term);
+    } else {
+      // The cochain less `cell` itself, equal cells added up.
+      const auto precedes = [&](const Term& a, const Term& b) {
+        return f_.precedes(a.cell, b.cell);
+      };
+      std::sort(chain_.begin(), chain_.end(), precedes);
+      for (std::size_t i = 0; i < chain_.size();) {
+        const Cell& c = chain_[i].cell;
+        auto sum = chain_[i].coefficient();
+        for (++i; i < chain_.size() && chain_[i].cell == c; ++i)
+          sum = field_.add(sum, chain_[i].coefficient());
+        if (!field_.is_zero(sum)) terms_.emplace_back(c, sum);
+      }
+    }
+  }
+  columns_.push_back({cell, pivot.coefficient(), begin, terms_.size()});
+}
+
+}  // namespace ph

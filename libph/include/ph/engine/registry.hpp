@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <optional>
+#include <string_view>
+#include <tuple>
+
+#include "ph/engine/cohomology.hpp"
+#include "ph/engine/standard.hpp"
+#include "ph/engine/twist.hpp"
+#include "ph/engine/union_find.hpp"
+
+namespace ph {
+
+/// All engines: a new one is a file and a line here (and its name in `Engine`). Names on the command
+/// line, the conformance suite and the benchmarks iterate over this list.
+using Engines = std::tuple<StandardEngine, TwistEngine, CohomologyEngine, UnionFindEngine>;
+
+/// Calls `use(engine)` for each registered engine.
+template <class Use>
+void for_each_engine(Use&& use) {
+  std::apply([&](auto... engine) { (use(engine), ...); }, Engines{});
+}
+
+/// The name of an engine; "auto" for Engine::automatic.
+std::string_view engine_name(Engine engine);
+/// The engine of that name, "auto" included; nothing if there is none.
+std::optional<Engine> engine_named(std::string_view name);
+
+}  // namespace ph

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+
+#include "ph/engine/engine.hpp"
+#include "ph/engine/reduction.hpp"
+
+namespace ph {
+
+/// Persistent homology: boundary columns from the highest dimension down, with clearing.
+struct TwistEngine {
+  static constexpr Engine id = Engine::twist;
+  static constexpr const char* name = "twist";
+  template <Filtration F>
+  static bool can_run(const F&, int) {
+    return true;
+  }
+
+  template <Filtration F, Field K>
+  static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context) {
+    Reduction<F, K, Direction::homology> reduction(f, field, bars, context);
+    for (int dim = std::min(bars.max_dim() + 1, f.top_dim()); dim >= 0; --dim)
+      reduction.reduce_dimension(dim);
+  }
+};
+
+}  // namespace ph

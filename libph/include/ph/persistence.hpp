@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "ph/complex/cubical.hpp"
+#include "ph/complex/explicit.hpp"
+#include "ph/complex/rips.hpp"
+#include "ph/core/barcode.hpp"
+#include "ph/core/run_context.hpp"
+#include "ph/engine/registry.hpp"
+
+namespace ph {
+
+/// What to compute, and how.
+struct Options {
+  /// Highest homology dimension reported; default: 1 for Rips, all dimensions otherwise.
+  std::optional<int> max_dim;
+  std::int64_t field = 2;                 ///< characteristic of the coefficients: a prime < 2^31
+  Engine engine = Engine::automatic;      ///< which engine; see registry.hpp
+  double min_persistence = 0;             ///< bars with death - birth <= this are left out; < 0: none
+};
+
+/// The barcode of a filtered complex.
+/// @throws Error (usage) on a field that is not one, a negative max_dim or an engine that cannot do
+///         the task; Error (resource) beyond the memory limit; Error (cancelled) on a stop request.
+Barcode persistence(const Rips& rips, const Options& options = {},
+                    const RunContext& context = default_context());
+Barcode persistence(const Cubical& cubical, const Options& options = {},
+                    const RunContext& context = default_context());
+Barcode persistence(const ExplicitComplex& complex, const Options& options = {},
+                    const RunContext& context = default_context());
+/// The same for a complex of your own: anything that models Filtration.
+template <Filtration F>
+Barcode persistence(const F& filtration, const Options& options = {},
+                    const RunContext& context = default_context());
+
+/// Any of the complexes above, for programs that learn at run time what they have.
+using AnyComplex = std::variant<Rips, Cubical, ExplicitComplex>;
+Barcode persistence(const AnyComplex& complex, const Options& options = {},
+                    const RunContext& context = default_context());
+
+/// What a computation will take, before it is done.
+struct Estimate {
+  Engine engine = Engine::automatic;  ///< the engine that will run
+  std::string reason;                 ///< why it was chosen, one phrase
+  int max_dim = 0;                    ///< highest homology dimension
+  std::vector<double> cells;          ///< by dimension 0 … max_dim + 1: cells, at most
+  double bytes_low = 0;               ///< memory of the computation: at least …
+  double bytes_high = 0;              ///< … and at most
+};
+/// Reads no more than the complex already holds; computes nothing.
+Estimate estimate(const AnyComplex& complex, const Options& options = {});
+
+/// Compares two barcodes as multisets of (dim, birth, death). @return an empty string if they are
+/// equal, else the first bar that one has and the other has not, in words.
+std::string first_difference(const Barcode& a, const Barcode& b);
+
+}  // namespace ph
+
+#include "ph/persistence.ipp"

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+// How `persistence` chooses field and engine. Included by persistence.hpp.
+#include <algorithm>
+#include <string>
+
+namespace ph {
+namespace detail {
+
+/// The engine that will run, with the reason.
+struct EngineChoice {
+  Engine engine;
+  std::string_view reason;
+};
+
+/// @throws Error (usage) if the engine asked for cannot do it.
+template <Filtration F>
+EngineChoice choose_engine(const F& f, Engine asked, int max_dim) {
+  if (asked == Engine::automatic) {
+    if (UnionFindEngine::can_run(f, max_dim))
+      return {Engine::union_find, "only components are asked for"};
+    if (CohomologyEngine::can_run(f, max_dim))
+      return {Engine::cohomology, "the complex lists cofacets"};
+    return {Engine::twist, "the complex lists facets only"};
+  }
+  bool can_run = false;
+  for_each_engine([&](auto engine) {
+    if (engine.id == asked) can_run = engine.can_run(f, max_dim);
+  });
+  if (!can_run) {
+    throw Error(ErrorKind::usage, "engine " + std::string(engine_name(asked)) +
+                                      " cannot compute homology up to dimension " +
+                                      std::to_string(max_dim) + " of this complex");
+  }
+  return {asked, "asked for"};
+}
+
+/// Calls `use(field)` with the field of the given characteristic. @throws Error (usage) if none.
+template <class Use>
+decltype(auto) with_field(std::int64_t characteristic, Use&& use) {
+  if (characteristic == 2) return use(Z2{});
+  return use(Zp(characteristic));
+}
+
+/// @throws Error (usage) if it is negative. Above the top dimension there is nothing to compute.
+int checked_max_dim(int max_dim);
+
+}  // namespace detail
+
+template <Filtration F>
+Barcode persistence(const F& filtration, const Options& options, const RunContext& context) {
+  const int top = std::max(0, filtration.top_dim());
+  const int max_dim = std::min(detail::checked_max_dim(options.max_dim.value_or(top)), top);
+  const Engine chosen = detail::choose_engine(filtration, options.engine, max_dim).engine;
+  BarcodeBuilder<F> bars(filtration, max_dim, options.min_persistence);
+  detail::with_field(options.field, [&](const auto& field) {
+    for_each_engine([&](auto engine) {
+      if (engine.id == chosen) engine.run(filtration, field, bars, context);
+    });
+  });
+  return bars.finish();
+}
+
+}  // namespace ph

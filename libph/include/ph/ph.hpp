@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+// The umbrella: complexes, engines, barcodes; and, where ph::io is linked, files.
+#include "ph/complex/cubical.hpp"
+#include "ph/complex/explicit.hpp"
+#include "ph/complex/lower_star.hpp"
+#include "ph/complex/rips.hpp"
+#include "ph/engine/merge_tree.hpp"
+#include "ph/persistence.hpp"

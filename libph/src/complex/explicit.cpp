@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+#include "ph/complex/explicit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <unordered_map>
+
+#include "ph/core/error.hpp"
+
+namespace ph {
+namespace {
+
+[[noreturn]] void fail(const CellNamer& name, std::size_t cell, const std::string& what) {
+  throw Error(ErrorKind::bad_data,
+              (name ? name(cell) : fmt::format("cell {}", cell)) + ": " + what);
+}
+
+std::string vertex_list(std::span<const Index> vertices) {
+  return fmt::format("({})", fmt::join(vertices, " "));
+}
+
+struct HashVertices {
+  std::size_t operator()(std::span<const Index> vertices) const {
+    std::size_t h = vertices.size();
+    for (const Index v : vertices) h = (h ^ static_cast<std::size_t>(v)) * 0x9E3779B97F4A7C15U;
+    return h ^ (h >> 29);
+  }
+};
+struct EqualVertices {
+  bool operator()(std::span<const Index> a, std::span<const Index> b) const {
+    return std::ranges::equal(a, b);
+  }
+};
+
+void check_size(std::size_t cells) {
+  if (cells >= std::numeric_limits<std::uint32_t>::max()) {
+    throw Error(ErrorKind::resource,
+                fmt::format("an explicit complex holds at most 2^32 - 2 cells, found {}", cells));
+  }
+}
+
+// The boundary matrix of a set of simplices whose vertices are ascending.
+BoundaryMatrix boundary_of(const SimplexList& simplices, const CellNamer& name) {
+  std::unordered_map<std::span<const Index>, std::size_t, HashVertices, EqualVertices> position;
+  position.reserve(simplices.size());
+  BoundaryMatrix matrix;
+  matrix.values = simplices.values;
+  for (std::size_t i = 0; i < simplices.size(); ++i) {
+    const auto vertices = simplices.simplex(i);
+    const auto [it, is_new] = position.emplace(vertices, i);
+    if (!is_new) fail(name, i, fmt::format("simplex {} is there twice", vertex_list(vertices)));
+    matrix.dims.push_back(static_cast<int>(vertices.size()) - 1);
+  }
+  std::vector<Index> facet;
+  for (std::size_t i = 0; i < simplices.size(); ++i) {
+    const auto vertices = simplices.simplex(i);
+    for (std::size_t k = 0; vertices.size() > 1 && k < vertices.size(); ++k) {
+      facet.assign(vertices.begin(), vertices.end());
+      facet.erase(facet.begin() + static_cast<std::ptrdiff_t>(k));
+      const auto it = position.find(facet);
+      if (it == position.end()) {
+        fail(name, i, fmt::format("simplex {}: its facet {} is missing", vertex_list(vertices),
+                                  vertex_list(facet)));
+      }
+      matrix.rows.push_back(static_cast<Index>(it->second));
+      matrix.incidences.push_back(k % 2 == 0 ? 1 : -1);
+    }
+    matrix.offsets.push_back(matrix.rows.size());
+  }
+  return matrix;
+}
+
+}  // namespace
+
+ExplicitComplex ExplicitComplex::from_simplices(const SimplexList& simplices,
+                                                const CellNamer& name) {
+  check_size(simplices.size());
+  SimplexList sorted = simplices;
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    const auto begin = sorted.vertices.begin() + static_cast<std::ptrdiff_t>(sorted.offsets[i]);
+    const auto end = sorted.vertices.begin() + static_cast<std::ptrdiff_t>(sorted.offsets[i + 1]);
+    if (begin == end) fail(name, i, "found a simplex without vertices, expected at least one");
+    std::sort(begin, end);
+    if (*begin < 0) fail(name, i, fmt::format("found vertex {}, expected >= 0", *begin));
+    if (const auto it = std::adjacent_find(begin, end); it != end)
+      fail(name, i, fmt::format("vertex {} occurs twice in one simplex", *it));
+  }
+  ExplicitComplex complex = from_boundary(boundary_of(sorted, name), name);
+  complex.kind_ = CellKind::vertices;
+  complex.simplices_ = std::move(sorted);
+  return complex;
+}
+
+ExplicitComplex ExplicitComplex::from_boundary(const BoundaryMatrix& matrix,
+                                               const CellNamer& name) {
+  const std::size_t n = matrix.size();
+  check_size(n);
+  if (matrix.offsets.size() != n + 1 || (!matrix.values.empty() && matrix.values.size() != n)) {
+    throw Error(ErrorKind::bad_data,
+                fmt::format("boundary matrix: found {} columns and {} values, expected {} of each",
+                            matrix.offsets.size() - 1, matrix.values.size(), n));
+  }
+  std::vector<double> values = matrix.values;
+  if (values.empty()) {
+    values.resize(n);
+    std::iota(values.begin(), values.end(), 0.0);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (std::isnan(values[i])) fail(name, i, "found the value nan, expected a number");
+    if (matrix.dims[i] < 0) fail(name, i, fmt::format("found dimension {}", matrix.dims[i]));
+    values[i] += 0.0;
+  }
+
+  ExplicitComplex complex;
+  complex.has_incidences_ = !matrix.incidences.empty() || matrix.rows.empty();
+  complex.order_cells(matrix.dims, values);
+  complex.facets_.offsets.push_back(0);
+  std::vector<std::pair<std::uint32_t, int>> column;
+  for (std::uint32_t id = 0; id < n; ++id) {
+    const std::size_t i = complex.input_position_[id];
+    column.clear();
+    for (std::size_t k = matrix.offsets[i]; k < matrix.offsets[i + 1]; ++k) {
+      const Index row = matrix.rows[k];
+      if (row < 0 || static_cast<std::size_t>(row) >= n)
+        fail(name, i, fmt::format("facet: found {}, expected a cell below {}", row, n));
+      const auto facet = static_cast<std::size_t>(row);
+      if (matrix.dims[facet] != matrix.dims[i] - 1) {
+        fail(name, i, fmt::format("facet {}: found dimension {}, expected {}", row,
+                                  matrix.dims[facet], matrix.dims[i] - 1));
+      }
+      if (values[facet] > values[i]) {
+        fail(name, i, fmt::format("the cell enters at {}, before its facet {} at {}", values[i],
+                                  row, values[facet]));
+      }
+      column.emplace_back(complex.id_of_[facet],
+                          matrix.incidences.empty() ? 1 : matrix.incidences[k]);
+    }
+    std::sort(column.begin(), column.end());
+    for (const auto& [facet, incidence] : column) {
+      if (complex.facets_.cells.size() > complex.facets_.offsets.back() &&
+          complex.facets_.cells.back() == facet) {
+        fail(name, i, fmt::format("facet {} occurs twice", complex.input_position_[facet]));
+      }
+      complex.facets_.cells.push_back(facet);
+      complex.facets_.incidences.push_back(incidence);
+    }
+    complex.facets_.offsets.push_back(complex.facets_.cells.size());
+  }
+  complex.check(matrix.dims, name);
+  complex.build_cofacets();
+  return complex;
+}
+
+void ExplicitComplex::order_cells(const std::vector<int>& dims, const std::vector<double>& values) {
+  const std::size_t n = dims.size();
+  input_position_.resize(n);
+  std::iota(input_position_.begin(), input_position_.end(), 0U);
+  std::sort(input_position_.begin(), input_position_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    if (values[a] != values[b]) return values[a] < values[b];
+    return dims[a] != dims[b] ? dims[a] < dims[b] : a < b;
+  });
+  id_of_.resize(n);
+  key_.resize(n);
+  std::size_t dimensions = 0;
+  for (std::uint32_t id = 0; id < n; ++id) {
+    const std::uint32_t i = input_position_[id];
+    id_of_[i] = id;
+    if (values_.empty() || values_.back() != values[i]) values_.push_back(values[i]);
+    key_[id] = static_cast<std::uint32_t>(values_.size() - 1);
+    dimensions = std::max(dimensions, static_cast<std::size_t>(dims[i]) + 1);
+  }
+  first_of_dim_.assign(dimensions + 1, 0);
+  for (const int d : dims) ++first_of_dim_[static_cast<std::size_t>(d) + 1];
+  std::partial_sum(first_of_dim_.begin(), first_of_dim_.end(), first_of_dim_.begin());
+  of_dim_.resize(n);
+  std::vector<std::size_t> next(first_of_dim_.begin(), first_of_dim_.end());
+  for (std::size_t i = 0; i < n; ++i)  // within a dimension in the order of the input
+    of_dim_[next[static_cast<std::size_t>(dims[i])]++] = id_of_[i];
+}
+
+void ExplicitComplex::build_cofacets() {
+  const std::size_t n = size();
+  cofacets_.offsets.assign(n + 1, 0);
+  for (const std::uint32_t f : facets_.cells) ++cofacets_.offsets[f + 1];
+  std::partial_sum(cofacets_.offsets.begin(), cofacets_.offsets.end(), cofacets_.offsets.begin());
+  cofacets_.cells.resize(facets_.cells.size());
+  cofacets_.incidences.resize(facets_.cells.size());
+  std::vector<std::size_t> next(cofacets_.offsets.begin(), cofacets_.offsets.end() - 1);
+  for (std::uint32_t id = 0; id < n; ++id) {  // ascending: the oldest cofacet comes first
+    for (std::size_t k = facets_.offsets[id]; k < facets_.offsets[id + 1]; ++k) {
+      const std::size_t at = next[facets_.cells[k]]++;
+      cofacets_.cells[at] = id;
+      cofacets_.incidences[at] = facets_.incidences[k];
+    }
+  }
+}
+
+void ExplicitComplex::check(const std::vector<int>& dims, const CellNamer& name) {
+  std::map<std::uint32_t, Index> square;
+  for (std::uint32_t id = 0; id < size(); ++id) {
+    const std::size_t i = input_position_[id];
+    square.clear();
+    Index sum = 0;
+    const std::size_t begin = facets_.offsets[id], end = facets_.offsets[id + 1];
+    for (std::size_t k = begin; k < end; ++k) {
+      sum += facets_.incidences[k];
+      const std::uint32_t f = facets_.cells[k];
+      for (std::size_t m = facets_.offsets[f]; m < facets_.offsets[f + 1]; ++m)
+        square[facets_.cells[m]] += Index{facets_.incidences[k]} * facets_.incidences[m];
+    }
+    for (const auto& [cell, coefficient] : square) {
+      const bool is_zero = has_incidences_ ? coefficient == 0 : coefficient % 2 == 0;
+      if (!is_zero) {
+        fail(name, i, fmt::format("the boundary of its boundary is not zero at cell {}",
+                                  input_position_[cell]));
+      }
+    }
+    if (dims[i] == 1) {
+      const bool joins = end - begin == 2 && (!has_incidences_ || sum == 0) &&
+                         std::abs(facets_.incidences[begin]) == 1;
+      edges_join_vertices_ = edges_join_vertices_ && (begin == end || joins);
+    }
+  }
+}
+
+void ExplicitComplex::append_input_cell(int, Cell cell, std::vector<Index>& numbers) const {
+  const std::size_t i = input_position_[cell.id];
+  if (kind_ == CellKind::row) {
+    numbers.push_back(static_cast<Index>(i));
+  } else {
+    const auto vertices = simplices_.simplex(i);
+    numbers.insert(numbers.end(), vertices.begin(), vertices.end());
+  }
+}
+
+}  // namespace ph

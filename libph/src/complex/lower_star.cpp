@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "ph/complex/lower_star.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <array>
+#include <limits>
+#include <set>
+#include <vector>
+
+#include "ph/core/error.hpp"
+
+namespace ph {
+namespace {
+
+ExplicitComplex lower_star_of(std::set<std::vector<Index>> simplices,
+                              std::span<const double> vertex_values) {
+  SimplexList list;
+  for (Index v = 0; v < static_cast<Index>(vertex_values.size()); ++v) {
+    const double value = vertex_values[static_cast<std::size_t>(v)];
+    if (std::isnan(value)) {
+      throw Error(ErrorKind::bad_data,
+                  fmt::format("vertex {}: found the value nan, expected a number", v));
+    }
+    simplices.insert({v});
+  }
+  for (const auto& simplex : simplices) {
+    double value = -std::numeric_limits<double>::infinity();
+    for (const Index v : simplex)
+      value = std::max(value, vertex_values[static_cast<std::size_t>(v)]);
+    list.add(simplex, value);
+  }
+  return ExplicitComplex::from_simplices(list);
+}
+
+}  // namespace
+
+ExplicitComplex lower_star(const SimplexList& simplices, std::span<const double> vertex_values,
+                           const CellNamer& name) {
+  constexpr std::size_t kMostVertices = 24;  // 2^24 faces of one simplex
+  std::set<std::vector<Index>> closure;
+  std::vector<Index> face;
+  for (std::size_t i = 0; i < simplices.size(); ++i) {
+    const auto given = simplices.simplex(i);
+    const auto where = [&] { return name ? name(i) : fmt::format("simplex {}", i); };
+    std::vector<Index> vertices(given.begin(), given.end());
+    std::sort(vertices.begin(), vertices.end());
+    for (const Index v : vertices) {
+      if (v < 0 || v >= static_cast<Index>(vertex_values.size())) {
+        throw Error(ErrorKind::bad_data,
+                    fmt::format("{}: vertex {} has no value; there are {} values", where(), v,
+                                vertex_values.size()));
+      }
+    }
+    if (std::adjacent_find(vertices.begin(), vertices.end()) != vertices.end())
+      throw Error(ErrorKind::bad_data, where() + ": a vertex occurs twice in one simplex");
+    if (vertices.size() > kMostVertices) {
+      throw Error(ErrorKind::resource, fmt::format("{}: found {} vertices, at most {} are possible",
+                                                   where(), vertices.size(), kMostVertices));
+    }
+    if (closure.contains(vertices)) continue;  // and with it all its faces
+    for (std::size_t mask = 1; mask < (std::size_t{1} << vertices.size()); ++mask) {
+      face.clear();
+      for (std::size_t k = 0; k < vertices.size(); ++k)
+        if (mask >> k & 1) face.push_back(vertices[k]);
+      closure.insert(face);
+    }
+  }
+  return lower_star_of(std::move(closure), vertex_values);
+}
+
+ExplicitComplex lower_star(std::span<const WeightedEdge> edges,
+                           std::span<const double> vertex_values) {
+  SimplexList list;
+  for (const WeightedEdge& e : edges) list.add(std::array{e.u, e.v}, 0);
+  return lower_star(list, vertex_values);
+}
+
+}  // namespace ph

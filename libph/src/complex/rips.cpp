@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#include "ph/complex/rips.hpp"
+
+namespace ph {
+namespace {
+
+RipsGraph graph_of_points(const Points& points, const RipsOptions& options,
+                          const RunContext& context) {
+  if (options.distance == PointDistance::euclidean && options.threshold && points.cols() <= 8) {
+    const SparseDistances near = SparseDistances::within(points, *options.threshold);
+    return RipsGraph::of_edges(near.size(), near.edges(), options.threshold, context);
+  }
+  return RipsGraph::of_metric(PointMetric(points, options.distance, options.minkowski_p),
+                              options.threshold, context);
+}
+
+}  // namespace
+
+Rips::Rips(const Points& points, const RipsOptions& options, const RunContext& context)
+    : graph_(std::make_shared<const RipsGraph>(graph_of_points(points, options, context))) {}
+
+Rips::Rips(const DistanceMatrix& distances, const RipsOptions& options, const RunContext& context)
+    : graph_(std::make_shared<const RipsGraph>(
+          RipsGraph::of_metric(distances, options.threshold, context))) {}
+
+Rips::Rips(const SparseDistances& distances, const RipsOptions& options, const RunContext& context)
+    : graph_(std::make_shared<const RipsGraph>(RipsGraph::of_edges(
+          distances.size(), distances.edges(), options.threshold, context))) {}
+
+}  // namespace ph

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "ph/core/run_context.hpp"
+
+#include <fmt/format.h>
+
+#include "ph/core/error.hpp"
+
+namespace ph {
+namespace {
+
+[[noreturn]] void refuse(std::size_t bytes, std::size_t used, std::size_t limit) {
+  constexpr double kMiB = 1024.0 * 1024.0;
+  throw Error(ErrorKind::resource,
+              fmt::format("memory limit of {:.1f} MiB would be exceeded: {:.1f} MiB in use, "
+                          "{:.1f} MiB more needed",
+                          static_cast<double>(limit) / kMiB, static_cast<double>(used) / kMiB,
+                          static_cast<double>(bytes) / kMiB));
+}
+
+}  // namespace
+
+void MemoryBudget::require(std::size_t bytes) const {
+  const std::size_t now = used();
+  if (bytes > limit_ || now > limit_ - bytes) refuse(bytes, now, limit_);
+}
+
+void* MemoryBudget::do_allocate(std::size_t bytes, std::size_t alignment) {
+  const std::size_t before = used_.fetch_add(bytes, std::memory_order_relaxed);
+  if (bytes > limit_ || before > limit_ - bytes) {
+    used_.fetch_sub(bytes, std::memory_order_relaxed);
+    refuse(bytes, before, limit_);
+  }
+  std::size_t seen = peak_.load(std::memory_order_relaxed);
+  while (seen < before + bytes &&
+         !peak_.compare_exchange_weak(seen, before + bytes, std::memory_order_relaxed)) {
+  }
+  try {
+    return std::pmr::new_delete_resource()->allocate(bytes, alignment);
+  } catch (...) {
+    used_.fetch_sub(bytes, std::memory_order_relaxed);
+    throw;
+  }
+}
+
+void MemoryBudget::do_deallocate(void* p, std::size_t bytes, std::size_t alignment) {
+  std::pmr::new_delete_resource()->deallocate(p, bytes, alignment);
+  used_.fetch_sub(bytes, std::memory_order_relaxed);
+}
+
+void RunContext::poll() const {
+  if (stop.stop_requested()) throw Error(ErrorKind::cancelled, "stopped on request");
+}
+
+const RunContext& default_context() {
+  static const RunContext context;
+  return context;
+}
+
+Ticker::Ticker(const RunContext& context, std::string_view stage, std::uint64_t total)
+    : context_(context),
+      progress_{stage, 0, total},
+      last_report_(std::chrono::steady_clock::now()) {
+  context_.poll();
+}
+
+Ticker::~Ticker() = default;
+
+void Ticker::poll() {
+  pending_ = 0;
+  context_.poll();
+  if (!context_.on_progress) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_report_ < std::chrono::milliseconds(100)) return;
+  last_report_ = now;
+  context_.on_progress(progress_);
+}
+
+}  // namespace ph

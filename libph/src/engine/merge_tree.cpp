@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "ph/engine/merge_tree.hpp"
+
+#include "ph/complex/cubical.hpp"
+#include "ph/complex/explicit.hpp"
+#include "ph/complex/rips.hpp"
+#include "ph/core/barcode.hpp"
+#include "ph/core/error.hpp"
+#include "ph/engine/filtered_graph.hpp"
+
+namespace ph {
+namespace {
+
+template <GraphFiltration F>
+MergeTree tree_of(const F& f, const RunContext& context) {
+  const FilteredGraph<F> graph(f, context);
+  MergeTree tree;
+  tree.births.reserve(graph.vertices.size());
+  for (const auto& v : graph.vertices) tree.births.push_back(f.value(v));
+  std::vector<Index> sizes(graph.vertices.size(), 1);
+  join_by_elder_rule(graph.age, graph.ends, context,
+                     [&](std::size_t edge, std::uint32_t elder, std::uint32_t younger) {
+                       tree.merges.push_back({f.value(graph.edges[edge]), graph.ends[edge].u,
+                                              graph.ends[edge].v, elder, younger, sizes[elder],
+                                              sizes[younger], tree.births[elder],
+                                              tree.births[younger]});
+                       sizes[elder] += sizes[younger];
+                     });
+  return tree;
+}
+
+}  // namespace
+
+std::vector<Index> MergeTree::components(double value) const {
+  std::vector<Index> parent(births.size());
+  for (std::size_t v = 0; v < births.size(); ++v)
+    parent[v] = births[v] <= value ? static_cast<Index>(v) : -1;
+  for (const Merge& m : merges) {
+    if (m.value > value) break;
+    parent[static_cast<std::size_t>(m.younger)] = m.elder;
+  }
+  // A vertex that is not a root of its own birth joined along some merge; but only births are
+  // recorded as parents, so follow them to the end.
+  for (std::size_t v = 0; v < parent.size(); ++v) {
+    Index root = parent[v];
+    while (root >= 0 && parent[static_cast<std::size_t>(root)] != root)
+      root = parent[static_cast<std::size_t>(root)];
+    parent[v] = root;
+  }
+  return parent;
+}
+
+MergeTree merge_tree(const Rips& rips, const RunContext& context) {
+  return rips.with_filtration(0, [&](const auto& f) { return tree_of(f, context); });
+}
+
+MergeTree merge_tree(const Cubical& cubical, const RunContext& context) {
+  return tree_of(cubical, context);
+}
+
+MergeTree merge_tree(const ExplicitComplex& complex, const RunContext& context) {
+  if (!complex.edges_join_vertices()) {
+    throw Error(ErrorKind::usage, "a merge tree needs edges that join two vertices");
+  }
+  return tree_of(complex, context);
+}
+
+}  // namespace ph

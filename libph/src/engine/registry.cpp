@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#include "ph/engine/registry.hpp"
+
+namespace ph {
+
+std::string_view engine_name(Engine engine) {
+  std::string_view name = "auto";
+  for_each_engine([&](auto e) {
+    if (e.id == engine) name = e.name;
+  });
+  return name;
+}
+
+std::optional<Engine> engine_named(std::string_view name) {
+  if (name == "auto") return Engine::automatic;
+  std::optional<Engine> engine;
+  for_each_engine([&](auto e) {
+    if (e.name == name) engine = e.id;
+  });
+  return engine;
+}
+
+}  // namespace ph

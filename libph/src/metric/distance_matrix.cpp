@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#include "ph/metric/distance_matrix.hpp"
+
+#include <fmt/format.h>
+
+#include "ph/core/error.hpp"
+
+namespace ph {
+
+DistanceMatrix::DistanceMatrix(Index size, std::vector<double> lower)
+    : size_(size), lower_(std::move(lower)) {
+  const Index pairs = size > 0 ? size * (size - 1) / 2 : 0;
+  if (size < 0 || static_cast<Index>(lower_.size()) != pairs) {
+    throw Error(ErrorKind::bad_data, fmt::format("distance matrix: found {} distances, expected {} "
+                                                 "for {} points", lower_.size(), pairs, size));
+  }
+  std::size_t k = 0;
+  for (Index i = 1; i < size; ++i) {
+    for (Index j = 0; j < i; ++j, ++k) {
+      if (!(lower_[k] >= 0)) {
+        throw Error(ErrorKind::bad_data,
+                    fmt::format("distance ({}, {}): found {}, expected a number >= 0", i, j,
+                                lower_[k]));
+      }
+      lower_[k] += 0.0;  // -0.0 becomes +0.0
+    }
+  }
+}
+
+}  // namespace ph

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "ph/persistence.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace ph {
+namespace {
+
+std::string describe(const Bar& bar) {
+  return fmt::format("H{} [{}, {})", bar.dim, bar.birth, bar.death);
+}
+
+}  // namespace
+
+int detail::checked_max_dim(int max_dim) {
+  if (max_dim < 0) {
+    throw Error(ErrorKind::usage,
+                fmt::format("highest dimension: found {}, expected >= 0", max_dim));
+  }
+  return max_dim;
+}
+
+Barcode persistence(const Rips& rips, const Options& options, const RunContext& context) {
+  Options rips_options = options;
+  rips_options.max_dim = detail::checked_max_dim(options.max_dim.value_or(1));
+  return rips.with_filtration(*rips_options.max_dim, [&](const auto& filtration) {
+    return persistence(filtration, rips_options, context);
+  });
+}
+
+Barcode persistence(const Cubical& cubical, const Options& options, const RunContext& context) {
+  return persistence<Cubical>(cubical, options, context);
+}
+
+Barcode persistence(const ExplicitComplex& complex, const Options& options,
+                    const RunContext& context) {
+  if (!complex.has_incidences() && options.field != 2) {
+    throw Error(ErrorKind::usage,
+                fmt::format("field {}: this boundary matrix has no incidence numbers, which allows "
+                            "field 2 only", options.field));
+  }
+  return persistence<ExplicitComplex>(complex, options, context);
+}
+
+Barcode persistence(const AnyComplex& complex, const Options& options, const RunContext& context) {
+  return std::visit([&](const auto& c) { return persistence(c, options, context); }, complex);
+}
+
+std::string first_difference(const Barcode& a, const Barcode& b) {
+  const auto before = [](const Bar& x, const Bar& y) {
+    return std::tie(x.dim, x.birth, x.death) < std::tie(y.dim, y.birth, y.death);
+  };
+  const auto [x, y] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  if (x == a.end() && y == b.end()) return "";
+  if (y == b.end() || (x != a.end() && before(*x, *y)))
+    return describe(*x) + " is in the first barcode only";
+  return describe(*y) + " is in the second barcode only";
+}
+
+}  // namespace ph
