@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include "arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <limits>
+
+#include "choices.hpp"
+#include "numbers.hpp"
+#include "ph/core/error.hpp"
+
+namespace ph::segment {
+namespace {
+
+using app::add_value;
+
+[[noreturn]] void not_built_in(std::string_view option) {
+  throw Error(ErrorKind::not_built_in, fmt::format("{}: not built in yet", option));
+}
+
+/// A number that must be above zero (or, with `zero`, at least zero) and finite.
+double length(std::string_view option, const std::string& text, bool zero = false) {
+  const double value = app::parse_number(option, text);
+  if (!(value > 0 || (zero && value == 0)) || value == kInfinity) {
+    throw Error(ErrorKind::usage, fmt::format("{}: found {}, expected a finite length {} 0", option,
+                                              text, zero ? "of at least" : "above"));
+  }
+  return value;
+}
+
+Box parse_box(std::string_view option, const std::string& text) {
+  const std::vector<double> v = app::parse_numbers(option, text, 6);
+  const Box box{{v[0], v[2], v[4]}, {v[1], v[3], v[5]}};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (box.min[axis] <= box.max[axis]) continue;
+    throw Error(ErrorKind::usage, fmt::format("{}: found {}…{} on axis {}, expected min <= max",
+                                              option, box.min[axis], box.max[axis], "xyz"[axis]));
+  }
+  return box;
+}
+
+Vec3 parse_point(std::string_view option, const std::string& text) {
+  const std::vector<double> v = app::parse_numbers(option, text, 3);
+  for (const double x : v) {
+    if (x == kInfinity || x == -kInfinity) {
+      throw Error(ErrorKind::usage,
+                  fmt::format("{}: found {}, expected finite coordinates", option, text));
+    }
+  }
+  return {v[0], v[1], v[2]};
+}
+
+bool parse_switch(std::string_view option, const std::string& text) {
+  static constexpr std::array<std::string_view, 2> kChoices = {"off", "on"};
+  return app::choose(option, text, kChoices) == 1;
+}
+
+void require_method(const std::string& text) {
+  static constexpr std::array<std::string_view, 2> kChoices = {"paper", "surface"};
+  if (app::choose("--method", text, kChoices) == 1) not_built_in("--method surface");
+}
+
+int parse_steps(const std::string& text) {
+  if (text == "exact") return 0;
+  return static_cast<int>(app::parse_integer("--steps", text, 1, std::numeric_limits<int>::max()));
+}
+
+void add_input_options(CLI::App& app, Arguments& a) {
+  app.add_option("INPUT", a.input, "point cloud: .pcd, .ply, .xyz or .csv; - is standard input");
+  add_value(app, "--depth", "D.png", "depth image in place of INPUT; 0 is a hole",
+            [&a](const std::string& v) { a.image.depth = v; });
+  add_value(app, "--color,--colour", "C.png", "colour image of the same size",
+            [&a](const std::string& v) { a.image.colour = v; });
+  add_value(app, "--intrinsics", "FX,FY,CX,CY",
+            "focal lengths and principal point of the depth image, pixels",
+            [&a](const std::string& v) {
+              const auto k = app::parse_numbers("--intrinsics", v, 4);
+              a.image.intrinsics = Intrinsics{k[0], k[1], k[2], k[3]};
+            });
+  add_value(app, "--depth-scale", "S", "depth units a metre (default: 1000, millimetres)",
+            [&a](const std::string& v) { a.image.scale = length("--depth-scale", v); });
+}
+
+void add_stage_options(CLI::App& app, SegmentOptions& o) {
+  const SegmentOptions d;
+  add_value(app, "--method", "NAME",
+            "paper: by distance alone, the pipeline of the ICRA 2016 paper (default)",
+            require_method);
+  add_value(app, "--max-range", "M",
+            fmt::format("keep points up to M metres from the viewpoint; inf: all (default: {})",
+                        d.max_range),
+            [&o](const std::string& v) {
+              o.max_range = app::parse_number("--max-range", v);
+              if (o.max_range < 0) length("--max-range", v, true);
+            });
+  add_value(app, "--crop", "XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX",
+            "keep points inside this box, metres; inf and -inf: no limit (default: all)",
+            [&o](const std::string& v) { o.crop = parse_box("--crop", v); });
+  add_value(app, "--plane", "on|off",
+            "remove the supporting plane and what lies behind it (default: on)",
+            [&o](const std::string& v) { o.plane = parse_switch("--plane", v); });
+  add_value(app, "--plane-distance", "M",
+            fmt::format("half the thickness of the plane, metres (default: {})", d.plane_distance),
+            [&o](const std::string& v) { o.plane_distance = length("--plane-distance", v); });
+  add_value(app, "--viewpoint", "X,Y,Z",
+            "where the sensor stood, metres (default: the file's VIEWPOINT, else 0,0,0)",
+            [&o](const std::string& v) { o.viewpoint = parse_point("--viewpoint", v); });
+  add_value(app, "--voxel", "M", fmt::format("edge of a voxel, metres (default: {})", d.voxel),
+            [&o](const std::string& v) { o.voxel = length("--voxel", v); });
+  add_value(app, "--distance", "M",
+            fmt::format("maximum distance of the Vietoris-Rips complex, metres (default: {})",
+                        d.distance),
+            [&o](const std::string& v) { o.distance = length("--distance", v, true); });
+  add_value(app, "--steps", "N|exact",
+            fmt::format("filtration steps up to the distance; exact: as many as there are "
+                        "distances (default: {})",
+                        d.steps),
+            [&o](const std::string& v) { o.steps = parse_steps(v); });
+  add_value(app, "--min-size", "N",
+            fmt::format("fewest voxels of a segment (default: {})", d.min_size),
+            [&o](const std::string& v) { o.min_size = app::parse_integer("--min-size", v, 1); });
+  app.add_flag_callback(
+      "--no-check", [&o] { o.check = false; },
+      "skip the cross-check of union-find against boundary-matrix reduction "
+      "(on by default; a difference exits 1)");
+}
+
+void add_output_options(CLI::App& app, Arguments& a) {
+  const auto path = [&app](const std::string& names, const std::string& placeholder,
+                           const std::string& what, std::string& target) {
+    add_value(app, names, placeholder, what, [&target](const std::string& v) { target = v; });
+  };
+  path("-o,--output", "FILE.pcd|.ply",
+       "the same points in the same order with all their fields and `label` (an existing `label` "
+       "becomes `label_in`)",
+       a.output);
+  path("--labels", "FILE.npy|.csv|.png",
+       "one label a point: 0 no segment, 1…k by decreasing number of points (csv: one a line; "
+       "png: 16 bits, organised clouds)",
+       a.labels);
+  path("--json", "FILE", "summary: stages, complex, plane, segments", a.json);
+  path("--barcode", "FILE", "barcode of H0: .csv, .json, .txt, .pers, .dipha, .npy", a.barcode);
+  path("--plot", "FILE.svg", "figure of the barcode; a triangle is infinite persistence", a.plot);
+  path("--coloured,--colored", "FILE.pcd|.ply",
+       "the points with a colour a segment, safe for the colour-blind, and the rest in grey",
+       a.coloured);
+  path("--picture", "FILE.png", "the image with its segments coloured (organised clouds)",
+       a.picture);
+}
+
+/// What the contract of the program promises for later.
+void add_planned_options(CLI::App& app) {
+  for (const std::string name : {"--objects", "--parts"}) {
+    app.add_flag_callback(
+        name, [name] { not_built_in(name); }, "not built in yet");
+  }
+  for (const std::string name : {"--min-persistence", "--cut", "--explain", "--report"}) {
+    add_value(app, name, "X", "not built in yet",
+              [name](const std::string&) { not_built_in(name); });
+  }
+}
+
+void require_one_input(const Arguments& a) {
+  const bool depth = !a.image.depth.empty();
+  if (a.input.empty() && !depth) {
+    throw Error(ErrorKind::usage, "expected INPUT or --depth; see --help");
+  }
+  if (!a.input.empty() && depth) {
+    throw Error(ErrorKind::usage, "found both INPUT and --depth, expected one of them");
+  }
+  if (depth && !a.image.intrinsics) {
+    throw Error(ErrorKind::usage, "--depth: expected --intrinsics FX,FY,CX,CY with it");
+  }
+  if (!depth && (!a.image.colour.empty() || a.image.intrinsics)) {
+    throw Error(ErrorKind::usage, "--color and --intrinsics: expected --depth with them");
+  }
+}
+
+}  // namespace
+
+std::optional<int> parse_arguments(int argc, const char* const* argv, Arguments& a) {
+  CLI::App app("Segments a point cloud or a depth image by zero-dimensional persistent homology.",
+               "ph-segment");
+  add_input_options(app, a);
+  add_stage_options(app, a.options);
+  add_output_options(app, a);
+  add_planned_options(app);
+  app::add_common_options(app, a.common);
+  if (const auto code = app::parse_command_line(app, a.common, argc, argv)) return code;
+  require_one_input(a);
+  return std::nullopt;
+}
+
+}  // namespace ph::segment

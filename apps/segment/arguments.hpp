@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <optional>
+#include <string>
+
+#include "command_line.hpp"
+#include "ph/io/cloud_io.hpp"
+#include "ph/segment.hpp"
+
+namespace ph::segment {
+
+/// A depth image with what is needed to make a cloud of it.
+struct DepthInput {
+  std::string depth;
+  std::string colour;                    ///< empty: none
+  std::optional<Intrinsics> intrinsics;  ///< pixels
+  double scale = 1000;                   ///< depth units a metre
+};
+
+/// The command line of ph-segment. An empty path: not asked for.
+struct Arguments {
+  std::string input;  ///< a cloud; empty: the depth image
+  DepthInput image;
+  SegmentOptions options;
+  std::string output;    ///< the cloud with its labels
+  std::string labels;    ///< one label a point
+  std::string json;      ///< the summary
+  std::string barcode;   ///< H0
+  std::string plot;      ///< the barcode as a figure
+  std::string coloured;  ///< the cloud with a colour a segment
+  std::string picture;   ///< the image with a colour a segment
+  app::CommonOptions common;
+
+  bool writes_files() const {
+    return !(output + labels + json + barcode + plot + coloured + picture).empty();
+  }
+};
+
+/// @return the exit code if --help or --version was answered.
+/// @throws Error (usage); Error (not_built_in) on what is planned but not there.
+std::optional<int> parse_arguments(int argc, const char* const* argv, Arguments& arguments);
+
+}  // namespace ph::segment

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "ph/io/cloud.hpp"
+#include "ph/io/png.hpp"
+#include "ph/segment.hpp"
+
+namespace ph::segment {
+
+/// Which segments are neighbours: neighbours[i] lists the segments (labels less one) beside segment
+/// i, ascending. In an organised cloud those less than five pixels apart, else those whose boxes
+/// come closer than `reach`.
+std::vector<std::vector<std::size_t>> neighbouring_segments(const Cloud& cloud,
+                                                            const Segmentation& segmentation,
+                                                            double reach);
+
+/// A colour a segment, 0x00RRGGBB, from a palette that people with any common kind of colour
+/// blindness can tell apart (Okabe & Ito 2008). Neighbours differ as long as no segment has more
+/// than six; the rest of the palette is spread evenly.
+std::vector<std::uint32_t> segment_colours(const std::vector<std::vector<std::size_t>>& neighbours);
+
+/// The points with x, y, z, `rgba` and `label`: segments in their colours, all else in grey, as
+/// bright as it was. Same points, order and organisation.
+Cloud coloured_cloud(const Cloud& cloud, std::span<const std::uint32_t> labels,
+                     std::span<const std::uint32_t> colours);
+
+/// A picture of an organised cloud, RGB: its colours (without any, its depth) in grey, segments
+/// tinted and outlined.
+/// @throws Error (bad_data) if the cloud is not organised.
+Raster picture(const Cloud& cloud, std::span<const std::uint32_t> labels,
+               std::span<const std::uint32_t> colours);
+
+}  // namespace ph::segment

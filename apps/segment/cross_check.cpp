@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "cross_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "ph/persistence.hpp"
+
+namespace ph::segment {
+namespace {
+
+std::string in_words(const Barcode& barcode, std::size_t i) {
+  const Bar& bar = barcode[i];
+  const Index vertex = barcode.birth_cell(i).numbers[0];
+  const std::optional<InputCell> edge = barcode.death_cell(i);
+  if (!edge) return fmt::format("[{}, inf) of vertex {}", bar.birth, vertex);
+  return fmt::format("[{}, {}) of vertex {} and edge {}-{}", bar.birth, bar.death, vertex,
+                     edge->numbers[0], edge->numbers[1]);
+}
+
+bool same_cells(const std::optional<InputCell>& a, const std::optional<InputCell>& b) {
+  if (!a || !b) return !a && !b;
+  return std::ranges::equal(a->numbers, b->numbers);
+}
+
+}  // namespace
+
+Barcode barcode_of(const MergeTree& tree) {
+  Barcode barcode(CellKind::vertices);
+  std::vector<bool> dead(tree.births.size());
+  for (const Merge& m : tree.merges) {
+    const Index birth[] = {m.younger};
+    const Index death[] = {std::min(m.u, m.v), std::max(m.u, m.v)};
+    barcode.add({0, m.younger_birth, m.value}, birth, death);
+    dead[static_cast<std::size_t>(m.younger)] = true;
+  }
+  for (std::size_t v = 0; v < dead.size(); ++v) {
+    if (dead[v] || tree.births[v] == kInfinity) continue;
+    const Index birth[] = {static_cast<Index>(v)};
+    barcode.add({0, tree.births[v], kInfinity}, birth, {});
+  }
+  barcode.sort();
+  return barcode;
+}
+
+std::string cross_check(const Rips& rips, const Barcode& barcode, const RunContext& context) {
+  const Barcode other =
+      persistence(rips, {.max_dim = 0, .engine = Engine::twist, .min_persistence = -1}, context);
+  if (barcode.size() != other.size()) {
+    return fmt::format("{} bars by union-find, {} by boundary-matrix reduction", barcode.size(),
+                       other.size());
+  }
+  for (std::size_t i = 0; i < barcode.size(); ++i) {
+    if (barcode[i] == other[i] && same_cells(barcode.birth_cell(i), other.birth_cell(i)) &&
+        same_cells(barcode.death_cell(i), other.death_cell(i))) {
+      continue;
+    }
+    return fmt::format("{} by union-find, {} by boundary-matrix reduction", in_words(barcode, i),
+                       in_words(other, i));
+  }
+  return {};
+}
+
+}  // namespace ph::segment

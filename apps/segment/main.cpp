@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT
+#include "program.hpp"
+#include "run.hpp"
+
+int main(int argc, char** argv) {
+  return ph::app::run_program("ph-segment", [argc, argv](std::stop_token stop) {
+    return ph::segment::run(argc, argv, std::move(stop));
+  });
+}

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "options.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "ph/core/error.hpp"
+
+namespace ph::segment {
+namespace {
+
+void require(bool condition, std::string_view name, double found, std::string_view expected) {
+  if (condition) return;
+  throw Error(ErrorKind::usage, fmt::format("{}: found {}, expected {}", name, found, expected));
+}
+
+void require_finite(const Vec3& v, std::string_view name) {
+  for (const double x : v) require(std::isfinite(x), name, x, "finite coordinates");
+}
+
+}  // namespace
+
+void validate(const CloudView& cloud, const SegmentOptions& o) {
+  if (cloud.xyz.size() % 3 != 0) {
+    throw Error(ErrorKind::bad_data,
+                fmt::format("found {} coordinates, expected three a point", cloud.xyz.size()));
+  }
+  constexpr std::string_view kLength = "a positive finite length";
+  require(std::isfinite(o.voxel) && o.voxel > 0, "voxel", o.voxel, kLength);
+  require(std::isfinite(o.distance) && o.distance >= 0, "distance", o.distance,
+          "a finite length of at least 0");
+  require(o.steps >= 0, "steps", o.steps, "at least 0");
+  require(o.min_size >= 1, "min_size", static_cast<double>(o.min_size), "at least 1");
+  require(o.max_range >= 0, "max_range", o.max_range, "a length of at least 0 or infinity");
+  require(std::isfinite(o.plane_distance) && o.plane_distance > 0, "plane_distance",
+          o.plane_distance, kLength);
+  require_finite(o.viewpoint.value_or(cloud.viewpoint), "viewpoint");
+  if (!o.crop) return;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    require(o.crop->min[axis] <= o.crop->max[axis], "crop", o.crop->min[axis],
+            fmt::format("at most {}, the other end", o.crop->max[axis]));
+  }
+}
+
+}  // namespace ph::segment

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "outputs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "cloud_files.hpp"
+#include "colouring.hpp"
+#include "ph/core/error.hpp"
+#include "ph/io/barcode_io.hpp"
+#include "ph/io/svg_plot.hpp"
+#include "summary.hpp"
+
+namespace ph::segment {
+namespace {
+
+std::string extension_of(std::string_view path) {
+  const std::size_t dot = path.rfind('.');
+  if (dot == std::string_view::npos || path.find('/', dot) != std::string_view::npos) return {};
+  std::string extension(path.substr(dot));
+  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return extension;
+}
+
+/// @throws Error (usage) unless the path ends in one of the extensions; "-" is fine.
+void require_extension(std::string_view option, const std::string& path,
+                       std::initializer_list<std::string_view> extensions) {
+  if (path.empty() || path == "-") return;
+  const std::string found = extension_of(path);
+  if (std::ranges::find(extensions, found) != extensions.end()) return;
+  std::string expected;
+  for (const std::string_view e : extensions) {
+    expected += fmt::format("{}{}", expected.empty() ? "" : " or ", e);
+  }
+  throw Error(ErrorKind::usage, fmt::format("{}: found {}, expected a file name that ends in {}",
+                                            option, path, expected));
+}
+
+template <class Write>
+std::string text_of(Write&& write) {
+  std::ostringstream out;
+  write(out);
+  return std::move(out).str();
+}
+
+Raster label_image(const Cloud& cloud, std::span<const std::uint32_t> labels) {
+  Raster raster{cloud.width, cloud.height, 1, 16, {}};
+  for (const std::uint32_t label : labels) {
+    if (label > UINT16_MAX) {
+      throw Error(ErrorKind::bad_data, fmt::format("--labels: a PNG holds labels up to 65535, "
+                                                   "found {}; use .npy",
+                                                   label));
+    }
+    raster.samples.push_back(static_cast<std::uint16_t>(label));
+  }
+  return raster;
+}
+
+std::string label_file(const std::string& path, const Cloud& cloud,
+                       std::span<const std::uint32_t> labels) {
+  const std::string extension = extension_of(path);
+  if (extension == ".npy") {
+    return text_of([&](std::ostream& o) { write_npy(o, labels, cloud.width, cloud.height); });
+  }
+  if (extension == ".png") {
+    return text_of([&](std::ostream& o) { write_png(o, label_image(cloud, labels)); });
+  }
+  std::string text;
+  for (const std::uint32_t label : labels) fmt::format_to(std::back_inserter(text), "{}\n", label);
+  return text;
+}
+
+BarcodeInfo barcode_info(const Arguments& a, const Segmentation& s, const RunInfo& info) {
+  BarcodeInfo result;
+  result.program = info.program;
+  result.input = info.input;
+  result.input_description = fmt::format("{} voxel centroids in R^3", s.vertices.rows());
+  result.complex = "rips";
+  result.threshold = a.options.distance;
+  result.engine = "union-find";
+  for (const Stage& stage : s.stages) result.timings.emplace_back(stage.name, stage.seconds);
+  result.peak_memory = app::peak_memory();
+  return result;
+}
+
+}  // namespace
+
+Outputs::Outputs(const Arguments& a) : arguments_(a) {
+  for (const std::string& path : {a.output, a.coloured}) {
+    if (!path.empty()) cloud_format_of(path);
+  }
+  require_extension("--labels", a.labels, {".npy", ".csv", ".png"});
+  require_extension("--plot", a.plot, {".svg"});
+  require_extension("--picture", a.picture, {".png"});
+  if (!a.barcode.empty() && a.barcode != "-" && !barcode_format_of_path(a.barcode)) {
+    require_extension("--barcode", a.barcode, {".csv", ".json", ".txt", ".pers", ".dipha", ".npy"});
+  }
+  open(Kind::cloud, a.output);
+  open(Kind::labels, a.labels);
+  open(Kind::json, a.json);
+  open(Kind::barcode, a.barcode);
+  open(Kind::plot, a.plot);
+  open(Kind::coloured, a.coloured);
+  open(Kind::picture, a.picture);
+}
+
+void Outputs::open(Kind kind, const std::string& path) {
+  if (!path.empty()) files_.push_back({kind, app::Output(path)});
+}
+
+void Outputs::require_suitable(const Cloud& cloud) const {
+  if (cloud.organised()) return;
+  const auto refuse = [&](std::string_view option, std::string_view hint) {
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: found an unorganised cloud of {} points, expected rows and "
+                            "columns; {}",
+                            option, cloud.size(), hint));
+  };
+  if (extension_of(arguments_.labels) == ".png") refuse("--labels", "use .npy or .csv");
+  if (!arguments_.picture.empty()) refuse("--picture", "use --coloured");
+}
+
+std::vector<std::uint32_t> Outputs::colours(const Cloud& cloud,
+                                            const Segmentation& segmentation) const {
+  const double reach = 2 * arguments_.options.distance;
+  return segment_colours(neighbouring_segments(cloud, segmentation, reach));
+}
+
+void Outputs::write_file(File& file, const Cloud& cloud, const Segmentation& s,
+                         const RunInfo& info) const {
+  const Arguments& a = arguments_;
+  app::Output& out = file.output;
+  switch (file.kind) {
+    case Kind::cloud:
+      return out.write(cloud_bytes(with_labels(cloud, s.labels), cloud_format_of(a.output)));
+    case Kind::labels:
+      return out.write(label_file(a.labels, cloud, s.labels));
+    case Kind::json:
+      return out.write(json_summary(cloud, a, s, info));
+    case Kind::barcode:
+      return write_barcode(out.file(), s.barcode,
+                           barcode_format_of_path(a.barcode).value_or(BarcodeFormat::csv),
+                           barcode_info(a, s, info));
+    case Kind::plot:
+      return out.write(svg_plot(s.barcode, {.title = "", .value_label = "Filtration value (m)"}));
+    case Kind::coloured:
+      return out.write(cloud_bytes(coloured_cloud(cloud, s.labels, colours(cloud, s)),
+                                   cloud_format_of(a.coloured)));
+    case Kind::picture:
+      return out.write(text_of([&](std::ostream& o) {
+        write_png(o, ph::segment::picture(cloud, s.labels, colours(cloud, s)));
+      }));
+  }
+}
+
+void Outputs::write(const Cloud& cloud, const Segmentation& segmentation, const RunInfo& info) {
+  for (File& file : files_) write_file(file, cloud, segmentation, info);
+  for (File& file : files_) file.output.commit();
+}
+
+}  // namespace ph::segment

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "arguments.hpp"
+#include "session.hpp"
+
+namespace ph::segment {
+
+/// What the files say besides the segmentation.
+struct RunInfo {
+  std::string program;      ///< name and version
+  std::string input;        ///< path of the input
+  double read_seconds = 0;  ///< wall-clock time of reading it
+};
+
+/// The files that the command line asks for: opened before the computation, complete or absent.
+class Outputs {
+ public:
+  /// @throws Error (usage) on an unknown extension; Error (cannot_create).
+  explicit Outputs(const Arguments& arguments);
+
+  /// @throws Error (usage) if a file asks for rows and columns that the cloud has not.
+  void require_suitable(const Cloud& cloud) const;
+  /// Writes and completes all of them.
+  void write(const Cloud& cloud, const Segmentation& segmentation, const RunInfo& info);
+
+ private:
+  enum class Kind { cloud, labels, json, barcode, plot, coloured, picture };
+  struct File {
+    Kind kind;
+    app::Output output;
+  };
+  void open(Kind kind, const std::string& path);
+  void write_file(File& file, const Cloud& cloud, const Segmentation& segmentation,
+                  const RunInfo& info) const;
+  std::vector<std::uint32_t> colours(const Cloud& cloud, const Segmentation& segmentation) const;
+
+  const Arguments& arguments_;
+  std::vector<File> files_;
+};
+
+}  // namespace ph::segment

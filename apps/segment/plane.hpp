@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ph/segment.hpp"
+
+namespace ph::segment {
+
+/// What the search for the supporting plane found.
+struct PlaneSearch {
+  std::optional<Plane> plane;
+  std::string note;  ///< why there is none; empty if there is one
+};
+
+/// The supporting plane: the plane on which most of the points lie, by RANSAC on a sample (Fischler
+/// & Bolles 1981, scored as in MSAC, Torr & Zisserman 2000) and least-squares refits. O(points)
+/// with a fixed number of hypotheses: the worst case is as fast as the best. The sample is drawn by
+/// a hash of the coordinates, so that neither the order of the points nor duplicates nor scaling
+/// everything by a power of two change the plane.
+/// @param points indices into the cloud, none of them a hole.
+/// @param distance half the thickness of the plane, metres, > 0.
+PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points, double distance);
+
+/// The points on the sensor's side of the plane and more than `distance` away from it. What lies on
+/// the plane or behind it (the floor beyond a table's edge, reflections) stands on nothing.
+std::vector<Index> remove_plane(const CloudView& cloud, const std::vector<Index>& points,
+                                const Plane& plane, double distance);
+
+}  // namespace ph::segment

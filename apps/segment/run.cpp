@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "run.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "arguments.hpp"
+#include "exit_code.hpp"
+#include "outputs.hpp"
+#include "ph/io/output_file.hpp"
+#include "session.hpp"
+#include "summary.hpp"
+
+namespace ph::segment {
+namespace {
+
+constexpr std::string_view kProgram = "ph-segment";
+
+Cloud read_depth(const DepthInput& image, const RunContext& context) {
+  const Raster depth = read_png(image.depth, &context);
+  std::optional<Raster> colour;
+  if (!image.colour.empty()) colour = read_png(image.colour, &context);
+  return cloud_from_depth(depth, colour, *image.intrinsics, image.scale);
+}
+
+Cloud read_input(const Arguments& arguments, app::Session& session) {
+  if (arguments.input.empty()) return read_depth(arguments.image, session.context());
+  ReadOptions options;
+  options.context = &session.context();
+  options.note = [&session](const std::string& text) { session.note(text); };
+  return ph::read_cloud(arguments.input, options);
+}
+
+/// What a user should know before trusting the result.
+void warn(const Segmentation& s, const SegmentOptions& options, app::Session& session) {
+  if (!s.difference.empty()) session.note("check: " + s.difference);
+  if (!s.stages.empty() && s.stages.front().points == 0) {
+    session.note(fmt::format("no point within {} m of the viewpoint{}; see --max-range",
+                             options.max_range, options.crop ? " and inside the crop box" : ""));
+  } else if (options.plane && !s.plane) {
+    session.note(s.plane_note + "; nothing removed");
+  }
+}
+
+}  // namespace
+
+int run(int argc, const char* const* argv, std::stop_token stop) {
+  Arguments arguments;
+  if (const auto code = parse_arguments(argc, argv, arguments)) return *code;
+  app::Session session(kProgram, arguments.common, std::move(stop));
+  Outputs outputs(arguments);
+
+  const auto start = std::chrono::steady_clock::now();
+  const Cloud cloud = read_input(arguments, session);
+  const std::chrono::duration<double> reading = std::chrono::steady_clock::now() - start;
+  outputs.require_suitable(cloud);
+
+  const Segmentation result = segment(cloud, arguments.options, session.context());
+  warn(result, arguments.options, session);
+  session.note(one_line_summary(cloud, result));
+  for (const Stage& stage : result.stages) {
+    session.explain(
+        fmt::format("{:12} {:8} points {:9.3f} ms", stage.name, stage.points, 1e3 * stage.seconds));
+  }
+  if (result.plane) {
+    session.explain(
+        fmt::format("plane {:.4f} x + {:.4f} y + {:.4f} z + {:.4f} = 0, {:.1f} % of "
+                    "the points in range",
+                    result.plane->normal[0], result.plane->normal[1], result.plane->normal[2],
+                    result.plane->offset, 100 * result.plane->share));
+  }
+  const std::string& path = arguments.input.empty() ? arguments.image.depth : arguments.input;
+  outputs.write(cloud, result,
+                {app::program_and_version(std::string(kProgram)), path, reading.count()});
+  if (!arguments.writes_files()) write_file("-", text_summary(result));
+  return result.difference.empty() ? app::kOk : app::kDifference;
+}
+
+}  // namespace ph::segment

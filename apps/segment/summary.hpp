@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <string>
+
+#include "outputs.hpp"
+
+namespace ph::segment {
+
+/// The summary as JSON: the paper's Table I and more. An infinite number is null.
+std::string json_summary(const Cloud& cloud, const Arguments& arguments,
+                         const Segmentation& segmentation, const RunInfo& info);
+
+/// A table of the segments for people, one a line.
+std::string text_summary(const Segmentation& segmentation);
+
+/// The run in one line: what each stage left.
+std::string one_line_summary(const Cloud& cloud, const Segmentation& segmentation);
+
+}  // namespace ph::segment

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "voxel_grid.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "ph/core/error.hpp"
+
+namespace ph::segment {
+namespace {
+
+// Offsets inside a voxel are counted in units of voxel * 2^-32: two picometres at one centimetre,
+// and two thousand million points of a voxel still add up in 63 bits.
+constexpr double kUnits = 4294967296.0;
+
+/// One occupied voxel. Grid coordinates are whole numbers kept as doubles: they cannot overflow.
+struct Voxel {
+  double x, y, z;
+  std::int64_t sum_x = 0, sum_y = 0, sum_z = 0;
+  Index count = 0;
+  bool is_at(double cx, double cy, double cz) const { return x == cx && y == cy && z == cz; }
+};
+
+/// Open addressing with linear probing; the load stays below one half.
+class VoxelTable {
+ public:
+  VoxelTable() : slots_(kFirstCapacity, kEmpty) {}
+
+  /// The number of the voxel, in the order of first appearance.
+  std::uint32_t at(double x, double y, double z) {
+    std::size_t slot = slot_of(x, y, z);
+    for (; slots_[slot] != kEmpty; slot = next(slot)) {
+      if (voxels_[slots_[slot]].is_at(x, y, z)) return slots_[slot];
+    }
+    if (voxels_.size() >= kEmpty) throw Error(ErrorKind::resource, "more than 2^32 - 1 voxels");
+    const auto number = static_cast<std::uint32_t>(voxels_.size());
+    voxels_.push_back({x, y, z});
+    slots_[slot] = number;
+    if (2 * voxels_.size() > slots_.size()) grow();
+    return number;
+  }
+  Voxel& operator[](std::uint32_t number) { return voxels_[number]; }
+  const std::vector<Voxel>& voxels() const { return voxels_; }
+
+ private:
+  static constexpr std::uint32_t kEmpty = UINT32_MAX;
+  static constexpr std::size_t kFirstCapacity = 16384;
+
+  std::size_t next(std::size_t slot) const { return (slot + 1) & (slots_.size() - 1); }
+  std::size_t slot_of(double x, double y, double z) const {
+    std::uint64_t h = std::bit_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15ULL;
+    h = (std::rotl(h, 29) ^ std::bit_cast<std::uint64_t>(y)) * 0xbf58476d1ce4e5b9ULL;
+    h = (std::rotl(h, 29) ^ std::bit_cast<std::uint64_t>(z)) * 0x94d049bb133111ebULL;
+    return static_cast<std::size_t>((h ^ (h >> 32)) & (slots_.size() - 1));
+  }
+  void grow() {
+    slots_.assign(2 * slots_.size(), kEmpty);
+    for (std::uint32_t number = 0; number < voxels_.size(); ++number) {
+      const Voxel& v = voxels_[number];
+      std::size_t slot = slot_of(v.x, v.y, v.z);
+      while (slots_[slot] != kEmpty) slot = next(slot);
+      slots_[slot] = number;
+    }
+  }
+
+  std::vector<std::uint32_t> slots_;
+  std::vector<Voxel> voxels_;
+};
+
+/// The grid coordinate of a number in units of voxels. Adding zero makes -0 and +0 the same bits.
+double cell_of(double units) { return std::floor(units) + 0.0; }
+
+/// An offset inside a voxel, 0 <= units <= 1, as a whole number: rounded to the nearest.
+std::int64_t fixed_point(double units) { return static_cast<std::int64_t>(units * kUnits + 0.5); }
+
+}  // namespace
+
+VoxelGrid voxel_grid(const CloudView& cloud, const std::vector<Index>& points, double voxel) {
+  VoxelGrid grid;
+  grid.voxel_of.resize(points.size());
+  VoxelTable table;
+  std::uint32_t number = 0;  // neighbours in the list are often neighbours in space
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const float* p = &cloud.xyz[3 * static_cast<std::size_t>(points[k])];
+    const double x = p[0] / voxel, y = p[1] / voxel, z = p[2] / voxel;
+    const double cx = cell_of(x), cy = cell_of(y), cz = cell_of(z);
+    if (k == 0 || !table[number].is_at(cx, cy, cz)) {
+      if (!std::isfinite(cx + cy + cz)) {
+        throw Error(ErrorKind::usage,
+                    fmt::format("a voxel of {} is too small for point {} at ({}, {}, {})", voxel,
+                                points[k], p[0], p[1], p[2]));
+      }
+      number = table.at(cx, cy, cz);
+    }
+    Voxel& v = table[number];
+    v.sum_x += fixed_point(x - cx);
+    v.sum_y += fixed_point(y - cy);
+    v.sum_z += fixed_point(z - cz);
+    ++v.count;
+    grid.voxel_of[k] = number;
+  }
+
+  const std::vector<Voxel>& voxels = table.voxels();
+  std::vector<std::uint32_t> order(voxels.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::sort(order, [&](std::uint32_t i, std::uint32_t j) {
+    const Voxel &a = voxels[i], &b = voxels[j];
+    if (a.z != b.z) return a.z < b.z;
+    if (a.y != b.y) return a.y < b.y;
+    return a.x < b.x;
+  });
+  grid.centroids.resize(static_cast<Index>(voxels.size()), 3);
+  grid.counts.resize(voxels.size());
+  std::vector<std::uint32_t> rank(voxels.size());
+  for (std::uint32_t r = 0; r < order.size(); ++r) {
+    const Voxel& v = voxels[order[r]];
+    const double n = static_cast<double>(v.count) * kUnits;
+    grid.centroids.row(r) << (v.x + static_cast<double>(v.sum_x) / n) * voxel,
+        (v.y + static_cast<double>(v.sum_y) / n) * voxel,
+        (v.z + static_cast<double>(v.sum_z) / n) * voxel;
+    grid.counts[r] = v.count;
+    rank[order[r]] = r;
+  }
+  for (std::uint32_t& v : grid.voxel_of) v = rank[v];
+  return grid;
+}
+
+}  // namespace ph::segment

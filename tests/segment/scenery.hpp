@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "ph/segment.hpp"
+
+/// Small scenes with known answers.
+namespace ph::segment::test {
+
+inline constexpr float kHole = std::numeric_limits<float>::quiet_NaN();
+
+/// An organised cloud of x, y, z from triples of coordinates.
+inline Cloud cloud_of(const std::vector<float>& xyz, Index width, Index height) {
+  Cloud cloud;
+  cloud.width = width;
+  cloud.height = height;
+  cloud.fields = {{"x", FieldType::float32, 1, 0},
+                  {"y", FieldType::float32, 1, 4},
+                  {"z", FieldType::float32, 1, 8}};
+  cloud.stride = 12;
+  cloud.data.resize(xyz.size() * sizeof(float));
+  std::memcpy(cloud.data.data(), xyz.data(), cloud.data.size());
+  return cloud;
+}
+
+/// What one ray of a camera meets: a box whose axes are those of the table.
+struct Block {
+  Vec3 min, max;
+};
+
+/// A camera 1 m from a table, looking down at 45 degrees; the table's coordinates are x right,
+/// y away, z up, its middle at the origin. 160 x 120 pixels, the axes of the cloud are the camera's
+/// (x right, y down, z forward). Rays that miss the table (1.2 m x 1 m) are holes.
+class TableScene {
+ public:
+  static constexpr Index kWidth = 160, kHeight = 120;
+
+  explicit TableScene(std::vector<Block> blocks) : blocks_(std::move(blocks)) {
+    for (Index v = 0; v < kHeight; ++v) {
+      for (Index u = 0; u < kWidth; ++u) cast(u, v);
+    }
+  }
+  /// A table with two boxes of 10 cm, 20 cm apart, the left one larger.
+  static TableScene two_boxes() {
+    return TableScene({{{-0.22, -0.05, 0}, {-0.10, 0.07, 0.12}}, {{0.10, -0.05, 0}, {0.2, 0.05, 0.1}}});
+  }
+
+  const std::vector<float>& xyz() const { return xyz_; }
+  /// By pixel: -1 nothing, 0 the table, 1… the blocks.
+  const std::vector<int>& truth() const { return truth_; }
+  Cloud cloud() const { return cloud_of(xyz_, kWidth, kHeight); }
+
+ private:
+  void cast(Index u, Index v) {
+    // Camera at (0, -1/sqrt 2, 1/sqrt 2); forward (0, c, -c), down (0, -c, -c), right (1, 0, 0).
+    const double c = std::sqrt(0.5);
+    const Vec3 eye{0, -c, c};
+    const double px = (static_cast<double>(u) - 79.5) / 130;
+    const double py = (static_cast<double>(v) - 59.5) / 130;
+    const Vec3 ray{px, c - c * py, -c - c * py};
+    double nearest = std::numeric_limits<double>::infinity();
+    int hit = -1;
+    const double table = -eye[2] / ray[2];
+    const double tx = eye[0] + table * ray[0], ty = eye[1] + table * ray[1];
+    if (table > 0 && std::abs(tx) < 0.6 && std::abs(ty) < 0.5) {
+      nearest = table;
+      hit = 0;
+    }
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      double enter = 0, leave = std::numeric_limits<double>::infinity();
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double a = (blocks_[b].min[axis] - eye[axis]) / ray[axis];
+        const double z = (blocks_[b].max[axis] - eye[axis]) / ray[axis];
+        enter = std::max(enter, std::min(a, z));
+        leave = std::min(leave, std::max(a, z));
+      }
+      if (enter < leave && enter < nearest) {
+        nearest = enter;
+        hit = static_cast<int>(b + 1);
+      }
+    }
+    truth_.push_back(hit);
+    const float depth = hit < 0 ? kHole : static_cast<float>(nearest);
+    xyz_.push_back(static_cast<float>(px) * depth);
+    xyz_.push_back(static_cast<float>(py) * depth);
+    xyz_.push_back(depth);
+  }
+
+  std::vector<Block> blocks_;
+  std::vector<float> xyz_;
+  std::vector<int> truth_;
+};
+
+}  // namespace ph::segment::test
