@@ -42,7 +42,6 @@ std::optional<BarcodeFormat> barcode_format_of_path(std::string_view path) {
   for (char& c : extension)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');  // as in no locale
   if (extension == "none") return std::nullopt;
-  if (extension == "txt") return BarcodeFormat::ripser;
   if (extension == "diagram") return BarcodeFormat::dipha;
   return barcode_format_named(extension);
 }

@@ -40,7 +40,7 @@ struct BarcodeInfo {
 /// The name of a format on the command line, and back.
 std::string_view barcode_format_name(BarcodeFormat format);
 std::optional<BarcodeFormat> barcode_format_named(std::string_view name);
-/// The format that a file name's extension stands for (.csv, .json, .txt or .ripser, .pers,
+/// The format that a file name's extension stands for (.csv, .json, .ripser, .pers,
 /// .dipha or .diagram, .npy); nothing for an unknown one. Case does not matter.
 std::optional<BarcodeFormat> barcode_format_of_path(std::string_view path);
 

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "svg_plot_canvas.hpp"
+
+namespace ph::svg {
+namespace {
+
+/// Floor of the decimal logarithm of a positive number.
+int magnitude(double value) { return static_cast<int>(std::floor(std::log10(value))); }
+
+double in_units(double value, int exponent) {
+  // In two steps: a power of ten beyond 10^±308 is not a double, half of it is.
+  const int half = exponent / 2;
+  return value / std::pow(10.0, half) / std::pow(10.0, exponent - half);
+}
+
+std::string superscript(int number) {
+  static constexpr const char* kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = number < 0 ? "⁻" : "";
+  for (const char digit : std::to_string(std::abs(number))) text += kDigits[digit - '0'];
+  return text;
+}
+
+}  // namespace
+
+Axis::Axis(double low, double high, double from, double to)
+    : low_(low), high_(high), from_(from), to_(to) {
+  const double largest = std::max(std::abs(low), std::abs(high));
+  if (largest > 0) {
+    const int power = magnitude(largest);
+    shows_unit_ = power < -3 || power > 4;
+    if (shows_unit_) exponent_ = power;
+  }
+  low_ = in_units(low, exponent_);
+  high_ = in_units(high, exponent_);
+  // Equal ends, or so near to each other that doubles between them are few.
+  const double least = 1e-12 * std::max({std::abs(low_), std::abs(high_), 1e-300});
+  if (!(high_ - low_ > least)) {
+    const double room = low_ == 0 ? 1 : 0.5 * std::abs(low_);
+    if (low_ != 0) low_ -= room;
+    high_ += room;
+  }
+}
+
+double Axis::at(double value) const {
+  const double part = (in_units(value, exponent_) - low_) / (high_ - low_);
+  return from_ + std::clamp(part, 0.0, 1.0) * (to_ - from_);
+}
+
+std::vector<Axis::Tick> Axis::ticks(int count) const {
+  const double rough = (high_ - low_) / count;
+  const double power = std::pow(10.0, magnitude(rough));
+  double step = 10 * power;
+  for (const double factor : {5.0, 2.0, 1.0})
+    if (factor * power >= rough * 0.99) step = factor * power;
+  const int decimals = std::max(0, -magnitude(step * 1.0001));
+  std::vector<Tick> ticks;
+  const double slack = 1e-6;
+  const double first = std::ceil(low_ / step - slack);
+  const double last = std::floor(high_ / step + slack);
+  for (int i = 0; first + i <= last && i < 4 * count; ++i) {
+    const double value = (first + i) * step;
+    std::string label = fmt::format("{:.{}f}", value == 0 ? 0.0 : value, decimals);
+    if (label.front() == '-') label.replace(0, 1, "−");
+    const double part = std::clamp((value - low_) / (high_ - low_), 0.0, 1.0);
+    ticks.push_back({from_ + part * (to_ - from_), std::move(label)});
+  }
+  return ticks;
+}
+
+std::string Axis::unit() const { return shows_unit_ ? "×10" + superscript(exponent_) : ""; }
+
+void Axis::draw_below(Canvas& canvas, double top, double bottom, const std::string& name) const {
+  std::vector<Tick> shown = ticks(6);
+  // Long labels need room: at 7 points a digit is about 4 wide.
+  for (int count = 5; count >= 2; --count) {
+    double needed = 0;
+    for (const Tick& tick : shown) needed += 4.0 * static_cast<double>(tick.label.size()) + 8;
+    if (needed <= std::abs(to_ - from_) + 8) break;
+    shown = ticks(count);
+  }
+  for (const Tick& tick : shown) {
+    canvas.line(tick.position, top, tick.position, bottom, kGrid, 0.5);
+    canvas.line(tick.position, bottom, tick.position, bottom + 2.5, kInk, 0.6);
+    canvas.text(tick.position, bottom + 9.5, tick.label, Anchor::middle);
+  }
+  canvas.line(std::min(from_, to_), bottom, std::max(from_, to_), bottom, kInk, 0.6);
+  const std::string with_unit = unit().empty() ? name : name + " (" + unit() + ")";
+  canvas.text((from_ + to_) / 2, bottom + 20, with_unit, Anchor::middle, 7.5);
+}
+
+Range finite_range(const Barcode& barcode) {
+  Range range{kInfinity, -kInfinity};
+  for (const Bar& bar : barcode)
+    for (const double value : {bar.birth, bar.death}) {
+      if (!std::isfinite(value)) continue;
+      range.low = std::min(range.low, value);
+      range.high = std::max(range.high, value);
+    }
+  if (range.low > range.high) return {};
+  return range;
+}
+
+std::vector<int> dims_of(const Barcode& barcode) {
+  std::vector<int> dims;
+  for (const Bar& bar : barcode)
+    if (dims.empty() || dims.back() != bar.dim) dims.push_back(bar.dim);
+  return dims;
+}
+
+std::string description_of(const Barcode& barcode) {
+  std::string text;
+  for (const int dim : dims_of(barcode)) {
+    if (!text.empty()) text += ", ";
+    text += grouped(barcode.bars(dim).size()) + (text.empty() ? " bars in " : " in ") +
+            with_subscript("H", dim);
+  }
+  return text.empty() ? "no bars" : text;
+}
+
+}  // namespace ph::svg
