@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// Every engine against the oracle on random small filtrations, half of them with heavy ties.
+#include "support/conformance.hpp"
+#include "support/generators.hpp"
+
+namespace ph::test {
+namespace {
+
+constexpr std::int64_t kFields[] = {2, 3, 5, 11};
+
+// Runs `make_and_check(generator, ties, field)` for `count` seeds.
+template <class MakeAndCheck>
+void for_each_seed(int count, MakeAndCheck&& make_and_check) {
+  for (int seed = 0; seed < count; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Generator random(static_cast<std::uint64_t>(seed));
+    ASSERT_NO_FATAL_FAILURE(make_and_check(random, seed % 2 == 0, kFields[seed / 2 % 4]));
+    if (::testing::Test::HasFailure()) return;
+  }
+}
+
+TEST(RandomConformance, RipsOfPoints) {
+  for_each_seed(4000, [](Generator& random, bool ties, std::int64_t field) {
+    const Rips rips(random.points(random.integer(0, 10), random.integer(1, 4), ties));
+    check(rips, random.integer(0, 3), {field});
+  });
+}
+
+TEST(RandomConformance, RipsOfAnyMatrix) {
+  for_each_seed(4000, [](Generator& random, bool ties, std::int64_t field) {
+    RipsOptions options;
+    if (random.coin()) options.threshold = ties ? random.integer(0, 3) : random.real();
+    const Rips rips(random.distances(random.integer(0, 9), ties), options);
+    check(rips, random.integer(0, 3), {field});
+  });
+}
+
+TEST(RandomConformance, RipsOfSparseDistances) {
+  for_each_seed(4000, [](Generator& random, bool ties, std::int64_t field) {
+    const Rips rips(random.sparse(random.integer(0, 10), ties, random.real()));
+    check(rips, random.integer(0, 3), {field});
+  });
+}
+
+TEST(RandomConformance, WideRipsCells) {
+  for_each_seed(300, [](Generator& random, bool ties, std::int64_t field) {
+    const Rips rips(random.sparse(random.integer(1, 8), ties, 0.7));
+    const int max_dim = random.integer(0, 3);
+    if (rips.graph().is_dense())
+      check(RipsFiltration<RipsLayout::dense, 4>(rips.graph()), max_dim, {field});
+    else
+      check(RipsFiltration<RipsLayout::sparse, 4>(rips.graph()), max_dim, {field});
+  });
+}
+
+TEST(RandomConformance, CubicalUpToThreeAxes) {
+  for_each_seed(5000, [](Generator& random, bool ties, std::int64_t field) {
+    std::vector<Index> extents;
+    const int dim = random.integer(1, 3);
+    for (int k = 0; k < dim; ++k) extents.push_back(random.integer(1, dim == 3 ? 3 : 4));
+    const Cubical cubical(random.image(extents, ties), random.cubical_options(dim));
+    check(cubical, random.integer(0, dim), {field});
+  });
+}
+
+TEST(RandomConformance, CubicalFourCubedAndFourAxes) {
+  for_each_seed(200, [](Generator& random, bool ties, std::int64_t field) {
+    check(Cubical(random.image({4, 4, 4}, ties), random.cubical_options(3)), 3, {field});
+    check(Cubical(random.image({2, 1, 3, 2}, ties), random.cubical_options(4)), 4, {field});
+  });
+}
+
+TEST(RandomConformance, SimplicialComplexes) {
+  for_each_seed(3000, [](Generator& random, bool ties, std::int64_t field) {
+    const auto list = random.simplices(random.integer(4, 9), 3, random.integer(1, 12), ties);
+    check(ExplicitComplex::from_simplices(list), random.integer(0, 3), {field});
+  });
+}
+
+// A chain complex that is no simplicial complex: columns of any length, over Z/2.
+TEST(RandomConformance, BoundaryMatrices) {
+  for_each_seed(1000, [](Generator& random, bool ties, std::int64_t) {
+    BoundaryMatrix m;
+    const int vertices = random.integer(0, 6), edges = random.integer(0, 8);
+    for (int i = 0; i < vertices + edges; ++i) {
+      m.dims.push_back(i < vertices ? 0 : 1);
+      for (int v = 0; i >= vertices && v < vertices; ++v)
+        if (random.integer(0, 2) == 0) m.rows.push_back(v);
+      m.offsets.push_back(m.rows.size());
+      m.values.push_back(i < vertices ? 0 : 1 + random.value(ties));
+    }
+    check(ExplicitComplex::from_boundary(m), 1, {2});
+  });
+}
+
+}  // namespace
+}  // namespace ph::test

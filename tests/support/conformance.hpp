@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+// The one suite that every filtration and every engine passes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+#include <tuple>
+#include <vector>
+
+#include "ph/persistence.hpp"
+
+namespace ph::test {
+
+/// A pair with its cells, zero-length ones included: what two engines must agree on.
+struct Pair {
+  Bar bar;
+  std::vector<Index> birth_cell, death_cell;
+
+  friend bool operator==(const Pair&, const Pair&) = default;
+  friend bool operator<(const Pair& a, const Pair& b) {
+    return std::tie(a.bar.dim, a.bar.birth, a.bar.death, a.birth_cell, a.death_cell) <
+           std::tie(b.bar.dim, b.bar.birth, b.bar.death, b.birth_cell, b.death_cell);
+  }
+  friend std::ostream& operator<<(std::ostream& out, const Pair& p) {
+    out << "H" << p.bar.dim << " [" << p.bar.birth << ", " << p.bar.death << ") born with (";
+    for (const Index i : p.birth_cell) out << " " << i;
+    out << " ) killed by (";
+    for (const Index i : p.death_cell) out << " " << i;
+    return out << " )";
+  }
+};
+
+inline std::vector<Pair> pairs_of(const Barcode& barcode) {
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < barcode.size(); ++i) {
+    const auto birth = barcode.birth_cell(i).numbers;
+    Pair pair{barcode[i], {birth.begin(), birth.end()}, {}};
+    if (const auto death = barcode.death_cell(i))
+      pair.death_cell.assign(death->numbers.begin(), death->numbers.end());
+    pairs.push_back(std::move(pair));
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+/// All pairs of an engine, zero-length ones too.
+template <class Complex>
+std::vector<Pair> pairs_of(const Complex& complex, int max_dim, std::int64_t field, Engine engine) {
+  return pairs_of(persistence(
+      complex,
+      Options{.max_dim = max_dim, .field = field, .engine = engine, .min_persistence = -1}));
+}
+
+/// The cells of one dimension, oldest first.
+template <Filtration F>
+std::vector<typename F::Cell> sorted_cells(const F& f, int dim) {
+  std::vector<typename F::Cell> cells;
+  f.for_each_cell(dim, [&](const auto& c) { cells.push_back(c); });
+  std::sort(cells.begin(), cells.end(),
+            [&](const auto& a, const auto& b) { return f.precedes(a, b); });
+  return cells;
+}
+
+/// The contract of core/filtration.hpp, cell by cell up to dimension `top`.
+template <Filtration F>
+void check_contract(const F& f, int top, std::int64_t field) {
+  using Cell = typename F::Cell;
+  top = std::min(top, f.top_dim());
+  std::vector<Cell> lower;
+  std::map<std::pair<std::vector<Index>, std::vector<Index>>, int> facet_entries, cofacet_entries;
+  const auto name = [&](int dim, const Cell& c) {
+    std::vector<Index> numbers;
+    f.append_input_cell(dim, c, numbers);
+    return numbers;
+  };
+  for (int dim = 0; dim <= top; ++dim) {
+    const std::vector<Cell> cells = sorted_cells(f, dim);
+    for (std::size_t i = 1; i < cells.size(); ++i) {
+      ASSERT_TRUE(f.precedes(cells[i - 1], cells[i])) << "the order is not strict";
+      ASSERT_LE(f.value(cells[i - 1]), f.value(cells[i])) << "the order does not refine the value";
+    }
+    facet_entries.clear();
+    for (const Cell& c : cells) {
+      std::map<std::vector<Index>, long> square;
+      f.for_each_facet(dim, c, [&](const Cell& facet, int incidence) {
+        ASSERT_LE(f.value(facet), f.value(c)) << "a face enters after its coface";
+        ASSERT_TRUE(std::binary_search(lower.begin(), lower.end(), facet,
+                                       [&](const Cell& a, const Cell& b) {
+                                         return f.precedes(a, b);
+                                       }))
+            << "a facet is not a cell";
+        if (dim > 1) {
+          f.for_each_facet(dim - 1, facet, [&](const Cell& ridge, int second) {
+            square[name(dim - 2, ridge)] += long{incidence} * second;
+          });
+        }
+        const bool is_new =
+            facet_entries.emplace(std::pair(name(dim - 1, facet), name(dim, c)), incidence).second;
+        ASSERT_TRUE(is_new) << "a facet is visited twice";
+      });
+      for (const auto& [ridge, sum] : square)
+        ASSERT_EQ(sum % field, 0) << "the boundary of a boundary is not zero";
+    }
+    if constexpr (CofacetFiltration<F>) {
+      cofacet_entries.clear();
+      for (const Cell& c : lower) {
+        std::vector<Cell> equal;
+        f.for_each_cofacet(dim - 1, c, [&](const Cell& cofacet, int incidence) {
+          if (f.key(cofacet) == f.key(c)) equal.push_back(cofacet);
+          EXPECT_GE(f.key(cofacet), f.key(c));
+          cofacet_entries.emplace(std::pair(name(dim - 1, c), name(dim, cofacet)), incidence);
+          return true;
+        });
+        if (F::first_equal_cofacet_is_oldest) {
+          for (const Cell& other : equal)
+            ASSERT_FALSE(f.precedes(other, equal.front())) << "a false claim: oldest cofacet first";
+        }
+      }
+      ASSERT_EQ(facet_entries, cofacet_entries) << "facets and cofacets disagree, dim " << dim;
+    }
+    if constexpr (SlottedFiltration<F>) {
+      std::vector<std::size_t> slots;
+      for (const Cell& c : cells) slots.push_back(f.slot(c));
+      std::sort(slots.begin(), slots.end());
+      ASSERT_TRUE(std::adjacent_find(slots.begin(), slots.end()) == slots.end());
+      ASSERT_TRUE(slots.empty() || slots.back() < f.slot_count());
+    }
+    lower = cells;
+  }
+}
+
+/// At every value the alternating count of cells equals that of living bars (all dimensions).
+template <Filtration F>
+void check_euler(const F& f, const std::vector<Pair>& pairs) {
+  std::map<double, long> change;
+  for (int dim = 0; dim <= f.top_dim(); ++dim) {
+    f.for_each_cell(dim, [&](const auto& c) { change[f.value(c)] += dim % 2 == 0 ? 1 : -1; });
+  }
+  for (const Pair& p : pairs) {
+    const long sign = p.bar.dim % 2 == 0 ? 1 : -1;
+    change[p.bar.birth] -= sign;
+    if (!p.death_cell.empty()) change[p.bar.death] += sign;
+  }
+  for (const auto& [value, difference] : change)
+    ASSERT_EQ(difference, 0) << "Euler characteristic at " << value;
+}
+
+/// THE SUITE for one filtration: its contract, and every registered engine against the oracle, pair
+/// by pair, zero-length pairs included, over each field.
+template <Filtration F>
+void check(const F& f, int max_dim, std::initializer_list<std::int64_t> fields = {2, 3, 5}) {
+  max_dim = std::min(max_dim, std::max(0, f.top_dim()));
+  for (const std::int64_t field : fields) {
+    SCOPED_TRACE("field " + std::to_string(field));
+    ASSERT_NO_FATAL_FAILURE(check_contract(f, max_dim + 1, field));
+    const auto oracle = pairs_of(f, max_dim, field, Engine::standard);
+    if (max_dim == f.top_dim()) {
+      ASSERT_NO_FATAL_FAILURE(check_euler(f, oracle));
+    }
+    const auto components = pairs_of(f, 0, field, Engine::standard);
+    for_each_engine([&](auto engine) {
+      SCOPED_TRACE(engine.name);
+      if (engine.can_run(f, max_dim)) {
+        EXPECT_EQ(pairs_of(f, max_dim, field, engine.id), oracle);
+      }
+      if (engine.can_run(f, 0)) {
+        EXPECT_EQ(pairs_of(f, 0, field, engine.id), components);
+      }
+    });
+  }
+}
+
+inline void check(const Rips& rips, int max_dim,
+                  std::initializer_list<std::int64_t> fields = {2, 3, 5}) {
+  rips.with_filtration(max_dim, [&](const auto& f) { check(f, max_dim, fields); });
+}
+
+}  // namespace ph::test
