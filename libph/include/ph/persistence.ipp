@@ -19,8 +19,11 @@ EngineChoice choose_engine(const F& f, Engine asked, int max_dim) {
   if (asked == Engine::automatic) {
     if (UnionFindEngine::can_run(f, max_dim))
       return {Engine::union_find, "only components are asked for"};
+    // Measured: where cells are numbered, columns are few and short in both directions and the
+    // boundary wins; where they are not, the next dimension must never be listed.
+    if (SlottedFiltration<F>) return {Engine::twist, "the complex numbers its cells"};
     if (CohomologyEngine::can_run(f, max_dim))
-      return {Engine::cohomology, "the complex lists cofacets"};
+      return {Engine::cohomology, "cells of the highest dimension are too many to list"};
     return {Engine::twist, "the complex lists facets only"};
   }
   bool can_run = false;

@@ -7,8 +7,7 @@ namespace {
 RipsGraph graph_of_points(const Points& points, const RipsOptions& options,
                           const RunContext& context) {
   if (options.distance == PointDistance::euclidean && options.threshold && points.cols() <= 8) {
-    const SparseDistances near = SparseDistances::within(points, *options.threshold);
-    return RipsGraph::of_edges(near.size(), near.edges(), options.threshold, context);
+    return RipsGraph::of_points_within(points, *options.threshold, context);
   }
   return RipsGraph::of_metric(PointMetric(points, options.distance, options.minkowski_p),
                               options.threshold, context);

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "ph/core/error.hpp"
+#include "ph/metric/pairs_within.hpp"
 
 namespace ph {
 
@@ -24,6 +25,18 @@ void RipsGraph::check_arguments(Index size, std::optional<double> threshold) {
 void RipsGraph::check_distance(Index i, Index j, double value) {
   throw Error(ErrorKind::bad_data, fmt::format("distance ({}, {}): found {}, expected a number >= 0",
                                                i, j, value));
+}
+
+RipsGraph RipsGraph::of_points_within(const Points& points, double threshold,
+                                      const RunContext& context) {
+  check_arguments(points.rows(), threshold);
+  std::pmr::vector<Candidate> candidates(&context.memory);
+  Ticker ticker(context, "edges");
+  for_each_pair_within(points, threshold, [&](Index i, Index j, double d) {
+    candidates.push_back({d, {static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(i)}});
+    ticker.tick();
+  });
+  return build(points.rows(), threshold, std::move(candidates), context);
 }
 
 RipsGraph RipsGraph::of_edges(Index size, std::span<const WeightedEdge> edges,

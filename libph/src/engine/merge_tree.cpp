@@ -39,13 +39,17 @@ std::vector<Index> MergeTree::components(double value) const {
     if (m.value > value) break;
     parent[static_cast<std::size_t>(m.younger)] = m.elder;
   }
-  // A vertex that is not a root of its own birth joined along some merge; but only births are
-  // recorded as parents, so follow them to the end.
+  // A parent was born before its child: follow to the root, halving the path for those to come.
   for (std::size_t v = 0; v < parent.size(); ++v) {
-    Index root = parent[v];
-    while (root >= 0 && parent[static_cast<std::size_t>(root)] != root)
-      root = parent[static_cast<std::size_t>(root)];
-    parent[v] = root;
+    for (Index root = parent[v]; root >= 0;) {
+      Index& up = parent[static_cast<std::size_t>(root)];
+      if (up == root) {
+        parent[v] = root;
+        break;
+      }
+      up = parent[static_cast<std::size_t>(up)];
+      root = up;
+    }
   }
   return parent;
 }

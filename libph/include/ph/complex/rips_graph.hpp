@@ -38,6 +38,9 @@ class RipsGraph {
   template <Metric M>
   static RipsGraph of_metric(const M& metric, std::optional<double> threshold,
                              const RunContext& context);
+  /// Euclidean distances up to the threshold, by a k-d tree.
+  static RipsGraph of_points_within(const Points& points, double threshold,
+                                    const RunContext& context);
   static RipsGraph of_edges(Index size, std::span<const WeightedEdge> edges,
                             std::optional<double> threshold, const RunContext& context);
 
