@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: MIT
+#include "arguments.hpp"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <array>
+#include <functional>
+#include <string_view>
+
+#include "choices.hpp"
+#include "exit_code.hpp"
+#include "numbers.hpp"
+#include "ph/core/field.hpp"
+
+namespace ph::barcode {
+namespace {
+
+using app::add_value;
+using app::choose;
+using app::parse_integer;
+using app::parse_number;
+using Names = std::vector<std::string_view>;
+
+constexpr int kMostDimensions = 1'000'000;  // beyond any simplex that fits a memory
+
+[[noreturn]] void not_built_in(std::string_view what) {
+  throw Error(ErrorKind::not_built_in, fmt::format("{} not built in", what));
+}
+
+std::string joined(const Names& names) {
+  std::string text;
+  for (const std::string_view name : names) text += (text.empty() ? "" : "|") + std::string(name);
+  return text;
+}
+
+/// The option's argument is one of some names.
+CLI::Option* add_choice(CLI::App& app, const std::string& option, const Names& names,
+                        const std::string& description, std::function<void(std::size_t)> take) {
+  return add_value(app, option, joined(names), description,
+                   [=](const std::string& word) { take(choose(option, word, names)); });
+}
+
+/// The option's argument is a path, and not empty.
+CLI::Option* add_path(CLI::App& app, const std::string& option, const std::string& placeholder,
+                      const std::string& description, std::string& path) {
+  return add_value(app, option, placeholder, description, [&path, option](const std::string& text) {
+    if (text.empty())
+      throw Error(ErrorKind::usage, fmt::format("{}: found '', expected a path", option));
+    path = text;
+  });
+}
+
+Names format_names() {
+  Names names;
+  for (const FormatInfo& info : formats()) names.push_back(info.name);
+  return names;
+}
+
+Names engine_names() {
+  Names names{"auto"};
+  for_each_engine([&](auto engine) { names.push_back(engine_name(engine.id)); });
+  return names;
+}
+
+void take_metric(Arguments& a, const std::string& text) {
+  static const Names names{"euclidean",   "manhattan", "chebyshev",
+                           "minkowski:P", "cosine",    "hamming"};
+  constexpr std::string_view kMinkowski = "minkowski:";
+  if (text.starts_with(kMinkowski)) {
+    a.rips.distance = PointDistance::minkowski;
+    a.rips.minkowski_p = parse_number("--metric minkowski:P", text.substr(kMinkowski.size()));
+    if (a.rips.minkowski_p < 1)
+      throw Error(ErrorKind::usage, fmt::format("--metric: found '{}', expected P >= 1", text));
+  } else if (text == "minkowski") {
+    throw Error(ErrorKind::usage,
+                "--metric: found 'minkowski', expected minkowski:P with its exponent P");
+  } else {
+    static constexpr std::array kMetrics{PointDistance::euclidean, PointDistance::manhattan,
+                                         PointDistance::chebyshev, PointDistance::minkowski,
+                                         PointDistance::cosine,    PointDistance::hamming};
+    a.rips.distance = kMetrics[choose("--metric", text, names)];
+  }
+  a.points_option = "--metric";
+}
+
+void take_periodic(Arguments& a, const std::string& text) {
+  a.cubical_option = "--periodic";
+  if (text == "all") {
+    a.cubical.periodic.assign(Cubical::kMaxDim, true);
+    return;
+  }
+  std::string_view rest = text;
+  for (;;) {
+    const std::size_t comma = rest.find(',');
+    const auto axis = static_cast<std::size_t>(
+        parse_integer("--periodic", rest.substr(0, comma), 0, Cubical::kMaxDim - 1));
+    if (a.cubical.periodic.size() <= axis) a.cubical.periodic.resize(axis + 1, false);
+    a.cubical.periodic[axis] = true;
+    if (comma == rest.npos) break;
+    rest.remove_prefix(comma + 1);
+  }
+}
+
+std::string lower_case(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+void take_plot(Arguments& a, const std::string& path) {
+  const std::string name = lower_case(path);
+  if (name.ends_with(".png")) not_built_in("--plot: PNG plots are not built in; use .svg:");
+  if (!name.ends_with(".svg"))
+    throw Error(ErrorKind::usage,
+                fmt::format("--plot: found '{}', expected a name that ends in .svg", path));
+  a.plots.push_back({path, PlotKind::barcode});
+}
+
+void add_input_options(CLI::App& app, Arguments& a) {
+  const std::string group = "Input";
+  app.add_option("INPUT", a.inputs, "files to read; - is standard input")->type_name("");
+  static const Names formats = format_names();
+  add_choice(app, "--format", formats,
+             "format of the input (default auto: by content and extension)",
+             [&a](std::size_t i) { a.format = ph::formats()[i].format; })
+      ->group(group);
+  add_path(app, "--values", "FILE",
+           "values of the cells of a boundary matrix (default: their order), or of the vertices of "
+           "a mesh",
+           a.values)
+      ->group(group);
+  app.add_flag("--allow-empty", a.read.allow_empty, "an input without points is no error")
+      ->group(group);
+  add_choice(app, "--symmetrise", {"max", "min", "lower"},
+             "take an asymmetric distance matrix, by the larger, the smaller or the lower entry",
+             [&a](std::size_t i) {
+               constexpr std::array kWays{Symmetrise::max, Symmetrise::min, Symmetrise::lower};
+               a.read.symmetrise = kWays[i];
+               a.read.array = ArrayMeaning::distances;
+             })
+      ->group(group);
+  app.add_flag_callback(
+         "--from-correlation",
+         [&a] {
+           a.read.from_correlation = true;
+           a.read.array = ArrayMeaning::distances;
+         },
+         "the matrix holds correlations r; distances are 1 - r")
+      ->group(group);
+  add_choice(app, "--nan", {"error", "drop"},
+             "what NaN means: an error (default), or a point, distance or voxel that is not there",
+             [&a](std::size_t i) { a.read.nan = i == 0 ? NanPolicy::error : NanPolicy::drop; })
+      ->group(group);
+}
+
+void add_complex_options(CLI::App& app, Arguments& a) {
+  const std::string group = "Complex";
+  add_choice(app, "--complex", {"auto", "rips", "cubical", "alpha", "explicit", "lower-star"},
+             "what is built (default auto: rips for points and distances, cubical for images, "
+             "explicit for boundary matrices and simplices)",
+             [&a](std::size_t i) { a.complex = static_cast<ComplexKind>(i); })
+      ->group(group);
+  add_value(app, "--threshold,--max-scale", "T",
+            "largest filtration value, in units of the input (default for rips: the enclosing "
+            "radius; else none)",
+            [&a](const std::string& text) { a.threshold = parse_number("--threshold", text); })
+      ->group(group);
+  add_value(app, "--metric", "euclidean|manhattan|chebyshev|cosine|minkowski:P|hamming",
+            "distance of points (default euclidean)",
+            [&a](const std::string& text) { take_metric(a, text); })
+      ->group(group);
+  add_choice(app, "--construction", {"vertices", "cells"},
+             "cubical: voxels are vertices (default) or top cells",
+             [&a](std::size_t i) {
+               using Construction = CubicalOptions::Construction;
+               a.cubical.construction = i == 0 ? Construction::vertices : Construction::cells;
+               a.cubical_option = "--construction";
+             })
+      ->group(group);
+  app.add_flag_callback(
+         "--superlevel",
+         [&a] {
+           a.cubical.superlevel = true;
+           a.cubical_option = "--superlevel";
+         },
+         "cubical: superlevel sets; values are those of the negated image")
+      ->group(group);
+  add_value(app, "--periodic", "AXES",
+            "cubical: axes that close up on themselves, such as 0,2, or all (default: none)",
+            [&a](const std::string& text) { take_periodic(a, text); })
+      ->group(group);
+  add_choice(app, "--collapse", {"auto", "on", "off"},
+             "rips: edge collapse (default auto; on is not built in)",
+             [](std::size_t i) {
+               if (i == 1) not_built_in("--collapse on:");
+             })
+      ->group(group);
+  add_value(app, "--subsample", "N", "rips: greedy permutation to N points (not built in)",
+            [](const std::string& text) {
+              parse_integer("--subsample", text, 1);
+              not_built_in("--subsample:");
+            })
+      ->group(group);
+  add_value(app, "--approximate", "EPS", "rips: sparse approximation (not built in)",
+            [](const std::string& text) {
+              if (parse_number("--approximate", text) <= 0)
+                throw Error(ErrorKind::usage, fmt::format("--approximate: found '{}', expected a "
+                                                          "number above 0",
+                                                          text));
+              not_built_in("--approximate:");
+            })
+      ->group(group);
+}
+
+void add_homology_options(CLI::App& app, Arguments& a) {
+  const std::string group = "Homology";
+  add_value(app, "--max-dim", "D", "highest dimension reported (default: 1 for rips, else all)",
+            [&a](const std::string& text) {
+              a.options.max_dim =
+                  static_cast<int>(parse_integer("--max-dim", text, 0, kMostDimensions));
+            })
+      ->group(group);
+  add_value(app, "--field,--modulus", "P", "coefficients modulo the prime P (default 2)",
+            [&a](const std::string& text) {
+              a.options.field = parse_integer("--field", text, 2);
+              if (!is_field_characteristic(a.options.field))
+                throw Error(ErrorKind::usage, fmt::format("--field: found '{}', expected a prime "
+                                                          "below 2^31",
+                                                          text));
+            })
+      ->group(group);
+  static const Names engines = engine_names();
+  add_choice(app, "--engine", engines, "how it is computed (default auto; standard is the oracle)",
+             [&a](std::size_t i) { a.options.engine = *engine_named(engines[i]); })
+      ->group(group);
+  app.add_flag("--check", a.check,
+               "also run the oracle and compare; a difference is printed and exits 1")
+      ->group(group);
+  add_value(app, "--min-persistence", "X",
+            "omit bars with death - birth <= X (default 0; a negative X keeps bars of length 0)",
+            [&a](const std::string& text) {
+              a.options.min_persistence = parse_number("--min-persistence", text);
+            })
+      ->group(group);
+  add_choice(app, "--representatives", {"none", "cycles", "cocycles"},
+             "representatives in the JSON output (default none; others are not built in)",
+             [](std::size_t i) {
+               if (i != 0) not_built_in("--representatives:");
+             })
+      ->group(group);
+  app.add_flag("--dry-run", a.dry_run,
+               "read the input, print the estimate of cells and memory and the engine; compute "
+               "nothing")
+      ->group(group);
+}
+
+void add_output_options(CLI::App& app, Arguments& a, std::vector<PlotKind>& kinds) {
+  const std::string group = "Output";
+  add_value(app, "-o,--output", "FILE",
+            "where the barcode goes (default -: standard output); FOLDER/ for several inputs",
+            [&a](const std::string& text) {
+              if (text.empty())
+                throw Error(ErrorKind::usage, "--output: found '', expected a path");
+              a.output = text;
+            })
+      ->group(group);
+  static const Names names{"csv", "json", "ripser", "pers", "dipha", "npy", "none"};
+  add_choice(app, "--output-format", names, "format of the barcode (default: by extension, or csv)",
+             [&a](std::size_t i) { a.output_format = barcode_format_named(names[i]); })
+      ->group(group);
+  app.add_option_function<std::vector<std::string>>(
+         "--plot",
+         [&a](const std::vector<std::string>& paths) {
+           for (const std::string& path : paths) take_plot(a, path);
+         },
+         "draw the barcode (repeatable)")
+      ->type_name("FILE.svg")
+      ->type_size(1)
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group(group);
+  app.add_option_function<std::vector<std::string>>(
+         "--plot-kind",
+         [&kinds](const std::vector<std::string>& words) {
+           static constexpr std::array<std::string_view, 3> kKinds{"barcode", "diagram", "betti"};
+           for (const std::string& word : words)
+             kinds.push_back(*plot_kind_named(kKinds[choose("--plot-kind", word, kKinds)]));
+         },
+         "kind of each --plot in turn; the last one counts for the rest (default barcode)")
+      ->type_name("barcode|diagram|betti")
+      ->type_size(1)
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group(group);
+  add_value(app, "--report", "FILE.html", "interactive report (not built in)",
+            [](const std::string&) { not_built_in("--report:"); })
+      ->group(group);
+}
+
+/// What no single option can see.
+void check_together(Arguments& a, const std::vector<PlotKind>& kinds) {
+  const auto reject = [](const std::string& what) { throw Error(ErrorKind::usage, what); };
+  if (a.inputs.empty()) reject("INPUT is missing; --help lists the options");
+  for (const std::string& input : a.inputs)
+    if (input.empty()) reject("INPUT: found '', expected a path");
+  if (a.complex == ComplexKind::alpha) not_built_in("--complex alpha:");
+  if (kinds.size() > std::max<std::size_t>(a.plots.size(), a.plots.empty() ? 0 : 1))
+    reject(a.plots.empty() ? "--plot-kind needs --plot FILE.svg"
+                           : "--plot-kind was given more often than --plot");
+  for (std::size_t i = 0; i < a.plots.size() && !kinds.empty(); ++i)
+    a.plots[i].kind = kinds[std::min(i, kinds.size() - 1)];
+  if (a.inputs.size() > 1 && !a.is_batch() && !a.dry_run && a.output_format != BarcodeFormat::none)
+    reject(fmt::format("--output: several inputs need a folder: -o FOLDER/, found '{}'", a.output));
+  if (a.inputs.size() > 1 && !a.plots.empty()) reject("--plot takes one input only");
+  if (std::count(a.inputs.begin(), a.inputs.end(), "-") > 1)
+    reject("INPUT: standard input can be read once only");
+  // A two-dimensional array holds points if that is the only way to make sense of it.
+  if (a.read.array == ArrayMeaning::image &&
+      (a.complex == ComplexKind::rips || a.format == Format::points))
+    a.read.array = ArrayMeaning::points;
+  if (a.format == Format::distance) a.read.array = ArrayMeaning::distances;
+}
+
+}  // namespace
+
+bool Arguments::is_batch() const {
+  if (output == "-") return false;
+  if (output.ends_with('/')) return true;
+  struct stat status {};
+  return stat(output.c_str(), &status) == 0 && S_ISDIR(status.st_mode) && inputs.size() > 1;
+}
+
+std::optional<int> parse_arguments(int argc, const char* const* argv, Arguments& arguments) {
+  CLI::App app(
+      "Computes the persistent homology of points, distances, images and filtered complexes.\n"
+      "Rips values are diameters: two points join at their distance.",
+      "ph-barcode");
+  std::vector<PlotKind> plot_kinds;
+  add_input_options(app, arguments);
+  add_complex_options(app, arguments);
+  add_homology_options(app, arguments);
+  add_output_options(app, arguments, plot_kinds);
+  app::add_common_options(app, arguments.common);
+  if (const auto code = app::parse_command_line(app, arguments.common, argc, argv)) return code;
+  check_together(arguments, plot_kinds);
+  return std::nullopt;
+}
+
+}  // namespace ph::barcode

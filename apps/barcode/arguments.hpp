@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "command_line.hpp"
+#include "ph/complex/cubical.hpp"
+#include "ph/complex/rips.hpp"
+#include "ph/io/barcode_io.hpp"
+#include "ph/io/formats.hpp"
+#include "ph/io/svg_plot.hpp"
+#include "ph/persistence.hpp"
+
+namespace ph::barcode {
+
+enum class ComplexKind { automatic, rips, cubical, alpha, explicit_cells, lower_star };
+
+/// A picture to draw.
+struct Plot {
+  std::string path;
+  PlotKind kind = PlotKind::barcode;
+};
+
+/// Everything the command line says.
+struct Arguments {
+  app::CommonOptions common;
+  std::vector<std::string> inputs;
+
+  // How the input is read.
+  Format format = Format::automatic;
+  ReadOptions read;
+  std::string values;  // path; empty: none
+
+  // Which complex is built of it.
+  ComplexKind complex = ComplexKind::automatic;
+  std::optional<double> threshold;
+  RipsOptions rips;
+  CubicalOptions cubical;
+  // Options that the user gave and that make sense for one kind of input or complex only.
+  std::optional<std::string> points_option, cubical_option;
+
+  // What is computed.
+  Options options;
+  bool check = false;
+  bool dry_run = false;
+
+  // Where it goes.
+  std::string output = "-";
+  std::optional<BarcodeFormat> output_format;
+  std::vector<Plot> plots;
+
+  /// Whether the output is a folder with one file an input.
+  bool is_batch() const;
+};
+
+/// Reads the command line. @return the exit code if there is nothing left to do.
+/// @throws Error (usage) that names the option; Error (not_built_in).
+std::optional<int> parse_arguments(int argc, const char* const* argv, Arguments& arguments);
+
+}  // namespace ph::barcode

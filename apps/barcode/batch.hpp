@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "arguments.hpp"
+#include "session.hpp"
+
+namespace ph::barcode {
+
+/// Runs all inputs. With an output folder one failure does not stop the others: its line goes to
+/// stderr and the code of the first one is returned at the end.
+int run_all(const Arguments& arguments, app::Session& session);
+
+}  // namespace ph::barcode

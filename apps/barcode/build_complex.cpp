@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "build_complex.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "ph/complex/lower_star.hpp"
+
+namespace ph::barcode {
+namespace {
+
+constexpr std::string_view kComplexNames[] = {"auto",  "rips",     "cubical",
+                                              "alpha", "explicit", "lower-star"};
+
+/// Builds from each kind of data the complexes that make sense of it.
+class Builder {
+ public:
+  Builder(const Arguments& arguments, const RunContext& context)
+      : arguments_(arguments), context_(context) {}
+
+  BuiltComplex operator()(const Points& points) const {
+    expect("points", {ComplexKind::rips});
+    return rips(points, points.rows() == 0);
+  }
+  BuiltComplex operator()(const DistanceMatrix& distances) const {
+    expect("distances", {ComplexKind::rips});
+    refuse(arguments_.points_option, "points", "distances");
+    return rips(distances, distances.size() == 0);
+  }
+  BuiltComplex operator()(const SparseDistances& distances) const {
+    expect("distances", {ComplexKind::rips});
+    refuse(arguments_.points_option, "points", "distances");
+    return rips(distances, distances.size() == 0);
+  }
+  BuiltComplex operator()(const Image& image) const {
+    expect("an image", {ComplexKind::cubical});
+    refuse(arguments_.points_option, "points", "an image");
+    CubicalOptions options = arguments_.cubical;
+    options.threshold = arguments_.threshold;
+    const auto axes = static_cast<std::size_t>(image.dim());
+    const bool all = options.periodic.size() == static_cast<std::size_t>(Cubical::kMaxDim) &&
+                     std::ranges::all_of(options.periodic, [](bool on) { return on; });
+    if (all) options.periodic.assign(axes, true);
+    if (options.periodic.size() > axes)
+      throw Error(ErrorKind::usage, fmt::format("--periodic: found axis {}, expected 0 to {}",
+                                                options.periodic.size() - 1, axes - 1));
+    return {Cubical(image, options, context_), "cubical", arguments_.threshold,
+            image.values.empty(), std::nullopt};
+  }
+  BuiltComplex operator()(const SimplicesInput& input) const {
+    const ComplexKind kind =
+        expect("simplices", {ComplexKind::explicit_cells, ComplexKind::lower_star});
+    refuse(arguments_.points_option, "points", "simplices");
+    if (kind == ComplexKind::explicit_cells) {
+      if (!input.vertex_values.empty())
+        throw Error(ErrorKind::usage,
+                    "--values: simplices have values of their own; values of the vertices need "
+                    "--complex lower-star");
+      return stored(ExplicitComplex::from_simplices(input.simplices, input.namer()), "explicit");
+    }
+    return stored(lower_star(input.simplices, vertex_values(input), input.namer()), "lower-star");
+  }
+  BuiltComplex operator()(const BoundaryInput& input) const {
+    expect("a boundary matrix", {ComplexKind::explicit_cells});
+    refuse(arguments_.points_option, "points", "a boundary matrix");
+    const bool has_incidences = !input.matrix.incidences.empty() || input.matrix.rows.empty();
+    if (!has_incidences && arguments_.options.field != 2)
+      throw Error(ErrorKind::usage,
+                  fmt::format("--field: found {}, expected 2: this boundary matrix has no "
+                              "incidence numbers; simplices have them",
+                              arguments_.options.field));
+    return stored(ExplicitComplex::from_boundary(input.matrix, input.namer()), "explicit");
+  }
+  BuiltComplex operator()(const Mesh& mesh) const {
+    const bool with_values = !mesh.values.empty();
+    const ComplexKind kind = with_values ? expect("a mesh with values", {ComplexKind::lower_star})
+                                         : expect("a mesh without values", {ComplexKind::rips});
+    if (kind == ComplexKind::rips) return rips(mesh.vertices, mesh.vertices.rows() == 0);
+    refuse(arguments_.points_option, "points", "a mesh");
+    return stored(lower_star(triangles_of(mesh), mesh.values), "lower-star");
+  }
+
+ private:
+  /// The complex to build: the one asked for, or the first that makes sense.
+  ComplexKind expect(std::string_view data, std::initializer_list<ComplexKind> kinds) const {
+    if (*kinds.begin() != ComplexKind::cubical) refuse(arguments_.cubical_option, "images", data);
+    if (arguments_.complex == ComplexKind::automatic) return *kinds.begin();
+    if (std::ranges::find(kinds, arguments_.complex) != kinds.end()) return arguments_.complex;
+    const auto name = [](ComplexKind kind) { return kComplexNames[static_cast<int>(kind)]; };
+    throw Error(ErrorKind::usage, fmt::format("--complex: found {}, expected {} for {}{}",
+                                              name(arguments_.complex), name(*kinds.begin()), data,
+                                              arguments_.complex == ComplexKind::lower_star
+                                                  ? "; --values names the values of the vertices"
+                                                  : ""));
+  }
+
+  /// An option that has no effect is a misunderstanding.
+  void refuse(const std::optional<std::string>& option, std::string_view meant_for,
+              std::string_view found) const {
+    if (option)
+      throw Error(ErrorKind::usage,
+                  fmt::format("{}: makes sense for {} only, found {}", *option, meant_for, found));
+  }
+
+  template <class Data>
+  BuiltComplex rips(const Data& data, bool empty) const {
+    RipsOptions options = arguments_.rips;
+    options.threshold = arguments_.threshold;
+    if (options.threshold && *options.threshold < 0)
+      throw Error(ErrorKind::usage, fmt::format("--threshold: found {}, expected a distance, at "
+                                                "least 0",
+                                                *options.threshold));
+    Rips complex(data, options, context_);
+    const double threshold = complex.threshold();
+    return {std::move(complex), "rips",
+            std::isfinite(threshold) ? std::optional(threshold) : std::nullopt, empty,
+            std::nullopt};
+  }
+
+  BuiltComplex stored(ExplicitComplex complex, std::string name) const {
+    const bool empty = complex.size() == 0;
+    return {std::move(complex), std::move(name), arguments_.threshold, empty, arguments_.threshold};
+  }
+
+  /// Values of the vertices for the lower star of listed simplices: from --values, or from the
+  /// vertices' own lines.
+  std::vector<double> vertex_values(const SimplicesInput& input) const {
+    if (!input.vertex_values.empty()) return input.vertex_values;
+    const SimplexList& list = input.simplices;
+    Index largest = -1;
+    for (const Index v : list.vertices) largest = std::max(largest, v);
+    const auto fail_at = [&](Index v) {
+      throw Error(ErrorKind::bad_data,
+                  fmt::format("{}: vertex {} has no value, expected a line for each vertex; "
+                              "--values gives them in a file",
+                              input.name, v));
+    };
+    // Each vertex needs a line: where ids go beyond the lines, one is missing.
+    if (largest >= static_cast<Index>(list.size())) fail_at(largest);
+    std::vector<double> values(static_cast<std::size_t>(largest + 1),
+                               std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t i = 0; i < list.size(); ++i)
+      if (list.simplex(i).size() == 1)
+        values[static_cast<std::size_t>(list.simplex(i).front())] = list.values[i];
+    for (std::size_t v = 0; v < values.size(); ++v)
+      if (std::isnan(values[v])) fail_at(static_cast<Index>(v));
+    return values;
+  }
+
+  /// Faces as triangles around their first corner.
+  static SimplexList triangles_of(const Mesh& mesh) {
+    SimplexList list;
+    for (std::size_t f = 0; f < mesh.faces(); ++f) {
+      const auto face =
+          std::span(mesh.corners).subspan(mesh.offsets[f], mesh.offsets[f + 1] - mesh.offsets[f]);
+      if (face.size() <= 3) {
+        if (!face.empty()) list.add(face, 0);
+        continue;
+      }
+      for (std::size_t i = 1; i + 1 < face.size(); ++i)
+        list.add(std::array{face[0], face[i], face[i + 1]}, 0);
+    }
+    return list;
+  }
+
+  const Arguments& arguments_;
+  const RunContext& context_;
+};
+
+}  // namespace
+
+BuiltComplex build_complex(ReadResult&& input, const Arguments& arguments,
+                           const RunContext& context) {
+  return std::visit(Builder(arguments, context), input.data);
+}
+
+}  // namespace ph::barcode

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <string>
+
+#include "arguments.hpp"
+
+namespace ph::barcode {
+
+/// A complex with what the user is told about it.
+struct BuiltComplex {
+  AnyComplex complex;
+  std::string name;                 ///< "rips", "cubical", "explicit", "lower-star"
+  std::optional<double> threshold;  ///< that its values obey; nothing: all are there
+  bool empty = false;               ///< there are no points or cells at all
+  /// A threshold that has to be applied to the bars, because the complex holds larger values too.
+  std::optional<double> cut;
+};
+
+/// Builds the complex that the arguments ask for, or the one that suits the data.
+/// @throws Error (usage) if an option does not fit the data.
+BuiltComplex build_complex(ReadResult&& input, const Arguments& arguments,
+                           const RunContext& context);
+
+}  // namespace ph::barcode

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#include "arguments.hpp"
+#include "batch.hpp"
+#include "program.hpp"
+
+int main(int argc, char** argv) {
+  return ph::app::run_program("ph-barcode", [&](std::stop_token stop) {
+    ph::barcode::Arguments arguments;
+    if (const auto code = ph::barcode::parse_arguments(argc, argv, arguments)) return *code;
+    ph::app::Session session("ph-barcode", arguments.common, stop);
+    return ph::barcode::run_all(arguments, session);
+  });
+}

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "run.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "build_complex.hpp"
+#include "exit_code.hpp"
+#include "messages.hpp"
+#include "numbers.hpp"
+
+namespace ph::barcode {
+namespace {
+
+/// Measures the stages of a run.
+class Stopwatch {
+ public:
+  void lap(std::string stage) {
+    const auto now = std::chrono::steady_clock::now();
+    laps_.emplace_back(std::move(stage), std::chrono::duration<double>(now - last_).count());
+    last_ = now;
+  }
+  const std::vector<std::pair<std::string, double>>& laps() const { return laps_; }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  std::vector<std::pair<std::string, double>> laps_;
+};
+
+std::string plural(std::size_t count, std::string_view what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+ReadResult read_input(const Job& job, const Arguments& arguments, app::Session& session) {
+  ReadOptions options = arguments.read;
+  options.context = &session.context();
+  const Input input = Input::open(job.input, &session.context());
+  ReadResult result = read_any(input, arguments.format, options, arguments.values);
+  const std::string what = fmt::format("{}: {}", input.name(), result.description);
+  // A batch says it in its one line an input.
+  if (arguments.format == Format::automatic && arguments.inputs.size() == 1)
+    session.note("read " + what);
+  else
+    session.explain("read " + what);
+  for (const std::string& note : result.notes)
+    session.note(fmt::format("{}: {}", input.name(), note));
+  return result;
+}
+
+/// The barcode with vertices named as in an input of which some points were left out.
+Barcode with_input_ids(const Barcode& barcode, const std::vector<Index>& ids) {
+  const auto named = [&](const InputCell& cell) {
+    std::vector<Index> numbers(cell.numbers.begin(), cell.numbers.end());
+    for (Index& v : numbers) v = ids[static_cast<std::size_t>(v)];
+    return numbers;
+  };
+  Barcode result(barcode.cell_kind());
+  for (std::size_t i = 0; i < barcode.size(); ++i) {
+    const auto death = barcode.death_cell(i);
+    result.add(barcode[i], named(barcode.birth_cell(i)),
+               death ? named(*death) : std::vector<Index>());
+  }
+  result.sort();
+  return result;
+}
+
+/// The barcode of the subcomplex of all cells up to a value: later births are not in it, and what
+/// dies later is alive.
+Barcode cut_at(const Barcode& barcode, double threshold) {
+  Barcode result(barcode.cell_kind());
+  for (std::size_t i = 0; i < barcode.size(); ++i) {
+    Bar bar = barcode[i];
+    if (bar.birth > threshold) continue;
+    const auto death = barcode.death_cell(i);
+    const bool lives = bar.death > threshold;
+    if (lives) bar.death = kInfinity;
+    result.add(bar, barcode.birth_cell(i).numbers,
+               death && !lives ? death->numbers : std::span<const Index>());
+  }
+  result.sort();
+  return result;
+}
+
+std::string estimate_text(const Estimate& estimate, const BuiltComplex& built,
+                          const std::string& description) {
+  std::string text = fmt::format("input    {}\ncomplex  {}", description, built.name);
+  if (built.threshold) text += fmt::format(", values up to {}", shortest(*built.threshold));
+  text += fmt::format("\nengine   {} ({})\n", engine_name(estimate.engine), estimate.reason);
+  for (std::size_t dim = 0; dim < estimate.cells.size(); ++dim)
+    text += fmt::format("cells    dimension {}: at most {:.0f}\n", dim, estimate.cells[dim]);
+  return text + fmt::format("memory   {} to {}\n", app::format_size(estimate.bytes_low),
+                            app::format_size(estimate.bytes_high));
+}
+
+void write_outputs(std::optional<app::Output>& output, std::vector<app::Output>& plots,
+                   const Barcode& barcode, const Job& job, const Arguments& arguments,
+                   const BarcodeInfo& info) {
+  if (output) {
+    write_barcode(output->file(), barcode, job.format, info);
+    output->commit();
+  }
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    PlotOptions options;
+    options.kind = arguments.plots[i].kind;
+    plots[i].write(svg_plot(barcode, options));
+    plots[i].commit();
+  }
+}
+
+}  // namespace
+
+Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
+  Stopwatch watch;
+  // What cannot be created is said before anything is computed.
+  std::optional<app::Output> output;
+  std::vector<app::Output> plots;
+  if (!arguments.dry_run) {
+    if (job.format != BarcodeFormat::none) output.emplace(job.output);
+    for (const Plot& plot : arguments.plots) plots.emplace_back(plot.path);
+  }
+
+  ReadResult input = read_input(job, arguments, session);
+  const std::string description = input.description;
+  const std::vector<Index> point_ids = std::move(input.point_ids);
+  watch.lap("read");
+
+  const BuiltComplex built = build_complex(std::move(input), arguments, session.context());
+  if (built.empty && !arguments.read.allow_empty)
+    throw Error(ErrorKind::bad_data,
+                fmt::format("{}: no points; --allow-empty accepts that", job.input));
+  const Estimate estimated = estimate(built.complex, arguments.options);
+  watch.lap("complex");
+  session.explain(fmt::format("engine {}: {}", engine_name(estimated.engine), estimated.reason));
+  session.explain(fmt::format("memory {} to {}", app::format_size(estimated.bytes_low),
+                              app::format_size(estimated.bytes_high)));
+  if (arguments.dry_run) {
+    write_file("-", estimate_text(estimated, built, description));
+    return {app::kOk, description};
+  }
+
+  Options options = arguments.options;
+  // A bar that the threshold cuts is infinite, however short it would have been.
+  if (built.cut) options.min_persistence = std::min(options.min_persistence, 0.0);
+  const auto compute = [&] {
+    const Barcode whole = persistence(built.complex, options, session.context());
+    Barcode cut = built.cut ? cut_at(whole, *built.cut) : whole;
+    return point_ids.empty() ? cut : with_input_ids(cut, point_ids);
+  };
+  const Barcode barcode = compute();
+  watch.lap("persistence");
+
+  int code = app::kOk;
+  if (arguments.check) {
+    options.engine = Engine::standard;
+    const std::string difference = first_difference(barcode, compute());
+    watch.lap("check");
+    if (difference.empty()) {
+      session.explain("check: the oracle agrees");
+    } else {
+      app::print_line(fmt::format("ph-barcode: {}: check: engine {} and the oracle differ: {}",
+                                  job.input, engine_name(estimated.engine), difference));
+      code = app::kDifference;
+    }
+  }
+
+  BarcodeInfo info;
+  info.program = app::program_and_version("ph-barcode");
+  info.input = job.input;
+  info.input_description = description;
+  info.complex = built.name;
+  info.field = arguments.options.field;
+  info.max_dim = arguments.options.max_dim.value_or(estimated.max_dim);
+  info.threshold = built.threshold;
+  info.engine = engine_name(estimated.engine);
+  info.timings = watch.laps();
+  info.peak_memory = app::peak_memory();
+  for (const auto& [stage, seconds] : watch.laps())
+    session.explain(fmt::format("{} {:.3f} s", stage, seconds));
+  write_outputs(output, plots, barcode, job, arguments, info);
+  return {code, fmt::format("{}: {}", description, plural(barcode.size(), "bar"))};
+}
+
+}  // namespace ph::barcode

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <string>
+
+#include "arguments.hpp"
+#include "session.hpp"
+
+namespace ph::barcode {
+
+/// One input and where its barcode goes.
+struct Job {
+  std::string input;
+  std::string output;
+  BarcodeFormat format = BarcodeFormat::csv;
+};
+
+/// What became of it.
+struct Outcome {
+  int code = 0;
+  std::string summary;  ///< "1024 points in R^3, CSV: 57 bars"
+};
+
+/// Reads one input, computes its barcode and writes it. @throws Error.
+Outcome run(const Job& job, const Arguments& arguments, app::Session& session);
+
+}  // namespace ph::barcode
