@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "ph/persistence.hpp"
+#include "ph/engine/twist.hpp"
 
 namespace ph::segment {
 namespace {
@@ -44,9 +44,11 @@ Barcode barcode_of(const MergeTree& tree) {
   return barcode;
 }
 
-std::string cross_check(const Rips& rips, const Barcode& barcode, const RunContext& context) {
-  const Barcode other =
-      persistence(rips, {.max_dim = 0, .engine = Engine::twist, .min_persistence = -1}, context);
+std::string cross_check(const Skeleton& skeleton, const Barcode& barcode,
+                        const RunContext& context) {
+  BarcodeBuilder<Skeleton> bars(skeleton, 0, -1);  // zero-length bars, too
+  TwistEngine::run(skeleton, Z2{}, bars, context);
+  const Barcode other = bars.finish();
   if (barcode.size() != other.size()) {
     return fmt::format("{} bars by union-find, {} by boundary-matrix reduction", barcode.size(),
                        other.size());

@@ -45,7 +45,8 @@ class TableScene {
   }
   /// A table with two boxes of 10 cm, 20 cm apart, the left one larger.
   static TableScene two_boxes() {
-    return TableScene({{{-0.22, -0.05, 0}, {-0.10, 0.07, 0.12}}, {{0.10, -0.05, 0}, {0.2, 0.05, 0.1}}});
+    return TableScene(
+        {{{-0.22, -0.05, 0}, {-0.10, 0.07, 0.12}}, {{0.10, -0.05, 0}, {0.2, 0.05, 0.1}}});
   }
 
   const std::vector<float>& xyz() const { return xyz_; }
