@@ -103,6 +103,8 @@ struct SimplicesInput {
   SimplexList simplices;
   std::vector<std::size_t> lines;  ///< simplex i is on lines[i], from 1
   std::string name;                ///< of the file, printable
+  /// Values on the vertices 0, 1, …, from a file of their own (read_any); else empty.
+  std::vector<double> vertex_values;
 
   /// "name:line" for messages about a simplex; a copy that may outlive this object.
   CellNamer namer() const;

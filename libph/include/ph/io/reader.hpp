@@ -86,6 +86,8 @@ class TextLines {
 
   /// @throws Error (bad_data) if the input is UTF-16, or binary (NUL bytes in its first 4 KiB).
   explicit TextLines(const Input& input);
+  /// The text that starts at byte `offset`, after `lines_before` lines; not tested for NUL bytes.
+  TextLines(const Input& input, std::size_t offset, std::size_t lines_before);
 
   /// Goes to the next line with data; false at the end.
   /// @throws Error (bad_data) on a line longer than kMaxLine.
@@ -93,6 +95,8 @@ class TextLines {
   /// The current line, without its comment, line end and surrounding blanks.
   std::string_view line() const { return line_; }
   std::size_t number() const { return number_; }  ///< of the current line, from 1
+  /// First byte after the current line.
+  std::size_t offset() const { return static_cast<std::size_t>(position_ - input_.text().data()); }
   const Input& input() const { return input_; }
   /// Column, from 1, of a place inside the current line.
   std::size_t column(const char* place) const {
@@ -119,36 +123,40 @@ enum class Allow { finite, infinite, any };
 /// pass for two cells. Blanks around ',' and one separator at the end of the line are accepted.
 class Cells {
  public:
-  explicit Cells(const TextLines& lines) : lines_(lines) {}
+  explicit Cells(const TextLines& lines) : lines_(&lines) {}
 
   /// Starts on the current line.
-  void start() {
-    position_ = lines_.line().data();
-    end_ = position_ + lines_.line().size();
-    at_cell_ = true;
-  }
+  void start() { start_in(lines_->line()); }
+  /// Starts on a part of the current line.
+  void start_in(std::string_view part);
   bool more() const { return position_ != end_; }
   const char* place() const { return position_; }  ///< where the next cell starts
   /// Reads one number: decimal, with an optional sign and exponent, independent of the locale.
   /// @throws Error (bad_data) naming the cell if it is something else, or not in the range of
   ///         double.
   double number(Allow allow = Allow::finite);
+  /// The same in the precision of T: float or double.
+  template <class T>
+  T floating(Allow allow);
   /// Reads one integer from `least` to `most`. @throws Error (bad_data) naming the cell.
   std::int64_t integer(std::int64_t least, std::int64_t most, const char* what);
+  /// Reads one integer of 0 … 2^64 - 1.
+  std::uint64_t unsigned64(const char* what);
   /// The next cell as it is written.
   std::string_view word();
   /// True if every cell of the current line is something else than a number. Moves nothing.
   bool all_words() const;
 
  private:
+  template <class T>
+  T whole(T least, T most, const char* what);
   void after_cell(const char* end_of_cell);
   [[noreturn]] void reject(const char* begin, const char* stop, std::string what,
                            std::string expected) const;
 
-  const TextLines& lines_;
+  const TextLines* lines_;
   const char* position_ = nullptr;
   const char* end_ = nullptr;
-  bool at_cell_ = true;
   char separator_ = 0;  // 0: not seen yet
 };
 

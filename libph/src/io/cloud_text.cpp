@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ph/io/cloud_io.hpp"
+#include "readers.hpp"
+
+namespace ph {
+namespace {
+
+std::string lower(std::string_view word) {
+  std::string result;
+  for (const char c : word) {
+    if (c != '"') result += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return result;
+}
+
+constexpr std::array<std::string_view, 3> kCoordinates{"x", "y", "z"};
+
+bool is_byte(double value) { return value >= 0 && value <= 255 && value == std::floor(value); }
+
+std::vector<std::string> column_names(const Points& rows, const std::vector<std::string>& header,
+                                      const Input& input) {
+  const auto columns = static_cast<std::size_t>(rows.cols());
+  std::vector<std::string> names;
+  if (header.size() == columns) {
+    for (const std::string& word : header) names.push_back(lower(word));
+    const bool has_xyz = std::all_of(
+        kCoordinates.begin(), kCoordinates.end(),
+        [&](std::string_view name) { return std::count(names.begin(), names.end(), name) == 1; });
+    if (!has_xyz) {
+      input.fail({"header", fmt::format("{} names", names.size()), "x, y and z among them", {}});
+    }
+    return names;
+  }
+  if (columns < 3) {
+    input.fail({"too few columns", fmt::format("{}", columns), "x y z at least", {}});
+  }
+  names = {"x", "y", "z"};
+  const bool colours = columns >= 6 && rows.middleCols(3, 3).unaryExpr(&is_byte).all();
+  for (std::size_t k = 3; k < columns; ++k) {
+    constexpr std::array<std::string_view, 3> kColours{"red", "green", "blue"};
+    names.push_back(colours && k < 6 ? std::string(kColours[k - 3]) : fmt::format("field_{}", k));
+  }
+  return names;
+}
+
+}  // namespace
+
+Cloud read_xyz(const Input& input, const ReadOptions& options) {
+  const detail::TextTable table = detail::read_text_table(input, Allow::any, options);
+  Cloud cloud;
+  cloud.width = table.rows.rows();
+  if (cloud.width == 0) {
+    if (!options.allow_empty) {
+      input.fail({"no points", {}, "one point a line", "--allow-empty accepts an empty cloud"});
+    }
+    for (const std::string_view name : kCoordinates) {
+      cloud.fields.push_back({std::string(name), FieldType::float64, 1, cloud.stride});
+      cloud.stride += sizeof(double);
+    }
+    return cloud;
+  }
+  const auto names = column_names(table.rows, table.header, input);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const bool colour = names[k] == "red" || names[k] == "green" || names[k] == "blue";
+    const bool bytes = colour && table.rows.col(static_cast<Index>(k)).unaryExpr(&is_byte).all();
+    const FieldType type = bytes ? FieldType::uint8 : FieldType::float64;
+    cloud.fields.push_back({names[k], type, 1, cloud.stride});
+    cloud.stride += size_of(type);
+  }
+  const auto rows = static_cast<std::size_t>(cloud.width);
+  input.require_memory(rows * cloud.stride);
+  cloud.data.resize(rows * cloud.stride);
+  std::byte* record = cloud.data.data();
+  for (std::size_t i = 0; i < rows; ++i, record += cloud.stride) {
+    const double* row = table.rows.data() + i * names.size();
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      if (k < 3 && std::isinf(row[k])) {
+        input.fail(
+            {fmt::format("infinite coordinate of point {}", i), {}, "a finite number or nan", {}});
+      }
+      if (cloud.fields[k].type == FieldType::uint8) {
+        record[cloud.fields[k].offset] = static_cast<std::byte>(row[k]);
+      } else {
+        std::memcpy(record + cloud.fields[k].offset, row + k, sizeof(double));
+      }
+    }
+  }
+  return cloud;
+}
+
+Cloud read_cloud(const Input& input, const ReadOptions& options) {
+  if (detail::is_pcd(input) || input.extension() == ".pcd") return read_pcd(input, options);
+  if (detail::is_ply(input) || input.extension() == ".ply") return read_ply(input, options);
+  return read_xyz(input, options);
+}
+
+Cloud read_cloud(const std::filesystem::path& path, const ReadOptions& options) {
+  return read_cloud(Input::open(path, options.context), options);
+}
+
+}  // namespace ph

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+#include "ph/io/formats.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+
+#include "ph/io/cloud_io.hpp"
+#include "readers.hpp"
+
+namespace ph {
+namespace {
+
+ReadResult result_of(Points points, std::string_view kind) {
+  ReadResult result;
+  result.description = fmt::format("{} point{} in R^{}, {}", points.rows(),
+                                   points.rows() == 1 ? "" : "s", points.cols(), kind);
+  result.data = std::move(points);
+  return result;
+}
+
+ReadResult result_of(DistanceMatrix distances, std::string_view kind) {
+  ReadResult result;
+  result.description = fmt::format("distances of {} points, {}", distances.size(), kind);
+  result.data = std::move(distances);
+  return result;
+}
+
+ReadResult result_of(Image image, std::string_view kind) {
+  ReadResult result;
+  result.description = fmt::format("image of {} voxels, {}", fmt::join(image.extents, " x "), kind);
+  result.data = std::move(image);
+  return result;
+}
+
+ReadResult result_of(Mesh mesh, std::string_view kind) {
+  ReadResult result;
+  result.description =
+      fmt::format("mesh of {} vertices and {} faces, {}", mesh.vertices.rows(), mesh.faces(), kind);
+  result.data = std::move(mesh);
+  return result;
+}
+
+ReadResult points_result(const Input& input, const ReadOptions& options) {
+  const std::string_view first = input.text().substr(0, 4096);
+  const char* kind = first.find(',') != std::string_view::npos ? "CSV" : "text";
+  return result_of(read_points(input, options), kind);
+}
+ReadResult distance_result(const Input& input, const ReadOptions& options) {
+  return result_of(read_distances(input, options), "square matrix");
+}
+ReadResult lower_result(const Input& input, const ReadOptions& options) {
+  return result_of(read_lower_distances(input, options), "lower triangle");
+}
+ReadResult upper_result(const Input& input, const ReadOptions& options) {
+  return result_of(read_upper_distances(input, options), "upper triangle");
+}
+ReadResult binary_result(const Input& input, const ReadOptions& options) {
+  return result_of(read_binary_distances(input, options), "binary lower triangle");
+}
+ReadResult sparse_result(const Input& input, const ReadOptions& options) {
+  SparseDistances sparse = read_sparse(input, options);
+  ReadResult result;
+  result.description =
+      fmt::format("{} distances of {} points, sparse", sparse.edges().size(), sparse.size());
+  result.data = std::move(sparse);
+  return result;
+}
+ReadResult npy_result(const Input& input, const ReadOptions& options) {
+  switch (options.array) {
+    case ArrayMeaning::points:
+      return result_of(read_points(input, options), "NPY");
+    case ArrayMeaning::distances:
+      return result_of(read_distances(input, options), "NPY");
+    case ArrayMeaning::image:
+      break;
+  }
+  return result_of(read_npy_image(input, options), "NPY");
+}
+ReadResult png_result(const Input& input, const ReadOptions& options) {
+  return result_of(read_image(input, options), "PNG");
+}
+ReadResult phat_result(const Input& input, const ReadOptions& options) {
+  BoundaryInput boundary = read_phat(input, options);
+  ReadResult result;
+  result.description = fmt::format("boundary matrix of {} cells, PHAT {}", boundary.matrix.size(),
+                                   boundary.binary ? "binary" : "ascii");
+  result.data = std::move(boundary);
+  return result;
+}
+ReadResult simplices_result(const Input& input, const ReadOptions& options) {
+  SimplicesInput simplices = read_simplices(input, options);
+  ReadResult result;
+  result.description = fmt::format("{} simplices", simplices.simplices.size());
+  result.data = std::move(simplices);
+  return result;
+}
+ReadResult off_result(const Input& input, const ReadOptions& options) {
+  return result_of(read_off(input, options), "OFF");
+}
+ReadResult ply_result(const Input& input, const ReadOptions& options) {
+  Mesh mesh = read_ply_mesh(input, options);
+  if (mesh.faces() > 0) return result_of(std::move(mesh), "PLY");
+  return result_of(detail::without_nan_rows(std::move(mesh.vertices), input, options, true), "PLY");
+}
+ReadResult pcd_result(const Input& input, const ReadOptions& options) {
+  return result_of(read_points(input, options), "PCD");
+}
+
+constexpr std::array kFormats{
+    FormatInfo{Format::automatic, "auto", "by content and extension", "", nullptr},
+    FormatInfo{Format::points, "points", "a point a line, numbers separated by blanks or commas",
+               "0.5 1.25 -3e-2", &points_result},
+    FormatInfo{Format::distance, "distance", "a square distance matrix, a row a line", "0 1.5 2",
+               &distance_result},
+    FormatInfo{Format::lower_distance, "lower-distance",
+               "its lower triangle without the diagonal: 1, 2, 3, … numbers a line", "1.5 2",
+               &lower_result},
+    FormatInfo{Format::upper_distance, "upper-distance",
+               "its upper triangle without the diagonal: n-1, …, 2, 1 numbers a line", "1.5 2",
+               &upper_result},
+    FormatInfo{Format::sparse, "sparse", "pairs of points with their distance: i j d, from 0",
+               "0 1 1.5", &sparse_result},
+    FormatInfo{Format::binary, "binary", "the lower triangle as float32, little endian", "",
+               &binary_result},
+    FormatInfo{Format::dipha, "dipha", "DIPHA's binary images and matrices", "", nullptr},
+    FormatInfo{Format::npy, "npy", "a NumPy array: an image, points or distances", "", &npy_result},
+    FormatInfo{Format::pgm, "pgm", "a grey picture, P2 or P5", "P2 640 480 255", nullptr},
+    FormatInfo{Format::png, "png", "a grey picture", "", &png_result},
+    FormatInfo{Format::perseus, "perseus", "a cubical complex as text", "2 640 480", nullptr},
+    FormatInfo{Format::nifti, "nifti", "a NIfTI-1 volume", "", nullptr},
+    FormatInfo{Format::phat, "phat",
+               "a boundary matrix, ascii or binary: a cell a line, its "
+               "dimension and facets",
+               "1 0 1", &phat_result},
+    FormatInfo{Format::simplices, "simplices", "a simplex with its value a line: v0 v1 … : value",
+               "0 1 2 : 0.5", &simplices_result},
+    FormatInfo{Format::off, "off", "a mesh in OFF", "OFF", &off_result},
+    FormatInfo{Format::ply, "ply", "a mesh or cloud in PLY", "ply", &ply_result},
+    FormatInfo{Format::pcd, "pcd", "a point cloud in PCD", "VERSION 0.7", &pcd_result},
+};
+
+}  // namespace
+
+std::span<const FormatInfo> formats() { return kFormats; }
+
+const FormatInfo& format_info(Format format) {
+  return *std::find_if(kFormats.begin(), kFormats.end(),
+                       [format](const FormatInfo& info) { return info.format == format; });
+}
+
+std::optional<Format> format_from_name(std::string_view name) {
+  for (const FormatInfo& info : kFormats) {
+    if (info.name == name) return info.format;
+  }
+  return std::nullopt;
+}
+
+ReadResult read_any(const Input& input, Format format, const ReadOptions& options,
+                    const std::filesystem::path& values_path) {
+  const bool automatic = format == Format::automatic;
+  if (automatic) format = detect_format(input);
+  const FormatInfo& info = format_info(format);
+  if (info.read == nullptr) {
+    throw Error(ErrorKind::not_built_in,
+                fmt::format("{}: format {} is not built in", input.name(), info.name));
+  }
+  std::vector<std::string> notes;
+  std::vector<Index> dropped;
+  ReadOptions inner = options;
+  inner.note = [&](std::string text) {
+    notes.push_back(text);
+    if (options.note) options.note(std::move(text));
+  };
+  inner.dropped = &dropped;
+  if (automatic && format == Format::distance) {
+    detail::note(inner,
+                 "square with a zero diagonal: read as distances; --format points reads points");
+  }
+  ReadResult result = info.read(input, inner);
+  result.format = format;
+  result.notes = std::move(notes);
+  if (options.dropped != nullptr) *options.dropped = dropped;
+  if (!dropped.empty()) {
+    const auto* points = std::get_if<Points>(&result.data);
+    const Index total = (points ? points->rows() : 0) + static_cast<Index>(dropped.size());
+    auto next = dropped.begin();
+    for (Index i = 0; i < total; ++i) {
+      if (next != dropped.end() && *next == i) {
+        ++next;
+      } else {
+        result.point_ids.push_back(i);
+      }
+    }
+  }
+  if (const auto* points = std::get_if<Points>(&result.data);
+      points && points->rows() == 0 && !options.allow_empty) {
+    input.fail({"no points", {}, "at least one", "--allow-empty accepts an empty set"});
+  }
+  if (values_path.empty()) return result;
+
+  const auto values_for = [&](std::size_t count) {
+    return read_values(Input::open(values_path, options.context), count, options);
+  };
+  if (auto* boundary = std::get_if<BoundaryInput>(&result.data)) {
+    boundary->matrix.values = values_for(boundary->matrix.size());
+  } else if (auto* mesh = std::get_if<Mesh>(&result.data)) {
+    mesh->values = values_for(static_cast<std::size_t>(mesh->vertices.rows()));
+  } else if (auto* simplices = std::get_if<SimplicesInput>(&result.data)) {
+    const auto& vertices = simplices->simplices.vertices;
+    const Index largest =
+        vertices.empty() ? -1 : *std::max_element(vertices.begin(), vertices.end());
+    simplices->vertex_values = values_for(static_cast<std::size_t>(largest + 1));
+  } else {
+    throw Error(ErrorKind::usage,
+                fmt::format("--values: format {} takes no separate values", info.name));
+  }
+  return result;
+}
+
+ReadResult read_any(const std::filesystem::path& path, Format format, const ReadOptions& options,
+                    const std::filesystem::path& values_path) {
+  return read_any(Input::open(path, options.context), format, options, values_path);
+}
+
+}  // namespace ph

@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <ostream>
+
+#include "ph/io/cloud_io.hpp"
+#include "readers.hpp"
+
+namespace ph {
+namespace {
+
+constexpr std::string_view kMagic = "\x93NUMPY";
+
+struct Header {
+  std::string descr;
+  bool fortran_order = false;
+  std::vector<Index> shape;
+  std::size_t offset = 0;  // of the data
+};
+
+// The header is a Python dictionary with three known keys; nothing else of Python is read.
+class HeaderParser {
+ public:
+  HeaderParser(const Input& input, std::size_t begin, std::size_t end)
+      : input_(input), position_(begin), end_(end) {}
+
+  Header parse() {
+    Header header;
+    bool descr = false, order = false, shape = false;
+    expect('{');
+    while (!accept('}')) {
+      const std::size_t at = position_;
+      const std::string key = string();
+      expect(':');
+      if (key == "descr" && !descr) {
+        header.descr = string();
+        descr = true;
+      } else if (key == "fortran_order" && !order) {
+        header.fortran_order = boolean();
+        order = true;
+      } else if (key == "shape" && !shape) {
+        header.shape = tuple();
+        shape = true;
+      } else {
+        fail(at, "unknown key", printable(key, 40), "descr, fortran_order and shape, once each");
+      }
+      if (!accept(',') && peek() != '}') fail(position_, "NPY header", found(), "',' or '}'");
+    }
+    if (!descr || !order || !shape) {
+      fail(position_, "incomplete NPY header", "", "descr, fortran_order and shape");
+    }
+    skip();
+    if (position_ != end_) fail(position_, "NPY header", found(), "its end");
+    return header;
+  }
+
+ private:
+  [[noreturn]] void fail(std::size_t at, std::string what, std::string what_found,
+                         std::string expected) const {
+    input_.fail_at_byte(at, {std::move(what), std::move(what_found), std::move(expected), {}});
+  }
+  std::string found() const {
+    return position_ < end_ ? printable(input_.text().substr(position_, 1)) : "its end";
+  }
+  void skip() {
+    while (position_ < end_ &&
+           std::string_view(" \t\r\n").find(input_.text()[position_]) != std::string_view::npos) {
+      ++position_;
+    }
+  }
+  char peek() {
+    skip();
+    return position_ < end_ ? input_.text()[position_] : '\0';
+  }
+  bool accept(char c) {
+    if (peek() != c || position_ == end_) return false;
+    ++position_;
+    return true;
+  }
+  void expect(char c) {
+    if (!accept(c)) fail(position_, "NPY header", found(), fmt::format("'{}'", c));
+  }
+  std::string string() {
+    const char quote = peek();
+    if (quote != '\'' && quote != '"') {
+      fail(position_, "NPY header", found(), "a quoted word (structured arrays are not read)");
+    }
+    const std::size_t begin = ++position_;
+    while (position_ < end_ && input_.text()[position_] != quote) ++position_;
+    if (position_ == end_) fail(begin, "NPY header", "no closing quote", "one");
+    return std::string(input_.text().substr(begin, position_++ - begin));
+  }
+  bool boolean() {
+    skip();
+    for (const bool value : {false, true}) {
+      const std::string_view word = value ? "True" : "False";
+      if (input_.text().substr(position_, std::min(word.size(), end_ - position_)) == word) {
+        position_ += word.size();
+        return value;
+      }
+    }
+    fail(position_, "fortran_order", found(), "True or False");
+  }
+  std::vector<Index> tuple() {
+    std::vector<Index> shape;
+    expect('(');
+    while (!accept(')')) {
+      skip();
+      Index extent = 0;
+      const char* begin = input_.text().data() + position_;
+      const auto [stop, error] = std::from_chars(begin, input_.text().data() + end_, extent);
+      if (error != std::errc{} || extent < 0) {
+        fail(position_, "shape",
+             error == std::errc::result_out_of_range ? "a number above 2^63"
+             : extent < 0                            ? fmt::format("{}", extent)
+                                                     : found(),
+             "sizes of 0 or more");
+      }
+      position_ += static_cast<std::size_t>(stop - begin);
+      shape.push_back(extent);
+      if (!accept(',') && peek() != ')') fail(position_, "shape", found(), "',' or ')'");
+    }
+    return shape;
+  }
+
+  const Input& input_;
+  std::size_t position_;
+  std::size_t end_;
+};
+
+Header read_header(const Input& input) {
+  BinaryCursor cursor(input, std::endian::little);
+  const auto magic = cursor.take(kMagic.size(), "NPY magic number");
+  if (std::memcmp(magic.data(), kMagic.data(), kMagic.size()) != 0) {
+    input.fail_at_byte(0, {"not an NPY file", "another magic number", "\\x93NUMPY", {}});
+  }
+  const auto major = cursor.read<std::uint8_t>("NPY version");
+  cursor.read<std::uint8_t>("NPY version");
+  if (major < 1 || major > 3) {
+    input.fail_at_byte(6, {"NPY version", fmt::format("{}", major), "1, 2 or 3", {}});
+  }
+  const std::size_t length = major == 1 ? cursor.read<std::uint16_t>("header length")
+                                        : cursor.read<std::uint32_t>("header length");
+  const std::size_t begin = cursor.offset();
+  cursor.take(length, "NPY header");
+  Header header = HeaderParser(input, begin, begin + length).parse();
+  header.offset = begin + length;
+  return header;
+}
+
+double half_to_double(std::uint16_t bits) {
+  const int exponent = (bits >> 10) & 0x1F;
+  const int mantissa = bits & 0x3FF;
+  const double magnitude = exponent == 0 ? std::ldexp(mantissa, -24)
+                           : exponent == 31
+                               ? (mantissa == 0 ? std::numeric_limits<double>::infinity()
+                                                : std::numeric_limits<double>::quiet_NaN())
+                               : std::ldexp(mantissa + 1024, exponent - 25);
+  return (bits & 0x8000) != 0 ? -magnitude : magnitude;
+}
+
+// The element at `from`; sets `exact` to false if double cannot hold it.
+template <class T>
+double element(const std::byte* from, std::endian order, bool& exact) {
+  const T value = load<T>(from, order);
+  const auto result = static_cast<double>(value);
+  if constexpr (std::is_integral_v<T> && sizeof(T) == 8) {
+    // 2^63 and 2^64 round up out of the type: such values are never exact.
+    const bool in_range = result < std::ldexp(1.0, std::is_signed_v<T> ? 63 : 64);
+    exact = in_range && static_cast<T>(result) == value;
+  }
+  return result + 0.0;
+}
+double half(const std::byte* from, std::endian order, bool&) {
+  return half_to_double(load<std::uint16_t>(from, order)) + 0.0;
+}
+
+struct ElementType {
+  std::size_t size;
+  double (*load)(const std::byte*, std::endian, bool&);
+};
+
+std::optional<ElementType> element_type(std::string_view kind) {
+  if (kind == "b1") return ElementType{1, &element<std::uint8_t>};
+  if (kind == "u1") return ElementType{1, &element<std::uint8_t>};
+  if (kind == "u2") return ElementType{2, &element<std::uint16_t>};
+  if (kind == "u4") return ElementType{4, &element<std::uint32_t>};
+  if (kind == "u8") return ElementType{8, &element<std::uint64_t>};
+  if (kind == "i1") return ElementType{1, &element<std::int8_t>};
+  if (kind == "i2") return ElementType{2, &element<std::int16_t>};
+  if (kind == "i4") return ElementType{4, &element<std::int32_t>};
+  if (kind == "i8") return ElementType{8, &element<std::int64_t>};
+  if (kind == "f2") return ElementType{2, &half};
+  if (kind == "f4") return ElementType{4, &element<float>};
+  if (kind == "f8") return ElementType{8, &element<double>};
+  return std::nullopt;
+}
+
+// Column-major to row-major order.
+std::vector<double> transposed(const std::vector<double>& values,
+                               const std::vector<Index>& extents) {
+  std::vector<double> result(values.size());
+  std::vector<Index> at(extents.size(), 0);
+  std::vector<std::size_t> stride(extents.size());  // of the result, by axis
+  std::size_t step = 1;
+  for (std::size_t axis = extents.size(); axis-- > 0;) {
+    stride[axis] = step;
+    step *= static_cast<std::size_t>(extents[axis]);
+  }
+  std::size_t to = 0;
+  for (const double value : values) {  // the first axis runs fastest
+    result[to] = value;
+    for (std::size_t axis = 0; axis < extents.size(); ++axis) {
+      to += stride[axis];
+      if (++at[axis] < extents[axis]) break;
+      to -= stride[axis] * static_cast<std::size_t>(extents[axis]);
+      at[axis] = 0;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+namespace detail {
+
+bool is_npy(const Input& input) { return input.text().starts_with(kMagic); }
+
+Image read_npy_array(const Input& input) {
+  const Header header = read_header(input);
+  const char mark = header.descr.empty() ? '\0' : header.descr[0];
+  const auto type = mark == '<' || mark == '>' || mark == '|' || mark == '='
+                        ? element_type(std::string_view(header.descr).substr(1))
+                        : std::nullopt;
+  if (!type || (mark == '|' && type->size != 1)) {
+    input.fail({"NPY element type",
+                printable(header.descr, 40),
+                "booleans, integers or floats of at most 8 bytes",
+                {}});
+  }
+  std::optional<std::size_t> bytes = type->size;
+  for (const Index extent : header.shape) {
+    if (bytes) bytes = checked_product(*bytes, static_cast<std::size_t>(extent));
+  }
+  const std::size_t there = input.size() - header.offset;
+  if (!bytes || *bytes != there) {
+    input.fail_at_byte(
+        header.offset,
+        {!bytes || *bytes > there ? "truncated" : "trailing data",
+         fmt::format("{} bytes", there),
+         bytes ? fmt::format("{} for shape ({})", *bytes, fmt::join(header.shape, ", "))
+               : fmt::format("more than 2^64 for shape ({})", fmt::join(header.shape, ", ")),
+         {}});
+  }
+  Image image;
+  image.extents = header.shape;
+  const std::size_t count = there / type->size;
+  input.require_memory(count * sizeof(double) * (header.fortran_order ? 2 : 1));
+  image.values.resize(count);
+  const std::byte* from = input.bytes().data() + header.offset;
+  const auto order = mark == '>' ? std::endian::big : std::endian::little;
+  for (std::size_t k = 0; k < count; ++k) {
+    bool exact = true;
+    image.values[k] = type->load(from + k * type->size, order, exact);
+    if (!exact) {
+      input.fail_at_byte(header.offset + k * type->size,
+                         {"integer that double cannot hold",
+                          fmt::format("{:.0f} nearby", image.values[k]),
+                          "at most 2^53",
+                          {}});
+    }
+    if (header.descr[1] == 'b' && image.values[k] > 1) {
+      input.fail_at_byte(header.offset + k,
+                         {"not a boolean", fmt::format("{}", image.values[k]), "0 or 1", {}});
+    }
+  }
+  if (header.fortran_order && image.extents.size() > 1) {
+    image.values = transposed(image.values, image.extents);
+  }
+  return image;
+}
+
+Image without_nan_pixels(Image image, const Input& input, const ReadOptions& options) {
+  std::size_t masked = 0;
+  for (std::size_t k = 0; k < image.values.size(); ++k) {
+    if (!std::isnan(image.values[k])) continue;
+    if (options.nan == NanPolicy::error) {
+      std::vector<Index> place(image.extents.size());
+      auto rest = static_cast<Index>(k);
+      for (std::size_t axis = place.size(); axis-- > 0;) {
+        place[axis] = rest % image.extents[axis];
+        rest /= image.extents[axis];
+      }
+      input.fail({fmt::format("value at [{}]", fmt::join(place, ", ")), "NaN", "a number",
+                  "--nan drop masks such voxels"});
+    }
+    image.values[k] = std::numeric_limits<double>::infinity();
+    ++masked;
+  }
+  if (masked > 0) note(options, fmt::format("{} voxels are NaN: masked", masked));
+  if (image.values.empty() && !options.allow_empty) {
+    input.fail({"no voxels", fmt::format("shape ({})", fmt::join(image.extents, ", ")),
+                "at least one", "--allow-empty accepts an empty image"});
+  }
+  return image;
+}
+
+}  // namespace detail
+
+Image read_npy_image(const Input& input, const ReadOptions& options) {
+  Image image = detail::read_npy_array(input);
+  if (image.extents.empty()) image.extents.push_back(1);  // a single number
+  return detail::without_nan_pixels(std::move(image), input, options);
+}
+
+void write_npy(std::ostream& out, std::span<const std::uint32_t> labels, Index width,
+               Index height) {
+  if (width < 0 || height < 0 || static_cast<std::size_t>(width * height) != labels.size()) {
+    throw Error(ErrorKind::bad_data,
+                fmt::format("labels: found {}, expected {} x {}", labels.size(), width, height));
+  }
+  const std::string shape =
+      height > 1 ? fmt::format("({}, {})", height, width) : fmt::format("({},)", width);
+  std::string header =
+      fmt::format("{{'descr': '<u4', 'fortran_order': False, 'shape': {}, }}", shape);
+  // The data start at a multiple of 64; the header ends in a line feed.
+  const std::size_t before = kMagic.size() + 4;
+  header.resize((before + header.size() + 1 + 63) / 64 * 64 - before - 1, ' ');
+  header += '\n';
+  out.write(kMagic.data(), static_cast<std::streamsize>(kMagic.size()));
+  const char lead[] = {1, 0, static_cast<char>(header.size() & 0xFF),
+                       static_cast<char>(header.size() >> 8)};
+  out.write(lead, sizeof(lead));
+  out.write(header.data(), static_cast<std::streamsize>(header.size()));
+  std::string block;
+  constexpr std::size_t kBlock = 1 << 14;
+  for (std::size_t begin = 0; begin < labels.size(); begin += kBlock) {
+    block.clear();
+    for (const std::uint32_t label :
+         labels.subspan(begin, std::min(kBlock, labels.size() - begin))) {
+      for (int shift = 0; shift < 32; shift += 8) {
+        block += static_cast<char>((label >> shift) & 0xFF);
+      }
+    }
+    out.write(block.data(), static_cast<std::streamsize>(block.size()));
+  }
+  if (!out) throw Error(ErrorKind::io, "cannot write labels");
+}
+
+}  // namespace ph

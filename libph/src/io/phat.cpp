@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ph/io/read.hpp"
+#include "readers.hpp"
+
+namespace ph {
+namespace {
+
+constexpr std::int64_t kMostCells = std::int64_t{1} << 40;
+constexpr std::int64_t kMostDimension = 1 << 20;
+
+// Rules of one column; the fault is reported by the caller, who knows the place.
+Fault fault_of_facet(Index facet, std::size_t column, std::optional<Index> before) {
+  if (facet < 0 || facet >= static_cast<Index>(column)) {
+    return {fmt::format("facet of cell {} out of range", column),
+            fmt::format("{}", facet),
+            column == 0 ? "no facets" : fmt::format("an earlier cell, 0 to {}", column - 1),
+            {}};
+  }
+  if (before && facet <= *before) {
+    return {fmt::format("facets of cell {} not ascending", column),
+            fmt::format("{} after {}", facet, *before),
+            "each facet once, ascending",
+            {}};
+  }
+  return {};
+}
+
+BoundaryInput read_text(const Input& input) {
+  BoundaryInput result;
+  TextLines lines(input);
+  Cells cells(lines);
+  while (lines.next()) {
+    const std::size_t column = result.matrix.size();
+    cells.start();
+    result.matrix.dims.push_back(static_cast<int>(cells.integer(0, kMostDimension, "dimension")));
+    std::optional<Index> before;
+    while (cells.more()) {
+      const char* place = cells.place();
+      const Index facet = cells.integer(0, kMostCells, "facet");
+      const Fault fault = fault_of_facet(facet, column, before);
+      if (!fault.what.empty()) lines.fail(place, fault);
+      result.matrix.rows.push_back(facet);
+      before = facet;
+    }
+    result.matrix.offsets.push_back(result.matrix.rows.size());
+    result.places.push_back(lines.number());
+  }
+  return result;
+}
+
+BoundaryInput read_binary(const Input& input) {
+  BoundaryInput result;
+  result.binary = true;
+  BinaryCursor cursor(input, std::endian::little);
+  const std::size_t columns = cursor.read_count("number of cells", 2 * sizeof(std::int64_t));
+  const std::size_t entries = cursor.remaining() / sizeof(std::int64_t) - 2 * columns;
+  input.require_memory(columns * (sizeof(int) + 2 * sizeof(std::size_t)) + entries * sizeof(Index));
+  result.matrix.dims.reserve(columns);
+  result.matrix.offsets.reserve(columns + 1);
+  result.matrix.rows.reserve(entries);
+  result.places.reserve(columns);
+  for (std::size_t column = 0; column < columns; ++column) {
+    const std::size_t start = cursor.offset();
+    const auto dim = cursor.read<std::int64_t>("dimension of a cell");
+    if (dim < 0 || dim > kMostDimension) {
+      input.fail_at_byte(start, {fmt::format("dimension of cell {} out of range", column),
+                                 fmt::format("{}", dim),
+                                 fmt::format("0 to {}", kMostDimension),
+                                 {}});
+    }
+    const std::size_t facets = cursor.read_count("number of facets", sizeof(std::int64_t));
+    std::optional<Index> before;
+    for (std::size_t k = 0; k < facets; ++k) {
+      const std::size_t place = cursor.offset();
+      const auto facet = cursor.read<std::int64_t>("facets");
+      const Fault fault = fault_of_facet(facet, column, before);
+      if (!fault.what.empty()) input.fail_at_byte(place, fault);
+      result.matrix.rows.push_back(facet);
+      before = facet;
+    }
+    result.matrix.dims.push_back(static_cast<int>(dim));
+    result.matrix.offsets.push_back(result.matrix.rows.size());
+    result.places.push_back(start);
+  }
+  cursor.expect_end();
+  return result;
+}
+
+// Text has no byte below the tab; eight bytes of a count below 2^40 have several.
+bool is_text(const Input& input) {
+  const std::string_view probe = input.text().substr(0, 4096);
+  return std::all_of(probe.begin(), probe.end(), [](char c) {
+    return c == '\n' || c == '\r' || c == '\t' || static_cast<unsigned char>(c) >= 0x20;
+  });
+}
+
+}  // namespace
+
+CellNamer BoundaryInput::namer() const {
+  return [at = places, in_bytes = binary, file = name](std::size_t i) {
+    if (i >= at.size()) return file;
+    return in_bytes ? fmt::format("{}: byte {} (cell {})", file, at[i], i)
+                    : fmt::format("{}:{}", file, at[i]);
+  };
+}
+
+BoundaryInput read_phat(const Input& input, const ReadOptions& options) {
+  BoundaryInput result = is_text(input) ? read_text(input) : read_binary(input);
+  result.name = input.name();
+  if (result.matrix.size() == 0 && !options.allow_empty) {
+    input.fail({"no cells", {}, "a boundary matrix", "--allow-empty accepts an empty complex"});
+  }
+  return result;
+}
+
+BoundaryInput read_phat(const std::filesystem::path& path, const std::filesystem::path& values_path,
+                        const ReadOptions& options) {
+  BoundaryInput result = read_phat(Input::open(path, options.context), options);
+  if (!values_path.empty()) {
+    result.matrix.values =
+        read_values(Input::open(values_path, options.context), result.matrix.size(), options);
+  }
+  return result;
+}
+
+std::vector<double> read_values(const Input& input, std::size_t count, const ReadOptions&) {
+  std::vector<double> values;
+  input.require_memory(std::min(count, input.size()) * sizeof(double));
+  values.reserve(std::min(count, input.size()));
+  const Fault wrong_count{"wrong number of values", {}, fmt::format("{}, one a cell", count), {}};
+  if (is_text(input)) {
+    TextLines lines(input);
+    Cells cells(lines);
+    while (lines.next()) {
+      for (cells.start(); cells.more();) {
+        if (values.size() == count) {
+          lines.fail(
+              cells.place(),
+              {"too many values", fmt::format("more than {}", count), wrong_count.expected, {}});
+        }
+        values.push_back(cells.number(Allow::infinite));
+      }
+    }
+    if (values.size() != count) {
+      input.fail({"truncated: too few values",
+                  fmt::format("{}", values.size()),
+                  wrong_count.expected,
+                  {}});
+    }
+    return values;
+  }
+  if (input.size() % sizeof(double) != 0 || input.size() / sizeof(double) != count) {
+    input.fail({wrong_count.what,
+                fmt::format("{} bytes", input.size()),
+                fmt::format("{} values of 8 bytes, one a cell", count),
+                {}});
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto value = load<double>(input.bytes().data() + k * sizeof(double), std::endian::little);
+    if (std::isnan(value)) {
+      input.fail_at_byte(k * sizeof(double), {fmt::format("value {}", k), "NaN", "a number", {}});
+    }
+    values.push_back(value + 0.0);
+  }
+  return values;
+}
+
+}  // namespace ph

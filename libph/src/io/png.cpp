@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+#include "ph/io/png.hpp"
+
+#include <fmt/format.h>
+#include <png.h>
+
+#include <ostream>
+
+#include "readers.hpp"
+
+namespace ph {
+namespace {
+
+constexpr png_uint_32 kMaxSide = 65535;
+constexpr std::size_t kMaxChunk = std::size_t{8} << 20;  // bytes of an ancillary chunk
+// Deflate cannot expand more than this; it bounds what a small file may claim.
+constexpr std::size_t kMaxExpansion = 1032;
+
+struct Source {
+  const Input& input;
+  std::size_t offset = 0;
+};
+
+// libpng is C: it may be left by longjmp only, so an error first becomes a message here.
+struct Report {
+  std::string message;
+};
+
+extern "C" {
+
+[[noreturn]] static void png_failed(png_structp png, png_const_charp message) {
+  auto* report = static_cast<Report*>(png_get_error_ptr(png));
+  try {
+    report->message = printable(message, 200);
+  } catch (...) {  // out of memory: an empty message is still a failure
+  }
+  png_longjmp(png, 1);
+}
+
+static void png_warned(png_structp, png_const_charp) {}
+
+static void png_take(png_structp png, png_bytep to, std::size_t size) {
+  auto* source = static_cast<Source*>(png_get_io_ptr(png));
+  if (size > source->input.size() - source->offset) png_error(png, "truncated");
+  std::memcpy(to, source->input.text().data() + source->offset, size);
+  source->offset += size;
+}
+
+static void png_put(png_structp png, png_bytep from, std::size_t size) {
+  auto* out = static_cast<std::ostream*>(png_get_io_ptr(png));
+  try {
+    out->write(reinterpret_cast<const char*>(from), static_cast<std::streamsize>(size));
+  } catch (...) {  // a stream that throws must not throw through C
+    png_error(png, "cannot write");
+  }
+  if (!*out) png_error(png, "cannot write");
+}
+
+static void png_flushed(png_structp) {}
+
+}  // extern "C"
+
+struct Reader {
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+  ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
+};
+
+struct Writer {
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+  ~Writer() { png_destroy_write_struct(&png, &info); }
+};
+
+// Each of the steps below calls libpng between setjmp and longjmp and owns nothing that would need
+// a destructor; false: it failed.
+
+bool read_header(Reader& reader) {
+  if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
+  png_set_user_limits(reader.png, kMaxSide, kMaxSide);
+  png_set_chunk_malloc_max(reader.png, kMaxChunk);
+  png_read_info(reader.png, reader.info);
+  png_set_expand(reader.png);  // palettes, fewer than 8 bits, transparent colours
+  if constexpr (std::endian::native == std::endian::little) png_set_swap(reader.png);
+  png_set_interlace_handling(reader.png);
+  png_read_update_info(reader.png, reader.info);
+  return true;
+}
+
+bool read_pixels(Reader& reader, png_bytepp rows) {
+  if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
+  png_read_image(reader.png, rows);
+  png_read_end(reader.png, nullptr);
+  return true;
+}
+
+bool write_pixels(Writer& writer, std::ostream& out, const Raster& raster, png_bytepp rows) {
+  constexpr int kColours[] = {0, PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
+                              PNG_COLOR_TYPE_RGB_ALPHA};
+  if (setjmp(png_jmpbuf(writer.png)) != 0) return false;
+  png_set_write_fn(writer.png, &out, &png_put, &png_flushed);
+  png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(raster.width),
+               static_cast<png_uint_32>(raster.height), raster.bits, kColours[raster.channels],
+               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_write_info(writer.png, writer.info);
+  if constexpr (std::endian::native == std::endian::little) {
+    if (raster.bits == 16) png_set_swap(writer.png);
+  }
+  png_write_image(writer.png, rows);
+  png_write_end(writer.png, nullptr);
+  return true;
+}
+
+}  // namespace
+
+namespace detail {
+
+bool is_png(const Input& input) { return input.text().starts_with("\x89PNG\r\n\x1A\n"); }
+
+}  // namespace detail
+
+Raster read_png(const Input& input) {
+  if (!detail::is_png(input)) {
+    input.fail_at_byte(0, {"not a PNG file", "another signature", "\\x89PNG", {}});
+  }
+  Report report;
+  Source source{input};
+  Reader reader;
+  const auto fail = [&] {
+    input.fail_at_byte(source.offset, {"damaged PNG", report.message, "a complete PNG image", {}});
+  };
+  reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &report, &png_failed, &png_warned);
+  if (reader.png == nullptr) throw std::bad_alloc();
+  reader.info = png_create_info_struct(reader.png);
+  if (reader.info == nullptr) throw std::bad_alloc();
+  png_set_read_fn(reader.png, &source, &png_take);
+  if (!read_header(reader)) fail();
+
+  Raster raster;
+  raster.width = png_get_image_width(reader.png, reader.info);
+  raster.height = png_get_image_height(reader.png, reader.info);
+  raster.channels = png_get_channels(reader.png, reader.info);
+  raster.bits = png_get_bit_depth(reader.png, reader.info);
+  const std::size_t row_bytes = png_get_rowbytes(reader.png, reader.info);
+  const auto height = static_cast<std::size_t>(raster.height);
+  // Expansion makes at most 32 bits of one.
+  if (height * row_bytes / 32 / kMaxExpansion > input.size()) {
+    input.fail_at_byte(16, {"truncated: the size of the image does not fit the file",
+                            fmt::format("{} x {} pixels", raster.width, raster.height),
+                            fmt::format("fewer in {} bytes", input.size()),
+                            {}});
+  }
+  const std::size_t count = height * static_cast<std::size_t>(raster.width * raster.channels);
+  input.require_memory(height * (row_bytes + sizeof(png_bytep)) + count * sizeof(std::uint16_t));
+  raster.samples.resize(count);
+  // 8-bit rows are read into the upper half of the samples, then widened from the front.
+  auto* bytes = reinterpret_cast<png_bytep>(raster.samples.data());
+  if (raster.bits == 8) bytes += count;
+  std::vector<png_bytep> rows(height);
+  for (std::size_t y = 0; y < height; ++y) rows[y] = bytes + y * row_bytes;
+  if (!read_pixels(reader, rows.data())) fail();
+  if (source.offset != input.size()) {
+    input.fail_at_byte(source.offset, {"trailing data",
+                                       fmt::format("{} bytes more", input.size() - source.offset),
+                                       "the end of the file",
+                                       {}});
+  }
+  if (raster.bits == 8) {
+    for (std::size_t k = 0; k < count; ++k) raster.samples[k] = bytes[k];
+  }
+  return raster;
+}
+
+Raster read_png(const std::filesystem::path& path, const RunContext* context) {
+  return read_png(Input::open(path, context));
+}
+
+void write_png(std::ostream& out, const Raster& raster) {
+  const bool sizes = raster.width > 0 && raster.height > 0 && raster.width <= kMaxSide &&
+                     raster.height <= kMaxSide && raster.channels >= 1 && raster.channels <= 4 &&
+                     (raster.bits == 8 || raster.bits == 16);
+  if (!sizes || raster.samples.size() !=
+                    static_cast<std::size_t>(raster.width * raster.height * raster.channels)) {
+    throw Error(
+        ErrorKind::bad_data,
+        fmt::format("picture: found {} samples of {} bits for {} x {} pixels of {} channels, "
+                    "expected as many as pixels and channels say, 8 or 16 bits, at most "
+                    "{} pixels a side",
+                    raster.samples.size(), raster.bits, raster.width, raster.height,
+                    raster.channels, kMaxSide));
+  }
+  std::vector<png_byte> bytes(raster.samples.size() * static_cast<std::size_t>(raster.bits / 8));
+  if (raster.bits == 16) {
+    std::memcpy(bytes.data(), raster.samples.data(), bytes.size());
+  } else {
+    for (std::size_t k = 0; k < bytes.size(); ++k)
+      bytes[k] = static_cast<png_byte>(raster.samples[k]);
+  }
+  const auto height = static_cast<std::size_t>(raster.height);
+  std::vector<png_bytep> rows(height);
+  for (std::size_t y = 0; y < height; ++y) rows[y] = bytes.data() + y * (bytes.size() / height);
+  Report report;
+  Writer writer;
+  writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &report, &png_failed, &png_warned);
+  if (writer.png == nullptr) throw std::bad_alloc();
+  writer.info = png_create_info_struct(writer.png);
+  if (writer.info == nullptr) throw std::bad_alloc();
+  if (!write_pixels(writer, out, raster, rows.data())) {
+    throw Error(ErrorKind::io, "PNG: " + report.message);
+  }
+}
+
+Image read_image(const Input& input, const ReadOptions& options) {
+  if (!detail::is_png(input)) return read_npy_image(input, options);
+  const Raster raster = read_png(input);
+  if (raster.channels != 1) {
+    input.fail({"not a grey image", fmt::format("{} channels", raster.channels), "1", {}});
+  }
+  Image image;
+  image.extents = {raster.height, raster.width};
+  input.require_memory(raster.samples.size() * sizeof(double));
+  image.values.assign(raster.samples.begin(), raster.samples.end());
+  return image;
+}
+
+Image read_image(const std::filesystem::path& path, const ReadOptions& options) {
+  return read_image(Input::open(path, options.context), options);
+}
+
+}  // namespace ph
