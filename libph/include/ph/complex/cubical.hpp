@@ -23,9 +23,9 @@ struct CubicalOptions {
   /// Superlevel sets of f: the sublevel filtration of -f; values are reported as -f.
   bool superlevel = false;
   /// The axes (of the input) that close up on themselves; empty: none.
-  std::vector<bool> periodic;
+  std::vector<bool> periodic = {};
   /// Largest value that enters, inclusive (of -f with `superlevel`).
-  std::optional<double> threshold;
+  std::optional<double> threshold = std::nullopt;
 };
 
 /// The cubical filtration of an image of any dimension, in doubled grid coordinates: an axis of n

@@ -17,7 +17,7 @@ struct RipsOptions {
   /// Largest distance at which two points are joined, inclusive. Default: the enclosing radius
   /// min_i max_j d(i,j) if all distances are known (beyond it nothing but one component is left,
   /// so the barcode is complete), no limit for sparse distances.
-  std::optional<double> threshold;
+  std::optional<double> threshold = std::nullopt;
   PointDistance distance = PointDistance::euclidean;  ///< for points
   double minkowski_p = 2;                             ///< exponent of PointDistance::minkowski
 };

@@ -234,22 +234,21 @@ template <Filtration F, Field K, Direction direction>
 bool Reduction<F, K, direction>::start_column(const Cell& cell, Term& pivot, Ticker& ticker) {
   working_.clear();
   chain_.clear();
-  bool look_for_pivot = !kIsHomology, found = false;
+  bool found = false;
+  [[maybe_unused]] bool look_for_pivot = false;
+  if constexpr (!kIsHomology) look_for_pivot = F::first_equal_cofacet_is_oldest;
   for_each_entry(cell, [&](const Cell& entry, int incidence) {
     const auto a = field_.from_int(incidence);
     if (field_.is_zero(a)) return true;
     working_.emplace_back(entry, a);
-    if constexpr (!kIsHomology && F::first_equal_cofacet_is_oldest) {
+    if constexpr (!kIsHomology) {
       if (look_for_pivot && f_.key(entry) == f_.key(cell)) {
         look_for_pivot = false;
-        if (!owner_of(entry)) {
-          pivot = working_.back();
-          found = true;
-          return false;
-        }
+        found = !owner_of(entry);
+        if (found) pivot = working_.back();
       }
     }
-    return true;
+    return !found;
   });
   ticker.work(working_.size() + 1);
   if (!found) std::make_heap(working_.begin(), working_.end(), below_);
