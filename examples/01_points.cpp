@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// The barcode of points in a file: how many components, how many loops, at which scale?
+#include <iostream>
+#include <ph/io/read.hpp>
+#include <ph/ph.hpp>
+
+int main(int argc, char** argv) {
+  const ph::Points points = ph::read_points(argc > 1 ? argv[1] : "points.csv");
+  const ph::Barcode bars = ph::persistence(ph::Rips(points), {.max_dim = 1});
+
+  int long_loops = 0;
+  for (const ph::Bar& bar : bars.bars(1)) {
+    std::cout << "loop [" << bar.birth << ", " << bar.death << ")\n";
+    if (bar.persistence() > 0.3) ++long_loops;
+  }
+  std::cout << bars.bars(0).size() << " components at scale 0, " << long_loops << " long loops\n";
+
+  // Each bar knows the cells that made it: here the edge that closed the longest loop.
+  const auto closing = bars.birth_cell(bars.longest(1)).numbers;
+  std::cout << "the longest loop closed between points " << closing[0] << " and " << closing[1]
+            << "\n";
+}
