@@ -32,11 +32,12 @@ struct Block {
 };
 
 /// A camera 1 m from a table, looking down at 45 degrees; the table's coordinates are x right,
-/// y away, z up, its middle at the origin. 160 x 120 pixels, the axes of the cloud are the camera's
-/// (x right, y down, z forward). Rays that miss the table (1.2 m x 1 m) are holes.
+/// y away, z up, its middle at the origin. 320 x 240 pixels, the axes of the cloud are the camera's
+/// (x right, y down, z forward). Rays that miss the table (1.2 m x 1 m) are holes; so are those
+/// that graze the left and right side of a box, as with real sensors.
 class TableScene {
  public:
-  static constexpr Index kWidth = 160, kHeight = 120;
+  static constexpr Index kWidth = 320, kHeight = 240;
 
   explicit TableScene(std::vector<Block> blocks) : blocks_(std::move(blocks)) {
     for (Index v = 0; v < kHeight; ++v) {
@@ -59,8 +60,8 @@ class TableScene {
     // Camera at (0, -1/sqrt 2, 1/sqrt 2); forward (0, c, -c), down (0, -c, -c), right (1, 0, 0).
     const double c = std::sqrt(0.5);
     const Vec3 eye{0, -c, c};
-    const double px = (static_cast<double>(u) - 79.5) / 130;
-    const double py = (static_cast<double>(v) - 59.5) / 130;
+    const double px = (static_cast<double>(u) - 159.5) / 260;
+    const double py = (static_cast<double>(v) - 119.5) / 260;
     const Vec3 ray{px, c - c * py, -c - c * py};
     double nearest = std::numeric_limits<double>::infinity();
     int hit = -1;
@@ -72,15 +73,19 @@ class TableScene {
     }
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
       double enter = 0, leave = std::numeric_limits<double>::infinity();
+      std::size_t face = 0;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const double a = (blocks_[b].min[axis] - eye[axis]) / ray[axis];
         const double z = (blocks_[b].max[axis] - eye[axis]) / ray[axis];
-        enter = std::max(enter, std::min(a, z));
+        if (std::min(a, z) > enter) {
+          enter = std::min(a, z);
+          face = axis;
+        }
         leave = std::min(leave, std::max(a, z));
       }
       if (enter < leave && enter < nearest) {
         nearest = enter;
-        hit = static_cast<int>(b + 1);
+        hit = face == 0 ? -1 : static_cast<int>(b + 1);
       }
     }
     truth_.push_back(hit);
