@@ -110,7 +110,9 @@ std::string lower_case(std::string text) {
 
 void take_plot(Arguments& a, const std::string& path) {
   const std::string name = lower_case(path);
-  if (name.ends_with(".png")) not_built_in("--plot: PNG plots are not built in; use .svg:");
+  if (name.ends_with(".png"))
+    throw Error(ErrorKind::not_built_in,
+                fmt::format("--plot {}: PNG plots are not built in; use .svg", path));
   if (!name.ends_with(".svg"))
     throw Error(ErrorKind::usage,
                 fmt::format("--plot: found '{}', expected a name that ends in .svg", path));

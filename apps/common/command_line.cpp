@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <vector>
@@ -44,6 +45,37 @@ std::string one_line(std::string text) {
     if (c == '\n') c = ' ';
   while (!text.empty() && text.back() == ' ') text.pop_back();
   return text;
+}
+
+/// The same for a missing or a repeated value, in our words: "--max-dim: its value is missing".
+std::string about_values(const std::string& text) {
+  const std::string option = text.substr(0, text.find(':'));
+  if (text.find("missing") != text.npos) return option + ": its value is missing";
+  if (text.find("received") != text.npos) return option + ": found more than once, expected once";
+  return one_line(text);
+}
+
+/// Breaks a description into lines that fit beside the names of the options; CLI11 indents them.
+std::string wrapped(const std::string& text) {
+  constexpr std::size_t kColumns = 68;
+  std::string lines;
+  std::size_t column = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    if (column > 0 && column + 1 + word.size() > kColumns) {
+      lines += '\n';
+      column = 0;
+    }
+    if (column > 0) {
+      lines += ' ';
+      ++column;
+    }
+    lines += word;
+    column += word.size();
+    begin = end + 1;
+  }
+  return lines;
 }
 
 std::string build_information() {
@@ -117,11 +149,13 @@ std::optional<int> parse_command_line(CLI::App& app, const CommonOptions& option
     throw Error(ErrorKind::usage,
                 fmt::format("unexpected argument '{}'", extras.empty() ? "" : extras.front()));
   } catch (const CLI::ArgumentMismatch& error) {
-    throw Error(ErrorKind::usage, one_line(error.what()));
+    throw Error(ErrorKind::usage, about_values(error.what()));
   } catch (const CLI::Error& error) {
     throw Error(ErrorKind::usage, one_line(error.what()));
   }
   if (options.help) {
+    for (CLI::Option* option : app.get_options())
+      option->description(wrapped(option->get_description()));
     write_file("-", app.help());
     return kOk;
   }
