@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs the Debian packages that are missing: setup.sh [build|demo|test]…
+# Installs the Debian packages that are missing: setup.sh [build|demo|test|lint]…
 set -euo pipefail
 
 build=(build-essential cmake ninja-build pkg-config ccache libeigen3-dev libfmt-dev libnanoflann-dev
@@ -8,6 +8,7 @@ build=(build-essential cmake ninja-build pkg-config ccache libeigen3-dev libfmt-
 demo=(python3-numpy python3-skimage libcgal-demo)
 # Peers and tools that tests compare with or look through.
 test=(libgtest-dev libbenchmark-dev libpcl-dev ripser python3-gudhi python3-numpy librsvg2-bin git)
+lint=(clang-format-14 clang-tidy-19)
 
 wanted=()
 for set in "${@:-build}"; do
@@ -15,7 +16,8 @@ for set in "${@:-build}"; do
     build) wanted+=("${build[@]}") ;;
     demo) wanted+=("${demo[@]}") ;;
     test) wanted+=("${test[@]}") ;;
-    *) echo "setup.sh: found '$set', expected build, demo or test" >&2; exit 64 ;;
+    lint) wanted+=("${lint[@]}") ;;
+    *) echo "setup.sh: found '$set', expected build, demo, test or lint" >&2; exit 64 ;;
   esac
 done
 
