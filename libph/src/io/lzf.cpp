@@ -9,17 +9,18 @@
 namespace ph::detail {
 namespace {
 
-constexpr std::size_t kSlack = 32;        // bytes that a copy may write beyond its end
-constexpr std::size_t kMaxLiterals = 32;  // of one run
+constexpr std::size_t kSlack = 32;                    // bytes that a copy may write beyond its end
+constexpr std::size_t kPiece = std::size_t{1} << 16;  // bytes sent at once, about
+constexpr std::size_t kMaxLiterals = 32;              // of one run
 constexpr std::size_t kMaxDistance = 1 << 13;
 constexpr std::size_t kMaxMatch = 264;
 constexpr unsigned kHashBits = 14;
 
 // Copies `length` bytes that start `distance` before `to`. The two ranges may overlap, which
 // repeats the bytes between them: then the repeated piece doubles with every step.
-void copy_match(std::byte* to, std::size_t distance, std::size_t length, bool room) {
+void copy_match(std::byte* to, std::size_t distance, std::size_t length) {
   const std::byte* from = to - distance;
-  if (distance >= 16 && room) {  // with room behind, whole blocks are faster than exact lengths
+  if (distance >= 16) {  // there is room behind: whole blocks are faster than exact lengths
     for (std::size_t k = 0; k < length; k += 16) std::memcpy(to + k, from + k, 16);
     return;
   }
@@ -50,22 +51,32 @@ void put_literals(std::vector<std::byte>& out, std::span<const std::byte> bytes)
 
 }  // namespace
 
-LzfFault lzf_decompress(std::span<const std::byte> in, std::span<std::byte> out) {
-  std::size_t i = 0, o = 0;
+LzfFault lzf_decompress(std::span<const std::byte> in, std::size_t size, const LzfSink& sink) {
+  // What was written lately stays in front of what is written next; both fit the second-level
+  // cache.
+  std::vector<std::byte> window(kMaxDistance + kPiece + kMaxMatch + kSlack);
+  std::byte* const out = window.data();
+  const std::size_t full = kMaxDistance + kPiece;
+  std::size_t i = 0;     // next byte of `in`
+  std::size_t o = 0;     // next byte of the window
+  std::size_t sent = 0;  // bytes of the window that the sink has got
+  std::size_t left = size;
   const auto fault = [&](const char* reason) { return LzfFault{reason, i}; };
   while (i < in.size()) {
+    if (o >= full) {
+      sink({out + sent, o - sent});
+      std::memmove(out, out + o - kMaxDistance, kMaxDistance);
+      o = sent = kMaxDistance;
+    }
     const auto control = std::to_integer<std::size_t>(in[i]);
     if (control < kMaxLiterals) {
       const std::size_t run = control + 1;
       if (run > in.size() - i - 1) return fault("literals end behind the data");
-      if (run > out.size() - o) return fault("more data than declared");
-      if (in.size() - i > kSlack && out.size() - o >= kSlack) {
-        std::memcpy(out.data() + o, in.data() + i + 1, kSlack);
-      } else {
-        std::memcpy(out.data() + o, in.data() + i + 1, run);
-      }
+      if (run > left) return fault("more data than declared");
+      std::memcpy(out + o, in.data() + i + 1, in.size() - i > kSlack ? kSlack : run);
       i += 1 + run;
       o += run;
+      left -= run;
       continue;
     }
     std::size_t length = (control >> 5) + 2;
@@ -75,12 +86,14 @@ LzfFault lzf_decompress(std::span<const std::byte> in, std::span<std::byte> out)
     const std::size_t distance =
         ((control & 31) << 8 | std::to_integer<std::size_t>(in[i + bytes - 1])) + 1;
     if (distance > o) return fault("a match starts before the data");
-    if (length > out.size() - o) return fault("more data than declared");
-    copy_match(out.data() + o, distance, length, out.size() - o >= length + 16);
+    if (length > left) return fault("more data than declared");
+    copy_match(out + o, distance, length);
     i += bytes;
     o += length;
+    left -= length;
   }
-  if (o != out.size()) return fault("less data than declared");
+  if (left != 0) return fault("less data than declared");
+  if (o > sent) sink({out + sent, o - sent});
   return {};
 }
 

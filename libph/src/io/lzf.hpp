@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -18,8 +19,11 @@ struct LzfFault {
 /// No compressed byte stands for more bytes than this.
 constexpr std::size_t kLzfMaxExpansion = 88;
 
-/// Fills `out` exactly, or says what is wrong. Never reads or writes outside of the spans.
-LzfFault lzf_decompress(std::span<const std::byte> in, std::span<std::byte> out);
+/// Takes the next decompressed bytes, piece after piece in order.
+using LzfSink = std::function<void(std::span<const std::byte>)>;
+
+/// Decompresses exactly `size` bytes through a small window, or says what is wrong.
+LzfFault lzf_decompress(std::span<const std::byte> in, std::size_t size, const LzfSink& sink);
 
 /// Compresses; in the worst case the result is a thirty-second longer.
 std::vector<std::byte> lzf_compress(std::span<const std::byte> in);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <memory_resource>
 
 #include "field_access.hpp"
 #include "lzf.hpp"
@@ -16,8 +15,6 @@ namespace ph {
 namespace {
 
 constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
-// Points moved together from fields to records: few enough for the first-level cache.
-constexpr std::size_t kBlock = 512;
 
 struct Header {
   Cloud cloud;  // all but the data
@@ -258,26 +255,68 @@ void read_binary(const Input& input, Header& header) {
   header.cloud.data.assign(data.begin(), data.end());
 }
 
-// Field after field becomes record after record.
-void interleave(const std::byte* columns, std::size_t points, Cloud& cloud) {
-  for (std::size_t begin = 0; begin < points; begin += kBlock) {
-    const std::size_t block = std::min(kBlock, points - begin);
-    const std::byte* column = columns;
-    for (const CloudField& field : cloud.fields) {
-      const std::size_t width = field.count * size_of(field.type);
-      const std::byte* from = column + begin * width;
-      std::byte* to = cloud.data.data() + begin * cloud.stride + field.offset;
-      if (width == 4) {  // nearly always; a constant length is a single move
-        for (std::size_t i = 0; i < block; ++i) std::memcpy(to + i * cloud.stride, from + i * 4, 4);
-      } else {
-        for (std::size_t i = 0; i < block; ++i) {
-          std::memcpy(to + i * cloud.stride, from + i * width, width);
-        }
-      }
-      column += points * width;
-    }
+// PCL pads compressed files with zeros towards a whole page; other trailing data is an error.
+void expect_padding(BinaryCursor& cursor) {
+  constexpr std::size_t kLargestPage = std::size_t{1} << 16;
+  if (cursor.remaining() >= kLargestPage) cursor.expect_end();
+  const BinaryCursor at_padding = cursor;
+  const auto padding = cursor.take(cursor.remaining(), "padding");
+  if (std::any_of(padding.begin(), padding.end(), [](std::byte b) { return b != std::byte{0}; })) {
+    at_padding.expect_end();
   }
 }
+
+// Takes the data of a compressed file, field after field, and puts them record after record.
+class Interleaver {
+ public:
+  /// @param points at least 1.
+  Interleaver(Cloud& cloud, std::size_t points) : cloud_(cloud), points_(points) { start_field(); }
+
+  void take(std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+      const std::size_t size = std::min(bytes.size(), points_ * width_ - position_);
+      put(bytes.first(size));
+      bytes = bytes.subspan(size);
+      position_ += size;
+      if (position_ == points_ * width_ && ++field_ < cloud_.fields.size()) start_field();
+    }
+  }
+
+ private:
+  void start_field() {
+    width_ = cloud_.fields[field_].count * size_of(cloud_.fields[field_].type);
+    position_ = 0;
+  }
+
+  // Bytes of the current field only; a piece may begin and end inside a point.
+  void put(std::span<const std::byte> bytes) {
+    std::byte* record =
+        cloud_.data.data() + position_ / width_ * cloud_.stride + cloud_.fields[field_].offset;
+    const std::byte* from = bytes.data();
+    const std::byte* const end = from + bytes.size();
+    if (const std::size_t inside = position_ % width_; inside != 0) {
+      const std::size_t rest = std::min(width_ - inside, bytes.size());
+      std::memcpy(record + inside, from, rest);
+      from += rest;
+      record += cloud_.stride;
+    }
+    const std::size_t stride = cloud_.stride;
+    if (width_ == 4) {  // nearly always; a constant length is a single move
+      for (; end - from >= 4; from += 4, record += stride) std::memcpy(record, from, 4);
+    } else {
+      const auto width = static_cast<std::ptrdiff_t>(width_);
+      for (; end - from >= width; from += width, record += stride)
+        std::memcpy(record, from, width_);
+    }
+    if (from != end) std::memcpy(record, from, static_cast<std::size_t>(end - from));
+  }
+
+  Cloud& cloud_;
+  std::size_t points_;
+  std::size_t field_ = 0;
+  std::size_t width_ = 0;     // bytes of the field in a point
+  std::size_t position_ = 0;  // bytes of the field taken so far
+};
 
 void read_compressed(const Input& input, Header& header) {
   BinaryCursor cursor(input, std::endian::little, header.offset);
@@ -305,24 +344,18 @@ void read_compressed(const Input& input, Header& header) {
   }
   const std::size_t start = cursor.offset();
   const auto packed = cursor.take(compressed, "compressed data");
-  cursor.expect_end();
+  expect_padding(cursor);
 
-  std::pmr::memory_resource* memory =
-      input.context() != nullptr ? static_cast<std::pmr::memory_resource*>(&input.context()->memory)
-                                 : std::pmr::new_delete_resource();
-  input.require_memory(2 * header.bytes);
-  // Not a vector: nothing has to be set to zero before it is written.
-  const auto release = [memory, size = header.bytes](std::byte* p) {
-    memory->deallocate(p, size, alignof(std::max_align_t));
-  };
-  const std::unique_ptr<std::byte, decltype(release)> columns(
-      static_cast<std::byte*>(memory->allocate(header.bytes, alignof(std::max_align_t))), release);
-  const auto fault = detail::lzf_decompress(packed, {columns.get(), header.bytes});
+  input.require_memory(header.bytes);
+  header.cloud.data.resize(header.bytes);
+  if (header.points == 0 && packed.empty()) return;
+  if (header.points == 0) input.fail_at_byte(start, {"compressed data for no points", {}, {}, {}});
+  Interleaver interleaver(header.cloud, header.points);
+  const auto fault = detail::lzf_decompress(
+      packed, header.bytes, [&](std::span<const std::byte> piece) { interleaver.take(piece); });
   if (fault.reason != nullptr) {
     input.fail_at_byte(start + fault.offset, {"damaged compressed data", fault.reason, {}, {}});
   }
-  header.cloud.data.resize(header.bytes);
-  interleave(columns.get(), header.points, header.cloud);
 }
 
 template <class T>
