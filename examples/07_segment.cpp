@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Segments a table top: a file in, the same file with labels out.
+//   07_segment table.pcd labels.pcd
+#include <iostream>
+#include <ph/segment.hpp>
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::cerr << "usage: 07_segment CLOUD.pcd|.ply LABELS.pcd|.ply\n";
+    return 64;
+  }
+  const auto cloud = ph::segment::read_cloud(argv[1]);
+  const auto parts = ph::segment::segment(cloud, {.voxel = 0.01, .distance = 0.025});  // metres
+  for (const auto& segment : parts.segments) {
+    std::cout << "segment " << segment.label << ": " << segment.points << " points, "
+              << segment.voxels << " voxels around (" << segment.centroid[0] << ", "
+              << segment.centroid[1] << ", " << segment.centroid[2] << ")\n";
+  }
+  ph::segment::write_cloud(argv[2], cloud, parts.labels);
+}

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+// ph-segment as a user runs it: exit codes, files, messages.
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "ph/io/cloud_io.hpp"
+#include "ph/io/png.hpp"
+#include "scenery.hpp"
+
+namespace ph::segment {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contents(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+class Program : public testing::Test {
+ protected:
+  void SetUp() override {
+    char name[] = "/tmp/ph_segment_XXXXXX";
+    folder_ = mkdtemp(name);
+    std::ofstream out(at("scene.pcd"), std::ios::binary);
+    write_pcd(out, scene_.cloud());
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string at(const std::string& file) const { return (folder_ / file).string(); }
+  /// Runs it in the test's folder; the exit code.
+  int run(const std::string& arguments) {
+    const std::string command =
+        "cd " + folder_.string() + " && " PH_SEGMENT_PROGRAM " " + arguments + " >stdout 2>stderr";
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  std::string out() const { return contents(at("stdout")); }
+  std::string err() const { return contents(at("stderr")); }
+
+  test::TableScene scene_ = test::TableScene::two_boxes();
+  fs::path folder_;
+};
+
+TEST_F(Program, PrintsATableByDefault) {
+  EXPECT_EQ(run("scene.pcd"), 0) << err();
+  const std::string table = out();
+  EXPECT_EQ(std::ranges::count(table, '\n'), 3) << table;
+  EXPECT_NE(err().find("2 segments, checked"), std::string::npos) << err();
+  EXPECT_EQ(run("scene.pcd --quiet"), 0);
+  EXPECT_EQ(err(), "");
+}
+
+TEST_F(Program, WritesEverything) {
+  ASSERT_EQ(run("scene.pcd -o out.pcd --labels l.npy --json s.json --barcode b.csv --plot p.svg "
+                "--coloured c.ply --picture i.png"),
+            0)
+      << err();
+  EXPECT_EQ(out(), "");
+  const Cloud cloud = read_cloud(at("out.pcd"));
+  EXPECT_EQ(cloud.width, scene_.kWidth);
+  EXPECT_EQ(cloud.height, scene_.kHeight);
+  ASSERT_TRUE(cloud.find("label"));
+  EXPECT_EQ(cloud.fields.size(), 4U);
+  EXPECT_EQ(contents(at("l.npy")).substr(1, 5), "NUMPY");
+  const std::string json = contents(at("s.json"));
+  for (const char* key :
+       {"\"format\": \"ph-segment\"", "\"stages\"", "\"edges\"", "\"segments\"", "\"table\"",
+        "\"centroid\"", "\"persistence\": null", "\"equal\": true"}) {
+    EXPECT_NE(json.find(key), std::string::npos) << key;
+  }
+  EXPECT_EQ(contents(at("b.csv")).substr(0, 16), "dim,birth,death\n");
+  EXPECT_NE(contents(at("p.svg")).find("<svg"), std::string::npos);
+  EXPECT_EQ(read_cloud(at("c.ply")).size(), cloud.size());
+  const Raster picture = read_png(at("i.png"));
+  EXPECT_EQ(picture.width, scene_.kWidth);
+  EXPECT_EQ(picture.channels, 3);
+}
+
+TEST_F(Program, LabelsAreTheSameInEveryFormat) {
+  ASSERT_EQ(run("scene.pcd --labels l.csv"), 0) << err();
+  ASSERT_EQ(run("scene.pcd --labels l.png"), 0) << err();
+  const Segmentation s = segment(CloudView{scene_.xyz(), {}});
+  std::istringstream csv(contents(at("l.csv")));
+  const Raster png = read_png(at("l.png"));
+  ASSERT_EQ(png.samples.size(), s.labels.size());
+  for (std::size_t i = 0; i < s.labels.size(); ++i) {
+    std::uint32_t label = 99;
+    ASSERT_TRUE(csv >> label);
+    ASSERT_EQ(label, s.labels[i]);
+    ASSERT_EQ(png.samples[i], s.labels[i]);
+  }
+}
+
+TEST_F(Program, StandardInputAndOutput) {
+  EXPECT_EQ(run("- -o - <scene.pcd"), 0) << err();
+  std::ofstream(at("copy.pcd"), std::ios::binary) << out();
+  EXPECT_TRUE(read_cloud(at("copy.pcd")).find("label"));
+  EXPECT_EQ(run("scene.pcd --json - --quiet"), 0);
+  EXPECT_EQ(out().front(), '{');
+}
+
+TEST_F(Program, ItsOutputIsAnInput) {
+  ASSERT_EQ(run("scene.pcd -o scene.pcd"), 0) << err();
+  ASSERT_EQ(run("scene.pcd -o scene.ply"), 0) << err();
+  const Cloud cloud = read_cloud(at("scene.ply"));
+  EXPECT_TRUE(cloud.find("label_in"));
+  EXPECT_TRUE(cloud.find("label"));
+}
+
+TEST_F(Program, DepthImage) {
+  Raster depth{scene_.kWidth, scene_.kHeight, 1, 16, {}};
+  for (std::size_t i = 0; i < scene_.truth().size(); ++i) {
+    const float z = scene_.xyz()[3 * i + 2];
+    depth.samples.push_back(std::isnan(z) ? std::uint16_t{0}
+                                          : static_cast<std::uint16_t>(std::lround(z * 10000)));
+  }
+  Raster colour{scene_.kWidth, scene_.kHeight, 3, 8, {}};
+  colour.samples.assign(depth.samples.size() * 3, 100);
+  std::ofstream depth_file(at("d.png"), std::ios::binary), colour_file(at("c.png"));
+  write_png(depth_file, depth);
+  write_png(colour_file, colour);
+  depth_file.close(), colour_file.close();
+  ASSERT_EQ(run("--depth d.png --color c.png --intrinsics 260,260,159.5,119.5 "
+                "--depth-scale 10000 -o out.pcd --picture i.png"),
+            0)
+      << err();
+  EXPECT_NE(err().find("2 segments"), std::string::npos) << err();
+  const Cloud cloud = read_cloud(at("out.pcd"));
+  EXPECT_EQ(cloud.height, scene_.kHeight);
+  EXPECT_TRUE(cloud.rgb());
+}
+
+TEST_F(Program, UnorganisedClouds) {
+  std::ofstream text(at("points.xyz"));
+  for (std::size_t i = 0; i < scene_.truth().size(); ++i) {
+    if (scene_.truth()[i] < 0) continue;
+    const float* p = &scene_.xyz()[3 * i];
+    text << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+  }
+  text.close();
+  EXPECT_EQ(run("points.xyz -o out.ply --coloured c.pcd"), 0) << err();
+  EXPECT_NE(err().find("2 segments"), std::string::npos) << err();
+  EXPECT_EQ(run("points.xyz --picture i.png"), 64);
+  EXPECT_EQ(run("points.xyz --labels l.png"), 64);
+  EXPECT_FALSE(fs::exists(at("i.png")));
+}
+
+TEST_F(Program, CloudsWithNothingInThem) {
+  const std::vector<float> holes(3 * 12, test::kHole);
+  std::ofstream file(at("holes.pcd"), std::ios::binary);
+  write_pcd(file, test::cloud_of(holes, 4, 3));
+  file.close();
+  EXPECT_EQ(run("holes.pcd -o out.pcd --json s.json --plot p.svg --coloured c.pcd --picture i.png"),
+            0)
+      << err();
+  EXPECT_NE(err().find("no point within"), std::string::npos) << err();
+  EXPECT_EQ(read_cloud(at("out.pcd")).height, 3);
+}
+
+TEST_F(Program, UsageErrors) {
+  for (const char* arguments : {"",
+                                "scene.pcd --voxel 0",
+                                "scene.pcd --voxel nan",
+                                "scene.pcd --distance -1",
+                                "scene.pcd --steps 0",
+                                "scene.pcd --steps many",
+                                "scene.pcd --min-size 0",
+                                "scene.pcd --crop 1,2,3",
+                                "scene.pcd --crop 1,0,0,1,0,1",
+                                "scene.pcd --plane maybe",
+                                "scene.pcd --method none",
+                                "scene.pcd --max-range -1",
+                                "scene.pcd --viewpoint 1,2",
+                                "scene.pcd --no-such-option",
+                                "scene.pcd -o out.txt",
+                                "scene.pcd --labels l.txt",
+                                "scene.pcd --plot p.gif",
+                                "scene.pcd --barcode b.xyz",
+                                "scene.pcd --depth d.png",
+                                "--depth d.png",
+                                "scene.pcd --color c.png",
+                                "--depth d.png --intrinsics 1,2,3",
+                                "scene.pcd extra",
+                                "scene.pcd --voxel"}) {
+    EXPECT_EQ(run(arguments), 64) << arguments;
+    const std::string message = err();
+    EXPECT_EQ(std::ranges::count(message, '\n'), 1) << arguments << '\n' << message;
+  }
+}
+
+TEST_F(Program, WhatIsNotBuiltInYet) {
+  for (const char* arguments : {"--method surface", "--objects", "--parts", "--min-persistence 1",
+                                "--cut 0.1", "--explain 1,2", "--report r.html"}) {
+    EXPECT_EQ(run(std::string("scene.pcd ") + arguments), 69) << arguments;
+    EXPECT_NE(err().find("not built in yet"), std::string::npos) << err();
+  }
+}
+
+TEST_F(Program, InputErrors) {
+  EXPECT_EQ(run("missing.pcd"), 66);
+  EXPECT_EQ(run("."), 66);
+  const std::string whole = contents(at("scene.pcd"));
+  std::ofstream(at("cut.pcd"), std::ios::binary) << whole.substr(0, whole.size() / 2);
+  EXPECT_EQ(run("cut.pcd -o out.pcd"), 65);
+  EXPECT_FALSE(fs::exists(at("out.pcd")));
+  std::ofstream(at("empty.pcd"));
+  EXPECT_EQ(run("empty.pcd"), 65);
+  EXPECT_EQ(run("scene.pcd -o no/such/folder/out.pcd"), 73);
+  EXPECT_EQ(run("scene.pcd --memory-limit 1k --json s.json"), 75);
+  EXPECT_FALSE(fs::exists(at("s.json")));
+}
+
+TEST_F(Program, HelpAndVersion) {
+  EXPECT_EQ(run("--help"), 0);
+  for (const char* option :
+       {"--method",   "--max-range", "--crop",    "--plane",        "--plane-distance",
+        "--voxel",    "--distance",  "--steps",   "--min-size",     "--viewpoint",
+        "--no-check", "--output",    "--labels",  "--barcode",      "--plot",
+        "--json",     "--depth",     "--color",   "--intrinsics",   "--depth-scale",
+        "--coloured", "--picture",   "--threads", "--memory-limit", "--progress",
+        "--quiet",    "--verbose",   "--version", "--objects",      "--parts",
+        "--cut",      "--explain",   "--report"}) {
+    EXPECT_NE(out().find(option), std::string::npos) << option;
+  }
+  EXPECT_EQ(run("--version"), 0);
+  EXPECT_EQ(out().substr(0, 11), "ph-segment ");
+}
+
+TEST_F(Program, NoCheckSkipsTheCheck) {
+  EXPECT_EQ(run("scene.pcd --no-check"), 0);
+  EXPECT_EQ(err().find("checked"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ph::segment
