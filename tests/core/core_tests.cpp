@@ -1,1 +1,314 @@
 // SPDX-License-Identifier: MIT
+// Fields, barcodes, memory budgets, run contexts.
+#include <array>
+#include <chrono>
+#include <climits>
+#include <thread>
+
+#include "ph/core/barcode.hpp"
+#include "ph/core/field.hpp"
+#include "ph/persistence.hpp"
+#include "support/expect_error.hpp"
+#include "support/generators.hpp"
+#include "support/known_spaces.hpp"
+
+namespace ph::test {
+namespace {
+
+// ---- fields
+
+template <Field K>
+void expect_field_axioms(const K& k, const std::vector<typename K::Element>& elements) {
+  const auto zero = k.from_int(0), one = k.from_int(1);
+  EXPECT_TRUE(k.is_zero(zero));
+  EXPECT_FALSE(k.is_zero(one));
+  for (const auto a : elements) {
+    EXPECT_EQ(k.add(a, zero), a);
+    EXPECT_EQ(k.multiply(a, one), a);
+    EXPECT_TRUE(k.is_zero(k.multiply(a, zero)));
+    EXPECT_TRUE(k.is_zero(k.add(a, k.negate(a))));
+    EXPECT_EQ(k.negate(a), k.multiply(a, k.from_int(-1)));
+    if (!k.is_zero(a)) {
+      EXPECT_EQ(k.multiply(a, k.inverse(a)), one) << +a;
+    }
+    for (const auto b : elements) {
+      EXPECT_EQ(k.add(a, b), k.add(b, a));
+      EXPECT_EQ(k.multiply(a, b), k.multiply(b, a));
+      EXPECT_EQ(k.is_zero(k.multiply(a, b)), k.is_zero(a) || k.is_zero(b));
+      for (const auto c : elements) {
+        EXPECT_EQ(k.add(k.add(a, b), c), k.add(a, k.add(b, c)));
+        EXPECT_EQ(k.multiply(k.multiply(a, b), c), k.multiply(a, k.multiply(b, c)));
+        EXPECT_EQ(k.multiply(a, k.add(b, c)), k.add(k.multiply(a, b), k.multiply(a, c)));
+      }
+    }
+  }
+}
+
+TEST(Fields, AxiomsHold) {
+  expect_field_axioms(Z2{}, {false, true});
+  for (const std::int64_t p : {2, 3, 5, 7, 11, 13, 101, 65521, 65537, 2147483629, 2147483647}) {
+    SCOPED_TRACE(p);
+    const Zp k(p);
+    EXPECT_EQ(k.characteristic(), p);
+    std::vector<Zp::Element> elements;
+    for (const std::int64_t a : {std::int64_t{0}, std::int64_t{1}, std::int64_t{2}, p / 2,
+                                 p / 2 + 1, p / 3, p - 2, p - 1})
+      elements.push_back(static_cast<Zp::Element>(a % p));
+    expect_field_axioms(k, elements);
+  }
+}
+
+TEST(Fields, EveryElementOfASmallFieldHasItsInverse) {
+  for (const std::int64_t p : {2, 3, 5, 7, 251}) {
+    const Zp k(p);
+    for (Zp::Element a = 1; a < p; ++a) {
+      EXPECT_LT(k.inverse(a), p);
+      EXPECT_EQ(k.multiply(a, k.inverse(a)), 1U) << a << " mod " << p;
+    }
+  }
+}
+
+TEST(Fields, IntegersMapToResidues) {
+  for (const std::int64_t p : {2, 3, 5, 7, 2147483647}) {
+    const Zp k(p);
+    for (const int value : {0, 1, -1, 2, -2, 7, -7, INT_MAX, INT_MIN, INT_MIN + 1}) {
+      const auto residue = static_cast<std::int64_t>(k.from_int(value));
+      EXPECT_GE(residue, 0);
+      EXPECT_LT(residue, p);
+      EXPECT_EQ((std::int64_t{value} - residue) % p, 0) << value << " mod " << p;
+    }
+  }
+  for (const int value : {-3, -2, -1, 0, 1, 2, 3, INT_MIN, INT_MAX})
+    EXPECT_EQ(Z2::from_int(value), value % 2 != 0);
+}
+
+TEST(Fields, OnlyPrimesBelowTwoToThe31) {
+  for (const std::int64_t p : {std::int64_t{-7}, std::int64_t{-2}, std::int64_t{0}, std::int64_t{1},
+                               std::int64_t{4}, std::int64_t{9}, std::int64_t{25},
+                               std::int64_t{561}, std::int64_t{46337} * 46337,
+                               std::int64_t{2147483648}, std::int64_t{2147483659},
+                               std::int64_t{4294967311}, INT64_MAX, INT64_MIN}) {
+    EXPECT_FALSE(is_field_characteristic(p)) << p;
+    expect_error(ErrorKind::usage, std::to_string(p), [p] { Zp k(p); });
+  }
+}
+
+// ---- barcodes
+
+TEST(Barcodes, AreOrderedByDimensionBirthDeathAndBirthCell) {
+  Barcode barcode;
+  const auto add = [&](Bar bar, Index birth_cell) {
+    const std::array birth{birth_cell}, death{birth_cell + 100};
+    const std::span<const Index> killer(death);
+    barcode.add(bar, birth, bar.is_infinite() ? killer.first(0) : killer);
+  };
+  add({1, 0, 2}, 1);
+  add({0, 0, kInfinity}, 2);
+  add({0, 0, 3}, 9);
+  add({0, 0, 3}, 4);
+  add({0, -kInfinity, 1}, 5);
+  add({0, -1, 7}, 6);
+  barcode.sort();
+  EXPECT_EQ(bars_of(barcode), (std::vector<Bar>{{0, -kInfinity, 1}, {0, -1, 7}, {0, 0, 3},
+                                                {0, 0, 3}, {0, 0, kInfinity}, {1, 0, 2}}));
+  const std::vector<Index> expected{5, 6, 4, 9, 2, 1};
+  for (std::size_t i = 0; i < barcode.size(); ++i) {
+    EXPECT_EQ(barcode.birth_cell(i).numbers[0], expected[i]) << "cells move with their bars";
+    ASSERT_EQ(barcode.death_cell(i).has_value(), !barcode[i].is_infinite());
+    if (const auto death = barcode.death_cell(i)) {
+      EXPECT_EQ(death->numbers[0], expected[i] + 100);
+    }
+  }
+  EXPECT_EQ(barcode.bars(0).size(), 5U);
+  EXPECT_EQ(barcode.bars(1).size(), 1U);
+  EXPECT_TRUE(barcode.bars(-1).empty());
+  EXPECT_TRUE(barcode.bars(2).empty());
+}
+
+TEST(Barcodes, TheLongestBarIsTheFirstOfTheLongest) {
+  Barcode barcode;
+  barcode.add({0, 0, 3}, {}, {});
+  barcode.add({0, 1, 4}, {}, {});
+  barcode.add({0, 5, kInfinity}, {}, {});
+  barcode.add({1, 0, 1}, {}, {});
+  barcode.add({1, 2, 4}, {}, {});
+  barcode.add({1, 3, 5}, {}, {});
+  barcode.sort();
+  EXPECT_EQ(barcode.longest(0), 2U);
+  EXPECT_EQ(barcode.longest(1), 4U);
+  expect_error(ErrorKind::usage, "dimension 2", [&] { barcode.longest(2); });
+  expect_error(ErrorKind::usage, "dimension 0", [] { Barcode().longest(0); });
+}
+
+TEST(Barcodes, AnInfiniteBarIsLongerThanOneFromMinusInfinity) {
+  Barcode barcode;
+  barcode.add({0, -kInfinity, 1}, {}, {});
+  barcode.add({0, 5, kInfinity}, {}, {});
+  barcode.sort();
+  EXPECT_EQ(barcode.longest(0), 1U) << "infinite ones first";
+}
+
+TEST(Barcodes, PersistenceOfInfiniteValues) {
+  EXPECT_EQ((Bar{0, 1, kInfinity}.persistence()), kInfinity);
+  EXPECT_EQ((Bar{0, -kInfinity, 1}.persistence()), kInfinity);
+  EXPECT_EQ((Bar{0, -kInfinity, -kInfinity}.persistence()), 0);
+  EXPECT_EQ((Bar{0, -kInfinity, kInfinity}.persistence()), kInfinity);
+}
+
+TEST(Barcodes, FirstDifferenceIsInWords) {
+  Barcode a, b;
+  a.add({0, 0, 1}, {}, {});
+  b.add({0, 0, 1}, {}, {});
+  EXPECT_EQ(first_difference(a, b), "");
+  EXPECT_EQ(first_difference(Barcode(), Barcode()), "");
+  b.add({1, 2, 3}, {}, {});
+  EXPECT_NE(first_difference(a, b).find("H1 [2, 3) is in the second"), std::string::npos);
+  EXPECT_NE(first_difference(b, a).find("H1 [2, 3) is in the first"), std::string::npos);
+  a.add({1, 2, 2.5}, {}, {});
+  EXPECT_NE(first_difference(a, b).find("H1 [2, 2.5) is in the first"), std::string::npos);
+}
+
+// ---- memory
+
+TEST(MemoryBudgets, CountAndRefuse) {
+  MemoryBudget budget(1000);
+  void* a = budget.allocate(600, 8);
+  EXPECT_EQ(budget.used(), 600U);
+  expect_error(ErrorKind::resource, "memory limit", [&] { (void)budget.allocate(401, 8); });
+  EXPECT_EQ(budget.used(), 600U) << "a refusal changes nothing";
+  EXPECT_NO_THROW(budget.require(400));
+  expect_error(ErrorKind::resource, "memory limit", [&] { budget.require(401); });
+  expect_error(ErrorKind::resource, "memory limit", [&] { budget.require(SIZE_MAX); });
+  expect_error(ErrorKind::resource, "memory limit", [&] { (void)budget.allocate(SIZE_MAX - 8, 8); });
+  void* b = budget.allocate(400, 64);
+  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(b) % 64, 0U);
+  budget.deallocate(b, 400, 64);
+  budget.deallocate(a, 600, 8);
+  EXPECT_EQ(budget.used(), 0U);
+  EXPECT_EQ(budget.peak(), 1000U);
+}
+
+// Under any limit a computation gives the right answer or says that memory is short, and then it
+// has given everything back.
+TEST(MemoryBudgets, HoldForEveryEngine) {
+  Generator random(3);
+  const Points points = random.points(24, 3, false);
+  for_each_engine([&](auto engine) {
+    SCOPED_TRACE(engine.name);
+    const int max_dim = engine.id == Engine::union_find ? 0 : 2;
+    const Options options{.max_dim = max_dim, .field = 3, .engine = engine.id};
+    std::size_t peak = 0;
+    Barcode expected;
+    {
+      RunContext context;
+      expected = persistence(Rips(points, {}, context), options, context);
+      peak = context.memory.peak();
+      EXPECT_EQ(context.memory.used(), 0U);
+    }
+    for (std::size_t k = 0; k <= 20; ++k) {
+      RunContext context;
+      context.memory.set_limit(peak * k / 20);
+      try {
+        EXPECT_EQ(bars_of(persistence(Rips(points, {}, context), options, context)),
+                  bars_of(expected));
+      } catch (const Error& e) {
+        EXPECT_EQ(e.kind(), ErrorKind::resource);
+        EXPECT_LT(k, 20U) << "what was enough once is enough again";
+      }
+      EXPECT_LE(context.memory.peak(), context.memory.limit());
+      EXPECT_EQ(context.memory.used(), 0U);
+    }
+  });
+}
+
+TEST(MemoryBudgets, HoldForImages) {
+  Generator random(3);
+  const Image image = random.image({20, 20}, false);
+  for (const std::size_t limit : {0U, 100U, 5000U, 20000U, 60000U}) {
+    RunContext context;
+    context.memory.set_limit(limit);
+    try {
+      persistence(Cubical(image, {}, context), {}, context);
+    } catch (const Error& e) {
+      EXPECT_EQ(e.kind(), ErrorKind::resource);
+    }
+    EXPECT_LE(context.memory.peak(), limit);
+    EXPECT_EQ(context.memory.used(), 0U);
+  }
+}
+
+// ---- run contexts
+
+using Clock = std::chrono::steady_clock;
+
+// A job of many seconds for every engine that goes beyond H0.
+const Points& long_job() {
+  static const Points points = Generator(1).points(90, 6, false);
+  return points;
+}
+
+TEST(RunContexts, AStopRequestEndsALongJobSoon) {
+  for (const Engine engine : {Engine::standard, Engine::twist, Engine::cohomology}) {
+    SCOPED_TRACE(engine_name(engine));
+    std::stop_source source;
+    RunContext context;
+    context.stop = source.get_token();
+    Clock::time_point asked;
+    std::thread stopper([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(150));
+      asked = Clock::now();
+      source.request_stop();
+    });
+    const Rips rips(long_job(), {.threshold = 10}, context);
+    expect_error(ErrorKind::cancelled, "stopped", [&] {
+      persistence(rips, {.max_dim = 3, .field = 3, .engine = engine}, context);
+    });
+    const auto late = Clock::now();
+    stopper.join();
+    EXPECT_LT(late - asked, std::chrono::milliseconds(500));
+  }
+}
+
+TEST(RunContexts, AStopRequestedBeforehandStopsEverything) {
+  std::stop_source source;
+  source.request_stop();
+  RunContext context;
+  context.stop = source.get_token();
+  const Points points = circle(5);
+  expect_error(ErrorKind::cancelled, "stopped", [&] { Rips rips(points, {}, context); });
+  expect_error(ErrorKind::cancelled, "stopped",
+               [&] { Rips rips(points, {.threshold = 1}, context); });
+  expect_error(ErrorKind::cancelled, "stopped",
+               [&] { Cubical cubical(Image{{2}, {0, 1}}, {}, context); });
+  const Rips rips(points);
+  for_each_engine([&](auto engine) {
+    expect_error(ErrorKind::cancelled, "stopped", [&] {
+      persistence(rips, {.max_dim = 0, .engine = engine.id}, context);
+    });
+  });
+}
+
+TEST(RunContexts, ProgressComesAtMostTenTimesASecond) {
+  std::stop_source source;
+  RunContext context;
+  context.stop = source.get_token();
+  std::vector<Clock::time_point> calls;
+  context.on_progress = [&](const Progress& progress) {
+    calls.push_back(Clock::now());
+    EXPECT_FALSE(progress.stage.empty());
+    if (progress.total > 0) {
+      EXPECT_LE(progress.done, progress.total);
+    }
+    if (calls.size() == 5) source.request_stop();
+  };
+  expect_error(ErrorKind::cancelled, "stopped", [&] {
+    const Rips rips(long_job(), {.threshold = 10}, context);
+    persistence(rips, {.max_dim = 3, .engine = Engine::cohomology}, context);
+  });
+  ASSERT_EQ(calls.size(), 5U);
+  for (std::size_t i = 1; i < calls.size(); ++i)
+    EXPECT_GE(calls[i] - calls[i - 1], std::chrono::milliseconds(95));
+}
+
+}  // namespace
+}  // namespace ph::test

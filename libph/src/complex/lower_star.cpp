@@ -15,6 +15,8 @@
 namespace ph {
 namespace {
 
+constexpr std::size_t kMostVertices = 24;  // 2^24 faces of one simplex
+
 ExplicitComplex lower_star_of(std::set<std::vector<Index>> simplices,
                               std::span<const double> vertex_values) {
   SimplexList list;
@@ -39,7 +41,6 @@ ExplicitComplex lower_star_of(std::set<std::vector<Index>> simplices,
 
 ExplicitComplex lower_star(const SimplexList& simplices, std::span<const double> vertex_values,
                            const CellNamer& name) {
-  constexpr std::size_t kMostVertices = 24;  // 2^24 faces of one simplex
   std::set<std::vector<Index>> closure;
   std::vector<Index> face;
   for (std::size_t i = 0; i < simplices.size(); ++i) {

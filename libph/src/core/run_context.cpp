@@ -8,8 +8,9 @@
 namespace ph {
 namespace {
 
+constexpr double kMiB = 1024.0 * 1024.0;
+
 [[noreturn]] void refuse(std::size_t bytes, std::size_t used, std::size_t limit) {
-  constexpr double kMiB = 1024.0 * 1024.0;
   throw Error(ErrorKind::resource,
               fmt::format("memory limit of {:.1f} MiB would be exceeded: {:.1f} MiB in use, "
                           "{:.1f} MiB more needed",
@@ -62,8 +63,6 @@ Ticker::Ticker(const RunContext& context, std::string_view stage, std::uint64_t 
       last_report_(std::chrono::steady_clock::now()) {
   context_.poll();
 }
-
-Ticker::~Ticker() = default;
 
 void Ticker::poll() {
   pending_ = 0;

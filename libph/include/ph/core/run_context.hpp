@@ -64,7 +64,6 @@ const RunContext& default_context();
 class Ticker {
  public:
   Ticker(const RunContext& context, std::string_view stage, std::uint64_t total = 0);
-  ~Ticker();
   Ticker(const Ticker&) = delete;
   Ticker& operator=(const Ticker&) = delete;
 
