@@ -182,13 +182,19 @@ Raster picture(const Cloud& cloud, std::span<const std::uint32_t> labels,
   Raster raster{width, height, 3, 8, {}};
   raster.samples.reserve(labels.size() * 3);
   const auto at = [&](Index x, Index y) { return labels[static_cast<std::size_t>(y * width + x)]; };
+  const auto differs = [&](Index x, Index y, std::uint32_t label) {
+    return x >= 0 && y >= 0 && x < width && y < height && at(x, y) != label;
+  };
+  // An outline is drawn towards what is more than a speck: gaps of a few pixels have none.
+  const auto ends_at = [&](Index x, Index y, Index dx, Index dy, std::uint32_t label) {
+    return differs(x + dx, y + dy, label) && differs(x + kReach * dx, y + kReach * dy, label);
+  };
   for (Index y = 0; y < height; ++y) {
     for (Index x = 0; x < width; ++x) {
       const std::uint32_t label = at(x, y);
       const int g = grey[static_cast<std::size_t>(y * width + x)];
-      const bool border = (x > 0 && at(x - 1, y) != label) || (y > 0 && at(x, y - 1) != label) ||
-                          (x + 1 < width && at(x + 1, y) != label) ||
-                          (y + 1 < height && at(x, y + 1) != label);
+      const bool border = ends_at(x, y, -1, 0, label) || ends_at(x, y, 1, 0, label) ||
+                          ends_at(x, y, 0, -1, label) || ends_at(x, y, 0, 1, label);
       Rgb c{g, g, g};
       if (label != 0 && border) {
         c = {255, 255, 255};

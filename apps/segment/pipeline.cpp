@@ -38,6 +38,12 @@ class StageClock {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// What the stages before the voxel grid and the labels take for each point, at most.
+std::size_t bytes_for_points(const CloudView& cloud) {
+  constexpr std::size_t kBytesPerPoint = 32;
+  return cloud.xyz.size() / 3 * kBytesPerPoint;
+}
+
 Index count(const std::vector<Index>& points) { return static_cast<Index>(points.size()); }
 
 }  // namespace
@@ -46,6 +52,7 @@ Segmentation segment(const CloudView& input, const SegmentOptions& options,
                      const RunContext& context) {
   validate(input, options);
   const CloudView cloud{input.xyz, options.viewpoint.value_or(input.viewpoint)};
+  context.memory.require(bytes_for_points(cloud));
   Segmentation result;
   StageClock clock(context, result.stages);
 

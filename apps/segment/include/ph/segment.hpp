@@ -87,7 +87,7 @@ struct Segmentation {
   Points vertices;                    ///< vertex i of the complex: centroid of voxel i, one a row
   Index edges = 0;                    ///< edges of the complex
   MergeTree tree;                     ///< which vertices join, at which value
-  Barcode barcode;                    ///< H0, zero-length bars included
+  Barcode barcode = Barcode();        ///< H0, zero-length bars included
   bool checked = false;               ///< whether the cross-check ran
   std::string difference;             ///< what it found; empty: both engines agree
   std::vector<Stage> stages;          ///< in the order in which they ran
