@@ -21,7 +21,8 @@ BarcodeFormat format_of(const Arguments& arguments, app::Session& session) {
   if (const auto format = barcode_format_of_path(arguments.output)) return *format;
   const std::string& path = arguments.output;
   const std::size_t name = path.rfind('/') == path.npos ? 0 : path.rfind('/') + 1;
-  if (path.find('.', name) != path.npos)
+  // A leading dot hides a file; it starts no extension.
+  if (path.find('.', name + 1) != path.npos && !path.ends_with(".."))
     session.note(fmt::format("{}: the extension names no format, writing csv", path));
   return BarcodeFormat::csv;
 }

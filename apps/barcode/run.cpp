@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <new>
 
 #include "build_complex.hpp"
 #include "exit_code.hpp"
@@ -82,6 +83,28 @@ Barcode cut_at(const Barcode& barcode, double threshold) {
   return result;
 }
 
+/// What was foreseen and what was used, for whoever ran out of memory.
+[[noreturn]] void fail_with_estimate(const std::string& what, const Estimate& estimate) {
+  throw Error(
+      ErrorKind::resource,
+      fmt::format("{}; foreseen {} to {}, peak {}", what, app::format_size(estimate.bytes_low),
+                  app::format_size(estimate.bytes_high),
+                  app::format_size(static_cast<double>(app::peak_memory()))));
+}
+
+/// Calls `compute`; memory that runs out is reported beside the estimate.
+template <class Compute>
+Barcode with_estimate(const Estimate& estimate, Compute&& compute) {
+  try {
+    return compute();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::resource) throw;
+    fail_with_estimate(error.what(), estimate);
+  } catch (const std::bad_alloc&) {
+    fail_with_estimate("out of memory", estimate);
+  }
+}
+
 std::string estimate_text(const Estimate& estimate, const BuiltComplex& built,
                           const std::string& description) {
   std::string text = fmt::format("input    {}\ncomplex  {}", description, built.name);
@@ -147,13 +170,13 @@ Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
     Barcode cut = built.cut ? cut_at(whole, *built.cut) : whole;
     return point_ids.empty() ? cut : with_input_ids(cut, point_ids);
   };
-  const Barcode barcode = compute();
+  const Barcode barcode = with_estimate(estimated, compute);
   watch.lap("persistence");
 
   int code = app::kOk;
   if (arguments.check) {
     options.engine = Engine::standard;
-    const std::string difference = first_difference(barcode, compute());
+    const std::string difference = first_difference(barcode, with_estimate(estimated, compute));
     watch.lap("check");
     if (difference.empty()) {
       session.explain("check: the oracle agrees");

@@ -47,11 +47,17 @@ std::string one_line(std::string text) {
   return text;
 }
 
-/// The same for a missing or a repeated value, in our words: "--max-dim: its value is missing".
-std::string about_values(const std::string& text) {
-  const std::string option = text.substr(0, text.find(':'));
-  if (text.find("missing") != text.npos) return option + ": its value is missing";
-  if (text.find("received") != text.npos) return option + ": found more than once, expected once";
+/// The same for a missing or a repeated value, in our words and with all names of the option:
+/// "--threshold, --max-scale: the value is missing".
+std::string about_values(const CLI::App& app, const std::string& text) {
+  std::string names = text.substr(0, text.find(':'));
+  if (const CLI::Option* option = app.get_option_no_throw(names)) {
+    names.clear();
+    for (const std::string& name : option->get_lnames())
+      names += (names.empty() ? "--" : ", --") + name;
+  }
+  if (text.find("missing") != text.npos) return names + ": the value is missing";
+  if (text.find("received") != text.npos) return names + ": found more than once, expected once";
   return one_line(text);
 }
 
@@ -149,7 +155,7 @@ std::optional<int> parse_command_line(CLI::App& app, const CommonOptions& option
     throw Error(ErrorKind::usage,
                 fmt::format("unexpected argument '{}'", extras.empty() ? "" : extras.front()));
   } catch (const CLI::ArgumentMismatch& error) {
-    throw Error(ErrorKind::usage, about_values(error.what()));
+    throw Error(ErrorKind::usage, about_values(app, error.what()));
   } catch (const CLI::Error& error) {
     throw Error(ErrorKind::usage, one_line(error.what()));
   }

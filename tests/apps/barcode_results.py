@@ -1,0 +1,261 @@
+# SPDX-License-Identifier: MIT
+"""What ph-barcode computes and writes, against results made by hand."""
+import json
+import math
+import os
+import struct
+import subprocess
+import xml.dom.minidom
+
+from program import SQUARE, SQUARE_CSV, ProgramTest, main
+
+TRIANGLE = "0 : 0\n1 : 0\n2 : 0\n0 1 : 1\n1 2 : 2\n0 2 : 3\n0 1 2 : 4\n"
+
+
+def npy(shape, values):
+    header = f"{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}"
+    header = header.ljust(117) + "\n"
+    return (b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode()
+            + struct.pack(f"<{len(values)}d", *values))
+
+
+class Formats(ProgramTest):
+    def test_csv_is_the_default(self):
+        run = self.expect(0, "square.txt")
+        self.assertEqual(run.stdout, SQUARE_CSV)
+        self.assertEqual(run.stderr, "ph-barcode: read square.txt: 4 points in R^2, text\n")
+
+    def test_quiet_says_nothing(self):
+        self.assertEqual(self.expect(0, "square.txt", "--quiet").stderr, "")
+
+    def test_ripser(self):
+        run = self.expect(0, "square.txt", "--output-format", "ripser", "--threshold=1.3")
+        self.assertEqual(run.stdout, "persistence intervals in dim 0:\n [0,1)\n [0,1)\n"
+                         " [0,1.03078)\n [0, )\npersistence intervals in dim 1:\n [1.25, )\n")
+
+    def test_ripser_prints_empty_dimensions(self):
+        run = self.expect(0, "square.txt", "--output-format=ripser", "--max-dim", "2")
+        self.assertTrue(run.stdout.endswith("persistence intervals in dim 2:\n"))
+
+    def test_pers(self):
+        run = self.expect(0, "square.txt", "--output-format", "pers", "--max-dim", "0")
+        self.assertEqual(run.stdout, "0 0 1\n0 0 1\n0 0 1.0307764064044151\n0 0 inf\n")
+
+    def test_none(self):
+        self.assertEqual(self.expect(0, "square.txt", "--output-format", "none").stdout, "")
+
+    def test_json(self):
+        self.expect(0, "square.txt", "-o", "out.json")
+        result = json.loads(self.read("out.json"))
+        self.assertEqual(result["format"], "ph-barcode")
+        self.assertEqual(result["version"], 1)
+        self.assertEqual(result["input"]["path"], "square.txt")
+        self.assertEqual(result["complex"], "rips")
+        self.assertEqual((result["field"], result["max_dim"]), (2, 1))
+        self.assertAlmostEqual(result["threshold"], math.sqrt(2))
+        self.assertIn("persistence", result["timings"])
+        self.assertGreater(result["peak_memory"], 0)
+        bars = [(b["dim"], b["birth"], b["death"]) for b in result["bars"]]
+        self.assertEqual(bars[3:], [(0, 0, None), (1, 1.25, math.sqrt(2))])
+        self.assertIsNone(result["bars"][3]["death_cell"])
+        self.assertEqual(result["bars"][4]["birth_cell"], {"vertices": [0, 3]})
+        self.assertEqual(result["bars"][4]["death_cell"], {"vertices": [0, 2, 3]})
+
+    def test_json_of_image_and_matrix_name_their_cells(self):
+        self.write("image.npy", npy((1, 3), [0, 2, 1]))
+        bars = json.loads(self.expect(0, "image.npy", "--output-format", "json").stdout)["bars"]
+        self.assertEqual([(b["birth_cell"], b["death_cell"]) for b in bars],
+                         [({"grid": [0, 0]}, None), ({"grid": [0, 4]}, {"grid": [0, 3]})])
+        self.write("edge.phat", "0\n0\n1 0 1\n")
+        bars = json.loads(self.expect(0, "edge.phat", "--format", "phat", "--output-format",
+                                      "json").stdout)["bars"]
+        self.assertEqual([(b["birth_cell"], b["death_cell"]) for b in bars],
+                         [({"row": 0}, None), ({"row": 1}, {"row": 2})])
+
+    def test_dipha(self):
+        self.expect(0, "square.txt", "-o", "out.dipha", "--threshold", "1.3")
+        with open(self.path("out.dipha"), "rb") as file:
+            data = file.read()
+        self.assertEqual(struct.unpack("<3q", data[:24]), (8067171840, 2, 5))
+        self.assertEqual(struct.unpack("<q2d", data[-24:]), (-2, 1.25, 1.3))
+
+    def test_npy(self):
+        self.expect(0, "square.txt", "-o", "out.npy")
+        with open(self.path("out.npy"), "rb") as file:
+            data = file.read()
+        length = struct.unpack("<H", data[8:10])[0]
+        self.assertEqual((10 + length) % 64, 0)
+        self.assertIn(b"(5, 3)", data[:10 + length])
+        self.assertEqual(struct.unpack("<3d", data[-24:]), (1, 1.25, math.sqrt(2)))
+
+    def test_format_follows_the_extension(self):
+        self.expect(0, "square.txt", "-o", "OUT.CSV")
+        self.assertEqual(self.read("OUT.CSV"), SQUARE_CSV)
+        self.expect(0, "square.txt", "-o", "out.csv", "--output-format", "pers")
+        self.assertTrue(self.read("out.csv").startswith("0 0 1\n"))
+
+    def test_plots(self):
+        self.expect(0, "square.txt", "--plot", "a.svg", "--plot", "b.svg", "--plot-kind", "diagram",
+                    "--plot-kind", "betti", "--output-format", "none")
+        self.assertIn("<desc>Persistence diagram", self.read("a.svg"))
+        self.assertIn("<desc>Betti curves", self.read("b.svg"))
+        for name in ("a.svg", "b.svg"):
+            xml.dom.minidom.parseString(self.read(name))
+
+
+class Options(ProgramTest):
+    def bars(self, *arguments, **options):
+        lines = self.expect(0, *arguments, "--quiet", **options).stdout.splitlines()
+        self.assertEqual(lines[0], "dim,birth,death")
+        return [(int(d), float(b), float(e)) for d, b, e in (x.split(",") for x in lines[1:])]
+
+    def test_metrics(self):
+        self.write("two.txt", "0 0\n3 4\n")
+        for metric, distance in (("euclidean", 5), ("manhattan", 7), ("chebyshev", 4),
+                                 ("minkowski:1", 7), ("hamming", 2)):
+            self.assertEqual(self.bars("two.txt", "--metric", metric)[0][2], distance, metric)
+        self.write("two.txt", "1 0\n0 1\n")
+        self.assertEqual(self.bars("two.txt", "--metric", "cosine")[0][2], 1)
+
+    def test_aliases(self):
+        self.assertEqual(self.bars("square.txt", "--max-scale", "1.1", "--modulus", "3"),
+                         self.bars("square.txt", "--threshold", "1.1", "--field", "3"))
+
+    def test_standard_input(self):
+        self.assertEqual(self.bars("-", input=SQUARE), self.bars("square.txt"))
+
+    def test_distance_formats(self):
+        want = [(0, 0, 1), (0, 0, 2), (0, 0, math.inf)]
+        self.write("lower.txt", "1\n3 2\n")
+        self.assertEqual(self.bars("lower.txt", "--format", "lower-distance"), want)
+        self.write("upper.txt", "1 3\n2\n")
+        self.assertEqual(self.bars("upper.txt", "--format", "upper-distance"), want)
+        self.write("full.txt", "0 1 3\n1 0 2\n3 2 0\n")
+        self.assertEqual(self.bars("full.txt", "--format", "distance"), want)
+        self.write("sparse.txt", "0 1 1\n1 2 2\n")
+        self.assertEqual(self.bars("sparse.txt", "--format", "sparse"), want)
+        self.write("floats.bin", struct.pack("<3f", 1, 3, 2))
+        self.assertEqual(self.bars("floats.bin", "--format", "binary"), want)
+
+    def test_asymmetry_and_correlation(self):
+        self.write("asymmetric.txt", "0 1\n3 0\n")
+        self.expect(65, "asymmetric.txt", "--format", "distance")
+        for way, death in (("max", 3), ("min", 1), ("lower", 3)):
+            self.assertEqual(self.bars("asymmetric.txt", "--format", "distance", "--symmetrise",
+                                       way)[0][2], death)
+        self.write("correlation.txt", "1 0.25\n0.25 1\n")
+        self.assertEqual(self.bars("correlation.txt", "--format", "distance",
+                                   "--from-correlation")[0][2], 0.75)
+
+    def test_nan_dropped_keeps_the_numbers_of_the_points(self):
+        self.write("holes.txt", "0 0\nnan 0\n5 0\n")
+        self.expect(65, "holes.txt")
+        result = json.loads(self.expect(0, "holes.txt", "--nan", "drop", "--output-format",
+                                        "json").stdout)
+        self.assertEqual(result["bars"][0]["death_cell"], {"vertices": [0, 2]})
+
+    def test_empty_input(self):
+        self.write("empty.txt", "# nothing\n")
+        self.assertIn("no points", self.expect(65, "empty.txt").stderr)
+        self.assertEqual(self.bars("empty.txt", "--allow-empty"), [])
+
+    def test_image(self):
+        self.write("row.npy", npy((5,), [0, 3, 1, 4, 2]))
+        self.assertEqual(self.bars("row.npy"), [(0, 0, math.inf), (0, 1, 3), (0, 2, 4)])
+        self.assertEqual(self.bars("row.npy", "--threshold", "3"),
+                         [(0, 0, math.inf), (0, 1, 3), (0, 2, math.inf)])
+        self.assertEqual(self.bars("row.npy", "--periodic", "0"),
+                         [(0, 0, math.inf), (0, 1, 3), (1, 4, math.inf)])
+        self.assertEqual(self.bars("row.npy", "--periodic=all"), self.bars("row.npy", "--periodic=0"))
+        self.assertEqual(self.bars("row.npy", "--construction", "cells"), self.bars("row.npy"))
+        self.assertEqual(len(self.bars("row.npy", "--superlevel")), 2)
+        self.write("points.npy", npy((2, 2), [0, 0, 3, 4]))
+        self.assertEqual(self.bars("points.npy", "--complex", "rips")[0], (0, 0, 5))
+
+    def test_simplices(self):
+        self.write("triangle.txt", TRIANGLE)
+        want = [(0, 0, 1), (0, 0, 2), (0, 0, math.inf), (1, 3, 4)]
+        for field in ("2", "3", "2147483647"):
+            self.assertEqual(self.bars("triangle.txt", "--format", "simplices", "--field", field),
+                             want)
+        self.assertEqual(self.bars("triangle.txt", "--format", "simplices", "--threshold", "3"),
+                         want[:3] + [(1, 3, math.inf)])
+        self.assertEqual(self.bars("triangle.txt", "--format", "simplices", "--threshold", "1.5"),
+                         [(0, 0, 1), (0, 0, math.inf), (0, 0, math.inf)])
+
+    def test_lower_star(self):
+        self.write("triangle.txt", TRIANGLE)
+        self.write("values.txt", "5\n6\n7\n")
+        self.assertEqual(self.bars("triangle.txt", "--format", "simplices", "--complex",
+                                   "lower-star", "--values", "values.txt"), [(0, 5, math.inf)])
+        self.write("mesh.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+                   "3 0 1 2\n3 0 1 3\n3 0 2 3\n3 1 2 3\n")
+        self.write("values.txt", "1\n2\n3\n4\n")
+        self.assertEqual(self.bars("mesh.off", "--values", "values.txt"),
+                         [(0, 1, math.inf), (2, 4, math.inf)])
+        self.assertEqual(len(self.bars("mesh.off", "--max-dim", "0")), 4)
+
+    def test_boundary_matrix(self):
+        self.write("edge.phat", "0\n0\n1 0 1\n")
+        self.write("edge.vals", "0\n0.5\n2\n")
+        self.assertEqual(self.bars("edge.phat", "--format", "phat", "--values", "edge.vals"),
+                         [(0, 0, math.inf), (0, 0.5, 2)])
+        self.assertEqual(self.bars("edge.phat", "--format", "phat"),
+                         [(0, 0, math.inf), (0, 1, 2)])
+
+    def test_min_persistence(self):
+        self.assertEqual(len(self.bars("square.txt", "--min-persistence", "1")), 2)
+        self.write("pair.txt", "0 0\n0 0\n")
+        self.assertEqual(len(self.bars("pair.txt")), 1)
+        self.assertIn((0, 0, 0), self.bars("pair.txt", "--min-persistence=-1"))
+
+    def test_engines_agree_with_the_oracle(self):
+        for engine in ("auto", "standard", "twist", "cohomology"):
+            run = self.expect(0, "square.txt", "--engine", engine, "--check", "--max-dim", "2",
+                              "--verbose")
+            self.assertEqual(run.stdout, SQUARE_CSV)
+            self.assertIn("the oracle agrees", run.stderr)
+            self.assertIn("engine ", run.stderr)
+
+    def test_high_dimensions_are_legal(self):
+        self.assertEqual(self.bars("square.txt", "--max-dim", "60"), self.bars("square.txt"))
+
+    def test_dry_run_computes_nothing(self):
+        run = self.expect(0, "square.txt", "--dry-run", "-o", "out.csv")
+        for word in ("input ", "complex ", "engine ", "cells ", "memory "):
+            self.assertIn(word, run.stdout)
+        self.assertEqual(self.files(), ["square.txt"])
+
+    def test_several_inputs(self):
+        self.write("bad.txt", "0 0\n1 x\n")
+        self.write("pair.txt", "0 0\n3 4\n")
+        run = self.run_program("square.txt", "bad.txt", "missing.txt", "pair.txt", "-o", "out/")
+        self.assertEqual(run.returncode, 65)
+        self.assertEqual(len(run.stderr.splitlines()), 4, run.stderr)
+        self.assertEqual(self.read("out/square.csv"), SQUARE_CSV)
+        self.assertEqual(sorted(os.listdir(self.path("out"))), ["pair.csv", "square.csv"])
+
+    def test_names_of_a_batch_do_not_collide(self):
+        self.write("square.csv", SQUARE.replace(" ", ","))
+        self.expect(0, "square.txt", "square.csv", "-o", "out/", "--output-format", "json")
+        self.assertEqual(sorted(os.listdir(self.path("out"))),
+                         ["square.csv.json", "square.txt.json"])
+
+    def test_json_progress(self):
+        run = self.expect(0, "square.txt", "--progress", "json", "--quiet")
+        for line in run.stderr.splitlines():
+            json.loads(line)
+
+
+class Version(ProgramTest):
+    def test_version_and_help(self):
+        self.assertRegex(self.expect(0, "--version").stdout, r"^ph-barcode \d+\.\d+\.\d+\n$")
+        for order in (("--version", "--verbose"), ("--verbose", "--version")):
+            self.assertIn("fmt", self.expect(0, *order).stdout)
+        text = self.expect(0, "--help").stdout
+        for option in ("--max-dim", "--threshold", "--max-scale", "--memory-limit", "default"):
+            self.assertIn(option, text)
+
+
+if __name__ == "__main__":
+    main()

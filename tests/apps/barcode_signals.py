@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: MIT
+"""Signals during a long run: it ends at once, with the shell's code, and leaves nothing behind."""
+import random
+import signal
+import subprocess
+import time
+
+import program
+from program import ProgramTest, main
+
+# 0.2 s are promised; a busy machine of a test may take a little longer to notice.
+PATIENCE = 0.2 + 0.3
+
+
+class Signals(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        random.seed(3)
+        self.write("many.txt", "".join(" ".join(f"{random.random():.6f}" for _ in range(6)) + "\n"
+                                       for _ in range(1500)))
+
+    def start(self, *arguments):
+        return subprocess.Popen([program.PROGRAM, "many.txt", "--quiet", *arguments],
+                                cwd=self.folder, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
+                                stderr=subprocess.PIPE)
+
+    def finish(self, run):
+        begin = time.monotonic()
+        run.wait(10)
+        seconds = time.monotonic() - begin
+        self.assertEqual(run.stderr.read(), b"")
+        run.stderr.close()
+        run.stdin.close()
+        self.assertLess(seconds, PATIENCE)
+        return run.returncode
+
+    def test_each_signal_ends_a_computation(self):
+        for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)):
+            for delay in (0.15, 0.8):
+                with self.subTest(signal=number, delay=delay):
+                    run = self.start("--max-dim", "2", "-o", "out.csv")
+                    time.sleep(delay)
+                    self.assertIsNone(run.poll(), "the computation was over too soon")
+                    run.send_signal(number)
+                    self.assertEqual(self.finish(run), code)
+                    self.assertEqual(self.files(), ["many.txt", "square.txt"])
+
+    def test_a_signal_ends_reading(self):
+        run = subprocess.Popen([program.PROGRAM, "-", "--quiet"], stdin=subprocess.PIPE,
+                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        time.sleep(0.3)
+        run.send_signal(signal.SIGINT)
+        self.assertEqual(self.finish(run), 130)
+
+    def test_a_second_signal(self):
+        run = self.start("--max-dim", "2", "-o", "out.csv")
+        time.sleep(0.3)
+        run.send_signal(signal.SIGINT)
+        run.send_signal(signal.SIGINT)
+        self.assertEqual(self.finish(run), 130)
+        self.assertEqual(self.files(), ["many.txt", "square.txt"])
+
+    def test_kill_leaves_no_final_name(self):
+        run = self.start("--max-dim", "2", "-o", "out.csv")
+        time.sleep(0.3)
+        run.kill()
+        self.finish(run)
+        left = set(self.files()) - {"many.txt", "square.txt"}
+        self.assertTrue(all(name.startswith(".ph-") for name in left), left)
+
+    def test_ignored_signals_stay_ignored(self):
+        run = subprocess.Popen([program.PROGRAM, "-", "--quiet"], stdin=subprocess.PIPE,
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                               preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+        time.sleep(0.3)
+        run.send_signal(signal.SIGHUP)
+        time.sleep(0.3)
+        self.assertEqual(run.communicate(b"0\n1\n", 20)[0], b"dim,birth,death\n0,0,1\n0,0,inf\n")
+        self.assertEqual(run.returncode, 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <array>
+#include <clocale>
+#include <cmath>
+#include <limits>
+
+#include "choices.hpp"
+#include "exit_code.hpp"
+#include "numbers.hpp"
+#include "session.hpp"
+
+namespace ph::app {
+namespace {
+
+/// The kind of the error that `act` throws; internal if it throws none.
+template <class Act>
+ErrorKind kind_of(Act&& act) {
+  try {
+    act();
+  } catch (const Error& error) {
+    return error.kind();
+  }
+  return ErrorKind::internal;
+}
+
+TEST(Numbers, AreStrict) {
+  EXPECT_EQ(parse_number("--x", "1.5"), 1.5);
+  EXPECT_EQ(parse_number("--x", "+1e-3"), 1e-3);
+  EXPECT_EQ(parse_number("--x", "inf"), std::numeric_limits<double>::infinity());
+  EXPECT_FALSE(std::signbit(parse_number("--x", "-0")));
+  for (const char* text : {"", "nan", "1,5", "0x10", "1e400", "1.0abc", " 1", "1 ", "1_000", "+-1"})
+    EXPECT_EQ(kind_of([&] { parse_number("--x", text); }), ErrorKind::usage) << text;
+}
+
+TEST(Numbers, WholeNumbersKeepTheirBounds) {
+  EXPECT_EQ(parse_integer("--n", "-3", -5, 5), -3);
+  for (const char* text : {"6", "-6", "1.5", "", "0x1", "9999999999999999999", "+1", "1 "})
+    EXPECT_EQ(kind_of([&] { parse_integer("--n", text, -5, 5); }), ErrorKind::usage) << text;
+}
+
+TEST(Numbers, Lists) {
+  EXPECT_EQ(parse_numbers("--v", "1,-2.5,3e2"), (std::vector<double>{1, -2.5, 300}));
+  for (const char* text : {"1,2", "1,2,3,4", "1,,3", "1,2,", "", "1;2;3"})
+    EXPECT_EQ(kind_of([&] { parse_numbers("--v", text, 3); }), ErrorKind::usage) << text;
+}
+
+TEST(Numbers, Sizes) {
+  EXPECT_EQ(parse_size("--m", "4GiB"), 4ull << 30);
+  EXPECT_EQ(parse_size("--m", "500MB"), 500'000'000u);
+  EXPECT_EQ(parse_size("--m", "1e9"), 1'000'000'000u);
+  EXPECT_EQ(parse_size("--m", "1.5 kib"), 1536u);
+  EXPECT_EQ(parse_size("--m", "64k"), 64'000u);
+  for (const char* text : {"", "GiB", "4XB", "-1GiB", "0", "inf", "nan", "1e30", "4GiBs"})
+    EXPECT_EQ(kind_of([&] { parse_size("--m", text); }), ErrorKind::usage) << text;
+  EXPECT_EQ(format_size(1536), "1.5 KiB");
+  EXPECT_EQ(format_size(12), "12 B");
+}
+
+TEST(Numbers, DoNotDependOnTheLocale) {
+  const std::string before = std::setlocale(LC_ALL, nullptr);
+  for (const char* name : {"de_DE.UTF-8", "tr_TR.UTF-8"}) {
+    if (std::setlocale(LC_ALL, name) == nullptr) continue;
+    EXPECT_EQ(parse_number("--x", "1.5"), 1.5);
+    EXPECT_EQ(parse_size("--m", "1MIB"), 1u << 20);
+    EXPECT_EQ(format_size(1536), "1.5 KiB");
+  }
+  std::setlocale(LC_ALL, before.c_str());
+}
+
+TEST(Choices, SuggestWhatIsNear) {
+  constexpr std::array<std::string_view, 4> kNames{"--threshold", "--threads", "--max-dim",
+                                                   "--metric"};
+  EXPECT_EQ(nearest_name("--treshold", kNames), "--threshold");
+  EXPECT_EQ(nearest_name("--max", kNames), "--max-dim");
+  EXPECT_EQ(nearest_name("--metirc", kNames), "--metric");
+  EXPECT_EQ(nearest_name("--completely-different", kNames), std::nullopt);
+  EXPECT_EQ(nearest_name("", kNames), std::nullopt);
+  EXPECT_EQ(nearest_name(std::string(100'000, 'x'), kNames), std::nullopt);
+  EXPECT_EQ(choose("--o", "--metric", kNames), 3u);
+  EXPECT_EQ(kind_of([&] { choose("--o", "metric", kNames); }), ErrorKind::usage);
+}
+
+TEST(ExitCodes, AreThoseOfSysexits) {
+  EXPECT_EQ(exit_code(ErrorKind::usage), 64);
+  EXPECT_EQ(exit_code(ErrorKind::bad_data), 65);
+  EXPECT_EQ(exit_code(ErrorKind::no_input), 66);
+  EXPECT_EQ(exit_code(ErrorKind::not_built_in), 69);
+  EXPECT_EQ(exit_code(ErrorKind::internal), 70);
+  EXPECT_EQ(exit_code(ErrorKind::cannot_create), 73);
+  EXPECT_EQ(exit_code(ErrorKind::io), 74);
+  EXPECT_EQ(exit_code(ErrorKind::resource), 75);
+  EXPECT_EQ(exit_code(ErrorKind::cancelled), 130);
+}
+
+TEST(Session, PassesOptionsOn) {
+  CommonOptions options;
+  options.threads = 3;
+  options.memory_limit = 1000;
+  options.quiet = true;
+  std::stop_source stop;
+  const Session session("test", options, stop.get_token());
+  EXPECT_EQ(session.context().threads, 3);
+  EXPECT_EQ(session.context().memory.limit(), 1000u);
+  EXPECT_NO_THROW(session.context().poll());
+  stop.request_stop();
+  EXPECT_EQ(kind_of([&] { session.context().poll(); }), ErrorKind::cancelled);
+}
+
+}  // namespace
+}  // namespace ph::app
