@@ -66,11 +66,10 @@ Format by_rows(const Input& input) {
   std::vector<std::size_t> lengths;
   bool zero_diagonal = true, first = true;
   while (lengths.size() < kProbedLines && lines.next()) {
-    cells.start();
-    if (std::exchange(first, false) && cells.all_words()) continue;
+    if (std::exchange(first, false) && !header_names(lines.line()).empty()) continue;
     if (lines.line().find(':') != std::string_view::npos) return Format::simplices;
     std::size_t length = 0;
-    for (; cells.more(); ++length) {
+    for (cells.start(); cells.more(); ++length) {
       const std::string_view word = cells.word();
       if (length == lengths.size()) {
         zero_diagonal = zero_diagonal && word.find_first_not_of("0.+-") == std::string_view::npos;

@@ -99,22 +99,21 @@ DistanceMatrix no_points(const Input& input, const ReadOptions& options) {
 // Skips a header; true if the input has data. A header here is a row of names only.
 bool first_row(TextLines& lines, const ReadOptions& options) {
   if (!lines.next()) return false;
-  Cells cells(lines);
-  cells.start();
-  if (!cells.all_words()) return true;
+  if (header_names(lines.line()).empty()) return true;
   detail::note(options, fmt::format("line {} is a header: skipped", lines.number()));
   return lines.next();
 }
 
 // Memory for all pairs of n points, once the bytes that are there were found to be enough for
 // `cells` cells.
-std::vector<double> make_triangle(const Input& input, std::size_t n,
+std::vector<double> make_triangle(const Input& input, std::size_t n, std::size_t first,
                                   std::optional<std::size_t> cells) {
   if (!cells || *cells > input.size() / 2 + 1) {
     std::size_t rows = 0;
     for (TextLines lines(input); lines.next();) ++rows;
     input.fail({"rows and columns do not fit",
-                fmt::format("{} rows, the first of {} cells", rows, n), "a square or a triangle",
+                fmt::format("{} rows, the first of {} cells", rows, first),
+                fmt::format("{} rows", n == first ? n : n - 1),
                 "is the file truncated, or a set of points?"});
   }
   input.require_memory(triangle(n) * sizeof(double));
@@ -192,7 +191,7 @@ DistanceMatrix read_lower_rows(TextLines& lines, Entries& entries, std::vector<d
 DistanceMatrix read_upper_rows(TextLines& lines, Entries& entries,
                                const std::vector<double>& first) {
   const std::size_t n = first.size() + 1;
-  std::vector<double> pairs = make_triangle(lines.input(), n, triangle(n));
+  std::vector<double> pairs = make_triangle(lines.input(), n, n - 1, triangle(n));
   for (std::size_t j = 1; j < n; ++j) pairs[triangle(j)] = first[j - 1];
   std::size_t row = 1;
   do {
@@ -248,7 +247,7 @@ DistanceMatrix read_text_square(const Input& input, const ReadOptions& options) 
   std::size_t n = 0;
   Cells count(lines);
   for (count.start(); count.more(); ++n) count.word();
-  std::vector<double> pairs = make_triangle(input, n, checked_product(n, n));
+  std::vector<double> pairs = make_triangle(input, n, n, checked_product(n, n));
   Entries entries(lines, options);
   std::size_t row = 0;
   do {

@@ -58,12 +58,7 @@ class HeaderParser {
       seen_.push_back(key);
       if (key == "DATA") break;
       parse_line(key, place);
-      if (cells_.more()) {
-        lines_.fail(cells_.place(), {"extra cell in the line " + key,
-                                     fmt::format("\"{}\"", printable(cells_.word(), 40)),
-                                     "the end of the line",
-                                     {}});
-      }
+      cells_.expect_end("the end of the line " + key);
     }
     return finish();
   }
@@ -408,12 +403,7 @@ void read_ascii(const Input& input, Header& header) {
         }
       });
     }
-    if (cells.more()) {
-      lines.fail(cells.place(), {"extra cell",
-                                 fmt::format("\"{}\"", printable(cells.word(), 40)),
-                                 fmt::format("{} numbers", cells_a_point),
-                                 {}});
-    }
+    cells.expect_end("the end of the point");
   }
   if (lines.next()) {
     lines.fail(lines.line().data(), {"trailing data",

@@ -193,12 +193,7 @@ void PlyBody::start_row(std::size_t row) {
 }
 
 void PlyBody::end_row() {
-  if (header_.ascii && cells_.more()) {
-    lines_.fail(cells_.place(), {"extra cell",
-                                 fmt::format("\"{}\"", printable(cells_.word(), 40)),
-                                 "the end of the line",
-                                 {}});
-  }
+  if (header_.ascii) cells_.expect_end("the end of the line");
 }
 
 void PlyBody::scalar(FieldType type, std::byte* to) {

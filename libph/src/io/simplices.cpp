@@ -41,12 +41,7 @@ SimplicesInput read_simplices(const Input& input, const ReadOptions& options) {
       lines.fail(line.data() + line.size(), {"no value", "the end of the line", "a number", {}});
     }
     const double value = value_cells.number(Allow::infinite);
-    if (value_cells.more()) {
-      lines.fail(value_cells.place(), {"extra cell",
-                                       fmt::format("\"{}\"", printable(value_cells.word(), 40)),
-                                       "the end of the line",
-                                       {}});
-    }
+    value_cells.expect_end("one value");
     result.simplices.add(vertices, value);
     result.lines.push_back(lines.number());
   }

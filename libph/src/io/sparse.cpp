@@ -54,7 +54,7 @@ SparseDistances read_sparse(const Input& input, const ReadOptions& options) {
   bool first = true;
   while (lines.next()) {
     cells.start();
-    if (std::exchange(first, false) && cells.all_words()) {
+    if (std::exchange(first, false) && !header_names(lines.line()).empty()) {
       detail::note(options, fmt::format("line {} is a header: skipped", lines.number()));
       continue;
     }
@@ -72,11 +72,7 @@ SparseDistances read_sparse(const Input& input, const ReadOptions& options) {
     missing("distance");
     const char* third = cells.place();
     line.edge.value = cells.number(options.nan == NanPolicy::drop ? Allow::any : Allow::infinite);
-    if (cells.more()) {
-      lines.fail(
-          cells.place(),
-          {"extra cell", fmt::format("\"{}\"", printable(cells.word(), 40)), "i j distance", {}});
-    }
+    cells.expect_end("i j distance");
     if (line.edge.u == line.edge.v) {
       lines.fail(second, {"a point joined to itself",
                           fmt::format("{} {}", line.edge.u, line.edge.v),

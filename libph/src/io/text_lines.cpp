@@ -85,6 +85,22 @@ std::string hint_for(std::string_view cell) {
   return {};
 }
 
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+// Length of the first cell of a header; separators between quotes do not count.
+std::size_t header_cell(std::string_view rest, char separator) {
+  bool in_quotes = false;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    if (rest[i] == '"') in_quotes = !in_quotes;
+    if (!in_quotes && (separator == ' ' ? is_blank(rest[i]) : rest[i] == separator)) return i;
+  }
+  return rest.size();
+}
+
 }  // namespace
 
 TextLines::TextLines(const Input& input) : TextLines(input, 0, 0) {
@@ -154,6 +170,24 @@ bool TextLines::next() {
 
 void TextLines::fail(const char* place, const Fault& fault) const {
   input_.fail_at(number_, column(place), fault);
+}
+
+std::vector<std::string> header_names(std::string_view line) {
+  const char separator = line.find(',') != std::string_view::npos   ? ','
+                         : line.find(';') != std::string_view::npos ? ';'
+                                                                    : ' ';
+  std::vector<std::string> names;
+  for (std::string_view rest = trimmed(line); !rest.empty();) {
+    const std::size_t length = header_cell(rest, separator);
+    std::string_view name = trimmed(rest.substr(0, length));
+    if (name.size() >= 2 && name.front() == '"' && name.back() == '"') {
+      name = name.substr(1, name.size() - 2);
+    }
+    if (looks_numeric(name)) return {};
+    names.emplace_back(name);
+    rest = trimmed(rest.substr(std::min(length + 1, rest.size())));
+  }
+  return names;
 }
 
 void Cells::start_in(std::string_view part) {
@@ -231,15 +265,10 @@ std::string_view Cells::word() {
   return {begin, static_cast<std::size_t>(stop - begin)};
 }
 
-bool Cells::all_words() const {
-  std::string_view rest = lines_->line();
-  while (!rest.empty()) {
-    std::size_t length = 0;
-    while (length < rest.size() && !ends_cell(rest[length])) ++length;
-    if (length > 0 && looks_numeric(rest.substr(0, length))) return false;
-    rest.remove_prefix(std::min(length + 1, rest.size()));
-  }
-  return true;
+void Cells::expect_end(std::string_view expected) {
+  if (!more()) return;
+  const char* place = position_;
+  lines_->fail(place, {"extra cell", quoted(word()), std::string(expected), {}});
 }
 
 void Cells::after_cell(const char* end_of_cell) {

@@ -9,17 +9,6 @@
 #include "ph/io/cloud_io.hpp"
 
 namespace ph {
-namespace {
-
-std::vector<std::string> words_of_line(const TextLines& lines) {
-  std::vector<std::string> words;
-  Cells cells(lines);
-  cells.start();
-  while (cells.more()) words.emplace_back(cells.word());
-  return words;
-}
-
-}  // namespace
 
 namespace detail {
 
@@ -29,9 +18,8 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
   Cells cells(lines);
   bool more = lines.next();
   if (more) {
-    cells.start();
-    if (cells.all_words()) {
-      table.header = words_of_line(lines);
+    table.header = header_names(lines.line());
+    if (!table.header.empty()) {
       note(options, fmt::format("line {} is a header: skipped", lines.number()));
       more = lines.next();
     }

@@ -114,6 +114,11 @@ class TextLines {
   std::size_t number_ = 0;
 };
 
+/// The names in a header line: a line whose cells are all something else than numbers. Cells are
+/// split at commas or semicolons if there are any, else at blanks; quotes are taken off. Nothing if
+/// the line is no header.
+std::vector<std::string> header_names(std::string_view line);
+
 /// Which numbers a cell may hold besides finite ones.
 enum class Allow { finite, infinite, any };
 
@@ -144,8 +149,8 @@ class Cells {
   std::uint64_t unsigned64(const char* what);
   /// The next cell as it is written.
   std::string_view word();
-  /// True if every cell of the current line is something else than a number. Moves nothing.
-  bool all_words() const;
+  /// @throws Error (bad_data) naming the next cell, if there is one. @param expected "i j distance"
+  void expect_end(std::string_view expected);
 
  private:
   template <class T>

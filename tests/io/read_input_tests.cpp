@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include <fcntl.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <clocale>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "ph/io/cloud_io.hpp"
+#include "ph/io/formats.hpp"
+#include "read_support.hpp"
+
+namespace ph::test {
+namespace {
+
+TEST(Printable, EscapesWhatATerminalOrALogWouldObey) {
+  EXPECT_EQ(printable("plain \xC3\xA9"), "plain \xC3\xA9");
+  EXPECT_EQ(printable("a\nb\tc\rd"), "a\\nb\\tc\\rd");
+  EXPECT_EQ(printable("\x1B[31m\x7F\xFF\xC3"), "\\x1B[31m\\x7F\\xFF\\xC3");
+  EXPECT_EQ(printable("\xC2\x9B\xE2\x80\xAE"), "\\xC2\\x9B\\xE2\\x80\\xAE");  // CSI; right to left
+  EXPECT_EQ(printable("\xED\xA0\x80"), "\\xED\\xA0\\x80");                    // a surrogate
+  EXPECT_EQ(printable(std::string(100, 'x'), 5), "xxxxx...");
+}
+
+TEST(Input, SaysWhyAFileCannotBeRead) {
+  const TempDir dir;
+  for (const auto& path : {dir.file("missing"), dir.file(""), dir.file(std::string(5000, 'n')),
+                           std::filesystem::path("")}) {
+    EXPECT_TRUE(fails_with(ErrorKind::no_input, [&] { Input::open(path); })) << path;
+  }
+  const auto secret = dir.write("secret", "1 2\n");
+  ::chmod(secret.c_str(), 0);
+  if (::geteuid() != 0) {
+    EXPECT_TRUE(fails_with(ErrorKind::no_input, [&] { Input::open(secret); }));
+  }
+  try {
+    Input::open(dir.file("new\nline\x1B%s<script>"));
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_TRUE(contains(error.what(), "new\\nline\\x1B%s<script>")) << error.what();
+  }
+}
+
+TEST(Input, ReadsSmallMappedAndEmptyFiles) {
+  const TempDir dir;
+  EXPECT_EQ(Input::open(dir.write("a.TXT", "1 2\n")).text(), "1 2\n");
+  EXPECT_EQ(Input::open(dir.file("a.TXT")).extension(), ".txt");
+  EXPECT_EQ(Input::open(dir.write("empty", "")).size(), 0U);
+  const std::string large(std::size_t{17} << 20, '#');
+  EXPECT_EQ(Input::open(dir.write("large", large)).text(), large);
+  Input moved = Input::open(dir.file("a.TXT"));
+  const Input target = std::move(moved);
+  EXPECT_EQ(target.text(), "1 2\n");
+}
+
+TEST(Input, ReadsFifos) {
+  const TempDir dir;
+  const auto path = dir.file("fifo");
+  ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+  std::thread writer([&] {
+    std::ofstream out(path);
+    for (int i = 0; i < 50000; ++i) out << i << " 2\n";
+  });
+  const Points points = read_points(path);
+  writer.join();
+  EXPECT_EQ(points.rows(), 50000);
+  EXPECT_EQ(points(49999, 0), 49999);
+}
+
+TEST(Input, StopsWaitingOnRequest) {
+  const TempDir dir;
+  const auto path = dir.file("fifo");
+  ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+  std::stop_source source;
+  RunContext context;
+  context.stop = source.get_token();
+  std::thread stopper([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    source.request_stop();
+  });
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_TRUE(fails_with(ErrorKind::cancelled, [&] { Input::open(path, &context); }));
+  stopper.join();
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+}
+
+TEST(Input, AnEndlessStreamStopsAtTheBudget) {
+  RunContext context;
+  context.memory.set_limit(std::size_t{8} << 20);
+  EXPECT_TRUE(fails_with(ErrorKind::resource, [&] { Input::open("/dev/zero", &context); }));
+  EXPECT_LE(context.memory.peak(), std::size_t{8} << 20);
+  EXPECT_EQ(context.memory.used(), 0U);
+}
+
+TEST(Input, ReadersKeepToTheBudget) {
+  std::string text;
+  for (int i = 0; i < 20000; ++i) text += "1 2 3\n";
+  const TempDir dir;
+  const auto path = dir.write("p.txt", text);
+  RunContext context;
+  context.memory.set_limit(text.size() + 1000);
+  EXPECT_TRUE(fails_with(ErrorKind::resource, [&] { read_points(path, {.context = &context}); }));
+  context.memory.set_limit(text.size() * 8);
+  EXPECT_EQ(read_points(path, {.context = &context}).rows(), 20000);
+  EXPECT_EQ(context.memory.used(), 0U);
+}
+
+std::size_t peak_resident_kib() {
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  while (status >> word) {
+    if (word == "VmHWM:") {
+      std::size_t kib = 0;
+      status >> kib;
+      return kib;
+    }
+  }
+  return 0;
+}
+
+TEST(Input, HeaderBombsCostNothing) {
+  const std::string huge = "1000000000000";
+  const std::string pcd = "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " +
+                          huge + "\nHEIGHT 1\nPOINTS " + huge + "\nDATA ";
+  const std::string npy_header =
+      "{'descr': '<f8', 'fortran_order': True, 'shape': (" + huge + ",)}";
+  const std::vector<std::pair<std::string, std::string>> bombs{
+      {"a.pcd", pcd + "ascii\n1 2 3\n"},
+      {"b.pcd", pcd + "binary\n" + std::string(100, 'x')},
+      {"c.pcd", pcd + "binary_compressed\n" + std::string(100, 'x')},
+      {"d.ply", "ply\nformat binary_little_endian 1.0\nelement vertex " + huge +
+                    "\nproperty float x\nproperty float y\nproperty float z\nend_header\nxxxx"},
+      {"e.ply",
+       "ply\nformat ascii 1.0\nelement vertex " + huge + "\nproperty float x\nend_header\n1\n"},
+      {"f.npy", std::string("\x93NUMPY\x01\x00", 8) +
+                    le(static_cast<std::uint16_t>(npy_header.size())) + npy_header + "xxxx"},
+      {"g.phat", le(std::int64_t{1000000000000}) + le(std::int64_t{0})},
+      {"h.off", "OFF\n" + huge + " " + huge + " 0\n0 0 0\n"},
+      {"i.png",
+       std::string("\x89PNG\r\n\x1A\n\0\0\0\rIHDR\x7F\xFF\xFF\xFF\x7F\xFF\xFF\xFF\x08\x06\0\0\0",
+                   29)}};
+  const std::size_t before = peak_resident_kib();
+  for (const auto& [name, bytes] : bombs) {
+    const auto start = std::chrono::steady_clock::now();
+    bad_data([&, n = name, b = bytes] { read_any(Input::view(b, n)); });
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(50)) << name;
+  }
+  EXPECT_LT(peak_resident_kib(), before + 16 * 1024);
+}
+
+TEST(Input, TheLocaleHasNoInfluence) {
+  const std::string before = std::setlocale(LC_ALL, nullptr);
+  for (const char* name : {"de_DE.UTF-8", "tr_TR.UTF-8", "fr_FR.UTF-8", "C.UTF-8"}) {
+    if (std::setlocale(LC_ALL, name) == nullptr) continue;
+    EXPECT_EQ(read_points(Input::view("1.5,2.25\n", "p"))(0, 1), 2.25) << name;
+    EXPECT_EQ(read_distances(Input::view("0 INF\nINF 0\n", "p")).size(), 2) << name;
+    Cloud cloud = read_cloud(Input::view("1.5 2 3\n", "p"));
+    std::ostringstream out;
+    write_pcd(out, cloud, PcdData::ascii);
+    EXPECT_TRUE(contains(out.str(), "\n1.5 2 3\n")) << name;
+  }
+  std::setlocale(LC_ALL, before.c_str());
+}
+
+}  // namespace
+}  // namespace ph::test

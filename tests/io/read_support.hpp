@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "ph/core/error.hpp"
+#include "ph/io/reader.hpp"
+
+namespace ph::test {
+
+/// The message of the bad_data error that `f` throws; fails the test if it throws something else or
+/// nothing.
+template <class F>
+std::string bad_data(F&& f) {
+  try {
+    f();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::bad_data) << error.what();
+    return error.what();
+  }
+  ADD_FAILURE() << "no error";
+  return {};
+}
+
+/// Whether `f` throws an Error of this kind.
+template <class F>
+bool fails_with(ErrorKind kind, F&& f) {
+  try {
+    f();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), kind) << error.what();
+    return error.kind() == kind;
+  }
+  return false;
+}
+
+/// Calls `read(Input)` on every proper prefix of `bytes`: it must throw bad_data or return true
+/// where `complete(length)` says that the prefix is a whole input.
+template <class Read, class Complete>
+void check_prefixes(const std::string& bytes, const std::string& name, Read read,
+                    Complete complete) {
+  for (std::size_t length = 0; length < bytes.size(); ++length) {
+    const std::string prefix = bytes.substr(0, length);
+    try {
+      read(Input::view(prefix, name));
+      EXPECT_TRUE(complete(length)) << name << ": a prefix of " << length << " bytes was accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::bad_data) << length << ": " << error.what();
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    }
+  }
+}
+
+inline auto never() {
+  return [](std::size_t) { return false; };
+}
+
+/// A folder that is removed with all its files.
+class TempDir {
+ public:
+  TempDir() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "ph-test-XXXXXX").string();
+    path_ = ::mkdtemp(pattern.data());
+  }
+  ~TempDir() { std::filesystem::remove_all(path_); }
+  TempDir(const TempDir&) = delete;
+  TempDir& operator=(const TempDir&) = delete;
+
+  std::filesystem::path file(const std::string& name) const { return path_ / name; }
+  std::filesystem::path write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(file(name), std::ios::binary) << bytes;
+    return file(name);
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// The bytes of a number, little endian.
+template <class T>
+std::string le(T value) {
+  std::string bytes(sizeof(T), '\0');
+  std::memcpy(bytes.data(), &value, sizeof(T));
+  return bytes;
+}
+
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace ph::test
