@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "ph/core/error.hpp"
+#include "ph/core/radix_sort.hpp"
 
 namespace ph {
 namespace {
@@ -54,27 +55,27 @@ Cubical::Cubical(const Image& image, const CubicalOptions& options, const RunCon
       options.construction == CubicalOptions::Construction::vertices;
 
   // Ranks of the voxels that enter, by (value, position).
-  std::pmr::vector<std::uint32_t> order(&context.memory);
+  struct Voxel {
+    double value;
+    std::uint32_t position;
+  };
+  std::pmr::vector<Voxel> order(&context.memory);
   order.reserve(voxels);
   const double limit = options.threshold.value_or(std::numeric_limits<double>::max());
   if (std::isnan(limit)) throw Error(ErrorKind::usage, "threshold: found nan, expected a number");
-  std::pmr::vector<double> values(&context.memory);
-  values.reserve(voxels);
   for (std::size_t i = 0; i < voxels; ++i) {
-    const double value = options.superlevel ? -image.values[i] : image.values[i];
+    const double value = (options.superlevel ? -image.values[i] : image.values[i]) + 0.0;
     if (std::isnan(value)) {
       throw Error(ErrorKind::bad_data, fmt::format("voxel {}: found nan, expected a number", i));
     }
-    values.push_back(value + 0.0);
     if (value <= limit && value < std::numeric_limits<double>::infinity())
-      order.push_back(static_cast<std::uint32_t>(i));
+      order.push_back({value, static_cast<std::uint32_t>(i)});
   }
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return values[a] != values[b] ? values[a] < values[b] : a < b;
-  });
+  context.poll();
+  radix_sort_by_value(order, [](const Voxel& v) { return v.value; });
   context.poll();
   values_.reserve(order.size());
-  for (const std::uint32_t i : order) values_.push_back(values[i]);
+  for (const Voxel& v : order) values_.push_back(v.value);
 
   // The doubled grid.
   std::uint64_t cells = 1;
@@ -102,7 +103,7 @@ Cubical::Cubical(const Image& image, const CubicalOptions& options, const RunCon
     return index;
   };
   for (std::size_t rank = 0; rank < order.size(); ++rank)
-    keys_[grid_index(order[rank])] = static_cast<std::uint32_t>(rank);
+    keys_[grid_index(order[rank].position)] = static_cast<std::uint32_t>(rank);
 
   for (int k = 0; k < dim_; ++k) {
     const Axis& axis = axes_[k];
@@ -125,6 +126,20 @@ Cubical::Cubical(const Image& image, const CubicalOptions& options, const RunCon
 void Cubical::append_input_cell(int, const Cell& cell, std::vector<Index>& numbers) const {
   for (int k = 0; k < dim_; ++k)
     numbers.push_back(static_cast<Index>(coordinate(cell.index, axes_[k])));
+}
+
+std::size_t Cubical::vertex_count() const {
+  if (keys_.empty()) return 0;
+  std::size_t count = 1;
+  for (int k = 0; k < dim_; ++k) count *= (axes_[k].length + 1) / 2;
+  return count;
+}
+
+std::size_t Cubical::vertex_number(const Cell& vertex) const {
+  std::size_t number = 0;
+  for (int k = 0; k < dim_; ++k)
+    number = number * ((axes_[k].length + 1) / 2) + coordinate(vertex.index, axes_[k]) / 2;
+  return number;
 }
 
 }  // namespace ph

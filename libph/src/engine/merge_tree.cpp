@@ -1,19 +1,34 @@
 // SPDX-License-Identifier: MIT
 #include "ph/engine/merge_tree.hpp"
 
+#include <concepts>
+#include <span>
+#include <utility>
+
 #include "ph/complex/cubical.hpp"
 #include "ph/complex/explicit.hpp"
+#include "ph/complex/filtered_graph.hpp"
 #include "ph/complex/rips.hpp"
 #include "ph/core/barcode.hpp"
 #include "ph/core/error.hpp"
-#include "ph/engine/filtered_graph.hpp"
+#include "ph/engine/one_skeleton.hpp"
 
 namespace ph {
 namespace {
 
+// `number` by vertex of the graph: its place among the `size` vertices of the input.
+void renumber(MergeTree& tree, std::span<const Index> number, std::size_t size) {
+  std::vector<double> births(size, kInfinity);
+  for (std::size_t v = 0; v < number.size(); ++v)
+    births[static_cast<std::size_t>(number[v])] = tree.births[v];
+  tree.births = std::move(births);
+  for (Merge& m : tree.merges)
+    for (Index* v : {&m.u, &m.v, &m.elder, &m.younger}) *v = number[static_cast<std::size_t>(*v)];
+}
+
 template <GraphFiltration F>
 MergeTree tree_of(const F& f, const RunContext& context) {
-  const FilteredGraph<F> graph(f, context);
+  const OneSkeleton<F> graph(f, context);
   MergeTree tree;
   tree.births.reserve(graph.vertices.size());
   for (const auto& v : graph.vertices) tree.births.push_back(f.value(v));
@@ -26,6 +41,12 @@ MergeTree tree_of(const F& f, const RunContext& context) {
                                               tree.births[younger]});
                        sizes[elder] += sizes[younger];
                      });
+  if constexpr (std::same_as<F, Cubical>) {  // voxels that never enter keep their numbers
+    std::vector<Index> number;
+    number.reserve(graph.vertices.size());
+    for (const auto& v : graph.vertices) number.push_back(static_cast<Index>(f.vertex_number(v)));
+    renumber(tree, number, f.vertex_count());
+  }
   return tree;
 }
 
@@ -34,7 +55,7 @@ MergeTree tree_of(const F& f, const RunContext& context) {
 std::vector<Index> MergeTree::components(double value) const {
   std::vector<Index> parent(births.size());
   for (std::size_t v = 0; v < births.size(); ++v)
-    parent[v] = births[v] <= value ? static_cast<Index>(v) : -1;
+    parent[v] = births[v] <= value && births[v] < kInfinity ? static_cast<Index>(v) : -1;
   for (const Merge& m : merges) {
     if (m.value > value) break;
     parent[static_cast<std::size_t>(m.younger)] = m.elder;
@@ -60,6 +81,10 @@ MergeTree merge_tree(const Rips& rips, const RunContext& context) {
 
 MergeTree merge_tree(const Cubical& cubical, const RunContext& context) {
   return tree_of(cubical, context);
+}
+
+MergeTree merge_tree(const FilteredGraph& graph, const RunContext& context) {
+  return tree_of(graph, context);
 }
 
 MergeTree merge_tree(const ExplicitComplex& complex, const RunContext& context) {

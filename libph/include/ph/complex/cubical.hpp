@@ -61,6 +61,10 @@ class Cubical {
   static bool edges_join_vertices() { return true; }
   static CellKind cell_kind() { return CellKind::grid; }
   void append_input_cell(int dim, const Cell& cell, std::vector<Index>& numbers) const;
+  /// How many vertices the grid has, those that never enter included: voxels (V), corners (T).
+  std::size_t vertex_count() const;
+  /// The place of a vertex among them in C order.
+  std::size_t vertex_number(const Cell& vertex) const;
 
   template <class Visit>
   void for_each_cell(int dim, Visit&& visit) const;
