@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "ph/core/error.hpp"
+#include "ph/core/radix_sort.hpp"
 #include "ph/metric/pairs_within.hpp"
 
 namespace ph {
@@ -33,8 +34,9 @@ RipsGraph RipsGraph::of_points_within(const Points& points, double threshold,
   std::pmr::vector<Candidate> candidates(&context.memory);
   Ticker ticker(context, "edges");
   for_each_pair_within(points, threshold, [&](Index i, Index j, double d) {
-    candidates.push_back({d, {static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(i)}});
     ticker.tick();
+    if (d == kNoLimit) return;  // farther apart than the largest double
+    candidates.push_back({d, {static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(i)}});
   });
   return build(points.rows(), threshold, std::move(candidates), context);
 }
@@ -62,10 +64,13 @@ RipsGraph RipsGraph::build(Index size, double threshold, std::pmr::vector<Candid
                             "threshold or subsample", candidates.size()));
   }
   context.poll();
-  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    if (a.value != b.value) return a.value < b.value;
+  // Ties in the order (larger end, smaller end): the order in which dense input arrives.
+  const auto in_order = [](const Candidate& a, const Candidate& b) {
     return a.edge.u != b.edge.u ? a.edge.u < b.edge.u : a.edge.v < b.edge.v;
-  });
+  };
+  if (!std::is_sorted(candidates.begin(), candidates.end(), in_order))
+    std::sort(candidates.begin(), candidates.end(), in_order);
+  radix_sort_by_value(candidates, [](const Candidate& c) { return c.value; });
   context.poll();
 
   RipsGraph graph(&context.memory);

@@ -40,9 +40,8 @@ void for_each_pair_within(const Points& points, double radius,
   const PointMetric metric(points);
   const Index n = points.rows();
   const double reach = points.size() == 0 ? 0 : points.cwiseAbs().maxCoeff();
-  // Squares near the ends of the range of double mislead the tree; all pairs do not.
-  const bool tree_is_safe = points.size() > 0 && reach < 1e150 && radius > 1e-140;
-  if (!tree_is_safe || radius > 1e150) {
+  // Squares that overflow mislead the tree; all pairs do not.
+  if (points.size() == 0 || reach > 1e150 || radius > 1e150) {
     for (Index i = 0; i < n; ++i)
       for (Index j = i + 1; j < n; ++j)
         if (const double d = metric(i, j); d <= radius) visit(i, j, d);
@@ -50,8 +49,9 @@ void for_each_pair_within(const Points& points, double radius,
   }
   const KdPoints view{points};
   const KdTree tree(static_cast<int>(points.cols()), view, {16});
-  // The tree compares squares: ask for a hair more and let the metric decide.
-  const double ask = radius * radius * (1 + 1e-12);
+  // The tree compares squares, which lose digits to underflow: ask for a hair more and let the
+  // metric decide.
+  const double ask = std::max(radius * radius, 1e-280) * (1 + 1e-12);
   std::vector<std::pair<std::uint32_t, double>> found;
   for (Index i = 0; i < n; ++i) {
     tree.radiusSearch(points.row(i).data(), ask, found, nanoflann::SearchParams(0, 0, false));

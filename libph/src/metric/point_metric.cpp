@@ -51,15 +51,21 @@ double PointMetric::euclidean(Index i, Index j) const {
     // A tiny sum may have lost digits to underflow: take the careful way for it.
     if (sum >= kSmallestPlain * kSmallestPlain || sum == 0) return std::sqrt(sum);
   }
-  double largest = 0;
-  for (Index k = 0; k < d; ++k) largest = std::max(largest, std::abs(x[k] / 2 - y[k] / 2));
-  if (largest == 0) return 0;
-  double sum = 0;
-  for (Index k = 0; k < d; ++k) {
-    const double t = (x[k] / 2 - y[k] / 2) / largest;
-    sum += t * t;
-  }
-  return 2 * (largest * std::sqrt(sum));
+  // Halves only where whole differences overflow: the half of the least denormal is zero.
+  const auto scaled = [&](double unit) {
+    double largest = 0;
+    for (Index k = 0; k < d; ++k)
+      largest = std::max(largest, std::abs(x[k] * unit - y[k] * unit));
+    if (largest == 0 || std::isinf(largest)) return largest;
+    double sum = 0;
+    for (Index k = 0; k < d; ++k) {
+      const double t = (x[k] * unit - y[k] * unit) / largest;
+      sum += t * t;
+    }
+    return largest * std::sqrt(sum) / unit;
+  };
+  const double plain = scaled(1);
+  return std::isinf(plain) ? scaled(0.5) : plain;
 }
 
 double PointMetric::operator()(Index i, Index j) const {
@@ -70,7 +76,7 @@ double PointMetric::operator()(Index i, Index j) const {
     case PointDistance::manhattan: return (x - y).lpNorm<1>();
     case PointDistance::chebyshev: return points_.cols() == 0 ? 0 : (x - y).lpNorm<Eigen::Infinity>();
     case PointDistance::minkowski: {
-      const double largest = (x - y).cwiseAbs().maxCoeff();
+      const double largest = points_.cols() == 0 ? 0 : (x - y).cwiseAbs().maxCoeff();
       if (largest == 0) return 0;
       return largest * std::pow(((x - y).array().abs() / largest).pow(p_).sum(), 1 / p_);
     }
