@@ -44,6 +44,26 @@ void check_size(std::size_t cells) {
   }
 }
 
+// Tables are made with a row a dimension: a wrong number in a file must not make them huge.
+constexpr int kLargestDimension = 65535;
+
+void check_layout(const BoundaryMatrix& matrix) {
+  const std::size_t n = matrix.size();
+  const auto refuse = [](const std::string& what) {
+    throw Error(ErrorKind::bad_data, "boundary matrix: " + what);
+  };
+  if (matrix.offsets.size() != n + 1)
+    refuse(fmt::format("found {} offsets, expected {}", matrix.offsets.size(), n + 1));
+  if (!matrix.values.empty() && matrix.values.size() != n)
+    refuse(fmt::format("found {} values, expected {}", matrix.values.size(), n));
+  if (matrix.offsets.front() != 0 || matrix.offsets.back() != matrix.rows.size() ||
+      !std::ranges::is_sorted(matrix.offsets))
+    refuse(fmt::format("expected offsets that ascend from 0 to {}", matrix.rows.size()));
+  if (!matrix.incidences.empty() && matrix.incidences.size() != matrix.rows.size())
+    refuse(fmt::format("found {} incidence numbers, expected {}", matrix.incidences.size(),
+                       matrix.rows.size()));
+}
+
 // The boundary matrix of a set of simplices whose vertices are ascending.
 BoundaryMatrix boundary_of(const SimplexList& simplices, const CellNamer& name) {
   std::unordered_map<std::span<const Index>, std::size_t, HashVertices, EqualVertices> position;
@@ -100,11 +120,7 @@ ExplicitComplex ExplicitComplex::from_boundary(const BoundaryMatrix& matrix,
                                                const CellNamer& name) {
   const std::size_t n = matrix.size();
   check_size(n);
-  if (matrix.offsets.size() != n + 1 || (!matrix.values.empty() && matrix.values.size() != n)) {
-    throw Error(ErrorKind::bad_data,
-                fmt::format("boundary matrix: found {} columns and {} values, expected {} of each",
-                            matrix.offsets.size() - 1, matrix.values.size(), n));
-  }
+  check_layout(matrix);
   std::vector<double> values = matrix.values;
   if (values.empty()) {
     values.resize(n);
@@ -112,7 +128,10 @@ ExplicitComplex ExplicitComplex::from_boundary(const BoundaryMatrix& matrix,
   }
   for (std::size_t i = 0; i < n; ++i) {
     if (std::isnan(values[i])) fail(name, i, "found the value nan, expected a number");
-    if (matrix.dims[i] < 0) fail(name, i, fmt::format("found dimension {}", matrix.dims[i]));
+    if (matrix.dims[i] < 0 || matrix.dims[i] > kLargestDimension) {
+      fail(name, i, fmt::format("found dimension {}, expected 0 to {}", matrix.dims[i],
+                                kLargestDimension));
+    }
     values[i] += 0.0;
   }
 
