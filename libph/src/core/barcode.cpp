@@ -56,6 +56,8 @@ std::size_t Barcode::longest(int dim) const {
     throw Error(ErrorKind::usage, "the barcode has no bar of dimension " + std::to_string(dim));
   }
   const auto it = std::max_element(all.begin(), all.end(), [](const Bar& a, const Bar& b) {
+    // A bar from -infinity is as long as one that never dies, which comes first all the same.
+    if (a.is_infinite() != b.is_infinite()) return b.is_infinite();
     return a.persistence() < b.persistence();
   });
   return static_cast<std::size_t>(&*it - bars_.data());
