@@ -33,8 +33,8 @@ bool is_on_border(const std::vector<Index>& at, Index n) {
 TEST(KnownImages, ShellsAreSpheres) {
   for (int dim = 2; dim <= 4; ++dim) {
     for (const Construction construction : kBoth) {
-      const Image image = make_image(
-          dim, 3, [](const auto& at) { return is_on_border(at, 3) ? 0.0 : 1.0; });
+      const Image image =
+          make_image(dim, 3, [](const auto& at) { return is_on_border(at, 3) ? 0.0 : 1.0; });
       const Cubical shell(image, {.construction = construction});
       if (dim < 4) check(shell, dim);
       EXPECT_EQ(bars_of(persistence(shell, {.field = 3})),
@@ -47,8 +47,8 @@ TEST(KnownImages, ShellsAreSpheres) {
 TEST(KnownImages, InfiniteVoxelsAreHoles) {
   for (int dim = 2; dim <= 3; ++dim) {
     for (const Construction construction : kBoth) {
-      const Image image = make_image(
-          dim, 3, [](const auto& at) { return is_on_border(at, 3) ? -1.0 : kInf; });
+      const Image image =
+          make_image(dim, 3, [](const auto& at) { return is_on_border(at, 3) ? -1.0 : kInf; });
       const Cubical shell(image, {.construction = construction});
       check(shell, dim);
       EXPECT_EQ(bars_of(persistence(shell)),
@@ -87,7 +87,8 @@ TEST(KnownImages, SolidTorus) {
     const Barcode barcode = persistence(torus);
     EXPECT_EQ(betti_at(barcode, 0.5, 3), (Betti{1, 1, 0, 0}));
     EXPECT_EQ(betti_at(barcode, 4, 3), (Betti{1, 0, 0, 0}));
-    EXPECT_EQ(barcode[barcode.longest(1)], (Bar{1, construction == Construction::cells ? 0 : 0.5, 4}));
+    EXPECT_EQ(barcode[barcode.longest(1)],
+              (Bar{1, construction == Construction::cells ? 0 : 0.5, 4}));
   }
 }
 
@@ -146,7 +147,8 @@ TEST(KnownImages, PeriodicBoxesAreTori) {
 TEST(KnownImages, OnePeriodicAxisIsACylinder) {
   for (const Construction construction : kBoth) {
     for (Index around = 1; around <= 4; ++around) {
-      const Image image{{3, around}, std::vector<double>(static_cast<std::size_t>(3 * around), 0.0)};
+      const Image image{{3, around},
+                        std::vector<double>(static_cast<std::size_t>(3 * around), 0.0)};
       const Cubical cylinder(image, {.construction = construction, .periodic = {false, true}});
       check(cylinder, 2);
       EXPECT_EQ(bars_of(persistence(cylinder)), (std::vector<Bar>{{0, 0, kInf}, {1, 0, kInf}}));

@@ -32,13 +32,13 @@ TEST(KnownSpaces, KleinBottleDiffersBetweenTwoAndThree) {
   const ExplicitComplex klein = all_at_once(klein_bottle());
   ASSERT_EQ(klein.size(), 16U + 48U + 32U) << "gluing must not merge simplices";
   expect_homology(klein_bottle(), 2, 2, {1, 2, 1});
-  for (const std::int64_t field : {3, 5, 11})
-    expect_homology(klein_bottle(), 2, field, {1, 1, 0});
+  for (const std::int64_t field : {3, 5, 11}) expect_homology(klein_bottle(), 2, field, {1, 1, 0});
 }
 
 TEST(KnownSpaces, ProjectivePlaneDiffersBetweenTwoAndThree) {
   expect_homology(projective_plane(), 2, 2, {1, 1, 1});
-  for (const std::int64_t field : {3, 5, 11}) expect_homology(projective_plane(), 2, field, {1, 0, 0});
+  for (const std::int64_t field : {3, 5, 11})
+    expect_homology(projective_plane(), 2, field, {1, 0, 0});
 }
 
 TEST(KnownSpaces, SuspensionMovesHomologyUp) {
@@ -126,7 +126,8 @@ TEST(KnownSpaces, RipsOfCrossPolytopes) {
 
 TEST(KnownSpaces, RipsOfARegularSimplexIsContractible) {
   for (Index n = 1; n <= 8; ++n) {
-    const Rips rips(DistanceMatrix(n, std::vector<double>(static_cast<std::size_t>(n * (n - 1) / 2), 3.0)));
+    const Rips rips(
+        DistanceMatrix(n, std::vector<double>(static_cast<std::size_t>(n * (n - 1) / 2), 3.0)));
     check(rips, 3, {2, 3});
     const Barcode barcode = persistence(rips, {.max_dim = 3});
     Intervals components(static_cast<std::size_t>(n), {0, 3});
@@ -155,8 +156,7 @@ TEST(KnownSpaces, LowerStarOfGraphs) {
   const std::vector<WeightedEdge> cycle{{0, 1, 0}, {1, 2, 0}, {2, 3, 0}, {3, 0, 0}};
   const ExplicitComplex loop = lower_star(cycle, values);
   check(loop, 1);
-  EXPECT_EQ(bars_of(persistence(loop)),
-            (std::vector<Bar>{{0, 0, kInf}, {0, 1, 2}, {1, 2, kInf}}));
+  EXPECT_EQ(bars_of(persistence(loop)), (std::vector<Bar>{{0, 0, kInf}, {0, 1, 2}, {1, 2, kInf}}));
 }
 
 TEST(KnownSpaces, BirthsAtMinusInfinity) {

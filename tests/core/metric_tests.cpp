@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+// Distances: values by hand, the ends of the range of double, near pairs against all pairs.
+#include <limits>
+
+#include "ph/metric/distance_matrix.hpp"
+#include "ph/metric/point_metric.hpp"
+#include "ph/metric/sparse_distances.hpp"
+#include "support/expect_error.hpp"
+#include "support/generators.hpp"
+
+namespace ph::test {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+Points rows(std::initializer_list<std::initializer_list<double>> list) {
+  Points p(static_cast<Index>(list.size()), static_cast<Index>(list.begin()->size()));
+  Index i = 0;
+  for (const auto& row : list) {
+    Index k = 0;
+    for (const double x : row) p(i, k++) = x;
+    ++i;
+  }
+  return p;
+}
+
+double distance(PointDistance name, std::initializer_list<double> a,
+                std::initializer_list<double> b, double p = 2) {
+  const Points points = rows({a, b});
+  const PointMetric metric(points, name, p);
+  EXPECT_EQ(metric(0, 1), metric(1, 0));
+  EXPECT_EQ(metric(0, 0), 0);
+  return metric(0, 1);
+}
+
+TEST(DistanceMatrices, HoldTheLowerTriangleRowByRow) {
+  const DistanceMatrix d(4, {1, 2, 3, 4, 5, kInf});
+  EXPECT_EQ(d.size(), 4);
+  EXPECT_EQ(d(1, 0), 1);
+  EXPECT_EQ(d(2, 0), 2);
+  EXPECT_EQ(d(2, 1), 3);
+  EXPECT_EQ(d(3, 0), 4);
+  EXPECT_EQ(d(1, 3), 5);
+  EXPECT_EQ(d(2, 3), kInf);
+  for (Index i = 0; i < 4; ++i) EXPECT_EQ(d(i, i), 0);
+  EXPECT_FALSE(std::signbit(DistanceMatrix(2, {-0.0})(0, 1)));
+  EXPECT_EQ(DistanceMatrix(0, {}).size(), 0);
+  EXPECT_EQ(DistanceMatrix(1, {}).size(), 1);
+}
+
+TEST(DistanceMatrices, RefuseWhatIsNoDistance) {
+  expect_error(ErrorKind::bad_data, "expected 3", [] { DistanceMatrix(3, {1, 2}); });
+  expect_error(ErrorKind::bad_data, "expected 0", [] { DistanceMatrix(1, {1}); });
+  expect_error(ErrorKind::bad_data, "-1 points", [] { DistanceMatrix(-1, {}); });
+  expect_error(ErrorKind::bad_data, "(2, 1): found nan", [] { DistanceMatrix(3, {1, 2, kNan}); });
+  expect_error(ErrorKind::bad_data, "(2, 0): found -1", [] { DistanceMatrix(3, {1, -1, 2}); });
+  expect_error(ErrorKind::bad_data, "(1, 0): found -inf", [] { DistanceMatrix(2, {-kInf}); });
+}
+
+TEST(PointMetrics, ByHand) {
+  using enum PointDistance;
+  EXPECT_EQ(distance(euclidean, {0, 0}, {3, 4}), 5);
+  EXPECT_EQ(distance(manhattan, {0, 0}, {3, -4}), 7);
+  EXPECT_EQ(distance(chebyshev, {0, 0}, {3, -4}), 4);
+  EXPECT_NEAR(distance(minkowski, {0, 0}, {3, 4}, 3), std::cbrt(91), 1e-14);
+  EXPECT_NEAR(distance(minkowski, {0, 0}, {3, 4}, 1), 7, 1e-14);
+  EXPECT_NEAR(distance(minkowski, {0, 0}, {3, 4}, kInf), 4, 1e-14);
+  EXPECT_EQ(distance(minkowski, {1, 2}, {1, 2}, 3), 0);
+  EXPECT_NEAR(distance(cosine, {1, 0}, {0, 7}), 1, 1e-15);
+  EXPECT_NEAR(distance(cosine, {1, 0}, {-3, 0}), 2, 1e-15);
+  EXPECT_EQ(distance(cosine, {1, 0}, {5, 0}), 0);
+  EXPECT_NEAR(distance(cosine, {1, 0}, {1, 1}), 1 - std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(distance(cosine, {1, 0}, {1, 1e-9}) / 5e-19, 1, 1e-12) << "small angles keep digits";
+  EXPECT_EQ(distance(hamming, {1, 2, 3, 4}, {1, 0, 3, 0}), 2);
+  EXPECT_EQ(distance(hamming, {0.0}, {-0.0}), 0);
+}
+
+TEST(PointMetrics, NoCoordinatesNoDistance) {
+  using enum PointDistance;
+  const Points points(3, 0);
+  for (const PointDistance name : {euclidean, manhattan, chebyshev, minkowski, hamming})
+    EXPECT_EQ(PointMetric(points, name)(0, 2), 0);
+}
+
+TEST(PointMetrics, TheEndsOfTheRangeOfDouble) {
+  using enum PointDistance;
+  constexpr double kTiny = std::numeric_limits<double>::denorm_min();
+  EXPECT_NEAR(distance(euclidean, {0, 0}, {3e-300, 4e-300}) / 5e-300, 1, 1e-15);
+  EXPECT_NEAR(distance(euclidean, {0, 0}, {3e300, -4e300}) / 5e300, 1, 1e-15);
+  EXPECT_NEAR(distance(euclidean, {1e300, 1}, {-1e300, 1}) / 2e300, 1, 1e-15);
+  EXPECT_NEAR(distance(euclidean, {1, 1}, {1, 1 + 1e-15}) / (1 + 1e-15 - 1), 1, 1e-15);
+  EXPECT_NEAR(distance(euclidean, {1e-200, 0}, {0, 1}), 1, 1e-15);
+  EXPECT_EQ(distance(euclidean, {0}, {kTiny}), kTiny) << "denormals are kept";
+  EXPECT_EQ(distance(euclidean, {-kTiny}, {kTiny}), 2 * kTiny);
+  EXPECT_EQ(distance(euclidean, {3 * kTiny, 0}, {0, 4 * kTiny}), 5 * kTiny);
+  for (const PointDistance name : {manhattan, chebyshev}) {
+    EXPECT_EQ(distance(name, {0}, {kTiny}), kTiny);
+    EXPECT_EQ(distance(name, {0}, {1e300}), 1e300);
+  }
+  EXPECT_NEAR(distance(minkowski, {0, 0}, {3e300, 4e300}, 2) / 5e300, 1, 1e-14);
+  EXPECT_NEAR(distance(minkowski, {0, 0}, {3e-300, 4e-300}, 2) / 5e-300, 1, 1e-14);
+  EXPECT_NEAR(distance(cosine, {1e-300, 0}, {1e300, 1e300}), 1 - std::sqrt(0.5), 1e-15);
+}
+
+TEST(PointMetrics, RefuseWhatTheyCannotMeasure) {
+  using enum PointDistance;
+  expect_error(ErrorKind::bad_data, "point 1, coordinate 0: found nan",
+               [] { distance(euclidean, {0}, {kNan}); });
+  expect_error(ErrorKind::bad_data, "point 0, coordinate 1: found -inf", [] {
+    distance(hamming, {0, -kInf}, {0, 0});
+  });
+  expect_error(ErrorKind::bad_data, "point 1", [] { distance(cosine, {1, 0}, {0, 0}); });
+  for (const double p : {0.5, 0.0, -1.0, kNan})
+    expect_error(ErrorKind::usage, "exponent", [p] { distance(minkowski, {0}, {1}, p); });
+}
+
+TEST(SparseDistanceSets, KeepEachEdgeOnce) {
+  const SparseDistances s(4, {{3, 1, 2}, {0, 2, -0.0}, {0, 1, kInf}});
+  EXPECT_EQ(s.size(), 4);
+  EXPECT_EQ(s.edges(), (std::vector<WeightedEdge>{{0, 1, kInf}, {0, 2, 0}, {1, 3, 2}}));
+  EXPECT_FALSE(std::signbit(s.edges()[1].value));
+  EXPECT_EQ(SparseDistances(0, {}).size(), 0);
+}
+
+TEST(SparseDistanceSets, RefuseWhatIsNoEdge) {
+  const auto refuse = [](WeightedEdge e, const std::string& what) {
+    expect_error(ErrorKind::bad_data, what, [e] { SparseDistances(3, {{0, 1, 1}, e}); });
+  };
+  refuse({1, 1, 0}, "(1, 1)");
+  refuse({-1, 2, 0}, "(-1, 2)");
+  refuse({2, 3, 0}, "(2, 3)");
+  refuse({INT64_MAX, 0, 0}, "below 3");
+  refuse({0, 2, -1}, "found distance -1");
+  refuse({0, 2, kNan}, "found distance nan");
+  refuse({1, 0, 5}, "(0, 1) is there twice");
+  refuse({0, 1, 1}, "(0, 1) is there twice");
+}
+
+std::vector<WeightedEdge> all_pairs_within(const Points& points, double radius) {
+  const PointMetric metric(points);
+  std::vector<WeightedEdge> edges;
+  for (Index i = 0; i < points.rows(); ++i)
+    for (Index j = i + 1; j < points.rows(); ++j)
+      if (metric(i, j) <= radius) edges.push_back({i, j, metric(i, j)});
+  return edges;
+}
+
+TEST(SparseDistanceSets, NearPairsAreThoseOfAllPairs) {
+  for (std::uint64_t seed = 0; seed < 600; ++seed) {
+    Generator random(seed);
+    const Index n = random.integer(0, 60), d = random.integer(1, 6);
+    Points points = random.points(n, d, random.coin());
+    const double scale[] = {1, 1, 1e-3, 1e100, 1e200, 1e-200, 1e-310};
+    points *= scale[random.integer(0, 6)];
+    double radius = 0;
+    // A radius that is a distance to the last bit is inclusive.
+    if (n >= 2 && random.integer(0, 3) != 0)
+      radius = PointMetric(points)(random.integer(0, static_cast<int>(n) - 1), 0);
+    EXPECT_EQ(SparseDistances::within(points, radius).edges(), all_pairs_within(points, radius))
+        << "seed " << seed;
+    const double below = std::nextafter(radius, 0.0), above = std::nextafter(radius, kInf);
+    EXPECT_EQ(SparseDistances::within(points, below).edges(), all_pairs_within(points, below));
+    EXPECT_EQ(SparseDistances::within(points, above).edges(), all_pairs_within(points, above));
+  }
+}
+
+TEST(SparseDistanceSets, RadiiAtTheEnds) {
+  const Points points = rows({{0, 0}, {3, 4}, {0, 0}, {1e300, 0}});
+  EXPECT_EQ(SparseDistances::within(points, 0).edges(), (std::vector<WeightedEdge>{{0, 2, 0}}));
+  EXPECT_EQ(SparseDistances::within(points, 5).edges().size(), 3U);
+  EXPECT_EQ(SparseDistances::within(points, kInf).edges().size(), 6U);
+  EXPECT_EQ(SparseDistances::within(Points(3, 0), 0).edges().size(), 3U);
+  EXPECT_EQ(SparseDistances::within(Points(0, 2), 1).size(), 0);
+  expect_error(ErrorKind::usage, "radius", [&] { SparseDistances::within(points, -1); });
+  expect_error(ErrorKind::usage, "radius", [&] { SparseDistances::within(points, kNan); });
+}
+
+// All pairs would be 5 * 10^9 distances here.
+TEST(SparseDistanceSets, ManyPointsAndFewPairsTakeNearLinearTime) {
+  Points line(100000, 2);
+  for (Index i = 0; i < line.rows(); ++i) {
+    line(i, 0) = static_cast<double>(i / 2);
+    line(i, 1) = 7;
+  }
+  for (const double radius : {0.0, 1e-300, 0.5})
+    EXPECT_EQ(SparseDistances::within(line, radius).edges().size(), 50000U);
+}
+
+}  // namespace
+}  // namespace ph::test

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+// The facade: options, engines, estimates, a filtration of the user's own.
+#include "ph/persistence.hpp"
+
+#include "support/conformance.hpp"
+#include "support/expect_error.hpp"
+#include "support/generators.hpp"
+#include "support/known_spaces.hpp"
+
+namespace ph::test {
+namespace {
+
+constexpr double kInf = kInfinity;
+
+TEST(Options, MakeSenseOrAreRefused) {
+  const Rips rips(circle(5));
+  const Cubical cubical(Image{{3}, {0, 2, 1}});
+  const ExplicitComplex complex = all_at_once(torus_of_seven_vertices());
+  const auto refuse = [&](const std::string& what, const Options& options) {
+    for (const AnyComplex& any : {AnyComplex(rips), AnyComplex(cubical), AnyComplex(complex)})
+      expect_error(ErrorKind::usage, what, [&] { persistence(any, options); });
+  };
+  refuse("found -1", {.max_dim = -1});
+  refuse("found 4", {.field = 4});
+  refuse("found 0", {.field = 0});
+  refuse("found -2", {.field = -2});
+  refuse("found 2147483648", {.field = std::int64_t{1} << 31});
+  refuse("union_find cannot compute homology up to dimension 1",
+         {.max_dim = 1, .engine = Engine::union_find});
+}
+
+TEST(Options, DefaultDimensions) {
+  EXPECT_EQ(persistence(Rips(circle(6))).bars(1).size(), 1U) << "H1 of points";
+  const Cubical shell(Image{{3, 3}, {0, 0, 0, 0, kInf, 0, 0, 0, 0}});
+  EXPECT_EQ(betti_at_the_end(persistence(shell), 2), (std::vector<int>{1, 1, 0}));
+  const ExplicitComplex sphere = all_at_once(cross_polytope(3));
+  EXPECT_EQ(betti_at_the_end(persistence(sphere), 3), (std::vector<int>{1, 0, 0, 1}));
+  for (const int max_dim : {3, 4, 1000, INT_MAX})
+    EXPECT_EQ(persistence(sphere, {.max_dim = max_dim}).bars(3).size(), 1U);
+}
+
+TEST(Options, MinPersistenceIsExclusive) {
+  const ExplicitComplex complex = [] {
+    const std::vector<double> values{0, 5, 1, 3, 3};
+    const std::vector<WeightedEdge> path{{0, 1, 0}, {1, 2, 0}, {2, 3, 0}, {3, 4, 0}};
+    return lower_star(path, values);
+  }();
+  const auto count = [&](double least) {
+    return persistence(complex, {.min_persistence = least}).size();
+  };
+  EXPECT_EQ(count(-1), 5U) << "zero-length bars too";
+  EXPECT_EQ(count(0), 2U);
+  EXPECT_EQ(count(3.9), 2U);
+  EXPECT_EQ(count(4), 1U);
+  EXPECT_EQ(count(kInf), 1U) << "infinite bars stay";
+}
+
+// Fields only differ in what they can see: all large ones see the same.
+TEST(Options, LargeCharacteristics) {
+  const ExplicitComplex klein = vertex_by_vertex(klein_bottle());
+  check(klein, 2, {65537, 2147483647});
+  EXPECT_EQ(bars_of(persistence(klein, {.field = 2147483647})),
+            bars_of(persistence(klein, {.field = 3})));
+}
+
+TEST(Registry, NamesAreUniqueAndFound) {
+  std::set<std::string_view> names;
+  for_each_engine([&](auto engine) {
+    EXPECT_TRUE(names.insert(engine.name).second);
+    EXPECT_EQ(engine_named(engine.name), engine.id);
+    EXPECT_EQ(engine_name(engine.id), engine.name);
+  });
+  EXPECT_GE(names.size(), 4U);
+  EXPECT_EQ(engine_named("auto"), Engine::automatic);
+  EXPECT_EQ(engine_name(Engine::automatic), "auto");
+  EXPECT_EQ(engine_named("ripser"), std::nullopt);
+  EXPECT_EQ(engine_named(""), std::nullopt);
+}
+
+// ---- estimates
+
+template <class F>
+std::vector<double> count_cells(const F& f, int top) {
+  std::vector<double> cells;
+  for (int dim = 0; dim <= std::min(top, f.top_dim()); ++dim) {
+    cells.push_back(0);
+    f.for_each_cell(dim, [&](const auto&) { ++cells.back(); });
+  }
+  return cells;
+}
+
+TEST(Estimates, CountTheCells) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    Generator random(seed);
+    const Cubical cubical(random.image({3, 4}, true), random.cubical_options(2));
+    EXPECT_EQ(estimate(cubical).cells, count_cells(cubical, 2));
+    EXPECT_EQ(estimate(cubical, {.max_dim = 0}).cells, count_cells(cubical, 1));
+    const auto complex = ExplicitComplex::from_simplices(random.simplices(7, 3, 6, true));
+    EXPECT_EQ(estimate(complex).cells, count_cells(complex, 3));
+
+    const Rips rips(random.sparse(random.integer(0, 12), true, random.real()));
+    const Estimate e = estimate(rips, {.max_dim = 2});
+    rips.with_filtration(2, [&](const auto& f) {
+      const auto exact = count_cells(f, 3);
+      ASSERT_LE(exact.size(), std::max<std::size_t>(1, e.cells.size()));
+      for (std::size_t dim = 0; dim < exact.size(); ++dim) {
+        EXPECT_GE(e.cells[dim], exact[dim]) << "at most";
+        if (dim <= 1) {
+          EXPECT_EQ(e.cells[dim], exact[dim]);
+        }
+      }
+    });
+    EXPECT_GE(e.bytes_high, e.bytes_low);
+    EXPECT_GE(e.bytes_low, 0);
+  }
+  const Rips full(DistanceMatrix(6, std::vector<double>(15, 1.0)));
+  EXPECT_EQ(estimate(full, {.max_dim = 2}).cells, (std::vector<double>{6, 15, 20, 15}));
+}
+
+TEST(Estimates, NameTheEngineThatWillRun) {
+  const Rips rips(circle(6));
+  EXPECT_EQ(estimate(rips).engine, Engine::cohomology);
+  EXPECT_EQ(estimate(rips).max_dim, 1);
+  EXPECT_EQ(estimate(rips, {.max_dim = 0}).engine, Engine::union_find);
+  EXPECT_EQ(estimate(rips, {.engine = Engine::standard}).engine, Engine::standard);
+  EXPECT_FALSE(estimate(rips).reason.empty());
+  EXPECT_EQ(estimate(rips, {.max_dim = 100}).max_dim, 4) << "a triangle short of six: 5 vertices";
+  const ExplicitComplex torus = all_at_once(torus_of_seven_vertices());
+  EXPECT_EQ(estimate(torus).max_dim, 2);
+  expect_error(ErrorKind::usage, "found -1", [&] { estimate(rips, {.max_dim = -1}); });
+  expect_error(ErrorKind::usage, "union_find",
+               [&] { estimate(torus, {.engine = Engine::union_find}); });
+}
+
+TEST(Estimates, OfNothing) {
+  for (const AnyComplex& nothing : {AnyComplex(Rips(Points(0, 2))), AnyComplex(Cubical(Image{})),
+                                    AnyComplex(ExplicitComplex::from_simplices({}))}) {
+    const Estimate e = estimate(nothing);
+    EXPECT_LE(e.bytes_high, 1000);
+    for (const double count : e.cells) EXPECT_EQ(count, 0);
+  }
+}
+
+// ---- a filtration of the user's own: facets only
+
+/// The boundary of a square, 4 vertices and 4 edges; vertex i enters at i, edge i joins i to i + 1
+/// and enters at 10 + i. With `filled` a square on top, at 20.
+struct Square {
+  using Cell = int;
+  bool filled = false;
+
+  int top_dim() const { return filled ? 2 : 1; }
+  double value(Cell c) const { return c < 10 ? c : c < 20 ? c : 20; }
+  bool precedes(Cell a, Cell b) const { return a < b; }
+  template <class Visit>
+  void for_each_cell(int dim, Visit&& visit) const {
+    if (dim > top_dim()) return;
+    if (dim == 2) visit(20);
+    for (int i = 3; dim < 2 && i >= 0; --i) visit(10 * dim + i);  // any order
+  }
+  template <class Visit>
+  void for_each_facet(int dim, Cell c, Visit&& visit) const {
+    if (dim == 1) {
+      visit((c - 10 + 1) % 4, 1);
+      visit(c - 10, -1);
+    }
+    if (dim == 2)
+      for (int i = 0; i < 4; ++i) visit(10 + i, 1);
+  }
+  CellKind cell_kind() const { return CellKind::row; }
+  void append_input_cell(int, Cell c, std::vector<Index>& numbers) const { numbers.push_back(c); }
+};
+static_assert(Filtration<Square> && !CofacetFiltration<Square> && !GraphFiltration<Square>);
+
+TEST(UserFiltrations, FacetsAreEnough) {
+  for (const bool filled : {false, true}) {
+    const Square square{filled};
+    check(square, 2);
+    const Barcode barcode = persistence(square, {.field = 3});
+    EXPECT_EQ(bars_of(barcode),
+              (std::vector<Bar>{
+                  {0, 0, kInf}, {0, 1, 10}, {0, 2, 11}, {0, 3, 12}, {1, 13, filled ? 20 : kInf}}));
+    EXPECT_EQ(barcode.birth_cell(4).numbers[0], 13);
+  }
+}
+
+TEST(UserFiltrations, EnginesThatNeedMoreSaySo) {
+  expect_error(ErrorKind::usage, "engine cohomology cannot",
+               [] { persistence(Square{}, {.engine = Engine::cohomology}); });
+  expect_error(ErrorKind::usage, "engine union_find cannot",
+               [] { persistence(Square{}, {.max_dim = 0, .engine = Engine::union_find}); });
+}
+
+/// The same with cofacets in the worst order, and an honest `false`.
+struct SquareWithCofacets : Square {
+  static constexpr bool first_equal_cofacet_is_oldest = false;
+  unsigned key(Cell c) const { return static_cast<unsigned>(value(c)); }
+  template <class Visit>
+  void for_each_cofacet(int dim, Cell c, Visit&& visit) const {
+    if (dim == 0 && visit(10 + c, -1)) visit(10 + (c + 3) % 4, 1);
+    if (dim == 1 && filled) visit(20, 1);
+  }
+};
+static_assert(CofacetFiltration<SquareWithCofacets>);
+
+TEST(UserFiltrations, CofacetsInAnyOrder) {
+  for (const bool filled : {false, true}) check(SquareWithCofacets{{filled}}, 2);
+}
+
+}  // namespace
+}  // namespace ph::test

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+// The graph under a Rips filtration: thresholds, layouts, small and degenerate inputs.
+#include <limits>
+
+#include "ph/persistence.hpp"
+#include "support/conformance.hpp"
+#include "support/expect_error.hpp"
+#include "support/generators.hpp"
+#include "support/known_spaces.hpp"
+
+namespace ph::test {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = kInfinity;
+
+TEST(RipsGraphs, TheDefaultThresholdIsTheEnclosingRadius) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    Generator random(seed);
+    const Index n = random.integer(1, 12);
+    const DistanceMatrix d = random.distances(n, random.coin());
+    double radius = kInf;
+    for (Index i = 0; i < n; ++i) {
+      double farthest = 0;
+      for (Index j = 0; j < n; ++j) farthest = std::max(farthest, d(i, j));
+      radius = std::min(radius, farthest);
+    }
+    const Rips rips(d);
+    EXPECT_EQ(rips.threshold(), radius);
+    // Beyond the radius nothing changes, whatever the distances.
+    EXPECT_EQ(bars_of(persistence(rips, {.max_dim = 3})),
+              bars_of(persistence(Rips(d, {.threshold = kInf}), {.max_dim = 3})));
+  }
+}
+
+TEST(RipsGraphs, TheThresholdIsInclusive) {
+  const DistanceMatrix d(3, {1, 2, 3});
+  EXPECT_EQ(Rips(d, {.threshold = 2}).edge_count(), 2U);
+  EXPECT_EQ(Rips(d, {.threshold = std::nextafter(2.0, 0.0)}).edge_count(), 1U);
+  EXPECT_EQ(Rips(d, {.threshold = 0}).edge_count(), 0U);
+  EXPECT_EQ(Rips(SparseDistances(3, {{0, 1, 2}, {1, 2, 3}}), {.threshold = 2}).edge_count(), 1U);
+  Points line(3, 1);
+  line << 0, 1, 3;
+  EXPECT_EQ(Rips(line, {.threshold = 2}).edge_count(), 2U) << "by the k-d tree";
+  EXPECT_EQ(Rips(line, {.threshold = 2, .distance = PointDistance::manhattan}).edge_count(), 2U);
+  for (const double bad : {-1.0, kNan, -kInf}) {
+    expect_error(ErrorKind::usage, "threshold", [&] { Rips(d, {.threshold = bad}); });
+    expect_error(ErrorKind::usage, "threshold",
+                 [&] { Rips(SparseDistances(1, {}), {.threshold = bad}); });
+    expect_error(ErrorKind::usage, "", [&] { Rips(line, {.threshold = bad}); });
+  }
+}
+
+TEST(RipsGraphs, KeysAscendWithDistanceAndVertices) {
+  const Rips rips(DistanceMatrix(4, {1, 1, 1, 0, 2, 1}), {.threshold = 2});
+  std::vector<std::array<double, 3>> edges;
+  for (RipsGraph::Key key = 1; key <= rips.edge_count(); ++key) {
+    const auto edge = rips.graph().edge(key);
+    EXPECT_GT(edge.u, edge.v);
+    EXPECT_EQ(rips.graph().key_of(edge.u, edge.v), key);
+    EXPECT_EQ(rips.graph().key_of(edge.v, edge.u), key);
+    edges.push_back({rips.graph().value(key), double(edge.u), double(edge.v)});
+  }
+  EXPECT_EQ(edges.size(), 6U);
+  EXPECT_TRUE(std::is_sorted(edges.begin(), edges.end()));
+  EXPECT_EQ(rips.graph().value(0), 0);
+}
+
+TEST(RipsGraphs, InfiniteDistancesAreNoEdges) {
+  const Rips matrix(DistanceMatrix(3, {1, kInf, kInf}), {.threshold = kInf});
+  EXPECT_EQ(matrix.edge_count(), 1U);
+  const Rips no_radius(DistanceMatrix(3, {1, kInf, kInf}));
+  EXPECT_EQ(no_radius.edge_count(), 1U);
+  EXPECT_EQ(bars_of(persistence(no_radius)),
+            (std::vector<Bar>{{0, 0, 1}, {0, 0, kInf}, {0, 0, kInf}}));
+  EXPECT_EQ(Rips(SparseDistances(2, {{0, 1, kInf}})).edge_count(), 0U);
+  // Two points farther apart than the largest double.
+  Points far(2, 1);
+  far << -1.7e308, 1.7e308;
+  EXPECT_EQ(Rips(far).edge_count(), 0U);
+  EXPECT_EQ(Rips(far, {.threshold = kInf}).edge_count(), 0U);
+}
+
+// Vertices without edges make the graph sparse and change nothing else.
+TEST(RipsGraphs, LayoutsAgree) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    Generator random(seed);
+    const SparseDistances few = random.sparse(random.integer(4, 9), random.coin(), 0.8);
+    const SparseDistances many(few.size() + 40, few.edges());
+    const Rips dense(few), sparse(many);
+    EXPECT_FALSE(sparse.graph().is_dense());
+    const auto expected = pairs_of(persistence(dense, {.max_dim = 3, .min_persistence = -1}));
+    std::vector<Pair> found;
+    for (Pair& p : pairs_of(persistence(sparse, {.max_dim = 3, .min_persistence = -1})))
+      if (p.birth_cell[0] < few.size()) found.push_back(std::move(p));
+    EXPECT_EQ(found, expected);
+  }
+  EXPECT_TRUE(Rips(DistanceMatrix(3, {1, 1, 1})).graph().is_dense());
+}
+
+TEST(RipsGraphs, CliqueBoundsHold) {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    Generator random(seed);
+    const Rips rips(random.sparse(random.integer(0, 12), true, random.real()));
+    const Index bound = rips.graph().clique_bound();
+    EXPECT_LE(bound, rips.size());
+    rips.with_filtration(20, [&](const auto& f) {
+      EXPECT_EQ(f.top_dim(), static_cast<int>(bound) - 1);
+      for (int dim = 0; dim <= f.top_dim() + 1; ++dim) f.for_each_cell(dim, [](const auto&) {});
+    });
+    // No simplex is missed: the whole complex has the Euler characteristic of its edges' cliques.
+    check(rips, 12, {2});
+  }
+}
+
+TEST(RipsInputs, NoneOneAndTwoPoints) {
+  for (const int max_dim : {0, 1, 2, 60, INT_MAX}) {
+    EXPECT_TRUE(persistence(Rips(Points(0, 3)), {.max_dim = max_dim}).empty());
+    EXPECT_TRUE(persistence(Rips(SparseDistances(0, {})), {.max_dim = max_dim}).empty());
+    EXPECT_EQ(bars_of(persistence(Rips(DistanceMatrix(1, {})), {.max_dim = max_dim})),
+              (std::vector<Bar>{{0, 0, kInf}}));
+    EXPECT_EQ(bars_of(persistence(Rips(DistanceMatrix(2, {3})), {.max_dim = max_dim})),
+              (std::vector<Bar>{{0, 0, 3}, {0, 0, kInf}}));
+    EXPECT_EQ(bars_of(persistence(Rips(DistanceMatrix(2, {0})), {.max_dim = max_dim})),
+              (std::vector<Bar>{{0, 0, kInf}}));
+  }
+}
+
+struct Arc {  // points on a circle of circumference 12, a distance of the user's own
+  Index size() const { return 12; }
+  int operator()(Index i, Index j) const {
+    const auto steps = static_cast<int>(std::abs(i - j));
+    return std::min(steps, 12 - steps);
+  }
+};
+
+TEST(RipsInputs, AMetricOfTheUsersOwn) {
+  const Rips rips(Arc{});
+  check(rips, 1);
+  const Barcode barcode = persistence(rips);
+  EXPECT_EQ(intervals(barcode, 1), (std::vector<std::pair<double, double>>{{1, 4}}));
+}
+
+struct Broken {
+  double value;
+  Index size() const { return 3; }
+  double operator()(Index i, Index j) const { return i + j == 3 ? value : 1; }
+};
+
+TEST(RipsInputs, ABrokenMetricIsRefused) {
+  for (const double bad : {-1.0, kNan, -kInf}) {
+    expect_error(ErrorKind::bad_data, "distance (2, 1)",
+                 [&] { Rips rips(Broken{bad}, {.threshold = 5}); });
+    expect_error(ErrorKind::bad_data, "distance", [&] { Rips rips(Broken{bad}); });
+  }
+}
+
+TEST(RipsInputs, NamedDistances) {
+  Points square(4, 2);
+  square << 0, 0, 0, 1, 1, 1, 1, 0;
+  const auto loop = [&](PointDistance distance) {
+    return intervals(persistence(Rips(square, {.distance = distance})), 1);
+  };
+  using Loops = std::vector<std::pair<double, double>>;
+  EXPECT_EQ(loop(PointDistance::euclidean), (Loops{{1, std::sqrt(2.0)}}));
+  EXPECT_EQ(loop(PointDistance::manhattan), (Loops{{1, 2}}));
+  EXPECT_EQ(loop(PointDistance::chebyshev), Loops{});
+  EXPECT_EQ(loop(PointDistance::hamming), (Loops{{1, 2}}));
+}
+
+// With 2^20 points a cell of one word holds three vertices, of four words twelve.
+TEST(RipsInputs, WideCellsWhereOneWordIsNotEnough) {
+  std::vector<WeightedEdge> edges;
+  const Simplices sphere = cross_polytope(3);
+  const Index n = 1 << 20;
+  for (Index u = 0; u < 8; ++u)
+    for (Index v = u + 1; v < 8; ++v)
+      if (u / 2 != v / 2) edges.push_back({n - 1 - u * 1000, n - 1 - v * 1000, 1});
+  const Barcode barcode = persistence(Rips(SparseDistances(n, edges)), {.max_dim = 3});
+  EXPECT_EQ(barcode.bars(0).size(), static_cast<std::size_t>(n));
+  EXPECT_EQ(barcode.bars(1).size(), 0U);
+  EXPECT_EQ(barcode.bars(2).size(), 0U);
+  EXPECT_EQ(intervals(barcode, 3), (std::vector<std::pair<double, double>>{{1, kInf}}));
+}
+
+TEST(RipsInputs, SimplicesTooLargeForAnyCellAreRefused) {
+  const Rips rips(DistanceMatrix(300, std::vector<double>(300 * 299 / 2, 1.0)));
+  expect_error(ErrorKind::resource, "lower the dimension",
+               [&] { persistence(rips, {.max_dim = 200}); });
+}
+
+}  // namespace
+}  // namespace ph::test

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "ph/core/error.hpp"
+
+namespace ph::test {
+
+/// Expects that `act` throws an Error of that kind whose message holds `part`, on one line.
+template <class Act>
+void expect_error(ErrorKind kind, const std::string& part, Act&& act) {
+  try {
+    act();
+  } catch (const Error& e) {
+    const std::string message = e.what();
+    EXPECT_EQ(e.kind(), kind) << message;
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    return;
+  }
+  ADD_FAILURE() << "expected an error with '" << part << "', found none";
+}
+
+}  // namespace ph::test
