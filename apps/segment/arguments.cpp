@@ -80,6 +80,8 @@ void add_input_options(CLI::App& app, Arguments& a) {
             });
   add_value(app, "--depth-scale", "S", "depth units a metre (default: 1000, millimetres)",
             [&a](const std::string& v) { a.image.scale = length("--depth-scale", v); });
+  app.add_flag("--allow-empty", a.allow_empty,
+               "a cloud without points is an empty result (default: an error)");
 }
 
 void add_stage_options(CLI::App& app, SegmentOptions& o) {
@@ -155,9 +157,11 @@ void add_planned_options(CLI::App& app) {
     app.add_flag_callback(
         name, [name] { not_built_in(name); }, "not built in yet");
   }
-  for (const std::string name : {"--min-persistence", "--cut", "--explain", "--report"}) {
-    add_value(app, name, "X", "not built in yet",
-              [name](const std::string&) { not_built_in(name); });
+  using Option = std::pair<std::string, std::string>;
+  for (const auto& [name, value] : {Option("--min-persistence", "X"), Option("--cut", "X"),
+                                    Option("--explain", "A,B"), Option("--report", "FILE.html")}) {
+    add_value(app, name, value, "not built in yet",
+              [name = name](const std::string&) { not_built_in(name); });
   }
 }
 

@@ -21,6 +21,7 @@ struct DepthInput {
 struct Arguments {
   std::string input;  ///< a cloud; empty: the depth image
   DepthInput image;
+  bool allow_empty = false;  ///< a cloud without points is an empty result, not an error
   SegmentOptions options;
   std::string output;    ///< the cloud with its labels
   std::string labels;    ///< one label a point

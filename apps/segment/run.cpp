@@ -8,6 +8,7 @@
 #include "arguments.hpp"
 #include "exit_code.hpp"
 #include "outputs.hpp"
+#include "ph/core/error.hpp"
 #include "ph/io/output_file.hpp"
 #include "session.hpp"
 #include "summary.hpp"
@@ -28,6 +29,7 @@ Cloud read_input(const Arguments& arguments, app::Session& session) {
   if (arguments.input.empty()) return read_depth(arguments.image, session.context());
   ReadOptions options;
   options.context = &session.context();
+  options.allow_empty = arguments.allow_empty;
   options.note = [&session](const std::string& text) { session.note(text); };
   return ph::read_cloud(arguments.input, options);
 }
@@ -40,6 +42,20 @@ void warn(const Segmentation& s, const SegmentOptions& options, app::Session& se
                              options.max_range, options.crop ? " and inside the crop box" : ""));
   } else if (options.plane && !s.plane) {
     session.note(s.plane_note + "; nothing removed");
+  }
+}
+
+/// The library knows what is missing, the program which of its options help.
+Segmentation segment_within_limits(const Cloud& cloud, const SegmentOptions& options,
+                                   const RunContext& context) {
+  try {
+    return segment(cloud, options, context);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::resource) throw;
+    throw Error(ErrorKind::resource,
+                fmt::format("{}; lower --distance or --max-range, enlarge --voxel, or raise "
+                            "--memory-limit",
+                            error.what()));
   }
 }
 
@@ -56,7 +72,7 @@ int run(int argc, const char* const* argv, std::stop_token stop) {
   const std::chrono::duration<double> reading = std::chrono::steady_clock::now() - start;
   outputs.require_suitable(cloud);
 
-  const Segmentation result = segment(cloud, arguments.options, session.context());
+  const Segmentation result = segment_within_limits(cloud, arguments.options, session.context());
   warn(result, arguments.options, session);
   session.note(one_line_summary(cloud, result));
   for (const Stage& stage : result.stages) {

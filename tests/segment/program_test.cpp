@@ -165,6 +165,14 @@ TEST_F(Program, CloudsWithNothingInThem) {
   EXPECT_EQ(read_cloud(at("out.pcd")).height, 3);
 }
 
+TEST_F(Program, NoPointsAtAll) {
+  std::ofstream(at("none.xyz")) << "# nothing\n";
+  EXPECT_EQ(run("none.xyz"), 65);
+  EXPECT_NE(err().find("--allow-empty"), std::string::npos) << err();
+  EXPECT_EQ(run("none.xyz --allow-empty -o out.ply --labels l.csv --json s.json"), 0) << err();
+  EXPECT_EQ(contents(at("l.csv")), "");
+}
+
 TEST_F(Program, UsageErrors) {
   for (const char* arguments : {"",
                                 "scene.pcd --voxel 0",
@@ -214,7 +222,8 @@ TEST_F(Program, InputErrors) {
   std::ofstream(at("empty.pcd"));
   EXPECT_EQ(run("empty.pcd"), 65);
   EXPECT_EQ(run("scene.pcd -o no/such/folder/out.pcd"), 73);
-  EXPECT_EQ(run("scene.pcd --memory-limit 1k --json s.json"), 75);
+  EXPECT_EQ(run("scene.pcd --plane off --distance 2 --memory-limit 50MB --json s.json"), 75);
+  EXPECT_NE(err().find("lower --distance"), std::string::npos) << err();
   EXPECT_FALSE(fs::exists(at("s.json")));
 }
 
