@@ -3,8 +3,11 @@
 import json
 import math
 import os
+import random
+import shutil
 import struct
 import subprocess
+import unittest
 import xml.dom.minidom
 
 from program import SQUARE, SQUARE_CSV, ProgramTest, main
@@ -101,6 +104,33 @@ class Formats(ProgramTest):
         self.assertIn("<desc>Betti curves", self.read("b.svg"))
         for name in ("a.svg", "b.svg"):
             xml.dom.minidom.parseString(self.read(name))
+
+
+class Ripser(ProgramTest):
+    @unittest.skipUnless(shutil.which("ripser"), "the program ripser is not installed")
+    def test_intervals_are_those_that_ripser_prints(self):
+        def intervals(text):
+            lines = text.splitlines()
+            start = next(i for i, line in enumerate(lines) if line.startswith("persistence"))
+            blocks = []
+            for line in lines[start:]:
+                if line.startswith("persistence"):
+                    blocks.append([line])
+                else:
+                    blocks[-1].append(line)
+            return [[block[0]] + sorted(block[1:]) for block in blocks]
+
+        random.seed(5)
+        # Whole numbers: Ripser computes with single precision.
+        rows = [" ".join(str(random.randint(1, 999)) for _ in range(i)) for i in range(1, 40)]
+        self.write("lower.txt", "\n".join(rows) + "\n")
+        for extra in ([], ["--threshold", "300"], ["--threshold", "150"]):
+            theirs = subprocess.run(["ripser", "--format", "lower-distance", "--dim", "2", *extra,
+                                     "lower.txt"], cwd=self.folder, capture_output=True, text=True)
+            self.assertEqual(theirs.returncode, 0)
+            ours = self.expect(0, "lower.txt", "--format", "lower-distance", "--max-dim", "2",
+                               "--output-format", "ripser", *extra)
+            self.assertEqual(intervals(ours.stdout), intervals(theirs.stdout), extra)
 
 
 class Options(ProgramTest):

@@ -12,6 +12,13 @@ std::string shortest(double value) {
   return fmt::format("{}", value == 0 ? 0.0 : value);  // -0.0 is 0
 }
 
+namespace {
+
+/// As Ripser prints: six significant digits; -0 is 0.
+std::string six_digits(double value) { return fmt::format("{:g}", value == 0 ? 0.0 : value); }
+
+}  // namespace
+
 void write_barcode_csv(OutputFile& file, const Barcode& barcode) {
   file.write("dim,birth,death\n");
   for (const Bar& bar : barcode)
@@ -29,9 +36,10 @@ void write_barcode_ripser(OutputFile& file, const Barcode& barcode, int max_dim)
     file.write(fmt::format("persistence intervals in dim {}:\n", dim));
     // Ripser prints the infinite ones last.
     for (const Bar& bar : barcode.bars(dim))
-      if (!bar.is_infinite()) file.write(fmt::format(" [{:g},{:g})\n", bar.birth, bar.death));
+      if (!bar.is_infinite())
+        file.write(fmt::format(" [{},{})\n", six_digits(bar.birth), six_digits(bar.death)));
     for (const Bar& bar : barcode.bars(dim))
-      if (bar.is_infinite()) file.write(fmt::format(" [{:g}, )\n", bar.birth));
+      if (bar.is_infinite()) file.write(fmt::format(" [{}, )\n", six_digits(bar.birth)));
   }
 }
 

@@ -149,10 +149,15 @@ std::string draw_diagram(const Barcode& barcode, const PlotOptions& options) {
   // Few markers have room for the number of bars that each stands for.
   if (places.size() <= 40)
     for (const auto& [where, marker] : places)
-      if (marker.count > 1)
-        canvas.text(marker.x + radius_of(marker.count) + 0.8, marker.y - 1.5,
-                    fmt::format("×{}", grouped(marker.count)), Anchor::start, 5.5,
+      if (marker.count > 1) {
+        // To the upper left, away from the diagonal, but not over the axis.
+        const bool near_axis = marker.x < left + 16;
+        const double shift = radius_of(marker.count) + 0.8;
+        canvas.text(near_axis ? marker.x + shift : marker.x - shift, marker.y - 1.5,
+                    fmt::format("×{}", grouped(marker.count)),
+                    near_axis ? Anchor::start : Anchor::end, 5.5,
                     colour_of_dim(std::get<0>(where)));
+      }
   if (barcode.empty()) canvas.text(left + 50, middle - 50, "no bars", Anchor::middle, 7, kGrey);
   draw_legend(canvas, barcode, bottom, joined);
   return canvas.finish(bottom + 25, options.title.empty() ? "Persistence diagram" : options.title,
