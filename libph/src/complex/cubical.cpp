@@ -106,20 +106,28 @@ Cubical::Cubical(const Image& image, const CubicalOptions& options, const RunCon
     keys_[grid_index(order[rank].position)] = static_cast<std::uint32_t>(rank);
 
   for (int k = 0; k < dim_; ++k) {
-    const Axis& axis = axes_[k];
-    const std::uint64_t last = axis.length - 1;
-    for (std::uint64_t index = 0; index < cells; ++index) {
-      const std::uint64_t x = coordinate(index, axis);
-      if (x % 2 == voxel_parity) continue;
-      // The neighbours below and above along the axis; at a border of T there is only one.
-      const bool has_lower = x > 0 || axis.periodic, has_upper = x < last || axis.periodic;
-      const std::uint32_t lower =
-          has_lower ? keys_[x > 0 ? index - axis.stride : index + last * axis.stride] : kNever;
-      const std::uint32_t upper =
-          has_upper ? keys_[x < last ? index + axis.stride : index - last * axis.stride] : kNever;
-      keys_[index] = voxels_are_vertices ? std::max(lower, upper) : std::min(lower, upper);
-    }
+    spread_keys(axes_[k], voxels_are_vertices);
     context.poll();
+  }
+}
+
+void Cubical::spread_keys(const Axis& axis, bool voxels_are_vertices) {
+  const std::uint64_t last = axis.length - 1, slab = axis.stride * axis.length;
+  for (std::uint64_t first = 0; first < keys_.size(); first += slab) {
+    for (std::uint64_t x = voxels_are_vertices ? 1 : 0; x <= last; x += 2) {
+      // The layers below and above along the axis; at a border of T there is only one.
+      const bool has_lower = x > 0 || axis.periodic, has_upper = x < last || axis.periodic;
+      const std::uint64_t below = x > 0 ? x - 1 : last, above = x < last ? x + 1 : 0;
+      std::uint32_t* layer = keys_.data() + first + x * axis.stride;
+      const std::uint32_t* lower =
+          keys_.data() + first + (has_lower ? below : above) * axis.stride;
+      const std::uint32_t* upper =
+          keys_.data() + first + (has_upper ? above : below) * axis.stride;
+      for (std::uint64_t i = 0; i < axis.stride; ++i) {
+        layer[i] = voxels_are_vertices ? std::max(lower[i], upper[i])
+                                       : std::min(lower[i], upper[i]);
+      }
+    }
   }
 }
 

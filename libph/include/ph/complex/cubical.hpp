@@ -80,6 +80,8 @@ class Cubical {
     std::uint64_t length = 0;  // doubled coordinates
     bool periodic = false;
   };
+  /// Fills the layers between (V) or around (T) the voxels along an axis.
+  void spread_keys(const Axis& axis, bool voxels_are_vertices);
   std::uint64_t coordinate(std::uint64_t index, const Axis& axis) const {
     return index / axis.stride % axis.length;
   }

@@ -10,6 +10,7 @@ namespace ph {
 class Rips;
 class Cubical;
 class ExplicitComplex;
+class FilteredGraph;
 
 /// Two components become one. The elder (born first; the smaller vertex among equals) lives on.
 struct Merge {
@@ -43,6 +44,7 @@ struct MergeTree {
 /// (V-construction; grid corners in the T-construction), vertices of a complex in input order.
 MergeTree merge_tree(const Rips& rips, const RunContext& context = default_context());
 MergeTree merge_tree(const Cubical& cubical, const RunContext& context = default_context());
+MergeTree merge_tree(const FilteredGraph& graph, const RunContext& context = default_context());
 /// @throws Error (usage) if an edge does not join two vertices.
 MergeTree merge_tree(const ExplicitComplex& complex, const RunContext& context = default_context());
 

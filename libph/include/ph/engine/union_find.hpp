@@ -6,7 +6,7 @@
 #include "ph/core/error.hpp"
 #include "ph/core/field.hpp"
 #include "ph/engine/engine.hpp"
-#include "ph/engine/filtered_graph.hpp"
+#include "ph/engine/one_skeleton.hpp"
 
 namespace ph {
 
@@ -20,7 +20,7 @@ bool is_graph_like(const F& f) {
 /// Reports the pairs of H0. @return the edges that killed a component.
 template <GraphFiltration F>
 CellMap<F> pair_components(const F& f, BarcodeBuilder<F>& bars, const RunContext& context) {
-  const FilteredGraph<F> graph(f, context);
+  const OneSkeleton<F> graph(f, context);
   std::vector<bool> lives(graph.vertices.size(), true);
   CellMap<F> killers(f, &context.memory);
   join_by_elder_rule(graph.age, graph.ends, context,

@@ -16,10 +16,10 @@ namespace ph {
 /// in the order in which the filtration visits them.
 /// Precondition: `filtration.edges_join_vertices()`.
 template <GraphFiltration F>
-struct FilteredGraph {
+struct OneSkeleton {
   using Cell = typename F::Cell;
 
-  FilteredGraph(const F& filtration, const RunContext& context)
+  OneSkeleton(const F& filtration, const RunContext& context)
       : vertices(&context.memory),
         age(&context.memory),
         edges(&context.memory),

@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Prints the tables of docs/benchmarks.md: table.py BUILD_DIR [--ripser PROGRAM] [--gudhi-python PYTHON]
+[--scenes FOLDER] [--repeat N].
+
+User + system CPU seconds and peak resident memory, one thread, the best of N runs, ours and the peer's
+one after the other in the same run. Peers print nothing or to /dev/null; ours write no output.
+Needs numpy for the inputs. A peer that is not given is left out."""
+import argparse
+import json
+import os
+import pathlib
+import statistics
+import subprocess
+import tempfile
+
+import numpy
+
+GUDHI_CUBICAL = """
+import resource, sys
+import numpy, gudhi
+values = numpy.load(sys.argv[1])
+before = resource.getrusage(resource.RUSAGE_SELF)
+# vertices=… came later than 3.7: the T-construction of the same array has as many cells and more.
+complex = gudhi.CubicalComplex(dimensions=values.shape, top_dimensional_cells=values.flatten(order="F"))
+complex.compute_persistence(homology_coeff_field=2)
+after = resource.getrusage(resource.RUSAGE_SELF)
+print(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, after.ru_maxrss / 1024)
+"""
+
+
+def measure(command, repeat):
+    """(CPU seconds, peak MB) of the fastest run of a command."""
+    best = None
+    for _ in range(repeat):
+        with open(os.devnull, "w") as sink:
+            process = subprocess.Popen([str(c) for c in command], stdout=sink, stderr=sink)
+            _, status, usage = os.wait4(process.pid, 0)
+        if status != 0:
+            raise SystemExit(f"{command}: exit status {status}")
+        run = (usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024)
+        best = min(best, run) if best else run
+    return best
+
+
+def measure_gudhi(python, volume, repeat):
+    runs = [subprocess.run([python, "-c", GUDHI_CUBICAL, volume], capture_output=True, text=True, check=True)
+            for _ in range(repeat)]
+    return min(tuple(map(float, run.stdout.split())) for run in runs)
+
+
+def row(name, ours, theirs, peer):
+    text = f"| {name} | {ours[0]:.2f} / {ours[1]:.0f} | "
+    if theirs:
+        text += f"{peer} {theirs[0]:.2f} / {theirs[1]:.0f} | {theirs[0] / ours[0]:.1f} |"
+    else:
+        text += "– | – |"
+    print(text, flush=True)
+
+
+def smooth_volume(n, generator):
+    x, y, z = numpy.meshgrid(*[numpy.arange(n)] * 3, indexing="ij")
+    return (numpy.sin(0.3 * x) + numpy.cos(0.23 * y + 1) * numpy.sin(0.31 * z)
+            + 0.05 * generator.random((n, n, n)))
+
+
+def engines(arguments, folder):
+    barcode = arguments.build / "apps/barcode/ph-barcode"
+    ours = lambda *options: measure([barcode, *options, "--threads", "1", "--quiet", "--output-format", "none"],
+                                    arguments.repeat)
+    print("| input | libph: s / MB | peer: s / MB | peer / libph |\n|---|---|---|---|")
+    generator = numpy.random.default_rng(1)
+    points = folder / "points.txt"
+    numpy.savetxt(points, generator.random((1000, 3)))
+    theirs = arguments.ripser and measure([arguments.ripser, "--format", "point-cloud", "--dim", "1", points],
+                                          arguments.repeat)
+    row("Rips H1, 1 000 random points of R³, `cohomology`",
+        ours(points, "--max-dim", "1", "--engine", "cohomology"), theirs, "Ripser")
+    volumes = {"noise": generator.random((64, 64, 64)), "smooth": smooth_volume(64, generator)}
+    volumes["8-bit"] = numpy.floor(255 * volumes["noise"])
+    for name, values in volumes.items():
+        path = folder / f"{name}.npy"
+        numpy.save(path, values)
+        theirs = arguments.gudhi_python and measure_gudhi(arguments.gudhi_python, path, arguments.repeat)
+        row(f"cubical H0–H2, 64³ {name} (T), `twist`",
+            ours(path, "--engine", "twist", "--construction", "cells"), theirs, "GUDHI")
+
+
+def readers(arguments):
+    program = arguments.build / "bench/bench_readers"
+    if not program.exists():
+        return
+    scenes = sorted(arguments.scenes.glob("*.pcd"))[:3] if arguments.scenes else []
+    run = subprocess.run([program, *scenes, "--benchmark_format=json", "--benchmark_min_time=1"],
+                         capture_output=True, text=True, check=True)
+    print("\n| reader | CPU ms | MB/s |\n|---|---|---|")
+    for b in json.loads(run.stdout)["benchmarks"]:
+        print(f"| {b['name']} | {b['cpu_time']:.1f} | {b['bytes_per_second'] / 1e6:.0f} |")
+
+
+def paper_mode(arguments, folder):
+    scenes = sorted(arguments.scenes.glob("*.pcd")) if arguments.scenes else []
+    if not scenes:
+        return
+    seconds = {}
+    for scene in scenes:
+        runs = []
+        for _ in range(arguments.repeat):
+            summary = folder / "summary.json"
+            subprocess.run([arguments.build / "apps/segment/ph-segment", scene, "--method", "paper", "--threads",
+                            "1", "--quiet", "--json", summary], check=True)
+            runs.append({s["name"]: s["seconds"] for s in json.loads(summary.read_text())["stages"]})
+        for stage in runs[0]:
+            seconds.setdefault(stage, []).append(min(run[stage] for run in runs))
+    after_plane = [sum(t[i] for name, t in seconds.items() if name not in ("range filter", "plane"))
+                   for i in range(len(scenes))]
+    print(f"\n| stage of `--method paper`, {len(scenes)} frames | median ms | worst ms |\n|---|---|---|")
+    for name, times in [*seconds.items(), ("all after the plane", after_plane)]:
+        print(f"| {name} | {1e3 * statistics.median(times):.2f} | {1e3 * max(times):.2f} |")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--ripser")
+    parser.add_argument("--gudhi-python")
+    parser.add_argument("--scenes", type=pathlib.Path)
+    parser.add_argument("--repeat", type=int, default=3)
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        engines(arguments, pathlib.Path(folder))
+        readers(arguments)
+        paper_mode(arguments, pathlib.Path(folder))
+
+
+if __name__ == "__main__":
+    main()
