@@ -32,7 +32,8 @@ struct Fault {
 };
 
 /// All bytes of a file, of standard input ("-") or of a FIFO, with the name used in messages.
-/// Large regular files are mapped; streams grow within the memory budget of the run. Move only.
+/// Regular files above 16 MiB are mapped (another program must not shorten them meanwhile), smaller
+/// ones are copied; streams grow within the memory budget of the run. Move only.
 class Input {
  public:
   /// @param path a file, a FIFO, or "-" for standard input.
