@@ -17,14 +17,14 @@ segment=build/release/apps/segment/ph-segment
 # The five longest bars of a dimension: longest DIM FILE.csv
 longest() {
   awk -F, -v dim="$1" '$1 == dim { printf "%.4g [%.4g, %.4g)\n", $3 - $2, $2, $3 }' "$2" |
-    sort -gr | head -n 5 | sed 's/^/    /'
+    sort -gr | sed -n '1,5s/^/    /p'
 }
 
 echo
 echo "1. 5 210 points on a cat (libcgal-demo): Vietoris-Rips, H0 and H1"
 $barcode "$out/data/kitten.csv" --threshold 0.15 --quiet -o "$out/kitten.csv" \
   --plot "$out/kitten.svg" --plot-kind diagram
-echo "   longest loops, length [birth, death): two stand out, those of the tail's handle"
+echo "   longest loops, length [birth, death): two stand out, as on a torus"
 longest 1 "$out/kitten.csv"
 
 echo "2. CT of a skull, 64 x 64 x 64 (libcgal-demo): cubical, H0, H1, H2"
