@@ -44,10 +44,10 @@ Barcode barcode_of(const MergeTree& tree) {
   return barcode;
 }
 
-std::string cross_check(const Skeleton& skeleton, const Barcode& barcode,
+std::string cross_check(const FilteredGraph& graph, const Barcode& barcode,
                         const RunContext& context) {
-  BarcodeBuilder<Skeleton> bars(skeleton, 0, -1);  // zero-length bars, too
-  TwistEngine::run(skeleton, Z2{}, bars, context);
+  BarcodeBuilder<FilteredGraph> bars(graph, 0, -1);  // zero-length bars, too
+  TwistEngine::run(graph, Z2{}, bars, context);
   const Barcode other = bars.finish();
   if (barcode.size() != other.size()) {
     return fmt::format("{} bars by union-find, {} by boundary-matrix reduction", barcode.size(),

@@ -2,9 +2,9 @@
 #pragma once
 #include <string>
 
+#include "ph/complex/filtered_graph.hpp"
 #include "ph/core/barcode.hpp"
 #include "ph/engine/merge_tree.hpp"
-#include "skeleton.hpp"
 
 namespace ph::segment {
 
@@ -15,7 +15,7 @@ Barcode barcode_of(const MergeTree& tree);
 /// every bar with the vertex that gave birth to it and the edge that killed it; hence the
 /// components, too, for the killing edges are a spanning forest.
 /// @param barcode what union-find found. @return the first difference in words; empty if none.
-std::string cross_check(const Skeleton& skeleton, const Barcode& barcode,
+std::string cross_check(const FilteredGraph& graph, const Barcode& barcode,
                         const RunContext& context = default_context());
 
 }  // namespace ph::segment

@@ -12,7 +12,7 @@
 #include "ph/segment.hpp"
 #include "plane.hpp"
 #include "range_filter.hpp"
-#include "skeleton.hpp"
+#include "rips_graph.hpp"
 #include "voxel_grid.hpp"
 
 namespace ph::segment {
@@ -76,7 +76,7 @@ Segmentation segment(const CloudView& input, const SegmentOptions& options,
   clock.finish("voxel grid", grid.centroids.rows());
 
   // Alg. 1 (V.A) and the filtration of V.B: the 1-skeleton of the Vietoris-Rips complex
-  const Skeleton rips(grid.centroids, options.distance, options.steps, context);
+  const FilteredGraph rips = rips_graph(grid.centroids, options.distance, options.steps, context);
   result.edges = static_cast<Index>(rips.edge_count());
   clock.finish("complex", rips.size());
 

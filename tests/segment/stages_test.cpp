@@ -12,8 +12,8 @@
 #include "ph/core/error.hpp"
 #include "ph/persistence.hpp"
 #include "range_filter.hpp"
+#include "rips_graph.hpp"
 #include "scenery.hpp"
-#include "skeleton.hpp"
 #include "voxel_grid.hpp"
 
 namespace ph::segment {
@@ -125,59 +125,55 @@ TEST(FiltrationValue, IsTheNextLevel) {
   }
 }
 
-class SkeletonTest : public testing::TestWithParam<std::tuple<double, int>> {};
+class RipsGraphTest : public testing::TestWithParam<std::tuple<double, int>> {};
 
-TEST_P(SkeletonTest, IsTheRipsFiltrationOfTheLibrary) {
+TEST_P(RipsGraphTest, IsTheRipsFiltrationOfTheLibrary) {
   const auto [distance, steps] = GetParam();
   const Points points = random_points(400, 3);
-  const Skeleton skeleton(points, distance, steps);
+  const FilteredGraph graph = rips_graph(points, distance, steps);
   std::vector<WeightedEdge> edges = SparseDistances::within(points, distance).edges();
   for (WeightedEdge& e : edges) e.value = filtration_value(e.value, distance, steps);
   const Rips rips(SparseDistances(points.rows(), edges), {.threshold = distance});
-  EXPECT_EQ(skeleton.edge_count(), rips.edge_count());
-  for (std::size_t e = 1; e < skeleton.edge_count(); ++e) {
-    EXPECT_LE(skeleton.edge_value(e - 1), skeleton.edge_value(e));
-  }
-  const Barcode ours = barcode_of(merge_tree(skeleton));
+  EXPECT_EQ(graph.edge_count(), rips.edge_count());
+  const Barcode ours = barcode_of(merge_tree(graph));
   EXPECT_EQ(first_difference(
                 ours, persistence(
                           rips, {.max_dim = 0, .engine = Engine::standard, .min_persistence = -1})),
             "");
-  EXPECT_EQ(cross_check(skeleton, ours), "");
-  const auto a = merge_tree(skeleton).components(kInfinity);
-  EXPECT_EQ(a, ph::merge_tree(rips).components(kInfinity));
+  EXPECT_EQ(cross_check(graph, ours), "");
+  EXPECT_EQ(merge_tree(graph).components(kInfinity), merge_tree(rips).components(kInfinity));
 }
-INSTANTIATE_TEST_SUITE_P(DistancesAndSteps, SkeletonTest,
+INSTANTIATE_TEST_SUITE_P(DistancesAndSteps, RipsGraphTest,
                          testing::Combine(testing::Values(0.0, 0.02, 0.08, 0.3, 2.0),
                                           testing::Values(0, 1, 10, 5000)));
 
-TEST(Skeleton, EqualPointsAndTies) {
+TEST(RipsGraph, EqualPointsAndTies) {
   Points grid(27 * 2, 3);  // a 3x3x3 grid of distance 1, each point twice
   for (Index i = 0; i < 54; ++i) {
     grid.row(i) << static_cast<double>(i / 2 % 3), static_cast<double>(i / 6 % 3),
         static_cast<double>(i / 18);
   }
-  const Skeleton skeleton(grid, 1, 0);
-  EXPECT_EQ(skeleton.edge_count(), 27U + 54U * 4U);
-  const MergeTree tree = merge_tree(skeleton);
+  const FilteredGraph graph = rips_graph(grid, 1, 0);
+  EXPECT_EQ(graph.edge_count(), 27U + 54U * 4U);
+  const MergeTree tree = merge_tree(graph);
   EXPECT_EQ(tree.merges.size(), 53U);
-  EXPECT_EQ(cross_check(skeleton, barcode_of(tree)), "");
-  EXPECT_EQ(Skeleton(grid, 0, 0).edge_count(), 27U);
-  EXPECT_EQ(Skeleton(grid, 0, 10).edge_count(), 27U);
+  EXPECT_EQ(cross_check(graph, barcode_of(tree)), "");
+  EXPECT_EQ(rips_graph(grid, 0, 0).edge_count(), 27U);
+  EXPECT_EQ(rips_graph(grid, 0, 10).edge_count(), 27U);
 }
 
-TEST(Skeleton, FarFromTheOrigin) {
+TEST(RipsGraph, FarFromTheOrigin) {
   Points points(3, 3);
   points << 1e12, 0, 0, 1e12 + 1, 0, 0, 1e12 + 3, 0, 0;
-  EXPECT_EQ(Skeleton(points, 1, 0).edge_count(), 1U);
-  EXPECT_EQ(Skeleton(points, 2, 0).edge_count(), 2U);
+  EXPECT_EQ(rips_graph(points, 1, 0).edge_count(), 1U);
+  EXPECT_EQ(rips_graph(points, 2, 0).edge_count(), 2U);
 }
 
-TEST(Skeleton, KeepsTheMemoryLimit) {
+TEST(RipsGraph, KeepsTheMemoryLimit) {
   RunContext context;
   context.memory.set_limit(100000);
   try {
-    const Skeleton skeleton(random_points(2000, 1), 2, 10, context);
+    rips_graph(random_points(2000, 1), 2, 10, context);
     FAIL() << "two million edges in 100 kB";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::resource);
@@ -187,18 +183,18 @@ TEST(Skeleton, KeepsTheMemoryLimit) {
 TEST(CrossCheck, FindsADifference) {
   Points points(3, 3);
   points << 0, 0, 0, 1, 0, 0, 3, 0, 0;
-  const Skeleton skeleton(points, 2, 0);
-  const MergeTree right = merge_tree(skeleton);
-  EXPECT_EQ(cross_check(skeleton, barcode_of(right)), "");
+  const FilteredGraph graph = rips_graph(points, 2, 0);
+  const MergeTree right = merge_tree(graph);
+  EXPECT_EQ(cross_check(graph, barcode_of(right)), "");
   MergeTree late = right;
   late.merges.back().value = 1.5;
-  EXPECT_NE(cross_check(skeleton, barcode_of(late)), "");
+  EXPECT_NE(cross_check(graph, barcode_of(late)), "");
   MergeTree missing = right;
   missing.merges.pop_back();
-  EXPECT_NE(cross_check(skeleton, barcode_of(missing)), "");
+  EXPECT_NE(cross_check(graph, barcode_of(missing)), "");
   MergeTree other = right;
   other.merges.back().u = 0;  // the same bars, another edge
-  EXPECT_NE(cross_check(skeleton, barcode_of(other)), "");
+  EXPECT_NE(cross_check(graph, barcode_of(other)), "");
 }
 
 TEST(Components, LabelsByDecreasingNumberOfPoints) {
@@ -212,7 +208,7 @@ TEST(Components, LabelsByDecreasingNumberOfPoints) {
   const CloudView cloud{xyz, {}};
   const auto points = all_of(13);
   const VoxelGrid grid = voxel_grid(cloud, points, 1);
-  const MergeTree tree = merge_tree(Skeleton(grid.centroids, 1, 0));
+  const MergeTree tree = merge_tree(rips_graph(grid.centroids, 1, 0));
   const Components found = extract_components(cloud, points, grid, tree, 1);
   ASSERT_EQ(found.segments.size(), 3U);
   EXPECT_EQ(found.labels, (std::vector<std::uint32_t>{3, 3, 1, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 0}));
