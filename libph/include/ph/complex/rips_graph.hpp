@@ -119,7 +119,7 @@ RipsGraph RipsGraph::of_metric(const M& metric, std::optional<double> threshold,
   Ticker ticker(context, "edges", static_cast<std::uint64_t>(n));
   for (Index i = 0; i < n; ++i) {
     for (Index j = 0; j < i; ++j) {
-      const double d = metric(i, j);
+      const double d = metric(i, j) + 0.0;  // -0.0 becomes +0.0
       if (!(d >= 0)) check_distance(i, j, d);
       if (d <= limit && d < kNoLimit) {
         candidates.push_back({d, {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)}});
