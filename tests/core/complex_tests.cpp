@@ -2,9 +2,11 @@
 // What the stored complexes refuse, and in which words; how they name their cells.
 #include <limits>
 
+#include "ph/complex/filtered_graph.hpp"
 #include "ph/persistence.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"
+#include "support/generators.hpp"
 #include "support/known_spaces.hpp"
 
 namespace ph::test {
@@ -195,6 +197,38 @@ TEST(LowerStars, RefuseWhatHasNoValue) {
   const std::vector<WeightedEdge> loop{{1, 1, 0}}, far{{0, 5, 0}};
   expect_error(ErrorKind::bad_data, "occurs twice", [&] { lower_star(loop, values); });
   expect_error(ErrorKind::bad_data, "vertex 5", [&] { lower_star(far, values); });
+}
+
+// ---- graphs
+
+TEST(FilteredGraphs, AreLowerStarsWithoutTheComplex) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    Generator random(seed);
+    const SparseDistances graph = random.sparse(random.integer(0, 9), true, 0.4);
+    std::vector<double> values(static_cast<std::size_t>(graph.size()));
+    for (double& v : values) v = random.value(random.coin());
+    const Barcode expected = persistence(lower_star(graph.edges(), values), {.max_dim = 0});
+    EXPECT_EQ(
+        bars_of(persistence(FilteredGraph::lower_star(values, graph.edges()), {.max_dim = 0})),
+        bars_of(expected));
+  }
+}
+
+TEST(FilteredGraphs, RefuseWhatIsNoFilteredGraph) {
+  const std::vector<double> births{0, 1, 2};
+  const auto refuse_edge = [&](WeightedEdge e, const std::string& what) {
+    const std::vector<WeightedEdge> edges{{0, 1, 1}, e};
+    expect_error(ErrorKind::bad_data, what, [&] { FilteredGraph(births, edges); });
+  };
+  refuse_edge({0, 3, 5}, "edge (0, 3)");
+  refuse_edge({-1, 0, 5}, "edge (-1, 0)");
+  refuse_edge({0, 2, 1.5}, "found the value 1.5");
+  refuse_edge({0, 2, kNan}, "found the value nan");
+  const std::vector<double> broken{0, kNan};
+  expect_error(ErrorKind::bad_data, "vertex 1", [&] { FilteredGraph(broken, {}); });
+  const std::vector<WeightedEdge> far{{0, 7, 0}};
+  expect_error(ErrorKind::bad_data, "edge (0, 7)", [&] { FilteredGraph::lower_star(births, far); });
+  EXPECT_TRUE(persistence(FilteredGraph({}, {})).empty());
 }
 
 // ---- cubical complexes

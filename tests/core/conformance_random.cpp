@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Every engine against the oracle on random small filtrations, half of them with heavy ties.
+#include "ph/complex/filtered_graph.hpp"
 #include "support/conformance.hpp"
 #include "support/generators.hpp"
 
@@ -75,6 +76,45 @@ TEST(RandomConformance, SimplicialComplexes) {
     const auto list = random.simplices(random.integer(4, 9), 3, random.integer(1, 12), ties);
     check(ExplicitComplex::from_simplices(list), random.integer(0, 3), {field});
   });
+}
+
+// Loops and parallel edges are legal here.
+TEST(RandomConformance, FilteredGraphs) {
+  for_each_seed(2000, [](Generator& random, bool ties, std::int64_t field) {
+    std::vector<double> births(static_cast<std::size_t>(random.integer(1, 9)));
+    for (double& b : births) b = random.integer(0, 19) == 0 ? -kInfinity : random.value(ties) - 1;
+    std::vector<WeightedEdge> edges;
+    for (int i = random.integer(0, 15); i > 0; --i) {
+      const Index u = random.integer(0, static_cast<int>(births.size()) - 1);
+      const Index v = random.integer(0, static_cast<int>(births.size()) - 1);
+      const double born =
+          std::max(births[static_cast<std::size_t>(u)], births[static_cast<std::size_t>(v)]);
+      edges.push_back({u, v, std::max(born, random.value(ties) - 1)});
+    }
+    const FilteredGraph graph(births, edges);
+    const auto oracle = pairs_of(graph, 1, field, Engine::standard);
+    ASSERT_NO_FATAL_FAILURE(check_euler(graph, oracle));
+    EXPECT_EQ(pairs_of(graph, 1, field, Engine::twist), oracle);
+    EXPECT_EQ(pairs_of(graph, 0, field, Engine::union_find),
+              pairs_of(graph, 0, field, Engine::standard));
+    // The suite tells cells apart by their vertices: no parallel edges for it.
+    std::set<std::pair<Index, Index>> seen;
+    std::erase_if(
+        edges, [&](const WeightedEdge& e) { return !seen.insert(std::minmax(e.u, e.v)).second; });
+    check(FilteredGraph(births, edges), random.integer(0, 1), {field});
+    check(FilteredGraph::lower_star(births, edges), 1, {field});
+  });
+}
+
+// Large enough for the ways that only pay off for many cells.
+TEST(RandomConformance, MoreCells) {
+  Generator random(7);
+  for (const bool ties : {true, false}) {
+    check(Rips(random.points(48, 3, ties)), 1, {3});
+    check(Rips(random.sparse(120, ties, 0.16)), 1, {3});
+    check(Cubical(random.image({36, 36}, ties), random.cubical_options(2)), 2, {2});
+    check(Cubical(random.image({11, 11, 11}, ties), random.cubical_options(3)), 3, {3});
+  }
 }
 
 // A chain complex that is no simplicial complex: columns of any length, over Z/2.

@@ -7,6 +7,7 @@
 
 #include "ph/core/barcode.hpp"
 #include "ph/core/field.hpp"
+#include "ph/core/radix_sort.hpp"
 #include "ph/persistence.hpp"
 #include "support/expect_error.hpp"
 #include "support/generators.hpp"
@@ -90,6 +91,36 @@ TEST(Fields, OnlyPrimesBelowTwoToThe31) {
         INT64_MIN}) {
     EXPECT_FALSE(is_field_characteristic(p)) << p;
     expect_error(ErrorKind::usage, std::to_string(p), [p] { Zp k(p); });
+  }
+}
+
+// ---- sorting
+
+TEST(RadixSort, IsAStableSort) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    Generator random(seed);
+    struct Item {
+      double value;
+      int place;
+      bool operator==(const Item&) const = default;
+    };
+    std::pmr::vector<Item> items(
+        static_cast<std::size_t>(random.integer(0, 1) * 1000 + random.integer(0, 3000)));
+    const int kind = random.integer(0, 4);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      double v = random.real() - 0.5;
+      if (kind == 0) v = random.integer(-3, 3);
+      if (kind == 1) v = std::ldexp(v, random.integer(-1074, 1023));
+      if (kind == 2) v = 1;
+      if (kind == 3) v = static_cast<float>(v);
+      if (random.integer(0, 99) == 0) v = random.coin() ? kInfinity : -kInfinity;
+      items[i] = {v + 0.0, static_cast<int>(i)};
+    }
+    auto expected = items;
+    std::stable_sort(expected.begin(), expected.end(),
+                     [](const Item& a, const Item& b) { return a.value < b.value; });
+    radix_sort_by_value(items, [](const Item& item) { return item.value; });
+    EXPECT_EQ(items, expected) << "seed " << seed;
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include "ph/complex/filtered_graph.hpp"
 #include "ph/persistence.hpp"
 #include "support/expect_error.hpp"
 #include "support/generators.hpp"
@@ -116,6 +117,8 @@ TEST(MergeTrees, OfGraphs) {
           std::max(births[static_cast<std::size_t>(e.u)], births[static_cast<std::size_t>(e.v)]);
     const ExplicitComplex complex = lower_star(graph.edges(), births);
     check_tree(merge_tree(complex), births, edges, oracle_of(complex));
+    const FilteredGraph alone(births, edges);
+    check_tree(merge_tree(alone), births, edges, oracle_of(alone));
   }
 }
 

@@ -51,8 +51,8 @@ TEST(RipsGraphs, TheThresholdIsInclusive) {
   }
 }
 
-TEST(RipsGraphs, KeysAscendWithDistanceAndVertices) {
-  const Rips rips(DistanceMatrix(4, {1, 1, 1, 0, 2, 1}), {.threshold = 2});
+// Keys 1, 2, … are the edges by (distance, larger end, smaller end).
+void expect_keys_ascend(const Rips& rips) {
   std::vector<std::array<double, 3>> edges;
   for (RipsGraph::Key key = 1; key <= rips.edge_count(); ++key) {
     const auto edge = rips.graph().edge(key);
@@ -61,9 +61,34 @@ TEST(RipsGraphs, KeysAscendWithDistanceAndVertices) {
     EXPECT_EQ(rips.graph().key_of(edge.v, edge.u), key);
     edges.push_back({rips.graph().value(key), double(edge.u), double(edge.v)});
   }
-  EXPECT_EQ(edges.size(), 6U);
   EXPECT_TRUE(std::is_sorted(edges.begin(), edges.end()));
   EXPECT_EQ(rips.graph().value(0), 0);
+}
+
+TEST(RipsGraphs, KeysAscendWithDistanceAndVertices) {
+  const Rips small(DistanceMatrix(4, {1, 1, 1, 0, 2, 1}), {.threshold = 2});
+  EXPECT_EQ(small.edge_count(), 6U);
+  expect_keys_ascend(small);
+  for (const bool ties : {true, false}) {
+    Generator random(5);
+    const Points points = random.points(70, 2, ties);
+    expect_keys_ascend(Rips(points));
+    expect_keys_ascend(Rips(points, {.threshold = 1}));
+    expect_keys_ascend(Rips(SparseDistances::within(points, 1)));
+    expect_keys_ascend(Rips(random.distances(70, ties)));
+  }
+}
+
+struct NegativeZeros {
+  Index size() const { return 60; }
+  double operator()(Index i, Index j) const { return (i + j) % 2 == 0 ? 0.0 : -0.0; }
+};
+
+TEST(RipsGraphs, ZeroHasOneSign) {
+  const Rips rips(NegativeZeros{});
+  expect_keys_ascend(rips);
+  for (RipsGraph::Key key = 0; key <= rips.edge_count(); ++key)
+    EXPECT_FALSE(std::signbit(rips.graph().value(key)));
 }
 
 TEST(RipsGraphs, InfiniteDistancesAreNoEdges) {

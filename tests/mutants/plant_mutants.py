@@ -1,0 +1,211 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Plants faults in a copy of libph, one at a time, and demands that the tests find each of them.
+
+    plant_mutants.py [--jobs N] [NAME...]     (names of mutants; default: all)
+
+A mutant is killed if one of its test programs fails or runs into the time limit. It counts as a
+failure if the tests pass, if it does not compile, or if the text it replaces is not found exactly
+once: then the code has moved on and the mutant must follow. Exit code 0 if all were killed.
+"""
+import argparse
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+TIME_LIMIT = 90  # seconds a test program may run
+
+CUBES = "libph/include/ph/complex/cubical_cells.ipp"
+CUBICAL = "libph/src/complex/cubical.cpp"
+RIPS = "libph/include/ph/complex/rips_filtration.hpp"
+GRAPH = "libph/include/ph/complex/rips_graph.hpp"
+GRAPH_CPP = "libph/src/complex/rips_graph.cpp"
+REDUCTION = "libph/include/ph/engine/reduction.hpp"
+
+# name, file, text that occurs exactly once, what replaces it, test programs that must notice
+MUTANTS = [
+    ("cubical: both ends of an edge with one sign", CUBES,
+     "visit(Cell{keys_[lower], lower}, -sign);", "visit(Cell{keys_[lower], lower}, sign);",
+     ["known_images"]),
+    ("cubical: signs do not alternate from axis to axis", CUBES,
+     "    sign = -sign;\n  }\n}", "  }\n}", ["known_images"]),
+    ("cubical: first cofacet not the oldest where an axis wraps", CUBES,
+     "if (wrapped) {", "if (wrapped && count > 99) {", ["known_images"]),
+    ("cubical: a periodic axis wraps one cell short", CUBICAL,
+     "below = x > 0 ? x - 1 : last,", "below = x > 0 ? x - 1 : last - 1,", ["known_images"]),
+    ("cubical: superlevel sets forget the sign", CUBICAL,
+     "options.superlevel ? -image.values[i] : image.values[i]", "image.values[i]",
+     ["known_images"]),
+    ("cubical: threshold exclusive", CUBICAL,
+     "if (value <= limit &&", "if (value < limit &&", ["known_images"]),
+    ("rips: facets all with one sign", RIPS,
+     "visit(Cell{key, without(cell.vertices, slot)}, slot % 2 == 0 ? 1 : -1);",
+     "visit(Cell{key, without(cell.vertices, slot)}, 1);", ["conformance_random"]),
+    ("rips: tie-break turned round", RIPS,
+     "a.vertices < b.vertices", "b.vertices < a.vertices", ["conformance_random"]),
+    ("rips: a facet keeps its coface's key", RIPS,
+     "if (gone == longest.u || gone == longest.v) {", "if (gone == longest.u && dim > 9) {",
+     ["conformance_random"]),
+    ("rips: enclosing radius halved", GRAPH,
+     "limit = std::min(limit, farthest);", "limit = std::min(limit, farthest / 2);",
+     ["invariance_tests"]),
+    ("rips: threshold exclusive", GRAPH, "if (d <= limit &&", "if (d < limit &&",
+     ["invariance_tests"]),
+    ("rips: threshold ignored for sparse distances", GRAPH_CPP,
+     "if (e.value > limit || e.value == kNoLimit) continue;",
+     "if (e.value == kNoLimit) continue;", ["rips_tests"]),
+    ("near pairs: radius exclusive", "libph/src/metric/pairs_within.cpp",
+     "if (Index{j} <= i) continue;\n      if (const double d = metric(i, j); d <= radius)",
+     "if (Index{j} <= i) continue;\n      if (const double d = metric(i, j); d < radius)",
+     ["metric_tests"]),
+    ("reduction: no clearing", REDUCTION,
+     "previous_pivots_ = std::move(pivots_);", "previous_pivots_ = CellMap<F>(f_, &context_.memory);",
+     ["conformance_random"]),
+    ("reduction: pivots not reset", REDUCTION,
+     "pivots_ = CellMap<F>(f_, &context_.memory);\n  }", "pivots_ = previous_pivots_;\n  }",
+     ["conformance_random"]),
+    ("reduction: a zero coefficient is kept", REDUCTION,
+     "if (!field_.is_zero(sum)) terms_.emplace_back(c, sum);", "terms_.emplace_back(c, sum);",
+     ["conformance_random"]),
+    ("reduction: every first equal cofacet is an emergent pair", REDUCTION,
+     "found = !owner_of(entry);", "found = true;", ["conformance_random"]),
+    ("apparent pairs: only one side looked at", "libph/include/ph/engine/apparent_pairs.hpp",
+     "if (facet && *facet == cell) return cofacet;", "return cofacet;", ["conformance_random"]),
+    ("elder rule reversed", "libph/include/ph/engine/elder_rule.hpp",
+     "if (age[younger] < age[elder])", "if (age[younger] > age[elder])", ["merge_tree_tests"]),
+    ("field: inverse without its sign", "libph/src/core/field.cpp",
+     "s0 < 0 ? s0 + p_ : s0", "s0 < 0 ? -s0 : s0", ["core_tests"]),
+    ("merge tree: sizes not added up", "libph/src/engine/merge_tree.cpp",
+     "sizes[elder] += sizes[younger];", "sizes[elder] = sizes[younger];", ["merge_tree_tests"]),
+    ("barcode: younger bars first", "libph/src/core/barcode.cpp",
+     "return x.birth < y.birth;", "return x.birth > y.birth;", ["core_tests"]),
+    ("facade: a negative dimension counts as zero", "libph/src/persistence.cpp",
+     "if (max_dim < 0) {", "if (max_dim < -1) {", ["persistence_tests"]),
+    ("explicit complex: a coface may come before its facet", "libph/src/complex/explicit.cpp",
+     "if (values[facet] > values[i]) {", "if (values[facet] > values[i] + 1e9) {",
+     ["complex_tests"]),
+]
+
+SOURCES = ["core", "metric", "complex", "engine"]  # folders of libph/src
+NINJA = """\
+cxx = {compiler}
+flags = -std=c++20 -O1 -Ilibph/include -Itests {includes}
+rule compile
+  command = $cxx $flags -MMD -MF $out.d -c $in -o $out
+  depfile = $out.d
+  deps = gcc
+rule link
+  command = $cxx $in -o $out {libraries}
+rule archive
+  command = rm -f $out && ar crs $out $in
+"""
+
+
+def flags_of(package):
+    found = subprocess.run(["pkg-config", "--cflags", "--libs", package], capture_output=True,
+                           text=True, check=True).stdout.split()
+    return ([f for f in found if not f.startswith("-l")], [f for f in found if f.startswith("-l")])
+
+
+def write_build(tree, programs):
+    """A build with relative names only, so that a copy of the folder is as up to date as itself."""
+    includes, libraries = [], []
+    for package in ("eigen3", "fmt", "gtest_main"):
+        found = flags_of(package)
+        includes += found[0]
+        libraries += found[1]
+    text = NINJA.format(compiler=os.environ.get("CXX", "c++"), includes=" ".join(includes),
+                        libraries=" ".join(libraries + ["-lpthread"]))
+    library = []
+    sources = [p.relative_to(tree) for f in SOURCES for p in (tree / "libph/src" / f).glob("*.cpp")]
+    sources += [Path("libph/src/estimate.cpp"), Path("libph/src/persistence.cpp")]
+    for source in sorted(sources):
+        library.append(f"o/{source.parent.name}_{source.stem}.o")
+        text += f"build {library[-1]}: compile {source}\n"
+    text += f"build o/libph.a: archive {' '.join(library)}\n"
+    for program in programs:
+        text += f"build o/{program}.o: compile tests/core/{program}.cpp\n"
+        text += f"build {program}: link o/{program}.o o/libph.a\n"
+    (tree / "build.ninja").write_text(text)
+
+
+def build(tree, programs, jobs):
+    return subprocess.run(["ninja", "-j", str(jobs), *programs], cwd=tree, capture_output=True,
+                          text=True)
+
+
+def passes(tree, program):
+    """True or False; None if the time limit was reached."""
+    try:
+        # Tests of speed and of stopping are not what mutants are for, and slow without optimisation.
+        command = [f"./{program}", "--gtest_fail_fast", "--gtest_brief=1",
+                   "--gtest_filter=-RunContexts.*:*LinearTime*:*Duplicates*:*LongChains*:*WideCells*"]
+        return subprocess.run(command, cwd=tree, capture_output=True, text=True,
+                              timeout=TIME_LIMIT).returncode == 0
+    except subprocess.TimeoutExpired:
+        return None
+
+
+def try_mutant(base, mutant):
+    name, file, old, new, programs = mutant
+    text = (base / file).read_text()
+    if (found := text.count(old)) != 1:
+        return f"NOT PLANTED: {old!r} occurs {found} times in {file}"
+    tree = Path(tempfile.mkdtemp(prefix="mutant-", dir=base.parent))
+    try:
+        shutil.copytree(base, tree, dirs_exist_ok=True)  # times too: only the mutant is built anew
+        (tree / file).write_text(text.replace(old, new))
+        for program in programs:
+            if (result := build(tree, [program], 1)).returncode != 0:
+                return "DOES NOT COMPILE: " + result.stdout[-600:]
+            passed = passes(tree, program)
+            if passed is None:
+                return f"killed by the time limit of {program}"
+            if not passed:
+                return f"killed by {program}"
+        return "SURVIVED " + ", ".join(programs)
+    finally:
+        shutil.rmtree(tree)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("names", nargs="*")
+    arguments = parser.parse_args()
+    mutants = [m for m in MUTANTS if not arguments.names or m[0] in arguments.names]
+    programs = sorted({p for m in mutants for p in m[4]})
+    start = time.monotonic()
+
+    with tempfile.TemporaryDirectory(prefix="ph-mutants-") as folder:
+        base = Path(folder) / "base"
+        for part in ("libph/include", "libph/src", "tests/core", "tests/support"):
+            shutil.copytree(ROOT / part, base / part)
+        write_build(base, programs)
+        if (result := build(base, programs, arguments.jobs)).returncode != 0:
+            print(result.stdout[-4000:])
+            return 1
+        for program in programs:
+            if not passes(base, program):
+                print(f"{program} fails without any mutant")
+                return 1
+        print(f"built without mutants in {time.monotonic() - start:.0f} s", flush=True)
+
+        killed = 0
+        with ThreadPoolExecutor(arguments.jobs) as pool:
+            for mutant, verdict in zip(mutants, pool.map(lambda m: try_mutant(base, m), mutants)):
+                killed += verdict.startswith("killed")
+                print(f"{mutant[0]:<60} {verdict}", flush=True)
+    print(f"{killed} passed, {len(mutants) - killed} failed "
+          f"(mutants killed, {time.monotonic() - start:.0f} s)")
+    return 0 if killed == len(mutants) and killed > 0 else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
