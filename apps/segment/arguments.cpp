@@ -52,13 +52,13 @@ Vec3 parse_point(std::string_view option, const std::string& text) {
 }
 
 bool parse_switch(std::string_view option, const std::string& text) {
-  static constexpr std::array<std::string_view, 2> kChoices = {"off", "on"};
-  return app::choose(option, text, kChoices) == 1;
+  static constexpr std::array<std::string_view, 2> choices = {"off", "on"};
+  return app::choose(option, text, choices) == 1;
 }
 
 void require_method(const std::string& text) {
-  static constexpr std::array<std::string_view, 2> kChoices = {"paper", "surface"};
-  if (app::choose("--method", text, kChoices) == 1) not_built_in("--method surface");
+  static constexpr std::array<std::string_view, 2> choices = {"paper", "surface"};
+  if (app::choose("--method", text, choices) == 1) not_built_in("--method surface");
 }
 
 int parse_steps(const std::string& text) {

@@ -124,14 +124,14 @@ std::vector<std::vector<std::size_t>> neighbouring_segments(const Cloud& cloud,
 }
 
 std::vector<std::uint32_t> segment_colours(const Neighbours& neighbours) {
-  constexpr std::size_t kNone = kPalette.size();
-  std::vector<std::size_t> choice(neighbours.size(), kNone);
+  constexpr std::size_t none = kPalette.size();
+  std::vector<std::size_t> choice(neighbours.size(), none);
   std::array<std::size_t, kPalette.size()> uses{};
   std::vector<std::uint32_t> colours;
   for (std::size_t i = 0; i < neighbours.size(); ++i) {
     std::array<std::size_t, kPalette.size()> clashes{};
     for (const std::size_t j : neighbours[i]) {
-      if (choice[j] != kNone) ++clashes[choice[j]];
+      if (choice[j] != none) ++clashes[choice[j]];
     }
     std::size_t best = 0;
     for (std::size_t c = 1; c < kPalette.size(); ++c) {

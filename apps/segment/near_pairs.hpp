@@ -53,7 +53,7 @@ void for_each_near_pair(const Points& points, double distance, Visit&& visit) {
     }
   };
   // Half of the neighbours: the next cube of the same row, and three cubes of each row after it.
-  constexpr std::array<std::array<double, 2>, 4> kRowsAfter = {{{1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
+  constexpr std::array<std::array<double, 2>, 4> rows_after = {{{1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
   std::array<std::size_t, 4> first{};  // per row: cubes before this one lie behind for good
   for (std::size_t c = 0; c < cubes.size(); ++c) {
     const CubeList::Cube& cube = cubes[c];
@@ -70,8 +70,8 @@ void for_each_near_pair(const Points& points, double distance, Visit&& visit) {
       const CubeList::Cube& next = cubes[c + 1];
       if (next.z == cube.z && next.y == cube.y && next.x == cube.x + 1) visit_cube(next);
     }
-    for (std::size_t r = 0; r < kRowsAfter.size(); ++r) {
-      const double y = cube.y + kRowsAfter[r][0], z = cube.z + kRowsAfter[r][1];
+    for (std::size_t r = 0; r < rows_after.size(); ++r) {
+      const double y = cube.y + rows_after[r][0], z = cube.z + rows_after[r][1];
       std::size_t& at = first[r];
       while (at < cubes.size() &&
              std::tie(cubes[at].z, cubes[at].y, cubes[at].x) < std::tuple(z, y, cube.x - 1)) {

@@ -40,8 +40,8 @@ class StageClock {
 
 /// What the stages before the voxel grid and the labels take for each point, at most.
 std::size_t bytes_for_points(const CloudView& cloud) {
-  constexpr std::size_t kBytesPerPoint = 32;
-  return cloud.xyz.size() / 3 * kBytesPerPoint;
+  constexpr std::size_t bytes_per_point = 32;
+  return cloud.xyz.size() / 3 * bytes_per_point;
 }
 
 Index count(const std::vector<Index>& points) { return static_cast<Index>(points.size()); }

@@ -27,10 +27,10 @@ std::uint64_t mix(std::uint64_t x) {
 
 /// A hash of the sign and the mantissa of each coordinate: the same after scaling by 2^k.
 std::uint64_t hash_of(const float* p) {
-  constexpr std::uint32_t kNoExponent = 0x807fffffU;
-  const std::uint64_t x = std::bit_cast<std::uint32_t>(p[0] + 0.0F) & kNoExponent;
-  const std::uint64_t y = std::bit_cast<std::uint32_t>(p[1] + 0.0F) & kNoExponent;
-  const std::uint64_t z = std::bit_cast<std::uint32_t>(p[2] + 0.0F) & kNoExponent;
+  constexpr std::uint32_t no_exponent = 0x807fffffU;
+  const std::uint64_t x = std::bit_cast<std::uint32_t>(p[0] + 0.0F) & no_exponent;
+  const std::uint64_t y = std::bit_cast<std::uint32_t>(p[1] + 0.0F) & no_exponent;
+  const std::uint64_t z = std::bit_cast<std::uint32_t>(p[2] + 0.0F) & no_exponent;
   return mix(mix((x << 32 | y) + 0x9e3779b97f4a7c15ULL) + z);
 }
 

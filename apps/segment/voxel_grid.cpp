@@ -74,8 +74,8 @@ class VoxelTable {
 /// The grid coordinate of a number in units of voxels. Adding zero makes -0 and +0 the same bits.
 double cell_of(double units) { return std::floor(units) + 0.0; }
 
-/// An offset inside a voxel, 0 <= units <= 1, as a whole number: rounded to the nearest.
-std::int64_t fixed_point(double units) { return static_cast<std::int64_t>(units * kUnits + 0.5); }
+/// An offset inside a voxel, 0 <= units <= 1, as a whole number; what is below a unit is dropped.
+std::int64_t fixed_point(double units) { return static_cast<std::int64_t>(units * kUnits); }
 
 }  // namespace
 
