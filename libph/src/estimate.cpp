@@ -94,13 +94,13 @@ Estimate estimate(const AnyComplex& complex, const Options& options) {
           return c.with_filtration(asked, [&](const auto& f) {
             const int max_dim = std::min(asked, std::max(0, f.top_dim()));
             return estimate_of(c, options.engine, max_dim,
-                               detail::choose_engine(f, options.engine, max_dim));
+                               detail::choose_engine(f, options.engine, max_dim, options.representatives));
           });
         } else {
           const int top = std::max(0, c.top_dim());
           const int max_dim = std::min(detail::checked_max_dim(options.max_dim.value_or(top)), top);
           return estimate_of(c, options.engine, max_dim,
-                             detail::choose_engine(c, options.engine, max_dim));
+                             detail::choose_engine(c, options.engine, max_dim, options.representatives));
         }
       },
       complex);

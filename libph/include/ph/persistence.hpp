@@ -21,6 +21,7 @@ struct Options {
   std::int64_t field = 2;                 ///< characteristic of the coefficients: a prime < 2^31
   Engine engine = Engine::automatic;      ///< which engine; see registry.hpp
   double min_persistence = 0;             ///< bars with death - birth <= this are left out; < 0: none
+  Representatives representatives = Representatives::none;  ///< chains that come with the bars
 };
 
 /// The barcode of a filtered complex.

@@ -15,25 +15,31 @@ struct EngineChoice {
 
 /// @throws Error (usage) if the engine asked for cannot do it.
 template <Filtration F>
-EngineChoice choose_engine(const F& f, Engine asked, int max_dim) {
+EngineChoice choose_engine(const F& f, Engine asked, int max_dim, Representatives wanted) {
   if (asked == Engine::automatic) {
-    if (UnionFindEngine::can_run(f, max_dim))
+    if (UnionFindEngine::can_run(f, max_dim, wanted))
       return {Engine::union_find, "only components are asked for"};
     // Measured: where cells are numbered, columns are few and short in both directions and the
     // boundary wins; where they are not, the next dimension must never be listed.
-    if (SlottedFiltration<F>) return {Engine::twist, "the complex numbers its cells"};
-    if (CohomologyEngine::can_run(f, max_dim))
+    if (SlottedFiltration<F> && TwistEngine::can_run(f, max_dim, wanted))
+      return {Engine::twist, "the complex numbers its cells"};
+    if (CohomologyEngine::can_run(f, max_dim, wanted))
       return {Engine::cohomology, "cells of the highest dimension are too many to list"};
-    return {Engine::twist, "the complex lists facets only"};
+    if (TwistEngine::can_run(f, max_dim, wanted))
+      return {Engine::twist, "the complex lists facets only"};
+    throw Error(ErrorKind::usage, "cocycles need a complex that lists cofacets");
   }
   bool can_run = false;
   for_each_engine([&](auto engine) {
-    if (engine.id == asked) can_run = engine.can_run(f, max_dim);
+    if (engine.id == asked) can_run = engine.can_run(f, max_dim, wanted);
   });
   if (!can_run) {
     throw Error(ErrorKind::usage, "engine " + std::string(engine_name(asked)) +
                                       " cannot compute homology up to dimension " +
-                                      std::to_string(max_dim) + " of this complex");
+                                      std::to_string(max_dim) + " of this complex" +
+                                      (wanted == Representatives::none     ? ""
+                                       : wanted == Representatives::cycles ? " with cycles"
+                                                                           : " with cocycles"));
   }
   return {asked, "asked for"};
 }
@@ -54,8 +60,9 @@ template <Filtration F>
 Barcode persistence(const F& filtration, const Options& options, const RunContext& context) {
   const int top = std::max(0, filtration.top_dim());
   const int max_dim = std::min(detail::checked_max_dim(options.max_dim.value_or(top)), top);
-  const Engine chosen = detail::choose_engine(filtration, options.engine, max_dim).engine;
-  BarcodeBuilder<F> bars(filtration, max_dim, options.min_persistence);
+  const Engine chosen =
+      detail::choose_engine(filtration, options.engine, max_dim, options.representatives).engine;
+  BarcodeBuilder<F> bars(filtration, max_dim, options.min_persistence, options.representatives);
   detail::with_field(options.field, [&](const auto& field) {
     for_each_engine([&](auto engine) {
       if (engine.id == chosen) engine.run(filtration, field, bars, context);

@@ -19,7 +19,23 @@ void Barcode::add(const Bar& bar, std::span<const Index> birth_cell,
                   std::span<const Index> death_cell) {
   bars_.push_back(bar);
   const Range birth = store(birth_cell);
-  cells_.push_back({birth, store(death_cell)});
+  cells_.push_back({birth, store(death_cell), {}, {}});
+}
+
+void Barcode::set_representative(Representatives kind, std::span<const Index> numbers,
+                                 std::span<const std::int64_t> coefficients) {
+  representatives_ = kind;
+  cells_.back().chain = store(numbers);
+  cells_.back().coefficients.begin = coefficients_.size();
+  coefficients_.insert(coefficients_.end(), coefficients.begin(), coefficients.end());
+  cells_.back().coefficients.end = coefficients_.size();
+}
+
+InputChain Barcode::representative(std::size_t i) const {
+  if (representatives_ == Representatives::none)
+    throw Error(ErrorKind::usage, "the barcode was computed without representatives");
+  const auto [begin, end] = cells_[i].coefficients;
+  return {kind_, numbers_of(cells_[i].chain), std::span(coefficients_).subspan(begin, end - begin)};
 }
 
 void Barcode::sort() {

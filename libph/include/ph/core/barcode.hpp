@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "ph/core/field.hpp"
 #include "ph/core/filtration.hpp"
 
 namespace ph {
@@ -27,6 +28,34 @@ struct Bar {
 struct InputCell {
   CellKind kind;
   std::span<const Index> numbers;
+};
+
+/// A chain or cochain in terms of the input: cells of one dimension, each with its coefficient.
+/// Points into the barcode it came from.
+class InputChain {
+ public:
+  InputChain(CellKind kind, std::span<const Index> numbers, std::span<const std::int64_t> coefficients)
+      : kind_(kind), numbers_(numbers), coefficients_(coefficients) {}
+
+  std::size_t size() const { return coefficients_.size(); }
+  InputCell cell(std::size_t i) const {
+    const std::size_t arity = numbers_.size() / size();
+    return {kind_, numbers_.subspan(i * arity, arity)};
+  }
+  /// Between -p/2 and p/2, never 0; always 1 over Z/2.
+  std::int64_t coefficient(std::size_t i) const { return coefficients_[i]; }
+
+ private:
+  CellKind kind_;
+  std::span<const Index> numbers_;
+  std::span<const std::int64_t> coefficients_;
+};
+
+/// Which chains come with the bars.
+enum class Representatives {
+  none,
+  cycles,    ///< a cycle born with the bar that is a boundary from its death on
+  cocycles,  ///< a cochain, zero before the birth, whose coboundary is first non-zero at the death
 };
 
 /// The result of persistent homology: bars ordered by dimension, birth, death (an infinite death
@@ -56,8 +85,17 @@ class Barcode {
     return InputCell{kind_, numbers_of(cells_[i].death)};
   }
 
+  /// What `representative` gives: as asked for in Options.
+  Representatives representatives() const { return representatives_; }
+  /// The cycle or cocycle of bar i, the birth cell among its cells.
+  /// @throws Error (usage) if none were asked for.
+  InputChain representative(std::size_t i) const;
+
   /// Appends a bar; an empty `death_cell` says that the class lives for ever.
   void add(const Bar& bar, std::span<const Index> birth_cell, std::span<const Index> death_cell);
+  /// Gives the bar added last its representative: the numbers of all cells, one after another.
+  void set_representative(Representatives kind, std::span<const Index> numbers,
+                          std::span<const std::int64_t> coefficients);
   /// Brings the bars into the order stated above.
   void sort();
 
@@ -67,6 +105,7 @@ class Barcode {
   };
   struct Cells {
     Range birth, death;
+    Range chain, coefficients;  // the representative
   };
   Range store(std::span<const Index> numbers);
   std::span<const Index> numbers_of(Range r) const {
@@ -77,6 +116,8 @@ class Barcode {
   std::vector<Bar> bars_;
   std::vector<Cells> cells_;     // parallel to bars_
   std::vector<Index> numbers_;   // all cells, one after another
+  Representatives representatives_ = Representatives::none;
+  std::vector<std::int64_t> coefficients_;
 };
 
 /// Where an engine puts its pairs: turns cells into bars and drops what the user does not want.
@@ -87,27 +128,45 @@ class BarcodeBuilder {
 
   /// Keeps bars of dimension <= max_dim with death - birth > min_persistence; a negative
   /// `min_persistence` keeps the zero-length bars too.
-  BarcodeBuilder(const F& filtration, int max_dim, double min_persistence)
+  BarcodeBuilder(const F& filtration, int max_dim, double min_persistence,
+                 Representatives representatives = Representatives::none)
       : filtration_(filtration),
         max_dim_(max_dim),
         min_persistence_(min_persistence),
+        representatives_(representatives),
         barcode_(filtration.cell_kind()) {}
 
   int max_dim() const { return max_dim_; }
+  /// What an engine must hand over with each bar.
+  Representatives representatives() const { return representatives_; }
   /// Whether an engine must report pairs of equal value.
   bool wants_zero_length() const { return min_persistence_ < 0; }
 
   /// A class of H_dim born with `birth`, killed by `death` (a cell of dimension dim + 1).
-  void add_pair(int dim, const Cell& birth, const Cell& death) {
-    if (dim > max_dim_) return;
+  /// @return whether the bar is kept: only then is a representative wanted.
+  bool add_pair(int dim, const Cell& birth, const Cell& death) {
+    if (dim > max_dim_) return false;
     const Bar bar{dim, filtration_.value(birth), filtration_.value(death)};
-    if (!(bar.persistence() > min_persistence_)) return;
+    if (!(bar.persistence() > min_persistence_)) return false;
     add(bar, birth, &death);
+    return true;
   }
   /// A class of H_dim that never dies.
-  void add_essential(int dim, const Cell& birth) {
-    if (dim > max_dim_) return;
+  bool add_essential(int dim, const Cell& birth) {
+    if (dim > max_dim_) return false;
     add(Bar{dim, filtration_.value(birth), kInfinity}, birth, nullptr);
+    return true;
+  }
+  /// Gives the bar kept last its representative: terms with `cell` and `coefficient()`.
+  template <class Terms, Field K>
+  void add_representative(int dim, const Terms& terms, const K& field) {
+    numbers_.clear();
+    coefficients_.clear();
+    for (const auto& term : terms) {
+      filtration_.append_input_cell(dim, term.cell, numbers_);
+      coefficients_.push_back(field.to_int(term.coefficient()));
+    }
+    barcode_.set_representative(representatives_, numbers_, coefficients_);
   }
 
   Barcode finish() {
@@ -128,8 +187,10 @@ class BarcodeBuilder {
   const F& filtration_;
   int max_dim_;
   double min_persistence_;
+  Representatives representatives_;
   Barcode barcode_;
   std::vector<Index> numbers_;
+  std::vector<std::int64_t> coefficients_;
 };
 
 }  // namespace ph

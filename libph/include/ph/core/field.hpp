@@ -5,11 +5,12 @@
 
 namespace ph {
 
-/// A field of coefficients: six operations. An `Element` is a small value; zero is never stored in
-/// a chain. `from_int` maps an incidence number to the field.
+/// A field of coefficients: seven operations. An `Element` is a small value; zero is never stored
+/// in a chain. `from_int` maps an incidence number to the field, `to_int` back to the user.
 template <class K>
 concept Field = requires(const K& k, typename K::Element a, typename K::Element b) {
   { k.from_int(1) } -> std::same_as<typename K::Element>;
+  { k.to_int(a) } -> std::same_as<std::int64_t>;
   { k.is_zero(a) } -> std::same_as<bool>;
   { k.add(a, b) } -> std::same_as<typename K::Element>;
   { k.negate(a) } -> std::same_as<typename K::Element>;
@@ -21,6 +22,7 @@ concept Field = requires(const K& k, typename K::Element a, typename K::Element 
 struct Z2 {
   using Element = bool;
   static constexpr Element from_int(int value) { return (value & 1) != 0; }
+  static constexpr std::int64_t to_int(Element a) { return a ? 1 : 0; }
   static constexpr bool is_zero(Element a) { return !a; }
   static constexpr Element add(Element a, Element b) { return a != b; }
   static constexpr Element negate(Element a) { return a; }
@@ -41,6 +43,8 @@ class Zp {
     const std::int64_t r = value % p_;
     return static_cast<Element>(r < 0 ? r + p_ : r);
   }
+  /// The representative between -p/2 and p/2.
+  std::int64_t to_int(Element a) const { return a > p_ / 2 ? a - p_ : std::int64_t{a}; }
   static bool is_zero(Element a) { return a == 0; }
   Element add(Element a, Element b) const {
     const std::int64_t s = std::int64_t{a} + b;

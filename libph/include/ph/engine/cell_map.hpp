@@ -44,7 +44,7 @@ class CellMap {
   };
   std::size_t mask() const { return slots_.size() - 1; }
   std::size_t start(const Cell& cell) const {
-    return (std::hash<Cell>{}(cell) * 0x9E3779B97F4A7C15U >> 20) & mask();
+    return (std::hash<Cell>{}(cell)*0x9E3779B97F4A7C15U >> 20) & mask();
   }
   void place(const Slot& slot) {
     std::size_t i = start(slot.cell);

@@ -10,28 +10,54 @@ namespace ph {
 
 /// Persistent cohomology: coboundary columns from dimension 0 up, with clearing, apparent and
 /// emergent pairs (Bauer, Ripser: efficient computation of Vietoris-Rips persistence barcodes).
-/// Never lists cells of dimension max_dim + 1 but as cofacets. H0 by union-find where that is right.
+/// Never lists cells of dimension max_dim + 1 but as cofacets. H0 by union-find where that is
+/// right.
 struct CohomologyEngine {
   static constexpr Engine id = Engine::cohomology;
   static constexpr const char* name = "cohomology";
   template <Filtration F>
-  static bool can_run(const F&, int) {
+  static bool can_run(const F&, int, Representatives = Representatives::none) {
     return CofacetFiltration<F>;
   }
 
   template <Filtration F, Field K>
   static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context) {
     if constexpr (CofacetFiltration<F>) {
+      if (bars.representatives() == Representatives::cycles) {
+        find_cycles(f, field, bars, context);
+        return;
+      }
       Reduction<F, K, Direction::cohomology> reduction(f, field, bars, context);
       int dim = 0;
       if constexpr (GraphFiltration<F>) {
-        if (is_graph_like(f)) {
+        if (bars.representatives() == Representatives::none && is_graph_like(f)) {
           reduction.set_cleared(pair_components(f, bars, context));
           dim = 1;
         }
       }
       for (; dim <= std::min(bars.max_dim(), f.top_dim()); ++dim) reduction.reduce_dimension(dim);
     }
+  }
+
+ private:
+  // Involuted homology (Čufar & Virk, Fast computation of persistent homology representatives with
+  // involuted persistent homology): cohomology tells which cells kill a class and which give birth
+  // to one that never dies; only their boundaries are reduced.
+  template <Filtration F, Field K>
+  static void find_cycles(const F& f, const K& field, BarcodeBuilder<F>& bars,
+                          const RunContext& context) {
+    BarcodeBuilder<F> no_bars(f, -1, bars.wants_zero_length() ? -1 : 0);
+    Reduction<F, K, Direction::cohomology> cohomology(f, field, no_bars, context);
+    Reduction<F, K, Direction::homology> homology(f, field, bars, context);
+    std::pmr::vector<typename F::Cell> columns(&context.memory);
+    const int top = std::min(bars.max_dim(), f.top_dim());
+    for (int dim = 0; dim <= top; ++dim) {
+      cohomology.reduce_dimension(dim);
+      columns.insert(columns.end(), cohomology.essential().begin(), cohomology.essential().end());
+      homology.reduce_columns(dim, columns);
+      columns.assign(cohomology.killers().begin(), cohomology.killers().end());
+    }
+    homology.reduce_columns(top + 1, columns);
   }
 };
 

@@ -14,13 +14,13 @@ class FilteredGraph;
 
 /// Two components become one. The elder (born first; the smaller vertex among equals) lives on.
 struct Merge {
-  double value = 0;          ///< filtration value of the edge
-  Index u = 0, v = 0;        ///< the edge that joined them: an edge of a minimum spanning forest
-  Index elder = 0;           ///< vertex that gave birth to the surviving component
-  Index younger = 0;         ///< vertex that gave birth to the component that dies here
-  Index elder_size = 0;      ///< vertices of the surviving component just before
-  Index younger_size = 0;    ///< vertices of the dying component just before
-  double elder_birth = 0;    ///< filtration value at which each was born
+  double value = 0;        ///< filtration value of the edge
+  Index u = 0, v = 0;      ///< the edge that joined them: an edge of a minimum spanning forest
+  Index elder = 0;         ///< vertex that gave birth to the surviving component
+  Index younger = 0;       ///< vertex that gave birth to the component that dies here
+  Index elder_size = 0;    ///< vertices of the surviving component just before
+  Index younger_size = 0;  ///< vertices of the dying component just before
+  double elder_birth = 0;  ///< filtration value at which each was born
   double younger_birth = 0;
 
   double persistence() const { return value == younger_birth ? 0 : value - younger_birth; }

@@ -12,9 +12,9 @@
 
 namespace ph {
 
-/// The vertices and edges of a filtration, numbered and sorted for union-find. Vertices are numbered
-/// in the order in which the filtration visits them.
-/// Precondition: `filtration.edges_join_vertices()`.
+/// The vertices and edges of a filtration, numbered and sorted for union-find. Vertices are
+/// numbered in the order in which the filtration visits them. Precondition:
+/// `filtration.edges_join_vertices()`.
 template <GraphFiltration F>
 struct OneSkeleton {
   using Cell = typename F::Cell;
@@ -32,9 +32,8 @@ struct OneSkeleton {
     });
     std::pmr::vector<std::uint32_t> order(vertices.size(), &context.memory);
     std::iota(order.begin(), order.end(), 0U);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return precedes(vertices[a], vertices[b]);
-    });
+    std::sort(order.begin(), order.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return precedes(vertices[a], vertices[b]); });
     age.resize(order.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) age[order[i]] = i;
     context.poll();
@@ -47,9 +46,8 @@ struct OneSkeleton {
     for (const Cell& e : edges) {
       GraphEdge edge;
       int count = 0;
-      filtration.for_each_facet(1, e, [&](const Cell& v, int) {
-        (count++ == 0 ? edge.u : edge.v) = number.find(v);
-      });
+      filtration.for_each_facet(
+          1, e, [&](const Cell& v, int) { (count++ == 0 ? edge.u : edge.v) = number.find(v); });
       ends.push_back(count == 2 ? edge : GraphEdge{});
     }
   }

@@ -4,6 +4,7 @@
 #include <concepts>
 #include <memory_resource>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "ph/core/barcode.hpp"
@@ -30,6 +31,8 @@ enum class Direction {
 ///  - in homology as the reduced boundary itself, a cycle that is a boundary from the death on;
 ///  - in cohomology as the cochain whose coboundary it is, a cocycle until the death: coboundaries
 ///    are far longer than the cochains.
+/// These are the representatives of finite bars. An infinite bar of homology needs the chain whose
+/// boundary vanished: with representatives, homology keeps track of the chains, too.
 template <Filtration F, Field K, Direction direction>
 class Reduction {
  public:
@@ -45,26 +48,41 @@ class Reduction {
         previous_pivots_(filtration, &context.memory),
         columns_(&context.memory),
         terms_(&context.memory),
+        chains_(&context.memory),
+        killers_(&context.memory),
+        essential_(&context.memory),
         to_reduce_(&context.memory),
         working_(&context.memory),
-        chain_(&context.memory) {}
+        chain_(&context.memory),
+        tracks_chains_(!kIsHomology || bars.representatives() != Representatives::none) {}
+  Reduction(const Reduction&) = delete;
+  Reduction& operator=(const Reduction&) = delete;
 
   /// Reduces all columns of dimension `dim`. Call with descending dimensions in homology and
   /// ascending ones in cohomology.
   void reduce_dimension(int dim) {
-    dim_ = dim;
+    start_dimension(dim);
     collect_columns();
-    Ticker ticker(context_, direction == Direction::homology ? "homology" : "cohomology",
-                  to_reduce_.size());
-    columns_.clear();
-    terms_.clear();
-    for (const Cell& cell : to_reduce_) {
-      reduce_column(cell, ticker);
-      ticker.tick();
-    }
-    previous_pivots_ = std::move(pivots_);
-    pivots_ = CellMap<F>(f_, &context_.memory);
+    reduce_collected();
   }
+  /// Homology: reduces these columns of dimension `dim` only, in any order of dimensions. Enough if
+  /// all others are zero or apparent and nobody asks for the apparent ones.
+  void reduce_columns(int dim,
+                      std::span<const Cell> cells) requires(direction == Direction::homology) {
+    start_dimension(dim);
+    for (const Cell& cell : cells) {
+      if (const auto victim = apparent_.victim_of(dim, cell))
+        report_plain(cell, *victim);
+      else
+        to_reduce_.push_back(cell);
+    }
+    reduce_collected();
+  }
+  /// Cohomology: the cells of dimension dim + 1 that killed a class of the dimension reduced last
+  /// (those of apparent pairs only if zero-length bars are wanted), and the births of its infinite
+  /// bars.
+  std::span<const Cell> killers() const { return killers_; }
+  std::span<const Cell> essential() const { return essential_; }
 
   /// The cells of dimension `dim` that are pivots of the dimension before: for the first call to
   /// `reduce_dimension`, when another engine did that dimension.
@@ -74,10 +92,38 @@ class Reduction {
   using Term = Entry<Cell, K>;
   static constexpr bool kIsHomology = direction == Direction::homology;
 
+  void start_dimension(int dim) {
+    dim_ = dim;
+    columns_.clear();
+    terms_.clear();
+    chains_.clear();
+    killers_.clear();
+    essential_.clear();
+    to_reduce_.clear();
+  }
+  void reduce_collected() {
+    std::sort(to_reduce_.begin(), to_reduce_.end(), [&](const Cell& a, const Cell& b) {
+      return kIsHomology ? f_.precedes(a, b) : f_.precedes(b, a);
+    });
+    Ticker ticker(context_, direction == Direction::homology ? "homology" : "cohomology",
+                  to_reduce_.size());
+    for (const Cell& cell : to_reduce_) {
+      reduce_column(cell, ticker);
+      ticker.tick();
+    }
+    previous_pivots_ = std::move(pivots_);
+    pivots_ = CellMap<F>(f_, &context_.memory);
+  }
+
+  struct Range {
+    std::size_t begin = 0, end = 0;
+    bool empty() const { return begin == end; }
+  };
   struct Column {
     Cell cell;
-    typename K::Element pivot{};     // coefficient of the pivot in the reduced (co)boundary
-    std::size_t begin = 0, end = 0;  // range of terms_; empty: the plain (co)boundary of `cell`
+    typename K::Element pivot{};  // coefficient of the pivot in the reduced (co)boundary
+    Range terms;  // homology: the reduced boundary; empty: the plain boundary of `cell`
+    Range chain;  // what was added to `cell`, without it; homology: only with representatives
   };
 
   // Whether `a` is further from being the pivot than `b`.
@@ -87,15 +133,22 @@ class Reduction {
 
   void collect_columns();
   void reduce_column(const Cell& cell, Ticker& ticker);
-  void report(const Cell& column, const Cell& pivot) {
-    if constexpr (kIsHomology) bars_.add_pair(dim_ - 1, pivot, column);
-    else bars_.add_pair(dim_, column, pivot);
+  // @return whether the bar is kept.
+  bool report(const Cell& column, const Cell& pivot) {
+    if constexpr (kIsHomology)
+      return bars_.add_pair(dim_ - 1, pivot, column);
+    else
+      return bars_.add_pair(dim_, column, pivot);
   }
+  // The pair of a column that is the plain (co)boundary of its cell.
+  void report_plain(const Cell& column, const Cell& pivot);
 
   template <class Visit>
   void for_each_entry(const Cell& cell, Visit&& visit) const {
-    if constexpr (kIsHomology) f_.for_each_facet(dim_, cell, visit);
-    else f_.for_each_cofacet(dim_, cell, visit);
+    if constexpr (kIsHomology)
+      f_.for_each_facet(dim_, cell, visit);
+    else
+      f_.for_each_cofacet(dim_, cell, visit);
   }
   // Adds a (co)boundary, `scale` times, to the working column.
   void add_boundary(const Cell& cell, typename K::Element scale, Ticker& ticker) {
@@ -113,13 +166,20 @@ class Reduction {
   // Fills the empty working column. True if the pivot showed itself on the way, an emergent pair
   // (Bauer, Ripser, section 3.5); the working column is unfinished then.
   bool start_column(const Cell& cell, Term& pivot, Ticker& ticker);
+  // Adds a column, `scale` times, to the working column.
   void add_column(const Column& column, typename K::Element scale, Ticker& ticker);
+  void add_chain(const Column& column, typename K::Element scale);
 
   // Takes the pivot out of the working column, equal cells added up; false if nothing is left.
   bool pop_pivot(Term& pivot);
   // The column whose pivot `cell` is; nothing if there is none yet.
   std::optional<Column> owner_of(const Cell& cell) const;
   void finish_column(const Cell& cell, const Term& pivot, bool was_added_to);
+  void finish_essential(const Cell& cell);
+  // Appends the working chain to chains_, equal cells added up; without the column's own cell.
+  Range store_chain();
+  // The chain of a column as a representative: `cell` and what was added to it.
+  void give_chain(const Cell& cell, Range chain);
 
   const F& f_;
   const K& field_;
@@ -130,10 +190,13 @@ class Reduction {
   CellMap<F> pivots_;           // pivot -> position in columns_
   CellMap<F> previous_pivots_;  // of the dimension reduced before
   std::pmr::vector<Column> columns_;
-  std::pmr::vector<Term> terms_;
+  std::pmr::vector<Term> terms_;   // of reduced boundaries
+  std::pmr::vector<Term> chains_;  // of chains
+  std::pmr::vector<Cell> killers_, essential_;
   std::pmr::vector<Cell> to_reduce_;
   std::pmr::vector<Term> working_;  // a heap with lazy cancellation
-  std::pmr::vector<Term> chain_;    // cohomology: the cochain of the working column
+  std::pmr::vector<Term> chain_;    // what was added to the working column, in columns
+  bool tracks_chains_;
 
   struct Below {
     const Reduction* self;
@@ -144,7 +207,6 @@ class Reduction {
 
 template <Filtration F, Field K, Direction direction>
 void Reduction<F, K, direction>::collect_columns() {
-  to_reduce_.clear();
   Ticker ticker(context_, "columns");
   f_.for_each_cell(dim_, [&](const Cell& cell) {
     ticker.tick();
@@ -153,20 +215,17 @@ void Reduction<F, K, direction>::collect_columns() {
       // A pivot of the dimension above; if that dimension is not wanted its cells stay unseen.
       if (dim_ <= bars_.max_dim() && apparent_.killer_of(dim_, cell)) return;
       if (const auto victim = apparent_.victim_of(dim_, cell)) {
-        if (bars_.wants_zero_length()) report(cell, *victim);
+        if (bars_.wants_zero_length()) report_plain(cell, *victim);
         return;
       }
     } else {
       if (apparent_.victim_of(dim_, cell)) return;  // a pivot of the dimension below
       if (const auto killer = apparent_.killer_of(dim_, cell)) {
-        if (bars_.wants_zero_length()) report(cell, *killer);
+        if (bars_.wants_zero_length()) report_plain(cell, *killer);
         return;
       }
     }
     to_reduce_.push_back(cell);
-  });
-  std::sort(to_reduce_.begin(), to_reduce_.end(), [&](const Cell& a, const Cell& b) {
-    return kIsHomology ? f_.precedes(a, b) : f_.precedes(b, a);
   });
 }
 
@@ -195,22 +254,24 @@ template <Filtration F, Field K, Direction direction>
 void Reduction<F, K, direction>::add_column(const Column& column, typename K::Element scale,
                                             Ticker& ticker) {
   if constexpr (kIsHomology) {
-    if (column.begin == column.end) {
-      add_boundary(column.cell, scale, ticker);
-      return;
-    }
-    for (std::size_t i = column.begin; i < column.end; ++i)
+    if (column.terms.empty()) add_boundary(column.cell, scale, ticker);
+    for (std::size_t i = column.terms.begin; i < column.terms.end; ++i)
       push(terms_[i].cell, field_.multiply(scale, terms_[i].coefficient()));
-    ticker.work(column.end - column.begin);
+    ticker.work(column.terms.end - column.terms.begin);
+    if (tracks_chains_) add_chain(column, scale);
   } else {
-    chain_.emplace_back(column.cell, scale);
-    add_boundary(column.cell, scale, ticker);
-    for (std::size_t i = column.begin; i < column.end; ++i) {
-      const auto a = field_.multiply(scale, terms_[i].coefficient());
-      chain_.emplace_back(terms_[i].cell, a);
-      add_boundary(terms_[i].cell, a, ticker);
-    }
+    const std::size_t first = chain_.size();
+    add_chain(column, scale);
+    for (std::size_t i = first; i < chain_.size(); ++i)
+      add_boundary(chain_[i].cell, chain_[i].coefficient(), ticker);
   }
+}
+
+template <Filtration F, Field K, Direction direction>
+void Reduction<F, K, direction>::add_chain(const Column& column, typename K::Element scale) {
+  chain_.emplace_back(column.cell, scale);
+  for (std::size_t i = column.chain.begin; i < column.chain.end; ++i)
+    chain_.emplace_back(chains_[i].cell, field_.multiply(scale, chains_[i].coefficient()));
 }
 
 template <Filtration F, Field K, Direction direction>
@@ -219,7 +280,7 @@ auto Reduction<F, K, direction>::owner_of(const Cell& cell) const -> std::option
   const auto partner =
       kIsHomology ? apparent_.killer_of(dim_ - 1, cell) : apparent_.victim_of(dim_ + 1, cell);
   if (!partner) return std::nullopt;
-  Column column{*partner, field_.from_int(1)};
+  Column column{*partner, field_.from_int(1), {}, {}};
   if constexpr (!std::same_as<K, Z2>) {
     for_each_entry(*partner, [&](const Cell& entry, int incidence) {
       if (!(entry == cell)) return true;
@@ -275,35 +336,88 @@ void Reduction<F, K, direction>::reduce_column(const Cell& cell, Ticker& ticker)
                ticker);
     was_added_to = true;
   }
-  bars_.add_essential(dim_, cell);
+  finish_essential(cell);
+}
+
+template <Filtration F, Field K, Direction direction>
+auto Reduction<F, K, direction>::store_chain() -> Range {
+  const Range range{chains_.size(), chains_.size()};
+  std::sort(chain_.begin(), chain_.end(),
+            [&](const Term& a, const Term& b) { return f_.precedes(a.cell, b.cell); });
+  for (std::size_t i = 0; i < chain_.size();) {
+    const Cell& c = chain_[i].cell;
+    auto sum = chain_[i].coefficient();
+    for (++i; i < chain_.size() && chain_[i].cell == c; ++i)
+      sum = field_.add(sum, chain_[i].coefficient());
+    if (!field_.is_zero(sum)) chains_.emplace_back(c, sum);
+  }
+  return {range.begin, chains_.size()};
+}
+
+template <Filtration F, Field K, Direction direction>
+void Reduction<F, K, direction>::give_chain(const Cell& cell, Range chain) {
+  std::pmr::vector<Term> terms(&context_.memory);
+  terms.emplace_back(cell, field_.from_int(1));
+  terms.insert(terms.end(), chains_.begin() + static_cast<std::ptrdiff_t>(chain.begin),
+               chains_.begin() + static_cast<std::ptrdiff_t>(chain.end));
+  bars_.add_representative(dim_, terms, field_);
+}
+
+template <Filtration F, Field K, Direction direction>
+void Reduction<F, K, direction>::report_plain(const Cell& column, const Cell& pivot) {
+  killers_.push_back(pivot);
+  if (!report(column, pivot) || bars_.representatives() == Representatives::none) return;
+  if constexpr (kIsHomology) {
+    std::vector<Term> boundary;
+    for_each_entry(column, [&](const Cell& entry, int incidence) {
+      const auto a = field_.from_int(incidence);
+      if (!field_.is_zero(a)) boundary.emplace_back(entry, a);
+    });
+    bars_.add_representative(dim_ - 1, boundary, field_);
+  } else {
+    give_chain(column, {});
+  }
 }
 
 template <Filtration F, Field K, Direction direction>
 void Reduction<F, K, direction>::finish_column(const Cell& cell, const Term& pivot,
                                                bool was_added_to) {
-  report(cell, pivot.cell);
-  pivots_.insert(pivot.cell, static_cast<std::uint32_t>(columns_.size()));
-  const std::size_t begin = terms_.size();
+  Column column{cell, pivot.coefficient(), {}, {}};
   if (was_added_to) {
     if constexpr (kIsHomology) {
+      column.terms.begin = terms_.size();
       terms_.push_back(pivot);
       for (Term term; pop_pivot(term);) terms_.push_back(term);
+      column.terms.end = terms_.size();
+    }
+    if (tracks_chains_) column.chain = store_chain();
+  }
+  pivots_.insert(pivot.cell, static_cast<std::uint32_t>(columns_.size()));
+  columns_.push_back(column);
+  if (!was_added_to) {
+    report_plain(cell, pivot.cell);
+    return;
+  }
+  killers_.push_back(pivot.cell);
+  if (report(cell, pivot.cell) && bars_.representatives() != Representatives::none) {
+    if constexpr (kIsHomology) {
+      bars_.add_representative(
+          dim_ - 1,
+          std::span(terms_).subspan(column.terms.begin, column.terms.end - column.terms.begin),
+          field_);
     } else {
-      // The cochain less `cell` itself, equal cells added up.
-      const auto precedes = [&](const Term& a, const Term& b) {
-        return f_.precedes(a.cell, b.cell);
-      };
-      std::sort(chain_.begin(), chain_.end(), precedes);
-      for (std::size_t i = 0; i < chain_.size();) {
-        const Cell& c = chain_[i].cell;
-        auto sum = chain_[i].coefficient();
-        for (++i; i < chain_.size() && chain_[i].cell == c; ++i)
-          sum = field_.add(sum, chain_[i].coefficient());
-        if (!field_.is_zero(sum)) terms_.emplace_back(c, sum);
-      }
+      give_chain(cell, column.chain);
     }
   }
-  columns_.push_back({cell, pivot.coefficient(), begin, terms_.size()});
+}
+
+template <Filtration F, Field K, Direction direction>
+void Reduction<F, K, direction>::finish_essential(const Cell& cell) {
+  essential_.push_back(cell);
+  if (!bars_.add_essential(dim_, cell) || bars_.representatives() == Representatives::none) return;
+  const std::size_t stored = chains_.size();
+  give_chain(cell, store_chain());
+  chains_.resize(stored);
 }
 
 }  // namespace ph

@@ -11,8 +11,8 @@
 
 namespace ph {
 
-/// All engines: a new one is a file and a line here (and its name in `Engine`). Names on the command
-/// line, the conformance suite and the benchmarks iterate over this list.
+/// All engines: a new one is a file and a line here (and its name in `Engine`). Names on the
+/// command line, the conformance suite and the benchmarks iterate over this list.
 using Engines = std::tuple<StandardEngine, TwistEngine, CohomologyEngine, UnionFindEngine>;
 
 /// Calls `use(engine)` for each registered engine.

@@ -19,8 +19,8 @@ struct StandardEngine {
   static constexpr Engine id = Engine::standard;
   static constexpr const char* name = "standard";
   template <Filtration F>
-  static bool can_run(const F&, int) {
-    return true;
+  static bool can_run(const F&, int, Representatives wanted = Representatives::none) {
+    return wanted == Representatives::none;
   }
 
   template <Filtration F, Field K>
@@ -55,8 +55,8 @@ struct StandardEngine {
         // low(j): the youngest row. While an earlier column has the same one, subtract it.
         while (!column.empty() && reduced.contains(column.rbegin()->first)) {
           const Column& earlier = reduced.at(column.rbegin()->first);
-          const auto factor = field.negate(field.multiply(
-              column.rbegin()->second, field.inverse(earlier.rbegin()->second)));
+          const auto factor = field.negate(
+              field.multiply(column.rbegin()->second, field.inverse(earlier.rbegin()->second)));
           for (const auto& [row, a] : earlier) add(row, field.multiply(factor, a));
           ticker.work();
         }
@@ -72,8 +72,10 @@ struct StandardEngine {
       for (std::size_t i = 0; i < rows.size(); ++i) {
         if (!is_positive[i]) continue;
         const auto it = killer.find(i);
-        if (it == killer.end()) bars.add_essential(dim - 1, rows[i]);
-        else bars.add_pair(dim - 1, rows[i], columns[it->second]);
+        if (it == killer.end())
+          bars.add_essential(dim - 1, rows[i]);
+        else
+          bars.add_pair(dim - 1, rows[i], columns[it->second]);
       }
       rows = std::move(columns);
       is_positive = std::move(next_is_positive);

@@ -13,8 +13,10 @@ namespace ph {
 /// Whether H0 of a filtration can be computed by union-find.
 template <Filtration F>
 bool is_graph_like(const F& f) {
-  if constexpr (GraphFiltration<F>) return f.edges_join_vertices();
-  else return false;
+  if constexpr (GraphFiltration<F>)
+    return f.edges_join_vertices();
+  else
+    return false;
 }
 
 /// Reports the pairs of H0. @return the edges that killed a component.
@@ -39,8 +41,8 @@ struct UnionFindEngine {
   static constexpr Engine id = Engine::union_find;
   static constexpr const char* name = "union_find";
   template <Filtration F>
-  static bool can_run(const F& f, int max_dim) {
-    return max_dim == 0 && is_graph_like(f);
+  static bool can_run(const F& f, int max_dim, Representatives wanted = Representatives::none) {
+    return max_dim == 0 && wanted == Representatives::none && is_graph_like(f);
   }
 
   template <Filtration F, Field K>

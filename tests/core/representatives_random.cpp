@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Cycles and cocycles of random small filtrations, checked from the definitions.
+#include "support/generators.hpp"
+#include "support/representatives.hpp"
+
+namespace ph::test {
+namespace {
+
+constexpr std::int64_t kFields[] = {2, 3, 5, 11};
+
+template <class MakeAndCheck>
+void for_each_seed(int count, MakeAndCheck&& make_and_check) {
+  for (int seed = 0; seed < count && !::testing::Test::HasFailure(); ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Generator random(static_cast<std::uint64_t>(seed));
+    make_and_check(random, seed % 2 == 0, kFields[seed / 2 % 4]);
+  }
+}
+
+TEST(RandomRepresentatives, Rips) {
+  for_each_seed(600, [](Generator& random, bool ties, std::int64_t field) {
+    const int max_dim = random.integer(0, 2);
+    RipsOptions options;
+    if (random.coin()) options.threshold = ties ? random.integer(1, 3) : random.real();
+    const Rips rips(random.distances(random.integer(1, 8), ties), options);
+    rips.with_filtration(max_dim, [&](const auto& f) { check_representatives(f, max_dim, field); });
+  });
+}
+
+TEST(RandomRepresentatives, Cubical) {
+  for_each_seed(400, [](Generator& random, bool ties, std::int64_t field) {
+    std::vector<Index> extents;
+    const int dim = random.integer(1, 3);
+    for (int k = 0; k < dim; ++k) extents.push_back(random.integer(1, dim == 3 ? 2 : 4));
+    const Cubical cubical(random.image(extents, ties), random.cubical_options(dim));
+    check_representatives(cubical, random.integer(0, dim), field);
+  });
+}
+
+TEST(RandomRepresentatives, SimplicialComplexes) {
+  for_each_seed(400, [](Generator& random, bool ties, std::int64_t field) {
+    const auto list = random.simplices(random.integer(4, 7), 3, random.integer(1, 9), ties);
+    check_representatives(ExplicitComplex::from_simplices(list), random.integer(0, 3), field);
+  });
+}
+
+}  // namespace
+}  // namespace ph::test
