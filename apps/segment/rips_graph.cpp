@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "near_pairs.hpp"
+#include "ph/metric/pairs_within.hpp"
 
 namespace ph::segment {
 
@@ -12,7 +12,7 @@ FilteredGraph rips_graph(const Points& points, double distance, int steps,
                          const RunContext& context) {
   std::pmr::vector<WeightedEdge> edges(&context.memory);
   Ticker ticker(context, "complex");
-  for_each_near_pair(points, distance, [&](std::uint32_t i, std::uint32_t j, double length) {
+  for_each_pair_within(points, distance, [&](Index i, Index j, double length) {
     edges.push_back({i, j, filtration_value(length, distance, steps)});
     ticker.tick();
   });

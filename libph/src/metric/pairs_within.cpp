@@ -9,11 +9,15 @@
 #include <utility>
 #include <vector>
 
+#include "cube_list.hpp"
 #include "ph/core/error.hpp"
 #include "ph/metric/point_metric.hpp"
 
 namespace ph {
 namespace {
+
+// Below this a sum of squares may have lost digits to underflow.
+constexpr double kSmallestPlainSquare = 1e-280;
 
 // The view of the points that nanoflann asks for.
 struct KdPoints {
@@ -30,35 +34,56 @@ struct KdPoints {
 using KdTree =
     nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, KdPoints>, KdPoints>;
 
-}  // namespace
+using Visit = std::function<void(Index, Index, double)>;
 
-void for_each_pair_within(const Points& points, double radius,
-                          const std::function<void(Index, Index, double)>& visit) {
-  if (!(radius >= 0)) {
-    throw Error(ErrorKind::usage, fmt::format("radius: found {}, expected a number >= 0", radius));
-  }
-  const PointMetric metric(points);
-  const Index n = points.rows();
-  const double reach = points.size() == 0 ? 0 : points.cwiseAbs().maxCoeff();
-  // Squares that overflow mislead the tree; all pairs do not.
-  if (points.size() == 0 || reach > 1e150 || radius > 1e150) {
-    for (Index i = 0; i < n; ++i)
-      for (Index j = i + 1; j < n; ++j)
-        if (const double d = metric(i, j); d <= radius) visit(i, j, d);
-    return;
-  }
+void visit_all_pairs(const PointMetric& metric, double radius, const Visit& visit) {
+  for (Index i = 0; i < metric.size(); ++i)
+    for (Index j = i + 1; j < metric.size(); ++j)
+      if (const double d = metric(i, j); d <= radius) visit(i, j, d);
+}
+
+void visit_by_cubes(const PointMetric& metric, double radius, const Visit& visit) {
+  const CubeList cubes(metric.points(), radius);
+  cubes.for_each_candidate_pair([&](const CubeList::Point& p, const CubeList::Point& q) {
+    const double dx = p.x - q.x, dy = p.y - q.y, dz = p.z - q.z;
+    const double square = dx * dx + dy * dy + dz * dz;
+    // The same sum as the metric's, unless digits were lost to underflow.
+    const double d = square >= kSmallestPlainSquare ? std::sqrt(square) : metric(p.number, q.number);
+    if (d <= radius) visit(std::min(p.number, q.number), std::max(p.number, q.number), d);
+  });
+}
+
+void visit_by_tree(const PointMetric& metric, double radius, const Visit& visit) {
+  const Points& points = metric.points();
   const KdPoints view{points};
   const KdTree tree(static_cast<int>(points.cols()), view, {16});
   // The tree compares squares, which lose digits to underflow: ask for a hair more and let the
   // metric decide.
-  const double ask = std::max(radius * radius, 1e-280) * (1 + 1e-12);
+  const double ask = std::max(radius * radius, kSmallestPlainSquare) * (1 + 1e-12);
   std::vector<std::pair<std::uint32_t, double>> found;
-  for (Index i = 0; i < n; ++i) {
+  for (Index i = 0; i < points.rows(); ++i) {
     tree.radiusSearch(points.row(i).data(), ask, found, nanoflann::SearchParams(0, 0, false));
     for (const auto& [j, squared] : found) {
       if (Index{j} <= i) continue;
       if (const double d = metric(i, j); d <= radius) visit(i, j, d);
     }
+  }
+}
+
+}  // namespace
+
+void for_each_pair_within(const Points& points, double radius, const Visit& visit) {
+  if (!(radius >= 0)) {
+    throw Error(ErrorKind::usage, fmt::format("radius: found {}, expected a number >= 0", radius));
+  }
+  const PointMetric metric(points);
+  const double reach = points.size() == 0 ? 0 : points.cwiseAbs().maxCoeff();
+  if (points.size() == 0 || reach > 1e150 || radius > 1e150) {
+    visit_all_pairs(metric, radius, visit);  // squares that overflow mislead cubes and tree
+  } else if (points.cols() <= 3 && (reach == 0 || reach > 1e-140)) {
+    visit_by_cubes(metric, radius, visit);
+  } else {
+    visit_by_tree(metric, radius, visit);
   }
 }
 

@@ -28,7 +28,7 @@ struct RipsOptions {
 /// Holds the graph of all edges up to the threshold, no simplices. A value, cheap to copy.
 class Rips {
  public:
-  /// @param points one point a row. O(n^2) distances, or a k-d tree for Euclidean points with a
+  /// @param points one point a row. O(n^2) distances, or only those within reach for Euclidean points with a
   /// threshold. @throws Error (bad_data) as PointMetric; Error (usage) on a NaN or negative
   /// threshold; Error (resource) if the context's memory limit would be exceeded.
   explicit Rips(const Points& points, const RipsOptions& options = {},

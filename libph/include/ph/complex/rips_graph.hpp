@@ -38,7 +38,7 @@ class RipsGraph {
   template <Metric M>
   static RipsGraph of_metric(const M& metric, std::optional<double> threshold,
                              const RunContext& context);
-  /// Euclidean distances up to the threshold, by a k-d tree.
+  /// Euclidean distances up to the threshold; never n^2 of them.
   static RipsGraph of_points_within(const Points& points, double threshold,
                                     const RunContext& context);
   static RipsGraph of_edges(Index size, std::span<const WeightedEdge> edges,

@@ -150,14 +150,6 @@ class Reduction {
     else
       f_.for_each_cofacet(dim_, cell, visit);
   }
-  // Adds a (co)boundary, `scale` times, to the working column.
-  void add_boundary(const Cell& cell, typename K::Element scale, Ticker& ticker) {
-    for_each_entry(cell, [&](const Cell& entry, int incidence) {
-      push(entry, field_.multiply(scale, field_.from_int(incidence)));
-      ticker.work();
-      return true;
-    });
-  }
   void push(const Cell& cell, typename K::Element a) {
     if (field_.is_zero(a)) return;
     working_.emplace_back(cell, a);
@@ -166,14 +158,14 @@ class Reduction {
   // Fills the empty working column. True if the pivot showed itself on the way, an emergent pair
   // (Bauer, Ripser, section 3.5); the working column is unfinished then.
   bool start_column(const Cell& cell, Term& pivot, Ticker& ticker);
-  // Adds a column, `scale` times, to the working column.
-  void add_column(const Column& column, typename K::Element scale, Ticker& ticker);
+  // Adds the multiple of `owner` to the working column that cancels the pivot, just popped.
+  void cancel_pivot(const Term& pivot, const Column& owner, Ticker& ticker);
   void add_chain(const Column& column, typename K::Element scale);
 
   // Takes the pivot out of the working column, equal cells added up; false if nothing is left.
   bool pop_pivot(Term& pivot);
-  // The column whose pivot `cell` is; nothing if there is none yet.
-  std::optional<Column> owner_of(const Cell& cell) const;
+  // The column whose pivot `cell` is; null if there is none yet. Valid until the next call.
+  const Column* owner_of(const Cell& cell);
   void finish_column(const Cell& cell, const Term& pivot, bool was_added_to);
   void finish_essential(const Cell& cell);
   // Appends the working chain to chains_, equal cells added up; without the column's own cell.
@@ -190,6 +182,7 @@ class Reduction {
   CellMap<F> pivots_;           // pivot -> position in columns_
   CellMap<F> previous_pivots_;  // of the dimension reduced before
   std::pmr::vector<Column> columns_;
+  Column apparent_owner_;
   std::pmr::vector<Term> terms_;   // of reduced boundaries
   std::pmr::vector<Term> chains_;  // of chains
   std::pmr::vector<Cell> killers_, essential_;
@@ -251,19 +244,32 @@ bool Reduction<F, K, direction>::pop_pivot(Term& pivot) {
 }
 
 template <Filtration F, Field K, Direction direction>
-void Reduction<F, K, direction>::add_column(const Column& column, typename K::Element scale,
-                                            Ticker& ticker) {
+void Reduction<F, K, direction>::cancel_pivot(const Term& pivot, const Column& owner,
+                                              Ticker& ticker) {
+  const auto scale =
+      field_.negate(field_.multiply(pivot.coefficient(), field_.inverse(owner.pivot)));
   if constexpr (kIsHomology) {
-    if (column.terms.empty()) add_boundary(column.cell, scale, ticker);
-    for (std::size_t i = column.terms.begin; i < column.terms.end; ++i)
+    // The pivot stands once in the owner's boundary: leave it out instead of cancelling it.
+    if (owner.terms.empty()) {
+      for_each_entry(owner.cell, [&](const Cell& entry, int incidence) {
+        if (!(entry == pivot.cell)) push(entry, field_.multiply(scale, field_.from_int(incidence)));
+      });
+    }
+    for (std::size_t i = owner.terms.begin + 1; i < owner.terms.end; ++i)
       push(terms_[i].cell, field_.multiply(scale, terms_[i].coefficient()));
-    ticker.work(column.terms.end - column.terms.begin);
-    if (tracks_chains_) add_chain(column, scale);
+    ticker.work(owner.terms.end - owner.terms.begin + 1);
+    if (tracks_chains_) add_chain(owner, scale);
   } else {
+    push(pivot.cell, pivot.coefficient());
     const std::size_t first = chain_.size();
-    add_chain(column, scale);
-    for (std::size_t i = first; i < chain_.size(); ++i)
-      add_boundary(chain_[i].cell, chain_[i].coefficient(), ticker);
+    add_chain(owner, scale);
+    for (std::size_t i = first; i < chain_.size(); ++i) {
+      for_each_entry(chain_[i].cell, [&](const Cell& entry, int incidence) {
+        push(entry, field_.multiply(chain_[i].coefficient(), field_.from_int(incidence)));
+        ticker.work();
+        return true;
+      });
+    }
   }
 }
 
@@ -275,20 +281,20 @@ void Reduction<F, K, direction>::add_chain(const Column& column, typename K::Ele
 }
 
 template <Filtration F, Field K, Direction direction>
-auto Reduction<F, K, direction>::owner_of(const Cell& cell) const -> std::optional<Column> {
-  if (const auto at = pivots_.find(cell); at != CellMap<F>::kAbsent) return columns_[at];
+auto Reduction<F, K, direction>::owner_of(const Cell& cell) -> const Column* {
+  if (const auto at = pivots_.find(cell); at != CellMap<F>::kAbsent) return &columns_[at];
   const auto partner =
       kIsHomology ? apparent_.killer_of(dim_ - 1, cell) : apparent_.victim_of(dim_ + 1, cell);
-  if (!partner) return std::nullopt;
-  Column column{*partner, field_.from_int(1), {}, {}};
+  if (!partner) return nullptr;
+  apparent_owner_ = {*partner, field_.from_int(1), {}, {}};
   if constexpr (!std::same_as<K, Z2>) {
     for_each_entry(*partner, [&](const Cell& entry, int incidence) {
       if (!(entry == cell)) return true;
-      column.pivot = field_.from_int(incidence);
+      apparent_owner_.pivot = field_.from_int(incidence);
       return false;
     });
   }
-  return column;
+  return &apparent_owner_;
 }
 
 template <Filtration F, Field K, Direction direction>
@@ -325,15 +331,12 @@ void Reduction<F, K, direction>::reduce_column(const Cell& cell, Ticker& ticker)
   }
   bool was_added_to = false;
   while (pop_pivot(pivot)) {
-    const auto owner = owner_of(pivot.cell);
+    const Column* owner = owner_of(pivot.cell);
     if (!owner) {
       finish_column(cell, pivot, was_added_to);
       return;
     }
-    push(pivot.cell, pivot.coefficient());
-    add_column(*owner,
-               field_.negate(field_.multiply(pivot.coefficient(), field_.inverse(owner->pivot))),
-               ticker);
+    cancel_pivot(pivot, *owner, ticker);
     was_added_to = true;
   }
   finish_essential(cell);

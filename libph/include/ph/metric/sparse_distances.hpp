@@ -21,7 +21,7 @@ class SparseDistances {
   /// distances >= 0. @throws Error (bad_data) naming the edge that breaks this.
   SparseDistances(Index size, std::vector<WeightedEdge> edges);
 
-  /// All pairs of points at Euclidean distance <= radius, by a k-d tree: O(n log n + edges).
+  /// All pairs of points at Euclidean distance <= radius: O(n log n + edges). See pairs_within.hpp.
   /// @param points one point a row. @param radius in units of the coordinates, >= 0.
   static SparseDistances within(const Points& points, double radius);
 

@@ -1,22 +1,26 @@
 // SPDX-License-Identifier: MIT
-#include "near_pairs.hpp"
+#include "cube_list.hpp"
 
-#include <limits>
+#include <algorithm>
 #include <numeric>
 
-namespace ph::segment {
+namespace ph {
 
-CubeList::CubeList(const Points& points, double reach) {
-  // A hair larger than the reach: rounding must not put two points in reach two cubes apart. With
-  // no reach at all, any cubes will do in which equal points meet.
-  const double edge =
-      std::max(reach * (1 + 1e-9), points.size() == 0 ? 1.0 : 1e-9 * points.cwiseAbs().maxCoeff());
+CubeList::CubeList(const Points& points, double radius) {
+  // A hair larger than the radius: rounding must not put two points in reach two cubes apart. With
+  // no radius at all, any cubes will do in which equal points meet.
+  const double edge = std::max(radius * (1 + 1e-9),
+                               points.size() == 0 ? 1.0 : 1e-9 * points.cwiseAbs().maxCoeff());
   const double scale = edge > 0 ? 1 / edge : 1;
-  const auto cell = [&](double x) { return std::floor(x * scale) + 0.0; };
   const auto size = static_cast<std::size_t>(points.rows());
+  std::vector<Point> given(size);
   std::vector<Cube> cube_of(size);
   for (std::size_t i = 0; i < size; ++i) {
-    const auto p = points.row(static_cast<Index>(i));
+    std::array<double, 3> p{};
+    for (Index k = 0; k < points.cols(); ++k)
+      p[static_cast<std::size_t>(k)] = points(static_cast<Index>(i), k);
+    given[i] = {p[0], p[1], p[2], static_cast<std::uint32_t>(i)};
+    const auto cell = [&](double x) { return std::floor(x * scale) + 0.0; };
     cube_of[i] = {cell(p[0]), cell(p[1]), cell(p[2]), 0, 0};
   }
   std::vector<std::uint32_t> order(size);
@@ -29,14 +33,12 @@ CubeList::CubeList(const Points& points, double reach) {
   });
   points_.reserve(size);
   for (const std::uint32_t i : order) {
-    const auto p = points.row(static_cast<Index>(i));
     const auto position = static_cast<std::uint32_t>(points_.size());
-    if (points_.empty() || key(i) != key(order[position - 1])) {
+    if (points_.empty() || key(i) != key(order[position - 1]))
       cubes_.push_back({cube_of[i].x, cube_of[i].y, cube_of[i].z, position, position});
-    }
-    points_.push_back({p[0], p[1], p[2], i});
+    points_.push_back(given[i]);
     cubes_.back().end = position + 1;
   }
 }
 
-}  // namespace ph::segment
+}  // namespace ph

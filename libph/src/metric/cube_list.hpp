@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "ph/metric/metric.hpp"
+
+namespace ph {
+
+/// The points of R^1, R^2 or R^3 sorted into cubes a little larger than a radius, so that all
+/// neighbours of a point lie in the 27 cubes around it. Coordinates of cubes are whole numbers kept
+/// as doubles: they cannot overflow.
+class CubeList {
+ public:
+  struct Point {
+    double x, y, z;
+    std::uint32_t number;
+  };
+
+  /// O(points log points).
+  CubeList(const Points& points, double radius);
+
+  /// Calls `visit(p, q)` for each pair of points in the same or in adjacent cubes, in an order that
+  /// depends on the points alone. Few of them are further apart than the radius: O(pairs within it)
+  /// up to a constant.
+  template <class Visit>
+  void for_each_candidate_pair(Visit&& visit) const;
+
+ private:
+  struct Cube {
+    double x, y, z;
+    std::uint32_t begin, end;  // range of points_
+  };
+  std::span<const Point> points(const Cube& cube) const {
+    return std::span(points_).subspan(cube.begin, cube.end - cube.begin);
+  }
+
+  std::vector<Cube> cubes_;  // by z, then y, then x
+  std::vector<Point> points_;
+};
+
+template <class Visit>
+void CubeList::for_each_candidate_pair(Visit&& visit) const {
+  // Half of the neighbours: the next cube of the same row, and three cubes of each row after it.
+  constexpr std::array<std::array<double, 2>, 4> rows_after = {{{1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
+  std::array<std::size_t, 4> first{};  // per row: cubes before this one lie behind for good
+  for (std::size_t c = 0; c < cubes_.size(); ++c) {
+    const Cube& cube = cubes_[c];
+    const auto here = points(cube);
+    for (std::size_t i = 0; i < here.size(); ++i)
+      for (std::size_t j = i + 1; j < here.size(); ++j) visit(here[i], here[j]);
+    const auto visit_cube = [&](const Cube& other) {
+      for (const Point& p : here)
+        for (const Point& q : points(other)) visit(p, q);
+    };
+    if (c + 1 < cubes_.size()) {
+      const Cube& next = cubes_[c + 1];
+      if (next.z == cube.z && next.y == cube.y && next.x == cube.x + 1) visit_cube(next);
+    }
+    for (std::size_t r = 0; r < rows_after.size(); ++r) {
+      const double y = cube.y + rows_after[r][0], z = cube.z + rows_after[r][1];
+      std::size_t& at = first[r];
+      while (at < cubes_.size() &&
+             std::tie(cubes_[at].z, cubes_[at].y, cubes_[at].x) < std::tuple(z, y, cube.x - 1)) {
+        ++at;
+      }
+      for (std::size_t k = at;
+           k < cubes_.size() && cubes_[k].z == z && cubes_[k].y == y && cubes_[k].x <= cube.x + 1;
+           ++k) {
+        if (k != c) visit_cube(cubes_[k]);
+      }
+    }
+  }
+}
+
+}  // namespace ph
