@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 jobs=$(nproc)
 
 scripts/setup.sh build test
-cmake --preset release -DPH_WITH_PCL=ON
+cmake --preset release -DPH_WITH_PCL=ON -DPH_BUILD_TESTS=ON -DPH_BUILD_EXAMPLES=ON
 cmake --build --preset release -j "$jobs"
 
 # ph::core and ph::io alone: neither PCL nor the programs' libraries.

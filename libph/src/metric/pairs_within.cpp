@@ -80,7 +80,7 @@ void for_each_pair_within(const Points& points, double radius, const Visit& visi
   const double reach = points.size() == 0 ? 0 : points.cwiseAbs().maxCoeff();
   if (points.size() == 0 || reach > 1e150 || radius > 1e150) {
     visit_all_pairs(metric, radius, visit);  // squares that overflow mislead cubes and tree
-  } else if (points.cols() <= 3 && (reach == 0 || reach > 1e-140)) {
+  } else if (points.cols() <= 3 && reach > 1e-140) {
     visit_by_cubes(metric, radius, visit);
   } else {
     visit_by_tree(metric, radius, visit);

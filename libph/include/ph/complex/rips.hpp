@@ -28,9 +28,9 @@ struct RipsOptions {
 /// Holds the graph of all edges up to the threshold, no simplices. A value, cheap to copy.
 class Rips {
  public:
-  /// @param points one point a row. O(n^2) distances, or only those within reach for Euclidean points with a
-  /// threshold. @throws Error (bad_data) as PointMetric; Error (usage) on a NaN or negative
-  /// threshold; Error (resource) if the context's memory limit would be exceeded.
+  /// @param points one point a row. O(n^2) distances, or only those within reach for Euclidean
+  /// points with a threshold. @throws Error (bad_data) as PointMetric; Error (usage) on a NaN or
+  /// negative threshold; Error (resource) if the context's memory limit would be exceeded.
   explicit Rips(const Points& points, const RipsOptions& options = {},
                 const RunContext& context = default_context());
   explicit Rips(const DistanceMatrix& distances, const RipsOptions& options = {},
@@ -39,9 +39,9 @@ class Rips {
                 const RunContext& context = default_context());
   /// Any metric of the user's own: `size()` and `operator()(Index, Index)`.
   template <Metric M>
-    requires(!std::derived_from<M, Eigen::EigenBase<M>>)  // a matrix holds points
-  explicit Rips(const M& metric, const RipsOptions& options = {},
-                const RunContext& context = default_context())
+  requires(!std::derived_from<M, Eigen::EigenBase<M>>)  // a matrix holds points
+      explicit Rips(const M& metric, const RipsOptions& options = {},
+                    const RunContext& context = default_context())
       : graph_(std::make_shared<const RipsGraph>(
             RipsGraph::of_metric(metric, options.threshold, context))) {}
 
