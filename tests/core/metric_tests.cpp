@@ -165,6 +165,35 @@ TEST(SparseDistanceSets, NearPairsAreThoseOfAllPairs) {
   }
 }
 
+// Far from the origin coordinates have few digits left of the point.
+TEST(SparseDistanceSets, NearPairsFarFromTheOrigin) {
+  for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+    Generator random(seed);
+    const double far = std::ldexp(1 + random.real(), random.integer(10, 50));
+    Points points(40, random.integer(1, 3));
+    for (double& x : points.reshaped()) x = far + random.integer(-12, 12) * 0.25;
+    for (const double radius : {0.25, 0.5, 1.0, 3.0})
+      ASSERT_EQ(SparseDistances::within(points, radius).edges(), all_pairs_within(points, radius))
+          << "seed " << seed << " radius " << radius;
+  }
+}
+
+// In units of the radius these lie about a power of two, where rounding changes its step.
+TEST(SparseDistanceSets, NearPairsAtAStepOfRounding) {
+  const double radius = 0.8575754491187267;
+  const Points pair = rows({{230203656.9687939}, {230203657.82636935}});
+  EXPECT_EQ(SparseDistances::within(pair, radius).edges().size(), 1U);
+  for (std::uint64_t seed = 0; seed < 20000; ++seed) {
+    Generator random(seed);
+    const double r = 0.5 + random.real() / 2;
+    const double middle = std::ldexp(r * (1 + 1e-9), random.integer(20, 29));
+    Points points(2, 1);
+    points << middle - random.real() * 1e-7, 0;
+    points(1, 0) = points(0, 0) + r;
+    ASSERT_EQ(SparseDistances::within(points, r).edges(), all_pairs_within(points, r)) << seed;
+  }
+}
+
 TEST(SparseDistanceSets, RadiiAtTheEnds) {
   const Points points = rows({{0, 0}, {3, 4}, {0, 0}, {1e300, 0}});
   EXPECT_EQ(SparseDistances::within(points, 0).edges(), (std::vector<WeightedEdge>{{0, 2, 0}}));

@@ -7,9 +7,10 @@
 namespace ph {
 
 CubeList::CubeList(const Points& points, double radius) {
-  // A hair larger than the radius: rounding must not put two points in reach two cubes apart. With
-  // no radius at all, any cubes will do in which equal points meet.
-  const double edge = std::max(radius * (1 + 1e-9),
+  // A hair larger than the radius: rounding must not put two points in reach two cubes apart. There
+  // are 10^9 cubes an axis at most, so that a coordinate in cubes is off by 10^-7 at most: less than
+  // the hair. With no radius at all, any cubes will do in which equal points meet.
+  const double edge = std::max(radius * (1 + 1e-6),
                                points.size() == 0 ? 1.0 : 1e-9 * points.cwiseAbs().maxCoeff());
   const double scale = edge > 0 ? 1 / edge : 1;
   const auto size = static_cast<std::size_t>(points.rows());
