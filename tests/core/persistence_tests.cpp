@@ -207,5 +207,77 @@ TEST(UserFiltrations, CofacetsInAnyOrder) {
   for (const bool filled : {false, true}) check(SquareWithCofacets{{filled}}, 2);
 }
 
+/// Simplices all at value 0, numbered from 0 in each dimension: a cell is unique in its dimension
+/// only, as the contract has it.
+class NumberedByDimension {
+ public:
+  using Cell = unsigned;
+  static constexpr bool first_equal_cofacet_is_oldest = true;
+
+  explicit NumberedByDimension(const Simplices& space) {
+    for (const auto& simplex : space) {
+      for (unsigned mask = 1; mask < (1U << simplex.size()); ++mask) {
+        std::vector<Index> face;
+        for (std::size_t k = 0; k < simplex.size(); ++k)
+          if (mask >> k & 1) face.push_back(simplex[k]);
+        std::sort(face.begin(), face.end());
+        cells_.resize(std::max(cells_.size(), face.size()));
+        auto& same = cells_[face.size() - 1];
+        if (std::ranges::find(same, face) == same.end()) same.push_back(face);
+      }
+    }
+  }
+  int top_dim() const { return static_cast<int>(cells_.size()) - 1; }
+  double value(Cell) const { return 0; }
+  unsigned key(Cell) const { return 0; }
+  bool precedes(Cell a, Cell b) const { return a < b; }
+  template <class Visit>
+  void for_each_cell(int dim, Visit&& visit) const {
+    if (dim > top_dim()) return;
+    for (Cell c = 0; c < of(dim).size(); ++c) visit(c);
+  }
+  template <class Visit>
+  void for_each_facet(int dim, Cell c, Visit&& visit) const {
+    for (std::size_t k = 0; dim > 0 && k <= static_cast<std::size_t>(dim); ++k) {
+      auto facet = of(dim)[c];
+      facet.erase(facet.begin() + static_cast<std::ptrdiff_t>(k));
+      visit(static_cast<Cell>(std::ranges::find(of(dim - 1), facet) - of(dim - 1).begin()),
+            k % 2 == 0 ? 1 : -1);
+    }
+  }
+  template <class Visit>
+  void for_each_cofacet(int dim, Cell c, Visit&& visit) const {
+    bool go_on = dim < top_dim();
+    for (Cell larger = 0; go_on && larger < of(dim + 1).size(); ++larger) {
+      for_each_facet(dim + 1, larger, [&](Cell facet, int incidence) {
+        if (facet == c && go_on) go_on = visit(larger, incidence);
+      });
+    }
+  }
+  CellKind cell_kind() const { return CellKind::vertices; }
+  void append_input_cell(int dim, Cell c, std::vector<Index>& numbers) const {
+    numbers.insert(numbers.end(), of(dim)[c].begin(), of(dim)[c].end());
+  }
+
+ private:
+  const std::vector<std::vector<Index>>& of(int dim) const {
+    return cells_[static_cast<std::size_t>(dim)];
+  }
+  std::vector<std::vector<std::vector<Index>>> cells_;  // by dimension: vertices, ascending
+};
+static_assert(CofacetFiltration<NumberedByDimension>);
+
+TEST(UserFiltrations, CellsNeedOnlyBeUniqueInTheirDimension) {
+  for (const Simplices& space : {torus_of_seven_vertices(), projective_plane(), klein_bottle(),
+                                 suspension(projective_plane()), cross_polytope(3)}) {
+    const NumberedByDimension f(space);
+    check(f, f.top_dim());
+    for (const std::int64_t field : {2, 3}) {
+      EXPECT_EQ(betti_at_the_end(persistence(f, {.field = field}), f.top_dim()),
+                betti_at_the_end(persistence(all_at_once(space), {.field = field}), f.top_dim()));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ph::test
