@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
     const std::filesystem::path path = argv[i];
     const std::string name = path.stem().string();
     benchmark::RegisterBenchmark((name + "/libph").c_str(), [=](auto& state) {
-      for (auto _ : state) benchmark::DoNotOptimize(ph::read_pcd(path).size());
+      for (auto _ : state) benchmark::DoNotOptimize(ph::read_cloud(path).size());
       count_bytes(state, path);
     })->Unit(benchmark::kMillisecond);
 #ifdef PH_WITH_PCL

@@ -53,6 +53,7 @@ class Reduction {
         essential_(&context.memory),
         to_reduce_(&context.memory),
         working_(&context.memory),
+        rest_(&context.memory),
         chain_(&context.memory),
         tracks_chains_(!kIsHomology || bars.representatives() != Representatives::none) {}
   Reduction(const Reduction&) = delete;
@@ -102,9 +103,9 @@ class Reduction {
     to_reduce_.clear();
   }
   void reduce_collected() {
-    std::sort(to_reduce_.begin(), to_reduce_.end(), [&](const Cell& a, const Cell& b) {
-      return kIsHomology ? f_.precedes(a, b) : f_.precedes(b, a);
-    });
+    const auto comes_before = [&](const Cell& a, const Cell& b) { return is_below(a, b); };
+    if (!std::is_sorted(to_reduce_.begin(), to_reduce_.end(), comes_before))
+      std::sort(to_reduce_.begin(), to_reduce_.end(), comes_before);
     Ticker ticker(context_, direction == Direction::homology ? "homology" : "cohomology",
                   to_reduce_.size());
     for (const Cell& cell : to_reduce_) {
@@ -126,7 +127,7 @@ class Reduction {
     Range chain;  // what was added to `cell`, without it; homology: only with representatives
   };
 
-  // Whether `a` is further from being the pivot than `b`.
+  // Whether `a` is further from being the pivot than `b`; columns are reduced in this order.
   bool is_below(const Cell& a, const Cell& b) const {
     return kIsHomology ? f_.precedes(a, b) : f_.precedes(b, a);
   }
@@ -166,6 +167,10 @@ class Reduction {
   bool pop_pivot(Term& pivot);
   // The column whose pivot `cell` is; null if there is none yet. Valid until the next call.
   const Column* owner_of(const Cell& cell);
+  // Homology, dimension 1: reduces what is left below the pivot as well. The boundary of an edge has
+  // one such entry; followed to its end once, it leads every later column there in one step.
+  // @return whether a column was added.
+  bool reduce_rest(Ticker& ticker);
   void finish_column(const Cell& cell, const Term& pivot, bool was_added_to);
   void finish_essential(const Cell& cell);
   // Appends the working chain to chains_, equal cells added up; without the column's own cell.
@@ -188,6 +193,7 @@ class Reduction {
   std::pmr::vector<Cell> killers_, essential_;
   std::pmr::vector<Cell> to_reduce_;
   std::pmr::vector<Term> working_;  // a heap with lazy cancellation
+  std::pmr::vector<Term> rest_;     // homology, dimension 1: entries below the pivot
   std::pmr::vector<Term> chain_;    // what was added to the working column, in columns
   bool tracks_chains_;
 
@@ -333,6 +339,7 @@ void Reduction<F, K, direction>::reduce_column(const Cell& cell, Ticker& ticker)
   while (pop_pivot(pivot)) {
     const Column* owner = owner_of(pivot.cell);
     if (!owner) {
+      if constexpr (kIsHomology) was_added_to = reduce_rest(ticker) || was_added_to;
       finish_column(cell, pivot, was_added_to);
       return;
     }
@@ -340,6 +347,22 @@ void Reduction<F, K, direction>::reduce_column(const Cell& cell, Ticker& ticker)
     was_added_to = true;
   }
   finish_essential(cell);
+}
+
+template <Filtration F, Field K, Direction direction>
+bool Reduction<F, K, direction>::reduce_rest(Ticker& ticker) {
+  rest_.clear();
+  bool was_added_to = false;
+  if (dim_ != 1) return was_added_to;
+  for (Term term; pop_pivot(term);) {
+    if (const Column* owner = owner_of(term.cell)) {
+      cancel_pivot(term, *owner, ticker);
+      was_added_to = true;
+    } else {
+      rest_.push_back(term);
+    }
+  }
+  return was_added_to;
 }
 
 template <Filtration F, Field K, Direction direction>
@@ -390,6 +413,7 @@ void Reduction<F, K, direction>::finish_column(const Cell& cell, const Term& piv
     if constexpr (kIsHomology) {
       column.terms.begin = terms_.size();
       terms_.push_back(pivot);
+      terms_.insert(terms_.end(), rest_.begin(), rest_.end());
       for (Term term; pop_pivot(term);) terms_.push_back(term);
       column.terms.end = terms_.size();
     }
