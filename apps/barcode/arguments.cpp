@@ -246,9 +246,12 @@ void add_homology_options(CLI::App& app, Arguments& a) {
             })
       ->group(group);
   add_choice(app, "--representatives", {"none", "cycles", "cocycles"},
-             "representatives in the JSON output (default none; others are not built in)",
-             [](std::size_t i) {
-               if (i != 0) not_built_in("--representatives:");
+             "with each bar, in JSON: a cycle, or a cocycle, as cells of the input with "
+             "coefficients (default none)",
+             [&a](std::size_t i) {
+               constexpr std::array kKinds{Representatives::none, Representatives::cycles,
+                                           Representatives::cocycles};
+               a.options.representatives = kKinds[i];
              })
       ->group(group);
   app.add_flag("--dry-run", a.dry_run,
@@ -317,6 +320,13 @@ void check_together(Arguments& a, const std::vector<PlotKind>& kinds) {
   if (a.inputs.size() > 1 && !a.plots.empty()) reject("--plot takes one input only");
   if (std::count(a.inputs.begin(), a.inputs.end(), "-") > 1)
     reject("INPUT: standard input can be read once only");
+  const Engine engine = a.options.engine;
+  if (a.options.representatives != Representatives::none &&
+      (engine == Engine::standard || engine == Engine::union_find))
+    reject(
+        fmt::format("--engine: found {}, which gives no representatives; expected auto, twist or "
+                    "cohomology",
+                    engine_name(engine)));
   // A two-dimensional array holds points if that is the only way to make sense of it.
   if (a.read.array == ArrayMeaning::image &&
       (a.complex == ComplexKind::rips || a.format == Format::points))

@@ -27,6 +27,16 @@ BarcodeFormat format_of(const Arguments& arguments, app::Session& session) {
   return BarcodeFormat::csv;
 }
 
+/// Only JSON has room for representatives. @throws Error (usage).
+void require_room(BarcodeFormat format, const Arguments& arguments) {
+  if (arguments.options.representatives == Representatives::none || arguments.dry_run) return;
+  if (format == BarcodeFormat::json || format == BarcodeFormat::none) return;
+  throw Error(ErrorKind::usage,
+              fmt::format("--representatives: found output format {}, expected json; "
+                          "--output-format json or -o FILE.json holds them",
+                          barcode_format_name(format)));
+}
+
 std::string file_name(const std::string& path) {
   const std::size_t slash = path.rfind('/');
   const std::string name = slash == path.npos ? path : path.substr(slash + 1);
@@ -40,7 +50,7 @@ std::string stem(const std::string& name) {
 
 /// One job an input. Names keep the extension of the input where two would be the same without it.
 std::vector<Job> jobs_of(const Arguments& arguments, BarcodeFormat format) {
-  if (!arguments.is_batch()) {
+  if (!arguments.is_batch() || format == BarcodeFormat::none) {
     std::vector<Job> jobs;
     for (const std::string& input : arguments.inputs)
       jobs.push_back({input, arguments.output, format});
@@ -77,10 +87,13 @@ void create_folder(const std::string& path) {
 }  // namespace
 
 int run_all(const Arguments& arguments, app::Session& session) {
-  const std::vector<Job> jobs = jobs_of(arguments, format_of(arguments, session));
+  const BarcodeFormat format = format_of(arguments, session);
+  require_room(format, arguments);
+  const std::vector<Job> jobs = jobs_of(arguments, format);
   if (jobs.size() == 1 && !arguments.is_batch()) return run(jobs[0], arguments, session).code;
 
-  if (arguments.is_batch() && !arguments.dry_run) create_folder(arguments.output);
+  if (arguments.is_batch() && !arguments.dry_run && format != BarcodeFormat::none)
+    create_folder(arguments.output);
   int first_failure = app::kOk;
   for (const Job& job : jobs) {
     int code = app::kOk;

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <new>
 
+#include "adjust.hpp"
 #include "build_complex.hpp"
 #include "exit_code.hpp"
 #include "messages.hpp"
@@ -46,40 +47,6 @@ ReadResult read_input(const Job& job, const Arguments& arguments, app::Session& 
     session.explain("read " + what);
   for (const std::string& note : result.notes)
     session.note(fmt::format("{}: {}", input.name(), note));
-  return result;
-}
-
-/// The barcode with vertices named as in an input of which some points were left out.
-Barcode with_input_ids(const Barcode& barcode, const std::vector<Index>& ids) {
-  const auto named = [&](const InputCell& cell) {
-    std::vector<Index> numbers(cell.numbers.begin(), cell.numbers.end());
-    for (Index& v : numbers) v = ids[static_cast<std::size_t>(v)];
-    return numbers;
-  };
-  Barcode result(barcode.cell_kind());
-  for (std::size_t i = 0; i < barcode.size(); ++i) {
-    const auto death = barcode.death_cell(i);
-    result.add(barcode[i], named(barcode.birth_cell(i)),
-               death ? named(*death) : std::vector<Index>());
-  }
-  result.sort();
-  return result;
-}
-
-/// The barcode of the subcomplex of all cells up to a value: later births are not in it, and what
-/// dies later is alive.
-Barcode cut_at(const Barcode& barcode, double threshold) {
-  Barcode result(barcode.cell_kind());
-  for (std::size_t i = 0; i < barcode.size(); ++i) {
-    Bar bar = barcode[i];
-    if (bar.birth > threshold) continue;
-    const auto death = barcode.death_cell(i);
-    const bool lives = bar.death > threshold;
-    if (lives) bar.death = kInfinity;
-    result.add(bar, barcode.birth_cell(i).numbers,
-               death && !lives ? death->numbers : std::span<const Index>());
-  }
-  result.sort();
   return result;
 }
 
@@ -167,7 +134,9 @@ Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
   if (built.cut) options.min_persistence = std::min(options.min_persistence, 0.0);
   const auto compute = [&] {
     const Barcode whole = persistence(built.complex, options, session.context());
-    Barcode cut = built.cut ? cut_at(whole, *built.cut) : whole;
+    Barcode cut = built.cut
+                      ? cut_at(whole, built.complex, *built.cut, arguments.options.min_persistence)
+                      : whole;
     return point_ids.empty() ? cut : with_input_ids(cut, point_ids);
   };
   const Barcode barcode = with_estimate(estimated, compute);
@@ -176,6 +145,7 @@ Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
   int code = app::kOk;
   if (arguments.check) {
     options.engine = Engine::standard;
+    options.representatives = Representatives::none;
     const std::string difference = first_difference(barcode, with_estimate(estimated, compute));
     watch.lap("check");
     if (difference.empty()) {

@@ -10,16 +10,9 @@ import subprocess
 import unittest
 import xml.dom.minidom
 
-from program import SQUARE, SQUARE_CSV, ProgramTest, main
+from program import SQUARE, SQUARE_CSV, ProgramTest, main, npy
 
 TRIANGLE = "0 : 0\n1 : 0\n2 : 0\n0 1 : 1\n1 2 : 2\n0 2 : 3\n0 1 2 : 4\n"
-
-
-def npy(shape, values):
-    header = f"{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}"
-    header = header.ljust(117) + "\n"
-    return (b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode()
-            + struct.pack(f"<{len(values)}d", *values))
 
 
 class Formats(ProgramTest):

@@ -32,16 +32,42 @@ std::string json_number(double value) {
   return value > 0 ? "null" : "\"-inf\"";
 }
 
-std::string json_cell(const InputCell& cell) {
+/// The cell without its braces: `"vertices": [0, 1]`.
+std::string json_cell_member(const InputCell& cell) {
   switch (cell.kind) {
     case CellKind::vertices:
-      return fmt::format("{{\"vertices\": [{}]}}", fmt::join(cell.numbers, ", "));
+      return fmt::format("\"vertices\": [{}]", fmt::join(cell.numbers, ", "));
     case CellKind::grid:
-      return fmt::format("{{\"grid\": [{}]}}", fmt::join(cell.numbers, ", "));
+      return fmt::format("\"grid\": [{}]", fmt::join(cell.numbers, ", "));
     case CellKind::row:
-      return fmt::format("{{\"row\": {}}}", fmt::join(cell.numbers, ", "));
+      return fmt::format("\"row\": {}", fmt::join(cell.numbers, ", "));
   }
-  return "null";
+  return "";
+}
+
+std::string json_cell(const InputCell& cell) {
+  return fmt::format("{{{}}}", json_cell_member(cell));
+}
+
+std::string_view representatives_name(Representatives kind) {
+  switch (kind) {
+    case Representatives::none:
+      return "none";
+    case Representatives::cycles:
+      return "cycles";
+    case Representatives::cocycles:
+      return "cocycles";
+  }
+  return "";
+}
+
+/// A chain can be as long as the input: written term by term.
+void write_chain(OutputFile& file, const InputChain& chain) {
+  file.write("[");
+  for (std::size_t i = 0; i < chain.size(); ++i)
+    file.write(fmt::format("{}{{{}, \"coefficient\": {}}}", i == 0 ? "" : ", ",
+                           json_cell_member(chain.cell(i)), chain.coefficient(i)));
+  file.write("]");
 }
 
 std::string json_timings(const BarcodeInfo& info) {
@@ -86,15 +112,25 @@ void write_barcode_json(OutputFile& file, const Barcode& barcode, const BarcodeI
                          json_string(info.complex), info.field, info.max_dim));
   file.write(fmt::format("  \"threshold\": {},\n",
                          info.threshold ? json_number(*info.threshold) : "null"));
-  file.write(fmt::format("  \"engine\": {},\n  \"bars\": [", json_string(info.engine)));
+  const bool with_chains = barcode.representatives() != Representatives::none;
+  file.write(fmt::format("  \"engine\": {},\n", json_string(info.engine)));
+  if (with_chains)
+    file.write(fmt::format("  \"representatives\": \"{}\",\n",
+                           representatives_name(barcode.representatives())));
+  file.write("  \"bars\": [");
   for (std::size_t i = 0; i < barcode.size(); ++i) {
     const Bar& bar = barcode[i];
     const auto death = barcode.death_cell(i);
     file.write(i == 0 ? "\n" : ",\n");
     file.write(fmt::format("    {{\"dim\": {}, \"birth\": {}, \"death\": {}, ", bar.dim,
                            json_number(bar.birth), json_number(bar.death)));
-    file.write(fmt::format("\"birth_cell\": {}, \"death_cell\": {}}}",
+    file.write(fmt::format("\"birth_cell\": {}, \"death_cell\": {}",
                            json_cell(barcode.birth_cell(i)), death ? json_cell(*death) : "null"));
+    if (with_chains) {
+      file.write(", \"representative\": ");
+      write_chain(file, barcode.representative(i));
+    }
+    file.write("}");
   }
   file.write(barcode.empty() ? "],\n" : "\n  ],\n");
   file.write(fmt::format("  \"timings\": {},\n", json_timings(info)));

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <vector>
+
+#include "ph/persistence.hpp"
+
+namespace ph::barcode {
+
+/// The barcode with vertices named as in an input of which some points were left out: vertex v
+/// becomes ids[v].
+Barcode with_input_ids(const Barcode& barcode, const std::vector<Index>& ids);
+
+/// The barcode of the subcomplex of all cells up to a value: later births are not in it, and what
+/// dies later is alive. Cocycles are restricted to the subcomplex.
+/// @param min_persistence bars that die in the subcomplex after no longer than this are left out.
+Barcode cut_at(const Barcode& barcode, const AnyComplex& complex, double threshold,
+               double min_persistence);
+
+}  // namespace ph::barcode
