@@ -267,11 +267,22 @@ class NumberedByDimension {
 };
 static_assert(CofacetFiltration<NumberedByDimension>);
 
+/// The same without cofacets, so that no pair can be seen without a reduction.
+struct FacetsOnly : private NumberedByDimension {
+  using Cell = unsigned;
+  using NumberedByDimension::append_input_cell, NumberedByDimension::cell_kind,
+      NumberedByDimension::for_each_cell, NumberedByDimension::for_each_facet,
+      NumberedByDimension::NumberedByDimension, NumberedByDimension::precedes,
+      NumberedByDimension::top_dim, NumberedByDimension::value;
+};
+static_assert(Filtration<FacetsOnly> && !CofacetFiltration<FacetsOnly>);
+
 TEST(UserFiltrations, CellsNeedOnlyBeUniqueInTheirDimension) {
   for (const Simplices& space : {torus_of_seven_vertices(), projective_plane(), klein_bottle(),
                                  suspension(projective_plane()), cross_polytope(3)}) {
     const NumberedByDimension f(space);
     check(f, f.top_dim());
+    check(FacetsOnly(space), f.top_dim());
     for (const std::int64_t field : {2, 3}) {
       EXPECT_EQ(betti_at_the_end(persistence(f, {.field = field}), f.top_dim()),
                 betti_at_the_end(persistence(all_at_once(space), {.field = field}), f.top_dim()));

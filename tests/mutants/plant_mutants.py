@@ -72,7 +72,7 @@ MUTANTS = [
      ["persistence_tests"]),
     ("reduction: a zero coefficient is kept", REDUCTION,
      "if (!field_.is_zero(sum)) chains_.emplace_back(c, sum);", "chains_.emplace_back(c, sum);",
-     ["conformance_random"]),
+     ["representatives_random"]),
     ("reduction: every first equal cofacet is an emergent pair", REDUCTION,
      "found = !owner_of(entry);", "found = true;", ["conformance_random"]),
     ("apparent pairs: only one side looked at", "libph/include/ph/engine/apparent_pairs.hpp",
