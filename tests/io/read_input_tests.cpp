@@ -90,7 +90,7 @@ TEST(Input, StopsWaitingOnRequest) {
 TEST(Input, AnEndlessStreamStopsAtTheBudget) {
   RunContext context;
   context.memory.set_limit(std::size_t{8} << 20);
-  EXPECT_TRUE(fails_with(ErrorKind::resource, [&] { Input::open("/dev/zero", &context); }));
+  EXPECT_TRUE(fails_with(ErrorKind::resource, [&] { Input::open("/dev/urandom", &context); }));
   EXPECT_LE(context.memory.peak(), std::size_t{8} << 20);
   EXPECT_EQ(context.memory.used(), 0U);
 }
@@ -138,6 +138,13 @@ TEST(Input, HeaderBombsCostNothing) {
       {"f.npy", std::string("\x93NUMPY\x01\x00", 8) +
                     le(static_cast<std::uint16_t>(npy_header.size())) + npy_header + "xxxx"},
       {"g.phat", le(std::int64_t{1000000000000}) + le(std::int64_t{0})},
+      {"j.dipha", le(std::int64_t{8067171840}) + le(std::int64_t{7}) + le(std::int64_t{1} << 31)},
+      {"k.dipha", le(std::int64_t{8067171840}) + le(std::int64_t{1}) + le(std::int64_t{1} << 50) +
+                      le(std::int64_t{1}) + le(std::int64_t{1} << 50)},
+      {"l.pgm", "P5 2000000000 2000000000 255 x"},
+      {"m.perseus", "3\n1000000 1000000 1000000\n1\n"},
+      {"n.perseus", "2\n1000000 0 1\n0 1000000 1\n"},
+      {"o.pts", huge + "\n1 2 3\n"},
       {"h.off", "OFF\n" + huge + " " + huge + " 0\n0 0 0\n"},
       {"i.png",
        std::string("\x89PNG\r\n\x1A\n\0\0\0\rIHDR\x7F\xFF\xFF\xFF\x7F\xFF\xFF\xFF\x08\x06\0\0\0",

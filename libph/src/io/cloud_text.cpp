@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, 3> kCoordinates{"x", "y", "z"};
 bool is_byte(double value) { return value >= 0 && value <= 255 && value == std::floor(value); }
 
 std::vector<std::string> column_names(const Points& rows, const std::vector<std::string>& header,
-                                      const Input& input) {
+                                      const Input& input, bool counted) {
   const auto columns = static_cast<std::size_t>(rows.cols());
   std::vector<std::string> names;
   if (header.size() == columns) {
@@ -41,18 +41,22 @@ std::vector<std::string> column_names(const Points& rows, const std::vector<std:
     input.fail({"too few columns", fmt::format("{}", columns), "x y z at least", {}});
   }
   names = {"x", "y", "z"};
-  const bool colours = columns >= 6 && rows.middleCols(3, 3).unaryExpr(&is_byte).all();
-  for (std::size_t k = 3; k < columns; ++k) {
+  // PTS has an intensity before the colours, or alone.
+  const bool intensity = counted && (columns == 4 || columns == 7);
+  if (intensity) names.emplace_back("intensity");
+  const std::size_t first = names.size();
+  const bool colours = columns >= first + 3 &&
+                       rows.middleCols(static_cast<Index>(first), 3).unaryExpr(&is_byte).all();
+  for (std::size_t k = first; k < columns; ++k) {
     constexpr std::array<std::string_view, 3> kColours{"red", "green", "blue"};
-    names.push_back(colours && k < 6 ? std::string(kColours[k - 3]) : fmt::format("field_{}", k));
+    names.push_back(colours && k < first + 3 ? std::string(kColours[k - first])
+                                             : fmt::format("field_{}", k));
   }
   return names;
 }
 
-}  // namespace
-
-Cloud read_xyz(const Input& input, const ReadOptions& options) {
-  const detail::TextTable table = detail::read_text_table(input, Allow::any, options);
+Cloud cloud_of(const detail::TextTable& table, const Input& input, const ReadOptions& options,
+               bool counted) {
   Cloud cloud;
   cloud.width = table.rows.rows();
   if (cloud.width == 0) {
@@ -65,7 +69,7 @@ Cloud read_xyz(const Input& input, const ReadOptions& options) {
     }
     return cloud;
   }
-  const auto names = column_names(table.rows, table.header, input);
+  const auto names = column_names(table.rows, table.header, input, counted);
   for (std::size_t k = 0; k < names.size(); ++k) {
     const bool colour = names[k] == "red" || names[k] == "green" || names[k] == "blue";
     const bool bytes = colour && table.rows.col(static_cast<Index>(k)).unaryExpr(&is_byte).all();
@@ -94,9 +98,45 @@ Cloud read_xyz(const Input& input, const ReadOptions& options) {
   return cloud;
 }
 
+}  // namespace
+
+namespace detail {
+
+bool is_counted(const Input& input) {
+  const std::string_view probe = input.text().substr(0, 4096);
+  if (probe.find('\0') != std::string_view::npos) return false;
+  TextLines lines(input);
+  const auto cells = [&] {
+    std::size_t count = 0;
+    if (lines.next()) {
+      std::string_view rest = lines.line();
+      while (!rest.empty()) {
+        const std::size_t blank = std::min(rest.find_first_of(" \t,;"), rest.size());
+        if (blank > 0) ++count;
+        rest.remove_prefix(std::min(blank + 1, rest.size()));
+      }
+    }
+    return count;
+  };
+  const bool number =
+      cells() == 1 && lines.line().find_first_not_of("0123456789") == std::string_view::npos;
+  return number && cells() != 1;
+}
+
+}  // namespace detail
+
+Cloud read_xyz(const Input& input, const ReadOptions& options) {
+  return cloud_of(detail::read_text_table(input, Allow::any, options), input, options, false);
+}
+
+Cloud read_pts(const Input& input, const ReadOptions& options) {
+  return cloud_of(detail::read_text_table(input, Allow::any, options, true), input, options, true);
+}
+
 Cloud read_cloud(const Input& input, const ReadOptions& options) {
   if (detail::is_pcd(input) || input.extension() == ".pcd") return read_pcd(input, options);
   if (detail::is_ply(input) || input.extension() == ".ply") return read_ply(input, options);
+  if (input.extension() == ".pts" && detail::is_counted(input)) return read_pts(input, options);
   return read_xyz(input, options);
 }
 

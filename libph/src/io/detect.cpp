@@ -9,7 +9,6 @@
 namespace ph {
 namespace {
 
-constexpr std::int64_t kDiphaMagic = 8067171840;
 constexpr std::size_t kProbedLines = 64;
 
 bool starts_like_text(const Input& input) {
@@ -21,34 +20,29 @@ bool starts_like_text(const Input& input) {
 
 // Formats with a magic number, and formats known by nothing but their name.
 std::optional<Format> by_magic(const Input& input) {
-  const std::string_view text = input.text();
   if (detail::is_npy(input)) return Format::npy;
   if (detail::is_png(input)) return Format::png;
   if (detail::is_pcd(input)) return Format::pcd;
   if (detail::is_ply(input)) return Format::ply;
   if (detail::is_off(input)) return Format::off;
-  if (text.size() >= 8 &&
-      load<std::int64_t>(input.bytes().data(), std::endian::little) == kDiphaMagic) {
-    return Format::dipha;
-  }
-  if (text.size() > 2 && text[0] == 'P' && (text[1] == '2' || text[1] == '5') &&
-      (text[2] == ' ' || text[2] == '\n' || text[2] == '\r' || text[2] == '\t')) {
-    return Format::pgm;
-  }
-  if (text.size() >= 348 && (text.substr(344, 4) == std::string_view("n+1\0", 4) ||
-                             text.substr(344, 4) == std::string_view("ni1\0", 4))) {
-    return Format::nifti;
-  }
+  if (detail::is_npz(input)) return Format::npz;
+  if (detail::is_dipha(input)) return Format::dipha;
+  if (detail::is_pgm(input)) return Format::pgm;
+  if (detail::is_nifti(input)) return Format::nifti;
   return std::nullopt;
 }
 
-std::optional<Format> by_extension(const std::string& extension) {
+std::optional<Format> by_extension(const Input& input) {
+  const std::string& extension = input.extension();
   if (extension == ".phat") return Format::phat;
   if (extension == ".simplices") return Format::simplices;
   if (extension == ".sparse" || extension == ".coo") return Format::sparse;
-  if (extension == ".perseus") return Format::perseus;
+  if (extension == ".perseus" || extension == ".cub") return Format::perseus;
   if (extension == ".dipha") return Format::dipha;
-  if (extension == ".nii") return Format::nifti;
+  if (extension == ".xyz" || extension == ".xyzrgb") return Format::xyz;
+  if (extension == ".pts" && detail::is_counted(input)) return Format::pts;
+  if (extension == ".npz") return Format::npz;
+  if (extension == ".nii" || extension == ".hdr") return Format::nifti;
   // Damaged at the start: let their own readers say what is wrong.
   if (extension == ".pcd") return Format::pcd;
   if (extension == ".ply") return Format::ply;
@@ -97,11 +91,7 @@ Format by_rows(const Input& input) {
 
 Format detect_format(const Input& input) {
   if (const auto format = by_magic(input)) return *format;
-  if (input.text().starts_with("\x1F\x8B")) {
-    throw Error(ErrorKind::not_built_in,
-                input.name() + ": compressed with gzip: reading it is not built in; use gunzip -c");
-  }
-  if (const auto format = by_extension(input.extension())) return *format;
+  if (const auto format = by_extension(input)) return *format;
   if (!starts_like_text(input)) {
     // Bytes without a magic number: Ripser's binary has none. Anything else is told why by the
     // reader of text.

@@ -43,6 +43,21 @@ ReadResult result_of(Mesh mesh, std::string_view kind) {
   return result;
 }
 
+ReadResult result_of(SparseDistances sparse, std::string_view kind) {
+  ReadResult result;
+  result.description =
+      fmt::format("{} distances of {} points, {}", sparse.edges().size(), sparse.size(), kind);
+  result.data = std::move(sparse);
+  return result;
+}
+
+ReadResult result_of(BoundaryInput boundary, std::string_view kind) {
+  ReadResult result;
+  result.description = fmt::format("boundary matrix of {} cells, {}", boundary.matrix.size(), kind);
+  result.data = std::move(boundary);
+  return result;
+}
+
 ReadResult points_result(const Input& input, const ReadOptions& options) {
   const std::string_view first = input.text().substr(0, 4096);
   const char* kind = first.find(',') != std::string_view::npos ? "CSV" : "text";
@@ -61,12 +76,52 @@ ReadResult binary_result(const Input& input, const ReadOptions& options) {
   return result_of(read_binary_distances(input, options), "binary lower triangle");
 }
 ReadResult sparse_result(const Input& input, const ReadOptions& options) {
-  SparseDistances sparse = read_sparse(input, options);
-  ReadResult result;
-  result.description =
-      fmt::format("{} distances of {} points, sparse", sparse.edges().size(), sparse.size());
-  result.data = std::move(sparse);
+  return result_of(read_sparse(input, options), "sparse");
+}
+ReadResult dipha_result(const Input& input, const ReadOptions& options) {
+  switch (detail::dipha_type(input)) {
+    case detail::DiphaType::boundary_matrix:
+      return result_of(detail::read_dipha_boundary(input, options), "DIPHA");
+    case detail::DiphaType::image:
+      return result_of(detail::read_dipha_image(input, options), "DIPHA");
+    case detail::DiphaType::distance_matrix:
+      return result_of(detail::read_dipha_distances(input, options), "DIPHA");
+    case detail::DiphaType::sparse_distance_matrix:
+      return result_of(detail::read_dipha_sparse(input, options), "DIPHA");
+    case detail::DiphaType::diagram:
+      break;
+  }
+  input.fail({"a persistence diagram", "DIPHA file type 2",
+              "an image, a distance matrix or a boundary matrix", "it is a result, not an input"});
+}
+ReadResult pgm_result(const Input& input, const ReadOptions&) {
+  return result_of(detail::read_pgm_image(input), "PGM");
+}
+ReadResult nifti_result(const Input& input, const ReadOptions& options) {
+  return result_of(read_nifti(input, options), "NIfTI-1");
+}
+ReadResult perseus_result(const Input& input, const ReadOptions& options) {
+  PerseusImage perseus = read_perseus(input, options);
+  ReadResult result = result_of(std::move(perseus.image), "Perseus");
+  if (std::count(perseus.periodic.begin(), perseus.periodic.end(), true) > 0) {
+    result.description += ", periodic";
+    result.periodic = std::move(perseus.periodic);
+  }
+  detail::note(options,
+               "Perseus and GUDHI take the values as those of top cubes: --construction cells");
   return result;
+}
+ReadResult cloud_of(const Cloud& cloud, const Input& input, const ReadOptions& options,
+                    std::string_view kind) {
+  return result_of(detail::without_nan_rows(points_of(cloud), input, options, true), kind);
+}
+ReadResult xyz_result(const Input& input, const ReadOptions& options) {
+  const ReadOptions inner{.allow_empty = true, .context = options.context, .note = options.note};
+  return cloud_of(read_xyz(input, inner), input, options, "XYZ");
+}
+ReadResult pts_result(const Input& input, const ReadOptions& options) {
+  const ReadOptions inner{.allow_empty = true, .context = options.context};
+  return cloud_of(read_pts(input, inner), input, options, "PTS");
 }
 ReadResult npy_result(const Input& input, const ReadOptions& options) {
   switch (options.array) {
@@ -79,16 +134,19 @@ ReadResult npy_result(const Input& input, const ReadOptions& options) {
   }
   return result_of(read_npy_image(input, options), "NPY");
 }
+ReadResult npz_result(const Input& input, const ReadOptions& options) {
+  const Input array = detail::read_npz_member(input);
+  ReadResult result = npy_result(array, options);
+  detail::note(options, "read as " + array.name());
+  return result;
+}
 ReadResult png_result(const Input& input, const ReadOptions& options) {
   return result_of(read_image(input, options), "PNG");
 }
 ReadResult phat_result(const Input& input, const ReadOptions& options) {
   BoundaryInput boundary = read_phat(input, options);
-  ReadResult result;
-  result.description = fmt::format("boundary matrix of {} cells, PHAT {}", boundary.matrix.size(),
-                                   boundary.binary ? "binary" : "ascii");
-  result.data = std::move(boundary);
-  return result;
+  const char* kind = boundary.binary ? "PHAT binary" : "PHAT ascii";
+  return result_of(std::move(boundary), kind);
 }
 ReadResult simplices_result(const Input& input, const ReadOptions& options) {
   SimplicesInput simplices = read_simplices(input, options);
@@ -125,12 +183,16 @@ constexpr std::array kFormats{
                "0 1 1.5", &sparse_result},
     FormatInfo{Format::binary, "binary", "the lower triangle as float32, little endian", "",
                &binary_result},
-    FormatInfo{Format::dipha, "dipha", "DIPHA's binary images and matrices", "", nullptr},
+    FormatInfo{Format::dipha, "dipha", "DIPHA: an image, distances or a weighted boundary matrix",
+               "", &dipha_result},
     FormatInfo{Format::npy, "npy", "a NumPy array: an image, points or distances", "", &npy_result},
-    FormatInfo{Format::pgm, "pgm", "a grey picture, P2 or P5", "P2 640 480 255", nullptr},
+    FormatInfo{Format::pgm, "pgm", "a grey picture, P2 or P5, 8 or 16 bits", "P2 640 480 255",
+               &pgm_result},
     FormatInfo{Format::png, "png", "a grey picture", "", &png_result},
-    FormatInfo{Format::perseus, "perseus", "a cubical complex as text", "2 640 480", nullptr},
-    FormatInfo{Format::nifti, "nifti", "a NIfTI-1 volume", "", nullptr},
+    FormatInfo{Format::perseus, "perseus",
+               "a cubical complex as text: dimension, sizes, values; or a cube a line", "2",
+               &perseus_result},
+    FormatInfo{Format::nifti, "nifti", "a NIfTI-1 volume in one file", "", &nifti_result},
     FormatInfo{Format::phat, "phat",
                "a boundary matrix, ascii or binary: a cell a line, its "
                "dimension and facets",
@@ -140,6 +202,12 @@ constexpr std::array kFormats{
     FormatInfo{Format::off, "off", "a mesh in OFF", "OFF", &off_result},
     FormatInfo{Format::ply, "ply", "a mesh or cloud in PLY", "ply", &ply_result},
     FormatInfo{Format::pcd, "pcd", "a point cloud in PCD", "VERSION 0.7", &pcd_result},
+    FormatInfo{Format::npz, "npz", "one array of a NumPy archive: FILE.npz or FILE.npz:NAME", "",
+               &npz_result},
+    FormatInfo{Format::xyz, "xyz", "a point cloud as text: x y z, then colours and others",
+               "0.5 1.25 2 255 0 0", &xyz_result},
+    FormatInfo{Format::pts, "pts", "the same behind a line with the number of points", "1024",
+               &pts_result},
 };
 
 }  // namespace

@@ -10,9 +10,11 @@
 #include <cerrno>
 #include <memory_resource>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 #include "ph/io/reader.hpp"
+#include "unpack.hpp"
 
 namespace ph {
 namespace {
@@ -20,6 +22,7 @@ namespace {
 // Files up to this size are copied: cheaper than page faults, and safe against a file that shrinks.
 constexpr std::size_t kMapFrom = std::size_t{16} << 20;
 constexpr std::size_t kFirstChunk = std::size_t{64} << 10;
+constexpr std::size_t kNulProbe = std::size_t{1} << 20;  // of a stream: so many NULs are no data
 constexpr int kPollMilliseconds = 50;  // how soon a waiting read sees a stop request
 
 std::string reason(int error) { return std::generic_category().message(error); }
@@ -46,6 +49,16 @@ std::string lower_extension(const std::filesystem::path& path) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
   return result;
+}
+
+// Splits "FILE.npz:NAME" into both, unless there is a file of this name.
+std::pair<std::filesystem::path, std::string> split_member(const std::filesystem::path& path) {
+  constexpr std::string_view kMark = ".npz:";
+  const std::string& name = path.native();
+  const std::size_t mark = name.rfind(kMark);
+  std::error_code ignored;
+  if (mark == std::string::npos || std::filesystem::exists(path, ignored)) return {path, {}};
+  return {name.substr(0, mark + kMark.size() - 1), name.substr(mark + kMark.size())};
 }
 
 std::size_t half_of_memory() {
@@ -114,9 +127,11 @@ std::string printable(std::string_view bytes, std::size_t max_bytes) {
   return result;
 }
 
-// The bytes behind an Input: a buffer of the run's memory resource, or a mapped file.
+// The bytes behind an Input: a buffer of the run's memory resource, a mapped file, or a vector.
 struct Input::Storage {
   explicit Storage(std::pmr::memory_resource* resource) : memory(resource) {}
+  explicit Storage(std::pmr::vector<char> bytes)
+      : memory(bytes.get_allocator().resource()), held(std::move(bytes)) {}
   Storage(const Storage&) = delete;
   Storage& operator=(const Storage&) = delete;
   ~Storage() {
@@ -138,6 +153,7 @@ struct Input::Storage {
   }
 
   std::pmr::memory_resource* memory;
+  std::pmr::vector<char> held;
   char* data = nullptr;
   std::size_t capacity = 0;
   std::size_t used = 0;
@@ -157,8 +173,18 @@ Input Input::view(std::string_view bytes, std::string name) {
   return input;
 }
 
-Input Input::open(const std::filesystem::path& path, const RunContext* context) {
+Input Input::hold(std::pmr::vector<char> bytes, std::string name, const RunContext* context) {
+  Input input = view({}, std::move(name));
+  input.storage_ = std::make_unique<Storage>(std::move(bytes));
+  input.text_ = std::string_view(input.storage_->held.data(), input.storage_->held.size());
+  input.context_ = context;
+  return input;
+}
+
+Input Input::open(const std::filesystem::path& whole_path, const RunContext* context) {
   Input input;
+  std::filesystem::path path;
+  std::tie(path, input.member_) = split_member(whole_path);
   const bool standard_input = path == "-";
   input.name_ = standard_input ? "<stdin>" : printable(path.native());
   if (!standard_input) input.extension_ = lower_extension(path);
@@ -197,6 +223,7 @@ Input Input::open(const std::filesystem::path& path, const RunContext* context) 
       : context != nullptr && context->memory.limit() != MemoryBudget::kUnlimited
           ? context->memory.limit()
           : half_of_memory();
+  bool probed = sized;
   while (!storage->mapped) {
     input.poll();
     if (storage->used == storage->capacity) {
@@ -222,10 +249,26 @@ Input Input::open(const std::filesystem::path& path, const RunContext* context) 
                                              input.name_, storage->used, file_size));
     }
     storage->used += static_cast<std::size_t>(got);
+    if (!probed && storage->used >= kNulProbe) {
+      probed = true;
+      if (std::all_of(storage->data, storage->data + kNulProbe, [](char c) { return c == 0; })) {
+        input.fail_at_byte(0, {"not data", "a stream of NUL bytes", "data within the first MiB",
+                               "if they are meant, save them to a file first"});
+      }
+    }
   }
   input.text_ = std::string_view(storage->data, storage->used);
   input.storage_ = std::move(storage);
-  return input;
+  if (!detail::is_gzip(input.text_)) return input;
+
+  const std::size_t most = context != nullptr && context->memory.limit() != MemoryBudget::kUnlimited
+                               ? context->memory.limit()
+                               : half_of_memory();
+  Input unpacked = hold(detail::gunzip(input, most), {}, context);
+  unpacked.name_ = input.name_;
+  unpacked.member_ = input.member_;
+  unpacked.extension_ = input.extension_ == ".gz" ? lower_extension(path.stem()) : input.extension_;
+  return unpacked;
 }
 
 void Input::require_memory(std::size_t bytes) const {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <ostream>
 
+#include "array.hpp"
 #include "ph/io/cloud_io.hpp"
 #include "readers.hpp"
 
@@ -152,78 +153,6 @@ Header read_header(const Input& input) {
   return header;
 }
 
-double half_to_double(std::uint16_t bits) {
-  const int exponent = (bits >> 10) & 0x1F;
-  const int mantissa = bits & 0x3FF;
-  const double magnitude = exponent == 0 ? std::ldexp(mantissa, -24)
-                           : exponent == 31
-                               ? (mantissa == 0 ? std::numeric_limits<double>::infinity()
-                                                : std::numeric_limits<double>::quiet_NaN())
-                               : std::ldexp(mantissa + 1024, exponent - 25);
-  return (bits & 0x8000) != 0 ? -magnitude : magnitude;
-}
-
-// The element at `from`; sets `exact` to false if double cannot hold it.
-template <class T>
-double element(const std::byte* from, std::endian order, bool& exact) {
-  const T value = load<T>(from, order);
-  const auto result = static_cast<double>(value);
-  if constexpr (std::is_integral_v<T> && sizeof(T) == 8) {
-    // 2^63 and 2^64 round up out of the type: such values are never exact.
-    const bool in_range = result < std::ldexp(1.0, std::is_signed_v<T> ? 63 : 64);
-    exact = in_range && static_cast<T>(result) == value;
-  }
-  return result + 0.0;
-}
-double half(const std::byte* from, std::endian order, bool&) {
-  return half_to_double(load<std::uint16_t>(from, order)) + 0.0;
-}
-
-struct ElementType {
-  std::size_t size;
-  double (*load)(const std::byte*, std::endian, bool&);
-};
-
-std::optional<ElementType> element_type(std::string_view kind) {
-  if (kind == "b1") return ElementType{1, &element<std::uint8_t>};
-  if (kind == "u1") return ElementType{1, &element<std::uint8_t>};
-  if (kind == "u2") return ElementType{2, &element<std::uint16_t>};
-  if (kind == "u4") return ElementType{4, &element<std::uint32_t>};
-  if (kind == "u8") return ElementType{8, &element<std::uint64_t>};
-  if (kind == "i1") return ElementType{1, &element<std::int8_t>};
-  if (kind == "i2") return ElementType{2, &element<std::int16_t>};
-  if (kind == "i4") return ElementType{4, &element<std::int32_t>};
-  if (kind == "i8") return ElementType{8, &element<std::int64_t>};
-  if (kind == "f2") return ElementType{2, &half};
-  if (kind == "f4") return ElementType{4, &element<float>};
-  if (kind == "f8") return ElementType{8, &element<double>};
-  return std::nullopt;
-}
-
-// Column-major to row-major order.
-std::vector<double> transposed(const std::vector<double>& values,
-                               const std::vector<Index>& extents) {
-  std::vector<double> result(values.size());
-  std::vector<Index> at(extents.size(), 0);
-  std::vector<std::size_t> stride(extents.size());  // of the result, by axis
-  std::size_t step = 1;
-  for (std::size_t axis = extents.size(); axis-- > 0;) {
-    stride[axis] = step;
-    step *= static_cast<std::size_t>(extents[axis]);
-  }
-  std::size_t to = 0;
-  for (const double value : values) {  // the first axis runs fastest
-    result[to] = value;
-    for (std::size_t axis = 0; axis < extents.size(); ++axis) {
-      to += stride[axis];
-      if (++at[axis] < extents[axis]) break;
-      to -= stride[axis] * static_cast<std::size_t>(extents[axis]);
-      at[axis] = 0;
-    }
-  }
-  return result;
-}
-
 }  // namespace
 
 namespace detail {
@@ -231,7 +160,8 @@ namespace detail {
 bool is_npy(const Input& input) { return input.text().starts_with(kMagic); }
 
 Image read_npy_array(const Input& input) {
-  const Header header = read_header(input);
+  if (is_npz(input)) return read_npy_array(read_npz_member(input));
+  Header header = read_header(input);
   const char mark = header.descr.empty() ? '\0' : header.descr[0];
   const auto type = mark == '<' || mark == '>' || mark == '|' || mark == '='
                         ? element_type(std::string_view(header.descr).substr(1))
@@ -242,46 +172,17 @@ Image read_npy_array(const Input& input) {
                 "booleans, integers or floats of at most 8 bytes",
                 {}});
   }
-  std::optional<std::size_t> bytes = type->size;
-  for (const Index extent : header.shape) {
-    if (bytes) bytes = checked_product(*bytes, static_cast<std::size_t>(extent));
-  }
-  const std::size_t there = input.size() - header.offset;
-  if (!bytes || *bytes != there) {
-    input.fail_at_byte(
-        header.offset,
-        {!bytes || *bytes > there ? "truncated" : "trailing data",
-         fmt::format("{} bytes", there),
-         bytes ? fmt::format("{} for shape ({})", *bytes, fmt::join(header.shape, ", "))
-               : fmt::format("more than 2^64 for shape ({})", fmt::join(header.shape, ", ")),
-         {}});
-  }
-  Image image;
-  image.extents = header.shape;
-  const std::size_t count = there / type->size;
-  input.require_memory(count * sizeof(double) * (header.fortran_order ? 2 : 1));
-  image.values.resize(count);
-  const std::byte* from = input.bytes().data() + header.offset;
-  const auto order = mark == '>' ? std::endian::big : std::endian::little;
-  for (std::size_t k = 0; k < count; ++k) {
-    bool exact = true;
-    image.values[k] = type->load(from + k * type->size, order, exact);
-    if (!exact) {
-      input.fail_at_byte(header.offset + k * type->size,
-                         {"integer that double cannot hold",
-                          fmt::format("{:.0f} nearby", image.values[k]),
-                          "at most 2^53",
-                          {}});
-    }
-    if (header.descr[1] == 'b' && image.values[k] > 1) {
+  const ArrayLayout layout{*type, mark == '>' ? std::endian::big : std::endian::little,
+                           header.fortran_order, header.offset};
+  const std::size_t count = count_elements(input, layout, header.shape);
+  for (std::size_t k = 0; header.descr[1] == 'b' && k < count; ++k) {
+    const auto value = std::to_integer<int>(input.bytes()[header.offset + k]);
+    if (value > 1) {
       input.fail_at_byte(header.offset + k,
-                         {"not a boolean", fmt::format("{}", image.values[k]), "0 or 1", {}});
+                         {"not a boolean", fmt::format("{}", value), "0 or 1", {}});
     }
   }
-  if (header.fortran_order && image.extents.size() > 1) {
-    image.values = transposed(image.values, image.extents);
-  }
-  return image;
+  return load_array(input, layout, std::move(header.shape));
 }
 
 Image without_nan_pixels(Image image, const Input& input, const ReadOptions& options) {

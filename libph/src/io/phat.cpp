@@ -110,6 +110,7 @@ CellNamer BoundaryInput::namer() const {
 }
 
 BoundaryInput read_phat(const Input& input, const ReadOptions& options) {
+  if (detail::is_dipha(input)) return detail::read_dipha_boundary(input, options);
   BoundaryInput result = is_text(input) ? read_text(input) : read_binary(input);
   result.name = input.name();
   if (result.matrix.size() == 0 && !options.allow_empty) {

@@ -210,8 +210,9 @@ void write_png(std::ostream& out, const Raster& raster) {
   }
 }
 
-Image read_image(const Input& input, const ReadOptions& options) {
-  if (!detail::is_png(input)) return read_npy_image(input, options);
+namespace detail {
+
+Image read_png_image(const Input& input) {
   const Raster raster = read_png(input);
   if (raster.channels != 1) {
     input.fail({"not a grey image", fmt::format("{} channels", raster.channels), "1", {}});
@@ -223,8 +224,6 @@ Image read_image(const Input& input, const ReadOptions& options) {
   return image;
 }
 
-Image read_image(const std::filesystem::path& path, const ReadOptions& options) {
-  return read_image(Input::open(path, options.context), options);
-}
+}  // namespace detail
 
 }  // namespace ph

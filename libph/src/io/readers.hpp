@@ -15,7 +15,9 @@ struct TextTable {
 };
 
 /// Reads a whole table. @param allow what cells may hold besides finite numbers.
-TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& options);
+/// @param counted the first line is the number of rows.
+TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& options,
+                          bool counted = false);
 
 /// Takes the rows with a NaN out, or throws, as options.nan says; reports what it drops.
 /// @param holes rows with a NaN are holes of a point cloud: they are left out in any case.
@@ -25,15 +27,55 @@ Points without_nan_rows(Points points, const Input& input, const ReadOptions& op
 DistanceMatrix square_to_distances(const Image& array, const Input& input,
                                    const ReadOptions& options);
 
+/// A pair of points with where it was found: a line, or a byte.
+struct LocatedEdge {
+  WeightedEdge edge;
+  std::size_t place = 0;
+};
+/// The pairs u < v, each once, sorted, without infinite ones. A pair listed again with another
+/// distance is reported to `fail(place, fault)`, which throws.
+std::vector<WeightedEdge> unique_edges(std::vector<LocatedEdge> pairs, const Input& input,
+                                       const std::function<void(std::size_t, const Fault&)>& fail);
+
 /// The magic numbers.
 bool is_npy(const Input& input);
 bool is_pcd(const Input& input);
 bool is_ply(const Input& input);
 bool is_png(const Input& input);
 bool is_off(const Input& input);
+bool is_npz(const Input& input);
+bool is_pgm(const Input& input);
+bool is_nifti(const Input& input);
+bool is_dipha(const Input& input);
 
-/// NPY as it is: NaN and all.
+/// A set of points whose first line is their number, as PTS has it.
+bool is_counted(const Input& input);
+
+/// NPY as it is, or the array of an NPZ: NaN and all.
 Image read_npy_array(const Input& input);
+/// The one array of an NPZ, or the one that input.member() names, unpacked.
+Input read_npz_member(const Input& input);
+
+Image read_png_image(const Input& input);
+Image read_pgm_image(const Input& input);
+
+/// What a DIPHA file holds: the number that follows its magic number.
+enum class DiphaType : std::int64_t {
+  boundary_matrix = 0,
+  image = 1,
+  diagram = 2,
+  distance_matrix = 7,
+  sparse_distance_matrix = 8,
+};
+constexpr std::int64_t kDiphaMagic = 8067171840;
+/// @throws Error (bad_data) on another magic number or an unknown type.
+DiphaType dipha_type(const Input& input);
+
+// Each reads a DIPHA file of its type. @throws Error (bad_data), also on another type.
+Image read_dipha_image(const Input& input, const ReadOptions& options);
+DistanceMatrix read_dipha_distances(const Input& input, const ReadOptions& options);
+SparseDistances read_dipha_sparse(const Input& input, const ReadOptions& options);
+BoundaryInput read_dipha_boundary(const Input& input, const ReadOptions& options);
 
 /// Masks NaN (+infinity) or throws, as options.nan says; an image without voxels is an error unless
 /// options.allow_empty.

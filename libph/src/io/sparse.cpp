@@ -14,27 +14,25 @@ namespace {
 
 constexpr std::int64_t kMostPoints = std::int64_t{1} << 31;
 
-struct Line {
-  WeightedEdge edge;
-  std::size_t number;
-};
+}  // namespace
 
-// Throws on a pair listed with two distances; leaves each pair once, sorted.
-std::vector<WeightedEdge> unique_edges(std::vector<Line> lines, const Input& input) {
-  std::sort(lines.begin(), lines.end(), [](const Line& a, const Line& b) {
-    return std::tie(a.edge.u, a.edge.v, a.number) < std::tie(b.edge.u, b.edge.v, b.number);
+namespace detail {
+
+std::vector<WeightedEdge> unique_edges(std::vector<LocatedEdge> pairs, const Input& input,
+                                       const std::function<void(std::size_t, const Fault&)>& fail) {
+  std::sort(pairs.begin(), pairs.end(), [](const LocatedEdge& a, const LocatedEdge& b) {
+    return std::tie(a.edge.u, a.edge.v, a.place) < std::tie(b.edge.u, b.edge.v, b.place);
   });
   std::vector<WeightedEdge> edges;
-  input.require_memory(lines.size() * sizeof(WeightedEdge));
-  edges.reserve(lines.size());
-  for (const auto& [edge, number] : lines) {
+  input.require_memory(pairs.size() * sizeof(WeightedEdge));
+  edges.reserve(pairs.size());
+  for (const auto& [edge, place] : pairs) {
     if (!edges.empty() && edges.back().u == edge.u && edges.back().v == edge.v) {
       if (edges.back().value != edge.value) {
-        input.fail_at(number, 1,
-                      {fmt::format("pair {} {} listed again with another distance", edge.u, edge.v),
-                       fmt::format("{}", edge.value),
-                       fmt::format("{}", edges.back().value),
-                       {}});
+        fail(place, {fmt::format("pair {} {} listed again with another distance", edge.u, edge.v),
+                     fmt::format("{}", edge.value),
+                     fmt::format("{}", edges.back().value),
+                     {}});
       }
     } else {
       edges.push_back(edge);
@@ -44,12 +42,13 @@ std::vector<WeightedEdge> unique_edges(std::vector<Line> lines, const Input& inp
   return edges;
 }
 
-}  // namespace
+}  // namespace detail
 
 SparseDistances read_sparse(const Input& input, const ReadOptions& options) {
+  if (detail::is_dipha(input)) return detail::read_dipha_sparse(input, options);
   TextLines lines(input);
   Cells cells(lines);
-  std::vector<Line> found;
+  std::vector<detail::LocatedEdge> found;
   Index size = 0;
   bool first = true;
   while (lines.next()) {
@@ -58,7 +57,7 @@ SparseDistances read_sparse(const Input& input, const ReadOptions& options) {
       detail::note(options, fmt::format("line {} is a header: skipped", lines.number()));
       continue;
     }
-    Line line{{}, lines.number()};
+    detail::LocatedEdge line{{}, lines.number()};
     const auto missing = [&](const char* what) {
       if (!cells.more()) {
         lines.fail(lines.line().data() + lines.line().size(),
@@ -86,14 +85,15 @@ SparseDistances read_sparse(const Input& input, const ReadOptions& options) {
     if (line.edge.u > line.edge.v) std::swap(line.edge.u, line.edge.v);
     size = std::max(size, line.edge.v + 1);
     if (found.size() == found.capacity()) {
-      input.require_memory(2 * found.capacity() * sizeof(Line));
+      input.require_memory(2 * found.capacity() * sizeof(detail::LocatedEdge));
     }
     found.push_back(line);
   }
   if (size == 0 && !options.allow_empty) {
     input.fail({"no points", {}, "lines of i j distance", "--allow-empty accepts an empty set"});
   }
-  return SparseDistances(size, unique_edges(std::move(found), input));
+  const auto fail = [&](std::size_t line, const Fault& fault) { input.fail_at(line, 1, fault); };
+  return SparseDistances(size, detail::unique_edges(std::move(found), input, fail));
 }
 
 SparseDistances read_sparse(const std::filesystem::path& path, const ReadOptions& options) {

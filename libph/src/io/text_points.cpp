@@ -12,19 +12,38 @@ namespace ph {
 
 namespace detail {
 
-TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& options) {
+TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& options,
+                          bool counted) {
   TextTable table;
   TextLines lines(input);
   Cells cells(lines);
   bool more = lines.next();
-  if (more) {
+  std::size_t said = 0;
+  if (counted) {
+    if (!more) input.fail({"no number of points", "nothing", "it on the first line", {}});
+    cells.start();
+    const auto most = static_cast<std::int64_t>(input.size());  // a point takes a few bytes
+    said = static_cast<std::size_t>(cells.integer(0, most, "number of points"));
+    cells.expect_end("the number of points alone");
+    more = lines.next();
+  } else if (more) {
     table.header = header_names(lines.line());
     if (!table.header.empty()) {
       note(options, fmt::format("line {} is a header: skipped", lines.number()));
       more = lines.next();
     }
   }
-  if (!more) return table;
+  const auto check_count = [&](std::size_t count) {
+    if (!counted || count == said) return;
+    input.fail({count < said ? "truncated" : "trailing data",
+                fmt::format("{} points", count),
+                fmt::format("{}, as the first line says", said),
+                {}});
+  };
+  if (!more) {
+    check_count(0);
+    return table;
+  }
 
   const std::size_t first_line = lines.number();
   std::vector<double> first_row;
@@ -62,6 +81,7 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
     row += columns;
     ++count;
   }
+  check_count(count);
   table.rows.conservativeResize(static_cast<Index>(count), Eigen::NoChange);
   if (!table.header.empty() && table.header.size() != columns && columns > 1 &&
       table.header.size() > 1) {
@@ -110,7 +130,7 @@ Points without_nan_rows(Points points, const Input& input, const ReadOptions& op
 
 Points read_points(const Input& input, const ReadOptions& options) {
   Points points;
-  if (detail::is_npy(input)) {
+  if (detail::is_npy(input) || detail::is_npz(input)) {
     const Image array = detail::read_npy_array(input);
     if (array.dim() != 2) {
       input.fail({"not a set of points",

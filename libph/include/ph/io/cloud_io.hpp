@@ -16,7 +16,7 @@ namespace ph {
 // The readers throw as those of read.hpp do. A cloud without points is an error unless
 // options.allow_empty; a NaN coordinate is a hole and no error.
 
-/// By content (PCD, PLY), else text: see read_xyz.
+/// By content (PCD, PLY), else text: see read_xyz and read_pts.
 Cloud read_cloud(const std::filesystem::path& path, const ReadOptions& options = {});
 Cloud read_cloud(const Input& input, const ReadOptions& options = {});
 
@@ -31,6 +31,10 @@ Cloud read_ply(const Input& input, const ReadOptions& options = {});
 /// one; without it columns 4 to 6 are red green blue if all are integers of 0…255, else field_3, ….
 /// Coordinates are kept as float64. "nan" is a hole.
 Cloud read_xyz(const Input& input, const ReadOptions& options = {});
+
+/// PTS: the number of points on the first line, then x y z, with an intensity (4 columns), red
+/// green blue (6) or both (7) behind them.
+Cloud read_pts(const Input& input, const ReadOptions& options = {});
 
 /// The coordinates of all points, holes (NaN) included, in double precision.
 /// @throws Error (bad_data) if x, y or z is missing.

@@ -32,6 +32,9 @@ enum class Format {
   off,
   ply,
   pcd,
+  npz,
+  xyz,
+  pts,
 };
 
 /// What was read, whatever the format.
@@ -44,6 +47,8 @@ struct ReadResult {
   /// For Points: row i is point point_ids[i] of the input. Empty: row i is point i, none was left
   /// out.
   std::vector<Index> point_ids;
+  /// For an Image: the axes that the file says close up on themselves. Empty: none.
+  std::vector<bool> periodic;
 };
 
 /// One line of the table of formats: its name, what it is, and a line of it.

@@ -58,13 +58,14 @@ struct ReadOptions {
 // They need linear time, and never allocate more than in proportion to the bytes that are there.
 
 /// Points, one a line: numbers separated by blanks, commas or semicolons. A first row without any
-/// number is skipped with a note. Also takes NPY (2-D), PCD and PLY, by content.
+/// number is skipped with a note. Also takes NPY (2-D), NPZ, PCD and PLY, by content.
 /// @return one point a row. No points are an error unless options.allow_empty.
 Points read_points(const std::filesystem::path& path, const ReadOptions& options = {});
 Points read_points(const Input& input, const ReadOptions& options = {});
 
 /// A full square matrix: as many columns as rows, zero diagonal, symmetric (see Symmetrise);
-/// +infinity: never joined. With options.from_correlation a correlation matrix. Also takes NPY.
+/// +infinity: never joined. With options.from_correlation a correlation matrix. Also takes NPY, NPZ
+/// and DIPHA's distance matrices.
 DistanceMatrix read_distances(const std::filesystem::path& path, const ReadOptions& options = {});
 DistanceMatrix read_distances(const Input& input, const ReadOptions& options = {});
 
@@ -86,17 +87,39 @@ DistanceMatrix read_binary_distances(const std::filesystem::path& path,
 DistanceMatrix read_binary_distances(const Input& input, const ReadOptions& options = {});
 
 /// Pairs of points, one a line: `i j d`, ids from 0; the number of points is the largest id + 1.
-/// A pair may be listed twice if its distance is the same.
+/// A pair may be listed twice if its distance is the same. Also takes DIPHA's sparse distance
+/// matrices, which say the number of points.
 SparseDistances read_sparse(const std::filesystem::path& path, const ReadOptions& options = {});
 SparseDistances read_sparse(const Input& input, const ReadOptions& options = {});
 
-/// An array of any dimension from NPY, PNG (grey) or PGM, by content. The axes are those of the
-/// file, in C order. +-infinity is legal; NaN is an error or, with NanPolicy::drop, +infinity.
+/// An array of any dimension from NPY, NPZ, PNG (grey), PGM, DIPHA or NIfTI, by content. The axes
+/// are those of the file, in C order: a picture has (y, x), DIPHA and NIfTI have (x, y, z).
+/// +-infinity is legal; NaN is an error or, with NanPolicy::drop, +infinity.
 Image read_image(const std::filesystem::path& path, const ReadOptions& options = {});
 Image read_image(const Input& input, const ReadOptions& options = {});
 /// NumPy's .npy: booleans, integers, floats (16, 32, 64 bits), both byte orders and both storage
-/// orders; the result is in C order.
+/// orders; the result is in C order. Also an .npz that holds one array, or the array that
+/// Input::member names ("scans.npz:brain").
 Image read_npy_image(const Input& input, const ReadOptions& options = {});
+
+/// NIfTI-1 in one file (.nii): integers and floats of up to 8 bytes, both byte orders, 1 to 7 axes
+/// without the trailing ones of size 1; values are scaled by scl_slope and scl_inter.
+Image read_nifti(const std::filesystem::path& path, const ReadOptions& options = {});
+Image read_nifti(const Input& input, const ReadOptions& options = {});
+
+/// An image with the axes that close up on themselves.
+struct PerseusImage {
+  Image image;
+  std::vector<bool> periodic;  ///< one an axis
+};
+
+/// Perseus' cubical text. A grid: dimension, a size for each axis (negative: periodic, as in
+/// GUDHI), the values with the first axis fastest. Or a list of cubes: dimension, then coordinates
+/// from 0 and the value of a cube a line; others never enter. A value of -1 never enters if all
+/// others are positive integers, as Perseus has it; else it is a value, as in GUDHI. A note says
+/// which.
+PerseusImage read_perseus(const std::filesystem::path& path, const ReadOptions& options = {});
+PerseusImage read_perseus(const Input& input, const ReadOptions& options = {});
 
 /// Filtered simplices with the lines they come from.
 struct SimplicesInput {
@@ -126,7 +149,8 @@ struct BoundaryInput {
 
 /// PHAT's boundary matrices over Z/2. Text: a cell a line, its dimension, then the indices of its
 /// facets. Binary: int64 little endian: number of cells, then for each cell dimension, number of
-/// facets, facets. Indices count from 0 and name earlier columns, ascending.
+/// facets, facets. Indices count from 0 and name earlier columns, ascending. Also takes DIPHA's
+/// weighted boundary matrices, in which they may come in any order.
 /// @param values_path one value a cell: text, or float64 little endian; empty: positions are
 /// values.
 BoundaryInput read_phat(const std::filesystem::path& path,

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <memory_resource>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,17 +34,26 @@ struct Fault {
 
 /// All bytes of a file, of standard input ("-") or of a FIFO, with the name used in messages.
 /// Regular files above 16 MiB are mapped (another program must not shorten them meanwhile), smaller
-/// ones are copied; streams grow within the memory budget of the run. Move only.
+/// ones are copied; streams grow within the memory budget of the run. What is compressed with gzip
+/// is unpacked: its extension is then the one before ".gz", and lines and bytes are counted in what
+/// was unpacked. Move only.
 class Input {
  public:
-  /// @param path a file, a FIFO, or "-" for standard input.
+  /// @param path a file, a FIFO, or "-" for standard input. "FILE.npz:NAME" asks for one array of
+  /// an
+  ///        archive, see `member`, unless a file has this name.
   /// @param context its memory budget bounds what a stream may hold and its stop token is polled;
   ///        it must outlive the input. Without one a stream may take half of the machine's memory.
   /// @throws Error (no_input) if it is missing, unreadable or a directory; Error (io) if reading
-  ///         breaks off; Error (resource) if a stream is longer than the budget.
+  ///         breaks off; Error (resource) if a stream or what was unpacked is longer than the
+  ///         budget; Error (bad_data) if compressed data are damaged or expand beyond reason, or if
+  ///         a stream begins with 1 MiB of NUL bytes, as /dev/zero does.
   static Input open(const std::filesystem::path& path, const RunContext* context = nullptr);
   /// A view of bytes that outlive the input.
   static Input view(std::string_view bytes, std::string name);
+  /// An input that owns its bytes: what was unpacked from another one.
+  static Input hold(std::pmr::vector<char> bytes, std::string name,
+                    const RunContext* context = nullptr);
 
   Input(Input&& other) noexcept;
   Input& operator=(Input&& other) noexcept;
@@ -54,6 +64,8 @@ class Input {
   std::size_t size() const { return text_.size(); }
   const std::string& name() const { return name_; }            ///< printable
   const std::string& extension() const { return extension_; }  ///< lower case, with its dot
+  /// The part of an archive that was asked for; empty: none.
+  const std::string& member() const { return member_; }
   const RunContext* context() const { return context_; }
 
   /// @throws Error (resource) if the run's budget does not allow `bytes` more. Allocates nothing.
@@ -76,6 +88,7 @@ class Input {
   std::string_view text_;
   std::string name_;
   std::string extension_;
+  std::string member_;
   const RunContext* context_ = nullptr;
 };
 

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "array.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+namespace ph::detail {
+namespace {
+
+constexpr std::size_t kPollMask =
+    0xFFFFF;  // elements between two looks at the stop token, less one
+
+double half_to_double(std::uint16_t bits) {
+  const int exponent = (bits >> 10) & 0x1F;
+  const int mantissa = bits & 0x3FF;
+  const double magnitude = exponent == 0 ? std::ldexp(mantissa, -24)
+                           : exponent == 31
+                               ? (mantissa == 0 ? std::numeric_limits<double>::infinity()
+                                                : std::numeric_limits<double>::quiet_NaN())
+                               : std::ldexp(mantissa + 1024, exponent - 25);
+  return (bits & 0x8000) != 0 ? -magnitude : magnitude;
+}
+
+template <class T>
+double element(const std::byte* from, std::endian order, bool& exact) {
+  const T value = load<T>(from, order);
+  const auto result = static_cast<double>(value);
+  if constexpr (std::is_integral_v<T> && sizeof(T) == 8) {
+    // 2^63 and 2^64 round up out of the type: such values are never exact.
+    const bool in_range = result < std::ldexp(1.0, std::is_signed_v<T> ? 63 : 64);
+    exact = in_range && static_cast<T>(result) == value;
+  }
+  return result + 0.0;  // -0.0 becomes +0.0
+}
+double half(const std::byte* from, std::endian order, bool&) {
+  return half_to_double(load<std::uint16_t>(from, order)) + 0.0;
+}
+
+}  // namespace
+
+std::optional<ElementType> element_type(std::string_view kind) {
+  if (kind == "b1") return ElementType{1, &element<std::uint8_t>};
+  if (kind == "u1") return ElementType{1, &element<std::uint8_t>};
+  if (kind == "u2") return ElementType{2, &element<std::uint16_t>};
+  if (kind == "u4") return ElementType{4, &element<std::uint32_t>};
+  if (kind == "u8") return ElementType{8, &element<std::uint64_t>};
+  if (kind == "i1") return ElementType{1, &element<std::int8_t>};
+  if (kind == "i2") return ElementType{2, &element<std::int16_t>};
+  if (kind == "i4") return ElementType{4, &element<std::int32_t>};
+  if (kind == "i8") return ElementType{8, &element<std::int64_t>};
+  if (kind == "f2") return ElementType{2, &half};
+  if (kind == "f4") return ElementType{4, &element<float>};
+  if (kind == "f8") return ElementType{8, &element<double>};
+  return std::nullopt;
+}
+
+std::size_t count_elements(const Input& input, const ArrayLayout& layout,
+                           const std::vector<Index>& extents) {
+  std::optional<std::size_t> bytes = layout.type.size;
+  for (const Index extent : extents) {
+    // An extent of 0 makes no bytes of any other one.
+    if (bytes) bytes = checked_product(*bytes, static_cast<std::size_t>(extent));
+  }
+  const std::size_t there = input.size() - layout.offset;
+  if (!bytes || *bytes != there) {
+    input.fail_at_byte(
+        layout.offset,
+        {!bytes || *bytes > there ? "truncated" : "trailing data",
+         fmt::format("{} bytes", there),
+         bytes ? fmt::format("{} for shape ({})", *bytes, fmt::join(extents, ", "))
+               : fmt::format("more than 2^64 for shape ({})", fmt::join(extents, ", ")),
+         {}});
+  }
+  return there / layout.type.size;
+}
+
+Image load_array(const Input& input, const ArrayLayout& layout, std::vector<Index> extents) {
+  Image image;
+  image.extents = std::move(extents);
+  const std::size_t count = count_elements(input, layout, image.extents);
+  input.require_memory(count * sizeof(double));
+  image.values.resize(count);
+  const std::byte* from = input.bytes().data() + layout.offset;
+  FirstAxisFastest walk(image.extents);
+  const bool scatter = layout.first_axis_fastest && image.extents.size() > 1;
+  for (std::size_t k = 0; k < count; ++k) {
+    if ((k & kPollMask) == 0) input.poll();
+    bool exact = true;
+    const double value = layout.type.load(from + k * layout.type.size, layout.order, exact);
+    if (!exact) {
+      input.fail_at_byte(layout.offset + k * layout.type.size, {"integer that double cannot hold",
+                                                                fmt::format("{:.0f} nearby", value),
+                                                                "at most 2^53",
+                                                                {}});
+    }
+    image.values[scatter ? walk.place() : k] = value;
+    if (scatter) walk.next();
+  }
+  return image;
+}
+
+FirstAxisFastest::FirstAxisFastest(const std::vector<Index>& extents) : axes_(extents.size()) {
+  std::size_t stride = 1;
+  for (std::size_t axis = extents.size(); axis-- > 0;) {
+    const auto extent = static_cast<std::size_t>(extents[axis]);
+    axes_[axis] = {extent, stride, 0};
+    stride *= extent;
+  }
+}
+
+void FirstAxisFastest::next() {
+  for (Axis& axis : axes_) {
+    place_ += axis.stride;
+    if (++axis.at < axis.extent) return;
+    place_ -= axis.stride * axis.extent;
+    axis.at = 0;
+  }
+}
+
+}  // namespace ph::detail

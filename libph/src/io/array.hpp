@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "ph/image/image.hpp"
+#include "ph/io/reader.hpp"
+
+namespace ph::detail {
+
+/// A kind of number that arrays are stored as.
+struct ElementType {
+  std::size_t size = 0;  ///< bytes
+  /// The number at an address; sets its last argument to false if double cannot hold it.
+  double (*load)(const std::byte*, std::endian, bool&) = nullptr;
+};
+
+/// By NumPy's letter and size in bytes: b1 u1 u2 u4 u8 i1 i2 i4 i8 f2 f4 f8.
+std::optional<ElementType> element_type(std::string_view kind);
+
+/// How an array lies in a file.
+struct ArrayLayout {
+  ElementType type;
+  std::endian order = std::endian::little;
+  bool first_axis_fastest = false;  ///< as in Fortran, DIPHA and NIfTI; else the last one
+  std::size_t offset = 0;           ///< of the first element
+};
+
+/// The number of elements of an array that must reach from its offset to the end of the input.
+/// @throws Error (bad_data) "truncated" or "trailing data".
+std::size_t count_elements(const Input& input, const ArrayLayout& layout,
+                           const std::vector<Index>& extents);
+
+/// Reads an array whose elements are there (see count_elements); the result is in C order.
+/// @throws Error (bad_data) at an integer that double cannot hold; Error (resource).
+Image load_array(const Input& input, const ArrayLayout& layout, std::vector<Index> extents);
+
+/// Places in C order of the elements of an array, visited with the first axis fastest.
+class FirstAxisFastest {
+ public:
+  explicit FirstAxisFastest(const std::vector<Index>& extents);
+  std::size_t place() const { return place_; }
+  void next();
+
+ private:
+  struct Axis {
+    std::size_t extent, stride, at;
+  };
+  std::vector<Axis> axes_;
+  std::size_t place_ = 0;
+};
+
+}  // namespace ph::detail
