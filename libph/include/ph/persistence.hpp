@@ -7,6 +7,7 @@
 
 #include "ph/complex/cubical.hpp"
 #include "ph/complex/explicit.hpp"
+#include "ph/complex/filtered_graph.hpp"
 #include "ph/complex/rips.hpp"
 #include "ph/core/barcode.hpp"
 #include "ph/core/run_context.hpp"

@@ -71,4 +71,17 @@ Barcode persistence(const F& filtration, const Options& options, const RunContex
   return bars.finish();
 }
 
+// Compiled once, in libph/src/persistence/: engines times fields are costly to instantiate.
+#define PH_INSTANTIATED(...)                                                           \
+  extern template Barcode persistence<__VA_ARGS__>(const __VA_ARGS__&, const Options&, \
+                                                   const RunContext&)
+PH_INSTANTIATED(Cubical);
+PH_INSTANTIATED(ExplicitComplex);
+PH_INSTANTIATED(FilteredGraph);
+PH_INSTANTIATED(RipsFiltration<RipsLayout::dense, 1>);
+PH_INSTANTIATED(RipsFiltration<RipsLayout::dense, 4>);
+PH_INSTANTIATED(RipsFiltration<RipsLayout::sparse, 1>);
+PH_INSTANTIATED(RipsFiltration<RipsLayout::sparse, 4>);
+#undef PH_INSTANTIATED
+
 }  // namespace ph

@@ -68,8 +68,8 @@ class Reduction {
   }
   /// Homology: reduces these columns of dimension `dim` only, in any order of dimensions. Enough if
   /// all others are zero or apparent and nobody asks for the apparent ones.
-  void reduce_columns(int dim,
-                      std::span<const Cell> cells) requires(direction == Direction::homology) {
+  void reduce_columns(int dim, std::span<const Cell> cells) {
+    static_assert(kIsHomology);
     start_dimension(dim);
     for (const Cell& cell : cells) {
       if (const auto victim = apparent_.victim_of(dim, cell))

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+#include "ph/persistence.hpp"
+
+namespace ph {
+
+template Barcode persistence<Cubical>(const Cubical&, const Options&, const RunContext&);
+
+}  // namespace ph

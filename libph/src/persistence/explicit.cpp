@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#include "ph/persistence.hpp"
+
+namespace ph {
+
+template Barcode persistence<ExplicitComplex>(const ExplicitComplex&, const Options&,
+                                              const RunContext&);
+template Barcode persistence<FilteredGraph>(const FilteredGraph&, const Options&,
+                                            const RunContext&);
+
+}  // namespace ph
