@@ -63,6 +63,8 @@ Names engine_names() {
   return names;
 }
 
+Names output_formats() { return {"csv", "json", "ripser", "pers", "dipha", "npy", "none"}; }
+
 void take_metric(Arguments& a, const std::string& text) {
   static const Names names{"euclidean",   "manhattan", "chebyshev",
                            "minkowski:P", "cosine",    "hamming"};
@@ -270,7 +272,7 @@ void add_output_options(CLI::App& app, Arguments& a, std::vector<PlotKind>& kind
               a.output = text;
             })
       ->group(group);
-  static const Names names{"csv", "json", "ripser", "pers", "dipha", "npy", "none"};
+  static const Names names = output_formats();
   add_choice(app, "--output-format", names, "format of the barcode (default: by extension, or csv)",
              [&a](std::size_t i) { a.output_format = barcode_format_named(names[i]); })
       ->group(group);
@@ -301,6 +303,18 @@ void add_output_options(CLI::App& app, Arguments& a, std::vector<PlotKind>& kind
   add_value(app, "--report", "FILE.html", "interactive report (not built in)",
             [](const std::string&) { not_built_in("--report:"); })
       ->group(group);
+}
+
+/// What --version --verbose adds.
+std::string built_in() {
+  std::string engines, read, missing, written;
+  for (const std::string_view name : engine_names()) engines += fmt::format(" {}", name);
+  for (const FormatInfo& info : formats())
+    if (info.format != Format::automatic)
+      (info.read ? read : missing) += fmt::format(" {}", info.name);
+  for (const std::string_view name : output_formats()) written += fmt::format(" {}", name);
+  return fmt::format("engines    {}\nreads      {}\n{}writes     {} svg\n", engines, read,
+                     missing.empty() ? "" : fmt::format("not read   {}\n", missing), written);
 }
 
 /// What no single option can see.
@@ -354,7 +368,8 @@ std::optional<int> parse_arguments(int argc, const char* const* argv, Arguments&
   add_homology_options(app, arguments);
   add_output_options(app, arguments, plot_kinds);
   app::add_common_options(app, arguments.common);
-  if (const auto code = app::parse_command_line(app, arguments.common, argc, argv)) return code;
+  if (const auto code = app::parse_command_line(app, arguments.common, argc, argv, built_in()))
+    return code;
   check_together(arguments, plot_kinds);
   return std::nullopt;
 }

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <map>
+#include <string_view>
 #include <system_error>
 
 #include "exit_code.hpp"
@@ -48,23 +50,51 @@ std::string stem(const std::string& name) {
   return dot == name.npos || dot == 0 ? name : name.substr(0, dot);
 }
 
-/// One job an input. Names keep the extension of the input where two would be the same without it.
+/// The file name behind the names of its folders: "monday/../run/a.txt" is "monday-run-a.txt".
+std::string name_with_folders(const std::string& path) {
+  std::string joined;
+  for (std::size_t begin = 0; begin < path.size();) {
+    const std::size_t end = std::min(path.find('/', begin), path.size());
+    const std::string part = path.substr(begin, end - begin);
+    if (!part.empty() && part != "." && part != "..") joined += (joined.empty() ? "" : "-") + part;
+    begin = end + 1;
+  }
+  return joined == "-" ? file_name(path) : joined;
+}
+
+/// Names for the outputs of inputs: the shortest that only one of them has, without extension, with
+/// it, or with folders.
+std::vector<std::string> output_names(const std::vector<std::string>& inputs) {
+  std::map<std::string, int> stems, names;
+  for (const std::string& input : inputs) {
+    ++stems[stem(file_name(input))];
+    ++names[file_name(input)];
+  }
+  std::vector<std::string> result;
+  for (const std::string& input : inputs) {
+    const std::string name = file_name(input), short_name = stem(name);
+    result.push_back(stems[short_name] == 1 ? short_name
+                     : names[name] == 1     ? name
+                                            : name_with_folders(input));
+  }
+  return result;
+}
+
+/// One job an input.
 std::vector<Job> jobs_of(const Arguments& arguments, BarcodeFormat format) {
+  std::vector<Job> jobs;
   if (!arguments.is_batch() || format == BarcodeFormat::none) {
-    std::vector<Job> jobs;
     for (const std::string& input : arguments.inputs)
       jobs.push_back({input, arguments.output, format});
     return jobs;
   }
-  std::map<std::string, int> uses;
-  for (const std::string& input : arguments.inputs) ++uses[stem(file_name(input))];
+  const std::vector<std::string> names = output_names(arguments.inputs);
   std::map<std::string, std::string> taken;
-  std::vector<Job> jobs;
-  for (const std::string& input : arguments.inputs) {
-    const std::string name = file_name(input), short_name = stem(name);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string& input = arguments.inputs[i];
     const std::string output =
         fmt::format("{}{}{}.{}", arguments.output, arguments.output.ends_with('/') ? "" : "/",
-                    uses[short_name] > 1 ? name : short_name, barcode_format_name(format));
+                    names[i], barcode_format_name(format));
     const auto [other, fresh] = taken.emplace(output, input);
     if (!fresh)
       throw Error(ErrorKind::usage, fmt::format("--output: {} and {} would both be written to {}",
@@ -84,6 +114,24 @@ void create_folder(const std::string& path) {
                           std::error_code(error, std::generic_category()).message()));
 }
 
+/// One input of several: a line on stderr, whatever becomes of it. @return the exit code.
+/// @throws Error if the others need not be tried.
+int run_one(const Job& job, const Arguments& arguments, app::Session& session) {
+  try {
+    const Outcome outcome = run(job, arguments, session);
+    session.note(fmt::format("{}: {}", job.input, outcome.summary));
+    return outcome.code;
+  } catch (const BrokenPipe&) {
+    throw;
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::cancelled) throw;
+    const bool named = std::string_view(error.what()).find(job.input) != std::string_view::npos;
+    return app::report_current_exception(named ? "ph-barcode" : "ph-barcode: " + job.input);
+  } catch (...) {
+    return app::report_current_exception("ph-barcode: " + job.input);
+  }
+}
+
 }  // namespace
 
 int run_all(const Arguments& arguments, app::Session& session) {
@@ -95,22 +143,14 @@ int run_all(const Arguments& arguments, app::Session& session) {
   if (arguments.is_batch() && !arguments.dry_run && format != BarcodeFormat::none)
     create_folder(arguments.output);
   int first_failure = app::kOk;
+  std::size_t failures = 0;
   for (const Job& job : jobs) {
-    int code = app::kOk;
-    try {
-      const Outcome outcome = run(job, arguments, session);
-      code = outcome.code;
-      session.note(fmt::format("{}: {}", job.input, outcome.summary));
-    } catch (const BrokenPipe&) {
-      throw;
-    } catch (const Error& error) {
-      if (error.kind() == ErrorKind::cancelled) throw;
-      code = app::report_current_exception("ph-barcode");
-    } catch (...) {
-      code = app::report_current_exception("ph-barcode: " + job.input);
-    }
+    const int code = run_one(job, arguments, session);
+    if (code == app::kOk) continue;
     if (first_failure == app::kOk) first_failure = code;
+    ++failures;
   }
+  if (failures > 0) session.note(fmt::format("{} of {} inputs failed", failures, jobs.size()));
   return first_failure;
 }
 

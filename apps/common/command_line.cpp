@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "build_information.hpp"
 #include "choices.hpp"
 #include "exit_code.hpp"
 #include "numbers.hpp"
@@ -84,23 +85,6 @@ std::string wrapped(const std::string& text) {
   return lines;
 }
 
-std::string build_information() {
-  return fmt::format(
-      "compiler    g++ {}\n"
-      "C++         {}\n"
-      "fmt         {}.{}.{}\n"
-      "CLI11       {}\n"
-      "assertions  {}\n",
-      __VERSION__, __cplusplus, FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100,
-      CLI11_VERSION,
-#ifdef NDEBUG
-      "off"
-#else
-      "on"
-#endif
-  );
-}
-
 }  // namespace
 
 void add_common_options(CLI::App& app, CommonOptions& options) {
@@ -145,7 +129,7 @@ std::string program_and_version(const std::string& program) {
 }
 
 std::optional<int> parse_command_line(CLI::App& app, const CommonOptions& options, int argc,
-                                      const char* const* argv) {
+                                      const char* const* argv, const std::string& built_in) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ExtrasError&) {
@@ -167,7 +151,7 @@ std::optional<int> parse_command_line(CLI::App& app, const CommonOptions& option
   }
   if (options.version) {
     write_file("-", program_and_version(app.get_name()) + "\n" +
-                        (options.verbose ? build_information() : ""));
+                        (options.verbose ? build_information() + built_in : ""));
     return kOk;
   }
   return std::nullopt;

@@ -31,10 +31,11 @@ CLI::Option* add_value(CLI::App& app, const std::string& names, const std::strin
                        std::function<void(const std::string& value)> take);
 
 /// Parses the command line. Answers --help and --version on stdout.
+/// @param built_in lines that --version --verbose adds: what this program in particular can do.
 /// @return the exit code if there is nothing left to do.
 /// @throws Error (usage), one line that names the option and the nearest known one.
 std::optional<int> parse_command_line(CLI::App& app, const CommonOptions& options, int argc,
-                                      const char* const* argv);
+                                      const char* const* argv, const std::string& built_in = {});
 
 /// "ph-barcode 0.1.0"
 std::string program_and_version(const std::string& program);

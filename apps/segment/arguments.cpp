@@ -5,6 +5,7 @@
 
 #include <array>
 #include <limits>
+#include <string_view>
 
 #include "choices.hpp"
 #include "numbers.hpp"
@@ -14,6 +15,12 @@ namespace ph::segment {
 namespace {
 
 using app::add_value;
+
+/// What --version --verbose adds.
+constexpr std::string_view kBuiltIn =
+    "methods     paper\n"
+    "reads       pcd ply xyz csv png\n"
+    "writes      pcd ply npy csv png json svg\n";
 
 [[noreturn]] void not_built_in(std::string_view option) {
   throw Error(ErrorKind::not_built_in, fmt::format("{}: not built in yet", option));
@@ -191,7 +198,8 @@ std::optional<int> parse_arguments(int argc, const char* const* argv, Arguments&
   add_output_options(app, a);
   add_planned_options(app);
   app::add_common_options(app, a.common);
-  if (const auto code = app::parse_command_line(app, a.common, argc, argv)) return code;
+  if (const auto code = app::parse_command_line(app, a.common, argc, argv, std::string(kBuiltIn)))
+    return code;
   require_one_input(a);
   return std::nullopt;
 }

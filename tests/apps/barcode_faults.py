@@ -115,7 +115,10 @@ class Inputs(ProgramTest):
         self.expect(66, "square.txt")
 
     def test_endless_stream_stops_at_the_budget(self):
-        self.expect(75, "/dev/zero", "--memory-limit", "32MiB", "-o", "out.csv")
+        with subprocess.Popen(["yes", "0.5 1"], stdout=subprocess.PIPE) as endless:
+            self.expect(75, "-", "--memory-limit", "32MiB", "-o", "out.csv", stdin=endless.stdout)
+            endless.kill()
+        self.expect(65, "/dev/zero", "--memory-limit", "32MiB", "-o", "out.csv")
         self.assertEqual(self.files(), ["square.txt"])
 
     def test_strange_names_are_escaped(self):

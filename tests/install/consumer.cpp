@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// A program of somebody else: it includes as users do, and calls something of each library.
+#include <ph/ph.hpp>
+#ifndef CORE_ALONE
+#include <ph/io/read.hpp>
+#endif
+#ifdef WITH_SEGMENT
+#include <ph/segment.hpp>
+#endif
+
+#include <cstdio>
+#include <exception>
+
+int main(int argc, char** argv) try {
+  // Their warnings are theirs: this conversion would stop our own build.
+  const int three = 3.5;
+#ifdef CORE_ALONE
+  ph::Points points(three + 1, 2);
+  points << 0, 0, 1, 0, 1, 1, 0, 1.25;
+#else
+  const ph::Points points = ph::read_points(argc > 1 ? argv[1] : "-");
+#endif
+  const ph::Barcode bars = ph::persistence(ph::Rips(points));
+  std::printf("%d points, %d loops\n", static_cast<int>(points.rows()),
+              static_cast<int>(bars.bars(1).size()));
+#ifdef WITH_SEGMENT
+  const float xyz[] = {0, 0, 1, 0, 0, 1.001F, 0, 0, 1.002F};
+  const auto parts = ph::segment::segment({xyz, {}}, {.min_size = 1, .plane = false});
+  std::printf("%d segment\n", static_cast<int>(parts.segments.size()));
+#endif
+  return argc > three;
+} catch (const std::exception& error) {
+  std::puts(error.what());
+  return 1;
+}
