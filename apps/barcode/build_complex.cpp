@@ -19,8 +19,9 @@ constexpr std::string_view kComplexNames[] = {"auto",  "rips",     "cubical",
 /// Builds from each kind of data the complexes that make sense of it.
 class Builder {
  public:
-  Builder(const Arguments& arguments, const RunContext& context)
-      : arguments_(arguments), context_(context) {}
+  /// @param periodic axes of an image that its file says close up.
+  Builder(const Arguments& arguments, const RunContext& context, const std::vector<bool>& periodic)
+      : arguments_(arguments), context_(context), periodic_(periodic) {}
 
   BuiltComplex operator()(const Points& points) const {
     expect("points", {ComplexKind::rips});
@@ -41,6 +42,7 @@ class Builder {
     refuse(arguments_.points_option, "points", "an image");
     CubicalOptions options = arguments_.cubical;
     options.threshold = arguments_.threshold;
+    if (options.periodic.empty()) options.periodic = periodic_;
     const auto axes = static_cast<std::size_t>(image.dim());
     const bool all = options.periodic.size() == static_cast<std::size_t>(Cubical::kMaxDim) &&
                      std::ranges::all_of(options.periodic, [](bool on) { return on; });
@@ -169,13 +171,14 @@ class Builder {
 
   const Arguments& arguments_;
   const RunContext& context_;
+  const std::vector<bool>& periodic_;
 };
 
 }  // namespace
 
 BuiltComplex build_complex(ReadResult&& input, const Arguments& arguments,
                            const RunContext& context) {
-  return std::visit(Builder(arguments, context), input.data);
+  return std::visit(Builder(arguments, context, input.periodic), input.data);
 }
 
 }  // namespace ph::barcode

@@ -72,7 +72,6 @@ NOT_BUILT_IN = [
     (["--subsample", "10"], "--subsample"),
     (["--approximate", "0.5"], "--approximate"),
     (["--complex", "alpha"], "alpha"),
-    (["--format", "nifti"], "nifti"),
 ]
 
 FINE = [["--collapse", "auto"], ["--collapse", "off"], ["--representatives", "none"],

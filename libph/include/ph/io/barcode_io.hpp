@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 
 #include "ph/core/barcode.hpp"
 #include "ph/io/output_file.hpp"
+#include "ph/io/reader.hpp"
 
 namespace ph {
 
@@ -48,6 +50,18 @@ std::optional<BarcodeFormat> barcode_format_of_path(std::string_view path);
 /// @throws Error (io) as OutputFile.
 void write_barcode(OutputFile& file, const Barcode& barcode, BarcodeFormat format,
                    const BarcodeInfo& info = {});
+
+/// Reads a barcode file of any format, also compressed with gzip; JSON brings its cells and
+/// representatives back, the other formats have none. `pers` is taken with and without GUDHI's
+/// leading column of the characteristic; text of Ripser may have anything before its first heading.
+/// @param format empty: by content, then by extension. @param path "-" is standard input.
+/// @return the bars in the order of Barcode.
+/// @throws Error (bad_data) "name:line:column (or byte): what, found X, expected Y" also on a bar
+///         that dies before its birth; Error (no_input, io, resource) as the readers of read.hpp.
+Barcode read_barcode(const std::filesystem::path& path,
+                     std::optional<BarcodeFormat> format = std::nullopt,
+                     const RunContext* context = nullptr);
+Barcode read_barcode(const Input& input, std::optional<BarcodeFormat> format = std::nullopt);
 
 /// The shortest text that reads back to the same double; `inf`, `-inf`, `nan`; -0 as 0.
 std::string shortest(double value);

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "barcode_read.hpp"
+#include "json_cursor.hpp"
+
+namespace ph {
+namespace {
+
+/// Reads the JSON that write_barcode_json writes; members that it does not know are skipped.
+class Reader {
+ public:
+  explicit Reader(const Input& input) : input_(input), json_(input) {}
+
+  Barcode read() {
+    bool first = true, format = false, bars = false;
+    std::string name;
+    json_.expect('{');
+    while (json_.next_member(first, name)) {
+      const std::size_t place = json_.place();
+      if (name == "format") {
+        const std::string value = json_.string();
+        if (value != "ph-barcode") {
+          json_.fail(place, {"format", printable(value, 40), "ph-barcode", {}});
+        }
+        format = true;
+      } else if (name == "version") {
+        json_.integer(1, 1, "version");
+      } else if (name == "representatives") {
+        const std::string value = json_.string();
+        representatives_ = value == "cycles"     ? Representatives::cycles
+                           : value == "cocycles" ? Representatives::cocycles
+                                                 : Representatives::none;
+      } else if (name == "bars") {
+        if (bars) json_.fail(place, {"bars", "them again", "them once", {}});
+        bars = true;
+        read_bars();
+      } else {
+        json_.skip_value();
+      }
+    }
+    json_.expect_end();
+    if (!format || !bars) {
+      input_.fail({"not a barcode",
+                   format ? "no bars" : "no format",
+                   R"("format": "ph-barcode" and "bars")",
+                   {}});
+    }
+    barcode_.sort();
+    return std::move(barcode_);
+  }
+
+ private:
+  void read_bars() {
+    json_.expect('[');
+    for (bool first = true; json_.next_element(first);) {
+      if ((++count_ & 0xFFF) == 0) input_.poll();
+      read_bar();
+    }
+  }
+
+  void read_bar() {
+    json_.peek();
+    const std::size_t place = json_.place();
+    Bar bar;
+    bool first = true, dim = false, birth = false, death = false;
+    std::string name;
+    birth_.clear();
+    death_.clear();
+    chain_.clear();
+    coefficients_.clear();
+    json_.expect('{');
+    while (json_.next_member(first, name)) {
+      if (name == "dim") {
+        bar.dim = static_cast<int>(json_.integer(0, kMostBarDimension, "dimension"));
+        dim = true;
+      } else if (name == "birth") {
+        bar.birth = value();
+        birth = true;
+      } else if (name == "death") {
+        bar.death = value();
+        death = true;
+      } else if (name == "birth_cell") {
+        read_cell(birth_);
+      } else if (name == "death_cell") {
+        if (!json_.accept_null()) read_cell(death_);
+      } else if (name == "representative" && representatives_ != Representatives::none) {
+        read_chain();
+      } else {
+        json_.skip_value();
+      }
+    }
+    if (!dim || !birth || !death) {
+      json_.fail(place, {"incomplete bar",
+                         !dim     ? "no dim"
+                         : !birth ? "no birth"
+                                  : "no death",
+                         "dim, birth and death",
+                         {}});
+    }
+    if (const Fault fault = fault_of_bar(bar); !fault.what.empty()) json_.fail(place, fault);
+    input_.require_memory((birth_.size() + death_.size() + chain_.size()) * sizeof(Index));
+    if (barcode_.empty()) barcode_ = Barcode(kind_);
+    barcode_.add(bar, birth_, death_);
+    if (representatives_ != Representatives::none) {
+      barcode_.set_representative(representatives_, chain_, coefficients_);
+    }
+  }
+
+  // null is a death that never comes.
+  double value() {
+    if (json_.accept_null()) return kInfinity;
+    if (json_.peek() != '"') return json_.number();
+    const std::size_t place = json_.place();
+    const std::string word = json_.string();
+    if (word != "-inf") json_.fail(place, {"value", printable(word, 40), "a number or -inf", {}});
+    return -kInfinity;
+  }
+
+  void set_kind(CellKind kind, std::size_t place) {
+    if (any_cell_ && kind != kind_) {
+      json_.fail(place, {"cell", "another kind than before", "cells of one kind", {}});
+    }
+    any_cell_ = true;
+    kind_ = kind;
+  }
+
+  void read_cell(std::vector<Index>& numbers) {
+    json_.peek();
+    const std::size_t place = json_.place();
+    bool first = true, known = false;
+    std::string name;
+    json_.expect('{');
+    while (json_.next_member(first, name)) {
+      if (read_numbers(name, numbers, place)) {
+        known = true;
+      } else {
+        json_.skip_value();
+      }
+    }
+    if (!known) json_.fail(place, {"cell", "another member", "vertices, grid or row", {}});
+  }
+
+  // The numbers of a cell, if the member is one.
+  bool read_numbers(const std::string& name, std::vector<Index>& numbers, std::size_t place) {
+    constexpr Index kMost = std::numeric_limits<Index>::max();
+    if (name == "row") {
+      set_kind(CellKind::row, place);
+      numbers.push_back(json_.integer(0, kMost, "row"));
+    } else if (name == "vertices" || name == "grid") {
+      set_kind(name == "grid" ? CellKind::grid : CellKind::vertices, place);
+      json_.expect('[');
+      for (bool first = true; json_.next_element(first);) {
+        numbers.push_back(json_.integer(0, kMost, "number of a cell"));
+      }
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  void read_chain() {
+    json_.peek();
+    const std::size_t place = json_.place();
+    std::string name;
+    json_.expect('[');
+    for (bool first = true; json_.next_element(first);) {
+      const std::size_t before = chain_.size();
+      std::int64_t coefficient = 0;
+      json_.expect('{');
+      for (bool first_member = true; json_.next_member(first_member, name);) {
+        if (name == "coefficient") {
+          coefficient =
+              json_.integer(-(std::int64_t{1} << 31), std::int64_t{1} << 31, "coefficient");
+        } else if (!read_numbers(name, chain_, place)) {
+          json_.skip_value();
+        }
+      }
+      coefficients_.push_back(coefficient);
+      // All cells of a chain have as many numbers.
+      if (chain_.size() != (chain_.size() - before) * coefficients_.size() || coefficient == 0) {
+        json_.fail(place, {"representative",
+                           "cells of different sizes or without coefficient",
+                           "cells of one dimension, each with its coefficient",
+                           {}});
+      }
+    }
+  }
+
+  const Input& input_;
+  detail::JsonCursor json_;
+  Barcode barcode_;
+  Representatives representatives_ = Representatives::none;
+  CellKind kind_ = CellKind::vertices;
+  bool any_cell_ = false;
+  std::size_t count_ = 0;
+  std::vector<Index> birth_, death_, chain_;
+  std::vector<std::int64_t> coefficients_;
+};
+
+}  // namespace
+
+Barcode read_barcode_json(const Input& input) { return Reader(input).read(); }
+
+}  // namespace ph

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <cmath>
+
+#include "ph/io/barcode_io.hpp"
+#include "read_support.hpp"
+
+namespace ph::test {
+namespace {
+
+constexpr std::array kFormats{BarcodeFormat::csv,  BarcodeFormat::json,  BarcodeFormat::ripser,
+                              BarcodeFormat::pers, BarcodeFormat::dipha, BarcodeFormat::npy};
+
+Barcode example(CellKind kind = CellKind::vertices) {
+  Barcode barcode(kind);
+  const std::array<Index, 2> edge{0, 2};
+  const std::array<Index, 3> triangle{0, 1, 2};
+  barcode.add({0, 0, 0.1}, std::array<Index, 1>{2}, edge);
+  barcode.add({0, 0, kInfinity}, std::array<Index, 1>{0}, {});
+  barcode.add({2, 1.0 / 3, 1e22}, edge, triangle);
+  barcode.add({1, -kInfinity, 5e-324}, edge, triangle);
+  barcode.sort();
+  return barcode;
+}
+
+std::string text_of(const Barcode& barcode, BarcodeFormat format) {
+  const TempDir dir;
+  OutputFile file(dir.file("barcode").string());
+  write_barcode(file, barcode, format);
+  file.commit();
+  return std::string(Input::open(dir.file("barcode")).text());
+}
+Barcode back(const std::string& bytes, const std::string& name = "b") {
+  return read_barcode(Input::view(bytes, name));
+}
+std::vector<Index> numbers(const InputCell& cell) {
+  return {cell.numbers.begin(), cell.numbers.end()};
+}
+
+TEST(ReadBarcode, EveryFormatByContent) {
+  for (const BarcodeFormat format : kFormats) {
+    const Barcode barcode = example();
+    const Barcode read = back(text_of(barcode, format));
+    ASSERT_EQ(read.size(), barcode.size()) << barcode_format_name(format);
+    for (std::size_t i = 0; i < read.size(); ++i) {
+      EXPECT_EQ(read[i].dim, barcode[i].dim);
+      const auto same = [&](double a, double b) {
+        // Ripser prints six digits.
+        return a == b || (format == BarcodeFormat::ripser && std::abs(a - b) <= 1e-6 * std::abs(b));
+      };
+      EXPECT_TRUE(same(read[i].birth, barcode[i].birth)) << barcode_format_name(format) << i;
+      EXPECT_TRUE(same(read[i].death, barcode[i].death)) << barcode_format_name(format) << i;
+    }
+  }
+}
+
+TEST(ReadBarcode, EmptyOnesToo) {
+  for (const BarcodeFormat format : kFormats) {
+    const std::string name = "b." + std::string(barcode_format_name(format));
+    EXPECT_TRUE(back(text_of(Barcode(), format), name).empty()) << name;
+  }
+  bad_data([] { back("", "b.csv"); });
+  bad_data([] { back("\n# nothing\n"); });
+}
+
+TEST(ReadBarcode, JsonBringsCellsAndRepresentativesBack) {
+  for (const CellKind kind : {CellKind::vertices, CellKind::grid}) {
+    const Barcode barcode = example(kind);
+    const Barcode read = back(text_of(barcode, BarcodeFormat::json));
+    EXPECT_EQ(read.cell_kind(), kind);
+    for (std::size_t i = 0; i < barcode.size(); ++i) {
+      EXPECT_EQ(numbers(read.birth_cell(i)), numbers(barcode.birth_cell(i)));
+      ASSERT_EQ(read.death_cell(i).has_value(), barcode.death_cell(i).has_value());
+      if (const auto death = barcode.death_cell(i)) {
+        EXPECT_EQ(numbers(*read.death_cell(i)), numbers(*death));
+      }
+    }
+  }
+  Barcode rows(CellKind::row);
+  rows.add({0, 1, 2}, std::array<Index, 1>{0}, std::array<Index, 1>{7});
+  rows.set_representative(Representatives::cycles, std::array<Index, 2>{0, 3},
+                          std::array<std::int64_t, 2>{1, -1});
+  const Barcode read = back(text_of(rows, BarcodeFormat::json));
+  EXPECT_EQ(numbers(*read.death_cell(0)), std::vector<Index>{7});
+  EXPECT_EQ(read.representatives(), Representatives::cycles);
+  ASSERT_EQ(read.representative(0).size(), 2U);
+  EXPECT_EQ(numbers(read.representative(0).cell(1)), std::vector<Index>{3});
+  EXPECT_EQ(read.representative(0).coefficient(1), -1);
+}
+
+TEST(ReadBarcode, JsonSkipsWhatItDoesNotKnow) {
+  const Barcode read = back(
+      R"({"format": "ph-barcode", "x": {"a": [1, true, null, "\u00e9\ud83d\ude00\n"]}, "version": 1,
+ "bars": [{"death": null, "y": [], "birth": 1e0, "dim": 2}]})");
+  ASSERT_EQ(read.size(), 1U);
+  EXPECT_EQ(read[0], (Bar{2, 1, kInfinity}));
+}
+
+TEST(ReadBarcode, JsonRefusesDamage) {
+  const std::string whole = text_of(example(), BarcodeFormat::json);
+  check_prefixes(
+      whole, "b.json", [](const Input& in) { read_barcode(in); },
+      [&](std::size_t length) { return length + 1 == whole.size(); });
+  const auto bar = [](const std::string& text) {
+    return R"({"format": "ph-barcode", "bars": [)" + text + "]}";
+  };
+  for (const std::string& text : std::vector<std::string>{
+           "{}",
+           "{\"bars\": []}",
+           R"({"format": "other", "bars": []})",
+           R"({"format": "ph-barcode", "version": 2, "bars": []})",
+           R"({"format": "ph-barcode", "bars": [], "bars": []})",
+           bar("{}"),
+           bar("1"),
+           bar("{,}"),
+           bar(R"({"dim": 0, "birth": 1})"),
+           bar(R"({"dim": -1, "birth": 1, "death": 2})"),
+           bar(R"({"dim": 0.5, "birth": 1, "death": 2})"),
+           bar(R"({"dim": 99999999999, "birth": 1, "death": 2})"),
+           bar(R"({"dim": 0, "birth": 3, "death": 2})"),
+           bar(R"({"dim": 0, "birth": null, "death": 2})"),
+           bar(R"({"dim": 0, "birth": NaN, "death": 2})"),
+           bar(R"({"dim": 0, "birth": "nan", "death": 2})"),
+           bar(R"({"dim": 0, "birth": 1e999, "death": 2})"),
+           bar(R"({"dim": 0, "birth": 1, "death": 2, "birth_cell": {"vertices": [-1]}})"),
+           bar(R"({"dim": 0, "birth": 1, "death": 2, "birth_cell": {"corners": [1]}})"),
+           bar(R"({"dim": 0, "birth": 1, "death": 2, "birth_cell": {"row": 1},
+                   "death_cell": {"vertices": [1]}})"),
+           bar(R"({"dim": 0, "birth": 1, "death": 2, "x": "\q"})"),
+           bar(R"({"dim": 0, "birth": 1, "death": 2, "x": "\u12g4"})"),
+           bar(R"({"dim": 0, "birth": 1, "death": 2} {})"),
+           bar("") + "x"}) {
+    EXPECT_TRUE(contains(bad_data([&] { back(text, "b.json"); }), "b.json")) << text;
+  }
+  const std::string deep(100000, '[');
+  EXPECT_TRUE(contains(bad_data([&] { back("{\"x\": " + deep); }), "too deeply"));
+  EXPECT_TRUE(contains(bad_data([&] { back(bar("\n  {\"dim\": x}"), "b.json"); }), "b.json:2:11"));
+}
+
+TEST(ReadBarcode, RowsWithAndWithoutTheCharacteristic) {
+  for (const char* text :
+       {"0 0 1\n1 0.5 inf\n", "2 0 0 1\n2 1 0.5 inf\n", "0,0,1\n1,0.5,inf\n",
+        "dim,birth,death\n0,0,1\n1,0.5,inf\n", "# GUDHI\n2 1 0.5 inf\n2 0 0 1"}) {
+    const Barcode read = back(text, "b.pers");
+    ASSERT_EQ(read.size(), 2U) << text;
+    EXPECT_EQ(read[0], (Bar{0, 0, 1}));
+    EXPECT_EQ(read[1], (Bar{1, 0.5, kInfinity}));
+  }
+  for (const char* text :
+       {"0 1\n", "0 0 1 2 3\n", "0 0\n", "-1 0 1\n", "0.5 0 1\n", "0 2 1\n", "0 nan 1\n",
+        "0 0 nan\n", "0 inf inf\n", "0 0 1\n2 0 0 1\n", "1 0 0 1\n", "birth,death\n0,1\n",
+        "death,birth,dim\n1,0,0\n", "0 0 1,5\n", "0 0 1x\n", "99999999999 0 1\n"}) {
+    EXPECT_TRUE(contains(bad_data([&] { back(text, "b.pers"); }), "b.pers")) << text;
+  }
+}
+
+TEST(ReadBarcode, TextOfRipser) {
+  const std::string text =
+      "point cloud with 4 points in dimension 2\nvalue range: [1,1.41421]\n"
+      "persistence intervals in dim 0:\n [0,1)\n [0, )\npersistence intervals in dim 1:\n"
+      " [1,1.41421)\n";
+  const Barcode read = back(text);
+  ASSERT_EQ(read.size(), 3U);
+  EXPECT_EQ(read[1], (Bar{0, 0, kInfinity}));
+  EXPECT_EQ(read[2], (Bar{1, 1, 1.41421}));
+  for (const char* tail : {"[1,2\n", "1,2)\n", "[1 2)\n", "[,2)\n", "[2,1)\n", "[a,b)\n",
+                           "[1,2) x\n", "persistence intervals in dim x:\n", "[1,2,3)\n"}) {
+    bad_data([&] { back(text + tail); });
+  }
+  bad_data([] { read_barcode(Input::view("value range: [1,2]\n", "b"), BarcodeFormat::ripser); });
+}
+
+TEST(ReadBarcode, BinaryDamage) {
+  for (const BarcodeFormat format : {BarcodeFormat::dipha, BarcodeFormat::npy}) {
+    const std::string whole = text_of(example(), format);
+    check_prefixes(
+        whole, "b", [&](const Input& in) { read_barcode(in, format); }, never());
+    bad_data([&] { back(whole + "x"); });
+  }
+  const auto diagram = [](std::int64_t type, std::int64_t count, std::int64_t dim, double birth,
+                          double death) {
+    return le(std::int64_t{8067171840}) + le(type) + le(count) + le(dim) + le(birth) + le(death);
+  };
+  EXPECT_EQ(back(diagram(2, 1, -2, 1, 5))[0], (Bar{1, 1, kInfinity}));
+  EXPECT_EQ(back(diagram(2, 1, 1, 1, 5))[0], (Bar{1, 1, 5}));
+  for (const std::string& bytes :
+       {diagram(1, 1, 1, 1, 5), diagram(2, 2, 1, 1, 5), diagram(2, -1, 1, 1, 5),
+        diagram(2, std::int64_t{1} << 60, 1, 1, 5), diagram(2, 1, std::int64_t{1} << 40, 1, 5),
+        diagram(2, 1, std::numeric_limits<std::int64_t>::min(), 1, 5), diagram(2, 1, 1, 5, 1),
+        diagram(2, 1, 1, std::nan(""), 1), diagram(2, 1, 1, 1, std::nan(""))}) {
+    bad_data([&] { back(bytes); });
+  }
+}
+
+}  // namespace
+}  // namespace ph::test
