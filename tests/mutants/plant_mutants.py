@@ -92,7 +92,7 @@ MUTANTS = [
      ["complex_tests"]),
 ]
 
-SOURCES = ["core", "metric", "complex", "engine"]  # folders of libph/src
+SOURCES = ["core", "metric", "complex", "engine", "persistence"]  # folders of libph/src
 NINJA = """\
 cxx = {compiler}
 flags = -std=c++20 -O1 -Ilibph/include -Itests {includes}
