@@ -10,6 +10,7 @@
 
 #include "choices.hpp"
 #include "exit_code.hpp"
+#include "formats_table.hpp"
 #include "numbers.hpp"
 #include "ph/core/field.hpp"
 
@@ -367,9 +368,15 @@ std::optional<int> parse_arguments(int argc, const char* const* argv, Arguments&
   add_complex_options(app, arguments);
   add_homology_options(app, arguments);
   add_output_options(app, arguments, plot_kinds);
+  bool list_formats = false;
+  app.add_flag("--formats", list_formats, "print the table of formats and exit")->group("Input");
   app::add_common_options(app, arguments.common);
   if (const auto code = app::parse_command_line(app, arguments.common, argc, argv, built_in()))
     return code;
+  if (list_formats) {
+    write_file("-", formats_table());
+    return app::kOk;
+  }
   check_together(arguments, plot_kinds);
   return std::nullopt;
 }

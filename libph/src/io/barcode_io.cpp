@@ -9,27 +9,32 @@
 namespace ph {
 namespace {
 
-constexpr std::array<std::pair<BarcodeFormat, std::string_view>, 7> kNames{{
-    {BarcodeFormat::csv, "csv"},
-    {BarcodeFormat::json, "json"},
-    {BarcodeFormat::ripser, "ripser"},
-    {BarcodeFormat::pers, "pers"},
-    {BarcodeFormat::dipha, "dipha"},
-    {BarcodeFormat::npy, "npy"},
-    {BarcodeFormat::none, "none"},
-}};
+constexpr std::array kFormats{
+    BarcodeFormatInfo{BarcodeFormat::csv, "csv", "a header, then a bar a line", "1,0.5,2.25"},
+    BarcodeFormatInfo{BarcodeFormat::json, "json",
+                      "bars with their cells, representatives and where they come from",
+                      "{\"dim\": 1, \"birth\": 0.5, \"death\": 2.25, …}"},
+    BarcodeFormatInfo{BarcodeFormat::ripser, "ripser",
+                      "what Ripser prints: intervals by dimension, 6 digits", " [0.5,2.25)"},
+    BarcodeFormatInfo{BarcodeFormat::pers, "pers", "GUDHI's dim birth death a line", "1 0.5 2.25"},
+    BarcodeFormatInfo{BarcodeFormat::dipha, "dipha", "DIPHA's persistence diagram, binary", ""},
+    BarcodeFormatInfo{BarcodeFormat::npy, "npy", "a NumPy array of rows dim, birth, death", ""},
+    BarcodeFormatInfo{BarcodeFormat::none, "none", "nothing", ""},
+};
 
 }  // namespace
 
+std::span<const BarcodeFormatInfo> barcode_formats() { return kFormats; }
+
 std::string_view barcode_format_name(BarcodeFormat format) {
-  for (const auto& [known, name] : kNames)
-    if (known == format) return name;
+  for (const BarcodeFormatInfo& info : kFormats)
+    if (info.format == format) return info.name;
   return "";
 }
 
 std::optional<BarcodeFormat> barcode_format_named(std::string_view name) {
-  for (const auto& [format, known] : kNames)
-    if (known == name) return format;
+  for (const BarcodeFormatInfo& info : kFormats)
+    if (info.name == name) return info.format;
   return std::nullopt;
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -39,6 +40,16 @@ struct BarcodeInfo {
   std::uint64_t peak_memory = 0;                        ///< bytes; 0: unknown
 };
 
+/// One line of the table of barcode formats.
+struct BarcodeFormatInfo {
+  BarcodeFormat format;
+  std::string_view name;         ///< as in --output-format
+  std::string_view description;  ///< "a header, then a bar a line"
+  std::string_view example;      ///< a line of it; empty for binary formats
+};
+
+/// All formats, in the order of BarcodeFormat.
+std::span<const BarcodeFormatInfo> barcode_formats();
 /// The name of a format on the command line, and back.
 std::string_view barcode_format_name(BarcodeFormat format);
 std::optional<BarcodeFormat> barcode_format_named(std::string_view name);
