@@ -38,9 +38,8 @@ void keep_freed_memory() {
   mallopt(M_TRIM_THRESHOLD, 256 << 20);
 }
 
-}  // namespace
-
-int report_current_exception(std::string_view prefix) {
+/// What report_current_exception does while there is memory for a message.
+int report_with_memory(std::string_view prefix) {
   const auto report = [&](std::string_view what, int code) {
     print_line(fmt::format("{}: {}", prefix, what));
     return code;
@@ -74,6 +73,20 @@ int report_current_exception(std::string_view prefix) {
     return report(fmt::format("internal error: {}; please report", error.what()), kInternal);
   } catch (...) {
     return report("internal error: unknown exception; please report", kInternal);
+  }
+}
+
+}  // namespace
+
+int report_current_exception(std::string_view prefix) {
+  try {
+    return report_with_memory(prefix);
+  } catch (...) {
+    // Not even a message fits into memory: these lines need none.
+    constexpr std::string_view kText = ": out of memory\n";
+    static_cast<void>(!write(STDERR_FILENO, prefix.data(), prefix.size()));
+    static_cast<void>(!write(STDERR_FILENO, kText.data(), kText.size()));
+    return kResource;
   }
 }
 

@@ -39,6 +39,7 @@ CloudFormat cloud_format_of(std::string_view path) {
 
 std::string cloud_bytes(const Cloud& cloud, CloudFormat format) {
   std::ostringstream out;
+  out.exceptions(std::ios::badbit);  // else a stream keeps it to itself that memory ran out
   if (format == CloudFormat::pcd) {
     write_pcd(out, cloud);
   } else {

@@ -41,6 +41,7 @@ void require_extension(std::string_view option, const std::string& path,
 template <class Write>
 std::string text_of(Write&& write) {
   std::ostringstream out;
+  out.exceptions(std::ios::badbit);  // else a stream keeps it to itself that memory ran out
   write(out);
   return std::move(out).str();
 }

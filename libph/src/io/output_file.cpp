@@ -12,6 +12,7 @@
 #include <climits>
 #include <cstdlib>
 #include <memory>
+#include <new>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -67,6 +68,7 @@ std::optional<int> descriptor_named(std::string_view path) {
 std::string resolved(const std::string& path) {
   const std::unique_ptr<char, decltype(&std::free)> real(realpath(path.c_str(), nullptr),
                                                          &std::free);
+  if (!real && errno == ENOMEM) throw std::bad_alloc();
   return real ? std::string(real.get()) : path;
 }
 

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <png.h>
 
+#include <cstdlib>
+#include <new>
 #include <ostream>
 
 #include "readers.hpp"
@@ -24,6 +26,7 @@ struct Source {
 // libpng is C: it may be left by longjmp only, so an error first becomes a message here.
 struct Report {
   std::string message;
+  bool out_of_memory = false;
 };
 
 extern "C" {
@@ -32,10 +35,20 @@ extern "C" {
   auto* report = static_cast<Report*>(png_get_error_ptr(png));
   try {
     report->message = printable(message, 200);
-  } catch (...) {  // out of memory: an empty message is still a failure
+  } catch (...) {
+    report->out_of_memory = true;
   }
   png_longjmp(png, 1);
 }
+
+// libpng tells of memory that ran out by the same messages as of damage.
+static void* png_allocate(png_structp png, std::size_t size) {
+  void* const memory = std::malloc(size);
+  if (memory == nullptr) static_cast<Report*>(png_get_mem_ptr(png))->out_of_memory = true;
+  return memory;
+}
+
+static void png_release(png_structp, void* memory) { std::free(memory); }
 
 static void png_warned(png_structp, png_const_charp) {}
 
@@ -50,8 +63,9 @@ static void png_put(png_structp png, png_bytep from, std::size_t size) {
   auto* out = static_cast<std::ostream*>(png_get_io_ptr(png));
   try {
     out->write(reinterpret_cast<const char*>(from), static_cast<std::streamsize>(size));
-  } catch (...) {  // a stream that throws must not throw through C
-    png_error(png, "cannot write");
+  } catch (const std::bad_alloc&) {  // a stream that throws must not throw through C
+    static_cast<Report*>(png_get_error_ptr(png))->out_of_memory = true;
+  } catch (...) {  // its bad bit is set
   }
   if (!*out) png_error(png, "cannot write");
 }
@@ -127,9 +141,11 @@ Raster read_png(const Input& input) {
   Source source{input};
   Reader reader;
   const auto fail = [&] {
+    if (report.out_of_memory) throw std::bad_alloc();
     input.fail_at_byte(source.offset, {"damaged PNG", report.message, "a complete PNG image", {}});
   };
-  reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &report, &png_failed, &png_warned);
+  reader.png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &report, &png_failed, &png_warned,
+                                        &report, &png_allocate, &png_release);
   if (reader.png == nullptr) throw std::bad_alloc();
   reader.info = png_create_info_struct(reader.png);
   if (reader.info == nullptr) throw std::bad_alloc();
@@ -201,11 +217,13 @@ void write_png(std::ostream& out, const Raster& raster) {
   for (std::size_t y = 0; y < height; ++y) rows[y] = bytes.data() + y * (bytes.size() / height);
   Report report;
   Writer writer;
-  writer.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &report, &png_failed, &png_warned);
+  writer.png = png_create_write_struct_2(PNG_LIBPNG_VER_STRING, &report, &png_failed, &png_warned,
+                                         &report, &png_allocate, &png_release);
   if (writer.png == nullptr) throw std::bad_alloc();
   writer.info = png_create_info_struct(writer.png);
   if (writer.info == nullptr) throw std::bad_alloc();
   if (!write_pixels(writer, out, raster, rows.data())) {
+    if (report.out_of_memory) throw std::bad_alloc();
     throw Error(ErrorKind::io, "PNG: " + report.message);
   }
 }

@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: MIT */
+/* Preloaded into a program: malloc and its relatives fail at the n-th call after main has begun
+   (PH_FAIL_AT=n), and with PH_FAIL_FROM=n from there on. PH_COUNT_FILE receives the number of calls. */
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdatomic.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+/* What glibc calls its own; looking them up by dlsym would allocate. */
+extern void* __libc_malloc(size_t size);
+extern void* __libc_calloc(size_t count, size_t size);
+extern void* __libc_realloc(void* old, size_t size);
+extern void* __libc_memalign(size_t alignment, size_t size);
+
+static atomic_long calls;
+static long fail_at, fail_from;
+static int armed;
+
+static int fails(void) {
+  if (!armed) return 0;
+  const long call = atomic_fetch_add(&calls, 1) + 1;
+  if (call != fail_at && (fail_from == 0 || call < fail_from)) return 0;
+  errno = ENOMEM;
+  return 1;
+}
+
+void* malloc(size_t size) { return fails() ? NULL : __libc_malloc(size); }
+void* calloc(size_t count, size_t size) { return fails() ? NULL : __libc_calloc(count, size); }
+void* realloc(void* old, size_t size) { return fails() ? NULL : __libc_realloc(old, size); }
+void* memalign(size_t alignment, size_t size) {
+  return fails() ? NULL : __libc_memalign(alignment, size);
+}
+void* aligned_alloc(size_t alignment, size_t size) { return memalign(alignment, size); }
+int posix_memalign(void** result, size_t alignment, size_t size) {
+  if (fails()) return ENOMEM;
+  *result = __libc_memalign(alignment, size);
+  return *result ? 0 : ENOMEM;
+}
+
+static void write_count(void) {
+  const char* path = getenv("PH_COUNT_FILE");
+  if (!path) return;
+  armed = 0;
+  const int file = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  dprintf(file, "%ld\n", atomic_load(&calls));
+  close(file);
+}
+
+static int (*real_main)(int, char**, char**);
+
+static int counted_main(int argc, char** argv, char** environment) {
+  const char* at = getenv("PH_FAIL_AT");
+  const char* from = getenv("PH_FAIL_FROM");
+  fail_at = at ? atol(at) : 0;
+  fail_from = from ? atol(from) : 0;
+  atexit(write_count);
+  armed = 1;
+  const int code = real_main(argc, argv, environment);
+  armed = 0;
+  return code;
+}
+
+/* Wraps main: what happens before it is not the program's. */
+int __libc_start_main(int (*main)(int, char**, char**), int argc, char** argv, void (*init)(void),
+                      void (*fini)(void), void (*loader_fini)(void), void* stack_end) {
+  int (*start)(int (*)(int, char**, char**), int, char**, void (*)(void), void (*)(void),
+               void (*)(void), void*);
+  *(void**)&start = dlsym(RTLD_NEXT, "__libc_start_main");
+  real_main = main;
+  return start(counted_main, argc, argv, init, fini, loader_fini, stack_end);
+}

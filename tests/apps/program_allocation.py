@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: MIT
+"""Memory that runs out at any moment: the programs exit with 75, or do without; no file is half
+written: program_allocation.py PH-BARCODE PH-SEGMENT FAILING-MALLOC.so"""
+import gzip
+import os
+import subprocess
+import sys
+import tempfile
+
+from program import SQUARE, npy
+
+BARCODE, SEGMENT, SHIM = map(os.path.abspath, sys.argv[1:4])
+FIRST, MORE = 40, 60  # calls that fail: each of the first, then some of the rest
+
+TRIANGLE = "0 : 0\n1 : 0\n2 : 0\n0 1 : 1\n1 2 : 2\n0 2 : 3\n0 1 2 : 4\n"
+
+
+def table():
+    """A table seen from above with a box on it, as an ascii PCD file."""
+    points = [(0.01 * x, 0.01 * y, 0.9 if 4 <= x < 8 and 4 <= y < 8 else 1.0)
+              for y in range(14) for x in range(14)]
+    lines = "".join("%g %g %g\n" % p for p in points)
+    return ("VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 14\nHEIGHT 14\n"
+            f"VIEWPOINT 0 0 0 1 0 0 0\nPOINTS {len(points)}\nDATA ascii\n{lines}")
+
+
+# (program, arguments without outputs, outputs of which each is complete or absent)
+CASES = [
+    (BARCODE, ["square.txt"], {"-o": "out.csv", "--plot": "out.svg"}),
+    (BARCODE, ["square.txt", "--engine", "standard"], {"-o": "out.dipha"}),
+    (BARCODE, ["square.txt", "--check", "--max-dim", "2", "--engine", "twist"], {"-o": "out.npy"}),
+    (BARCODE, ["ring.npy"], {"-o": "out.pers"}),
+    (BARCODE, ["triangle.txt", "--format", "simplices"], {"-o": "out.ripser"}),
+    (BARCODE, ["table.pcd", "--max-dim", "0"], {"-o": "out.csv"}),
+    (BARCODE, ["out.png.in", "--format", "png"], {"-o": "out.csv"}),
+    (BARCODE, ["square.txt.gz", "--representatives", "cocycles", "--output-format", "none"],
+     {"--plot": "out.svg"}),
+    (SEGMENT, ["table.pcd", "--min-size", "1", "--voxel", "0.01"],
+     {"-o": "out.pcd", "--labels": "out.npy", "--plot": "out.svg", "--picture": "out.png"}),
+    (SEGMENT, ["--depth", "out.png.in", "--intrinsics", "20,20,7,7", "--depth-scale", "1",
+               "--allow-empty"], {"-o": "out.pcd"}),
+    (SEGMENT, ["out.pcd.in", "--min-size", "1"], {"--coloured": "out.ply", "--labels": "out.png"}),
+]
+
+
+class Folder:
+    def __init__(self, path):
+        self.path = path
+        self.inputs = {}
+        for name, content in (("square.txt", SQUARE.encode()), ("triangle.txt", TRIANGLE.encode()),
+                              ("ring.npy", npy((3, 3), [0, 1, 2, 1, 9, 3, 2, 3, 4])),
+                              ("table.pcd", table().encode()),
+                              ("square.txt.gz", gzip.compress(SQUARE.encode()))):
+            self.add(name, content)
+
+    def add(self, name, content):
+        self.inputs[name] = content
+        with open(os.path.join(self.path, name), "wb") as file:
+            file.write(content)
+
+    def outputs(self):
+        """Removes what the last run left. @return it by name."""
+        left = {}
+        for name in set(os.listdir(self.path)) - set(self.inputs):
+            with open(os.path.join(self.path, name), "rb") as file:
+                left[name] = file.read()
+            os.remove(os.path.join(self.path, name))
+        return left
+
+    def run(self, program, arguments, outputs, **environment):
+        words = [word for pair in outputs.items() for word in pair]
+        return subprocess.run([program, *arguments, *words, "--threads", "1"], cwd=self.path,
+                              env={**os.environ, "LD_PRELOAD": SHIM, **environment},
+                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, timeout=60)
+
+
+def sample(total):
+    step = max(1, (total - FIRST) // MORE)
+    return [*range(1, min(FIRST, total) + 1), *range(FIRST + 1, total + 1, step)]
+
+
+def check(folder, case, wrong):
+    program, arguments, outputs = case
+    count_file = os.path.join(folder.path, "calls")
+    run = folder.run(*case, PH_COUNT_FILE=count_file)
+    want = folder.outputs()
+    total = int(want.pop("calls"))
+    assert run.returncode == 0, run.stderr
+    assert set(want) == set(outputs.values()) - {"/dev/null"}, want.keys()
+    runs = {0: 0, 75: 0}
+    for how in ("PH_FAIL_AT", "PH_FAIL_FROM"):
+        for call in sample(total):
+            run = folder.run(*case, **{how: str(call)})
+            left = folder.outputs()
+            label = f"{os.path.basename(program)} {' '.join(arguments)} {how}={call}"
+            if run.returncode not in (0, 75):
+                wrong.append(f"{label}: exit {run.returncode}, {run.stderr[-200:]!r}")
+                continue
+            runs[run.returncode] += 1
+            if run.returncode == 0 and left != want:
+                wrong.append(f"{label}: exit 0, but the files are others")
+            for name, content in left.items():
+                if content != want.get(name):
+                    wrong.append(f"{label}: {name} is not complete")
+            if run.returncode == 75 and not run.stderr:
+                wrong.append(f"{label}: not a word on stderr")
+    print(f"{os.path.basename(program)} {' '.join(arguments)}: {total} calls; "
+          f"{runs[75]} runs end with 75, {runs[0]} do without", flush=True)
+
+
+def main():
+    with open(BARCODE, "rb") as file:
+        if b"__asan_init" in file.read():
+            print("SKIPPED: AddressSanitizer brings its own malloc")
+            return 77
+    wrong = []
+    with tempfile.TemporaryDirectory() as path:
+        folder = Folder(path)
+        folder.run(SEGMENT, ["table.pcd", "--min-size", "1"],
+                   {"-o": "out.pcd", "--labels": "out.png"})
+        made = folder.outputs()
+        folder.add("out.pcd.in", made["out.pcd"])  # binary_compressed
+        folder.add("out.png.in", made["out.png"])
+        for case in CASES:
+            check(folder, case, wrong)
+    print("\n".join(wrong))
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
