@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ph/io/barcode_io.hpp"
 #include "ph/io/formats.hpp"
 #include "read_support.hpp"
 
@@ -290,6 +291,20 @@ TEST(ReadAny, DetectsFormats) {
     EXPECT_EQ(&format_info(info.format), &info);
   }
   EXPECT_EQ(format_from_name("tsv"), std::nullopt);
+}
+
+TEST(FormatsPage, NamesEveryFormat) {
+  const Input page = Input::open(std::filesystem::path(PH_SOURCE_DIR) / "docs" / "formats.md");
+  const auto named = [&](std::string_view name) {
+    std::string quoted(1, '`');
+    quoted.append(name).append(1, '`');
+    return page.text().find(quoted) != std::string_view::npos;
+  };
+  for (const FormatInfo& info : formats()) {
+    EXPECT_TRUE(named(info.name) || info.format == Format::automatic) << info.name;
+  }
+  for (const BarcodeFormatInfo& info : barcode_formats())
+    EXPECT_TRUE(named(info.name)) << info.name;
 }
 
 TEST(ReadText, EveryPrefixIsRejectedOrComplete) {

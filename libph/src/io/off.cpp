@@ -79,6 +79,7 @@ Mesh read_off(const Input& input, const ReadOptions& options) {
         cells.integer(1, static_cast<Index>(lines.line().size()), "number of corners");
     for (Index k = 0; k < corners; ++k) {
       need_cell(lines, cells, "a vertex for each corner");
+      detail::require_growth(input, mesh.corners);
       mesh.corners.push_back(cells.integer(0, static_cast<Index>(vertices) - 1, "vertex"));
     }
     while (cells.more()) cells.number();  // colours

@@ -44,9 +44,11 @@ BoundaryInput read_text(const Input& input) {
       const Index facet = cells.integer(0, kMostCells, "facet");
       const Fault fault = fault_of_facet(facet, column, before);
       if (!fault.what.empty()) lines.fail(place, fault);
+      detail::require_growth(input, result.matrix.rows);
       result.matrix.rows.push_back(facet);
       before = facet;
     }
+    detail::require_growth(input, result.places);
     result.matrix.offsets.push_back(result.matrix.rows.size());
     result.places.push_back(lines.number());
   }

@@ -84,6 +84,12 @@ Image without_nan_pixels(Image image, const Input& input, const ReadOptions& opt
 /// Brings the little-endian numbers of a record to this machine's byte order.
 void to_native(Cloud& cloud);
 
+/// Asks the budget before a vector that is full is about to grow.
+template <class T>
+void require_growth(const Input& input, const std::vector<T>& vector) {
+  if (vector.size() == vector.capacity()) input.require_memory(2 * vector.size() * sizeof(T));
+}
+
 /// Says something to options.note, if it is there.
 inline void note(const ReadOptions& options, std::string text) {
   if (options.note) options.note(std::move(text));

@@ -18,8 +18,6 @@ SimplicesInput read_simplices(const Input& input, const ReadOptions& options) {
   constexpr std::int64_t kMostVertices = std::int64_t{1} << 62;
   SimplicesInput result;
   result.name = input.name();
-  // At most a vertex every two bytes and a simplex every four.
-  input.require_memory(input.size() / 2 * sizeof(Index));
   TextLines lines(input);
   std::vector<Index> vertices;
   while (lines.next()) {
@@ -42,6 +40,8 @@ SimplicesInput read_simplices(const Input& input, const ReadOptions& options) {
     }
     const double value = value_cells.number(Allow::infinite);
     value_cells.expect_end("one value");
+    detail::require_growth(input, result.lines);
+    detail::require_growth(input, result.simplices.vertices);
     result.simplices.add(vertices, value);
     result.lines.push_back(lines.number());
   }
