@@ -4,80 +4,103 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <initializer_list>
+#include <string_view>
+#include <utility>
+
+#include "ph/io/barcode_io.hpp"
 
 namespace ph::segment {
 namespace {
 
-using Json = nlohmann::ordered_json;
+// Values are JSON texts. No tree of values is built: the usual ones allocate in their destructors.
+using Members = std::initializer_list<std::pair<std::string_view, std::string>>;
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+std::string number(double value) { return std::isfinite(value) ? shortest(value) : "null"; }
+std::string integer(Index value) { return fmt::format("{}", value); }
+std::string boolean(bool value) { return value ? "true" : "false"; }
 
-Json box_of(const Box& box) {
-  Json min = Json::array(), max = Json::array();
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    min.push_back(number(box.min[axis]));
-    max.push_back(number(box.max[axis]));
+/// `between` stands between the members: ", " for one line.
+std::string object(Members members, std::string_view between = ", ") {
+  std::string text;
+  for (const auto& [key, value] : members) {
+    if (!text.empty()) text += between;
+    text += fmt::format("{}: {}", json_string(key), value);
   }
-  return {{"min", min}, {"max", max}};
+  return fmt::format("{{{}}}", text);
 }
 
-Json input_of(const Cloud& cloud, const RunInfo& info) {
-  return {{"path", info.input},
-          {"points", cloud.size()},
-          {"width", cloud.width},
-          {"height", cloud.height},
-          {"organised", cloud.organised()}};
+std::string numbers(const Vec3& values) {
+  return fmt::format("[{}, {}, {}]", number(values[0]), number(values[1]), number(values[2]));
 }
 
-Json options_of(const SegmentOptions& o) {
-  Json json = {{"max_range", number(o.max_range)},
-               {"crop", o.crop ? box_of(*o.crop) : Json(nullptr)},
-               {"plane", o.plane},
-               {"plane_distance", o.plane_distance},
-               {"viewpoint", o.viewpoint ? Json(*o.viewpoint) : Json(nullptr)},
-               {"voxel", o.voxel},
-               {"distance", o.distance}};
-  json["steps"] = o.steps == 0 ? Json("exact") : Json(o.steps);
-  json["min_size"] = o.min_size;
-  json["check"] = o.check;
-  return json;
-}
-
-Json stages_of(const Segmentation& s) {
-  Json stages = Json::array();
-  for (const Stage& stage : s.stages) {
-    stages.push_back({{"name", stage.name}, {"points", stage.points}, {"seconds", stage.seconds}});
+/// An array with an element a line.
+template <class Values, class Write>
+std::string lines(const Values& values, Write&& write) {
+  std::string text;
+  for (const auto& value : values) {
+    text += text.empty() ? "\n    " : ",\n    ";
+    text += write(value);
   }
-  return stages;
+  return fmt::format("[{}{}]", text, text.empty() ? "" : "\n  ");
 }
 
-Json plane_of(const Segmentation& s) {
-  if (!s.plane) return {{"found", false}, {"note", s.plane_note}};
-  return {{"found", true},
-          {"normal", s.plane->normal},
-          {"offset", s.plane->offset},
-          {"share", s.plane->share}};
+std::string box_of(const Box& box) {
+  return object({{"min", numbers(box.min)}, {"max", numbers(box.max)}});
 }
 
-Json segments_of(const Segmentation& s) {
-  Json segments = Json::array();
-  for (const Segment& g : s.segments) {
-    segments.push_back({{"label", g.label},
-                        {"points", g.points},
-                        {"voxels", g.voxels},
-                        {"persistence", number(g.persistence)},
-                        {"centroid", g.centroid},
-                        {"box", box_of(g.box)}});
-  }
-  return segments;
+std::string input_of(const Cloud& cloud, const RunInfo& info) {
+  return object({{"path", json_string(info.input)},
+                 {"points", integer(cloud.size())},
+                 {"width", integer(cloud.width)},
+                 {"height", integer(cloud.height)},
+                 {"organised", boolean(cloud.organised())}});
 }
 
-Json check_of(const Segmentation& s) {
-  if (!s.checked) return {{"ran", false}};
-  Json json = {{"ran", true}, {"equal", s.difference.empty()}};
-  if (!s.difference.empty()) json["difference"] = s.difference;
-  return json;
+std::string options_of(const SegmentOptions& o) {
+  return object({{"max_range", number(o.max_range)},
+                 {"crop", o.crop ? box_of(*o.crop) : "null"},
+                 {"plane", boolean(o.plane)},
+                 {"plane_distance", number(o.plane_distance)},
+                 {"viewpoint", o.viewpoint ? numbers(*o.viewpoint) : "null"},
+                 {"voxel", number(o.voxel)},
+                 {"distance", number(o.distance)},
+                 {"steps", o.steps == 0 ? json_string("exact") : integer(o.steps)},
+                 {"min_size", integer(o.min_size)},
+                 {"check", boolean(o.check)}});
+}
+
+std::string stages_of(const Segmentation& s) {
+  return lines(s.stages, [](const Stage& stage) {
+    return object({{"name", json_string(stage.name)},
+                   {"points", integer(stage.points)},
+                   {"seconds", number(stage.seconds)}});
+  });
+}
+
+std::string plane_of(const Segmentation& s) {
+  if (!s.plane) return object({{"found", "false"}, {"note", json_string(s.plane_note)}});
+  return object({{"found", "true"},
+                 {"normal", numbers(s.plane->normal)},
+                 {"offset", number(s.plane->offset)},
+                 {"share", number(s.plane->share)}});
+}
+
+std::string segments_of(const Segmentation& s) {
+  return lines(s.segments, [](const Segment& g) {
+    return object({{"label", integer(g.label)},
+                   {"points", integer(g.points)},
+                   {"voxels", integer(g.voxels)},
+                   {"persistence", number(g.persistence)},
+                   {"centroid", numbers(g.centroid)},
+                   {"box", box_of(g.box)}});
+  });
+}
+
+std::string check_of(const Segmentation& s) {
+  if (!s.checked) return object({{"ran", "false"}});
+  if (s.difference.empty()) return object({{"ran", "true"}, {"equal", "true"}});
+  return object({{"ran", "true"}, {"equal", "false"}, {"difference", json_string(s.difference)}});
 }
 
 double seconds_of(const Segmentation& s) {
@@ -103,26 +126,30 @@ std::string json_summary(const Cloud& cloud, const Arguments& arguments, const S
                          const RunInfo& info) {
   const SegmentOptions& o = arguments.options;
   const Index vertices = s.vertices.rows();
-  Json json = {{"format", "ph-segment"}, {"version", 1}, {"program", info.program}};
-  json["input"] = input_of(cloud, info);
-  json["method"] = "paper";
-  json["options"] = options_of(o);
-  json["stages"] = stages_of(s);
-  json["plane"] = plane_of(s);
-  json["complex"] = {{"vertices", vertices},
-                     {"edges", s.edges},
-                     {"simplices", vertices + s.edges},
-                     {"distance", o.distance}};
-  json["table"] = {{"points", vertices},
-                   {"distance", o.distance},
-                   {"complex", vertices + s.edges},
-                   {"time", table_seconds(s)}};
-  json["segments"] = segments_of(s);
-  json["check"] = check_of(s);
-  json["timings"] = {{"read", info.read_seconds}, {"segment", seconds_of(s)}};
-  json["peak_memory"] = app::peak_memory();
-  // A path may hold bytes that are not UTF-8: they become U+FFFD.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  const std::string members =
+      object({{"format", json_string("ph-segment")},
+              {"version", "1"},
+              {"program", json_string(info.program)},
+              {"input", input_of(cloud, info)},
+              {"method", json_string("paper")},
+              {"options", options_of(o)},
+              {"stages", stages_of(s)},
+              {"plane", plane_of(s)},
+              {"complex", object({{"vertices", integer(vertices)},
+                                  {"edges", integer(s.edges)},
+                                  {"simplices", integer(vertices + s.edges)},
+                                  {"distance", number(o.distance)}})},
+              {"table", object({{"points", integer(vertices)},
+                                {"distance", number(o.distance)},
+                                {"complex", integer(vertices + s.edges)},
+                                {"time", number(table_seconds(s))}})},
+              {"segments", segments_of(s)},
+              {"check", check_of(s)},
+              {"timings",
+               object({{"read", number(info.read_seconds)}, {"segment", number(seconds_of(s))}})},
+              {"peak_memory", fmt::format("{}", app::peak_memory())}},
+             ",\n  ");
+  return fmt::format("{{\n  {}\n}}\n", std::string_view(members).substr(1, members.size() - 2));
 }
 
 std::string text_summary(const Segmentation& s) {
