@@ -65,6 +65,36 @@ TEST(ReadNpy, BringsFortranOrderToCOrder) {
   }
 }
 
+TEST(ReadNpy, BringsFortranOrderOfAnyShapeToCOrder) {
+  for (const std::vector<Index>& extents : std::vector<std::vector<Index>>{
+           {19}, {1, 9}, {9, 1}, {17, 8}, {8, 23}, {11, 3, 9}, {2, 1, 3, 1, 2}, {9, 2, 2, 17}}) {
+    // A value says its own place in C order; it is written with the first axis fastest.
+    std::size_t count = 1;
+    std::string shape;
+    for (const Index extent : extents) {
+      count *= static_cast<std::size_t>(extent);
+      shape += std::to_string(extent) + ",";
+    }
+    std::vector<double> values;
+    std::vector<Index> at(extents.size(), 0);
+    std::string data;
+    for (std::size_t k = 0; k < count; ++k) {
+      Index place = 0;
+      for (std::size_t axis = 0; axis < extents.size(); ++axis) {
+        place = place * extents[axis] + at[axis];
+      }
+      data += le(static_cast<double>(place));
+      for (std::size_t axis = 0; axis < extents.size() && ++at[axis] == extents[axis]; ++axis) {
+        at[axis] = 0;
+      }
+      values.push_back(static_cast<double>(k));
+    }
+    const Image read = image(npy("<f8", "True", "(" + shape + ")", data));
+    EXPECT_EQ(read.extents, extents) << shape;
+    EXPECT_EQ(read.values, values) << shape;
+  }
+}
+
 TEST(ReadNpy, RefusesDamage) {
   const std::string two = le(1.0) + le(2.0);
   for (const std::string& bytes : std::vector<std::string>{

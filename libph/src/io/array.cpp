@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace ph::detail {
@@ -82,21 +83,38 @@ Image load_array(const Input& input, const ArrayLayout& layout, std::vector<Inde
   const std::size_t count = count_elements(input, layout, image.extents);
   input.require_memory(count * sizeof(double));
   image.values.resize(count);
-  const std::byte* from = input.bytes().data() + layout.offset;
-  FirstAxisFastest walk(image.extents);
-  const bool scatter = layout.first_axis_fastest && image.extents.size() > 1;
-  for (std::size_t k = 0; k < count; ++k) {
+  const auto element_at = [&](std::size_t k) {
     if ((k & kPollMask) == 0) input.poll();
+    const std::size_t at = layout.offset + k * layout.type.size;
     bool exact = true;
-    const double value = layout.type.load(from + k * layout.type.size, layout.order, exact);
+    const double value = layout.type.load(input.bytes().data() + at, layout.order, exact);
     if (!exact) {
-      input.fail_at_byte(layout.offset + k * layout.type.size, {"integer that double cannot hold",
-                                                                fmt::format("{:.0f} nearby", value),
-                                                                "at most 2^53",
-                                                                {}});
+      const std::string near = fmt::format("{:.0f} nearby", value);
+      input.fail_at_byte(at, {"integer that double cannot hold", near, "at most 2^53", {}});
     }
-    image.values[scatter ? walk.place() : k] = value;
-    if (scatter) walk.next();
+    return value;
+  };
+  if (!layout.first_axis_fastest || image.extents.size() < 2) {
+    for (std::size_t k = 0; k < count; ++k) image.values[k] = element_at(k);
+    return image;
+  }
+  // The first and the last axis change places in tiles that a few cache lines hold; the axes
+  // between them run in the file's order.
+  constexpr std::size_t kTile = 8;
+  const auto first = static_cast<std::size_t>(image.extents.front());
+  const auto last = static_cast<std::size_t>(image.extents.back());
+  const std::size_t between = count == 0 ? 0 : count / first / last;
+  FirstAxisFastest middle({image.extents.begin() + 1, image.extents.end() - 1});
+  for (std::size_t m = 0; m < between; ++m, middle.next()) {
+    for (std::size_t z0 = 0; z0 < last; z0 += kTile) {
+      for (std::size_t x0 = 0; x0 < first; x0 += kTile) {
+        for (std::size_t x = x0; x < std::min(x0 + kTile, first); ++x) {
+          double* to = image.values.data() + (x * between + middle.place()) * last;
+          for (std::size_t z = z0; z < std::min(z0 + kTile, last); ++z)
+            to[z] = element_at(x + first * (m + between * z));
+        }
+      }
+    }
   }
   return image;
 }
