@@ -51,16 +51,35 @@ void release(void* memory) noexcept {
   std::free(memory);
 }
 
+void* allocate_or_null(std::size_t size) noexcept {
+  try {
+    return allocate(size, 1);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
+
 }  // namespace
 
+// All forms: a sanitizer brings those that are not here, and they do not call these.
+using Align = std::align_val_t;
+using NoThrow = std::nothrow_t;
 void* operator new(std::size_t size) { return allocate(size, 1); }
-void* operator new(std::size_t size, std::align_val_t a) {
-  return allocate(size, static_cast<std::size_t>(a));
-}
+void* operator new[](std::size_t size) { return allocate(size, 1); }
+void* operator new(std::size_t size, Align a) { return allocate(size, std::size_t(a)); }
+void* operator new[](std::size_t size, Align a) { return allocate(size, std::size_t(a)); }
+void* operator new(std::size_t size, const NoThrow&) noexcept { return allocate_or_null(size); }
+void* operator new[](std::size_t size, const NoThrow&) noexcept { return allocate_or_null(size); }
 void operator delete(void* memory) noexcept { release(memory); }
+void operator delete[](void* memory) noexcept { release(memory); }
 void operator delete(void* memory, std::size_t) noexcept { release(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { release(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { release(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { release(memory); }
+void operator delete(void* memory, Align) noexcept { release(memory); }
+void operator delete[](void* memory, Align) noexcept { release(memory); }
+void operator delete(void* memory, std::size_t, Align) noexcept { release(memory); }
+void operator delete[](void* memory, std::size_t, Align) noexcept { release(memory); }
+void operator delete(void* memory, const NoThrow&) noexcept { release(memory); }
+void operator delete[](void* memory, const NoThrow&) noexcept { release(memory); }
 
 namespace ph {
 namespace {
