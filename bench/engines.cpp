@@ -48,16 +48,13 @@ int main(int argc, char** argv) {
                                  [=, &grid](auto& state) { run(state, grid, options); });
     if (is_oracle) return;
     if (engine.id != ph::Engine::twist) {  // twist would list every triangle
-      benchmark::RegisterBenchmark(("rips_1000/" + name).c_str(),
-                                   [=](auto& state) { run(state, large, options); })
-          ->Unit(benchmark::kMillisecond);
+      benchmark::RegisterBenchmark(("rips_1000/" + name).c_str(), [=](auto& state) {
+        run(state, large, options);
+      })->Unit(benchmark::kMillisecond);
     }
-    benchmark::RegisterBenchmark(
-        ("cubical_64/" + name).c_str(),
-        [=, &volume](auto& state) {
-          run(state, volume, {.max_dim = components_only ? 0 : 3, .engine = engine.id});
-        })
-        ->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark(("cubical_64/" + name).c_str(), [=, &volume](auto& state) {
+      run(state, volume, {.max_dim = components_only ? 0 : 3, .engine = engine.id});
+    })->Unit(benchmark::kMillisecond);
   });
   benchmark::RegisterBenchmark("rips_graph_1000", [points = random_points(1000, 3)](auto& state) {
     for (auto _ : state) benchmark::DoNotOptimize(ph::Rips(points).edge_count());

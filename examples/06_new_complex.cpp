@@ -4,8 +4,8 @@
 #include <iostream>
 #include <ph/ph.hpp>
 
-// A polygon of n corners. Cells are numbered 0 … n-1 (corners), n … 2n-1 (side n+i joins corner i to
-// the next), 2n (the disc), and enter at their number.
+// A polygon of n corners. Cells are numbered 0 … n-1 (corners), n … 2n-1 (side n+i joins corner i
+// to the next), 2n (the disc), and enter at their number.
 class Polygon {
  public:
   using Cell = int;
@@ -47,8 +47,7 @@ int main() {
     std::cout << "H" << bar.dim << " [" << bar.birth << ", " << bar.death << ")\n";
 
   // The oracle asks no more of a complex than this.
-  const ph::Barcode truth =
-      ph::persistence(polygon, {.field = 3, .engine = ph::Engine::standard});
+  const ph::Barcode truth = ph::persistence(polygon, {.field = 3, .engine = ph::Engine::standard});
   std::cout << (ph::first_difference(bars, truth).empty() ? "agrees" : "disagrees")
             << " with the oracle\n";
 }

@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh build lint
-git ls-files '*.hpp' '*.cpp' '*.ipp' | xargs clang-format-14 --dry-run --Werror
+git ls-files '*.hpp' '*.cpp' '*.ipp' ':!tests/headers/violations' | xargs clang-format-14 --dry-run --Werror
 cmake --preset dev >/dev/null
 git ls-files 'libph/src/*.cpp' 'apps/*.cpp' | grep -v '/pcl/' |
   xargs -P "$(nproc)" -n 4 clang-tidy-19 --quiet --warnings-as-errors='*' -p build/dev

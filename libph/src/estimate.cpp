@@ -75,9 +75,15 @@ Estimate estimate_of(const Complex& complex, Engine asked, int max_dim,
       columns += e.cells[static_cast<std::size_t>(d)];
   };
   switch (e.engine) {
-    case Engine::union_find: count(0, 1); break;
-    case Engine::cohomology: count(0, max_dim); break;
-    default: count(0, max_dim + 1); break;
+    case Engine::union_find:
+      count(0, 1);
+      break;
+    case Engine::cohomology:
+      count(0, max_dim);
+      break;
+    default:
+      count(0, max_dim + 1);
+      break;
   }
   e.bytes_high = e.bytes_low + kBytesPerColumn * columns;
   return e;
@@ -93,14 +99,16 @@ Estimate estimate(const AnyComplex& complex, const Options& options) {
           const int asked = detail::checked_max_dim(options.max_dim.value_or(1));
           return c.with_filtration(asked, [&](const auto& f) {
             const int max_dim = std::min(asked, std::max(0, f.top_dim()));
-            return estimate_of(c, options.engine, max_dim,
-                               detail::choose_engine(f, options.engine, max_dim, options.representatives));
+            return estimate_of(
+                c, options.engine, max_dim,
+                detail::choose_engine(f, options.engine, max_dim, options.representatives));
           });
         } else {
           const int top = std::max(0, c.top_dim());
           const int max_dim = std::min(detail::checked_max_dim(options.max_dim.value_or(top)), top);
-          return estimate_of(c, options.engine, max_dim,
-                             detail::choose_engine(c, options.engine, max_dim, options.representatives));
+          return estimate_of(
+              c, options.engine, max_dim,
+              detail::choose_engine(c, options.engine, max_dim, options.representatives));
         }
       },
       complex);

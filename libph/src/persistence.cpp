@@ -39,7 +39,8 @@ Barcode persistence(const ExplicitComplex& complex, const Options& options,
   if (!complex.has_incidences() && options.field != 2) {
     throw Error(ErrorKind::usage,
                 fmt::format("field {}: this boundary matrix has no incidence numbers, which allows "
-                            "field 2 only", options.field));
+                            "field 2 only",
+                            options.field));
   }
   return persistence<ExplicitComplex>(complex, options, context);
 }

@@ -86,10 +86,9 @@ void check_contract(const F& f, int top, std::int64_t field) {
       std::map<std::vector<Index>, long> square;
       f.for_each_facet(dim, c, [&](const Cell& facet, int incidence) {
         ASSERT_LE(f.value(facet), f.value(c)) << "a face enters after its coface";
-        ASSERT_TRUE(std::binary_search(lower.begin(), lower.end(), facet,
-                                       [&](const Cell& a, const Cell& b) {
-                                         return f.precedes(a, b);
-                                       }))
+        ASSERT_TRUE(
+            std::binary_search(lower.begin(), lower.end(), facet,
+                               [&](const Cell& a, const Cell& b) { return f.precedes(a, b); }))
             << "a facet is not a cell";
         if (dim > 1) {
           f.for_each_facet(dim - 1, facet, [&](const Cell& ridge, int second) {

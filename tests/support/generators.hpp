@@ -7,10 +7,10 @@
 #include <set>
 #include <vector>
 
-#include "ph/core/barcode.hpp"
 #include "ph/complex/cubical.hpp"
 #include "ph/complex/explicit.hpp"
 #include "ph/complex/rips.hpp"
+#include "ph/core/barcode.hpp"
 
 namespace ph::test {
 

@@ -19,9 +19,9 @@ namespace ph {
 struct Options {
   /// Highest homology dimension reported; default: 1 for Rips, all dimensions otherwise.
   std::optional<int> max_dim = std::nullopt;
-  std::int64_t field = 2;                 ///< characteristic of the coefficients: a prime < 2^31
-  Engine engine = Engine::automatic;      ///< which engine; see registry.hpp
-  double min_persistence = 0;             ///< bars with death - birth <= this are left out; < 0: none
+  std::int64_t field = 2;             ///< characteristic of the coefficients: a prime < 2^31
+  Engine engine = Engine::automatic;  ///< which engine; see registry.hpp
+  double min_persistence = 0;         ///< bars with death - birth <= this are left out; < 0: none
   Representatives representatives = Representatives::none;  ///< chains that come with the bars
 };
 

@@ -29,8 +29,8 @@ void check(const Image& image, const CubicalOptions& options) {
   }
   if (image.extents.empty()) voxels = static_cast<Index>(image.values.size());
   if (static_cast<Index>(image.values.size()) != voxels || (image.dim() == 0 && voxels > 1)) {
-    throw Error(ErrorKind::bad_data, fmt::format("image: found {} values, expected {}",
-                                                 image.values.size(), voxels));
+    throw Error(ErrorKind::bad_data,
+                fmt::format("image: found {} values, expected {}", image.values.size(), voxels));
   }
   if (voxels > Index{UINT32_MAX} - 1) {
     throw Error(ErrorKind::resource,
@@ -38,8 +38,8 @@ void check(const Image& image, const CubicalOptions& options) {
   }
   for (std::size_t k = image.extents.size(); k < options.periodic.size(); ++k) {
     if (options.periodic[k]) {
-      throw Error(ErrorKind::usage, fmt::format("periodic axis {}: the image has {} axes", k,
-                                                image.dim()));
+      throw Error(ErrorKind::usage,
+                  fmt::format("periodic axis {}: the image has {} axes", k, image.dim()));
     }
   }
 }
@@ -51,8 +51,7 @@ Cubical::Cubical(const Image& image, const CubicalOptions& options, const RunCon
   check(image, options);
   const std::size_t voxels = image.values.size();
   if (voxels == 0) return;  // a file may hold an image of no dimension and no voxel
-  const bool voxels_are_vertices =
-      options.construction == CubicalOptions::Construction::vertices;
+  const bool voxels_are_vertices = options.construction == CubicalOptions::Construction::vertices;
 
   // Ranks of the voxels that enter, by (value, position).
   struct Voxel {
@@ -119,13 +118,11 @@ void Cubical::spread_keys(const Axis& axis, bool voxels_are_vertices) {
       const bool has_lower = x > 0 || axis.periodic, has_upper = x < last || axis.periodic;
       const std::uint64_t below = x > 0 ? x - 1 : last, above = x < last ? x + 1 : 0;
       std::uint32_t* layer = keys_.data() + first + x * axis.stride;
-      const std::uint32_t* lower =
-          keys_.data() + first + (has_lower ? below : above) * axis.stride;
-      const std::uint32_t* upper =
-          keys_.data() + first + (has_upper ? above : below) * axis.stride;
+      const std::uint32_t* lower = keys_.data() + first + (has_lower ? below : above) * axis.stride;
+      const std::uint32_t* upper = keys_.data() + first + (has_upper ? above : below) * axis.stride;
       for (std::uint64_t i = 0; i < axis.stride; ++i) {
-        layer[i] = voxels_are_vertices ? std::max(lower[i], upper[i])
-                                       : std::min(lower[i], upper[i]);
+        layer[i] =
+            voxels_are_vertices ? std::max(lower[i], upper[i]) : std::min(lower[i], upper[i]);
       }
     }
   }

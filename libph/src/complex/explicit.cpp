@@ -84,8 +84,9 @@ BoundaryMatrix boundary_of(const SimplexList& simplices, const CellNamer& name) 
       facet.erase(facet.begin() + static_cast<std::ptrdiff_t>(k));
       const auto it = position.find(facet);
       if (it == position.end()) {
-        fail(name, i, fmt::format("simplex {}: its facet {} is missing", vertex_list(vertices),
-                                  vertex_list(facet)));
+        fail(name, i,
+             fmt::format("simplex {}: its facet {} is missing", vertex_list(vertices),
+                         vertex_list(facet)));
       }
       matrix.rows.push_back(static_cast<Index>(it->second));
       matrix.incidences.push_back(k % 2 == 0 ? 1 : -1);
@@ -129,8 +130,8 @@ ExplicitComplex ExplicitComplex::from_boundary(const BoundaryMatrix& matrix,
   for (std::size_t i = 0; i < n; ++i) {
     if (std::isnan(values[i])) fail(name, i, "found the value nan, expected a number");
     if (matrix.dims[i] < 0 || matrix.dims[i] > kLargestDimension) {
-      fail(name, i, fmt::format("found dimension {}, expected 0 to {}", matrix.dims[i],
-                                kLargestDimension));
+      fail(name, i,
+           fmt::format("found dimension {}, expected 0 to {}", matrix.dims[i], kLargestDimension));
     }
     values[i] += 0.0;
   }
@@ -149,12 +150,14 @@ ExplicitComplex ExplicitComplex::from_boundary(const BoundaryMatrix& matrix,
         fail(name, i, fmt::format("facet: found {}, expected a cell below {}", row, n));
       const auto facet = static_cast<std::size_t>(row);
       if (matrix.dims[facet] != matrix.dims[i] - 1) {
-        fail(name, i, fmt::format("facet {}: found dimension {}, expected {}", row,
-                                  matrix.dims[facet], matrix.dims[i] - 1));
+        fail(name, i,
+             fmt::format("facet {}: found dimension {}, expected {}", row, matrix.dims[facet],
+                         matrix.dims[i] - 1));
       }
       if (values[facet] > values[i]) {
-        fail(name, i, fmt::format("the cell enters at {}, before its facet {} at {}", values[i],
-                                  row, values[facet]));
+        fail(name, i,
+             fmt::format("the cell enters at {}, before its facet {} at {}", values[i], row,
+                         values[facet]));
       }
       column.emplace_back(complex.id_of_[facet],
                           matrix.incidences.empty() ? 1 : matrix.incidences[k]);
@@ -235,8 +238,9 @@ void ExplicitComplex::check(const std::vector<int>& dims, const CellNamer& name)
     for (const auto& [cell, coefficient] : square) {
       const bool is_zero = has_incidences_ ? coefficient == 0 : coefficient % 2 == 0;
       if (!is_zero) {
-        fail(name, i, fmt::format("the boundary of its boundary is not zero at cell {}",
-                                  input_position_[cell]));
+        fail(name, i,
+             fmt::format("the boundary of its boundary is not zero at cell {}",
+                         input_position_[cell]));
       }
     }
     if (dims[i] == 1) {

@@ -17,7 +17,8 @@ FilteredGraph::FilteredGraph(std::span<const double> births, std::span<const Wei
   if (births.size() + edges.size() >= UINT32_MAX) {
     throw Error(ErrorKind::resource,
                 fmt::format("graph: found {} vertices and {} edges, expected fewer than 2^32 - 1 "
-                            "cells", births.size(), edges.size()));
+                            "cells",
+                            births.size(), edges.size()));
   }
   for (std::size_t v = 0; v < births_.size(); ++v) {
     if (std::isnan(births_[v]))
@@ -28,18 +29,17 @@ FilteredGraph::FilteredGraph(std::span<const double> births, std::span<const Wei
   for (const WeightedEdge& e : edges) {
     const auto [u, v] = std::minmax(e.u, e.v);
     if (u < 0 || v >= size()) {
-      throw Error(ErrorKind::bad_data, fmt::format("edge ({}, {}): expected vertices below {}", e.u,
-                                                   e.v, size()));
+      throw Error(ErrorKind::bad_data,
+                  fmt::format("edge ({}, {}): expected vertices below {}", e.u, e.v, size()));
     }
-    const double last_end = std::max(births_[static_cast<std::size_t>(u)],
-                                     births_[static_cast<std::size_t>(v)]);
+    const double last_end =
+        std::max(births_[static_cast<std::size_t>(u)], births_[static_cast<std::size_t>(v)]);
     if (!(e.value >= last_end)) {
       throw Error(ErrorKind::bad_data, fmt::format("edge ({}, {}): found the value {}, expected at "
-                                                   "least that of its ends, {}", e.u, e.v, e.value,
-                                                   last_end));
+                                                   "least that of its ends, {}",
+                                                   e.u, e.v, e.value, last_end));
     }
-    edges_.push_back({static_cast<std::uint32_t>(u), static_cast<std::uint32_t>(v),
-                      e.value + 0.0});
+    edges_.push_back({static_cast<std::uint32_t>(u), static_cast<std::uint32_t>(v), e.value + 0.0});
   }
   radix_sort_by_value(edges_, [](const Edge& e) { return e.value; });
 }

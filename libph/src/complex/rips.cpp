@@ -23,7 +23,7 @@ Rips::Rips(const DistanceMatrix& distances, const RipsOptions& options, const Ru
           RipsGraph::of_metric(distances, options.threshold, context))) {}
 
 Rips::Rips(const SparseDistances& distances, const RipsOptions& options, const RunContext& context)
-    : graph_(std::make_shared<const RipsGraph>(RipsGraph::of_edges(
-          distances.size(), distances.edges(), options.threshold, context))) {}
+    : graph_(std::make_shared<const RipsGraph>(
+          RipsGraph::of_edges(distances.size(), distances.edges(), options.threshold, context))) {}
 
 }  // namespace ph

@@ -24,8 +24,8 @@ void RipsGraph::check_arguments(Index size, std::optional<double> threshold) {
 }
 
 void RipsGraph::check_distance(Index i, Index j, double value) {
-  throw Error(ErrorKind::bad_data, fmt::format("distance ({}, {}): found {}, expected a number >= 0",
-                                               i, j, value));
+  throw Error(ErrorKind::bad_data,
+              fmt::format("distance ({}, {}): found {}, expected a number >= 0", i, j, value));
 }
 
 RipsGraph RipsGraph::of_points_within(const Points& points, double threshold,
@@ -59,9 +59,11 @@ RipsGraph RipsGraph::of_edges(Index size, std::span<const WeightedEdge> edges,
 RipsGraph RipsGraph::build(Index size, double threshold, std::pmr::vector<Candidate>&& candidates,
                            const RunContext& context) {
   if (candidates.size() >= kNever) {
-    throw Error(ErrorKind::resource,
-                fmt::format("a Rips filtration holds fewer than 2^32 - 1 edges, found {}; lower the "
-                            "threshold or subsample", candidates.size()));
+    throw Error(
+        ErrorKind::resource,
+        fmt::format("a Rips filtration holds fewer than 2^32 - 1 edges, found {}; lower the "
+                    "threshold or subsample",
+                    candidates.size()));
   }
   context.poll();
   // Ties in the order (larger end, smaller end): the order in which dense input arrives.

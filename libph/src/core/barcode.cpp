@@ -60,9 +60,9 @@ void Barcode::sort() {
 }
 
 std::span<const Bar> Barcode::bars(int dim) const {
-  const auto [first, last] = std::equal_range(
-      bars_.begin(), bars_.end(), Bar{dim, 0, 0},
-      [](const Bar& a, const Bar& b) { return a.dim < b.dim; });
+  const auto [first, last] =
+      std::equal_range(bars_.begin(), bars_.end(), Bar{dim, 0, 0},
+                       [](const Bar& a, const Bar& b) { return a.dim < b.dim; });
   return {first, last};
 }
 

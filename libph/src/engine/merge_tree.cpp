@@ -33,14 +33,14 @@ MergeTree tree_of(const F& f, const RunContext& context) {
   tree.births.reserve(graph.vertices.size());
   for (const auto& v : graph.vertices) tree.births.push_back(f.value(v));
   std::vector<Index> sizes(graph.vertices.size(), 1);
-  join_by_elder_rule(graph.age, graph.ends, context,
-                     [&](std::size_t edge, std::uint32_t elder, std::uint32_t younger) {
-                       tree.merges.push_back({f.value(graph.edges[edge]), graph.ends[edge].u,
-                                              graph.ends[edge].v, elder, younger, sizes[elder],
-                                              sizes[younger], tree.births[elder],
-                                              tree.births[younger]});
-                       sizes[elder] += sizes[younger];
-                     });
+  join_by_elder_rule(
+      graph.age, graph.ends, context,
+      [&](std::size_t edge, std::uint32_t elder, std::uint32_t younger) {
+        tree.merges.push_back({f.value(graph.edges[edge]), graph.ends[edge].u, graph.ends[edge].v,
+                               elder, younger, sizes[elder], sizes[younger], tree.births[elder],
+                               tree.births[younger]});
+        sizes[elder] += sizes[younger];
+      });
   if constexpr (std::same_as<F, Cubical>) {  // voxels that never enter keep their numbers
     std::vector<Index> number;
     number.reserve(graph.vertices.size());

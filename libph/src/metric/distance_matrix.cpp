@@ -12,15 +12,16 @@ DistanceMatrix::DistanceMatrix(Index size, std::vector<double> lower)
   const Index pairs = size > 0 ? size * (size - 1) / 2 : 0;
   if (size < 0 || static_cast<Index>(lower_.size()) != pairs) {
     throw Error(ErrorKind::bad_data, fmt::format("distance matrix: found {} distances, expected {} "
-                                                 "for {} points", lower_.size(), pairs, size));
+                                                 "for {} points",
+                                                 lower_.size(), pairs, size));
   }
   std::size_t k = 0;
   for (Index i = 1; i < size; ++i) {
     for (Index j = 0; j < i; ++j, ++k) {
       if (!(lower_[k] >= 0)) {
-        throw Error(ErrorKind::bad_data,
-                    fmt::format("distance ({}, {}): found {}, expected a number >= 0", i, j,
-                                lower_[k]));
+        throw Error(
+            ErrorKind::bad_data,
+            fmt::format("distance ({}, {}): found {}, expected a number >= 0", i, j, lower_[k]));
       }
       lower_[k] += 0.0;  // -0.0 becomes +0.0
     }

@@ -48,7 +48,8 @@ void visit_by_cubes(const PointMetric& metric, double radius, const Visit& visit
     const double dx = p.x - q.x, dy = p.y - q.y, dz = p.z - q.z;
     const double square = dx * dx + dy * dy + dz * dz;
     // The same sum as the metric's, unless digits were lost to underflow.
-    const double d = square >= kSmallestPlainSquare ? std::sqrt(square) : metric(p.number, q.number);
+    const double d =
+        square >= kSmallestPlainSquare ? std::sqrt(square) : metric(p.number, q.number);
     if (d <= radius) visit(std::min(p.number, q.number), std::max(p.number, q.number), d);
   });
 }

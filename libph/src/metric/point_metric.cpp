@@ -35,7 +35,8 @@ PointMetric::PointMetric(const Points& points, PointDistance distance, double p)
     if (distance == PointDistance::cosine && points.row(i).isZero(0)) {
       throw Error(ErrorKind::bad_data,
                   fmt::format("point {}: found the zero vector, which has no direction; the cosine "
-                              "distance needs one", i));
+                              "distance needs one",
+                              i));
     }
   }
   may_need_scaling_ = largest > kLargestPlain || (largest > 0 && largest < kSmallestPlain);
@@ -54,8 +55,7 @@ double PointMetric::euclidean(Index i, Index j) const {
   // Halves only where whole differences overflow: the half of the least denormal is zero.
   const auto scaled = [&](double unit) {
     double largest = 0;
-    for (Index k = 0; k < d; ++k)
-      largest = std::max(largest, std::abs(x[k] * unit - y[k] * unit));
+    for (Index k = 0; k < d; ++k) largest = std::max(largest, std::abs(x[k] * unit - y[k] * unit));
     if (largest == 0 || std::isinf(largest)) return largest;
     double sum = 0;
     for (Index k = 0; k < d; ++k) {
@@ -73,8 +73,10 @@ double PointMetric::operator()(Index i, Index j) const {
   if (distance_ == PointDistance::euclidean) return euclidean(i, j);
   const auto x = points_.row(i), y = points_.row(j);
   switch (distance_) {
-    case PointDistance::manhattan: return (x - y).lpNorm<1>();
-    case PointDistance::chebyshev: return points_.cols() == 0 ? 0 : (x - y).lpNorm<Eigen::Infinity>();
+    case PointDistance::manhattan:
+      return (x - y).lpNorm<1>();
+    case PointDistance::chebyshev:
+      return points_.cols() == 0 ? 0 : (x - y).lpNorm<Eigen::Infinity>();
     case PointDistance::minkowski: {
       const double largest = points_.cols() == 0 ? 0 : (x - y).cwiseAbs().maxCoeff();
       if (largest == 0) return 0;
@@ -84,8 +86,10 @@ double PointMetric::operator()(Index i, Index j) const {
       // |x/|x| - y/|y||^2 / 2 is the same number and keeps its digits for small angles.
       return (x.stableNormalized() - y.stableNormalized()).squaredNorm() / 2;
     }
-    case PointDistance::hamming: return static_cast<double>((x.array() != y.array()).count());
-    case PointDistance::euclidean: break;
+    case PointDistance::hamming:
+      return static_cast<double>((x.array() != y.array()).count());
+    case PointDistance::euclidean:
+      break;
   }
   return 0;
 }

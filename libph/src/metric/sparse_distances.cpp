@@ -14,11 +14,12 @@ namespace {
 void check(const WeightedEdge& e, Index size) {
   if (e.u < 0 || e.v < 0 || e.u >= size || e.v >= size || e.u == e.v) {
     throw Error(ErrorKind::bad_data, fmt::format("edge ({}, {}): expected two different vertices "
-                                                 "below {}", e.u, e.v, size));
+                                                 "below {}",
+                                                 e.u, e.v, size));
   }
   if (!(e.value >= 0)) {
-    throw Error(ErrorKind::bad_data, fmt::format("edge ({}, {}): found distance {}, expected >= 0",
-                                                 e.u, e.v, e.value));
+    throw Error(ErrorKind::bad_data,
+                fmt::format("edge ({}, {}): found distance {}, expected >= 0", e.u, e.v, e.value));
   }
 }
 
@@ -45,8 +46,9 @@ SparseDistances::SparseDistances(Index size, std::vector<WeightedEdge> edges)
 
 SparseDistances SparseDistances::within(const Points& points, double radius) {
   std::vector<WeightedEdge> edges;
-  for_each_pair_within(points, radius,
-                       [&](Index i, Index j, double d) { edges.push_back({i, j, d}); });
+  for_each_pair_within(points, radius, [&](Index i, Index j, double d) {
+    edges.push_back({i, j, d});
+  });
   return SparseDistances(points.rows(), std::move(edges));
 }
 

@@ -17,7 +17,7 @@ namespace ph {
 struct CubicalOptions {
   enum class Construction {
     vertices,  ///< voxels are vertices, a cube enters with its last vertex (V): 4/6-neighbours join
-    cells,     ///< voxels are top cubes, a face enters with its first cube (T): 8/26-neighbours join
+    cells,  ///< voxels are top cubes, a face enters with its first cube (T): 8/26-neighbours join
   };
   Construction construction = Construction::vertices;
   /// Superlevel sets of f: the sublevel filtration of -f; values are reported as -f.
@@ -33,7 +33,8 @@ struct CubicalOptions {
 /// T-construction (odd: a voxel), 2n in both if it is periodic. A cell's dimension is the number of
 /// its odd coordinates. Order: (rank of the voxel that decides the value, dimension, grid index).
 ///
-/// Stores 4 bytes a cell: 2^d cells a voxel. +infinity never enters; -infinity is born at -infinity.
+/// Stores 4 bytes a cell: 2^d cells a voxel. +infinity never enters; -infinity is born at
+/// -infinity.
 class Cubical {
  public:
   struct Cell {
@@ -87,9 +88,9 @@ class Cubical {
   }
 
   int dim_ = 0;
-  std::array<Axis, kMaxDim> axes_;           // in the input's order, the last one fastest
-  std::pmr::vector<std::uint32_t> keys_;     // by grid index; kNever: never enters
-  std::pmr::vector<double> values_;          // by key
+  std::array<Axis, kMaxDim> axes_;        // in the input's order, the last one fastest
+  std::pmr::vector<std::uint32_t> keys_;  // by grid index; kNever: never enters
+  std::pmr::vector<double> values_;       // by key
 };
 
 }  // namespace ph

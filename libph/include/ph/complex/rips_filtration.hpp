@@ -40,8 +40,9 @@ class RipsFiltration {
 
   explicit RipsFiltration(const RipsGraph& graph)
       : graph_(graph),
-        bits_(std::max(1, static_cast<int>(std::bit_width(static_cast<std::uint64_t>(
-                              std::max<Index>(graph.size() - 1, 0)))))) {}
+        bits_(std::max(1, static_cast<int>(std::bit_width(
+                              static_cast<std::uint64_t>(std::max<Index>(graph.size() - 1, 0)))))) {
+  }
 
   /// How many vertices a cell of `words` words can hold for a graph of that size.
   static int capacity(const RipsGraph& graph) {
@@ -109,8 +110,7 @@ void RipsFiltration<Layout, Words>::for_each_cell(int dim, Visit&& visit) const 
   if (dim == 1) {  // in the order of the filtration
     const auto edges = graph_.edges();
     for (std::size_t i = 0; i < edges.size(); ++i) {
-      visit(Cell{static_cast<Key>(i + 1),
-                 Vertices(edges[i].u) << bits_ | Vertices(edges[i].v)});
+      visit(Cell{static_cast<Key>(i + 1), Vertices(edges[i].u) << bits_ | Vertices(edges[i].v)});
     }
     return;
   }
@@ -211,7 +211,8 @@ template <class Visit>
 void RipsFiltration<Layout, Words>::for_each_cofacet(int dim, const Cell& cell,
                                                      Visit&& visit) const {
   // The new vertex w ascends, and with it the cofacet's vertices: among cofacets of equal key the
-  // first visited is the oldest. `slot` is w's place among the vertices: those below it are smaller.
+  // first visited is the oldest. `slot` is w's place among the vertices: those below it are
+  // smaller.
   const int count = dim + 1;
   std::array<std::uint32_t, kMostVertices + 1> vertices;
   for (int slot = 0; slot < count; ++slot)
@@ -247,8 +248,7 @@ void RipsFiltration<Layout, Words>::for_each_cofacet(int dim, const Cell& cell,
   } else {
     std::array<std::span<const Neighbour>, kMostVertices> lists;
     for (int i = 0; i < count; ++i) {
-      lists[static_cast<std::size_t>(i)] =
-          graph_.neighbours(vertices[static_cast<std::size_t>(i)]);
+      lists[static_cast<std::size_t>(i)] = graph_.neighbours(vertices[static_cast<std::size_t>(i)]);
       // The shortest list leads.
       if (lists[static_cast<std::size_t>(i)].size() < lists[0].size())
         std::swap(lists[static_cast<std::size_t>(i)], lists[0]);

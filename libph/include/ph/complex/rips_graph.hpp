@@ -89,9 +89,9 @@ class RipsGraph {
   Index size_ = 0;
   Index clique_bound_ = 0;
   double threshold_ = 0;
-  std::pmr::vector<Edge> edges_;      // by key - 1
-  std::pmr::vector<double> values_;   // by key - 1
-  std::pmr::vector<Key> matrix_;      // dense layout
+  std::pmr::vector<Edge> edges_;     // by key - 1
+  std::pmr::vector<double> values_;  // by key - 1
+  std::pmr::vector<Key> matrix_;     // dense layout
   std::pmr::vector<std::size_t> offsets_;
   std::pmr::vector<Neighbour> neighbours_;
 };

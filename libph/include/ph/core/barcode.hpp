@@ -34,7 +34,8 @@ struct InputCell {
 /// Points into the barcode it came from.
 class InputChain {
  public:
-  InputChain(CellKind kind, std::span<const Index> numbers, std::span<const std::int64_t> coefficients)
+  InputChain(CellKind kind, std::span<const Index> numbers,
+             std::span<const std::int64_t> coefficients)
       : kind_(kind), numbers_(numbers), coefficients_(coefficients) {}
 
   std::size_t size() const { return coefficients_.size(); }
@@ -114,8 +115,8 @@ class Barcode {
 
   CellKind kind_;
   std::vector<Bar> bars_;
-  std::vector<Cells> cells_;     // parallel to bars_
-  std::vector<Index> numbers_;   // all cells, one after another
+  std::vector<Cells> cells_;    // parallel to bars_
+  std::vector<Index> numbers_;  // all cells, one after another
   Representatives representatives_ = Representatives::none;
   std::vector<std::int64_t> coefficients_;
 };

@@ -34,6 +34,8 @@ enum class CellKind {
 // Chains. A facet comes with its incidence number, an ordinary int. Boundary of boundary is zero
 // over the integers, or at least over the field in use. A facet is visited at most once a cell.
 
+// clang-format off
+
 /// A filtered complex, lazy or stored, as far as the oracle and the homology engine need it.
 template <class F>
 concept Filtration =
@@ -83,5 +85,7 @@ template <class F>
 concept GraphFiltration = Filtration<F> && requires(const F& f) {
   { f.edges_join_vertices() } -> std::same_as<bool>;
 };
+
+// clang-format on
 
 }  // namespace ph

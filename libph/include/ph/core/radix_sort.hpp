@@ -10,9 +10,10 @@
 
 namespace ph {
 
-/// Sorts by a double, ascending; equal values keep their order. Values are not NaN, and zero has one
-/// sign. Least significant digit first, 11 bits a pass; digits that all values share cost nothing,
-/// so that bytes, integers and float32 are sorted in two or three passes. O(n), n items of buffer.
+/// Sorts by a double, ascending; equal values keep their order. Values are not NaN, and zero has
+/// one sign. Least significant digit first, 11 bits a pass; digits that all values share cost
+/// nothing, so that bytes, integers and float32 are sorted in two or three passes. O(n), n items of
+/// buffer.
 /// @param value_of maps an item to its value.
 template <class T, class ValueOf>
 void radix_sort_by_value(std::pmr::vector<T>& items, ValueOf&& value_of) {

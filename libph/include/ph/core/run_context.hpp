@@ -48,10 +48,10 @@ struct Progress {
 /// What a long computation needs from its caller: a way to stop it, to watch it and to bound it.
 /// Outlives every object that was built with it.
 struct RunContext {
-  std::stop_token stop;                               ///< asked for often; see `poll`
-  std::function<void(const Progress&)> on_progress;   ///< called at most ten times a second
-  mutable MemoryBudget memory;                        ///< unlimited unless `set_limit` is called
-  int threads = 0;                                    ///< threads to use; 0: one for each core
+  std::stop_token stop;                              ///< asked for often; see `poll`
+  std::function<void(const Progress&)> on_progress;  ///< called at most ten times a second
+  mutable MemoryBudget memory;                       ///< unlimited unless `set_limit` is called
+  int threads = 0;                                   ///< threads to use; 0: one for each core
 
   /// @throws Error (cancelled) once a stop was requested.
   void poll() const;

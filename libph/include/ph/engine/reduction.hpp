@@ -167,8 +167,8 @@ class Reduction {
   bool pop_pivot(Term& pivot);
   // The column whose pivot `cell` is; null if there is none yet. Valid until the next call.
   const Column* owner_of(const Cell& cell);
-  // Homology, dimension 1: reduces what is left below the pivot as well. The boundary of an edge has
-  // one such entry; followed to its end once, it leads every later column there in one step.
+  // Homology, dimension 1: reduces what is left below the pivot as well. The boundary of an edge
+  // has one such entry; followed to its end once, it leads every later column there in one step.
   // @return whether a column was added.
   bool reduce_rest(Ticker& ticker);
   void finish_column(const Cell& cell, const Term& pivot, bool was_added_to);

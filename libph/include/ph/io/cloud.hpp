@@ -30,7 +30,8 @@ struct CloudField {
 struct Cloud {
   Index width = 0;   ///< columns of an organised cloud; else the number of points
   Index height = 1;  ///< rows of an organised cloud; 1 if it is not organised
-  std::array<double, 7> viewpoint{0, 0, 0, 1, 0, 0, 0};  ///< sensor: translation, quaternion w x y z
+  std::array<double, 7> viewpoint{0, 0, 0, 1,
+                                  0, 0, 0};  ///< sensor: translation, quaternion w x y z
   std::vector<CloudField> fields;
   std::size_t stride = 0;  ///< bytes a point
   std::vector<std::byte> data;

@@ -6,10 +6,10 @@
 
 namespace ph {
 
-/// Calls `visit(i, j, distance)` once for each pair i < j of points at Euclidean distance <= radius,
-/// in an order that depends on the input alone. In up to three dimensions by cubes of the size of
-/// the radius, above by a k-d tree: O(n log n + pairs); by all pairs where squares of coordinates
-/// would overflow.
+/// Calls `visit(i, j, distance)` once for each pair i < j of points at Euclidean distance <=
+/// radius, in an order that depends on the input alone. In up to three dimensions by cubes of the
+/// size of the radius, above by a k-d tree: O(n log n + pairs); by all pairs where squares of
+/// coordinates would overflow.
 /// @param points one point a row, finite. @param radius in units of the coordinates.
 /// @throws Error (usage) if the radius is negative or NaN; Error (bad_data) as PointMetric.
 void for_each_pair_within(const Points& points, double radius,

@@ -36,7 +36,8 @@ class PointMetric {
   const Points& points_;
   PointDistance distance_;
   double p_;
-  bool may_need_scaling_ = false;  // squares of coordinate differences may leave the range of double
+  bool may_need_scaling_ =
+      false;  // squares of coordinate differences may leave the range of double
 };
 
 }  // namespace ph
