@@ -10,8 +10,9 @@ scripts/setup.sh build test
 cmake --preset release -DPH_WITH_PCL=ON -DPH_BUILD_TESTS=ON -DPH_BUILD_EXAMPLES=ON
 cmake --build --preset release -j "$jobs"
 
-# ph::core and ph::io alone: neither PCL nor the programs' libraries.
-cmake -S . -B build/core -G Ninja -DPH_BUILD_TESTS=OFF -DPH_BUILD_APPS=OFF -DPH_BUILD_EXAMPLES=OFF
+# ph::core and ph::io alone, as on a machine without PCL and CGAL.
+cmake -S . -B build/core -G Ninja -DPH_BUILD_TESTS=OFF -DPH_BUILD_APPS=OFF -DPH_BUILD_SEGMENT=OFF \
+  -DPH_BUILD_EXAMPLES=OFF -DCMAKE_DISABLE_FIND_PACKAGE_PCL=ON -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON
 cmake --build build/core -j "$jobs"
 
 ctest --test-dir build/release -j "$jobs" --output-on-failure --no-tests=error "$@"
