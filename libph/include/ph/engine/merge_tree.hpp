@@ -12,7 +12,8 @@ class Cubical;
 class ExplicitComplex;
 class FilteredGraph;
 
-/// Two components become one. The elder (born first; the smaller vertex among equals) lives on.
+/// Two components become one. The elder lives on: the one born first; among equals the one whose
+/// oldest vertex comes first in the order of the filtration (for points, the smaller number).
 struct Merge {
   double value = 0;        ///< filtration value of the edge
   Index u = 0, v = 0;      ///< the edge that joined them: an edge of a minimum spanning forest
