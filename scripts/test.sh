@@ -15,4 +15,11 @@ cmake -S . -B build/core -G Ninja -DPH_BUILD_TESTS=OFF -DPH_BUILD_APPS=OFF -DPH_
   -DPH_BUILD_EXAMPLES=OFF -DCMAKE_DISABLE_FIND_PACKAGE_PCL=ON -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON
 cmake --build build/core -j "$jobs"
 
-ctest --test-dir build/release -j "$jobs" --output-on-failure --no-tests=error "$@"
+results=$PWD/build/release/tests.xml
+status=0
+ctest --test-dir build/release -j "$jobs" --output-on-failure --no-tests=error \
+  --output-junit "$results" "$@" || status=$?
+awk -F'"' '/^[ \t]*tests=/ { tests = $2 } /^[ \t]*failures=/ { failed = $2 } /^[ \t]*skipped=/ { skipped = $2 }
+  /<testcase/ { exit }
+  END { printf "%d passed, %d failed, %d skipped\n", tests - failed - skipped, failed, skipped }' "$results"
+exit "$status"
