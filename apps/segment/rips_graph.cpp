@@ -3,17 +3,48 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "ph/metric/pairs_within.hpp"
 
 namespace ph::segment {
+namespace {
+
+/// filtration_value for many lengths: the levels are computed once.
+class Levels {
+ public:
+  Levels(double distance, int steps) : distance_(distance), steps_(steps) {
+    constexpr int most = 4096;
+    if (steps < 1 || steps > most || !(distance > 0)) return;
+    per_length_ = steps / distance;
+    for (int k = 0; k < steps; ++k) levels_.push_back(k * distance / steps);
+    levels_.push_back(distance);
+  }
+  double round_up(double length) const {
+    if (levels_.empty()) return filtration_value(length, distance_, steps_);
+    // Rounding may miss the level by one: look at the neighbours, too.
+    std::size_t k = std::min(static_cast<std::size_t>(length * per_length_), levels_.size() - 1);
+    while (k > 0 && levels_[k - 1] >= length) --k;
+    while (levels_[k] < length) ++k;
+    return levels_[k];
+  }
+
+ private:
+  double distance_;
+  int steps_;
+  double per_length_ = 0;
+  std::vector<double> levels_;  // empty: too many to keep, or exact lengths
+};
+
+}  // namespace
 
 FilteredGraph rips_graph(const Points& points, double distance, int steps,
                          const RunContext& context) {
   std::pmr::vector<WeightedEdge> edges(&context.memory);
+  const Levels levels(distance, steps);
   Ticker ticker(context, "complex");
   for_each_pair_within(points, distance, [&](Index i, Index j, double length) {
-    edges.push_back({i, j, filtration_value(length, distance, steps)});
+    edges.push_back({i, j, levels.round_up(length)});
     ticker.tick();
   });
   const std::vector<double> births(static_cast<std::size_t>(points.rows()), 0.0);
