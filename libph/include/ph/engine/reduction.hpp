@@ -167,10 +167,12 @@ class Reduction {
   bool pop_pivot(Term& pivot);
   // The column whose pivot `cell` is; null if there is none yet. Valid until the next call.
   const Column* owner_of(const Cell& cell);
-  // Homology, dimension 1: reduces what is left below the pivot as well. The boundary of an edge
-  // has one such entry; followed to its end once, it leads every later column there in one step.
-  // @return whether a column was added.
-  bool reduce_rest(Ticker& ticker);
+  // Homology, dimension 1: the boundary of an edge is the difference of two vertices and stays one
+  // under reduction, so it needs no heap. Both entries are reduced to the end: a column stored so
+  // leads every later one there in one step.
+  void reduce_edge(const Cell& edge, Ticker& ticker);
+  // The entry besides the pivot of a column of two.
+  Cell other_end(const Column& column, const Cell& pivot) const;
   void finish_column(const Cell& cell, const Term& pivot, bool was_added_to);
   void finish_essential(const Cell& cell);
   // Appends the working chain to chains_, equal cells added up; without the column's own cell.
@@ -193,7 +195,7 @@ class Reduction {
   std::pmr::vector<Cell> killers_, essential_;
   std::pmr::vector<Cell> to_reduce_;
   std::pmr::vector<Term> working_;  // a heap with lazy cancellation
-  std::pmr::vector<Term> rest_;     // homology, dimension 1: entries below the pivot
+  std::pmr::vector<Term> rest_;     // entries below the pivot of an edge's boundary
   std::pmr::vector<Term> chain_;    // what was added to the working column, in columns
   bool tracks_chains_;
 
@@ -330,6 +332,12 @@ bool Reduction<F, K, direction>::start_column(const Cell& cell, Term& pivot, Tic
 
 template <Filtration F, Field K, Direction direction>
 void Reduction<F, K, direction>::reduce_column(const Cell& cell, Ticker& ticker) {
+  if constexpr (kIsHomology && GraphFiltration<F>) {
+    if (dim_ == 1 && !tracks_chains_ && f_.edges_join_vertices()) {
+      reduce_edge(cell, ticker);
+      return;
+    }
+  }
   Term pivot;
   if (start_column(cell, pivot, ticker)) {
     finish_column(cell, pivot, false);
@@ -339,7 +347,7 @@ void Reduction<F, K, direction>::reduce_column(const Cell& cell, Ticker& ticker)
   while (pop_pivot(pivot)) {
     const Column* owner = owner_of(pivot.cell);
     if (!owner) {
-      if constexpr (kIsHomology) was_added_to = reduce_rest(ticker) || was_added_to;
+      rest_.clear();
       finish_column(cell, pivot, was_added_to);
       return;
     }
@@ -350,19 +358,40 @@ void Reduction<F, K, direction>::reduce_column(const Cell& cell, Ticker& ticker)
 }
 
 template <Filtration F, Field K, Direction direction>
-bool Reduction<F, K, direction>::reduce_rest(Ticker& ticker) {
+auto Reduction<F, K, direction>::other_end(const Column& column, const Cell& pivot) const -> Cell {
+  if (!column.terms.empty()) return terms_[column.terms.begin + 1].cell;
+  Cell other = pivot;
+  for_each_entry(column.cell, [&](const Cell& entry, int) {
+    if (!(entry == pivot)) other = entry;
+  });
+  return other;
+}
+
+template <Filtration F, Field K, Direction direction>
+void Reduction<F, K, direction>::reduce_edge(const Cell& edge, Ticker& ticker) {
+  working_.clear();
   rest_.clear();
+  for_each_entry(edge, [&](const Cell& entry, int incidence) {
+    rest_.emplace_back(entry, field_.from_int(incidence));
+  });
   bool was_added_to = false;
-  if (dim_ != 1) return was_added_to;
-  for (Term term; pop_pivot(term);) {
-    if (const Column* owner = owner_of(term.cell)) {
-      cancel_pivot(term, *owner, ticker);
+  for (Term& end : rest_) {
+    Cell at = end.cell;
+    while (const Column* owner = owner_of(at)) {
+      at = other_end(*owner, at);
       was_added_to = true;
-    } else {
-      rest_.push_back(term);
+      ticker.work();
     }
+    end = Term(at, end.coefficient());
   }
-  return was_added_to;
+  if (rest_.empty() || rest_[0].cell == rest_[1].cell) {
+    finish_essential(edge);
+    return;
+  }
+  if (f_.precedes(rest_[0].cell, rest_[1].cell)) std::swap(rest_[0], rest_[1]);
+  const Term pivot = rest_[0];
+  rest_.erase(rest_.begin());
+  finish_column(edge, pivot, was_added_to);
 }
 
 template <Filtration F, Field K, Direction direction>
