@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: MIT
+"""Binary numbers: NumPy, NIfTI, DIPHA, PHAT, Ripser's triangle, PGM and PNG."""
+import struct
+import zipfile
+import zlib
+
+from sample import (GREY, GREY_ALPHA, PALETTE, RGB, RGBA, Sample, gzipped, npy, npy_header, npz,
+                    png, png_chunk, words)
+
+VALUES = [0, 5, 2, 4, 9, 1]
+KINDS = {"b1": "?", "i1": "b", "i2": "h", "i4": "i", "i8": "q", "u1": "B", "u2": "H", "u4": "I",
+         "u8": "Q", "f2": "e", "f4": "f", "f8": "d"}
+
+
+def packed(descr, values):
+    order = ">" if descr[0] == ">" else "<"
+    convert = {"b": bool, "f": float}.get(descr[1], int)
+    return struct.pack(f"{order}{len(values)}{KINDS[descr[1:]]}", *map(convert, values))
+
+
+def numpy_image(name, descr, shape=(2, 3), values=VALUES, **options):
+    return Sample(name, "npy_image", npy(descr, shape, packed(descr, values), **options), True)
+
+
+GRID = npy("<f8", (2, 3), packed("<f8", VALUES))
+NUMPY = [
+    *(numpy_image(f"{kind}.npy", ("|" if kind in ("b1", "i1", "u1") else "<") + kind)
+      for kind in KINDS),
+    *(numpy_image(f"big_endian_{kind}.npy", ">" + kind) for kind in KINDS if kind[1] != "1"),
+    numpy_image("fortran.npy", "<f8", fortran=True),
+    numpy_image("fortran_volume.npy", "<i2", (2, 1, 3), fortran=True),
+    numpy_image("version_2.npy", "<f4", version=2),
+    numpy_image("version_3.npy", "<f8", version=3),
+    numpy_image("vector.npy", "<f8", (6,)),
+    Sample("number.npy", "npy_image",
+           npy_header("{'descr': '<f8', 'fortran_order': False, 'shape': (), }")
+           + struct.pack("<d", 7), True),
+    numpy_image("infinite.npy", "<f8", (3,), [float("-inf"), 1, float("inf")]),
+    Sample("keys_in_any_order.npy", "npy_image",
+           npy_header('{"shape": (1,2,), "fortran_order": True, "descr": "<u2"}') + b"\1\0\2\0",
+           True),
+    Sample("points.npy", "points", npy("<f8", (3, 2), packed("<f8", VALUES)), True,
+           ("{}", "--complex", "rips")),
+    Sample("distances.npy", "distances",
+           npy("<f4", (3, 3), packed("<f4", [0, 1, 2, 1, 0, 1.5, 2, 1.5, 0])), True,
+           ("{}", "--format", "distance")),
+    Sample("stored.npz", "image", npz({"a.npy": GRID}), True),
+    Sample("deflated.npz", "image", npz({"a.npy": GRID}, zipfile.ZIP_DEFLATED), True),
+    Sample("two.npz", "points", npz({"a.npy": GRID, "points.npy": GRID}), True,
+           ("{}:points", "--complex", "rips")),
+    Sample("grid.npy.gz", "image", gzipped(GRID), True),
+]
+
+
+def nifti(datatype, kind, values=VALUES, extents=(3, 2), order="<", slope=0.0, intercept=0.0):
+    header = bytearray(352)
+    bits = 8 * struct.calcsize("<" + KINDS[kind])
+    struct.pack_into(order + "i", header, 0, 348)
+    struct.pack_into(f"{order}8h", header, 40, len(extents), *extents, *[1] * (7 - len(extents)))
+    struct.pack_into(order + "2h", header, 70, datatype, bits)
+    struct.pack_into(order + "3f", header, 108, 352, slope, intercept)
+    header[344:348] = b"n+1\0"
+    return bytes(header) + packed(order + kind, values)
+
+
+def nifti_sample(name, *arguments, **options):
+    return Sample(name, "nifti", nifti(*arguments, **options), True)
+
+
+NIFTI = [
+    *(nifti_sample(f"{kind}.nii", datatype, kind) for kind, datatype in
+      {"u1": 2, "i2": 4, "i4": 8, "f4": 16, "f8": 64, "i1": 256, "u2": 512, "u4": 768,
+       "u8": 1280}.items()),
+    nifti_sample("f4_scaled.nii", 16, "f4", slope=0.5, intercept=-1),
+    nifti_sample("big_endian_f8.nii", 64, "f8", order=">"),
+    nifti_sample("volume_i8.nii", 1024, "i8", extents=(3, 1, 2, 1, 1)),
+    Sample("u2.nii.gz", "nifti", gzipped(nifti(512, "u2")), True),
+]
+
+MAGIC = 8067171840
+
+
+def dipha(name, reader, *numbers):
+    return Sample(name, reader, words("<", MAGIC, *numbers), True)
+
+
+DIPHA = [
+    dipha("image.dipha", "image", 1, 6, 2, 3, 2, *map(float, VALUES)),
+    dipha("volume.dipha", "image", 1, 4, 3, 2, 1, 2, 1., -2., float("inf"), 0.5),
+    dipha("many_distances.dipha", "distances", 7, 6, *(float(abs(i - j)) for i in range(6)
+                                                       for j in range(6))),
+    dipha("distances.dipha", "distances", 7, 3, 0., 1., 2., 1., 0., 1.5, 2., 1.5, 0.),
+    dipha("sparse.dipha", "sparse", 8, 3, 2, 1, 0, 1, 2, 0, 1., 2., 1.),
+    dipha("boundary.dipha", "phat", 0, 0, 3, 1, 0, 0, 1, 0.0, 0.5, 2.0, 0, 0, 0, 2, 0, 1),
+    dipha("any_order.dipha", "phat", 0, 0, 3, 1, 1, 0, 0, 2.0, 0.0, 0.5, 0, 2, 2, 2, 2, 1),
+]
+
+BINARY = [
+    Sample("binary.bin", "binary_distances", struct.pack("<6f", 1, 2, 1.25, 1.5, 2, 1), False),
+    Sample("pair.bin", "binary_distances", struct.pack("<f", 0.5), False,
+           ("{}", "--format", "binary")),
+    Sample("triangle_binary.phat", "phat",
+           words("<", 7, 0, 0, 0, 0, 0, 0, 1, 2, 0, 1, 1, 2, 1, 2, 1, 2, 0, 2, 2, 3, 3, 4, 5), True),
+]
+
+
+def depth_scene():
+    """8 x 6 pixels in millimetres: a box in front of a wall, and a hole."""
+    rows = [[2000] * 8 for _ in range(6)]
+    for y in range(2, 5):
+        rows[y][2:5] = [1000, 1000, 1000]
+    rows[0][0] = 0
+    return [struct.pack(">8H", *row) for row in rows]
+
+
+CAMERA = ("--intrinsics", "100,100,4,3")
+COLOUR_OF = ("--depth", "depth.png", "--color", "{}", *CAMERA)
+
+
+def colour(name, *arguments, **options):
+    return Sample(name, "png", png(*arguments, **options), True, COLOUR_OF, "ph-segment",
+                  ("depth.png",))
+
+
+def interlaced_grey():
+    """2 x 2 pixels by Adam7: passes 1, 6 and 7 hold the pixels (0,0), (1,0) and the second row."""
+    header = struct.pack(">IIBBBBB", 2, 2, 8, GREY, 0, 0, 1)
+    return (b"\x89PNG\r\n\x1a\n" + png_chunk(b"IHDR", header)
+            + png_chunk(b"IDAT", zlib.compress(b"\0\1" b"\0\2" b"\0\3\4")) + png_chunk(b"IEND", b""))
+
+
+PALETTE_CHUNK = png_chunk(b"PLTE", bytes([0, 0, 0, 255, 0, 0, 0, 0, 255]))
+PICTURES = [
+    Sample("grey.png", "image", png(3, 2, 8, GREY, [b"\0\5\2", b"\4\11\1"]), True),
+    Sample("grey_16.png", "image", png(2, 2, 16, GREY, [b"\0\0\xff\xff", b"\1\0\0\1"]), True),
+    Sample("grey_1.png", "image", png(3, 2, 1, GREY, [b"\xa0", b"\x40"]), True),
+    Sample("interlaced.png", "image", interlaced_grey(), True),
+    Sample("text_chunk.png", "image",
+           png(2, 1, 8, GREY, [b"\1\2"], png_chunk(b"tEXt", b"Title\0two pixels")), True),
+    Sample("depth.png", "png", png(8, 6, 16, GREY, depth_scene()), True,
+           ("--depth", "{}", *CAMERA), "ph-segment"),
+    colour("colour.png", 8, 6, 8, RGB, [bytes([255, 128, 0]) * 8] * 6),
+    colour("colour_16.png", 8, 6, 16, RGB, [bytes([1, 2, 3, 4, 5, 6]) * 8] * 6),
+    colour("alpha.png", 8, 6, 8, RGBA, [bytes([255, 128, 0, 9]) * 8] * 6),
+    colour("grey_alpha.png", 8, 6, 8, GREY_ALPHA, [bytes([7, 255]) * 8] * 6),
+    colour("palette.png", 8, 6, 8, PALETTE, [bytes([0, 1, 2, 0, 1, 2, 0, 1])] * 6,
+           extra=PALETTE_CHUNK),
+    Sample("raw.pgm", "image", b"P5 3 2 9\n" + bytes(VALUES), True),
+    Sample("raw_16.pgm", "image", b"P5\n# deep\n2 2\n65535\n" + b"\0\1\xff\xff\1\0\0\0", True),
+]
+
+SAMPLES = NUMPY + NIFTI + DIPHA + BINARY + PICTURES
