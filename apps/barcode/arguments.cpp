@@ -9,7 +9,6 @@
 #include <string_view>
 
 #include "choices.hpp"
-#include "exit_code.hpp"
 #include "formats_table.hpp"
 #include "numbers.hpp"
 #include "ph/core/field.hpp"
@@ -358,7 +357,8 @@ bool Arguments::is_batch() const {
   return stat(output.c_str(), &status) == 0 && S_ISDIR(status.st_mode) && inputs.size() > 1;
 }
 
-std::optional<int> parse_arguments(int argc, const char* const* argv, Arguments& arguments) {
+std::optional<std::string> parse_arguments(int argc, const char* const* argv,
+                                           Arguments& arguments) {
   CLI::App app(
       "Computes the persistent homology of points, distances, images and filtered complexes.\n"
       "Rips values are diameters: two points join at their distance.",
@@ -371,12 +371,9 @@ std::optional<int> parse_arguments(int argc, const char* const* argv, Arguments&
   bool list_formats = false;
   app.add_flag("--formats", list_formats, "print the table of formats and exit")->group("Input");
   app::add_common_options(app, arguments.common);
-  if (const auto code = app::parse_command_line(app, arguments.common, argc, argv, built_in()))
-    return code;
-  if (list_formats) {
-    write_file("-", formats_table());
-    return app::kOk;
-  }
+  if (auto answer = app::parse_command_line(app, arguments.common, argc, argv, built_in()))
+    return answer;
+  if (list_formats) return formats_table();
   check_together(arguments, plot_kinds);
   return std::nullopt;
 }

@@ -54,8 +54,9 @@ struct Arguments {
   bool is_batch() const;
 };
 
-/// Reads the command line. @return the exit code if there is nothing left to do.
+/// Reads the command line; prints nothing.
+/// @return the answer to --help, --version or --formats, which is all that is left to do.
 /// @throws Error (usage) that names the option; Error (not_built_in).
-std::optional<int> parse_arguments(int argc, const char* const* argv, Arguments& arguments);
+std::optional<std::string> parse_arguments(int argc, const char* const* argv, Arguments& arguments);
 
 }  // namespace ph::barcode

@@ -128,8 +128,9 @@ std::string program_and_version(const std::string& program) {
   return fmt::format("{} {}", program, PH_VERSION);
 }
 
-std::optional<int> parse_command_line(CLI::App& app, const CommonOptions& options, int argc,
-                                      const char* const* argv, const std::string& built_in) {
+std::optional<std::string> parse_command_line(CLI::App& app, const CommonOptions& options, int argc,
+                                              const char* const* argv,
+                                              const std::string& built_in) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ExtrasError&) {
@@ -146,15 +147,18 @@ std::optional<int> parse_command_line(CLI::App& app, const CommonOptions& option
   if (options.help) {
     for (CLI::Option* option : app.get_options())
       option->description(wrapped(option->get_description()));
-    write_file("-", app.help());
-    return kOk;
+    return app.help();
   }
   if (options.version) {
-    write_file("-", program_and_version(app.get_name()) + "\n" +
-                        (options.verbose ? build_information() + built_in : ""));
-    return kOk;
+    return program_and_version(app.get_name()) + "\n" +
+           (options.verbose ? build_information() + built_in : "");
   }
   return std::nullopt;
+}
+
+int answer_command_line(const std::string& answer) {
+  write_file("-", answer);
+  return kOk;
 }
 
 }  // namespace ph::app

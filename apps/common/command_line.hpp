@@ -30,12 +30,16 @@ CLI::Option* add_value(CLI::App& app, const std::string& names, const std::strin
                        const std::string& description,
                        std::function<void(const std::string& value)> take);
 
-/// Parses the command line. Answers --help and --version on stdout.
+/// Parses the command line; prints nothing.
 /// @param built_in lines that --version --verbose adds: what this program in particular can do.
-/// @return the exit code if there is nothing left to do.
-/// @throws Error (usage), one line that names the option and the nearest known one.
-std::optional<int> parse_command_line(CLI::App& app, const CommonOptions& options, int argc,
-                                      const char* const* argv, const std::string& built_in = {});
+/// @return the answer to --help or --version, which is all that is left to do.
+/// @throws Error (usage) that names the option and the nearest known one.
+std::optional<std::string> parse_command_line(CLI::App& app, const CommonOptions& options, int argc,
+                                              const char* const* argv,
+                                              const std::string& built_in = {});
+
+/// Prints the answer to --help and its like. @return the exit code.
+int answer_command_line(const std::string& answer);
 
 /// "ph-barcode 0.1.0"
 std::string program_and_version(const std::string& program);

@@ -190,7 +190,7 @@ void require_one_input(const Arguments& a) {
 
 }  // namespace
 
-std::optional<int> parse_arguments(int argc, const char* const* argv, Arguments& a) {
+std::optional<std::string> parse_arguments(int argc, const char* const* argv, Arguments& a) {
   CLI::App app("Segments a point cloud or a depth image by zero-dimensional persistent homology.",
                "ph-segment");
   add_input_options(app, a);
@@ -198,8 +198,8 @@ std::optional<int> parse_arguments(int argc, const char* const* argv, Arguments&
   add_output_options(app, a);
   add_planned_options(app);
   app::add_common_options(app, a.common);
-  if (const auto code = app::parse_command_line(app, a.common, argc, argv, std::string(kBuiltIn)))
-    return code;
+  if (auto answer = app::parse_command_line(app, a.common, argc, argv, std::string(kBuiltIn)))
+    return answer;
   require_one_input(a);
   return std::nullopt;
 }

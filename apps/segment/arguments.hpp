@@ -37,8 +37,9 @@ struct Arguments {
   }
 };
 
-/// @return the exit code if --help or --version was answered.
+/// Reads the command line; prints nothing.
+/// @return the answer to --help or --version, which is all that is left to do.
 /// @throws Error (usage); Error (not_built_in) on what is planned but not there.
-std::optional<int> parse_arguments(int argc, const char* const* argv, Arguments& arguments);
+std::optional<std::string> parse_arguments(int argc, const char* const* argv, Arguments& arguments);
 
 }  // namespace ph::segment

@@ -63,7 +63,8 @@ Segmentation segment_within_limits(const Cloud& cloud, const SegmentOptions& opt
 
 int run(int argc, const char* const* argv, std::stop_token stop) {
   Arguments arguments;
-  if (const auto code = parse_arguments(argc, argv, arguments)) return *code;
+  if (const auto answer = parse_arguments(argc, argv, arguments))
+    return app::answer_command_line(*answer);
   app::Session session(kProgram, arguments.common, std::move(stop));
   Outputs outputs(arguments);
 
