@@ -79,8 +79,8 @@ SAMPLES = [
 
     off("octahedron.off", OCTAHEDRON, sized=True),
     off("points.off", b"OFF 3 0 0\n0 0 0\n1 0 0\n0 1 0\n", sized=True),
-    off("colours.off", b"OFF\n# a triangle\n3 1 0\n0 0 0 1 0 0\n1 0 0 1 0 0\n0 1 0 1 0 0\n"
-        b"3 0 1 2 255 0 9\n", sized=True),
+    off("colours.off", b"OFF\n# two triangles\n3 2 0\n0 0 0 1 0 0\n1 0 0 1 0 0\n0 1 0 1 0 0\n"
+        b"3 0 1 2 255 0 9\n3 2 1 0\n", sized=True),
 
     image("plain.pgm", b"P2 3 2 9\n0 5 2\n4 9 1\n", sized=True),
     image("comment.pgm", b"P2\n# made by hand\n3 2\n# largest\n255\n0 50 2 4 90 1\n", sized=True),
