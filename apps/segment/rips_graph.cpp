@@ -43,10 +43,13 @@ FilteredGraph rips_graph(const Points& points, double distance, int steps,
   std::pmr::vector<WeightedEdge> edges(&context.memory);
   const Levels levels(distance, steps);
   Ticker ticker(context, "complex");
-  for_each_pair_within(points, distance, [&](Index i, Index j, double length) {
-    edges.push_back({i, j, levels.round_up(length)});
-    ticker.tick();
-  });
+  for_each_pair_within(
+      points, distance,
+      [&](Index i, Index j, double length) {
+        edges.push_back({i, j, levels.round_up(length)});
+        ticker.tick();
+      },
+      context);
   const std::vector<double> births(static_cast<std::size_t>(points.rows()), 0.0);
   return FilteredGraph(births, edges, context);
 }

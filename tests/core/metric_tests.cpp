@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "ph/metric/distance_matrix.hpp"
+#include "ph/metric/pairs_within.hpp"
 #include "ph/metric/point_metric.hpp"
 #include "ph/metric/sparse_distances.hpp"
 #include "support/expect_error.hpp"
@@ -105,6 +106,11 @@ TEST(PointMetrics, TheEndsOfTheRangeOfDouble) {
 
 TEST(PointMetrics, RefuseWhatTheyCannotMeasure) {
   using enum PointDistance;
+  for (const PointDistance name : {euclidean, manhattan, chebyshev, minkowski})
+    expect_error(ErrorKind::bad_data, "the largest double", [name] {
+      distance(name, {1.7e308, 1.7e308}, {-1.7e308, -1.7e308});
+    });
+  EXPECT_NEAR(distance(euclidean, {0.8e308}, {-0.8e308}) / 1.6e308, 1, 1e-15);
   expect_error(ErrorKind::bad_data, "point 1, coordinate 0: found nan",
                [] { distance(euclidean, {0}, {kNan}); });
   expect_error(ErrorKind::bad_data, "point 0, coordinate 1: found -inf", [] {
@@ -151,8 +157,8 @@ TEST(SparseDistanceSets, NearPairsAreThoseOfAllPairs) {
     Generator random(seed);
     const Index n = random.integer(0, 60), d = random.integer(1, 6);
     Points points = random.points(n, d, random.coin());
-    const double scale[] = {1, 1, 1e-3, 1e100, 1e200, 1e-200, 1e-310};
-    points *= scale[random.integer(0, 6)];
+    const double scale[] = {1, 1, 1e-3, 1e100, 1e200, 1e307, 1e-200, 1e-310};
+    points *= scale[random.integer(0, 7)];
     double radius = 0;
     // A radius that is a distance to the last bit is inclusive.
     if (n >= 2 && random.integer(0, 3) != 0)
@@ -207,13 +213,30 @@ TEST(SparseDistanceSets, RadiiAtTheEnds) {
 
 // All pairs would be 5 * 10^9 distances here.
 TEST(SparseDistanceSets, ManyPointsAndFewPairsTakeNearLinearTime) {
-  Points line(100000, 2);
-  for (Index i = 0; i < line.rows(); ++i) {
-    line(i, 0) = static_cast<double>(i / 2);
-    line(i, 1) = 7;
+  for (const Index d : {2, 4}) {
+    Points line = Points::Constant(100000, d, 7);
+    for (Index i = 0; i < line.rows(); ++i) line(i, 0) = static_cast<double>(i / 2);
+    for (const double unit : {1.0, 1e-303, 1e303}) {
+      const Points scaled = line * unit;
+      for (const double radius : {0.0, 1e-300 * unit, 0.5 * unit})
+        EXPECT_EQ(SparseDistances::within(scaled, radius).edges().size(), 50000U) << unit;
+    }
   }
-  for (const double radius : {0.0, 1e-300, 0.5})
-    EXPECT_EQ(SparseDistances::within(line, radius).edges().size(), 50000U);
+}
+
+TEST(SparseDistanceSets, TheSearchStopsOnRequest) {
+  std::stop_source stop;
+  stop.request_stop();
+  RunContext context;
+  context.stop = stop.get_token();
+  Generator random(1);
+  for (const Index d : {2, 5}) {
+    const Points points = random.points(1000, d, false);
+    expect_error(ErrorKind::cancelled, "", [&] {
+      for_each_pair_within(
+          points, 0.5, [](Index, Index, double) {}, context);
+    });
+  }
 }
 
 }  // namespace

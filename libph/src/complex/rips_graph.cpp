@@ -12,11 +12,15 @@
 
 namespace ph {
 
-void RipsGraph::check_arguments(Index size, std::optional<double> threshold) {
+void RipsGraph::check_size(Index size) {
   if (size < 0 || size >= Index{UINT32_MAX}) {
     throw Error(ErrorKind::resource,
                 fmt::format("a Rips filtration holds fewer than 2^32 - 1 points, found {}", size));
   }
+}
+
+void RipsGraph::check_arguments(Index size, std::optional<double> threshold) {
+  check_size(size);
   if (threshold && !(*threshold >= 0)) {
     throw Error(ErrorKind::usage,
                 fmt::format("threshold: found {}, expected a number >= 0", *threshold));
@@ -33,11 +37,13 @@ RipsGraph RipsGraph::of_points_within(const Points& points, double threshold,
   check_arguments(points.rows(), threshold);
   std::pmr::vector<Candidate> candidates(&context.memory);
   Ticker ticker(context, "edges");
-  for_each_pair_within(points, threshold, [&](Index i, Index j, double d) {
-    ticker.tick();
-    if (d == kNoLimit) return;  // farther apart than the largest double
-    candidates.push_back({d, {static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(i)}});
-  });
+  for_each_pair_within(
+      points, threshold,
+      [&](Index i, Index j, double d) {
+        ticker.tick();
+        candidates.push_back({d, {static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(i)}});
+      },
+      context);
   return build(points.rows(), threshold, std::move(candidates), context);
 }
 

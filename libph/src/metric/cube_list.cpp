@@ -5,20 +5,21 @@
 
 namespace ph {
 
-CubeList::CubeList(const Points& points, double radius) {
+CubeList::CubeList(const Points& points, double radius, const RunContext& context)
+    : cubes_(&context.memory), points_(&context.memory) {
   // A hair larger than the radius: rounding must not put two points in reach two cubes apart. There
   // are 10^9 cubes an axis at most, so that a coordinate in cubes is off by 10^-7 at most: less
   // than the hair. With no radius at all, any cubes will do in which equal points meet.
-  const double edge =
-      std::max(radius * (1 + 1e-6), points.size() == 0 ? 1.0 : 1e-9 * points.cwiseAbs().maxCoeff());
-  const double scale = edge > 0 ? 1 / edge : 1;
+  const double reach = points.size() == 0 ? 0 : points.cwiseAbs().maxCoeff();
+  const double edge = std::max(radius * (1 + 1e-6), 1e-9 * reach);
+  const double scale = reach > 0 ? 1 / edge : 0;
   const auto size = static_cast<std::size_t>(points.rows());
   struct Placed {
     double x, y, z;  // the cube
     std::uint32_t number;
     bool same_cube(const Placed& o) const { return x == o.x && y == o.y && z == o.z; }
   };
-  std::vector<Placed> placed(size);
+  std::pmr::vector<Placed> placed(size, &context.memory);
   const auto coordinate = [&](std::uint32_t i, Index k) {
     return k < points.cols() ? points(static_cast<Index>(i), k) : 0.0;
   };

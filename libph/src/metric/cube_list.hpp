@@ -3,10 +3,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory_resource>
 #include <span>
 #include <tuple>
 #include <vector>
 
+#include "ph/core/run_context.hpp"
 #include "ph/metric/metric.hpp"
 
 namespace ph {
@@ -22,7 +24,7 @@ class CubeList {
   };
 
   /// O(points log points).
-  CubeList(const Points& points, double radius);
+  CubeList(const Points& points, double radius, const RunContext& context);
 
   /// Calls `visit(p, q)` for each pair of points in the same or in adjacent cubes, in an order that
   /// depends on the points alone. Few of them are further apart than the radius: O(pairs within it)
@@ -39,8 +41,8 @@ class CubeList {
     return std::span(points_).subspan(cube.begin, cube.end - cube.begin);
   }
 
-  std::vector<Cube> cubes_;  // by z, then y, then x
-  std::vector<Point> points_;
+  std::pmr::vector<Cube> cubes_;  // by z, then y, then x
+  std::pmr::vector<Point> points_;
 };
 
 template <class Visit>

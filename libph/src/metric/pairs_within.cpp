@@ -18,6 +18,17 @@ namespace {
 
 // Below this a sum of squares may have lost digits to underflow.
 constexpr double kSmallestPlainSquare = 1e-280;
+// Coordinates whose differences have squares that neither overflow nor underflow.
+constexpr double kSmallestPlain = 1e-140, kLargestPlain = 1e150;
+
+// Where to look for the pairs: the points and the radius, times a power of two where squares would
+// leave the range of double. That is exact but for digits that do not count beside the largest
+// coordinate.
+struct SearchSpace {
+  const Points& points;
+  double radius;
+  bool is_scaled;
+};
 
 // The view of the points that nanoflann asks for.
 struct KdPoints {
@@ -34,35 +45,37 @@ struct KdPoints {
 using KdTree =
     nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, KdPoints>, KdPoints>;
 
+constexpr std::uint64_t kPollInterval = 1 << 16;
+
 using Visit = std::function<void(Index, Index, double)>;
 
-void visit_all_pairs(const PointMetric& metric, double radius, const Visit& visit) {
-  for (Index i = 0; i < metric.size(); ++i)
-    for (Index j = i + 1; j < metric.size(); ++j)
-      if (const double d = metric(i, j); d <= radius) visit(i, j, d);
-}
-
-void visit_by_cubes(const PointMetric& metric, double radius, const Visit& visit) {
-  const CubeList cubes(metric.points(), radius);
+void visit_by_cubes(const SearchSpace& space, const PointMetric& metric, double radius,
+                    const Visit& visit, const RunContext& context) {
+  const CubeList cubes(space.points, space.radius, context);
+  std::uint64_t candidates = 0;
   cubes.for_each_candidate_pair([&](const CubeList::Point& p, const CubeList::Point& q) {
+    if (++candidates % kPollInterval == 0) context.poll();
     const double dx = p.x - q.x, dy = p.y - q.y, dz = p.z - q.z;
     const double square = dx * dx + dy * dy + dz * dz;
     // The same sum as the metric's, unless digits were lost to underflow.
-    const double d =
-        square >= kSmallestPlainSquare ? std::sqrt(square) : metric(p.number, q.number);
+    const double d = square >= kSmallestPlainSquare && !space.is_scaled
+                         ? std::sqrt(square)
+                         : metric(p.number, q.number);
     if (d <= radius) visit(std::min(p.number, q.number), std::max(p.number, q.number), d);
   });
 }
 
-void visit_by_tree(const PointMetric& metric, double radius, const Visit& visit) {
-  const Points& points = metric.points();
+void visit_by_tree(const SearchSpace& space, const PointMetric& metric, double radius,
+                   const Visit& visit, const RunContext& context) {
+  const Points& points = space.points;
   const KdPoints view{points};
   const KdTree tree(static_cast<int>(points.cols()), view, {16});
   // The tree compares squares, which lose digits to underflow: ask for a hair more and let the
   // metric decide.
-  const double ask = std::max(radius * radius, kSmallestPlainSquare) * (1 + 1e-12);
+  const double ask = std::max(space.radius * space.radius, kSmallestPlainSquare) * (1 + 1e-12);
   std::vector<std::pair<std::uint32_t, double>> found;
   for (Index i = 0; i < points.rows(); ++i) {
+    context.poll();
     tree.radiusSearch(points.row(i).data(), ask, found, nanoflann::SearchParams(0, 0, false));
     for (const auto& [j, squared] : found) {
       if (Index{j} <= i) continue;
@@ -73,18 +86,24 @@ void visit_by_tree(const PointMetric& metric, double radius, const Visit& visit)
 
 }  // namespace
 
-void for_each_pair_within(const Points& points, double radius, const Visit& visit) {
+void for_each_pair_within(const Points& points, double radius, const Visit& visit,
+                          const RunContext& context) {
   if (!(radius >= 0)) {
     throw Error(ErrorKind::usage, fmt::format("radius: found {}, expected a number >= 0", radius));
   }
   const PointMetric metric(points);
   const double reach = points.size() == 0 ? 0 : points.cwiseAbs().maxCoeff();
-  if (points.size() == 0 || reach > 1e150 || radius > 1e150) {
-    visit_all_pairs(metric, radius, visit);  // squares that overflow mislead cubes and tree
-  } else if (points.cols() <= 3 && reach > 1e-140) {
-    visit_by_cubes(metric, radius, visit);
+  const auto visit_in = [&](const SearchSpace& space) {
+    const auto visit_pairs = points.cols() <= 3 ? visit_by_cubes : visit_by_tree;
+    visit_pairs(space, metric, radius, visit, context);
+  };
+  if (reach == 0 || (kSmallestPlain < reach && reach < kLargestPlain)) {
+    visit_in({points, std::min(radius, kLargestPlain), false});
   } else {
-    visit_by_tree(metric, radius, visit);
+    const int exponent = -std::ilogb(reach);
+    const auto scale = [=](double x) { return std::scalbn(x, exponent); };
+    const Points scaled = points.unaryExpr(scale);
+    visit_in({scaled, std::min(scale(radius), kLargestPlain), true});
   }
 }
 

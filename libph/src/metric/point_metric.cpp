@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "ph/core/error.hpp"
 
@@ -70,7 +71,18 @@ double PointMetric::euclidean(Index i, Index j) const {
 
 double PointMetric::operator()(Index i, Index j) const {
   if (i == j) return 0;
-  if (distance_ == PointDistance::euclidean) return euclidean(i, j);
+  const double d = distance_ == PointDistance::euclidean ? euclidean(i, j) : other(i, j);
+  // Taken for an infinite distance, it would pass for "never joined".
+  if (!(d <= std::numeric_limits<double>::max())) {
+    throw Error(ErrorKind::bad_data,
+                fmt::format("two points are farther apart than the largest double, {}; scale the "
+                            "coordinates down",
+                            std::numeric_limits<double>::max()));
+  }
+  return d;
+}
+
+double PointMetric::other(Index i, Index j) const {
   const auto x = points_.row(i), y = points_.row(j);
   switch (distance_) {
     case PointDistance::manhattan:

@@ -44,7 +44,15 @@ class RipsGraph {
   static RipsGraph of_edges(Index size, std::span<const WeightedEdge> edges,
                             std::optional<double> threshold, const RunContext& context);
 
+  /// @throws Error (resource) if there are too many points for a Rips filtration.
+  static void check_size(Index size);
+
   Index size() const { return size_; }
+  /// The point that vertex v stands for: v itself unless the vertices were named.
+  Index name(std::uint32_t v) const { return names_.empty() ? Index{v} : Index{names_[v]}; }
+  bool has_names() const { return !names_.empty(); }
+  /// @param names one a vertex, ascending.
+  void name_vertices(std::pmr::vector<std::uint32_t> names) { names_ = std::move(names); }
   std::size_t edge_count() const { return edges_.size(); }
   double threshold() const { return threshold_; }
   bool is_dense() const { return !matrix_.empty(); }
@@ -76,7 +84,12 @@ class RipsGraph {
     Edge edge;
   };
   explicit RipsGraph(std::pmr::memory_resource* memory)
-      : edges_(memory), values_(memory), matrix_(memory), offsets_(memory), neighbours_(memory) {}
+      : edges_(memory),
+        values_(memory),
+        matrix_(memory),
+        offsets_(memory),
+        neighbours_(memory),
+        names_(memory) {}
   static void check_arguments(Index size, std::optional<double> threshold);
   static void check_distance(Index i, Index j, double value);
   /// Sorts the candidates, all <= threshold, and lays the graph out.
@@ -94,6 +107,7 @@ class RipsGraph {
   std::pmr::vector<Key> matrix_;     // dense layout
   std::pmr::vector<std::size_t> offsets_;
   std::pmr::vector<Neighbour> neighbours_;
+  std::pmr::vector<std::uint32_t> names_;  // by vertex; empty: its number
 };
 
 template <Metric M>

@@ -27,11 +27,13 @@ class PointMetric {
                        double p = 2);
 
   Index size() const { return points_.rows(); }
+  /// @throws Error (bad_data) if the distance exceeds the largest double.
   double operator()(Index i, Index j) const;
   const Points& points() const { return points_; }
 
  private:
   double euclidean(Index i, Index j) const;
+  double other(Index i, Index j) const;
 
   const Points& points_;
   PointDistance distance_;
