@@ -2,6 +2,7 @@
 // The graph under a Rips filtration: thresholds, layouts, small and degenerate inputs.
 #include <limits>
 
+#include "ph/engine/merge_tree.hpp"
 #include "ph/persistence.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"
@@ -99,11 +100,14 @@ TEST(RipsGraphs, InfiniteDistancesAreNoEdges) {
   EXPECT_EQ(bars_of(persistence(no_radius)),
             (std::vector<Bar>{{0, 0, 1}, {0, 0, kInf}, {0, 0, kInf}}));
   EXPECT_EQ(Rips(SparseDistances(2, {{0, 1, kInf}})).edge_count(), 0U);
-  // Two points farther apart than the largest double.
+}
+
+TEST(RipsGraphs, ADistanceThatOverflowsIsNotTakenForInfinite) {
   Points far(2, 1);
   far << -1.7e308, 1.7e308;
-  EXPECT_EQ(Rips(far).edge_count(), 0U);
-  EXPECT_EQ(Rips(far, {.threshold = kInf}).edge_count(), 0U);
+  for (const std::optional<double> threshold : {std::optional<double>(), std::optional(kInf)})
+    expect_error(ErrorKind::bad_data, "largest double",
+                 [&] { Rips(far, {.threshold = threshold}); });
 }
 
 // Vertices without edges make the graph sparse and change nothing else.
@@ -194,6 +198,49 @@ TEST(RipsInputs, NamedDistances) {
 }
 
 // With 2^20 points a cell of one word holds three vertices, of four words twelve.
+TEST(RipsInputs, MergingEqualPointsLosesNothingButBarsOfLengthZero) {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    Generator random(seed);
+    Points points = random.points(random.integer(0, 14), random.integer(0, 2), true);
+    for (double& x : points.reshaped())
+      if (x == 0 && random.coin()) x = -0.0;
+    RipsOptions options;
+    if (random.coin()) options.threshold = random.integer(0, 3);
+    const Rips all(points, options);
+    options.merge_equal_points = true;
+    const Rips merged(points, options);
+    for (const int p : {2, 3})
+      ASSERT_EQ(bars_of(persistence(merged, {.max_dim = 3, .field = p})),
+                bars_of(persistence(all, {.max_dim = 3, .field = p})))
+          << "seed " << seed;
+  }
+}
+
+TEST(RipsInputs, MergedPointsAreNamedByTheFirstOfThem) {
+  Points points(5, 1);
+  points << 3, 3, 0, 3, 0;
+  const Rips merged(points, {.merge_equal_points = true});
+  EXPECT_EQ(merged.size(), 2);
+  const Barcode barcode = persistence(merged);
+  ASSERT_EQ(barcode.size(), 2U);
+  EXPECT_EQ(barcode[0], (Bar{0, 0, 3}));
+  EXPECT_TRUE(std::ranges::equal(barcode.death_cell(0)->numbers, std::vector<Index>{0, 2}));
+  expect_error(ErrorKind::usage, "merge", [&] { merge_tree(merged); });
+  points(1, 0) = kNan;
+  expect_error(ErrorKind::bad_data, "point 1", [&] { Rips(points, {.merge_equal_points = true}); });
+}
+
+// Each pair of copies would be an edge: 10^12 of them.
+TEST(RipsInputs, AMillionCopiesTakeNearLinearTime) {
+  Points points(1000000, 3);
+  for (Index i = 0; i < points.rows(); ++i)
+    points.row(i) << static_cast<double>(i % 7), static_cast<double>(i % 3), 1e300;
+  const Rips rips(points, {.merge_equal_points = true});
+  EXPECT_EQ(rips.size(), 21);
+  const Rips near(points, {.threshold = 1, .merge_equal_points = true});
+  EXPECT_EQ(near.edge_count(), 32U) << "a grid of 7 x 3";
+}
+
 TEST(RipsInputs, WideCellsWhereOneWordIsNotEnough) {
   std::vector<WeightedEdge> edges;
   const Simplices sphere = cross_polytope(3);

@@ -76,6 +76,8 @@ std::vector<Index> MergeTree::components(double value) const {
 }
 
 MergeTree merge_tree(const Rips& rips, const RunContext& context) {
+  if (rips.graph().has_names())
+    throw Error(ErrorKind::usage, "the merge tree needs all points: do not merge equal ones");
   return rips.with_filtration(0, [&](const auto& f) { return tree_of(f, context); });
 }
 

@@ -20,10 +20,15 @@ struct RipsOptions {
   std::optional<double> threshold = std::nullopt;
   PointDistance distance = PointDistance::euclidean;  ///< for points
   double minkowski_p = 2;                             ///< exponent of PointDistance::minkowski
+  /// Points only: equal ones become one vertex, named by the first of them. All bars of positive
+  /// length stay the same, those of length zero that the copies cause are left out; many copies
+  /// cost nothing, where each pair of them would be an edge.
+  bool merge_equal_points = false;
 };
 
 /// The Vietoris-Rips filtration of a finite set with distances: a simplex enters at its diameter,
-/// the largest distance between two of its vertices. Vertices enter at 0. Vertex i is point i.
+/// the largest distance between two of its vertices. Vertices enter at 0. Vertex i is point i,
+/// unless equal points are merged.
 ///
 /// Holds the graph of all edges up to the threshold, no simplices. A value, cheap to copy.
 class Rips {
@@ -46,7 +51,7 @@ class Rips {
             RipsGraph::of_metric(metric, options.threshold, context))) {}
 
   const RipsGraph& graph() const { return *graph_; }
-  Index size() const { return graph_->size(); }
+  Index size() const { return graph_->size(); }  ///< vertices
   /// The largest distance at which two points are joined: the given one or the enclosing radius.
   double threshold() const { return graph_->threshold(); }
   std::size_t edge_count() const { return graph_->edge_count(); }

@@ -60,7 +60,7 @@ class RipsFiltration {
   static bool edges_join_vertices() { return true; }
   static CellKind cell_kind() { return CellKind::vertices; }
   void append_input_cell(int dim, const Cell& cell, std::vector<Index>& numbers) const {
-    for (int slot = 0; slot <= dim; ++slot) numbers.push_back(vertex(cell, slot));
+    for (int slot = 0; slot <= dim; ++slot) numbers.push_back(graph_.name(vertex(cell, slot)));
   }
 
   template <class Visit>

@@ -43,6 +43,7 @@ struct MergeTree {
 
 /// The merge tree of a filtration. Vertices are numbered as in the input: points, voxels in C order
 /// (V-construction; grid corners in the T-construction), vertices of a complex in input order.
+/// @throws Error (usage) on a Rips whose equal points were merged.
 MergeTree merge_tree(const Rips& rips, const RunContext& context = default_context());
 MergeTree merge_tree(const Cubical& cubical, const RunContext& context = default_context());
 MergeTree merge_tree(const FilteredGraph& graph, const RunContext& context = default_context());
