@@ -53,7 +53,7 @@ class Builder {
     return {Cubical(image, options, context_), "cubical", arguments_.threshold,
             image.values.empty(), std::nullopt};
   }
-  BuiltComplex operator()(const SimplicesInput& input) const {
+  BuiltComplex operator()(SimplicesInput&& input) const {
     const ComplexKind kind =
         expect("simplices", {ComplexKind::explicit_cells, ComplexKind::lower_star});
     refuse(arguments_.points_option, "points", "simplices");
@@ -62,9 +62,12 @@ class Builder {
         throw Error(ErrorKind::usage,
                     "--values: simplices have values of their own; values of the vertices need "
                     "--complex lower-star");
-      return stored(ExplicitComplex::from_simplices(input.simplices, input.namer()), "explicit");
+      return stored(
+          ExplicitComplex::from_simplices(std::move(input.simplices), input.namer(), context_),
+          "explicit");
     }
-    return stored(lower_star(input.simplices, vertex_values(input), input.namer()), "lower-star");
+    return stored(lower_star(input.simplices, vertex_values(input), input.namer(), context_),
+                  "lower-star");
   }
   BuiltComplex operator()(const BoundaryInput& input) const {
     expect("a boundary matrix", {ComplexKind::explicit_cells});
@@ -75,7 +78,8 @@ class Builder {
                   fmt::format("--field: found {}, expected 2: this boundary matrix has no "
                               "incidence numbers; simplices have them",
                               arguments_.options.field));
-    return stored(ExplicitComplex::from_boundary(input.matrix, input.namer()), "explicit");
+    return stored(ExplicitComplex::from_boundary(input.matrix, input.namer(), context_),
+                  "explicit");
   }
   BuiltComplex operator()(const Mesh& mesh) const {
     const bool with_values = !mesh.values.empty();
@@ -83,7 +87,7 @@ class Builder {
                                          : expect("a mesh without values", {ComplexKind::rips});
     if (kind == ComplexKind::rips) return rips(mesh.vertices, mesh.vertices.rows() == 0);
     refuse(arguments_.points_option, "points", "a mesh");
-    return stored(lower_star(triangles_of(mesh), mesh.values), "lower-star");
+    return stored(lower_star(triangles_of(mesh), mesh.values, {}, context_), "lower-star");
   }
 
  private:
@@ -112,6 +116,7 @@ class Builder {
   BuiltComplex rips(const Data& data, bool empty) const {
     RipsOptions options = arguments_.rips;
     options.threshold = arguments_.threshold;
+    options.merge_equal_points = arguments_.options.min_persistence >= 0;
     if (options.threshold && *options.threshold < 0)
       throw Error(ErrorKind::usage, fmt::format("--threshold: found {}, expected a distance, at "
                                                 "least 0",
@@ -178,7 +183,7 @@ class Builder {
 
 BuiltComplex build_complex(ReadResult&& input, const Arguments& arguments,
                            const RunContext& context) {
-  return std::visit(Builder(arguments, context, input.periodic), input.data);
+  return std::visit(Builder(arguments, context, input.periodic), std::move(input.data));
 }
 
 }  // namespace ph::barcode

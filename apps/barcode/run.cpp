@@ -110,12 +110,13 @@ Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
     for (const Plot& plot : arguments.plots) plots.emplace_back(plot.path);
   }
 
-  ReadResult input = read_input(job, arguments, session);
-  const std::string description = input.description;
-  const std::vector<Index> point_ids = std::move(input.point_ids);
+  std::optional<ReadResult> input = read_input(job, arguments, session);
+  const std::string description = input->description;
+  const std::vector<Index> point_ids = std::move(input->point_ids);
   watch.lap("read");
 
-  const BuiltComplex built = build_complex(std::move(input), arguments, session.context());
+  const BuiltComplex built = build_complex(std::move(*input), arguments, session.context());
+  input.reset();  // the complex holds all that is needed from here on
   if (built.empty && !arguments.read.allow_empty)
     throw Error(ErrorKind::bad_data,
                 fmt::format("{}: no points; --allow-empty accepts that", job.input));

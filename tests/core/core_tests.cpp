@@ -271,6 +271,40 @@ TEST(MemoryBudgets, HoldForImages) {
   }
 }
 
+TEST(MemoryBudgets, HoldForExplicitComplexes) {
+  Generator random(3);
+  const SimplexList simplices = random.simplices(40, 3, 60, false);
+  const std::vector<double> values(40, 0.0);
+  for (const std::size_t limit : {0U, 1000U, 20000U, 40000U, 80000U, 1000000U}) {
+    RunContext context;
+    context.memory.set_limit(limit);
+    const auto stays_below = [&](auto&& build) {
+      try {
+        persistence(build(), {}, context);
+        EXPECT_GT(limit, 1000U);
+      } catch (const Error& e) {
+        EXPECT_EQ(e.kind(), ErrorKind::resource);
+        EXPECT_LT(limit, 1000000U);
+      }
+      EXPECT_LE(context.memory.peak(), limit);
+      EXPECT_EQ(context.memory.used(), 0U);
+    };
+    stays_below([&] { return ExplicitComplex::from_simplices(simplices, {}, context); });
+    stays_below([&] { return lower_star(simplices, values, {}, context); });
+  }
+}
+
+TEST(MemoryBudgets, CountWhatComesFromElsewhere) {
+  MemoryBudget budget(1000);
+  {
+    const MemoryClaim claim(budget, 600);
+    EXPECT_EQ(budget.used(), 600U);
+    expect_error(ErrorKind::resource, "memory limit", [&] { MemoryClaim(budget, 401); });
+  }
+  EXPECT_EQ(budget.used(), 0U);
+  EXPECT_EQ(budget.peak(), 600U);
+}
+
 // ---- run contexts
 
 using Clock = std::chrono::steady_clock;

@@ -65,8 +65,10 @@ void check_layout(const BoundaryMatrix& matrix) {
 }
 
 // The boundary matrix of a set of simplices whose vertices are ascending.
-BoundaryMatrix boundary_of(const SimplexList& simplices, const CellNamer& name) {
-  std::unordered_map<std::span<const Index>, std::size_t, HashVertices, EqualVertices> position;
+BoundaryMatrix boundary_of(const SimplexList& simplices, const CellNamer& name,
+                           const RunContext& context) {
+  std::pmr::unordered_map<std::span<const Index>, std::size_t, HashVertices, EqualVertices>
+      position(&context.memory);
   position.reserve(simplices.size());
   BoundaryMatrix matrix;
   matrix.values = simplices.values;
@@ -98,31 +100,32 @@ BoundaryMatrix boundary_of(const SimplexList& simplices, const CellNamer& name) 
 
 }  // namespace
 
-ExplicitComplex ExplicitComplex::from_simplices(const SimplexList& simplices,
-                                                const CellNamer& name) {
+ExplicitComplex ExplicitComplex::from_simplices(SimplexList simplices, const CellNamer& name,
+                                                const RunContext& context) {
   check_size(simplices.size());
-  SimplexList sorted = simplices;
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
-    const auto begin = sorted.vertices.begin() + static_cast<std::ptrdiff_t>(sorted.offsets[i]);
-    const auto end = sorted.vertices.begin() + static_cast<std::ptrdiff_t>(sorted.offsets[i + 1]);
+  for (std::size_t i = 0; i < simplices.size(); ++i) {
+    const auto vertex = [&](std::size_t k) {
+      return simplices.vertices.begin() + static_cast<std::ptrdiff_t>(k);
+    };
+    const auto begin = vertex(simplices.offsets[i]), end = vertex(simplices.offsets[i + 1]);
     if (begin == end) fail(name, i, "found a simplex without vertices, expected at least one");
     std::sort(begin, end);
     if (*begin < 0) fail(name, i, fmt::format("found vertex {}, expected >= 0", *begin));
     if (const auto it = std::adjacent_find(begin, end); it != end)
       fail(name, i, fmt::format("vertex {} occurs twice in one simplex", *it));
   }
-  ExplicitComplex complex = from_boundary(boundary_of(sorted, name), name);
+  ExplicitComplex complex = from_boundary(boundary_of(simplices, name, context), name, context);
   complex.kind_ = CellKind::vertices;
-  complex.simplices_ = std::move(sorted);
+  complex.simplices_ = std::move(simplices);
   return complex;
 }
 
-ExplicitComplex ExplicitComplex::from_boundary(const BoundaryMatrix& matrix,
-                                               const CellNamer& name) {
+ExplicitComplex ExplicitComplex::from_boundary(const BoundaryMatrix& matrix, const CellNamer& name,
+                                               const RunContext& context) {
   const std::size_t n = matrix.size();
   check_size(n);
   check_layout(matrix);
-  std::vector<double> values = matrix.values;
+  std::pmr::vector<double> values(matrix.values.begin(), matrix.values.end(), &context.memory);
   if (values.empty()) {
     values.resize(n);
     std::iota(values.begin(), values.end(), 0.0);
@@ -136,10 +139,14 @@ ExplicitComplex ExplicitComplex::from_boundary(const BoundaryMatrix& matrix,
     values[i] += 0.0;
   }
 
-  ExplicitComplex complex;
+  context.poll();
+  ExplicitComplex complex(&context.memory);
   complex.has_incidences_ = !matrix.incidences.empty() || matrix.rows.empty();
   complex.order_cells(matrix.dims, values);
+  complex.facets_.offsets.reserve(n + 1);
   complex.facets_.offsets.push_back(0);
+  complex.facets_.cells.reserve(matrix.rows.size());
+  complex.facets_.incidences.reserve(matrix.rows.size());
   std::vector<std::pair<std::uint32_t, int>> column;
   for (std::uint32_t id = 0; id < n; ++id) {
     const std::size_t i = complex.input_position_[id];
@@ -173,12 +180,13 @@ ExplicitComplex ExplicitComplex::from_boundary(const BoundaryMatrix& matrix,
     }
     complex.facets_.offsets.push_back(complex.facets_.cells.size());
   }
+  context.poll();
   complex.check(matrix.dims, name);
   complex.build_cofacets();
   return complex;
 }
 
-void ExplicitComplex::order_cells(const std::vector<int>& dims, const std::vector<double>& values) {
+void ExplicitComplex::order_cells(const std::vector<int>& dims, std::span<const double> values) {
   const std::size_t n = dims.size();
   input_position_.resize(n);
   std::iota(input_position_.begin(), input_position_.end(), 0U);

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory_resource>
 #include <set>
 #include <vector>
 
@@ -17,8 +18,10 @@ namespace {
 
 constexpr std::size_t kMostVertices = 24;  // 2^24 faces of one simplex
 
-ExplicitComplex lower_star_of(std::set<std::vector<Index>> simplices,
-                              std::span<const double> vertex_values) {
+using Closure = std::pmr::set<std::pmr::vector<Index>>;
+
+ExplicitComplex lower_star_of(Closure simplices, std::span<const double> vertex_values,
+                              const RunContext& context) {
   SimplexList list;
   for (Index v = 0; v < static_cast<Index>(vertex_values.size()); ++v) {
     const double value = vertex_values[static_cast<std::size_t>(v)];
@@ -26,7 +29,7 @@ ExplicitComplex lower_star_of(std::set<std::vector<Index>> simplices,
       throw Error(ErrorKind::bad_data,
                   fmt::format("vertex {}: found the value nan, expected a number", v));
     }
-    simplices.insert({v});
+    simplices.emplace(1, v);
   }
   for (const auto& simplex : simplices) {
     double value = -std::numeric_limits<double>::infinity();
@@ -34,19 +37,20 @@ ExplicitComplex lower_star_of(std::set<std::vector<Index>> simplices,
       value = std::max(value, vertex_values[static_cast<std::size_t>(v)]);
     list.add(simplex, value);
   }
-  return ExplicitComplex::from_simplices(list);
+  return ExplicitComplex::from_simplices(std::move(list), {}, context);
 }
 
 }  // namespace
 
 ExplicitComplex lower_star(const SimplexList& simplices, std::span<const double> vertex_values,
-                           const CellNamer& name) {
-  std::set<std::vector<Index>> closure;
-  std::vector<Index> face;
+                           const CellNamer& name, const RunContext& context) {
+  Closure closure(&context.memory);
+  std::pmr::vector<Index> face;
   for (std::size_t i = 0; i < simplices.size(); ++i) {
+    if (i % 4096 == 0) context.poll();
     const auto given = simplices.simplex(i);
     const auto where = [&] { return name ? name(i) : fmt::format("simplex {}", i); };
-    std::vector<Index> vertices(given.begin(), given.end());
+    std::pmr::vector<Index> vertices(given.begin(), given.end());
     std::sort(vertices.begin(), vertices.end());
     for (const Index v : vertices) {
       if (v < 0 || v >= static_cast<Index>(vertex_values.size())) {
@@ -69,14 +73,14 @@ ExplicitComplex lower_star(const SimplexList& simplices, std::span<const double>
       closure.insert(face);
     }
   }
-  return lower_star_of(std::move(closure), vertex_values);
+  return lower_star_of(std::move(closure), vertex_values, context);
 }
 
 ExplicitComplex lower_star(std::span<const WeightedEdge> edges,
-                           std::span<const double> vertex_values) {
+                           std::span<const double> vertex_values, const RunContext& context) {
   SimplexList list;
   for (const WeightedEdge& e : edges) list.add(std::array{e.u, e.v}, 0);
-  return lower_star(list, vertex_values);
+  return lower_star(list, vertex_values, {}, context);
 }
 
 }  // namespace ph

@@ -25,27 +25,31 @@ void MemoryBudget::require(std::size_t bytes) const {
   if (bytes > limit_ || now > limit_ - bytes) refuse(bytes, now, limit_);
 }
 
-void* MemoryBudget::do_allocate(std::size_t bytes, std::size_t alignment) {
+void MemoryBudget::add(std::size_t bytes) {
   const std::size_t before = used_.fetch_add(bytes, std::memory_order_relaxed);
   if (bytes > limit_ || before > limit_ - bytes) {
-    used_.fetch_sub(bytes, std::memory_order_relaxed);
+    subtract(bytes);
     refuse(bytes, before, limit_);
   }
   std::size_t seen = peak_.load(std::memory_order_relaxed);
   while (seen < before + bytes &&
          !peak_.compare_exchange_weak(seen, before + bytes, std::memory_order_relaxed)) {
   }
+}
+
+void* MemoryBudget::do_allocate(std::size_t bytes, std::size_t alignment) {
+  add(bytes);
   try {
     return std::pmr::new_delete_resource()->allocate(bytes, alignment);
   } catch (...) {
-    used_.fetch_sub(bytes, std::memory_order_relaxed);
+    subtract(bytes);
     throw;
   }
 }
 
 void MemoryBudget::do_deallocate(void* p, std::size_t bytes, std::size_t alignment) {
   std::pmr::new_delete_resource()->deallocate(p, bytes, alignment);
-  used_.fetch_sub(bytes, std::memory_order_relaxed);
+  subtract(bytes);
 }
 
 void RunContext::poll() const {

@@ -158,6 +158,7 @@ struct Input::Storage {
   std::size_t capacity = 0;
   std::size_t used = 0;
   bool mapped = false;
+  std::optional<MemoryClaim> claim;  // if mapped
 };
 
 Input::Input() = default;
@@ -210,12 +211,16 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
                      (!standard_input || ::lseek(file.get(), 0, SEEK_CUR) == 0);
   const auto file_size = sized ? static_cast<std::size_t>(status.st_size) : 0;
   if (file_size > kMapFrom) {
+    // Its pages are taken from memory while they are read.
+    if (context != nullptr) storage->claim.emplace(context->memory, file_size);
     void* address = ::mmap(nullptr, file_size, PROT_READ, MAP_PRIVATE, file.get(), 0);
     if (address != MAP_FAILED) {
       ::madvise(address, file_size, MADV_SEQUENTIAL);
       storage->data = static_cast<char*>(address);
       storage->capacity = storage->used = file_size;
       storage->mapped = true;
+    } else {
+      storage->claim.reset();
     }
   }
   const std::size_t limit =

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <functional>
+#include <memory_resource>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "ph/core/filtration.hpp"
+#include "ph/core/run_context.hpp"
 
 namespace ph {
 
@@ -54,11 +56,13 @@ class ExplicitComplex {
 
   /// @throws Error (bad_data) if a simplex occurs twice, repeats a vertex, lacks a facet, is
   ///         older than a facet of its own, or has a NaN value.
-  static ExplicitComplex from_simplices(const SimplexList& simplices, const CellNamer& name = {});
+  static ExplicitComplex from_simplices(SimplexList simplices, const CellNamer& name = {},
+                                        const RunContext& context = default_context());
   /// @throws Error (bad_data) if a facet is out of range, is not of one dimension less or is
   ///         younger than its coface; if sizes disagree, a value is NaN, or the boundary of a
   ///         boundary is not zero (over the integers, or over Z/2 without incidences).
-  static ExplicitComplex from_boundary(const BoundaryMatrix& matrix, const CellNamer& name = {});
+  static ExplicitComplex from_boundary(const BoundaryMatrix& matrix, const CellNamer& name = {},
+                                       const RunContext& context = default_context());
 
   /// Whether incidence numbers are known; without them only Z/2 makes sense.
   bool has_incidences() const { return has_incidences_; }
@@ -93,24 +97,34 @@ class ExplicitComplex {
 
  private:
   struct Incidence {  // compressed rows: neighbours of cell i in ascending order
-    std::vector<std::size_t> offsets;
-    std::vector<std::uint32_t> cells;
-    std::vector<int> incidences;
+    explicit Incidence(std::pmr::memory_resource* memory)
+        : offsets(memory), cells(memory), incidences(memory) {}
+    std::pmr::vector<std::size_t> offsets;
+    std::pmr::vector<std::uint32_t> cells;
+    std::pmr::vector<int> incidences;
   };
-  ExplicitComplex() = default;
-  void order_cells(const std::vector<int>& dims, const std::vector<double>& values);
+  explicit ExplicitComplex(std::pmr::memory_resource* memory)
+      : values_(memory),
+        key_(memory),
+        input_position_(memory),
+        id_of_(memory),
+        first_of_dim_(memory),
+        of_dim_(memory),
+        facets_(memory),
+        cofacets_(memory) {}
+  void order_cells(const std::vector<int>& dims, std::span<const double> values);
   void build_cofacets();
   void check(const std::vector<int>& dims, const CellNamer& name);
 
   CellKind kind_ = CellKind::row;
   bool has_incidences_ = true;
   bool edges_join_vertices_ = true;
-  std::vector<double> values_;                 // distinct values, ascending
-  std::vector<std::uint32_t> key_;             // by id: index into values_
-  std::vector<std::uint32_t> input_position_;  // by id: which cell of the input it is
-  std::vector<std::uint32_t> id_of_;           // its inverse
-  std::vector<std::size_t> first_of_dim_;      // ranges of of_dim_
-  std::vector<std::uint32_t> of_dim_;          // ids sorted by dimension, then order
+  std::pmr::vector<double> values_;                 // distinct values, ascending
+  std::pmr::vector<std::uint32_t> key_;             // by id: index into values_
+  std::pmr::vector<std::uint32_t> input_position_;  // by id: which cell of the input it is
+  std::pmr::vector<std::uint32_t> id_of_;           // its inverse
+  std::pmr::vector<std::size_t> first_of_dim_;      // ranges of of_dim_
+  std::pmr::vector<std::uint32_t> of_dim_;          // ids sorted by dimension, then order
   Incidence facets_, cofacets_;
   SimplexList simplices_;  // for kind vertices: the input's simplices, vertices ascending
 };

@@ -13,10 +13,12 @@ namespace ph {
 /// @param vertex_values a value for each vertex id 0 … size-1, not NaN; every vertex enters.
 /// @throws Error (bad_data) on a vertex id without a value or a NaN.
 ExplicitComplex lower_star(const SimplexList& simplices, std::span<const double> vertex_values,
-                           const CellNamer& name = {});
+                           const CellNamer& name = {},
+                           const RunContext& context = default_context());
 
 /// The lower-star filtration of a graph on vertices 0 … size-1.
 ExplicitComplex lower_star(std::span<const WeightedEdge> edges,
-                           std::span<const double> vertex_values);
+                           std::span<const double> vertex_values,
+                           const RunContext& context = default_context());
 
 }  // namespace ph

@@ -29,6 +29,9 @@ class MemoryBudget final : public std::pmr::memory_resource {
   void require(std::size_t bytes) const;
 
  private:
+  friend class MemoryClaim;
+  void add(std::size_t bytes);
+  void subtract(std::size_t bytes) { used_.fetch_sub(bytes, std::memory_order_relaxed); }
   void* do_allocate(std::size_t bytes, std::size_t alignment) override;
   void do_deallocate(void* p, std::size_t bytes, std::size_t alignment) override;
   bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
@@ -36,6 +39,22 @@ class MemoryBudget final : public std::pmr::memory_resource {
   std::size_t limit_;
   std::atomic<std::size_t> used_{0};
   std::atomic<std::size_t> peak_{0};
+};
+
+/// Counts memory that comes from elsewhere (a mapped file) in a budget for as long as it lives.
+class MemoryClaim {
+ public:
+  /// @throws Error (resource) if `bytes` more would exceed the limit.
+  MemoryClaim(MemoryBudget& budget, std::size_t bytes) : budget_(budget), bytes_(bytes) {
+    budget_.add(bytes_);
+  }
+  ~MemoryClaim() { budget_.subtract(bytes_); }
+  MemoryClaim(const MemoryClaim&) = delete;
+  MemoryClaim& operator=(const MemoryClaim&) = delete;
+
+ private:
+  MemoryBudget& budget_;
+  std::size_t bytes_;
 };
 
 /// How far a computation is. `total` is 0 where it cannot be known.

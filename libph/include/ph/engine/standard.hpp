@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <map>
+#include <memory_resource>
 #include <vector>
 
 #include "ph/core/barcode.hpp"
@@ -26,23 +27,27 @@ struct StandardEngine {
   template <Filtration F, Field K>
   static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context) {
     using Cell = typename F::Cell;
-    using Column = std::map<std::size_t, typename K::Element>;  // row -> non-zero coefficient
+    using Column = std::pmr::map<std::size_t, typename K::Element>;  // row -> non-zero coefficient
+    std::pmr::memory_resource* const memory = &context.memory;
     const auto precedes = [&](const Cell& a, const Cell& b) { return f.precedes(a, b); };
     Ticker ticker(context, "oracle");
 
     const int top = std::min(bars.max_dim() + 1, f.top_dim());
-    std::vector<Cell> rows;         // the cells of dimension dim - 1, oldest first
-    std::vector<bool> is_positive;  // by row: its own column was reduced to zero
+    std::pmr::vector<Cell> rows(memory);         // the cells of dimension dim - 1, oldest first
+    std::pmr::vector<bool> is_positive(memory);  // by row: its own column was reduced to zero
     for (int dim = 0; dim <= top; ++dim) {
-      std::vector<Cell> columns;
-      f.for_each_cell(dim, [&](const Cell& c) { columns.push_back(c); });
+      std::pmr::vector<Cell> columns(memory);
+      f.for_each_cell(dim, [&](const Cell& c) {
+        columns.push_back(c);
+        ticker.work();
+      });
       std::sort(columns.begin(), columns.end(), precedes);
-      std::map<std::size_t, Column> reduced;  // R, by lowest row
-      std::map<std::size_t, std::size_t> killer;
-      std::vector<bool> next_is_positive(columns.size(), false);
+      std::pmr::map<std::size_t, Column> reduced(memory);  // R, by lowest row
+      std::pmr::map<std::size_t, std::size_t> killer(memory);
+      std::pmr::vector<bool> next_is_positive(columns.size(), false, memory);
 
       for (std::size_t j = 0; j < columns.size(); ++j) {
-        Column column;
+        Column column(memory);
         const auto add = [&](std::size_t row, typename K::Element a) {
           auto [it, is_new] = column.try_emplace(row, a);
           if (!is_new) it->second = field.add(it->second, a);
