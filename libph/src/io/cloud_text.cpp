@@ -134,10 +134,20 @@ Cloud read_pts(const Input& input, const ReadOptions& options) {
 }
 
 Cloud read_cloud(const Input& input, const ReadOptions& options) {
-  if (detail::is_pcd(input) || input.extension() == ".pcd") return read_pcd(input, options);
-  if (detail::is_ply(input) || input.extension() == ".ply") return read_ply(input, options);
-  if (input.extension() == ".pts" && detail::is_counted(input)) return read_pts(input, options);
-  return read_xyz(input, options);
+  const auto read = [&] {
+    if (detail::is_pcd(input) || input.extension() == ".pcd") return read_pcd(input, options);
+    if (detail::is_ply(input) || input.extension() == ".ply") return read_ply(input, options);
+    if (input.extension() == ".pts" && detail::is_counted(input)) return read_pts(input, options);
+    return read_xyz(input, options);
+  };
+  Cloud cloud = read();
+  for (const std::string_view name : kCoordinates) {
+    const CloudField* field = cloud.find(name);
+    if (field == nullptr || field->count != 1) {
+      input.fail({fmt::format("no coordinate {}", name), {}, "fields x, y and z", {}});
+    }
+  }
+  return cloud;
 }
 
 Cloud read_cloud(const std::filesystem::path& path, const ReadOptions& options) {

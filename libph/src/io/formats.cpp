@@ -140,8 +140,8 @@ ReadResult npz_result(const Input& input, const ReadOptions& options) {
   detail::note(options, "read as " + array.name());
   return result;
 }
-ReadResult png_result(const Input& input, const ReadOptions& options) {
-  return result_of(read_image(input, options), "PNG");
+ReadResult png_result(const Input& input, const ReadOptions&) {
+  return result_of(detail::read_png_image(input), "PNG");
 }
 ReadResult phat_result(const Input& input, const ReadOptions& options) {
   BoundaryInput boundary = read_phat(input, options);

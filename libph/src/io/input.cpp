@@ -234,7 +234,7 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
     if (storage->used == storage->capacity) {
       if (sized && storage->used == file_size) break;
       const std::size_t more = sized ? file_size : std::max(kFirstChunk, 2 * storage->capacity);
-      if (more > limit) {
+      if (more > limit - std::min(limit, storage->capacity)) {  // both are there while it grows
         throw Error(ErrorKind::resource,
                     fmt::format("{}: longer than the memory limit allows: {} MiB were read",
                                 input.name_, storage->used >> 20));

@@ -13,6 +13,9 @@ namespace ph {
 namespace {
 
 constexpr std::int64_t kMostPoints = std::int64_t{1} << 31;
+// Every id up to the largest is a point: so many a pair are believed, or so many in all.
+constexpr Index kMostPointsPerPair = 1024;
+constexpr Index kFreePoints = Index{1} << 20;
 
 }  // namespace
 
@@ -50,6 +53,7 @@ SparseDistances read_sparse(const Input& input, const ReadOptions& options) {
   Cells cells(lines);
   std::vector<detail::LocatedEdge> found;
   Index size = 0;
+  std::size_t largest_line = 0;
   bool first = true;
   while (lines.next()) {
     cells.start();
@@ -83,7 +87,10 @@ SparseDistances read_sparse(const Input& input, const ReadOptions& options) {
     }
     if (std::isnan(line.edge.value)) line.edge.value = std::numeric_limits<double>::infinity();
     if (line.edge.u > line.edge.v) std::swap(line.edge.u, line.edge.v);
-    size = std::max(size, line.edge.v + 1);
+    if (line.edge.v >= size) {
+      size = line.edge.v + 1;
+      largest_line = line.place;
+    }
     if (found.size() == found.capacity()) {
       input.require_memory(2 * found.capacity() * sizeof(detail::LocatedEdge));
     }
@@ -93,6 +100,12 @@ SparseDistances read_sparse(const Input& input, const ReadOptions& options) {
     input.fail({"no points", {}, "lines of i j distance", "--allow-empty accepts an empty set"});
   }
   const auto fail = [&](std::size_t line, const Fault& fault) { input.fail_at(line, 1, fault); };
+  const Index most = std::max(kFreePoints, kMostPointsPerPair * static_cast<Index>(found.size()));
+  if (size > most) {
+    fail(largest_line, {"point far beyond the others", fmt::format("id {}", size - 1),
+                        fmt::format("at most {} for {} pairs", most - 1, found.size()),
+                        "ids count the points from 0"});
+  }
   return SparseDistances(size, detail::unique_edges(std::move(found), input, fail));
 }
 

@@ -68,12 +68,11 @@ class Inflater {
   z_stream stream_{};
 };
 
-// A gzip file ends in its size modulo 2^32; a lie costs at most what deflate could give.
-std::size_t first_guess(std::string_view packed) {
-  if (packed.size() < 18) return kStep;
+// A gzip file ends in the size of its last member modulo 2^32, or so it says.
+std::size_t stated_size(std::string_view packed) {
+  if (packed.size() < 18) return 0;
   const auto* trailer = reinterpret_cast<const std::byte*>(packed.data() + packed.size() - 4);
-  const std::size_t said = load<std::uint32_t>(trailer, std::endian::little);
-  return std::clamp(said, kStep, std::max(4 * packed.size(), kStep)) + 1;
+  return load<std::uint32_t>(trailer, std::endian::little);
 }
 
 }  // namespace
@@ -88,18 +87,22 @@ std::pmr::vector<char> gunzip(const Input& input, std::size_t most) {
   const std::string_view packed = input.text();
   const std::size_t reasonable =
       std::max(kMostFree, checked_product(packed.size(), kMostExpansion).value_or(SIZE_MAX));
+  const std::size_t stated = stated_size(packed);
   Inflater inflater(packed, 15 + 16);
   std::pmr::vector<char> bytes(memory_of(input));
-  bytes.reserve(std::min(first_guess(packed), most));
+  // A lie costs at most what deflate could give.
+  bytes.reserve(std::min(std::clamp(stated, kStep, std::max(4 * packed.size(), kStep)) + 1, most));
   for (;;) {
     input.poll();
     const std::size_t before = bytes.size();
-    if (before >= reasonable) {
-      input.fail_at_byte(
-          inflater.used(),
-          {"compressed data expand too much", fmt::format("more than {} MiB", before >> 20),
-           fmt::format("at most {} times {} bytes", kMostExpansion, packed.size()),
-           "if that is right, unpack it first"});
+    // What has grown so much and says that it goes on is not unpacked to see whether that is true.
+    const bool goes_on = stated > reasonable && before / kMostExpansion > inflater.used();
+    if (before >= reasonable || goes_on) {
+      input.fail_at_byte(inflater.used(),
+                         {"compressed data expand too much",
+                          fmt::format("more than {} MiB", (goes_on ? stated : before) >> 20),
+                          fmt::format("at most {} times {} bytes", kMostExpansion, packed.size()),
+                          "if that is right, unpack it first"});
     }
     if (before >= most) {
       throw Error(ErrorKind::resource,

@@ -16,7 +16,8 @@ namespace ph {
 // The readers throw as those of read.hpp do. A cloud without points is an error unless
 // options.allow_empty; a NaN coordinate is a hole and no error.
 
-/// By content (PCD, PLY), else text: see read_xyz and read_pts.
+/// By content (PCD, PLY), else text: see read_xyz and read_pts. A cloud without the fields x, y and
+/// z is an error.
 Cloud read_cloud(const std::filesystem::path& path, const ReadOptions& options = {});
 Cloud read_cloud(const Input& input, const ReadOptions& options = {});
 
