@@ -7,7 +7,8 @@ build=(build-essential cmake ninja-build pkg-config ccache libeigen3-dev libfmt-
        zlib1g-dev libpng-dev libcli11-dev)
 demo=(python3-numpy python3-skimage libcgal-demo)
 # Peers and tools that tests compare with or look through.
-test=(libgtest-dev libbenchmark-dev libpcl-dev ripser python3-gudhi python3-numpy librsvg2-bin git)
+test=(libgtest-dev libbenchmark-dev libpcl-dev ripser python3-gudhi python3-numpy librsvg2-bin git
+      locales)
 lint=(clang-format-14 clang-tidy-19)
 
 wanted=()

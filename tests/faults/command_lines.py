@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: MIT
+"""Rows 47 to 50: what a command line cannot mean. The failure names the option."""
+from entry import Entry, bars
+from characters import SQUARE, SQUARE_BARS
+
+SQUARE_FILE = {"square.txt": SQUARE.encode()}
+CLOUD = {"cloud.xyz": b"0 0 1\n1 0 1\n"}
+
+# row, arguments, what the message contains
+BARCODE = [
+    (47, ["--max-dim", "-1"], "--max-dim"),
+    (47, ["--max-dim=-1"], "--max-dim"),
+    (47, ["--max-dim", "-9223372036854775809"], "--max-dim"),
+    (49, ["--max-dim", "1.5"], "--max-dim"),
+    (49, ["--max-dim", "x"], "--max-dim"),
+    (49, ["--max-dim", "99999999999999999999"], "--max-dim"),
+    (50, ["--max-dim"], "--max-dim"),
+    (50, ["--max-dim="], "--max-dim"),
+    (50, ["--max-dim", "1", "--max-dim", "2"], "--max-dim"),
+    (49, ["--threshold", "nan"], "--threshold"),
+    (49, ["--threshold", "1,5"], "decimals"),
+    (49, ["--threshold=-1"], "--threshold"),
+    (49, ["--threshold", "1e400"], "--threshold"),
+    (49, ["--threshold", ""], "--threshold"),
+    (50, ["--max-scale"], "--max-scale"),
+    (49, ["--field", "4"], "--field"),
+    (49, ["--field", "1"], "--field"),
+    (49, ["--field", "-3"], "--field"),
+    (49, ["--field", "2147483648"], "--field"),
+    (49, ["--modulus", "0x2"], "--field"),
+    (49, ["--metric", "euclid"], "did you mean 'euclidean'"),
+    (49, ["--metric", "minkowski"], "minkowski:P"),
+    (49, ["--metric", "minkowski:0.5"], "--metric"),
+    (49, ["--metric", "minkowski:nan"], "--metric"),
+    (49, ["--engine", "cohomolgy"], "did you mean 'cohomology'"),
+    (49, ["--engine", "fastest"], "--engine"),
+    (49, ["--format", "lowerdistance"], "did you mean 'lower-distance'"),
+    (49, ["--complex", "ribs"], "did you mean 'rips'"),
+    (49, ["--complex", "cubical"], "--complex"),
+    (49, ["--complex", "explicit"], "--complex"),
+    (49, ["--construction", "cells"], "--construction"),
+    (49, ["--superlevel"], "--superlevel"),
+    (49, ["--periodic", "0"], "--periodic"),
+    (49, ["--periodic", "z"], "--periodic"),
+    (49, ["--periodic", "0,,1"], "--periodic"),
+    (49, ["--symmetrise", "mean"], "--symmetrise"),
+    (49, ["--nan", "ignore"], "--nan"),
+    (49, ["--min-persistence", "nan"], "--min-persistence"),
+    (49, ["--representatives", "cycle"], "did you mean 'cycles'"),
+    (49, ["--representatives", "cycles"], "--output-format json"),
+    (49, ["--representatives", "cocycles", "-o", "x.csv"], "found output format csv"),
+    *((49, ["--representatives", "cycles", "--output-format", name], "found output format " + name)
+      for name in ("csv", "ripser", "pers", "dipha", "npy")),
+    *((49, ["--representatives", "cycles", "--output-format", "json", "--max-dim", "0", "--engine",
+            name], "--engine: found " + name) for name in ("standard", "union_find")),
+    (49, ["--collapse", "maybe"], "--collapse"),
+    (49, ["--subsample", "0"], "--subsample"),
+    (49, ["--approximate", "-1"], "--approximate"),
+    (49, ["--output-format", "cvs"], "did you mean 'csv'"),
+    (49, ["--plot", "x.pdf"], "--plot"),
+    (49, ["--plot", "x.svg", "--plot-kind", "betty"], "did you mean 'betti'"),
+    (49, ["--plot-kind", "betti"], "--plot-kind"),
+    (49, ["--memory-limit", "4XB"], "--memory-limit"),
+    (49, ["--memory-limit", "-4GiB"], "--memory-limit"),
+    (49, ["--memory-limit", "0"], "--memory-limit"),
+    (49, ["--memory-limit", "1e30"], "--memory-limit"),
+    (49, ["--threads", "0"], "--threads"),
+    (49, ["--threads", "5000"], "--threads"),
+    (49, ["--progress", "fancy"], "--progress"),
+    (49, ["--values", "square.txt"], "values"),
+    (50, ["--treshold", "2"], "did you mean '--threshold'"),
+    (50, ["--max-dims=2"], "did you mean '--max-dim'"),
+    (50, ["-max-dim", "2"], "did you mean '--max-dim'"),
+    (50, ["--no-such-thing-at-all"], "--no-such-thing-at-all"),
+    (50, ["--quiet=perhaps"], "--quiet"),
+    (50, ["-o", ""], "--output"),
+    (50, ["square.txt"], "-o FOLDER/"),
+    (50, [""], "INPUT"),
+]
+
+BARCODE_FILES = [
+    # row, file, content, arguments, what the message contains
+    (49, "edge.phat", b"0\n0\n1 0 1\n", ["--field", "3"], "--field"),
+    (49, "lower.txt", b"1\n3 2\n", ["--format", "lower-distance", "--metric", "manhattan"],
+     "--metric"),
+]
+
+NOT_BUILT_IN = [
+    (["--plot", "x.png"], "PNG plots are not built in; use .svg"),
+    (["--plot", "x.PNG"], "use .svg"),
+    (["--report", "x.html"], "--report"),
+    (["--collapse", "on"], "--collapse"),
+    (["--subsample", "10"], "--subsample"),
+    (["--approximate", "0.5"], "--approximate"),
+    (["--complex", "alpha"], "alpha"),
+]
+
+FINE = [["--collapse", "auto"], ["--collapse", "off"], ["--representatives", "none"],
+        ["--threads", "1"], ["--threads=2"], ["--memory-limit", "1GiB"], ["--memory-limit", "1e9"],
+        ["--memory-limit", "500MB"], ["--threshold", "inf"], ["--progress", "none"],
+        ["--field", "2147483647"], ["--min-persistence", "1e-3"]]
+
+SEGMENT = [
+    (49, ["--distance", "nan"], "--distance"),
+    (49, ["--distance", "-1"], "--distance"),
+    (49, ["--voxel", "0"], "--voxel"),
+    (49, ["--voxel", "inf"], "--voxel"),
+    (49, ["--steps", "0"], "--steps"),
+    (49, ["--steps", "exactly"], "--steps"),
+    (49, ["--min-size", "0"], "--min-size"),
+    (49, ["--max-range", "-1"], "--max-range"),
+    (49, ["--plane", "perhaps"], "--plane"),
+    (49, ["--plane-distance", "0"], "--plane-distance"),
+    (49, ["--crop", "0,1,0,1,0"], "--crop"),
+    (49, ["--crop", "1,0,0,1,0,1"], "crop"),
+    (49, ["--viewpoint", "0,0"], "--viewpoint"),
+    (49, ["--viewpoint", "0,0,inf"], "viewpoint"),
+    (49, ["--method", "papers"], "did you mean 'paper'"),
+    (49, ["--depth", "d.png"], "found both INPUT and --depth"),
+    (49, ["--intrinsics", "1,1,0,0"], "--intrinsics"),
+    (49, ["--intrinsics", "1,1,0"], "--intrinsics"),
+    (49, ["--depth-scale", "0"], "--depth-scale"),
+    (49, ["--labels", "x.txt"], "--labels"),
+    (49, ["--labels", "x.png"], "unorganised"),
+    (49, ["--picture", "x.png"], "unorganised"),
+    (49, ["--picture", "x.jpg"], "--picture"),
+    (49, ["--plot", "x.pdf"], "--plot"),
+    (49, ["--barcode", "x.xlsx"], "--barcode"),
+    (49, ["-o", "x.obj"], "x.obj: expected a file name that ends in .pcd or .ply"),
+    (50, ["--distance"], "--distance"),
+    (50, ["--voxle", "0.1"], "did you mean '--voxel'"),
+    (50, ["another.pcd"], "unexpected argument 'another.pcd'"),
+]
+
+
+def entries():
+    for row, options, words in BARCODE:
+        yield Entry(row, " ".join(options) or "nothing", "ph-barcode", ("square.txt", *options), 64,
+                    ".", words, SQUARE_FILE)
+    for row, file, content, options, words in BARCODE_FILES:
+        yield Entry(row, f"{file} {' '.join(options)}", "ph-barcode", (file, *options), 64, ".", words,
+                    {file: content})
+    for options, words in NOT_BUILT_IN:
+        yield Entry(49, " ".join(options), "ph-barcode", ("square.txt", *options), 69, ".", words,
+                    SQUARE_FILE)
+    for row, options, words in SEGMENT:
+        yield Entry(row, "ph-segment " + " ".join(options), "ph-segment", ("cloud.xyz", *options), 64,
+                    ".", words, CLOUD)
+    for program in ("ph-barcode", "ph-segment"):
+        yield Entry(50, f"{program} without input", program, (), 64, "INPUT", "INPUT")
+    yield Entry(50, "--max-dim at the end", "ph-barcode", ("square.txt", "-o", "x.csv", "--max-dim"),
+                64, "the value is missing", "--max-dim", SQUARE_FILE)
+    yield Entry(49, "values of simplices that have some", "ph-barcode",
+                ("edge.simplices", "--values", "values.txt"), 64, ".", "--values",
+                {"edge.simplices": b"0 : 0\n1 : 0\n0 1 : 1\n", "values.txt": b"1\n2\n"})
+    for options in FINE:
+        yield Entry(49, " ".join(options) + " is fine", "ph-barcode", ("square.txt", *options), 0,
+                    files=SQUARE_FILE, output=SQUARE_BARS)
+    yield Entry(47, "0 is fine", "ph-barcode", ("square.txt", "--max-dim=0"), 0, files=SQUARE_FILE,
+                output=bars("0,0,1", "0,0,1", "0,0,1.0307764064044151", "0,0,inf"))
+    for dimension in ("2", "60", "1000000"):
+        yield Entry(48, f"{dimension} is fine", "ph-barcode", ("square.txt", "--max-dim", dimension), 0,
+                    files=SQUARE_FILE, output=SQUARE_BARS)
+    yield Entry(48, "10^12", "ph-barcode", ("square.txt", "--max-dim", str(10 ** 12)), 64, ".",
+                "--max-dim", SQUARE_FILE)
+
+
+ENTRIES = list(entries())

@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: MIT
+"""run_corpus.py PH_BARCODE PH_SEGMENT PEAK [WORDS…]: every entry of the corpus (whose name has the
+words) in a folder of its own, against the promise: the exit code, one line on stderr that names the
+file or the option, nothing on stdout, nothing written, no temporary file, within a second, within
+16 MiB and 50 ms where a header lies. PEAK is the program of peak.c."""
+import collections
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+
+import corpus
+from entry import FRUGAL_ROWS, ROWS, Unavailable, plain
+
+SECONDS = 1
+TRIES = 3  # for times only: a loaded machine is slow now and then, a program is each time
+FRUGAL_KIB, FRUGAL_MICROSECONDS = 16 << 10, 50_000
+NOBODY = 65534
+OUTPUT = {"ph-barcode": "out.csv", "ph-segment": "out.pcd"}
+
+
+class Runner:
+    def __init__(self, barcode, segment, peak):
+        self.programs = {"ph-barcode": os.path.abspath(barcode),
+                         "ph-segment": os.path.abspath(segment)}
+        self.peak = os.path.abspath(peak)
+        with open(barcode, "rb") as file:
+            self.sanitized = b"__asan_init" in file.read()  # its own memory and time count too
+        self.nobody = os.geteuid() != 0 or self.runs_for_nobody()
+
+    def runs_for_nobody(self):
+        """Whether another user may start what is tested: it may lie in a folder of root's."""
+        try:
+            return all(subprocess.run([program, "--version"], user=NOBODY, group=NOBODY,
+                                      extra_groups=[], capture_output=True, timeout=60,
+                                      check=False).returncode == 0
+                       for program in self.programs.values())
+        except OSError:
+            return False
+
+    def faults(self, entry):
+        """@return what the program did that it must not; nothing if all is well.
+        @throws Unavailable if it cannot be tried here."""
+        if entry.unprivileged and not self.nobody:
+            raise Unavailable("no other user may start the programs")
+        for _ in range(TRIES):
+            fault, of_time = self.try_once(entry)
+            if not of_time:
+                break
+        return fault
+
+    def try_once(self, entry):
+        """@return what is wrong, and whether it is a matter of time only."""
+        with tempfile.TemporaryDirectory() as outer:
+            folder = os.path.join(outer, "here")
+            os.mkdir(folder)
+            for name, content in entry.files.items():
+                with open(os.path.join(os.fsencode(folder), os.fsencode(name)), "wb") as file:
+                    file.write(content)
+            with (entry.around or plain)(folder) as options:
+                if entry.unprivileged and os.geteuid() == 0:
+                    os.chmod(outer, 0o755)
+                    os.chown(folder, NOBODY, NOBODY)
+                    options = {**options, "user": NOBODY, "group": NOBODY, "extra_groups": []}
+                return self.run_in(outer, folder, entry, options)
+
+    def run_in(self, outer, folder, entry, options):
+        before = sorted(os.listdir(os.fsencode(folder)))
+        report = os.path.join(outer, "report")
+        with open(report, "wb"):
+            os.chmod(report, 0o666)  # another user may write it
+        arguments = list(entry.arguments)
+        if entry.code != 0:
+            if "-o" not in arguments:
+                arguments[:0] = ["-o", OUTPUT[entry.program]]
+            arguments.insert(0, "--quiet")  # what is left on stderr is the failure
+        options = {"stdin": subprocess.DEVNULL, "stdout": subprocess.PIPE,
+                   "stderr": subprocess.PIPE, **options}
+        content = options.pop("input", None)
+        if content is not None:
+            options["stdin"] = subprocess.PIPE
+        start = time.monotonic()
+        with subprocess.Popen([self.peak, report, self.programs[entry.program], *arguments],
+                              cwd=folder, **options) as run:
+            try:
+                out, err = run.communicate(content, timeout=20)
+            except subprocess.TimeoutExpired:
+                run.kill()
+                return "it hangs", False
+        seconds = time.monotonic() - start
+        wrong = self.result_faults(entry, run.returncode, out or b"", err or b"")
+        after = sorted(os.listdir(os.fsencode(folder)))
+        expected = sorted({*before, *map(os.fsencode, entry.creates)})
+        if after != expected:
+            wrong.append(f"the folder holds {after}, expected {expected}")
+        if entry.after and (fault := entry.after(folder)):
+            wrong.append(fault)
+        if wrong:
+            return "; ".join(wrong), False
+        with open(report, encoding="ascii") as file:
+            kib, microseconds = map(int, file.read().split())
+        return self.cost_fault(entry, seconds, kib, microseconds)
+
+    @staticmethod
+    def result_faults(entry, code, out, err):
+        wrong = []
+        lines = err.decode("utf-8", "replace").split("\n")[:-1] if err else []
+        if code != entry.code:
+            wrong.append(f"exit code {code}, expected {entry.code}: {lines}")
+        if err and not err.endswith(b"\n") or b"\x1b" in err or b"\xef\xbf\xbd" in err:
+            wrong.append(f"stderr is not lines of plain UTF-8: {err!r}")
+        try:
+            err.decode("utf-8")
+        except UnicodeDecodeError:
+            wrong.append("stderr is not UTF-8")
+        if entry.code != 0:
+            if len(lines) != (1 if entry.message else 0):
+                wrong.append(f"{len(lines)} lines on stderr: {lines}")
+            if lines and not lines[0].startswith(entry.program + ": "):
+                wrong.append(f"the line does not begin with the program: {lines[0]}")
+            if lines and entry.named not in lines[0]:
+                wrong.append(f"'{entry.named}' is not named: {lines[0]}")
+            if out:
+                wrong.append(f"a failure with output: {out[:100]!r}")
+        elif entry.output is not None and out.decode("utf-8", "replace") != entry.output:
+            wrong.append(f"output {out.decode('utf-8', 'replace')!r}, expected {entry.output!r}")
+        if entry.message and not re.search(entry.message, "\n".join(lines)):
+            wrong.append(f"no '{entry.message}' in {lines}")
+        return wrong
+
+    def cost_fault(self, entry, seconds, kib, microseconds):
+        if self.sanitized:
+            return "", False
+        if seconds > SECONDS:
+            return f"{seconds:.2f} s", True
+        frugal = entry.row in FRUGAL_ROWS if entry.frugal is None else entry.frugal
+        if frugal and kib > FRUGAL_KIB:
+            return f"{kib} KiB, expected at most {FRUGAL_KIB}", False
+        if frugal and microseconds > FRUGAL_MICROSECONDS:
+            return f"{microseconds} us of CPU, expected at most {FRUGAL_MICROSECONDS}", True
+        return "", False
+
+
+def main():
+    runner = Runner(*sys.argv[1:4])
+    words = sys.argv[4:]
+    entries = [entry for entry in corpus.ENTRIES if all(word in entry.name for word in words)]
+    of_row = collections.Counter()
+    faults = skipped = 0
+    for entry in entries:
+        try:
+            fault = runner.faults(entry)
+        except Unavailable as reason:
+            skipped += 1
+            print(f"skipped: row {entry.row}, {entry.name}: {reason}")
+            continue
+        of_row[entry.row] += 1
+        if fault:
+            faults += 1
+            print(f"row {entry.row}, {entry.name}: {str(entry.arguments)[:300]}: {fault[:1000]}")
+    for row, title in ROWS.items():
+        print(f"{row:4}  {of_row[row]:4}  {title}")
+    print(f"{sum(of_row.values())} entries in {len(of_row)} rows, {faults} faults, "
+          f"{skipped} skipped")
+    missing = [row for row in ROWS if not any(entry.row == row for entry in entries)]
+    if missing and not words:
+        print(f"rows without an entry: {missing}")
+    sys.exit(1 if faults or not of_row or (missing and not words) else 0)
+
+
+if __name__ == "__main__":
+    main()
