@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <system_error>
 
 namespace ph::app {
 namespace {
@@ -36,7 +37,8 @@ static_assert(std::atomic<int>::is_always_lock_free);
 void on_signal(int signal) {
   const int saved = errno;
   int none = 0;
-  if (!first_signal.compare_exchange_strong(none, signal)) end_at_once(signal);
+  const bool is_first = first_signal.compare_exchange_strong(none, signal);
+  if (!is_first || wake_descriptor.load() < 0) end_at_once(signal);
   const char byte = 1;
   static_cast<void>(!write(wake_descriptor.load(), &byte, 1));
   errno = saved;
@@ -45,9 +47,14 @@ void on_signal(int signal) {
 }  // namespace
 
 SignalWatch::SignalWatch() {
-  if (pipe2(pipe_, O_CLOEXEC) != 0) return;  // no descriptors left: signals act as they always do
-  wake_descriptor = pipe_[1];
-  thread_ = std::thread([this] { watch(); });
+  if (pipe2(pipe_, O_CLOEXEC) == 0) {
+    try {
+      thread_ = std::thread([this] { watch(); });
+      wake_descriptor = pipe_[1];
+    } catch (const std::system_error&) {
+      // No room for a thread: without a descriptor to wake, the handler ends the process itself.
+    }
+  }
   struct sigaction action {};
   action.sa_handler = on_signal;
   action.sa_flags = SA_RESTART;

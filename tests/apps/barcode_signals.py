@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Signals during a long run: it ends at once, with the shell's code, and leaves nothing behind."""
+import os
 import random
 import signal
 import subprocess
+import sys
 import time
 
 import program
@@ -77,6 +79,65 @@ class Signals(ProgramTest):
         time.sleep(0.3)
         self.assertEqual(run.communicate(b"0\n1\n", 20)[0], b"dim,birth,death\n0,0,1\n0,0,inf\n")
         self.assertEqual(run.returncode, 0)
+
+
+class RandomMoments(ProgramTest):
+    """A short run with a large result, met anywhere: reading, computing, writing, renaming."""
+    MOMENTS = 120
+    ARGUMENTS = ("picture.pgm", "--quiet", "-o", "out.json")
+
+    def setUp(self):
+        super().setUp()
+        random.seed(4)
+        self.write("picture.pgm", b"P5 300 300 255\n" + random.randbytes(90000))
+        start = time.monotonic()
+        self.expect(0, *self.ARGUMENTS)
+        self.seconds = time.monotonic() - start
+        self.complete = self.result()
+
+    def result(self):
+        """What the file holds but for the timings."""
+        return self.read("out.json").partition('"timings"')[0]
+
+    def meet(self, number):
+        """Sends a signal at a random moment. @return exit code, seconds until the end."""
+        self.write("out.json", "old")
+        run = subprocess.Popen([program.PROGRAM, *self.ARGUMENTS], cwd=self.folder,
+                               stderr=subprocess.PIPE)
+        time.sleep(random.uniform(0, 1.1 * self.seconds))
+        run.send_signal(number)
+        start = time.monotonic()
+        code = run.wait(10)
+        seconds = time.monotonic() - start
+        self.assertEqual(run.stderr.read(), b"")
+        run.stderr.close()
+        found = self.result()
+        self.assertTrue(found == self.complete or (code != 0 and found == "old"), found[:200])
+        return code, seconds
+
+    def test_interrupts(self):
+        slowest, met = 0, 0
+        while met < self.MOMENTS:
+            code, seconds = self.meet(signal.SIGINT)
+            self.assertIn(code, (0, 130, -signal.SIGINT))  # the last: before main began
+            self.assertEqual(self.files(), ["out.json", "picture.pgm", "square.txt"])
+            met += code != 0
+            slowest = max(slowest, seconds)
+        print(f"\n{met} interrupted runs, the slowest ended after {slowest * 1000:.0f} ms",
+              file=sys.stderr)
+        self.assertLess(slowest, PATIENCE)
+
+    def test_kills(self):
+        met, left = 0, 0
+        while met < self.MOMENTS:
+            code, _ = self.meet(signal.SIGKILL)
+            met += code != 0
+            for name in set(self.files()) - {"out.json", "picture.pgm", "square.txt"}:
+                self.assertTrue(name.startswith(".ph-"), name)
+                os.remove(self.path(name))
+                left += 1
+        print(f"\n{met} killed runs, {left} left a temporary name, none half a file",
+              file=sys.stderr)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: MIT
+"""Many points in special position: right answers, in near-linear time."""
+import random
+import time
+
+from program import ProgramTest, main
+
+SECONDS = 20  # all pairs of 10^5 points or more would take minutes
+
+
+class Degenerate(ProgramTest):
+    def counts(self, points, *options):
+        """@return how often each bar occurs."""
+        with open(self.path("points.txt"), "w") as file:
+            file.writelines(" ".join(map(repr, p)) + "\n" for p in points)
+        start = time.monotonic()
+        run = self.expect(0, "points.txt", "--quiet", *options)
+        self.assertLess(time.monotonic() - start, SECONDS)
+        bars = run.stdout.splitlines()[1:]
+        return {bar: bars.count(bar) for bar in set(bars)}
+
+    def test_all_equal(self):
+        self.assertEqual(self.counts([(1.5, -2.0, 7.0)] * 1000000), {"0,0,inf": 1})
+        self.assertEqual(self.counts([(1.5,)] * 1000, "--min-persistence", "-1", "--max-dim", "0"),
+                         {"0,0,0": 999, "0,0,inf": 1})
+
+    def test_copies(self):
+        corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
+        random.seed(1)
+        points = random.choices(corners, k=1000000)
+        self.assertEqual(self.counts(points),
+                         {"0,0,1": 3, "0,0,inf": 1, "1,1,1.4142135623730951": 1})
+        self.assertEqual(self.counts(points, "--threshold", "1.2", "--metric", "chebyshev"),
+                         {"0,0,1": 3, "0,0,inf": 1})
+
+    def test_collinear(self):
+        points = [(0.5 * i, 0.25 * i, -0.5 * i) for i in range(200000)]
+        self.assertEqual(self.counts(points, "--threshold", "1"),
+                         {"0,0,0.75": 199999, "0,0,inf": 1})
+
+    def test_grid(self):
+        side = 200  # each square is a class that its diagonals kill: none is left over
+        points = [(float(i), float(j)) for i in range(side) for j in range(side)]
+        self.assertEqual(self.counts(points, "--threshold", "1.5"),
+                         {"0,0,1": side * side - 1, "0,0,inf": 1,
+                          "1,1,1.4142135623730951": (side - 1) ** 2})
+
+    def test_spreads(self):
+        for unit in (2.0 ** -1000, 2.0 ** 1000, 5e-324):  # exact multiples
+            with self.subTest(unit=unit):
+                points = [(unit * i, 0.0) for i in range(100000)]
+                self.assertEqual(self.counts(points, "--threshold", repr(unit)),
+                                 {f"0,0,{unit!r}": 99999, "0,0,inf": 1})
+        ends = [(1e300 * (i % 2), 1e-300 * i) for i in range(1000)]
+        self.assertEqual(sum(self.counts(ends, "--max-dim", "0").values()), 1000)
+
+
+if __name__ == "__main__":
+    main()

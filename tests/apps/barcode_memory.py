@@ -1,0 +1,222 @@
+# SPDX-License-Identifier: MIT
+"""Memory that runs out, in more than a hundred ways: the limit holds, and the run says so.
+
+Each way to blow up runs under limits from 1 MiB to 128 MiB. It either succeeds or ends with 75, in
+one line that says how to go on, and never takes more than the limit and 32 MiB beside it.
+"""
+import os
+import random
+import resource
+import struct
+import sys
+import tempfile
+import threading
+import unittest
+
+import program
+from program import ProgramTest, main
+
+MIB = 1 << 20
+LIMITS = (1, 4, 16, 32, 64, 128)  # MiB
+BESIDE = 32  # MiB that code, libraries and small things may take beside the limit
+SECONDS = 2  # a run that fits takes its time: what it took until then counts
+
+
+def is_sanitized():
+    with open(program.PROGRAM, "rb") as file:
+        return b"__asan_init" in file.read()
+
+
+def write_points(path, count, dim, digits=6):
+    with open(path, "w") as file:
+        for _ in range(count):
+            file.write(" ".join(f"{random.random():.{digits}f}" for _ in range(dim)) + "\n")
+
+
+def write_image(path, extents):
+    """DIPHA's image, in pieces: what this process takes is counted with its children."""
+    count = 1
+    for n in extents:
+        count *= n
+    with open(path, "wb") as file:
+        file.write(struct.pack(f"<{4 + len(extents)}q", 8067171840, 1, count, len(extents),
+                               *extents))
+        for first in range(0, count, 4096):
+            size = min(4096, count - first)
+            file.write(struct.pack(f"<{size}d", *(random.random() for _ in range(size))))
+
+
+def write_lines(path, lines):
+    with open(path, "w") as file:
+        file.writelines(line + "\n" for line in lines)
+
+
+def write_inputs(folder):
+    random.seed(5)
+    path = lambda name: os.path.join(folder, name)
+    write_points(path("space.txt"), 1500, 3)
+    write_points(path("plane.txt"), 20000, 2)
+    write_points(path("cloud.txt"), 200000, 3)
+    write_points(path("line.txt"), 400000, 1, digits=4)
+    write_points(path("high.txt"), 4000, 12)
+    write_image(path("volume.dipha"), (64, 64, 64))
+    write_image(path("picture.dipha"), (1600, 1600))
+    write_image(path("hyper.dipha"), (24, 24, 24, 24))
+    write_lines(path("graph.txt"),
+                (f"{i} {i + 1 + random.randrange(50)} {random.random():.4f}"
+                 for i in range(200000)))
+    write_lines(path("tree.txt"), (f"{i} : {i % 10}" for i in range(150000)))
+    with open(path("tree.txt"), "a") as file:
+        file.writelines(f"{i} {i + 1} : {10 + i % 7}\n" for i in range(149999))
+    write_lines(path("corner.txt"), (f"{20 * i} " + " ".join(str(20 * i + k) for k in range(1, 16))
+                                     + " : 0" for i in range(4)))
+    write_lines(path("corner.values"), ("0.5" for _ in range(76)))
+
+
+BLOW_UPS = (
+    ("space.txt", "--max-dim", "2"),
+    ("space.txt", "--max-dim", "3", "--field", "3"),
+    ("space.txt", "--engine", "standard"),
+    ("space.txt", "--engine", "twist"),
+    ("space.txt", "--representatives", "cycles", "--output-format", "json"),
+    ("space.txt", "--min-persistence", "-1"),
+    ("plane.txt",),
+    ("plane.txt", "--threshold", "0.1"),
+    ("plane.txt", "--threshold", "0.03", "--max-dim", "2"),
+    ("cloud.txt", "--threshold", "0.02"),
+    ("cloud.txt", "--threshold", "0.01", "--max-dim", "0"),
+    ("line.txt", "--threshold", "0.001", "--max-dim", "0"),
+    ("high.txt", "--metric", "manhattan", "--max-dim", "0"),
+    ("high.txt", "--threshold", "1.5"),
+    ("volume.dipha",),
+    ("volume.dipha", "--engine", "cohomology"),
+    ("volume.dipha", "--output-format", "json", "--representatives", "cocycles"),
+    ("picture.dipha", "--plot", "out.svg"),
+    ("picture.dipha", "--construction", "cells", "--output-format", "json"),
+    ("hyper.dipha",),
+    ("graph.txt", "--format", "sparse"),
+    ("graph.txt", "--format", "sparse", "--max-dim", "0", "--output-format", "npy"),
+    ("tree.txt", "--format", "simplices"),
+    ("corner.txt", "--format", "simplices", "--complex", "lower-star", "--values",
+     "corner.values"),
+)
+
+
+class Limits(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        if is_sanitized():
+            raise unittest.SkipTest("AddressSanitizer takes memory of its own")
+        cls.inputs = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.inputs.cleanup)
+        write_inputs(cls.inputs.name)
+
+    def forget(self, *names):
+        for name in names:
+            if os.path.exists(name):
+                os.remove(name)
+        for name in os.listdir("."):  # what a run that was killed had begun
+            if name.startswith(".ph-"):
+                os.remove(name)
+
+    def run_within(self, limit, arguments):
+        """@return exit code (None: still running), peak in MiB, stderr."""
+        output = () if "--output-format" in arguments else ("--output-format", "csv")
+        names = [os.path.join(self.inputs.name, word) if word.endswith((".txt", ".dipha", ".values"))
+                 else word for word in arguments]
+        read_end, write_end = os.pipe()
+        pid = os.posix_spawn(
+            program.PROGRAM, [program.PROGRAM, *names, *output, "--quiet", "-o", "out",
+                              "--memory-limit", f"{limit}MiB"], os.environ,
+            file_actions=[(os.POSIX_SPAWN_DUP2, write_end, 2)])
+        os.close(write_end)
+        stop = threading.Timer(SECONDS, os.kill, (pid, 9))
+        stop.start()
+        with os.fdopen(read_end) as pipe:
+            message = pipe.read()
+        _, status, usage = os.wait4(pid, 0)
+        stop.cancel()
+        code = os.waitstatus_to_exitcode(status)
+        return None if code == -9 else code, usage.ru_maxrss / 1024, message
+
+    def test_the_limit_holds(self):
+        os.chdir(self.folder)
+        self.addCleanup(os.chdir, "/")
+        ends = {0: 0, 75: 0, None: 0}
+        for arguments in BLOW_UPS:
+            for limit in LIMITS:
+                with self.subTest(arguments=arguments, limit=limit):
+                    code, peak, message = self.run_within(limit, arguments)
+                    self.assertIn(code, ends, message)
+                    ends[code] += 1
+                    self.assertLessEqual(peak, limit + BESIDE)
+                    if code == 75:
+                        self.assertEqual(message.count("\n"), 1, message)
+                        self.assertIn("--memory-limit", message)
+                        self.assertEqual(self.files(), ["square.txt"])
+                    self.forget("out", "out.svg")
+        print(f"\n{sum(ends.values())} runs under a limit: {ends[75]} stopped by it, {ends[0]} "
+              f"done, {ends[None]} still running after {SECONDS} s", file=sys.stderr)
+        self.assertGreaterEqual(ends[75], 100)
+
+
+class System(ProgramTest):
+    """Limits that others set."""
+
+    def setUp(self):
+        super().setUp()
+        if is_sanitized():
+            self.skipTest("AddressSanitizer needs more address space than a limit leaves")
+        random.seed(2)
+        write_points(self.path("many.txt"), 1500, 3)
+
+    def test_address_space(self):
+        for mib in (60, 80, 100, 150):
+            self.expect(75, "many.txt", "-o", "out.csv", "--engine", "twist", "--max-dim", "2",
+                        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS,
+                                                              (mib * MIB, mib * MIB)))
+            self.assertEqual(self.files(), ["many.txt", "square.txt"])
+
+    def test_control_group(self):
+        group = f"/sys/fs/cgroup/memory/ph-test-{os.getpid()}"
+        name = "memory.limit_in_bytes"
+        if not os.path.isdir("/sys/fs/cgroup/memory"):
+            group, name = group.replace("/memory/", "/"), "memory.max"
+        try:
+            os.mkdir(group)
+        except OSError as error:
+            self.skipTest(f"skipped: a control group cannot be made here: {error.strerror}")
+        self.addCleanup(os.rmdir, group)
+        if not os.path.exists(os.path.join(group, name)):
+            self.skipTest("skipped: the memory controller is not there")
+        with open(os.path.join(group, name), "w") as file:
+            file.write(str(64 * MIB))
+
+        def enter():
+            with open(os.path.join(group, "cgroup.procs"), "w") as file:
+                file.write(str(os.getpid()))
+        self.expect(75, "many.txt", "-o", "out.csv", "--max-dim", "2", "--engine", "twist",
+                    preexec_fn=enter)
+        self.assertEqual(self.files(), ["many.txt", "square.txt"])
+
+    def test_no_thread_can_be_created(self):
+        if os.geteuid() == 0:  # limits on processes do not bind root
+            try:
+                import pwd
+                nobody = pwd.getpwnam("nobody").pw_uid
+            except KeyError:
+                self.skipTest("skipped: there is no user nobody")
+            os.chmod(self.folder, 0o777)
+        else:
+            nobody = None
+
+        def no_more():
+            if nobody is not None:
+                os.setuid(nobody)
+            resource.setrlimit(resource.RLIMIT_NPROC, (0, 0))
+        run = self.run_program("square.txt", preexec_fn=no_more)
+        self.assertEqual((run.returncode, run.stdout), (0, program.SQUARE_CSV), run.stderr)
+
+
+if __name__ == "__main__":
+    main()
