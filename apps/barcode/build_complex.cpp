@@ -20,8 +20,9 @@ constexpr std::string_view kComplexNames[] = {"auto",  "rips",     "cubical",
 class Builder {
  public:
   /// @param periodic axes of an image that its file says close up.
-  Builder(const Arguments& arguments, const RunContext& context, const std::vector<bool>& periodic)
-      : arguments_(arguments), context_(context), periodic_(periodic) {}
+  Builder(const std::string& name, const Arguments& arguments, const RunContext& context,
+          const std::vector<bool>& periodic)
+      : name_(name), arguments_(arguments), context_(context), periodic_(periodic) {}
 
   BuiltComplex operator()(const Points& points) const {
     expect("points", {ComplexKind::rips});
@@ -121,11 +122,22 @@ class Builder {
       throw Error(ErrorKind::usage, fmt::format("--threshold: found {}, expected a distance, at "
                                                 "least 0",
                                                 *options.threshold));
-    Rips complex(data, options, context_);
+    Rips complex = rips_complex(data, options);
     const double threshold = complex.threshold();
     return {std::move(complex), "rips",
             std::isfinite(threshold) ? std::optional(threshold) : std::nullopt, empty,
             std::nullopt};
+  }
+
+  /// Data that no reader can know to be wrong: a point without direction, distances that overflow.
+  template <class Data>
+  Rips rips_complex(const Data& data, const RipsOptions& options) const {
+    try {
+      return Rips(data, options, context_);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::bad_data) throw;
+      throw Error(error.kind(), fmt::format("{}: {}", name_, error.what()));
+    }
   }
 
   BuiltComplex stored(ExplicitComplex complex, std::string name) const {
@@ -174,6 +186,7 @@ class Builder {
     return list;
   }
 
+  const std::string& name_;
   const Arguments& arguments_;
   const RunContext& context_;
   const std::vector<bool>& periodic_;
@@ -181,9 +194,9 @@ class Builder {
 
 }  // namespace
 
-BuiltComplex build_complex(ReadResult&& input, const Arguments& arguments,
+BuiltComplex build_complex(ReadResult&& input, const std::string& name, const Arguments& arguments,
                            const RunContext& context) {
-  return std::visit(Builder(arguments, context, input.periodic), std::move(input.data));
+  return std::visit(Builder(name, arguments, context, input.periodic), std::move(input.data));
 }
 
 }  // namespace ph::barcode

@@ -17,8 +17,9 @@ struct BuiltComplex {
 };
 
 /// Builds the complex that the arguments ask for, or the one that suits the data.
-/// @throws Error (usage) if an option does not fit the data.
-BuiltComplex build_complex(ReadResult&& input, const Arguments& arguments,
+/// @param name of the input, for messages.
+/// @throws Error (usage) if an option does not fit the data; Error (bad_data) "name: …".
+BuiltComplex build_complex(ReadResult&& input, const std::string& name, const Arguments& arguments,
                            const RunContext& context);
 
 }  // namespace ph::barcode

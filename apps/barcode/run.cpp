@@ -34,7 +34,12 @@ std::string plural(std::size_t count, std::string_view what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-ReadResult read_input(const Job& job, const Arguments& arguments, app::Session& session) {
+struct NamedData {
+  std::string name;  // of the input, printable
+  ReadResult read;
+};
+
+NamedData read_input(const Job& job, const Arguments& arguments, app::Session& session) {
   ReadOptions options = arguments.read;
   options.context = &session.context();
   const Input input = Input::open(job.input, &session.context());
@@ -47,7 +52,26 @@ ReadResult read_input(const Job& job, const Arguments& arguments, app::Session& 
     session.explain("read " + what);
   for (const std::string& note : result.notes)
     session.note(fmt::format("{}: {}", input.name(), note));
-  return result;
+  return {input.name(), std::move(result)};
+}
+
+/// All that is kept of an input: the complex, and what the results say about it.
+struct Loaded {
+  BuiltComplex built;
+  std::string description;
+  std::vector<Index> point_ids;
+};
+
+Loaded load(const Job& job, const Arguments& arguments, app::Session& session, Stopwatch& watch) {
+  auto [name, read] = read_input(job, arguments, session);
+  watch.lap("read");
+  std::string description = read.description;
+  std::vector<Index> point_ids = std::move(read.point_ids);
+  BuiltComplex built = build_complex(std::move(read), name, arguments, session.context());
+  if (built.empty && !arguments.read.allow_empty)
+    throw Error(ErrorKind::bad_data,
+                fmt::format("{}: no points; --allow-empty accepts that", name));
+  return {std::move(built), std::move(description), std::move(point_ids)};
 }
 
 /// What was foreseen and what was used, for whoever ran out of memory.
@@ -110,16 +134,7 @@ Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
     for (const Plot& plot : arguments.plots) plots.emplace_back(plot.path);
   }
 
-  std::optional<ReadResult> input = read_input(job, arguments, session);
-  const std::string description = input->description;
-  const std::vector<Index> point_ids = std::move(input->point_ids);
-  watch.lap("read");
-
-  const BuiltComplex built = build_complex(std::move(*input), arguments, session.context());
-  input.reset();  // the complex holds all that is needed from here on
-  if (built.empty && !arguments.read.allow_empty)
-    throw Error(ErrorKind::bad_data,
-                fmt::format("{}: no points; --allow-empty accepts that", job.input));
+  const auto [built, description, point_ids] = load(job, arguments, session, watch);
   const Estimate estimated = estimate(built.complex, arguments.options);
   watch.lap("complex");
   session.explain(fmt::format("engine {}: {}", engine_name(estimated.engine), estimated.reason));
