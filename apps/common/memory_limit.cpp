@@ -14,7 +14,7 @@ namespace ph::app {
 namespace {
 
 /// The number in the first line of a file of the kernel's, if there is one.
-std::optional<std::uint64_t> number_in(const std::filesystem::path& path) {
+std::optional<std::uint64_t> number_in(const std::string& path) {
   std::ifstream file(path);
   std::string word;
   if (!(file >> word)) return std::nullopt;
@@ -35,7 +35,7 @@ std::optional<std::uint64_t> data_size() {
 }  // namespace
 
 std::optional<std::uint64_t> control_group_limit(std::istream& memberships,
-                                                 const std::filesystem::path& root) {
+                                                 const std::string& root) {
   std::optional<std::uint64_t> least;
   // A line is "number:controllers:/path"; version 2 names no controllers.
   for (std::string line; std::getline(memberships, line);) {
@@ -44,14 +44,13 @@ std::optional<std::uint64_t> control_group_limit(std::istream& memberships,
     const std::string controllers = line.substr(first + 1, second - first - 1);
     const bool unified = controllers.empty();
     if (!unified && ("," + controllers + ",").find(",memory,") == std::string::npos) continue;
-    const std::filesystem::path mount = unified ? root : root / "memory";
-    // A group is bounded by those around it, too.
-    std::filesystem::path group = std::filesystem::path(line.substr(second + 1)).relative_path();
-    for (;; group = group.parent_path()) {
-      const auto limit =
-          number_in(mount / group / (unified ? "memory.max" : "memory.limit_in_bytes"));
+    const std::string mount = unified ? root : root + "/memory";
+    const std::string file = unified ? "/memory.max" : "/memory.limit_in_bytes";
+    // A group is bounded by those around it, too: "/a/b", then "/a", then "".
+    for (std::string group = line.substr(second + 1);; group.resize(group.rfind('/'))) {
+      const auto limit = number_in(mount + group + file);
       if (limit) least = std::min(least.value_or(*limit), *limit);
-      if (group.empty()) break;
+      if (group.rfind('/') == std::string::npos) break;
     }
   }
   return least;

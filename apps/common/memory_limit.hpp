@@ -2,9 +2,9 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <istream>
 #include <optional>
+#include <string>
 
 namespace ph::app {
 
@@ -15,7 +15,7 @@ std::size_t machine_memory();
 /// The least memory limit of the control groups a process is in, of both versions.
 /// @param memberships its /proc/self/cgroup. @param root where control groups are mounted.
 std::optional<std::uint64_t> control_group_limit(std::istream& memberships,
-                                                 const std::filesystem::path& root);
+                                                 const std::string& root);
 
 /// Lets the kernel refuse memory beyond `bytes` more than the process has now. Behind the budget
 /// of a RunContext, which counts large containers only, this bounds all the others; an allocation

@@ -117,7 +117,7 @@ class ControlGroups : public testing::Test {
   }
   std::optional<std::uint64_t> limit(const std::string& memberships) const {
     std::istringstream lines(memberships);
-    return control_group_limit(lines, root_);
+    return control_group_limit(lines, root_.string());
   }
   std::filesystem::path root_;
 };
