@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Rows 47 to 50: what a command line cannot mean. The failure names the option."""
-from entry import Entry, bars
+from entry import Entry, bars, sample
 from characters import SQUARE, SQUARE_BARS
 
 SQUARE_FILE = {"square.txt": SQUARE.encode()}
@@ -146,6 +146,9 @@ def entries():
     for row, options, words in SEGMENT:
         yield Entry(row, "ph-segment " + " ".join(options), "ph-segment", ("cloud.xyz", *options), 64,
                     ".", words, CLOUD)
+    yield Entry(49, "--intrinsics without a focal length", "ph-segment",
+                ("--depth", "d.png", "--intrinsics", "0,1,0,0"), 64, "found focal lengths 0 and 1",
+                "camera", {"d.png": sample("png", "depth.png")})
     for program in ("ph-barcode", "ph-segment"):
         yield Entry(50, f"{program} without input", program, (), 64, "INPUT", "INPUT")
     yield Entry(50, "--max-dim at the end", "ph-barcode", ("square.txt", "-o", "x.csv", "--max-dim"),

@@ -4,9 +4,9 @@ import struct
 
 from arrays import GRID, MAGIC, nifti
 from clouds import TRIANGLE, XYZ, floats, pcd_header, ply_header
-from sample import npy, npy_header, npz, png, png_chunk, words
+from sample import GREY, RGB, npy, npy_header, npz, png, png_chunk, words
 
-from entry import refused, sample, with_bytes, with_change
+from entry import Entry, refused, sample, with_bytes, with_change
 
 TERA = 10 ** 12
 TOP = 2 ** 63 - 1
@@ -197,6 +197,24 @@ def disagreeing():
                   "once each")
 
 
+def depth_images():
+    grey = sample("png", "depth.png")
+    camera = ("--depth", "d.png", "--intrinsics", "100,100,4,3")
+
+    def entry(row, name, content, message, *options, named="d.png", colour=b"", code=65):
+        return Entry(row, f"depth: {name}", "ph-segment", (*camera, *options), code, message, named,
+                     {"d.png": content, "c.png": colour} if colour else {"d.png": content})
+
+    yield entry(35, "colours of another size", grey, "colour image: found 2 x 1 pixels, expected 8 x 6",
+                "--color", "c.png", named="colour image", colour=png(2, 1, 8, GREY, [b"\1\2"]))
+    yield entry(35, "colours are no picture", grey, "not a PNG", "--color", "c.png", named="c.png",
+                colour=b"0 0 0\n")
+    yield entry(38, "depth in colours", png(1, 1, 8, RGB, [b"\1\2\3"]), "found 3 channels, expected 1",
+                named="depth image")
+    yield entry(38, "a cloud", sample("pcd", "ascii.pcd"), "not a PNG")
+    yield entry(31, "pixels", with_size(grey, 65535, 65535), "does not fit|PNG")
+
+
 def counts_and_sizes():
     many = "1 1 2000000000"
     for data, body in (("ascii", POINT), ("binary", RAW), ("binary_compressed", bytes(8) + RAW)):
@@ -266,10 +284,11 @@ def unknown():
     yield refused(38, "png", "colours", png(1, 1, 8, 2, [b"\0\0\0"]), "grey|colour")
     yield refused(38, "png", "signature of text mode", with_bytes(sample("image", "grey.png"), 4,
                                                                   b"\n\n"), "not a PNG")
-    yield refused(38, "off", "first word", "COFF\n1 0 0\n0 0 0\n", "not an OFF file")
+    yield refused(38, "off", "first word", "OFFSET\n1 0 0\n0 0 0\n", "not an OFF file")
     yield refused(38, "perseus", "17 axes", "17\n1\n", "dimension out of range")
     yield refused(38, "simplices", "a mesh", ply_header("ascii", *TRIANGLE), "no value|input")
 
 
-ENTRIES = [*tera(), *overflow(), *negative(), *beyond_int64(), *disagreeing(), *counts_and_sizes(),
+ENTRIES = [*tera(), *overflow(), *negative(), *beyond_int64(), *disagreeing(), *depth_images(),
+           *counts_and_sizes(),
            *unknown()]

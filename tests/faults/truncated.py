@@ -13,6 +13,16 @@ ROW_OF_READER = {
 }
 
 
+# The form of a sample by its reader: what the comparison with other programs goes by.
+FORM_OF_READER = {"pcd": "pcd", "ply": "ply", "pts": "pts", "off": "off", "perseus": "perseus"}
+
+
+def form_of(sample):
+    if sample.name.endswith(".gz"):
+        return ""
+    return "dipha" if sample.name.endswith(".dipha") else FORM_OF_READER.get(sample.reader, "")
+
+
 def without_its_end(sample):
     """The content without its last byte, or its last token if it is text."""
     content = sample.content
@@ -28,12 +38,11 @@ def cut_samples():
         options = tuple(a.format(sample.name) for a in sample.arguments)
         yield Entry(row, f"{sample.reader}: {sample.name} cut at its end", sample.program, options, 65,
                     "truncated|too short|incomplete|not fit|bytes that follow|number of connections",
-                    sample.name,
-                    {sample.name: without_its_end(sample)})
+                    sample.name, {sample.name: without_its_end(sample)}, form=form_of(sample))
         half = sample.content[:len(sample.content) // 2]
         if row in (29, 28):
             yield Entry(row, f"{sample.reader}: {sample.name} cut in half", sample.program, options,
-                        65, ".", sample.name, {sample.name: half})
+                        65, ".", sample.name, {sample.name: half}, form=form_of(sample))
 
 
 def cut_pictures():
