@@ -79,7 +79,7 @@ def spreads():
     for metric in ("euclidean", "manhattan", "chebyshev"):  # an infinite distance would be no edge
         yield refused(89, "points", f"twice the largest double, {metric}", "-1.7e308 0\n1.7e308 0\n",
                       "two points are farther apart than the largest double", "--metric", metric)
-    yield taken(90, "points", "25 times each corner", "0 0\n1 0\n1 1\n0 1.25\n" * 25,
+    yield taken(90, "points", "500 times each corner", "0 0\n1 0\n1 1\n0 1.25\n" * 500,
                 bars("0,0,1", "0,0,1", "0,0,1.0307764064044151", "0,0,inf",
                      "1,1.25,1.4142135623730951"))
     yield taken(90, "sparse", "1000 times each pair", "0 1 1\n2 1 2\n1 0 1\n" * 1000,
