@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Random inputs from a seed, small and full of trouble: ties, duplicates, zeros, missing edges.
+// Inputs from a sequence of choices, small and full of trouble: ties, duplicates, zeros, missing
+// edges.
 #include <algorithm>
 #include <map>
 #include <random>
@@ -14,13 +15,26 @@
 
 namespace ph::test {
 
-class Generator {
+/// Where the choices come from: a pseudorandom sequence.
+class RandomChoices {
  public:
-  explicit Generator(std::uint64_t seed) : engine_(seed) {}
-
+  explicit RandomChoices(std::uint64_t seed) : engine_(seed) {}
   int integer(int low, int high) { return std::uniform_int_distribution(low, high)(engine_); }
-  bool coin() { return integer(0, 1) == 1; }
   double real() { return std::uniform_real_distribution(0.0, 1.0)(engine_); }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// @tparam Choices `integer(low, high)`, both inclusive, and `real()` in [0, 1].
+template <class Choices>
+class InputGenerator {
+ public:
+  explicit InputGenerator(Choices choices) : choices_(std::move(choices)) {}
+
+  int integer(int low, int high) { return choices_.integer(low, high); }
+  bool coin() { return integer(0, 1) == 1; }
+  double real() { return choices_.real(); }
   /// A value that is one of few when `ties` is set.
   double value(bool ties) { return ties ? integer(0, 3) : real(); }
 
@@ -96,7 +110,12 @@ class Generator {
   }
 
  private:
-  std::mt19937_64 engine_;
+  Choices choices_;
+};
+
+class Generator : public InputGenerator<RandomChoices> {
+ public:
+  explicit Generator(std::uint64_t seed) : InputGenerator(RandomChoices(seed)) {}
 };
 
 }  // namespace ph::test
