@@ -41,7 +41,8 @@ InputChain Barcode::representative(std::size_t i) const {
 void Barcode::sort() {
   std::vector<std::size_t> order(bars_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+  // Stable: bars without cells keep their order when they are written and read again.
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     const Bar &x = bars_[a], &y = bars_[b];
     if (x.dim != y.dim) return x.dim < y.dim;
     if (x.birth != y.birth) return x.birth < y.birth;

@@ -45,8 +45,10 @@ std::string json_cell_member(const InputCell& cell) {
   return "";
 }
 
-std::string json_cell(const InputCell& cell) {
-  return fmt::format("{{{}}}", json_cell_member(cell));
+/// null for a cell that is not known.
+std::string json_cell(const std::optional<InputCell>& cell) {
+  if (!cell || cell->numbers.empty()) return "null";
+  return fmt::format("{{{}}}", json_cell_member(*cell));
 }
 
 std::string_view representatives_name(Representatives kind) {
@@ -120,12 +122,11 @@ void write_barcode_json(OutputFile& file, const Barcode& barcode, const BarcodeI
   file.write("  \"bars\": [");
   for (std::size_t i = 0; i < barcode.size(); ++i) {
     const Bar& bar = barcode[i];
-    const auto death = barcode.death_cell(i);
     file.write(i == 0 ? "\n" : ",\n");
     file.write(fmt::format("    {{\"dim\": {}, \"birth\": {}, \"death\": {}, ", bar.dim,
                            json_number(bar.birth), json_number(bar.death)));
     file.write(fmt::format("\"birth_cell\": {}, \"death_cell\": {}",
-                           json_cell(barcode.birth_cell(i)), death ? json_cell(*death) : "null"));
+                           json_cell(barcode.birth_cell(i)), json_cell(barcode.death_cell(i))));
     if (with_chains) {
       file.write(", \"representative\": ");
       write_chain(file, barcode.representative(i));

@@ -37,7 +37,7 @@ Barcode read_rows(const Input& input, bool may_be_empty) {
       if (!names.empty()) {
         if (names != std::vector<std::string>{"dim", "birth", "death"}) {
           lines.fail(lines.line().data(),
-                     {"header", fmt::format("{}", fmt::join(names, ",")), "dim,birth,death", {}});
+                     {"header", '"' + printable(lines.line(), 40) + '"', "dim,birth,death", {}});
         }
         header = true;
         continue;

@@ -27,10 +27,8 @@ class Reader {
       } else if (name == "version") {
         json_.integer(1, 1, "version");
       } else if (name == "representatives") {
-        const std::string value = json_.string();
-        representatives_ = value == "cycles"     ? Representatives::cycles
-                           : value == "cocycles" ? Representatives::cocycles
-                                                 : Representatives::none;
+        if (bars) json_.fail(place, {"representatives", "them behind the bars", "before", {}});
+        representatives_ = representatives();
       } else if (name == "bars") {
         if (bars) json_.fail(place, {"bars", "them again", "them once", {}});
         bars = true;
@@ -51,6 +49,17 @@ class Reader {
   }
 
  private:
+  Representatives representatives() {
+    const std::size_t place = json_.place();
+    const std::string value = json_.string();
+    if (value == "cycles") return Representatives::cycles;
+    if (value == "cocycles") return Representatives::cocycles;
+    if (value != "none") {
+      json_.fail(place, {"representatives", printable(value, 40), "cycles, cocycles or none", {}});
+    }
+    return Representatives::none;
+  }
+
   void read_bars() {
     json_.expect('[');
     for (bool first = true; json_.next_element(first);) {
@@ -81,7 +90,7 @@ class Reader {
         bar.death = value();
         death = true;
       } else if (name == "birth_cell") {
-        read_cell(birth_);
+        if (!json_.accept_null()) read_cell(birth_);
       } else if (name == "death_cell") {
         if (!json_.accept_null()) read_cell(death_);
       } else if (name == "representative" && representatives_ != Representatives::none) {
@@ -100,7 +109,16 @@ class Reader {
     }
     if (const Fault fault = fault_of_bar(bar); !fault.what.empty()) json_.fail(place, fault);
     input_.require_memory((birth_.size() + death_.size() + chain_.size()) * sizeof(Index));
-    if (barcode_.empty()) barcode_ = Barcode(kind_);
+    if (barcode_.empty()) {  // the first bar says whether cells are known, and of which kind
+      barcode_ = Barcode(kind_);
+      with_cells_ = !birth_.empty();
+    }
+    if (with_cells_ == birth_.empty() || (!with_cells_ && death_.size() + chain_.size() > 0)) {
+      json_.fail(place, {"birth cell",
+                         birth_.empty() ? "none" : "one",
+                         "one for each bar, or none and no other cell",
+                         {}});
+    }
     barcode_.add(bar, birth_, death_);
     if (representatives_ != Representatives::none) {
       barcode_.set_representative(representatives_, chain_, coefficients_);
@@ -128,33 +146,37 @@ class Reader {
   void read_cell(std::vector<Index>& numbers) {
     json_.peek();
     const std::size_t place = json_.place();
+    numbers.clear();
     bool first = true, known = false;
     std::string name;
     json_.expect('{');
     while (json_.next_member(first, name)) {
-      if (read_numbers(name, numbers, place)) {
+      if (read_numbers(name, numbers, 0, place)) {
         known = true;
       } else {
         json_.skip_value();
       }
     }
-    if (!known) json_.fail(place, {"cell", "another member", "vertices, grid or row", {}});
+    if (!known || numbers.empty()) {
+      json_.fail(place, {"cell", "none", "numbers called vertices, grid or row", {}});
+    }
   }
 
-  // The numbers of a cell, if the member is one.
-  bool read_numbers(const std::string& name, std::vector<Index>& numbers, std::size_t place) {
+  // The numbers of a cell, if the member is one; they become those from `begin` on.
+  bool read_numbers(const std::string& name, std::vector<Index>& numbers, std::size_t begin,
+                    std::size_t place) {
     constexpr Index kMost = std::numeric_limits<Index>::max();
+    if (name != "row" && name != "vertices" && name != "grid") return false;
+    numbers.resize(begin);
     if (name == "row") {
       set_kind(CellKind::row, place);
       numbers.push_back(json_.integer(0, kMost, "row"));
-    } else if (name == "vertices" || name == "grid") {
+    } else {
       set_kind(name == "grid" ? CellKind::grid : CellKind::vertices, place);
       json_.expect('[');
       for (bool first = true; json_.next_element(first);) {
         numbers.push_back(json_.integer(0, kMost, "number of a cell"));
       }
-    } else {
-      return false;
     }
     return true;
   }
@@ -163,6 +185,8 @@ class Reader {
     json_.peek();
     const std::size_t place = json_.place();
     std::string name;
+    chain_.clear();
+    coefficients_.clear();
     json_.expect('[');
     for (bool first = true; json_.next_element(first);) {
       const std::size_t before = chain_.size();
@@ -172,13 +196,14 @@ class Reader {
         if (name == "coefficient") {
           coefficient =
               json_.integer(-(std::int64_t{1} << 31), std::int64_t{1} << 31, "coefficient");
-        } else if (!read_numbers(name, chain_, place)) {
+        } else if (!read_numbers(name, chain_, before, place)) {
           json_.skip_value();
         }
       }
       coefficients_.push_back(coefficient);
       // All cells of a chain have as many numbers.
-      if (chain_.size() != (chain_.size() - before) * coefficients_.size() || coefficient == 0) {
+      const std::size_t numbers = chain_.size() - before;
+      if (numbers == 0 || chain_.size() != numbers * coefficients_.size() || coefficient == 0) {
         json_.fail(place, {"representative",
                            "cells of different sizes or without coefficient",
                            "cells of one dimension, each with its coefficient",
@@ -192,7 +217,7 @@ class Reader {
   Barcode barcode_;
   Representatives representatives_ = Representatives::none;
   CellKind kind_ = CellKind::vertices;
-  bool any_cell_ = false;
+  bool any_cell_ = false, with_cells_ = false;
   std::size_t count_ = 0;
   std::vector<Index> birth_, death_, chain_;
   std::vector<std::int64_t> coefficients_;
