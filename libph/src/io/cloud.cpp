@@ -29,8 +29,8 @@ void for_each_coordinate(const Cloud& cloud, Put put) {
     const CloudField& field = coordinate(cloud, name);
     const auto size = static_cast<std::size_t>(cloud.size());
     detail::visit_type(field.type, [&]<class T>(T) {
-      const std::byte* from = cloud.data.data() + field.offset;
-      for (std::size_t i = 0; i < size; ++i, from += cloud.stride) {
+      for (std::size_t i = 0; i < size; ++i) {
+        const std::byte* from = cloud.data.data() + i * cloud.stride + field.offset;
         put(i, axis, load<T>(from, std::endian::native));
       }
     });

@@ -35,6 +35,13 @@ std::vector<std::string> column_names(const Points& rows, const std::vector<std:
     if (!has_xyz) {
       input.fail({"header", fmt::format("{} names", names.size()), "x, y and z among them", {}});
     }
+    std::vector<std::string_view> sorted(names.begin(), names.end());
+    std::erase(sorted, "");  // columns without a name
+    std::sort(sorted.begin(), sorted.end());
+    const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+    if (twice != sorted.end()) {
+      input.fail({"column named twice", printable(*twice, 40), "different names", {}});
+    }
     return names;
   }
   if (columns < 3) {
@@ -70,7 +77,9 @@ Cloud cloud_of(const detail::TextTable& table, const Input& input, const ReadOpt
     return cloud;
   }
   const auto names = column_names(table.rows, table.header, input, counted);
+  std::vector<bool> is_coordinate;
   for (std::size_t k = 0; k < names.size(); ++k) {
+    is_coordinate.push_back(std::count(kCoordinates.begin(), kCoordinates.end(), names[k]) > 0);
     const bool colour = names[k] == "red" || names[k] == "green" || names[k] == "blue";
     const bool bytes = colour && table.rows.col(static_cast<Index>(k)).unaryExpr(&is_byte).all();
     const FieldType type = bytes ? FieldType::uint8 : FieldType::float64;
@@ -84,7 +93,7 @@ Cloud cloud_of(const detail::TextTable& table, const Input& input, const ReadOpt
   for (std::size_t i = 0; i < rows; ++i, record += cloud.stride) {
     const double* row = table.rows.data() + i * names.size();
     for (std::size_t k = 0; k < names.size(); ++k) {
-      if (k < 3 && std::isinf(row[k])) {
+      if (is_coordinate[k] && std::isinf(row[k])) {
         input.fail(
             {fmt::format("infinite coordinate of point {}", i), {}, "a finite number or nan", {}});
       }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <ostream>
+#include <set>
 
 #include "field_access.hpp"
 #include "lzf.hpp"
@@ -142,14 +143,24 @@ char pcd_type(FieldType type) {
   return is_signed ? 'I' : 'U';
 }
 
-// A name that is one word in a header.
-std::string word_of(const std::string& name) {
-  std::string word = name.empty() ? "_" : name;
-  for (char& c : word) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte <= ' ' || byte == 0x7F || c == '#' || c == ',' || c == ';') c = '_';
+// The names of the fields, each of them one word in a header and none twice.
+// @param padding "_" may be there more than once, as PCD has it.
+std::vector<std::string> header_words(const Cloud& cloud, bool padding) {
+  std::vector<std::string> words;
+  std::set<std::string> taken;
+  for (const CloudField& field : cloud.fields) {
+    std::string word = field.name.empty() ? "_" : field.name;
+    for (char& c : word) {
+      const auto byte = static_cast<unsigned char>(c);
+      if (byte <= ' ' || byte == 0x7F || c == '#' || c == ',' || c == ';') c = '_';
+    }
+    const std::string plain = word;
+    for (int copy = 2; !(padding && word == "_") && !taken.insert(word).second; ++copy) {
+      word = fmt::format("{}_{}", plain, copy);
+    }
+    words.push_back(std::move(word));
   }
-  return word;
+  return words;
 }
 
 std::string_view ply_type(FieldType type) {
@@ -209,8 +220,8 @@ Cloud ply_cloud(const Cloud& cloud) {
 void write_pcd(std::ostream& out, const Cloud& cloud, PcdData data) {
   check_cloud(cloud);
   std::string fields, sizes, types, counts, viewpoint;
+  for (const std::string& word : header_words(cloud, true)) fields += ' ' + word;
   for (const CloudField& field : cloud.fields) {
-    fields += ' ' + word_of(field.name);
     sizes += fmt::format(" {}", size_of(field.type));
     types += fmt::format(" {}", pcd_type(field.type));
     counts += fmt::format(" {}", field.count);
@@ -241,8 +252,9 @@ void write_ply(std::ostream& out, const Cloud& cloud, PlyData data) {
   std::string header =
       fmt::format("ply\nformat {} 1.0\nelement vertex {}\n",
                   data == PlyData::ascii ? "ascii" : "binary_little_endian", split.size());
-  for (const CloudField& field : split.fields) {
-    header += fmt::format("property {} {}\n", ply_type(field.type), word_of(field.name));
+  const std::vector<std::string> words = header_words(split, false);
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    header += fmt::format("property {} {}\n", ply_type(split.fields[k].type), words[k]);
   }
   put(out, header + "end_header\n");
   if (data == PlyData::ascii) {

@@ -13,6 +13,7 @@ namespace ph::detail {
 namespace {
 
 constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+constexpr std::size_t kMostPointBytes = std::size_t{1} << 20;
 
 std::optional<FieldType> field_type(char type, std::int64_t size) {
   constexpr std::array kUnsigned{FieldType::uint8, FieldType::uint16, FieldType::uint32,
@@ -194,8 +195,11 @@ class HeaderParser {
       field.type = *type;
       field.offset = stride;
       const auto bytes = checked_product(field.count, size_of(*type));
-      if (!bytes || *bytes > static_cast<std::size_t>(kMost) - stride) {
-        input_.fail({"points too large", fmt::format("COUNT {}", field.count), "less", {}});
+      if (!bytes || *bytes > kMostPointBytes - stride) {
+        input_.fail({"points too large",
+                     fmt::format("COUNT {}", field.count),
+                     fmt::format("at most {} bytes a point", kMostPointBytes),
+                     {}});
       }
       stride += *bytes;
     }
