@@ -86,6 +86,19 @@ struct Writer {
   ~Writer() { png_destroy_write_struct(&png, &info); }
 };
 
+// libpng believes the length of a chunk, and allocates before it reads.
+void require_chunks(const Input& input) {
+  constexpr std::size_t kSignature = 8, kChecksum = 4;
+  BinaryCursor cursor(input, std::endian::big, kSignature);
+  for (bool end = false; !end;) {
+    const std::size_t length = cursor.read<std::uint32_t>("length of a chunk");
+    const auto kind = cursor.take(4, "name of a chunk");
+    end = std::memcmp(kind.data(), "IEND", kind.size()) == 0;
+    cursor.take(length, "chunk");
+    cursor.take(kChecksum, "checksum of a chunk");
+  }
+}
+
 // Each of the steps below calls libpng between setjmp and longjmp and owns nothing that would need
 // a destructor; false: it failed.
 
@@ -137,6 +150,7 @@ Raster read_png(const Input& input) {
   if (!detail::is_png(input)) {
     input.fail_at_byte(0, {"not a PNG file", "another signature", "\\x89PNG", {}});
   }
+  require_chunks(input);
   Report report;
   Source source{input};
   Reader reader;

@@ -72,6 +72,7 @@ bool rounds_to_zero(std::string_view cell) {
   long exponent = 0;
   const auto [stop, error] = std::from_chars(cell.data() + i, cell.data() + cell.size(), exponent);
   if (error != std::errc{}) return negative;
+  exponent = std::min(exponent, 1L << 40);  // more than a line has digits
   return (negative ? leading - exponent : leading + exponent) < 0;
 }
 

@@ -138,6 +138,12 @@ Points read_points(const Input& input, const ReadOptions& options) {
                   "2: a point a row",
                   {}});
     }
+    if (array.values.empty() && array.extents[0] > 0) {
+      input.fail({"points without coordinates",
+                  fmt::format("shape ({}, 0)", array.extents[0]),
+                  "one column at least",
+                  {}});
+    }
     input.require_memory(array.values.size() * sizeof(double));
     points = Eigen::Map<const Points>(array.values.data(), array.extents[0], array.extents[1]);
     points = detail::without_nan_rows(std::move(points), input, options, false);
