@@ -165,10 +165,10 @@ void add_planned_options(CLI::App& app) {
         name, [name] { not_built_in(name); }, "not built in yet");
   }
   using Option = std::pair<std::string, std::string>;
-  for (const auto& [name, value] : {Option("--min-persistence", "X"), Option("--cut", "X"),
-                                    Option("--explain", "A,B"), Option("--report", "FILE.html")}) {
-    add_value(app, name, value, "not built in yet",
-              [name = name](const std::string&) { not_built_in(name); });
+  for (const Option& option : {Option("--min-persistence", "X"), Option("--cut", "X"),
+                               Option("--explain", "A,B"), Option("--report", "FILE.html")}) {
+    add_value(app, option.first, option.second, "not built in yet",
+              [name = option.first](const std::string&) { not_built_in(name); });
   }
 }
 
