@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs the Debian packages that are missing: setup.sh [build|demo|test|lint]…
+# Installs the Debian packages that are missing: setup.sh [build|demo|test|lint|fuzz|coverage]…
 set -euo pipefail
 
 build=(build-essential cmake ninja-build pkg-config ccache libeigen3-dev libfmt-dev libnanoflann-dev
@@ -10,6 +10,8 @@ demo=(python3-numpy python3-skimage libcgal-demo)
 test=(libgtest-dev libbenchmark-dev libpcl-dev ripser python3-gudhi python3-numpy librsvg2-bin git
       locales)
 lint=(clang-format-14 clang-tidy-19)
+fuzz=(clang-19 libclang-rt-19-dev libgtest-dev)
+coverage=(gcovr libgtest-dev)
 
 wanted=()
 for set in "${@:-build}"; do
@@ -18,7 +20,9 @@ for set in "${@:-build}"; do
     demo) wanted+=("${demo[@]}") ;;
     test) wanted+=("${test[@]}") ;;
     lint) wanted+=("${lint[@]}") ;;
-    *) echo "setup.sh: found '$set', expected build, demo, test or lint" >&2; exit 64 ;;
+    fuzz) wanted+=("${fuzz[@]}") ;;
+    coverage) wanted+=("${coverage[@]}") ;;
+    *) echo "setup.sh: found '$set', expected build, demo, test, lint, fuzz or coverage" >&2; exit 64 ;;
   esac
 done
 

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Any words give options, an answer, or an error that says what is wrong with them.
+#include <vector>
+
+#include "barcode/arguments.hpp"
+#include "segment/arguments.hpp"
+#include "targets.hpp"
+#include "violation.hpp"
+
+namespace ph::fuzz {
+namespace {
+
+/// The lines of a text, as an operating system hands them to a program: none holds a NUL.
+std::vector<std::string> words_of(std::string_view bytes, const char* program) {
+  std::vector<std::string> words{program};
+  while (!bytes.empty()) {
+    const std::size_t end = bytes.find('\n');
+    words.emplace_back(bytes.substr(0, end));
+    words.back().resize(words.back().find('\0') == std::string::npos ? words.back().size()
+                                                                     : words.back().find('\0'));
+    bytes.remove_prefix(end == std::string_view::npos ? bytes.size() : end + 1);
+  }
+  return words;
+}
+
+template <class Arguments>
+void check(const std::vector<std::string>& words,
+           std::optional<std::string> (*parse)(int, const char* const*, Arguments&)) {
+  std::vector<const char*> argv;
+  for (const std::string& word : words) argv.push_back(word.c_str());
+  Arguments arguments;
+  try {
+    const auto answer = parse(static_cast<int>(argv.size()), argv.data(), arguments);
+    require(!answer || !answer->empty(), "a command line is answered by nothing");
+  } catch (const Error& error) {
+    require(error.kind() == ErrorKind::usage || error.kind() == ErrorKind::not_built_in,
+            "a command line is no usage error");
+    require(*error.what() != '\0', "an error without a message");
+  }
+}
+
+}  // namespace
+
+void run_barcode_arguments(std::string_view bytes) {
+  check(words_of(bytes, "ph-barcode"), &barcode::parse_arguments);
+}
+
+void run_segment_arguments(std::string_view bytes) {
+  check(words_of(bytes, "ph-segment"), &segment::parse_arguments);
+}
+
+}  // namespace ph::fuzz

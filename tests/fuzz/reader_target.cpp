@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// What holds for every reader: a result that is what it promises, or one line that names the file.
+#include <algorithm>
+#include <optional>
+
+#include "heap_meter.hpp"
+#include "readers.hpp"
+#include "targets.hpp"
+#include "unpack.hpp"
+#include "violation.hpp"
+
+namespace ph::fuzz {
+namespace {
+
+constexpr std::size_t kBudget = std::size_t{64} << 20;
+/// What a message, the input's name and other small things may take beyond it.
+constexpr std::size_t kFree = std::size_t{1} << 20;
+
+/// How an attempt to read ended.
+struct Outcome {
+  std::optional<Content> content;
+  std::string message;
+  bool out_of_budget = false;
+
+  friend bool operator==(const Outcome&, const Outcome&) = default;
+};
+
+void require_message(const std::string& message, const std::string& name) {
+  require(message.starts_with(name) && message.size() > name.size() + 2,
+          "a message does not begin with the file's name");
+  const bool ascii =
+      std::all_of(message.begin(), message.end(), [](char c) { return c >= ' ' && c <= '~'; });
+  require(ascii || printable(message, SIZE_MAX) == message, "a message is not one printable line");
+}
+
+std::string name_of(const NamedReader& reader) { return "input" + std::string(reader.extension); }
+
+Outcome attempt(const NamedReader& reader, std::string_view bytes, ReadOptions options) {
+  RunContext context;
+  context.memory.set_limit(kBudget);
+  options.context = &context;
+  const std::string name = name_of(reader);
+  // A copy of its own, so that a byte read beyond its end is seen.
+  const Input input = Input::hold({bytes.begin(), bytes.end(), &context.memory}, name, &context);
+  Outcome outcome;
+  try {
+    outcome.content = reader.read(input, options);
+  } catch (const Error& error) {
+    outcome.message = error.what();
+    outcome.out_of_budget = error.kind() == ErrorKind::resource;
+    require(outcome.out_of_budget || error.kind() == ErrorKind::bad_data,
+            "a reader throws neither bad data nor resource");
+    if (!outcome.out_of_budget) require_message(outcome.message, name);
+  }
+  require(HeapMeter::last_peak() <= kBudget + kFree, "a reader took more memory than its budget");
+  return outcome;
+}
+
+}  // namespace
+
+void run_reader(std::string_view name, std::string_view bytes) {
+  const NamedReader& reader = *find_reader(name);
+  const Outcome strict = attempt(reader, bytes, {});
+  // Exceptions take most of the time: not all is tried with each input.
+  if (bytes.size() % 8 == 0)
+    require(strict == attempt(reader, bytes, {}), "a reader gives two results for one file");
+  if (!strict.content && bytes.size() % 2 != 0) return;
+  // What is taken strictly is taken leniently, and means the same.
+  const ReadOptions taking{
+      .allow_empty = true, .symmetrise = Symmetrise::lower, .nan = NanPolicy::drop};
+  const Outcome lenient = attempt(reader, bytes, taking);
+  require(!strict.content || strict.content == lenient.content,
+          "a lenient reader reads something else");
+  if (lenient.content) reader.rewrite(Input::view(bytes, name_of(reader)), taking);
+}
+
+void run_gzip(std::string_view bytes) {
+  RunContext context;
+  context.memory.set_limit(kBudget);
+  const Input input = Input::hold({bytes.begin(), bytes.end(), &context.memory}, "input", &context);
+  try {
+    require(detail::gunzip(input, kBudget).size() <= kBudget, "unpacked beyond the budget");
+  } catch (const Error& error) {
+    const bool kind = error.kind() == ErrorKind::bad_data || error.kind() == ErrorKind::resource;
+    require(kind, "unpacking throws neither bad data nor resource");
+    require_message(error.what(), "input");
+  }
+}
+
+}  // namespace ph::fuzz

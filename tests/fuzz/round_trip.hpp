@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "content.hpp"
+
+namespace ph::fuzz {
+
+// Each writes its argument in every format that can hold it and reads it again. Throws Violation if
+// something else comes back.
+void write_and_read_again(const Barcode& barcode);
+void write_and_read_again(const Cloud& cloud);
+void write_and_read_again(const Raster& raster);
+/// Nothing else is written.
+template <class T>
+void write_and_read_again(const T&) {}
+
+}  // namespace ph::fuzz

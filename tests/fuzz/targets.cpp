@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "targets.hpp"
+
+#include <algorithm>
+
+#include "readers.hpp"
+
+namespace ph::fuzz {
+
+const std::vector<Target>& targets() {
+  static const std::vector<Target> all = [] {
+    std::vector<Target> list;
+    for (const NamedReader& reader : readers()) {
+      list.push_back({std::string(reader.name),
+                      [name = reader.name](std::string_view bytes) { run_reader(name, bytes); }});
+    }
+    list.push_back({"gzip", &run_gzip});
+    list.push_back({"png_chunks", &run_png});
+    list.push_back({"barcode_arguments", &run_barcode_arguments});
+    list.push_back({"segment_arguments", &run_segment_arguments});
+    list.push_back({"engines", &run_engines});
+    return list;
+  }();
+  return all;
+}
+
+const Target* find_target(std::string_view name) {
+  const auto found = std::find_if(targets().begin(), targets().end(),
+                                  [name](const Target& target) { return target.name == name; });
+  return found == targets().end() ? nullptr : &*found;
+}
+
+}  // namespace ph::fuzz

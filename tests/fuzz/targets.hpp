@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ph::fuzz {
+
+/// What libFuzzer and the replay run on any bytes.
+struct Target {
+  std::string name;
+  /// Throws Violation, or anything else, if a property does not hold.
+  std::function<void(std::string_view bytes)> run;
+};
+
+/// All of them: a target for each reader (see readers.hpp), and the others.
+const std::vector<Target>& targets();
+/// Null if there is none of that name.
+const Target* find_target(std::string_view name);
+
+// Each is in a file of its own.
+
+/// Reads some bytes, strictly and not; what can be written is written and read again.
+void run_reader(std::string_view reader, std::string_view bytes);
+/// Unpacks.
+void run_gzip(std::string_view bytes);
+/// A picture as it is and with the right checksums, and as a depth image.
+void run_png(std::string_view bytes);
+/// The lines are the words of a command line.
+void run_barcode_arguments(std::string_view bytes);
+void run_segment_arguments(std::string_view bytes);
+/// Chooses a small filtration; all engines must agree with the oracle, and representatives be some.
+void run_engines(std::string_view bytes);
+
+}  // namespace ph::fuzz

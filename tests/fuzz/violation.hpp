@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <stdexcept>
+#include <string>
+
+namespace ph::fuzz {
+
+/// A property that does not hold: what a fuzz target throws. Left alone it ends libFuzzer with the
+/// input; the replay reports it.
+struct Violation : std::logic_error {
+  using std::logic_error::logic_error;
+};
+
+inline void require(bool holds, const char* property) {
+  if (!holds) throw Violation(property);
+}
+
+}  // namespace ph::fuzz
