@@ -219,7 +219,7 @@ def counts_and_sizes():
     many = "1 1 2000000000"
     for data, body in (("ascii", POINT), ("binary", RAW), ("binary_compressed", bytes(8) + RAW)):
         yield refused(36, "pcd", f"COUNT 2e9, {data}", pcd_header(counts=many, data=data) + body,
-                      "truncated|uncompressed size")
+                      "points too large")
     yield refused(36, "pcd", "COUNT 2^62", pcd_header(counts=f"1 1 {2 ** 62}") + POINT, "points too l")
     yield refused(36, "pcd", "COUNT 2^63", pcd_header(counts=f"1 1 {2 ** 63}") + POINT,
                   "COUNT out of range")

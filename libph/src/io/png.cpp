@@ -91,11 +91,11 @@ void require_chunks(const Input& input) {
   constexpr std::size_t kSignature = 8, kChecksum = 4;
   BinaryCursor cursor(input, std::endian::big, kSignature);
   for (bool end = false; !end;) {
-    const std::size_t length = cursor.read<std::uint32_t>("length of a chunk");
-    const auto kind = cursor.take(4, "name of a chunk");
+    const std::size_t length = cursor.read<std::uint32_t>("length of a PNG chunk");
+    const auto kind = cursor.take(4, "name of a PNG chunk");
     end = std::memcmp(kind.data(), "IEND", kind.size()) == 0;
-    cursor.take(length, "chunk");
-    cursor.take(kChecksum, "checksum of a chunk");
+    cursor.take(length, "PNG chunk");
+    cursor.take(kChecksum, "checksum of a PNG chunk");
   }
 }
 
