@@ -19,6 +19,8 @@ EngineChoice choose_engine(const F& f, Engine asked, int max_dim, Representative
   if (asked == Engine::automatic) {
     if (UnionFindEngine::can_run(f, max_dim, wanted))
       return {Engine::union_find, "only components are asked for"};
+    if (LensEngine::can_run(f, max_dim, wanted))
+      return {Engine::lens, "H1 of a Rips complex needs no triangles"};
     // Measured: where cells are numbered, columns are few and short in both directions and the
     // boundary wins; where they are not, the next dimension must never be listed.
     if (SlottedFiltration<F> && TwistEngine::can_run(f, max_dim, wanted))

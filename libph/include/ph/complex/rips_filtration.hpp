@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <concepts>
 #include <functional>
 #include <span>
 #include <string>
@@ -63,6 +65,20 @@ class RipsFiltration {
     for (int slot = 0; slot <= dim; ++slot) numbers.push_back(graph_.name(vertex(cell, slot)));
   }
 
+  const RipsGraph& graph() const { return graph_; }
+  Cell vertex_cell(std::uint32_t v) const { return {0, Vertices(v)}; }
+  Cell edge_cell(Key key) const {
+    const RipsGraph::Edge e = graph_.edge(key);
+    return {key, Vertices(e.u) << bits_ | Vertices(e.v)};
+  }
+  /// A triangle by its longest edge and the vertex opposite to it.
+  Cell triangle_cell(Key longest, std::uint32_t apex) const {
+    const RipsGraph::Edge e = graph_.edge(longest);
+    std::array<std::uint32_t, 3> v{e.u, e.v, apex};
+    std::sort(v.begin(), v.end());
+    return {longest, (Vertices(v[2]) << bits_ | Vertices(v[1])) << bits_ | Vertices(v[0])};
+  }
+
   template <class Visit>
   void for_each_cell(int dim, Visit&& visit) const;
   template <class Visit>
@@ -98,6 +114,12 @@ class RipsFiltration {
   int bits_;
 };
 
+/// Whether a filtration is the flag complex of a RipsGraph, whatever its cells.
+template <class F>
+concept OfRipsGraph = requires(const F& f) {
+  { f.graph() } -> std::same_as<const RipsGraph&>;
+};
+
 template <RipsLayout Layout, int Words>
 template <class Visit>
 void RipsFiltration<Layout, Words>::for_each_cell(int dim, Visit&& visit) const {
@@ -108,10 +130,8 @@ void RipsFiltration<Layout, Words>::for_each_cell(int dim, Visit&& visit) const 
     return;
   }
   if (dim == 1) {  // in the order of the filtration
-    const auto edges = graph_.edges();
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-      visit(Cell{static_cast<Key>(i + 1), Vertices(edges[i].u) << bits_ | Vertices(edges[i].v)});
-    }
+    for (std::size_t i = 0; i < graph_.edge_count(); ++i)
+      visit(edge_cell(static_cast<Key>(i + 1)));
     return;
   }
   std::vector<std::vector<Neighbour>> scratch(static_cast<std::size_t>(dim) + 1);

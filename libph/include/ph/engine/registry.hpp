@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "ph/engine/cohomology.hpp"
+#include "ph/engine/lens.hpp"
 #include "ph/engine/standard.hpp"
 #include "ph/engine/twist.hpp"
 #include "ph/engine/union_find.hpp"
@@ -13,7 +14,8 @@ namespace ph {
 
 /// All engines: a new one is a file and a line here (and its name in `Engine`). Names on the
 /// command line, the conformance suite and the benchmarks iterate over this list.
-using Engines = std::tuple<StandardEngine, TwistEngine, CohomologyEngine, UnionFindEngine>;
+using Engines =
+    std::tuple<StandardEngine, TwistEngine, CohomologyEngine, UnionFindEngine, LensEngine>;
 
 /// Calls `use(engine)` for each registered engine.
 template <class Use>

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <bit>
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+namespace ph {
+
+/// Rows of bits, 64 to a word; what is beyond the last column stays zero.
+class BitMatrix {
+ public:
+  using Word = std::uint64_t;
+
+  BitMatrix(std::size_t rows, std::size_t columns, std::pmr::memory_resource* memory)
+      : words_((columns + 63) / 64), bits_(rows * words_, Word{0}, memory) {}
+
+  std::size_t words() const { return words_; }
+  const Word* row(std::size_t i) const { return bits_.data() + i * words_; }
+  bool test(std::size_t i, std::size_t j) const { return row(i)[j / 64] >> (j % 64) & 1; }
+  void set(std::size_t i, std::size_t j) { bits_[i * words_ + j / 64] |= Word{1} << (j % 64); }
+  void clear(std::size_t i, std::size_t j) { bits_[i * words_ + j / 64] &= ~(Word{1} << (j % 64)); }
+
+ private:
+  std::size_t words_;
+  std::pmr::vector<Word> bits_;
+};
+
+/// What the inner loops of the lens sweep do to rows of bits; compiled for several instruction
+/// sets, the best of which is chosen at run time.
+namespace bits {
+
+using Word = BitMatrix::Word;
+inline constexpr std::size_t kNone = SIZE_MAX;
+
+/// The first bit that `a` and `b` share; kNone if there is none.
+std::size_t first_common(const Word* a, const Word* b, std::size_t words);
+
+struct Lens {
+  bool is_empty;
+  bool touches_active;
+};
+/// out = a & b. Says whether it is empty and whether it meets c | d.
+Lens lens(const Word* a, const Word* b, const Word* c, const Word* d, Word* out, std::size_t words);
+
+/// Moves the bits that `from` and `mask` share out of `from` into `moved`, from word `first` on.
+/// @return whether anything is left in `from`.
+bool split(Word* from, const Word* mask, Word* moved, std::size_t first, std::size_t words);
+
+/// Calls `visit(bit)` for each bit set, ascending.
+template <class Visit>
+void for_each(const Word* row, std::size_t first, std::size_t words, Visit&& visit) {
+  for (std::size_t k = first; k < words; ++k)
+    for (Word rest = row[k]; rest != 0; rest &= rest - 1)
+      visit(k * 64 + static_cast<std::size_t>(std::countr_zero(rest)));
+}
+
+}  // namespace bits
+
+}  // namespace ph

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <concepts>
+#include <cstdint>
+#include <cstdlib>
+#include <memory_resource>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "ph/core/chain.hpp"
+#include "ph/core/field.hpp"
+
+namespace ph {
+
+/// The classes of edges under the living generators of H^1: each generator is a cocycle, and the
+/// annotation of an edge (Busaryev, Cabello, Chen, Dey, Wang, Annotating simplices with a homology
+/// basis) is the vector of their values on it. Edges of one class share one vector; an edge that
+/// was never annotated has the zero vector. a(u,v) = -a(v,u).
+template <Field K>
+class Annotations {
+ public:
+  using Generator = std::uint32_t;  ///< numbered by birth: the youngest has the largest number
+  using Term = Entry<Generator, K>;
+  using Vector = std::pmr::vector<Term>;  ///< ascending generators, no zeros
+
+  /// A class up to sign; of two vectors +-a one is stored. 0 is the zero class.
+  struct Class {
+    std::uint32_t id = 0;
+    bool negated = false;
+    bool is_zero() const { return id == 0; }
+    Class operator-() const { return {id, !std::same_as<K, Z2> && id != 0 && !negated}; }
+    friend bool operator==(const Class&, const Class&) = default;
+  };
+
+  Annotations(const K& field, std::pmr::memory_resource* memory)
+      : field_(field),
+        vectors_(memory),
+        members_(memory),
+        links_(memory),
+        of_generator_(memory),
+        edges_(memory),
+        sums_(memory),
+        known_(16, Hash{this}, Equal{this}, memory),
+        scratch_(memory) {
+    vectors_.emplace_back();  // the zero class
+    members_.emplace_back();
+    links_.push_back({});
+  }
+  Annotations(const Annotations&) = delete;
+  Annotations& operator=(const Annotations&) = delete;
+
+  /// A generator whose value on the new edge (u,v) is one and zero on all others.
+  Generator add_generator(std::uint32_t u, std::uint32_t v) {
+    const auto g = static_cast<Generator>(of_generator_.size());
+    of_generator_.emplace_back();
+    scratch_.clear();
+    scratch_.emplace_back(g, field_.from_int(1));
+    assign(u, v, intern());
+    return g;
+  }
+
+  /// a(u,v).
+  Class of(std::uint32_t u, std::uint32_t v) {
+    const auto it = edges_.find(name(u, v));
+    if (it == edges_.end()) return {};
+    it->second = resolve(it->second);
+    return oriented(it->second, u, v);
+  }
+  /// Annotates the edge (u,v) for the first time; a class that is not zero.
+  void assign(std::uint32_t u, std::uint32_t v, Class a) {
+    members_[a.id].push_back(name(u, v));
+    edges_[name(u, v)] = oriented(a, u, v);
+  }
+
+  Class sum(Class a, Class b);
+  /// The value of a generator in a class.
+  typename K::Element value(Class a, Generator g) const {
+    const Term* term = find(vectors_[a.id], g);
+    if (term == nullptr) return field_.from_int(0);
+    return a.negated ? field_.negate(term->coefficient()) : term->coefficient();
+  }
+  Generator youngest(Class a) const { return vectors_[a.id].back().cell; }
+
+  /// Makes a class zero: its youngest generator becomes a combination of the others, everywhere.
+  /// @param on_inactive called with the edges (u,v), u > v, that become zero.
+  template <class OnInactive>
+  void kill(Class relation, OnInactive&& on_inactive);
+
+  /// The edges on which a generator is not zero, with its values: a cocycle. Calls
+  /// `visit(u, v, value)` with u > v.
+  template <class Visit>
+  void for_each_value(Generator g, Visit&& visit);
+
+ private:
+  struct Hash {
+    const Annotations* self;
+    std::size_t operator()(std::uint32_t id) const {
+      std::uint64_t h = 0;
+      for (const Term& t : self->vectors_[id]) {
+        const auto size =
+            static_cast<std::uint64_t>(std::abs(self->field_.to_int(t.coefficient())));
+        h = (h ^ t.cell ^ size << 32) * 0x9E3779B97F4A7C15U;
+      }
+      return h ^ h >> 32;
+    }
+  };
+  struct Equal {
+    const Annotations* self;
+    bool operator()(std::uint32_t a, std::uint32_t b) const {
+      const Vector &x = self->vectors_[a], &y = self->vectors_[b];
+      const bool opposite = self->are_opposite(a, b);
+      return std::ranges::equal(x, y, [&](const Term& s, const Term& t) {
+        const auto c = opposite ? self->field_.negate(t.coefficient()) : t.coefficient();
+        return s.cell == t.cell && s.coefficient() == c;
+      });
+    }
+  };
+
+  static std::uint64_t name(std::uint32_t u, std::uint32_t v) {
+    return std::uint64_t{std::max(u, v)} << 32 | std::min(u, v);
+  }
+  /// Between a(u,v) and a(max, min), either way.
+  static Class oriented(Class a, std::uint32_t u, std::uint32_t v) { return u > v ? a : -a; }
+  /// Of two classes equal up to sign: whether they are not equal.
+  bool are_opposite(std::uint32_t a, std::uint32_t b) const {
+    return vectors_[a].back().coefficient() != vectors_[b].back().coefficient();
+  }
+  /// Follows the links of classes that became equal to others.
+  Class resolve(Class a);
+  /// The class of scratch_.
+  Class intern();
+  /// scratch_ = a + scale * b.
+  void combine(const Vector& a, const Vector& b, typename K::Element scale);
+  template <class T>
+  static void release(T& vector) {
+    T(vector.get_allocator()).swap(vector);
+  }
+  /// The term of a generator; null if it is zero.
+  const Term* find(const Vector& v, Generator g) const {
+    const auto it = std::ranges::lower_bound(v, g, {}, &Term::cell);
+    return it != v.end() && it->cell == g ? &*it : nullptr;
+  }
+
+  const K& field_;
+  std::pmr::vector<Vector> vectors_;                           // by class
+  std::pmr::vector<std::pmr::vector<std::uint64_t>> members_;  // by class: its edges
+  std::pmr::vector<Class> links_;  // by class: what it became; itself while it is one
+  std::pmr::vector<std::pmr::vector<std::uint32_t>> of_generator_;  // classes it may occur in
+  std::pmr::unordered_map<std::uint64_t, Class> edges_;             // oriented from u > v
+  std::pmr::unordered_map<std::uint64_t, Class> sums_;  // of two classes, until the next kill
+  std::pmr::unordered_set<std::uint32_t, Hash, Equal> known_;
+  Vector scratch_;
+};
+
+template <Field K>
+auto Annotations<K>::resolve(Class a) -> Class {
+  while (links_[a.id].id != a.id) {
+    const Class up = links_[a.id];
+    const Class further = links_[up.id];
+    links_[a.id] = up.negated ? -further : further;  // halves the path
+    const Class next = links_[a.id];
+    a = a.negated ? -next : next;
+  }
+  return a;
+}
+
+template <Field K>
+auto Annotations<K>::intern() -> Class {
+  if (scratch_.empty()) return {};
+  const auto fresh = static_cast<std::uint32_t>(vectors_.size());
+  vectors_.emplace_back(scratch_.begin(), scratch_.end());
+  const auto [it, is_new] = known_.insert(fresh);
+  if (!is_new) {
+    const Class found{*it, are_opposite(fresh, *it)};
+    vectors_.pop_back();
+    return found;
+  }
+  members_.emplace_back();
+  links_.push_back({fresh, false});
+  for (const Term& t : scratch_) of_generator_[t.cell].push_back(fresh);
+  return {fresh, false};
+}
+
+template <Field K>
+void Annotations<K>::combine(const Vector& a, const Vector& b, typename K::Element scale) {
+  scratch_.clear();
+  auto x = a.begin();
+  for (const Term& y : b) {
+    for (; x != a.end() && x->cell < y.cell; ++x) scratch_.push_back(*x);
+    auto value = field_.multiply(scale, y.coefficient());
+    if (x != a.end() && x->cell == y.cell) value = field_.add(value, (x++)->coefficient());
+    if (!field_.is_zero(value)) scratch_.emplace_back(y.cell, value);
+  }
+  scratch_.insert(scratch_.end(), x, a.end());
+}
+
+template <Field K>
+auto Annotations<K>::sum(Class a, Class b) -> Class {
+  if (a.is_zero()) return b;
+  if (b.is_zero()) return a;
+  if (a == -b) return {};
+  if (a.id > b.id) std::swap(a, b);
+  const bool flipped = a.negated;
+  if (flipped) {
+    a = -a;
+    b = -b;
+  }
+  const std::uint64_t pair = std::uint64_t{a.id} << 32 | b.id << 1 | (b.negated ? 1U : 0U);
+  const auto [it, is_new] = sums_.try_emplace(pair);
+  if (is_new) {
+    combine(vectors_[a.id], vectors_[b.id], field_.from_int(b.negated ? -1 : 1));
+    it->second = intern();
+  }
+  return flipped ? -it->second : it->second;
+}
+
+template <Field K>
+template <class OnInactive>
+void Annotations<K>::kill(Class relation, OnInactive&& on_inactive) {
+  const Vector zero = vectors_[relation.id];
+  const Generator g = zero.back().cell;
+  const auto unit = field_.inverse(zero.back().coefficient());
+  sums_.clear();
+  const auto holders = std::move(of_generator_[g]);
+  of_generator_[g].clear();
+  for (const std::uint32_t id : holders) {
+    if (links_[id].id != id) continue;
+    const Term* term = find(vectors_[id], g);
+    if (term == nullptr) continue;
+    known_.erase(id);
+    combine(vectors_[id], zero, field_.negate(field_.multiply(term->coefficient(), unit)));
+    scratch_.swap(vectors_[id]);
+    if (vectors_[id].empty()) {
+      links_[id] = {};
+      for (const std::uint64_t edge : members_[id])
+        on_inactive(static_cast<std::uint32_t>(edge >> 32), static_cast<std::uint32_t>(edge));
+      release(members_[id]);
+    } else if (const auto [it, is_new] = known_.insert(id); is_new) {
+      for (const Term& t : zero)  // scratch_ is the vector before
+        if (t.cell != g && find(scratch_, t.cell) == nullptr) of_generator_[t.cell].push_back(id);
+    } else {
+      links_[id] = {*it, are_opposite(id, *it)};
+      auto &from = members_[id], &to = members_[*it];
+      if (to.size() < from.size()) to.swap(from);
+      to.insert(to.end(), from.begin(), from.end());
+      release(from);
+      release(vectors_[id]);
+    }
+  }
+}
+
+template <Field K>
+template <class Visit>
+void Annotations<K>::for_each_value(Generator g, Visit&& visit) {
+  for (const std::uint32_t id : of_generator_[g]) {
+    if (links_[id].id != id) continue;
+    const Term* term = find(vectors_[id], g);
+    if (term == nullptr) continue;
+    for (const std::uint64_t edge : members_[id]) {
+      const auto u = static_cast<std::uint32_t>(edge >> 32), v = static_cast<std::uint32_t>(edge);
+      const bool negated = of(u, v).negated;
+      visit(u, v, negated ? field_.negate(term->coefficient()) : term->coefficient());
+    }
+  }
+}
+
+}  // namespace ph

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <memory_resource>
+#include <numeric>
+#include <vector>
+
+#include "ph/complex/rips_filtration.hpp"
+#include "ph/core/barcode.hpp"
+#include "ph/core/chain.hpp"
+#include "ph/engine/engine.hpp"
+#include "ph/engine/lens_sweep.hpp"
+
+namespace ph {
+
+/// H0 and H1 of Vietoris-Rips filtrations by the lens sweep, see lens_sweep.hpp: bit rows of n^2
+/// bits and the classes alive, neither triangles nor their columns.
+struct LensEngine {
+  static constexpr Engine id = Engine::lens;
+  static constexpr const char* name = "lens";
+  template <Filtration F>
+  static bool can_run(const F& f, int max_dim, Representatives wanted = Representatives::none) {
+    if constexpr (OfRipsGraph<F>)
+      return max_dim <= 1 && wanted != Representatives::cycles && are_rows_affordable(f.graph());
+    else
+      return false;
+  }
+
+  template <Filtration F, Field K>
+  static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context) {
+    if constexpr (OfRipsGraph<F>) {
+      Reporter<F, K> reporter(f, field, bars, context);
+      const typename LensSweep<K>::Wanted wanted{
+          .cocycles = bars.representatives() == Representatives::cocycles,
+          .zero_length = bars.wants_zero_length()};
+      LensSweep<K>(f.graph(), field, wanted, reporter, context).run();
+      reporter.report_components();
+    }
+  }
+
+ private:
+  /// Two bits a pair of vertices; where edges are few, other engines take less.
+  static bool are_rows_affordable(const RipsGraph& graph) {
+    constexpr double kAlways = 1 << 28;  // bytes
+    const auto n = static_cast<double>(graph.size());
+    return n * n / 4 <= std::max(kAlways, 16.0 * static_cast<double>(graph.edge_count()));
+  }
+
+  /// Turns what the sweep tells into bars.
+  template <class F, Field K>
+  class Reporter final : public LensSweep<K>::Observer {
+   public:
+    using Sweep = LensSweep<K>;
+    using Vertex = typename Sweep::Vertex;
+    using Key = typename Sweep::Key;
+
+    Reporter(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context)
+        : f_(f),
+          field_(field),
+          bars_(bars),
+          is_dead_(static_cast<std::size_t>(f.graph().size()), false, &context.memory),
+          next_(is_dead_.size(), &context.memory),
+          terms_(&context.memory) {
+      std::iota(next_.begin(), next_.end(), Vertex{0});
+    }
+
+    void on_join(Vertex elder, Vertex younger, Key edge) override {
+      is_dead_[younger] = true;
+      if (bars_.add_pair(0, f_.vertex_cell(younger), f_.edge_cell(edge))) give_component(younger);
+      std::swap(next_[elder], next_[younger]);  // two rings become one
+    }
+    void on_death(Key birth, typename Sweep::Triangle death,
+                  std::span<const typename Sweep::Value> cocycle) override {
+      if (bars_.add_pair(1, f_.edge_cell(birth), f_.triangle_cell(death.edge, death.apex)))
+        give_cocycle(cocycle);
+    }
+    void on_essential(Key birth, std::span<const typename Sweep::Value> cocycle) override {
+      if (bars_.add_essential(1, f_.edge_cell(birth))) give_cocycle(cocycle);
+    }
+    void on_zero_length(typename Sweep::Triangle first) override {
+      if (!bars_.add_pair(1, f_.edge_cell(first.edge), f_.triangle_cell(first.edge, first.apex)))
+        return;
+      const RipsGraph::Edge e = f_.graph().edge(first.edge);
+      const typename Sweep::Value only{e.u, e.v, field_.from_int(1)};
+      give_cocycle({&only, 1});
+    }
+
+    void report_components() {
+      for (Vertex v = 0; v < is_dead_.size(); ++v)
+        if (!is_dead_[v] && bars_.add_essential(0, f_.vertex_cell(v))) give_component(v);
+    }
+
+   private:
+    void give_component(Vertex v) {
+      if (bars_.representatives() == Representatives::none) return;
+      terms_.clear();
+      Vertex w = v;
+      do {
+        terms_.emplace_back(f_.vertex_cell(w), field_.from_int(1));
+        w = next_[w];
+      } while (w != v);
+      bars_.add_representative(0, terms_, field_);
+    }
+    void give_cocycle(std::span<const typename Sweep::Value> cocycle) {
+      if (bars_.representatives() == Representatives::none) return;
+      terms_.clear();
+      for (const auto& [u, v, value] : cocycle) {
+        terms_.emplace_back(f_.edge_cell(f_.graph().key_of(u, v)), value);
+      }
+      bars_.add_representative(1, terms_, field_);
+    }
+
+    const F& f_;
+    const K& field_;
+    BarcodeBuilder<F>& bars_;
+    std::pmr::vector<bool> is_dead_;
+    std::pmr::vector<Vertex> next_;  // a ring of the vertices of each component
+    std::pmr::vector<Entry<typename F::Cell, K>> terms_;
+  };
+};
+
+}  // namespace ph

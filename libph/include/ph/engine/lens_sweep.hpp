@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "ph/complex/rips_graph.hpp"
+#include "ph/core/bit_matrix.hpp"
+#include "ph/core/field.hpp"
+#include "ph/core/run_context.hpp"
+#include "ph/engine/annotations.hpp"
+#include "ph/engine/elder_rule.hpp"
+
+namespace ph {
+
+/// H0 and H1 of a Vietoris-Rips filtration edge by edge; no triangle is ever listed.
+///
+/// The triangles that enter with an edge e = (u,v) are those over its lens, the vertices joined to
+/// both u and v before. All over one connected component of the lens say the same: one triangle a
+/// component carries H1 (Koyama, Mémoli, Robins, Turner, Faster computation of degree-1 persistent
+/// homology using the reduced Vietoris-Rips filtration). An empty lens lets e join two components
+/// or give birth to a class. Otherwise the first triangle determines the annotation of e, and each
+/// further component w asks that a(u,w) + a(w,v) be the same: where it is not, the youngest
+/// generator of the difference dies. Almost all edges end sooner: if no edge between u or v and
+/// the lens is active, that is, has an annotation, nothing can happen. See docs/algorithms.md.
+template <Field K>
+class LensSweep {
+ public:
+  using Vertex = std::uint32_t;
+  using Key = RipsGraph::Key;
+  static constexpr Vertex kNoVertex = UINT32_MAX;
+
+  /// The triangle over an edge with one more vertex.
+  struct Triangle {
+    Key edge;
+    Vertex apex;
+  };
+  /// A term of a 1-cochain: the value on the edge from u to v, u > v.
+  struct Value {
+    Vertex u, v;
+    typename K::Element value;
+  };
+  /// What happens, told as it happens.
+  class Observer {
+   public:
+    virtual ~Observer() = default;
+    /// Two components are joined, named by their oldest vertices.
+    virtual void on_join(Vertex elder, Vertex younger, Key edge) = 0;
+    /// A class of H1 born with an edge dies. Its cocycle, if asked for, is valid during the call.
+    virtual void on_death(Key birth, Triangle death, std::span<const Value> cocycle) = 0;
+    /// A class of H1 that never dies.
+    virtual void on_essential(Key birth, std::span<const Value> cocycle) = 0;
+    /// An edge whose class dies with its first triangle, at the same value.
+    virtual void on_zero_length(Triangle first) = 0;
+  };
+  struct Wanted {
+    bool cocycles = false;
+    bool zero_length = false;
+  };
+
+  LensSweep(const RipsGraph& graph, const K& field, Wanted wanted, Observer& observer,
+            const RunContext& context)
+      : graph_(graph),
+        field_(field),
+        wanted_(wanted),
+        observer_(observer),
+        context_(context),
+        joined_(size(), size(), &context.memory),
+        active_(size(), size(), &context.memory),
+        active_degree_(size(), 0, &context.memory),
+        lens_(joined_.words(), 0, &context.memory),
+        reached_(joined_.words(), 0, &context.memory),
+        components_(&context.memory),
+        queue_(&context.memory),
+        sets_(size(), &context.memory),
+        annotations_(field, &context.memory),
+        births_(&context.memory),
+        cocycle_(&context.memory) {}
+
+  void run();
+
+ private:
+  using Class = typename Annotations<K>::Class;
+
+  std::size_t size() const { return static_cast<std::size_t>(graph_.size()); }
+  void add_edge(Key key);
+  void join_or_give_birth(Key key, RipsGraph::Edge e);
+  /// The first vertex of each connected component of lens_, ascending; uses lens_ up.
+  void find_components();
+  void annotate(Key key, RipsGraph::Edge e);
+  /// @param of_edge the annotation that the last edge is about to get.
+  void kill(Class relation, Triangle death, Class of_edge);
+  void set_active(Vertex u, Vertex v);
+  void set_inactive(Vertex u, Vertex v);
+  /// cocycle_ = what a generator is on the edges before this one, if cocycles are wanted.
+  void find_cocycle(typename Annotations<K>::Generator g);
+
+  const RipsGraph& graph_;
+  const K& field_;
+  Wanted wanted_;
+  Observer& observer_;
+  const RunContext& context_;
+  BitMatrix joined_;  // edges so far
+  BitMatrix active_;  // edges whose annotation is not zero
+  std::pmr::vector<std::uint32_t> active_degree_;
+  std::pmr::vector<BitMatrix::Word> lens_, reached_;
+  std::pmr::vector<Vertex> components_, queue_;
+  DisjointSets sets_;  // each root is the oldest vertex of its component
+  Annotations<K> annotations_;
+  std::pmr::vector<Key> births_;  // by generator; 0 once it died
+  std::pmr::vector<Value> cocycle_;
+};
+
+template <Field K>
+void LensSweep<K>::run() {
+  const auto edges = static_cast<Key>(graph_.edge_count());
+  Ticker ticker(context_, "edges", edges);
+  for (Key key = 1; key <= edges; ++key) {
+    add_edge(key);
+    ticker.tick();
+  }
+  for (std::uint32_t g = 0; g < births_.size(); ++g) {
+    if (births_[g] == 0) continue;
+    find_cocycle(g);
+    observer_.on_essential(births_[g], cocycle_);
+  }
+}
+
+template <Field K>
+void LensSweep<K>::add_edge(Key key) {
+  const RipsGraph::Edge e = graph_.edge(key);
+  const auto *u = joined_.row(e.u), *v = joined_.row(e.v);
+  if (active_degree_[e.u] == 0 && active_degree_[e.v] == 0) {
+    const std::size_t first = bits::first_common(u, v, joined_.words());
+    if (first == bits::kNone)
+      join_or_give_birth(key, e);
+    else if (wanted_.zero_length)
+      observer_.on_zero_length({key, static_cast<Vertex>(first)});
+  } else {
+    const bits::Lens lens =
+        bits::lens(u, v, active_.row(e.u), active_.row(e.v), lens_.data(), joined_.words());
+    if (lens.is_empty) {
+      join_or_give_birth(key, e);
+    } else {
+      if (wanted_.zero_length)
+        observer_.on_zero_length(
+            {key, static_cast<Vertex>(bits::first_common(u, v, joined_.words()))});
+      if (lens.touches_active) annotate(key, e);
+    }
+  }
+  joined_.set(e.u, e.v);
+  joined_.set(e.v, e.u);
+}
+
+template <Field K>
+void LensSweep<K>::join_or_give_birth(Key key, RipsGraph::Edge e) {
+  const Vertex a = sets_.find(e.u), b = sets_.find(e.v);
+  if (a != b) {
+    sets_.link(std::max(a, b), std::min(a, b));
+    observer_.on_join(std::min(a, b), std::max(a, b), key);
+    return;
+  }
+  annotations_.add_generator(e.u, e.v);
+  births_.push_back(key);
+  set_active(e.u, e.v);
+}
+
+template <Field K>
+void LensSweep<K>::find_components() {
+  components_.clear();
+  const std::size_t words = joined_.words();
+  for (std::size_t first = 0; first < words; ++first) {
+    while (lens_[first] != 0) {
+      const auto root = static_cast<Vertex>(
+          first * 64 + static_cast<std::size_t>(std::countr_zero(lens_[first])));
+      lens_[first] &= lens_[first] - 1;
+      components_.push_back(root);
+      queue_.assign(1, root);
+      while (!queue_.empty()) {
+        const Vertex w = queue_.back();
+        queue_.pop_back();
+        if (!bits::split(lens_.data(), joined_.row(w), reached_.data(), first, words)) return;
+        bits::for_each(reached_.data(), first, words,
+                       [&](std::size_t x) { queue_.push_back(static_cast<Vertex>(x)); });
+      }
+    }
+  }
+}
+
+template <Field K>
+void LensSweep<K>::annotate(Key key, RipsGraph::Edge e) {
+  find_components();
+  const auto around = [&](Vertex w) {
+    return annotations_.sum(annotations_.of(e.u, w), annotations_.of(w, e.v));
+  };
+  Class value = around(components_.front());
+  for (std::size_t i = 1; i < components_.size(); ++i) {
+    const Class difference = annotations_.sum(around(components_[i]), -value);
+    if (difference.is_zero()) continue;
+    kill(difference, {key, components_[i]}, value);
+    value = around(components_.front());
+  }
+  if (value.is_zero()) return;
+  annotations_.assign(e.u, e.v, value);
+  set_active(e.u, e.v);
+}
+
+template <Field K>
+void LensSweep<K>::kill(Class relation, Triangle death, Class of_edge) {
+  const auto g = annotations_.youngest(relation);
+  find_cocycle(g);
+  if (wanted_.cocycles) {
+    const auto value = annotations_.value(of_edge, g);
+    const RipsGraph::Edge e = graph_.edge(death.edge);
+    if (!field_.is_zero(value)) cocycle_.push_back({e.u, e.v, value});
+  }
+  observer_.on_death(births_[g], death, cocycle_);
+  births_[g] = 0;
+  annotations_.kill(relation, [&](Vertex u, Vertex v) { set_inactive(u, v); });
+}
+
+template <Field K>
+void LensSweep<K>::set_active(Vertex u, Vertex v) {
+  active_.set(u, v);
+  active_.set(v, u);
+  ++active_degree_[u];
+  ++active_degree_[v];
+}
+
+template <Field K>
+void LensSweep<K>::set_inactive(Vertex u, Vertex v) {
+  active_.clear(u, v);
+  active_.clear(v, u);
+  --active_degree_[u];
+  --active_degree_[v];
+}
+
+template <Field K>
+void LensSweep<K>::find_cocycle(typename Annotations<K>::Generator g) {
+  cocycle_.clear();
+  if (wanted_.cocycles)
+    annotations_.for_each_value(g, [&](Vertex u, Vertex v, typename K::Element a) {
+      cocycle_.push_back({u, v, a});
+    });
+}
+
+extern template class LensSweep<Z2>;
+extern template class LensSweep<Zp>;
+
+}  // namespace ph

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "ph/core/bit_matrix.hpp"
+
+// Resolving a clone at load time does not work under the sanitizers.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__) && !defined(__clang__)
+#define PH_FOR_EACH_TARGET __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define PH_FOR_EACH_TARGET
+#endif
+
+namespace ph::bits {
+
+PH_FOR_EACH_TARGET
+std::size_t first_common(const Word* a, const Word* b, std::size_t words) {
+  constexpr std::size_t kBlock = 8;  // a cache line: looked at without branches
+  std::size_t k = 0;
+  for (; k + kBlock <= words; k += kBlock) {
+    Word any = 0;
+    for (std::size_t i = 0; i < kBlock; ++i) any |= a[k + i] & b[k + i];
+    if (any != 0) break;
+  }
+  for (; k < words; ++k)
+    if (const Word common = a[k] & b[k]; common != 0)
+      return k * 64 + static_cast<std::size_t>(std::countr_zero(common));
+  return kNone;
+}
+
+PH_FOR_EACH_TARGET
+Lens lens(const Word* a, const Word* b, const Word* c, const Word* d, Word* out,
+          std::size_t words) {
+  Word any = 0, active = 0;
+  for (std::size_t k = 0; k < words; ++k) {
+    const Word common = a[k] & b[k];
+    out[k] = common;
+    any |= common;
+    active |= common & (c[k] | d[k]);
+  }
+  return {any == 0, active != 0};
+}
+
+PH_FOR_EACH_TARGET
+bool split(Word* from, const Word* mask, Word* moved, std::size_t first, std::size_t words) {
+  Word left = 0;
+  for (std::size_t k = first; k < words; ++k) {
+    const Word taken = from[k] & mask[k];
+    moved[k] = taken;
+    from[k] ^= taken;
+    left |= from[k];
+  }
+  return left != 0;
+}
+
+}  // namespace ph::bits
