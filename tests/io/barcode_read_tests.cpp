@@ -126,6 +126,12 @@ TEST(ReadBarcode, JsonRefusesDamage) {
            bar(R"({"dim": 0, "birth": 1, "death": 2, "birth_cell": {"corners": [1]}})"),
            bar(R"({"dim": 0, "birth": 1, "death": 2, "birth_cell": {"row": 1},
                    "death_cell": {"vertices": [1]}})"),
+           bar(R"({"dim": 0, "birth": 1, "death": 2, "birth_cell": {"vertices": []}})"),
+           bar(R"({"dim": 0, "birth": 1, "death": 2, "death_cell": {"row": 1}})"),
+           bar(R"({"dim": 0, "birth": 1, "death": 2, "birth_cell": {"row": 1}},
+                  {"dim": 0, "birth": 1, "death": 2})"),
+           R"({"format": "ph-barcode", "representatives": "cyclic", "bars": []})",
+           R"({"format": "ph-barcode", "bars": [], "representatives": "cycles"})",
            bar(R"({"dim": 0, "birth": 1, "death": 2, "x": "\q"})"),
            bar(R"({"dim": 0, "birth": 1, "death": 2, "x": "\u12g4"})"),
            bar(R"({"dim": 0, "birth": 1, "death": 2} {})"),
@@ -168,6 +174,47 @@ TEST(ReadBarcode, TextOfRipser) {
     bad_data([&] { back(text + tail); });
   }
   bad_data([] { read_barcode(Input::view("value range: [1,2]\n", "b"), BarcodeFormat::ripser); });
+}
+
+TEST(ReadBarcode, CellsThatAreNotKnownStayUnknown) {
+  Barcode rows(CellKind::row);  // of a file without cells
+  for (int i = 0; i < 40; ++i) rows.add({0, 1, 2}, {}, {});
+  const Barcode read = back(text_of(rows, BarcodeFormat::json));
+  EXPECT_EQ(read.size(), 40U);
+  EXPECT_TRUE(read.birth_cell(0).numbers.empty());
+  EXPECT_FALSE(read.death_cell(0).has_value());
+}
+
+TEST(ReadBarcode, EqualBarsKeepTheirOrder) {
+  Barcode barcode;
+  for (Index i = 40; i > 0; --i) {
+    barcode.add({0, 1, 2}, std::array<Index, 1>{7}, std::array<Index, 2>{7, 100 + i});
+  }
+  barcode.sort();
+  for (std::size_t i = 0; i < barcode.size(); ++i) {
+    EXPECT_EQ(barcode.death_cell(i)->numbers[1], 140 - static_cast<Index>(i));
+  }
+}
+
+TEST(ReadBarcode, HeadersAreShownPrintable) {
+  EXPECT_TRUE(contains(bad_data([] { back("a,\xE2,c\n0,1,2\n", "b.csv"); }), "\"a,\\xE2,c\""));
+}
+
+TEST(ReadBarcode, RowsOfAnArrayThatAreNoBars) {
+  // The header of an array of one row, and its three numbers.
+  const std::string header = text_of(example(), BarcodeFormat::npy).substr(0, 10) +
+                             "{'descr': '<f8', 'fortran_order': False, 'shape': (1, 3), }";
+  const auto row = [&](double dim, double birth, double death) {
+    return header + std::string(127 - header.size(), ' ') + "\n" + le(dim) + le(birth) + le(death);
+  };
+  EXPECT_EQ(back(row(1, 2, 3))[0], (Bar{1, 2, 3}));
+  for (const std::string& bytes : {row(0.5, 1, 2), row(-1, 1, 2), row(1e9, 1, 2), row(1, 2, 1),
+                                   row(std::nan(""), 1, 2), row(1, std::nan(""), 2)}) {
+    EXPECT_TRUE(contains(bad_data([&] { back(bytes); }), "row 0"));
+  }
+  std::string square = row(1, 2, 3);
+  square.replace(square.find("(1, 3)"), 6, "(3, 1)");
+  EXPECT_TRUE(contains(bad_data([&] { back(square, "b.npy"); }), "shape (3, 1)"));
 }
 
 TEST(ReadBarcode, BinaryDamage) {

@@ -345,6 +345,29 @@ TEST(Ply, RefusesDamage) {
   }
 }
 
+TEST(Cloud, NamesThatAreNoWordsAreWrittenAsDifferentOnes) {
+  Cloud cloud = motley(2, 1, false);
+  cloud.fields[3].name = "a b";
+  cloud.fields[4].name = "a,b";
+  cloud.fields[5].name = "b_1";  // as PLY calls the second number of b
+  std::ostringstream as_pcd, as_ply;
+  write_pcd(as_pcd, cloud);
+  write_ply(as_ply, cloud);
+  const Cloud again = pcd(as_pcd.str());
+  EXPECT_EQ(again.fields[3].name, "a_b");
+  EXPECT_EQ(again.fields[4].name, "a_b_2");
+  EXPECT_TRUE(again.data == cloud.data);
+  const Cloud split = read_ply(Input::view(as_ply.str(), "c.ply"));
+  EXPECT_NE(split.find("b_1"), nullptr);
+  EXPECT_NE(split.find("b_1_2"), nullptr);
+}
+
+TEST(Pcd, APointHasALargestSize) {
+  const std::string many =
+      header("x y z w", "4 4 4 8", "F F F F", "1 1 1 1152921504606846975", "0", "1", "0", "ascii");
+  EXPECT_TRUE(contains(bad_data([&] { pcd(many, {.allow_empty = true}); }), "points too large"));
+}
+
 TEST(ReadXyz, NamesColumns) {
   const auto xyz = [](const std::string& text) { return read_cloud(Input::view(text, "c.xyz")); };
   const Cloud plain = xyz("1 2 3\nnan nan nan\n4000000.123456789 5 6\n");
@@ -358,7 +381,8 @@ TEST(ReadXyz, NamesColumns) {
   EXPECT_EQ(normals.fields[3].name, "field_3");
   const Cloud named = xyz("label,Z,Y,X\n7,3,2,1\n");
   EXPECT_EQ(points_of(named), (Points(1, 3) << 1, 2, 3).finished());
-  for (const char* text : {"1 2\n", "a,b,c\n1,2,3\n", "1 2 inf\n", "", "1 2 3\n4 5\n"}) {
+  for (const char* text : {"1 2\n", "a,b,c\n1,2,3\n", "1 2 inf\n", "", "1 2 3\n4 5\n",
+                           "x,y,z,a,a\n0,0,0,1,2\n", "a,x,y,z\n1,2,3,inf\n"}) {
     bad_data([&] { xyz(text); });
   }
 }

@@ -41,6 +41,9 @@ TEST(ReadPoints, KeepsTheNumbersExactly) {
   EXPECT_FALSE(std::signbit(p(1, 0)));
   EXPECT_EQ(p(1, 1), 0);
   EXPECT_EQ(p(1, 2), 0);
+  // Digits before and behind the point count as well, and the exponent may be of any size.
+  const Points tiny = points("0.00012e-400 12.5e-9223372036854775807 -100.0e-999\n");
+  for (Index k = 0; k < 3; ++k) EXPECT_EQ(tiny(0, k), 0);
 }
 
 struct BadText {
@@ -58,6 +61,8 @@ TEST(ReadPoints, NamesWhatIsWrongAndWhere) {
            {"1 2\n3 inf\n", ":2:3:", "infinite"},
            {"-inf 2\n3 4\n", ":1:1:", "infinite"},
            {"1 2\n3 1e400\n", ":2:3:", "out of range, found \"1e400\""},
+           {"1 2\n3 1.5e9223372036854775807\n", ":2:3:", "out of range"},
+           {"1 2\n3 100e307\n", ":2:3:", "out of range"},
            {"1 2\n-1e999999999999 3\n", ":2:1:", "out of range"},
            {"1 2\n0x1p3 3\n", ":2:1:", "hexadecimal"},
            {"1 2\n1,5 3\n", ":2:1:", "decimal point"},
