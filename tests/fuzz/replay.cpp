@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// fuzz_replay SEEDS SAMPLES: runs the files in SEEDS/<target>/ and SAMPLES/<reader>/ through their
-// targets, as libFuzzer does, and prints how many it were. Exits 1 if a property does not hold.
+// fuzz_replay SEEDS SAMPLES: runs the files in SEEDS/<target>/ through their targets, as libFuzzer
+// does, and each sample through all of them: a file of one format is damage to the others. Prints
+// how many runs it were; exits 1 if a property does not hold.
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -19,35 +20,49 @@ std::string bytes_of(const fs::path& path) {
   return bytes.str();
 }
 
+/// Runs files through targets and tells what broke.
+class Replay {
+ public:
+  void run(const ph::fuzz::Target& target, const fs::path& file) {
+    ++runs_;
+    try {
+      target.run(bytes_of(file));
+    } catch (const std::exception& error) {
+      fail(file.string() + " as " + target.name + ": " + error.what());
+    }
+  }
+  void fail(const std::string& what) {
+    std::cout << what << "\n";
+    ++failures_;
+  }
+  int finish() const {
+    std::cout << runs_ << " runs, " << failures_ << " failures\n";
+    return failures_ == 0 && runs_ > 0 ? 0 : 1;
+  }
+
+ private:
+  int runs_ = 0, failures_ = 0;
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2) {
-    std::cerr << "usage: fuzz_replay FOLDER…, with a folder for each target\n";
+  if (argc != 3) {
+    std::cerr << "usage: fuzz_replay SEEDS SAMPLES\n";
     return 64;
   }
-  int inputs = 0, folders = 0, failures = 0;
-  for (int i = 1; i < argc; ++i) {
-    for (const auto& folder : fs::directory_iterator(argv[i])) {
-      if (!folder.is_directory()) continue;
-      const ph::fuzz::Target* target = ph::fuzz::find_target(folder.path().filename().string());
-      if (target == nullptr) {
-        std::cout << folder.path() << ": no such target\n";
-        ++failures;
-        continue;
-      }
-      ++folders;
-      for (const auto& file : fs::directory_iterator(folder.path())) {
-        ++inputs;
-        try {
-          target->run(bytes_of(file.path()));
-        } catch (const std::exception& error) {
-          std::cout << file.path() << ": " << error.what() << "\n";
-          ++failures;
-        }
-      }
+  Replay replay;
+  for (const auto& folder : fs::directory_iterator(argv[1])) {
+    const ph::fuzz::Target* target = ph::fuzz::find_target(folder.path().filename().string());
+    if (target == nullptr) {
+      replay.fail(folder.path().string() + ": no such target");
+      continue;
     }
+    for (const auto& file : fs::directory_iterator(folder.path())) replay.run(*target, file);
   }
-  std::cout << inputs << " inputs in " << folders << " folders, " << failures << " failures\n";
-  return failures == 0 && inputs > 0 ? 0 : 1;
+  for (const auto& file : fs::recursive_directory_iterator(argv[2])) {
+    if (!file.is_regular_file()) continue;
+    for (const ph::fuzz::Target& target : ph::fuzz::targets()) replay.run(target, file);
+  }
+  return replay.finish();
 }
