@@ -229,7 +229,7 @@ TEST(MemoryBudgets, HoldForEveryEngine) {
   const Points points = random.points(24, 3, false);
   for_each_engine([&](auto engine) {
     SCOPED_TRACE(engine.name);
-    const int max_dim = engine.id == Engine::union_find ? 0 : 2;
+    const int max_dim = engine.id == Engine::union_find ? 0 : engine.id == Engine::lens ? 1 : 2;
     const Options options{.max_dim = max_dim, .field = 3, .engine = engine.id};
     std::size_t peak = 0;
     Barcode expected;

@@ -119,7 +119,8 @@ TEST(Estimates, CountTheCells) {
 
 TEST(Estimates, NameTheEngineThatWillRun) {
   const Rips rips(circle(6));
-  EXPECT_EQ(estimate(rips).engine, Engine::cohomology);
+  EXPECT_EQ(estimate(rips).engine, Engine::lens);
+  EXPECT_EQ(estimate(rips, {.max_dim = 2}).engine, Engine::cohomology);
   EXPECT_EQ(estimate(rips).max_dim, 1);
   EXPECT_EQ(estimate(rips, {.max_dim = 0}).engine, Engine::union_find);
   EXPECT_EQ(estimate(rips, {.engine = Engine::standard}).engine, Engine::standard);

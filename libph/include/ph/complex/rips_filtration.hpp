@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <concepts>
 #include <functional>
 #include <span>
 #include <string>
@@ -65,18 +64,18 @@ class RipsFiltration {
     for (int slot = 0; slot <= dim; ++slot) numbers.push_back(graph_.name(vertex(cell, slot)));
   }
 
-  const RipsGraph& graph() const { return graph_; }
+  std::size_t vertex_count() const { return static_cast<std::size_t>(graph_.size()); }
+  std::span<const FlagEdge> edges() const { return graph_.edges(); }
   Cell vertex_cell(std::uint32_t v) const { return {0, Vertices(v)}; }
-  Cell edge_cell(Key key) const {
-    const RipsGraph::Edge e = graph_.edge(key);
-    return {key, Vertices(e.u) << bits_ | Vertices(e.v)};
+  Cell edge_cell(std::uint32_t position) const {
+    const FlagEdge e = graph_.edges()[position];
+    return {position + 1, Vertices(e.u) << bits_ | Vertices(e.v)};
   }
-  /// A triangle by its longest edge and the vertex opposite to it.
-  Cell triangle_cell(Key longest, std::uint32_t apex) const {
-    const RipsGraph::Edge e = graph_.edge(longest);
+  Cell triangle_cell(std::uint32_t longest, std::uint32_t apex) const {
+    const FlagEdge e = graph_.edges()[longest];
     std::array<std::uint32_t, 3> v{e.u, e.v, apex};
     std::sort(v.begin(), v.end());
-    return {longest, (Vertices(v[2]) << bits_ | Vertices(v[1])) << bits_ | Vertices(v[0])};
+    return {longest + 1, (Vertices(v[2]) << bits_ | Vertices(v[1])) << bits_ | Vertices(v[0])};
   }
 
   template <class Visit>
@@ -114,12 +113,6 @@ class RipsFiltration {
   int bits_;
 };
 
-/// Whether a filtration is the flag complex of a RipsGraph, whatever its cells.
-template <class F>
-concept OfRipsGraph = requires(const F& f) {
-  { f.graph() } -> std::same_as<const RipsGraph&>;
-};
-
 template <RipsLayout Layout, int Words>
 template <class Visit>
 void RipsFiltration<Layout, Words>::for_each_cell(int dim, Visit&& visit) const {
@@ -130,8 +123,7 @@ void RipsFiltration<Layout, Words>::for_each_cell(int dim, Visit&& visit) const 
     return;
   }
   if (dim == 1) {  // in the order of the filtration
-    for (std::size_t i = 0; i < graph_.edge_count(); ++i)
-      visit(edge_cell(static_cast<Key>(i + 1)));
+    for (std::uint32_t i = 0; i < graph_.edge_count(); ++i) visit(edge_cell(i));
     return;
   }
   std::vector<std::vector<Neighbour>> scratch(static_cast<std::size_t>(dim) + 1);

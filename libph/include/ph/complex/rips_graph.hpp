@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "ph/core/filtration.hpp"
 #include "ph/core/run_context.hpp"
 #include "ph/metric/metric.hpp"
 #include "ph/metric/sparse_distances.hpp"
@@ -26,9 +27,7 @@ class RipsGraph {
   static constexpr Key kNever = UINT32_MAX;  ///< no edge
   static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-  struct Edge {
-    std::uint32_t u, v;  ///< u > v
-  };
+  using Edge = FlagEdge;
   struct Neighbour {
     std::uint32_t vertex;
     Key key;

@@ -3,6 +3,7 @@
 #include <concepts>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace ph {
@@ -84,6 +85,26 @@ concept SlottedFiltration = Filtration<F> && requires(const F& f, const typename
 template <class F>
 concept GraphFiltration = Filtration<F> && requires(const F& f) {
   { f.edges_join_vertices() } -> std::same_as<bool>;
+};
+
+/// An edge of a flag complex; u > v.
+struct FlagEdge {
+  std::uint32_t u, v;
+};
+
+/// Capability: the clique complex of a graph whose vertices enter first, in the order of their
+/// numbers 0 … vertex_count() - 1, and whose simplices enter with the last of their edges: by
+/// (position of that edge, dimension, vertices read from the largest down).
+template <class F>
+concept FlagFiltration = Filtration<F> && requires(const F& f, std::uint32_t i) {
+  { f.vertex_count() } -> std::convertible_to<std::size_t>;
+  /// All edges in the order of the filtration.
+  { f.edges() } -> std::convertible_to<std::span<const FlagEdge>>;
+  { f.vertex_cell(i) } -> std::same_as<typename F::Cell>;
+  /// By position in edges().
+  { f.edge_cell(i) } -> std::same_as<typename F::Cell>;
+  /// The triangle of the edge at a position and another vertex; the edge is the last of the three.
+  { f.triangle_cell(i, i) } -> std::same_as<typename F::Cell>;
 };
 
 // clang-format on

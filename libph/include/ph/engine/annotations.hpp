@@ -51,13 +51,19 @@ class Annotations {
   Annotations(const Annotations&) = delete;
   Annotations& operator=(const Annotations&) = delete;
 
-  /// A generator whose value on the new edge (u,v) is one and zero on all others.
-  Generator add_generator(std::uint32_t u, std::uint32_t v) {
+  /// An edge as the caller knows it.
+  struct Edge {
+    std::uint32_t u, v;      ///< u > v
+    std::uint32_t position;  ///< any number
+  };
+
+  /// A generator whose value on a new edge is one and zero on all others.
+  Generator add_generator(const Edge& edge) {
     const auto g = static_cast<Generator>(of_generator_.size());
     of_generator_.emplace_back();
     scratch_.clear();
     scratch_.emplace_back(g, field_.from_int(1));
-    assign(u, v, intern());
+    assign(edge, intern());
     return g;
   }
 
@@ -68,10 +74,10 @@ class Annotations {
     it->second = resolve(it->second);
     return oriented(it->second, u, v);
   }
-  /// Annotates the edge (u,v) for the first time; a class that is not zero.
-  void assign(std::uint32_t u, std::uint32_t v, Class a) {
-    members_[a.id].push_back(name(u, v));
-    edges_[name(u, v)] = oriented(a, u, v);
+  /// Annotates an edge for the first time: a(u,v), which is not zero.
+  void assign(const Edge& edge, Class a) {
+    members_[a.id].push_back(edge);
+    edges_[name(edge.u, edge.v)] = a;
   }
 
   Class sum(Class a, Class b);
@@ -84,12 +90,12 @@ class Annotations {
   Generator youngest(Class a) const { return vectors_[a.id].back().cell; }
 
   /// Makes a class zero: its youngest generator becomes a combination of the others, everywhere.
-  /// @param on_inactive called with the edges (u,v), u > v, that become zero.
+  /// @param on_inactive called with the edges that become zero.
   template <class OnInactive>
   void kill(Class relation, OnInactive&& on_inactive);
 
   /// The edges on which a generator is not zero, with its values: a cocycle. Calls
-  /// `visit(u, v, value)` with u > v.
+  /// `visit(edge, value)`.
   template <class Visit>
   void for_each_value(Generator g, Visit&& visit);
 
@@ -144,8 +150,8 @@ class Annotations {
   }
 
   const K& field_;
-  std::pmr::vector<Vector> vectors_;                           // by class
-  std::pmr::vector<std::pmr::vector<std::uint64_t>> members_;  // by class: its edges
+  std::pmr::vector<Vector> vectors_;                  // by class
+  std::pmr::vector<std::pmr::vector<Edge>> members_;  // by class
   std::pmr::vector<Class> links_;  // by class: what it became; itself while it is one
   std::pmr::vector<std::pmr::vector<std::uint32_t>> of_generator_;  // classes it may occur in
   std::pmr::unordered_map<std::uint64_t, Class> edges_;             // oriented from u > v
@@ -234,8 +240,7 @@ void Annotations<K>::kill(Class relation, OnInactive&& on_inactive) {
     scratch_.swap(vectors_[id]);
     if (vectors_[id].empty()) {
       links_[id] = {};
-      for (const std::uint64_t edge : members_[id])
-        on_inactive(static_cast<std::uint32_t>(edge >> 32), static_cast<std::uint32_t>(edge));
+      for (const Edge& edge : members_[id]) on_inactive(edge);
       release(members_[id]);
     } else if (const auto [it, is_new] = known_.insert(id); is_new) {
       for (const Term& t : zero)  // scratch_ is the vector before
@@ -258,10 +263,9 @@ void Annotations<K>::for_each_value(Generator g, Visit&& visit) {
     if (links_[id].id != id) continue;
     const Term* term = find(vectors_[id], g);
     if (term == nullptr) continue;
-    for (const std::uint64_t edge : members_[id]) {
-      const auto u = static_cast<std::uint32_t>(edge >> 32), v = static_cast<std::uint32_t>(edge);
-      const bool negated = of(u, v).negated;
-      visit(u, v, negated ? field_.negate(term->coefficient()) : term->coefficient());
+    for (const Edge& edge : members_[id]) {
+      const bool negated = of(edge.u, edge.v).negated;
+      visit(edge, negated ? field_.negate(term->coefficient()) : term->coefficient());
     }
   }
 }

@@ -4,9 +4,9 @@
 #include <numeric>
 #include <vector>
 
-#include "ph/complex/rips_filtration.hpp"
 #include "ph/core/barcode.hpp"
 #include "ph/core/chain.hpp"
+#include "ph/core/filtration.hpp"
 #include "ph/engine/engine.hpp"
 #include "ph/engine/lens_sweep.hpp"
 
@@ -19,30 +19,31 @@ struct LensEngine {
   static constexpr const char* name = "lens";
   template <Filtration F>
   static bool can_run(const F& f, int max_dim, Representatives wanted = Representatives::none) {
-    if constexpr (OfRipsGraph<F>)
-      return max_dim <= 1 && wanted != Representatives::cycles && are_rows_affordable(f.graph());
+    if constexpr (FlagFiltration<F>)
+      return max_dim <= 1 && wanted != Representatives::cycles &&
+             are_rows_affordable(f.vertex_count(), f.edges().size());
     else
       return false;
   }
 
   template <Filtration F, Field K>
   static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context) {
-    if constexpr (OfRipsGraph<F>) {
+    if constexpr (FlagFiltration<F>) {
       Reporter<F, K> reporter(f, field, bars, context);
       const typename LensSweep<K>::Wanted wanted{
           .cocycles = bars.representatives() == Representatives::cocycles,
           .zero_length = bars.wants_zero_length()};
-      LensSweep<K>(f.graph(), field, wanted, reporter, context).run();
+      LensSweep<K>(f.vertex_count(), f.edges(), field, wanted, reporter, context).run();
       reporter.report_components();
     }
   }
 
  private:
   /// Two bits a pair of vertices; where edges are few, other engines take less.
-  static bool are_rows_affordable(const RipsGraph& graph) {
+  static bool are_rows_affordable(std::size_t vertices, std::size_t edges) {
     constexpr double kAlways = 1 << 28;  // bytes
-    const auto n = static_cast<double>(graph.size());
-    return n * n / 4 <= std::max(kAlways, 16.0 * static_cast<double>(graph.edge_count()));
+    const auto n = static_cast<double>(vertices);
+    return n * n / 4 <= std::max(kAlways, 16.0 * static_cast<double>(edges));
   }
 
   /// Turns what the sweep tells into bars.
@@ -51,36 +52,35 @@ struct LensEngine {
    public:
     using Sweep = LensSweep<K>;
     using Vertex = typename Sweep::Vertex;
-    using Key = typename Sweep::Key;
+    using Position = typename Sweep::Position;
 
     Reporter(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context)
         : f_(f),
           field_(field),
           bars_(bars),
-          is_dead_(static_cast<std::size_t>(f.graph().size()), false, &context.memory),
+          is_dead_(f.vertex_count(), false, &context.memory),
           next_(is_dead_.size(), &context.memory),
           terms_(&context.memory) {
       std::iota(next_.begin(), next_.end(), Vertex{0});
     }
 
-    void on_join(Vertex elder, Vertex younger, Key edge) override {
+    void on_join(Vertex elder, Vertex younger, Position edge) override {
       is_dead_[younger] = true;
       if (bars_.add_pair(0, f_.vertex_cell(younger), f_.edge_cell(edge))) give_component(younger);
       std::swap(next_[elder], next_[younger]);  // two rings become one
     }
-    void on_death(Key birth, typename Sweep::Triangle death,
+    void on_death(Position birth, typename Sweep::Triangle death,
                   std::span<const typename Sweep::Value> cocycle) override {
       if (bars_.add_pair(1, f_.edge_cell(birth), f_.triangle_cell(death.edge, death.apex)))
         give_cocycle(cocycle);
     }
-    void on_essential(Key birth, std::span<const typename Sweep::Value> cocycle) override {
+    void on_essential(Position birth, std::span<const typename Sweep::Value> cocycle) override {
       if (bars_.add_essential(1, f_.edge_cell(birth))) give_cocycle(cocycle);
     }
     void on_zero_length(typename Sweep::Triangle first) override {
       if (!bars_.add_pair(1, f_.edge_cell(first.edge), f_.triangle_cell(first.edge, first.apex)))
         return;
-      const RipsGraph::Edge e = f_.graph().edge(first.edge);
-      const typename Sweep::Value only{e.u, e.v, field_.from_int(1)};
+      const typename Sweep::Value only{first.edge, field_.from_int(1)};
       give_cocycle({&only, 1});
     }
 
@@ -103,9 +103,7 @@ struct LensEngine {
     void give_cocycle(std::span<const typename Sweep::Value> cocycle) {
       if (bars_.representatives() == Representatives::none) return;
       terms_.clear();
-      for (const auto& [u, v, value] : cocycle) {
-        terms_.emplace_back(f_.edge_cell(f_.graph().key_of(u, v)), value);
-      }
+      for (const auto& [edge, value] : cocycle) terms_.emplace_back(f_.edge_cell(edge), value);
       bars_.add_representative(1, terms_, field_);
     }
 

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "ph/complex/rips_graph.hpp"
 #include "ph/core/bit_matrix.hpp"
 #include "ph/core/field.hpp"
+#include "ph/core/filtration.hpp"
 #include "ph/core/run_context.hpp"
 #include "ph/engine/annotations.hpp"
 #include "ph/engine/elder_rule.hpp"
@@ -30,17 +30,16 @@ template <Field K>
 class LensSweep {
  public:
   using Vertex = std::uint32_t;
-  using Key = RipsGraph::Key;
-  static constexpr Vertex kNoVertex = UINT32_MAX;
+  using Position = std::uint32_t;  ///< of an edge in the order of the filtration
 
   /// The triangle over an edge with one more vertex.
   struct Triangle {
-    Key edge;
+    Position edge;
     Vertex apex;
   };
-  /// A term of a 1-cochain: the value on the edge from u to v, u > v.
+  /// A term of a 1-cochain: the value on an edge, from its larger end to the smaller one.
   struct Value {
-    Vertex u, v;
+    Position edge;
     typename K::Element value;
   };
   /// What happens, told as it happens.
@@ -48,11 +47,11 @@ class LensSweep {
    public:
     virtual ~Observer() = default;
     /// Two components are joined, named by their oldest vertices.
-    virtual void on_join(Vertex elder, Vertex younger, Key edge) = 0;
+    virtual void on_join(Vertex elder, Vertex younger, Position edge) = 0;
     /// A class of H1 born with an edge dies. Its cocycle, if asked for, is valid during the call.
-    virtual void on_death(Key birth, Triangle death, std::span<const Value> cocycle) = 0;
+    virtual void on_death(Position birth, Triangle death, std::span<const Value> cocycle) = 0;
     /// A class of H1 that never dies.
-    virtual void on_essential(Key birth, std::span<const Value> cocycle) = 0;
+    virtual void on_essential(Position birth, std::span<const Value> cocycle) = 0;
     /// An edge whose class dies with its first triangle, at the same value.
     virtual void on_zero_length(Triangle first) = 0;
   };
@@ -61,21 +60,22 @@ class LensSweep {
     bool zero_length = false;
   };
 
-  LensSweep(const RipsGraph& graph, const K& field, Wanted wanted, Observer& observer,
-            const RunContext& context)
-      : graph_(graph),
+  /// @param edges in the order of the filtration; they outlive the sweep.
+  LensSweep(std::size_t vertices, std::span<const FlagEdge> edges, const K& field, Wanted wanted,
+            Observer& observer, const RunContext& context)
+      : edges_(edges),
         field_(field),
         wanted_(wanted),
         observer_(observer),
         context_(context),
-        joined_(size(), size(), &context.memory),
-        active_(size(), size(), &context.memory),
-        active_degree_(size(), 0, &context.memory),
+        joined_(vertices, vertices, &context.memory),
+        active_(vertices, vertices, &context.memory),
+        active_degree_(vertices, 0, &context.memory),
         lens_(joined_.words(), 0, &context.memory),
         reached_(joined_.words(), 0, &context.memory),
         components_(&context.memory),
         queue_(&context.memory),
-        sets_(size(), &context.memory),
+        sets_(vertices, &context.memory),
         annotations_(field, &context.memory),
         births_(&context.memory),
         cocycle_(&context.memory) {}
@@ -85,12 +85,13 @@ class LensSweep {
  private:
   using Class = typename Annotations<K>::Class;
 
-  std::size_t size() const { return static_cast<std::size_t>(graph_.size()); }
-  void add_edge(Key key);
-  void join_or_give_birth(Key key, RipsGraph::Edge e);
+  static constexpr Position kDead = UINT32_MAX;
+
+  void add_edge(Position position);
+  void join_or_give_birth(Position position, FlagEdge e);
   /// The first vertex of each connected component of lens_, ascending; uses lens_ up.
   void find_components();
-  void annotate(Key key, RipsGraph::Edge e);
+  void annotate(Position position, FlagEdge e);
   /// @param of_edge the annotation that the last edge is about to get.
   void kill(Class relation, Triangle death, Class of_edge);
   void set_active(Vertex u, Vertex v);
@@ -98,7 +99,7 @@ class LensSweep {
   /// cocycle_ = what a generator is on the edges before this one, if cocycles are wanted.
   void find_cocycle(typename Annotations<K>::Generator g);
 
-  const RipsGraph& graph_;
+  std::span<const FlagEdge> edges_;
   const K& field_;
   Wanted wanted_;
   Observer& observer_;
@@ -110,45 +111,44 @@ class LensSweep {
   std::pmr::vector<Vertex> components_, queue_;
   DisjointSets sets_;  // each root is the oldest vertex of its component
   Annotations<K> annotations_;
-  std::pmr::vector<Key> births_;  // by generator; 0 once it died
+  std::pmr::vector<Position> births_;  // by generator; kDead once it died
   std::pmr::vector<Value> cocycle_;
 };
 
 template <Field K>
 void LensSweep<K>::run() {
-  const auto edges = static_cast<Key>(graph_.edge_count());
-  Ticker ticker(context_, "edges", edges);
-  for (Key key = 1; key <= edges; ++key) {
-    add_edge(key);
+  Ticker ticker(context_, "edges", edges_.size());
+  for (Position position = 0; position < edges_.size(); ++position) {
+    add_edge(position);
     ticker.tick();
   }
   for (std::uint32_t g = 0; g < births_.size(); ++g) {
-    if (births_[g] == 0) continue;
+    if (births_[g] == kDead) continue;
     find_cocycle(g);
     observer_.on_essential(births_[g], cocycle_);
   }
 }
 
 template <Field K>
-void LensSweep<K>::add_edge(Key key) {
-  const RipsGraph::Edge e = graph_.edge(key);
+void LensSweep<K>::add_edge(Position position) {
+  const FlagEdge e = edges_[position];
   const auto *u = joined_.row(e.u), *v = joined_.row(e.v);
   if (active_degree_[e.u] == 0 && active_degree_[e.v] == 0) {
     const std::size_t first = bits::first_common(u, v, joined_.words());
     if (first == bits::kNone)
-      join_or_give_birth(key, e);
+      join_or_give_birth(position, e);
     else if (wanted_.zero_length)
-      observer_.on_zero_length({key, static_cast<Vertex>(first)});
+      observer_.on_zero_length({position, static_cast<Vertex>(first)});
   } else {
     const bits::Lens lens =
         bits::lens(u, v, active_.row(e.u), active_.row(e.v), lens_.data(), joined_.words());
     if (lens.is_empty) {
-      join_or_give_birth(key, e);
+      join_or_give_birth(position, e);
     } else {
       if (wanted_.zero_length)
         observer_.on_zero_length(
-            {key, static_cast<Vertex>(bits::first_common(u, v, joined_.words()))});
-      if (lens.touches_active) annotate(key, e);
+            {position, static_cast<Vertex>(bits::first_common(u, v, joined_.words()))});
+      if (lens.touches_active) annotate(position, e);
     }
   }
   joined_.set(e.u, e.v);
@@ -156,15 +156,15 @@ void LensSweep<K>::add_edge(Key key) {
 }
 
 template <Field K>
-void LensSweep<K>::join_or_give_birth(Key key, RipsGraph::Edge e) {
+void LensSweep<K>::join_or_give_birth(Position position, FlagEdge e) {
   const Vertex a = sets_.find(e.u), b = sets_.find(e.v);
   if (a != b) {
     sets_.link(std::max(a, b), std::min(a, b));
-    observer_.on_join(std::min(a, b), std::max(a, b), key);
+    observer_.on_join(std::min(a, b), std::max(a, b), position);
     return;
   }
-  annotations_.add_generator(e.u, e.v);
-  births_.push_back(key);
+  annotations_.add_generator({e.u, e.v, position});
+  births_.push_back(position);
   set_active(e.u, e.v);
 }
 
@@ -191,7 +191,7 @@ void LensSweep<K>::find_components() {
 }
 
 template <Field K>
-void LensSweep<K>::annotate(Key key, RipsGraph::Edge e) {
+void LensSweep<K>::annotate(Position position, FlagEdge e) {
   find_components();
   const auto around = [&](Vertex w) {
     return annotations_.sum(annotations_.of(e.u, w), annotations_.of(w, e.v));
@@ -200,11 +200,11 @@ void LensSweep<K>::annotate(Key key, RipsGraph::Edge e) {
   for (std::size_t i = 1; i < components_.size(); ++i) {
     const Class difference = annotations_.sum(around(components_[i]), -value);
     if (difference.is_zero()) continue;
-    kill(difference, {key, components_[i]}, value);
+    kill(difference, {position, components_[i]}, value);
     value = around(components_.front());
   }
   if (value.is_zero()) return;
-  annotations_.assign(e.u, e.v, value);
+  annotations_.assign({e.u, e.v, position}, value);
   set_active(e.u, e.v);
 }
 
@@ -214,12 +214,11 @@ void LensSweep<K>::kill(Class relation, Triangle death, Class of_edge) {
   find_cocycle(g);
   if (wanted_.cocycles) {
     const auto value = annotations_.value(of_edge, g);
-    const RipsGraph::Edge e = graph_.edge(death.edge);
-    if (!field_.is_zero(value)) cocycle_.push_back({e.u, e.v, value});
+    if (!field_.is_zero(value)) cocycle_.push_back({death.edge, value});
   }
   observer_.on_death(births_[g], death, cocycle_);
-  births_[g] = 0;
-  annotations_.kill(relation, [&](Vertex u, Vertex v) { set_inactive(u, v); });
+  births_[g] = kDead;
+  annotations_.kill(relation, [&](const auto& edge) { set_inactive(edge.u, edge.v); });
 }
 
 template <Field K>
@@ -242,8 +241,8 @@ template <Field K>
 void LensSweep<K>::find_cocycle(typename Annotations<K>::Generator g) {
   cocycle_.clear();
   if (wanted_.cocycles)
-    annotations_.for_each_value(g, [&](Vertex u, Vertex v, typename K::Element a) {
-      cocycle_.push_back({u, v, a});
+    annotations_.for_each_value(g, [&](const auto& edge, typename K::Element a) {
+      cocycle_.push_back({edge.position, a});
     });
 }
 
