@@ -206,11 +206,11 @@ def depth_images():
                      {"d.png": content, "c.png": colour} if colour else {"d.png": content})
 
     yield entry(35, "colours of another size", grey, "colour image: found 2 x 1 pixels, expected 8 x 6",
-                "--color", "c.png", named="colour image", colour=png(2, 1, 8, GREY, [b"\1\2"]))
+                "--color", "c.png", named="c.png", colour=png(2, 1, 8, GREY, [b"\1\2"]))
     yield entry(35, "colours are no picture", grey, "not a PNG", "--color", "c.png", named="c.png",
                 colour=b"0 0 0\n")
     yield entry(38, "depth in colours", png(1, 1, 8, RGB, [b"\1\2\3"]), "found 3 channels, expected 1",
-                named="depth image")
+                named="d.png")
     yield entry(38, "a cloud", sample("pcd", "ascii.pcd"), "not a PNG")
     yield entry(31, "pixels", with_size(grey, 65535, 65535), "does not fit|PNG")
 

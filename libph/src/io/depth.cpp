@@ -21,13 +21,15 @@ Cloud cloud_from_depth(const Raster& depth, const std::optional<Raster>& colour,
   }
   if (depth.channels != 1) {
     throw Error(ErrorKind::bad_data,
-                fmt::format("depth image: found {} channels, expected 1 (grey)", depth.channels));
+                fmt::format("{}: depth image: found {} channels, expected 1 (grey)", depth.name,
+                            depth.channels));
   }
   if (colour && (colour->width != depth.width || colour->height != depth.height)) {
     throw Error(
         ErrorKind::bad_data,
-        fmt::format("colour image: found {} x {} pixels, expected {} x {} as in the depth image",
-                    colour->width, colour->height, depth.width, depth.height));
+        fmt::format(
+            "{}: colour image: found {} x {} pixels, expected {} x {} as in the depth image",
+            colour->name, colour->width, colour->height, depth.width, depth.height));
   }
   Cloud cloud;
   cloud.width = depth.width;

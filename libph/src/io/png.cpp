@@ -167,6 +167,7 @@ Raster read_png(const Input& input) {
   if (!read_header(reader)) fail();
 
   Raster raster;
+  raster.name = input.name();
   raster.width = png_get_image_width(reader.png, reader.info);
   raster.height = png_get_image_height(reader.png, reader.info);
   raster.channels = png_get_channels(reader.png, reader.info);

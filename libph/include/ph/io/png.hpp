@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <iosfwd>
+#include <string>
 #include <vector>
 
 #include "ph/core/filtration.hpp"
@@ -18,6 +19,7 @@ struct Raster {
   int channels = 1;
   int bits = 8;                        ///< 8 or 16; images with fewer bits are expanded to 8
   std::vector<std::uint16_t> samples;  ///< width * height * channels
+  std::string name = "image";          ///< of the file, printable, for messages
 
   std::uint16_t at(Index x, Index y, int channel = 0) const {
     return samples[static_cast<std::size_t>((y * width + x) * channels + channel)];
