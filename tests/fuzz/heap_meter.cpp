@@ -9,11 +9,16 @@
 #endif
 #endif
 
-#ifdef PH_HAS_MALLOC_HOOKS
-#include <sanitizer/allocator_interface.h>
-#endif
-
 #include <algorithm>
+
+#ifdef PH_HAS_MALLOC_HOOKS
+// GCC comes with these functions, but without their header.
+extern "C" {
+int __sanitizer_install_malloc_and_free_hooks(void (*on_malloc)(const volatile void*, std::size_t),
+                                              void (*on_free)(const volatile void*));
+std::size_t __sanitizer_get_allocated_size(const volatile void* memory);
+}
+#endif
 
 namespace ph::fuzz {
 namespace {
