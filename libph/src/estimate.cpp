@@ -17,9 +17,10 @@ double binomial(double n, int k) {
 // a first vertex in the degeneracy order with at most g later neighbours.
 std::vector<double> cells_of(const Rips& rips, int top) {
   const double n = static_cast<double>(rips.size());
-  const double degeneracy = static_cast<double>(rips.graph().clique_bound()) - 1;
   std::vector<double> cells{n};
   if (top >= 1) cells.push_back(static_cast<double>(rips.edge_count()));
+  if (top < 2) return cells;
+  const double degeneracy = static_cast<double>(rips.graph().adjacency().clique_bound()) - 1;
   for (int d = 2; d <= top; ++d)
     cells.push_back(std::min(binomial(n, d + 1), n * binomial(degeneracy, d)));
   return cells;
@@ -36,16 +37,21 @@ std::vector<double> cells_of(const F& filtration, int top) {
   return cells;
 }
 
-double stored_bytes(const Rips& rips) {
+// Whether an engine looks at vertices and edges only.
+bool goes_by_edges(Engine engine) { return engine == Engine::lens || engine == Engine::union_find; }
+
+double stored_bytes(const Rips& rips, Engine engine) {
   const double n = static_cast<double>(rips.size()), e = static_cast<double>(rips.edge_count());
+  if (engine == Engine::lens) return 16 * e + n * n / 4;
+  if (engine == Engine::union_find) return 16 * e;
   return 16 * e + (rips.graph().is_dense() ? 4 * n * n : 16 * e + 8 * n);
 }
-double stored_bytes(const Cubical& cubical) {
+double stored_bytes(const Cubical& cubical, Engine) {
   double voxels = 0;
   cubical.for_each_cell(0, [&](const auto&) { ++voxels; });
   return 4 * static_cast<double>(cubical.slot_count()) + 8 * voxels;
 }
-double stored_bytes(const ExplicitComplex& complex) {
+double stored_bytes(const ExplicitComplex& complex, Engine) {
   double entries = 0;
   for (int d = 1; d <= complex.top_dim(); ++d) {
     complex.for_each_cell(d, [&](const auto& c) {
@@ -61,14 +67,14 @@ double stored_bytes(const ExplicitComplex& complex) {
 constexpr double kBytesPerColumn = 128;
 
 template <class Complex>
-Estimate estimate_of(const Complex& complex, Engine asked, int max_dim,
-                     const detail::EngineChoice& choice) {
+Estimate estimate_of(const Complex& complex, Engine asked, const detail::Plan& plan) {
+  const auto& [max_dim, choice] = plan;
   Estimate e;
   e.engine = choice.engine;
   e.reason = asked == Engine::automatic ? std::string(choice.reason) : "asked for";
   e.max_dim = max_dim;
-  e.cells = cells_of(complex, max_dim + 1);
-  e.bytes_low = stored_bytes(complex);
+  e.cells = cells_of(complex, goes_by_edges(e.engine) ? 1 : max_dim + 1);
+  e.bytes_low = stored_bytes(complex, e.engine);
   double columns = 0;
   const auto count = [&](int first, int last) {
     for (int d = std::max(first, 0); d <= last && d < static_cast<int>(e.cells.size()); ++d)
@@ -96,19 +102,13 @@ Estimate estimate(const AnyComplex& complex, const Options& options) {
       [&](const auto& c) {
         using C = std::remove_cvref_t<decltype(c)>;
         if constexpr (std::same_as<C, Rips>) {
-          const int asked = detail::checked_max_dim(options.max_dim.value_or(1));
-          return c.with_filtration(asked, [&](const auto& f) {
-            const int max_dim = std::min(asked, std::max(0, f.top_dim()));
-            return estimate_of(
-                c, options.engine, max_dim,
-                detail::choose_engine(f, options.engine, max_dim, options.representatives));
+          Options rips_options = options;
+          rips_options.max_dim = detail::checked_max_dim(options.max_dim.value_or(1));
+          return c.with_filtration(*rips_options.max_dim, [&](const auto& f) {
+            return estimate_of(c, options.engine, detail::plan(f, rips_options));
           });
         } else {
-          const int top = std::max(0, c.top_dim());
-          const int max_dim = std::min(detail::checked_max_dim(options.max_dim.value_or(top)), top);
-          return estimate_of(
-              c, options.engine, max_dim,
-              detail::choose_engine(c, options.engine, max_dim, options.representatives));
+          return estimate_of(c, options.engine, detail::plan(c, options));
         }
       },
       complex);

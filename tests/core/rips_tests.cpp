@@ -58,8 +58,8 @@ void expect_keys_ascend(const Rips& rips) {
   for (RipsGraph::Key key = 1; key <= rips.edge_count(); ++key) {
     const auto edge = rips.graph().edge(key);
     EXPECT_GT(edge.u, edge.v);
-    EXPECT_EQ(rips.graph().key_of(edge.u, edge.v), key);
-    EXPECT_EQ(rips.graph().key_of(edge.v, edge.u), key);
+    EXPECT_EQ(rips.graph().adjacency().key_of(edge.u, edge.v), key);
+    EXPECT_EQ(rips.graph().adjacency().key_of(edge.v, edge.u), key);
     edges.push_back({rips.graph().value(key), double(edge.u), double(edge.v)});
   }
   EXPECT_TRUE(std::is_sorted(edges.begin(), edges.end()));
@@ -131,7 +131,7 @@ TEST(RipsGraphs, CliqueBoundsHold) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     Generator random(seed);
     const Rips rips(random.sparse(random.integer(0, 12), true, random.real()));
-    const Index bound = rips.graph().clique_bound();
+    const Index bound = rips.graph().adjacency().clique_bound();
     EXPECT_LE(bound, rips.size());
     rips.with_filtration(20, [&](const auto& f) {
       EXPECT_EQ(f.top_dim(), static_cast<int>(bound) - 1);

@@ -49,7 +49,7 @@ struct Estimate {
   Engine engine = Engine::automatic;  ///< the engine that will run
   std::string reason;                 ///< why it was chosen, one phrase
   int max_dim = 0;                    ///< highest homology dimension
-  std::vector<double> cells;          ///< by dimension 0 … max_dim + 1: cells, at most
+  std::vector<double> cells;          ///< by dimension, as far as the engine looks: at most
   double bytes_low = 0;               ///< memory of the computation: at least …
   double bytes_high = 0;              ///< … and at most
 };

@@ -7,6 +7,9 @@
 namespace ph {
 namespace detail {
 
+/// @throws Error (usage) if it is negative. Above the top dimension there is nothing to compute.
+int checked_max_dim(int max_dim);
+
 /// The engine that will run, with the reason.
 struct EngineChoice {
   Engine engine;
@@ -46,6 +49,26 @@ EngineChoice choose_engine(const F& f, Engine asked, int max_dim, Representative
   return {asked, "asked for"};
 }
 
+/// What will be computed: up to which dimension, by which engine.
+struct Plan {
+  int max_dim;
+  EngineChoice choice;
+};
+/// @throws Error (usage) on a negative dimension, or as choose_engine.
+template <Filtration F>
+Plan plan(const F& f, const Options& options) {
+  // Low dimensions first: the top dimension of a flag complex takes time and memory to find.
+  if (options.max_dim && checked_max_dim(*options.max_dim) <= 1) {
+    const EngineChoice choice =
+        choose_engine(f, options.engine, *options.max_dim, options.representatives);
+    if (choice.engine == Engine::lens || choice.engine == Engine::union_find)
+      return {*options.max_dim, choice};
+  }
+  const int top = std::max(0, f.top_dim());
+  const int max_dim = std::min(checked_max_dim(options.max_dim.value_or(top)), top);
+  return {max_dim, choose_engine(f, options.engine, max_dim, options.representatives)};
+}
+
 /// Calls `use(field)` with the field of the given characteristic. @throws Error (usage) if none.
 template <class Use>
 decltype(auto) with_field(std::int64_t characteristic, Use&& use) {
@@ -53,17 +76,12 @@ decltype(auto) with_field(std::int64_t characteristic, Use&& use) {
   return use(Zp(characteristic));
 }
 
-/// @throws Error (usage) if it is negative. Above the top dimension there is nothing to compute.
-int checked_max_dim(int max_dim);
-
 }  // namespace detail
 
 template <Filtration F>
 Barcode persistence(const F& filtration, const Options& options, const RunContext& context) {
-  const int top = std::max(0, filtration.top_dim());
-  const int max_dim = std::min(detail::checked_max_dim(options.max_dim.value_or(top)), top);
-  const Engine chosen =
-      detail::choose_engine(filtration, options.engine, max_dim, options.representatives).engine;
+  const auto [max_dim, choice] = detail::plan(filtration, options);
+  const Engine chosen = choice.engine;
   BarcodeBuilder<F> bars(filtration, max_dim, options.min_persistence, options.representatives);
   detail::with_field(options.field, [&](const auto& field) {
     for_each_engine([&](auto engine) {

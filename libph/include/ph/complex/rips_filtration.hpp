@@ -6,6 +6,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "ph/complex/packed_vertices.hpp"
@@ -51,7 +52,7 @@ class RipsFiltration {
   }
 
   int top_dim() const {
-    return static_cast<int>(std::min<Index>(graph_.clique_bound(), capacity(graph_))) - 1;
+    return static_cast<int>(std::min<Index>(adjacency().clique_bound(), capacity(graph_))) - 1;
   }
   Key key(const Cell& c) const { return c.key; }
   double value(const Cell& c) const { return graph_.value(c.key); }
@@ -68,11 +69,11 @@ class RipsFiltration {
   std::span<const FlagEdge> edges() const { return graph_.edges(); }
   Cell vertex_cell(std::uint32_t v) const { return {0, Vertices(v)}; }
   Cell edge_cell(std::uint32_t position) const {
-    const FlagEdge e = graph_.edges()[position];
+    const FlagEdge& e = graph_.edges()[position];
     return {position + 1, Vertices(e.u) << bits_ | Vertices(e.v)};
   }
   Cell triangle_cell(std::uint32_t longest, std::uint32_t apex) const {
-    const FlagEdge e = graph_.edges()[longest];
+    const FlagEdge& e = graph_.edges()[longest];
     std::array<std::uint32_t, 3> v{e.u, e.v, apex};
     std::sort(v.begin(), v.end());
     return {longest + 1, (Vertices(v[2]) << bits_ | Vertices(v[1])) << bits_ | Vertices(v[0])};
@@ -86,8 +87,9 @@ class RipsFiltration {
   void for_each_cofacet(int dim, const Cell& cell, Visit&& visit) const;
 
  private:
-  using Neighbour = RipsGraph::Neighbour;
+  using Neighbour = RipsAdjacency::Neighbour;
 
+  const RipsAdjacency& adjacency() const { return graph_.adjacency(); }
   std::uint32_t vertex(const Cell& cell, int slot) const {
     return static_cast<std::uint32_t>((cell.vertices >> (slot * bits_)).low_bits(bits_));
   }
@@ -139,11 +141,11 @@ void RipsFiltration<Layout, Words>::smaller_neighbours(std::uint32_t from,
                                                        std::vector<Neighbour>& out) const {
   out.clear();
   if constexpr (Layout == RipsLayout::dense) {
-    const Key* row = graph_.row(from);
+    const Key* row = adjacency().row(from);
     for (std::uint32_t w = 0; w < from; ++w)
-      if (row[w] != RipsGraph::kNever) out.push_back({w, row[w]});
+      if (row[w] != RipsAdjacency::kNever) out.push_back({w, row[w]});
   } else {
-    for (const Neighbour& w : graph_.neighbours(from)) {
+    for (const Neighbour& w : adjacency().neighbours(from)) {
       if (w.vertex >= from) break;
       out.push_back(w);
     }
@@ -169,15 +171,15 @@ void RipsFiltration<Layout, Words>::extend_clique(const Cell& clique,
     auto& next = scratch[static_cast<std::size_t>(missing)];
     next.clear();
     if constexpr (Layout == RipsLayout::dense) {
-      const Key* row = graph_.row(w.vertex);
+      const Key* row = adjacency().row(w.vertex);
       for (std::size_t k = 0; k < i; ++k) {
         const Key key = row[candidates[k].vertex];
-        if (key != RipsGraph::kNever)
+        if (key != RipsAdjacency::kNever)
           next.push_back({candidates[k].vertex, std::max(key, candidates[k].key)});
       }
     } else {
-      auto it = graph_.neighbours(w.vertex).begin();
-      const auto end = graph_.neighbours(w.vertex).end();
+      auto it = adjacency().neighbours(w.vertex).begin();
+      const auto end = adjacency().neighbours(w.vertex).end();
       for (std::size_t k = 0; k < i; ++k) {
         while (it != end && it->vertex < candidates[k].vertex) ++it;
         if (it == end) break;
@@ -198,8 +200,9 @@ void RipsFiltration<Layout, Words>::for_each_facet(int dim, const Cell& cell, Vi
     visit(Cell{0, without(cell.vertices, 1)}, -1);
     return;
   }
+  const RipsAdjacency& adjacent = adjacency();
   // A facet that keeps the longest edge keeps the key.
-  const RipsGraph::Edge longest = graph_.edge(cell.key);
+  const FlagEdge longest = graph_.edge(cell.key);
   std::array<std::uint32_t, kMostVertices> vertices;
   for (int slot = 0; slot <= dim; ++slot)
     vertices[static_cast<std::size_t>(slot)] = vertex(cell, slot);
@@ -211,7 +214,7 @@ void RipsFiltration<Layout, Words>::for_each_facet(int dim, const Cell& cell, Vi
       for (std::size_t i = 1; i <= static_cast<std::size_t>(dim); ++i) {
         if (vertices[i] == gone) continue;
         for (std::size_t j = 0; j < i; ++j)
-          if (vertices[j] != gone) key = std::max(key, graph_.key_of(vertices[i], vertices[j]));
+          if (vertices[j] != gone) key = std::max(key, adjacent.key_of(vertices[i], vertices[j]));
       }
     }
     visit(Cell{key, without(cell.vertices, slot)}, slot % 2 == 0 ? 1 : -1);
@@ -231,6 +234,7 @@ void RipsFiltration<Layout, Words>::for_each_cofacet(int dim, const Cell& cell,
     vertices[static_cast<std::size_t>(slot)] = vertex(cell, slot);
   vertices[static_cast<std::size_t>(count)] = static_cast<std::uint32_t>(graph_.size());
 
+  const RipsAdjacency& adjacent = adjacency();
   int slot = 0;
   Vertices frame;  // the cofacet without w
   const auto open_slot = [&] {
@@ -244,14 +248,14 @@ void RipsFiltration<Layout, Words>::for_each_cofacet(int dim, const Cell& cell,
   if constexpr (Layout == RipsLayout::dense) {
     std::array<const Key*, kMostVertices> rows;
     for (int i = 0; i < count; ++i)
-      rows[static_cast<std::size_t>(i)] = graph_.row(vertices[static_cast<std::size_t>(i)]);
+      rows[static_cast<std::size_t>(i)] = adjacent.row(vertices[static_cast<std::size_t>(i)]);
     std::uint32_t w = 0;
     for (;; open_slot()) {
       const std::uint32_t end = vertices[static_cast<std::size_t>(slot)];
       for (; w < end; ++w) {
         Key key = cell.key;
         for (int i = 0; i < count; ++i) key = std::max(key, rows[static_cast<std::size_t>(i)][w]);
-        if (key != RipsGraph::kNever && !emit(w, key)) return;
+        if (key != RipsAdjacency::kNever && !emit(w, key)) return;
       }
       if (slot == count) return;
       ++w;
@@ -260,7 +264,8 @@ void RipsFiltration<Layout, Words>::for_each_cofacet(int dim, const Cell& cell,
   } else {
     std::array<std::span<const Neighbour>, kMostVertices> lists;
     for (int i = 0; i < count; ++i) {
-      lists[static_cast<std::size_t>(i)] = graph_.neighbours(vertices[static_cast<std::size_t>(i)]);
+      lists[static_cast<std::size_t>(i)] =
+          adjacent.neighbours(vertices[static_cast<std::size_t>(i)]);
       // The shortest list leads.
       if (lists[static_cast<std::size_t>(i)].size() < lists[0].size())
         std::swap(lists[static_cast<std::size_t>(i)], lists[0]);
@@ -288,22 +293,27 @@ void RipsFiltration<Layout, Words>::for_each_cofacet(int dim, const Cell& cell,
 /// Calls `use` with the filtration whose cells are just large enough for dimension max_dim + 1.
 template <class Use>
 decltype(auto) with_rips_filtration(const RipsGraph& graph, int max_dim, Use&& use) {
-  const Index wanted = std::min<Index>(Index{max_dim} + 2, graph.clique_bound());
+  const auto fits = [&]<class F>(std::type_identity<F>) {
+    const Index capacity = F::capacity(graph);
+    return Index{max_dim} + 2 <= capacity || graph.adjacency().clique_bound() <= capacity;
+  };
   if (graph.is_dense()) {
     using Dense = RipsFiltration<RipsLayout::dense, 1>;
     using DenseWide = RipsFiltration<RipsLayout::dense, 4>;
-    if (wanted <= Dense::capacity(graph)) return use(Dense(graph));
-    if (wanted <= DenseWide::capacity(graph)) return use(DenseWide(graph));
+    if (fits(std::type_identity<Dense>())) return use(Dense(graph));
+    if (fits(std::type_identity<DenseWide>())) return use(DenseWide(graph));
   } else {
     using Sparse = RipsFiltration<RipsLayout::sparse, 1>;
     using SparseWide = RipsFiltration<RipsLayout::sparse, 4>;
-    if (wanted <= Sparse::capacity(graph)) return use(Sparse(graph));
-    if (wanted <= SparseWide::capacity(graph)) return use(SparseWide(graph));
+    if (fits(std::type_identity<Sparse>())) return use(Sparse(graph));
+    if (fits(std::type_identity<SparseWide>())) return use(SparseWide(graph));
   }
-  throw Error(ErrorKind::resource,
-              "simplices of " + std::to_string(wanted) + " vertices out of " +
-                  std::to_string(graph.size()) +
-                  " are too large; lower the dimension or the threshold, or subsample");
+  throw Error(
+      ErrorKind::resource,
+      "simplices of " +
+          std::to_string(std::min<Index>(Index{max_dim} + 2, graph.adjacency().clique_bound())) +
+          " vertices out of " + std::to_string(graph.size()) +
+          " are too large; lower the dimension or the threshold, or subsample");
 }
 
 }  // namespace ph

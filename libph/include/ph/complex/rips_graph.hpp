@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <memory_resource>
+#include <mutex>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "ph/complex/edge_sorter.hpp"
+#include "ph/complex/rips_adjacency.hpp"
 #include "ph/core/filtration.hpp"
 #include "ph/core/run_context.hpp"
 #include "ph/metric/metric.hpp"
@@ -18,22 +23,12 @@ namespace ph {
 /// The graph under a Vietoris-Rips filtration: all edges up to a threshold, sorted once by
 /// (distance, larger end, smaller end) and from then on known by their key, an integer. Keys start
 /// at 1; key 0 belongs to the vertices, which enter at 0.
-///
-/// Two layouts: a square matrix of keys where most pairs are edges, sorted neighbour lists where
-/// they are not.
 class RipsGraph {
  public:
-  using Key = std::uint32_t;
-  static constexpr Key kNever = UINT32_MAX;  ///< no edge
+  using Key = RipsAdjacency::Key;
   static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-  using Edge = FlagEdge;
-  struct Neighbour {
-    std::uint32_t vertex;
-    Key key;
-  };
-
-  /// Evaluates all n(n-1)/2 distances. @throws Error (bad_data) on a negative or NaN distance.
+  /// Evaluates all n(n-1)/2 distances, twice. @throws Error (bad_data) on a negative or NaN one.
   template <Metric M>
   static RipsGraph of_metric(const M& metric, std::optional<double> threshold,
                              const RunContext& context);
@@ -54,59 +49,41 @@ class RipsGraph {
   void name_vertices(std::pmr::vector<std::uint32_t> names) { names_ = std::move(names); }
   std::size_t edge_count() const { return edges_.size(); }
   double threshold() const { return threshold_; }
-  bool is_dense() const { return !matrix_.empty(); }
 
-  Edge edge(Key key) const { return edges_[key - 1]; }
-  double value(Key key) const { return key == 0 ? 0.0 : values_[key - 1]; }
-  std::span<const Edge> edges() const { return edges_; }
+  const FlagEdge& edge(Key key) const { return edges_[key - 1]; }
+  double value(Key key) const { return key == 0 ? 0.0 : edges_[key - 1].value; }
+  std::span<const FlagEdge> edges() const { return edges_; }
 
-  /// Dense layout: the keys of all pairs with u; kNever at u itself.
-  const Key* row(std::uint32_t u) const {
-    return matrix_.data() + std::size_t{u} * static_cast<std::size_t>(size_);
+  /// Whether most pairs are edges: the layout that adjacency() has, or will have.
+  bool is_dense() const {
+    return RipsAdjacency::is_dense(static_cast<std::size_t>(size_), edge_count());
   }
-  /// Sparse layout: the neighbours of u, ascending.
-  std::span<const Neighbour> neighbours(std::uint32_t u) const {
-    return std::span(neighbours_).subspan(offsets_[u], offsets_[u + 1] - offsets_[u]);
+  /// Made when it is first asked for, by whichever thread comes first: engines that go edge by edge
+  /// do without.
+  const RipsAdjacency& adjacency() const {
+    std::call_once(lazy_->once, [this] {
+      lazy_->adjacency.emplace(static_cast<std::size_t>(size_), edges_,
+                               edges_.get_allocator().resource());
+    });
+    return *lazy_->adjacency;
   }
-  Key key_of(std::uint32_t u, std::uint32_t v) const {
-    if (is_dense()) return row(u)[v];
-    const auto list = neighbours(u);
-    const auto it = std::ranges::lower_bound(list, v, {}, &Neighbour::vertex);
-    return it != list.end() && it->vertex == v ? it->key : kNever;
-  }
-  /// No clique has more vertices than this: one more than the degeneracy of the graph, or its size.
-  Index clique_bound() const { return clique_bound_; }
 
  private:
-  struct Candidate {
-    double value;
-    Edge edge;
+  struct Lazy {
+    std::once_flag once;
+    std::optional<RipsAdjacency> adjacency;
   };
-  explicit RipsGraph(std::pmr::memory_resource* memory)
-      : edges_(memory),
-        values_(memory),
-        matrix_(memory),
-        offsets_(memory),
-        neighbours_(memory),
-        names_(memory) {}
+  /// @param edges sorted.
+  RipsGraph(Index size, double threshold, std::pmr::vector<FlagEdge>&& edges,
+            const RunContext& context);
   static void check_arguments(Index size, std::optional<double> threshold);
-  static void check_distance(Index i, Index j, double value);
-  /// Sorts the candidates, all <= threshold, and lays the graph out.
-  static RipsGraph build(Index size, double threshold, std::pmr::vector<Candidate>&& candidates,
-                         const RunContext& context);
-  void lay_out_dense();
-  void lay_out_sparse();
-  Index degeneracy_bound() const;
+  static double checked_distance(Index i, Index j, double value);
 
   Index size_ = 0;
-  Index clique_bound_ = 0;
   double threshold_ = 0;
-  std::pmr::vector<Edge> edges_;     // by key - 1
-  std::pmr::vector<double> values_;  // by key - 1
-  std::pmr::vector<Key> matrix_;     // dense layout
-  std::pmr::vector<std::size_t> offsets_;
-  std::pmr::vector<Neighbour> neighbours_;
+  std::pmr::vector<FlagEdge> edges_;       // by key - 1
   std::pmr::vector<std::uint32_t> names_;  // by vertex; empty: its number
+  std::unique_ptr<Lazy> lazy_ = std::make_unique<Lazy>();
 };
 
 template <Metric M>
@@ -114,34 +91,33 @@ RipsGraph RipsGraph::of_metric(const M& metric, std::optional<double> threshold,
                                const RunContext& context) {
   const Index n = metric.size();
   check_arguments(n, threshold);
-  // One pass finds the enclosing radius, the next one keeps what lies within it: distances are
-  // evaluated twice rather than all stored.
-  double limit = threshold.value_or(kNoLimit);
-  if (!threshold && n > 0) {
-    Ticker ticker(context, "enclosing radius", static_cast<std::uint64_t>(n));
+  // One pass finds the enclosing radius and how the distances are spread, the next one keeps those
+  // within: distances are evaluated twice rather than all stored.
+  const auto for_each_distance = [&](std::string_view stage, auto&& use) {
+    Ticker ticker(context, stage, static_cast<std::uint64_t>(n));
     for (Index i = 0; i < n; ++i) {
-      double farthest = 0;
-      for (Index j = 0; j < n && farthest < limit; ++j)
-        farthest = std::max(farthest, static_cast<double>(metric(i, j)));
-      limit = std::min(limit, farthest);
+      for (Index j = 0; j < i; ++j) use(i, j, checked_distance(i, j, metric(i, j)));
       ticker.tick();
-      ticker.work(static_cast<std::uint64_t>(n));
+      ticker.work(static_cast<std::uint64_t>(i));
     }
-  }
-  std::pmr::vector<Candidate> candidates(&context.memory);
-  Ticker ticker(context, "edges", static_cast<std::uint64_t>(n));
-  for (Index i = 0; i < n; ++i) {
-    for (Index j = 0; j < i; ++j) {
-      const double d = metric(i, j) + 0.0;  // -0.0 becomes +0.0
-      if (!(d >= 0)) check_distance(i, j, d);
-      if (d <= limit && d < kNoLimit) {
-        candidates.push_back({d, {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)}});
-      }
-    }
-    ticker.tick();
-    ticker.work(static_cast<std::uint64_t>(i));
-  }
-  return build(n, limit, std::move(candidates), context);
+  };
+  EdgeSorter sorter(context);
+  std::pmr::vector<double> farthest(static_cast<std::size_t>(n), 0.0, &context.memory);
+  for_each_distance("enclosing radius", [&](Index i, Index j, double d) {
+    double &of_i = farthest[static_cast<std::size_t>(i)],
+           &of_j = farthest[static_cast<std::size_t>(j)];
+    of_i = std::max(of_i, d);
+    of_j = std::max(of_j, d);
+    sorter.count(d);
+  });
+  const double radius = n == 0 ? kNoLimit : *std::ranges::min_element(farthest);
+  const double limit = threshold.value_or(radius);
+  const double last = std::min(limit, std::numeric_limits<double>::max());  // infinite: no edge
+  sorter.allocate(last);
+  for_each_distance("edges", [&](Index i, Index j, double d) {
+    if (d <= last) sorter.add({d, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});
+  });
+  return RipsGraph(n, limit, sorter.finish(), context);
 }
 
 }  // namespace ph

@@ -87,8 +87,9 @@ concept GraphFiltration = Filtration<F> && requires(const F& f) {
   { f.edges_join_vertices() } -> std::same_as<bool>;
 };
 
-/// An edge of a flag complex; u > v.
+/// An edge of a flag complex and when it enters; u > v.
 struct FlagEdge {
+  double value;
   std::uint32_t u, v;
 };
 

@@ -88,10 +88,10 @@ class LensSweep {
   static constexpr Position kDead = UINT32_MAX;
 
   void add_edge(Position position);
-  void join_or_give_birth(Position position, FlagEdge e);
+  void join_or_give_birth(Position position, const FlagEdge& e);
   /// The first vertex of each connected component of lens_, ascending; uses lens_ up.
   void find_components();
-  void annotate(Position position, FlagEdge e);
+  void annotate(Position position, const FlagEdge& e);
   /// @param of_edge the annotation that the last edge is about to get.
   void kill(Class relation, Triangle death, Class of_edge);
   void set_active(Vertex u, Vertex v);
@@ -131,7 +131,7 @@ void LensSweep<K>::run() {
 
 template <Field K>
 void LensSweep<K>::add_edge(Position position) {
-  const FlagEdge e = edges_[position];
+  const FlagEdge& e = edges_[position];
   const auto *u = joined_.row(e.u), *v = joined_.row(e.v);
   if (active_degree_[e.u] == 0 && active_degree_[e.v] == 0) {
     const std::size_t first = bits::first_common(u, v, joined_.words());
@@ -156,7 +156,7 @@ void LensSweep<K>::add_edge(Position position) {
 }
 
 template <Field K>
-void LensSweep<K>::join_or_give_birth(Position position, FlagEdge e) {
+void LensSweep<K>::join_or_give_birth(Position position, const FlagEdge& e) {
   const Vertex a = sets_.find(e.u), b = sets_.find(e.v);
   if (a != b) {
     sets_.link(std::max(a, b), std::min(a, b));
@@ -191,7 +191,7 @@ void LensSweep<K>::find_components() {
 }
 
 template <Field K>
-void LensSweep<K>::annotate(Position position, FlagEdge e) {
+void LensSweep<K>::annotate(Position position, const FlagEdge& e) {
   find_components();
   const auto around = [&](Vertex w) {
     return annotations_.sum(annotations_.of(e.u, w), annotations_.of(w, e.v));
