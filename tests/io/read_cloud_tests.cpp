@@ -305,6 +305,18 @@ TEST(Ply, ReadsBothByteOrdersListsAndFaces) {
       [&](std::size_t length) { return length + 2 > ascii.size(); });
 }
 
+// As many as fit a file of some megabytes: 10^10 comparisons if each were held against all others.
+TEST(Ply, ManyPropertiesTakeLinearTime) {
+  constexpr int kMany = 100000;
+  std::string text = "ply\nformat ascii 1.0\nelement vertex 1\n", row;
+  for (int k = 0; k < kMany; ++k) {
+    text += "property uchar p" + std::to_string(k) + "\n";
+    row += "7 ";
+  }
+  EXPECT_EQ(read_ply(Input::view(text + "end_header\n" + row + "\n", "c.ply")).stride,
+            std::size_t{kMany});
+}
+
 TEST(Ply, RefusesDamage) {
   const auto ascii = [](const std::string& rest) { return "ply\nformat ascii 1.0\n" + rest; };
   const std::string xyz = "property float x\nproperty float y\nproperty float z\n";

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "ply.hpp"
 
@@ -102,9 +103,10 @@ class HeaderParser {
   void parse_element() {
     PlyElement element;
     element.name = word();
-    for (const PlyElement& other : header_.elements) {
-      if (other.name == element.name) fail_line("PLY element named twice", "different names");
+    if (!elements_.insert(element.name).second) {
+      fail_line("PLY element named twice", "different names");
     }
+    properties_.clear();
     if (!cells_.more()) fail_line("PLY header: line too short", "a count");
     element.count = static_cast<std::size_t>(cells_.integer(0, kMost, "count"));
     header_.elements.push_back(std::move(element));
@@ -124,17 +126,17 @@ class HeaderParser {
       property.type = *known;
     }
     property.name = word();
-    auto& properties = header_.elements.back().properties;
-    for (const PlyProperty& other : properties) {
-      if (other.name == property.name) fail_line("PLY property named twice", "different names");
+    if (!properties_.insert(property.name).second) {
+      fail_line("PLY property named twice", "different names");
     }
-    properties.push_back(std::move(property));
+    header_.elements.back().properties.push_back(std::move(property));
   }
 
   const Input& input_;
   TextLines lines_;
   Cells cells_;
   PlyHeader header_;
+  std::set<std::string> elements_, properties_;  // the names so far, these of the last element
 };
 
 }  // namespace
