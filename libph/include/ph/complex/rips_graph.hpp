@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -61,17 +62,23 @@ class RipsGraph {
   /// Made when it is first asked for, by whichever thread comes first: engines that go edge by edge
   /// do without.
   const RipsAdjacency& adjacency() const {
-    std::call_once(lazy_->once, [this] {
+    if (const RipsAdjacency* made = lazy_->made.load(std::memory_order_acquire)) return *made;
+    const std::lock_guard lock(lazy_->mutex);
+    if (!lazy_->adjacency) {
       lazy_->adjacency.emplace(static_cast<std::size_t>(size_), edges_,
                                edges_.get_allocator().resource());
-    });
+      lazy_->made.store(&*lazy_->adjacency, std::memory_order_release);
+    }
     return *lazy_->adjacency;
   }
 
  private:
+  // Not std::call_once: an exception that passes it ends the process where memory has run out,
+  // since glibc then loads what it needs to unwind.
   struct Lazy {
-    std::once_flag once;
+    std::mutex mutex;
     std::optional<RipsAdjacency> adjacency;
+    std::atomic<const RipsAdjacency*> made{nullptr};
   };
   /// @param edges sorted.
   RipsGraph(Index size, double threshold, std::pmr::vector<FlagEdge>&& edges,
