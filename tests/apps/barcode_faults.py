@@ -6,7 +6,6 @@ import os
 import random
 import resource
 import subprocess
-import unittest
 
 import program
 from program import SQUARE, SQUARE_CSV, ProgramTest, main
@@ -82,28 +81,6 @@ class Inputs(ProgramTest):
             file.write(SQUARE)
         run = self.expect(0, path, "--output-format", "json", text=False)
         json.loads(run.stdout.decode("utf-8"))
-
-
-class Memory(ProgramTest):
-    def setUp(self):
-        super().setUp()
-        random.seed(2)
-        self.write("many.txt", "".join(f"{random.random()} {random.random()} {random.random()}\n"
-                                       for _ in range(1200)))
-
-    def test_limit_of_the_user(self):
-        run = self.expect(75, "many.txt", "--memory-limit", "1MiB", "-o", "out.csv")
-        for way_out in ("--max-dim", "threshold", "points"):
-            self.assertIn(way_out, run.stderr)
-        self.assertEqual(self.files(), ["many.txt", "square.txt"])
-
-    def test_limit_of_the_system(self):
-        with open(program.PROGRAM, "rb") as file:
-            if b"__asan_init" in file.read():
-                self.skipTest("AddressSanitizer needs more address space than the limit leaves")
-        self.expect(75, "many.txt", "-o", "out.csv", "--max-dim", "2",
-                    preexec_fn=limit(resource.RLIMIT_AS, 60 << 20))
-        self.assertEqual(self.files(), ["many.txt", "square.txt"])
 
 
 if __name__ == "__main__":

@@ -152,7 +152,8 @@ class Limits(ProgramTest):
                     self.assertLessEqual(peak, limit + BESIDE)
                     if code == 75:
                         self.assertEqual(message.count("\n"), 1, message)
-                        self.assertIn("--memory-limit", message)
+                        for way_out in ("threshold", "--max-dim", "points", "--memory-limit"):
+                            self.assertIn(way_out, message)
                         self.assertEqual(self.files(), ["square.txt"])
                     self.forget("out", "out.svg")
         print(f"\n{sum(ends.values())} runs under a limit: {ends[75]} stopped by it, {ends[0]} "
