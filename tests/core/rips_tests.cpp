@@ -85,6 +85,31 @@ struct NegativeZeros {
   double operator()(Index i, Index j) const { return (i + j) % 2 == 0 ? 0.0 : -0.0; }
 };
 
+// Bins of many edges, of few, and of one value; within a threshold and without.
+TEST(RipsGraphs, ManyEdgesAreSorted) {
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    Generator random(seed);
+    const Index n = 300;
+    std::vector<double> lower(static_cast<std::size_t>(n * (n - 1) / 2));
+    for (double& d : lower) {
+      const double scale[] = {1, 1, 1e-300, 1e300};
+      d = seed % 2 == 0 ? random.integer(0, 5) : random.real() * scale[random.integer(0, 3)];
+    }
+    const DistanceMatrix distances(n, lower);
+    const double threshold = seed % 4 < 2 ? kInf : distances(17, 4);
+    std::vector<std::array<double, 3>> expected, found;
+    for (Index u = 0; u < n; ++u)
+      for (Index v = 0; v < u; ++v)
+        if (distances(u, v) <= threshold)
+          expected.push_back({distances(u, v), double(u), double(v)});
+    std::sort(expected.begin(), expected.end());
+    const Rips rips(distances, {.threshold = threshold});
+    for (const FlagEdge& e : rips.graph().edges())
+      found.push_back({e.value, double(e.u), double(e.v)});
+    EXPECT_EQ(found, expected) << "seed " << seed;
+  }
+}
+
 TEST(RipsGraphs, ZeroHasOneSign) {
   const Rips rips(NegativeZeros{});
   expect_keys_ascend(rips);

@@ -26,6 +26,7 @@ CUBICAL = "libph/src/complex/cubical.cpp"
 RIPS = "libph/include/ph/complex/rips_filtration.hpp"
 GRAPH = "libph/include/ph/complex/rips_graph.hpp"
 GRAPH_CPP = "libph/src/complex/rips_graph.cpp"
+ANNOTATIONS = "libph/include/ph/engine/annotations.hpp"
 REDUCTION = "libph/include/ph/engine/reduction.hpp"
 
 # name, file, text that occurs exactly once, what replaces it, test programs that must notice
@@ -53,10 +54,22 @@ MUTANTS = [
      "if (gone == longest.u || gone == longest.v) {", "if (gone == longest.u && dim > 9) {",
      ["conformance_random"]),
     ("rips: enclosing radius halved", GRAPH,
-     "limit = std::min(limit, farthest);", "limit = std::min(limit, farthest / 2);",
-     ["invariance_tests"]),
-    ("rips: threshold exclusive", GRAPH, "if (d <= limit &&", "if (d < limit &&",
-     ["invariance_tests"]),
+     "threshold.value_or(radius);", "threshold.value_or(radius / 2);", ["invariance_tests"]),
+    ("rips: threshold exclusive", GRAPH, "if (d <= last)", "if (d < last)", ["invariance_tests"]),
+    ("edges: ties turned round", "libph/src/complex/edge_sorter.cpp",
+     "return a.u != b.u ? a.u < b.u : a.v < b.v;", "return a.u != b.u ? a.u > b.u : a.v > b.v;",
+     ["rips_tests"]),
+    ("lens: birth of the oldest generator", ANNOTATIONS,
+     "return vectors_[a.id].back().cell;", "return vectors_[a.id].front().cell;",
+     ["conformance_random"]),
+    ("lens: two components at most", "libph/include/ph/engine/lens_sweep.hpp",
+     "i < components_.size(); ++i", "i < std::min<std::size_t>(2, components_.size()); ++i",
+     ["conformance_random"]),
+    ("lens: active edges at one end only", "libph/src/core/bit_matrix.cpp",
+     "active |= common & (c[k] | d[k]);", "active |= common & c[k];", ["conformance_random"]),
+    ("lens: classes that become equal lose their sign", ANNOTATIONS,
+     "links_[id] = {*it, are_opposite(id, *it)};", "links_[id] = {*it, false};",
+     ["conformance_random"]),
     ("rips: threshold ignored for sparse distances", GRAPH_CPP,
      "if (e.value > limit || e.value == kNoLimit) continue;",
      "if (e.value == kNoLimit) continue;", ["rips_tests"]),
