@@ -13,6 +13,13 @@
 namespace ph::app {
 namespace {
 
+// Sanitizers map far more than the program asks for.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kIsSanitized = true;
+#else
+constexpr bool kIsSanitized = false;
+#endif
+
 /// The number in the first line of a file of the kernel's, if there is one.
 std::optional<std::uint64_t> number_in(const std::string& path) {
   std::ifstream file(path);
@@ -68,9 +75,7 @@ std::size_t machine_memory() {
 }
 
 void bound_heap(std::size_t bytes) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  static_cast<void>(bytes);  // sanitizers map far more than the program asks for
-#else
+  if (kIsSanitized) return;
   // Small blocks, the allocator's own and stacks of threads.
   constexpr std::uint64_t slack = std::uint64_t{16} << 20;
   rlimit data{};
@@ -80,7 +85,6 @@ void bound_heap(std::size_t bytes) {
   if (__builtin_add_overflow(*now + slack, bytes, &limit)) return;
   data.rlim_cur = std::min<std::uint64_t>(data.rlim_cur, limit);
   setrlimit(RLIMIT_DATA, &data);
-#endif
 }
 
 }  // namespace ph::app
