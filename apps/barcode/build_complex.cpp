@@ -117,7 +117,8 @@ class Builder {
   BuiltComplex rips(const Data& data, bool empty) const {
     RipsOptions options = arguments_.rips;
     options.threshold = arguments_.threshold;
-    options.merge_equal_points = arguments_.options.min_persistence >= 0;
+    options.merge_equal_points = arguments_.options.min_persistence >= 0 &&
+                                 arguments_.options.representatives != Representatives::cocycles;
     if (options.threshold && *options.threshold < 0)
       throw Error(ErrorKind::usage, fmt::format("--threshold: found {}, expected a distance, at "
                                                 "least 0",

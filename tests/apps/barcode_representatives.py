@@ -33,10 +33,10 @@ def torus():
     return {s: (len(s) - 1, faces(s)) for s in sorted(simplices)}
 
 
-def square():
-    points = [tuple(map(float, line.split())) for line in SQUARE.splitlines()]
+def rips(text):
+    points = [tuple(map(float, line.split())) for line in text.splitlines()]
     return {s: (max([math.dist(points[i], points[j]) for i in s for j in s]), faces(s))
-            for k in (1, 2, 3) for s in itertools.combinations(range(4), k)}
+            for k in (1, 2, 3) for s in itertools.combinations(range(len(points)), k)}
 
 
 def image(rows):
@@ -130,7 +130,12 @@ class Representatives(ProgramTest):
             self.assertEqual(bars, json.load(want))
 
     def test_square(self):
-        self.check("square", square(), 2, "square.txt")
+        self.check("square", rips(SQUARE), 2, "square.txt")
+
+    def test_copies_of_points(self):
+        self.write("copies.txt", SQUARE * 2)
+        for field in (2, 3):
+            self.check("copies", rips(SQUARE * 2), field, "copies.txt", forced=())
 
     def test_torus(self):
         self.write("torus.txt", "".join(f"{' '.join(map(str, s))} : {v}\n"

@@ -14,7 +14,7 @@ import sys
 import tempfile
 
 import corpus
-from entry import FORMS, of_file, plain, sample
+from entry import FORMS, of_file, sample, set_up
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 PAGE = os.path.join(HERE, os.pardir, os.pardir, "docs", "reliability.md")
@@ -218,15 +218,9 @@ def expected_of(entry, peer):
 
 
 def try_entry(entry, peer, peak):
-    with tempfile.TemporaryDirectory() as outer:
-        folder = os.path.join(outer, "here")
-        os.mkdir(folder)
-        for name, content in entry.files.items():
-            with open(os.path.join(os.fsencode(folder), os.fsencode(name)), "wb") as file:
-                file.write(content)
-        with (entry.around or plain)(folder) as options:
-            file = next(iter(entry.files), "")
-            run = Run(peak, peer.command(entry, folder, file), folder, options)
+    with set_up(entry) as (folder, options):
+        file = next(iter(entry.files), "")
+        run = Run(peak, peer.command(entry, folder, file), folder, options)
     return run, run.kind(expected_of(entry, peer), peer.parse(run.out))
 
 

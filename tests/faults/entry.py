@@ -2,6 +2,8 @@
 """One line of the corpus: a faulty, or a strange but valid, use of a program and what must happen."""
 import contextlib
 import dataclasses
+import os
+import tempfile
 import typing
 
 import samples
@@ -100,6 +102,20 @@ class Unavailable(Exception):
 def plain(_folder):
     """What is around a run: prepares a folder, yields options of subprocess.Popen, cleans up."""
     yield {}
+
+
+@contextlib.contextmanager
+def set_up(entry):
+    """Yields a folder of the entry's own, with its files, and options of subprocess.Popen. What is
+    beside the folder goes with it."""
+    with tempfile.TemporaryDirectory() as outer:
+        folder = os.path.join(outer, "here")
+        os.mkdir(folder)
+        for name, content in entry.files.items():
+            with open(os.path.join(os.fsencode(folder), os.fsencode(name)), "wb") as file:
+                file.write(content)
+        with (entry.around or plain)(folder) as options:
+            yield folder, options
 
 
 def of_file(row, form, name, content, options, **others):

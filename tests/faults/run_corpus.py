@@ -8,11 +8,10 @@ import os
 import re
 import subprocess
 import sys
-import tempfile
 import time
 
 import corpus
-from entry import FRUGAL_ROWS, ROWS, Unavailable, plain
+from entry import FRUGAL_ROWS, ROWS, Unavailable, set_up
 
 SECONDS = 1
 TRIES = 3  # for times only: a loaded machine is slow now and then, a program is each time
@@ -53,22 +52,16 @@ class Runner:
 
     def try_once(self, entry):
         """@return what is wrong, and whether it is a matter of time only."""
-        with tempfile.TemporaryDirectory() as outer:
-            folder = os.path.join(outer, "here")
-            os.mkdir(folder)
-            for name, content in entry.files.items():
-                with open(os.path.join(os.fsencode(folder), os.fsencode(name)), "wb") as file:
-                    file.write(content)
-            with (entry.around or plain)(folder) as options:
-                if entry.unprivileged and os.geteuid() == 0:
-                    os.chmod(outer, 0o755)
-                    os.chown(folder, NOBODY, NOBODY)
-                    options = {**options, "user": NOBODY, "group": NOBODY, "extra_groups": []}
-                return self.run_in(outer, folder, entry, options)
+        with set_up(entry) as (folder, options):
+            if entry.unprivileged and os.geteuid() == 0:
+                os.chmod(os.path.dirname(folder), 0o755)
+                os.chown(folder, NOBODY, NOBODY)
+                options = {**options, "user": NOBODY, "group": NOBODY, "extra_groups": []}
+            return self.run_in(folder, entry, options)
 
-    def run_in(self, outer, folder, entry, options):
+    def run_in(self, folder, entry, options):
         before = sorted(os.listdir(os.fsencode(folder)))
-        report = os.path.join(outer, "report")
+        report = os.path.join(os.path.dirname(folder), "report")
         with open(report, "wb"):
             os.chmod(report, 0o666)  # another user may write it
         arguments = list(entry.arguments)

@@ -22,7 +22,8 @@ struct RipsOptions {
   double minkowski_p = 2;                             ///< exponent of PointDistance::minkowski
   /// Points only: equal ones become one vertex, named by the first of them. All bars of positive
   /// length stay the same, those of length zero that the copies cause are left out; many copies
-  /// cost nothing, where each pair of them would be an edge.
+  /// cost nothing, where each pair of them would be an edge. Cycles stay cycles of all points;
+  /// cocycles are those of the distinct points and say nothing about the copies.
   bool merge_equal_points = false;
 };
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ph/core/chain.hpp"
+#include "ph/core/error.hpp"
 #include "ph/core/field.hpp"
 
 namespace ph {
@@ -124,6 +125,7 @@ class Annotations {
     }
   };
 
+  static constexpr std::size_t kMostClasses = INT32_MAX;  // the keys of sums_ have a bit for a sign
   static std::uint64_t name(std::uint32_t u, std::uint32_t v) {
     return std::uint64_t{std::max(u, v)} << 32 | std::min(u, v);
   }
@@ -175,6 +177,8 @@ auto Annotations<K>::resolve(Class a) -> Class {
 template <Field K>
 auto Annotations<K>::intern() -> Class {
   if (scratch_.empty()) return {};
+  if (vectors_.size() > kMostClasses)
+    throw Error(ErrorKind::resource, "too many classes of edges are alive; lower the threshold");
   const auto fresh = static_cast<std::uint32_t>(vectors_.size());
   vectors_.emplace_back(scratch_.begin(), scratch_.end());
   const auto [it, is_new] = known_.insert(fresh);

@@ -41,7 +41,7 @@ struct LensEngine {
  private:
   /// Two bits a pair of vertices; where edges are few, other engines take less.
   static bool are_rows_affordable(std::size_t vertices, std::size_t edges) {
-    constexpr double kAlways = 1 << 28;  // bytes
+    constexpr double kAlways = 1 << 25;  // bytes
     const auto n = static_cast<double>(vertices);
     return n * n / 4 <= std::max(kAlways, 16.0 * static_cast<double>(edges));
   }
