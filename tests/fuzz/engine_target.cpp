@@ -134,7 +134,7 @@ void run_engines(std::string_view bytes) {
   const bool ties = choices.coin();
   constexpr std::array<std::int64_t, 3> kFields{2, 3, 5};
   const std::int64_t field = kFields[static_cast<std::size_t>(choices.integer(0, 2))];
-  const Suite suite{choices.integer(0, 3), field, choices.integer(0, 3) == 0};
+  const Suite suite{choices.integer(0, 3), field, choices.integer(0, 7) == 0};
   switch (kind) {
     case 0:
       return check_cubical(choices, ties, suite);
