@@ -8,13 +8,14 @@ one after the other in the same run. Peers print nothing or to /dev/null; ours w
 Needs numpy for the inputs. A peer that is not given is left out."""
 import argparse
 import json
-import os
 import pathlib
 import statistics
 import subprocess
 import tempfile
 
 import numpy
+
+from measuring import Meter
 
 GUDHI_CUBICAL = """
 import resource, sys
@@ -25,22 +26,8 @@ before = resource.getrusage(resource.RUSAGE_SELF)
 complex = gudhi.CubicalComplex(dimensions=values.shape, top_dimensional_cells=values.flatten(order="F"))
 complex.compute_persistence(homology_coeff_field=2)
 after = resource.getrusage(resource.RUSAGE_SELF)
-print(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, after.ru_maxrss / 1024)
+print(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, after.ru_maxrss * 1024 / 1e6)
 """
-
-
-def measure(command, repeat):
-    """(CPU seconds, peak MB) of the fastest run of a command."""
-    best = None
-    for _ in range(repeat):
-        with open(os.devnull, "w") as sink:
-            process = subprocess.Popen([str(c) for c in command], stdout=sink, stderr=sink)
-            _, status, usage = os.wait4(process.pid, 0)
-        if status != 0:
-            raise SystemExit(f"{command}: exit status {status}")
-        run = (usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024)
-        best = min(best, run) if best else run
-    return best
 
 
 def measure_gudhi(python, volume, repeat):
@@ -66,14 +53,20 @@ def smooth_volume(n, generator):
 
 def engines(arguments, folder):
     barcode = arguments.build / "apps/barcode/ph-barcode"
-    ours = lambda *options: measure([barcode, *options, "--threads", "1", "--quiet", "--output-format", "none"],
-                                    arguments.repeat)
+    meter = Meter(arguments.build / "bench/bench_run", repeat=arguments.repeat)
+
+    def measure(*command):
+        best = meter.best(command)
+        if not best.ok:
+            raise SystemExit(f"{command}: {best.outcome}")
+        return best.cpu, best.peak
+
+    ours = lambda *options: measure(barcode, *options, "--threads", "1", "--quiet", "--output-format", "none")
     print("| input | libph: s / MB | peer: s / MB | peer / libph |\n|---|---|---|---|")
     generator = numpy.random.default_rng(1)
     points = folder / "points.txt"
     numpy.savetxt(points, generator.random((1000, 3)))
-    theirs = arguments.ripser and measure([arguments.ripser, "--format", "point-cloud", "--dim", "1", points],
-                                          arguments.repeat)
+    theirs = arguments.ripser and measure(arguments.ripser, "--format", "point-cloud", "--dim", "1", points)
     row("Rips H1, 1 000 random points of R³, `cohomology`",
         ours(points, "--max-dim", "1", "--engine", "cohomology"), theirs, "Ripser")
     volumes = {"noise": generator.random((64, 64, 64)), "smooth": smooth_volume(64, generator)}

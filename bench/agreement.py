@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: MIT
+"""Whether two programs found the same bars, given that they round differently.
+
+Programs compute distances in single or in double precision and print six digits: ends may differ in the
+last of them, and a bar that is empty for one may be short for the other.
+"""
+import bisect
+import math
+import re
+
+RELATIVE = 1e-5  # of the larger end
+
+
+def read(text, max_dim):
+    """Ripser's output as {dim: sorted [(birth, death)]}."""
+    bars, dim = {d: [] for d in range(max_dim + 1)}, None
+    for line in text.splitlines():
+        if found := re.match(r"persistence intervals in dim(?:ension)? (\d+)", line):
+            dim = int(found[1])
+        elif found := re.match(r" \[([^,]+), ?([^)]*)\)", line):
+            bars[dim].append((float(found[1]), float(found[2]) if found[2] else math.inf))
+    return {d: sorted(list_) for d, list_ in bars.items()}
+
+
+def _slack(value):
+    return RELATIVE * abs(value) if math.isfinite(value) else 0.0
+
+
+def _close(a, b):
+    return a == b or abs(a - b) <= max(_slack(a), _slack(b))
+
+
+def _unmatched(ours, theirs):
+    """Bars of either list without a partner in the other: each takes the first free one that is close."""
+    births = [birth for birth, _ in theirs]
+    free = [True] * len(theirs)
+    alone = []
+    for birth, death in ours:
+        slack = 2 * _slack(birth)
+        window = range(bisect.bisect_left(births, birth - slack), bisect.bisect_right(births, birth + slack))
+        partner = next((i for i in window
+                        if free[i] and _close(birth, births[i]) and _close(death, theirs[i][1])), None)
+        if partner is None:
+            alone.append((birth, death))
+        else:
+            free[partner] = False
+    return alone, [bar for bar, is_free in zip(theirs, free) if is_free]
+
+
+def difference(ours, theirs):
+    """The first difference in words, or None. Bars short enough to be rounding are no difference."""
+    for dim, bars in ours.items():
+        other = theirs.get(dim, [])
+        for owner, list_ in zip(("ours", "theirs"), _unmatched(bars, other)):
+            for birth, death in list_:
+                if not _close(birth, death):
+                    return (f"H{dim}: only {owner} [{birth:g}, {death:g}); {len(bars)} bars of ours, "
+                            f"{len(other)} of theirs")
+    return None

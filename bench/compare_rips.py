@@ -1,0 +1,263 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Vietoris-Rips persistence: ph-barcode beside other programs, on the same inputs, in one run.
+
+    compare_rips.py build/release --data FOLDER --peer 'Ripser 1.2.1 = ripser {options}'
+
+A peer is NAME = COMMAND, the name with its version. In the command {options} stands for the input in
+Ripser's options (--format F --dim D [--threshold T] FILE), {threads} for the number of threads (a command
+without it is measured with one). Words in [brackets] are used only in the run whose bars are compared; those
+of [A|B] are A in that run and B in those that are measured.
+Arguments may stand in a file, one a line, named as @FILE.
+
+Measured are user + system CPU seconds and peak resident memory of whole processes, output going nowhere;
+see docs/benchmarks.md for how. Standard library only.
+"""
+import argparse
+import datetime
+import json
+import os
+import pathlib
+import platform
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+
+import agreement
+import rips_rows
+import rips_table
+from measuring import SHORT, Limits, Meter
+
+OURS = "libph"
+UNITS = {"KiB": 1 << 10, "MiB": 1 << 20, "GiB": 1 << 30}
+
+
+class Program:
+    """How a program is called; the same for libph and for peers."""
+
+    def __init__(self, name, command):
+        self.name, self._command = name, command
+        self.has_threads = "{threads}" in command
+
+    def command(self, options, threads=1, prints=False):
+        text = re.sub(r"\[([^|\]]*)\|?(.*?)\]", r"\1" if prints else r"\2", self._command)
+        words = []
+        for word in shlex.split(text):
+            if word == "{options}":
+                words += options
+            else:
+                words.append(word.replace("{threads}", str(threads)))
+        return words
+
+    def __str__(self):
+        return self._command
+
+
+def peer(text):
+    name, equals, command = text.partition("=")
+    if not equals or "{options}" not in command:
+        raise argparse.ArgumentTypeError(f"{text!r}: expected NAME = COMMAND with {{options}} in it")
+    return Program(name.strip(), command.strip())
+
+
+def size(text):
+    found = re.fullmatch(r"(\d+)(KiB|MiB|GiB)", text)
+    if not found:
+        raise argparse.ArgumentTypeError(f"{text!r}: expected a size such as 16GiB")
+    return int(found[1]) * UNITS[found[2]]
+
+
+def our_program(path):
+    return Program(OURS, f"{shlex.quote(str(path))} --quiet --threads {{threads}} {{options}} "
+                         "--output-format [ripser|none]")
+
+
+def ripser_options(row, path):
+    options = ["--format", "binary" if rips_rows.is_matrix(path) else "point-cloud", "--dim", str(row.max_dim)]
+    if row.threshold is not None:
+        options += ["--threshold", f"{row.threshold:g}"]
+    return options + [str(path)]
+
+
+def our_options(row, path):
+    options = ["--format", "binary" if rips_rows.is_matrix(path) else "points", "--complex", "rips",
+               "--max-dim", str(row.max_dim)]
+    if row.threshold is not None:
+        options += ["--threshold", f"{row.threshold:g}"]
+    return options + [str(path)]
+
+
+class Comparison:
+    def __init__(self, arguments, made):
+        self.arguments, self.made = arguments, made
+        self.ours = our_program(arguments.build / "apps/barcode/ph-barcode")
+        self._limit_program = arguments.build / "bench/bench_rips_limit"
+        self._meter = Meter(arguments.build / "bench/bench_run",
+                            Limits(arguments.time_limit, arguments.memory_limit), arguments.repeat,
+                            arguments.together)
+        self._startups = {}
+
+    def programs(self, row):
+        wanted = self.arguments.only
+        for program in [self.ours, *(self.arguments.peer if row.peers else [])]:
+            if not wanted or any(program.name.startswith(name) for name in wanted):
+                yield program
+
+    @staticmethod
+    def options(program, row, path):
+        return (our_options if program.name == OURS else ripser_options)(row, path)
+
+    def startup(self, program, row, path, threads):
+        """CPU seconds of the same call on two points."""
+        options = self.options(program, rips_rows.Row("two points", row.max_dim),
+                               rips_rows.write_two_points(path, self.made))
+        command = tuple(program.command(options, threads))
+        if command not in self._startups:
+            taken = self._meter.best(command)
+            self._startups[command] = taken.cpu if taken.ok else 0.0
+        return self._startups[command]
+
+    def measure(self, program, row, path, threads):
+        command = program.command(self.options(program, row, path), threads)
+        taken = self._meter.best(command)
+        startup = self.startup(program, row, path, threads) if taken.cpu < SHORT else 0.0
+        return {"program": program.name, "threads": threads, "outcome": taken.outcome, "user": taken.user,
+                "system": taken.system, "wall": taken.wall, "peak_mb": taken.peak, "startup": startup,
+                "cpu": max(taken.cpu - startup, 1e-4)}
+
+    def limit(self, path):
+        kind = "binary" if rips_rows.is_matrix(path) else "points"
+        command = lambda file: [self._limit_program, kind, file]
+        taken = self._meter.best(command(path))
+        startup = self._meter.best(command(rips_rows.write_two_points(path, self.made)))
+        return {"cpu": max(taken.cpu - startup.cpu * (taken.cpu < SHORT), 1e-4), "peak_mb": taken.peak}
+
+    def bars(self, program, row, path):
+        with tempfile.TemporaryFile() as output:
+            command = program.command(self.options(program, row, path), prints=True)
+            ended = self._meter.run(command, stdout=output)
+            output.seek(0)
+            return agreement.read(output.read().decode(), row.max_dim) if ended.ok else None
+
+    def check(self, row, path, programs):
+        """What the bars of each program that ended are, beside ours: "equal" or the first difference."""
+        ours = self.bars(self.ours, row, path)
+        result = {}
+        for program in programs if ours is not None else []:
+            theirs = self.bars(program, row, path)
+            if theirs is not None:
+                result[program.name] = agreement.difference(ours, theirs) or "equal"
+        return result
+
+    def row(self, row, path):
+        result = {"name": row.name, "max_dim": row.max_dim, "threshold": row.threshold, "results": [], "bars": {}}
+        finished = []
+        for program in self.programs(row):
+            for threads in self.arguments.threads if program.has_threads else [1]:
+                entry = self.measure(program, row, path, threads)
+                result["results"].append(entry)
+                print(rips_table.line(row.name, entry), file=sys.stderr, flush=True)
+            if entry["outcome"] == "ok" and program.name != OURS:
+                finished.append(program)
+        if row.limit:
+            result["limit"] = self.limit(path)
+        if self.arguments.check:
+            result["bars"] = self.check(row, path, finished)
+            for name, said in result["bars"].items():
+                if said != "equal":
+                    print(f"{row.name}: {name}: {said}", file=sys.stderr, flush=True)
+        return result
+
+
+def merged(old, new):
+    """One row's results of an earlier run, those measured again replaced."""
+    key = lambda entry: (entry["program"], entry["threads"])
+    results = {key(entry): entry for entry in [*old.get("results", []), *new["results"]]}
+    return {**old, **new, "results": list(results.values()), "bars": {**old.get("bars", {}), **new["bars"]}}
+
+
+def processor():
+    try:
+        with open("/proc/cpuinfo", encoding="ascii") as file:
+            return next(line.split(":", 1)[1].strip() for line in file if line.startswith("model name"))
+    except (OSError, StopIteration):
+        return platform.machine()
+
+
+def parse():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
+                                     fromfile_prefix_chars="@")
+    parser.add_argument("build", type=lambda path: pathlib.Path(path).resolve(),
+                        help="build folder, with ph-barcode, bench_run and bench_rips_limit")
+    parser.add_argument("--peer", type=peer, action="append", default=[], help="NAME = COMMAND, repeatable")
+    parser.add_argument("--data", type=pathlib.Path, default=pathlib.Path("../shared/data"),
+                        help="folder of the inputs that are not generated (default: ../shared/data)")
+    parser.add_argument("--made", type=pathlib.Path, help="folder for generated inputs (default: a temporary one)")
+    parser.add_argument("--rows", type=lambda text: text.split(","), help="names, comma-separated (default: all)")
+    parser.add_argument("--only", action="append", default=[], metavar="NAME",
+                        help="only programs whose name begins so, repeatable")
+    parser.add_argument("--threads", type=lambda text: [int(n) for n in text.split(",")], default=[1],
+                        help="numbers of threads, comma-separated (default: 1)")
+    parser.add_argument("--repeat", type=int, default=3, help="runs of which the fastest counts (default: 3)")
+    parser.add_argument("--together", type=float, default=0.5, metavar="SECONDS",
+                        help="runs below 50 ms are repeated until they took this long together (default: 0.5)")
+    parser.add_argument("--time-limit", type=int, default=600, metavar="SECONDS", help="CPU time of a run")
+    parser.add_argument("--memory-limit", type=size, metavar="SIZE", help="private memory of a run, such as 16GiB")
+    parser.add_argument("--no-check", dest="check", action="store_false", help="do not compare the bars")
+    parser.add_argument("--json", type=pathlib.Path, help="all results; what it holds already is kept or replaced")
+    parser.add_argument("--list", action="store_true", help="print the names of the rows and end")
+    return parser.parse_args()
+
+
+def chosen_rows(names):
+    rows = {row.name: row for row in rips_rows.ROWS}
+    if names is None:
+        return [row for row in rips_rows.ROWS if row.usual]
+    if unknown := [name for name in names if name not in rows]:
+        raise SystemExit(f"no such row: {', '.join(unknown)}; --list names them")
+    return [rows[name] for name in names]
+
+
+def save(path, report):
+    part = path.with_name(path.name + ".part")
+    part.write_text(json.dumps(report, indent=1) + "\n")
+    os.replace(part, path)
+
+
+def main():
+    arguments = parse()
+    if arguments.list:
+        print("\n".join(row.name for row in rips_rows.ROWS))
+        return
+    report = {"rows": []}
+    if arguments.json and arguments.json.exists():
+        report = json.loads(arguments.json.read_text())
+    version = subprocess.run([arguments.build / "apps/barcode/ph-barcode", "--version"], capture_output=True,
+                             text=True, check=True)
+    report.update(machine=f"{processor()}, {os.cpu_count()} processors", date=str(datetime.date.today()),
+                  version=version.stdout.strip(),
+                  peers={**report.get("peers", {}), **{p.name: str(p) for p in arguments.peer}})
+    with tempfile.TemporaryDirectory() as folder:
+        made = arguments.made or pathlib.Path(folder)
+        made.mkdir(parents=True, exist_ok=True)
+        comparison = Comparison(arguments, made)
+        known = {row["name"]: row for row in report["rows"]}
+        for row in chosen_rows(arguments.rows):
+            path = rips_rows.input_file(row, arguments.data, made)
+            if path is None:
+                print(f"{row.name}: not in {arguments.data}, left out", file=sys.stderr)
+                continue
+            known[row.name] = merged(known.get(row.name, {}), comparison.row(row, path))
+            order = [r.name for r in rips_rows.ROWS]
+            report["rows"] = sorted(known.values(), key=lambda r: order.index(r["name"]))
+            if arguments.json:
+                save(arguments.json, report)
+    print(rips_table.markdown(report, OURS))
+    if any(said != "equal" for row in report["rows"] for said in row["bars"].values()):
+        raise SystemExit(1)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: MIT
+"""What a program takes: user and system CPU seconds, wall seconds, peak resident memory."""
+import os
+import re
+import resource
+import signal
+import subprocess
+import tempfile
+from dataclasses import dataclass
+
+SHORT = 0.05  # s: a run below it is repeated often
+LONG = 10.0  # s: a run that takes as long is not repeated
+WALL_OVER_CPU = 6  # a run may wait for other programs this many times as long as it may compute
+
+
+@dataclass(frozen=True)
+class Limits:
+    """CPU seconds, and bytes of private memory; None is no limit."""
+    seconds: int = None
+    memory: int = None
+
+    def apply(self):
+        if self.seconds:
+            resource.setrlimit(resource.RLIMIT_CPU, (self.seconds, self.seconds + 5))
+        if self.memory:
+            resource.setrlimit(resource.RLIMIT_DATA, (self.memory, self.memory))
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+
+@dataclass(frozen=True)
+class Run:
+    """One run. `outcome` is "ok", or what ended it: "time", "memory", or its exit status in words."""
+    outcome: str
+    user: float = 0.0
+    system: float = 0.0
+    wall: float = 0.0
+    peak: float = 0.0  # MB (10⁶ bytes)
+
+    @property
+    def cpu(self):
+        return self.user + self.system
+
+    @property
+    def ok(self):
+        return self.outcome == "ok"
+
+
+def _outcome(status, messages):
+    code = os.waitstatus_to_exitcode(status)
+    if code == 0:
+        return "ok"
+    if code == -signal.SIGXCPU:
+        return "time"
+    if code == 75 or re.search("bad_alloc|memory", messages, re.IGNORECASE):
+        return "memory"
+    return f"exit {code}" if code > 0 else signal.Signals(-code).name
+
+
+class Meter:
+    """Runs programs through `bench_run`, which tells what each took.
+
+    Each is run `repeat` times, or once if that takes long; a short one until its runs have taken `together` seconds.
+    """
+
+    def __init__(self, bench_run, limits=Limits(), repeat=3, together=0.5):
+        self._bench_run, self._limits, self._repeat, self._together = bench_run, limits, repeat, together
+
+    def run(self, command, stdout=subprocess.DEVNULL):
+        """Runs a command once. @param stdout where its output goes (default: nowhere)."""
+        with tempfile.TemporaryFile("w+") as messages, tempfile.TemporaryFile("w+") as taken:
+            process = subprocess.Popen([self._bench_run, str(taken.fileno()), *map(str, command)],
+                                       stdin=subprocess.DEVNULL, stdout=stdout, stderr=messages,
+                                       pass_fds=[taken.fileno()], preexec_fn=self._limits.apply,
+                                       start_new_session=True)
+            try:
+                process.wait(self._limits.seconds and WALL_OVER_CPU * self._limits.seconds)
+            except subprocess.TimeoutExpired:
+                return Run("time")
+            finally:
+                if process.poll() is None:
+                    os.killpg(process.pid, signal.SIGKILL)
+                    process.wait()
+            messages.seek(0)
+            taken.seek(0)
+            said, figures = messages.read(65536), taken.read().split()
+        if process.returncode != 0 or len(figures) != 5:
+            raise RuntimeError(f"{self._bench_run}: {said or process.returncode}")
+        status, user, system, wall, peak = figures
+        return Run(_outcome(int(status), said), float(user), float(system), float(wall), int(peak) / 1e6)
+
+    def best(self, command):
+        """The run that took the least CPU time; the one that failed, if one did."""
+        runs = [self.run(command)]
+        while runs[-1].ok and not self._enough(runs):
+            runs.append(self.run(command))
+        return min(runs, key=lambda r: r.cpu) if runs[-1].ok else runs[-1]
+
+    def _enough(self, runs):
+        taken = sum(run.cpu for run in runs)
+        if min(run.cpu for run in runs) < SHORT:
+            return taken >= self._together and len(runs) >= self._repeat
+        return len(runs) >= self._repeat or taken >= LONG

@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: MIT
+"""The inputs of compare_rips.py: files of a data folder, and seeded samples that are written where needed.
+
+Only `random.Random.random()` is drawn from, whose sequence Python promises to keep, so that a sample is
+the same file on every machine.
+"""
+import math
+import pathlib
+import random
+import struct
+from dataclasses import dataclass
+from typing import Optional
+
+
+def write_sphere(path, count, seed):
+    """Uniform points of the unit sphere in R³ (Archimedes: the height is uniform)."""
+    draw = random.Random(seed).random
+    with open(path, "w") as file:
+        for _ in range(count):
+            z, angle = 2 * draw() - 1, 2 * math.pi * draw()
+            r = math.sqrt(1 - z * z)
+            file.write(f"{r * math.cos(angle):.9g} {r * math.sin(angle):.9g} {z:.9g}\n")
+
+
+def write_cube(path, count, seed):
+    """Uniform points of the unit cube in R³."""
+    draw = random.Random(seed).random
+    with open(path, "w") as file:
+        for _ in range(count):
+            file.write(f"{draw():.9g} {draw():.9g} {draw():.9g}\n")
+
+
+def write_symmetric(path, count, seed):
+    """A symmetric matrix of independent uniform numbers: the strict lower triangle, float32."""
+    draw = random.Random(seed).random
+    with open(path, "wb") as file:
+        for i in range(1, count):
+            file.write(struct.pack(f"<{i}f", *(draw() for _ in range(i))))
+
+
+@dataclass(frozen=True)
+class Sample:
+    """A generated input: `write(path, count, seed)` makes it."""
+    name: str
+    suffix: str
+    write: object
+    count: int
+    seed: int = 1
+
+
+SAMPLES = {sample.name: sample for sample in (
+    Sample("s2_600", "txt", write_sphere, 600),
+    Sample("s2_2000", "txt", write_sphere, 2000),
+    Sample("cube_600", "txt", write_cube, 600),
+    Sample("cube_20000", "txt", write_cube, 20_000),
+    Sample("cube_1000000", "txt", write_cube, 1_000_000),
+    Sample("symmetric_500", "bin", write_symmetric, 500),
+    Sample("tiny_12", "bin", write_symmetric, 12),
+)}
+
+
+@dataclass(frozen=True)
+class Row:
+    """One input of the table. Without a threshold the enclosing radius is the limit."""
+    source: str  # a sample, or the name of a file in the data folder
+    max_dim: int
+    threshold: Optional[float] = None
+    limit: bool = False  # compared with reading and sorting its edges
+    peers: bool = True  # measured for the peers too, or for libph alone
+    usual: bool = True  # measured where no rows are chosen
+
+    @property
+    def name(self):
+        at = "" if self.threshold is None else f"_t{self.threshold:g}"
+        return f"h{self.max_dim}:{pathlib.PurePath(self.source).stem}{at}"
+
+
+ROWS = (
+    Row("dragon_2000.txt", 1, limit=True),
+    Row("random_1000_8.txt", 1, limit=True),
+    Row("torus_2000.txt", 1, limit=True),
+    Row("klein_900.txt", 1, limit=True),
+    Row("cyclooctane.csv", 1, limit=True),
+    Row("symmetric_500", 1, limit=True),
+    Row("ntorus_10000.txt", 1, 1.0),
+    Row("sphere_3_192.bin", 2),
+    Row("rp2_600.bin", 2),
+    Row("s2_600", 2),
+    Row("klein_400.txt", 2),
+    Row("klein_900.txt", 2),
+    Row("fractal_l.bin", 2),
+    Row("network379.bin", 2),
+    Row("house104.bin", 2),
+    Row("cube_600", 2),
+    Row("torus_1000.txt", 2),
+    Row("random_1000_8.txt", 2),
+    Row("cyclooctane.csv", 2, 0.8),
+    Row("ntorus_10000.txt", 2, 0.4),
+    Row("o3_1024.txt", 2),
+    Row("s2_2000", 2),
+    Row("o3_1024.txt", 3, 1.8),
+    Row("o3_4096.txt", 3, 1.4),
+    Row("random_50_16.bin", 7),
+    Row("random_100_4.bin", 3),
+    Row("cube_20000", 1, peers=False, usual=False),
+    Row("cube_1000000", 0, peers=False, usual=False),
+    Row("tiny_12", 2, limit=True, usual=False),
+)
+
+
+def input_file(row, data, made):
+    """The file of a row's input, written below `made` if it is a sample. None if `data` has no such file."""
+    sample = SAMPLES.get(row.source)
+    if sample is None:
+        path = data / row.source
+        return path if path.is_file() else None
+    path = made / f"{sample.name}.{sample.suffix}"
+    if not path.exists():
+        sample.write(path, sample.count, sample.seed)
+    return path
+
+
+def is_matrix(path):
+    """Whether a file holds distances (a lower triangle) rather than points."""
+    return path.suffix == ".bin"
+
+
+def write_two_points(like, made):
+    """The smallest input in the format of another: running on it shows what starting a program takes."""
+    path = made / f"two_points.{'bin' if is_matrix(like) else 'txt'}"
+    if is_matrix(like):
+        path.write_bytes(struct.pack("<f", 1))
+    else:
+        path.write_text("0 0 0\n1 0 0\n")
+    return path
