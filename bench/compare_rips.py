@@ -29,8 +29,8 @@ import agreement
 import rips_rows
 import rips_table
 from measuring import SHORT, Limits, Meter
+from rips_table import OURS
 
-OURS = "libph"
 UNITS = {"KiB": 1 << 10, "MiB": 1 << 20, "GiB": 1 << 30}
 
 
@@ -69,9 +69,9 @@ def size(text):
     return int(found[1]) * UNITS[found[2]]
 
 
-def our_program(path):
-    return Program(OURS, f"{shlex.quote(str(path))} --quiet --threads {{threads}} {{options}} "
-                         "--output-format [ripser|none]")
+def our_program(path, choice=""):
+    return Program(f"{OURS} {choice}".strip(), f"{shlex.quote(str(path))} --quiet --threads {{threads}} {{options}} "
+                                               f"{choice} --output-format [ripser|none]")
 
 
 def ripser_options(row, path):
@@ -93,6 +93,7 @@ class Comparison:
     def __init__(self, arguments, made):
         self.arguments, self.made = arguments, made
         self.ours = our_program(arguments.build / "apps/barcode/ph-barcode")
+        self._choices = [our_program(arguments.build / "apps/barcode/ph-barcode", c) for c in arguments.choice]
         self._limit_program = arguments.build / "bench/bench_rips_limit"
         self._meter = Meter(arguments.build / "bench/bench_run",
                             Limits(arguments.time_limit, arguments.memory_limit), arguments.repeat,
@@ -101,13 +102,13 @@ class Comparison:
 
     def programs(self, row):
         wanted = self.arguments.only
-        for program in [self.ours, *(self.arguments.peer if row.peers else [])]:
+        for program in [self.ours, *self._choices, *(self.arguments.peer if row.peers else [])]:
             if not wanted or any(program.name.startswith(name) for name in wanted):
                 yield program
 
     @staticmethod
     def options(program, row, path):
-        return (our_options if program.name == OURS else ripser_options)(row, path)
+        return (our_options if rips_table.is_ours(program.name) else ripser_options)(row, path)
 
     def startup(self, program, row, path, threads):
         """CPU seconds of the same call on two points."""
@@ -192,6 +193,8 @@ def parse():
     parser.add_argument("build", type=lambda path: pathlib.Path(path).resolve(),
                         help="build folder, with ph-barcode, bench_run and bench_rips_limit")
     parser.add_argument("--peer", type=peer, action="append", default=[], help="NAME = COMMAND, repeatable")
+    parser.add_argument("--choice", action="append", default=[], metavar="WORDS",
+                        help="also measure ph-barcode with these options, such as '--engine lens'; repeatable")
     parser.add_argument("--data", type=pathlib.Path, default=pathlib.Path("../shared/data"),
                         help="folder of the inputs that are not generated (default: ../shared/data)")
     parser.add_argument("--made", type=pathlib.Path, help="folder for generated inputs (default: a temporary one)")
@@ -254,7 +257,7 @@ def main():
             report["rows"] = sorted(known.values(), key=lambda r: order.index(r["name"]))
             if arguments.json:
                 save(arguments.json, report)
-    print(rips_table.markdown(report, OURS))
+    print(rips_table.markdown(report))
     if any(said != "equal" for row in report["rows"] for said in row["bars"].values()):
         raise SystemExit(1)
 

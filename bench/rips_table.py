@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The results of compare_rips.py as Markdown."""
 
+OURS = "libph"
 ENDED = {"time": "time limit", "memory": "memory limit"}
 
 
@@ -28,9 +29,14 @@ def find(row, program, threads):
     return next((e for e in row["results"] if e["program"] == program and e["threads"] == threads), None)
 
 
-def best_peer(row, ours, threads=1):
-    """The fastest peer that ended, on that number of threads."""
-    ended = [e for e in row["results"] if e["program"] != ours and e["threads"] == threads and e["outcome"] == "ok"]
+def is_ours(program):
+    """libph, or libph with options chosen by hand."""
+    return program.split()[0] == OURS
+
+
+def fastest(row, wanted):
+    """The fastest run with one thread that ended, of the programs whose names are wanted."""
+    ended = [e for e in row["results"] if wanted(e["program"]) and e["threads"] == 1 and e["outcome"] == "ok"]
     return min(ended, key=lambda e: e["cpu"], default=None)
 
 
@@ -47,26 +53,31 @@ def table(header, rows):
     return "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
 
 
-def summary_row(row, ours, threads):
-    mine, peer = find(row, ours, 1), best_peer(row, ours)
+def summary_row(row, threads, has_choices):
+    mine, peer = find(row, OURS, 1), fastest(row, lambda name: not is_ours(name))
     cells = [row["name"], cell(mine), f"{peer['program']} {cell(peer)}" if peer else "none ended", ratio(peer, mine)]
     for n in threads:
-        more = find(row, ours, n)
+        more = find(row, OURS, n)
         ended = mine and more and mine["outcome"] == more["outcome"] == "ok"
         cells += [cell(more), number(mine["wall"] / more["wall"]) if ended else "–"]
+    if has_choices:
+        cells.append(ratio(mine, fastest(row, is_ours)))
     return [*cells, ratio(mine, row.get("limit"))]
 
 
-def markdown(report, ours):
+def markdown(report):
     """Two tables: libph beside the best peer, and every program."""
     rows = report["rows"]
-    threads = sorted({e["threads"] for row in rows for e in row["results"] if e["program"] == ours} - {1})
+    programs = list(dict.fromkeys((e["program"], e["threads"]) for row in rows for e in row["results"]))
+    threads = sorted(n for name, n in programs if name == OURS and n > 1)
+    has_choices = any(is_ours(name) and name != OURS for name, _ in programs)
     header = ["input", "libph: s / MB", "best peer: s / MB", "peer / libph"]
     for n in threads:
         header += [f"{n} threads: s / MB", f"wall, 1 / {n} threads"]
-    programs = list(dict.fromkeys((e["program"], e["threads"]) for row in rows for e in row["results"]))
+    if has_choices:
+        header.append("libph / best choice")
     names = [name if n == 1 else f"{name}, {n} threads" for name, n in programs]
     return "\n\n".join([
         f"{report['version']}; {report['machine']}; {report['date']}.",
-        table([*header, "libph / (read + sort)"], [summary_row(row, ours, threads) for row in rows]),
+        table([*header, "libph / (read + sort)"], [summary_row(row, threads, has_choices) for row in rows]),
         table(["input", *names], [[row["name"], *(cell(find(row, *key)) for key in programs)] for row in rows])])

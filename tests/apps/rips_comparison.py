@@ -77,6 +77,14 @@ class RipsComparison(unittest.TestCase):
         _, results = self.results()
         self.assertEqual(set(results), {("libph", 1), ("wrong 1.0", 1)})
 
+    def test_choices_by_hand_are_ours(self):
+        run = self.compare("--rows", ROW, "--choice=--engine standard", "--choice=--engine union_find")
+        row, results = self.results()
+        self.assertEqual([(name, e["outcome"]) for (name, _), e in results.items()],
+                         [("libph", "ok"), ("libph --engine standard", "ok"), ("libph --engine union_find", "exit 64")])
+        self.assertEqual(row["bars"], {"libph --engine standard": "equal"})
+        self.assertIn("| libph / best choice |", run.stdout)
+
     def test_an_unknown_row_is_named(self):
         self.assertIn("no such row: h9:nothing", self.compare("--rows", "h9:nothing", code=1).stderr)
 
