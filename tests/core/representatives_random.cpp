@@ -27,6 +27,13 @@ TEST(RandomRepresentatives, Rips) {
   });
 }
 
+TEST(RandomRepresentatives, RipsSurfaces) {
+  for_each_seed(100, [](Generator& random, bool ties, std::int64_t field) {
+    const Rips rips(random.distances(random.integer(8, 11), ties));
+    rips.with_filtration(2, [&](const auto& f) { check_representatives(f, 2, field); });
+  });
+}
+
 TEST(RandomRepresentatives, Cubical) {
   for_each_seed(400, [](Generator& random, bool ties, std::int64_t field) {
     std::vector<Index> extents;

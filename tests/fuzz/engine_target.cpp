@@ -24,16 +24,24 @@ class ByteChoices {
   std::size_t at_ = 0;
 };
 
-/// The suite, and the representatives if they are chosen: they take longer.
+/// A part of the suite: the engines mostly, the parts that take longer now and then.
 struct Suite {
+  enum class Part { engines, contract, representatives };
   int max_dim;
   std::int64_t field;
-  bool representatives;
+  Part part;
 
   template <class F>
   void operator()(const F& filtration) const {
-    test::check(filtration, max_dim, {field});
-    if (representatives) test::check_representatives(filtration, max_dim, field);
+    const int top = std::min(max_dim, std::max(0, filtration.top_dim()));
+    switch (part) {
+      case Part::engines:
+        return test::check_engines(filtration, top, field);
+      case Part::contract:
+        return test::check_contract(filtration, top + 1, field);
+      case Part::representatives:
+        return test::check_representatives(filtration, top, field);
+    }
   }
 };
 
@@ -59,7 +67,7 @@ void check_rips(Choices& choices, bool ties, const Suite& suite) {
   const auto rips = [&]() -> Rips {
     switch (choices.integer(0, 2)) {
       case 0:
-        return Rips(choices.points(choices.integer(0, 8), choices.integer(1, 3), ties), options);
+        return Rips(choices.points(choices.integer(0, 7), choices.integer(1, 3), ties), options);
       case 1: {
         const Index n = choices.integer(0, 7);
         const double never = Stretch(choices)(kInfinity);
@@ -68,7 +76,7 @@ void check_rips(Choices& choices, bool ties, const Suite& suite) {
         return Rips(DistanceMatrix(n, lower), options);
       }
       default:
-        return Rips(choices.sparse(choices.integer(0, 8), ties, choices.real()), options);
+        return Rips(choices.sparse(choices.integer(0, 7), ties, choices.real()), options);
     }
   }();
   rips.with_filtration(suite.max_dim, suite);
@@ -134,7 +142,11 @@ void run_engines(std::string_view bytes) {
   const bool ties = choices.coin();
   constexpr std::array<std::int64_t, 3> kFields{2, 3, 5};
   const std::int64_t field = kFields[static_cast<std::size_t>(choices.integer(0, 2))];
-  const Suite suite{choices.integer(0, 3), field, choices.integer(0, 7) == 0};
+  const int max_dim = choices.integer(0, 3), part = choices.integer(0, 15);
+  const Suite suite{max_dim, field,
+                    part == 0   ? Suite::Part::representatives
+                    : part == 1 ? Suite::Part::contract
+                                : Suite::Part::engines};
   switch (kind) {
     case 0:
       return check_cubical(choices, ties, suite);

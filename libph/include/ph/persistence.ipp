@@ -23,7 +23,7 @@ EngineChoice choose_engine(const F& f, Engine asked, int max_dim, Representative
     if (UnionFindEngine::can_run(f, max_dim, wanted))
       return {Engine::union_find, "only components are asked for"};
     if (LensEngine::can_run(f, max_dim, wanted))
-      return {Engine::lens, "H1 of a Rips complex needs no triangles"};
+      return {Engine::lens, "H1 and H2 of a Rips complex need no triangles"};
     // Measured: where cells are numbered, columns are few and short in both directions and the
     // boundary wins; where they are not, the next dimension must never be listed.
     if (SlottedFiltration<F> && TwistEngine::can_run(f, max_dim, wanted))
@@ -58,7 +58,7 @@ struct Plan {
 template <Filtration F>
 Plan plan(const F& f, const Options& options) {
   // Low dimensions first: the top dimension of a flag complex takes time and memory to find.
-  if (options.max_dim && checked_max_dim(*options.max_dim) <= 1) {
+  if (options.max_dim && checked_max_dim(*options.max_dim) <= 2) {
     const EngineChoice choice =
         choose_engine(f, options.engine, *options.max_dim, options.representatives);
     if (choice.engine == Engine::lens || choice.engine == Engine::union_find)

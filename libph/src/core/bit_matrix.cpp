@@ -51,4 +51,26 @@ bool split(Word* from, const Word* mask, Word* moved, std::size_t first, std::si
   return left != 0;
 }
 
+std::size_t first_missing(const Word* set, const Word* row, std::size_t except,
+                          std::size_t words) {
+  for (std::size_t k = 0; k < words; ++k) {
+    Word missing = set[k] & ~row[k];
+    if (missing != 0 && k == except / 64) missing &= ~(Word{1} << (except % 64));
+    if (missing != 0) return k * 64 + static_cast<std::size_t>(std::countr_zero(missing));
+  }
+  return kNone;
+}
+
+PH_FOR_EACH_TARGET
+bool difference(Word* out, const Word* a, const Word* b, Word constant, const Word* mask,
+                std::size_t words) {
+  Word any = 0;
+  for (std::size_t k = 0; k < words; ++k) {
+    const Word differs = (a[k] ^ b[k] ^ constant) & mask[k];
+    out[k] = (out[k] & ~mask[k]) | differs;
+    any |= differs;
+  }
+  return any != 0;
+}
+
 }  // namespace ph::bits

@@ -73,10 +73,15 @@ class RipsFiltration {
     return {position + 1, Vertices(e.u) << bits_ | Vertices(e.v)};
   }
   Cell triangle_cell(std::uint32_t longest, std::uint32_t apex) const {
-    const FlagEdge& e = graph_.edges()[longest];
-    std::array<std::uint32_t, 3> v{e.u, e.v, apex};
-    std::sort(v.begin(), v.end());
-    return {longest + 1, (Vertices(v[2]) << bits_ | Vertices(v[1])) << bits_ | Vertices(v[0])};
+    return over_edge<3>(longest, {apex});
+  }
+  Cell tetrahedron_cell(std::uint32_t longest, std::uint32_t w, std::uint32_t x) const {
+    return over_edge<4>(longest, {w, x});
+  }
+  Cell triangle_cell_of(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+    const RipsAdjacency& adjacent = adjacency();
+    return {std::max({adjacent.key_of(b, a), adjacent.key_of(c, a), adjacent.key_of(c, b)}),
+            (Vertices(c) << bits_ | Vertices(b)) << bits_ | Vertices(a)};
   }
 
   template <class Visit>
@@ -92,6 +97,17 @@ class RipsFiltration {
   const RipsAdjacency& adjacency() const { return graph_.adjacency(); }
   std::uint32_t vertex(const Cell& cell, int slot) const {
     return static_cast<std::uint32_t>((cell.vertices >> (slot * bits_)).low_bits(bits_));
+  }
+  /// The simplex of an edge and other vertices.
+  template <std::size_t Size>
+  Cell over_edge(std::uint32_t longest, std::array<std::uint32_t, Size - 2> others) const {
+    const FlagEdge& e = graph_.edges()[longest];
+    std::array<std::uint32_t, Size> v{e.u, e.v};
+    std::copy(others.begin(), others.end(), v.begin() + 2);
+    std::sort(v.begin(), v.end(), std::greater());
+    Cell cell{longest + 1, {}};
+    for (const std::uint32_t w : v) cell.vertices = cell.vertices << bits_ | Vertices(w);
+    return cell;
   }
   /// The cell with slot `slot` taken out.
   Vertices without(const Vertices& v, int slot) const {

@@ -15,6 +15,7 @@ class BitMatrix {
   BitMatrix(std::size_t rows, std::size_t columns, std::pmr::memory_resource* memory)
       : words_((columns + 63) / 64), bits_(rows * words_, Word{0}, memory) {}
 
+  std::size_t rows() const { return words_ == 0 ? 0 : bits_.size() / words_; }
   std::size_t words() const { return words_; }
   const Word* row(std::size_t i) const { return bits_.data() + i * words_; }
   bool test(std::size_t i, std::size_t j) const { return row(i)[j / 64] >> (j % 64) & 1; }
@@ -46,6 +47,13 @@ Lens lens(const Word* a, const Word* b, const Word* c, const Word* d, Word* out,
 /// Moves the bits that `from` and `mask` share out of `from` into `moved`, from word `first` on.
 /// @return whether anything is left in `from`.
 bool split(Word* from, const Word* mask, Word* moved, std::size_t first, std::size_t words);
+
+/// The first bit of `set` that `row` lacks, `except` apart; kNone if there is none.
+std::size_t first_missing(const Word* set, const Word* row, std::size_t except, std::size_t words);
+
+/// out = a ^ b ^ constant on the mask, unchanged elsewhere. @return whether that is not zero.
+bool difference(Word* out, const Word* a, const Word* b, Word constant, const Word* mask,
+                std::size_t words);
 
 /// Calls `visit(bit)` for each bit set, ascending.
 template <class Visit>

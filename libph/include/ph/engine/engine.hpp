@@ -10,7 +10,7 @@ enum class Engine {
   twist,       ///< boundary matrix with clearing
   cohomology,  ///< coboundary matrix with clearing and shortcuts
   union_find,  ///< H0 only
-  lens,        ///< Rips, H0 and H1: edge by edge
+  lens,        ///< Rips, H0 to H2: edge by edge
 };
 
 }  // namespace ph

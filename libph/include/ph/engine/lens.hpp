@@ -12,33 +12,39 @@
 
 namespace ph {
 
-/// H0 and H1 of Vietoris-Rips filtrations by the lens sweep, see lens_sweep.hpp: bit rows of n^2
-/// bits and the classes alive, neither triangles nor their columns.
+/// H0, H1 and H2 of Vietoris-Rips filtrations by the lens sweep, see lens_sweep.hpp: bit rows of
+/// n^2 bits and the classes alive, neither columns of triangles nor of tetrahedra.
 struct LensEngine {
   static constexpr Engine id = Engine::lens;
   static constexpr const char* name = "lens";
   template <Filtration F>
   static bool can_run(const F& f, int max_dim, Representatives wanted = Representatives::none) {
     if constexpr (FlagFiltration<F>)
-      return max_dim <= 1 && wanted != Representatives::cycles &&
+      return max_dim <= 2 && wanted != Representatives::cycles &&
+             (max_dim < 2 || f.vertex_count() <= kMostVerticesOfSurfaces) &&
              are_rows_affordable(f.vertex_count(), f.edges().size());
     else
       return false;
   }
 
+  /// @param most_terms see LensWanted.
   template <Filtration F, Field K>
-  static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context) {
+  static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context,
+                  std::size_t most_terms = LensWanted{}.most_terms) {
     if constexpr (FlagFiltration<F>) {
       Reporter<F, K> reporter(f, field, bars, context);
-      const typename LensSweep<K>::Wanted wanted{
-          .cocycles = bars.representatives() == Representatives::cocycles,
-          .zero_length = bars.wants_zero_length()};
+      const LensWanted wanted{.surfaces = bars.max_dim() >= 2,
+                              .cocycles = bars.representatives() == Representatives::cocycles,
+                              .zero_length = bars.wants_zero_length(),
+                              .most_terms = most_terms};
       LensSweep<K>(f.vertex_count(), f.edges(), field, wanted, reporter, context).run();
       reporter.report_components();
     }
   }
 
  private:
+  static constexpr std::size_t kMostVerticesOfSurfaces = LinkCochain<Z2>::kMostVertices;
+
   /// Two bits a pair of vertices; where edges are few, other engines take less.
   static bool are_rows_affordable(std::size_t vertices, std::size_t edges) {
     constexpr double kAlways = 1 << 25;  // bytes
@@ -48,11 +54,15 @@ struct LensEngine {
 
   /// Turns what the sweep tells into bars.
   template <class F, Field K>
-  class Reporter final : public LensSweep<K>::Observer {
+  class Reporter final : public LensObserver<K> {
    public:
-    using Sweep = LensSweep<K>;
-    using Vertex = typename Sweep::Vertex;
-    using Position = typename Sweep::Position;
+    using Observer = LensObserver<K>;
+    using Vertex = typename Observer::Vertex;
+    using Position = typename Observer::Position;
+    using Triangle = typename Observer::Triangle;
+    using Tetrahedron = typename Observer::Tetrahedron;
+    using EdgeValues = std::span<const typename Observer::EdgeValue>;
+    using TriangleValues = std::span<const typename Observer::TriangleValue>;
 
     Reporter(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context)
         : f_(f),
@@ -69,19 +79,20 @@ struct LensEngine {
       if (bars_.add_pair(0, f_.vertex_cell(younger), f_.edge_cell(edge))) give_component(younger);
       std::swap(next_[elder], next_[younger]);  // two rings become one
     }
-    void on_death(Position birth, typename Sweep::Triangle death,
-                  std::span<const typename Sweep::Value> cocycle) override {
+    void on_death(Position birth, Triangle death, EdgeValues cocycle) override {
       if (bars_.add_pair(1, f_.edge_cell(birth), f_.triangle_cell(death.edge, death.apex)))
         give_cocycle(cocycle);
     }
-    void on_essential(Position birth, std::span<const typename Sweep::Value> cocycle) override {
+    void on_death(Triangle birth, Tetrahedron death, TriangleValues cocycle) override {
+      if (bars_.add_pair(2, f_.triangle_cell(birth.edge, birth.apex),
+                         f_.tetrahedron_cell(death.edge, death.larger, death.smaller)))
+        give_cocycle(cocycle);
+    }
+    void on_essential(Position birth, EdgeValues cocycle) override {
       if (bars_.add_essential(1, f_.edge_cell(birth))) give_cocycle(cocycle);
     }
-    void on_zero_length(typename Sweep::Triangle first) override {
-      if (!bars_.add_pair(1, f_.edge_cell(first.edge), f_.triangle_cell(first.edge, first.apex)))
-        return;
-      const typename Sweep::Value only{first.edge, field_.from_int(1)};
-      give_cocycle({&only, 1});
+    void on_essential(Triangle birth, TriangleValues cocycle) override {
+      if (bars_.add_essential(2, f_.triangle_cell(birth.edge, birth.apex))) give_cocycle(cocycle);
     }
 
     void report_components() {
@@ -100,11 +111,18 @@ struct LensEngine {
       } while (w != v);
       bars_.add_representative(0, terms_, field_);
     }
-    void give_cocycle(std::span<const typename Sweep::Value> cocycle) {
+    void give_cocycle(EdgeValues cocycle) {
       if (bars_.representatives() == Representatives::none) return;
       terms_.clear();
       for (const auto& [edge, value] : cocycle) terms_.emplace_back(f_.edge_cell(edge), value);
       bars_.add_representative(1, terms_, field_);
+    }
+    void give_cocycle(TriangleValues cocycle) {
+      if (bars_.representatives() == Representatives::none) return;
+      terms_.clear();
+      for (const auto& [v, value] : cocycle)
+        terms_.emplace_back(f_.triangle_cell_of(v[0], v[1], v[2]), value);
+      bars_.add_representative(2, terms_, field_);
     }
 
     const F& f_;

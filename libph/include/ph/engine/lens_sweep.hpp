@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <memory_resource>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,10 +13,13 @@
 #include "ph/core/run_context.hpp"
 #include "ph/engine/annotations.hpp"
 #include "ph/engine/elder_rule.hpp"
+#include "ph/engine/lens_components.hpp"
+#include "ph/engine/lens_observer.hpp"
+#include "ph/engine/lens_surfaces.hpp"
 
 namespace ph {
 
-/// H0 and H1 of a Vietoris-Rips filtration edge by edge; no triangle is ever listed.
+/// H0, H1 and H2 of a Vietoris-Rips filtration edge by edge; no triangle is ever listed.
 ///
 /// The triangles that enter with an edge e = (u,v) are those over its lens, the vertices joined to
 /// both u and v before. All over one connected component of the lens say the same: one triangle a
@@ -25,44 +28,18 @@ namespace ph {
 /// or give birth to a class. Otherwise the first triangle determines the annotation of e, and each
 /// further component w asks that a(u,w) + a(w,v) be the same: where it is not, the youngest
 /// generator of the difference dies. Almost all edges end sooner: if no edge between u or v and
-/// the lens is active, that is, has an annotation, nothing can happen. See docs/algorithms.md.
+/// the lens is active, that is, has an annotation, nothing can happen. Where a further component
+/// kills nothing, a class of H2 is born; see LensSurfaces and docs/algorithms.md.
 template <Field K>
 class LensSweep {
  public:
-  using Vertex = std::uint32_t;
-  using Position = std::uint32_t;  ///< of an edge in the order of the filtration
-
-  /// The triangle over an edge with one more vertex.
-  struct Triangle {
-    Position edge;
-    Vertex apex;
-  };
-  /// A term of a 1-cochain: the value on an edge, from its larger end to the smaller one.
-  struct Value {
-    Position edge;
-    typename K::Element value;
-  };
-  /// What happens, told as it happens.
-  class Observer {
-   public:
-    virtual ~Observer() = default;
-    /// Two components are joined, named by their oldest vertices.
-    virtual void on_join(Vertex elder, Vertex younger, Position edge) = 0;
-    /// A class of H1 born with an edge dies. Its cocycle, if asked for, is valid during the call.
-    virtual void on_death(Position birth, Triangle death, std::span<const Value> cocycle) = 0;
-    /// A class of H1 that never dies.
-    virtual void on_essential(Position birth, std::span<const Value> cocycle) = 0;
-    /// An edge whose class dies with its first triangle, at the same value.
-    virtual void on_zero_length(Triangle first) = 0;
-  };
-  struct Wanted {
-    bool cocycles = false;
-    bool zero_length = false;
-  };
+  using Observer = LensObserver<K>;
+  using Vertex = typename Observer::Vertex;
+  using Position = typename Observer::Position;
 
   /// @param edges in the order of the filtration; they outlive the sweep.
-  LensSweep(std::size_t vertices, std::span<const FlagEdge> edges, const K& field, Wanted wanted,
-            Observer& observer, const RunContext& context)
+  LensSweep(std::size_t vertices, std::span<const FlagEdge> edges, const K& field,
+            LensWanted wanted, Observer& observer, const RunContext& context)
       : edges_(edges),
         field_(field),
         wanted_(wanted),
@@ -72,25 +49,27 @@ class LensSweep {
         active_(vertices, vertices, &context.memory),
         active_degree_(vertices, 0, &context.memory),
         lens_(joined_.words(), 0, &context.memory),
-        reached_(joined_.words(), 0, &context.memory),
-        components_(&context.memory),
-        queue_(&context.memory),
+        components_(joined_, &context.memory),
+        born_(&context.memory),
         sets_(vertices, &context.memory),
         annotations_(field, &context.memory),
         births_(&context.memory),
-        cocycle_(&context.memory) {}
+        cocycle_(&context.memory) {
+    if (wanted.surfaces) surfaces_.emplace(joined_, field, wanted, observer, context);
+  }
 
   void run();
 
  private:
   using Class = typename Annotations<K>::Class;
+  using Triangle = typename Observer::Triangle;
 
   static constexpr Position kDead = UINT32_MAX;
 
   void add_edge(Position position);
   void join_or_give_birth(Position position, const FlagEdge& e);
-  /// The first vertex of each connected component of lens_, ascending; uses lens_ up.
-  void find_components();
+  void report_zero_length(Position position, const FlagEdge& e);
+  /// Gives the edge its class, and each further component of its lens what it causes.
   void annotate(Position position, const FlagEdge& e);
   /// @param of_edge the annotation that the last edge is about to get.
   void kill(Class relation, Triangle death, Class of_edge);
@@ -101,18 +80,20 @@ class LensSweep {
 
   std::span<const FlagEdge> edges_;
   const K& field_;
-  Wanted wanted_;
+  LensWanted wanted_;
   Observer& observer_;
   const RunContext& context_;
   BitMatrix joined_;  // edges so far
   BitMatrix active_;  // edges whose annotation is not zero
   std::pmr::vector<std::uint32_t> active_degree_;
-  std::pmr::vector<BitMatrix::Word> lens_, reached_;
-  std::pmr::vector<Vertex> components_, queue_;
-  DisjointSets sets_;  // each root is the oldest vertex of its component
+  std::pmr::vector<BitMatrix::Word> lens_;
+  LensComponents components_;           // of lens_
+  std::pmr::vector<std::size_t> born_;  // components with which a class of H2 is born
+  DisjointSets sets_;                   // each root is the oldest vertex of its component
   Annotations<K> annotations_;
   std::pmr::vector<Position> births_;  // by generator; kDead once it died
-  std::pmr::vector<Value> cocycle_;
+  std::pmr::vector<typename Observer::EdgeValue> cocycle_;
+  std::optional<LensSurfaces<K>> surfaces_;
 };
 
 template <Field K>
@@ -127,32 +108,46 @@ void LensSweep<K>::run() {
     find_cocycle(g);
     observer_.on_essential(births_[g], cocycle_);
   }
+  if (surfaces_) surfaces_->finish();
 }
 
 template <Field K>
 void LensSweep<K>::add_edge(Position position) {
   const FlagEdge& e = edges_[position];
   const auto *u = joined_.row(e.u), *v = joined_.row(e.v);
-  if (active_degree_[e.u] == 0 && active_degree_[e.v] == 0) {
-    const std::size_t first = bits::first_common(u, v, joined_.words());
-    if (first == bits::kNone)
-      join_or_give_birth(position, e);
-    else if (wanted_.zero_length)
-      observer_.on_zero_length({position, static_cast<Vertex>(first)});
+  const bool may_touch_active = active_degree_[e.u] != 0 || active_degree_[e.v] != 0;
+  // One common neighbour says enough where nothing can happen.
+  bits::Lens lens{};
+  if (may_touch_active || surfaces_)
+    lens = bits::lens(u, v, active_.row(e.u), active_.row(e.v), lens_.data(), joined_.words());
+  else
+    lens.is_empty = bits::first_common(u, v, joined_.words()) == bits::kNone;
+  if (lens.is_empty) {
+    join_or_give_birth(position, e);
   } else {
-    const bits::Lens lens =
-        bits::lens(u, v, active_.row(e.u), active_.row(e.v), lens_.data(), joined_.words());
-    if (lens.is_empty) {
-      join_or_give_birth(position, e);
-    } else {
-      if (wanted_.zero_length)
-        observer_.on_zero_length(
-            {position, static_cast<Vertex>(bits::first_common(u, v, joined_.words()))});
-      if (lens.touches_active) annotate(position, e);
+    if (wanted_.zero_length) report_zero_length(position, e);
+    if (lens.touches_active || surfaces_) components_.find(e, lens_.data());
+    born_.clear();
+    if (lens.touches_active)
+      annotate(position, e);
+    else if (surfaces_)
+      for (std::size_t i = 1; i < components_.count(); ++i) born_.push_back(i);
+    if (surfaces_) {
+      surfaces_->extend(position, e, lens_.data(), components_);
+      for (const std::size_t i : born_)
+        surfaces_->give_birth({position, components_.root(i)}, e, components_.vertices(i));
     }
   }
   joined_.set(e.u, e.v);
   joined_.set(e.v, e.u);
+}
+
+template <Field K>
+void LensSweep<K>::report_zero_length(Position position, const FlagEdge& e) {
+  const std::size_t first = bits::first_common(joined_.row(e.u), joined_.row(e.v), joined_.words());
+  cocycle_.clear();
+  if (wanted_.cocycles) cocycle_.push_back({position, field_.from_int(1)});
+  observer_.on_death(position, {position, static_cast<Vertex>(first)}, cocycle_);
 }
 
 template <Field K>
@@ -169,39 +164,19 @@ void LensSweep<K>::join_or_give_birth(Position position, const FlagEdge& e) {
 }
 
 template <Field K>
-void LensSweep<K>::find_components() {
-  components_.clear();
-  const std::size_t words = joined_.words();
-  for (std::size_t first = 0; first < words; ++first) {
-    while (lens_[first] != 0) {
-      const auto root = static_cast<Vertex>(
-          first * 64 + static_cast<std::size_t>(std::countr_zero(lens_[first])));
-      lens_[first] &= lens_[first] - 1;
-      components_.push_back(root);
-      queue_.assign(1, root);
-      while (!queue_.empty()) {
-        const Vertex w = queue_.back();
-        queue_.pop_back();
-        if (!bits::split(lens_.data(), joined_.row(w), reached_.data(), first, words)) return;
-        bits::for_each(reached_.data(), first, words,
-                       [&](std::size_t x) { queue_.push_back(static_cast<Vertex>(x)); });
-      }
-    }
-  }
-}
-
-template <Field K>
 void LensSweep<K>::annotate(Position position, const FlagEdge& e) {
-  find_components();
   const auto around = [&](Vertex w) {
     return annotations_.sum(annotations_.of(e.u, w), annotations_.of(w, e.v));
   };
-  Class value = around(components_.front());
-  for (std::size_t i = 1; i < components_.size(); ++i) {
-    const Class difference = annotations_.sum(around(components_[i]), -value);
-    if (difference.is_zero()) continue;
-    kill(difference, {position, components_[i]}, value);
-    value = around(components_.front());
+  Class value = around(components_.root(0));
+  for (std::size_t i = 1; i < components_.count(); ++i) {
+    const Class difference = annotations_.sum(around(components_.root(i)), -value);
+    if (difference.is_zero()) {
+      born_.push_back(i);
+      continue;
+    }
+    kill(difference, {position, components_.root(i)}, value);
+    value = around(components_.root(0));
   }
   if (value.is_zero()) return;
   annotations_.assign({e.u, e.v, position}, value);

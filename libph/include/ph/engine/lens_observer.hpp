@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "ph/core/field.hpp"
+
+namespace ph {
+
+/// What a lens sweep is to find.
+struct LensWanted {
+  bool surfaces = false;  ///< H2 too
+  bool cocycles = false;
+  bool zero_length = false;
+  std::size_t most_terms = 256;  ///< of a list of triangles at a vertex before it becomes rows
+};
+
+/// Hears what happens in a lens sweep, as it happens. Cocycles are empty unless they are wanted,
+/// and valid during the call.
+template <Field K>
+class LensObserver {
+ public:
+  using Vertex = std::uint32_t;
+  using Position = std::uint32_t;  ///< of an edge in the order of the filtration
+
+  /// The triangle over an edge with one more vertex; the edge is its last.
+  struct Triangle {
+    Position edge;
+    Vertex apex;
+  };
+  /// The tetrahedron over an edge with two more vertices.
+  struct Tetrahedron {
+    Position edge;
+    Vertex larger, smaller;
+  };
+  /// A term of a 1-cochain: the value on an edge, from its larger end to the smaller one.
+  struct EdgeValue {
+    Position edge;
+    typename K::Element value;
+  };
+  /// A term of a 2-cochain: the value on a triangle with ascending vertices.
+  struct TriangleValue {
+    std::array<Vertex, 3> vertices;
+    typename K::Element value;
+  };
+
+  virtual ~LensObserver() = default;
+  /// Two components are joined, named by their oldest vertices.
+  virtual void on_join(Vertex elder, Vertex younger, Position edge) = 0;
+  /// A class of H1 dies.
+  virtual void on_death(Position birth, Triangle death, std::span<const EdgeValue> cocycle) = 0;
+  /// A class of H2 dies.
+  virtual void on_death(Triangle birth, Tetrahedron death,
+                        std::span<const TriangleValue> cocycle) = 0;
+  /// A class that never dies.
+  virtual void on_essential(Position birth, std::span<const EdgeValue> cocycle) = 0;
+  virtual void on_essential(Triangle birth, std::span<const TriangleValue> cocycle) = 0;
+};
+
+}  // namespace ph

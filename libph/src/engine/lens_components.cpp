@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "ph/engine/lens_components.hpp"
+
+#include <algorithm>
+
+namespace ph {
+namespace {
+
+bool has(const bits::Word* row, std::uint32_t v) { return row[v / 64] >> (v % 64) & 1; }
+void clear(bits::Word* row, std::uint32_t v) { row[v / 64] &= ~(bits::Word{1} << (v % 64)); }
+void set(bits::Word* row, std::uint32_t v) { row[v / 64] |= bits::Word{1} << (v % 64); }
+
+}  // namespace
+
+void LensComponents::find(const FlagEdge& e, const Word* lens) {
+  const std::size_t words = joined_.words();
+  roots_.clear();
+  sets_.clear();
+  apex_ = kNone;
+  Vertex start = kNone;
+  for (const Vertex guess : {last_apex_[e.u], last_apex_[e.v]}) {
+    if (guess == kNone || !has(lens, guess)) continue;
+    if (is_apex(guess, lens)) {
+      set_apex(e, guess);
+      roots_.push_back(guess);
+      return;
+    }
+    start = guess;
+  }
+  std::copy_n(lens, words, rest_.begin());
+  if (start == kNone) start = static_cast<Vertex>(bits::first_common(lens, lens, words));
+  for (;;) {
+    const Word* component = take_component(start);
+    roots_.push_back(static_cast<Vertex>(bits::first_common(component, component, words)));
+    const std::size_t next = bits::first_common(rest_.data(), rest_.data(), words);
+    if (next == bits::kNone) break;
+    start = static_cast<Vertex>(next);
+  }
+  if (count() == 1 && is_apex(start, lens))
+    set_apex(e, start);
+  else if (count() > 1)
+    sort_components();
+}
+
+bits::Word* LensComponents::take_component(Vertex first) {
+  const std::size_t words = joined_.words();
+  sets_.resize(sets_.size() + words);
+  Word* component = sets_.data() + sets_.size() - words;
+  clear(rest_.data(), first);
+  bool is_left = bits::split(rest_.data(), joined_.row(first), component, 0, words);
+  set(component, first);
+  // What is left are mostly few vertices: each is asked whether it sees the component.
+  for (bool grew = true; is_left && grew;) {
+    grew = is_left = false;
+    for (std::size_t k = 0; k < words; ++k) {
+      for (Word rest = rest_[k]; rest != 0; rest &= rest - 1) {
+        const auto w =
+            static_cast<Vertex>(k * 64 + static_cast<std::size_t>(std::countr_zero(rest)));
+        if (bits::first_common(joined_.row(w), component, words) == bits::kNone) continue;
+        clear(rest_.data(), w);
+        set(component, w);
+        grew = true;
+      }
+      is_left |= rest_[k] != 0;
+    }
+  }
+  return component;
+}
+
+void LensComponents::sort_components() {
+  // All but the one that a guess began with ascend.
+  const std::size_t words = joined_.words();
+  for (std::size_t i = 1; i < count() && roots_[i] < roots_[i - 1]; ++i) {
+    std::swap(roots_[i], roots_[i - 1]);
+    std::swap_ranges(sets_.begin() + static_cast<std::ptrdiff_t>((i - 1) * words),
+                     sets_.begin() + static_cast<std::ptrdiff_t>(i * words),
+                     sets_.begin() + static_cast<std::ptrdiff_t>(i * words));
+  }
+}
+
+bool LensComponents::find_apex(const FlagEdge& e, const Word* lens) {
+  // An apex sees every vertex, so also one that a candidate misses.
+  const std::size_t words = joined_.words();
+  std::copy_n(lens, words, rest_.begin());
+  for (;;) {
+    const std::size_t candidate = bits::first_common(rest_.data(), rest_.data(), words);
+    if (candidate == bits::kNone) return false;
+    const auto v = static_cast<Vertex>(candidate);
+    const std::size_t missed = bits::first_missing(lens, joined_.row(v), v, words);
+    if (missed == bits::kNone) {
+      set_apex(e, v);
+      return true;
+    }
+    const bool itself = has(rest_.data(), static_cast<Vertex>(missed));
+    const Word* row = joined_.row(missed);
+    for (std::size_t k = 0; k < words; ++k) rest_[k] &= row[k];
+    if (itself) set(rest_.data(), static_cast<Vertex>(missed));
+  }
+}
+
+}  // namespace ph
