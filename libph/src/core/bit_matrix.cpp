@@ -51,14 +51,30 @@ bool split(Word* from, const Word* mask, Word* moved, std::size_t first, std::si
   return left != 0;
 }
 
-std::size_t first_missing(const Word* set, const Word* row, std::size_t except,
-                          std::size_t words) {
+std::size_t first_missing(const Word* set, const Word* row, std::size_t except, std::size_t words) {
   for (std::size_t k = 0; k < words; ++k) {
     Word missing = set[k] & ~row[k];
     if (missing != 0 && k == except / 64) missing &= ~(Word{1} << (except % 64));
     if (missing != 0) return k * 64 + static_cast<std::size_t>(std::countr_zero(missing));
   }
   return kNone;
+}
+
+bool covers(const Word* row, const Word* a, const Word* b, std::size_t except, std::size_t words) {
+  for (std::size_t k = 0; k < words; ++k) {
+    Word missing = a[k] & b[k] & ~row[k];
+    if (missing != 0 && k == except / 64) missing &= ~(Word{1} << (except % 64));
+    if (missing != 0) return false;
+  }
+  return true;
+}
+
+PH_FOR_EACH_TARGET
+std::size_t count_common(const Word* a, const Word* b, std::size_t words) {
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < words; ++k)
+    count += static_cast<std::size_t>(std::popcount(a[k] & b[k]));
+  return count;
 }
 
 PH_FOR_EACH_TARGET

@@ -44,6 +44,12 @@ struct FieldRow {
     });
     return any;
   }
+  /// out = constant - a on the mask, unchanged elsewhere.
+  static void assign(Unit* out, const Unit* a, Element constant, const Word* mask, const K& field,
+                     std::size_t blocks) {
+    bits::for_each(mask, 0, blocks,
+                   [&](std::size_t v) { out[v] = field.add(constant, field.negate(a[v])); });
+  }
   /// Makes the row zero outside the mask. @return whether anything is left.
   static bool restrict(Unit* row, const Word* mask, std::size_t blocks) {
     bool any = false;
@@ -105,6 +111,12 @@ struct FieldRow<Z2> {
   static bool difference(Unit* out, const Unit* a, const Unit* b, Element constant,
                          const Word* mask, const Z2&, std::size_t blocks) {
     return bits::difference(out, a, b, Word{0} - Word{constant}, mask, blocks);
+  }
+  static void assign(Unit* out, const Unit* a, Element constant, const Word* mask, const Z2&,
+                     std::size_t blocks) {
+    const Word all = Word{0} - Word{constant};
+    for (std::size_t k = 0; k < blocks; ++k)
+      out[k] = (out[k] & ~mask[k]) | ((a[k] ^ all) & mask[k]);
   }
   static bool restrict(Unit* row, const Word* mask, std::size_t blocks) {
     Word any = 0;

@@ -27,16 +27,15 @@ struct LensEngine {
       return false;
   }
 
-  /// @param most_terms see LensWanted.
   template <Filtration F, Field K>
   static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context,
-                  std::size_t most_terms = LensWanted{}.most_terms) {
+                  const LensTuning& tuning = {}) {
     if constexpr (FlagFiltration<F>) {
       Reporter<F, K> reporter(f, field, bars, context);
       const LensWanted wanted{.surfaces = bars.max_dim() >= 2,
                               .cocycles = bars.representatives() == Representatives::cocycles,
                               .zero_length = bars.wants_zero_length(),
-                              .most_terms = most_terms};
+                              .tuning = tuning};
       LensSweep<K>(f.vertex_count(), f.edges(), field, wanted, reporter, context).run();
       reporter.report_components();
     }

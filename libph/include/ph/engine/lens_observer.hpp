@@ -9,12 +9,18 @@
 
 namespace ph {
 
+/// When a lens sweep takes which way; results do not depend on it.
+struct LensTuning {
+  std::size_t most_terms = 256;    ///< triangles at a vertex in a list: more become rows of bits
+  std::size_t smallest_core = 96;  ///< lenses of as many vertices are reduced to a core
+};
+
 /// What a lens sweep is to find.
 struct LensWanted {
   bool surfaces = false;  ///< H2 too
   bool cocycles = false;
   bool zero_length = false;
-  std::size_t most_terms = 256;  ///< of a list of triangles at a vertex before it becomes rows
+  LensTuning tuning = {};
 };
 
 /// Hears what happens in a lens sweep, as it happens. Cocycles are empty unless they are wanted,

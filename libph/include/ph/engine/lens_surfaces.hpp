@@ -4,14 +4,18 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <iterator>
 #include <memory_resource>
-#include <span>
+#include <optional>
 #include <vector>
 
 #include "ph/core/bit_matrix.hpp"
 #include "ph/core/filtration.hpp"
 #include "ph/core/run_context.hpp"
 #include "ph/engine/lens_components.hpp"
+#include "ph/engine/lens_core.hpp"
+#include "ph/engine/lens_extensions.hpp"
+#include "ph/engine/lens_forest.hpp"
 #include "ph/engine/lens_observer.hpp"
 #include "ph/engine/triangle_cocycles.hpp"
 
@@ -42,17 +46,12 @@ class LensSurfaces {
         field_(field),
         wanted_(wanted),
         observer_(observer),
-        cocycles_(joined.rows(), field, wanted.most_terms, &context.memory),
+        cocycles_(joined.rows(), field, wanted.tuning.most_terms, &context.memory),
         births_(&context.memory),
-        extensions_(&context.memory),
-        terms_(&context.memory),
-        rows_(joined.words(), &context.memory),
-        gamma_(joined.words() * Row::kUnitsPerBlock, 0, &context.memory),
-        parts_(&context.memory),
-        part_sets_(&context.memory),
-        met_(&context.memory),
-        met_sets_(&context.memory),
-        before_(joined.words(), 0, &context.memory),
+        core_(joined, &context.memory),
+        forest_(joined, &context.memory),
+        extensions_(cocycles_, joined.words(), field, &context.memory),
+        star_(joined.words() * Row::kUnitsPerBlock, 0, &context.memory),
         cocycle_(&context.memory) {}
 
   /// Extends the living classes to the star of an edge; kills those that cannot be.
@@ -66,67 +65,26 @@ class LensSurfaces {
  private:
   using Cocycles = TriangleCocycles<K>;
   using Generator = typename Cocycles::Generator;
-  using Link = LinkCochain<K>;
+  using Extension = typename LensExtensions<K>::Extension;
   using Row = FieldRow<K>;
   using Unit = typename Row::Unit;
-  using RowId = typename RowPool<K>::Id;
 
-  /// A living class and what it becomes on the star of the edge.
-  struct Extension {
-    Generator generator;
-    RowId potential;
-    RowId mismatch;                               ///< zero between vertices
-    const Link *at_u = nullptr, *at_v = nullptr;  ///< null: no triangles there
-    std::size_t first = 0, last = 0;              ///< its part of terms_
-    bool is_flat = true;                          ///< the potential is zero so far
-    bool is_mismatched = false;
-    bool is_dead = false;
-  };
-  /// A component of the part of the lens that was seen so far.
-  struct Part {
-    Vertex root;
-  };
-  /// One that the next vertex is joined to, first at a vertex.
-  struct Met {
-    std::size_t part;
-    Vertex at;
-  };
+  static constexpr Position kDead = UINT32_MAX;
 
-  Unit* potential(const Extension& x) { return rows_[x.potential]; }
-  Unit* mismatch(const Extension& x) { return rows_[x.mismatch]; }
-  static std::size_t blocks_to(Vertex y) { return y / 64 + 1; }
-  Word* part_set(std::size_t i) { return part_sets_.data() + i * joined_.words(); }
-  Word* met_set(std::size_t i) { return met_sets_.data() + i * joined_.words(); }
-
-  Extension& add_extension(Generator h, const FlagEdge& e);
-  void look_up_links(Extension& x, const FlagEdge& e) const {
-    x.at_u = cocycles_.find(x.generator, e.u);
-    x.at_v = cocycles_.find(x.generator, e.v);
-  }
-  void drop_extension();
-  /// Calls `use(generator)` for the classes with triangles near the edge.
-  template <class Use>
-  void for_each_near(const FlagEdge& e, const Word* lens, Use&& use) const;
-  /// potential = gamma(apex, .). @return whether it is not zero.
-  bool extend_over_cone(Extension& x, Vertex apex, const Word* lens);
-  /// Sets x.first, x.last to the terms of gamma on the lens that come from lists.
-  void collect_terms(Extension& x, const Word* lens);
-  /// Whether gamma is not zero somewhere on the lens.
-  bool has_gamma(const Extension& x, const Word* lens);
-  /// gamma_ = gamma(., y) on a set of vertices below y. @return whether it is not zero.
-  bool find_gamma(const Extension& x, Vertex y, const Word* set);
-
-  /// Goes through the edges of the lens in the order of their tetrahedra.
-  /// @param is_extended whether the potentials are known.
-  void scan(Position position, const FlagEdge& e, const Word* lens, bool is_extended);
-  void meet_parts(Vertex y, const Word* lens);
-  bool extend_to(Extension& x, Vertex y);
+  /// Extends all classes to a set, vertex by vertex. @return false if one cannot be extended.
+  bool extend_over(const Word* set);
+  /// The same with all of a lens, in the order of its tetrahedra: what cannot be extended dies.
+  /// @param is_extended whether nothing but pairs of length zero are to be found.
+  void sweep(Position position, const FlagEdge& e, const Word* lens, bool is_extended);
   void kill_mismatched(Position position, const FlagEdge& e, const Word* lens, Vertex y);
-  void merge_parts(Position position, const FlagEdge& e, Vertex y);
-  void store(Extension& x, const FlagEdge& e, const Word* lens, const LensComponents& components);
-
-  void add_star_to_cocycle(const FlagEdge& e, const Unit* star, std::size_t blocks);
+  /// @param tetrahedron joins two parts of the lens, of which one has these vertices.
+  void report_zero_length(const FlagEdge& e, Vertex root, const Word* part,
+                          typename Observer::Tetrahedron tetrahedron);
+  void store(const Extension& x, const FlagEdge& e, const Word* lens,
+             const LensComponents& components);
   void find_cocycle(Generator h);
+  /// @param star phi(u,v,.), in the first words.
+  void add_star_to_cocycle(const FlagEdge& e, const Unit* star, std::size_t words);
 
   const BitMatrix& joined_;
   const K& field_;
@@ -134,18 +92,11 @@ class LensSurfaces {
   Observer& observer_;
   Cocycles cocycles_;
   std::pmr::vector<Triangle> births_;  // by generator; edge = kDead once it died
-  static constexpr Position kDead = UINT32_MAX;
-
   // While an edge is added.
-  std::pmr::vector<Extension> extensions_;
-  std::pmr::vector<typename Link::Term> terms_;
-  RowPool<K> rows_;
-  std::pmr::vector<Unit> gamma_;
-  std::pmr::vector<Part> parts_;
-  std::pmr::vector<Word> part_sets_;
-  std::pmr::vector<Met> met_;
-  std::pmr::vector<Word> met_sets_;
-  std::pmr::vector<Word> before_;
+  LensCore core_;
+  LensForest forest_;
+  LensExtensions<K> extensions_;
+  std::pmr::vector<Unit> star_;
   std::pmr::vector<typename Observer::TriangleValue> cocycle_;
 };
 
@@ -153,9 +104,9 @@ template <Field K>
 void LensSurfaces<K>::give_birth(Triangle birth, const FlagEdge& e, const Word* component) {
   const Generator h = cocycles_.add_generator();
   births_.push_back(birth);
-  std::fill(gamma_.begin(), gamma_.end(), Unit{});
-  Row::shift(gamma_.data(), component, field_.from_int(1), field_, joined_.words());
-  cocycles_.add_star(h, e.u, e.v, gamma_.data());
+  std::fill(star_.begin(), star_.end(), Unit{});
+  Row::shift(star_.data(), component, field_.from_int(1), field_, joined_.words());
+  cocycles_.add_star(h, e.u, e.v, star_.data());
 }
 
 template <Field K>
@@ -168,312 +119,125 @@ void LensSurfaces<K>::finish() {
 }
 
 template <Field K>
-template <class Use>
-void LensSurfaces<K>::for_each_near(const FlagEdge& e, const Word* lens, Use&& use) const {
-  const auto at_u = cocycles_.at(e.u), at_v = cocycles_.at(e.v);
-  auto i = at_u.begin(), j = at_v.begin();
-  while (i != at_u.end() || j != at_v.end()) {
-    const Generator h = j == at_v.end()   ? i->generator
-                        : i == at_u.end() ? j->generator
-                                          : std::min(i->generator, j->generator);
-    bool is_near = false;
-    if (i != at_u.end() && i->generator == h) is_near = cocycles_.link(*i++).touches(lens);
-    if (j != at_v.end() && j->generator == h)
-      is_near = cocycles_.link(*j++).touches(lens) || is_near;
-    if (is_near) use(h);
-  }
-}
-
-template <Field K>
-auto LensSurfaces<K>::add_extension(Generator h, const FlagEdge& e) -> Extension& {
-  extensions_.push_back({});
-  Extension& x = extensions_.back();
-  x.generator = h;
-  x.potential = rows_.take();
-  x.mismatch = rows_.take();
-  look_up_links(x, e);
-  return x;
-}
-
-template <Field K>
-void LensSurfaces<K>::drop_extension() {
-  rows_.give(extensions_.back().potential);
-  rows_.give(extensions_.back().mismatch);
-  extensions_.pop_back();
-}
-
-template <Field K>
 void LensSurfaces<K>::extend(Position position, const FlagEdge& e, const Word* lens,
                              LensComponents& components) {
-  bool looked_for_apex = components.count() > 1;
-  terms_.clear();
-  for_each_near(e, lens, [&](Generator h) {
-    if (!components.has_apex() && !looked_for_apex) {
-      looked_for_apex = true;
-      components.find_apex(e, lens);
-    }
-    Extension& x = add_extension(h, e);
-    if (components.has_apex() ? extend_over_cone(x, components.apex(), lens)
-                              : (collect_terms(x, lens), has_gamma(x, lens)))
-      return;
-    drop_extension();
+  extensions_.find(e, lens, [&](std::optional<Vertex>& apex) -> const LensCore& {
+    if (components.has_apex() || (components.count() == 1 && components.find_apex(e, lens)))
+      apex = components.apex();
+    const std::size_t size = apex ? 0 : bits::count_common(lens, lens, joined_.words());
+    if (size >= wanted_.tuning.smallest_core && !apex)
+      core_.find(lens, size, components.root(0));
+    else
+      core_.keep_all(lens);
+    return core_;
   });
-  if (wanted_.zero_length || (!extensions_.empty() && !components.has_apex()))
-    scan(position, e, lens, components.has_apex());
-  for (Extension& x : extensions_)
-    if (!x.is_dead) store(x, e, lens, components);
-  while (!extensions_.empty()) drop_extension();
-}
-
-template <Field K>
-bool LensSurfaces<K>::extend_over_cone(Extension& x, Vertex apex, const Word* lens) {
-  Unit* p = potential(x);
-  const auto& shared = cocycles_.shared();
-  for (const bool at_v : {false, true}) {
-    const Link* link = at_v ? x.at_v : x.at_u;
-    if (link == nullptr) continue;
-    if (link->is_dense()) {
-      if (const Unit* row = link->row(apex, shared))
-        Row::add(p, row, field_.from_int(at_v ? -1 : 1), field_, joined_.words());
-      continue;
-    }
-    for (const auto& t : link->terms()) {
-      const bool is_larger = Link::larger(t) == apex;
-      if (!is_larger && Link::smaller(t) != apex) continue;
-      Row::add_at(p, is_larger ? Link::smaller(t) : Link::larger(t),
-                  is_larger != at_v ? field_.negate(t.coefficient()) : t.coefficient(), field_);
-    }
-  }
-  return Row::restrict(p, lens, joined_.words());
-}
-
-template <Field K>
-void LensSurfaces<K>::collect_terms(Extension& x, const Word* lens) {
-  const auto contains = [&](Vertex v) { return lens[v / 64] >> (v % 64) & 1; };
-  const auto terms_of = [&](const Link* link) {
-    return link == nullptr ? std::span<const typename Link::Term>() : link->terms();
-  };
-  const auto at_u = terms_of(x.at_u), at_v = terms_of(x.at_v);
-  const auto add = [&](std::uint32_t pair, Element a) {
-    if (!field_.is_zero(a)) terms_.emplace_back(pair, a);
-  };
-  const auto is_on_lens = [&](const typename Link::Term& t) {
-    return contains(Link::larger(t)) && contains(Link::smaller(t));
-  };
-  x.first = terms_.size();
-  auto i = at_u.begin(), j = at_v.begin();
-  while (i != at_u.end() || j != at_v.end()) {
-    if (j == at_v.end() || (i != at_u.end() && i->cell < j->cell)) {
-      if (is_on_lens(*i)) add(i->cell, i->coefficient());
-      ++i;
-    } else if (i == at_u.end() || j->cell < i->cell) {
-      if (is_on_lens(*j)) add(j->cell, field_.negate(j->coefficient()));
-      ++j;
+  const bool is_cone = components.has_apex();
+  if (!extensions_.empty() && !is_cone) {
+    if (extend_over(core_.rest())) {
+      for (Extension& x : extensions_.all()) extensions_.extend_from(x, core_);
     } else {
-      if (is_on_lens(*i))
-        add(i->cell, field_.add(i->coefficient(), field_.negate(j->coefficient())));
-      ++i;
-      ++j;
+      extensions_.reset();
+      sweep(position, e, lens, false);
     }
   }
-  x.last = terms_.size();
+  if (wanted_.zero_length) sweep(position, e, lens, true);
+  for (const Extension& x : extensions_.all()) store(x, e, lens, components);
+  extensions_.clear();
 }
 
 template <Field K>
-bool LensSurfaces<K>::find_gamma(const Extension& x, Vertex y, const Word* set) {
-  // gamma(x,y) = f_u(x,y) - f_v(x,y), and rows hold f(y,x).
-  const std::size_t blocks = blocks_to(y);
-  bool is_clear = false;
-  const auto clear = [&] {
-    if (!is_clear) std::fill_n(gamma_.begin(), blocks * Row::kUnitsPerBlock, Unit{});
-    is_clear = true;
-  };
-  for (const bool at_v : {false, true}) {
-    const Link* link = at_v ? x.at_v : x.at_u;
-    if (link == nullptr || !link->is_dense()) continue;
-    if (const Unit* row = link->row(y, cocycles_.shared())) {
-      clear();
-      Row::add(gamma_.data(), row, field_.from_int(at_v ? 1 : -1), field_, blocks);
-    }
-  }
-  const auto last = terms_.begin() + static_cast<std::ptrdiff_t>(x.last);
-  auto t = std::lower_bound(terms_.begin() + static_cast<std::ptrdiff_t>(x.first), last,
-                            Link::pair(y, 0),
-                            [](const auto& term, std::uint32_t pair) { return term.cell < pair; });
-  for (; t != last && Link::larger(*t) == y; ++t) {
-    clear();
-    Row::add_at(gamma_.data(), Link::smaller(*t), t->coefficient(), field_);
-  }
-  return is_clear && Row::restrict(gamma_.data(), set, blocks);
-}
-
-template <Field K>
-bool LensSurfaces<K>::has_gamma(const Extension& x, const Word* lens) {
-  const auto is_dense = [](const Link* link) { return link != nullptr && link->is_dense(); };
-  if (!is_dense(x.at_u) && !is_dense(x.at_v)) return x.first != x.last;
-  for (std::size_t k = 0; k < joined_.words(); ++k)
-    for (Word rest = lens[k]; rest != 0; rest &= rest - 1) {
+bool LensSurfaces<K>::extend_over(const Word* set) {
+  forest_.clear();
+  bool is_extended = true;
+  for (std::size_t k = 0; k < joined_.words() && is_extended; ++k) {
+    for (Word rest = set[k]; rest != 0 && is_extended; rest &= rest - 1) {
       const auto y = static_cast<Vertex>(k * 64 + static_cast<std::size_t>(std::countr_zero(rest)));
-      if (find_gamma(x, y, lens)) return true;
+      forest_.meet(y, set);
+      if (!forest_.meetings().empty())
+        for (Extension& x : extensions_.all())
+          is_extended = is_extended && !extensions_.extend_to(x, y, forest_);
+      forest_.join(y, [](Vertex, const Word*, Vertex) {});
     }
-  return false;
+  }
+  return is_extended;
 }
 
 template <Field K>
-void LensSurfaces<K>::scan(Position position, const FlagEdge& e, const Word* lens,
-                           bool is_extended) {
-  parts_.clear();
-  part_sets_.clear();
+void LensSurfaces<K>::sweep(Position position, const FlagEdge& e, const Word* lens,
+                            bool is_extended) {
+  forest_.clear();
   bits::for_each(lens, 0, joined_.words(), [&](std::size_t vertex) {
     const auto y = static_cast<Vertex>(vertex);
-    meet_parts(y, lens);
+    forest_.meet(y, lens);
     bool is_mismatched = false;
-    if (!met_.empty() && !is_extended)
-      for (Extension& x : extensions_)
-        if (!x.is_dead) is_mismatched |= extend_to(x, y);
+    if (!is_extended && !forest_.meetings().empty())
+      for (Extension& x : extensions_.all()) is_mismatched |= extensions_.extend_to(x, y, forest_);
     if (is_mismatched) kill_mismatched(position, e, lens, y);
-    merge_parts(position, e, y);
+    forest_.join(y, [&](Vertex root, const Word* part, Vertex w) {
+      if (is_extended) report_zero_length(e, root, part, {position, y, w});
+    });
   });
-}
-
-template <Field K>
-void LensSurfaces<K>::meet_parts(Vertex y, const Word* lens) {
-  const std::size_t blocks = blocks_to(y);
-  const Word* row = joined_.row(y);
-  for (std::size_t k = 0; k < blocks; ++k) before_[k] = lens[k] & row[k];
-  before_[y / 64] &= ~(~Word{0} << (y % 64));
-  met_.clear();
-  for (;;) {
-    const std::size_t next = bits::first_common(before_.data(), before_.data(), blocks);
-    if (next == bits::kNone) return;
-    const auto at = static_cast<Vertex>(next);
-    std::size_t part = 0;
-    while (!(part_set(part)[at / 64] >> (at % 64) & 1)) ++part;
-    met_.push_back({part, at});
-    if (met_sets_.size() < met_.size() * joined_.words())
-      met_sets_.resize(met_.size() * joined_.words());
-    bits::split(before_.data(), part_set(part), met_set(met_.size() - 1), 0, blocks);
-  }
-}
-
-template <Field K>
-bool LensSurfaces<K>::extend_to(Extension& x, Vertex y) {
-  // An edge wy asks that p(y) be p(w) + gamma(w,y). The first into each part decides.
-  const std::size_t blocks = blocks_to(y);
-  for (std::size_t k = 0; k < blocks; ++k) before_[k] = 0;
-  for (std::size_t i = 0; i < met_.size(); ++i)
-    for (std::size_t k = 0; k < blocks; ++k) before_[k] |= met_set(i)[k];
-  const bool has_gamma = find_gamma(x, y, before_.data());
-  if (!has_gamma) {
-    if (x.is_flat) return false;
-    std::fill_n(gamma_.begin(), blocks * Row::kUnitsPerBlock, Unit{});
-  }
-  Unit* p = potential(x);
-  const auto asked = [&](const Met& met) {
-    return field_.add(Row::value(p, met.at), Row::value(gamma_.data(), met.at));
-  };
-  const Element value = asked(met_.front());
-  for (std::size_t i = 0; i < met_.size(); ++i) {
-    const Element here = asked(met_[i]);
-    x.is_mismatched |=
-        Row::difference(mismatch(x), p, gamma_.data(), here, met_set(i), field_, blocks);
-    if (here == value) continue;
-    Row::shift(p, part_set(met_[i].part), field_.add(value, field_.negate(here)), field_, blocks);
-    x.is_flat = false;
-  }
-  if (!field_.is_zero(value)) {
-    Row::add_at(p, y, value, field_);
-    x.is_flat = false;
-  }
-  return x.is_mismatched;
 }
 
 template <Field K>
 void LensSurfaces<K>::kill_mismatched(Position position, const FlagEdge& e, const Word* lens,
                                       Vertex y) {
-  const std::size_t blocks = blocks_to(y);
+  const std::size_t words = LensForest::words_to(y);
+  auto& all = extensions_.all();
   for (Vertex from = 0;;) {
-    // The first tetrahedron on which a class does not extend; the youngest of those dies.
+    // The first tetrahedron over which a class does not extend kills the youngest such class.
     std::size_t first = bits::kNone;
-    for (const Extension& x : extensions_)
-      if (x.is_mismatched) first = std::min(first, Row::first(mismatch(x), from, blocks));
+    for (const Extension& x : all)
+      if (x.is_mismatched)
+        first = std::min(first, Row::first(extensions_.mismatch(x), from, words));
     if (first == bits::kNone) break;
     const auto w = static_cast<Vertex>(first);
-    Extension* dying = nullptr;  // extensions ascend by generator
-    for (Extension& x : extensions_)
-      if (x.is_mismatched && !field_.is_zero(Row::value(mismatch(x), w))) dying = &x;
-    find_cocycle(dying->generator);
-    if (wanted_.cocycles) add_star_to_cocycle(e, potential(*dying), blocks);
-    observer_.on_death(births_[dying->generator], {position, y, w}, cocycle_);
-    births_[dying->generator].edge = kDead;
-    const Element unit = field_.inverse(Row::value(mismatch(*dying), w));
-    for (Extension& x : extensions_) {
-      if (&x == dying || !x.is_mismatched) continue;
-      const Element a = Row::value(mismatch(x), w);
-      if (field_.is_zero(a)) continue;
+    from = w + 1;
+    const auto mismatch_of = [&](const Extension& x) {
+      return x.is_mismatched ? Row::value(extensions_.mismatch(x), w) : field_.from_int(0);
+    };
+    const auto dying = std::prev(std::ranges::find_if(all.rbegin(), all.rend(), [&](const auto& x) {
+                                   return !field_.is_zero(mismatch_of(x));
+                                 }).base());
+    const Generator h = dying->generator;
+    find_cocycle(h);
+    if (wanted_.cocycles) add_star_to_cocycle(e, extensions_.potential(*dying), words);
+    observer_.on_death(births_[h], {position, y, w}, cocycle_);
+    births_[h].edge = kDead;
+    const Element unit = field_.inverse(mismatch_of(*dying));
+    for (Extension& x : all) {
+      const Element a = mismatch_of(x);
+      if (x.generator == h || field_.is_zero(a)) continue;
       const Element scale = field_.negate(field_.multiply(a, unit));
-      cocycles_.add(x.generator, dying->generator, scale);
-      Row::add(potential(x), potential(*dying), scale, field_, blocks);
-      Row::add(mismatch(x), mismatch(*dying), scale, field_, blocks);
+      cocycles_.add(x.generator, h, scale);
+      Row::add(extensions_.potential(x), extensions_.potential(*dying), scale, field_, words);
+      Row::add(extensions_.mismatch(x), extensions_.mismatch(*dying), scale, field_, words);
       x.is_flat = false;
     }
-    cocycles_.erase(dying->generator);
-    dying->is_dead = true;
-    dying->is_mismatched = false;
-    for (Extension& x : extensions_) {  // links have moved
-      if (x.is_dead) continue;
-      look_up_links(x, e);
-      collect_terms(x, lens);
-    }
-    from = w + 1;
+    cocycles_.erase(h);
+    extensions_.remove(&*dying);
+    extensions_.refresh(e, lens);
   }
-  for (Extension& x : extensions_) x.is_mismatched = false;
+  for (Extension& x : all) x.is_mismatched = false;
 }
 
 template <Field K>
-void LensSurfaces<K>::merge_parts(Position position, const FlagEdge& e, Vertex y) {
-  const std::size_t words = joined_.words();
-  if (met_.empty()) {
-    parts_.push_back({y});
-    part_sets_.resize(parts_.size() * words);
-    Word* set = part_set(parts_.size() - 1);
-    std::fill_n(set, words, Word{0});
-    set[y / 64] |= Word{1} << (y % 64);
-    return;
+void LensSurfaces<K>::report_zero_length(const FlagEdge& e, Vertex root, const Word* part,
+                                         typename Observer::Tetrahedron tetrahedron) {
+  cocycle_.clear();
+  if (wanted_.cocycles) {
+    std::fill(star_.begin(), star_.end(), Unit{});
+    Row::shift(star_.data(), part, field_.from_int(1), field_, joined_.words());
+    add_star_to_cocycle(e, star_.data(), joined_.words());
   }
-  const auto report = [&](Vertex younger, Vertex at, const Word* set) {
-    if (!wanted_.zero_length) return;
-    cocycle_.clear();
-    if (wanted_.cocycles) {
-      std::fill(gamma_.begin(), gamma_.end(), Unit{});
-      if (set == nullptr)
-        Row::add_at(gamma_.data(), younger, field_.from_int(1), field_);
-      else
-        Row::shift(gamma_.data(), set, field_.from_int(1), field_, words);
-      add_star_to_cocycle(e, gamma_.data(), words);
-    }
-    observer_.on_death({position, younger}, {position, y, at}, cocycle_);
-  };
-  // The edge to the first part takes in y, each further one a part; the younger root dies.
-  std::size_t all = met_.front().part;
-  report(y, met_.front().at, nullptr);
-  part_set(all)[y / 64] |= Word{1} << (y % 64);
-  for (std::size_t i = 1; i < met_.size(); ++i) {
-    std::size_t other = met_[i].part;
-    if (parts_[other].root < parts_[all].root) std::swap(other, all);
-    report(parts_[other].root, met_[i].at, part_set(other));
-    for (std::size_t k = 0; k < words; ++k) {
-      part_set(all)[k] |= part_set(other)[k];
-      part_set(other)[k] = 0;
-    }
-  }
+  observer_.on_death({tetrahedron.edge, root}, tetrahedron, cocycle_);
 }
 
 template <Field K>
-void LensSurfaces<K>::store(Extension& x, const FlagEdge& e, const Word* lens,
+void LensSurfaces<K>::store(const Extension& x, const FlagEdge& e, const Word* lens,
                             const LensComponents& components) {
   // A constant on a component changes the class by younger ones at most: few values are stored.
-  Unit* p = potential(x);
+  Unit* p = extensions_.potential(x);
   const std::size_t words = joined_.words();
   for (std::size_t i = 0; i < components.count(); ++i) {
     const Word* set = components.count() == 1 ? lens : components.vertices(i);

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "ph/core/bit_matrix.hpp"
+
+namespace ph {
+
+/// A lens reduced by strong collapses (Barmak, Minian, Strong homotopy types, nerves and
+/// collapses): a vertex whose neighbours are all neighbours of another one, its hub, is taken out
+/// of the graph, and the flag complex keeps its homotopy type. A few hubs take out most of a lens.
+class LensCore {
+ public:
+  using Vertex = std::uint32_t;
+  using Word = bits::Word;
+
+  /// @param joined the edges so far, a square matrix that outlives this.
+  LensCore(const BitMatrix& joined, std::pmr::memory_resource* memory)
+      : joined_(joined), rest_(joined.words(), 0, memory), hubs_(memory), taken_(memory) {}
+
+  /// @param size how many vertices the lens has. @param first one of them: the hub to begin with.
+  void find(const Word* lens, std::size_t size, Vertex first);
+  /// Nothing is taken out.
+  void keep_all(const Word* lens);
+
+  /// What no hub took.
+  const Word* rest() const { return rest_.data(); }
+  /// In the order in which they took; a hub may be taken by a later one.
+  std::size_t hub_count() const { return hubs_.size(); }
+  Vertex hub(std::size_t i) const { return hubs_[i]; }
+  /// What a hub took: neighbours of it.
+  const Word* taken(std::size_t i) const { return taken_.data() + i * joined_.words(); }
+
+ private:
+  /// @return how many vertices it takes out.
+  std::size_t take_dominated(Vertex hub);
+  /// Among a few vertices of the rest the one with most neighbours there.
+  Vertex sampled_hub(std::size_t left, std::size_t round) const;
+
+  const BitMatrix& joined_;
+  std::pmr::vector<Word> rest_;
+  std::pmr::vector<Vertex> hubs_;
+  std::pmr::vector<Word> taken_;  // a row for each hub
+};
+
+}  // namespace ph
