@@ -195,9 +195,11 @@ void add_complex_options(CLI::App& app, Arguments& a) {
             [&a](const std::string& text) { take_periodic(a, text); })
       ->group(group);
   add_choice(app, "--collapse", {"auto", "on", "off"},
-             "rips: edge collapse (default auto; on is not built in)",
-             [](std::size_t i) {
-               if (i == 1) not_built_in("--collapse on:");
+             "rips: collapse edges first, which leaves fewer of them and the same bars (default "
+             "auto: where it pays)",
+             [&a](std::size_t i) {
+               constexpr std::array kWays{Collapse::automatic, Collapse::on, Collapse::off};
+               a.options.collapse = kWays[i];
              })
       ->group(group);
   add_value(app, "--subsample", "N", "rips: greedy permutation to N points (not built in)",
@@ -341,6 +343,14 @@ void check_together(Arguments& a, const std::vector<PlotKind>& kinds) {
         fmt::format("--engine: found {}, which gives no representatives; expected auto, twist or "
                     "cohomology",
                     engine_name(engine)));
+  if (a.options.collapse == Collapse::on && a.options.min_persistence < 0)
+    reject(
+        "--collapse: found on, which loses bars of length 0; a negative --min-persistence keeps "
+        "them");
+  if (a.options.collapse == Collapse::on && a.options.representatives == Representatives::cocycles)
+    reject(
+        "--collapse: found on, expected off or auto with --representatives cocycles: they are "
+        "of all edges");
   // A two-dimensional array holds points if that is the only way to make sense of it.
   if (a.read.array == ArrayMeaning::image &&
       (a.complex == ComplexKind::rips || a.format == Format::points))

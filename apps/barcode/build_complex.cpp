@@ -95,6 +95,8 @@ class Builder {
   /// The complex to build: the one asked for, or the first that makes sense.
   ComplexKind expect(std::string_view data, std::initializer_list<ComplexKind> kinds) const {
     if (*kinds.begin() != ComplexKind::cubical) refuse(arguments_.cubical_option, "images", data);
+    if (*kinds.begin() != ComplexKind::rips && arguments_.options.collapse == Collapse::on)
+      refuse("--collapse on", "points and distances", data);
     if (arguments_.complex == ComplexKind::automatic) return *kinds.begin();
     if (std::ranges::find(kinds, arguments_.complex) != kinds.end()) return arguments_.complex;
     const auto name = [](ComplexKind kind) { return kComplexNames[static_cast<int>(kind)]; };

@@ -96,11 +96,17 @@ Barcode with_estimate(const Estimate& estimate, Compute&& compute) {
   }
 }
 
+/// Whether edges are collapsed first, and why; only said of Rips complexes.
+std::string collapse_text(const Estimate& estimate) {
+  return fmt::format("{} ({})", estimate.collapses ? "on" : "off", estimate.collapse_reason);
+}
+
 std::string estimate_text(const Estimate& estimate, const BuiltComplex& built,
                           const std::string& description) {
   std::string text = fmt::format("input    {}\ncomplex  {}", description, built.name);
   if (built.threshold) text += fmt::format(", values up to {}", shortest(*built.threshold));
   text += fmt::format("\nengine   {} ({})\n", engine_name(estimate.engine), estimate.reason);
+  if (!estimate.collapse_reason.empty()) text += "collapse " + collapse_text(estimate) + '\n';
   for (std::size_t dim = 0; dim < estimate.cells.size(); ++dim)
     text += fmt::format("cells    dimension {}: at most {:.0f}\n", dim, estimate.cells[dim]);
   return text + fmt::format("memory   {} to {}\n", app::format_size(estimate.bytes_low),
@@ -135,9 +141,10 @@ Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
   }
 
   const auto [built, description, point_ids] = load(job, arguments, session, watch);
-  const Estimate estimated = estimate(built.complex, arguments.options);
+  const Estimate estimated = estimate(built.complex, arguments.options, session.context());
   watch.lap("complex");
   session.explain(fmt::format("engine {}: {}", engine_name(estimated.engine), estimated.reason));
+  if (!estimated.collapse_reason.empty()) session.explain("collapse " + collapse_text(estimated));
   session.explain(fmt::format("memory {} to {}", app::format_size(estimated.bytes_low),
                               app::format_size(estimated.bytes_high)));
   if (arguments.dry_run) {
@@ -161,6 +168,7 @@ Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
   int code = app::kOk;
   if (arguments.check) {
     options.engine = Engine::standard;
+    options.collapse = Collapse::off;
     options.representatives = Representatives::none;
     const std::string difference = first_difference(barcode, with_estimate(estimated, compute));
     watch.lap("check");

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <span>
 
+#include "ph/complex/edge_collapse.hpp"
 #include "ph/persistence.hpp"
 
 namespace ph {
@@ -15,15 +18,32 @@ double binomial(double n, int k) {
 
 // Cliques of d + 1 vertices: all sets of vertices at most, and in a graph of degeneracy g each has
 // a first vertex in the degeneracy order with at most g later neighbours.
-std::vector<double> cells_of(const Rips& rips, int top) {
+std::vector<double> cells_of(const Rips& rips, int top, double degeneracy) {
   const double n = static_cast<double>(rips.size());
   std::vector<double> cells{n};
   if (top >= 1) cells.push_back(static_cast<double>(rips.edge_count()));
-  if (top < 2) return cells;
-  const double degeneracy = static_cast<double>(rips.graph().adjacency().clique_bound()) - 1;
   for (int d = 2; d <= top; ++d)
     cells.push_back(std::min(binomial(n, d + 1), n * binomial(degeneracy, d)));
   return cells;
+}
+std::vector<double> cells_of(const Rips& rips, int top) {
+  // The adjacency takes time and memory to make: only where it is needed anyhow.
+  const Index cliques = top < 2 ? 1 : rips.graph().adjacency().clique_bound();
+  return cells_of(rips, top, static_cast<double>(cliques - 1));
+}
+
+// The largest g such that g vertices have degree g or more: the degeneracy of a graph is no larger,
+// and neither is that of any part of it.
+Index degeneracy_by_degrees(const Rips& rips) {
+  std::vector<Index> degrees(static_cast<std::size_t>(rips.size()), 0);
+  for (const FlagEdge& e : rips.graph().edges()) {
+    ++degrees[e.u];
+    ++degrees[e.v];
+  }
+  std::ranges::sort(degrees, std::greater{});
+  Index g = 0;
+  while (g < rips.size() && degrees[static_cast<std::size_t>(g)] > g) ++g;
+  return g;
 }
 
 template <Filtration F>
@@ -66,15 +86,9 @@ double stored_bytes(const ExplicitComplex& complex, Engine) {
 // that are added to are few.
 constexpr double kBytesPerColumn = 128;
 
-template <class Complex>
-Estimate estimate_of(const Complex& complex, Engine asked, const detail::Plan& plan) {
-  const auto& [max_dim, choice] = plan;
-  Estimate e;
-  e.engine = choice.engine;
-  e.reason = asked == Engine::automatic ? std::string(choice.reason) : "asked for";
-  e.max_dim = max_dim;
-  e.cells = cells_of(complex, goes_by_edges(e.engine) ? 1 : max_dim + 1);
-  e.bytes_low = stored_bytes(complex, e.engine);
+// Sets bytes_high from bytes_low and the cells.
+void add_columns(Estimate& e) {
+  const int max_dim = e.max_dim;
   double columns = 0;
   const auto count = [&](int first, int last) {
     for (int d = std::max(first, 0); d <= last && d < static_cast<int>(e.cells.size()); ++d)
@@ -92,24 +106,57 @@ Estimate estimate_of(const Complex& complex, Engine asked, const detail::Plan& p
       break;
   }
   e.bytes_high = e.bytes_low + kBytesPerColumn * columns;
+}
+
+template <class Complex>
+Estimate estimate_of(const Complex& complex, const detail::Plan& plan) {
+  Estimate e;
+  e.engine = plan.choice.engine;
+  e.reason = plan.choice.reason;
+  e.max_dim = plan.max_dim;
+  e.cells = cells_of(complex, goes_by_edges(e.engine) ? 1 : e.max_dim + 1);
+  e.bytes_low = stored_bytes(complex, e.engine);
+  add_columns(e);
+  return e;
+}
+
+// How few edges a collapse will leave is not known beforehand: the bounds are those of all edges.
+Estimate estimate_of_collapsed(const Rips& rips, int max_dim, const detail::EngineChoice& choice) {
+  Estimate e;
+  e.engine = choice.engine;
+  e.reason = choice.reason;
+  const Index degeneracy = degeneracy_by_degrees(rips);
+  e.max_dim = static_cast<int>(std::min(Index{max_dim}, degeneracy));
+  e.cells =
+      cells_of(rips, goes_by_edges(e.engine) ? 1 : e.max_dim + 1, static_cast<double>(degeneracy));
+  e.bytes_low = 16 * static_cast<double>(rips.edge_count()) + collapse_bytes(rips.graph());
+  add_columns(e);
+  e.bytes_high += stored_bytes(rips, e.engine);
+  return e;
+}
+
+Estimate estimate_of_rips(const Rips& rips, const Options& options, const RunContext& context) {
+  Options rips_options = options;
+  rips_options.max_dim = detail::checked_max_dim(options.max_dim.value_or(1));
+  const detail::CollapseChoice choice = detail::choose_collapse(rips, rips_options, context);
+  Estimate e = choice.collapses ? estimate_of_collapsed(rips, *rips_options.max_dim, choice.engine)
+                                : rips.with_filtration(*rips_options.max_dim, [&](const auto& f) {
+                                    return estimate_of(rips, detail::plan(f, rips_options));
+                                  });
+  e.collapses = choice.collapses;
+  e.collapse_reason = choice.reason;
   return e;
 }
 
 }  // namespace
 
-Estimate estimate(const AnyComplex& complex, const Options& options) {
+Estimate estimate(const AnyComplex& complex, const Options& options, const RunContext& context) {
   return std::visit(
       [&](const auto& c) {
-        using C = std::remove_cvref_t<decltype(c)>;
-        if constexpr (std::same_as<C, Rips>) {
-          Options rips_options = options;
-          rips_options.max_dim = detail::checked_max_dim(options.max_dim.value_or(1));
-          return c.with_filtration(*rips_options.max_dim, [&](const auto& f) {
-            return estimate_of(c, options.engine, detail::plan(f, rips_options));
-          });
-        } else {
-          return estimate_of(c, options.engine, detail::plan(c, options));
-        }
+        if constexpr (std::same_as<std::remove_cvref_t<decltype(c)>, Rips>)
+          return estimate_of_rips(c, options, context);
+        else
+          return estimate_of(c, detail::plan(c, options));
       },
       complex);
 }

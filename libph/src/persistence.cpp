@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "ph/complex/edge_collapse.hpp"
+
 namespace ph {
 namespace {
 
@@ -25,9 +27,16 @@ int detail::checked_max_dim(int max_dim) {
 Barcode persistence(const Rips& rips, const Options& options, const RunContext& context) {
   Options rips_options = options;
   rips_options.max_dim = detail::checked_max_dim(options.max_dim.value_or(1));
-  return rips.with_filtration(*rips_options.max_dim, [&](const auto& filtration) {
-    return persistence(filtration, rips_options, context);
-  });
+  const detail::CollapseChoice choice = detail::choose_collapse(rips, rips_options, context);
+  rips_options.collapse = Collapse::off;  // done here or not at all
+  const auto compute = [&](const Rips& complex) {
+    return complex.with_filtration(*rips_options.max_dim, [&](const auto& filtration) {
+      return persistence(filtration, rips_options, context);
+    });
+  };
+  if (!choice.collapses) return compute(rips);
+  rips_options.engine = choice.engine.engine;
+  return compute(collapse_edges(rips, context));
 }
 
 Barcode persistence(const Cubical& cubical, const Options& options, const RunContext& context) {

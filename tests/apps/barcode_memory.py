@@ -84,6 +84,7 @@ BLOW_UPS = (
     ("plane.txt", "--threshold", "0.1"),
     ("plane.txt", "--threshold", "0.03", "--max-dim", "2"),
     ("cloud.txt", "--threshold", "0.02"),
+    ("cloud.txt", "--threshold", "0.02", "--collapse", "on"),
     ("cloud.txt", "--threshold", "0.01", "--max-dim", "0"),
     ("line.txt", "--threshold", "0.001", "--max-dim", "0"),
     ("high.txt", "--metric", "manhattan", "--max-dim", "0"),
@@ -174,6 +175,7 @@ class System(ProgramTest):
     def test_address_space(self):
         for mib in (60, 80, 100, 150):
             self.expect(75, "many.txt", "-o", "out.csv", "--engine", "twist", "--max-dim", "2",
+                        "--collapse", "off",
                         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS,
                                                               (mib * MIB, mib * MIB)))
             self.assertEqual(self.files(), ["many.txt", "square.txt"])
@@ -197,6 +199,7 @@ class System(ProgramTest):
             with open(os.path.join(group, "cgroup.procs"), "w") as file:
                 file.write(str(os.getpid()))
         self.expect(75, "many.txt", "-o", "out.csv", "--max-dim", "2", "--engine", "twist",
+                    "--collapse", "off",
                     preexec_fn=enter)
         self.assertEqual(self.files(), ["many.txt", "square.txt"])
 

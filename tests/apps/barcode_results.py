@@ -246,6 +246,27 @@ class Options(ProgramTest):
             self.assertIn("the oracle agrees", run.stderr)
             self.assertIn("engine ", run.stderr)
 
+    def test_collapse_leaves_the_bars_and_says_what_it_did(self):
+        random.seed(11)
+        rows = [f"{random.random()} {random.random()}" for _ in range(40)]
+        self.write("cloud.txt", "\n".join(rows) + "\n")
+        runs = {}
+        for way, words in (("on", "collapse on (asked for)"), ("off", "collapse off (asked for)"),
+                           ("auto", "% of a sample of the edges are dominated)")):
+            runs[way] = self.expect(0, "cloud.txt", "--collapse", way, "--max-dim", "2", "--check",
+                                    "--verbose")
+            self.assertIn(words, runs[way].stderr)
+            self.assertIn("the oracle agrees", runs[way].stderr)
+            self.assertIn("collapse " + ("off" if way == "off" else "on"),
+                          self.expect(0, "cloud.txt", "--collapse", way, "--max-dim", "2",
+                                      "--dry-run").stdout)
+        self.assertEqual(runs["on"].stdout, runs["off"].stdout)
+        self.assertEqual(runs["auto"].stdout, runs["off"].stdout)
+        # H1 needs none, an image has no edges to collapse.
+        self.assertIn("collapse off (", self.expect(0, "cloud.txt", "--verbose").stderr)
+        self.write("image.npy", npy((1, 3), [0, 2, 1]))
+        self.assertNotIn("collapse", self.expect(0, "image.npy", "--verbose").stderr)
+
     def test_high_dimensions_are_legal(self):
         self.assertEqual(self.bars("square.txt", "--max-dim", "60"), self.bars("square.txt"))
 

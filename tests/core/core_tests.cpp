@@ -327,8 +327,8 @@ TEST(RunContexts, AStopRequestEndsALongJobSoon) {
       source.request_stop();
     });
     const Rips rips(long_job(engine), {.threshold = 10}, context);
-    expect_error(ErrorKind::cancelled, "stopped",
-                 [&] { persistence(rips, {.max_dim = 3, .field = 3, .engine = engine}, context); });
+    const Options options{.max_dim = 3, .field = 3, .engine = engine, .collapse = Collapse::off};
+    expect_error(ErrorKind::cancelled, "stopped", [&] { persistence(rips, options, context); });
     const auto late = Clock::now();
     stopper.join();
     EXPECT_LT(late - asked, std::chrono::milliseconds(500));
@@ -369,7 +369,8 @@ TEST(RunContexts, ProgressComesAtMostTenTimesASecond) {
   };
   expect_error(ErrorKind::cancelled, "stopped", [&] {
     const Rips rips(long_job(Engine::cohomology), {.threshold = 10}, context);
-    persistence(rips, {.max_dim = 3, .engine = Engine::cohomology}, context);
+    persistence(rips, {.max_dim = 3, .engine = Engine::cohomology, .collapse = Collapse::off},
+                context);
   });
   ASSERT_EQ(calls.size(), 5U);
   for (std::size_t i = 1; i < calls.size(); ++i)

@@ -134,6 +134,31 @@ TEST(Estimates, NameTheEngineThatWillRun) {
                [&] { estimate(torus, {.engine = Engine::union_find}); });
 }
 
+TEST(Estimates, SayWhetherEdgesAreCollapsed) {
+  Generator random(3);
+  const Rips solid(random.points(60, 2, false)), ring(circle(12));
+  const auto says = [](const Rips& rips, const Options& options, bool collapses,
+                       const std::string& reason) {
+    const Estimate e = estimate(rips, options);
+    EXPECT_EQ(e.collapses, collapses) << e.collapse_reason;
+    EXPECT_NE(e.collapse_reason.find(reason), std::string::npos) << e.collapse_reason;
+    EXPECT_GE(e.bytes_high, e.bytes_low);
+    return e;
+  };
+  const Estimate e = says(solid, {.max_dim = 2}, true, "% of a sample");
+  EXPECT_EQ(e.engine, Engine::cohomology);
+  ASSERT_EQ(e.cells.size(), 4U);
+  EXPECT_EQ(e.cells[1], static_cast<double>(solid.edge_count()));
+  says(ring, {.max_dim = 2}, false, "% of a sample");
+  says(ring, {.max_dim = 2, .collapse = Collapse::on}, true, "asked for");
+  says(solid, {.max_dim = 2, .collapse = Collapse::off}, false, "asked for");
+  says(solid, {}, false, "by edges alone");
+  says(solid, {.max_dim = 2, .engine = Engine::standard}, false, "oracle");
+  says(solid, {.max_dim = 2, .min_persistence = -1}, false, "length zero");
+  says(solid, {.max_dim = 2, .representatives = Representatives::cocycles}, false, "cocycles");
+  EXPECT_EQ(estimate(Cubical(Image{{2}, {1, 2}})).collapse_reason, "");
+}
+
 TEST(Estimates, OfNothing) {
   for (const AnyComplex& nothing : {AnyComplex(Rips(Points(0, 2))), AnyComplex(Cubical(Image{})),
                                     AnyComplex(ExplicitComplex::from_simplices({}))}) {

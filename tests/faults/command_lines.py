@@ -54,6 +54,9 @@ BARCODE = [
     *((49, ["--representatives", "cycles", "--output-format", "json", "--max-dim", "0", "--engine",
             name], "--engine: found " + name) for name in ("standard", "union_find")),
     (49, ["--collapse", "maybe"], "--collapse"),
+    (49, ["--collapse", "on", "--min-persistence=-1"], "--collapse"),
+    (49, ["--collapse", "on", "--representatives", "cocycles", "--output-format", "json"],
+     "--collapse"),
     (49, ["--subsample", "0"], "--subsample"),
     (49, ["--approximate", "-1"], "--approximate"),
     (49, ["--output-format", "cvs"], "did you mean 'csv'"),
@@ -83,19 +86,20 @@ BARCODE_FILES = [
     (49, "edge.phat", b"0\n0\n1 0 1\n", ["--field", "3"], "--field"),
     (49, "lower.txt", b"1\n3 2\n", ["--format", "lower-distance", "--metric", "manhattan"],
      "--metric"),
+    (49, "edge.phat", b"0\n0\n1 0 1\n", ["--collapse", "on"], "--collapse"),
+    (49, "image.pgm", b"P2\n2 1\n9\n1 2\n", ["--collapse", "on"], "points and distances"),
 ]
 
 NOT_BUILT_IN = [
     (["--plot", "x.png"], "PNG plots are not built in; use .svg"),
     (["--plot", "x.PNG"], "use .svg"),
     (["--report", "x.html"], "--report"),
-    (["--collapse", "on"], "--collapse"),
     (["--subsample", "10"], "--subsample"),
     (["--approximate", "0.5"], "--approximate"),
     (["--complex", "alpha"], "alpha"),
 ]
 
-FINE = [["--collapse", "auto"], ["--collapse", "off"], ["--representatives", "none"],
+FINE = [["--collapse", "auto"], ["--collapse", "on"], ["--collapse", "off"], ["--representatives", "none"],
         ["--threads", "1"], ["--threads=2"], ["--memory-limit", "1GiB"], ["--memory-limit", "1e9"],
         ["--memory-limit", "500MB"], ["--threshold", "inf"], ["--progress", "none"],
         ["--field", "2147483647"], ["--min-persistence", "1e-3"]]

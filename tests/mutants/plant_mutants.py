@@ -28,6 +28,9 @@ GRAPH = "libph/include/ph/complex/rips_graph.hpp"
 GRAPH_CPP = "libph/src/complex/rips_graph.cpp"
 ANNOTATIONS = "libph/include/ph/engine/annotations.hpp"
 REDUCTION = "libph/include/ph/engine/reduction.hpp"
+COLLAPSE = "libph/src/complex/edge_collapse.cpp"
+COLLAPSE_ROWS = "libph/src/complex/collapse_rows.hpp"
+COLLAPSE_LISTS = "libph/src/complex/collapse_lists.hpp"
 
 # name, file, text that occurs exactly once, what replaces it, test programs that must notice
 MUTANTS = [
@@ -70,6 +73,32 @@ MUTANTS = [
     ("lens: classes that become equal lose their sign", ANNOTATIONS,
      "links_[id] = {*it, are_opposite(id, *it)};", "links_[id] = {*it, false};",
      ["conformance_random"]),
+    ("collapse: a dominator stays one whatever comes", COLLAPSE,
+     "dominates = dominates && graph_.are_joined(dominator, x, now);", "(void)x;",
+     ["edge_collapse_tests"]),
+    ("collapse: edges of the past are never left", COLLAPSE,
+     "if (kept[i].to == last) graph_.leave", "if (kept[i].to == 0) graph_.leave",
+     ["edge_collapse_tests"]),
+    ("collapse: edges of one value in any order", COLLAPSE,
+     "std::ranges::sort(kept);",
+     "std::ranges::sort(kept, [](auto a, auto b) {"
+     " return a.to < b.to || (a.to == b.to && a.edge > b.edge); });",
+     ["edge_collapse_tests"]),
+    ("collapse: moved edges keep their value", COLLAPSE,
+     "edges.push_back({input_.value(to), e.u, e.v});", "edges.push_back({e.value, e.u, e.v});",
+     ["edge_collapse_tests"]),
+    ("collapse, rows: what comes later counts as there", COLLAPSE_ROWS,
+     "it->vertex == b && it->key <= now", "it->vertex == b", ["edge_collapse_tests"]),
+    ("collapse, rows: a neighbour comes with one of its edges", COLLAPSE_ROWS,
+     "arrivals.push_back({std::max(x.key, other->key), x.vertex});",
+     "arrivals.push_back({std::min(x.key, other->key), x.vertex});", ["edge_collapse_tests"]),
+    ("collapse, rows: too few candidates", COLLAPSE_ROWS,
+     "for (const Vertex x : also_) insert(set, x);", "", ["edge_collapse_tests"]),
+    ("collapse, lists: the lens of the end", COLLAPSE_LISTS,
+     "if (key <= now) lens.push_back(x);", "lens.push_back(x);", ["edge_collapse_tests"]),
+    ("collapse: zero-length bars are lost in silence", "libph/src/persistence/collapse_choice.cpp",
+     "if (options.min_persistence < 0)", "if (options.min_persistence < -9)",
+     ["edge_collapse_tests"]),
     ("rips: threshold ignored for sparse distances", GRAPH_CPP,
      "if (e.value > limit || e.value == kNoLimit) continue;",
      "if (e.value == kNoLimit) continue;", ["rips_tests"]),
@@ -108,7 +137,7 @@ MUTANTS = [
 SOURCES = ["core", "metric", "complex", "engine", "persistence"]  # folders of libph/src
 NINJA = """\
 cxx = {compiler}
-flags = -std=c++20 -O1 -Ilibph/include -Itests {includes}
+flags = -std=c++20 -O1 -Ilibph/include -Itests '-DPH_SHARED_DIR=""' {includes}
 rule compile
   command = $cxx $flags -MMD -MF $out.d -c $in -o $out
   depfile = $out.d

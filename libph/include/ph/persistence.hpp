@@ -15,19 +15,31 @@
 
 namespace ph {
 
+/// Whether the edges of a Rips complex are collapsed before its homology is computed: the bars of
+/// positive length stay the same, see complex/edge_collapse.hpp.
+enum class Collapse {
+  automatic,  ///< where it is allowed and a sample of the edges says that it pays
+  on,
+  off,
+};
+
 /// What to compute, and how.
 struct Options {
   /// Highest homology dimension reported; default: 1 for Rips, all dimensions otherwise.
   std::optional<int> max_dim = std::nullopt;
   std::int64_t field = 2;             ///< characteristic of the coefficients: a prime < 2^31
   Engine engine = Engine::automatic;  ///< which engine; see registry.hpp
-  double min_persistence = 0;         ///< bars with death - birth <= this are left out; < 0: none
+  /// Rips only. With it, birth and death cells have the values of their bar, but among the many of
+  /// one value others may be named; zero-length bars and cocycles exclude it.
+  Collapse collapse = Collapse::automatic;
+  double min_persistence = 0;  ///< bars with death - birth <= this are left out; < 0: none
   Representatives representatives = Representatives::none;  ///< chains that come with the bars
 };
 
 /// The barcode of a filtered complex.
-/// @throws Error (usage) on a field that is not one, a negative max_dim or an engine that cannot do
-///         the task; Error (resource) beyond the memory limit; Error (cancelled) on a stop request.
+/// @throws Error (usage) on a field that is not one, a negative max_dim, an engine that cannot do
+///         the task or a collapse that would spoil it; Error (resource) beyond the memory limit;
+///         Error (cancelled) on a stop request.
 Barcode persistence(const Rips& rips, const Options& options = {},
                     const RunContext& context = default_context());
 Barcode persistence(const Cubical& cubical, const Options& options = {},
@@ -48,13 +60,17 @@ Barcode persistence(const AnyComplex& complex, const Options& options = {},
 struct Estimate {
   Engine engine = Engine::automatic;  ///< the engine that will run
   std::string reason;                 ///< why it was chosen, one phrase
+  bool collapses = false;             ///< whether edges are collapsed first
+  std::string collapse_reason;        ///< why, or why not, one phrase
   int max_dim = 0;                    ///< highest homology dimension
   std::vector<double> cells;          ///< by dimension, as far as the engine looks: at most
   double bytes_low = 0;               ///< memory of the computation: at least …
   double bytes_high = 0;              ///< … and at most
 };
-/// Reads no more than the complex already holds; computes nothing.
-Estimate estimate(const AnyComplex& complex, const Options& options = {});
+/// Reads no more than the complex already holds; computes nothing but a sample of the edges where
+/// that decides whether they are collapsed. @throws as `persistence`.
+Estimate estimate(const AnyComplex& complex, const Options& options = {},
+                  const RunContext& context = default_context());
 
 /// Compares two barcodes as multisets of (dim, birth, death). @return an empty string if they are
 /// equal, else the first bar that one has and the other has not, in words.

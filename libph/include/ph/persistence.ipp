@@ -49,6 +49,16 @@ EngineChoice choose_engine(const F& f, Engine asked, int max_dim, Representative
   return {asked, "asked for"};
 }
 
+/// Whether the edges of a Rips complex are collapsed, why, and the engine that then runs.
+struct CollapseChoice {
+  bool collapses;
+  std::string reason;
+  EngineChoice engine;
+};
+/// @throws Error (usage) if a collapse is asked for that would spoil the result, or as
+/// choose_engine.
+CollapseChoice choose_collapse(const Rips& rips, const Options& options, const RunContext& context);
+
 /// What will be computed: up to which dimension, by which engine.
 struct Plan {
   int max_dim;
@@ -80,6 +90,8 @@ decltype(auto) with_field(std::int64_t characteristic, Use&& use) {
 
 template <Filtration F>
 Barcode persistence(const F& filtration, const Options& options, const RunContext& context) {
+  if (options.collapse == Collapse::on)
+    throw Error(ErrorKind::usage, "edge collapse is for Rips complexes only");
   const auto [max_dim, choice] = detail::plan(filtration, options);
   const Engine chosen = choice.engine;
   BarcodeBuilder<F> bars(filtration, max_dim, options.min_persistence, options.representatives);

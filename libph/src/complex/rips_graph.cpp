@@ -61,6 +61,13 @@ RipsGraph RipsGraph::of_edges(Index size, std::span<const WeightedEdge> edges,
   return RipsGraph(size, limit, std::move(within), context);
 }
 
+RipsGraph RipsGraph::with_edges(const RipsGraph& graph, std::pmr::vector<FlagEdge>&& edges,
+                                const RunContext& context) {
+  RipsGraph result(graph.size_, graph.threshold_, std::move(edges), context);
+  result.names_ = graph.names_;
+  return result;
+}
+
 RipsGraph::RipsGraph(Index size, double threshold, std::pmr::vector<FlagEdge>&& edges,
                      const RunContext& context)
     : size_(size), threshold_(threshold), edges_(std::move(edges)), names_(&context.memory) {

@@ -89,4 +89,17 @@ bool difference(Word* out, const Word* a, const Word* b, Word constant, const Wo
   return any != 0;
 }
 
+PH_FOR_EACH_TARGET
+std::size_t first_outside(const Word* a, const Word* b, std::size_t first, std::size_t words) {
+  constexpr std::size_t kBlock = 8;
+  std::size_t k = first;
+  for (; k + kBlock <= words; k += kBlock) {
+    Word any = 0;
+    for (std::size_t i = 0; i < kBlock; ++i) any |= a[k + i] & ~b[k + i];
+    if (any != 0) break;
+  }
+  while (k < words && (a[k] & ~b[k]) == 0) ++k;
+  return k;
+}
+
 }  // namespace ph::bits

@@ -51,6 +51,9 @@ class Rips {
       : graph_(std::make_shared<const RipsGraph>(
             RipsGraph::of_metric(metric, options.threshold, context))) {}
 
+  /// The flag complex of any graph.
+  explicit Rips(RipsGraph&& graph) : graph_(std::make_shared<const RipsGraph>(std::move(graph))) {}
+
   const RipsGraph& graph() const { return *graph_; }
   Index size() const { return graph_->size(); }  ///< vertices
   /// The largest distance at which two points are joined: the given one or the enclosing radius.

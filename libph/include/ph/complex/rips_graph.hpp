@@ -23,7 +23,8 @@ namespace ph {
 
 /// The graph under a Vietoris-Rips filtration: all edges up to a threshold, sorted once by
 /// (distance, larger end, smaller end) and from then on known by their key, an integer. Keys start
-/// at 1; key 0 belongs to the vertices, which enter at 0.
+/// at 1; key 0 belongs to the vertices, which enter at 0. (A collapsed graph has its own order
+/// within a value, see edge_collapse.hpp.)
 class RipsGraph {
  public:
   using Key = RipsAdjacency::Key;
@@ -38,6 +39,11 @@ class RipsGraph {
                                     const RunContext& context);
   static RipsGraph of_edges(Index size, std::span<const WeightedEdge> edges,
                             std::optional<double> threshold, const RunContext& context);
+
+  /// The same vertices, names and threshold with other edges.
+  /// @param edges by ascending value; ties come in the order given.
+  static RipsGraph with_edges(const RipsGraph& graph, std::pmr::vector<FlagEdge>&& edges,
+                              const RunContext& context);
 
   /// @throws Error (resource) if there are too many points for a Rips filtration.
   static void check_size(Index size);

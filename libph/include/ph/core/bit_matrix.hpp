@@ -60,6 +60,9 @@ std::size_t count_common(const Word* a, const Word* b, std::size_t words);
 bool difference(Word* out, const Word* a, const Word* b, Word constant, const Word* mask,
                 std::size_t words);
 
+/// The first word from `first` on with a bit of `a` that `b` has not; `words` if there is none.
+std::size_t first_outside(const Word* a, const Word* b, std::size_t first, std::size_t words);
+
 /// Calls `visit(bit)` for each bit set, ascending.
 template <class Visit>
 void for_each(const Word* row, std::size_t first, std::size_t words, Visit&& visit) {

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "ph/complex/edge_collapse.hpp"
+#include "ph/persistence.hpp"
+
+namespace ph::detail {
+namespace {
+
+// Measured: where at least this share of the edges is dominated, 1 % to 40 % of them are kept and
+// the reduction gains many times what the collapse takes. Below, on spheres and in high dimension,
+// 40 % to all are kept, and what it takes is lost.
+constexpr double kWorthwhileShare = 0.8;
+
+/// Why a collapse would spoil what is asked for; empty if it would not.
+std::string_view obstacle(const Options& options) {
+  if (options.min_persistence < 0) return "bars of length zero are asked for";
+  if (options.representatives == Representatives::cocycles)
+    return "cocycles are asked for, and those of fewer edges say nothing of the others";
+  return {};
+}
+
+/// Why a collapse is not worth a sample; empty if it may be.
+std::string_view no_need(Engine engine) {
+  if (engine == Engine::lens || engine == Engine::union_find)
+    return "the engine goes by edges alone";
+  if (engine == Engine::standard) return "the oracle takes the complex as it is";
+  return {};
+}
+
+}  // namespace
+
+CollapseChoice choose_collapse(const Rips& rips, const Options& options,
+                               const RunContext& context) {
+  // Engines are told apart by the kind of a filtration only, not by the size of its cells.
+  const RipsFiltration<RipsLayout::sparse, 1> filtration(rips.graph());
+  const EngineChoice engine = choose_engine(filtration, options.engine, options.max_dim.value_or(1),
+                                            options.representatives);
+  const auto decide = [&](bool collapses, std::string_view reason) {
+    return CollapseChoice{collapses, std::string(reason), engine};
+  };
+  if (options.collapse == Collapse::off) return decide(false, "asked for");
+  const std::string_view spoilt = obstacle(options);
+  if (options.collapse == Collapse::on) {
+    if (!spoilt.empty())
+      throw Error(ErrorKind::usage, fmt::format("edge collapse is not possible: {}", spoilt));
+    return decide(true, "asked for");
+  }
+  if (!spoilt.empty()) return decide(false, spoilt);
+  if (const std::string_view reason = no_need(engine.engine); !reason.empty())
+    return decide(false, reason);
+  const double share = dominated_share(rips.graph(), context);
+  return decide(share >= kWorthwhileShare,
+                fmt::format("{:.0f} % of a sample of the edges are dominated", 100 * share));
+}
+
+}  // namespace ph::detail
