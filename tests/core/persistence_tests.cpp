@@ -145,17 +145,21 @@ TEST(Estimates, SayWhetherEdgesAreCollapsed) {
     EXPECT_GE(e.bytes_high, e.bytes_low);
     return e;
   };
-  const Estimate e = says(solid, {.max_dim = 2}, true, "% of a sample");
+  const Estimate e =
+      says(solid, {.max_dim = 2, .engine = Engine::cohomology}, true, "% of a sample");
   EXPECT_EQ(e.engine, Engine::cohomology);
   ASSERT_EQ(e.cells.size(), 4U);
   EXPECT_EQ(e.cells[1], static_cast<double>(solid.edge_count()));
-  says(ring, {.max_dim = 2}, false, "% of a sample");
+  says(ring, {.max_dim = 2, .engine = Engine::cohomology}, false, "% of a sample");
   says(ring, {.max_dim = 2, .collapse = Collapse::on}, true, "asked for");
   says(solid, {.max_dim = 2, .collapse = Collapse::off}, false, "asked for");
   says(solid, {}, false, "by edges alone");
   says(solid, {.max_dim = 2, .engine = Engine::standard}, false, "oracle");
-  says(solid, {.max_dim = 2, .min_persistence = -1}, false, "length zero");
-  says(solid, {.max_dim = 2, .representatives = Representatives::cocycles}, false, "cocycles");
+  says(solid, {.max_dim = 2, .engine = Engine::cohomology, .min_persistence = -1}, false,
+       "length zero");
+  says(solid,
+       {.max_dim = 2, .engine = Engine::cohomology, .representatives = Representatives::cocycles},
+       false, "cocycles");
   EXPECT_EQ(estimate(Cubical(Image{{2}, {1, 2}})).collapse_reason, "");
 }
 
