@@ -27,6 +27,19 @@ std::size_t first_common(const Word* a, const Word* b, std::size_t words) {
 }
 
 PH_FOR_EACH_TARGET
+std::size_t first_outside(const Word* a, const Word* b, std::size_t first, std::size_t words) {
+  constexpr std::size_t kBlock = 8;
+  std::size_t k = first;
+  for (; k + kBlock <= words; k += kBlock) {
+    Word any = 0;
+    for (std::size_t i = 0; i < kBlock; ++i) any |= a[k + i] & ~b[k + i];
+    if (any != 0) break;
+  }
+  while (k < words && (a[k] & ~b[k]) == 0) ++k;
+  return k;
+}
+
+PH_FOR_EACH_TARGET
 Lens lens(const Word* a, const Word* b, const Word* c, const Word* d, Word* out,
           std::size_t words) {
   Word any = 0, active = 0;
@@ -87,19 +100,6 @@ bool difference(Word* out, const Word* a, const Word* b, Word constant, const Wo
     any |= differs;
   }
   return any != 0;
-}
-
-PH_FOR_EACH_TARGET
-std::size_t first_outside(const Word* a, const Word* b, std::size_t first, std::size_t words) {
-  constexpr std::size_t kBlock = 8;
-  std::size_t k = first;
-  for (; k + kBlock <= words; k += kBlock) {
-    Word any = 0;
-    for (std::size_t i = 0; i < kBlock; ++i) any |= a[k + i] & ~b[k + i];
-    if (any != 0) break;
-  }
-  while (k < words && (a[k] & ~b[k]) == 0) ++k;
-  return k;
 }
 
 }  // namespace ph::bits

@@ -28,7 +28,7 @@ enum class CollapseLayout {
 /// come first: so the cells that an engine reports for a bar of positive length have the diameter
 /// that the bar says, and its cycles are born and die in the flag complex of `graph` as it says.
 ///
-/// Takes collapse_bytes() and up to 56 bytes for each edge kept, of which 16 stay.
+/// Takes collapse_bytes() and up to 64 bytes for each edge kept, of which 16 stay.
 /// @throws Error (cancelled) on a stop request; Error (resource) beyond the memory limit.
 RipsGraph collapse_edges(const RipsGraph& graph, const RunContext& context = default_context(),
                          CollapseLayout layout = CollapseLayout::automatic);

@@ -37,6 +37,9 @@ inline constexpr std::size_t kNone = SIZE_MAX;
 /// The first bit that `a` and `b` share; kNone if there is none.
 std::size_t first_common(const Word* a, const Word* b, std::size_t words);
 
+/// The first word from `first` on with a bit of `a` that `b` has not; `words` if there is none.
+std::size_t first_outside(const Word* a, const Word* b, std::size_t first, std::size_t words);
+
 struct Lens {
   bool is_empty;
   bool touches_active;
@@ -59,9 +62,6 @@ std::size_t count_common(const Word* a, const Word* b, std::size_t words);
 /// out = a ^ b ^ constant on the mask, unchanged elsewhere. @return whether that is not zero.
 bool difference(Word* out, const Word* a, const Word* b, Word constant, const Word* mask,
                 std::size_t words);
-
-/// The first word from `first` on with a bit of `a` that `b` has not; `words` if there is none.
-std::size_t first_outside(const Word* a, const Word* b, std::size_t first, std::size_t words);
 
 /// Calls `visit(bit)` for each bit set, ascending.
 template <class Visit>
