@@ -8,7 +8,7 @@ namespace {
 
 RipsGraph graph_of_all_points(const Points& points, const RipsOptions& options,
                               const RunContext& context) {
-  if (options.distance == PointDistance::euclidean && options.threshold && points.cols() <= 8) {
+  if (options.distance == PointDistance::euclidean && options.threshold && points.cols() <= 32) {
     return RipsGraph::of_points_within(points, *options.threshold, context);
   }
   return RipsGraph::of_metric(PointMetric(points, options.distance, options.minkowski_p),

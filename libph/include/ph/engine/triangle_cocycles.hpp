@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <algorithm>
+#include <concepts>
 #include <cstdint>
 #include <memory_resource>
 #include <span>
@@ -40,12 +41,13 @@ class LinkCochain {
           blocks(blocks_),
           most_terms(most_terms_ * FieldRow<K>::kUnitsPerBlock * sizeof(Unit) / sizeof(Word)),
           rows(blocks_, memory),
-          merged(memory) {}
+          merged(memory),
+          row(memory) {}
     const K& field;
     std::size_t blocks;
     std::size_t most_terms;  // of a list; more become rows, later where these are wider than bits
     RowPool<K> rows;
-    std::pmr::vector<Term> merged;
+    std::pmr::vector<Term> merged, row;
   };
 
   explicit LinkCochain(std::pmr::memory_resource* memory)
@@ -63,6 +65,8 @@ class LinkCochain {
 
   void add(std::span<const Term> terms, Shared& shared);
   void add(const LinkCochain& other, Element scale, Shared& shared);
+  /// f(b,.) += scale * row.
+  void add_row(Vertex b, const Unit* row, Element scale, Shared& shared);
   /// Makes it zero and gives back what it held.
   void clear(Shared& shared);
   /// Calls `visit(smaller, larger, value)`.
@@ -73,6 +77,8 @@ class LinkCochain {
   bool has_row(Vertex b) const { return present_[b / 64] >> (b % 64) & 1; }
   Unit* made_row(Vertex b, Shared& shared);
   void add_pair(const Term& t, Shared& shared);
+  /// shared.merged = terms_ + terms.
+  void merge(std::span<const Term> terms, Shared& shared);
   void make_dense(Shared& shared);
   void drop_zero_rows(Shared& shared);
 
@@ -104,8 +110,7 @@ class TriangleCocycles {
         links_(memory),
         free_(memory),
         at_(vertices, memory),
-        vertices_(memory),
-        star_(memory) {}
+        vertices_(memory) {}
 
   Generator add_generator() {
     vertices_.emplace_back();
@@ -141,7 +146,6 @@ class TriangleCocycles {
   std::pmr::vector<std::uint32_t> free_;  // of links_
   std::pmr::vector<std::pmr::vector<At>> at_;
   std::pmr::vector<std::pmr::vector<Vertex>> vertices_;  // by generator: where it has links
-  std::pmr::vector<typename Link::Term> star_;
 };
 
 template <Field K>
@@ -191,22 +195,55 @@ void LinkCochain<K>::add(std::span<const Term> terms, Shared& shared) {
       return;
     }
   }
-  auto& merged = shared.merged;
-  merged.clear();
-  auto own = terms_.begin();
-  for (const Term& t : terms) {
-    for (; own != terms_.end() && own->cell < t.cell; ++own) merged.push_back(*own);
-    if (own == terms_.end() || own->cell != t.cell) {
-      merged.push_back(t);
-      continue;
-    }
-    const Element sum = shared.field.add(own->coefficient(), t.coefficient());
-    if (!shared.field.is_zero(sum)) merged.emplace_back(t.cell, sum);
-    ++own;
-  }
-  merged.insert(merged.end(), own, terms_.end());
-  terms_.assign(merged.begin(), merged.end());
+  merge(terms, shared);
+  terms_.assign(shared.merged.begin(), shared.merged.end());
   if (terms_.size() > shared.most_terms) make_dense(shared);
+}
+
+template <Field K>
+void LinkCochain<K>::merge(std::span<const Term> terms, Shared& shared) {
+  auto& merged = shared.merged;
+  merged.resize(terms_.size() + terms.size());
+  const Term *i = terms_.data(), *const end = i + terms_.size();
+  const Term *j = terms.data(), *const last = j + terms.size();
+  Term* out = merged.data();
+  while (i != end && j != last) {
+    if constexpr (std::same_as<K, Z2>) {  // which comes first is anyone's guess: no branches
+      const std::uint32_t a = i->cell, b = j->cell;
+      *out = a < b ? *i : *j;
+      out += a != b ? 1 : 0;
+      i += a <= b ? 1 : 0;
+      j += b <= a ? 1 : 0;
+    } else if (i->cell != j->cell) {
+      *out++ = i->cell < j->cell ? *i++ : *j++;
+    } else {
+      const Element sum = shared.field.add(i->coefficient(), (j++)->coefficient());
+      if (!shared.field.is_zero(sum)) *out++ = Term(i->cell, sum);
+      ++i;
+    }
+  }
+  out = std::copy(j, last, std::copy(i, end, out));
+  merged.resize(static_cast<std::size_t>(out - merged.data()));
+}
+
+template <Field K>
+void LinkCochain<K>::add_row(Vertex b, const Unit* row, Element scale, Shared& shared) {
+  const K& field = shared.field;
+  if (!is_dense()) {
+    auto& terms = shared.row;
+    terms.clear();
+    Row::for_each(row, shared.blocks, [&](std::size_t other, Element a) {
+      const auto c = static_cast<Vertex>(other);
+      const Element value = field.multiply(scale, a);
+      terms.emplace_back(pair(std::max(b, c), std::min(b, c)), b < c ? value : field.negate(value));
+    });
+    return add(terms, shared);
+  }
+  Row::add(made_row(b, shared), row, scale, field, shared.blocks);
+  const Element opposite = field.negate(scale);
+  Row::for_each(row, shared.blocks, [&](std::size_t c, Element a) {
+    Row::add_at(made_row(static_cast<Vertex>(c), shared), b, field.multiply(opposite, a), field);
+  });
 }
 
 template <Field K>
@@ -292,19 +329,9 @@ template <Field K>
 void TriangleCocycles<K>::add_star(Generator g, Vertex u, Vertex v, const Unit* star) {
   using Term = typename Link::Term;
   const K& field = shared_.field;
-  // phi(u,v,w) = phi(v,w,u) = phi(w,u,v) = -phi(v,u,w)
-  const auto collect = [&](Vertex other, bool negated) {
-    star_.clear();
-    FieldRow<K>::for_each(star, shared_.blocks, [&](std::size_t apex, Element a) {
-      const auto w = static_cast<Vertex>(apex);
-      const std::uint32_t pair = Link::pair(std::max(other, w), std::min(other, w));
-      star_.emplace_back(pair, (other < w) != negated ? a : field.negate(a));
-    });
-  };
-  collect(v, false);
-  made_link(g, u).add(star_, shared_);
-  collect(u, true);
-  made_link(g, v).add(star_, shared_);
+  // phi(u,v,w) = phi(w,u,v) = -phi(v,u,w)
+  made_link(g, u).add_row(v, star, field.from_int(1), shared_);
+  made_link(g, v).add_row(u, star, field.from_int(-1), shared_);
   FieldRow<K>::for_each(star, shared_.blocks, [&](std::size_t apex, Element a) {
     const Term only(Link::pair(u, v), field.negate(a));
     made_link(g, static_cast<Vertex>(apex)).add({&only, 1}, shared_);
