@@ -337,8 +337,7 @@ void check_together(Arguments& a, const std::vector<PlotKind>& kinds) {
   if (std::count(a.inputs.begin(), a.inputs.end(), "-") > 1)
     reject("INPUT: standard input can be read once only");
   const Engine engine = a.options.engine;
-  if (a.options.representatives != Representatives::none &&
-      (engine == Engine::standard || engine == Engine::union_find))
+  if (a.options.representatives != Representatives::none && engine == Engine::standard)
     reject(
         fmt::format("--engine: found {}, which gives no representatives; expected auto, twist or "
                     "cohomology",

@@ -118,9 +118,14 @@ class Builder {
   template <class Data>
   BuiltComplex rips(const Data& data, bool empty) const {
     RipsOptions options = arguments_.rips;
+    const Options& wanted = arguments_.options;
     options.threshold = arguments_.threshold;
-    options.merge_equal_points = arguments_.options.min_persistence >= 0 &&
-                                 arguments_.options.representatives != Representatives::cocycles;
+    // The oracle checks the whole filtration; an engine asked for by name has its reasons.
+    options.only_components =
+        wanted.max_dim == 0 && !arguments_.check &&
+        (wanted.engine == Engine::automatic || wanted.engine == Engine::union_find);
+    options.merge_equal_points = !options.only_components && wanted.min_persistence >= 0 &&
+                                 wanted.representatives != Representatives::cocycles;
     if (options.threshold && *options.threshold < 0)
       throw Error(ErrorKind::usage, fmt::format("--threshold: found {}, expected a distance, at "
                                                 "least 0",

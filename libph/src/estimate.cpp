@@ -137,12 +137,13 @@ Estimate estimate_of_collapsed(const Rips& rips, int max_dim, const detail::Engi
 
 Estimate estimate_of_rips(const Rips& rips, const Options& options, const RunContext& context) {
   Options rips_options = options;
-  rips_options.max_dim = detail::checked_max_dim(options.max_dim.value_or(1));
+  rips_options.max_dim = detail::rips_max_dim(rips, options);
   const detail::CollapseChoice choice = detail::choose_collapse(rips, rips_options, context);
   Estimate e = choice.collapses ? estimate_of_collapsed(rips, *rips_options.max_dim, choice.engine)
                                 : rips.with_filtration(*rips_options.max_dim, [&](const auto& f) {
                                     return estimate_of(rips, detail::plan(f, rips_options));
                                   });
+  if (rips.has_only_components()) e.reason += "; a spanning forest knows them";
   e.collapses = choice.collapses;
   e.collapse_reason = choice.reason;
   return e;

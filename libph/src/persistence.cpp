@@ -24,9 +24,21 @@ int detail::checked_max_dim(int max_dim) {
   return max_dim;
 }
 
+int detail::rips_max_dim(const Rips& rips, const Options& options) {
+  const bool only_components = rips.has_only_components();
+  const int max_dim = checked_max_dim(options.max_dim.value_or(only_components ? 0 : 1));
+  if (only_components && max_dim > 0) {
+    throw Error(ErrorKind::usage,
+                fmt::format("highest dimension: found {}, expected 0: of this Rips filtration only "
+                            "the components are there",
+                            max_dim));
+  }
+  return max_dim;
+}
+
 Barcode persistence(const Rips& rips, const Options& options, const RunContext& context) {
   Options rips_options = options;
-  rips_options.max_dim = detail::checked_max_dim(options.max_dim.value_or(1));
+  rips_options.max_dim = detail::rips_max_dim(rips, options);
   const detail::CollapseChoice choice = detail::choose_collapse(rips, rips_options, context);
   rips_options.collapse = Collapse::off;  // done here or not at all
   const auto compute = [&](const Rips& complex) {

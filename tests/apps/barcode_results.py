@@ -57,6 +57,27 @@ class Formats(ProgramTest):
         self.assertEqual(result["bars"][4]["birth_cell"], {"vertices": [0, 3]})
         self.assertEqual(result["bars"][4]["death_cell"], {"vertices": [0, 2, 3]})
 
+    def test_components_alone_need_a_spanning_forest_only(self):
+        expected = [line for line in SQUARE_CSV.splitlines(keepends=True) if line[0] != "1"]
+        run = self.expect(0, "square.txt", "--max-dim", "0", "--verbose")
+        self.assertEqual(run.stdout, "".join(expected))
+        self.assertIn("engine union_find: only components are asked for; a spanning forest",
+                      run.stderr)
+        run = self.expect(0, "square.txt", "--max-dim", "0", "--dry-run")
+        self.assertIn("dimension 1: at most 3\n", run.stdout)
+        for others in (["--check"], ["--engine", "standard"], ["--engine", "cohomology"],
+                       ["--metric", "hamming"]):
+            run = self.expect(0, "square.txt", "--max-dim", "0", "--verbose", *others)
+            self.assertEqual("spanning forest" in run.stderr, "--metric" in others)
+            self.assertEqual(run.stdout == "".join(expected), "--metric" not in others)
+
+    def test_components_have_representatives(self):
+        for kind, sizes in (("cycles", [2, 2, 2, 1]), ("cocycles", [1, 1, 1, 4])):
+            self.expect(0, "square.txt", "--max-dim", "0", "--representatives", kind, "-o",
+                        "out.json")
+            bars = json.loads(self.read("out.json"))["bars"]
+            self.assertEqual([len(b["representative"]) for b in bars], sizes)
+
     def test_json_of_image_and_matrix_name_their_cells(self):
         self.write("image.npy", npy((1, 3), [0, 2, 1]))
         bars = json.loads(self.expect(0, "image.npy", "--output-format", "json").stdout)["bars"]

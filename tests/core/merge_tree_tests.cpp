@@ -198,6 +198,28 @@ TEST(MergeTrees, ThePointsEdgesAreAMinimumSpanningTree) {
   }
 }
 
+TEST(MergeTrees, LinkageNumbersClustersAsTheyAreMade) {
+  Points points(6, 1);
+  points << 0, 1, 10, 12, 1.5, 30;
+  const auto rows = linkage(merge_tree(Rips(points, {.only_components = true})));
+  EXPECT_EQ(rows, (std::vector<LinkageRow>{
+                      {1, 4, 0.5, 2}, {0, 6, 1, 3}, {2, 3, 2, 2}, {7, 8, 8.5, 5}, {5, 9, 18, 6}}));
+  EXPECT_EQ(linkage(merge_tree(Rips(points, {.threshold = 1, .only_components = true}))),
+            std::vector<LinkageRow>(rows.begin(), rows.begin() + 2));
+}
+
+TEST(MergeTrees, ASpanningForestGivesTheSameTree) {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    Generator random(seed);
+    const Points points = random.points(random.integer(0, 20), random.integer(1, 3), random.coin());
+    RipsOptions options;
+    if (random.coin()) options.threshold = random.value(true);
+    const MergeTree whole = merge_tree(Rips(points, options));
+    options.only_components = true;
+    EXPECT_EQ(merge_tree(Rips(points, options)).merges, whole.merges) << "seed " << seed;
+  }
+}
+
 TEST(MergeTrees, OfNothing) {
   EXPECT_EQ(merge_tree(Rips(Points(0, 2))).size(), 0);
   EXPECT_EQ(merge_tree(Cubical(Image{})).size(), 0);

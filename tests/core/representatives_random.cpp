@@ -34,6 +34,27 @@ TEST(RandomRepresentatives, RipsSurfaces) {
   });
 }
 
+TEST(RandomRepresentatives, ComponentsOfAForestAreThoseOfTheWholeFiltration) {
+  for_each_seed(1200, [](Generator& random, bool ties, std::int64_t field) {
+    const Points points = random.points(random.integer(1, 9), random.integer(1, 3), ties);
+    RipsOptions options;
+    if (random.coin()) options.threshold = ties ? random.integer(1, 3) : random.real();
+    const Rips whole(points, options);
+    options.only_components = true;
+    const Rips forest(points, options);
+    whole.with_filtration(0, [&]<class F>(const F& f) {
+      const OrderedCells<F> cells(f, 1, field);
+      for (const auto wanted : {Representatives::cycles, Representatives::cocycles}) {
+        const Barcode bars =
+            persistence(forest, {.field = field, .min_persistence = -1, .representatives = wanted});
+        for (std::size_t i = 0; i < bars.size(); ++i)
+          wanted == Representatives::cycles ? check_cycle(cells, bars, i)
+                                            : check_cocycle(cells, bars, i);
+      }
+    });
+  });
+}
+
 TEST(RandomRepresentatives, Cubical) {
   for_each_seed(400, [](Generator& random, bool ties, std::int64_t field) {
     std::vector<Index> extents;

@@ -52,7 +52,7 @@ BARCODE = [
     *((49, ["--representatives", "cycles", "--output-format", name], "found output format " + name)
       for name in ("csv", "ripser", "pers", "dipha", "npy")),
     *((49, ["--representatives", "cycles", "--output-format", "json", "--max-dim", "0", "--engine",
-            name], "--engine: found " + name) for name in ("standard", "union_find")),
+            name], "--engine: found " + name) for name in ("standard",)),
     (49, ["--collapse", "maybe"], "--collapse"),
     (49, ["--collapse", "on", "--min-persistence=-1"], "--collapse"),
     (49, ["--collapse", "on", "--representatives", "cocycles", "--output-format", "json"],

@@ -26,6 +26,9 @@ CUBICAL = "libph/src/complex/cubical.cpp"
 RIPS = "libph/include/ph/complex/rips_filtration.hpp"
 GRAPH = "libph/include/ph/complex/rips_graph.hpp"
 GRAPH_CPP = "libph/src/complex/rips_graph.cpp"
+FOREST = "libph/src/metric/spanning_forest.cpp"
+FOREST_PRIM = "libph/include/ph/metric/spanning_forest.hpp"
+SEARCH = "libph/src/metric/neighbour_search.cpp"
 ANNOTATIONS = "libph/include/ph/engine/annotations.hpp"
 REDUCTION = "libph/include/ph/engine/reduction.hpp"
 COLLAPSE = "libph/src/complex/edge_collapse.cpp"
@@ -59,7 +62,7 @@ MUTANTS = [
     ("rips: enclosing radius halved", GRAPH,
      "threshold.value_or(radius);", "threshold.value_or(radius / 2);", ["invariance_tests"]),
     ("rips: threshold exclusive", GRAPH, "if (d <= last)", "if (d < last)", ["invariance_tests"]),
-    ("edges: ties turned round", "libph/src/complex/edge_sorter.cpp",
+    ("edges: ties turned round", "libph/include/ph/core/filtration.hpp",
      "return a.u != b.u ? a.u < b.u : a.v < b.v;", "return a.u != b.u ? a.u > b.u : a.v > b.v;",
      ["rips_tests"]),
     ("lens: birth of the oldest generator", ANNOTATIONS,
@@ -99,6 +102,27 @@ MUTANTS = [
     ("collapse: zero-length bars are lost in silence", "libph/src/persistence/collapse_choice.cpp",
      "if (options.min_persistence < 0)", "if (options.min_persistence < -9)",
      ["edge_collapse_tests"]),
+    ("forest: threshold exclusive", FOREST_PRIM,
+     "if (first.value <= limit &&", "if (first.value < limit &&", ["components_tests"]),
+    ("forest: copies joined one to the next", FOREST,
+     "forest.push_back({0.0, i, first_equal[i]});", "forest.push_back({0.0, i, i - 1});",
+     ["components_tests"]),
+    ("forest: neighbours known are all there are", FOREST,
+     "if (point.place == kKnown) point.knows = Knows::lower_bound;",
+     "if (point.place == kKnown) point = {{limit_, kNone}, kKnown, Knows::lower_bound};",
+     ["components_tests"]),
+    ("forest: bounds that tie are never asked", FOREST,
+     "return best == kNone || precedes(p, best);", "return best == kNone;",
+     ["components_tests"]),
+    ("forest: a leaf is of its first point's component", FOREST,
+     "if (component_[p] != first) return Parts::kMixed;", "if (p == tree_.size()) return Parts::kMixed;",
+     ["components_tests"]),
+    ("search: ties by the order of the tree", SEARCH,
+     "tree_.rows()[a.position] < tree_.rows()[b.position]", "a.position < b.position",
+     ["components_tests"]),
+    ("search: no room for rounding", SEARCH,
+     "return 1 + 4e-16 * static_cast<double>(axes + 8);",
+     "return 1 - 4e-16 * static_cast<double>(axes + 8);", ["components_tests"]),
     ("rips: threshold ignored for sparse distances", GRAPH_CPP,
      "if (e.value > limit || e.value == kNoLimit) continue;",
      "if (e.value == kNoLimit) continue;", ["rips_tests"]),
@@ -174,7 +198,8 @@ def write_build(tree, programs):
     text += f"build o/libph.a: archive {' '.join(library)}\n"
     for program in programs:
         text += f"build o/{program}.o: compile tests/core/{program}.cpp\n"
-        extra = "o/estimate.o" if program == "persistence_tests" else ""  # nobody else asks for it
+        asks_for_estimate = program in ("persistence_tests", "components_tests")
+        extra = "o/estimate.o" if asks_for_estimate else ""
         text += f"build {program}: link o/{program}.o {extra} o/libph.a\n"
     (tree / "build.ninja").write_text(text)
 

@@ -10,11 +10,6 @@
 namespace ph {
 namespace {
 
-bool comes_before(const FlagEdge& a, const FlagEdge& b) {
-  if (a.value != b.value) return a.value < b.value;
-  return a.u != b.u ? a.u < b.u : a.v < b.v;
-}
-
 // Sorts edges whose values share the bits from `shift` on: once more into bins by the next bits,
 // until there are few in each.
 void sort_bin(std::span<FlagEdge> edges, int shift, std::pmr::vector<FlagEdge>& buffer) {
@@ -22,8 +17,8 @@ void sort_bin(std::span<FlagEdge> edges, int shift, std::pmr::vector<FlagEdge>& 
   constexpr int digit_bits = 11;
   // Ties arrive in order from a matrix: integers are sorted when they come.
   if (edges.size() <= few || shift < digit_bits ||
-      std::is_sorted(edges.begin(), edges.end(), comes_before)) {
-    std::sort(edges.begin(), edges.end(), comes_before);
+      std::is_sorted(edges.begin(), edges.end(), precedes)) {
+    std::sort(edges.begin(), edges.end(), precedes);
     return;
   }
   const int next_shift = shift - digit_bits;

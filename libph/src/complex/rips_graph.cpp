@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "ph/core/disjoint_sets.hpp"
 #include "ph/core/error.hpp"
 #include "ph/metric/pairs_within.hpp"
 
@@ -66,6 +67,36 @@ RipsGraph RipsGraph::with_edges(const RipsGraph& graph, std::pmr::vector<FlagEdg
   RipsGraph result(graph.size_, graph.threshold_, std::move(edges), context);
   result.names_ = graph.names_;
   return result;
+}
+
+RipsGraph RipsGraph::forest_of_points(const Points& points, PointDistance distance, double p,
+                                      std::optional<double> threshold, const RunContext& context) {
+  check_arguments(points.rows(), threshold);
+  const double limit = threshold.value_or(kNoLimit);
+  return of_forest(points.rows(), limit, spanning_forest(points, distance, p, limit, context),
+                   context);
+}
+
+RipsGraph RipsGraph::forest_of_edges(Index size, std::span<const WeightedEdge> edges,
+                                     std::optional<double> threshold, const RunContext& context) {
+  RipsGraph graph = of_edges(size, edges, threshold, context);
+  DisjointSets sets(static_cast<std::size_t>(size), &context.memory);
+  std::erase_if(graph.edges_, [&](const FlagEdge& e) {  // Kruskal's algorithm
+    const std::uint32_t a = sets.find(e.u), b = sets.find(e.v);
+    if (a != b) sets.link(a, b);
+    return a == b;
+  });
+  graph.edges_.shrink_to_fit();
+  graph.is_forest_ = true;
+  return graph;
+}
+
+RipsGraph RipsGraph::of_forest(Index size, double limit, std::pmr::vector<FlagEdge>&& forest,
+                               const RunContext& context) {
+  sort_edges(forest, context);
+  RipsGraph graph(size, limit, std::move(forest), context);
+  graph.is_forest_ = true;
+  return graph;
 }
 
 RipsGraph::RipsGraph(Index size, double threshold, std::pmr::vector<FlagEdge>&& edges,

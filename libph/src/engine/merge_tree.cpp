@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "ph/engine/merge_tree.hpp"
 
+#include <algorithm>
 #include <concepts>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -73,6 +75,20 @@ std::vector<Index> MergeTree::components(double value) const {
     }
   }
   return parent;
+}
+
+std::vector<LinkageRow> linkage(const MergeTree& tree) {
+  std::vector<Index> cluster(tree.births.size());  // by the vertex that gave birth to it
+  std::iota(cluster.begin(), cluster.end(), Index{0});
+  std::vector<LinkageRow> rows;
+  rows.reserve(tree.merges.size());
+  for (const Merge& m : tree.merges) {
+    Index& elder = cluster[static_cast<std::size_t>(m.elder)];
+    const auto [first, second] = std::minmax({elder, cluster[static_cast<std::size_t>(m.younger)]});
+    rows.push_back({first, second, m.value, m.elder_size + m.younger_size});
+    elder = tree.size() + static_cast<Index>(rows.size()) - 1;
+  }
+  return rows;
 }
 
 MergeTree merge_tree(const Rips& rips, const RunContext& context) {

@@ -7,8 +7,8 @@
 
 namespace ph {
 
-std::pmr::vector<std::uint32_t> first_of_equal_points(const Points& points,
-                                                      const RunContext& context) {
+std::pmr::vector<std::uint32_t> first_equal_points(const Points& points,
+                                                   const RunContext& context) {
   const auto row = [&](std::uint32_t i) {
     return std::span(points.data() + Index{i} * points.cols(),
                      static_cast<std::size_t>(points.cols()));
@@ -33,8 +33,7 @@ std::pmr::vector<std::uint32_t> first_of_equal_points(const Points& points,
   std::sort(order.begin(), order.end());
   context.poll();
 
-  std::pmr::vector<std::uint32_t> firsts(&context.memory);
-  firsts.reserve(order.size());
+  std::pmr::vector<std::uint32_t> first(order.size(), &context.memory);
   const auto same_hash = [](const Hashed& a, const Hashed& b) { return a.hash == b.hash; };
   for (auto run = order.begin(); run != order.end();) {
     const auto end =
@@ -43,13 +42,21 @@ std::pmr::vector<std::uint32_t> first_of_equal_points(const Points& points,
     std::stable_sort(run, end, [&](const Hashed& a, const Hashed& b) {
       return std::ranges::lexicographical_compare(row(a.number), row(b.number));
     });
-    for (auto it = run; it != end; ++it)
-      if (it == run || !std::ranges::equal(row(it->number), row((it - 1)->number)))
-        firsts.push_back(it->number);
+    for (auto it = run; it != end; ++it) {
+      const bool is_copy = it != run && std::ranges::equal(row(it->number), row((it - 1)->number));
+      first[it->number] = is_copy ? first[(it - 1)->number] : it->number;
+    }
     run = end;
   }
-  std::sort(firsts.begin(), firsts.end());
-  return firsts;
+  return first;
+}
+
+std::pmr::vector<std::uint32_t> distinct_points(std::span<const std::uint32_t> first_equal,
+                                                const RunContext& context) {
+  std::pmr::vector<std::uint32_t> distinct(&context.memory);
+  for (std::uint32_t i = 0; i < first_equal.size(); ++i)
+    if (first_equal[i] == i) distinct.push_back(i);
+  return distinct;
 }
 
 }  // namespace ph

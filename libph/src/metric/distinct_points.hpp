@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <memory_resource>
+#include <span>
 #include <vector>
 
 #include "ph/core/run_context.hpp"
@@ -9,9 +10,13 @@
 
 namespace ph {
 
-/// The first point of each class of equal ones, ascending. O(n log n).
+/// By point: the first one that is equal to it, which may be itself. O(n log n).
 /// @param points fewer than 2^32 of them, finite; -0 equals +0.
-std::pmr::vector<std::uint32_t> first_of_equal_points(const Points& points,
-                                                      const RunContext& context);
+std::pmr::vector<std::uint32_t> first_equal_points(const Points& points, const RunContext& context);
+
+/// The first point of each class of equal ones, ascending.
+/// @param first_equal from `first_equal_points`.
+std::pmr::vector<std::uint32_t> distinct_points(std::span<const std::uint32_t> first_equal,
+                                                const RunContext& context);
 
 }  // namespace ph

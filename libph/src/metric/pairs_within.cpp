@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nanoflann.hpp>
 #include <utility>
 #include <vector>
@@ -103,7 +104,9 @@ void for_each_pair_within(const Points& points, double radius, const Visit& visi
     const int exponent = -std::ilogb(reach);
     const auto scale = [=](double x) { return std::scalbn(x, exponent); };
     const Points scaled = points.unaryExpr(scale);
-    visit_in({scaled, std::min(scale(radius), kLargestPlain), true});
+    // Distances that are denormal themselves were rounded, by half of the least one at most.
+    const double reachable = radius + std::numeric_limits<double>::denorm_min();
+    visit_in({scaled, std::min(scale(reachable), kLargestPlain), true});
   }
 }
 

@@ -25,6 +25,11 @@ struct RipsOptions {
   /// cost nothing, where each pair of them would be an edge. Cycles stay cycles of all points;
   /// cocycles are those of the distinct points and say nothing about the copies.
   bool merge_equal_points = false;
+  /// Only a minimum spanning forest is held: enough for H0, cell by cell, and for merge trees, and
+  /// nothing else can be computed. Points of few dimensions take near-linear time (Euclidean,
+  /// Manhattan, Chebyshev, Minkowski), all else O(n) memory beside the input. Without a threshold
+  /// there is none: no enclosing radius is looked for.
+  bool only_components = false;
 };
 
 /// The Vietoris-Rips filtration of a finite set with distances: a simplex enters at its diameter,
@@ -49,7 +54,9 @@ class Rips {
       explicit Rips(const M& metric, const RipsOptions& options = {},
                     const RunContext& context = default_context())
       : graph_(std::make_shared<const RipsGraph>(
-            RipsGraph::of_metric(metric, options.threshold, context))) {}
+            options.only_components
+                ? RipsGraph::forest_of_metric(metric, options.threshold, context)
+                : RipsGraph::of_metric(metric, options.threshold, context))) {}
 
   /// The flag complex of any graph.
   explicit Rips(RipsGraph&& graph) : graph_(std::make_shared<const RipsGraph>(std::move(graph))) {}
@@ -59,6 +66,8 @@ class Rips {
   /// The largest distance at which two points are joined: the given one or the enclosing radius.
   double threshold() const { return graph_->threshold(); }
   std::size_t edge_count() const { return graph_->edge_count(); }
+  /// As asked for in RipsOptions.
+  bool has_only_components() const { return graph_->is_forest(); }
 
   /// Calls `use(filtration)` with the representation whose cells are small enough for homology up
   /// to `max_dim`. @throws Error (resource) if simplices of dimension max_dim + 1 have too many

@@ -17,6 +17,7 @@
 #include "ph/core/filtration.hpp"
 #include "ph/core/run_context.hpp"
 #include "ph/metric/metric.hpp"
+#include "ph/metric/spanning_forest.hpp"
 #include "ph/metric/sparse_distances.hpp"
 
 namespace ph {
@@ -45,6 +46,17 @@ class RipsGraph {
   static RipsGraph with_edges(const RipsGraph& graph, std::pmr::vector<FlagEdge>&& edges,
                               const RunContext& context);
 
+  /// Only a minimum spanning forest, which has the components of the whole graph at every distance.
+  /// Without a threshold there is none. Evaluates each distance once and keeps O(n) memory.
+  template <Metric M>
+  static RipsGraph forest_of_metric(const M& metric, std::optional<double> threshold,
+                                    const RunContext& context);
+  /// The same in near-linear time. Precondition: has_fast_spanning_forest(points, distance).
+  static RipsGraph forest_of_points(const Points& points, PointDistance distance, double p,
+                                    std::optional<double> threshold, const RunContext& context);
+  static RipsGraph forest_of_edges(Index size, std::span<const WeightedEdge> edges,
+                                   std::optional<double> threshold, const RunContext& context);
+
   /// @throws Error (resource) if there are too many points for a Rips filtration.
   static void check_size(Index size);
 
@@ -55,6 +67,8 @@ class RipsGraph {
   /// @param names one a vertex, ascending.
   void name_vertices(std::pmr::vector<std::uint32_t> names) { names_ = std::move(names); }
   std::size_t edge_count() const { return edges_.size(); }
+  /// Whether only a spanning forest is held.
+  bool is_forest() const { return is_forest_; }
   double threshold() const { return threshold_; }
 
   const FlagEdge& edge(Key key) const { return edges_[key - 1]; }
@@ -89,15 +103,28 @@ class RipsGraph {
   /// @param edges sorted.
   RipsGraph(Index size, double threshold, std::pmr::vector<FlagEdge>&& edges,
             const RunContext& context);
+  static RipsGraph of_forest(Index size, double limit, std::pmr::vector<FlagEdge>&& forest,
+                             const RunContext& context);
   static void check_arguments(Index size, std::optional<double> threshold);
   static double checked_distance(Index i, Index j, double value);
 
   Index size_ = 0;
   double threshold_ = 0;
+  bool is_forest_ = false;
   std::pmr::vector<FlagEdge> edges_;       // by key - 1
   std::pmr::vector<std::uint32_t> names_;  // by vertex; empty: its number
   std::unique_ptr<Lazy> lazy_ = std::make_unique<Lazy>();
 };
+
+template <Metric M>
+RipsGraph RipsGraph::forest_of_metric(const M& metric, std::optional<double> threshold,
+                                      const RunContext& context) {
+  const Index n = metric.size();
+  check_arguments(n, threshold);
+  const double limit = threshold.value_or(kNoLimit);
+  const auto distance_of = [&](Index i, Index j) { return checked_distance(i, j, metric(i, j)); };
+  return of_forest(n, limit, spanning_forest(n, distance_of, limit, context), context);
+}
 
 template <Metric M>
 RipsGraph RipsGraph::of_metric(const M& metric, std::optional<double> threshold,

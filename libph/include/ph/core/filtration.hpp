@@ -92,6 +92,11 @@ struct FlagEdge {
   double value;
   std::uint32_t u, v;
 };
+/// The order of edges in a flag filtration: (value, u, v).
+inline bool precedes(const FlagEdge& a, const FlagEdge& b) {
+  if (a.value != b.value) return a.value < b.value;
+  return a.u != b.u ? a.u < b.u : a.v < b.v;
+}
 
 /// Capability: the clique complex of a graph whose vertices enter first, in the order of their
 /// numbers 0 … vertex_count() - 1, and whose simplices enter with the last of their edges: by

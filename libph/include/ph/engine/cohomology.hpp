@@ -31,7 +31,10 @@ struct CohomologyEngine {
       int dim = 0;
       if constexpr (GraphFiltration<F>) {
         if (bars.representatives() == Representatives::none && is_graph_like(f)) {
-          reduction.set_cleared(pair_components(f, bars, context));
+          CellMap<F> killers(f, &context.memory);
+          join_components(f, field, bars, context,
+                          [&](const auto& edge) { killers.insert(edge, 0); });
+          reduction.set_cleared(std::move(killers));
           dim = 1;
         }
       }

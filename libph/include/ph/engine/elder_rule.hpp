@@ -7,29 +7,28 @@
 #include <utility>
 #include <vector>
 
+#include "ph/core/disjoint_sets.hpp"
 #include "ph/core/run_context.hpp"
 
 namespace ph {
 
-/// Disjoint sets of 0 … size-1 by rank-free linking with path halving. The caller decides which
-/// root survives.
-class DisjointSets {
+/// The vertices of each component, given by any of them: a ring for each.
+class ComponentRings {
  public:
-  DisjointSets(std::size_t size, std::pmr::memory_resource* memory) : parent_(size, memory) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
+  ComponentRings(std::size_t size, std::pmr::memory_resource* memory) : next_(size, memory) {
+    std::iota(next_.begin(), next_.end(), 0U);
   }
-  std::uint32_t find(std::uint32_t v) {
-    while (parent_[v] != v) {
-      parent_[v] = parent_[parent_[v]];
-      v = parent_[v];
-    }
-    return v;
+  /// Precondition: the vertices are in different components.
+  void join(std::uint32_t u, std::uint32_t v) { std::swap(next_[u], next_[v]); }
+  template <class Visit>
+  void for_each(std::uint32_t of, Visit&& visit) const {
+    std::uint32_t v = of;
+    do visit(v);
+    while ((v = next_[v]) != of);
   }
-  /// Precondition: both are roots.
-  void link(std::uint32_t child, std::uint32_t root) { parent_[child] = root; }
 
  private:
-  std::pmr::vector<std::uint32_t> parent_;
+  std::pmr::vector<std::uint32_t> next_;
 };
 
 /// An edge of a filtered graph; the two ends of a loop are equal.

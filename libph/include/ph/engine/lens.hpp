@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <memory_resource>
-#include <numeric>
 #include <vector>
 
 #include "ph/core/barcode.hpp"
 #include "ph/core/chain.hpp"
 #include "ph/core/filtration.hpp"
+#include "ph/engine/elder_rule.hpp"
 #include "ph/engine/engine.hpp"
 #include "ph/engine/lens_sweep.hpp"
 
@@ -68,15 +68,13 @@ struct LensEngine {
           field_(field),
           bars_(bars),
           is_dead_(f.vertex_count(), false, &context.memory),
-          next_(is_dead_.size(), &context.memory),
-          terms_(&context.memory) {
-      std::iota(next_.begin(), next_.end(), Vertex{0});
-    }
+          components_(is_dead_.size(), &context.memory),
+          terms_(&context.memory) {}
 
     void on_join(Vertex elder, Vertex younger, Position edge) override {
       is_dead_[younger] = true;
       if (bars_.add_pair(0, f_.vertex_cell(younger), f_.edge_cell(edge))) give_component(younger);
-      std::swap(next_[elder], next_[younger]);  // two rings become one
+      components_.join(elder, younger);
     }
     void on_death(Position birth, Triangle death, EdgeValues cocycle) override {
       if (bars_.add_pair(1, f_.edge_cell(birth), f_.triangle_cell(death.edge, death.apex)))
@@ -103,11 +101,8 @@ struct LensEngine {
     void give_component(Vertex v) {
       if (bars_.representatives() == Representatives::none) return;
       terms_.clear();
-      Vertex w = v;
-      do {
-        terms_.emplace_back(f_.vertex_cell(w), field_.from_int(1));
-        w = next_[w];
-      } while (w != v);
+      components_.for_each(
+          v, [&](Vertex w) { terms_.emplace_back(f_.vertex_cell(w), field_.from_int(1)); });
       bars_.add_representative(0, terms_, field_);
     }
     void give_cocycle(EdgeValues cocycle) {
@@ -128,7 +123,7 @@ struct LensEngine {
     const K& field_;
     BarcodeBuilder<F>& bars_;
     std::pmr::vector<bool> is_dead_;
-    std::pmr::vector<Vertex> next_;  // a ring of the vertices of each component
+    ComponentRings components_;
     std::pmr::vector<Entry<typename F::Cell, K>> terms_;
   };
 };

@@ -30,7 +30,8 @@ struct Merge {
 
 /// H0 as a tree: how the components of the sublevel sets join as the value grows. For points under
 /// the Rips filtration this is the single-linkage dendrogram and `u`, `v` are the edges of the
-/// Euclidean minimum spanning tree.
+/// Euclidean minimum spanning tree (Gower & Ross 1969); RipsOptions::only_components makes it for
+/// millions of points.
 struct MergeTree {
   std::vector<double> births;  ///< by vertex; kInfinity for a vertex that never enters
   std::vector<Merge> merges;   ///< in the order of the filtration
@@ -40,6 +41,18 @@ struct MergeTree {
   /// (merges at values <= value done); -1 for a vertex that has not entered.
   std::vector<Index> components(double value) const;
 };
+
+/// A row of a linkage matrix: two clusters become one. Clusters 0 … n-1 are the vertices, cluster
+/// n + i is what row i makes.
+struct LinkageRow {
+  Index first = 0, second = 0;  ///< the clusters, the smaller number first
+  double value = 0;             ///< filtration value at which they join
+  Index size = 0;               ///< vertices of the new cluster
+  friend bool operator==(const LinkageRow&, const LinkageRow&) = default;
+};
+/// The merges in the form that programs for hierarchical clustering use (for one, SciPy's
+/// `cluster.hierarchy`): a row a merge, in order; n - 1 of them if all becomes one.
+std::vector<LinkageRow> linkage(const MergeTree& tree);
 
 /// The merge tree of a filtration. Vertices are numbered as in the input: points, voxels in C order
 /// (V-construction; grid corners in the T-construction), vertices of a complex in input order.

@@ -13,7 +13,8 @@
 namespace ph {
 
 /// The vertices and edges of a filtration, numbered and sorted for union-find. Vertices are
-/// numbered in the order in which the filtration visits them. Precondition:
+/// numbered in the order in which the filtration visits them, those of flag filtrations as there.
+/// Precondition:
 /// `filtration.edges_join_vertices()`.
 template <GraphFiltration F>
 struct OneSkeleton {
@@ -24,6 +25,34 @@ struct OneSkeleton {
         age(&context.memory),
         edges(&context.memory),
         ends(&context.memory) {
+    if constexpr (FlagFiltration<F>)
+      take_flag_graph(filtration);
+    else
+      collect(filtration, context);
+  }
+
+  std::pmr::vector<Cell> vertices;
+  std::pmr::vector<std::uint32_t> age;  ///< by vertex number: position in the order
+  std::pmr::vector<Cell> edges;         ///< in the order of the filtration
+  std::pmr::vector<GraphEdge> ends;     ///< by edge: vertex numbers; a loop joins 0 to 0
+
+ private:
+  void take_flag_graph(const F& filtration) {
+    const auto size = static_cast<std::uint32_t>(filtration.vertex_count());
+    vertices.reserve(size);
+    for (std::uint32_t v = 0; v < size; ++v) vertices.push_back(filtration.vertex_cell(v));
+    age.resize(size);
+    std::iota(age.begin(), age.end(), 0U);
+    const auto flag_edges = filtration.edges();
+    edges.reserve(flag_edges.size());
+    ends.reserve(flag_edges.size());
+    for (std::uint32_t e = 0; e < flag_edges.size(); ++e) {
+      edges.push_back(filtration.edge_cell(e));
+      ends.push_back({flag_edges[e].u, flag_edges[e].v});
+    }
+  }
+
+  void collect(const F& filtration, const RunContext& context) {
     const auto precedes = [&](const Cell& a, const Cell& b) { return filtration.precedes(a, b); };
     CellMap<F> number(filtration, &context.memory);
     filtration.for_each_cell(0, [&](const Cell& v) {
@@ -51,11 +80,6 @@ struct OneSkeleton {
       ends.push_back(count == 2 ? edge : GraphEdge{});
     }
   }
-
-  std::pmr::vector<Cell> vertices;
-  std::pmr::vector<std::uint32_t> age;  ///< by vertex number: position in the order
-  std::pmr::vector<Cell> edges;         ///< in the order of the filtration
-  std::pmr::vector<GraphEdge> ends;     ///< by edge: vertex numbers; a loop joins 0 to 0
 };
 
 }  // namespace ph

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <memory_resource>
 #include <vector>
 
 #include "ph/core/barcode.hpp"
+#include "ph/core/chain.hpp"
 #include "ph/core/error.hpp"
 #include "ph/core/field.hpp"
 #include "ph/engine/engine.hpp"
@@ -19,21 +21,43 @@ bool is_graph_like(const F& f) {
     return false;
 }
 
-/// Reports the pairs of H0. @return the edges that killed a component.
-template <GraphFiltration F>
-CellMap<F> pair_components(const F& f, BarcodeBuilder<F>& bars, const RunContext& context) {
+/// Reports the pairs of H0, with representatives where they are wanted: the cycle is the difference
+/// of the oldest vertices of the two components that join, the cocycle is one on the component that
+/// dies.
+/// @param on_killer called with each edge that kills a component.
+template <GraphFiltration F, Field K, class OnKiller>
+void join_components(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context,
+                     OnKiller&& on_killer) {
   const OneSkeleton<F> graph(f, context);
+  const Representatives wanted = bars.representatives();
   std::vector<bool> lives(graph.vertices.size(), true);
-  CellMap<F> killers(f, &context.memory);
+  ComponentRings components(wanted == Representatives::cocycles ? lives.size() : 0,
+                            &context.memory);
+  std::pmr::vector<Entry<typename F::Cell, K>> terms(&context.memory);
+  const auto give = [&](std::uint32_t v, const std::uint32_t* elder) {
+    if (wanted == Representatives::none) return;
+    terms.clear();
+    const auto add = [&](std::uint32_t w, int a) {
+      terms.emplace_back(graph.vertices[w], field.from_int(a));
+    };
+    if (wanted == Representatives::cocycles) {
+      components.for_each(v, [&](std::uint32_t w) { add(w, 1); });
+    } else {
+      add(v, 1);
+      if (elder) add(*elder, -1);
+    }
+    bars.add_representative(0, terms, field);
+  };
   join_by_elder_rule(graph.age, graph.ends, context,
-                     [&](std::size_t edge, std::uint32_t, std::uint32_t younger) {
+                     [&](std::size_t edge, std::uint32_t elder, std::uint32_t younger) {
                        lives[younger] = false;
-                       killers.insert(graph.edges[edge], younger);
-                       bars.add_pair(0, graph.vertices[younger], graph.edges[edge]);
+                       on_killer(graph.edges[edge]);
+                       if (bars.add_pair(0, graph.vertices[younger], graph.edges[edge]))
+                         give(younger, &elder);
+                       if (wanted == Representatives::cocycles) components.join(elder, younger);
                      });
-  for (std::size_t v = 0; v < lives.size(); ++v)
-    if (lives[v]) bars.add_essential(0, graph.vertices[v]);
-  return killers;
+  for (std::uint32_t v = 0; v < lives.size(); ++v)
+    if (lives[v] && bars.add_essential(0, graph.vertices[v])) give(v, nullptr);
 }
 
 /// H0 by union-find with the elder rule. See merge_tree.hpp for the whole tree.
@@ -41,13 +65,13 @@ struct UnionFindEngine {
   static constexpr Engine id = Engine::union_find;
   static constexpr const char* name = "union_find";
   template <Filtration F>
-  static bool can_run(const F& f, int max_dim, Representatives wanted = Representatives::none) {
-    return max_dim == 0 && wanted == Representatives::none && is_graph_like(f);
+  static bool can_run(const F& f, int max_dim, Representatives = Representatives::none) {
+    return max_dim == 0 && is_graph_like(f);
   }
 
   template <Filtration F, Field K>
-  static void run(const F& f, const K&, BarcodeBuilder<F>& bars, const RunContext& context) {
-    if constexpr (GraphFiltration<F>) pair_components(f, bars, context);
+  static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context) {
+    if constexpr (GraphFiltration<F>) join_components(f, field, bars, context, [](const auto&) {});
   }
 };
 

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Single-linkage clustering of many points: the merge tree, cut where it is widest.
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <numbers>
+#include <ph/engine/merge_tree.hpp>
+#include <ph/ph.hpp>
+
+int main() {
+  // Three spirals of 40 000 points each, one point after another.
+  constexpr ph::Index spirals = 3, length = 40000;
+  ph::Points points(spirals * length, 2);
+  for (ph::Index i = 0; i < points.rows(); ++i) {
+    const double t = 1 + static_cast<double>(i / spirals) / 4000;
+    const double angle = t + 2 * std::numbers::pi * static_cast<double>(i % spirals) / spirals;
+    points.row(i) << t * std::cos(angle), t * std::sin(angle);
+  }
+
+  // Only the components: no distance is computed that is not needed for them.
+  const ph::Rips rips(points, {.only_components = true});
+  const ph::MergeTree tree = ph::merge_tree(rips);
+  const auto rows = ph::linkage(tree);
+  std::cout << "last merges at " << rows[rows.size() - 2].value << " and " << rows.back().value
+            << ", the one before at " << rows[rows.size() - 3].value << "\n";
+
+  std::map<ph::Index, int> sizes;  // by the first point of each cluster
+  for (const ph::Index cluster : tree.components(rows[rows.size() - 3].value)) ++sizes[cluster];
+  for (const auto& [first, size] : sizes)
+    std::cout << "cluster of point " << first << ": " << size << " points\n";
+}

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <memory_resource>
+#include <numeric>
+#include <vector>
+
+namespace ph {
+
+/// Disjoint sets of 0 … size-1 by rank-free linking with path halving. The caller decides which
+/// root survives.
+class DisjointSets {
+ public:
+  DisjointSets(std::size_t size, std::pmr::memory_resource* memory) : parent_(size, memory) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+  }
+  std::uint32_t find(std::uint32_t v) {
+    while (parent_[v] != v) {
+      parent_[v] = parent_[parent_[v]];
+      v = parent_[v];
+    }
+    return v;
+  }
+  /// Precondition: both are roots.
+  void link(std::uint32_t child, std::uint32_t root) { parent_[child] = root; }
+
+ private:
+  std::pmr::vector<std::uint32_t> parent_;
+};
+
+}  // namespace ph

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "kd_tree.hpp"
+
+#include <algorithm>
+
+#include "ph/core/parallel.hpp"
+
+namespace ph {
+
+KdTree::KdTree(const Points& points, std::span<const std::uint32_t> rows, const RunContext& context)
+    : levels_(static_cast<int>(std::bit_width((rows.size() - 1) / kLeafSize))),
+      claim_(context.memory,
+             rows.size() * static_cast<std::size_t>(points.cols()) * sizeof(double)),
+      points_(static_cast<Index>(rows.size()), points.cols()),
+      rows_(rows.begin(), rows.end(), &context.memory),
+      boxes_(node_count() * box_size(), &context.memory) {
+  std::pmr::vector<Item> items(rows.size(), &context.memory);
+  for (std::size_t i = 0; i < items.size(); ++i) items[i].row = rows[i];
+  // The first levels one by one, then whatever hangs below each of their nodes; small trees are not
+  // worth a thread.
+  const int top = items.size() < 1 << 15 ? 0 : 6;
+  for (int level = 0; level <= top; ++level) {
+    const Node first = Node{1} << level;
+    for_each_piece("k-d tree", first, 1, context, [&](std::size_t i, std::size_t) {
+      const Node node = first + static_cast<Node>(i);
+      if (level < top)
+        split(node, points, items);
+      else
+        split_below(node, points, items);
+    });
+  }
+  for_each_piece("k-d tree", items.size(), 1 << 16, context,
+                 [&](std::size_t begin, std::size_t end) {
+                   for (std::size_t i = begin; i < end; ++i) {
+                     rows_[i] = items[i].row;
+                     points_.row(static_cast<Index>(i)) = points.row(items[i].row);
+                   }
+                 });
+}
+
+void KdTree::split_below(Node node, const Points& points, std::span<Item> items) {
+  split(node, points, items);
+  if (is_leaf(node)) return;
+  split_below(2 * node, points, items);
+  split_below(2 * node + 1, points, items);
+}
+
+void KdTree::split(Node node, const Points& points, std::span<Item> items) {
+  const std::span<Item> mine = items.subspan(begin(node), end(node) - begin(node));
+  double* const box = boxes_.data() + node * box_size();
+  const Index axes = points.cols();
+  const auto coordinates = [&](const Item& item) { return points.data() + Index{item.row} * axes; };
+  for (Index k = 0; k < axes; ++k) box[2 * k] = box[2 * k + 1] = coordinates(mine.front())[k];
+  for (const Item& item : mine) {
+    const double* const x = coordinates(item);
+    for (Index k = 0; k < axes; ++k) {
+      box[2 * k] = std::min(box[2 * k], x[k]);
+      box[2 * k + 1] = std::max(box[2 * k + 1], x[k]);
+    }
+  }
+  if (is_leaf(node)) return;
+  Index widest = 0;
+  for (Index k = 1; k < axes; ++k)
+    if (box[2 * k + 1] - box[2 * k] > box[2 * widest + 1] - box[2 * widest]) widest = k;
+  for (Item& item : mine) item.key = coordinates(item)[widest];
+  std::nth_element(
+      mine.begin(), mine.begin() + (begin(2 * node + 1) - begin(node)), mine.end(),
+      [](const Item& a, const Item& b) { return a.key != b.key ? a.key < b.key : a.row < b.row; });
+}
+
+}  // namespace ph

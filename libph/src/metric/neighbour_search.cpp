@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include "neighbour_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace ph {
+namespace {
+
+// A norm that is never larger than the distance searched for, in a form that is cheap to compute
+// from the gaps between two boxes, axis by axis. Both are rounded: `beyond` leaves room for the
+// errors of sums of `axes` terms, so that nothing within reach is taken to be beyond it.
+double slack(Index axes) { return 1 + 4e-16 * static_cast<double>(axes + 8); }
+
+struct EuclideanGaps {
+  // Smaller sums of squares may have lost digits to underflow.
+  static constexpr double kSmallestPlainSquare = 1e-280;
+  static double add(double sum, double gap) { return sum + gap * gap; }
+  /// The sum that nothing at distance <= d exceeds.
+  static double reach(double d, double slack) {
+    return std::max(d * d * slack, kSmallestPlainSquare);
+  }
+};
+struct ManhattanGaps {
+  static double add(double sum, double gap) { return sum + std::abs(gap); }
+  static double reach(double d, double slack) { return d * slack; }
+};
+struct ChebyshevGaps {
+  static double add(double sum, double gap) { return std::max(sum, std::abs(gap)); }
+  static double reach(double d, double slack) { return d * slack; }
+};
+
+// The squares of the differences of such coordinates neither overflow nor underflow.
+constexpr double kSmallestPlain = 1e-140, kLargestPlain = 1e150;
+
+/// @tparam Axes number of coordinates; 0: any.
+template <class Gaps, int Axes>
+class Search final : public NeighbourSearch {
+ public:
+  /// @param is_root_of_sum the distance is the square root of the sum of squares.
+  Search(const KdTree& tree, const PointMetric& metric, bool is_root_of_sum)
+      : tree_(tree),
+        metric_(metric),
+        axes_(tree.points().cols()),
+        slack_(slack(axes_)),
+        is_root_of_sum_(is_root_of_sum) {}
+
+  void nearest(Node leaf, std::size_t k, double limit, std::span<Neighbour> found) const override {
+    const Position begin = tree_.begin(leaf), end = tree_.end(leaf);
+    std::array<double, KdTree::kLeafSize> reach;
+    reach.fill(Gaps::reach(limit, slack_));
+    double farthest = reach[0];
+    const double* const box = tree_.box(leaf);
+    std::fill(found.begin(), found.end(), Neighbour{limit, kNone});
+    const auto visit_leaf = [&](Node other) {
+      const Position first = tree_.begin(other), last = tree_.end(other);
+      for (Position p = begin; p < end; ++p) {
+        double& reach_of_p = reach[p - begin];
+        if (other != leaf && gap_to_box(p, other) > reach_of_p) continue;
+        const std::span<Neighbour> list = found.subspan((p - begin) * k, k);
+        for (Position q = first; q < last; ++q) {
+          const double sum = gap_to_point(p, q);
+          if (sum > reach_of_p || p == q) continue;
+          insert({distance(p, q, sum), q}, list);
+          reach_of_p = Gaps::reach(list.back().distance, slack_);
+        }
+      }
+      farthest = *std::max_element(reach.begin(), reach.begin() + (end - begin));
+    };
+    visit_leaf(leaf);
+    traverse([&](Node node) { return gap_of_boxes(box, tree_.box(node)); },
+             [&](Node node, double gap) { return gap > farthest || node == leaf; }, visit_leaf);
+  }
+
+  Neighbour nearest_foreign(Position p, const Parts& parts, double limit) const override {
+    const std::uint32_t own = parts.of_point[p];
+    Neighbour best{limit, kNone};
+    double reach = Gaps::reach(limit, slack_);
+    const auto visit_leaf = [&](Node leaf) {
+      for (Position q = tree_.begin(leaf); q < tree_.end(leaf); ++q) {
+        const double sum = gap_to_point(p, q);
+        if (sum > reach || parts.of_point[q] == own) continue;
+        insert({distance(p, q, sum), q}, {&best, 1});
+        reach = Gaps::reach(best.distance, slack_);
+      }
+    };
+    traverse([&](Node node) { return gap_to_box(p, node); },
+             [&](Node node, double gap) { return gap > reach || parts.of_node[node] == own; },
+             visit_leaf);
+    return best;
+  }
+
+ private:
+  Index axes() const {
+    if constexpr (Axes > 0) return Axes;
+    return axes_;
+  }
+  const double* coordinates(Position p) const { return tree_.points().data() + Index{p} * axes(); }
+  double gap_to_point(Position p, Position q) const {
+    const double *x = coordinates(p), *y = coordinates(q);
+    double sum = 0;
+    for (Index k = 0; k < axes(); ++k) sum = Gaps::add(sum, x[k] - y[k]);
+    return sum;
+  }
+  double gap_to_box(Position p, Node node) const {
+    const double *x = coordinates(p), *box = tree_.box(node);
+    double sum = 0;
+    for (Index k = 0; k < axes(); ++k)
+      sum = Gaps::add(sum, std::max({box[2 * k] - x[k], x[k] - box[2 * k + 1], 0.0}));
+    return sum;
+  }
+  double gap_of_boxes(const double* a, const double* b) const {
+    double sum = 0;
+    for (Index k = 0; k < axes(); ++k)
+      sum = Gaps::add(sum, std::max({a[2 * k] - b[2 * k + 1], b[2 * k] - a[2 * k + 1], 0.0}));
+    return sum;
+  }
+  /// @param sum gap_to_point(p, q): where digits count, the metric's own sum.
+  double distance(Position p, Position q, double sum) const {
+    if constexpr (std::same_as<Gaps, EuclideanGaps>)
+      if (is_root_of_sum_ && sum >= Gaps::kSmallestPlainSquare) return std::sqrt(sum);
+    return metric_(p, q);
+  }
+  bool is_nearer(const Neighbour& a, const Neighbour& b) const {
+    if (a.distance != b.distance) return a.distance < b.distance;
+    return b.position == kNone || tree_.rows()[a.position] < tree_.rows()[b.position];
+  }
+  /// Puts it where it belongs and drops the last.
+  void insert(const Neighbour& neighbour, std::span<Neighbour> list) const {
+    if (!is_nearer(neighbour, list.back())) return;
+    std::size_t i = list.size() - 1;
+    for (; i > 0 && is_nearer(neighbour, list[i - 1]); --i) list[i] = list[i - 1];
+    list[i] = neighbour;
+  }
+
+  /// Visits the leaves, the nearer child first. @param gap_to of a node from where we search.
+  /// @param is_hopeless whether to pass over a node with that gap.
+  template <class GapTo, class IsHopeless, class VisitLeaf>
+  void traverse(GapTo&& gap_to, IsHopeless&& is_hopeless, VisitLeaf&& visit_leaf) const {
+    struct Entry {
+      double gap;
+      Node node;
+    };
+    std::array<Entry, 64> stack;  // one a level
+    std::size_t height = 0;
+    for (Entry at{0, 1};;) {
+      if (!is_hopeless(at.node, at.gap)) {
+        if (!tree_.is_leaf(at.node)) {
+          Entry near{gap_to(2 * at.node), 2 * at.node};
+          Entry far{gap_to(2 * at.node + 1), 2 * at.node + 1};
+          if (far.gap < near.gap) std::swap(near, far);
+          stack[height++] = far;
+          at = near;
+          continue;
+        }
+        visit_leaf(at.node);
+      }
+      if (height == 0) return;
+      at = stack[--height];
+    }
+  }
+
+  const KdTree& tree_;
+  const PointMetric& metric_;
+  const Index axes_;
+  const double slack_;
+  const bool is_root_of_sum_;
+};
+
+template <class Gaps>
+std::unique_ptr<NeighbourSearch> make_search(const KdTree& tree, const PointMetric& metric,
+                                             bool is_root_of_sum) {
+  switch (tree.points().cols()) {
+    case 2:
+      return std::make_unique<Search<Gaps, 2>>(tree, metric, is_root_of_sum);
+    case 3:
+      return std::make_unique<Search<Gaps, 3>>(tree, metric, is_root_of_sum);
+    default:
+      return std::make_unique<Search<Gaps, 0>>(tree, metric, is_root_of_sum);
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<NeighbourSearch> NeighbourSearch::make(const KdTree& tree,
+                                                       const PointMetric& metric,
+                                                       PointDistance distance, double p) {
+  // The p-norms fall as p grows: the Euclidean one bounds those below 2, the largest coordinate
+  // bounds them all, and needs no squares.
+  const double largest = tree.points().cwiseAbs().maxCoeff();
+  const bool are_squares_plain = kSmallestPlain < largest && largest < kLargestPlain;
+  const bool is_euclidean = distance == PointDistance::euclidean;
+  if (distance == PointDistance::manhattan) return make_search<ManhattanGaps>(tree, metric, false);
+  if (are_squares_plain && (is_euclidean || (distance == PointDistance::minkowski && p <= 2)))
+    return make_search<EuclideanGaps>(tree, metric, is_euclidean);
+  return make_search<ChebyshevGaps>(tree, metric, false);
+}
+
+}  // namespace ph

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+
+#include "kd_tree.hpp"
+#include "ph/metric/point_metric.hpp"
+
+namespace ph {
+
+/// Exact searches for nearest points in a k-d tree. Distances are those of PointMetric to the last
+/// bit; among points at one distance the one of the smaller row is nearer.
+class NeighbourSearch {
+ public:
+  using Position = KdTree::Position;
+  using Node = KdTree::Node;
+  static constexpr Position kNone = UINT32_MAX;
+
+  struct Neighbour {
+    double distance = std::numeric_limits<double>::infinity();
+    Position position = kNone;
+  };
+  /// A partition of the points.
+  struct Parts {
+    static constexpr std::uint32_t kMixed = UINT32_MAX;
+    std::span<const std::uint32_t> of_point;  ///< by position
+    std::span<const std::uint32_t> of_node;   ///< by node: the part of all its points, or kMixed
+  };
+
+  virtual ~NeighbourSearch() = default;
+
+  /// For each point of a leaf its k nearest others at distance <= limit, the nearest first.
+  /// @param found k a point, point by point; what is not there is left as kNone.
+  virtual void nearest(Node leaf, std::size_t k, double limit,
+                       std::span<Neighbour> found) const = 0;
+  /// The nearest point of another part at distance <= limit; kNone if there is none.
+  virtual Neighbour nearest_foreign(Position p, const Parts& parts, double limit) const = 0;
+
+  /// Whether a k-d tree helps to bound the distance.
+  static bool can_search(PointDistance distance) {
+    return distance == PointDistance::euclidean || distance == PointDistance::manhattan ||
+           distance == PointDistance::chebyshev || distance == PointDistance::minkowski;
+  }
+  /// @param tree outlives the search, as does `metric`, which is that of tree.points().
+  /// @param distance one that can be searched. @param p exponent of `minkowski`.
+  static std::unique_ptr<NeighbourSearch> make(const KdTree& tree, const PointMetric& metric,
+                                               PointDistance distance, double p);
+};
+
+}  // namespace ph

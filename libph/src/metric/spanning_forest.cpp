@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+#include "ph/metric/spanning_forest.hpp"
+
+#include <array>
+#include <atomic>
+
+#include "distinct_points.hpp"
+#include "neighbour_search.hpp"
+#include "ph/core/disjoint_sets.hpp"
+#include "ph/core/parallel.hpp"
+
+namespace ph {
+namespace {
+
+// Borůvka's algorithm: in each round every component takes its first edge to another one. What
+// makes rounds cheap is that the nearest point of another component only ever gets farther. So each
+// point keeps a few nearest neighbours, found once; while one of them is foreign the first such is
+// its nearest foreign point. After that, the last one known is a lower bound, and the tree is asked
+// only where the bound does not exceed the best edge that the component has already.
+class Boruvka {
+ public:
+  Boruvka(const KdTree& tree, const NeighbourSearch& search, const PointMetric& metric,
+          double limit, const RunContext& context)
+      : tree_(tree),
+        search_(search),
+        metric_(metric),
+        limit_(limit),
+        context_(context),
+        components_(tree.size()),
+        known_(tree.size() * kKnown, &context.memory),
+        points_(tree.size(), &context.memory),
+        component_(tree.size(), &context.memory),
+        node_component_(tree.node_count(), Parts::kMixed, &context.memory),
+        sets_(tree.size(), &context.memory),
+        best_(tree.size(), kNone, &context.memory),
+        reach_(tree.size(), &context.memory),
+        asking_(&context.memory) {
+    std::iota(component_.begin(), component_.end(), 0U);
+  }
+
+  /// Appends the edges, between rows.
+  void run(std::pmr::vector<FlagEdge>& forest) {
+    find_neighbours();
+    do {
+      propose();
+      ask();
+    } while (join(forest));
+  }
+
+ private:
+  using Parts = NeighbourSearch::Parts;
+  using Neighbour = NeighbourSearch::Neighbour;
+  using Position = NeighbourSearch::Position;
+  static constexpr Position kNone = NeighbourSearch::kNone;
+  static constexpr std::size_t kKnown = 6;
+  static constexpr std::size_t kPiece = 1 << 12;
+
+  enum class Knows : std::uint8_t {
+    nearest,      // `first` is the nearest foreign point
+    lower_bound,  // the nearest foreign point comes after `first`; after all at that distance if
+                  // `first` names no point
+  };
+  struct Point {
+    Neighbour first;
+    std::uint8_t place = 0;  // of `first` among the neighbours known; kKnown: the tree found it
+    Knows knows = Knows::lower_bound;
+  };
+
+  FlagEdge edge_of(Position p) const {
+    const Neighbour& q = points_[p].first;
+    const auto [v, u] = std::minmax(tree_.rows()[p], tree_.rows()[q.position]);
+    return {q.distance, u, v};
+  }
+  /// Whether the edge of p comes before that of q.
+  bool precedes(Position p, Position q) const {
+    const double of_p = points_[p].first.distance, of_q = points_[q].first.distance;
+    return of_p != of_q ? of_p < of_q : ph::precedes(edge_of(p), edge_of(q));
+  }
+
+  void find_neighbours() {
+    const KdTree::Node first = tree_.first_leaf();
+    const auto find = [&](std::size_t begin, std::size_t end) {
+      std::array<Neighbour, KdTree::kLeafSize * kKnown> found;
+      for (auto leaf = static_cast<KdTree::Node>(first + begin); leaf < first + end; ++leaf) {
+        search_.nearest(leaf, kKnown, limit_, found);
+        for (Position p = tree_.begin(leaf); p < tree_.end(leaf); ++p) {
+          const Neighbour* const list = &found[(p - tree_.begin(leaf)) * kKnown];
+          for (std::size_t i = 0; i < kKnown; ++i) known_[p * kKnown + i] = list[i].position;
+          points_[p].first = list[0];
+          if (list[0].position != kNone) points_[p].knows = Knows::nearest;
+        }
+      }
+    };
+    for_each_piece("neighbours", first, kPiece / KdTree::kLeafSize, context_, find);
+  }
+
+  /// Each component's best edge among those that its points know.
+  void propose() {
+    for_each_piece("spanning forest", points_.size(), kPiece, context_,
+                   [&](std::size_t begin, std::size_t end) {
+                     for (std::size_t p = begin; p < end; ++p) advance(static_cast<Position>(p));
+                   });
+    std::fill(best_.begin(), best_.end(), kNone);
+    for (Position p = 0; p < points_.size(); ++p) offer(p);
+  }
+  /// Goes on to the first neighbour known that is foreign.
+  void advance(Position p) {
+    Point& point = points_[p];
+    const std::uint32_t own = component_[p];
+    if (point.knows == Knows::lower_bound || component_[point.first.position] != own) return;
+    Position last = point.first.position;
+    while (point.place < kKnown && ++point.place < kKnown) {
+      const Position q = known_[p * kKnown + point.place];
+      if (q == kNone) {  // there are no more up to the limit
+        point.first = {limit_, kNone};
+        point.knows = Knows::lower_bound;
+        return;
+      }
+      last = q;
+      if (component_[q] != own) break;
+    }
+    if (last != point.first.position) point.first = {metric_(p, last), last};
+    if (point.place == kKnown) point.knows = Knows::lower_bound;
+  }
+  void offer(Position p) {
+    if (points_[p].knows == Knows::lower_bound) return;
+    Position& best = best_[component_[p]];
+    if (best == kNone || precedes(p, best)) best = p;
+  }
+
+  /// Asks the tree where a point may have a better edge than its component knows.
+  void ask() {
+    for (Position c = 0; c < points_.size(); ++c)
+      if (component_[c] == c)
+        reach_[c] = best_[c] == kNone ? limit_ : points_[best_[c]].first.distance;
+    // Neighbours in the order of the tree are near each other: a first bound where there is none.
+    for (Position p = 1; p < points_.size(); ++p) {
+      const std::uint32_t a = component_[p - 1], b = component_[p];
+      if (a == b || (best_[a] != kNone && best_[b] != kNone)) continue;
+      const double d = metric_(p - 1, p);
+      reach_[a] = std::min<double>(reach_[a], d);
+      reach_[b] = std::min<double>(reach_[b], d);
+    }
+    asking_.clear();
+    for (Position p = 0; p < points_.size(); ++p)
+      if (is_worth_asking(p)) asking_.push_back(p);
+    const auto ask_tree = [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const Position p = asking_[i];
+        std::atomic<double>& reach = reach_[component_[p]];
+        double within = reach.load(std::memory_order_relaxed);
+        if (points_[p].first.distance > within) continue;
+        const Neighbour found = search_.nearest_foreign(p, {component_, node_component_}, within);
+        const bool is_none = found.position == kNone;
+        points_[p] = {found, kKnown, is_none ? Knows::lower_bound : Knows::nearest};
+        while (found.distance < within &&
+               !reach.compare_exchange_weak(within, found.distance, std::memory_order_relaxed)) {
+        }
+      }
+    };
+    for_each_piece("spanning forest", asking_.size(), 256, context_, ask_tree);
+    for (const Position p : asking_) offer(p);
+  }
+  bool is_worth_asking(Position p) const {
+    if (points_[p].knows == Knows::nearest) return false;
+    const auto& [distance, position] = points_[p].first;
+    const double reach = reach_[component_[p]].load(std::memory_order_relaxed);
+    if (position == kNone || distance != reach) return distance < reach;
+    const Position best = best_[component_[p]];
+    return best == kNone || precedes(p, best);
+  }
+
+  /// Takes the best edge of each component. @return whether components are left that may join.
+  bool join(std::pmr::vector<FlagEdge>& forest) {
+    const std::size_t before = components_;
+    for (Position c = 0; c < best_.size(); ++c) {
+      if (best_[c] == kNone) continue;
+      const std::uint32_t a = sets_.find(c),
+                          b = sets_.find(component_[points_[best_[c]].first.position]);
+      if (a == b) continue;  // the other component took this edge too
+      sets_.link(a, b);
+      --components_;
+      forest.push_back(edge_of(best_[c]));
+    }
+    if (components_ == before || components_ == 1) return false;
+    for (Position p = 0; p < component_.size(); ++p) component_[p] = sets_.find(p);
+    for (KdTree::Node node = tree_.node_count() - 1; node > 0; --node)
+      node_component_[node] = common_component(node);
+    return true;
+  }
+  std::uint32_t common_component(KdTree::Node node) const {
+    if (!tree_.is_leaf(node)) {
+      const std::uint32_t left = node_component_[2 * node], right = node_component_[2 * node + 1];
+      return left == right ? left : Parts::kMixed;
+    }
+    const std::uint32_t first = component_[tree_.begin(node)];
+    for (Position p = tree_.begin(node) + 1; p < tree_.end(node); ++p)
+      if (component_[p] != first) return Parts::kMixed;
+    return first;
+  }
+
+  const KdTree& tree_;
+  const NeighbourSearch& search_;
+  const PointMetric& metric_;
+  const double limit_;
+  const RunContext& context_;
+  std::size_t components_;
+  std::pmr::vector<Position> known_;  // kKnown a point, the nearest first
+  std::pmr::vector<Point> points_;
+  std::pmr::vector<std::uint32_t> component_;       // by position: a root of sets_
+  std::pmr::vector<std::uint32_t> node_component_;  // by node of the tree
+  DisjointSets sets_;
+  std::pmr::vector<Position> best_;              // by component: the point that has its best edge
+  std::pmr::vector<std::atomic<double>> reach_;  // by component: its best edge is no longer
+  std::pmr::vector<Position> asking_;
+};
+
+}  // namespace
+
+bool has_fast_spanning_forest(const Points& points, PointDistance distance) {
+  constexpr Index kMostAxes = 8;  // above, boxes exclude little: measured
+  return points.cols() <= kMostAxes && NeighbourSearch::can_search(distance);
+}
+
+std::pmr::vector<FlagEdge> spanning_forest(const Points& points, PointDistance distance, double p,
+                                           double limit, const RunContext& context) {
+  const PointMetric checked(points, distance, p);
+  std::pmr::vector<FlagEdge> forest(&context.memory);
+  const std::pmr::vector<std::uint32_t> first_equal = first_equal_points(points, context);
+  // Among copies each is joined to the first; no other edge of theirs precedes that of the first.
+  for (std::uint32_t i = 0; i < first_equal.size(); ++i)
+    if (first_equal[i] != i) forest.push_back({0.0, i, first_equal[i]});
+  const std::pmr::vector<std::uint32_t> distinct = distinct_points(first_equal, context);
+  if (distinct.size() > 1) {
+    const KdTree tree(points, distinct, context);
+    const PointMetric metric(tree.points(), distance, p);
+    const auto search = NeighbourSearch::make(tree, metric, distance, p);
+    Boruvka(tree, *search, metric, limit, context).run(forest);
+  }
+  return forest;
+}
+
+}  // namespace ph

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// Spanning forests: H0 without the graph of all edges, held to the oracle on the whole filtration.
+#include <limits>
+
+#include "ph/engine/merge_tree.hpp"
+#include "ph/persistence.hpp"
+#include "support/conformance.hpp"
+#include "support/expect_error.hpp"
+#include "support/generators.hpp"
+
+namespace ph::test {
+namespace {
+
+constexpr double kInf = kInfinity;
+
+template <class Data>
+std::vector<Pair> components_of(const Data& data, RipsOptions options, Engine engine,
+                                const RunContext& context = default_context()) {
+  return pairs_of(persistence(Rips(data, options, context),
+                              {.max_dim = 0, .engine = engine, .min_persistence = -1}));
+}
+
+// The oracle has the whole filtration, every engine the forest.
+template <class Data>
+void expect_components_of_the_whole(const Data& data, RipsOptions options) {
+  const std::vector<Pair> expected = components_of(data, options, Engine::standard);
+  options.only_components = true;
+  const Rips forest(data, options);
+  EXPECT_TRUE(forest.has_only_components());
+  EXPECT_LE(forest.edge_count(), static_cast<std::size_t>(std::max<Index>(forest.size() - 1, 0)));
+  for_each_engine([&](auto engine) {
+    if (engine.id == Engine::standard) return;
+    EXPECT_EQ(components_of(data, options, engine.id), expected) << engine.name;
+  });
+}
+
+template <class Check>
+void for_each_seed(std::uint64_t count, Check&& check) {
+  for (std::uint64_t seed = 0; seed < count; ++seed) {
+    Generator random(seed);
+    check(random);
+    ASSERT_FALSE(::testing::Test::HasFailure()) << "seed " << seed;
+  }
+}
+
+constexpr PointDistance kSearched[] = {PointDistance::euclidean, PointDistance::manhattan,
+                                       PointDistance::chebyshev, PointDistance::minkowski};
+
+// One to five coordinates, copies, ties, thresholds at ties; some of a size that has no squares.
+TEST(Components, OfPointsAreThoseOfTheWholeFiltration) {
+  for_each_seed(12000, [](Generator& random) {
+    const bool ties = random.coin();
+    Points points = random.points(random.integer(0, 22), random.integer(0, 5), ties);
+    for (Index i = 1; i < points.rows(); ++i)
+      if (random.integer(0, 4) == 0) points.row(i) = points.row(random.integer(0, int(i) - 1));
+    double unit = 1;
+    if (random.integer(0, 3) == 0) unit = std::ldexp(1, random.coin() ? 1000 : -1070);
+    points *= unit;
+    RipsOptions options{.distance = kSearched[random.integer(0, 3)]};
+    options.minkowski_p = random.coin() ? 1 + random.real() : 1 + 9 * random.real();
+    if (random.coin()) options.threshold = unit * random.value(ties);
+    expect_components_of_the_whole(points, options);
+  });
+}
+
+TEST(Components, OfManyAxesAndOtherDistances) {
+  for_each_seed(1500, [](Generator& random) {
+    const bool ties = random.coin();
+    const Points points = random.points(random.integer(1, 12), random.integer(6, 20), ties);
+    const bool is_cosine = random.coin() && points.rowwise().norm().minCoeff() > 0;
+    RipsOptions options{.distance =
+                            is_cosine ? PointDistance::cosine : kSearched[random.integer(0, 3)]};
+    if (random.integer(0, 3) == 0) options.distance = PointDistance::hamming;
+    if (random.coin()) options.threshold = 4 * random.value(ties);
+    expect_components_of_the_whole(points, options);
+  });
+}
+
+TEST(Components, OfAnyMatrixAreThoseOfTheWholeFiltration) {
+  for_each_seed(6000, [](Generator& random) {
+    const bool ties = random.coin();
+    const Index n = random.integer(0, 14);
+    std::vector<double> lower(static_cast<std::size_t>(n * (n - 1) / 2));
+    const int infinite = random.integer(0, 4);
+    for (double& d : lower) d = random.integer(0, 9) < 2 * infinite ? kInf : random.value(ties);
+    RipsOptions options;
+    if (random.coin()) options.threshold = random.integer(0, 5) == 0 ? kInf : random.value(ties);
+    expect_components_of_the_whole(DistanceMatrix(n, lower), options);
+  });
+}
+
+TEST(Components, OfSparseDistances) {
+  for_each_seed(3000, [](Generator& random) {
+    const bool ties = random.coin();
+    RipsOptions options;
+    if (random.coin()) options.threshold = random.value(ties);
+    expect_components_of_the_whole(random.sparse(random.integer(0, 14), ties, random.real()),
+                                   options);
+  });
+}
+
+// A distance of its own goes by pairs, whatever the points are.
+struct AnyDistance {
+  const PointMetric& metric;
+  Index size() const { return metric.size(); }
+  double operator()(Index i, Index j) const { return metric(i, j); }
+};
+
+// Clusters within clusters, a grid full of ties, a line, a cloud: enough for all of the search.
+TEST(Components, OfManyPointsAreThoseOfAllPairs) {
+  for_each_seed(48, [](Generator& random) {
+    const Index n = random.integer(200, 2500), d = random.integer(1, 5);
+    Points points = random.points(n, d, false);
+    const int kind = random.integer(0, 3);
+    if (kind == 0) points = (points * 6).array().round();
+    if (kind == 1)
+      for (Index i = 0; i < n; ++i)
+        points.row(i) = points.row(i) * std::ldexp(1, -random.integer(0, 60)) +
+                        points.row(random.integer(0, 4));
+    if (kind == 2)
+      for (Index k = 1; k < d; ++k) points.col(k) = points.col(0);
+    RipsOptions options{.distance = kSearched[random.integer(0, 3)], .minkowski_p = 3};
+    options.only_components = true;
+    if (random.coin()) options.threshold = random.real() / 2;
+    const PointMetric metric(points, options.distance, options.minkowski_p);
+    const auto expected = components_of(AnyDistance{metric}, options, Engine::union_find);
+    for (const int threads : {1, 2, 5}) {
+      RunContext context;
+      context.threads = threads;
+      EXPECT_EQ(components_of(points, options, Engine::union_find, context), expected);
+    }
+  });
+}
+
+TEST(Components, NothingElseIsThere) {
+  const Rips rips(Points::Random(9, 2), {.only_components = true});
+  EXPECT_EQ(persistence(rips).size(), 9U);
+  expect_error(ErrorKind::usage, "only the components", [&] { persistence(rips, {.max_dim = 1}); });
+  expect_error(ErrorKind::usage, "only the components", [&] { estimate(rips, {.max_dim = 2}); });
+  EXPECT_EQ(estimate(rips).cells, (std::vector<double>{9, 8}));
+  EXPECT_EQ(rips.threshold(), kInf);
+}
+
+}  // namespace
+}  // namespace ph::test
