@@ -10,8 +10,8 @@ namespace detail {
 /// @throws Error (usage) if it is negative. Above the top dimension there is nothing to compute.
 int checked_max_dim(int max_dim);
 
-/// The highest dimension to compute. @throws Error (usage) as checked_max_dim, or above 0 where only
-/// the components are there.
+/// The highest dimension to compute. @throws Error (usage) as checked_max_dim, or above 0 where
+/// only the components are there.
 int rips_max_dim(const Rips& rips, const Options& options);
 
 /// The engine that will run, with the reason.
