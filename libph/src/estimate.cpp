@@ -98,6 +98,9 @@ void add_columns(Estimate& e) {
     case Engine::union_find:
       count(0, 1);
       break;
+    case Engine::lens:  // H2: triangles with a value, of which there are as a rule fewer
+      for (int d = 1; d <= std::max(1, max_dim); ++d) count(0, 1);
+      break;
     case Engine::cohomology:
       count(0, max_dim);
       break;

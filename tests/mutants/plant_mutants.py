@@ -30,6 +30,9 @@ FOREST = "libph/src/metric/spanning_forest.cpp"
 FOREST_PRIM = "libph/include/ph/metric/spanning_forest.hpp"
 SEARCH = "libph/src/metric/neighbour_search.cpp"
 ANNOTATIONS = "libph/include/ph/engine/annotations.hpp"
+EXTENSIONS = "libph/include/ph/engine/lens_extensions.hpp"
+SURFACES = "libph/include/ph/engine/lens_surfaces.hpp"
+TRIANGLES = "libph/include/ph/engine/triangle_cocycles.hpp"
 REDUCTION = "libph/include/ph/engine/reduction.hpp"
 COLLAPSE = "libph/src/complex/edge_collapse.cpp"
 COLLAPSE_ROWS = "libph/src/complex/collapse_rows.hpp"
@@ -69,13 +72,45 @@ MUTANTS = [
      "return vectors_[a.id].back().cell;", "return vectors_[a.id].front().cell;",
      ["conformance_random"]),
     ("lens: two components at most", "libph/include/ph/engine/lens_sweep.hpp",
-     "i < components_.size(); ++i", "i < std::min<std::size_t>(2, components_.size()); ++i",
+     "i < components_.count(); ++i) {", "i < std::min<std::size_t>(2, components_.count()); ++i) {",
      ["conformance_random"]),
     ("lens: active edges at one end only", "libph/src/core/bit_matrix.cpp",
      "active |= common & (c[k] | d[k]);", "active |= common & c[k];", ["conformance_random"]),
     ("lens: classes that become equal lose their sign", ANNOTATIONS,
      "links_[id] = {*it, are_opposite(id, *it)};", "links_[id] = {*it, false};",
      ["conformance_random"]),
+    ("surfaces: components that kill nothing bear nothing", "libph/include/ph/engine/lens_sweep.hpp",
+     "      born_.push_back(i);\n      continue;", "      continue;", ["conformance_random"]),
+    ("surfaces: the younger classes come first", EXTENSIONS,
+     "std::min(i->generator, j->generator);", "std::max(i->generator, j->generator);",
+     ["conformance_random"]),
+    ("surfaces: who lives on is not corrected", SURFACES,
+     "cocycles_.add(x.generator, h, scale);", "", ["conformance_random"]),
+    ("surfaces: the dead are not forgotten", SURFACES,
+     "births_[h].edge = kDead;", "", ["conformance_random"]),
+    ("surfaces: any lens is its core", "libph/src/engine/lens_core.cpp",
+     "if (!bits::covers(around, joined_.row(w), rest_.data(), hub, words)) continue;", "",
+     ["conformance_random"]),
+    ("surfaces: any vertex is an apex", "libph/src/engine/lens_components.cpp",
+     "if (missed == bits::kNone) {", "if (true) {", ["conformance_random"]),
+    ("surfaces: cones forget one end", EXTENSIONS,
+     "const Link* link = at_v ? x.at_v : x.at_u;\n    if (link == nullptr) continue;",
+     "const Link* link = x.at_u;\n    if (at_v || link == nullptr) continue;", ["conformance_random"]),
+    ("surfaces: mismatches are only looked for in the first part", EXTENSIONS,
+     "if (Row::difference(mismatch(x), p,", "if (i == 0 && Row::difference(mismatch(x), p,",
+     ["conformance_random"]),
+    ("surfaces: parts keep their constants", EXTENSIONS,
+     "if (here == value) continue;", "continue;", ["conformance_random"]),
+    ("surfaces: the younger part survives", "libph/include/ph/engine/lens_forest.hpp",
+     "roots_[part] < roots_[all];", "roots_[part] > roots_[all];", ["conformance_random"]),
+    ("surfaces: a star with one sign", TRIANGLES,
+     "add_row(u, star, field.from_int(-1), shared_);", "add_row(u, star, field.from_int(1), shared_);",
+     ["conformance_random"]),
+    ("surfaces: rows are not antisymmetric", TRIANGLES,
+     "const Element opposite = field.negate(scale);", "const Element opposite = scale;",
+     ["conformance_random"]),
+    ("surfaces: links that are gone leave their rows", TRIANGLES,
+     "links_[it->link].clear(shared_);", "", ["conformance_random"]),
     ("collapse: a dominator stays one whatever comes", COLLAPSE,
      "dominates = dominates && graph_.are_joined(dominator, x, now);", "(void)x;",
      ["edge_collapse_tests"]),

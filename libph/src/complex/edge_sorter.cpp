@@ -10,6 +10,9 @@
 namespace ph {
 namespace {
 
+// Not the function itself: a call through a pointer is not inlined.
+constexpr auto in_order = [](const FlagEdge& a, const FlagEdge& b) { return precedes(a, b); };
+
 // Sorts edges whose values share the bits from `shift` on: once more into bins by the next bits,
 // until there are few in each.
 void sort_bin(std::span<FlagEdge> edges, int shift, std::pmr::vector<FlagEdge>& buffer) {
@@ -17,8 +20,8 @@ void sort_bin(std::span<FlagEdge> edges, int shift, std::pmr::vector<FlagEdge>& 
   constexpr int digit_bits = 11;
   // Ties arrive in order from a matrix: integers are sorted when they come.
   if (edges.size() <= few || shift < digit_bits ||
-      std::is_sorted(edges.begin(), edges.end(), precedes)) {
-    std::sort(edges.begin(), edges.end(), precedes);
+      std::is_sorted(edges.begin(), edges.end(), in_order)) {
+    std::sort(edges.begin(), edges.end(), in_order);
     return;
   }
   const int next_shift = shift - digit_bits;
@@ -51,7 +54,7 @@ std::pmr::vector<FlagEdge> EdgeSorter::finish() {
     const std::size_t end = counts_[bin];
     if (end == begin) continue;
     context_.poll();
-    sort_bin(std::span(edges_).subspan(begin, end - begin), kShift, buffer);
+    sort_bin(std::span(edges_).subspan(begin, end - begin), shift_, buffer);
     begin = end;
   }
   edges_.resize(begin);  // in the last bin not all were within the limit
@@ -60,7 +63,7 @@ std::pmr::vector<FlagEdge> EdgeSorter::finish() {
 
 void sort_edges(std::pmr::vector<FlagEdge>& edges, const RunContext& context) {
   context.poll();
-  EdgeSorter sorter(context);
+  EdgeSorter sorter(edges.size(), context);
   for (const FlagEdge& e : edges) sorter.count(e.value);
   sorter.allocate(std::numeric_limits<double>::max());
   for (const FlagEdge& e : edges) sorter.add(e);

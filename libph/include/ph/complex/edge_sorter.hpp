@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <memory_resource>
@@ -11,13 +12,16 @@
 namespace ph {
 
 /// Collects weighted edges and sorts them by (value, u, v) with little more memory than they take:
-/// a first pass over the values counts how many fall into each of some ten thousand bins of nearly
-/// equal values, a second one puts each edge where its bin is, and then the bins are sorted one by
-/// one.
+/// a first pass over the values counts how many fall into each of many bins of nearly equal values,
+/// a second one puts each edge where its bin is, and then the bins are sorted one by one.
 class EdgeSorter {
  public:
-  explicit EdgeSorter(const RunContext& context)
-      : context_(context), counts_(kBins, 0, &context.memory), edges_(&context.memory) {}
+  /// @param values how many will be counted, more or less.
+  EdgeSorter(std::size_t values, const RunContext& context)
+      : context_(context),
+        shift_(kBits - std::clamp(static_cast<int>(std::bit_width(values)), 1, kMostBinBits)),
+        counts_(std::size_t{1} << (kBits - shift_), 0, &context.memory),
+        edges_(&context.memory) {}
 
   /// First pass. @param value >= 0, not NaN.
   void count(double value) { ++counts_[bin_of(value)]; }
@@ -29,13 +33,13 @@ class EdgeSorter {
   std::pmr::vector<FlagEdge> finish();
 
  private:
-  // Sign, exponent and four bits of the mantissa: the order of non-negative doubles is that of
-  // their bits.
-  static constexpr int kShift = 48;
-  static constexpr std::size_t kBins = std::size_t{1} << (63 - kShift);
-  static std::size_t bin_of(double value) { return std::bit_cast<std::uint64_t>(value) >> kShift; }
+  // The order of non-negative doubles is that of their bits: a bin is their first ones, as many as
+  // there are values, up to the exponent and four bits of the mantissa.
+  static constexpr int kBits = 63, kMostBinBits = 15;
+  std::size_t bin_of(double value) const { return std::bit_cast<std::uint64_t>(value) >> shift_; }
 
   const RunContext& context_;
+  int shift_;
   std::size_t last_bin_ = 0;              // the one of the limit
   std::pmr::vector<std::size_t> counts_;  // from allocate on: where the next edge of a bin goes
   std::pmr::vector<FlagEdge> edges_;

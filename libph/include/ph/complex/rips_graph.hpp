@@ -141,7 +141,7 @@ RipsGraph RipsGraph::of_metric(const M& metric, std::optional<double> threshold,
       ticker.work(static_cast<std::uint64_t>(i));
     }
   };
-  EdgeSorter sorter(context);
+  EdgeSorter sorter(static_cast<std::size_t>(n) * static_cast<std::size_t>(n) / 2, context);
   std::pmr::vector<double> farthest(static_cast<std::size_t>(n), 0.0, &context.memory);
   for_each_distance("enclosing radius", [&](Index i, Index j, double d) {
     double &of_i = farthest[static_cast<std::size_t>(i)],
