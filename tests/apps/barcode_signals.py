@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Signals during a long run: it ends at once, with the shell's code, and leaves nothing behind."""
+import math
 import os
 import random
 import signal
@@ -22,7 +23,10 @@ class Signals(ProgramTest):
                                        for _ in range(1500)))
 
     def start(self, *arguments):
-        return subprocess.Popen([program.PROGRAM, "many.txt", "--quiet", *arguments],
+        """A long run, unless the arguments ask for another engine."""
+        return subprocess.Popen([program.PROGRAM, "many.txt", "--quiet", "-o", "out.csv",
+                                 "--max-dim", "2", "--collapse", "off",
+                                 *(arguments or ("--engine", "cohomology"))],
                                 cwd=self.folder, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
                                 stderr=subprocess.PIPE)
 
@@ -40,12 +44,25 @@ class Signals(ProgramTest):
         for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)):
             for delay in (0.15, 0.8):
                 with self.subTest(signal=number, delay=delay):
-                    run = self.start("--max-dim", "2", "-o", "out.csv")
+                    run = self.start()
                     time.sleep(delay)
                     self.assertIsNone(run.poll(), "the computation was over too soon")
                     run.send_signal(number)
                     self.assertEqual(self.finish(run), code)
                     self.assertEqual(self.files(), ["many.txt", "square.txt"])
+
+    def test_interrupts_of_the_lens_sweep(self):
+        with open(self.path("many.txt"), "w", encoding="ascii") as file:  # one large cocycle
+            for _ in range(1600):
+                x = [random.gauss(0, 1) for _ in range(3)]
+                file.write(" ".join(f"{c / math.hypot(*x):.6f}" for c in x) + "\n")
+        for delay in (0.1, 0.4, 0.8, 1.2):
+            with self.subTest(delay=delay):
+                run = self.start("--engine", "lens")
+                time.sleep(delay)
+                self.assertIsNone(run.poll(), "the computation was over too soon")
+                run.send_signal(signal.SIGINT)
+                self.assertEqual(self.finish(run), 130)
 
     def test_a_signal_ends_reading(self):
         run = subprocess.Popen([program.PROGRAM, "-", "--quiet"], stdin=subprocess.PIPE,
@@ -55,7 +72,7 @@ class Signals(ProgramTest):
         self.assertEqual(self.finish(run), 130)
 
     def test_a_second_signal(self):
-        run = self.start("--max-dim", "2", "-o", "out.csv")
+        run = self.start()
         time.sleep(0.3)
         run.send_signal(signal.SIGINT)
         run.send_signal(signal.SIGINT)
@@ -63,7 +80,7 @@ class Signals(ProgramTest):
         self.assertEqual(self.files(), ["many.txt", "square.txt"])
 
     def test_kill_leaves_no_final_name(self):
-        run = self.start("--max-dim", "2", "-o", "out.csv")
+        run = self.start()
         time.sleep(0.3)
         run.kill()
         self.finish(run)

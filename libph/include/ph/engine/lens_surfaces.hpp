@@ -46,7 +46,7 @@ class LensSurfaces {
         field_(field),
         wanted_(wanted),
         observer_(observer),
-        cocycles_(joined.rows(), field, wanted.tuning.most_terms, &context.memory),
+        cocycles_(joined.rows(), field, wanted.tuning.most_terms, context),
         births_(&context.memory),
         core_(joined, &context.memory),
         forest_(joined, &context.memory),

@@ -9,6 +9,7 @@
 
 #include "ph/core/chain.hpp"
 #include "ph/core/field.hpp"
+#include "ph/core/run_context.hpp"
 #include "ph/engine/field_rows.hpp"
 
 namespace ph {
@@ -105,12 +106,13 @@ class TriangleCocycles {
 
   /// @param most_terms of a link; those with more are stored in rows.
   TriangleCocycles(std::size_t vertices, const K& field, std::size_t most_terms,
-                   std::pmr::memory_resource* memory)
-      : shared_(field, (vertices + 63) / 64, most_terms, memory),
-        links_(memory),
-        free_(memory),
-        at_(vertices, memory),
-        vertices_(memory) {}
+                   const RunContext& context)
+      : context_(context),
+        shared_(field, (vertices + 63) / 64, most_terms, &context.memory),
+        links_(&context.memory),
+        free_(&context.memory),
+        at_(vertices, &context.memory),
+        vertices_(&context.memory) {}
 
   Generator add_generator() {
     vertices_.emplace_back();
@@ -141,6 +143,7 @@ class TriangleCocycles {
   }
   Link& made_link(Generator g, Vertex a);
 
+  const RunContext& context_;
   typename Link::Shared shared_;
   std::pmr::vector<Link> links_;
   std::pmr::vector<std::uint32_t> free_;  // of links_
@@ -320,6 +323,7 @@ void TriangleCocycles<K>::erase(Generator g) {
 template <Field K>
 void TriangleCocycles<K>::add(Generator to, Generator from, Element scale) {
   for (const Vertex a : vertices_[from]) {
+    context_.poll();  // a large cocycle takes long
     Link& sum = made_link(to, a);
     sum.add(*find(from, a), scale, shared_);
   }
