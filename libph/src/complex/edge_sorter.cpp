@@ -11,7 +11,7 @@ namespace ph {
 namespace {
 
 // Not the function itself: a call through a pointer is not inlined.
-constexpr auto in_order = [](const FlagEdge& a, const FlagEdge& b) { return precedes(a, b); };
+constexpr auto kInOrder = [](const FlagEdge& a, const FlagEdge& b) { return precedes(a, b); };
 
 // Sorts edges whose values share the bits from `shift` on: once more into bins by the next bits,
 // until there are few in each.
@@ -20,8 +20,8 @@ void sort_bin(std::span<FlagEdge> edges, int shift, std::pmr::vector<FlagEdge>& 
   constexpr int digit_bits = 11;
   // Ties arrive in order from a matrix: integers are sorted when they come.
   if (edges.size() <= few || shift < digit_bits ||
-      std::is_sorted(edges.begin(), edges.end(), in_order)) {
-    std::sort(edges.begin(), edges.end(), in_order);
+      std::is_sorted(edges.begin(), edges.end(), kInOrder)) {
+    std::sort(edges.begin(), edges.end(), kInOrder);
     return;
   }
   const int next_shift = shift - digit_bits;

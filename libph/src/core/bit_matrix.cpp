@@ -13,11 +13,11 @@ namespace ph::bits {
 
 PH_FOR_EACH_TARGET
 std::size_t first_common(const Word* a, const Word* b, std::size_t words) {
-  constexpr std::size_t kBlock = 8;  // a cache line: looked at without branches
+  constexpr std::size_t block = 8;  // a cache line: looked at without branches
   std::size_t k = 0;
-  for (; k + kBlock <= words; k += kBlock) {
+  for (; k + block <= words; k += block) {
     Word any = 0;
-    for (std::size_t i = 0; i < kBlock; ++i) any |= a[k + i] & b[k + i];
+    for (std::size_t i = 0; i < block; ++i) any |= a[k + i] & b[k + i];
     if (any != 0) break;
   }
   for (; k < words; ++k)
@@ -28,11 +28,11 @@ std::size_t first_common(const Word* a, const Word* b, std::size_t words) {
 
 PH_FOR_EACH_TARGET
 std::size_t first_outside(const Word* a, const Word* b, std::size_t first, std::size_t words) {
-  constexpr std::size_t kBlock = 8;
+  constexpr std::size_t block = 8;
   std::size_t k = first;
-  for (; k + kBlock <= words; k += kBlock) {
+  for (; k + block <= words; k += block) {
     Word any = 0;
-    for (std::size_t i = 0; i < kBlock; ++i) any |= a[k + i] & ~b[k + i];
+    for (std::size_t i = 0; i < block; ++i) any |= a[k + i] & ~b[k + i];
     if (any != 0) break;
   }
   while (k < words && (a[k] & ~b[k]) == 0) ++k;

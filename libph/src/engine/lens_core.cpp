@@ -12,15 +12,15 @@ void LensCore::keep_all(const Word* lens) {
 }
 
 void LensCore::find(const Word* lens, std::size_t size, Vertex first) {
-  constexpr std::size_t kMostFailures = 3, kWorthwhile = 16;
+  constexpr std::size_t most_failures = 3, worthwhile = 16;
   keep_all(lens);
   std::size_t left = size, failures = 0;
   Vertex hub = first;
-  for (std::size_t round = 0; left > 1 && failures < kMostFailures; ++round) {
+  for (std::size_t round = 0; left > 1 && failures < most_failures; ++round) {
     if (round > 0) hub = sampled_hub(left, round);
     const std::size_t count = take_dominated(hub);
     left -= count;
-    if (count * kWorthwhile < left) ++failures;
+    if (count * worthwhile < left) ++failures;
   }
 }
 
@@ -48,8 +48,8 @@ std::size_t LensCore::take_dominated(Vertex hub) {
 }
 
 LensCore::Vertex LensCore::sampled_hub(std::size_t left, std::size_t round) const {
-  constexpr std::size_t kSamples = 12;
-  const std::size_t step = std::max<std::size_t>(1, left / kSamples), words = joined_.words();
+  constexpr std::size_t samples = 12;
+  const std::size_t step = std::max<std::size_t>(1, left / samples), words = joined_.words();
   std::size_t place = 0, most = 0;
   Vertex best = 0;
   bits::for_each(rest_.data(), 0, words, [&](std::size_t w) {

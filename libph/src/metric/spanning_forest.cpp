@@ -109,7 +109,8 @@ class Boruvka {
     const std::uint32_t own = component_[p];
     if (point.knows == Knows::lower_bound || component_[point.first.position] != own) return;
     Position last = point.first.position;
-    while (point.place < kKnown && ++point.place < kKnown) {
+    if (point.place < kKnown) ++point.place;
+    for (; point.place < kKnown; ++point.place) {
       const Position q = known_[p * kKnown + point.place];
       if (q == kNone) {  // there are no more up to the limit
         point.first = {limit_, kNone};
@@ -190,7 +191,8 @@ class Boruvka {
   }
   std::uint32_t common_component(KdTree::Node node) const {
     if (!tree_.is_leaf(node)) {
-      const std::uint32_t left = node_component_[2 * node], right = node_component_[2 * node + 1];
+      const std::size_t below = 2 * std::size_t{node};
+      const std::uint32_t left = node_component_[below], right = node_component_[below + 1];
       return left == right ? left : Parts::kMixed;
     }
     const std::uint32_t first = component_[tree_.begin(node)];
@@ -218,8 +220,8 @@ class Boruvka {
 }  // namespace
 
 bool has_fast_spanning_forest(const Points& points, PointDistance distance) {
-  constexpr Index kMostAxes = 8;  // above, boxes exclude little: measured
-  return points.cols() <= kMostAxes && NeighbourSearch::can_search(distance);
+  constexpr Index most_axes = 8;  // above, boxes exclude little: measured
+  return points.cols() <= most_axes && NeighbourSearch::can_search(distance);
 }
 
 std::pmr::vector<FlagEdge> spanning_forest(const Points& points, PointDistance distance, double p,

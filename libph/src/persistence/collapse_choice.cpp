@@ -7,9 +7,10 @@
 namespace ph::detail {
 namespace {
 
-// Measured, H2 to H7: the more edges are dominated, the more is gained, up to some hundred times; at
-// two thirds it is still half of the time and of the memory. Below, on spheres of higher dimension and
-// on distances that are no metric, nearly all edges are kept and what the collapse takes is lost.
+// Measured, H2 to H7: the more edges are dominated, the more is gained, up to some hundred times;
+// at two thirds it is still half of the time and of the memory. Below, on spheres of higher
+// dimension and on distances that are no metric, nearly all edges are kept and what the collapse
+// takes is lost.
 constexpr double kWorthwhileShare = 0.6;
 
 /// Why a collapse would spoil what is asked for; empty if it would not.
