@@ -6,7 +6,7 @@
 #include "ph/persistence.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"
-#include "support/generators.hpp"
+#include "support/for_each_seed.hpp"
 
 namespace ph::test {
 namespace {
@@ -34,22 +34,12 @@ void expect_components_of_the_whole(const Data& data, RipsOptions options) {
   });
 }
 
-template <class Check>
-void for_each_seed(std::uint64_t count, Check&& check) {
-  for (std::uint64_t seed = 0; seed < count; ++seed) {
-    Generator random(seed);
-    check(random);
-    ASSERT_FALSE(::testing::Test::HasFailure()) << "seed " << seed;
-  }
-}
-
 constexpr PointDistance kSearched[] = {PointDistance::euclidean, PointDistance::manhattan,
                                        PointDistance::chebyshev, PointDistance::minkowski};
 
 // One to five coordinates, copies, ties, thresholds at ties; some of a size that has no squares.
 TEST(Components, OfPointsAreThoseOfTheWholeFiltration) {
-  for_each_seed(12000, [](Generator& random) {
-    const bool ties = random.coin();
+  for_each_seed(12000, [](Generator& random, bool ties, std::int64_t) {
     Points points = random.points(random.integer(0, 22), random.integer(0, 5), ties);
     for (Index i = 1; i < points.rows(); ++i)
       if (random.integer(0, 4) == 0) points.row(i) = points.row(random.integer(0, int(i) - 1));
@@ -64,8 +54,7 @@ TEST(Components, OfPointsAreThoseOfTheWholeFiltration) {
 }
 
 TEST(Components, OfManyAxesAndOtherDistances) {
-  for_each_seed(1500, [](Generator& random) {
-    const bool ties = random.coin();
+  for_each_seed(1500, [](Generator& random, bool ties, std::int64_t) {
     const Points points = random.points(random.integer(1, 12), random.integer(6, 20), ties);
     const bool is_cosine = random.coin() && points.rowwise().norm().minCoeff() > 0;
     RipsOptions options{.distance =
@@ -77,8 +66,7 @@ TEST(Components, OfManyAxesAndOtherDistances) {
 }
 
 TEST(Components, OfAnyMatrixAreThoseOfTheWholeFiltration) {
-  for_each_seed(6000, [](Generator& random) {
-    const bool ties = random.coin();
+  for_each_seed(6000, [](Generator& random, bool ties, std::int64_t) {
     const Index n = random.integer(0, 14);
     std::vector<double> lower(static_cast<std::size_t>(n * (n - 1) / 2));
     const int infinite = random.integer(0, 4);
@@ -90,8 +78,7 @@ TEST(Components, OfAnyMatrixAreThoseOfTheWholeFiltration) {
 }
 
 TEST(Components, OfSparseDistances) {
-  for_each_seed(3000, [](Generator& random) {
-    const bool ties = random.coin();
+  for_each_seed(3000, [](Generator& random, bool ties, std::int64_t) {
     RipsOptions options;
     if (random.coin()) options.threshold = random.value(ties);
     expect_components_of_the_whole(random.sparse(random.integer(0, 14), ties, random.real()),
@@ -108,7 +95,7 @@ struct AnyDistance {
 
 // Clusters within clusters, a grid full of ties, a line, a cloud: enough for all of the search.
 TEST(Components, OfManyPointsAreThoseOfAllPairs) {
-  for_each_seed(48, [](Generator& random) {
+  for_each_seed(48, [](Generator& random, bool, std::int64_t) {
     const Index n = random.integer(200, 2500), d = random.integer(1, 5);
     Points points = random.points(n, d, false);
     const int kind = random.integer(0, 3);

@@ -2,23 +2,10 @@
 // Every engine against the oracle on random small filtrations, half of them with heavy ties.
 #include "ph/complex/filtered_graph.hpp"
 #include "support/conformance.hpp"
-#include "support/generators.hpp"
+#include "support/for_each_seed.hpp"
 
 namespace ph::test {
 namespace {
-
-constexpr std::int64_t kFields[] = {2, 3, 5, 11};
-
-// Runs `make_and_check(generator, ties, field)` for `count` seeds.
-template <class MakeAndCheck>
-void for_each_seed(int count, MakeAndCheck&& make_and_check) {
-  for (int seed = 0; seed < count; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    Generator random(static_cast<std::uint64_t>(seed));
-    ASSERT_NO_FATAL_FAILURE(make_and_check(random, seed % 2 == 0, kFields[seed / 2 % 4]));
-    if (::testing::Test::HasFailure()) return;
-  }
-}
 
 /// As the lens sweep finds them on the ways that large inputs take.
 template <class F>

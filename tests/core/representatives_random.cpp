@@ -1,21 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Cycles and cocycles of random small filtrations, checked from the definitions.
-#include "support/generators.hpp"
+#include "support/for_each_seed.hpp"
 #include "support/representatives.hpp"
 
 namespace ph::test {
 namespace {
-
-constexpr std::int64_t kFields[] = {2, 3, 5, 11};
-
-template <class MakeAndCheck>
-void for_each_seed(int count, MakeAndCheck&& make_and_check) {
-  for (int seed = 0; seed < count && !::testing::Test::HasFailure(); ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    Generator random(static_cast<std::uint64_t>(seed));
-    make_and_check(random, seed % 2 == 0, kFields[seed / 2 % 4]);
-  }
-}
 
 TEST(RandomRepresentatives, Rips) {
   for_each_seed(600, [](Generator& random, bool ties, std::int64_t field) {

@@ -87,16 +87,24 @@ class OrderedCells {
   std::vector<Level> levels_;
 };
 
-/// A cycle: closed, its youngest cell the birth, a boundary first at the death.
+/// The representative of a bar, which must be closed.
 template <Filtration F>
-void check_cycle(const OrderedCells<F>& cells, const Barcode& bars, std::size_t i) {
+PositionChain closed_cycle(const OrderedCells<F>& cells, const Barcode& bars, std::size_t i) {
   const int dim = bars[i].dim;
-  const PositionChain cycle = cells.read(dim, bars.representative(i));
-  ASSERT_FALSE(cycle.empty());
+  PositionChain cycle = cells.read(dim, bars.representative(i));
   PositionChain boundary;
   for (const auto& [cell, a] : cycle)
     for (const auto& [face, b] : cells.boundary(dim, cell)) cells.add(boundary, face, a * b);
   EXPECT_TRUE(boundary.empty()) << "the cycle is not closed";
+  return cycle;
+}
+
+/// A cycle: closed, its youngest cell the birth, a boundary first at the death.
+template <Filtration F>
+void check_cycle(const OrderedCells<F>& cells, const Barcode& bars, std::size_t i) {
+  const int dim = bars[i].dim;
+  const PositionChain cycle = closed_cycle(cells, bars, i);
+  ASSERT_FALSE(cycle.empty());
   EXPECT_EQ(cycle.rbegin()->first, cells.position(dim, bars.birth_cell(i)));
   const auto death = bars.death_cell(i);
   const std::size_t at = death ? cells.position(dim + 1, *death) : cells.count(dim + 1);
