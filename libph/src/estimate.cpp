@@ -5,6 +5,7 @@
 #include <span>
 
 #include "ph/complex/edge_collapse.hpp"
+#include "ph/engine/lens_graph.hpp"
 #include "ph/persistence.hpp"
 
 namespace ph {
@@ -62,7 +63,8 @@ bool goes_by_edges(Engine engine) { return engine == Engine::lens || engine == E
 
 double stored_bytes(const Rips& rips, Engine engine) {
   const double n = static_cast<double>(rips.size()), e = static_cast<double>(rips.edge_count());
-  if (engine == Engine::lens) return 16 * e + n * n / 4;
+  if (engine == Engine::lens)
+    return 16 * e + LensGraph::bytes(static_cast<std::size_t>(rips.size()), rips.edge_count());
   if (engine == Engine::union_find) return 16 * e;
   return 16 * e + (rips.graph().is_dense() ? 4 * n * n : 16 * e + 8 * n);
 }

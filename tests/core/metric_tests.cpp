@@ -5,8 +5,10 @@
 #include "ph/metric/distance_matrix.hpp"
 #include "ph/metric/pairs_within.hpp"
 #include "ph/metric/point_metric.hpp"
+#include "ph/metric/row_distances.hpp"
 #include "ph/metric/sparse_distances.hpp"
 #include "support/expect_error.hpp"
+#include "support/for_each_seed.hpp"
 #include "support/generators.hpp"
 
 namespace ph::test {
@@ -237,6 +239,25 @@ TEST(SparseDistanceSets, TheSearchStopsOnRequest) {
           points, 0.5, [](Index, Index, double) {}, context);
     });
   }
+}
+
+// Bit by bit: which way computes a distance must not decide ties.
+TEST(RowDistancesOf, APointMetricAreItsDistances) {
+  for_each_seed(300, [](Generator& random, bool ties, std::int64_t) {
+    const Index n = random.integer(0, 70);
+    Points points = random.points(n, random.integer(0, 5), ties);
+    const double units[] = {1, 1, 1e-150, 1e-141, 1e120, 1e160};
+    points *= units[random.integer(0, 5)];
+    const PointMetric metric(points,
+                             random.coin() ? PointDistance::euclidean : PointDistance::manhattan);
+    const RowDistances<PointMetric> rows(metric, std::pmr::new_delete_resource());
+    std::vector<double> row(static_cast<std::size_t>(rows.row_capacity()));
+    for (Index i = 0; i < n; ++i) {
+      rows(i, row.data());
+      for (Index j = 0; j < i; ++j)
+        ASSERT_EQ(row[static_cast<std::size_t>(j)], metric(i, j)) << i << " " << j;
+    }
+  });
 }
 
 }  // namespace

@@ -110,6 +110,32 @@ TEST(RipsGraphs, ManyEdgesAreSorted) {
   }
 }
 
+// Whoever asks bin by bin gets what those get who ask for all; the others' edges stay unsorted.
+TEST(RipsGraphs, BinsAreSortedWhenTheyAreNeeded) {
+  Generator random(3);
+  const Points points = random.points(600, 3, false);
+  RunContext one, three;
+  one.threads = 1;
+  three.threads = 3;
+  const Rips expected(points, {}, one), found(points, {}, three);
+  const BinnedEdges& bins = found.graph().binned_edges();
+  ASSERT_GT(bins.bin_count(), 10U);
+  const auto is_sorted = [](std::span<const FlagEdge> edges) {
+    return std::ranges::is_sorted(edges,
+                                  [](const auto& a, const auto& b) { return precedes(a, b); });
+  };
+  const std::size_t half = bins.bin_count() / 2;
+  EXPECT_EQ(bins.sorted_bins(half).size(), bins.bin_begin(half));
+  EXPECT_TRUE(is_sorted(bins.sorted_bins(half)));
+  EXPECT_FALSE(bins.with_bins(half, bins.bin_count(), is_sorted));
+  const auto all = found.graph().edges();
+  ASSERT_EQ(all.size(), expected.edge_count());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const FlagEdge& e = expected.graph().edges()[i];
+    ASSERT_TRUE(all[i].value == e.value && all[i].u == e.u && all[i].v == e.v) << i;
+  }
+}
+
 TEST(RipsGraphs, ZeroHasOneSign) {
   const Rips rips(NegativeZeros{});
   expect_keys_ascend(rips);

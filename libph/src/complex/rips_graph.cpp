@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "ph/core/disjoint_sets.hpp"
 #include "ph/core/error.hpp"
 #include "ph/metric/pairs_within.hpp"
@@ -42,8 +44,7 @@ RipsGraph RipsGraph::of_points_within(const Points& points, double threshold,
         edges.push_back({d, static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(i)});
       },
       context);
-  sort_edges(edges, context);
-  return RipsGraph(points.rows(), threshold, std::move(edges), context);
+  return RipsGraph(points.rows(), threshold, bin_edges(std::move(edges), context), context);
 }
 
 RipsGraph RipsGraph::of_edges(Index size, std::span<const WeightedEdge> edges,
@@ -58,13 +59,12 @@ RipsGraph RipsGraph::of_edges(Index size, std::span<const WeightedEdge> edges,
     within.push_back(
         {e.value, static_cast<std::uint32_t>(large), static_cast<std::uint32_t>(small)});
   }
-  sort_edges(within, context);
-  return RipsGraph(size, limit, std::move(within), context);
+  return RipsGraph(size, limit, bin_edges(std::move(within), context), context);
 }
 
 RipsGraph RipsGraph::with_edges(const RipsGraph& graph, std::pmr::vector<FlagEdge>&& edges,
                                 const RunContext& context) {
-  RipsGraph result(graph.size_, graph.threshold_, std::move(edges), context);
+  RipsGraph result(graph.size_, graph.threshold_, BinnedEdges(std::move(edges)), context);
   result.names_ = graph.names_;
   return result;
 }
@@ -79,28 +79,38 @@ RipsGraph RipsGraph::forest_of_points(const Points& points, PointDistance distan
 
 RipsGraph RipsGraph::forest_of_edges(Index size, std::span<const WeightedEdge> edges,
                                      std::optional<double> threshold, const RunContext& context) {
-  RipsGraph graph = of_edges(size, edges, threshold, context);
+  const RipsGraph graph = of_edges(size, edges, threshold, context);
   DisjointSets sets(static_cast<std::size_t>(size), &context.memory);
-  std::erase_if(graph.edges_, [&](const FlagEdge& e) {  // Kruskal's algorithm
+  std::pmr::vector<FlagEdge> forest(&context.memory);
+  for (const FlagEdge& e : graph.edges()) {  // Kruskal's algorithm
     const std::uint32_t a = sets.find(e.u), b = sets.find(e.v);
-    if (a != b) sets.link(a, b);
-    return a == b;
-  });
-  graph.edges_.shrink_to_fit();
-  graph.is_forest_ = true;
-  return graph;
+    if (a == b) continue;
+    sets.link(a, b);
+    forest.push_back(e);
+  }
+  return of_forest(size, graph.threshold_, std::move(forest), context);
 }
 
 RipsGraph RipsGraph::of_forest(Index size, double limit, std::pmr::vector<FlagEdge>&& forest,
                                const RunContext& context) {
-  sort_edges(forest, context);
-  RipsGraph graph(size, limit, std::move(forest), context);
+  RipsGraph graph(size, limit, bin_edges(std::move(forest), context), context);
   graph.is_forest_ = true;
   return graph;
 }
 
-RipsGraph::RipsGraph(Index size, double threshold, std::pmr::vector<FlagEdge>&& edges,
-                     const RunContext& context)
+Index RipsGraph::range_begin(Index rows, std::size_t r, std::size_t ranges) {
+  const double share = static_cast<double>(r) / static_cast<double>(ranges);
+  return r == ranges ? rows : static_cast<Index>(std::sqrt(share) * static_cast<double>(rows));
+}
+
+std::size_t RipsGraph::range_count(Index rows, const RunContext& context) {
+  constexpr Index few = 512;
+  constexpr std::size_t ranges_a_thread = 4, most = 64;
+  const std::size_t threads = thread_count(context);
+  return threads == 1 || rows < few ? 1 : std::min(most, ranges_a_thread * threads);
+}
+
+RipsGraph::RipsGraph(Index size, double threshold, BinnedEdges&& edges, const RunContext& context)
     : size_(size), threshold_(threshold), edges_(std::move(edges)), names_(&context.memory) {
   if (edges_.size() >= RipsAdjacency::kNever) {
     throw Error(

@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ph/core/bit_matrix.hpp"
 
-// Resolving a clone at load time does not work under the sanitizers.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__) && !defined(__clang__)
-#define PH_FOR_EACH_TARGET __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define PH_FOR_EACH_TARGET
-#endif
+#include "for_each_target.hpp"
 
 namespace ph::bits {
 

@@ -12,11 +12,6 @@
 namespace ph {
 namespace {
 
-std::size_t threads_of(const RunContext& context) {
-  if (context.threads > 0) return static_cast<std::size_t>(context.threads);
-  return std::max(1U, std::thread::hardware_concurrency());
-}
-
 // Pieces are handed out one by one, to whoever asks.
 class Pieces {
  public:
@@ -57,12 +52,17 @@ class Pieces {
 
 }  // namespace
 
+std::size_t thread_count(const RunContext& context) {
+  if (context.threads > 0) return static_cast<std::size_t>(context.threads);
+  return std::max(1U, std::thread::hardware_concurrency());
+}
+
 void for_each_piece(std::string_view stage, std::size_t count, std::size_t piece,
                     const RunContext& context,
                     const std::function<void(std::size_t, std::size_t)>& work) {
   Pieces pieces(count, piece, context, work);
   Ticker ticker(context, stage, count);
-  const std::size_t others = std::min(threads_of(context), (count + piece - 1) / piece);
+  const std::size_t others = std::min(thread_count(context), (count + piece - 1) / piece);
   std::vector<std::jthread> threads;
   threads.reserve(others);
   for (std::size_t i = 1; i < others; ++i) {
@@ -72,7 +72,10 @@ void for_each_piece(std::string_view stage, std::size_t count, std::size_t piece
       break;  // those that are there do the work
     }
   }
-  pieces.take_all([&](std::size_t steps) { ticker.tick(steps); });
+  pieces.take_all([&](std::size_t steps) {
+    ticker.tick(steps);
+    ticker.poll();
+  });
   threads.clear();
   pieces.rethrow();
 }

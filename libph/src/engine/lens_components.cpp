@@ -6,29 +6,29 @@
 namespace ph {
 namespace {
 
-bool has(const bits::Word* row, std::uint32_t v) { return row[v / 64] >> (v % 64) & 1; }
 void clear(bits::Word* row, std::uint32_t v) { row[v / 64] &= ~(bits::Word{1} << (v % 64)); }
 void set(bits::Word* row, std::uint32_t v) { row[v / 64] |= bits::Word{1} << (v % 64); }
 
 }  // namespace
 
-void LensComponents::find(const FlagEdge& e, const Word* lens) {
-  const std::size_t words = joined_.words();
+void LensComponents::find(const FlagEdge& e) {
+  const std::size_t words = graph_.words();
   roots_.clear();
   sets_.clear();
   apex_ = kNone;
   Vertex start = kNone;
-  for (const Vertex guess : {last_apex_[e.u], last_apex_[e.v]}) {
-    if (guess == kNone || !has(lens, guess)) continue;
-    if (is_apex(guess, lens)) {
+  for (const Vertex last : {last_apex_[e.u], last_apex_[e.v]}) {
+    const Vertex guess = last == kNone ? kNone : graph_.local(last);
+    if (guess == kNone) continue;
+    if (is_apex(guess)) {
       set_apex(e, guess);
       roots_.push_back(guess);
       return;
     }
     start = guess;
   }
-  std::copy_n(lens, words, rest_.begin());
-  if (start == kNone) start = static_cast<Vertex>(bits::first_common(lens, lens, words));
+  rest_.assign(graph_.lens(), graph_.lens() + words);
+  if (start == kNone) start = graph_.first();
   for (;;) {
     const Word* component = take_component(start);
     roots_.push_back(static_cast<Vertex>(bits::first_common(component, component, words)));
@@ -36,18 +36,18 @@ void LensComponents::find(const FlagEdge& e, const Word* lens) {
     if (next == bits::kNone) break;
     start = static_cast<Vertex>(next);
   }
-  if (count() == 1 && is_apex(start, lens))
+  if (count() == 1 && is_apex(start))
     set_apex(e, start);
   else if (count() > 1)
     sort_components();
 }
 
 bits::Word* LensComponents::take_component(Vertex first) {
-  const std::size_t words = joined_.words();
+  const std::size_t words = graph_.words();
   sets_.resize(sets_.size() + words);
   Word* component = sets_.data() + sets_.size() - words;
   clear(rest_.data(), first);
-  bool is_left = bits::split(rest_.data(), joined_.row(first), component, 0, words);
+  bool is_left = bits::split(rest_.data(), graph_.row(first), component, 0, words);
   set(component, first);
   // What is left are mostly few vertices: each is asked whether it sees the component.
   for (bool grew = true; is_left && grew;) {
@@ -56,7 +56,7 @@ bits::Word* LensComponents::take_component(Vertex first) {
       for (Word rest = rest_[k]; rest != 0; rest &= rest - 1) {
         const auto w =
             static_cast<Vertex>(k * 64 + static_cast<std::size_t>(std::countr_zero(rest)));
-        if (bits::first_common(joined_.row(w), component, words) == bits::kNone) continue;
+        if (bits::first_common(graph_.row(w), component, words) == bits::kNone) continue;
         clear(rest_.data(), w);
         set(component, w);
         grew = true;
@@ -69,7 +69,7 @@ bits::Word* LensComponents::take_component(Vertex first) {
 
 void LensComponents::sort_components() {
   // All but the one that a guess began with ascend.
-  const std::size_t words = joined_.words();
+  const std::size_t words = graph_.words();
   for (std::size_t i = 1; i < count() && roots_[i] < roots_[i - 1]; ++i) {
     std::swap(roots_[i], roots_[i - 1]);
     std::swap_ranges(sets_.begin() + static_cast<std::ptrdiff_t>((i - 1) * words),
@@ -78,21 +78,22 @@ void LensComponents::sort_components() {
   }
 }
 
-bool LensComponents::find_apex(const FlagEdge& e, const Word* lens) {
+bool LensComponents::find_apex(const FlagEdge& e) {
   // An apex sees every vertex, so also one that a candidate misses.
-  const std::size_t words = joined_.words();
-  std::copy_n(lens, words, rest_.begin());
+  const std::size_t words = graph_.words();
+  const auto has = [&](std::size_t w) { return (rest_[w / 64] >> (w % 64) & 1) != 0; };
+  rest_.assign(graph_.lens(), graph_.lens() + words);
   for (;;) {
     const std::size_t candidate = bits::first_common(rest_.data(), rest_.data(), words);
     if (candidate == bits::kNone) return false;
     const auto v = static_cast<Vertex>(candidate);
-    const std::size_t missed = bits::first_missing(lens, joined_.row(v), v, words);
+    const std::size_t missed = bits::first_missing(graph_.lens(), graph_.row(v), v, words);
     if (missed == bits::kNone) {
       set_apex(e, v);
       return true;
     }
-    const bool itself = has(rest_.data(), static_cast<Vertex>(missed));
-    const Word* row = joined_.row(missed);
+    const bool itself = has(missed);
+    const Word* row = graph_.row(static_cast<Vertex>(missed));
     for (std::size_t k = 0; k < words; ++k) rest_[k] &= row[k];
     if (itself) set(rest_.data(), static_cast<Vertex>(missed));
   }

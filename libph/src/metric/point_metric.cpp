@@ -15,6 +15,7 @@ namespace {
 // Differences of coordinates whose squares neither overflow nor lose their digits to underflow.
 constexpr double kLargestPlain = 1e150;
 constexpr double kSmallestPlain = 1e-140;
+static_assert(PointMetric::kLeastPlainSquare >= kSmallestPlain * kSmallestPlain);
 
 }  // namespace
 
@@ -51,7 +52,7 @@ double PointMetric::euclidean(Index i, Index j) const {
     double sum = 0;
     for (Index k = 0; k < d; ++k) sum += (x[k] - y[k]) * (x[k] - y[k]);
     // A tiny sum may have lost digits to underflow: take the careful way for it.
-    if (sum >= kSmallestPlain * kSmallestPlain || sum == 0) return std::sqrt(sum);
+    if (sum >= kLeastPlainSquare || sum == 0) return std::sqrt(sum);
   }
   // Halves only where whole differences overflow: the half of the least denormal is zero.
   const auto scaled = [&](double unit) {

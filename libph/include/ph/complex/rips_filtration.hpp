@@ -66,10 +66,10 @@ class RipsFiltration {
   }
 
   std::size_t vertex_count() const { return static_cast<std::size_t>(graph_.size()); }
-  std::span<const FlagEdge> edges() const { return graph_.edges(); }
+  const BinnedEdges& binned_edges() const { return graph_.binned_edges(); }
   Cell vertex_cell(std::uint32_t v) const { return {0, Vertices(v)}; }
   Cell edge_cell(std::uint32_t position) const {
-    const FlagEdge& e = graph_.edges()[position];
+    const FlagEdge& e = graph_.edge(position + 1);
     return {position + 1, Vertices(e.u) << bits_ | Vertices(e.v)};
   }
   Cell triangle_cell(std::uint32_t longest, std::uint32_t apex) const {
@@ -101,7 +101,7 @@ class RipsFiltration {
   /// The simplex of an edge and other vertices.
   template <std::size_t Size>
   Cell over_edge(std::uint32_t longest, std::array<std::uint32_t, Size - 2> others) const {
-    const FlagEdge& e = graph_.edges()[longest];
+    const FlagEdge& e = graph_.edge(longest + 1);
     std::array<std::uint32_t, Size> v{e.u, e.v};
     std::copy(others.begin(), others.end(), v.begin() + 2);
     std::sort(v.begin(), v.end(), std::greater());
@@ -141,7 +141,8 @@ void RipsFiltration<Layout, Words>::for_each_cell(int dim, Visit&& visit) const 
     return;
   }
   if (dim == 1) {  // in the order of the filtration
-    for (std::uint32_t i = 0; i < graph_.edge_count(); ++i) visit(edge_cell(i));
+    const auto count = static_cast<std::uint32_t>(graph_.edges().size());
+    for (std::uint32_t i = 0; i < count; ++i) visit(edge_cell(i));
     return;
   }
   std::vector<std::vector<Neighbour>> scratch(static_cast<std::size_t>(dim) + 1);

@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -12,20 +13,22 @@
 #include <utility>
 #include <vector>
 
-#include "ph/complex/edge_sorter.hpp"
 #include "ph/complex/rips_adjacency.hpp"
+#include "ph/core/binned_edges.hpp"
 #include "ph/core/filtration.hpp"
+#include "ph/core/parallel.hpp"
 #include "ph/core/run_context.hpp"
 #include "ph/metric/metric.hpp"
+#include "ph/metric/row_distances.hpp"
 #include "ph/metric/spanning_forest.hpp"
 #include "ph/metric/sparse_distances.hpp"
 
 namespace ph {
 
-/// The graph under a Vietoris-Rips filtration: all edges up to a threshold, sorted once by
-/// (distance, larger end, smaller end) and from then on known by their key, an integer. Keys start
-/// at 1; key 0 belongs to the vertices, which enter at 0. (A collapsed graph has its own order
-/// within a value, see edge_collapse.hpp.)
+/// The graph under a Vietoris-Rips filtration: all edges up to a threshold, sorted by
+/// (distance, larger end, smaller end) as far as that was needed, and known by their key, an
+/// integer. Keys start at 1; key 0 belongs to the vertices, which enter at 0. (A collapsed graph
+/// has its own order within a value, see edge_collapse.hpp.)
 class RipsGraph {
  public:
   using Key = RipsAdjacency::Key;
@@ -73,7 +76,10 @@ class RipsGraph {
 
   const FlagEdge& edge(Key key) const { return edges_[key - 1]; }
   double value(Key key) const { return key == 0 ? 0.0 : edges_[key - 1].value; }
-  std::span<const FlagEdge> edges() const { return edges_; }
+  /// All, in order.
+  std::span<const FlagEdge> edges() const { return edges_.sorted(); }
+  /// For those who may not need all of them in order.
+  const BinnedEdges& binned_edges() const { return edges_; }
 
   /// Whether most pairs are edges: the layout that adjacency() has, or will have.
   bool is_dense() const {
@@ -85,8 +91,8 @@ class RipsGraph {
     if (const RipsAdjacency* made = lazy_->made.load(std::memory_order_acquire)) return *made;
     const std::lock_guard lock(lazy_->mutex);
     if (!lazy_->adjacency) {
-      lazy_->adjacency.emplace(static_cast<std::size_t>(size_), edges_,
-                               edges_.get_allocator().resource());
+      lazy_->adjacency.emplace(static_cast<std::size_t>(size_), edges_.sorted(),
+                               names_.get_allocator().resource());
       lazy_->made.store(&*lazy_->adjacency, std::memory_order_release);
     }
     return *lazy_->adjacency;
@@ -100,18 +106,20 @@ class RipsGraph {
     std::optional<RipsAdjacency> adjacency;
     std::atomic<const RipsAdjacency*> made{nullptr};
   };
-  /// @param edges sorted.
-  RipsGraph(Index size, double threshold, std::pmr::vector<FlagEdge>&& edges,
-            const RunContext& context);
+  RipsGraph(Index size, double threshold, BinnedEdges&& edges, const RunContext& context);
   static RipsGraph of_forest(Index size, double limit, std::pmr::vector<FlagEdge>&& forest,
                              const RunContext& context);
   static void check_arguments(Index size, std::optional<double> threshold);
   static double checked_distance(Index i, Index j, double value);
+  /// Rows of a triangle in ranges of equally many pairs: where range r of so many begins.
+  static Index range_begin(Index rows, std::size_t r, std::size_t ranges);
+  /// As many ranges as keep the threads busy.
+  static std::size_t range_count(Index rows, const RunContext& context);
 
   Index size_ = 0;
   double threshold_ = 0;
   bool is_forest_ = false;
-  std::pmr::vector<FlagEdge> edges_;       // by key - 1
+  BinnedEdges edges_;                      // by key - 1
   std::pmr::vector<std::uint32_t> names_;  // by vertex; empty: its number
   std::unique_ptr<Lazy> lazy_ = std::make_unique<Lazy>();
 };
@@ -133,31 +141,59 @@ RipsGraph RipsGraph::of_metric(const M& metric, std::optional<double> threshold,
   check_arguments(n, threshold);
   // One pass finds the enclosing radius and how the distances are spread, the next one keeps those
   // within: distances are evaluated twice rather than all stored.
-  const auto for_each_distance = [&](std::string_view stage, auto&& use) {
-    Ticker ticker(context, stage, static_cast<std::uint64_t>(n));
-    for (Index i = 0; i < n; ++i) {
-      for (Index j = 0; j < i; ++j) use(i, j, checked_distance(i, j, metric(i, j)));
-      ticker.tick();
-      ticker.work(static_cast<std::uint64_t>(i));
-    }
+  const RowDistances<M> distances(metric, &context.memory);
+  const std::size_t ranges = range_count(n, context);
+  using Row = std::pmr::vector<double>;
+  const auto for_each_row = [&](std::string_view stage, auto&& use_range) {
+    for_each_piece(stage, ranges, 1, context, [&](std::size_t range, std::size_t) {
+      std::optional<Ticker> ticker;  // of the only range
+      if (ranges == 1) ticker.emplace(context, stage, static_cast<std::uint64_t>(n));
+      Row row(static_cast<std::size_t>(distances.row_capacity()), 0.0, &context.memory);
+      const Index end = range_begin(n, range + 1, ranges);
+      use_range(range, [&](auto&& use) {
+        for (Index i = range_begin(n, range, ranges); i < end; ++i) {
+          distances(i, row.data());
+          use(i, row.data());
+          if (!ticker) {
+            context.poll();
+            continue;
+          }
+          ticker->tick();
+          ticker->work(static_cast<std::uint64_t>(i));
+        }
+      });
+    });
   };
-  EdgeSorter sorter(static_cast<std::size_t>(n) * static_cast<std::size_t>(n) / 2, context);
-  std::pmr::vector<double> farthest(static_cast<std::size_t>(n), 0.0, &context.memory);
-  for_each_distance("enclosing radius", [&](Index i, Index j, double d) {
-    double &of_i = farthest[static_cast<std::size_t>(i)],
-           &of_j = farthest[static_cast<std::size_t>(j)];
-    of_i = std::max(of_i, d);
-    of_j = std::max(of_j, d);
-    sorter.count(d);
+  EdgeBinner binner(static_cast<std::size_t>(n) * static_cast<std::size_t>(n) / 2, ranges, context);
+  Row farthest(static_cast<std::size_t>(n), 0.0, &context.memory);
+  std::mutex farthest_mutex;
+  for_each_row("enclosing radius", [&](std::size_t range, auto&& for_each) {
+    Row of_range(farthest.size(), 0.0, &context.memory);
+    for_each([&](Index i, double* row) {
+      const double largest = take_maxima(row, i, of_range.data());
+      if (std::isnan(largest))
+        for (Index j = 0; j < i; ++j) checked_distance(i, j, row[j]);
+      double& of_row = of_range[static_cast<std::size_t>(i)];
+      of_row = std::max(of_row, largest);
+      for (Index j = 0; j < i; ++j) binner.count(row[j], range);
+    });
+    const std::lock_guard lock(farthest_mutex);
+    for (std::size_t i = 0; i < farthest.size(); ++i)
+      farthest[i] = std::max(farthest[i], of_range[i]);
   });
   const double radius = n == 0 ? kNoLimit : *std::ranges::min_element(farthest);
   const double limit = threshold.value_or(radius);
   const double last = std::min(limit, std::numeric_limits<double>::max());  // infinite: no edge
-  sorter.allocate(last);
-  for_each_distance("edges", [&](Index i, Index j, double d) {
-    if (d <= last) sorter.add({d, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});
+  binner.allocate(last);
+  for_each_row("edges", [&](std::size_t range, auto&& for_each) {
+    for_each([&](Index i, const double* row) {
+      for (Index j = 0; j < i; ++j)
+        if (row[j] <= last)
+          binner.add({row[j] + 0.0, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)},
+                     range);
+    });
   });
-  return RipsGraph(n, limit, sorter.finish(), context);
+  return RipsGraph(n, limit, binner.finish(), context);
 }
 
 }  // namespace ph

@@ -98,16 +98,18 @@ inline bool precedes(const FlagEdge& a, const FlagEdge& b) {
   return a.u != b.u ? a.u < b.u : a.v < b.v;
 }
 
+class BinnedEdges;
+
 /// Capability: the clique complex of a graph whose vertices enter first, in the order of their
 /// numbers 0 … vertex_count() - 1, and whose simplices enter with the last of their edges: by
 /// (position of that edge, dimension, vertices read from the largest down).
 template <class F>
 concept FlagFiltration = Filtration<F> && requires(const F& f, std::uint32_t i) {
   { f.vertex_count() } -> std::convertible_to<std::size_t>;
-  /// All edges in the order of the filtration.
-  { f.edges() } -> std::convertible_to<std::span<const FlagEdge>>;
+  /// All edges in the order of the filtration, sorted as far as they are asked for.
+  { f.binned_edges() } -> std::same_as<const BinnedEdges&>;
   { f.vertex_cell(i) } -> std::same_as<typename F::Cell>;
-  /// By position in edges().
+  /// By position in their order.
   { f.edge_cell(i) } -> std::same_as<typename F::Cell>;
   /// The triangle of the edge at a position and another vertex; the edge is the last of the three.
   { f.triangle_cell(i, i) } -> std::same_as<typename F::Cell>;

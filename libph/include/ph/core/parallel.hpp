@@ -8,6 +8,9 @@
 
 namespace ph {
 
+/// How many threads a context allows.
+std::size_t thread_count(const RunContext& context);
+
 /// Calls `work(begin, end)` for pieces that together are 0 … count - 1, on `context.threads`
 /// threads of which the caller's is one; fewer where the system gives no more, one where there is
 /// only one piece. Returns when all are done. Which thread takes which piece is left open: what

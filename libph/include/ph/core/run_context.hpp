@@ -95,10 +95,11 @@ class Ticker {
     pending_ += steps;
     if (pending_ >= kPollInterval) poll();
   }
+  /// Polls and reports now; for steps that take long.
+  void poll();
 
  private:
   static constexpr std::uint64_t kPollInterval = 4096;
-  void poll();
 
   const RunContext& context_;
   Progress progress_;

@@ -5,13 +5,13 @@
 #include <cstdint>
 #include <cstdlib>
 #include <memory_resource>
-#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
 #include "ph/core/chain.hpp"
 #include "ph/core/error.hpp"
 #include "ph/core/field.hpp"
+#include "ph/core/flat_map.hpp"
 
 namespace ph {
 
@@ -38,14 +38,17 @@ class Annotations {
   Annotations(const K& field, std::pmr::memory_resource* memory)
       : field_(field),
         vectors_(memory),
+        hashes_(memory),
         members_(memory),
         links_(memory),
         of_generator_(memory),
         edges_(memory),
         sums_(memory),
         known_(16, Hash{this}, Equal{this}, memory),
-        scratch_(memory) {
+        scratch_(memory),
+        arrived_(memory) {
     vectors_.emplace_back();  // the zero class
+    hashes_.push_back(0);
     members_.emplace_back();
     links_.push_back({});
   }
@@ -70,15 +73,15 @@ class Annotations {
 
   /// a(u,v).
   Class of(std::uint32_t u, std::uint32_t v) {
-    const auto it = edges_.find(name(u, v));
-    if (it == edges_.end()) return {};
-    it->second = resolve(it->second);
-    return oriented(it->second, u, v);
+    Class* a = edges_.find(name(u, v));
+    if (a == nullptr) return {};
+    *a = resolve(*a);
+    return oriented(*a, u, v);
   }
   /// Annotates an edge for the first time: a(u,v), which is not zero.
   void assign(const Edge& edge, Class a) {
     members_[a.id].push_back(edge);
-    edges_[name(edge.u, edge.v)] = a;
+    *edges_.try_emplace(name(edge.u, edge.v)).first = a;
   }
 
   Class sum(Class a, Class b);
@@ -103,15 +106,7 @@ class Annotations {
  private:
   struct Hash {
     const Annotations* self;
-    std::size_t operator()(std::uint32_t id) const {
-      std::uint64_t h = 0;
-      for (const Term& t : self->vectors_[id]) {
-        const auto size =
-            static_cast<std::uint64_t>(std::abs(self->field_.to_int(t.coefficient())));
-        h = (h ^ t.cell ^ size << 32) * 0x9E3779B97F4A7C15U;
-      }
-      return h ^ h >> 32;
-    }
+    std::size_t operator()(std::uint32_t id) const { return self->hashes_[id]; }
   };
   struct Equal {
     const Annotations* self;
@@ -139,7 +134,18 @@ class Annotations {
   Class resolve(Class a);
   /// The class of scratch_.
   Class intern();
-  /// scratch_ = a + scale * b.
+  /// The hash of a vector is the sum over its terms, the same for +-a.
+  std::size_t hash(const Term& t) const {
+    const auto size = static_cast<std::uint64_t>(std::abs(field_.to_int(t.coefficient())));
+    const std::uint64_t h = (t.cell ^ size << 32) * 0x9E3779B97F4A7C15U;
+    return (h ^ h >> 29) * 0xBF58476D1CE4E5B9U;
+  }
+  std::size_t hash(const Vector& v) const {
+    std::size_t sum = 0;
+    for (const Term& t : v) sum += hash(t);
+    return sum;
+  }
+  /// scratch_ = a + scale * b; arrived_ = the generators of b that are not in a.
   void combine(const Vector& a, const Vector& b, typename K::Element scale);
   template <class T>
   static void release(T& vector) {
@@ -153,13 +159,15 @@ class Annotations {
 
   const K& field_;
   std::pmr::vector<Vector> vectors_;                  // by class
+  std::pmr::vector<std::size_t> hashes_;              // by class
   std::pmr::vector<std::pmr::vector<Edge>> members_;  // by class
   std::pmr::vector<Class> links_;  // by class: what it became; itself while it is one
   std::pmr::vector<std::pmr::vector<std::uint32_t>> of_generator_;  // classes it may occur in
-  std::pmr::unordered_map<std::uint64_t, Class> edges_;             // oriented from u > v
-  std::pmr::unordered_map<std::uint64_t, Class> sums_;  // of two classes, until the next kill
+  FlatMap<Class> edges_;                                            // oriented from u > v
+  FlatMap<Class> sums_;  // of two classes, until the next kill
   std::pmr::unordered_set<std::uint32_t, Hash, Equal> known_;
   Vector scratch_;
+  std::pmr::vector<Generator> arrived_;
 };
 
 template <Field K>
@@ -181,10 +189,12 @@ auto Annotations<K>::intern() -> Class {
     throw Error(ErrorKind::resource, "too many classes of edges are alive; lower the threshold");
   const auto fresh = static_cast<std::uint32_t>(vectors_.size());
   vectors_.emplace_back(scratch_.begin(), scratch_.end());
+  hashes_.push_back(hash(scratch_));
   const auto [it, is_new] = known_.insert(fresh);
   if (!is_new) {
     const Class found{*it, are_opposite(fresh, *it)};
     vectors_.pop_back();
+    hashes_.pop_back();
     return found;
   }
   members_.emplace_back();
@@ -196,11 +206,15 @@ auto Annotations<K>::intern() -> Class {
 template <Field K>
 void Annotations<K>::combine(const Vector& a, const Vector& b, typename K::Element scale) {
   scratch_.clear();
+  arrived_.clear();
   auto x = a.begin();
   for (const Term& y : b) {
     for (; x != a.end() && x->cell < y.cell; ++x) scratch_.push_back(*x);
     auto value = field_.multiply(scale, y.coefficient());
-    if (x != a.end() && x->cell == y.cell) value = field_.add(value, (x++)->coefficient());
+    if (x != a.end() && x->cell == y.cell)
+      value = field_.add(value, (x++)->coefficient());
+    else
+      arrived_.push_back(y.cell);
     if (!field_.is_zero(value)) scratch_.emplace_back(y.cell, value);
   }
   scratch_.insert(scratch_.end(), x, a.end());
@@ -218,12 +232,12 @@ auto Annotations<K>::sum(Class a, Class b) -> Class {
     b = -b;
   }
   const std::uint64_t pair = std::uint64_t{a.id} << 32 | b.id << 1 | (b.negated ? 1U : 0U);
-  const auto [it, is_new] = sums_.try_emplace(pair);
+  const auto [sum, is_new] = sums_.try_emplace(pair);
   if (is_new) {
     combine(vectors_[a.id], vectors_[b.id], field_.from_int(b.negated ? -1 : 1));
-    it->second = intern();
+    *sum = intern();
   }
-  return flipped ? -it->second : it->second;
+  return flipped ? -*sum : *sum;
 }
 
 template <Field K>
@@ -242,13 +256,13 @@ void Annotations<K>::kill(Class relation, OnInactive&& on_inactive) {
     known_.erase(id);
     combine(vectors_[id], zero, field_.negate(field_.multiply(term->coefficient(), unit)));
     scratch_.swap(vectors_[id]);
+    hashes_[id] = hash(vectors_[id]);
     if (vectors_[id].empty()) {
       links_[id] = {};
       for (const Edge& edge : members_[id]) on_inactive(edge);
       release(members_[id]);
     } else if (const auto [it, is_new] = known_.insert(id); is_new) {
-      for (const Term& t : zero)  // scratch_ is the vector before
-        if (t.cell != g && find(scratch_, t.cell) == nullptr) of_generator_[t.cell].push_back(id);
+      for (const Generator h : arrived_) of_generator_[h].push_back(id);
     } else {
       links_[id] = {*it, are_opposite(id, *it)};
       auto &from = members_[id], &to = members_[*it];

@@ -12,8 +12,8 @@
 
 namespace ph {
 
-/// H0, H1 and H2 of Vietoris-Rips filtrations by the lens sweep, see lens_sweep.hpp: bit rows of
-/// n^2 bits and the classes alive, neither columns of triangles nor of tetrahedra.
+/// H0, H1 and H2 of Vietoris-Rips filtrations by the lens sweep, see lens_sweep.hpp: the graph, as
+/// n^2 bits or as lists, and the classes alive, neither columns of triangles nor of tetrahedra.
 struct LensEngine {
   static constexpr Engine id = Engine::lens;
   static constexpr const char* name = "lens";
@@ -21,8 +21,7 @@ struct LensEngine {
   static bool can_run(const F& f, int max_dim, Representatives wanted = Representatives::none) {
     if constexpr (FlagFiltration<F>)
       return max_dim <= 2 && wanted != Representatives::cycles &&
-             (max_dim < 2 || f.vertex_count() <= kMostVerticesOfSurfaces) &&
-             are_rows_affordable(f.vertex_count(), f.edges().size());
+             (max_dim < 2 || f.vertex_count() <= kMostVerticesOfSurfaces);
     else
       return false;
   }
@@ -36,20 +35,13 @@ struct LensEngine {
                               .cocycles = bars.representatives() == Representatives::cocycles,
                               .zero_length = bars.wants_zero_length(),
                               .tuning = tuning};
-      LensSweep<K>(f.vertex_count(), f.edges(), field, wanted, reporter, context).run();
+      LensSweep<K>(f.vertex_count(), f.binned_edges(), field, wanted, reporter, context).run();
       reporter.report_components();
     }
   }
 
  private:
   static constexpr std::size_t kMostVerticesOfSurfaces = LinkCochain<Z2>::kMostVertices;
-
-  /// Two bits a pair of vertices; where edges are few, other engines take less.
-  static bool are_rows_affordable(std::size_t vertices, std::size_t edges) {
-    constexpr double kAlways = 1 << 25;  // bytes
-    const auto n = static_cast<double>(vertices);
-    return n * n / 4 <= std::max(kAlways, 16.0 * static_cast<double>(edges));
-  }
 
   /// Turns what the sweep tells into bars.
   template <class F, Field K>

@@ -4,7 +4,7 @@
 #include <memory_resource>
 #include <vector>
 
-#include "ph/core/bit_matrix.hpp"
+#include "ph/engine/lens_graph.hpp"
 
 namespace ph {
 
@@ -16,14 +16,14 @@ class LensCore {
   using Vertex = std::uint32_t;
   using Word = bits::Word;
 
-  /// @param joined the edges so far, a square matrix that outlives this.
-  LensCore(const BitMatrix& joined, std::pmr::memory_resource* memory)
-      : joined_(joined), rest_(joined.words(), 0, memory), hubs_(memory), taken_(memory) {}
+  /// @param graph outlives this.
+  LensCore(LensGraph& graph, std::pmr::memory_resource* memory)
+      : graph_(graph), rest_(memory), hubs_(memory), taken_(memory) {}
 
   /// @param size how many vertices the lens has. @param first one of them: the hub to begin with.
-  void find(const Word* lens, std::size_t size, Vertex first);
+  void find(std::size_t size, Vertex first);
   /// Nothing is taken out.
-  void keep_all(const Word* lens);
+  void keep_all();
 
   /// What no hub took.
   const Word* rest() const { return rest_.data(); }
@@ -31,7 +31,7 @@ class LensCore {
   std::size_t hub_count() const { return hubs_.size(); }
   Vertex hub(std::size_t i) const { return hubs_[i]; }
   /// What a hub took: neighbours of it.
-  const Word* taken(std::size_t i) const { return taken_.data() + i * joined_.words(); }
+  const Word* taken(std::size_t i) const { return taken_.data() + i * graph_.words(); }
 
  private:
   /// @return how many vertices it takes out.
@@ -39,7 +39,7 @@ class LensCore {
   /// Among a few vertices of the rest the one with most neighbours there.
   Vertex sampled_hub(std::size_t left, std::size_t round) const;
 
-  const BitMatrix& joined_;
+  LensGraph& graph_;
   std::pmr::vector<Word> rest_;
   std::pmr::vector<Vertex> hubs_;
   std::pmr::vector<Word> taken_;  // a row for each hub

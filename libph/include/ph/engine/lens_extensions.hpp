@@ -11,13 +11,15 @@
 #include "ph/engine/field_rows.hpp"
 #include "ph/engine/lens_core.hpp"
 #include "ph/engine/lens_forest.hpp"
+#include "ph/engine/lens_graph.hpp"
 #include "ph/engine/triangle_cocycles.hpp"
 
 namespace ph {
 
 /// The living classes of H2 near a new edge (u,v), and what they become on its star: for each class
 /// h a potential p on the lens, p(w) = phi_h(u,v,w), such that p(y) - p(x) = gamma(x,y) :=
-/// phi_h(u,x,y) - phi_h(v,x,y) on the edges xy of the lens.
+/// phi_h(u,x,y) - phi_h(v,x,y) on the edges xy of the lens. Vertices have their numbers in the
+/// lens.
 template <Field K>
 class LensExtensions {
  public:
@@ -40,14 +42,14 @@ class LensExtensions {
     bool is_mismatched = false;
   };
 
-  LensExtensions(const Cocycles& cocycles, std::size_t words, const K& field,
+  LensExtensions(const Cocycles& cocycles, const LensGraph& graph, const K& field,
                  std::pmr::memory_resource* memory)
       : cocycles_(cocycles),
-        words_(words),
+        graph_(graph),
         field_(field),
         all_(memory),
-        rows_(words, memory),
-        gamma_(words * Row::kUnitsPerBlock, 0, memory),
+        rows_((graph.vertex_count() + 63) / 64, memory),
+        gamma_((graph.vertex_count() + 63) / 64 * Row::kUnitsPerBlock, 0, memory),
         terms_(memory) {}
 
   /// By ascending generator.
@@ -59,9 +61,9 @@ class LensExtensions {
   /// Finds the classes whose gamma is, perhaps, not zero on the lens. Calls `prepare` before the
   /// first one: it says which, or null, is an apex of the lens, and gives a core.
   template <class Prepare>
-  void find(const FlagEdge& e, const Word* lens, Prepare&& prepare);
+  void find(const FlagEdge& e, Prepare&& prepare);
   /// Cocycles have changed: finds gamma anew.
-  void refresh(const FlagEdge& e, const Word* lens);
+  void refresh(const FlagEdge& e);
   /// All potentials are zero again.
   void reset();
 
@@ -82,17 +84,19 @@ class LensExtensions {
     x.at_u = cocycles_.find(x.generator, e.u);
     x.at_v = cocycles_.find(x.generator, e.v);
   }
+  /// to += scale * a cocycle's row on the lens, in the first words.
+  void add_row(Unit* to, const Unit* row, Element scale, std::size_t words) const;
   /// potential = gamma(apex, .). @return whether it is not zero.
-  bool extend_over_cone(Extension& x, Vertex apex, const Word* lens);
+  bool extend_over_cone(Extension& x, Vertex apex);
   /// Copies what lists say of gamma on the lens into terms_, from both ends of each pair.
-  void collect_terms(Extension& x, const Word* lens);
+  void collect_terms(Extension& x);
   /// Whether gamma may be something but zero. @param core of the lens.
-  bool has_gamma(const Extension& x, const Word* lens, const LensCore& core);
+  bool has_gamma(const Extension& x, const LensCore& core);
   /// gamma_ = gamma(., y) on a set, in the first words. @return whether that is not zero.
   bool find_gamma(const Extension& x, Vertex y, const Word* set, std::size_t words);
 
   const Cocycles& cocycles_;
-  std::size_t words_;
+  const LensGraph& graph_;
   const K& field_;
   std::pmr::vector<Extension> all_;
   RowPool<K> rows_;
@@ -119,7 +123,7 @@ void LensExtensions<K>::remove(Extension* x) {
 
 template <Field K>
 template <class Prepare>
-void LensExtensions<K>::find(const FlagEdge& e, const Word* lens, Prepare&& prepare) {
+void LensExtensions<K>::find(const FlagEdge& e, Prepare&& prepare) {
   clear();
   const LensCore* core = nullptr;
   std::optional<Vertex> apex;
@@ -132,24 +136,24 @@ void LensExtensions<K>::find(const FlagEdge& e, const Word* lens, Prepare&& prep
                                     : std::min(i->generator, j->generator);
     if (i != at_u.end() && i->generator == x.generator) x.at_u = &cocycles_.link(*i++);
     if (j != at_v.end() && j->generator == x.generator) x.at_v = &cocycles_.link(*j++);
-    const auto is_near = [&](const Link* link) { return link != nullptr && link->touches(lens); };
+    const auto is_near = [&](const Link* link) { return link != nullptr && link->touches(graph_); };
     if (!is_near(x.at_u) && !is_near(x.at_v)) continue;
     if (core == nullptr) core = &prepare(apex);
     x.potential = rows_.take();
     x.mismatch = rows_.take();
     all_.push_back(x);
-    if (!apex) collect_terms(all_.back(), lens);
-    if (!(apex ? extend_over_cone(all_.back(), *apex, lens) : has_gamma(all_.back(), lens, *core)))
+    if (!apex) collect_terms(all_.back());
+    if (!(apex ? extend_over_cone(all_.back(), *apex) : has_gamma(all_.back(), *core)))
       remove(&all_.back());
   }
 }
 
 template <Field K>
-void LensExtensions<K>::refresh(const FlagEdge& e, const Word* lens) {
+void LensExtensions<K>::refresh(const FlagEdge& e) {
   terms_.clear();
   for (Extension& x : all_) {
     look_up(x, e);
-    collect_terms(x, lens);
+    collect_terms(x);
   }
 }
 
@@ -164,33 +168,44 @@ void LensExtensions<K>::reset() {
 }
 
 template <Field K>
-bool LensExtensions<K>::extend_over_cone(Extension& x, Vertex apex, const Word* lens) {
+void LensExtensions<K>::add_row(Unit* to, const Unit* row, Element scale, std::size_t words) const {
+  if (graph_.keeps_numbers()) return Row::add(to, row, scale, field_, words);
+  bits::for_each(graph_.lens(), 0, words, [&](std::size_t w) {
+    const Element a = Row::value(row, graph_.global(static_cast<Vertex>(w)));
+    Row::add_at(to, w, field_.multiply(scale, a), field_);
+  });
+}
+
+template <Field K>
+bool LensExtensions<K>::extend_over_cone(Extension& x, Vertex apex) {
   Unit* p = potential(x);
+  const Vertex own = graph_.global(apex);
   for (const bool at_v : {false, true}) {
     const Link* link = at_v ? x.at_v : x.at_u;
     if (link == nullptr) continue;
     if (link->is_dense()) {
-      if (const Unit* row = link->row(apex, cocycles_.shared()))
-        Row::add(p, row, field_.from_int(at_v ? -1 : 1), field_, words_);
+      if (const Unit* row = link->row(own, cocycles_.shared()))
+        add_row(p, row, field_.from_int(at_v ? -1 : 1), graph_.words());
       continue;
     }
     for (const Term& t : link->terms()) {
-      const bool is_larger = Link::larger(t) == apex;
-      if (!is_larger && Link::smaller(t) != apex) continue;
-      Row::add_at(p, is_larger ? Link::smaller(t) : Link::larger(t),
-                  is_larger != at_v ? field_.negate(t.coefficient()) : t.coefficient(), field_);
+      const bool is_larger = Link::larger(t) == own;
+      if (!is_larger && Link::smaller(t) != own) continue;
+      const Vertex w = graph_.local(is_larger ? Link::smaller(t) : Link::larger(t));
+      if (w == LensGraph::kNone) continue;
+      Row::add_at(p, w, is_larger != at_v ? field_.negate(t.coefficient()) : t.coefficient(),
+                  field_);
     }
   }
-  return Row::restrict(p, lens, words_);
+  return Row::restrict(p, graph_.lens(), graph_.words());
 }
 
 template <Field K>
-void LensExtensions<K>::collect_terms(Extension& x, const Word* lens) {
-  const auto contains = [&](Vertex v) { return lens[v / 64] >> (v % 64) & 1; };
+void LensExtensions<K>::collect_terms(Extension& x) {
   const auto add = [&](std::uint32_t pair, Element a) {
-    const Vertex larger = pair >> 16, smaller = pair & 0xFFFF;
-    if (field_.is_zero(a) || !contains(larger) || !contains(smaller)) return;
-    terms_.emplace_back(pair, a);
+    const Vertex larger = graph_.local(pair >> 16), smaller = graph_.local(pair & 0xFFFF);
+    if (field_.is_zero(a) || larger == LensGraph::kNone || smaller == LensGraph::kNone) return;
+    terms_.emplace_back(Link::pair(larger, smaller), a);
     terms_.emplace_back(Link::pair(smaller, larger), field_.negate(a));
   };
   x.first = terms_.size();
@@ -227,9 +242,9 @@ bool LensExtensions<K>::find_gamma(const Extension& x, Vertex y, const Word* set
     const Link* link = at_v ? x.at_v : x.at_u;
     if (!is_dense(link)) continue;
     // A row holds phi(u,y,.) = -phi(u,.,y).
-    if (const Unit* row = link->row(y, cocycles_.shared())) {
+    if (const Unit* row = link->row(graph_.global(y), cocycles_.shared())) {
       clear();
-      Row::add(gamma_.data(), row, field_.from_int(at_v ? 1 : -1), field_, words);
+      add_row(gamma_.data(), row, field_.from_int(at_v ? 1 : -1), words);
     }
   }
   const auto last = terms_.begin() + static_cast<std::ptrdiff_t>(x.last);
@@ -244,15 +259,15 @@ bool LensExtensions<K>::find_gamma(const Extension& x, Vertex y, const Word* set
 }
 
 template <Field K>
-bool LensExtensions<K>::has_gamma(const Extension& x, const Word* lens, const LensCore& core) {
+bool LensExtensions<K>::has_gamma(const Extension& x, const LensCore& core) {
   if (!is_dense(x.at_u) && !is_dense(x.at_v)) return x.first != x.last;
   // Potentials depend on what gamma is at hubs and in the rest.
   for (std::size_t i = 0; i < core.hub_count(); ++i)
-    if (find_gamma(x, core.hub(i), lens, words_)) return true;
-  for (std::size_t k = 0; k < words_; ++k)
+    if (find_gamma(x, core.hub(i), graph_.lens(), graph_.words())) return true;
+  for (std::size_t k = 0; k < graph_.words(); ++k)
     for (Word rest = core.rest()[k]; rest != 0; rest &= rest - 1) {
       const std::size_t y = k * 64 + static_cast<std::size_t>(std::countr_zero(rest));
-      if (find_gamma(x, static_cast<Vertex>(y), lens, words_)) return true;
+      if (find_gamma(x, static_cast<Vertex>(y), graph_.lens(), graph_.words())) return true;
     }
   return false;
 }
@@ -293,10 +308,10 @@ void LensExtensions<K>::extend_from(Extension& x, const LensCore& core) {
     const Vertex hub = core.hub(i);
     const Element at_hub = Row::value(p, hub);
     // p(w) = p(hub) - gamma(w,hub)
-    if (find_gamma(x, hub, core.taken(i), words_))
-      Row::assign(p, gamma_.data(), at_hub, core.taken(i), field_, words_);
+    if (find_gamma(x, hub, core.taken(i), graph_.words()))
+      Row::assign(p, gamma_.data(), at_hub, core.taken(i), field_, graph_.words());
     else
-      Row::shift(p, core.taken(i), at_hub, field_, words_);
+      Row::shift(p, core.taken(i), at_hub, field_, graph_.words());
   }
 }
 

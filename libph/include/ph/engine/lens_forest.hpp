@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "ph/core/bit_matrix.hpp"
+#include "ph/engine/lens_graph.hpp"
 
 namespace ph {
 
@@ -23,14 +23,14 @@ class LensForest {
     Vertex at;
   };
 
-  /// @param joined the edges so far, a square matrix that outlives this.
-  LensForest(const BitMatrix& joined, std::pmr::memory_resource* memory)
-      : joined_(joined),
+  /// @param graph outlives this.
+  LensForest(LensGraph& graph, std::pmr::memory_resource* memory)
+      : graph_(graph),
         roots_(memory),
         parts_(memory),
         meetings_(memory),
         shared_(memory),
-        before_(joined.words(), 0, memory) {}
+        before_(memory) {}
 
   void clear() {
     roots_.clear();
@@ -42,11 +42,11 @@ class LensForest {
   const std::pmr::vector<Meeting>& meetings() const { return meetings_; }
   /// The neighbours of y in a part; words up to y's are valid.
   const Word* neighbours(std::size_t meeting) const {
-    return shared_.data() + meeting * joined_.words();
+    return shared_.data() + meeting * graph_.words();
   }
   /// The neighbours of y before y; words up to y's are valid.
   const Word* neighbours() const { return before_.data(); }
-  const Word* part(const Meeting& m) const { return parts_.data() + m.part * joined_.words(); }
+  const Word* part(const Meeting& m) const { return parts_.data() + m.part * graph_.words(); }
 
   /// Takes the vertex in. Calls `on_join(younger root, its vertices, w)` for each edge wy that
   /// joins two parts, y alone being one at first.
@@ -57,12 +57,12 @@ class LensForest {
   static std::size_t words_to(Vertex y) { return y / 64 + 1; }
 
  private:
-  Word* set_of(std::size_t part) { return parts_.data() + part * joined_.words(); }
+  Word* set_of(std::size_t part) { return parts_.data() + part * graph_.words(); }
   void start_part(Vertex y);
   /// Moves one part into another.
   void unite(std::size_t from, std::size_t to);
 
-  const BitMatrix& joined_;
+  LensGraph& graph_;
   std::pmr::vector<Vertex> roots_;  // of each part its smallest vertex
   std::pmr::vector<Word> parts_;    // a row each; empty once united with another
   std::pmr::vector<Meeting> meetings_;

@@ -9,13 +9,13 @@
 #include <optional>
 #include <vector>
 
-#include "ph/core/bit_matrix.hpp"
 #include "ph/core/filtration.hpp"
 #include "ph/core/run_context.hpp"
 #include "ph/engine/lens_components.hpp"
 #include "ph/engine/lens_core.hpp"
 #include "ph/engine/lens_extensions.hpp"
 #include "ph/engine/lens_forest.hpp"
+#include "ph/engine/lens_graph.hpp"
 #include "ph/engine/lens_observer.hpp"
 #include "ph/engine/triangle_cocycles.hpp"
 
@@ -39,24 +39,25 @@ class LensSurfaces {
   using Observer = LensObserver<K>;
   using Triangle = typename Observer::Triangle;
 
-  /// @param joined the edges so far, which outlive this.
-  LensSurfaces(const BitMatrix& joined, const K& field, LensWanted wanted, Observer& observer,
+  /// @param graph the edges so far, which outlive this.
+  LensSurfaces(LensGraph& graph, const K& field, LensWanted wanted, Observer& observer,
                const RunContext& context)
-      : joined_(joined),
+      : graph_(graph),
         field_(field),
         wanted_(wanted),
         observer_(observer),
-        cocycles_(joined.rows(), field, wanted.tuning.most_terms, context),
+        cocycles_(graph.vertex_count(), field, wanted.tuning.most_terms, context),
         births_(&context.memory),
-        core_(joined, &context.memory),
-        forest_(joined, &context.memory),
-        extensions_(cocycles_, joined.words(), field, &context.memory),
-        star_(joined.words() * Row::kUnitsPerBlock, 0, &context.memory),
+        core_(graph, &context.memory),
+        forest_(graph, &context.memory),
+        extensions_(cocycles_, graph, field, &context.memory),
+        star_((graph.vertex_count() + 63) / 64 * Row::kUnitsPerBlock, 0, &context.memory),
+        own_star_(star_.size(), 0, &context.memory),
         cocycle_(&context.memory) {}
 
-  /// Extends the living classes to the star of an edge; kills those that cannot be.
-  /// @param lens of the edge; not empty.
-  void extend(Position position, const FlagEdge& e, const Word* lens, LensComponents& components);
+  /// Extends the living classes to the star of an edge, the one of the graph's lens; kills those
+  /// that cannot be.
+  void extend(Position position, const FlagEdge& e, LensComponents& components);
   /// A class is born with a component of an edge's lens.
   void give_birth(Triangle birth, const FlagEdge& e, const Word* component);
   /// Reports what never dies.
@@ -75,18 +76,19 @@ class LensSurfaces {
   bool extend_over(const Word* set);
   /// The same with all of a lens, in the order of its tetrahedra: what cannot be extended dies.
   /// @param is_extended whether nothing but pairs of length zero are to be found.
-  void sweep(Position position, const FlagEdge& e, const Word* lens, bool is_extended);
-  void kill_mismatched(Position position, const FlagEdge& e, const Word* lens, Vertex y);
+  void sweep(Position position, const FlagEdge& e, bool is_extended);
+  void kill_mismatched(Position position, const FlagEdge& e, Vertex y);
   /// @param tetrahedron joins two parts of the lens, of which one has these vertices.
   void report_zero_length(const FlagEdge& e, Vertex root, const Word* part,
                           typename Observer::Tetrahedron tetrahedron);
-  void store(const Extension& x, const FlagEdge& e, const Word* lens,
-             const LensComponents& components);
+  void store(const Extension& x, const FlagEdge& e, const LensComponents& components);
+  /// phi(u,v,.) += a star, given on the lens.
+  void add_star(Generator h, const FlagEdge& e, const Unit* star);
   void find_cocycle(Generator h);
   /// @param star phi(u,v,.), in the first words.
   void add_star_to_cocycle(const FlagEdge& e, const Unit* star, std::size_t words);
 
-  const BitMatrix& joined_;
+  LensGraph& graph_;
   const K& field_;
   LensWanted wanted_;
   Observer& observer_;
@@ -96,7 +98,8 @@ class LensSurfaces {
   LensCore core_;
   LensForest forest_;
   LensExtensions<K> extensions_;
-  std::pmr::vector<Unit> star_;
+  std::pmr::vector<Unit> star_;      // on the lens
+  std::pmr::vector<Unit> own_star_;  // on all vertices; zero between uses
   std::pmr::vector<typename Observer::TriangleValue> cocycle_;
 };
 
@@ -104,9 +107,22 @@ template <Field K>
 void LensSurfaces<K>::give_birth(Triangle birth, const FlagEdge& e, const Word* component) {
   const Generator h = cocycles_.add_generator();
   births_.push_back(birth);
-  std::fill(star_.begin(), star_.end(), Unit{});
-  Row::shift(star_.data(), component, field_.from_int(1), field_, joined_.words());
-  cocycles_.add_star(h, e.u, e.v, star_.data());
+  std::fill_n(star_.begin(), graph_.words() * Row::kUnitsPerBlock, Unit{});
+  Row::shift(star_.data(), component, field_.from_int(1), field_, graph_.words());
+  add_star(h, e, star_.data());
+}
+
+template <Field K>
+void LensSurfaces<K>::add_star(Generator h, const FlagEdge& e, const Unit* star) {
+  if (graph_.keeps_numbers()) return cocycles_.add_star(h, e.u, e.v, star);
+  const auto own = [&](std::size_t w) { return graph_.global(static_cast<Vertex>(w)); };
+  Row::for_each(star, graph_.words(), [&](std::size_t w, Element a) {
+    Row::add_at(own_star_.data(), own(w), a, field_);
+  });
+  cocycles_.add_star(h, e.u, e.v, own_star_.data());
+  Row::for_each(star, graph_.words(), [&](std::size_t w, Element a) {
+    Row::add_at(own_star_.data(), own(w), field_.negate(a), field_);
+  });
 }
 
 template <Field K>
@@ -119,16 +135,16 @@ void LensSurfaces<K>::finish() {
 }
 
 template <Field K>
-void LensSurfaces<K>::extend(Position position, const FlagEdge& e, const Word* lens,
-                             LensComponents& components) {
-  extensions_.find(e, lens, [&](std::optional<Vertex>& apex) -> const LensCore& {
-    if (components.has_apex() || (components.count() == 1 && components.find_apex(e, lens)))
+void LensSurfaces<K>::extend(Position position, const FlagEdge& e, LensComponents& components) {
+  extensions_.find(e, [&](std::optional<Vertex>& apex) -> const LensCore& {
+    if (components.has_apex() || (components.count() == 1 && components.find_apex(e)))
       apex = components.apex();
-    const std::size_t size = apex ? 0 : bits::count_common(lens, lens, joined_.words());
+    const Word* lens = graph_.lens();
+    const std::size_t size = apex ? 0 : bits::count_common(lens, lens, graph_.words());
     if (size >= wanted_.tuning.smallest_core && !apex)
-      core_.find(lens, size, components.root(0));
+      core_.find(size, components.root(0));
     else
-      core_.keep_all(lens);
+      core_.keep_all();
     return core_;
   });
   const bool is_cone = components.has_apex();
@@ -137,11 +153,11 @@ void LensSurfaces<K>::extend(Position position, const FlagEdge& e, const Word* l
       for (Extension& x : extensions_.all()) extensions_.extend_from(x, core_);
     } else {
       extensions_.reset();
-      sweep(position, e, lens, false);
+      sweep(position, e, false);
     }
   }
-  if (wanted_.zero_length) sweep(position, e, lens, true);
-  for (const Extension& x : extensions_.all()) store(x, e, lens, components);
+  if (wanted_.zero_length) sweep(position, e, true);
+  for (const Extension& x : extensions_.all()) store(x, e, components);
   extensions_.clear();
 }
 
@@ -149,7 +165,7 @@ template <Field K>
 bool LensSurfaces<K>::extend_over(const Word* set) {
   forest_.clear();
   bool is_extended = true;
-  for (std::size_t k = 0; k < joined_.words() && is_extended; ++k) {
+  for (std::size_t k = 0; k < graph_.words() && is_extended; ++k) {
     for (Word rest = set[k]; rest != 0 && is_extended; rest &= rest - 1) {
       const auto y = static_cast<Vertex>(k * 64 + static_cast<std::size_t>(std::countr_zero(rest)));
       forest_.meet(y, set);
@@ -163,25 +179,25 @@ bool LensSurfaces<K>::extend_over(const Word* set) {
 }
 
 template <Field K>
-void LensSurfaces<K>::sweep(Position position, const FlagEdge& e, const Word* lens,
-                            bool is_extended) {
+void LensSurfaces<K>::sweep(Position position, const FlagEdge& e, bool is_extended) {
+  const Word* lens = graph_.lens();
   forest_.clear();
-  bits::for_each(lens, 0, joined_.words(), [&](std::size_t vertex) {
+  bits::for_each(lens, 0, graph_.words(), [&](std::size_t vertex) {
     const auto y = static_cast<Vertex>(vertex);
     forest_.meet(y, lens);
     bool is_mismatched = false;
     if (!is_extended && !forest_.meetings().empty())
       for (Extension& x : extensions_.all()) is_mismatched |= extensions_.extend_to(x, y, forest_);
-    if (is_mismatched) kill_mismatched(position, e, lens, y);
+    if (is_mismatched) kill_mismatched(position, e, y);
     forest_.join(y, [&](Vertex root, const Word* part, Vertex w) {
-      if (is_extended) report_zero_length(e, root, part, {position, y, w});
+      if (is_extended)
+        report_zero_length(e, root, part, {position, graph_.global(y), graph_.global(w)});
     });
   });
 }
 
 template <Field K>
-void LensSurfaces<K>::kill_mismatched(Position position, const FlagEdge& e, const Word* lens,
-                                      Vertex y) {
+void LensSurfaces<K>::kill_mismatched(Position position, const FlagEdge& e, Vertex y) {
   const std::size_t words = LensForest::words_to(y);
   auto& all = extensions_.all();
   for (Vertex from = 0;;) {
@@ -202,7 +218,7 @@ void LensSurfaces<K>::kill_mismatched(Position position, const FlagEdge& e, cons
     const Generator h = dying->generator;
     find_cocycle(h);
     if (wanted_.cocycles) add_star_to_cocycle(e, extensions_.potential(*dying), words);
-    observer_.on_death(births_[h], {position, y, w}, cocycle_);
+    observer_.on_death(births_[h], {position, graph_.global(y), graph_.global(w)}, cocycle_);
     births_[h].edge = kDead;
     const Element unit = field_.inverse(mismatch_of(*dying));
     for (Extension& x : all) {
@@ -216,7 +232,7 @@ void LensSurfaces<K>::kill_mismatched(Position position, const FlagEdge& e, cons
     }
     cocycles_.erase(h);
     extensions_.remove(&*dying);
-    extensions_.refresh(e, lens);
+    extensions_.refresh(e);
   }
   for (Extension& x : all) x.is_mismatched = false;
 }
@@ -226,25 +242,25 @@ void LensSurfaces<K>::report_zero_length(const FlagEdge& e, Vertex root, const W
                                          typename Observer::Tetrahedron tetrahedron) {
   cocycle_.clear();
   if (wanted_.cocycles) {
-    std::fill(star_.begin(), star_.end(), Unit{});
-    Row::shift(star_.data(), part, field_.from_int(1), field_, joined_.words());
-    add_star_to_cocycle(e, star_.data(), joined_.words());
+    std::fill_n(star_.begin(), graph_.words() * Row::kUnitsPerBlock, Unit{});
+    Row::shift(star_.data(), part, field_.from_int(1), field_, graph_.words());
+    add_star_to_cocycle(e, star_.data(), graph_.words());
   }
-  observer_.on_death({tetrahedron.edge, root}, tetrahedron, cocycle_);
+  observer_.on_death({tetrahedron.edge, graph_.global(root)}, tetrahedron, cocycle_);
 }
 
 template <Field K>
-void LensSurfaces<K>::store(const Extension& x, const FlagEdge& e, const Word* lens,
+void LensSurfaces<K>::store(const Extension& x, const FlagEdge& e,
                             const LensComponents& components) {
   // A constant on a component changes the class by younger ones at most: few values are stored.
   Unit* p = extensions_.potential(x);
-  const std::size_t words = joined_.words();
+  const std::size_t words = graph_.words();
   for (std::size_t i = 0; i < components.count(); ++i) {
-    const Word* set = components.count() == 1 ? lens : components.vertices(i);
+    const Word* set = components.count() == 1 ? graph_.lens() : components.vertices(i);
     const Element most = Row::majority(p, set, field_, words);
     if (!field_.is_zero(most)) Row::shift(p, set, field_.negate(most), field_, words);
   }
-  if (!Row::is_zero(p, words)) cocycles_.add_star(x.generator, e.u, e.v, p);
+  if (!Row::is_zero(p, words)) add_star(x.generator, e, p);
 }
 
 template <Field K>
@@ -259,7 +275,7 @@ void LensSurfaces<K>::find_cocycle(Generator h) {
 template <Field K>
 void LensSurfaces<K>::add_star_to_cocycle(const FlagEdge& e, const Unit* star, std::size_t blocks) {
   Row::for_each(star, blocks, [&](std::size_t apex, Element a) {
-    std::array<Vertex, 3> vertices{e.v, e.u, static_cast<Vertex>(apex)};
+    std::array<Vertex, 3> vertices{e.v, e.u, graph_.global(static_cast<Vertex>(apex))};
     // phi(u,v,w): an odd number of swaps away from (v,u,w)
     const bool is_odd = vertices[2] > e.u || vertices[2] < e.v;
     std::ranges::sort(vertices);

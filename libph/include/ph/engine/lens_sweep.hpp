@@ -7,13 +7,14 @@
 #include <span>
 #include <vector>
 
-#include "ph/core/bit_matrix.hpp"
+#include "ph/core/binned_edges.hpp"
 #include "ph/core/field.hpp"
 #include "ph/core/filtration.hpp"
 #include "ph/core/run_context.hpp"
 #include "ph/engine/annotations.hpp"
 #include "ph/engine/elder_rule.hpp"
 #include "ph/engine/lens_components.hpp"
+#include "ph/engine/lens_graph.hpp"
 #include "ph/engine/lens_observer.hpp"
 #include "ph/engine/lens_surfaces.hpp"
 
@@ -37,25 +38,27 @@ class LensSweep {
   using Vertex = typename Observer::Vertex;
   using Position = typename Observer::Position;
 
-  /// @param edges in the order of the filtration; they outlive the sweep.
-  LensSweep(std::size_t vertices, std::span<const FlagEdge> edges, const K& field,
-            LensWanted wanted, Observer& observer, const RunContext& context)
+  /// @param edges outlive the sweep; those after which nothing happens are never sorted.
+  LensSweep(std::size_t vertices, const BinnedEdges& edges, const K& field, LensWanted wanted,
+            Observer& observer, const RunContext& context)
       : edges_(edges),
         field_(field),
         wanted_(wanted),
         observer_(observer),
         context_(context),
-        joined_(vertices, vertices, &context.memory),
-        active_(vertices, vertices, &context.memory),
-        active_degree_(vertices, 0, &context.memory),
-        lens_(joined_.words(), 0, &context.memory),
-        components_(joined_, &context.memory),
+        graph_(vertices,
+               wanted.tuning.layout == LensLayout::automatic
+                   ? LensGraph::choose_layout(vertices, edges.size())
+                   : wanted.tuning.layout,
+               &context.memory),
+        components_(graph_, &context.memory),
         born_(&context.memory),
+        components_left_(vertices),
         sets_(vertices, &context.memory),
         annotations_(field, &context.memory),
         births_(&context.memory),
         cocycle_(&context.memory) {
-    if (wanted.surfaces) surfaces_.emplace(joined_, field, wanted, observer, context);
+    if (wanted.surfaces) surfaces_.emplace(graph_, field, wanted, observer, context);
   }
 
   void run();
@@ -66,30 +69,35 @@ class LensSweep {
 
   static constexpr Position kDead = UINT32_MAX;
 
+  /// Whether nothing happens at the edges of a bin. They are not added, see unadded_bins_.
+  bool is_bin_idle(std::size_t bin);
+  /// Adds the edges of idle bins.
+  void add_bins_until(std::size_t bin);
   void add_edge(Position position);
-  void join_or_give_birth(Position position, const FlagEdge& e);
-  void report_zero_length(Position position, const FlagEdge& e);
-  /// Gives the edge its class, and each further component of its lens what it causes.
-  void annotate(Position position, const FlagEdge& e);
+  /// @return whether the edge becomes active.
+  bool join_or_give_birth(Position position, const FlagEdge& e);
+  void report_zero_length(Position position);
+  /// Gives the edge its class, and each further component of its lens what it causes. @return
+  /// whether the edge becomes active.
+  bool annotate(Position position, const FlagEdge& e);
   /// @param of_edge the annotation that the last edge is about to get.
   void kill(Class relation, Triangle death, Class of_edge);
-  void set_active(Vertex u, Vertex v);
-  void set_inactive(Vertex u, Vertex v);
   /// cocycle_ = what a generator is on the edges before this one, if cocycles are wanted.
   void find_cocycle(typename Annotations<K>::Generator g);
 
-  std::span<const FlagEdge> edges_;
+  const BinnedEdges& edges_;
   const K& field_;
   LensWanted wanted_;
   Observer& observer_;
   const RunContext& context_;
-  BitMatrix joined_;  // edges so far
-  BitMatrix active_;  // edges whose annotation is not zero
-  std::pmr::vector<std::uint32_t> active_degree_;
-  std::pmr::vector<BitMatrix::Word> lens_;
-  LensComponents components_;           // of lens_
+  // Edges so far, but for the idle bins from first_unadded_bin_ on; active: of non-zero annotation.
+  LensGraph graph_;
+  LensComponents components_;           // of the graph's lens
   std::pmr::vector<std::size_t> born_;  // components with which a class of H2 is born
-  DisjointSets sets_;                   // each root is the oldest vertex of its component
+  std::size_t first_unadded_bin_ = 0;
+  std::size_t living_ = 0;  // classes of H1
+  std::size_t components_left_;
+  DisjointSets sets_;  // each root is the oldest vertex of its component
   Annotations<K> annotations_;
   std::pmr::vector<Position> births_;  // by generator; kDead once it died
   std::pmr::vector<typename Observer::EdgeValue> cocycle_;
@@ -99,9 +107,19 @@ class LensSweep {
 template <Field K>
 void LensSweep<K>::run() {
   Ticker ticker(context_, "edges", edges_.size());
-  for (Position position = 0; position < edges_.size(); ++position) {
-    add_edge(position);
-    ticker.tick();
+  for (std::size_t bin = 0; bin < edges_.bin_count(); ++bin) {
+    const std::size_t begin = edges_.bin_begin(bin), end = edges_.bin_begin(bin + 1);
+    if (is_bin_idle(bin)) {
+      ticker.tick(end - begin);
+      continue;
+    }
+    add_bins_until(bin);
+    edges_.sorted_bins(bin + 1);
+    for (std::size_t position = begin; position < end; ++position) {
+      add_edge(static_cast<Position>(position));
+      ticker.tick();
+    }
+    first_unadded_bin_ = bin + 1;
   }
   for (std::uint32_t g = 0; g < births_.size(); ++g) {
     if (births_[g] == kDead) continue;
@@ -112,75 +130,94 @@ void LensSweep<K>::run() {
 }
 
 template <Field K>
+bool LensSweep<K>::is_bin_idle(std::size_t bin) {
+  // Where no class of H1 lives, an edge does something only if its lens is empty, and a lens that
+  // is not empty stays so.
+  if (surfaces_ || wanted_.zero_length || living_ != 0 || components_left_ != 1) return false;
+  const auto have_lenses = [&](std::span<const FlagEdge> edges) {
+    return graph_.have_lenses(edges, context_);
+  };
+  if (edges_.with_bins(bin, bin + 1, have_lenses)) return true;
+  if (first_unadded_bin_ == bin) return false;
+  add_bins_until(bin);
+  return edges_.with_bins(bin, bin + 1, have_lenses);
+}
+
+template <Field K>
+void LensSweep<K>::add_bins_until(std::size_t bin) {
+  edges_.with_bins(first_unadded_bin_, bin,
+                   [&](std::span<const FlagEdge> edges) { graph_.add_all(edges, context_); });
+  first_unadded_bin_ = bin;
+}
+
+template <Field K>
 void LensSweep<K>::add_edge(Position position) {
   const FlagEdge& e = edges_[position];
-  const auto *u = joined_.row(e.u), *v = joined_.row(e.v);
-  const bool may_touch_active = active_degree_[e.u] != 0 || active_degree_[e.v] != 0;
-  // One common neighbour says enough where nothing can happen.
-  bits::Lens lens{};
-  if (may_touch_active || surfaces_)
-    lens = bits::lens(u, v, active_.row(e.u), active_.row(e.v), lens_.data(), joined_.words());
-  else
-    lens.is_empty = bits::first_common(u, v, joined_.words()) == bits::kNone;
+  const bool wants_graph = surfaces_ || wanted_.zero_length;
+  const LensGraph::Lens lens = graph_.find_lens(e, wants_graph);
+  bool is_active = false;
   if (lens.is_empty) {
-    join_or_give_birth(position, e);
+    is_active = join_or_give_birth(position, e);
   } else {
-    if (wanted_.zero_length) report_zero_length(position, e);
-    if (lens.touches_active || surfaces_) components_.find(e, lens_.data());
+    if (wanted_.zero_length) report_zero_length(position);
+    if (lens.touches_active || surfaces_) components_.find(e);
     born_.clear();
     if (lens.touches_active)
-      annotate(position, e);
+      is_active = annotate(position, e);
     else if (surfaces_)
       for (std::size_t i = 1; i < components_.count(); ++i) born_.push_back(i);
     if (surfaces_) {
-      surfaces_->extend(position, e, lens_.data(), components_);
+      surfaces_->extend(position, e, components_);
       for (const std::size_t i : born_)
-        surfaces_->give_birth({position, components_.root(i)}, e, components_.vertices(i));
+        surfaces_->give_birth({position, graph_.global(components_.root(i))}, e,
+                              components_.vertices(i));
     }
   }
-  joined_.set(e.u, e.v);
-  joined_.set(e.v, e.u);
+  graph_.add(e, is_active);
 }
 
 template <Field K>
-void LensSweep<K>::report_zero_length(Position position, const FlagEdge& e) {
-  const std::size_t first = bits::first_common(joined_.row(e.u), joined_.row(e.v), joined_.words());
+void LensSweep<K>::report_zero_length(Position position) {
   cocycle_.clear();
   if (wanted_.cocycles) cocycle_.push_back({position, field_.from_int(1)});
-  observer_.on_death(position, {position, static_cast<Vertex>(first)}, cocycle_);
+  observer_.on_death(position, {position, graph_.global(graph_.first())}, cocycle_);
 }
 
 template <Field K>
-void LensSweep<K>::join_or_give_birth(Position position, const FlagEdge& e) {
+bool LensSweep<K>::join_or_give_birth(Position position, const FlagEdge& e) {
   const Vertex a = sets_.find(e.u), b = sets_.find(e.v);
   if (a != b) {
     sets_.link(std::max(a, b), std::min(a, b));
+    --components_left_;
     observer_.on_join(std::min(a, b), std::max(a, b), position);
-    return;
+    return false;
   }
   annotations_.add_generator({e.u, e.v, position});
   births_.push_back(position);
-  set_active(e.u, e.v);
+  ++living_;
+  return true;
 }
 
 template <Field K>
-void LensSweep<K>::annotate(Position position, const FlagEdge& e) {
+bool LensSweep<K>::annotate(Position position, const FlagEdge& e) {
   const auto around = [&](Vertex w) {
     return annotations_.sum(annotations_.of(e.u, w), annotations_.of(w, e.v));
   };
-  Class value = around(components_.root(0));
+  const Vertex first = graph_.global(components_.root(0));
+  Class value = around(first);
   for (std::size_t i = 1; i < components_.count(); ++i) {
-    const Class difference = annotations_.sum(around(components_.root(i)), -value);
+    const Vertex root = graph_.global(components_.root(i));
+    const Class difference = annotations_.sum(around(root), -value);
     if (difference.is_zero()) {
       born_.push_back(i);
       continue;
     }
-    kill(difference, {position, components_.root(i)}, value);
-    value = around(components_.root(0));
+    kill(difference, {position, root}, value);
+    value = around(first);
   }
-  if (value.is_zero()) return;
+  if (value.is_zero()) return false;
   annotations_.assign({e.u, e.v, position}, value);
-  set_active(e.u, e.v);
+  return true;
 }
 
 template <Field K>
@@ -193,23 +230,8 @@ void LensSweep<K>::kill(Class relation, Triangle death, Class of_edge) {
   }
   observer_.on_death(births_[g], death, cocycle_);
   births_[g] = kDead;
-  annotations_.kill(relation, [&](const auto& edge) { set_inactive(edge.u, edge.v); });
-}
-
-template <Field K>
-void LensSweep<K>::set_active(Vertex u, Vertex v) {
-  active_.set(u, v);
-  active_.set(v, u);
-  ++active_degree_[u];
-  ++active_degree_[v];
-}
-
-template <Field K>
-void LensSweep<K>::set_inactive(Vertex u, Vertex v) {
-  active_.clear(u, v);
-  active_.clear(v, u);
-  --active_degree_[u];
-  --active_degree_[v];
+  --living_;
+  annotations_.kill(relation, [&](const auto& edge) { graph_.set_inactive(edge.u, edge.v); });
 }
 
 template <Field K>

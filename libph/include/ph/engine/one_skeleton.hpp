@@ -43,7 +43,7 @@ struct OneSkeleton {
     for (std::uint32_t v = 0; v < size; ++v) vertices.push_back(filtration.vertex_cell(v));
     age.resize(size);
     std::iota(age.begin(), age.end(), 0U);
-    const auto flag_edges = filtration.edges();
+    const auto flag_edges = filtration.binned_edges().sorted();
     edges.reserve(flag_edges.size());
     ends.reserve(flag_edges.size());
     for (std::uint32_t e = 0; e < flag_edges.size(); ++e) {

@@ -11,6 +11,7 @@
 #include "ph/core/field.hpp"
 #include "ph/core/run_context.hpp"
 #include "ph/engine/field_rows.hpp"
+#include "ph/engine/lens_graph.hpp"
 
 namespace ph {
 
@@ -57,8 +58,8 @@ class LinkCochain {
   bool is_dense() const { return !rows_.empty(); }
   /// Unless it is dense.
   std::span<const Term> terms() const { return terms_; }
-  /// Whether a pair within the set may have a value; no false "no".
-  bool touches(const Word* set) const;
+  /// Whether a pair within a lens may have a value; no false "no".
+  bool touches(const LensGraph& graph) const;
   /// c -> f(b,c) if it is dense; null if that is zero.
   const Unit* row(Vertex b, const Shared& shared) const {
     return has_row(b) ? shared.rows[rows_[b]] : nullptr;
@@ -152,12 +153,18 @@ class TriangleCocycles {
 };
 
 template <Field K>
-bool LinkCochain<K>::touches(const Word* set) const {
-  const auto contains = [&](Vertex v) { return set[v / 64] >> (v % 64) & 1; };
+bool LinkCochain<K>::touches(const LensGraph& graph) const {
+  const auto contains = [&](Vertex v) { return graph.local(v) != LensGraph::kNone; };
   if (!is_dense())
     return std::ranges::any_of(
         terms_, [&](const Term& t) { return contains(larger(t)) && contains(smaller(t)); });
-  return bits::first_common(present_.data(), set, present_.size()) != bits::kNone;
+  if (graph.keeps_numbers())
+    return bits::first_common(present_.data(), graph.lens(), present_.size()) != bits::kNone;
+  bool touches = false;
+  bits::for_each(graph.lens(), 0, graph.words(), [&](std::size_t w) {
+    touches = touches || has_row(graph.global(static_cast<Vertex>(w)));
+  });
+  return touches;
 }
 
 template <Field K>

@@ -30,6 +30,12 @@ class PointMetric {
   /// @throws Error (bad_data) if the distance exceeds the largest double.
   double operator()(Index i, Index j) const;
   const Points& points() const { return points_; }
+  /// Whether distances are square roots of sums of squares, none of which overflows; only a sum
+  /// below the least plain square, zero apart, may have lost digits.
+  bool is_plain_euclidean() const {
+    return distance_ == PointDistance::euclidean && !may_need_scaling_;
+  }
+  static constexpr double kLeastPlainSquare = 1e-280;
 
  private:
   double euclidean(Index i, Index j) const;

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <utility>
+#include <vector>
+
+namespace ph {
+
+/// A hash table from 64-bit numbers to small values, in one array with linear probing: several
+/// times faster than std::unordered_map for what inner loops look up. Nothing is ever erased.
+template <class Value>
+class FlatMap {
+ public:
+  using Key = std::uint64_t;
+  static constexpr Key kNoKey = UINT64_MAX;  ///< the one number that is no key
+
+  explicit FlatMap(std::pmr::memory_resource* memory) : slots_(memory) {}
+
+  /// Null if the key is absent. Valid until the next insertion.
+  Value* find(Key key) {
+    if (size_ == 0) return nullptr;
+    Slot& slot = slot_of(key);
+    return slot.key == key ? &slot.value : nullptr;
+  }
+  /// The value of a key, a fresh one if it was absent, and whether it was.
+  std::pair<Value*, bool> try_emplace(Key key) {
+    if (2 * (size_ + 1) > slots_.size()) grow();
+    Slot& slot = slot_of(key);
+    const bool is_new = slot.key == kNoKey;
+    if (is_new) {
+      slot.key = key;
+      ++size_;
+    }
+    return {&slot.value, is_new};
+  }
+  /// Keeps the array where it is small, so that clearing often costs little.
+  void clear() {
+    if (size_ == 0) return;
+    size_ = 0;
+    if (slots_.size() <= kSmall) {
+      std::fill(slots_.begin(), slots_.end(), Slot{});
+    } else {
+      slots_.clear();
+      slots_.shrink_to_fit();
+    }
+  }
+
+ private:
+  struct Slot {
+    Key key = kNoKey;
+    Value value{};
+  };
+  static constexpr std::size_t kSmall = 64;
+
+  /// Where a key is, or would be.
+  Slot& slot_of(Key key) {
+    const std::size_t mask = slots_.size() - 1;
+    // Fibonacci hashing: the upper bits of the product are well mixed.
+    std::size_t i = key * 0x9E3779B97F4A7C15U >> (64 - std::bit_width(mask));
+    while (slots_[i].key != key && slots_[i].key != kNoKey) i = (i + 1) & mask;
+    return slots_[i];
+  }
+  void grow() {
+    std::pmr::vector<Slot> old(std::max(kSmall, 2 * slots_.size()), Slot{}, slots_.get_allocator());
+    old.swap(slots_);
+    for (Slot& slot : old)
+      if (slot.key != kNoKey) slot_of(slot.key) = std::move(slot);
+  }
+
+  std::pmr::vector<Slot> slots_;  // a power of two, at most half full
+  std::size_t size_ = 0;
+};
+
+}  // namespace ph

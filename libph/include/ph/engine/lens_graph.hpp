@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "ph/core/bit_matrix.hpp"
+#include "ph/core/filtration.hpp"
+#include "ph/core/run_context.hpp"
+
+namespace ph {
+
+/// How a lens sweep keeps the edges so far.
+enum class LensLayout {
+  automatic,  ///< whichever is faster and affordable
+  rows,       ///< two bits for each pair of vertices
+  lists,      ///< the neighbours of each vertex: four bytes for each end of an edge
+};
+
+/// The edges so far of a flag filtration, and the lens of a new edge: the common neighbours of its
+/// ends, with the graph on them as rows of bits. In that graph vertices have numbers of their own,
+/// in the same order: with lists the lens is numbered 0, 1, …, so that a row is a word or two; with
+/// rows the numbers are those of all vertices and nothing is copied. Some edges are marked active.
+class LensGraph {
+ public:
+  using Vertex = std::uint32_t;
+  using Word = bits::Word;
+  static constexpr Vertex kNone = UINT32_MAX;
+
+  /// @param layout rows or lists. At most 2^31 vertices.
+  LensGraph(std::size_t vertices, LensLayout layout, std::pmr::memory_resource* memory);
+
+  /// What is faster among what is affordable.
+  static LensLayout choose_layout(std::size_t vertices, std::size_t edges);
+  /// What it holds in the end in that layout, more or less.
+  static double bytes(std::size_t vertices, std::size_t edges);
+
+  std::size_t vertex_count() const { return degree_.size(); }
+  void add(const FlagEdge& e, bool is_active);
+  /// Adds many inactive edges, on several threads.
+  void add_all(std::span<const FlagEdge> edges, const RunContext& context);
+  void set_inactive(Vertex u, Vertex v);
+
+  /// Whether two vertices have a common neighbour.
+  bool has_lens(Vertex u, Vertex v) const;
+  /// Whether the ends of each edge have one; on several threads.
+  bool have_lenses(std::span<const FlagEdge> edges, const RunContext& context) const;
+  /// Whether an edge that joins the lens of e to one of its ends is active. The lens is not empty.
+  struct Lens {
+    bool is_empty;
+    bool touches_active;
+  };
+  /// Looks at the lens of an edge that is not there yet. What follows is about this lens, if active
+  /// edges touch it or `wants_graph` is set.
+  Lens find_lens(const FlagEdge& e, bool wants_graph);
+
+  std::size_t words() const { return words_; }  ///< of a row
+  const Word* lens() const { return lens_.data(); }
+  /// The neighbours of a vertex of the lens; those outside of it may be among them.
+  const Word* row(Vertex v) {
+    if (keeps_numbers()) return joined_.row(v);
+    if (!is_row_made_[v]) make_row(v);
+    return local_rows_.data() + v * words_;
+  }
+  /// Whether vertices have the same numbers in the lens.
+  bool keeps_numbers() const { return layout_ == LensLayout::rows; }
+  /// From the number of a vertex in the lens to its own.
+  Vertex global(Vertex v) const { return keeps_numbers() ? v : vertices_[v]; }
+  /// And back; kNone if it is not in the lens.
+  Vertex local(Vertex v) const {
+    if (!keeps_numbers()) return local_[v];
+    return lens_[v / 64] >> (v % 64) & 1 ? v : kNone;
+  }
+  /// The smallest of the vertices.
+  Vertex first() const { return static_cast<Vertex>(bits::first_common(lens(), lens(), words_)); }
+
+ private:
+  /// A neighbour, twice its number, plus one if the edge to it is active.
+  using Neighbour = std::uint32_t;
+  using List = std::pmr::vector<Neighbour>;
+
+  static List::iterator place(List& list, Vertex v);
+  Lens find_lens_in_rows(const FlagEdge& e, bool wants_graph);
+  Lens find_lens_in_lists(const FlagEdge& e);
+  void make_row(Vertex v);
+
+  LensLayout layout_;
+  std::pmr::vector<std::uint32_t> degree_;  // active edges at a vertex
+  // rows
+  BitMatrix joined_, active_;
+  // lists, ascending
+  std::pmr::vector<List> lists_;
+  // The lens.
+  std::size_t words_;
+  std::pmr::vector<Word> lens_;
+  std::pmr::vector<Vertex> vertices_;  // by number in the lens
+  std::pmr::vector<Vertex> local_;     // by own number; kNone outside of the lens
+  std::pmr::vector<Word> local_rows_;
+  std::pmr::vector<std::uint8_t> is_row_made_;
+};
+
+}  // namespace ph

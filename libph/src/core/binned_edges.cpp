@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "ph/core/binned_edges.hpp"
+
+#include <array>
+#include <limits>
+#include <utility>
+
+#include "ph/core/parallel.hpp"
+
+namespace ph {
+namespace {
+
+// Not the function itself: a call through a pointer is not inlined.
+constexpr auto kInOrder = [](const FlagEdge& a, const FlagEdge& b) { return precedes(a, b); };
+
+constexpr int kDigitBits = 11;
+using Begins = std::array<std::size_t, (1U << kDigitBits) + 1>;
+
+// Moves edges whose values share the bits from `shift` on into bins by the next bits.
+// @return where each bin begins.
+Begins split(std::span<FlagEdge> edges, int shift, std::pmr::vector<FlagEdge>& buffer) {
+  const auto digit = [&](const FlagEdge& e) {
+    return std::bit_cast<std::uint64_t>(e.value) >> (shift - kDigitBits) & ((1U << kDigitBits) - 1);
+  };
+  Begins begin{};
+  for (const FlagEdge& e : edges) ++begin[digit(e) + 1];
+  for (std::size_t d = 0; d + 1 < begin.size(); ++d) begin[d + 1] += begin[d];
+  buffer.assign(edges.begin(), edges.end());
+  Begins next = begin;
+  for (const FlagEdge& e : buffer) edges[next[digit(e)]++] = e;
+  return begin;
+}
+
+bool is_sorted_at_once(std::span<FlagEdge> edges, int shift) {
+  constexpr std::size_t few = 64;
+  // Ties arrive in order from a matrix: integers are sorted when they come.
+  if (edges.size() > few && shift >= kDigitBits &&
+      !std::is_sorted(edges.begin(), edges.end(), kInOrder))
+    return false;
+  std::sort(edges.begin(), edges.end(), kInOrder);
+  return true;
+}
+
+void sort_edges(std::span<FlagEdge> edges, int shift, std::pmr::vector<FlagEdge>& buffer) {
+  if (is_sorted_at_once(edges, shift)) return;
+  const Begins begin = split(edges, shift, buffer);
+  for (std::size_t d = 0; d + 1 < begin.size(); ++d)
+    sort_edges(edges.subspan(begin[d], begin[d + 1] - begin[d]), shift - kDigitBits, buffer);
+}
+
+}  // namespace
+
+BinnedEdges::BinnedEdges(std::pmr::vector<FlagEdge>&& edges)
+    : edges_(std::move(edges)), ends_(edges_.get_allocator()) {
+  ends_.push_back(edges_.size());
+  lazy_->sorted_bins = 1;
+  lazy_->sorted_edges = edges_.size();
+}
+
+BinnedEdges::BinnedEdges(std::pmr::vector<FlagEdge>&& edges, std::pmr::vector<std::size_t>&& ends,
+                         int shared_bits, const RunContext& context)
+    : edges_(std::move(edges)),
+      ends_(std::move(ends)),
+      shared_bits_(shared_bits),
+      context_(&context) {}
+
+std::span<const FlagEdge> BinnedEdges::sorted_bins(std::size_t count) const {
+  const std::size_t edges = bin_begin(count);
+  if (lazy_->sorted_edges.load(std::memory_order_acquire) < edges) sort_until(edges);
+  return std::span<const FlagEdge>(edges_).first(edges);
+}
+
+void BinnedEdges::sort_until(std::size_t count) const {
+  const std::lock_guard lock(lazy_->mutex);
+  std::size_t& bin = lazy_->sorted_bins;
+  while (bin_begin(bin) < count) {
+    sort_bin(bin++);
+    lazy_->sorted_edges.store(bin_begin(bin), std::memory_order_release);
+  }
+}
+
+void BinnedEdges::sort_bin(std::size_t bin) const {
+  context_->poll();
+  const auto edges = std::span(edges_).subspan(bin_begin(bin), bin_begin(bin + 1) - bin_begin(bin));
+  if (is_sorted_at_once(edges, shared_bits_)) return;
+  std::pmr::vector<FlagEdge> buffer(&context_->memory);
+  const Begins begin = split(edges, shared_bits_, buffer);
+  buffer = std::pmr::vector<FlagEdge>(&context_->memory);
+  constexpr std::size_t digits_a_piece = 64;
+  for_each_piece("sort edges", begin.size() - 1, digits_a_piece, *context_,
+                 [&](std::size_t first, std::size_t last) {
+                   std::pmr::vector<FlagEdge> own(&context_->memory);
+                   for (std::size_t d = first; d < last; ++d)
+                     sort_edges(edges.subspan(begin[d], begin[d + 1] - begin[d]),
+                                shared_bits_ - kDigitBits, own);
+                 });
+}
+
+void EdgeBinner::allocate(double limit) {
+  limit_ = limit;
+  std::size_t sum = 0;
+  for (std::size_t bin = 0; bin <= bin_of(limit_); ++bin)
+    for (std::size_t w = 0; w < workers(); ++w)
+      sum += std::exchange(counts_[begin_of(w) + bin], sum);
+  for (std::size_t w = 0; w < workers(); ++w)
+    last_parts_.push_back(counts_[begin_of(w) + bin_of(limit_)]);
+  edges_.resize(sum);
+}
+
+BinnedEdges EdgeBinner::finish() {
+  std::pmr::vector<std::size_t> ends(&context_.memory);
+  const std::size_t last = bin_of(limit_);
+  std::size_t end = 0;
+  const auto close_bin = [&](std::size_t at) {
+    if (at > end) ends.push_back(at);
+    end = at;
+  };
+  for (std::size_t bin = 0; bin < last; ++bin) close_bin(counts_[begin_of(workers() - 1) + bin]);
+  // In the last bin not all were within the limit: the workers' parts move together.
+  auto to = edges_.begin() + static_cast<std::ptrdiff_t>(end);
+  for (std::size_t w = 0; w < workers(); ++w)
+    to = std::copy(edges_.begin() + static_cast<std::ptrdiff_t>(last_parts_[w]),
+                   edges_.begin() + static_cast<std::ptrdiff_t>(counts_[begin_of(w) + last]), to);
+  edges_.erase(to, edges_.end());
+  close_bin(edges_.size());
+  return BinnedEdges(std::move(edges_), std::move(ends), shift_, context_);
+}
+
+BinnedEdges bin_edges(std::pmr::vector<FlagEdge>&& edges, const RunContext& context) {
+  context.poll();
+  EdgeBinner binner(edges.size(), 1, context);
+  for (const FlagEdge& e : edges) binner.count(e.value);
+  binner.allocate(std::numeric_limits<double>::max());
+  for (const FlagEdge& e : edges) binner.add(e);
+  edges = std::pmr::vector<FlagEdge>(edges.get_allocator());
+  return binner.finish();
+}
+
+}  // namespace ph

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "ph/engine/lens_graph.hpp"
+
+#include <algorithm>
+#include <atomic>
+
+#include "ph/core/parallel.hpp"
+
+namespace ph {
+namespace {
+
+constexpr std::size_t kPiece = 1 << 14;  // edges a thread takes at a time
+
+}  // namespace
+
+LensGraph::LensGraph(std::size_t vertices, LensLayout layout, std::pmr::memory_resource* memory)
+    : layout_(layout),
+      degree_(vertices, 0, memory),
+      joined_(layout == LensLayout::rows ? vertices : 0, vertices, memory),
+      active_(layout == LensLayout::rows ? vertices : 0, vertices, memory),
+      lists_(memory),
+      words_(layout == LensLayout::rows ? joined_.words() : 0),
+      lens_(words_, 0, memory),
+      vertices_(memory),
+      local_(memory),
+      local_rows_(memory),
+      is_row_made_(memory) {
+  if (layout != LensLayout::lists) return;
+  lists_.resize(vertices);
+  local_.resize(vertices, kNone);
+}
+
+LensLayout LensGraph::choose_layout(std::size_t vertices, std::size_t edges) {
+  constexpr double always = 1 << 23;  // bytes
+  const auto n = static_cast<double>(vertices), m = static_cast<double>(edges);
+  // Measured: rows are faster from a degree of n / 128 on.
+  const bool are_faster = 2 * m * 128 >= n * n;
+  return n * n / 4 <= std::max(are_faster ? 16 * m : 0, always) ? LensLayout::rows
+                                                                : LensLayout::lists;
+}
+
+auto LensGraph::place(List& list, Vertex v) -> List::iterator {
+  return std::ranges::lower_bound(list, 2 * v);
+}
+
+double LensGraph::bytes(std::size_t vertices, std::size_t edges) {
+  const auto n = static_cast<double>(vertices), m = static_cast<double>(edges);
+  if (choose_layout(vertices, edges) == LensLayout::rows) return n * n / 4;
+  constexpr double growth = 1.5;  // of vectors, on average
+  return 2 * growth * sizeof(Neighbour) * m + (sizeof(List) + 2 * sizeof(Vertex)) * n;
+}
+
+void LensGraph::add(const FlagEdge& e, bool is_active) {
+  if (layout_ == LensLayout::rows) {
+    joined_.set(e.u, e.v);
+    joined_.set(e.v, e.u);
+    if (is_active) {
+      active_.set(e.u, e.v);
+      active_.set(e.v, e.u);
+    }
+  } else {
+    List &of_u = lists_[e.u], &of_v = lists_[e.v];
+    of_u.insert(place(of_u, e.v), 2 * e.v + (is_active ? 1 : 0));
+    of_v.insert(place(of_v, e.u), 2 * e.u + (is_active ? 1 : 0));
+  }
+  degree_[e.u] += is_active ? 1 : 0;
+  degree_[e.v] += is_active ? 1 : 0;
+}
+
+void LensGraph::add_all(std::span<const FlagEdge> edges, const RunContext& context) {
+  const std::size_t threads = thread_count(context);
+  if (layout_ == LensLayout::lists || threads == 1 || edges.size() < kPiece) {
+    for (const FlagEdge& e : edges) add(e, false);
+    return;
+  }
+  // Each thread has rows of its own to write to.
+  for_each_piece("edges", threads, 1, context, [&](std::size_t own, std::size_t) {
+    for (const FlagEdge& e : edges) {
+      if (e.u % threads == own) joined_.set(e.u, e.v);
+      if (e.v % threads == own) joined_.set(e.v, e.u);
+    }
+  });
+}
+
+void LensGraph::set_inactive(Vertex u, Vertex v) {
+  if (layout_ == LensLayout::rows) {
+    active_.clear(u, v);
+    active_.clear(v, u);
+  } else {
+    *place(lists_[u], v) = 2 * v;
+    *place(lists_[v], u) = 2 * u;
+  }
+  --degree_[u];
+  --degree_[v];
+}
+
+bool LensGraph::has_lens(Vertex u, Vertex v) const {
+  if (layout_ == LensLayout::rows)
+    return bits::first_common(joined_.row(u), joined_.row(v), words_) != bits::kNone;
+  auto i = lists_[u].begin(), j = lists_[v].begin();
+  while (i != lists_[u].end() && j != lists_[v].end()) {
+    if (*i / 2 == *j / 2) return true;
+    *i < *j ? ++i : ++j;
+  }
+  return false;
+}
+
+bool LensGraph::have_lenses(std::span<const FlagEdge> edges, const RunContext& context) const {
+  std::atomic<bool> all = true;
+  for_each_piece("edges", edges.size(), kPiece, context, [&](std::size_t begin, std::size_t end) {
+    if (!all.load(std::memory_order_relaxed)) return;
+    const auto piece = edges.subspan(begin, end - begin);
+    if (!std::ranges::all_of(piece, [&](const FlagEdge& e) { return has_lens(e.u, e.v); }))
+      all.store(false, std::memory_order_relaxed);
+  });
+  return all;
+}
+
+LensGraph::Lens LensGraph::find_lens(const FlagEdge& e, bool wants_graph) {
+  return layout_ == LensLayout::rows ? find_lens_in_rows(e, wants_graph) : find_lens_in_lists(e);
+}
+
+LensGraph::Lens LensGraph::find_lens_in_rows(const FlagEdge& e, bool wants_graph) {
+  // One common neighbour says enough where nothing can happen.
+  if (!wants_graph && degree_[e.u] == 0 && degree_[e.v] == 0) return {!has_lens(e.u, e.v), false};
+  const bits::Lens lens = bits::lens(joined_.row(e.u), joined_.row(e.v), active_.row(e.u),
+                                     active_.row(e.v), lens_.data(), words_);
+  return {lens.is_empty, lens.touches_active};
+}
+
+LensGraph::Lens LensGraph::find_lens_in_lists(const FlagEdge& e) {
+  for (const Vertex v : vertices_) local_[v] = kNone;
+  const List &a = lists_[e.u], &b = lists_[e.v];
+  vertices_.resize(std::min(a.size(), b.size()) + 1);
+  // Which comes first is anyone's guess: no branches.
+  auto i = a.begin(), j = b.begin();
+  std::size_t count = 0;
+  std::uint32_t active = 0;
+  while (i != a.end() && j != b.end()) {
+    const Vertex x = *i / 2, y = *j / 2;
+    const std::uint32_t is_common = x == y ? 1 : 0;
+    vertices_[count] = x;
+    count += is_common;
+    active |= is_common & (*i | *j);
+    i += x <= y ? 1 : 0;
+    j += y <= x ? 1 : 0;
+  }
+  vertices_.resize(count);
+  words_ = (count + 63) / 64;
+  lens_.assign(words_, ~Word{0});
+  if (count % 64 != 0) lens_.back() = ~Word{0} >> (64 - count % 64);
+  is_row_made_.assign(count, 0);
+  local_rows_.resize(count * words_);
+  for (std::size_t k = 0; k < count; ++k) local_[vertices_[k]] = static_cast<Vertex>(k);
+  return {count == 0, active != 0};
+}
+
+void LensGraph::make_row(Vertex v) {
+  is_row_made_[v] = 1;
+  Word* row = local_rows_.data() + v * words_;
+  std::fill_n(row, words_, Word{0});
+  for (const Neighbour w : lists_[vertices_[v]])
+    if (const Vertex x = local_[w / 2]; x != kNone) row[x / 64] |= Word{1} << (x % 64);
+}
+
+}  // namespace ph
