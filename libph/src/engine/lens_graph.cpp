@@ -4,12 +4,24 @@
 #include <algorithm>
 #include <atomic>
 
+#include "../core/for_each_target.hpp"
 #include "ph/core/parallel.hpp"
 
 namespace ph {
 namespace {
 
 constexpr std::size_t kPiece = 1 << 14;  // edges a thread takes at a time
+
+// The neighbours in a lens of at most 64 vertices.
+PH_FOR_EACH_TARGET
+bits::Word word_of(const std::uint32_t* neighbours, std::size_t count, const std::uint32_t* local) {
+  bits::Word word = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t x = local[neighbours[i] / 2];
+    word |= bits::Word{x < 64} << (x % 64);
+  }
+  return word;
+}
 
 }  // namespace
 
@@ -19,6 +31,7 @@ LensGraph::LensGraph(std::size_t vertices, LensLayout layout, std::pmr::memory_r
       joined_(layout == LensLayout::rows ? vertices : 0, vertices, memory),
       active_(layout == LensLayout::rows ? vertices : 0, vertices, memory),
       lists_(memory),
+      marks_(memory),
       words_(layout == LensLayout::rows ? joined_.words() : 0),
       lens_(words_, 0, memory),
       vertices_(memory),
@@ -27,16 +40,15 @@ LensGraph::LensGraph(std::size_t vertices, LensLayout layout, std::pmr::memory_r
       is_row_made_(memory) {
   if (layout != LensLayout::lists) return;
   lists_.resize(vertices);
+  marks_.resize(vertices, 0);
   local_.resize(vertices, kNone);
 }
 
 LensLayout LensGraph::choose_layout(std::size_t vertices, std::size_t edges) {
-  constexpr double always = 1 << 23;  // bytes
+  // Measured: rows are faster from a degree of n / 128 on. They take at most four times the memory
+  // of the edges then.
   const auto n = static_cast<double>(vertices), m = static_cast<double>(edges);
-  // Measured: rows are faster from a degree of n / 128 on.
-  const bool are_faster = 2 * m * 128 >= n * n;
-  return n * n / 4 <= std::max(are_faster ? 16 * m : 0, always) ? LensLayout::rows
-                                                                : LensLayout::lists;
+  return 2 * m * 128 >= n * n ? LensLayout::rows : LensLayout::lists;
 }
 
 auto LensGraph::place(List& list, Vertex v) -> List::iterator {
@@ -131,20 +143,18 @@ LensGraph::Lens LensGraph::find_lens_in_rows(const FlagEdge& e, bool wants_graph
 LensGraph::Lens LensGraph::find_lens_in_lists(const FlagEdge& e) {
   for (const Vertex v : vertices_) local_[v] = kNone;
   const List &a = lists_[e.u], &b = lists_[e.v];
-  vertices_.resize(std::min(a.size(), b.size()) + 1);
-  // Which comes first is anyone's guess: no branches.
-  auto i = a.begin(), j = b.begin();
+  vertices_.resize(b.size() + 1);
+  // Marks take three passes and no branch; which of two sorted lists comes first is anyone's guess.
+  for (const Neighbour w : a) marks_[w / 2] = static_cast<std::uint8_t>(2 + w % 2);
   std::size_t count = 0;
   std::uint32_t active = 0;
-  while (i != a.end() && j != b.end()) {
-    const Vertex x = *i / 2, y = *j / 2;
-    const std::uint32_t is_common = x == y ? 1 : 0;
-    vertices_[count] = x;
+  for (const Neighbour w : b) {
+    const std::uint32_t mark = marks_[w / 2], is_common = mark / 2;
+    vertices_[count] = w / 2;
     count += is_common;
-    active |= is_common & (*i | *j);
-    i += x <= y ? 1 : 0;
-    j += y <= x ? 1 : 0;
+    active |= is_common & (mark | w);
   }
+  for (const Neighbour w : a) marks_[w / 2] = 0;
   vertices_.resize(count);
   words_ = (count + 63) / 64;
   lens_.assign(words_, ~Word{0});
@@ -159,8 +169,12 @@ void LensGraph::make_row(Vertex v) {
   is_row_made_[v] = 1;
   Word* row = local_rows_.data() + v * words_;
   std::fill_n(row, words_, Word{0});
-  for (const Neighbour w : lists_[vertices_[v]])
-    if (const Vertex x = local_[w / 2]; x != kNone) row[x / 64] |= Word{1} << (x % 64);
+  const List& list = lists_[vertices_[v]];
+  if (words_ == 1)
+    *row = word_of(list.data(), list.size(), local_.data());
+  else
+    for (const Neighbour w : list)
+      if (const Vertex x = local_[w / 2]; x != kNone) row[x / 64] |= Word{1} << (x % 64);
 }
 
 }  // namespace ph

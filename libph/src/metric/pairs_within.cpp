@@ -13,6 +13,7 @@
 #include "cube_list.hpp"
 #include "ph/core/error.hpp"
 #include "ph/metric/point_metric.hpp"
+#include "ph/metric/row_distances.hpp"
 
 namespace ph {
 namespace {
@@ -85,6 +86,26 @@ void visit_by_tree(const SearchSpace& space, const PointMetric& metric, double r
   }
 }
 
+void visit_by_rows(const SearchSpace&, const PointMetric& metric, double radius, const Visit& visit,
+                   const RunContext& context) {
+  const RowDistances<PointMetric> distances(metric, &context.memory);
+  std::pmr::vector<double> row(static_cast<std::size_t>(distances.row_capacity()), 0.0,
+                               &context.memory);
+  for (Index i = 0; i < metric.size(); ++i) {
+    context.poll();
+    distances(i, row.data());
+    for (Index j = 0; j < i; ++j)
+      if (const double d = row[static_cast<std::size_t>(j)]; d <= radius) visit(j, i, d);
+  }
+}
+
+auto visit_for(const Points& points) {
+  // Measured: a tree of so few points takes longer than all pairs, many at a time.
+  constexpr Index few = 1 << 14;
+  if (points.cols() <= 3) return visit_by_cubes;
+  return points.rows() <= few ? visit_by_rows : visit_by_tree;
+}
+
 }  // namespace
 
 void for_each_pair_within(const Points& points, double radius, const Visit& visit,
@@ -95,8 +116,7 @@ void for_each_pair_within(const Points& points, double radius, const Visit& visi
   const PointMetric metric(points);
   const double reach = points.size() == 0 ? 0 : points.cwiseAbs().maxCoeff();
   const auto visit_in = [&](const SearchSpace& space) {
-    const auto visit_pairs = points.cols() <= 3 ? visit_by_cubes : visit_by_tree;
-    visit_pairs(space, metric, radius, visit, context);
+    visit_for(points)(space, metric, radius, visit, context);
   };
   if (reach == 0 || (kSmallestPlain < reach && reach < kLargestPlain)) {
     visit_in({points, std::min(radius, kLargestPlain), false});

@@ -92,6 +92,7 @@ class LensGraph {
   BitMatrix joined_, active_;
   // lists, ascending
   std::pmr::vector<List> lists_;
+  std::pmr::vector<std::uint8_t> marks_;  // by vertex; zero between uses
   // The lens.
   std::size_t words_;
   std::pmr::vector<Word> lens_;

@@ -69,7 +69,7 @@ class LensSweep {
 
   static constexpr Position kDead = UINT32_MAX;
 
-  /// Whether nothing happens at the edges of a bin. They are not added, see unadded_bins_.
+  /// Whether nothing happens at the edges of a bin. They are not added, see first_unadded_bin_.
   bool is_bin_idle(std::size_t bin);
   /// Adds the edges of idle bins.
   void add_bins_until(std::size_t bin);

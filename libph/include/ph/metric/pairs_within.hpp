@@ -9,8 +9,8 @@ namespace ph {
 
 /// Calls `visit(i, j, distance)` once for each pair i < j of points at Euclidean distance <=
 /// radius, in an order that depends on the input alone. In up to three dimensions by cubes of the
-/// size of the radius, above by a k-d tree: O(n log n + pairs) unless most points lie within a
-/// billionth of the largest coordinate.
+/// size of the radius, above by a k-d tree, or all pairs where points are few: O(n log n + pairs)
+/// unless most points lie within a billionth of the largest coordinate.
 /// @param points one point a row, finite. @param radius in units of the coordinates.
 /// @throws Error (usage) if the radius is negative or NaN; Error (bad_data) as PointMetric;
 ///         Error (cancelled) on a stop request.
