@@ -48,10 +48,54 @@ TEST(RandomConformance, WideRipsCells) {
   for_each_seed(300, [](Generator& random, bool ties, std::int64_t field) {
     const Rips rips(random.sparse(random.integer(1, 8), ties, 0.7));
     const int max_dim = random.integer(0, 3);
-    if (rips.graph().is_dense())
-      check(RipsFiltration<RipsLayout::dense, 4>(rips.graph()), max_dim, {field});
-    else
-      check(RipsFiltration<RipsLayout::sparse, 4>(rips.graph()), max_dim, {field});
+    check(RipsFiltration<RipsLayout::any, 2>(rips.graph()), max_dim, {field});
+    check(RipsFiltration<RipsLayout::any, 4>(rips.graph()), max_dim, {field});
+  });
+}
+
+/// As many threads find them, each of which takes one column at a time.
+template <class F>
+std::vector<Pair> pairs_of_threads(const F& f, int max_dim, std::int64_t field, int threads) {
+  RunContext context;
+  context.threads = threads;
+  BarcodeBuilder<F> bars(f, max_dim, -1);
+  detail::with_field(field, [&](const auto& k) {
+    using K = std::decay_t<decltype(k)>;
+    CohomologyReduction<F, K> reduction(f, k, bars, context, 1);
+    for (int dim = 0; dim <= std::min(max_dim, f.top_dim()); ++dim) reduction.reduce_dimension(dim);
+  });
+  return pairs_of(bars.finish());
+}
+
+TEST(RandomConformance, AnyNumberOfThreads) {
+  for_each_seed(20000, [](Generator& random, bool ties, std::int64_t field) {
+    const int threads = random.integer(1, 8);
+    const auto check_threads = [&](const auto& f, int max_dim) {
+      EXPECT_EQ(pairs_of_threads(f, max_dim, field, threads),
+                pairs_of(f, max_dim, field, Engine::standard));
+    };
+    if (random.integer(0, 9) == 0) {
+      check_threads(Cubical(random.image({4, 4, 3}, ties), random.cubical_options(3)), 3);
+      return;
+    }
+    const Index n = random.integer(3, 10);
+    const int max_dim = random.integer(1, 3);
+    const Rips rips = random.coin() ? Rips(random.points(n, random.integer(2, 5), ties))
+                                    : Rips(random.distances(n, ties));
+    rips.with_filtration(max_dim, [&](const auto& f) { check_threads(f, max_dim); });
+  });
+}
+
+// Long columns that drive each other out; the bars are those of one thread, which is the sequential
+// algorithm.
+TEST(RandomConformance, ThreadsOnManyColumns) {
+  for_each_seed(8, [](Generator& random, bool ties, std::int64_t field) {
+    const Rips rips(random.distances(26, ties));
+    rips.with_filtration(2, [&](const auto& f) {
+      const auto alone = pairs_of_threads(f, 2, field, 1);
+      EXPECT_EQ(alone, pairs_of(f, 2, field, Engine::lens));
+      for (const int threads : {2, 3, 8}) EXPECT_EQ(pairs_of_threads(f, 2, field, threads), alone);
+    });
   });
 }
 

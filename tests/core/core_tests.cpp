@@ -311,7 +311,7 @@ using Clock = std::chrono::steady_clock;
 
 // A job of many seconds for every engine that goes beyond H0.
 Points long_job(Engine engine) {
-  return Generator(1).points(engine == Engine::cohomology ? 160 : 90, 6, false);
+  return Generator(1).points(engine == Engine::cohomology ? 400 : 90, 6, false);
 }
 
 TEST(RunContexts, AStopRequestEndsALongJobSoon) {

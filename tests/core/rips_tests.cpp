@@ -313,5 +313,32 @@ TEST(RipsInputs, SimplicesTooLargeForAnyCellAreRefused) {
   EXPECT_EQ(persistence(rips, {.max_dim = 200}).size(), 300U) << "a tree is left of the edges";
 }
 
+/// The cells in no apparent pair, found with or without rows of bits.
+template <class F>
+auto unmatched_cells(const F& f, int dim, bool has_rows) {
+  std::vector<typename F::Cell> cells;
+  typename F::UnmatchedCells unmatched(f, dim, has_rows);
+  unmatched.for_each(
+      0, f.group_count(), [&](const auto& c) { cells.push_back(c); }, [] {});
+  return cells;
+}
+
+// Vertices in several words of bits.
+TEST(RipsFiltrations, CellsInNoApparentPair) {
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    Generator random(seed);
+    const bool ties = seed % 2 == 0;
+    const Rips rips = seed % 3 == 0
+                          ? Rips(random.points(70, 3, ties), {.threshold = ties ? 1 : 0.4})
+                      : seed % 3 == 1 ? Rips(random.sparse(140, ties, 0.15))
+                                      : Rips(random.distances(20, ties));
+    rips.with_filtration(4, [&](const auto& f) {
+      check_apparent_pairs(f, 2);
+      for (const int dim : {1, 2, 3, 4})
+        EXPECT_EQ(unmatched_cells(f, dim, true), unmatched_cells(f, dim, false)) << seed;
+    });
+  }
+}
+
 }  // namespace
 }  // namespace ph::test

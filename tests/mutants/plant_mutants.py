@@ -33,7 +33,9 @@ ANNOTATIONS = "libph/include/ph/engine/annotations.hpp"
 EXTENSIONS = "libph/include/ph/engine/lens_extensions.hpp"
 SURFACES = "libph/include/ph/engine/lens_surfaces.hpp"
 TRIANGLES = "libph/include/ph/engine/triangle_cocycles.hpp"
-REDUCTION = "libph/include/ph/engine/reduction.hpp"
+HOMOLOGY = "libph/include/ph/engine/homology_reduction.hpp"
+COHOMOLOGY = "libph/include/ph/engine/cohomology_reduction.hpp"
+GROUPS = "libph/include/ph/complex/rips_groups.hpp"
 COLLAPSE = "libph/src/complex/edge_collapse.cpp"
 COLLAPSE_ROWS = "libph/src/complex/collapse_rows.hpp"
 COLLAPSE_LISTS = "libph/src/complex/collapse_lists.hpp"
@@ -135,6 +137,9 @@ MUTANTS = [
     ("collapse: moved edges keep their value", COLLAPSE,
      "edges.push_back({input_.value(to), e.u, e.v});", "edges.push_back({e.value, e.u, e.v});",
      ["edge_collapse_tests"]),
+    ("collapse: one pass only", COLLAPSE,
+     "while (is_next_worth(before, collapsed.edge_count())) {", "while (false) {",
+     ["edge_collapse_tests"]),
     ("collapse, rows: what comes later counts as there", COLLAPSE_ROWS,
      "it->vertex == b && it->key <= now", "it->vertex == b", ["edge_collapse_tests"]),
     ("collapse, rows: a neighbour comes with one of its edges", COLLAPSE_ROWS,
@@ -175,17 +180,32 @@ MUTANTS = [
      "if (Index{j} <= i) continue;\n      if (const double d = metric(i, j); d <= radius)",
      "if (Index{j} <= i) continue;\n      if (const double d = metric(i, j); d < radius)",
      ["metric_tests"]),
-    ("reduction: no clearing", REDUCTION,
+    ("homology: no clearing", HOMOLOGY,
      "previous_pivots_ = std::move(pivots_);", "previous_pivots_ = CellMap<F>(f_, &context_.memory);",
      ["conformance_random"]),
-    ("reduction: pivots not reset", REDUCTION,
+    ("homology: pivots not reset", HOMOLOGY,
      "pivots_ = CellMap<F>(f_, &context_.memory);\n  }", "pivots_ = previous_pivots_;\n  }",
      ["persistence_tests"]),
-    ("reduction: a zero coefficient is kept", REDUCTION,
-     "if (!field_.is_zero(sum)) chains_.emplace_back(c, sum);", "chains_.emplace_back(c, sum);",
+    ("cohomology: no clearing", COHOMOLOGY, "cleared_.insert(column->pivot, 0);", "",
+     ["conformance_random"]),
+    ("cohomology: a zero coefficient is kept", "libph/include/ph/engine/working_column.hpp",
+     "if (!field.is_zero(sum)) chain[kept++] = Term(cell, sum);", "chain[kept++] = Term(cell, sum);",
      ["representatives_random"]),
-    ("reduction: every first equal cofacet is an emergent pair", REDUCTION,
-     "found = !owner_of(entry);", "found = true;", ["conformance_random"]),
+    ("cohomology: every first equal cofacet is an emergent pair", COHOMOLOGY,
+     "pivots_->owner_of(cofacet).number >= number &&", "",
+     ["conformance_random"]),
+    ("cohomology: a column that was driven out is left alone", COHOMOLOGY,
+     "if (other == PivotTable<F, K>::kNone) return;", "if (other != number) return;",
+     ["conformance_random"]),
+    ("pivots: the first to come stays", "libph/include/ph/engine/pivot_table.hpp",
+     "if (found.owner.number != kNone && found.owner.number < i) return i;",
+     "if (found.owner.number != kNone) return i;", ["conformance_random"]),
+    ("rips: any lens is a cone", GROUPS, "return missed == 0;\n  }", "return true;\n  }",
+     ["conformance_random"]),
+    ("rips: the least vertex is like the others", GROUPS, "if (x == lowest) return;", "",
+     ["conformance_random"]),
+    ("rips: any common neighbour makes an apparent pair", "libph/include/ph/complex/rips_filtration.ipp",
+     "if (lead.vertex >= below) break;", "", ["conformance_random"]),
     ("apparent pairs: only one side looked at", "libph/include/ph/engine/apparent_pairs.hpp",
      "if (facet && *facet == cell) return cofacet;", "return cofacet;", ["conformance_random"]),
     ("elder rule reversed", "libph/include/ph/engine/elder_rule.hpp",

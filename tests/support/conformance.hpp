@@ -138,6 +138,55 @@ void check_contract(const F& f, int top, std::int64_t field) {
   }
 }
 
+/// The apparent pairs as the filtration knows them and as a search of all facets and cofacets, over
+/// a view of the filtration that does not, finds them.
+template <Filtration F>
+struct WithoutApparent {
+  using Cell = typename F::Cell;
+  const F& f;
+  static constexpr bool first_equal_cofacet_is_oldest = F::first_equal_cofacet_is_oldest;
+  int top_dim() const { return f.top_dim(); }
+  double value(const Cell& c) const { return f.value(c); }
+  auto key(const Cell& c) const { return f.key(c); }
+  bool precedes(const Cell& a, const Cell& b) const { return f.precedes(a, b); }
+  CellKind cell_kind() const { return f.cell_kind(); }
+  void append_input_cell(int dim, const Cell& c, std::vector<Index>& numbers) const {
+    f.append_input_cell(dim, c, numbers);
+  }
+  void for_each_cell(int dim, auto&& visit) const { f.for_each_cell(dim, visit); }
+  void for_each_facet(int dim, const Cell& c, auto&& visit) const {
+    f.for_each_facet(dim, c, visit);
+  }
+  void for_each_cofacet(int dim, const Cell& c, auto&& visit) const {
+    f.for_each_cofacet(dim, c, visit);
+  }
+};
+
+template <ApparentFiltration F>
+void check_apparent_pairs(const F& f, int top) {
+  using Cell = typename F::Cell;
+  const WithoutApparent<F> view{f};
+  const ApparentPairs<WithoutApparent<F>, Z2> searched(view, Z2{});
+  for (int dim = 0; dim <= std::min(top, f.top_dim()); ++dim) {
+    std::vector<Cell> unmatched, found;
+    for (const Cell& c : sorted_cells(f, dim)) {
+      const auto killer = searched.killer_of(dim, c), victim = searched.victim_of(dim, c);
+      ASSERT_EQ(f.apparent_cofacet(dim, c), killer);
+      ASSERT_EQ(f.apparent_facet(dim, c), victim);
+      if (!killer && !victim) unmatched.push_back(c);
+    }
+    if (dim == 0) continue;
+    std::reverse(unmatched.begin(), unmatched.end());
+    // In several calls, as engines do it.
+    auto cells = f.unmatched_cells(dim);
+    for (std::size_t last = f.group_count(); last > 0; last -= std::min<std::size_t>(last, 3))
+      cells.for_each(
+          last - std::min<std::size_t>(last, 3), last, [&](const Cell& c) { found.push_back(c); },
+          [] {});
+    ASSERT_EQ(found, unmatched) << "cells in no apparent pair, dim " << dim;
+  }
+}
+
 /// At every value the alternating count of cells equals that of living bars (all dimensions).
 template <Filtration F>
 void check_euler(const F& f, const std::vector<Pair>& pairs) {
@@ -183,6 +232,9 @@ void check(const F& f, int max_dim, std::initializer_list<std::int64_t> fields =
   for (const std::int64_t field : fields) {
     SCOPED_TRACE("field " + std::to_string(field));
     ASSERT_NO_FATAL_FAILURE(check_contract(f, max_dim + 1, field));
+    if constexpr (ApparentFiltration<F>) {
+      ASSERT_NO_FATAL_FAILURE(check_apparent_pairs(f, max_dim + 1));
+    }
     ASSERT_NO_FATAL_FAILURE(check_engines(f, max_dim, field));
   }
 }

@@ -115,9 +115,9 @@ PH_INSTANTIATED(Cubical);
 PH_INSTANTIATED(ExplicitComplex);
 PH_INSTANTIATED(FilteredGraph);
 PH_INSTANTIATED(RipsFiltration<RipsLayout::dense, 1>);
-PH_INSTANTIATED(RipsFiltration<RipsLayout::dense, 4>);
 PH_INSTANTIATED(RipsFiltration<RipsLayout::sparse, 1>);
-PH_INSTANTIATED(RipsFiltration<RipsLayout::sparse, 4>);
+PH_INSTANTIATED(RipsFiltration<RipsLayout::any, 2>);
+PH_INSTANTIATED(RipsFiltration<RipsLayout::any, 4>);
 #undef PH_INSTANTIATED
 
 }  // namespace ph

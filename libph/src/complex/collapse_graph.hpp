@@ -14,7 +14,7 @@
 ///
 ///   Set                            a set of vertices, made by make_set()
 ///   enter_until(key)               edges up to that key enter; before anything else
-///   find_lens(e, now, lens)        the common neighbours of the ends of e by now
+///   find_lens(e, now, lens)        the common neighbours of the ends of e, the edge at hand, by now
 ///   find_arrivals(e, now, out)     those that come later, each with the key at which it does
 ///   are_joined(a, b, now)          whether two vertices are joined by now
 ///   first_apart(lens, c, now)      a vertex of the lens other than c not joined to c; kNone if

@@ -39,7 +39,8 @@ class RowGraph {
     }
   }
 
-  void find_lens(const FlagEdge& e, Key, Set& lens) const {
+  void find_lens(const FlagEdge& e, Key now, Set& lens) {
+    present_key_ = now;
     const auto *u = present_.row(e.u), *v = present_.row(e.v);
     for (std::size_t k = 0; k < lens.size(); ++k) lens[k] = u[k] & v[k];
   }
@@ -64,6 +65,7 @@ class RowGraph {
 
   bool are_joined(Vertex a, Vertex b, Key now) const {
     if (present_.test(a, b)) return true;
+    if (now == present_key_) return false;
     const auto it = std::ranges::lower_bound(later_[a], b, {}, &Neighbour::vertex);
     return it != later_[a].end() && it->vertex == b && it->key <= now;
   }
@@ -92,8 +94,10 @@ class RowGraph {
 
   void keep_neighbours(Set& set, Vertex w, Key now) {
     also_.clear();
-    for (const Neighbour& x : later_[w])
-      if (x.key <= now && contains(set, x.vertex)) also_.push_back(x.vertex);
+    if (now != present_key_) {
+      for (const Neighbour& x : later_[w])
+        if (x.key <= now && contains(set, x.vertex)) also_.push_back(x.vertex);
+    }
     const auto* row = present_.row(w);
     for (std::size_t k = 0; k < set.size(); ++k) set[k] &= row[k];
     for (const Vertex x : also_) insert(set, x);
@@ -117,6 +121,7 @@ class RowGraph {
 
   std::span<const FlagEdge> edges_;
   Key entered_ = 0;
+  Key present_key_ = 0;  // of the edge at hand: what is kept in lists comes after it
   BitMatrix present_;
   std::pmr::vector<std::pmr::vector<Neighbour>> later_;  // by vertex, each sorted by vertex
   std::pmr::vector<Vertex> also_;

@@ -32,6 +32,7 @@ class PackedVertices {
   constexpr PackedVertices operator<<(int n) const {
     PackedVertices r;
     if (n >= kBits) return r;
+    if constexpr (Words == 1) return PackedVertices(word(0) << n);
     const int whole = n / 64, rest = n % 64;
     for (int i = Words - 1; i >= whole; --i) {
       r.word(i) = word(i - whole) << rest;
@@ -42,6 +43,7 @@ class PackedVertices {
   constexpr PackedVertices operator>>(int n) const {
     PackedVertices r;
     if (n >= kBits) return r;
+    if constexpr (Words == 1) return PackedVertices(word(0) >> n);
     const int whole = n / 64, rest = n % 64;
     for (int i = 0; i + whole < Words; ++i) {
       r.word(i) = word(i + whole) >> rest;

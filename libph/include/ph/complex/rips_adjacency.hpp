@@ -31,6 +31,8 @@ class RipsAdjacency {
   /// Which layout such a graph gets.
   static bool is_dense(std::size_t vertices, std::size_t edges);
 
+  /// Whether the layout is dense.
+  bool has_matrix() const { return !matrix_.empty(); }
   /// Dense layout: the keys of all pairs with u; kNever at u itself.
   const Key* row(std::uint32_t u) const { return matrix_.data() + u * size_; }
   /// Sparse layout: the neighbours of u, ascending.
@@ -38,7 +40,7 @@ class RipsAdjacency {
     return std::span(neighbours_).subspan(offsets_[u], offsets_[u + 1] - offsets_[u]);
   }
   Key key_of(std::uint32_t u, std::uint32_t v) const {
-    if (!matrix_.empty()) return row(u)[v];
+    if (has_matrix()) return row(u)[v];
     const auto list = neighbours(u);
     const auto it = std::ranges::lower_bound(list, v, {}, &Neighbour::vertex);
     return it != list.end() && it->vertex == v ? it->key : kNever;

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -11,13 +12,15 @@
 
 #include "ph/complex/packed_vertices.hpp"
 #include "ph/complex/rips_graph.hpp"
+#include "ph/complex/rips_groups.hpp"
 #include "ph/core/error.hpp"
 #include "ph/core/filtration.hpp"
 
 namespace ph {
 
-/// Where keys are looked up: a square matrix or sorted neighbour lists.
-enum class RipsLayout { dense, sparse };
+/// Where keys are looked up: a square matrix, sorted neighbour lists, or either, as the graph has
+/// it.
+enum class RipsLayout { dense, sparse, any };
 
 /// A simplex with the key of its longest edge.
 template <int Words>
@@ -73,10 +76,10 @@ class RipsFiltration {
     return {position + 1, Vertices(e.u) << bits_ | Vertices(e.v)};
   }
   Cell triangle_cell(std::uint32_t longest, std::uint32_t apex) const {
-    return over_edge<3>(longest, {apex});
+    return over_edge(longest, std::array{apex});
   }
   Cell tetrahedron_cell(std::uint32_t longest, std::uint32_t w, std::uint32_t x) const {
-    return over_edge<4>(longest, {w, x});
+    return over_edge(longest, std::array{std::max(w, x), std::min(w, x)});
   }
   Cell triangle_cell_of(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     const RipsAdjacency& adjacent = adjacency();
@@ -91,22 +94,39 @@ class RipsFiltration {
   template <class Visit>
   void for_each_cofacet(int dim, const Cell& cell, Visit&& visit) const;
 
+  /// As ApparentFiltration asks for them: a group has the simplices of one longest edge.
+  std::optional<Cell> apparent_cofacet(int dim, const Cell& cell) const;
+  std::optional<Cell> apparent_facet(int dim, const Cell& cell) const;
+  std::size_t group_count() const { return graph_.edge_count(); }
+  class UnmatchedCells;
+  UnmatchedCells unmatched_cells(int dim) const { return UnmatchedCells(*this, dim); }
+
  private:
   using Neighbour = RipsAdjacency::Neighbour;
 
   const RipsAdjacency& adjacency() const { return graph_.adjacency(); }
+  bool has_matrix() const {
+    if constexpr (Layout == RipsLayout::any)
+      return adjacency().has_matrix();
+    else
+      return Layout == RipsLayout::dense;
+  }
   std::uint32_t vertex(const Cell& cell, int slot) const {
     return static_cast<std::uint32_t>((cell.vertices >> (slot * bits_)).low_bits(bits_));
   }
-  /// The simplex of an edge and other vertices.
-  template <std::size_t Size>
-  Cell over_edge(std::uint32_t longest, std::array<std::uint32_t, Size - 2> others) const {
+  /// The simplex of an edge and other vertices, descending.
+  Cell over_edge(std::uint32_t longest, std::span<const std::uint32_t> others) const {
     const FlagEdge& e = graph_.edge(longest + 1);
-    std::array<std::uint32_t, Size> v{e.u, e.v};
-    std::copy(others.begin(), others.end(), v.begin() + 2);
-    std::sort(v.begin(), v.end(), std::greater());
     Cell cell{longest + 1, {}};
-    for (const std::uint32_t w : v) cell.vertices = cell.vertices << bits_ | Vertices(w);
+    const auto append = [&](std::uint32_t w) {
+      cell.vertices = cell.vertices << bits_ | Vertices(w);
+    };
+    auto it = others.begin();
+    for (const std::uint32_t end : {e.u, e.v}) {
+      while (it != others.end() && *it > end) append(*it++);
+      append(end);
+    }
+    while (it != others.end()) append(*it++);
     return cell;
   }
   /// The cell with slot `slot` taken out.
@@ -120,12 +140,28 @@ class RipsFiltration {
     return (v << drop) >> drop;
   }
 
-  /// Extends a clique by every smaller vertex joined to all of it.
+  /// The slot of the smallest vertex that is not an end of the longest edge; dim + 1 if there is
+  /// none.
+  int first_slot_off_longest(int dim, const Cell& cell) const {
+    const FlagEdge& longest = graph_.edge(cell.key);
+    for (int slot = 0; slot <= dim; ++slot)
+      if (const auto v = vertex(cell, slot); v != longest.u && v != longest.v) return slot;
+    return dim + 1;
+  }
+  /// The smallest vertex below `below` that edges before `key` join to all slots of a cell, slot
+  /// `skipped` apart; kNoVertex if there is none.
+  std::uint32_t first_common_neighbour(int dim, const Cell& cell, int skipped,
+                                       std::uint32_t below) const;
+  static constexpr std::uint32_t kNoVertex = UINT32_MAX;
+  static constexpr int kNoSlot = -1;
+
+  /// Extends a clique by every smaller vertex joined to all of it by edges up to `limit`.
   template <class Visit>
   void extend_clique(const Cell& clique, std::span<const Neighbour> candidates, int missing,
-                     std::vector<std::vector<Neighbour>>& scratch, Visit&& visit) const;
-  /// The vertices below `from` joined to it, ascending.
-  void smaller_neighbours(std::uint32_t from, std::vector<Neighbour>& out) const;
+                     Key limit, std::vector<std::vector<Neighbour>>& scratch, Visit&& visit) const;
+  /// The vertices below `below` joined to `from`, ascending.
+  void smaller_neighbours(std::uint32_t from, std::uint32_t below,
+                          std::vector<Neighbour>& out) const;
 
   const RipsGraph& graph_;
   int bits_;
@@ -148,22 +184,22 @@ void RipsFiltration<Layout, Words>::for_each_cell(int dim, Visit&& visit) const 
   std::vector<std::vector<Neighbour>> scratch(static_cast<std::size_t>(dim) + 1);
   std::vector<Neighbour> candidates;
   for (std::uint32_t v = 0; v < n; ++v) {
-    smaller_neighbours(v, candidates);
-    extend_clique(Cell{0, Vertices(v)}, candidates, dim, scratch, visit);
+    smaller_neighbours(v, v, candidates);
+    extend_clique(Cell{0, Vertices(v)}, candidates, dim, RipsAdjacency::kNever - 1, scratch, visit);
   }
 }
 
 template <RipsLayout Layout, int Words>
-void RipsFiltration<Layout, Words>::smaller_neighbours(std::uint32_t from,
+void RipsFiltration<Layout, Words>::smaller_neighbours(std::uint32_t from, std::uint32_t below,
                                                        std::vector<Neighbour>& out) const {
   out.clear();
-  if constexpr (Layout == RipsLayout::dense) {
+  if (has_matrix()) {
     const Key* row = adjacency().row(from);
-    for (std::uint32_t w = 0; w < from; ++w)
+    for (std::uint32_t w = 0; w < below; ++w)
       if (row[w] != RipsAdjacency::kNever) out.push_back({w, row[w]});
   } else {
     for (const Neighbour& w : adjacency().neighbours(from)) {
-      if (w.vertex >= from) break;
+      if (w.vertex >= below) break;
       out.push_back(w);
     }
   }
@@ -173,7 +209,7 @@ template <RipsLayout Layout, int Words>
 template <class Visit>
 void RipsFiltration<Layout, Words>::extend_clique(const Cell& clique,
                                                   std::span<const Neighbour> candidates,
-                                                  int missing,
+                                                  int missing, Key limit,
                                                   std::vector<std::vector<Neighbour>>& scratch,
                                                   Visit&& visit) const {
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -187,12 +223,11 @@ void RipsFiltration<Layout, Words>::extend_clique(const Cell& clique,
     // edge to the clique.
     auto& next = scratch[static_cast<std::size_t>(missing)];
     next.clear();
-    if constexpr (Layout == RipsLayout::dense) {
+    if (has_matrix()) {
       const Key* row = adjacency().row(w.vertex);
       for (std::size_t k = 0; k < i; ++k) {
         const Key key = row[candidates[k].vertex];
-        if (key != RipsAdjacency::kNever)
-          next.push_back({candidates[k].vertex, std::max(key, candidates[k].key)});
+        if (key <= limit) next.push_back({candidates[k].vertex, std::max(key, candidates[k].key)});
       }
     } else {
       auto it = adjacency().neighbours(w.vertex).begin();
@@ -200,11 +235,11 @@ void RipsFiltration<Layout, Words>::extend_clique(const Cell& clique,
       for (std::size_t k = 0; k < i; ++k) {
         while (it != end && it->vertex < candidates[k].vertex) ++it;
         if (it == end) break;
-        if (it->vertex == candidates[k].vertex)
+        if (it->vertex == candidates[k].vertex && it->key <= limit)
           next.push_back({it->vertex, std::max(it->key, candidates[k].key)});
       }
     }
-    extend_clique(larger, next, missing - 1, scratch, visit);
+    extend_clique(larger, next, missing - 1, limit, scratch, visit);
   }
 }
 
@@ -262,7 +297,7 @@ void RipsFiltration<Layout, Words>::for_each_cofacet(int dim, const Cell& cell,
     return visit(Cell{key, frame | Vertices(w) << (slot * bits_)}, slot % 2 == 0 ? 1 : -1);
   };
 
-  if constexpr (Layout == RipsLayout::dense) {
+  if (has_matrix()) {
     std::array<const Key*, kMostVertices> rows;
     for (int i = 0; i < count; ++i)
       rows[static_cast<std::size_t>(i)] = adjacent.row(vertices[static_cast<std::size_t>(i)]);
@@ -314,17 +349,14 @@ decltype(auto) with_rips_filtration(const RipsGraph& graph, int max_dim, Use&& u
     const Index capacity = F::capacity(graph);
     return Index{max_dim} + 2 <= capacity || graph.adjacency().clique_bound() <= capacity;
   };
-  if (graph.is_dense()) {
-    using Dense = RipsFiltration<RipsLayout::dense, 1>;
-    using DenseWide = RipsFiltration<RipsLayout::dense, 4>;
-    if (fits(std::type_identity<Dense>())) return use(Dense(graph));
-    if (fits(std::type_identity<DenseWide>())) return use(DenseWide(graph));
-  } else {
-    using Sparse = RipsFiltration<RipsLayout::sparse, 1>;
-    using SparseWide = RipsFiltration<RipsLayout::sparse, 4>;
-    if (fits(std::type_identity<Sparse>())) return use(Sparse(graph));
-    if (fits(std::type_identity<SparseWide>())) return use(SparseWide(graph));
-  }
+  using Dense = RipsFiltration<RipsLayout::dense, 1>;
+  using Sparse = RipsFiltration<RipsLayout::sparse, 1>;
+  if (fits(std::type_identity<Sparse>()))
+    return graph.is_dense() ? use(Dense(graph)) : use(Sparse(graph));
+  using Wide = RipsFiltration<RipsLayout::any, 2>;
+  using Widest = RipsFiltration<RipsLayout::any, 4>;
+  if (fits(std::type_identity<Wide>())) return use(Wide(graph));
+  if (fits(std::type_identity<Widest>())) return use(Widest(graph));
   throw Error(
       ErrorKind::resource,
       "simplices of " +
@@ -339,3 +371,5 @@ template <int Words>
 struct std::hash<ph::RipsCell<Words>> {
   std::size_t operator()(const ph::RipsCell<Words>& c) const { return c.vertices.hash(); }
 };
+
+#include "ph/complex/rips_filtration.ipp"

@@ -80,6 +80,8 @@ class RipsGraph {
   std::span<const FlagEdge> edges() const { return edges_.sorted(); }
   /// For those who may not need all of them in order.
   const BinnedEdges& binned_edges() const { return edges_; }
+  /// Where the edges are allocated.
+  std::pmr::memory_resource* memory() const { return names_.get_allocator().resource(); }
 
   /// Whether most pairs are edges: the layout that adjacency() has, or will have.
   bool is_dense() const {
@@ -91,8 +93,7 @@ class RipsGraph {
     if (const RipsAdjacency* made = lazy_->made.load(std::memory_order_acquire)) return *made;
     const std::lock_guard lock(lazy_->mutex);
     if (!lazy_->adjacency) {
-      lazy_->adjacency.emplace(static_cast<std::size_t>(size_), edges_.sorted(),
-                               names_.get_allocator().resource());
+      lazy_->adjacency.emplace(static_cast<std::size_t>(size_), edges_.sorted(), memory());
       lazy_->made.store(&*lazy_->adjacency, std::memory_order_release);
     }
     return *lazy_->adjacency;

@@ -3,6 +3,7 @@
 #include <concepts>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -70,6 +71,24 @@ concept CofacetFiltration =
       /// Capability: among the cofacets with the cell's own key the first visited precedes the
       /// others. `false` is always safe and costs speed. A wrong `true` gives wrong barcodes.
       { F::first_equal_cofacet_is_oldest } -> std::convertible_to<bool>;
+    };
+
+/// Capability: knows its apparent pairs (engine/apparent_pairs.hpp) without going through facets and
+/// cofacets. They must be the ones that a search of all facets and cofacets finds.
+template <class F>
+concept ApparentFiltration =
+    CofacetFiltration<F> && requires(const F& f, int dim, const typename F::Cell& cell) {
+      /// The cofacet, or facet, with which a cell of dimension `dim` is an apparent pair.
+      { f.apparent_cofacet(dim, cell) } -> std::same_as<std::optional<typename F::Cell>>;
+      { f.apparent_facet(dim, cell) } -> std::same_as<std::optional<typename F::Cell>>;
+      /// The cells of dimension >= 1 come in that many groups; a cell of a group precedes those of
+      /// later groups.
+      { f.group_count() } -> std::convertible_to<std::size_t>;
+      /// The cells of dimension `dim` >= 1 in no apparent pair: `for_each(first, last, visit, on_step)`
+      /// of it calls `visit(Cell)` for those in the groups first … last - 1, youngest first, and
+      /// `on_step()` now and then. Fastest if ranges descend from call to call.
+      f.unmatched_cells(dim).for_each(std::size_t{}, std::size_t{},
+                                      [](const typename F::Cell&) {}, [] {});
     };
 
 /// Capability: the cells are numbered densely, so that an engine may use arrays in place of hash

@@ -20,7 +20,9 @@ class ApparentPairs {
 
   /// The cofacet with which `cell` (of dimension `dim`) is an apparent pair.
   std::optional<Cell> killer_of(int dim, const Cell& cell) const {
-    if constexpr (CofacetFiltration<F>) {
+    if constexpr (ApparentFiltration<F>) {
+      return filtration_.apparent_cofacet(dim, cell);
+    } else if constexpr (CofacetFiltration<F>) {
       const auto cofacet = oldest_equal_cofacet(dim, cell);
       if (!cofacet) return std::nullopt;
       const auto facet = youngest_equal_facet(dim + 1, *cofacet);
@@ -31,7 +33,9 @@ class ApparentPairs {
 
   /// The facet with which `cell` (of dimension `dim`) is an apparent pair.
   std::optional<Cell> victim_of(int dim, const Cell& cell) const {
-    if constexpr (CofacetFiltration<F>) {
+    if constexpr (ApparentFiltration<F>) {
+      return filtration_.apparent_facet(dim, cell);
+    } else if constexpr (CofacetFiltration<F>) {
       const auto facet = youngest_equal_facet(dim, cell);
       if (!facet) return std::nullopt;
       const auto cofacet = oldest_equal_cofacet(dim - 1, *facet);

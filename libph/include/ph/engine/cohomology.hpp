@@ -2,8 +2,9 @@
 #pragma once
 #include <algorithm>
 
+#include "ph/engine/cohomology_reduction.hpp"
 #include "ph/engine/engine.hpp"
-#include "ph/engine/reduction.hpp"
+#include "ph/engine/homology_reduction.hpp"
 #include "ph/engine/union_find.hpp"
 
 namespace ph {
@@ -27,7 +28,7 @@ struct CohomologyEngine {
         find_cycles(f, field, bars, context);
         return;
       }
-      Reduction<F, K, Direction::cohomology> reduction(f, field, bars, context);
+      CohomologyReduction<F, K> reduction(f, field, bars, context);
       int dim = 0;
       if constexpr (GraphFiltration<F>) {
         if (bars.representatives() == Representatives::none && is_graph_like(f)) {
@@ -50,8 +51,8 @@ struct CohomologyEngine {
   static void find_cycles(const F& f, const K& field, BarcodeBuilder<F>& bars,
                           const RunContext& context) {
     BarcodeBuilder<F> no_bars(f, -1, bars.wants_zero_length() ? -1 : 0);
-    Reduction<F, K, Direction::cohomology> cohomology(f, field, no_bars, context);
-    Reduction<F, K, Direction::homology> homology(f, field, bars, context);
+    CohomologyReduction<F, K> cohomology(f, field, no_bars, context);
+    HomologyReduction<F, K> homology(f, field, bars, context);
     std::pmr::vector<typename F::Cell> columns(&context.memory);
     const int top = std::min(bars.max_dim(), f.top_dim());
     for (int dim = 0; dim <= top; ++dim) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "ph/engine/engine.hpp"
-#include "ph/engine/reduction.hpp"
+#include "ph/engine/homology_reduction.hpp"
 
 namespace ph {
 
@@ -18,7 +18,7 @@ struct TwistEngine {
 
   template <Filtration F, Field K>
   static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context) {
-    Reduction<F, K, Direction::homology> reduction(f, field, bars, context);
+    HomologyReduction<F, K> reduction(f, field, bars, context);
     for (int dim = std::min(bars.max_dim() + 1, f.top_dim()); dim >= 0; --dim)
       reduction.reduce_dimension(dim);
   }

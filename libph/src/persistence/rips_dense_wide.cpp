@@ -1,9 +1,0 @@
-// SPDX-License-Identifier: MIT
-#include "ph/persistence.hpp"
-
-namespace ph {
-
-template Barcode persistence<RipsFiltration<RipsLayout::dense, 4>>(
-    const RipsFiltration<RipsLayout::dense, 4>&, const Options&, const RunContext&);
-
-}  // namespace ph

@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT
+#include "ph/persistence.hpp"
+
+namespace ph {
+
+template Barcode persistence<RipsFiltration<RipsLayout::any, 4>>(
+    const RipsFiltration<RipsLayout::any, 4>&, const Options&, const RunContext&);
+
+}  // namespace ph
