@@ -36,6 +36,7 @@ TRIANGLES = "libph/include/ph/engine/triangle_cocycles.hpp"
 HOMOLOGY = "libph/include/ph/engine/homology_reduction.hpp"
 COHOMOLOGY = "libph/include/ph/engine/cohomology_reduction.hpp"
 GROUPS = "libph/include/ph/complex/rips_groups.hpp"
+WEIGHTS = "libph/src/complex/vertex_weights.cpp"
 COLLAPSE = "libph/src/complex/edge_collapse.cpp"
 COLLAPSE_ROWS = "libph/src/complex/collapse_rows.hpp"
 COLLAPSE_LISTS = "libph/src/complex/collapse_lists.hpp"
@@ -123,6 +124,31 @@ MUTANTS = [
      ["conformance_random"]),
     ("surfaces: links that are gone leave their rows", TRIANGLES,
      "links_[it->link].clear(shared_);", "", ["conformance_random"]),
+    ("weights: edges forget births", WEIGHTS, "double value = std::max(born, distance);",
+     "double value = distance;", ["weighted_rips_tests"]),
+    ("weights: the ball of the elder is forgotten", WEIGHTS, "distance + (b / 2 + c / 2)",
+     "distance + std::min(b, c)", ["weighted_rips_tests"]),
+    ("weights: the smaller number is the elder", "libph/include/ph/engine/lens_sweep.hpp",
+     "if (age_[younger] < age_[elder])", "if (younger < elder)", ["weighted_rips_tests"]),
+    ("weights: vertices in the order of their numbers", RIPS,
+     "if (a.key == 0 && value(a) != value(b)) return value(a) < value(b);", "",
+     ["weighted_rips_tests"]),
+    ("weights: the enclosing radius forgets births", GRAPH,
+     "std::ranges::copy(weights.births(), farthest.begin());", "", ["weighted_rips_tests"]),
+    ("weights: who is born at the threshold stays away",
+     "libph/src/complex/rips_vertices.cpp", "births[v] > *threshold", "births[v] >= *threshold",
+     ["weighted_rips_tests"]),
+    ("greedy: the last among equals", "libph/include/ph/metric/greedy_permutation.hpp",
+     "if (of_i > nearest[", "if (of_i >= nearest[", ["sampling_tests"]),
+    ("greedy: roots are not compared", "libph/src/metric/greedy_permutation.cpp",
+     "std::sqrt(nearest_[i]) == root", "nearest_[i] == largest", ["sampling_tests"]),
+    ("sparse: balls stop at half their size", "libph/src/complex/sparse_rips.cpp",
+     "2 * order.radii[k] * (1 + 1 / epsilon)", "order.radii[k] * (1 + 1 / epsilon)",
+     ["sampling_tests"]),
+    ("sparse: edges come as if balls still grew", "libph/include/ph/complex/sparse_rips.hpp",
+     "distance + (distance - small);", "distance;", ["sampling_tests"]),
+    ("sparse: edges go too early", "libph/include/ph/complex/sparse_rips.hpp",
+     "value <= (1 + epsilon_) * small", "value <= small", ["sampling_tests"]),
     ("collapse: a dominator stays one whatever comes", COLLAPSE,
      "dominates = dominates && graph_.are_joined(dominator, x, now);", "(void)x;",
      ["edge_collapse_tests"]),
@@ -174,8 +200,8 @@ MUTANTS = [
      "return 1 + 4e-16 * static_cast<double>(axes + 8);",
      "return 1 - 4e-16 * static_cast<double>(axes + 8);", ["components_tests"]),
     ("rips: threshold ignored for sparse distances", GRAPH_CPP,
-     "if (e.value > limit || e.value == kNoLimit) continue;",
-     "if (e.value == kNoLimit) continue;", ["rips_tests"]),
+     "if (value > limit || value == kNoLimit) continue;",
+     "if (value == kNoLimit) continue;", ["rips_tests"]),
     ("near pairs: radius exclusive", "libph/src/metric/pairs_within.cpp",
      "if (Index{j} <= i) continue;\n      if (const double d = metric(i, j); d <= radius)",
      "if (Index{j} <= i) continue;\n      if (const double d = metric(i, j); d < radius)",

@@ -32,8 +32,15 @@ double RipsGraph::checked_distance(Index i, Index j, double value) {
               fmt::format("distance ({}, {}): found {}, expected a number >= 0", i, j, value));
 }
 
+void RipsGraph::name_vertices(std::span<const std::uint32_t> points, const RunContext& context) {
+  std::pmr::vector<std::uint32_t> names(static_cast<std::size_t>(size_), &context.memory);
+  for (std::uint32_t v = 0; v < names.size(); ++v)
+    names[v] = points[static_cast<std::size_t>(name(v))];
+  names_ = std::move(names);
+}
+
 RipsGraph RipsGraph::of_points_within(const Points& points, double threshold,
-                                      const RunContext& context) {
+                                      const RunContext& context, const VertexWeights& weights) {
   check_arguments(points.rows(), threshold);
   std::pmr::vector<FlagEdge> edges(&context.memory);
   Ticker ticker(context, "edges");
@@ -41,30 +48,35 @@ RipsGraph RipsGraph::of_points_within(const Points& points, double threshold,
       points, threshold,
       [&](Index i, Index j, double d) {
         ticker.tick();
-        edges.push_back({d, static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(i)});
+        const double value = weights.edge_value(i, j, d);
+        if (value > threshold) return;
+        edges.push_back({value, static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(i)});
       },
       context);
-  return RipsGraph(points.rows(), threshold, bin_edges(std::move(edges), context), context);
+  return RipsGraph(points.rows(), threshold, bin_edges(std::move(edges), context), context,
+                   weights.births());
 }
 
 RipsGraph RipsGraph::of_edges(Index size, std::span<const WeightedEdge> edges,
-                              std::optional<double> threshold, const RunContext& context) {
+                              std::optional<double> threshold, const RunContext& context,
+                              const VertexWeights& weights) {
   check_arguments(size, threshold);
   const double limit = threshold.value_or(kNoLimit);
   std::pmr::vector<FlagEdge> within(&context.memory);
   within.reserve(edges.size());
   for (const WeightedEdge& e : edges) {
-    if (e.value > limit || e.value == kNoLimit) continue;
+    const double value = weights.edge_value(e.u, e.v, e.value);
+    if (value > limit || value == kNoLimit) continue;
     const auto [small, large] = std::minmax(e.u, e.v);
-    within.push_back(
-        {e.value, static_cast<std::uint32_t>(large), static_cast<std::uint32_t>(small)});
+    within.push_back({value, static_cast<std::uint32_t>(large), static_cast<std::uint32_t>(small)});
   }
-  return RipsGraph(size, limit, bin_edges(std::move(within), context), context);
+  return RipsGraph(size, limit, bin_edges(std::move(within), context), context, weights.births());
 }
 
 RipsGraph RipsGraph::with_edges(const RipsGraph& graph, std::pmr::vector<FlagEdge>&& edges,
                                 const RunContext& context) {
-  RipsGraph result(graph.size_, graph.threshold_, BinnedEdges(std::move(edges)), context);
+  RipsGraph result(graph.size_, graph.threshold_, BinnedEdges(std::move(edges)), context,
+                   graph.births_);
   result.names_ = graph.names_;
   return result;
 }
@@ -78,8 +90,9 @@ RipsGraph RipsGraph::forest_of_points(const Points& points, PointDistance distan
 }
 
 RipsGraph RipsGraph::forest_of_edges(Index size, std::span<const WeightedEdge> edges,
-                                     std::optional<double> threshold, const RunContext& context) {
-  const RipsGraph graph = of_edges(size, edges, threshold, context);
+                                     std::optional<double> threshold, const RunContext& context,
+                                     const VertexWeights& weights) {
+  const RipsGraph graph = of_edges(size, edges, threshold, context, weights);
   DisjointSets sets(static_cast<std::size_t>(size), &context.memory);
   std::pmr::vector<FlagEdge> forest(&context.memory);
   for (const FlagEdge& e : graph.edges()) {  // Kruskal's algorithm
@@ -88,12 +101,12 @@ RipsGraph RipsGraph::forest_of_edges(Index size, std::span<const WeightedEdge> e
     sets.link(a, b);
     forest.push_back(e);
   }
-  return of_forest(size, graph.threshold_, std::move(forest), context);
+  return of_forest(size, graph.threshold_, std::move(forest), context, weights.births());
 }
 
 RipsGraph RipsGraph::of_forest(Index size, double limit, std::pmr::vector<FlagEdge>&& forest,
-                               const RunContext& context) {
-  RipsGraph graph(size, limit, bin_edges(std::move(forest), context), context);
+                               const RunContext& context, std::span<const double> births) {
+  RipsGraph graph(size, limit, bin_edges(std::move(forest), context), context, births);
   graph.is_forest_ = true;
   return graph;
 }
@@ -110,8 +123,13 @@ std::size_t RipsGraph::range_count(Index rows, const RunContext& context) {
   return threads == 1 || rows < few ? 1 : std::min(most, ranges_a_thread * threads);
 }
 
-RipsGraph::RipsGraph(Index size, double threshold, BinnedEdges&& edges, const RunContext& context)
-    : size_(size), threshold_(threshold), edges_(std::move(edges)), names_(&context.memory) {
+RipsGraph::RipsGraph(Index size, double threshold, BinnedEdges&& edges, const RunContext& context,
+                     std::span<const double> births)
+    : size_(size),
+      threshold_(threshold),
+      edges_(std::move(edges)),
+      names_(&context.memory),
+      births_(births.begin(), births.end(), &context.memory) {
   if (edges_.size() >= RipsAdjacency::kNever) {
     throw Error(
         ErrorKind::resource,

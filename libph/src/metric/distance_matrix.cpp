@@ -7,8 +7,8 @@
 
 namespace ph {
 
-DistanceMatrix::DistanceMatrix(Index size, std::vector<double> lower)
-    : size_(size), lower_(std::move(lower)) {
+DistanceMatrix::DistanceMatrix(Index size, std::vector<double> lower, std::vector<double> births)
+    : size_(size), lower_(std::move(lower)), births_(std::move(births)) {
   const Index pairs = size > 0 ? size * (size - 1) / 2 : 0;
   if (size < 0 || static_cast<Index>(lower_.size()) != pairs) {
     throw Error(ErrorKind::bad_data, fmt::format("distance matrix: found {} distances, expected {} "

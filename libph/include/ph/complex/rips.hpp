@@ -5,6 +5,8 @@
 
 #include "ph/complex/rips_filtration.hpp"
 #include "ph/complex/rips_graph.hpp"
+#include "ph/complex/rips_vertices.hpp"
+#include "ph/complex/sparse_rips.hpp"
 #include "ph/metric/distance_matrix.hpp"
 #include "ph/metric/metric.hpp"
 #include "ph/metric/point_metric.hpp"
@@ -20,11 +22,25 @@ struct RipsOptions {
   std::optional<double> threshold = std::nullopt;
   PointDistance distance = PointDistance::euclidean;  ///< for points
   double minkowski_p = 2;                             ///< exponent of PointDistance::minkowski
-  /// Points only: equal ones become one vertex, named by the first of them. All bars of positive
+  /// Points that are vertices, ascending and named as in the input; empty: all. The rest is as if
+  /// it were not there. Read while the filtration is built, as are births.
+  std::span<const std::uint32_t> vertices = {};
+  /// The diameter at which each point enters, by point of the input: finite, >= 0; default: 0, or
+  /// those of a DistanceMatrix that has some. An edge enters when the balls of its ends meet, see
+  /// VertexWeights; who is born beyond the threshold is no vertex.
+  std::span<const double> births = {};
+  WeightExponent weight_exponent = WeightExponent::infinity;  ///< how balls grow from a birth on
+  /// Points only: equal ones become one vertex, named by the first of them; not where they have
+  /// births. All bars of positive
   /// length stay the same, those of length zero that the copies cause are left out; many copies
   /// cost nothing, where each pair of them would be an edge. Cycles stay cycles of all points;
   /// cocycles are those of the distinct points and say nothing about the copies.
   bool merge_equal_points = false;
+  /// Epsilon > 0: the sparse Rips filtration in its place, with fewer edges and bars that are born
+  /// and die later by a factor of 1 + epsilon at most, see SparseRips. Needs all distances and the
+  /// triangle inequality; neither births nor only_components. The default threshold is where one
+  /// component is left.
+  std::optional<double> approximation = std::nullopt;
   /// Only a minimum spanning forest is held: enough for H0, cell by cell, and for merge trees, and
   /// nothing else can be computed. Points of few dimensions take near-linear time (Euclidean,
   /// Manhattan, Chebyshev, Minkowski), all else O(n) memory beside the input. Without a threshold
@@ -34,14 +50,16 @@ struct RipsOptions {
 
 /// The Vietoris-Rips filtration of a finite set with distances: a simplex enters at its diameter,
 /// the largest distance between two of its vertices. Vertices enter at 0. Vertex i is point i,
-/// unless equal points are merged.
+/// unless some points are no vertices or equal points are merged. Weighted Rips filtrations have
+/// births of vertices and edges at which balls meet in the place of 0 and distances.
 ///
 /// Holds the graph of all edges up to the threshold, no simplices. A value, cheap to copy.
 class Rips {
  public:
   /// @param points one point a row. O(n^2) distances, or only those within reach for Euclidean
   /// points with a threshold. @throws Error (bad_data) as PointMetric; Error (usage) on a NaN or
-  /// negative threshold; Error (resource) if the context's memory limit would be exceeded.
+  /// negative threshold; Error (usage, bad_data) as RipsVertices; Error (resource) if the context's
+  /// memory limit would be exceeded.
   explicit Rips(const Points& points, const RipsOptions& options = {},
                 const RunContext& context = default_context());
   explicit Rips(const DistanceMatrix& distances, const RipsOptions& options = {},
@@ -53,10 +71,7 @@ class Rips {
   requires(!std::derived_from<M, Eigen::EigenBase<M>>)  // a matrix holds points
       explicit Rips(const M& metric, const RipsOptions& options = {},
                     const RunContext& context = default_context())
-      : graph_(std::make_shared<const RipsGraph>(
-            options.only_components
-                ? RipsGraph::forest_of_metric(metric, options.threshold, context)
-                : RipsGraph::of_metric(metric, options.threshold, context))) {}
+      : graph_(std::make_shared<const RipsGraph>(graph_of_metric(metric, options, context))) {}
 
   /// The flag complex of any graph.
   explicit Rips(RipsGraph&& graph) : graph_(std::make_shared<const RipsGraph>(std::move(graph))) {}
@@ -78,7 +93,35 @@ class Rips {
   }
 
  private:
+  template <Metric M>
+  static RipsGraph graph_of_metric(const M& metric, const RipsOptions& options,
+                                   const RunContext& context);
+  /// @throws Error (usage) if options exclude each other.
+  static void check_together(const RipsOptions& options);
+
   std::shared_ptr<const RipsGraph> graph_;
 };
+
+template <Metric M>
+RipsGraph Rips::graph_of_metric(const M& metric, const RipsOptions& options,
+                                const RunContext& context) {
+  RipsGraph::check_size(metric.size());
+  check_together(options);
+  const RipsVertices vertices(metric.size(), options.vertices, options.births,
+                              options.weight_exponent, options.threshold, context);
+  const auto build = [&](const auto& distances) {
+    if (options.approximation)
+      return sparse_rips_graph(distances, greedy_permutation(distances, {}, context),
+                               *options.approximation, options.threshold, context);
+    return options.only_components
+               ? RipsGraph::forest_of_metric(distances, options.threshold, context,
+                                             vertices.weights())
+               : RipsGraph::of_metric(distances, options.threshold, context, vertices.weights());
+  };
+  if (vertices.are_all()) return build(metric);
+  RipsGraph graph = build(SubsetMetric(metric, vertices.members()));
+  graph.name_vertices(vertices.members(), context);
+  return graph;
+}
 
 }  // namespace ph

@@ -31,7 +31,8 @@ struct RipsCell {
 };
 
 /// The flag complex of a RipsGraph as an engine sees it; no simplex is stored.
-/// Order: (key of the longest edge, dimension, vertices read from the largest down).
+/// Order: (key of the longest edge, dimension, vertices read from the largest down); vertices that
+/// enter at births of their own by birth first.
 /// @tparam Words size of a cell: how many vertices of how many bits it can hold.
 template <RipsLayout Layout, int Words>
 class RipsFiltration {
@@ -58,9 +59,13 @@ class RipsFiltration {
     return static_cast<int>(std::min<Index>(adjacency().clique_bound(), capacity(graph_))) - 1;
   }
   Key key(const Cell& c) const { return c.key; }
-  double value(const Cell& c) const { return graph_.value(c.key); }
-  static bool precedes(const Cell& a, const Cell& b) {
-    return a.key != b.key ? a.key < b.key : a.vertices < b.vertices;
+  double value(const Cell& c) const {
+    return c.key == 0 ? graph_.birth(vertex(c, 0)) : graph_.value(c.key);
+  }
+  bool precedes(const Cell& a, const Cell& b) const {
+    if (a.key != b.key) return a.key < b.key;
+    if (a.key == 0 && value(a) != value(b)) return value(a) < value(b);
+    return a.vertices < b.vertices;
   }
   static bool edges_join_vertices() { return true; }
   static CellKind cell_kind() { return CellKind::vertices; }
@@ -69,6 +74,7 @@ class RipsFiltration {
   }
 
   std::size_t vertex_count() const { return static_cast<std::size_t>(graph_.size()); }
+  std::span<const double> vertex_births() const { return graph_.births(); }
   const BinnedEdges& binned_edges() const { return graph_.binned_edges(); }
   Cell vertex_cell(std::uint32_t v) const { return {0, Vertices(v)}; }
   Cell edge_cell(std::uint32_t position) const {

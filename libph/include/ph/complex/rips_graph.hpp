@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "ph/complex/rips_adjacency.hpp"
+#include "ph/complex/vertex_weights.hpp"
 #include "ph/core/binned_edges.hpp"
 #include "ph/core/filtration.hpp"
 #include "ph/core/parallel.hpp"
@@ -27,24 +28,26 @@ namespace ph {
 
 /// The graph under a Vietoris-Rips filtration: all edges up to a threshold, sorted by
 /// (distance, larger end, smaller end) as far as that was needed, and known by their key, an
-/// integer. Keys start at 1; key 0 belongs to the vertices, which enter at 0. (A collapsed graph
-/// has its own order within a value, see edge_collapse.hpp.)
+/// integer. Keys start at 1; key 0 belongs to the vertices, which enter at 0 or at births of their
+/// own. (A collapsed graph has its own order within a value, see edge_collapse.hpp.)
 class RipsGraph {
  public:
   using Key = RipsAdjacency::Key;
   static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
   /// Evaluates all n(n-1)/2 distances, twice. @throws Error (bad_data) on a negative or NaN one.
+  /// @param weights here and below: of the vertices, which all enter up to the threshold.
   template <Metric M>
   static RipsGraph of_metric(const M& metric, std::optional<double> threshold,
-                             const RunContext& context);
+                             const RunContext& context, const VertexWeights& weights = {});
   /// Euclidean distances up to the threshold; never n^2 of them.
   static RipsGraph of_points_within(const Points& points, double threshold,
-                                    const RunContext& context);
+                                    const RunContext& context, const VertexWeights& weights = {});
   static RipsGraph of_edges(Index size, std::span<const WeightedEdge> edges,
-                            std::optional<double> threshold, const RunContext& context);
+                            std::optional<double> threshold, const RunContext& context,
+                            const VertexWeights& weights = {});
 
-  /// The same vertices, names and threshold with other edges.
+  /// The same vertices, names, births and threshold with other edges.
   /// @param edges by ascending value; ties come in the order given.
   static RipsGraph with_edges(const RipsGraph& graph, std::pmr::vector<FlagEdge>&& edges,
                               const RunContext& context);
@@ -53,29 +56,38 @@ class RipsGraph {
   /// Without a threshold there is none. Evaluates each distance once and keeps O(n) memory.
   template <Metric M>
   static RipsGraph forest_of_metric(const M& metric, std::optional<double> threshold,
-                                    const RunContext& context);
+                                    const RunContext& context, const VertexWeights& weights = {});
   /// The same in near-linear time. Precondition: has_fast_spanning_forest(points, distance).
   static RipsGraph forest_of_points(const Points& points, PointDistance distance, double p,
                                     std::optional<double> threshold, const RunContext& context);
   static RipsGraph forest_of_edges(Index size, std::span<const WeightedEdge> edges,
-                                   std::optional<double> threshold, const RunContext& context);
+                                   std::optional<double> threshold, const RunContext& context,
+                                   const VertexWeights& weights = {});
 
   /// @throws Error (resource) if there are too many points for a Rips filtration.
   static void check_size(Index size);
+  /// @return the distance, without the sign of a zero. @throws Error (bad_data) on a negative or
+  /// NaN one.
+  static double checked_distance(Index i, Index j, double value);
 
   Index size() const { return size_; }
   /// The point that vertex v stands for: v itself unless the vertices were named.
   Index name(std::uint32_t v) const { return names_.empty() ? Index{v} : Index{names_[v]}; }
   bool has_names() const { return !names_.empty(); }
-  /// @param names one a vertex, ascending.
-  void name_vertices(std::pmr::vector<std::uint32_t> names) { names_ = std::move(names); }
+  /// The points that the vertices, or those that they were named after, stand for.
+  /// @param points ascending.
+  void name_vertices(std::span<const std::uint32_t> points, const RunContext& context);
+  /// When the vertices enter; empty: all at 0.
+  std::span<const double> births() const { return births_; }
+  double birth(std::uint32_t v) const { return births_.empty() ? 0.0 : births_[v]; }
   std::size_t edge_count() const { return edges_.size(); }
   /// Whether only a spanning forest is held.
   bool is_forest() const { return is_forest_; }
   double threshold() const { return threshold_; }
 
   const FlagEdge& edge(Key key) const { return edges_[key - 1]; }
-  double value(Key key) const { return key == 0 ? 0.0 : edges_[key - 1].value; }
+  /// Of an edge.
+  double value(Key key) const { return edges_[key - 1].value; }
   /// All, in order.
   std::span<const FlagEdge> edges() const { return edges_.sorted(); }
   /// For those who may not need all of them in order.
@@ -107,11 +119,11 @@ class RipsGraph {
     std::optional<RipsAdjacency> adjacency;
     std::atomic<const RipsAdjacency*> made{nullptr};
   };
-  RipsGraph(Index size, double threshold, BinnedEdges&& edges, const RunContext& context);
+  RipsGraph(Index size, double threshold, BinnedEdges&& edges, const RunContext& context,
+            std::span<const double> births = {});
   static RipsGraph of_forest(Index size, double limit, std::pmr::vector<FlagEdge>&& forest,
-                             const RunContext& context);
+                             const RunContext& context, std::span<const double> births = {});
   static void check_arguments(Index size, std::optional<double> threshold);
-  static double checked_distance(Index i, Index j, double value);
   /// Rows of a triangle in ranges of equally many pairs: where range r of so many begins.
   static Index range_begin(Index rows, std::size_t r, std::size_t ranges);
   /// As many ranges as keep the threads busy.
@@ -122,28 +134,33 @@ class RipsGraph {
   bool is_forest_ = false;
   BinnedEdges edges_;                      // by key - 1
   std::pmr::vector<std::uint32_t> names_;  // by vertex; empty: its number
+  std::pmr::vector<double> births_;        // by vertex; empty: 0
   std::unique_ptr<Lazy> lazy_ = std::make_unique<Lazy>();
 };
 
 template <Metric M>
 RipsGraph RipsGraph::forest_of_metric(const M& metric, std::optional<double> threshold,
-                                      const RunContext& context) {
+                                      const RunContext& context, const VertexWeights& weights) {
   const Index n = metric.size();
   check_arguments(n, threshold);
   const double limit = threshold.value_or(kNoLimit);
-  const auto distance_of = [&](Index i, Index j) { return checked_distance(i, j, metric(i, j)); };
-  return of_forest(n, limit, spanning_forest(n, distance_of, limit, context), context);
+  const auto value_of = [&](Index i, Index j) {
+    return weights.edge_value(i, j, checked_distance(i, j, metric(i, j)));
+  };
+  return of_forest(n, limit, spanning_forest(n, value_of, limit, context), context,
+                   weights.births());
 }
 
 template <Metric M>
 RipsGraph RipsGraph::of_metric(const M& metric, std::optional<double> threshold,
-                               const RunContext& context) {
+                               const RunContext& context, const VertexWeights& weights) {
   const Index n = metric.size();
   check_arguments(n, threshold);
   // One pass finds the enclosing radius and how the distances are spread, the next one keeps those
   // within: distances are evaluated twice rather than all stored.
   const RowDistances<M> distances(metric, &context.memory);
   const std::size_t ranges = range_count(n, context);
+  const bool is_weighted = !weights.births().empty();
   using Row = std::pmr::vector<double>;
   const auto for_each_row = [&](std::string_view stage, auto&& use_range) {
     for_each_piece(stage, ranges, 1, context, [&](std::size_t range, std::size_t) {
@@ -154,6 +171,10 @@ RipsGraph RipsGraph::of_metric(const M& metric, std::optional<double> threshold,
       use_range(range, [&](auto&& use) {
         for (Index i = range_begin(n, range, ranges); i < end; ++i) {
           distances(i, row.data());
+          if (is_weighted)
+            for (Index j = 0; j < i; ++j)
+              row[static_cast<std::size_t>(j)] = weights.edge_value(
+                  i, j, checked_distance(i, j, row[static_cast<std::size_t>(j)]));
           use(i, row.data());
           if (!ticker) {
             context.poll();
@@ -167,6 +188,7 @@ RipsGraph RipsGraph::of_metric(const M& metric, std::optional<double> threshold,
   };
   EdgeBinner binner(static_cast<std::size_t>(n) * static_cast<std::size_t>(n) / 2, ranges, context);
   Row farthest(static_cast<std::size_t>(n), 0.0, &context.memory);
+  std::ranges::copy(weights.births(), farthest.begin());
   std::mutex farthest_mutex;
   for_each_row("enclosing radius", [&](std::size_t range, auto&& for_each) {
     Row of_range(farthest.size(), 0.0, &context.memory);
@@ -194,7 +216,7 @@ RipsGraph RipsGraph::of_metric(const M& metric, std::optional<double> threshold,
                      range);
     });
   });
-  return RipsGraph(n, limit, binner.finish(), context);
+  return RipsGraph(n, limit, binner.finish(), context, weights.births());
 }
 
 }  // namespace ph

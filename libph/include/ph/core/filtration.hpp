@@ -63,8 +63,8 @@ concept Filtration =
 template <class F>
 concept CofacetFiltration =
     Filtration<F> && requires(const F& f, int dim, const typename F::Cell& cell) {
-      /// The first part of the order, shared by all dimensions: equal keys imply equal values, and a
-      /// face's key is at most its coface's.
+      /// The first part of the order, shared by all dimensions: a face's key is at most its
+      /// coface's, and if they are equal, so are the values.
       { f.key(cell) } -> std::unsigned_integral;
       /// Calls `visit(Cell cofacet, int incidence)`, which returns false to stop.
       f.for_each_cofacet(dim, cell, [](const typename F::Cell&, int) { return true; });
@@ -119,12 +119,14 @@ inline bool precedes(const FlagEdge& a, const FlagEdge& b) {
 
 class BinnedEdges;
 
-/// Capability: the clique complex of a graph whose vertices enter first, in the order of their
-/// numbers 0 … vertex_count() - 1, and whose simplices enter with the last of their edges: by
-/// (position of that edge, dimension, vertices read from the largest down).
+/// Capability: the clique complex of a graph with vertices 0 … vertex_count() - 1, in the order of
+/// (birth, number), whose simplices enter with the last of their edges: by (position of that edge,
+/// dimension, vertices read from the largest down).
 template <class F>
 concept FlagFiltration = Filtration<F> && requires(const F& f, std::uint32_t i) {
   { f.vertex_count() } -> std::convertible_to<std::size_t>;
+  /// By vertex; empty: they all enter first.
+  { f.vertex_births() } -> std::convertible_to<std::span<const double>>;
   /// All edges in the order of the filtration, sorted as far as they are asked for.
   { f.binned_edges() } -> std::same_as<const BinnedEdges&>;
   { f.vertex_cell(i) } -> std::same_as<typename F::Cell>;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <memory_resource>
 #include <numeric>
@@ -30,6 +31,20 @@ class ComponentRings {
  private:
   std::pmr::vector<std::uint32_t> next_;
 };
+
+/// By vertex: its position in the order of (birth, number). @param births empty: all are equal.
+inline std::pmr::vector<std::uint32_t> vertex_ages(std::size_t size, std::span<const double> births,
+                                                   std::pmr::memory_resource* memory) {
+  std::pmr::vector<std::uint32_t> order(size, memory);
+  std::iota(order.begin(), order.end(), 0U);
+  if (births.empty()) return order;
+  std::ranges::sort(order, [&](std::uint32_t u, std::uint32_t v) {
+    return births[u] != births[v] ? births[u] < births[v] : u < v;
+  });
+  std::pmr::vector<std::uint32_t> age(size, memory);
+  for (std::uint32_t i = 0; i < size; ++i) age[order[i]] = i;
+  return age;
+}
 
 /// An edge of a filtered graph; the two ends of a loop are equal.
 struct GraphEdge {

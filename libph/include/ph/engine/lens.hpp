@@ -35,7 +35,9 @@ struct LensEngine {
                               .cocycles = bars.representatives() == Representatives::cocycles,
                               .zero_length = bars.wants_zero_length(),
                               .tuning = tuning};
-      LensSweep<K>(f.vertex_count(), f.binned_edges(), field, wanted, reporter, context).run();
+      LensSweep<K>(f.vertex_count(), f.vertex_births(), f.binned_edges(), field, wanted, reporter,
+                   context)
+          .run();
       reporter.report_components();
     }
   }

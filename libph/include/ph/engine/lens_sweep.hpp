@@ -38,9 +38,10 @@ class LensSweep {
   using Vertex = typename Observer::Vertex;
   using Position = typename Observer::Position;
 
-  /// @param edges outlive the sweep; those after which nothing happens are never sorted.
-  LensSweep(std::size_t vertices, const BinnedEdges& edges, const K& field, LensWanted wanted,
-            Observer& observer, const RunContext& context)
+  /// @param births of the vertices; empty: all enter first. @param edges outlive the sweep; those
+  /// after which nothing happens are never sorted.
+  LensSweep(std::size_t vertices, std::span<const double> births, const BinnedEdges& edges,
+            const K& field, LensWanted wanted, Observer& observer, const RunContext& context)
       : edges_(edges),
         field_(field),
         wanted_(wanted),
@@ -54,6 +55,7 @@ class LensSweep {
         components_(graph_, &context.memory),
         born_(&context.memory),
         components_left_(vertices),
+        age_(vertex_ages(vertices, births, &context.memory)),
         sets_(vertices, &context.memory),
         annotations_(field, &context.memory),
         births_(&context.memory),
@@ -97,7 +99,8 @@ class LensSweep {
   std::size_t first_unadded_bin_ = 0;
   std::size_t living_ = 0;  // classes of H1
   std::size_t components_left_;
-  DisjointSets sets_;  // each root is the oldest vertex of its component
+  std::pmr::vector<std::uint32_t> age_;  // by vertex
+  DisjointSets sets_;                    // each root is the oldest vertex of its component
   Annotations<K> annotations_;
   std::pmr::vector<Position> births_;  // by generator; kDead once it died
   std::pmr::vector<typename Observer::EdgeValue> cocycle_;
@@ -185,11 +188,12 @@ void LensSweep<K>::report_zero_length(Position position) {
 
 template <Field K>
 bool LensSweep<K>::join_or_give_birth(Position position, const FlagEdge& e) {
-  const Vertex a = sets_.find(e.u), b = sets_.find(e.v);
-  if (a != b) {
-    sets_.link(std::max(a, b), std::min(a, b));
+  Vertex elder = sets_.find(e.u), younger = sets_.find(e.v);
+  if (elder != younger) {
+    if (age_[younger] < age_[elder]) std::swap(elder, younger);
+    sets_.link(younger, elder);
     --components_left_;
-    observer_.on_join(std::min(a, b), std::max(a, b), position);
+    observer_.on_join(elder, younger, position);
     return false;
   }
   annotations_.add_generator({e.u, e.v, position});

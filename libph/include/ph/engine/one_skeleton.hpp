@@ -41,8 +41,7 @@ struct OneSkeleton {
     const auto size = static_cast<std::uint32_t>(filtration.vertex_count());
     vertices.reserve(size);
     for (std::uint32_t v = 0; v < size; ++v) vertices.push_back(filtration.vertex_cell(v));
-    age.resize(size);
-    std::iota(age.begin(), age.end(), 0U);
+    age = vertex_ages(size, filtration.vertex_births(), vertices.get_allocator().resource());
     const auto flag_edges = filtration.binned_edges().sorted();
     edges.reserve(flag_edges.size());
     ends.reserve(flag_edges.size());

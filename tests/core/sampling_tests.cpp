@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: MIT
+// Greedy permutations, distances to the measure, sparse Rips filtrations: what they promise.
+#include <limits>
+#include <numeric>
+
+#include "ph/complex/sparse_rips.hpp"
+#include "ph/metric/distance_to_measure.hpp"
+#include "ph/metric/greedy_permutation.hpp"
+#include "ph/persistence.hpp"
+#include "support/conformance.hpp"
+#include "support/expect_error.hpp"
+#include "support/for_each_seed.hpp"
+#include "support/known_spaces.hpp"
+#include "support/matching.hpp"
+
+namespace ph::test {
+namespace {
+
+constexpr double kInf = kInfinity;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr PointDistance kMetrics[] = {PointDistance::euclidean, PointDistance::manhattan,
+                                      PointDistance::chebyshev, PointDistance::hamming};
+
+/// Ties, copies, clusters.
+Points random_points(Generator& random, Index most, bool ties) {
+  Points points =
+      random.points(random.integer(1, static_cast<int>(most)), random.integer(1, 3), ties);
+  for (Index i = 1; i < points.rows(); ++i) {
+    const int kind = random.integer(0, 9);
+    const Index other = random.integer(0, static_cast<int>(i) - 1);
+    if (kind == 0) points.row(i) = points.row(other);
+    if (kind == 1) points.row(i) = points.row(other) + points.row(i) / 64;
+  }
+  return points;
+}
+
+DistanceMatrix matrix_of(const PointMetric& metric) {
+  std::vector<double> lower;
+  for (Index i = 0; i < metric.size(); ++i)
+    for (Index j = 0; j < i; ++j) lower.push_back(metric(i, j));
+  return DistanceMatrix(metric.size(), lower);
+}
+
+/// By definition, with all distances.
+template <Metric M>
+GreedyPermutation greedy_by_definition(const M& metric, const GreedyLimits& limits) {
+  GreedyPermutation result;
+  const Index n = metric.size();
+  if (n == 0) return result;
+  Index next = 0;
+  double radius = kInf;
+  do {
+    result.points.push_back(static_cast<std::uint32_t>(next));
+    result.radii.push_back(radius);
+    radius = -1;
+    for (Index i = 0; i < n; ++i) {
+      double nearest = kInf;
+      for (const std::uint32_t p : result.points) nearest = std::min<double>(nearest, metric(i, p));
+      if (nearest > radius) {
+        radius = nearest;
+        next = i;
+      }
+    }
+  } while (radius > limits.radius && static_cast<Index>(result.points.size()) < limits.points);
+  result.covering_radius = radius;
+  return result;
+}
+
+TEST(GreedyPermutations, AreWhatTheyAreByDefinition) {
+  for_each_seed(4000, [](Generator& random, bool ties, std::int64_t) {
+    Points points = random_points(random, 24, ties);
+    if (random.integer(0, 3) == 0) points *= std::ldexp(1, random.coin() ? 1000 : -1070);
+    const PointDistance distance = kMetrics[random.integer(0, 3)];
+    const PointMetric metric(points, distance);
+    GreedyLimits limits;
+    if (random.coin()) limits.points = random.integer(1, 30);
+    if (random.coin()) limits.radius = random.value(ties);
+    const GreedyPermutation expected = greedy_by_definition(metric, limits);
+    const GreedyPermutation of_points = greedy_permutation(points, limits, distance);
+    const GreedyPermutation of_matrix = greedy_permutation(matrix_of(metric), limits);
+    for (const GreedyPermutation* found : {&of_points, &of_matrix}) {
+      EXPECT_EQ(found->points, expected.points);
+      EXPECT_EQ(found->radii, expected.radii);
+      EXPECT_EQ(found->covering_radius, expected.covering_radius);
+    }
+    EXPECT_TRUE(std::ranges::is_sorted(of_points.radii, std::greater()));
+  });
+}
+
+// Several blocks of points, and a tail.
+TEST(GreedyPermutations, OfManyPoints) {
+  Generator random(3);
+  for (const Index n : {511, 512, 513, 2000}) {
+    const Points points = random.points(n, 3, false);
+    const PointMetric metric(points);
+    const GreedyPermutation fast = greedy_permutation(points, {.points = 60});
+    const GreedyPermutation slow = greedy_permutation(metric, {.points = 60});
+    EXPECT_EQ(fast.points, slow.points);
+    EXPECT_EQ(fast.radii, slow.radii);
+    EXPECT_EQ(fast.covering_radius, slow.covering_radius);
+  }
+}
+
+TEST(GreedyPermutations, OfFewPointsAndBadLimits) {
+  EXPECT_TRUE(greedy_permutation(Points(0, 2)).points.empty());
+  EXPECT_EQ(greedy_permutation(Points(0, 2)).covering_radius, 0);
+  const Points copies = Points::Ones(5, 2);
+  EXPECT_EQ(greedy_permutation(copies).points, (std::vector<std::uint32_t>{0}));
+  EXPECT_EQ(greedy_permutation(copies).covering_radius, 0);
+  Points equal(3, 2);  // distances that are equal, of squares that are not
+  equal << 0, 0, 1, 0, 1, std::ldexp(1, -26);
+  EXPECT_EQ(greedy_permutation(equal).points, (std::vector<std::uint32_t>{0, 1, 2}));
+  const DistanceMatrix apart(3, {kInf, 1, kInf});
+  EXPECT_EQ(greedy_permutation(apart).radii, (std::vector<double>{kInf, kInf, 1}));
+  EXPECT_EQ(greedy_permutation(apart, {.points = 1}).covering_radius, kInf);
+  expect_error(ErrorKind::usage, "at least 1", [&] { greedy_permutation(copies, {.points = 0}); });
+  expect_error(ErrorKind::usage, "at least 1",
+               [&] { greedy_permutation(copies, {.radius = kNan}); });
+  RunContext context;
+  std::stop_source source;
+  source.request_stop();
+  context.stop = source.get_token();
+  Generator random(1);
+  const Points many = random.points(5000, 2, false);
+  for (const PointDistance distance : {PointDistance::euclidean, PointDistance::manhattan})
+    expect_error(ErrorKind::cancelled, "",
+                 [&] { greedy_permutation(many, {}, distance, 2, context); });
+}
+
+TEST(Subsamples, KeepWhatTheyPromise) {
+  for_each_seed(20000, [](Generator& random, bool ties, std::int64_t field) {
+    const int max_dim = random.integer(0, 2);
+    const Points points = random_points(random, max_dim == 2 ? 9 : 11, ties);
+    const GreedyPermutation sample =
+        greedy_permutation(points, {.points = random.integer(1, static_cast<int>(points.rows()))});
+    const std::vector<std::uint32_t> vertices = sample.ascending();
+    const Options options{.max_dim = max_dim, .field = field};
+    const Barcode all = persistence(Rips(points), options),
+                  some = persistence(Rips(points, {.vertices = vertices}), options);
+    for (int dim = 0; dim <= max_dim; ++dim)
+      EXPECT_EQ(late_matching_fault(all, some, dim,
+                                    [&](double x) { return x + 2 * sample.covering_radius; }),
+                "");
+    for (std::size_t i = 0; i < some.size(); ++i)
+      for (const Index v : some.birth_cell(i).numbers)
+        EXPECT_TRUE(std::ranges::binary_search(vertices, v)) << "cells name points of the input";
+  });
+}
+
+TEST(SparseRipsFiltrations, KeepWhatTheyPromise) {
+  std::size_t fewer = 0;
+  for_each_seed(20000, [&](Generator& random, bool ties, std::int64_t field) {
+    const int max_dim = random.integer(0, 2);
+    const Points points = random_points(random, max_dim == 2 ? 10 : 12, ties);
+    const double epsilon = std::ldexp(1 + random.real(), random.integer(-4, 4));
+    const PointDistance distance = kMetrics[random.integer(0, 3)];
+    const Options options{.max_dim = max_dim, .field = field};
+    const Rips exact(points, {
+                                 .distance = distance,
+                             });
+    const RipsOptions sparse_options{.distance = distance, .approximation = epsilon};
+    const Rips sparse = random.coin()
+                            ? Rips(points, sparse_options)
+                            : Rips(matrix_of(PointMetric(points, distance)), sparse_options);
+    const Barcode early = persistence(exact, options), late = persistence(sparse, options);
+    for (int dim = 0; dim <= max_dim; ++dim)
+      EXPECT_EQ(late_matching_fault(early, late, dim, [&](double x) { return x * (1 + epsilon); }),
+                "")
+          << "epsilon " << epsilon;
+    fewer += sparse.edge_count() < exact.edge_count() ? 1 : 0;
+  });
+  EXPECT_GT(fewer, 5000U);  // the test is about something
+}
+
+// By definition: when balls of their largest diameters meet, unless that is too late.
+TEST(SparseRipsFiltrations, HaveTheEdgesThatTheySay) {
+  std::size_t missing = 0, late = 0;
+  for_each_seed(500, [&](Generator& random, bool ties, std::int64_t) {
+    Points points = random_points(random, 24, ties);
+    for (Index i = 0; i < points.rows(); ++i) points.row(i) *= std::ldexp(1, -random.integer(0, 9));
+    const double epsilon = 0.1 + random.real();
+    const PointMetric metric(points);
+    const GreedyPermutation order = greedy_permutation(points);
+    std::vector<double> largest(static_cast<std::size_t>(points.rows()), 0);
+    for (std::size_t k = 0; k < order.points.size(); ++k)
+      largest[order.points[k]] = 2 * order.radii[k] * (1 + epsilon) / epsilon;
+    const Rips sparse(points, {.threshold = kInf, .approximation = epsilon});
+    for (std::uint32_t u = 0; u < points.rows(); ++u) {
+      for (std::uint32_t v = 0; v < u; ++v) {
+        const double d = metric(u, v), last = (1 + epsilon) * std::min(largest[u], largest[v]);
+        const auto meet_at = [&](double t) {
+          return std::min(t, largest[u]) / 2 + std::min(t, largest[v]) / 2 >= d;
+        };
+        const auto key = sparse.graph().adjacency().key_of(u, v);
+        if (key == RipsAdjacency::kNever) {
+          EXPECT_FALSE(d > 0 && meet_at(last * (1 - 1e-9)));
+          ++missing;
+          continue;
+        }
+        const double value = sparse.graph().value(key);
+        EXPECT_TRUE(meet_at(value * (1 + 1e-9)));
+        EXPECT_FALSE(d > 0 && meet_at(value * (1 - 1e-9)));
+        EXPECT_LE(value, last * (1 + 1e-9));
+        late += value > d ? 1 : 0;
+      }
+    }
+  });
+  EXPECT_GT(missing, 1000U);
+  EXPECT_GT(late, 1000U);
+}
+
+// Points on many scales: where edges are left out.
+TEST(SparseRipsFiltrations, KeepWhatTheyPromiseOnManyScales) {
+  for_each_seed(150, [](Generator& random, bool, std::int64_t field) {
+    Points points = random.points(random.integer(20, 50), 2, false);
+    for (Index i = 0; i < points.rows(); ++i) points.row(i) *= std::ldexp(1, -random.integer(0, 9));
+    const double epsilon = std::ldexp(1 + random.real(), random.integer(-3, 1));
+    const Options options{.max_dim = 1, .field = field};
+    const Barcode early = persistence(Rips(points), options),
+                  late = persistence(Rips(points, {.approximation = epsilon}), options);
+    for (const int dim : {0, 1})
+      EXPECT_EQ(late_matching_fault(early, late, dim, [&](double x) { return x * (1 + epsilon); }),
+                "");
+  });
+}
+
+TEST(SparseRipsFiltrations, AreExactForASmallEpsilon) {
+  for_each_seed(2000, [](Generator& random, bool ties, std::int64_t field) {
+    const Points points = random_points(random, 10, ties);
+    const Options options{.max_dim = 2, .field = field};
+    RipsOptions sparse{.approximation = random.coin() ? 1e-300 : 1e-9};
+    if (random.coin()) sparse.threshold = 1.5;
+    EXPECT_EQ(bars_of(persistence(Rips(points, sparse), options)),
+              bars_of(persistence(Rips(points, {.threshold = sparse.threshold}), options)));
+  });
+}
+
+TEST(SparseRipsFiltrations, HaveFewEdges) {
+  Generator random(5);
+  const Points points = random.points(3000, 2, false);
+  const std::size_t one = Rips(points, {.approximation = 1}).edge_count();
+  EXPECT_LT(one, 3000U * 2999 / 2 / 10);
+  EXPECT_GT(one, Rips(points, {.approximation = 2}).edge_count());
+}
+
+TEST(SparseRipsFiltrations, PassTheSuite) {
+  for_each_seed(1000, [](Generator& random, bool ties, std::int64_t field) {
+    const Points points = random_points(random, 10, ties);
+    check(Rips(points, {.approximation = 2 * random.real() + 0.01}), random.integer(0, 2), {field});
+  });
+}
+
+TEST(SparseRipsFiltrations, RefuseWhatMakesNoSense) {
+  const Points points = Points::Random(4, 2);
+  for (const double bad : {0.0, -1.0, kNan, kInf})
+    expect_error(ErrorKind::usage, "epsilon", [&] { Rips(points, {.approximation = bad}); });
+  const std::vector<double> births(4, 1.0);
+  expect_error(ErrorKind::usage, "births",
+               [&] { Rips(points, {.births = births, .approximation = 1}); });
+  expect_error(ErrorKind::usage, "spanning forest",
+               [&] { Rips(points, {.approximation = 1, .only_components = true}); });
+  expect_error(ErrorKind::usage, "all distances",
+               [&] { Rips(SparseDistances(2, {}), {.approximation = 1}); });
+  EXPECT_EQ(Rips(Points(0, 2), {.approximation = 1}).size(), 0);
+  EXPECT_EQ(persistence(Rips(Points(Points::Zero(1, 2)), {.approximation = 1})).size(), 1U);
+}
+
+TEST(DistanceToMeasure, IsWhatItIsByDefinition) {
+  for_each_seed(2000, [](Generator& random, bool ties, std::int64_t) {
+    const Points points = random_points(random, random.integer(0, 9) == 0 ? 300 : 20, ties);
+    const PointDistance distance = kMetrics[random.integer(0, 3)];
+    const PointMetric metric(points, distance);
+    const Index n = points.rows(), k = random.integer(1, static_cast<int>(n));
+    const std::vector<double> found = distance_to_measure(points, k, distance);
+    EXPECT_EQ(distance_to_measure(metric, k), found);
+    for (Index i = 0; i < n; ++i) {
+      std::vector<double> distances;
+      for (Index j = 0; j < n; ++j) distances.push_back(metric(i, j));
+      std::ranges::sort(distances);
+      double sum = 0;
+      for (Index j = 0; j < k; ++j) sum += std::pow(distances[static_cast<std::size_t>(j)], 2);
+      EXPECT_NEAR(found[static_cast<std::size_t>(i)], std::sqrt(sum / static_cast<double>(k)),
+                  1e-12);
+    }
+  });
+}
+
+TEST(DistanceToMeasure, OfLargeAndSmallPointsAndBadNumbers) {
+  Points line(3, 1);
+  line << 0, 3, 4;
+  EXPECT_EQ(distance_to_measure(line, 1), (std::vector<double>{0, 0, 0}));
+  EXPECT_EQ(distance_to_measure(line, 2)[1], std::sqrt(0.5));
+  line *= 1e200;
+  EXPECT_DOUBLE_EQ(distance_to_measure(line, 3)[0], 1e200 * std::sqrt(25.0 / 3));
+  for (const Index bad : {-1, 0, 4})
+    expect_error(ErrorKind::usage, "neighbours", [&] { distance_to_measure(line, bad); });
+  EXPECT_EQ(distance_to_measure(DistanceMatrix(2, {kInf}), 2)[0], kInf);
+}
+
+// An outlier between dense parts: without weights it makes a component of its own.
+TEST(DistanceToMeasure, OutliersComeLate) {
+  Points points(41, 2);
+  for (Index i = 0; i < 40; ++i) points.row(i) << (i < 20 ? 0.0 : 10.0) + 0.01 * double(i % 20), 0;
+  points.row(40) << 5, 0;
+  std::vector<double> births = distance_to_measure(points, 5);
+  for (double& b : births) b *= 2;
+  const Barcode bars = persistence(
+      Rips(points, {.births = births, .weight_exponent = WeightExponent::one}), {.max_dim = 0});
+  // The outlier is joined as soon as it is there, or nearly so; the two parts live long.
+  std::size_t long_bars = 0;
+  for (const Bar& bar : bars) long_bars += bar.persistence() > 1 ? 1 : 0;
+  EXPECT_EQ(long_bars, 2U);
+}
+
+}  // namespace
+}  // namespace ph::test

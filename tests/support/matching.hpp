@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "ph/core/barcode.hpp"
+
+namespace ph::test {
+
+/// Whether two barcodes can be matched such that in the second one bars are born and die at the
+/// same value or later, by `latest` at most, and only bars that die by latest(birth) are left out,
+/// of either. @return what is wrong; an empty string if they can.
+/// @param latest never decreases; a hair is allowed for rounding on top.
+inline std::string late_matching_fault(const Barcode& early, const Barcode& late, int dim,
+                                       const std::function<double(double)>& latest) {
+  constexpr double hair = 1e-9;
+  const auto is_late = [&](double before, double after) {
+    return after >= before - hair && (after <= latest(before) + hair || after == before);
+  };
+  const auto fits = [&](const Bar& a, const Bar& b) {
+    return is_late(a.birth, b.birth) && is_late(a.death, b.death);
+  };
+  // Two matchings, one that covers what must be of the early bars and one of the late ones, make
+  // one that covers both (Mendelsohn & Dulmage 1958).
+  const auto uncovered = [&](const auto& bars, const auto& others, auto&& are_matched) {
+    std::vector<int> partner(others.size(), -1);
+    std::vector<bool> seen;
+    const std::function<bool(int)> place = [&](int i) {
+      for (std::size_t j = 0; j < others.size(); ++j) {
+        if (seen[j] || !are_matched(bars[static_cast<std::size_t>(i)], others[j])) continue;
+        seen[j] = true;
+        if (partner[j] < 0 || place(partner[j])) {
+          partner[j] = i;
+          return true;
+        }
+      }
+      return false;
+    };
+    for (std::size_t i = 0; i < bars.size(); ++i) {
+      if (bars[i].death <= latest(bars[i].birth) + hair) continue;
+      seen.assign(others.size(), false);
+      if (!place(static_cast<int>(i)))
+        return "H" + std::to_string(dim) + " [" + std::to_string(bars[i].birth) + ", " +
+               std::to_string(bars[i].death) + ")";
+    }
+    return std::string();
+  };
+  const auto before = early.bars(dim), after = late.bars(dim);
+  if (const auto bar = uncovered(before, after, fits); !bar.empty())
+    return bar + " has no partner among the late bars";
+  const auto fits_backwards = [&](const Bar& b, const Bar& a) { return fits(a, b); };
+  if (const auto bar = uncovered(after, before, fits_backwards); !bar.empty())
+    return bar + " has no partner among the early bars";
+  return "";
+}
+
+}  // namespace ph::test
