@@ -36,9 +36,13 @@ struct Arguments {
   ComplexKind complex = ComplexKind::automatic;
   std::optional<double> threshold;
   RipsOptions rips;
+  std::optional<GreedyLimits> subsample;
+  std::string vertex_weights;  // path; empty: none
+  std::optional<Index> dtm;    // neighbours
+  std::optional<WeightExponent> weight_exponent;
   CubicalOptions cubical;
   // Options that the user gave and that make sense for one kind of input or complex only.
-  std::optional<std::string> points_option, cubical_option;
+  std::optional<std::string> points_option, rips_option, cubical_option;
 
   // What is computed.
   Options options;

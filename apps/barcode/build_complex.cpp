@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "ph/complex/lower_star.hpp"
+#include "ph/metric/distance_to_measure.hpp"
 
 namespace ph::barcode {
 namespace {
@@ -19,10 +20,16 @@ constexpr std::string_view kComplexNames[] = {"auto",  "rips",     "cubical",
 /// Builds from each kind of data the complexes that make sense of it.
 class Builder {
  public:
-  /// @param periodic axes of an image that its file says close up.
+  /// @param periodic axes of an image that its file says close up. @param ids of the points in the
+  /// input; empty: all are there. @param dropped how many are not.
   Builder(const std::string& name, const Arguments& arguments, const RunContext& context,
-          const std::vector<bool>& periodic)
-      : name_(name), arguments_(arguments), context_(context), periodic_(periodic) {}
+          const std::vector<bool>& periodic, const std::vector<Index>& ids, std::size_t dropped)
+      : name_(name),
+        arguments_(arguments),
+        context_(context),
+        periodic_(periodic),
+        ids_(ids),
+        dropped_(dropped) {}
 
   BuiltComplex operator()(const Points& points) const {
     expect("points", {ComplexKind::rips});
@@ -95,8 +102,11 @@ class Builder {
   /// The complex to build: the one asked for, or the first that makes sense.
   ComplexKind expect(std::string_view data, std::initializer_list<ComplexKind> kinds) const {
     if (*kinds.begin() != ComplexKind::cubical) refuse(arguments_.cubical_option, "images", data);
-    if (*kinds.begin() != ComplexKind::rips && arguments_.options.collapse == Collapse::on)
-      refuse("--collapse on", "points and distances", data);
+    if (*kinds.begin() != ComplexKind::rips) {
+      if (arguments_.options.collapse == Collapse::on)
+        refuse("--collapse on", "points and distances", data);
+      refuse(arguments_.rips_option, "points and distances", data);
+    }
     if (arguments_.complex == ComplexKind::automatic) return *kinds.begin();
     if (std::ranges::find(kinds, arguments_.complex) != kinds.end()) return arguments_.complex;
     const auto name = [](ComplexKind kind) { return kComplexNames[static_cast<int>(kind)]; };
@@ -130,22 +140,152 @@ class Builder {
       throw Error(ErrorKind::usage, fmt::format("--threshold: found {}, expected a distance, at "
                                                 "least 0",
                                                 *options.threshold));
-    Rips complex = rips_complex(data, options);
-    const double threshold = complex.threshold();
-    return {std::move(complex), "rips",
-            std::isfinite(threshold) ? std::optional(threshold) : std::nullopt, empty,
-            std::nullopt};
-  }
-
-  /// Data that no reader can know to be wrong: a point without direction, distances that overflow.
-  template <class Data>
-  Rips rips_complex(const Data& data, const RipsOptions& options) const {
+    require_all_distances(data);
+    if (options.approximation) options.only_components = false;
+    std::vector<double> weights = read_weights(size_of(data));
+    // Data that no reader can know to be wrong: a point without direction, distances that overflow.
     try {
-      return Rips(data, options, context_);
+      BuiltComplex built = weighted_or_sampled(data, options, std::move(weights));
+      built.empty = empty;
+      return built;
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::bad_data) throw;
       throw Error(error.kind(), fmt::format("{}: {}", name_, error.what()));
     }
+  }
+
+  template <class Data>
+  BuiltComplex weighted_or_sampled(const Data& data, RipsOptions options,
+                                   std::vector<double> births) const {
+    if (arguments_.dtm) births = births_by_measure(data);
+    options.births = births;  // a matrix may have its own
+    std::optional<GreedyPermutation> sample;
+    std::vector<std::uint32_t> vertices;
+    if constexpr (!std::same_as<Data, SparseDistances>) {
+      if (arguments_.subsample) {
+        sample = permutation_of(data, *arguments_.subsample);
+        vertices = sample->ascending();
+        options.vertices = vertices;
+      }
+    }
+    const Rips complex(data, options, context_);
+    const double threshold = complex.threshold();
+    BuiltComplex built{
+        complex, "rips",       std::isfinite(threshold) ? std::optional(threshold) : std::nullopt,
+        false,   std::nullopt, weights_text()};
+    if (sample)
+      built.subsample = {static_cast<Index>(vertices.size()), size_of(data),
+                         sample->covering_radius};
+    built.promise = promise_of(
+        complex, built.subsample,
+        std::same_as<Data, DistanceMatrix> || arguments_.rips.distance == PointDistance::cosine);
+    return built;
+  }
+
+  /// What an approximation is worth, if there is one.
+  /// @param may_be_no_metric whether the triangle inequality is not certain.
+  std::optional<std::string> promise_of(const Rips& complex,
+                                        const std::optional<BarcodeInfo::Subsample>& sample,
+                                        bool may_be_no_metric) const {
+    std::string text;
+    if (sample) {
+      const double late = 2 * sample->covering_radius;
+      text = fmt::format(
+          "{} of {} points, covering radius {}: bars longer than {} are real and "
+          "come at most so much late",
+          sample->points, sample->of, shortest(sample->covering_radius), shortest(late));
+    }
+    if (arguments_.rips.approximation) {
+      const double n = static_cast<double>(complex.size());
+      text += fmt::format("{}{} of {:.0f} edges: births and deaths are at most {} times too late",
+                          text.empty() ? "" : "; ", complex.edge_count(), n * (n - 1) / 2,
+                          shortest(1 + *arguments_.rips.approximation));
+    }
+    if (text.empty()) return std::nullopt;
+    return name_ + ": " + text +
+           (may_be_no_metric ? ", if the triangle inequality holds" : std::string());
+  }
+
+  /// Births of the points by --dtm.
+  template <class Data>
+  std::vector<double> births_by_measure(const Data& data) const {
+    std::vector<double> births;
+    if constexpr (!std::same_as<Data, SparseDistances>) {
+      if (size_of(data) == 0) return births;
+      if (*arguments_.dtm > size_of(data))
+        throw Error(ErrorKind::usage,
+                    fmt::format("--dtm: found {}, expected at most the number of points, {}",
+                                *arguments_.dtm, size_of(data)));
+      if constexpr (std::same_as<Data, Points>)
+        births = distance_to_measure(data, *arguments_.dtm, arguments_.rips.distance,
+                                     arguments_.rips.minkowski_p, context_);
+      else
+        births = distance_to_measure(data, *arguments_.dtm, context_);
+      for (double& b : births) b *= 2;
+    }
+    return births;
+  }
+
+  /// The births of --vertex-weights, if it is there: the file has one for each point of the input,
+  /// those left out among them.
+  std::vector<double> read_weights(Index points) const {
+    if (arguments_.vertex_weights.empty()) return {};
+    const Input input = Input::open(arguments_.vertex_weights, &context_);
+    const std::vector<double> all =
+        read_values(input, static_cast<std::size_t>(points) + dropped_, arguments_.read, "point");
+    for (std::size_t v = 0; v < all.size(); ++v)
+      if (!(all[v] >= 0 && std::isfinite(all[v])))
+        input.fail({"not a weight",
+                    fmt::format("{} for point {}", shortest(all[v]), v),
+                    "a finite number >= 0",
+                    {}});
+    if (ids_.empty()) return all;
+    std::vector<double> kept;
+    for (const Index id : ids_) kept.push_back(all[static_cast<std::size_t>(id)]);
+    return kept;
+  }
+
+  std::string weights_text() const {
+    std::string source = !arguments_.vertex_weights.empty()   ? "file"
+                         : arguments_.read.births_on_diagonal ? "diagonal"
+                                                              : "";
+    if (arguments_.dtm) source = fmt::format("dtm {}", *arguments_.dtm);
+    if (source.empty()) return source;
+    constexpr std::string_view kExponents[] = {"1", "2", "inf"};
+    return fmt::format("{}, exponent {}", source,
+                       kExponents[static_cast<int>(arguments_.rips.weight_exponent)]);
+  }
+
+  GreedyPermutation permutation_of(const Points& points, const GreedyLimits& limits) const {
+    return greedy_permutation(points, limits, arguments_.rips.distance, arguments_.rips.minkowski_p,
+                              context_);
+  }
+  GreedyPermutation permutation_of(const DistanceMatrix& distances,
+                                   const GreedyLimits& limits) const {
+    return greedy_permutation(distances, limits, context_);
+  }
+  static Index size_of(const Points& points) { return points.rows(); }
+  template <class Distances>
+  static Index size_of(const Distances& distances) {
+    return distances.size();
+  }
+
+  void require_all_distances(const Points&) const {
+    if (arguments_.read.births_on_diagonal)
+      refuse("--diagonal births", "full distance matrices", "points; --format distance reads one");
+  }
+  void require_all_distances(const DistanceMatrix& distances) const {
+    if (arguments_.read.births_on_diagonal && distances.births().empty() && distances.size() > 0)
+      refuse("--diagonal births", "full distance matrices", "a triangle without its diagonal");
+  }
+  void require_all_distances(const SparseDistances&) const {
+    const std::string_view found = "some distances only";
+    if (arguments_.subsample) refuse("--subsample", "points and distance matrices", found);
+    if (arguments_.rips.approximation)
+      refuse("--approximate", "points and distance matrices", found);
+    if (arguments_.dtm) refuse("--dtm", "points and distance matrices", found);
+    if (arguments_.read.births_on_diagonal)
+      refuse("--diagonal births", "full distance matrices", found);
   }
 
   BuiltComplex stored(ExplicitComplex complex, std::string name) const {
@@ -198,13 +338,16 @@ class Builder {
   const Arguments& arguments_;
   const RunContext& context_;
   const std::vector<bool>& periodic_;
+  const std::vector<Index>& ids_;
+  const std::size_t dropped_;
 };
 
 }  // namespace
 
-BuiltComplex build_complex(ReadResult&& input, const std::string& name, const Arguments& arguments,
-                           const RunContext& context) {
-  return std::visit(Builder(name, arguments, context, input.periodic), std::move(input.data));
+BuiltComplex build_complex(ReadResult&& input, const std::string& name, std::size_t dropped,
+                           const Arguments& arguments, const RunContext& context) {
+  return std::visit(Builder(name, arguments, context, input.periodic, input.point_ids, dropped),
+                    std::move(input.data));
 }
 
 }  // namespace ph::barcode

@@ -14,12 +14,15 @@ struct BuiltComplex {
   bool empty = false;               ///< there are no points or cells at all
   /// A threshold that has to be applied to the bars, because the complex holds larger values too.
   std::optional<double> cut;
+  std::string vertex_weights = {};  ///< as in BarcodeInfo
+  std::optional<BarcodeInfo::Subsample> subsample = std::nullopt;
+  std::optional<std::string> promise = std::nullopt;  ///< what an approximation is worth, one line
 };
 
 /// Builds the complex that the arguments ask for, or the one that suits the data.
-/// @param name of the input, for messages.
+/// @param name of the input, for messages. @param dropped how many points were left out of it.
 /// @throws Error (usage) if an option does not fit the data; Error (bad_data) "name: …".
-BuiltComplex build_complex(ReadResult&& input, const std::string& name, const Arguments& arguments,
-                           const RunContext& context);
+BuiltComplex build_complex(ReadResult&& input, const std::string& name, std::size_t dropped,
+                           const Arguments& arguments, const RunContext& context);
 
 }  // namespace ph::barcode

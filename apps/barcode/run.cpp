@@ -37,11 +37,14 @@ std::string plural(std::size_t count, std::string_view what) {
 struct NamedData {
   std::string name;  // of the input, printable
   ReadResult read;
+  std::size_t dropped;  // points
 };
 
 NamedData read_input(const Job& job, const Arguments& arguments, app::Session& session) {
+  std::vector<Index> dropped;
   ReadOptions options = arguments.read;
   options.context = &session.context();
+  options.dropped = &dropped;
   const Input input = Input::open(job.input, &session.context());
   ReadResult result = read_any(input, arguments.format, options, arguments.values);
   const std::string what = fmt::format("{}: {}", input.name(), result.description);
@@ -52,7 +55,7 @@ NamedData read_input(const Job& job, const Arguments& arguments, app::Session& s
     session.explain("read " + what);
   for (const std::string& note : result.notes)
     session.note(fmt::format("{}: {}", input.name(), note));
-  return {input.name(), std::move(result)};
+  return {input.name(), std::move(result), dropped.size()};
 }
 
 /// All that is kept of an input: the complex, and what the results say about it.
@@ -63,11 +66,12 @@ struct Loaded {
 };
 
 Loaded load(const Job& job, const Arguments& arguments, app::Session& session, Stopwatch& watch) {
-  auto [name, read] = read_input(job, arguments, session);
+  auto [name, read, dropped] = read_input(job, arguments, session);
   watch.lap("read");
   std::string description = read.description;
-  std::vector<Index> point_ids = std::move(read.point_ids);
-  BuiltComplex built = build_complex(std::move(read), name, arguments, session.context());
+  std::vector<Index> point_ids = read.point_ids;
+  BuiltComplex built = build_complex(std::move(read), name, dropped, arguments, session.context());
+  if (built.promise) session.note(*built.promise);
   if (built.empty && !arguments.read.allow_empty)
     throw Error(ErrorKind::bad_data,
                 fmt::format("{}: no points; --allow-empty accepts that", name));
@@ -105,6 +109,8 @@ std::string estimate_text(const Estimate& estimate, const BuiltComplex& built,
                           const std::string& description) {
   std::string text = fmt::format("input    {}\ncomplex  {}", description, built.name);
   if (built.threshold) text += fmt::format(", values up to {}", shortest(*built.threshold));
+  if (!built.vertex_weights.empty())
+    text += fmt::format(", vertices enter late ({})", built.vertex_weights);
   text += fmt::format("\nengine   {} ({})\n", engine_name(estimate.engine), estimate.reason);
   if (!estimate.collapse_reason.empty()) text += "collapse " + collapse_text(estimate) + '\n';
   for (std::size_t dim = 0; dim < estimate.cells.size(); ++dim)
@@ -189,6 +195,9 @@ Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
   info.field = arguments.options.field;
   info.max_dim = arguments.options.max_dim.value_or(estimated.max_dim);
   info.threshold = built.threshold;
+  info.vertex_weights = built.vertex_weights;
+  info.subsample = built.subsample;
+  info.approximation = arguments.rips.approximation;
   info.engine = engine_name(estimated.engine);
   info.timings = watch.laps();
   info.peak_memory = app::peak_memory();

@@ -247,6 +247,80 @@ class Options(ProgramTest):
         self.assertEqual(self.bars("edge.phat", "--format", "phat"),
                          [(0, 0, math.inf), (0, 1, 2)])
 
+    def test_vertex_weights(self):
+        self.write("weights.txt", "0 0.5 3 0\n")
+        run = self.expect(0, "square.txt", "--vertex-weights", "weights.txt", "--max-dim", "0")
+        self.assertEqual(run.stdout, "dim,birth,death\n0,0,1.25\n0,0,inf\n0,0.5,1\n")
+        for others in (["--check"], ["--engine", "standard", "--check"], ["--max-dim", "2"],
+                       ["--collapse", "on", "--check"]):
+            run = self.expect(0, "square.txt", "--vertex-weights", "weights.txt", *others)
+            self.assertEqual(run.stdout, "dim,birth,death\n0,0,1.25\n0,0,inf\n0,0.5,1\n")
+        run = self.expect(0, "square.txt", "--vertex-weights", "weights.txt", "--threshold", "1")
+        self.assertEqual(run.stdout, "dim,birth,death\n0,0,inf\n0,0,inf\n0,0.5,1\n")
+        self.expect(0, "square.txt", "--vertex-weights", "weights.txt", "--weight-exponent", "1",
+                    "-o", "out.json")
+        result = json.loads(self.read("out.json"))
+        self.assertEqual(result["vertex_weights"], "file, exponent 1")
+        self.assertEqual([(b["birth"], b["death"]) for b in result["bars"]],
+                         [(0, 1.25), (0, None), (0.5, 1.25)])
+
+    def test_weights_of_points_left_out_are_passed_over(self):
+        self.write("holes.txt", "0 0\nnan 1\n1 0\n")
+        self.write("weights.txt", "0 7 2\n")
+        run = self.expect(0, "holes.txt", "--nan", "drop", "--vertex-weights", "weights.txt")
+        self.assertEqual(run.stdout, "dim,birth,death\n0,0,inf\n")
+        self.write("weights.txt", "0 2\n")
+        self.expect(65, "holes.txt", "--nan", "drop", "--vertex-weights", "weights.txt")
+
+    def test_dtm(self):
+        self.write("line.txt", "0\n1\n9\n")
+        f = [math.sqrt(0.5), math.sqrt(0.5), math.sqrt(32)]  # of the two nearest, itself included
+        run = self.expect(0, "line.txt", "--dtm", "2", "--output-format", "json", "--check")
+        result = json.loads(run.stdout)
+        self.assertEqual(result["vertex_weights"], "dtm 2, exponent 1")
+        found = [x for b in result["bars"] for x in (b["birth"], b["death"])]
+        for x, expected in zip(found, [2 * f[0], 1 + 2 * f[0], 2 * f[0], None, 2 * f[2],
+                                       8 + f[1] + f[2]]):
+            self.assertAlmostEqual(x, expected) if expected else self.assertIsNone(x)
+        for metric in ("manhattan", "hamming"):
+            self.expect(0, "line.txt", "--dtm", "2", "--metric", metric, "--check")
+
+    def test_subsample(self):
+        self.write("line.txt", "0\n1\n2\n10\n")
+        run = self.expect(0, "line.txt", "--subsample", "2", "-o", "out.json")
+        self.assertIn("2 of 4 points, covering radius 2: bars longer than 4 are real", run.stderr)
+        result = json.loads(self.read("out.json"))
+        self.assertEqual(result["subsample"], {"points": 2, "of": 4, "covering_radius": 2})
+        self.assertEqual([b["birth_cell"] for b in result["bars"]],
+                         [{"vertices": [3]}, {"vertices": [0]}])
+        run = self.expect(0, "line.txt", "--subsample-radius", "1", "--check", "--quiet")
+        self.assertEqual(run.stdout, "dim,birth,death\n0,0,2\n0,0,8\n0,0,inf\n")
+        self.assertEqual(run.stderr, "")
+        self.write("matrix.txt", "0 1 2\n1 0 1\n2 1 0\n")
+        run = self.expect(0, "matrix.txt", "--format", "distance", "--subsample", "2")
+        self.assertIn("if the triangle inequality holds", run.stderr)
+        self.assertEqual(run.stdout, "dim,birth,death\n0,0,2\n0,0,inf\n")
+        self.write("holes.txt", "nan 0\n0 0\n0 1\n0 9\n")
+        run = self.expect(0, "holes.txt", "--nan", "drop", "--subsample", "2",
+                          "--output-format", "json")
+        self.assertEqual(json.loads(run.stdout)["bars"][0]["birth_cell"], {"vertices": [3]})
+
+    def test_approximate(self):
+        generator = random.Random(4)
+        self.write("cloud.txt", "".join(f"{generator.random()} {generator.random()}\n"
+                                        for _ in range(300)))
+        exact = self.expect(0, "cloud.txt", "--max-dim", "0").stdout.splitlines()[1:]
+        run = self.expect(0, "cloud.txt", "--approximate", "0.5", "--check", "-o", "out.json")
+        self.assertIn("of 44850 edges: births and deaths are at most 1.5 times too late", run.stderr)
+        result = json.loads(self.read("out.json"))
+        self.assertEqual(result["approximation"], 0.5)
+        deaths = [b["death"] for b in result["bars"] if b["dim"] == 0]
+        for line, death in zip(exact[:-1], deaths):
+            early = float(line.split(",")[2])
+            self.assertTrue(early <= death <= 1.5 * early * (1 + 1e-12))
+        run = self.expect(0, "square.txt", "--approximate", "1e-9", "--quiet")
+        self.assertEqual(run.stdout, SQUARE_CSV)
+
     def test_min_persistence_beside_a_threshold(self):
         self.write("triangle.txt", TRIANGLE)
         self.assertEqual(self.bars("triangle.txt", "--format", "simplices", "--threshold", "3",

@@ -58,7 +58,22 @@ BARCODE = [
     (49, ["--collapse", "on", "--representatives", "cocycles", "--output-format", "json"],
      "--collapse"),
     (49, ["--subsample", "0"], "--subsample"),
-    (49, ["--approximate", "-1"], "--approximate"),
+    (49, ["--subsample", "-1"], "--subsample"),
+    (49, ["--subsample", "1.5"], "--subsample"),
+    (50, ["--subsample"], "--subsample"),
+    (49, ["--subsample-radius", "nan"], "--subsample-radius"),
+    (49, ["--subsample-radius", "-1"], "--subsample-radius"),
+    *((49, ["--approximate", epsilon], "--approximate") for epsilon in ("-1", "0", "inf", "x")),
+    (49, ["--dtm", "0"], "--dtm"),
+    (49, ["--dtm", "5"], "at most the number of points, 4"),
+    (49, ["--weight-exponent", "3"], "--weight-exponent"),
+    (49, ["--weight-exponent", "2"], "needs --dtm or --vertex-weights"),
+    (49, ["--diagonal", "birth"], "did you mean 'births'"),
+    (49, ["--diagonal", "births"], "--format distance"),
+    (49, ["--vertex-weights", ""], "--vertex-weights"),
+    (49, ["--vertex-weights", "square.txt", "--dtm", "2"], "excludes --dtm"),
+    (49, ["--dtm", "2", "--subsample", "3"], "excludes --subsample"),
+    (49, ["--dtm", "2", "--approximate", "1"], "excludes --approximate"),
     (49, ["--output-format", "cvs"], "did you mean 'csv'"),
     (49, ["--plot", "x.pdf"], "--plot"),
     (49, ["--plot", "x.svg", "--plot-kind", "betty"], "did you mean 'betti'"),
@@ -87,19 +102,38 @@ BARCODE_FILES = [
     (49, "lower.txt", b"1\n3 2\n", ["--format", "lower-distance", "--metric", "manhattan"],
      "--metric"),
     (49, "edge.phat", b"0\n0\n1 0 1\n", ["--collapse", "on"], "--collapse"),
-    (49, "image.pgm", b"P2\n2 1\n9\n1 2\n", ["--collapse", "on"], "points and distances"),
+    *((49, "image.pgm", b"P2\n2 1\n9\n1 2\n", options, "points and distances")
+      for options in (["--collapse", "on"], ["--subsample", "2"], ["--approximate", "1"],
+                      ["--dtm", "2"], ["--vertex-weights", "image.pgm"], ["--diagonal", "births"])),
+    *((49, "sparse.txt", b"0 1 1\n", ["--format", "sparse", *options], "found some distances only")
+      for options in (["--subsample", "2"], ["--approximate", "1"], ["--dtm", "2"],
+                      ["--diagonal", "births"])),
+    (49, "lower.txt", b"1\n", ["--format", "lower-distance", "--diagonal", "births"],
+     "full distance matrices"),
+    (49, "full.txt", b"1 1\n1 1\n",
+     ["--format", "distance", "--diagonal", "births", "--from-correlation"], "excludes"),
+]
+
+# name, content, what the message contains; the points are four
+WEIGHTS = [
+    ("too few", b"0 0 1\n", "too few values.*4, one a point"),
+    ("too many", b"0\n0\n0\n0\n0\n", ":5:1: too many values"),
+    ("negative", b"0 0 -1 0\n", "-1 for point 2"),
+    ("infinite", b"0 0 0 inf\n", "inf for point 3"),
+    ("NaN", b"0 nan 0 0\n", ":1:3: "),
+    ("no number", b"0 x 0 0\n", ":1:3: "),
+    ("nothing", b"", "weights.txt"),
 ]
 
 NOT_BUILT_IN = [
     (["--plot", "x.png"], "PNG plots are not built in; use .svg"),
     (["--plot", "x.PNG"], "use .svg"),
     (["--report", "x.html"], "--report"),
-    (["--subsample", "10"], "--subsample"),
-    (["--approximate", "0.5"], "--approximate"),
     (["--complex", "alpha"], "alpha"),
 ]
 
-FINE = [["--collapse", "auto"], ["--collapse", "on"], ["--collapse", "off"], ["--representatives", "none"],
+FINE = [["--subsample", "4"], ["--subsample-radius", "0"], ["--dtm", "1"], ["--diagonal", "zero"],
+        ["--collapse", "auto"], ["--collapse", "on"], ["--collapse", "off"], ["--representatives", "none"],
         ["--threads", "1"], ["--threads=2"], ["--memory-limit", "1GiB"], ["--memory-limit", "1e9"],
         ["--memory-limit", "500MB"], ["--threshold", "inf"], ["--progress", "none"],
         ["--field", "2147483647"], ["--min-persistence", "1e-3"]]
@@ -160,6 +194,12 @@ def entries():
     yield Entry(49, "values of simplices that have some", "ph-barcode",
                 ("edge.simplices", "--values", "values.txt"), 64, ".", "--values",
                 {"edge.simplices": b"0 : 0\n1 : 0\n0 1 : 1\n", "values.txt": b"1\n2\n"})
+    for name, content, words in WEIGHTS:
+        yield Entry(49, f"weights: {name}", "ph-barcode",
+                    ("square.txt", "--vertex-weights", "weights.txt"), 65, words, "weights.txt",
+                    {**SQUARE_FILE, "weights.txt": content})
+    yield Entry(54, "weights that are missing", "ph-barcode",
+                ("square.txt", "--vertex-weights", "missing.txt"), 66, ".", "missing.txt", SQUARE_FILE)
     for options in FINE:
         yield Entry(49, " ".join(options) + " is fine", "ph-barcode", ("square.txt", *options), 0,
                     files=SQUARE_FILE, output=SQUARE_BARS)

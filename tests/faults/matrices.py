@@ -113,6 +113,18 @@ def diagonal():
                   "negative distance")
     yield refused(22, "npy-distance", "NaN", square([0, float("nan")] * 2), "NaN")
     yield refused(22, "binary", "NaN", struct.pack("<f", float("nan")), "byte 0: .*NaN")
+    births = "2 1\n1 0.5\n"
+    yield taken(22, "distance", "births", births, bars("0,0.5,inf"), "--diagonal", "births")
+    yield refused(22, "distance", "births without the option", births, "--diagonal births")
+    yield taken(22, "npy-distance", "births", square([2, 3, 3, 0.5]), bars("0,0.5,inf", "0,2,3"),
+                "--diagonal", "births")
+    yield taken(22, "dipha", "births", words("<", MAGIC, 7, 2, 2., 3., 3., 0.5),
+                bars("0,0.5,inf", "0,2,3"), "--diagonal", "births")
+    for bad in ("-1", "inf"):
+        yield refused(22, "distance", f"{bad} as a birth", f"0 1\n1 {bad}\n", ":2:3: ", "--diagonal",
+                      "births")
+    yield refused(22, "npy-distance", "inf as a birth", square([0, 1, 1, float("inf")]), "not a birth",
+                  "--diagonal", "births")
     yield taken(22, "distance", "-0", "-0 1\n1 -0.0\n", bars("0,0,1", "0,0,inf"))
 
 

@@ -114,6 +114,14 @@ void write_barcode_json(OutputFile& file, const Barcode& barcode, const BarcodeI
                          json_string(info.complex), info.field, info.max_dim));
   file.write(fmt::format("  \"threshold\": {},\n",
                          info.threshold ? json_number(*info.threshold) : "null"));
+  if (!info.vertex_weights.empty())
+    file.write(fmt::format("  \"vertex_weights\": {},\n", json_string(info.vertex_weights)));
+  if (info.subsample)
+    file.write(fmt::format(
+        "  \"subsample\": {{\"points\": {}, \"of\": {}, \"covering_radius\": {}}},\n",
+        info.subsample->points, info.subsample->of, json_number(info.subsample->covering_radius)));
+  if (info.approximation)
+    file.write(fmt::format("  \"approximation\": {},\n", json_number(*info.approximation)));
   const bool with_chains = barcode.representatives() != Representatives::none;
   file.write(fmt::format("  \"engine\": {},\n", json_string(info.engine)));
   if (with_chains)

@@ -39,8 +39,14 @@ Fault fault_of(double raw, bool on_diagonal, const ReadOptions& options) {
     if (std::abs(raw) > 1 + kSymmetric) {
       return {"not a correlation", fmt::format("{}", raw), "-1 to 1", {}};
     }
+  } else if (on_diagonal && options.births_on_diagonal) {
+    if (!(raw >= 0 && raw < kInfinity))
+      return {"not a birth", fmt::format("{} on the diagonal", raw), "a finite number >= 0", {}};
   } else if (on_diagonal && raw != 0 && !std::isnan(raw)) {
-    return {"non-zero diagonal", fmt::format("{}", raw), "0", raw == 1 ? hint : ""};
+    return {"non-zero diagonal", fmt::format("{}", raw), "0",
+            raw == 1  ? hint
+            : raw > 0 ? "--diagonal births takes it for the births of the points"
+                      : ""};
   } else if (raw < 0) {
     return {"negative distance", fmt::format("{}", raw), "0 or more", raw >= -1 ? hint : ""};
   }
@@ -247,7 +253,7 @@ DistanceMatrix read_text_square(const Input& input, const ReadOptions& options) 
   std::size_t n = 0;
   Cells count(lines);
   for (count.start(); count.more(); ++n) count.word();
-  std::vector<double> pairs = make_triangle(input, n, n, checked_product(n, n));
+  std::vector<double> pairs = make_triangle(input, n, n, checked_product(n, n)), births;
   Entries entries(lines, options);
   std::size_t row = 0;
   do {
@@ -261,7 +267,8 @@ DistanceMatrix read_text_square(const Input& input, const ReadOptions& options) 
     std::size_t k = 0;
     for (; entries.more() && k < n; ++k) {
       if (k == row) {
-        entries.next(true);
+        const double birth = entries.next(true);
+        if (options.births_on_diagonal) births.push_back(birth);
       } else if (k > row) {
         pairs[triangle(k) + row] = entries.next();
       } else {
@@ -281,7 +288,7 @@ DistanceMatrix read_text_square(const Input& input, const ReadOptions& options) 
     input.fail({"not square", fmt::format("{} rows of {} cells", row, n), fmt::format("{} rows", n),
                 "is the file truncated, or a set of points?"});
   }
-  return DistanceMatrix(static_cast<Index>(n), std::move(pairs));
+  return DistanceMatrix(static_cast<Index>(n), std::move(pairs), std::move(births));
 }
 
 }  // namespace
@@ -299,7 +306,7 @@ DistanceMatrix square_to_distances(const Image& array, const Input& input,
   const auto n = static_cast<std::size_t>(array.extents[0]);
   if (n == 0) return no_points(input, options);
   input.require_memory(triangle(n) * sizeof(double));
-  std::vector<double> pairs(triangle(n));
+  std::vector<double> pairs(triangle(n)), births;
   const auto entry = [&](std::size_t i, std::size_t j) {
     const double raw = array.values[i * n + j];
     Fault fault = fault_of(raw, i == j, options);
@@ -310,7 +317,8 @@ DistanceMatrix square_to_distances(const Image& array, const Input& input,
     return distance_of(raw, options);
   };
   for (std::size_t i = 0; i < n; ++i) {
-    entry(i, i);
+    const double birth = entry(i, i);
+    if (options.births_on_diagonal) births.push_back(birth);
     for (std::size_t j = 0; j < i; ++j) {
       const double lower = entry(i, j), upper = entry(j, i);
       const auto both = merged(upper, lower, options.symmetrise);
@@ -318,7 +326,7 @@ DistanceMatrix square_to_distances(const Image& array, const Input& input,
       pairs[triangle(i) + j] = *both;
     }
   }
-  return DistanceMatrix(static_cast<Index>(n), std::move(pairs));
+  return DistanceMatrix(static_cast<Index>(n), std::move(pairs), std::move(births));
 }
 
 }  // namespace detail

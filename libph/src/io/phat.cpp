@@ -131,11 +131,13 @@ BoundaryInput read_phat(const std::filesystem::path& path, const std::filesystem
   return result;
 }
 
-std::vector<double> read_values(const Input& input, std::size_t count, const ReadOptions&) {
+std::vector<double> read_values(const Input& input, std::size_t count, const ReadOptions&,
+                                std::string_view owner) {
   std::vector<double> values;
   input.require_memory(std::min(count, input.size()) * sizeof(double));
   values.reserve(std::min(count, input.size()));
-  const Fault wrong_count{"wrong number of values", {}, fmt::format("{}, one a cell", count), {}};
+  const Fault wrong_count{
+      "wrong number of values", {}, fmt::format("{}, one a {}", count, owner), {}};
   if (is_text(input)) {
     TextLines lines(input);
     Cells cells(lines);
@@ -160,7 +162,7 @@ std::vector<double> read_values(const Input& input, std::size_t count, const Rea
   if (input.size() % sizeof(double) != 0 || input.size() / sizeof(double) != count) {
     input.fail({wrong_count.what,
                 fmt::format("{} bytes", input.size()),
-                fmt::format("{} values of 8 bytes, one a cell", count),
+                fmt::format("{} values of 8 bytes, one a {}", count, owner),
                 {}});
   }
   for (std::size_t k = 0; k < count; ++k) {

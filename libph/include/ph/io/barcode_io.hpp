@@ -35,6 +35,15 @@ struct BarcodeInfo {
   std::int64_t field = 2;
   int max_dim = 0;
   std::optional<double> threshold;
+  /// Where vertices enter late: why and how, "dtm 5, exponent 1".
+  std::string vertex_weights;
+  /// Of a greedy permutation of the points; see metric/greedy_permutation.hpp.
+  struct Subsample {
+    Index points = 0, of = 0;
+    double covering_radius = 0;
+  };
+  std::optional<Subsample> subsample;
+  std::optional<double> approximation;  ///< epsilon of a sparse Rips filtration
   std::string engine;
   std::vector<std::pair<std::string, double>> timings;  ///< stage, seconds
   std::uint64_t peak_memory = 0;                        ///< bytes; 0: unknown

@@ -43,6 +43,7 @@ struct ReadOptions {
   bool allow_empty = false;                    ///< an input without data is an empty result
   Symmetrise symmetrise = Symmetrise::none;    ///< of square matrices
   bool from_correlation = false;               ///< d = 1 - r; the diagonal must be 1
+  bool births_on_diagonal = false;             ///< of square matrices; else it must be 0
   NanPolicy nan = NanPolicy::error;            ///< see NanPolicy
   ArrayMeaning array = ArrayMeaning::image;    ///< used by read_any for 2-D arrays
   const RunContext* context = nullptr;         ///< budget and stop token; may be null
@@ -64,8 +65,9 @@ Points read_points(const std::filesystem::path& path, const ReadOptions& options
 Points read_points(const Input& input, const ReadOptions& options = {});
 
 /// A full square matrix: as many columns as rows, zero diagonal, symmetric (see Symmetrise);
-/// +infinity: never joined. With options.from_correlation a correlation matrix. Also takes NPY, NPZ
-/// and DIPHA's distance matrices.
+/// +infinity: never joined. With options.from_correlation a correlation matrix, with
+/// options.births_on_diagonal one that has the births of its points there. Also takes NPY, NPZ and
+/// DIPHA's distance matrices.
 DistanceMatrix read_distances(const std::filesystem::path& path, const ReadOptions& options = {});
 DistanceMatrix read_distances(const Input& input, const ReadOptions& options = {});
 
@@ -158,10 +160,10 @@ BoundaryInput read_phat(const std::filesystem::path& path,
                         const ReadOptions& options = {});
 BoundaryInput read_phat(const Input& input, const ReadOptions& options = {});
 
-/// `count` numbers, as text or as raw float64 little endian. @throws Error (bad_data) on another
-/// count or a NaN.
+/// `count` numbers, as text or as raw float64 little endian. @param owner what has one each, for
+/// messages. @throws Error (bad_data) on another count or a NaN.
 std::vector<double> read_values(const Input& input, std::size_t count,
-                                const ReadOptions& options = {});
+                                const ReadOptions& options = {}, std::string_view owner = "cell");
 
 /// A polygon mesh: face f has the vertices corners[offsets[f] .. offsets[f+1]).
 struct Mesh {

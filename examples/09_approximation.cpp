@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// More points than one wants to pay for, and outliers: subsample, sparse filtration, DTM weights.
+#include <cmath>
+#include <iostream>
+#include <numbers>
+#include <ph/ph.hpp>
+
+namespace {
+
+int long_loops(const ph::Barcode& bars, double longer_than) {
+  int loops = 0;
+  for (const ph::Bar& bar : bars.bars(1)) loops += bar.persistence() > longer_than;
+  return loops;
+}
+
+}  // namespace
+
+int main() {
+  // A circle of radius 1, a little blurred; the last 20 points lie inside.
+  const ph::Index count = 2000, outliers = 20;
+  ph::Points points(count, 2);
+  for (ph::Index i = 0; i < count; ++i) {
+    const double turn = std::numbers::pi * (3 - std::sqrt(5.0)) * static_cast<double>(i);
+    const double r = i < count - outliers ? 1 + 0.05 * std::sin(17 * turn)
+                                          : 0.7 * static_cast<double>(count - i) / outliers;
+    points.row(i) << r * std::cos(turn), r * std::sin(turn);
+  }
+  const ph::Points circle = points.topRows(count - outliers);
+
+  // Bars longer than twice the covering radius are bars of the whole circle, too.
+  const ph::GreedyPermutation sample = ph::greedy_permutation(circle, {.points = 100});
+  const auto vertices = sample.ascending();
+  const ph::Barcode some = ph::persistence(ph::Rips(circle, {.vertices = vertices}));
+  std::cout << vertices.size() << " points, covering radius " << sample.covering_radius << ": "
+            << long_loops(some, 2 * sample.covering_radius) << " real loop\n";
+
+  // Births and deaths are at most 1.5 times too late.
+  const ph::Rips sparse(circle, {.approximation = 0.5});
+  const auto all = static_cast<std::size_t>(circle.rows() * (circle.rows() - 1) / 2);
+  std::cout << long_loops(ph::persistence(sparse), 0.5) << " loop in 1/"
+            << all / sparse.edge_count() << " of the edges\n";
+
+  // Where points are few, they enter late.
+  std::vector<double> births = ph::distance_to_measure(points, 40);
+  for (double& birth : births) birth *= 2;
+  const ph::Rips weighted(points, {.births = births, .weight_exponent = ph::WeightExponent::one});
+  std::cout << long_loops(ph::persistence(weighted), 0.5) << " loop among the outliers\n";
+}
