@@ -270,7 +270,7 @@ class Options(ProgramTest):
         run = self.expect(0, "holes.txt", "--nan", "drop", "--vertex-weights", "weights.txt")
         self.assertEqual(run.stdout, "dim,birth,death\n0,0,inf\n")
         self.write("weights.txt", "0 2\n")
-        self.expect(65, "holes.txt", "--nan", "drop", "--vertex-weights", "weights.txt")
+        self.expect(65, "holes.txt", "--nan", "drop", "--vertex-weights", "weights.txt", "--quiet")
 
     def test_dtm(self):
         self.write("line.txt", "0\n1\n9\n")
