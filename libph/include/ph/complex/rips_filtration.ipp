@@ -132,7 +132,7 @@ class RipsFiltration<Layout, Words>::UnmatchedCells {
         cells_.push_back(cell);
     });
     std::sort(cells_.begin(), cells_.end(),
-              [](const Cell& a, const Cell& b) { return precedes(b, a); });
+              [&](const Cell& a, const Cell& b) { return f_.precedes(b, a); });
     for (const Cell& cell : cells_) visit(cell);
   }
 
