@@ -171,13 +171,13 @@ void CohomologyReduction<F, K>::collect_unmatched() {
   // that the order does not depend on threads.
   constexpr std::size_t piece = 256;
   const std::size_t groups = f_.group_count();
-  using Cells = decltype(f_.unmatched_cells(dim_));
+  using Finder = decltype(f_.unmatched_cells(dim_));
   std::mutex mutex;
-  std::vector<std::unique_ptr<Cells>> idle;
+  std::vector<std::unique_ptr<Finder>> idle;
   std::vector<std::pmr::vector<Cell>> found;
   for (std::size_t i = 0; i < groups; i += piece) found.emplace_back(&context_.memory);
   for_each_piece("columns", groups, piece, context_, [&](std::size_t begin, std::size_t end) {
-    std::unique_ptr<Cells> cells;
+    std::unique_ptr<Finder> cells;
     {
       const std::lock_guard lock(mutex);
       if (!idle.empty()) {
@@ -185,7 +185,7 @@ void CohomologyReduction<F, K>::collect_unmatched() {
         idle.pop_back();
       }
     }
-    if (!cells) cells = std::make_unique<Cells>(f_.unmatched_cells(dim_));
+    if (!cells) cells = std::make_unique<Finder>(f_.unmatched_cells(dim_));
     auto& list = found[begin / piece];
     std::size_t pending = 0;
     cells->for_each(
