@@ -34,10 +34,16 @@ class CohomologyReduction {
  public:
   using Cell = typename F::Cell;
 
-  /// @param piece how many columns a thread takes at a time: few, since old columns are long and
-  /// come last.
+  /// How threads share the columns; the pairs are the same.
+  struct Schedule {
+    std::size_t piece = 32;     ///< columns a thread takes at a time: few, since old ones are long
+    bool oldest_first = false;  ///< the worst order: each column is reduced before those it needs
+  };
   CohomologyReduction(const F& filtration, const K& field, BarcodeBuilder<F>& bars,
-                      const RunContext& context, std::size_t piece = 32)
+                      const RunContext& context)
+      : CohomologyReduction(filtration, field, bars, context, Schedule()) {}
+  CohomologyReduction(const F& filtration, const K& field, BarcodeBuilder<F>& bars,
+                      const RunContext& context, Schedule schedule)
       : f_(filtration),
         field_(field),
         bars_(bars),
@@ -47,7 +53,7 @@ class CohomologyReduction {
         killers_(&context.memory),
         essential_(&context.memory),
         to_reduce_(&context.memory),
-        piece_(piece),
+        schedule_(schedule),
         gives_cocycles_(bars.representatives() == Representatives::cocycles) {}
 
   /// Reduces all columns of dimension `dim`. Call with ascending dimensions.
@@ -135,7 +141,7 @@ class CohomologyReduction {
   std::pmr::vector<Cell> to_reduce_;  // youngest first; a column's number is its position
   std::optional<PivotTable<F, K>> pivots_;
   std::vector<std::unique_ptr<Worker>> workers_;
-  std::size_t piece_;
+  Schedule schedule_;
   bool gives_cocycles_;
 };
 
@@ -219,7 +225,7 @@ template <CofacetFiltration F, Field K>
 void CohomologyReduction<F, K>::reduce_side_by_side() {
   std::mutex mutex;
   std::vector<Worker*> idle;
-  for_each_piece("cohomology", to_reduce_.size(), piece_, context_,
+  for_each_piece("cohomology", to_reduce_.size(), schedule_.piece, context_,
                  [&](std::size_t begin, std::size_t end) {
                    Worker* worker = nullptr;
                    {
@@ -231,8 +237,11 @@ void CohomologyReduction<F, K>::reduce_side_by_side() {
                      worker = idle.back();
                      idle.pop_back();
                    }
-                   for (std::size_t i = begin; i < end; ++i)
-                     reduce(static_cast<std::uint32_t>(i), *worker);
+                   for (std::size_t i = begin; i < end; ++i) {
+                     const std::size_t number =
+                         schedule_.oldest_first ? to_reduce_.size() - 1 - i : i;
+                     reduce(static_cast<std::uint32_t>(number), *worker);
+                   }
                    const std::lock_guard lock(mutex);
                    idle.push_back(worker);
                  });
