@@ -48,6 +48,15 @@ def ratio(numerator, denominator):
     return number(numerator["cpu"] / denominator["cpu"])
 
 
+def bound(row, mine):
+    """What the quickest peer has at least over ours where all peers were stopped by the time limit."""
+    stopped = [e for e in row["results"] if not is_ours(e["program"]) and e["threads"] == 1 and e["outcome"] == "time"]
+    if mine is None or mine["outcome"] != "ok" or not stopped:
+        return "none ended", "–"
+    least = min(e["cpu"] for e in stopped)
+    return f"none within {least:.0f} s", f"> {number(least / mine['cpu'])}"
+
+
 def table(header, rows):
     lines = [header, ["---"] * len(header), *rows]
     return "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
@@ -55,7 +64,8 @@ def table(header, rows):
 
 def summary_row(row, threads, has_choices):
     mine, peer = find(row, OURS, 1), fastest(row, lambda name: not is_ours(name))
-    cells = [row["name"], cell(mine), f"{peer['program']} {cell(peer)}" if peer else "none ended", ratio(peer, mine)]
+    peer_cells = [f"{peer['program']} {cell(peer)}", ratio(peer, mine)] if peer else bound(row, mine)
+    cells = [row["name"], cell(mine), *peer_cells]
     for n in threads:
         more = find(row, OURS, n)
         ended = mine and more and mine["outcome"] == more["outcome"] == "ok"
