@@ -135,9 +135,8 @@ LensGraph::Lens LensGraph::find_lens(const FlagEdge& e, bool wants_graph) {
 LensGraph::Lens LensGraph::find_lens_in_rows(const FlagEdge& e, bool wants_graph) {
   // One common neighbour says enough where nothing can happen.
   if (!wants_graph && degree_[e.u] == 0 && degree_[e.v] == 0) return {!has_lens(e.u, e.v), false};
-  const bits::Lens lens = bits::lens(joined_.row(e.u), joined_.row(e.v), active_.row(e.u),
-                                     active_.row(e.v), lens_.data(), words_);
-  return {lens.is_empty, lens.touches_active};
+  return bits::lens(joined_.row(e.u), joined_.row(e.v), active_.row(e.u), active_.row(e.v),
+                    lens_.data(), words_);
 }
 
 LensGraph::Lens LensGraph::find_lens_in_lists(const FlagEdge& e) {

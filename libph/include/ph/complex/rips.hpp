@@ -31,10 +31,10 @@ struct RipsOptions {
   std::span<const double> births = {};
   WeightExponent weight_exponent = WeightExponent::infinity;  ///< how balls grow from a birth on
   /// Points only: equal ones become one vertex, named by the first of them; not where they have
-  /// births. All bars of positive
-  /// length stay the same, those of length zero that the copies cause are left out; many copies
-  /// cost nothing, where each pair of them would be an edge. Cycles stay cycles of all points;
-  /// cocycles are those of the distinct points and say nothing about the copies.
+  /// births. All bars of positive length stay the same, those of length zero that the copies cause
+  /// are left out; many copies cost nothing, where each pair of them would be an edge. Cycles stay
+  /// cycles of all points; cocycles are those of the distinct points and say nothing about the
+  /// copies.
   bool merge_equal_points = false;
   /// Epsilon > 0: the sparse Rips filtration in its place, with fewer edges and bars that are born
   /// and die later by a factor of 1 + epsilon at most, see SparseRips. Needs all distances and the

@@ -47,13 +47,10 @@ class LensGraph {
   bool has_lens(Vertex u, Vertex v) const;
   /// Whether the ends of each edge have one; on several threads.
   bool have_lenses(std::span<const FlagEdge> edges, const RunContext& context) const;
-  /// Whether an edge that joins the lens of e to one of its ends is active. The lens is not empty.
-  struct Lens {
-    bool is_empty;
-    bool touches_active;
-  };
-  /// Looks at the lens of an edge that is not there yet. What follows is about this lens, if active
-  /// edges touch it or `wants_graph` is set.
+  using Lens = bits::Lens;
+  /// Looks at the lens of an edge that is not there yet: whether it is empty, and whether an active
+  /// edge joins it to an end of the edge. What follows is about this lens, if active edges touch it
+  /// or `wants_graph` is set.
   Lens find_lens(const FlagEdge& e, bool wants_graph);
 
   std::size_t words() const { return words_; }  ///< of a row
