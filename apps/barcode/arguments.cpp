@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 
 #include <array>
-#include <cmath>
 #include <functional>
 #include <string_view>
 
@@ -13,10 +12,13 @@
 #include "formats_table.hpp"
 #include "numbers.hpp"
 #include "ph/core/field.hpp"
+#include "rips_arguments.hpp"
 
 namespace ph::barcode {
 namespace {
 
+using app::add_choice;
+using app::add_path;
 using app::add_value;
 using app::choose;
 using app::parse_integer;
@@ -27,29 +29,6 @@ constexpr int kMostDimensions = 1'000'000;  // beyond any simplex that fits a me
 
 [[noreturn]] void not_built_in(std::string_view what) {
   throw Error(ErrorKind::not_built_in, fmt::format("{} not built in", what));
-}
-
-std::string joined(const Names& names) {
-  std::string text;
-  for (const std::string_view name : names) text += (text.empty() ? "" : "|") + std::string(name);
-  return text;
-}
-
-/// The option's argument is one of some names.
-CLI::Option* add_choice(CLI::App& app, const std::string& option, const Names& names,
-                        const std::string& description, std::function<void(std::size_t)> take) {
-  return add_value(app, option, joined(names), description,
-                   [=](const std::string& word) { take(choose(option, word, names)); });
-}
-
-/// The option's argument is a path, and not empty.
-CLI::Option* add_path(CLI::App& app, const std::string& option, const std::string& placeholder,
-                      const std::string& description, std::string& path) {
-  return add_value(app, option, placeholder, description, [&path, option](const std::string& text) {
-    if (text.empty())
-      throw Error(ErrorKind::usage, fmt::format("{}: found '', expected a path", option));
-    path = text;
-  });
 }
 
 Names format_names() {
@@ -205,73 +184,6 @@ void add_complex_options(CLI::App& app, Arguments& a) {
       ->group(group);
 }
 
-// What only Rips complexes have.
-void add_rips_options(CLI::App& app, Arguments& a) {
-  const std::string group = "Rips";
-  const auto number = [&](const std::string& option, const std::string& placeholder,
-                          const std::string& description, bool may_be_zero, auto take) {
-    add_value(app, option, placeholder, description, [=, &a](const std::string& text) {
-      const double value = parse_number(option, text);
-      if (!std::isfinite(value) || value < 0 || (value == 0 && !may_be_zero))
-        throw Error(ErrorKind::usage,
-                    fmt::format("{}: found '{}', expected a finite number {} 0", option, text,
-                                may_be_zero ? "of at least" : "above"));
-      a.rips_option = option;
-      take(value);
-    })->group(group);
-  };
-  add_choice(app, "--collapse", {"auto", "on", "off"},
-             "collapse edges first, which leaves fewer of them and the same bars (default auto: "
-             "where it pays)",
-             [&a](std::size_t i) {
-               constexpr std::array kWays{Collapse::automatic, Collapse::on, Collapse::off};
-               a.options.collapse = kWays[i];
-             })
-      ->group(group);
-  const auto limits = [&a]() -> GreedyLimits& {
-    if (!a.subsample) a.subsample.emplace();
-    return *a.subsample;
-  };
-  add_value(app, "--subsample", "N",
-            "keep N points, each the farthest from those before (default: all); with their "
-            "covering radius E, bars longer than 2 E are real and come at most 2 E late",
-            [=, &a](const std::string& text) {
-              limits().points = parse_integer("--subsample", text, 1);
-              a.rips_option = "--subsample";
-            })
-      ->group(group);
-  number("--subsample-radius", "R",
-         "keep points until all are within R of one (default 0), in units of the distance", true,
-         [=](double radius) { limits().radius = radius; });
-  number("--approximate", "EPS",
-         "sparse Rips: fewer edges, and bars that are born and die later by a factor of 1 + EPS at "
-         "most",
-         false, [&a](double epsilon) { a.rips.approximation = epsilon; });
-  add_path(app, "--vertex-weights", "FILE",
-           "when each point enters, one number a point, in units of the distance (default: all at "
-           "0)",
-           a.vertex_weights)
-      ->group(group);
-  add_value(app, "--dtm", "K",
-            "DTM filtration: points enter at twice their distance to the measure of their K "
-            "nearest points, themselves included",
-            [&a](const std::string& text) {
-              a.dtm = parse_integer("--dtm", text, 1);
-              a.rips_option = "--dtm";
-            })
-      ->group(group);
-  add_choice(app, "--weight-exponent", {"1", "2", "inf"},
-             "how the ball of a point born at B has grown at T: to (T^P - B^P)^(1/P) (default inf, "
-             "with --dtm 1)",
-             [&a](std::size_t i) {
-               constexpr std::array kExponents{WeightExponent::one, WeightExponent::two,
-                                               WeightExponent::infinity};
-               a.weight_exponent = kExponents[i];
-               a.rips_option = "--weight-exponent";
-             })
-      ->group(group);
-}
-
 void add_homology_options(CLI::App& app, Arguments& a) {
   const std::string group = "Homology";
   add_value(app, "--max-dim", "D", "highest dimension reported (default: 1 for rips, else all)",
@@ -372,32 +284,6 @@ std::string built_in() {
                      missing.empty() ? "" : fmt::format("not read   {}\n", missing), written);
 }
 
-/// Weights come from one place, and exclude what makes sense for plain distances only.
-void check_weights(Arguments& a) {
-  std::vector<std::string_view> sources;
-  if (!a.vertex_weights.empty()) {
-    sources.push_back("--vertex-weights");
-    a.rips_option = "--vertex-weights";
-  }
-  if (a.dtm) sources.push_back("--dtm");
-  if (a.read.births_on_diagonal) sources.push_back("--diagonal births");
-  const auto exclude = [](std::string_view one, std::string_view other) {
-    throw Error(ErrorKind::usage, fmt::format("{}: excludes {}", one, other));
-  };
-  if (sources.size() > 1) exclude(sources[0], sources[1]);
-  if (sources.empty() && a.weight_exponent)
-    throw Error(ErrorKind::usage, "--weight-exponent needs --dtm or --vertex-weights");
-  if (sources.empty()) return;
-  if (a.subsample) exclude(sources[0], "--subsample");
-  if (a.rips.approximation) exclude(sources[0], "--approximate");
-  if (a.read.births_on_diagonal && a.read.from_correlation)
-    exclude("--diagonal births", "--from-correlation");
-  if (a.vertex_weights == "-" && std::ranges::count(a.inputs, "-") > 0)
-    throw Error(ErrorKind::usage, "--vertex-weights: standard input can be read once only");
-  a.rips.weight_exponent =
-      a.weight_exponent.value_or(a.dtm ? WeightExponent::one : WeightExponent::infinity);
-}
-
 /// What no single option can see.
 void check_together(Arguments& a, const std::vector<PlotKind>& kinds) {
   const auto reject = [](const std::string& what) { throw Error(ErrorKind::usage, what); };
@@ -429,7 +315,7 @@ void check_together(Arguments& a, const std::vector<PlotKind>& kinds) {
     reject(
         "--collapse: found on, expected off or auto with --representatives cocycles: they are "
         "of all edges");
-  check_weights(a);
+  check_rips_arguments(a);
   // A two-dimensional array holds points if that is the only way to make sense of it.
   if (a.read.array == ArrayMeaning::image &&
       (a.complex == ComplexKind::rips || a.format == Format::points))

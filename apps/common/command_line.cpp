@@ -124,6 +124,25 @@ CLI::Option* add_value(CLI::App& app, const std::string& names, const std::strin
   return option->type_name(placeholder)->type_size(1);
 }
 
+CLI::Option* add_choice(CLI::App& app, const std::string& names,
+                        const std::vector<std::string_view>& choices,
+                        const std::string& description, std::function<void(std::size_t)> take) {
+  std::string placeholder;
+  for (const std::string_view choice : choices)
+    placeholder += (placeholder.empty() ? "" : "|") + std::string(choice);
+  return add_value(app, names, placeholder, description,
+                   [=](const std::string& word) { take(choose(names, word, choices)); });
+}
+
+CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string& placeholder,
+                      const std::string& description, std::string& path) {
+  return add_value(app, names, placeholder, description, [&path, names](const std::string& text) {
+    if (text.empty())
+      throw Error(ErrorKind::usage, fmt::format("{}: found '', expected a path", names));
+    path = text;
+  });
+}
+
 std::string program_and_version(const std::string& program) {
   return fmt::format("{} {}", program, PH_VERSION);
 }

@@ -5,6 +5,8 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace ph::app {
 
@@ -29,6 +31,14 @@ void add_common_options(CLI::App& app, CommonOptions& options);
 CLI::Option* add_value(CLI::App& app, const std::string& names, const std::string& placeholder,
                        const std::string& description,
                        std::function<void(const std::string& value)> take);
+
+/// The same for a value that is one of some names: `take` gets the position of the one given.
+CLI::Option* add_choice(CLI::App& app, const std::string& names,
+                        const std::vector<std::string_view>& choices,
+                        const std::string& description, std::function<void(std::size_t)> take);
+/// The same for a path, which is not empty; it is put into `path`, which outlives `app`.
+CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string& placeholder,
+                      const std::string& description, std::string& path);
 
 /// Parses the command line; prints nothing.
 /// @param built_in lines that --version --verbose adds: what this program in particular can do.
