@@ -7,4 +7,5 @@
 #include "ph/complex/lower_star.hpp"
 #include "ph/complex/rips.hpp"
 #include "ph/engine/merge_tree.hpp"
+#include "ph/estimate.hpp"
 #include "ph/persistence.hpp"

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "ways_out.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "build_complex.hpp"
+#include "numbers.hpp"
+#include "ph/estimate.hpp"
+
+namespace ph::barcode {
+namespace {
+
+constexpr std::size_t kMostWaysOut = 3;
+// An estimate counts the pages of the code and small containers; the limit does not.
+constexpr double kBesideLimit = 4 << 20;
+// Trials after that are left out: who waits for an error should not wait long.
+constexpr auto kPatience = std::chrono::seconds(3);
+
+/// Distances of pairs taken at random, ascending: how many edges a threshold leaves.
+template <Metric M>
+std::vector<double> sample_of(const M& metric) {
+  constexpr int count = 4000;
+  std::vector<double> sample;
+  if (metric.size() < 2) return sample;
+  std::mt19937_64 random(1);
+  const auto point = [&] {
+    return static_cast<Index>(random() % static_cast<std::uint64_t>(metric.size()));
+  };
+  for (int i = 0; i < count; ++i)
+    if (const Index a = point(), b = point(); a != b) sample.push_back(metric(a, b));
+  std::ranges::sort(sample);
+  return sample;
+}
+std::vector<double> sample_of(const SparseDistances& distances) {
+  std::vector<double> sample;
+  for (const WeightedEdge& e : distances.edges()) sample.push_back(e.value);
+  std::ranges::sort(sample);
+  return sample;
+}
+
+class WaysOut {
+ public:
+  WaysOut(const ReadResult& read, const Job& job, const Arguments& arguments,
+          const RunContext& context)
+      : read_(read), job_(job), arguments_(arguments), context_(context) {}
+
+  std::vector<std::string> find() {
+    const bool is_rips = std::visit([&](const auto& data) { return sample(data); }, read_.data);
+    if (is_rips) lower_threshold();
+    lower_dimension();
+    if (is_rips && arguments_.options.collapse != Collapse::on) collapse();
+    return std::move(found_);
+  }
+
+ private:
+  // What becomes a Rips complex has distances to sample.
+  bool sample(const Points& points) {
+    sample_ = sample_of(PointMetric(points, arguments_.rips.distance, arguments_.rips.minkowski_p));
+    return true;
+  }
+  bool sample(const DistanceMatrix& distances) {
+    sample_ = sample_of(distances);
+    return true;
+  }
+  bool sample(const SparseDistances& distances) {
+    sample_ = sample_of(distances);
+    return true;
+  }
+  template <class Other>
+  bool sample(const Other&) {
+    return false;
+  }
+
+  bool is_enough() const {
+    return found_.size() == kMostWaysOut || std::chrono::steady_clock::now() - start_ > kPatience;
+  }
+
+  /// Keeps a change of the command line if the run fits with it. @return whether it does.
+  bool try_out(const std::string& change, const Arguments& arguments) {
+    if (is_enough()) return false;
+    try {
+      const BuiltComplex built = build_complex(read_, job_.input, arguments, context_);
+      const Estimate e = estimate(built.complex, arguments.options, context_);
+      if (e.bytes_high > static_cast<double>(context_.memory.limit()) + kBesideLimit) return false;
+      found_.push_back(fmt::format("{} ({} to {})", change, app::format_size(e.bytes_low),
+                                   app::format_size(e.bytes_high)));
+      return true;
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::cancelled) throw;
+      return false;
+    } catch (const std::bad_alloc&) {
+      return false;
+    }
+  }
+
+  /// The largest of a few thresholds: they leave a half of the edges, a fifth, …
+  void lower_threshold() {
+    const double highest = arguments_.threshold.value_or(std::numeric_limits<double>::infinity());
+    const auto within =
+        static_cast<double>(std::ranges::upper_bound(sample_, highest) - sample_.begin());
+    for (const double share : {0.5, 0.2, 0.05, 0.01, 0.002}) {
+      const auto place = static_cast<std::size_t>(share * within);
+      if (place < 4) return;  // the sample is too small to say
+      Arguments changed = arguments_;
+      const std::string text = fmt::format("{:.3g}", sample_[place]);
+      changed.threshold = app::parse_number("--threshold", text);
+      if (!std::isfinite(*changed.threshold)) continue;
+      if (try_out("--threshold " + text, changed)) return;
+    }
+  }
+
+  /// The highest of the lower dimensions.
+  void lower_dimension() {
+    const int highest = arguments_.options.max_dim.value_or(default_max_dim());
+    for (int dim = highest - 1; dim >= 0; --dim) {
+      Arguments changed = arguments_;
+      changed.options.max_dim = dim;
+      if (try_out(fmt::format("--max-dim {}", dim), changed)) return;
+    }
+  }
+
+  void collapse() {
+    Arguments changed = arguments_;
+    changed.options.collapse = Collapse::on;
+    try_out("--collapse on", changed);
+  }
+
+  int default_max_dim() const {
+    const auto* image = std::get_if<Image>(&read_.data);
+    return image ? static_cast<int>(image->dim()) : 1;
+  }
+
+  const ReadResult& read_;
+  const Job& job_;
+  const Arguments& arguments_;
+  const RunContext& context_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::vector<double> sample_;
+  std::vector<std::string> found_;
+};
+
+}  // namespace
+
+std::string ways_out(const Job& job, const Arguments& arguments, app::Session& session) {
+  if (job.input == "-") return "";  // was read and is gone
+  try {
+    const auto [name, read] = read_input(job, arguments, session.context());
+    const auto found = WaysOut(read, job, arguments, session.context()).find();
+    return fmt::format("{}", fmt::join(found, "; "));
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::cancelled) throw;
+    return "";
+  } catch (const std::bad_alloc&) {
+    return "";
+  }
+}
+
+}  // namespace ph::barcode
