@@ -2,6 +2,7 @@
 #include "run.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <chrono>
 #include <new>
@@ -224,7 +225,8 @@ Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
   } catch (const std::bad_alloc&) {
     what = "out of memory";
   }
-  // By now all that the run held has been given back.
+  // By now all that the run held has been given back; the heap keeps none of it.
+  malloc_trim(0);
   const std::string peak = app::format_size(static_cast<double>(session.memory_taken()));
   if (const std::string changes = ways_out(job, arguments, session); !changes.empty())
     throw Error(ErrorKind::resource,

@@ -5,8 +5,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <limits>
 #include <new>
 #include <optional>
@@ -23,8 +23,9 @@ namespace {
 constexpr std::size_t kMostWaysOut = 3;
 // An estimate counts the pages of the code and small containers; the limit does not.
 constexpr double kBesideLimit = 4 << 20;
-// Trials after that are left out: who waits for an error should not wait long.
-constexpr auto kPatience = std::chrono::seconds(3);
+// CPU time after which no trial begins: who waits for an error should not wait long.
+constexpr double kPatience = 3;  // s
+constexpr double kBytesPerEdge = 16;
 
 /// Distances of pairs taken at random, ascending: how many edges a threshold leaves.
 template <Metric M>
@@ -66,14 +67,17 @@ class WaysOut {
   // What becomes a Rips complex has distances to sample.
   bool sample(const Points& points) {
     sample_ = sample_of(PointMetric(points, arguments_.rips.distance, arguments_.rips.minkowski_p));
+    pairs_ = pairs_of(points.rows());
     return true;
   }
   bool sample(const DistanceMatrix& distances) {
     sample_ = sample_of(distances);
+    pairs_ = pairs_of(distances.size());
     return true;
   }
   bool sample(const SparseDistances& distances) {
     sample_ = sample_of(distances);
+    pairs_ = static_cast<double>(sample_.size());
     return true;
   }
   template <class Other>
@@ -81,8 +85,12 @@ class WaysOut {
     return false;
   }
 
+  static double pairs_of(Index points) {
+    return static_cast<double>(points) * static_cast<double>(points - 1) / 2;
+  }
+
   bool is_enough() const {
-    return found_.size() == kMostWaysOut || std::chrono::steady_clock::now() - start_ > kPatience;
+    return found_.size() == kMostWaysOut || seconds_since(start_) > kPatience;
   }
 
   /// Keeps a change of the command line if the run fits with it. @return whether it does.
@@ -111,6 +119,9 @@ class WaysOut {
     for (const double share : {0.5, 0.2, 0.05, 0.01, 0.002}) {
       const auto place = static_cast<std::size_t>(share * within);
       if (place < 4) return;  // the sample is too small to say
+      const double edges =
+          pairs_ * static_cast<double>(place) / static_cast<double>(sample_.size());
+      if (kBytesPerEdge * edges > static_cast<double>(context_.memory.limit())) continue;
       Arguments changed = arguments_;
       const std::string text = fmt::format("{:.3g}", sample_[place]);
       changed.threshold = app::parse_number("--threshold", text);
@@ -144,7 +155,12 @@ class WaysOut {
   const Job& job_;
   const Arguments& arguments_;
   const RunContext& context_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  static double seconds_since(std::clock_t start) {
+    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  }
+
+  std::clock_t start_ = std::clock();
+  double pairs_ = 0;  // that the sample stands for
   std::vector<double> sample_;
   std::vector<std::string> found_;
 };

@@ -154,13 +154,13 @@ TEST(Estimates, HoldThePeak) {
     EXPECT_GE(peak, 0.9 * e.bytes_low) << engine_name(e.engine);
     EXPECT_LE(peak, e.bytes_high) << engine_name(e.engine);
   };
-  const Points cloud = random.points(150, 3, false);
-  const DistanceMatrix noise = random.distances(150, false);
+  const Points cloud = random.points(100, 3, false);
+  const DistanceMatrix noise = random.distances(60, false);
   for (const Engine engine : {Engine::automatic, Engine::lens, Engine::cohomology, Engine::twist}) {
     for (const int max_dim : {1, 2}) {
+      if (engine == Engine::twist && max_dim == 2) continue;
       check_peak(cloud, {.max_dim = max_dim, .engine = engine});
-      if (engine != Engine::twist || max_dim == 1)
-        check_peak(noise, {.max_dim = max_dim, .engine = engine, .collapse = Collapse::off});
+      check_peak(noise, {.max_dim = max_dim, .engine = engine, .collapse = Collapse::off});
     }
   }
 }

@@ -49,10 +49,13 @@ Rips induced(const Rips& rips, std::span<const std::uint32_t> vertices, const Ru
   for (std::size_t i = 0; i < vertices.size(); ++i)
     number[vertices[i]] = static_cast<std::uint32_t>(i);
   std::vector<WeightedEdge> edges;
-  for (const FlagEdge& e : rips.graph().edges()) {
-    const std::uint32_t u = number[e.u], v = number[e.v];
-    if (u != none && v != none) edges.push_back({Index{u}, Index{v}, e.value});
-  }
+  const BinnedEdges& all = rips.graph().binned_edges();
+  all.with_bins(0, all.bin_count(), [&](std::span<const FlagEdge> unsorted) {
+    for (const FlagEdge& e : unsorted) {
+      const std::uint32_t u = number[e.u], v = number[e.v];
+      if (u != none && v != none) edges.push_back({Index{u}, Index{v}, e.value});
+    }
+  });
   return Rips(
       RipsGraph::of_edges(static_cast<Index>(vertices.size()), edges, std::nullopt, context));
 }
@@ -143,29 +146,29 @@ int listed_dim(Engine engine, int max_dim) {
 MemoryForecast forecast_rips(const Rips& rips, std::span<const double> cells,
                              const Options& options, const RunContext& context) {
   const double listed = sum(cells);
-  const double known =
-      16 * static_cast<double>(rips.edge_count()) + structure(rips, options.engine);
+  const double edges = 16 * static_cast<double>(rips.edge_count());
+  const double known = edges + structure(rips, options.engine);
+  // The lens sweep stops where nothing happens any more; lists are not full by then.
+  const double least = options.engine == Engine::lens ? edges : known;
   if (rips.has_only_components() || rips.size() < 2) {
     const double bars = kBytesPerBar * static_cast<double>(rips.size());
-    return {known, known + bars + kAlways};
+    return {least, known + bars + kAlways};
   }
   const double wanted =
       std::max(listed_dim(options.engine, *options.max_dim) < 2 ? kPilotEdges : kPilotCells,
                kPilotShare * listed);
-  const auto pilot = [&](std::uint64_t seed, std::size_t most, double cells_wanted) {
+  const auto pilot = [&](std::uint64_t seed, double cells_wanted) {
     const auto order = order_of(rips, seed);
-    const std::size_t size =
-        pilot_size(rips, std::span(order).first(most), listed, cells_wanted, options, context);
+    const std::size_t size = pilot_size(rips, order, listed, cells_wanted, options, context);
     const Rips part = induced(rips, std::span(order).first(size), context);
     return run_pilot(part, listed_of(part, options, context), options, context);
   };
-  const auto all = static_cast<std::size_t>(rips.size());
-  const Pilot large = pilot(1, all, wanted);
-  if (large.listed >= listed) return {known, known + 1.25 * large.extra + kAlways};
+  const Pilot large = pilot(1, wanted);
+  if (large.listed >= listed) return {least, known + 1.25 * large.extra + kAlways};
   // extra = listed^power, as smaller parts say; two of them, since storage grows in leaps.
   Pilot small;
   for (const std::uint64_t seed : {1, 2}) {
-    const Pilot one = pilot(seed, all, wanted / 4);
+    const Pilot one = pilot(seed, wanted / 4);
     small.listed += one.listed / 2;
     small.extra += one.extra / 2;
   }
@@ -174,7 +177,7 @@ MemoryForecast forecast_rips(const Rips& rips, std::span<const double> cells,
     power = std::log(large.extra / small.extra) / std::log(large.listed / small.listed);
   power = std::clamp(power, 0.8, 1.6) + kPowerMargin;
   const double factor = listed / std::max(1.0, large.listed);
-  return {known, known + kMargin * large.extra * std::pow(factor, power) + kAlways};
+  return {least, known + kMargin * large.extra * std::pow(factor, power) + kAlways};
 }
 
 MemoryForecast forecast_cells(double stored, std::span<const double> cells) {

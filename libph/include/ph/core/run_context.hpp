@@ -104,7 +104,7 @@ class Ticker {
   const RunContext& context_;
   Progress progress_;
   std::uint64_t pending_ = 0;
-  std::uint64_t interval_ = 64;  // steps between polls: fewer where a step takes long
+  std::uint64_t interval_ = 1;  // steps between polls: fewer where a step takes long
   std::chrono::steady_clock::time_point last_poll_, last_report_;
 };
 
