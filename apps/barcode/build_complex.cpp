@@ -77,6 +77,9 @@ class Builder {
     return stored(lower_star(input.simplices, vertex_values(input), input.namer(), context_),
                   "lower-star");
   }
+  BuiltComplex operator()(const SimplicesInput& input) const {
+    return (*this)(SimplicesInput(input));
+  }
   BuiltComplex operator()(const BoundaryInput& input) const {
     expect("a boundary matrix", {ComplexKind::explicit_cells});
     refuse(arguments_.points_option, "points", "a boundary matrix");
@@ -348,6 +351,12 @@ BuiltComplex build_complex(ReadResult&& input, const std::string& name, std::siz
                            const Arguments& arguments, const RunContext& context) {
   return std::visit(Builder(name, arguments, context, input.periodic, input.point_ids, dropped),
                     std::move(input.data));
+}
+
+BuiltComplex build_complex(const ReadResult& input, const std::string& name, std::size_t dropped,
+                           const Arguments& arguments, const RunContext& context) {
+  return std::visit(Builder(name, arguments, context, input.periodic, input.point_ids, dropped),
+                    input.data);
 }
 
 }  // namespace ph::barcode

@@ -24,5 +24,8 @@ struct BuiltComplex {
 /// @throws Error (usage) if an option does not fit the data; Error (bad_data) "name: …".
 BuiltComplex build_complex(ReadResult&& input, const std::string& name, std::size_t dropped,
                            const Arguments& arguments, const RunContext& context);
+/// The same from data that are needed again.
+BuiltComplex build_complex(const ReadResult& input, const std::string& name, std::size_t dropped,
+                           const Arguments& arguments, const RunContext& context);
 
 }  // namespace ph::barcode

@@ -2,6 +2,7 @@
 #include "run.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <chrono>
 #include <new>
@@ -11,6 +12,8 @@
 #include "exit_code.hpp"
 #include "messages.hpp"
 #include "numbers.hpp"
+#include "ph/estimate.hpp"
+#include "ways_out.hpp"
 
 namespace ph::barcode {
 namespace {
@@ -34,28 +37,29 @@ std::string plural(std::size_t count, std::string_view what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-struct NamedData {
-  std::string name;  // of the input, printable
-  ReadResult read;
-  std::size_t dropped;  // points
-};
-
-NamedData read_input(const Job& job, const Arguments& arguments, app::Session& session) {
-  std::vector<Index> dropped;
-  ReadOptions options = arguments.read;
-  options.context = &session.context();
-  options.dropped = &dropped;
-  const Input input = Input::open(job.input, &session.context());
-  ReadResult result = read_any(input, arguments.format, options, arguments.values);
-  const std::string what = fmt::format("{}: {}", input.name(), result.description);
-  // A batch says it in its one line an input.
-  if (arguments.format == Format::automatic && arguments.inputs.size() == 1)
-    session.note("read " + what);
-  else
-    session.explain("read " + what);
-  for (const std::string& note : result.notes)
-    session.note(fmt::format("{}: {}", input.name(), note));
-  return {input.name(), std::move(result), dropped.size()};
+/// Bytes of what was read that stay while the complex is built.
+std::size_t size_of(const ReadResult& read) {
+  struct Size {
+    std::size_t operator()(const Points& points) const {
+      return static_cast<std::size_t>(points.size()) * sizeof(double);
+    }
+    std::size_t operator()(const DistanceMatrix& distances) const {
+      const auto n = static_cast<std::size_t>(distances.size());
+      return n * (n - std::min<std::size_t>(n, 1)) / 2 * sizeof(double);
+    }
+    std::size_t operator()(const SparseDistances& distances) const {
+      return distances.edges().size() * sizeof(WeightedEdge);
+    }
+    std::size_t operator()(const Image& image) const {
+      return image.values.size() * sizeof(double);
+    }
+    std::size_t operator()(const SimplicesInput&) const { return 0; }  // becomes the complex
+    std::size_t operator()(const BoundaryInput&) const { return 0; }
+    std::size_t operator()(const Mesh& mesh) const {
+      return (*this)(mesh.vertices) + mesh.corners.size() * sizeof(Index);
+    }
+  };
+  return std::visit(Size{}, read.data);
 }
 
 /// All that is kept of an input: the complex, and what the results say about it.
@@ -66,8 +70,16 @@ struct Loaded {
 };
 
 Loaded load(const Job& job, const Arguments& arguments, app::Session& session, Stopwatch& watch) {
-  auto [name, read, dropped] = read_input(job, arguments, session);
+  auto [name, read, dropped] = read_input(job, arguments, session.context());
+  const std::string what = fmt::format("read {}: {}", name, read.description);
+  // A batch says it in its one line an input.
+  if (arguments.format == Format::automatic && arguments.inputs.size() == 1)
+    session.note(what);
+  else
+    session.explain(what);
+  for (const std::string& note : read.notes) session.note(fmt::format("{}: {}", name, note));
   watch.lap("read");
+  const MemoryClaim claim(session.context().memory, size_of(read));
   std::string description = read.description;
   std::vector<Index> point_ids = read.point_ids;
   BuiltComplex built = build_complex(std::move(read), name, dropped, arguments, session.context());
@@ -78,45 +90,39 @@ Loaded load(const Job& job, const Arguments& arguments, app::Session& session, S
   return {std::move(built), std::move(description), std::move(point_ids)};
 }
 
-/// What was foreseen and what was used, for whoever ran out of memory.
-[[noreturn]] void fail_with_estimate(const std::string& what, const Estimate& estimate) {
-  throw Error(
-      ErrorKind::resource,
-      fmt::format("{}; foreseen {} to {}, peak {}", what, app::format_size(estimate.bytes_low),
-                  app::format_size(estimate.bytes_high),
-                  app::format_size(static_cast<double>(app::peak_memory()))));
-}
-
-/// Calls `compute`; memory that runs out is reported beside the estimate.
-template <class Compute>
-Barcode with_estimate(const Estimate& estimate, Compute&& compute) {
-  try {
-    return compute();
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::resource) throw;
-    fail_with_estimate(error.what(), estimate);
-  } catch (const std::bad_alloc&) {
-    fail_with_estimate("out of memory", estimate);
-  }
-}
-
 /// Whether edges are collapsed first, and why; only said of Rips complexes.
-std::string collapse_text(const Estimate& estimate) {
-  return fmt::format("{} ({})", estimate.collapses ? "on" : "off", estimate.collapse_reason);
+std::string collapse_text(const RunPlan& plan) {
+  return fmt::format("{} ({})", plan.collapses ? "on" : "off", plan.collapse_reason);
 }
 
+/// @param taken bytes that reading and building took.
 std::string estimate_text(const Estimate& estimate, const BuiltComplex& built,
-                          const std::string& description) {
+                          const std::string& description, double taken) {
   std::string text = fmt::format("input    {}\ncomplex  {}", description, built.name);
   if (built.threshold) text += fmt::format(", values up to {}", shortest(*built.threshold));
   if (!built.vertex_weights.empty())
     text += fmt::format(", vertices enter late ({})", built.vertex_weights);
   text += fmt::format("\nengine   {} ({})\n", engine_name(estimate.engine), estimate.reason);
   if (!estimate.collapse_reason.empty()) text += "collapse " + collapse_text(estimate) + '\n';
-  for (std::size_t dim = 0; dim < estimate.cells.size(); ++dim)
-    text += fmt::format("cells    dimension {}: at most {:.0f}\n", dim, estimate.cells[dim]);
-  return text + fmt::format("memory   {} to {}\n", app::format_size(estimate.bytes_low),
-                            app::format_size(estimate.bytes_high));
+  if (const auto* rips = std::get_if<Rips>(&built.complex); rips && estimate.collapses)
+    text += fmt::format("edges    {} before the collapse\n", rips->edge_count());
+  for (std::size_t dim = 0; dim < estimate.cells.size(); ++dim) {
+    const bool is_counted = static_cast<int>(dim) < estimate.counted_dims;
+    text += fmt::format("cells    dimension {}: {}{:.0f}\n", dim,
+                        estimate.cells_at_most ? "at most "
+                        : is_counted           ? ""
+                                               : "about ",
+                        estimate.cells[dim]);
+  }
+  const int listed = static_cast<int>(estimate.cells.size()) - 1;
+  if (listed < estimate.max_dim + 1)
+    text += fmt::format("cells    dimension {} and above: not listed\n", listed + 1);
+  // What building gave back may not fit what comes next: at worst nothing of it is used again.
+  const double high =
+      std::max(taken, estimate.bytes_held) + estimate.bytes_high - estimate.bytes_held;
+  return text + fmt::format("memory   {} to {}\n",
+                            app::format_size(std::max(taken, estimate.bytes_low)),
+                            app::format_size(high));
 }
 
 void write_outputs(std::optional<app::Output>& output, std::vector<app::Output>& plots,
@@ -134,9 +140,7 @@ void write_outputs(std::optional<app::Output>& output, std::vector<app::Output>&
   }
 }
 
-}  // namespace
-
-Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
+Outcome run_once(const Job& job, const Arguments& arguments, app::Session& session) {
   Stopwatch watch;
   // What cannot be created is said before anything is computed.
   std::optional<app::Output> output;
@@ -147,28 +151,28 @@ Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
   }
 
   const auto [built, description, point_ids] = load(job, arguments, session, watch);
-  const Estimate estimated = estimate(built.complex, arguments.options, session.context());
-  watch.lap("complex");
-  session.explain(fmt::format("engine {}: {}", engine_name(estimated.engine), estimated.reason));
-  if (!estimated.collapse_reason.empty()) session.explain("collapse " + collapse_text(estimated));
-  session.explain(fmt::format("memory {} to {}", app::format_size(estimated.bytes_low),
-                              app::format_size(estimated.bytes_high)));
+  const auto taken = static_cast<double>(session.memory_taken());
   if (arguments.dry_run) {
-    write_file("-", estimate_text(estimated, built, description));
+    const Estimate estimated = estimate(built.complex, arguments.options, session.context());
+    write_file("-", estimate_text(estimated, built, description, taken));
     return {app::kOk, description};
   }
+  const RunPlan planned = plan(built.complex, arguments.options, session.context());
+  watch.lap("complex");
+  session.explain(fmt::format("engine {}: {}", engine_name(planned.engine), planned.reason));
+  if (!planned.collapse_reason.empty()) session.explain("collapse " + collapse_text(planned));
 
-  Options options = arguments.options;
+  Options options = with_plan(arguments.options, planned);
   // A bar that the threshold cuts is infinite, however short it would have been.
   if (built.cut) options.min_persistence = std::min(options.min_persistence, 0.0);
   const auto compute = [&] {
-    const Barcode whole = persistence(built.complex, options, session.context());
-    Barcode cut = built.cut
-                      ? cut_at(whole, built.complex, *built.cut, arguments.options.min_persistence)
-                      : whole;
-    return point_ids.empty() ? cut : with_input_ids(cut, point_ids);
+    Barcode bars = persistence(built.complex, options, session.context());
+    if (built.cut)
+      bars = cut_at(bars, built.complex, *built.cut, arguments.options.min_persistence);
+    if (!point_ids.empty()) bars = with_input_ids(bars, point_ids);
+    return bars;
   };
-  const Barcode barcode = with_estimate(estimated, compute);
+  const Barcode barcode = compute();
   watch.lap("persistence");
 
   int code = app::kOk;
@@ -176,13 +180,13 @@ Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
     options.engine = Engine::standard;
     options.collapse = Collapse::off;
     options.representatives = Representatives::none;
-    const std::string difference = first_difference(barcode, with_estimate(estimated, compute));
+    const std::string difference = first_difference(barcode, compute());
     watch.lap("check");
     if (difference.empty()) {
       session.explain("check: the oracle agrees");
     } else {
       app::print_line(fmt::format("ph-barcode: {}: check: engine {} and the oracle differ: {}",
-                                  job.input, engine_name(estimated.engine), difference));
+                                  job.input, engine_name(planned.engine), difference));
       code = app::kDifference;
     }
   }
@@ -193,18 +197,51 @@ Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
   info.input_description = description;
   info.complex = built.name;
   info.field = arguments.options.field;
-  info.max_dim = arguments.options.max_dim.value_or(estimated.max_dim);
+  info.max_dim = arguments.options.max_dim.value_or(planned.max_dim);
   info.threshold = built.threshold;
   info.vertex_weights = built.vertex_weights;
   info.subsample = built.subsample;
   info.approximation = arguments.rips.approximation;
-  info.engine = engine_name(estimated.engine);
+  info.engine = engine_name(planned.engine);
   info.timings = watch.laps();
   info.peak_memory = app::peak_memory();
   for (const auto& [stage, seconds] : watch.laps())
     session.explain(fmt::format("{} {:.3f} s", stage, seconds));
+  session.explain("memory " + app::format_size(static_cast<double>(session.memory_taken())));
   write_outputs(output, plots, barcode, job, arguments, info);
   return {code, fmt::format("{}: {}", description, plural(barcode.size(), "bar"))};
+}
+
+}  // namespace
+
+NamedData read_input(const Job& job, const Arguments& arguments, const RunContext& context) {
+  std::vector<Index> dropped;
+  ReadOptions options = arguments.read;
+  options.context = &context;
+  options.dropped = &dropped;
+  const Input input = Input::open(job.input, &context);
+  ReadResult read = read_any(input, arguments.format, options, arguments.values);
+  return {input.name(), std::move(read), dropped.size()};
+}
+
+Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
+  std::string what;
+  try {
+    return run_once(job, arguments, session);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::resource) throw;
+    what = error.what();
+  } catch (const std::bad_alloc&) {
+    what = "out of memory";
+  }
+  // By now all that the run held has been given back; the heap keeps none of it.
+  malloc_trim(0);
+  const std::string peak = app::format_size(static_cast<double>(session.memory_taken()));
+  if (const std::string changes = ways_out(job, arguments, session); !changes.empty())
+    throw Error(ErrorKind::resource,
+                fmt::format("{}; peak {}; what would fit: {}; or raise --memory-limit", what, peak,
+                            changes));
+  throw Error(ErrorKind::resource, fmt::format("{}; peak {}", what, peak));
 }
 
 }  // namespace ph::barcode

@@ -20,6 +20,15 @@ struct Outcome {
   std::string summary;  ///< "1024 points in R^3, CSV: 57 bars"
 };
 
+/// An input as it was read.
+struct NamedData {
+  std::string name;  ///< of the input, printable
+  ReadResult read;
+  std::size_t dropped = 0;  ///< points that were left out
+};
+/// @throws Error as the readers.
+NamedData read_input(const Job& job, const Arguments& arguments, const RunContext& context);
+
 /// Reads one input, computes its barcode and writes it. @throws Error.
 Outcome run(const Job& job, const Arguments& arguments, app::Session& session);
 

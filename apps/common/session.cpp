@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <fstream>
+
 #include "memory_limit.hpp"
 #include "messages.hpp"
 #include "numbers.hpp"
@@ -11,7 +13,10 @@
 
 namespace ph::app {
 Session::Session(std::string_view program, const CommonOptions& options, std::stop_token stop)
-    : program_(program), options_(options), progress_(options.progress, options.quiet) {
+    : program_(program),
+      options_(options),
+      progress_(options.progress, options.quiet),
+      memory_at_start_(peak_memory()) {
   context_.stop = std::move(stop);
   context_.threads = options.threads;
   context_.memory.set_limit(options.memory_limit ? static_cast<std::size_t>(*options.memory_limit)
@@ -24,6 +29,8 @@ Session::Session(std::string_view program, const CommonOptions& options, std::st
 }
 
 Session::~Session() = default;
+
+std::uint64_t Session::memory_taken() const { return peak_memory() - memory_at_start_; }
 
 void Session::note(std::string_view text) {
   if (options_.quiet) return;
@@ -49,9 +56,13 @@ void Output::commit() {
 }
 
 std::uint64_t peak_memory() {
+  // Not what getrusage says: that includes the program that started this one.
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;)
+    if (std::uint64_t kib = 0; word == "VmHWM:" && status >> kib) return kib * 1024;
   rusage usage{};
-  if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+  return getrusage(RUSAGE_SELF, &usage) == 0 ? static_cast<std::uint64_t>(usage.ru_maxrss) * 1024
+                                             : 0;
 }
 
 }  // namespace ph::app

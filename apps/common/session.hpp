@@ -23,6 +23,9 @@ class Session {
   const RunContext& context() const { return context_; }
   const CommonOptions& options() const { return options_; }
 
+  /// The most memory that was resident so far, beyond what it was at the start; bytes.
+  std::uint64_t memory_taken() const;
+
   /// One line on stderr: `program: text`. Nothing with --quiet.
   void note(std::string_view text);
   /// The same, only with --verbose.
@@ -33,6 +36,7 @@ class Session {
   CommonOptions options_;
   ProgressReporter progress_;
   RunContext context_;
+  std::uint64_t memory_at_start_;
 };
 
 /// An output file whose temporary name is removed even if a signal ends the program at once. Open

@@ -1,51 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <span>
+#include "ph/estimate.hpp"
 
+#include <algorithm>
+#include <optional>
+
+#include "complex/clique_count.hpp"
+#include "persistence/memory_forecast.hpp"
 #include "ph/complex/edge_collapse.hpp"
-#include "ph/engine/lens_graph.hpp"
-#include "ph/persistence.hpp"
 
 namespace ph {
 namespace {
 
-double binomial(double n, int k) {
-  double result = 1;
-  for (int i = 0; i < k; ++i) result *= std::max(0.0, n - i) / (i + 1);
-  return result;
-}
-
-// Cliques of d + 1 vertices: all sets of vertices at most, and in a graph of degeneracy g each has
-// a first vertex in the degeneracy order with at most g later neighbours.
-std::vector<double> cells_of(const Rips& rips, int top, double degeneracy) {
-  const double n = static_cast<double>(rips.size());
-  std::vector<double> cells{n};
-  if (top >= 1) cells.push_back(static_cast<double>(rips.edge_count()));
-  for (int d = 2; d <= top; ++d)
-    cells.push_back(std::min(binomial(n, d + 1), n * binomial(degeneracy, d)));
-  return cells;
-}
-std::vector<double> cells_of(const Rips& rips, int top) {
-  // The adjacency takes time and memory to make: only where it is needed anyhow.
-  const Index cliques = top < 2 ? 1 : rips.graph().adjacency().clique_bound();
-  return cells_of(rips, top, static_cast<double>(cliques - 1));
-}
-
-// The largest g such that g vertices have degree g or more: the degeneracy of a graph is no larger,
-// and neither is that of any part of it.
-Index degeneracy_by_degrees(const Rips& rips) {
-  std::vector<Index> degrees(static_cast<std::size_t>(rips.size()), 0);
-  for (const FlagEdge& e : rips.graph().edges()) {
-    ++degrees[e.u];
-    ++degrees[e.v];
-  }
-  std::ranges::sort(degrees, std::greater{});
-  Index g = 0;
-  while (g < rips.size() && degrees[static_cast<std::size_t>(g)] > g) ++g;
-  return g;
-}
+// An estimate may collapse that many edges: beyond, the collapse takes more than a second or so.
+constexpr std::size_t kFewEdges = 300'000;
 
 template <Filtration F>
 std::vector<double> cells_of(const F& filtration, int top) {
@@ -58,22 +25,12 @@ std::vector<double> cells_of(const F& filtration, int top) {
   return cells;
 }
 
-// Whether an engine looks at vertices and edges only.
-bool goes_by_edges(Engine engine) { return engine == Engine::lens || engine == Engine::union_find; }
-
-double stored_bytes(const Rips& rips, Engine engine) {
-  const double n = static_cast<double>(rips.size()), e = static_cast<double>(rips.edge_count());
-  if (engine == Engine::lens)
-    return 16 * e + LensGraph::bytes(static_cast<std::size_t>(rips.size()), rips.edge_count());
-  if (engine == Engine::union_find) return 16 * e;
-  return 16 * e + (rips.graph().is_dense() ? 4 * n * n : 16 * e + 8 * n);
-}
-double stored_bytes(const Cubical& cubical, Engine) {
+double stored_bytes(const Cubical& cubical) {
   double voxels = 0;
   cubical.for_each_cell(0, [&](const auto&) { ++voxels; });
   return 4 * static_cast<double>(cubical.slot_count()) + 8 * voxels;
 }
-double stored_bytes(const ExplicitComplex& complex, Engine) {
+double stored_bytes(const ExplicitComplex& complex) {
   double entries = 0;
   for (int d = 1; d <= complex.top_dim(); ++d) {
     complex.for_each_cell(d, [&](const auto& c) {
@@ -83,88 +40,99 @@ double stored_bytes(const ExplicitComplex& complex, Engine) {
   return 44 * static_cast<double>(complex.size()) + 16 * entries;
 }
 
-// Bytes an engine keeps for each cell it turns into a column: the column, its place in the table of
-// pivots and in the list to reduce. Fill-in comes on top and cannot be foreseen; as a rule columns
-// that are added to are few.
-constexpr double kBytesPerColumn = 128;
-
-// Sets bytes_high from bytes_low and the cells.
-void add_columns(Estimate& e) {
-  const int max_dim = e.max_dim;
-  double columns = 0;
-  const auto count = [&](int first, int last) {
-    for (int d = std::max(first, 0); d <= last && d < static_cast<int>(e.cells.size()); ++d)
-      columns += e.cells[static_cast<std::size_t>(d)];
-  };
-  switch (e.engine) {
-    case Engine::union_find:
-      count(0, 1);
-      break;
-    case Engine::lens:  // H2: triangles with a value, of which there are as a rule fewer
-      for (int d = 1; d <= std::max(1, max_dim); ++d) count(0, 1);
-      break;
-    case Engine::cohomology:
-      count(0, max_dim);
-      break;
-    default:
-      count(0, max_dim + 1);
-      break;
-  }
-  e.bytes_high = e.bytes_low + kBytesPerColumn * columns;
+RunPlan plan_of(const detail::Plan& plan) {
+  RunPlan result;
+  result.engine = plan.choice.engine;
+  result.reason = plan.choice.reason;
+  result.max_dim = plan.max_dim;
+  return result;
 }
 
 template <class Complex>
-Estimate estimate_of(const Complex& complex, const detail::Plan& plan) {
-  Estimate e;
-  e.engine = plan.choice.engine;
-  e.reason = plan.choice.reason;
-  e.max_dim = plan.max_dim;
-  e.cells = cells_of(complex, goes_by_edges(e.engine) ? 1 : e.max_dim + 1);
-  e.bytes_low = stored_bytes(complex, e.engine);
-  add_columns(e);
-  return e;
+RunPlan plan_one(const Complex& complex, const Options& options, const RunContext&) {
+  return plan_of(detail::plan(complex, options));
 }
-
-// How few edges a collapse will leave is not known beforehand: the bounds are those of all edges.
-Estimate estimate_of_collapsed(const Rips& rips, int max_dim, const detail::EngineChoice& choice) {
-  Estimate e;
-  e.engine = choice.engine;
-  e.reason = choice.reason;
-  const Index degeneracy = degeneracy_by_degrees(rips);
-  e.max_dim = static_cast<int>(std::min(Index{max_dim}, degeneracy));
-  e.cells =
-      cells_of(rips, goes_by_edges(e.engine) ? 1 : e.max_dim + 1, static_cast<double>(degeneracy));
-  e.bytes_low = 16 * static_cast<double>(rips.edge_count()) + collapse_bytes(rips.graph());
-  add_columns(e);
-  e.bytes_high += stored_bytes(rips, e.engine);
-  return e;
-}
-
-Estimate estimate_of_rips(const Rips& rips, const Options& options, const RunContext& context) {
+RunPlan plan_one(const Rips& rips, const Options& options, const RunContext& context) {
   Options rips_options = options;
   rips_options.max_dim = detail::rips_max_dim(rips, options);
   const detail::CollapseChoice choice = detail::choose_collapse(rips, rips_options, context);
-  Estimate e = choice.collapses ? estimate_of_collapsed(rips, *rips_options.max_dim, choice.engine)
-                                : rips.with_filtration(*rips_options.max_dim, [&](const auto& f) {
-                                    return estimate_of(rips, detail::plan(f, rips_options));
-                                  });
-  if (rips.has_only_components()) e.reason += "; a spanning forest knows them";
-  e.collapses = choice.collapses;
-  e.collapse_reason = choice.reason;
+  RunPlan result;
+  if (choice.collapses) {
+    result.engine = choice.engine.engine;
+    result.reason = choice.engine.reason;
+    result.max_dim = *rips_options.max_dim;  // the top dimension is not known before the collapse
+  } else {
+    result = rips.with_filtration(*rips_options.max_dim, [&](const auto& f) {
+      return plan_of(detail::plan(f, rips_options));
+    });
+  }
+  if (rips.has_only_components()) result.reason += "; a spanning forest knows them";
+  result.collapses = choice.collapses;
+  result.collapse_reason = choice.reason;
+  return result;
+}
+
+template <class Complex>
+Estimate estimate_one(const Complex& complex, const Options& options, const RunContext& context) {
+  Estimate e;
+  static_cast<RunPlan&>(e) = plan_one(complex, options, context);
+  e.cells = cells_of(complex, detail::listed_dim(e.engine, e.max_dim));
+  e.counted_dims = static_cast<int>(e.cells.size());
+  e.bytes_held = stored_bytes(complex);
+  const auto [low, high] = detail::forecast_cells(e.bytes_held, e.cells);
+  e.bytes_low = low;
+  e.bytes_high = high;
+  return e;
+}
+
+Estimate estimate_one(const Rips& rips, const Options& options, const RunContext& context) {
+  Estimate e;
+  static_cast<RunPlan&>(e) = plan_one(rips, options, context);
+  const double edges = e.bytes_held = 16 * static_cast<double>(rips.edge_count());
+  double collapse = 0;
+  std::optional<Rips> collapsed;
+  if (e.collapses) {
+    collapse = collapse_bytes(rips.graph()) + edges;
+    if (rips.edge_count() <= kFewEdges) {
+      collapsed = collapse_edges(rips, context);
+      collapse += 64 * static_cast<double>(collapsed->edge_count());
+    } else {
+      e.cells_at_most = true;
+    }
+  }
+  const Rips& complex = collapsed ? *collapsed : rips;
+  const CliqueCounts cliques =
+      count_cliques(complex.graph(), detail::listed_dim(e.engine, e.max_dim), context);
+  e.cells = cliques.counts;
+  e.counted_dims = std::min(cliques.counted_dims, static_cast<int>(e.cells.size()));
+  if (collapsed)  // no cells, no homology
+    e.max_dim = std::min(e.max_dim, std::max(0, static_cast<int>(e.cells.size()) - 1));
+  Options settled = with_plan(options, e);
+  settled.collapse = Collapse::off;
+  const auto [low, high] = detail::forecast_rips(complex, e.cells, settled, context);
+  // The edges before a collapse stay until the end.
+  const double before = collapsed ? edges : 0;
+  e.bytes_low = e.cells_at_most ? collapse : std::max(collapse, low + before);
+  e.bytes_high = std::max(collapse, before + high);
   return e;
 }
 
 }  // namespace
 
+RunPlan plan(const AnyComplex& complex, const Options& options, const RunContext& context) {
+  return std::visit([&](const auto& c) { return plan_one(c, options, context); }, complex);
+}
+
+Options with_plan(const Options& options, const RunPlan& plan) {
+  Options settled = options;
+  settled.engine = plan.engine;
+  settled.max_dim = plan.max_dim;
+  settled.collapse = plan.collapses ? Collapse::on : Collapse::off;
+  return settled;
+}
+
 Estimate estimate(const AnyComplex& complex, const Options& options, const RunContext& context) {
-  return std::visit(
-      [&](const auto& c) {
-        if constexpr (std::same_as<std::remove_cvref_t<decltype(c)>, Rips>)
-          return estimate_of_rips(c, options, context);
-        else
-          return estimate_of(c, detail::plan(c, options));
-      },
-      complex);
+  return std::visit([&](const auto& c) { return estimate_one(c, options, context); }, complex);
 }
 
 }  // namespace ph

@@ -64,7 +64,7 @@ class Formats(ProgramTest):
         self.assertIn("engine union_find: only components are asked for; a spanning forest",
                       run.stderr)
         run = self.expect(0, "square.txt", "--max-dim", "0", "--dry-run")
-        self.assertIn("dimension 1: at most 3\n", run.stdout)
+        self.assertIn("dimension 1: 3\n", run.stdout)
         for others in (["--check"], ["--engine", "standard"], ["--engine", "cohomology"],
                        ["--metric", "hamming"]):
             run = self.expect(0, "square.txt", "--max-dim", "0", "--verbose", *others)
@@ -368,6 +368,8 @@ class Options(ProgramTest):
         run = self.expect(0, "square.txt", "--dry-run", "-o", "out.csv")
         for word in ("input ", "complex ", "engine ", "cells ", "memory "):
             self.assertIn(word, run.stdout)
+        self.assertIn("cells    dimension 0: 4\n", run.stdout)
+        self.assertIn("cells    dimension 2 and above: not listed\n", run.stdout)
         self.assertEqual(self.files(), ["square.txt"])
 
     def test_json_progress(self):

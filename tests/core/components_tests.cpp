@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "ph/engine/merge_tree.hpp"
-#include "ph/persistence.hpp"
+#include "ph/estimate.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"

@@ -354,6 +354,26 @@ TEST(RunContexts, AStopRequestedBeforehandStopsEverything) {
   });
 }
 
+TEST(RunContexts, SlowStepsAreReportedAndStopped) {
+  std::stop_source source;
+  RunContext context;
+  context.stop = source.get_token();
+  int reports = 0;
+  context.on_progress = [&](const Progress&) { ++reports; };
+  Ticker ticker(context, "slow");
+  for (int step = 0; step < 100; ++step) ticker.tick(1000);  // quick ones before
+  const auto step = [&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    ticker.tick(400);
+  };
+  for (int i = 0; i < 40 && reports < 2; ++i) step();
+  EXPECT_EQ(reports, 2);
+  source.request_stop();
+  expect_error(ErrorKind::cancelled, "stopped", [&] {
+    for (int i = 0; i < 4; ++i) step();
+  });
+}
+
 TEST(RunContexts, ProgressComesAtMostTenTimesASecond) {
   std::stop_source source;
   RunContext context;

@@ -56,22 +56,6 @@ using AnyComplex = std::variant<Rips, Cubical, ExplicitComplex>;
 Barcode persistence(const AnyComplex& complex, const Options& options = {},
                     const RunContext& context = default_context());
 
-/// What a computation will take, before it is done.
-struct Estimate {
-  Engine engine = Engine::automatic;  ///< the engine that will run
-  std::string reason;                 ///< why it was chosen, one phrase
-  bool collapses = false;             ///< whether edges are collapsed first
-  std::string collapse_reason;        ///< why, or why not, one phrase
-  int max_dim = 0;                    ///< highest homology dimension
-  std::vector<double> cells;          ///< by dimension, as far as the engine looks: at most
-  double bytes_low = 0;               ///< memory of the computation: at least …
-  double bytes_high = 0;              ///< … and at most
-};
-/// Reads no more than the complex already holds; computes nothing but a sample of the edges where
-/// that decides whether they are collapsed. @throws as `persistence`.
-Estimate estimate(const AnyComplex& complex, const Options& options = {},
-                  const RunContext& context = default_context());
-
 /// Compares two barcodes as multisets of (dim, birth, death). @return an empty string if they are
 /// equal, else the first bar that one has and the other has not, in words.
 std::string first_difference(const Barcode& a, const Barcode& b);

@@ -7,5 +7,6 @@
 #include "ph/complex/lower_star.hpp"
 #include "ph/complex/rips.hpp"
 #include "ph/engine/merge_tree.hpp"
+#include "ph/estimate.hpp"
 #include "ph/metric/distance_to_measure.hpp"
 #include "ph/persistence.hpp"

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "ph/core/error.hpp"
 
 namespace ph {
@@ -64,16 +67,23 @@ const RunContext& default_context() {
 Ticker::Ticker(const RunContext& context, std::string_view stage, std::uint64_t total)
     : context_(context),
       progress_{stage, 0, total},
-      last_report_(std::chrono::steady_clock::now()) {
+      last_poll_(std::chrono::steady_clock::now()),
+      last_report_(last_poll_) {
   context_.poll();
 }
 
 void Ticker::poll() {
+  using std::chrono::milliseconds;
   pending_ = 0;
   context_.poll();
-  if (!context_.on_progress) return;
   const auto now = std::chrono::steady_clock::now();
-  if (now - last_report_ < std::chrono::milliseconds(100)) return;
+  const auto since = now - std::exchange(last_poll_, now);
+  if (since < milliseconds(1))
+    interval_ = std::min(kMostSteps, 2 * interval_);
+  else if (since > milliseconds(5))
+    interval_ = std::max<std::uint64_t>(1, interval_ / 4);
+  if (!context_.on_progress) return;
+  if (now - last_report_ < milliseconds(100)) return;
   last_report_ = now;
   context_.on_progress(progress_);
 }

@@ -10,9 +10,9 @@
 namespace ph {
 namespace {
 
-constexpr std::size_t kShown = 40;        // bytes of a cell that a message shows
-constexpr std::size_t kProbe = 4096;      // bytes looked at to tell text from binary
-constexpr std::size_t kPollMask = 0xFFF;  // lines between two looks at the stop token, less one
+constexpr std::size_t kShown = 40;           // bytes of a cell that a message shows
+constexpr std::size_t kProbe = 4096;         // bytes looked at to tell text from binary
+constexpr std::size_t kPollBytes = 1 << 18;  // between two looks at the stop token
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -133,7 +133,7 @@ TextLines::TextLines(const Input& input, std::size_t offset, std::size_t lines_b
 bool TextLines::next() {
   while (position_ != end_) {
     ++number_;
-    if ((number_ & kPollMask) == 0) input_.poll();
+    if (offset() - polled_ >= kPollBytes) input_.poll(polled_ = offset());
     start_ = position_;
     const auto left = static_cast<std::size_t>(end_ - position_);
     const auto* stop =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cube_list.hpp"
 
-#include <algorithm>
+#include "ph/core/polled_sort.hpp"
 
 namespace ph {
 
@@ -26,11 +26,13 @@ CubeList::CubeList(const Points& points, double radius, const RunContext& contex
   const auto cube = [&](double x) { return std::floor(x * scale) + 0.0; };
   for (std::uint32_t i = 0; i < size; ++i)
     placed[i] = {cube(coordinate(i, 0)), cube(coordinate(i, 1)), cube(coordinate(i, 2)), i};
-  std::sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
+  const auto before = [](const Placed& a, const Placed& b) {
     if (a.z != b.z) return a.z < b.z;
     if (a.y != b.y) return a.y < b.y;
     return a.x != b.x ? a.x < b.x : a.number < b.number;
-  });
+  };
+  Ticker ticker(context, "cubes", size);
+  polled_sort(placed, before, ticker);
   points_.reserve(size);
   for (std::uint32_t at = 0; at < size; ++at) {
     const Placed& p = placed[at];
@@ -38,6 +40,7 @@ CubeList::CubeList(const Points& points, double radius, const RunContext& contex
     points_.push_back(
         {coordinate(p.number, 0), coordinate(p.number, 1), coordinate(p.number, 2), p.number});
     cubes_.back().end = at + 1;
+    ticker.tick();
   }
 }
 

@@ -30,7 +30,7 @@ class CubeList {
   /// depends on the points alone. Few of them are further apart than the radius: O(pairs within it)
   /// up to a constant.
   template <class Visit>
-  void for_each_candidate_pair(Visit&& visit) const;
+  void for_each_candidate_pair(Visit&& visit, const RunContext& context) const;
 
  private:
   struct Cube {
@@ -46,18 +46,23 @@ class CubeList {
 };
 
 template <class Visit>
-void CubeList::for_each_candidate_pair(Visit&& visit) const {
+void CubeList::for_each_candidate_pair(Visit&& visit, const RunContext& context) const {
+  Ticker ticker(context, "near pairs", cubes_.size());
   // Half of the neighbours: the next cube of the same row, and three cubes of each row after it.
   constexpr std::array<std::array<double, 2>, 4> rows_after = {{{1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
   std::array<std::size_t, 4> first{};  // per row: cubes before this one lie behind for good
   for (std::size_t c = 0; c < cubes_.size(); ++c) {
     const Cube& cube = cubes_[c];
     const auto here = points(cube);
-    for (std::size_t i = 0; i < here.size(); ++i)
+    for (std::size_t i = 0; i < here.size(); ++i) {
       for (std::size_t j = i + 1; j < here.size(); ++j) visit(here[i], here[j]);
+      ticker.work(here.size() - i);
+    }
     const auto visit_cube = [&](const Cube& other) {
-      for (const Point& p : here)
+      for (const Point& p : here) {
         for (const Point& q : points(other)) visit(p, q);
+        ticker.work(other.end - other.begin);
+      }
     };
     if (c + 1 < cubes_.size()) {
       const Cube& next = cubes_[c + 1];
@@ -76,6 +81,7 @@ void CubeList::for_each_candidate_pair(Visit&& visit) const {
         if (k != c) visit_cube(cubes_[k]);
       }
     }
+    ticker.tick();
   }
 }
 

@@ -32,11 +32,16 @@ struct SearchSpace {
   bool is_scaled;
 };
 
+constexpr std::uint64_t kPollInterval = 1 << 16;
+
 // The view of the points that nanoflann asks for.
 struct KdPoints {
   const Points& points;
+  const RunContext& context;
+  mutable std::uint64_t looks = 0;  // building the tree takes long, and here is where to stop it
   std::size_t kdtree_get_point_count() const { return static_cast<std::size_t>(points.rows()); }
   double kdtree_get_pt(std::size_t i, std::size_t k) const {
+    if (++looks % kPollInterval == 0) context.poll();
     return points(static_cast<Index>(i), static_cast<Index>(k));
   }
   template <class Box>
@@ -47,37 +52,36 @@ struct KdPoints {
 using KdTree =
     nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, KdPoints>, KdPoints>;
 
-constexpr std::uint64_t kPollInterval = 1 << 16;
-
 using Visit = std::function<void(Index, Index, double)>;
 
 void visit_by_cubes(const SearchSpace& space, const PointMetric& metric, double radius,
                     const Visit& visit, const RunContext& context) {
   const CubeList cubes(space.points, space.radius, context);
-  std::uint64_t candidates = 0;
-  cubes.for_each_candidate_pair([&](const CubeList::Point& p, const CubeList::Point& q) {
-    if (++candidates % kPollInterval == 0) context.poll();
-    const double dx = p.x - q.x, dy = p.y - q.y, dz = p.z - q.z;
-    const double square = dx * dx + dy * dy + dz * dz;
-    // The same sum as the metric's, unless digits were lost to underflow.
-    const double d = square >= kSmallestPlainSquare && !space.is_scaled
-                         ? std::sqrt(square)
-                         : metric(p.number, q.number);
-    if (d <= radius) visit(std::min(p.number, q.number), std::max(p.number, q.number), d);
-  });
+  cubes.for_each_candidate_pair(
+      [&](const CubeList::Point& p, const CubeList::Point& q) {
+        const double dx = p.x - q.x, dy = p.y - q.y, dz = p.z - q.z;
+        const double square = dx * dx + dy * dy + dz * dz;
+        // The same sum as the metric's, unless digits were lost to underflow.
+        const double d = square >= kSmallestPlainSquare && !space.is_scaled
+                             ? std::sqrt(square)
+                             : metric(p.number, q.number);
+        if (d <= radius) visit(std::min(p.number, q.number), std::max(p.number, q.number), d);
+      },
+      context);
 }
 
 void visit_by_tree(const SearchSpace& space, const PointMetric& metric, double radius,
                    const Visit& visit, const RunContext& context) {
   const Points& points = space.points;
-  const KdPoints view{points};
+  const KdPoints view{points, context};
   const KdTree tree(static_cast<int>(points.cols()), view, {16});
   // The tree compares squares, which lose digits to underflow: ask for a hair more and let the
   // metric decide.
   const double ask = std::max(space.radius * space.radius, kSmallestPlainSquare) * (1 + 1e-12);
   std::vector<std::pair<std::uint32_t, double>> found;
+  Ticker ticker(context, "near pairs", static_cast<std::uint64_t>(points.rows()));
   for (Index i = 0; i < points.rows(); ++i) {
-    context.poll();
+    ticker.tick();
     tree.radiusSearch(points.row(i).data(), ask, found, nanoflann::SearchParams(0, 0, false));
     for (const auto& [j, squared] : found) {
       if (Index{j} <= i) continue;

@@ -93,18 +93,19 @@ class Ticker {
   /// Work that is not progress (an addition inside a column): polls, does not count.
   void work(std::uint64_t steps = 1) {
     pending_ += steps;
-    if (pending_ >= kPollInterval) poll();
+    if (pending_ >= interval_) poll();
   }
   /// Polls and reports now; for steps that take long.
   void poll();
 
  private:
-  static constexpr std::uint64_t kPollInterval = 4096;
+  static constexpr std::uint64_t kMostSteps = 4096;
 
   const RunContext& context_;
   Progress progress_;
   std::uint64_t pending_ = 0;
-  std::chrono::steady_clock::time_point last_report_;
+  std::uint64_t interval_ = 1;  // steps between polls: fewer where a step takes long
+  std::chrono::steady_clock::time_point last_poll_, last_report_;
 };
 
 }  // namespace ph

@@ -13,6 +13,7 @@
 #include "ph/core/barcode.hpp"
 #include "ph/core/error.hpp"
 #include "ph/core/parallel.hpp"
+#include "ph/core/polled_sort.hpp"
 #include "ph/core/run_context.hpp"
 #include "ph/engine/apparent_pairs.hpp"
 #include "ph/engine/cell_map.hpp"
@@ -167,8 +168,7 @@ void CohomologyReduction<F, K>::collect_columns() {
     to_reduce_.push_back(cell);
   });
   const auto is_younger = [&](const Cell& a, const Cell& b) { return f_.precedes(b, a); };
-  if (!std::is_sorted(to_reduce_.begin(), to_reduce_.end(), is_younger))
-    std::sort(to_reduce_.begin(), to_reduce_.end(), is_younger);
+  polled_sort(to_reduce_, is_younger, ticker);
 }
 
 template <CofacetFiltration F, Field K>

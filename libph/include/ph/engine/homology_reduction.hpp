@@ -8,6 +8,7 @@
 
 #include "ph/core/barcode.hpp"
 #include "ph/core/chain.hpp"
+#include "ph/core/polled_sort.hpp"
 #include "ph/core/run_context.hpp"
 #include "ph/engine/apparent_pairs.hpp"
 #include "ph/engine/cell_map.hpp"
@@ -75,9 +76,8 @@ class HomologyReduction {
   }
   void reduce_collected() {
     const auto precedes = [&](const Cell& a, const Cell& b) { return f_.precedes(a, b); };
-    if (!std::is_sorted(to_reduce_.begin(), to_reduce_.end(), precedes))
-      std::sort(to_reduce_.begin(), to_reduce_.end(), precedes);
     Ticker ticker(context_, "homology", to_reduce_.size());
+    polled_sort(to_reduce_, precedes, ticker);
     for (const Cell& cell : to_reduce_) {
       reduce_column(cell, ticker);
       ticker.tick();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ph/core/filtration.hpp"
+#include "ph/core/polled_sort.hpp"
 #include "ph/core/run_context.hpp"
 #include "ph/engine/cell_map.hpp"
 #include "ph/engine/elder_rule.hpp"
@@ -60,16 +61,15 @@ struct OneSkeleton {
     });
     std::pmr::vector<std::uint32_t> order(vertices.size(), &context.memory);
     std::iota(order.begin(), order.end(), 0U);
-    std::sort(order.begin(), order.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return precedes(vertices[a], vertices[b]); });
+    Ticker ticker(context, "graph");
+    polled_sort(
+        order, [&](std::uint32_t a, std::uint32_t b) { return precedes(vertices[a], vertices[b]); },
+        ticker);
     age.resize(order.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) age[order[i]] = i;
-    context.poll();
 
     filtration.for_each_cell(1, [&](const Cell& e) { edges.push_back(e); });
-    if (!std::is_sorted(edges.begin(), edges.end(), precedes))
-      std::sort(edges.begin(), edges.end(), precedes);
-    context.poll();
+    polled_sort(edges, precedes, ticker);
     ends.reserve(edges.size());
     for (const Cell& e : edges) {
       GraphEdge edge;

@@ -29,8 +29,11 @@ struct StandardEngine {
     using Cell = typename F::Cell;
     using Column = std::pmr::map<std::size_t, typename K::Element>;  // row -> non-zero coefficient
     std::pmr::memory_resource* const memory = &context.memory;
-    const auto precedes = [&](const Cell& a, const Cell& b) { return f.precedes(a, b); };
     Ticker ticker(context, "oracle");
+    const auto precedes = [&](const Cell& a, const Cell& b) {
+      ticker.work();
+      return f.precedes(a, b);
+    };
 
     const int top = std::min(bars.max_dim() + 1, f.top_dim());
     std::pmr::vector<Cell> rows(memory);         // the cells of dimension dim - 1, oldest first

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <bit>
+#include <chrono>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -70,8 +71,9 @@ class Input {
 
   /// @throws Error (resource) if the run's budget does not allow `bytes` more. Allocates nothing.
   void require_memory(std::size_t bytes) const;
-  /// @throws Error (cancelled) once a stop was requested.
-  void poll() const;
+  /// Tells the run how many bytes are done, if it wants to know. @throws Error (cancelled) once a
+  /// stop was requested.
+  void poll(std::size_t done = 0) const;
 
   /// Throws Error (bad_data): "name: what, found X, expected Y; hint".
   [[noreturn]] void fail(const Fault& fault) const;
@@ -90,6 +92,7 @@ class Input {
   std::string extension_;
   std::string member_;
   const RunContext* context_ = nullptr;
+  mutable std::chrono::steady_clock::time_point reported_ = std::chrono::steady_clock::now();
 };
 
 /// The lines of a text input that carry data: comments ('#' to the end of the line) and blank lines
@@ -126,6 +129,7 @@ class TextLines {
   const char* start_ = nullptr;  // first byte of the current line
   std::string_view line_;
   std::size_t number_ = 0;
+  std::size_t polled_ = 0;  // offset of the last look at the stop token
 };
 
 /// The names in a header line: a line whose cells are all something else than numbers. Cells are

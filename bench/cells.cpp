@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Counts the cells of a Rips complex one by one: what check_estimates.py compares estimates with.
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+#include <string_view>
+
+#include "ph/complex/edge_collapse.hpp"
+#include "ph/io/read.hpp"
+#include "ph/ph.hpp"
+
+int main(int argc, char** argv) {
+  if (argc != 6) {
+    std::fprintf(stderr, "usage: %s points|binary FILE DIM THRESHOLD|- collapse|plain\n", argv[0]);
+    return 64;
+  }
+  try {
+    const int top = std::atoi(argv[3]);
+    ph::RipsOptions options;
+    options.merge_equal_points = true;  // as ph-barcode does
+    if (argv[4] != std::string_view("-")) options.threshold = std::atof(argv[4]);
+    const ph::Rips all = argv[1] == std::string_view("binary")
+                             ? ph::Rips(ph::read_binary_distances(argv[2]), options)
+                             : ph::Rips(ph::read_points(argv[2]), options);
+    const ph::Rips rips = argv[5] == std::string_view("collapse") ? ph::collapse_edges(all) : all;
+    rips.with_filtration(std::max(0, top - 1), [&](const auto& filtration) {
+      for (int dim = 0; dim <= top; ++dim) {
+        unsigned long long count = 0;
+        filtration.for_each_cell(dim, [&](const auto&) { ++count; });
+        std::printf("%llu\n", count);
+      }
+    });
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 70;
+  }
+}

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <span>
+
+#include "ph/estimate.hpp"
+
+namespace ph::detail {
+
+/// Bytes between which the peak of a computation is expected to lie.
+struct MemoryForecast {
+  double low = 0, high = 0;
+};
+
+/// The highest dimension of which an engine lists cells.
+int listed_dim(Engine engine, int max_dim);
+
+/// What the homology of a Rips complex takes beside its edges. The engine computes two small parts
+/// of the complex; what it takes there beyond its bit rows or adjacency is extrapolated.
+/// @param cells by dimension, up to listed_dim. @param options with engine and dimension; no
+/// collapse.
+MemoryForecast forecast_rips(const Rips& rips, std::span<const double> cells,
+                             const Options& options, const RunContext& context);
+
+/// The same for a complex that numbers or stores its cells, from the size of its parts alone.
+MemoryForecast forecast_cells(double stored, std::span<const double> cells);
+
+}  // namespace ph::detail
