@@ -51,7 +51,7 @@ bool split(Word* from, const Word* mask, Word* moved, std::size_t first, std::si
   Word left = 0;
   for (std::size_t k = first; k < words; ++k) {
     const Word taken = from[k] & mask[k];
-    moved[k] = taken;
+    moved[k] |= taken;
     from[k] ^= taken;
     left |= from[k];
   }

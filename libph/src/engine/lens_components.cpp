@@ -49,16 +49,21 @@ bits::Word* LensComponents::take_component(Vertex first) {
   clear(rest_.data(), first);
   bool is_left = bits::split(rest_.data(), graph_.row(first), component, 0, words);
   set(component, first);
-  // What is left are mostly few vertices: each is asked whether it sees the component.
+  // What is left is mostly few vertices, joined to one another: one that sees the component brings
+  // its neighbours along.
   for (bool grew = true; is_left && grew;) {
     grew = is_left = false;
     for (std::size_t k = 0; k < words; ++k) {
-      for (Word rest = rest_[k]; rest != 0; rest &= rest - 1) {
+      for (Word rest = rest_[k]; rest != 0;) {
         const auto w =
             static_cast<Vertex>(k * 64 + static_cast<std::size_t>(std::countr_zero(rest)));
-        if (bits::first_common(graph_.row(w), component, words) == bits::kNone) continue;
+        rest &= rest - 1;
+        const Word* row = graph_.row(w);
+        if (bits::first_common(row, component, words) == bits::kNone) continue;
         clear(rest_.data(), w);
         set(component, w);
+        if (!bits::split(rest_.data(), row, component, k, words) && !is_left) return component;
+        rest &= rest_[k];
         grew = true;
       }
       is_left |= rest_[k] != 0;
