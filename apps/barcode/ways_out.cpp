@@ -11,6 +11,7 @@
 #include <new>
 #include <optional>
 #include <random>
+#include <stop_token>
 #include <vector>
 
 #include "build_complex.hpp"
@@ -23,8 +24,11 @@ namespace {
 constexpr std::size_t kMostWaysOut = 3;
 // An estimate counts the pages of the code and small containers; the limit does not.
 constexpr double kBesideLimit = 4 << 20;
-// CPU time after which no trial begins: who waits for an error should not wait long.
+// CPU time after which no trial begins, and after twice of which none goes on: who waits for an
+// error should not wait long.
 constexpr double kPatience = 3;  // s
+// Of what is left of the memory limit, for a trial: the heap is in pieces by now.
+constexpr double kTrialShare = 0.75;
 constexpr double kBytesPerEdge = 16;
 constexpr double kFewestPairs = 100;  // of a sample, within the threshold
 // A sample of fewer points says little; one for which more distances are evaluated takes too long.
@@ -61,6 +65,7 @@ class WaysOut {
   std::vector<std::string> find() {
     const bool is_rips =
         std::visit([&](const auto& data) { return sample(data); }, data_.read.data);
+    if (arguments_.options.engine != Engine::automatic) change_engine();
     if (is_rips) lower_threshold();
     lower_dimension();
     if (is_rips && arguments_.options.collapse != Collapse::on) collapse();
@@ -106,20 +111,38 @@ class WaysOut {
   /// Keeps a change of the command line if the run fits with it. @return whether it does.
   bool try_out(const std::string& change, const Arguments& arguments) {
     if (is_enough()) return false;
+    // A trial ends when patience does.
+    std::stop_source stop;
+    const std::stop_callback stop_with_all(context_.stop, [&] { stop.request_stop(); });
+    RunContext trial;
+    trial.stop = stop.get_token();
+    trial.threads = context_.threads;
+    trial.memory.set_limit(static_cast<std::size_t>(
+        kTrialShare * static_cast<double>(context_.memory.limit() - context_.memory.used())));
+    trial.on_progress = [&](const Progress& progress) {
+      if (seconds_since(start_) > 2 * kPatience) stop.request_stop();
+      if (context_.on_progress) context_.on_progress(progress);
+    };
     try {
       const BuiltComplex built =
-          build_complex(data_.read, data_.name, data_.dropped, arguments, context_);
-      const Estimate e = estimate(built.complex, arguments.options, context_);
+          build_complex(data_.read, data_.name, data_.dropped, arguments, trial);
+      const Estimate e = estimate(built.complex, arguments.options, trial);
       if (e.bytes_high > static_cast<double>(context_.memory.limit()) + kBesideLimit) return false;
       found_.push_back(fmt::format("{} ({} to {})", change, app::format_size(e.bytes_low),
                                    app::format_size(e.bytes_high)));
       return true;
     } catch (const Error& error) {
-      if (error.kind() == ErrorKind::cancelled) throw;
+      if (error.kind() == ErrorKind::cancelled) context_.poll();  // who stopped it?
       return false;
     } catch (const std::bad_alloc&) {
       return false;
     }
+  }
+
+  void change_engine() {
+    Arguments changed = arguments_;
+    changed.options.engine = Engine::automatic;
+    try_out("--engine auto", changed);
   }
 
   /// Keeps a threshold that fits. @return whether it does.

@@ -155,7 +155,7 @@ class Limits(ProgramTest):
                     if code == 75:
                         self.assertEqual(message.count("\n"), 1, message)
                         self.assertIn("--memory-limit", message)
-                        self.assertTrue("--threshold" in message or "--max-dim" in message, message)
+                        self.assertRegex(message, "--(threshold|max-dim|subsample|engine)|the number of points")
                         self.assertEqual(self.files(), ["square.txt"])
                     self.forget("out", "out.svg")
         print(f"\n{sum(ends.values())} runs under a limit: {ends[75]} stopped by it, {ends[0]} "
@@ -165,8 +165,10 @@ class Limits(ProgramTest):
 
 class WaysOut(ProgramTest):
     """What a run that was stopped says would fit, does."""
-    ROWS = (("space.txt", 10, 3, "--max-dim", "2"),  # name, limit in MiB, ways out
+    ROWS = (("space.txt", 10, 3, "--max-dim", "2"),  # name, limit in MiB, ways out at least
             ("space.txt", 12, 3),
+            ("space.txt", 60, 1, "--max-dim", "2", "--engine", "twist",
+             "--collapse", "off"),
             ("high.txt", 64, 3),
             ("plane.txt", 64, 3, "--max-dim", "1"),
             ("cloud.txt", 128, 3, "--threshold", "0.03"),
@@ -185,7 +187,7 @@ class WaysOut(ProgramTest):
             self.assertEqual(run.returncode, 75, run.stderr)
             found = re.findall(r"(--[a-z-]+) (\S+) \(([^)]*) to ([^)]*)\)", run.stderr)
             with self.subTest(arguments=arguments, limit=limit):
-                self.assertEqual(len(found), ways, run.stderr)
+                self.assertGreaterEqual(len(found), ways, run.stderr)
             for option, value, _, _ in found:
                 with self.subTest(arguments=arguments, limit=limit, option=option, value=value):
                     code, peak = self.peak(arguments, {option: value, "--memory-limit": f"{limit}MiB"})

@@ -18,8 +18,9 @@ constexpr double kBytesPerBar = 256;
 // What small containers, the allocator and the pages of the program's own code come to.
 constexpr double kAlways = 4 << 20;
 // Cells that the engine lists in the larger part that it computes: enough to show how memory grows,
-// few enough for a fraction of the time of the whole.
+// few enough for a fraction of the time of the whole, and for seconds.
 constexpr double kPilotEdges = 40'000, kPilotCells = 60'000, kPilotShare = 0.125;
+constexpr double kMostPilotEdges = 4e6, kMostPilotCells = 250'000;
 // Measured: memory grows in leaps, and faster on the whole than from part to part, unless the
 // whole is many such parts side by side.
 constexpr double kMargin = 3, kPowerMargin = 0.35, kPowerMarginOfLocal = 0.1;
@@ -49,7 +50,7 @@ Rips induced(const Rips& rips, std::span<const std::uint32_t> vertices, const Ru
                                          &context.memory);
   for (std::size_t i = 0; i < vertices.size(); ++i)
     number[vertices[i]] = static_cast<std::uint32_t>(i);
-  std::vector<WeightedEdge> edges;
+  std::pmr::vector<WeightedEdge> edges(&context.memory);
   const BinnedEdges& all = rips.graph().binned_edges();
   all.with_bins(0, all.bin_count(), [&](std::span<const FlagEdge> unsorted) {
     for (const FlagEdge& e : unsorted) {
@@ -74,6 +75,7 @@ Pilot run_pilot(const Rips& part, double listed, const Options& options,
                 const RunContext& context) {
   RunContext own;
   own.stop = context.stop;
+  own.on_progress = context.on_progress;
   own.threads = 1;
   own.memory.set_limit(context.memory.limit() -
                        std::min(context.memory.used(), context.memory.limit()));
@@ -160,9 +162,10 @@ MemoryForecast forecast_rips(const Rips& rips, std::span<const double> cells,
   // The lens sweep stops where nothing happens any more; lists are not full by then.
   const double least = options.engine == Engine::lens ? edges : known;
   if (rips.has_only_components() || rips.size() < 2) return {least, most};
-  const double wanted =
-      std::max(listed_dim(options.engine, *options.max_dim) < 2 ? kPilotEdges : kPilotCells,
-               kPilotShare * listed);
+  const bool lists_edges_only = listed_dim(options.engine, *options.max_dim) < 2;
+  const double wanted = lists_edges_only
+                            ? std::clamp(kPilotShare * listed, kPilotEdges, kMostPilotEdges)
+                            : std::clamp(kPilotShare * listed, kPilotCells, kMostPilotCells);
   const auto pilot = [&](std::uint64_t seed, double cells_wanted) {
     const auto order = order_of(rips, seed);
     const std::size_t size = pilot_size(rips, order, listed, cells_wanted, options, context);
