@@ -374,6 +374,18 @@ TEST(RunContexts, SlowStepsAreReportedAndStopped) {
   });
 }
 
+TEST(RunContexts, ManyShortStagesAreReported) {
+  RunContext context;
+  int reports = 0;
+  context.on_progress = [&](const Progress&) { ++reports; };
+  for (int stage = 0; stage < 20; ++stage) {
+    Ticker ticker(context, "short");
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    ticker.tick();
+  }
+  EXPECT_GE(reports, 2);
+}
+
 TEST(RunContexts, ProgressComesAtMostTenTimesASecond) {
   std::stop_source source;
   RunContext context;

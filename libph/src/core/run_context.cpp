@@ -59,16 +59,22 @@ void RunContext::poll() const {
   if (stop.stop_requested()) throw Error(ErrorKind::cancelled, "stopped on request");
 }
 
+void RunContext::report(const Progress& progress) const {
+  if (!on_progress) return;
+  // The time is that of all stages: many short ones in a row would never be heard of otherwise.
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_report_ < std::chrono::milliseconds(100)) return;
+  last_report_ = now;
+  on_progress(progress);
+}
+
 const RunContext& default_context() {
   static const RunContext context;
   return context;
 }
 
 Ticker::Ticker(const RunContext& context, std::string_view stage, std::uint64_t total)
-    : context_(context),
-      progress_{stage, 0, total},
-      last_poll_(std::chrono::steady_clock::now()),
-      last_report_(last_poll_) {
+    : context_(context), progress_{stage, 0, total}, last_poll_(std::chrono::steady_clock::now()) {
   context_.poll();
 }
 
@@ -82,10 +88,7 @@ void Ticker::poll() {
     interval_ = std::min(kMostSteps, 2 * interval_);
   else if (since > milliseconds(5))
     interval_ = std::max<std::uint64_t>(1, interval_ / 4);
-  if (!context_.on_progress) return;
-  if (now - last_report_ < milliseconds(100)) return;
-  last_report_ = now;
-  context_.on_progress(progress_);
+  context_.report(progress_);
 }
 
 }  // namespace ph

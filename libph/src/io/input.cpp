@@ -283,11 +283,7 @@ void Input::require_memory(std::size_t bytes) const {
 void Input::poll(std::size_t done) const {
   if (context_ == nullptr) return;
   context_->poll();
-  if (!context_->on_progress) return;
-  const auto now = std::chrono::steady_clock::now();
-  if (now - reported_ < std::chrono::milliseconds(100)) return;
-  reported_ = now;
-  context_->on_progress({"read", done, size()});
+  context_->report({"read", done, size()});
 }
 
 void Input::fail(const Fault& fault) const {

@@ -74,6 +74,11 @@ struct RunContext {
 
   /// @throws Error (cancelled) once a stop was requested.
   void poll() const;
+  /// Calls on_progress, unless that happened a moment ago. From one thread only.
+  void report(const Progress& progress) const;
+
+ private:
+  mutable std::chrono::steady_clock::time_point last_report_ = std::chrono::steady_clock::now();
 };
 
 /// No limits, no progress, no stop: what functions use that were given no context.
@@ -105,7 +110,7 @@ class Ticker {
   Progress progress_;
   std::uint64_t pending_ = 0;
   std::uint64_t interval_ = 1;  // steps between polls: fewer where a step takes long
-  std::chrono::steady_clock::time_point last_poll_, last_report_;
+  std::chrono::steady_clock::time_point last_poll_;
 };
 
 }  // namespace ph

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <bit>
-#include <chrono>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -92,7 +91,6 @@ class Input {
   std::string extension_;
   std::string member_;
   const RunContext* context_ = nullptr;
-  mutable std::chrono::steady_clock::time_point reported_ = std::chrono::steady_clock::now();
 };
 
 /// The lines of a text input that carry data: comments ('#' to the end of the line) and blank lines
