@@ -28,7 +28,7 @@ std::optional<std::size_t> points_of_pairs(std::size_t pairs) {
 
 // What is wrong with a number of the input off or on the diagonal; `what` is empty if nothing is.
 Fault fault_of(double raw, bool on_diagonal, const ReadOptions& options) {
-  const std::string hint = "--from-correlation reads a correlation matrix";
+  constexpr const char* hint = "--from-correlation reads a correlation matrix";
   if (std::isnan(raw) && options.nan == NanPolicy::error) {
     return {"not a distance", "NaN", "0 or more", "--nan drop never joins such a pair"};
   }
@@ -59,6 +59,16 @@ double distance_of(double raw, const ReadOptions& options) {
   return options.from_correlation ? 1 - std::clamp(raw, -1.0, 1.0) : raw;
 }
 
+// The distance that a number of the input means. Calls `fail(fault)`, which does not return, if it
+// means none.
+template <class Fail>
+double checked_distance(double raw, bool on_diagonal, const ReadOptions& options, Fail&& fail) {
+  if (raw >= 0 && !options.from_correlation && !on_diagonal) return raw;  // as a rule
+  if (Fault fault = fault_of(raw, on_diagonal, options); !fault.what.empty())
+    fail(std::move(fault));
+  return distance_of(raw, options);
+}
+
 // Reads entries of a text matrix, each checked where it stands.
 class Entries {
  public:
@@ -74,10 +84,8 @@ class Entries {
     const char* place = cells_.place();
     const double raw =
         cells_.number(options_.nan == NanPolicy::drop ? Allow::any : Allow::infinite);
-    if (raw >= 0 && !options_.from_correlation && !on_diagonal) return raw;
-    const Fault fault = fault_of(raw, on_diagonal, options_);
-    if (!fault.what.empty()) lines_.fail(place, fault);
-    return distance_of(raw, options_);
+    return checked_distance(raw, on_diagonal, options_,
+                            [&](const Fault& fault) { lines_.fail(place, fault); });
   }
 
  private:
@@ -308,13 +316,10 @@ DistanceMatrix square_to_distances(const Image& array, const Input& input,
   input.require_memory(triangle(n) * sizeof(double));
   std::vector<double> pairs(triangle(n)), births;
   const auto entry = [&](std::size_t i, std::size_t j) {
-    const double raw = array.values[i * n + j];
-    Fault fault = fault_of(raw, i == j, options);
-    if (!fault.what.empty()) {
+    return checked_distance(array.values[i * n + j], i == j, options, [&](Fault fault) {
       fault.what += fmt::format(" at row {}, column {}", i, j);
       input.fail(fault);
-    }
-    return distance_of(raw, options);
+    });
   };
   for (std::size_t i = 0; i < n; ++i) {
     const double birth = entry(i, i);
@@ -360,9 +365,9 @@ DistanceMatrix read_binary_distances(const Input& input, const ReadOptions& opti
   std::vector<double> pairs(count);
   for (std::size_t k = 0; k < count; ++k) {
     const auto raw = load<float>(input.bytes().data() + k * sizeof(float), std::endian::little);
-    const Fault fault = fault_of(double{raw}, false, options);
-    if (!fault.what.empty()) input.fail_at_byte(k * sizeof(float), fault);
-    pairs[k] = distance_of(double{raw}, options);
+    pairs[k] = checked_distance(double{raw}, false, options, [&](const Fault& fault) {
+      input.fail_at_byte(k * sizeof(float), fault);
+    });
   }
   return DistanceMatrix(static_cast<Index>(*points), std::move(pairs));
 }
