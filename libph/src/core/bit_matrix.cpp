@@ -67,15 +67,6 @@ std::size_t first_missing(const Word* set, const Word* row, std::size_t except, 
   return kNone;
 }
 
-bool covers(const Word* row, const Word* a, const Word* b, std::size_t except, std::size_t words) {
-  for (std::size_t k = 0; k < words; ++k) {
-    Word missing = a[k] & b[k] & ~row[k];
-    if (missing != 0 && k == except / 64) missing &= ~(Word{1} << (except % 64));
-    if (missing != 0) return false;
-  }
-  return true;
-}
-
 PH_FOR_EACH_TARGET
 std::size_t count_common(const Word* a, const Word* b, std::size_t words) {
   std::size_t count = 0;

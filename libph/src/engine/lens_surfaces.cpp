@@ -3,8 +3,8 @@
 
 namespace ph {
 
-template class LinkCochain<Z2>;
-template class LinkCochain<Zp>;
+template class TriangleCochain<Z2>;
+template class TriangleCochain<Zp>;
 template class TriangleCocycles<Z2>;
 template class TriangleCocycles<Zp>;
 template class LensSurfaces<Z2>;

@@ -54,9 +54,6 @@ bool split(Word* from, const Word* mask, Word* moved, std::size_t first, std::si
 /// The first bit of `set` that `row` lacks, `except` apart; kNone if there is none.
 std::size_t first_missing(const Word* set, const Word* row, std::size_t except, std::size_t words);
 
-/// Whether `row` has all that `a` and `b` share, `except` apart.
-bool covers(const Word* row, const Word* a, const Word* b, std::size_t except, std::size_t words);
-
 std::size_t count_common(const Word* a, const Word* b, std::size_t words);
 
 /// out = a ^ b ^ constant on the mask, unchanged elsewhere. @return whether that is not zero.

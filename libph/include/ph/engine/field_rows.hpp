@@ -24,6 +24,8 @@ struct FieldRow {
   static void add_at(Unit* row, std::size_t v, Element a, const K& field) {
     row[v] = field.add(row[v], a);
   }
+  /// Asks for a value that is about to change.
+  static void prefetch(Unit* row, std::size_t v) { __builtin_prefetch(row + v, 1); }
   /// to += scale * from.
   static void add(Unit* to, const Unit* from, Element scale, const K& field, std::size_t blocks) {
     for (std::size_t v = 0; v < 64 * blocks; ++v)
@@ -43,6 +45,14 @@ struct FieldRow {
       any |= !field.is_zero(out[v]);
     });
     return any;
+  }
+  /// Whether a + b is a constant on the mask.
+  static bool is_sum(Element constant, const Unit* a, const Unit* b, const Word* mask,
+                     const K& field, std::size_t blocks) {
+    bool is_sum = true;
+    bits::for_each(mask, 0, blocks,
+                   [&](std::size_t v) { is_sum = is_sum && field.add(a[v], b[v]) == constant; });
+    return is_sum;
   }
   /// out = constant - a on the mask, unchanged elsewhere.
   static void assign(Unit* out, const Unit* a, Element constant, const Word* mask, const K& field,
@@ -74,7 +84,8 @@ struct FieldRow {
       if (row[v] != 0) return v;
     return bits::kNone;
   }
-  /// The value of more than half of the mask's vertices, zero if there is none (Boyer-Moore).
+  /// The value of more than half of the mask's vertices (Boyer-Moore), of the first if there is
+  /// none.
   static Element majority(const Unit* row, const Word* mask, const K& field, std::size_t blocks) {
     Element candidate = field.from_int(0);
     std::size_t votes = 0, count = 0, size = 0;
@@ -86,7 +97,7 @@ struct FieldRow {
       ++size;
       count += row[v] == candidate ? 1 : 0;
     });
-    return 2 * count > size ? candidate : field.from_int(0);
+    return 2 * count > size ? candidate : row[bits::first_common(mask, mask, blocks)];
   }
 };
 
@@ -101,6 +112,7 @@ struct FieldRow<Z2> {
   static void add_at(Unit* row, std::size_t v, Element a, const Z2&) {
     row[v / 64] ^= Word{a} << (v % 64);
   }
+  static void prefetch(Unit* row, std::size_t v) { __builtin_prefetch(row + v / 64, 1); }
   static void add(Unit* to, const Unit* from, Element scale, const Z2&, std::size_t blocks) {
     const Word all = Word{0} - Word{scale};
     for (std::size_t k = 0; k < blocks; ++k) to[k] ^= from[k] & all;
@@ -111,6 +123,13 @@ struct FieldRow<Z2> {
   static bool difference(Unit* out, const Unit* a, const Unit* b, Element constant,
                          const Word* mask, const Z2&, std::size_t blocks) {
     return bits::difference(out, a, b, Word{0} - Word{constant}, mask, blocks);
+  }
+  static bool is_sum(Element constant, const Unit* a, const Unit* b, const Word* mask, const Z2&,
+                     std::size_t blocks) {
+    const Word all = Word{0} - Word{constant};
+    Word differs = 0;
+    for (std::size_t k = 0; k < blocks; ++k) differs |= (a[k] ^ b[k] ^ all) & mask[k];
+    return differs == 0;
   }
   static void assign(Unit* out, const Unit* a, Element constant, const Word* mask, const Z2&,
                      std::size_t blocks) {
@@ -143,6 +162,7 @@ struct FieldRow<Z2> {
       count += static_cast<std::size_t>(std::popcount(row[k] & mask[k]));
       size += static_cast<std::size_t>(std::popcount(mask[k]));
     }
+    if (2 * count == size) return value(row, bits::first_common(mask, mask, blocks));
     return 2 * count > size;
   }
 };
@@ -177,7 +197,7 @@ class RowPool {
   }
 
  private:
-  static constexpr Id kRowsPerChunk = 64;
+  static constexpr Id kRowsPerChunk = 1024;
   std::size_t units_;
   std::pmr::vector<std::pmr::vector<Unit>> chunks_;
   std::pmr::vector<Id> free_;

@@ -43,7 +43,7 @@ struct LensEngine {
   }
 
  private:
-  static constexpr std::size_t kMostVerticesOfSurfaces = LinkCochain<Z2>::kMostVertices;
+  static constexpr std::size_t kMostVerticesOfSurfaces = TriangleCochain<Z2>::kMostVertices;
 
   /// Turns what the sweep tells into bars.
   template <class F, Field K>

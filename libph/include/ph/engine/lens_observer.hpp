@@ -13,8 +13,7 @@ namespace ph {
 /// When a lens sweep takes which way; results do not depend on it.
 struct LensTuning {
   LensLayout layout = LensLayout::automatic;
-  std::size_t most_terms = 256;    ///< triangles at a vertex in a list: more become rows of bits
-  std::size_t smallest_core = 96;  ///< lenses of as many vertices are reduced to a core
+  std::size_t most_terms = 64;  ///< of a cocycle at a vertex, on average: more become rows
 };
 
 /// What a lens sweep is to find.

@@ -6,13 +6,12 @@
 #include <cstdint>
 #include <iterator>
 #include <memory_resource>
-#include <optional>
 #include <vector>
 
 #include "ph/core/filtration.hpp"
 #include "ph/core/run_context.hpp"
 #include "ph/engine/lens_components.hpp"
-#include "ph/engine/lens_core.hpp"
+#include "ph/engine/lens_cover.hpp"
 #include "ph/engine/lens_extensions.hpp"
 #include "ph/engine/lens_forest.hpp"
 #include "ph/engine/lens_graph.hpp"
@@ -48,9 +47,10 @@ class LensSurfaces {
         observer_(observer),
         cocycles_(graph.vertex_count(), field, wanted.tuning.most_terms, context),
         births_(&context.memory),
-        core_(graph, &context.memory),
+        cover_(graph, &context.memory),
         forest_(graph, &context.memory),
         extensions_(cocycles_, graph, field, &context.memory),
+        partners_(&context.memory),
         star_((graph.vertex_count() + 63) / 64 * Row::kUnitsPerBlock, 0, &context.memory),
         own_star_(star_.size(), 0, &context.memory),
         cocycle_(&context.memory) {}
@@ -72,12 +72,16 @@ class LensSurfaces {
 
   static constexpr Position kDead = UINT32_MAX;
 
-  /// Extends all classes to a set, vertex by vertex. @return false if one cannot be extended.
-  bool extend_over(const Word* set);
-  /// The same with all of a lens, in the order of its tetrahedra: what cannot be extended dies.
+  /// Goes through a lens in the order of its tetrahedra: classes that are obstructed die or become
+  /// others that are not.
   /// @param is_extended whether nothing but pairs of length zero are to be found.
   void sweep(Position position, const FlagEdge& e, bool is_extended);
   void kill_mismatched(Position position, const FlagEdge& e, Vertex y);
+  /// What an extension asks for at w beyond what it has for the last vertex.
+  Element mismatch_of(const Extension& x, Vertex w);
+  /// Adds younger classes to those mismatched at w, so that only the youngest of them, the dying
+  /// one, remains so. @param words of rows that are in use.
+  void correct_others(std::size_t dying, Vertex w, std::size_t words);
   /// @param tetrahedron joins two parts of the lens, of which one has these vertices.
   void report_zero_length(const FlagEdge& e, Vertex root, const Word* part,
                           typename Observer::Tetrahedron tetrahedron);
@@ -95,11 +99,12 @@ class LensSurfaces {
   Cocycles cocycles_;
   std::pmr::vector<Triangle> births_;  // by generator; edge = kDead once it died
   // While an edge is added.
-  LensCore core_;
+  LensCover cover_;
   LensForest forest_;
   LensExtensions<K> extensions_;
-  std::pmr::vector<Unit> star_;      // on the lens
-  std::pmr::vector<Unit> own_star_;  // on all vertices; zero between uses
+  std::pmr::vector<std::size_t> partners_;  // by extension: what is to be added to it
+  std::pmr::vector<Unit> star_;             // on the lens
+  std::pmr::vector<Unit> own_star_;         // on all vertices; zero between uses
   std::pmr::vector<typename Observer::TriangleValue> cocycle_;
 };
 
@@ -136,46 +141,15 @@ void LensSurfaces<K>::finish() {
 
 template <Field K>
 void LensSurfaces<K>::extend(Position position, const FlagEdge& e, LensComponents& components) {
-  extensions_.find(e, [&](std::optional<Vertex>& apex) -> const LensCore& {
-    if (components.has_apex() || (components.count() == 1 && components.find_apex(e)))
-      apex = components.apex();
-    const Word* lens = graph_.lens();
-    const std::size_t size = apex ? 0 : bits::count_common(lens, lens, graph_.words());
-    if (size >= wanted_.tuning.smallest_core && !apex)
-      core_.find(size, components.root(0));
-    else
-      core_.keep_all();
-    return core_;
+  const bool is_obstructed = extensions_.find(e, [&]() -> const LensCover& {
+    if (!components.has_apex() && components.count() == 1) components.find_apex(e);
+    cover_.find(components);
+    return cover_;
   });
-  const bool is_cone = components.has_apex();
-  if (!extensions_.empty() && !is_cone) {
-    if (extend_over(core_.rest())) {
-      for (Extension& x : extensions_.all()) extensions_.extend_from(x, core_);
-    } else {
-      extensions_.reset();
-      sweep(position, e, false);
-    }
-  }
+  if (is_obstructed) sweep(position, e, false);
   if (wanted_.zero_length) sweep(position, e, true);
   for (const Extension& x : extensions_.all()) store(x, e, components);
   extensions_.clear();
-}
-
-template <Field K>
-bool LensSurfaces<K>::extend_over(const Word* set) {
-  forest_.clear();
-  bool is_extended = true;
-  for (std::size_t k = 0; k < graph_.words() && is_extended; ++k) {
-    for (Word rest = set[k]; rest != 0 && is_extended; rest &= rest - 1) {
-      const auto y = static_cast<Vertex>(k * 64 + static_cast<std::size_t>(std::countr_zero(rest)));
-      forest_.meet(y, set);
-      if (!forest_.meetings().empty())
-        for (Extension& x : extensions_.all())
-          is_extended = is_extended && !extensions_.extend_to(x, y, forest_);
-      forest_.join(y, [](Vertex, const Word*, Vertex) {});
-    }
-  }
-  return is_extended;
 }
 
 template <Field K>
@@ -187,13 +161,19 @@ void LensSurfaces<K>::sweep(Position position, const FlagEdge& e, bool is_extend
     forest_.meet(y, lens);
     bool is_mismatched = false;
     if (!is_extended && !forest_.meetings().empty())
-      for (Extension& x : extensions_.all()) is_mismatched |= extensions_.extend_to(x, y, forest_);
+      for (Extension& x : extensions_.all())
+        if (x.is_obstructed) is_mismatched |= extensions_.extend_to(x, e, y, forest_);
     if (is_mismatched) kill_mismatched(position, e, y);
     forest_.join(y, [&](Vertex root, const Word* part, Vertex w) {
       if (is_extended)
         report_zero_length(e, root, part, {position, graph_.global(y), graph_.global(w)});
     });
   });
+}
+
+template <Field K>
+auto LensSurfaces<K>::mismatch_of(const Extension& x, Vertex w) -> Element {
+  return x.is_mismatched ? Row::value(extensions_.mismatch(x), w) : field_.from_int(0);
 }
 
 template <Field K>
@@ -209,32 +189,43 @@ void LensSurfaces<K>::kill_mismatched(Position position, const FlagEdge& e, Vert
     if (first == bits::kNone) break;
     const auto w = static_cast<Vertex>(first);
     from = w + 1;
-    const auto mismatch_of = [&](const Extension& x) {
-      return x.is_mismatched ? Row::value(extensions_.mismatch(x), w) : field_.from_int(0);
-    };
     const auto dying = std::prev(std::ranges::find_if(all.rbegin(), all.rend(), [&](const auto& x) {
-                                   return !field_.is_zero(mismatch_of(x));
+                                   return !field_.is_zero(mismatch_of(x, w));
                                  }).base());
     const Generator h = dying->generator;
     find_cocycle(h);
     if (wanted_.cocycles) add_star_to_cocycle(e, extensions_.potential(*dying), words);
     observer_.on_death(births_[h], {position, graph_.global(y), graph_.global(w)}, cocycle_);
     births_[h].edge = kDead;
-    const Element unit = field_.inverse(mismatch_of(*dying));
-    for (Extension& x : all) {
-      const Element a = mismatch_of(x);
-      if (x.generator == h || field_.is_zero(a)) continue;
-      const Element scale = field_.negate(field_.multiply(a, unit));
-      cocycles_.add(x.generator, h, scale);
-      Row::add(extensions_.potential(x), extensions_.potential(*dying), scale, field_, words);
-      Row::add(extensions_.mismatch(x), extensions_.mismatch(*dying), scale, field_, words);
-      x.is_flat = false;
-    }
+    correct_others(static_cast<std::size_t>(dying - all.begin()), w, words);
     cocycles_.erase(h);
     extensions_.remove(&*dying);
     extensions_.refresh(e);
   }
   for (Extension& x : all) x.is_mismatched = false;
+}
+
+template <Field K>
+void LensSurfaces<K>::correct_others(std::size_t dying, Vertex w, std::size_t words) {
+  // Each of the others takes the smallest of the younger ones, all as they are now.
+  auto& all = extensions_.all();
+  partners_.assign(dying, dying);
+  std::size_t partner = dying;
+  for (std::size_t i = dying; i-- > 0;) {
+    partners_[i] = partner;
+    const auto size_of = [&](std::size_t k) { return cocycles_[all[k].generator].size(); };
+    if (!field_.is_zero(mismatch_of(all[i], w)) && size_of(i) < size_of(partner)) partner = i;
+  }
+  for (std::size_t i = 0; i < dying; ++i) {
+    Extension &x = all[i], &y = all[partners_[i]];
+    const Element a = mismatch_of(x, w);
+    if (field_.is_zero(a)) continue;
+    const Element scale = field_.negate(field_.multiply(a, field_.inverse(mismatch_of(y, w))));
+    cocycles_.add(x.generator, y.generator, scale);
+    Row::add(extensions_.potential(x), extensions_.potential(y), scale, field_, words);
+    Row::add(extensions_.mismatch(x), extensions_.mismatch(y), scale, field_, words);
+    x.is_flat = false;
+  }
 }
 
 template <Field K>
@@ -267,9 +258,10 @@ template <Field K>
 void LensSurfaces<K>::find_cocycle(Generator h) {
   cocycle_.clear();
   if (wanted_.cocycles)
-    cocycles_.for_each_triangle(h, [&](Vertex a, Vertex b, Vertex c, Element value) {
-      cocycle_.push_back({{a, b, c}, value});
-    });
+    cocycles_[h].for_each_triangle(cocycles_.shared(),
+                                   [&](Vertex a, Vertex b, Vertex c, Element value) {
+                                     cocycle_.push_back({{a, b, c}, value});
+                                   });
 }
 
 template <Field K>

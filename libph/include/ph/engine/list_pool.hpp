@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+namespace ph {
+
+/// Lists, handed out empty and taken back.
+template <class T>
+class ListPool {
+ public:
+  using Id = std::uint32_t;
+  explicit ListPool(std::pmr::memory_resource* memory) : lists_(memory), free_(memory) {}
+
+  Id take() {
+    if (free_.empty()) {
+      lists_.emplace_back();
+      return static_cast<Id>(lists_.size() - 1);
+    }
+    const Id id = free_.back();
+    free_.pop_back();
+    return id;
+  }
+  void give(Id id) {
+    constexpr std::size_t kept = 64;  // of which memory is not given back
+    if (lists_[id].capacity() > kept) std::pmr::vector<T>(lists_.get_allocator()).swap(lists_[id]);
+    lists_[id].clear();
+    free_.push_back(id);
+  }
+  std::pmr::vector<T>& operator[](Id id) { return lists_[id]; }
+  const std::pmr::vector<T>& operator[](Id id) const { return lists_[id]; }
+
+ private:
+  std::pmr::vector<std::pmr::vector<T>> lists_;
+  std::pmr::vector<Id> free_;
+};
+
+}  // namespace ph
