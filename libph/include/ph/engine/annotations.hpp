@@ -12,6 +12,7 @@
 #include "ph/core/error.hpp"
 #include "ph/core/field.hpp"
 #include "ph/core/flat_map.hpp"
+#include "ph/engine/id_set.hpp"
 
 namespace ph {
 
@@ -41,12 +42,13 @@ class Annotations {
         hashes_(memory),
         members_(memory),
         links_(memory),
-        of_generator_(memory),
+        holders_(memory),
         edges_(memory),
         sums_(memory),
         known_(16, Hash{this}, Equal{this}, memory),
         scratch_(memory),
-        arrived_(memory) {
+        arrived_(memory),
+        departed_(memory) {
     vectors_.emplace_back();  // the zero class
     hashes_.push_back(0);
     members_.emplace_back();
@@ -63,8 +65,8 @@ class Annotations {
 
   /// A generator whose value on a new edge is one and zero on all others.
   Generator add_generator(const Edge& edge) {
-    const auto g = static_cast<Generator>(of_generator_.size());
-    of_generator_.emplace_back();
+    const auto g = static_cast<Generator>(holders_.size());
+    holders_.emplace_back();
     scratch_.clear();
     scratch_.emplace_back(g, field_.from_int(1));
     assign(edge, intern());
@@ -134,7 +136,7 @@ class Annotations {
   Class resolve(Class a);
   /// The class of scratch_.
   Class intern();
-  /// The hash of a vector is the sum over its terms, the same for +-a.
+  /// The hash of a vector is the sum of those of its terms as vectors over Z/2, the same for +-a.
   std::size_t hash(const Term& t) const {
     const auto size = static_cast<std::uint64_t>(std::abs(field_.to_int(t.coefficient())));
     const std::uint64_t h = (t.cell ^ size << 32) * 0x9E3779B97F4A7C15U;
@@ -142,11 +144,14 @@ class Annotations {
   }
   std::size_t hash(const Vector& v) const {
     std::size_t sum = 0;
-    for (const Term& t : v) sum += hash(t);
+    for (const Term& t : v) sum ^= hash(t);
     return sum;
   }
-  /// scratch_ = a + scale * b; arrived_ = the generators of b that are not in a.
+  /// scratch_ = a + scale * b; over Z/p also arrived_ and departed_, the generators that it has and
+  /// a has not, and the other way round.
   void combine(const Vector& a, const Vector& b, typename K::Element scale);
+  /// The same over Z/2.
+  void add(const Vector& a, const Vector& b);
   template <class T>
   static void release(T& vector) {
     T(vector.get_allocator()).swap(vector);
@@ -161,13 +166,13 @@ class Annotations {
   std::pmr::vector<Vector> vectors_;                  // by class
   std::pmr::vector<std::size_t> hashes_;              // by class
   std::pmr::vector<std::pmr::vector<Edge>> members_;  // by class
-  std::pmr::vector<Class> links_;  // by class: what it became; itself while it is one
-  std::pmr::vector<std::pmr::vector<std::uint32_t>> of_generator_;  // classes it may occur in
-  FlatMap<Class> edges_;                                            // oriented from u > v
-  FlatMap<Class> sums_;  // of two classes, until the next kill
+  std::pmr::vector<Class> links_;    // by class: what it became; itself while it is one
+  std::pmr::vector<IdSet> holders_;  // by generator: classes it occurs in
+  FlatMap<Class> edges_;             // oriented from u > v
+  FlatMap<Class> sums_;              // of two classes, until the next kill
   std::pmr::unordered_set<std::uint32_t, Hash, Equal> known_;
   Vector scratch_;
-  std::pmr::vector<Generator> arrived_;
+  std::pmr::vector<Generator> arrived_, departed_;
 };
 
 template <Field K>
@@ -199,14 +204,16 @@ auto Annotations<K>::intern() -> Class {
   }
   members_.emplace_back();
   links_.push_back({fresh, false});
-  for (const Term& t : scratch_) of_generator_[t.cell].push_back(fresh);
+  for (const Term& t : scratch_) holders_[t.cell].insert(fresh);
   return {fresh, false};
 }
 
 template <Field K>
 void Annotations<K>::combine(const Vector& a, const Vector& b, typename K::Element scale) {
+  if constexpr (std::same_as<K, Z2>) return add(a, b);
   scratch_.clear();
   arrived_.clear();
+  departed_.clear();
   auto x = a.begin();
   for (const Term& y : b) {
     for (; x != a.end() && x->cell < y.cell; ++x) scratch_.push_back(*x);
@@ -215,9 +222,31 @@ void Annotations<K>::combine(const Vector& a, const Vector& b, typename K::Eleme
       value = field_.add(value, (x++)->coefficient());
     else
       arrived_.push_back(y.cell);
-    if (!field_.is_zero(value)) scratch_.emplace_back(y.cell, value);
+    if (field_.is_zero(value))
+      departed_.push_back(y.cell);
+    else
+      scratch_.emplace_back(y.cell, value);
   }
   scratch_.insert(scratch_.end(), x, a.end());
+}
+
+template <Field K>
+void Annotations<K>::add(const Vector& a, const Vector& b) {
+  // No branches: which vector has the next generator is anyone's guess.
+  scratch_.resize(a.size() + b.size());
+  const Term *x = a.data(), *y = b.data(), *const a_end = x + a.size(), *const b_end = y + b.size();
+  Term* out = scratch_.data();
+  while (x != a_end && y != b_end) {
+    const Generator g = x->cell, h = y->cell;
+    out->cell = std::min(g, h);
+    const std::size_t x_goes = g <= h, y_goes = h <= g;
+    out += (x_goes & y_goes) ^ 1;
+    x += x_goes;
+    y += y_goes;
+  }
+  out = std::copy(x, a_end, out);
+  out = std::copy(y, b_end, out);
+  scratch_.resize(static_cast<std::size_t>(out - scratch_.data()));
 }
 
 template <Field K>
@@ -245,47 +274,50 @@ template <class OnInactive>
 void Annotations<K>::kill(Class relation, OnInactive&& on_inactive) {
   const Vector zero = vectors_[relation.id];
   const Generator g = zero.back().cell;
+  const std::size_t hash_of_zero = hashes_[relation.id];
   const auto unit = field_.inverse(zero.back().coefficient());
   sums_.clear();
-  const auto holders = std::move(of_generator_[g]);
-  of_generator_[g].clear();
-  for (const std::uint32_t id : holders) {
-    if (links_[id].id != id) continue;
-    const Term* term = find(vectors_[id], g);
-    if (term == nullptr) continue;
-    known_.erase(id);
-    combine(vectors_[id], zero, field_.negate(field_.multiply(term->coefficient(), unit)));
-    scratch_.swap(vectors_[id]);
-    hashes_[id] = hash(vectors_[id]);
-    if (vectors_[id].empty()) {
+  const IdSet holders = std::move(holders_[g]);
+  if constexpr (std::same_as<K, Z2>)
+    for (const Term& t : zero)
+      if (t.cell != g) holders_[t.cell].add(holders);
+  holders.for_each([&](std::uint32_t id) {
+    Vector& vector = vectors_[id];
+    const Term* term = find(vector, g);
+    auto node = known_.extract(id);
+    combine(vector, zero, field_.negate(field_.multiply(term->coefficient(), unit)));
+    vector.assign(scratch_.begin(), scratch_.end());
+    for (const Generator h : arrived_) holders_[h].insert(id);
+    for (const Generator h : departed_)
+      if (h != g) holders_[h].erase(id);
+    hashes_[id] = std::same_as<K, Z2> ? hashes_[id] ^ hash_of_zero : hash(vector);
+    if (vector.empty()) {
       links_[id] = {};
       for (const Edge& edge : members_[id]) on_inactive(edge);
       release(members_[id]);
-    } else if (const auto [it, is_new] = known_.insert(id); is_new) {
-      for (const Generator h : arrived_) of_generator_[h].push_back(id);
-    } else {
-      links_[id] = {*it, are_opposite(id, *it)};
-      auto &from = members_[id], &to = members_[*it];
+    } else if (const auto met = known_.insert(std::move(node)); !met.inserted) {
+      const std::uint32_t other = *met.position;
+      links_[id] = {other, are_opposite(id, other)};
+      auto &from = members_[id], &to = members_[other];
       if (to.size() < from.size()) to.swap(from);
       to.insert(to.end(), from.begin(), from.end());
       release(from);
-      release(vectors_[id]);
+      for (const Term& t : vector) holders_[t.cell].erase(id);
+      release(vector);
     }
-  }
+  });
 }
 
 template <Field K>
 template <class Visit>
 void Annotations<K>::for_each_value(Generator g, Visit&& visit) {
-  for (const std::uint32_t id : of_generator_[g]) {
-    if (links_[id].id != id) continue;
+  holders_[g].for_each([&](std::uint32_t id) {
     const Term* term = find(vectors_[id], g);
-    if (term == nullptr) continue;
     for (const Edge& edge : members_[id]) {
       const bool negated = of(edge.u, edge.v).negated;
       visit(edge, negated ? field_.negate(term->coefficient()) : term->coefficient());
     }
-  }
+  });
 }
 
 }  // namespace ph
