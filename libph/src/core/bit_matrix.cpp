@@ -34,16 +34,14 @@ std::size_t first_outside(const Word* a, const Word* b, std::size_t first, std::
 }
 
 PH_FOR_EACH_TARGET
-Lens lens(const Word* a, const Word* b, const Word* c, const Word* d, Word* out,
-          std::size_t words) {
-  Word any = 0, active = 0;
+bool intersect(const Word* a, const Word* b, Word* out, std::size_t words) {
+  Word any = 0;
   for (std::size_t k = 0; k < words; ++k) {
     const Word common = a[k] & b[k];
     out[k] = common;
     any |= common;
-    active |= common & (c[k] | d[k]);
   }
-  return {any == 0, active != 0};
+  return any != 0;
 }
 
 PH_FOR_EACH_TARGET

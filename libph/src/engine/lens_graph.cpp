@@ -17,7 +17,7 @@ PH_FOR_EACH_TARGET
 bits::Word word_of(const std::uint32_t* neighbours, std::size_t count, const std::uint32_t* local) {
   bits::Word word = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t x = local[neighbours[i] / 2];
+    const std::uint32_t x = local[neighbours[i]];
     word |= bits::Word{x < 64} << (x % 64);
   }
   return word;
@@ -25,11 +25,12 @@ bits::Word word_of(const std::uint32_t* neighbours, std::size_t count, const std
 
 }  // namespace
 
-LensGraph::LensGraph(std::size_t vertices, LensLayout layout, std::pmr::memory_resource* memory)
-    : layout_(layout),
-      degree_(vertices, 0, memory),
-      joined_(layout == LensLayout::rows ? vertices : 0, vertices, memory),
-      active_(layout == LensLayout::rows ? vertices : 0, vertices, memory),
+LensGraph::LensGraph(const ActiveEdges& active, LensLayout layout,
+                     std::pmr::memory_resource* memory)
+    : active_(active),
+      layout_(layout),
+      joined_(layout == LensLayout::rows ? active.vertex_count() : 0, active.vertex_count(),
+              memory),
       lists_(memory),
       marks_(memory),
       words_(layout == LensLayout::rows ? joined_.words() : 0),
@@ -39,9 +40,9 @@ LensGraph::LensGraph(std::size_t vertices, LensLayout layout, std::pmr::memory_r
       local_rows_(memory),
       is_row_made_(memory) {
   if (layout != LensLayout::lists) return;
-  lists_.resize(vertices);
-  marks_.resize(vertices, 0);
-  local_.resize(vertices, kNone);
+  lists_.resize(vertex_count());
+  marks_.resize(vertex_count(), 0);
+  local_.resize(vertex_count(), kNone);
 }
 
 LensLayout LensGraph::choose_layout(std::size_t vertices, std::size_t edges) {
@@ -51,38 +52,28 @@ LensLayout LensGraph::choose_layout(std::size_t vertices, std::size_t edges) {
   return 2 * m * 128 >= n * n ? LensLayout::rows : LensLayout::lists;
 }
 
-auto LensGraph::place(List& list, Vertex v) -> List::iterator {
-  return std::ranges::lower_bound(list, 2 * v);
-}
-
 double LensGraph::bytes(std::size_t vertices, std::size_t edges) {
   const auto n = static_cast<double>(vertices), m = static_cast<double>(edges);
-  if (choose_layout(vertices, edges) == LensLayout::rows) return n * n / 4;
+  if (choose_layout(vertices, edges) == LensLayout::rows) return n * n / 8;
   constexpr double growth = 1.5;  // of vectors, on average
-  return 2 * growth * sizeof(Neighbour) * m + (sizeof(List) + 2 * sizeof(Vertex)) * n;
+  return 2 * growth * sizeof(Vertex) * m + (sizeof(List) + 2 * sizeof(Vertex)) * n;
 }
 
-void LensGraph::add(const FlagEdge& e, bool is_active) {
+void LensGraph::add(const FlagEdge& e) {
   if (layout_ == LensLayout::rows) {
     joined_.set(e.u, e.v);
     joined_.set(e.v, e.u);
-    if (is_active) {
-      active_.set(e.u, e.v);
-      active_.set(e.v, e.u);
-    }
   } else {
     List &of_u = lists_[e.u], &of_v = lists_[e.v];
-    of_u.insert(place(of_u, e.v), 2 * e.v + (is_active ? 1 : 0));
-    of_v.insert(place(of_v, e.u), 2 * e.u + (is_active ? 1 : 0));
+    of_u.insert(std::ranges::lower_bound(of_u, e.v), e.v);
+    of_v.insert(std::ranges::lower_bound(of_v, e.u), e.u);
   }
-  degree_[e.u] += is_active ? 1 : 0;
-  degree_[e.v] += is_active ? 1 : 0;
 }
 
 void LensGraph::add_all(std::span<const FlagEdge> edges, const RunContext& context) {
   const std::size_t threads = thread_count(context);
   if (layout_ == LensLayout::lists || threads == 1 || edges.size() < kPiece) {
-    for (const FlagEdge& e : edges) add(e, false);
+    for (const FlagEdge& e : edges) add(e);
     return;
   }
   // Each thread has rows of its own to write to.
@@ -94,24 +85,12 @@ void LensGraph::add_all(std::span<const FlagEdge> edges, const RunContext& conte
   });
 }
 
-void LensGraph::set_inactive(Vertex u, Vertex v) {
-  if (layout_ == LensLayout::rows) {
-    active_.clear(u, v);
-    active_.clear(v, u);
-  } else {
-    *place(lists_[u], v) = 2 * v;
-    *place(lists_[v], u) = 2 * u;
-  }
-  --degree_[u];
-  --degree_[v];
-}
-
 bool LensGraph::has_lens(Vertex u, Vertex v) const {
   if (layout_ == LensLayout::rows)
     return bits::first_common(joined_.row(u), joined_.row(v), words_) != bits::kNone;
   auto i = lists_[u].begin(), j = lists_[v].begin();
   while (i != lists_[u].end() && j != lists_[v].end()) {
-    if (*i / 2 == *j / 2) return true;
+    if (*i == *j) return true;
     *i < *j ? ++i : ++j;
   }
   return false;
@@ -129,39 +108,51 @@ bool LensGraph::have_lenses(std::span<const FlagEdge> edges, const RunContext& c
 }
 
 LensGraph::Lens LensGraph::find_lens(const FlagEdge& e, bool wants_graph) {
-  return layout_ == LensLayout::rows ? find_lens_in_rows(e, wants_graph) : find_lens_in_lists(e);
+  return layout_ == LensLayout::rows ? find_lens_in_rows(e, wants_graph)
+                                     : find_lens_in_lists(e, wants_graph);
+}
+
+template <class InLens>
+bool LensGraph::touches_active(const FlagEdge& e, InLens&& in_lens) const {
+  return std::ranges::any_of(active_.neighbours(e.u), [&](Vertex w) { return in_lens(e.v, w); }) ||
+         std::ranges::any_of(active_.neighbours(e.v), [&](Vertex w) { return in_lens(e.u, w); });
 }
 
 LensGraph::Lens LensGraph::find_lens_in_rows(const FlagEdge& e, bool wants_graph) {
+  const bool touches = touches_active(e, [&](Vertex v, Vertex w) { return joined_.test(v, w); });
   // One common neighbour says enough where nothing can happen.
-  if (!wants_graph && degree_[e.u] == 0 && degree_[e.v] == 0) return {!has_lens(e.u, e.v), false};
-  return bits::lens(joined_.row(e.u), joined_.row(e.v), active_.row(e.u), active_.row(e.v),
-                    lens_.data(), words_);
+  if (!touches && !wants_graph) return {!has_lens(e.u, e.v), false};
+  return {!bits::intersect(joined_.row(e.u), joined_.row(e.v), lens_.data(), words_), touches};
 }
 
-LensGraph::Lens LensGraph::find_lens_in_lists(const FlagEdge& e) {
-  for (const Vertex v : vertices_) local_[v] = kNone;
+LensGraph::Lens LensGraph::find_lens_in_lists(const FlagEdge& e, bool wants_graph) {
   const List &a = lists_[e.u], &b = lists_[e.v];
+  for (const Vertex v : vertices_) local_[v] = kNone;
   vertices_.resize(b.size() + 1);
   // Marks take three passes and no branch; which of two sorted lists comes first is anyone's guess.
-  for (const Neighbour w : a) marks_[w / 2] = static_cast<std::uint8_t>(2 + w % 2);
+  constexpr std::uint8_t of_one = 1, of_both = 2;
+  for (const Vertex w : a) marks_[w] = of_one;
   std::size_t count = 0;
-  std::uint32_t active = 0;
-  for (const Neighbour w : b) {
-    const std::uint32_t mark = marks_[w / 2], is_common = mark / 2;
-    vertices_[count] = w / 2;
-    count += is_common;
-    active |= is_common & (mark | w);
+  for (const Vertex w : b) {
+    vertices_[count] = w;
+    count += marks_[w];
+    marks_[w] *= of_both;
   }
-  for (const Neighbour w : a) marks_[w / 2] = 0;
+  const bool touches = touches_active(e, [&](Vertex, Vertex w) { return marks_[w] == of_both; });
+  for (const Vertex w : a) marks_[w] = 0;
   vertices_.resize(count);
+  if (touches || wants_graph) number_lens();
+  return {count == 0, touches};
+}
+
+void LensGraph::number_lens() {
+  const std::size_t count = vertices_.size();
   words_ = (count + 63) / 64;
   lens_.assign(words_, ~Word{0});
   if (count % 64 != 0) lens_.back() = ~Word{0} >> (64 - count % 64);
   is_row_made_.assign(count, 0);
   local_rows_.resize(count * words_);
   for (std::size_t k = 0; k < count; ++k) local_[vertices_[k]] = static_cast<Vertex>(k);
-  return {count == 0, active != 0};
 }
 
 void LensGraph::make_row(Vertex v) {
@@ -172,8 +163,8 @@ void LensGraph::make_row(Vertex v) {
   if (words_ == 1)
     *row = word_of(list.data(), list.size(), local_.data());
   else
-    for (const Neighbour w : list)
-      if (const Vertex x = local_[w / 2]; x != kNone) row[x / 64] |= Word{1} << (x % 64);
+    for (const Vertex w : list)
+      if (const Vertex x = local_[w]; x != kNone) row[x / 64] |= Word{1} << (x % 64);
 }
 
 }  // namespace ph

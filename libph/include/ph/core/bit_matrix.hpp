@@ -40,12 +40,8 @@ std::size_t first_common(const Word* a, const Word* b, std::size_t words);
 /// The first word from `first` on with a bit of `a` that `b` has not; `words` if there is none.
 std::size_t first_outside(const Word* a, const Word* b, std::size_t first, std::size_t words);
 
-struct Lens {
-  bool is_empty;
-  bool touches_active;
-};
-/// out = a & b. Says whether it is empty and whether it meets c | d.
-Lens lens(const Word* a, const Word* b, const Word* c, const Word* d, Word* out, std::size_t words);
+/// out = a & b. @return whether that is not empty.
+bool intersect(const Word* a, const Word* b, Word* out, std::size_t words);
 
 /// Moves the bits that `from` and `mask` share out of `from` into `moved`, from word `first` on.
 /// @return whether anything is left in `from`.

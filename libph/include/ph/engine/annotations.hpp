@@ -12,6 +12,7 @@
 #include "ph/core/error.hpp"
 #include "ph/core/field.hpp"
 #include "ph/core/flat_map.hpp"
+#include "ph/engine/active_edges.hpp"
 #include "ph/engine/id_set.hpp"
 
 namespace ph {
@@ -36,14 +37,15 @@ class Annotations {
     friend bool operator==(const Class&, const Class&) = default;
   };
 
-  Annotations(const K& field, std::pmr::memory_resource* memory)
+  /// @param edges outlives this: those of non-zero class, none in the beginning.
+  Annotations(const K& field, ActiveEdges& edges, std::pmr::memory_resource* memory)
       : field_(field),
+        edges_(edges),
         vectors_(memory),
         hashes_(memory),
         members_(memory),
         links_(memory),
         holders_(memory),
-        edges_(memory),
         sums_(memory),
         known_(16, Hash{this}, Equal{this}, memory),
         scratch_(memory),
@@ -75,15 +77,16 @@ class Annotations {
 
   /// a(u,v).
   Class of(std::uint32_t u, std::uint32_t v) {
-    Class* a = edges_.find(name(u, v));
-    if (a == nullptr) return {};
-    *a = resolve(*a);
-    return oriented(*a, u, v);
+    ActiveEdges::Label* label = edges_.find(u, v);
+    if (label == nullptr) return {};
+    const Class a = resolve({*label / 2, *label % 2 != 0});
+    *label = label_of(a);
+    return a;
   }
   /// Annotates an edge for the first time: a(u,v), which is not zero.
   void assign(const Edge& edge, Class a) {
     members_[a.id].push_back(edge);
-    *edges_.try_emplace(name(edge.u, edge.v)).first = a;
+    edges_.insert(edge.u, edge.v, label_of(a), label_of(-a));
   }
 
   Class sum(Class a, Class b);
@@ -96,9 +99,7 @@ class Annotations {
   Generator youngest(Class a) const { return vectors_[a.id].back().cell; }
 
   /// Makes a class zero: its youngest generator becomes a combination of the others, everywhere.
-  /// @param on_inactive called with the edges that become zero.
-  template <class OnInactive>
-  void kill(Class relation, OnInactive&& on_inactive);
+  void kill(Class relation);
 
   /// The edges on which a generator is not zero, with its values: a cocycle. Calls
   /// `visit(edge, value)`.
@@ -122,12 +123,8 @@ class Annotations {
     }
   };
 
-  static constexpr std::size_t kMostClasses = INT32_MAX;  // the keys of sums_ have a bit for a sign
-  static std::uint64_t name(std::uint32_t u, std::uint32_t v) {
-    return std::uint64_t{std::max(u, v)} << 32 | std::min(u, v);
-  }
-  /// Between a(u,v) and a(max, min), either way.
-  static Class oriented(Class a, std::uint32_t u, std::uint32_t v) { return u > v ? a : -a; }
+  static constexpr std::size_t kMostClasses = INT32_MAX;  // labels have a bit for a sign
+  static ActiveEdges::Label label_of(Class a) { return a.id << 1 | (a.negated ? 1U : 0U); }
   /// Of two classes equal up to sign: whether they are not equal.
   bool are_opposite(std::uint32_t a, std::uint32_t b) const {
     return vectors_[a].back().coefficient() != vectors_[b].back().coefficient();
@@ -163,12 +160,12 @@ class Annotations {
   }
 
   const K& field_;
+  ActiveEdges& edges_;
   std::pmr::vector<Vector> vectors_;                  // by class
   std::pmr::vector<std::size_t> hashes_;              // by class
   std::pmr::vector<std::pmr::vector<Edge>> members_;  // by class
   std::pmr::vector<Class> links_;    // by class: what it became; itself while it is one
   std::pmr::vector<IdSet> holders_;  // by generator: classes it occurs in
-  FlatMap<Class> edges_;             // oriented from u > v
   FlatMap<Class> sums_;              // of two classes, until the next kill
   std::pmr::unordered_set<std::uint32_t, Hash, Equal> known_;
   Vector scratch_;
@@ -260,7 +257,7 @@ auto Annotations<K>::sum(Class a, Class b) -> Class {
     a = -a;
     b = -b;
   }
-  const std::uint64_t pair = std::uint64_t{a.id} << 32 | b.id << 1 | (b.negated ? 1U : 0U);
+  const std::uint64_t pair = std::uint64_t{a.id} << 32 | label_of(b);
   const auto [sum, is_new] = sums_.try_emplace(pair);
   if (is_new) {
     combine(vectors_[a.id], vectors_[b.id], field_.from_int(b.negated ? -1 : 1));
@@ -270,8 +267,7 @@ auto Annotations<K>::sum(Class a, Class b) -> Class {
 }
 
 template <Field K>
-template <class OnInactive>
-void Annotations<K>::kill(Class relation, OnInactive&& on_inactive) {
+void Annotations<K>::kill(Class relation) {
   const Vector zero = vectors_[relation.id];
   const Generator g = zero.back().cell;
   const std::size_t hash_of_zero = hashes_[relation.id];
@@ -293,7 +289,7 @@ void Annotations<K>::kill(Class relation, OnInactive&& on_inactive) {
     hashes_[id] = std::same_as<K, Z2> ? hashes_[id] ^ hash_of_zero : hash(vector);
     if (vector.empty()) {
       links_[id] = {};
-      for (const Edge& edge : members_[id]) on_inactive(edge);
+      for (const Edge& edge : members_[id]) edges_.erase(edge.u, edge.v);
       release(members_[id]);
     } else if (const auto met = known_.insert(std::move(node)); !met.inserted) {
       const std::uint32_t other = *met.position;

@@ -9,45 +9,48 @@
 #include "ph/core/bit_matrix.hpp"
 #include "ph/core/filtration.hpp"
 #include "ph/core/run_context.hpp"
+#include "ph/engine/active_edges.hpp"
 
 namespace ph {
 
 /// How a lens sweep keeps the edges so far.
 enum class LensLayout {
   automatic,  ///< whichever is faster and affordable
-  rows,       ///< two bits for each pair of vertices
+  rows,       ///< two bits for each pair of vertices, one for each order
   lists,      ///< the neighbours of each vertex: four bytes for each end of an edge
 };
 
 /// The edges so far of a flag filtration, and the lens of a new edge: the common neighbours of its
 /// ends, with the graph on them as rows of bits. In that graph vertices have numbers of their own,
 /// in the same order: with lists the lens is numbered 0, 1, …, so that a row is a word or two; with
-/// rows the numbers are those of all vertices and nothing is copied. Some edges are marked active.
+/// rows the numbers are those of all vertices and nothing is copied.
 class LensGraph {
  public:
   using Vertex = std::uint32_t;
   using Word = bits::Word;
   static constexpr Vertex kNone = UINT32_MAX;
 
-  /// @param layout rows or lists. At most 2^31 vertices.
-  LensGraph(std::size_t vertices, LensLayout layout, std::pmr::memory_resource* memory);
+  /// @param active edges that are there; outlives this. @param layout rows or lists.
+  LensGraph(const ActiveEdges& active, LensLayout layout, std::pmr::memory_resource* memory);
 
   /// What is faster among what is affordable.
   static LensLayout choose_layout(std::size_t vertices, std::size_t edges);
   /// What it holds in the end in that layout, more or less.
   static double bytes(std::size_t vertices, std::size_t edges);
 
-  std::size_t vertex_count() const { return degree_.size(); }
-  void add(const FlagEdge& e, bool is_active);
-  /// Adds many inactive edges, on several threads.
+  std::size_t vertex_count() const { return active_.vertex_count(); }
+  void add(const FlagEdge& e);
+  /// Adds many edges, on several threads.
   void add_all(std::span<const FlagEdge> edges, const RunContext& context);
-  void set_inactive(Vertex u, Vertex v);
 
   /// Whether two vertices have a common neighbour.
   bool has_lens(Vertex u, Vertex v) const;
   /// Whether the ends of each edge have one; on several threads.
   bool have_lenses(std::span<const FlagEdge> edges, const RunContext& context) const;
-  using Lens = bits::Lens;
+  struct Lens {
+    bool is_empty;
+    bool touches_active;
+  };
   /// Looks at the lens of an edge that is not there yet: whether it is empty, and whether an active
   /// edge joins it to an end of the edge. What follows is about this lens, if active edges touch it
   /// or `wants_graph` is set.
@@ -74,19 +77,19 @@ class LensGraph {
   Vertex first() const { return static_cast<Vertex>(bits::first_common(lens(), lens(), words_)); }
 
  private:
-  /// A neighbour, twice its number, plus one if the edge to it is active.
-  using Neighbour = std::uint32_t;
-  using List = std::pmr::vector<Neighbour>;
+  using List = std::pmr::vector<Vertex>;
 
-  static List::iterator place(List& list, Vertex v);
   Lens find_lens_in_rows(const FlagEdge& e, bool wants_graph);
-  Lens find_lens_in_lists(const FlagEdge& e);
+  Lens find_lens_in_lists(const FlagEdge& e, bool wants_graph);
+  /// Whether `in_lens(v, w)` for an active edge from u to w, or the other way round.
+  template <class InLens>
+  bool touches_active(const FlagEdge& e, InLens&& in_lens) const;
+  void number_lens();
   void make_row(Vertex v);
 
+  const ActiveEdges& active_;
   LensLayout layout_;
-  std::pmr::vector<std::uint32_t> degree_;  // active edges at a vertex
-  // rows
-  BitMatrix joined_, active_;
+  BitMatrix joined_;  // rows
   // lists, ascending
   std::pmr::vector<List> lists_;
   std::pmr::vector<std::uint8_t> marks_;  // by vertex; zero between uses

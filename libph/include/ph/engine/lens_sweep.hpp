@@ -47,7 +47,8 @@ class LensSweep {
         wanted_(wanted),
         observer_(observer),
         context_(context),
-        graph_(vertices,
+        active_(vertices, &context.memory),
+        graph_(active_,
                wanted.tuning.layout == LensLayout::automatic
                    ? LensGraph::choose_layout(vertices, edges.size())
                    : wanted.tuning.layout,
@@ -57,7 +58,7 @@ class LensSweep {
         components_left_(vertices),
         age_(vertex_ages(vertices, births, &context.memory)),
         sets_(vertices, &context.memory),
-        annotations_(field, &context.memory),
+        annotations_(field, active_, &context.memory),
         births_(&context.memory),
         cocycle_(&context.memory) {
     if (wanted.surfaces) surfaces_.emplace(graph_, field, wanted, observer, context);
@@ -76,12 +77,10 @@ class LensSweep {
   /// Adds the edges of idle bins.
   void add_bins_until(std::size_t bin);
   void add_edge(Position position);
-  /// @return whether the edge becomes active.
-  bool join_or_give_birth(Position position, const FlagEdge& e);
+  void join_or_give_birth(Position position, const FlagEdge& e);
   void report_zero_length(Position position);
-  /// Gives the edge its class, and each further component of its lens what it causes. @return
-  /// whether the edge becomes active.
-  bool annotate(Position position, const FlagEdge& e);
+  /// Gives the edge its class, and each further component of its lens what it causes.
+  void annotate(Position position, const FlagEdge& e);
   /// @param of_edge the annotation that the last edge is about to get.
   void kill(Class relation, Triangle death, Class of_edge);
   /// cocycle_ = what a generator is on the edges before this one, if cocycles are wanted.
@@ -92,9 +91,9 @@ class LensSweep {
   LensWanted wanted_;
   Observer& observer_;
   const RunContext& context_;
-  // Edges so far, but for the idle bins from first_unadded_bin_ on; active: of non-zero annotation.
-  LensGraph graph_;
-  LensComponents components_;           // of the graph's lens
+  ActiveEdges active_;         // of non-zero annotation
+  LensGraph graph_;            // edges so far, but for the idle bins from first_unadded_bin_ on
+  LensComponents components_;  // of the graph's lens
   std::pmr::vector<std::size_t> born_;  // components with which a class of H2 is born
   std::size_t first_unadded_bin_ = 0;
   std::size_t living_ = 0;  // classes of H1
@@ -158,15 +157,14 @@ void LensSweep<K>::add_edge(Position position) {
   const FlagEdge& e = edges_[position];
   const bool wants_graph = surfaces_ || wanted_.zero_length;
   const LensGraph::Lens lens = graph_.find_lens(e, wants_graph);
-  bool is_active = false;
   if (lens.is_empty) {
-    is_active = join_or_give_birth(position, e);
+    join_or_give_birth(position, e);
   } else {
     if (wanted_.zero_length) report_zero_length(position);
     if (lens.touches_active || surfaces_) components_.find(e);
     born_.clear();
     if (lens.touches_active)
-      is_active = annotate(position, e);
+      annotate(position, e);
     else if (surfaces_)
       for (std::size_t i = 1; i < components_.count(); ++i) born_.push_back(i);
     if (surfaces_) {
@@ -176,7 +174,7 @@ void LensSweep<K>::add_edge(Position position) {
                               components_.vertices(i));
     }
   }
-  graph_.add(e, is_active);
+  graph_.add(e);
 }
 
 template <Field K>
@@ -187,23 +185,22 @@ void LensSweep<K>::report_zero_length(Position position) {
 }
 
 template <Field K>
-bool LensSweep<K>::join_or_give_birth(Position position, const FlagEdge& e) {
+void LensSweep<K>::join_or_give_birth(Position position, const FlagEdge& e) {
   Vertex elder = sets_.find(e.u), younger = sets_.find(e.v);
   if (elder != younger) {
     if (age_[younger] < age_[elder]) std::swap(elder, younger);
     sets_.link(younger, elder);
     --components_left_;
     observer_.on_join(elder, younger, position);
-    return false;
+    return;
   }
   annotations_.add_generator({e.u, e.v, position});
   births_.push_back(position);
   ++living_;
-  return true;
 }
 
 template <Field K>
-bool LensSweep<K>::annotate(Position position, const FlagEdge& e) {
+void LensSweep<K>::annotate(Position position, const FlagEdge& e) {
   const auto around = [&](Vertex w) {
     return annotations_.sum(annotations_.of(e.u, w), annotations_.of(w, e.v));
   };
@@ -219,9 +216,7 @@ bool LensSweep<K>::annotate(Position position, const FlagEdge& e) {
     kill(difference, {position, root}, value);
     value = around(first);
   }
-  if (value.is_zero()) return false;
-  annotations_.assign({e.u, e.v, position}, value);
-  return true;
+  if (!value.is_zero()) annotations_.assign({e.u, e.v, position}, value);
 }
 
 template <Field K>
@@ -235,7 +230,7 @@ void LensSweep<K>::kill(Class relation, Triangle death, Class of_edge) {
   observer_.on_death(births_[g], death, cocycle_);
   births_[g] = kDead;
   --living_;
-  annotations_.kill(relation, [&](const auto& edge) { graph_.set_inactive(edge.u, edge.v); });
+  annotations_.kill(relation);
 }
 
 template <Field K>

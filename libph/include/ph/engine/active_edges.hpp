@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace ph {
+
+/// Some edges of a graph, at each of their ends in no particular order, and a label for each end:
+/// what is known of the edge from there. For graphs with few such edges at a vertex, or searches
+/// that end early: a vertex is found by looking at all.
+class ActiveEdges {
+ public:
+  using Vertex = std::uint32_t;
+  using Label = std::uint32_t;
+
+  ActiveEdges(std::size_t vertices, std::pmr::memory_resource* memory) : at_(memory) {
+    at_.resize(vertices);
+  }
+
+  std::size_t vertex_count() const { return at_.size(); }
+  /// The other ends of the edges at a vertex.
+  std::span<const Vertex> neighbours(Vertex v) const { return at_[v].neighbours; }
+  /// The label that the edge has at u; null if the edge is absent. Valid until the next change.
+  Label* find(Vertex u, Vertex v);
+  /// Adds an edge that is absent. @param at_u, at_v its labels.
+  void insert(Vertex u, Vertex v, Label at_u, Label at_v);
+  /// Takes an edge out that is there.
+  void erase(Vertex u, Vertex v);
+
+ private:
+  struct Ends {
+    using allocator_type = std::pmr::polymorphic_allocator<>;
+    explicit Ends(allocator_type allocator) : neighbours(allocator), labels(allocator) {}
+    Ends(Ends&&) noexcept = default;
+    Ends(Ends&& other, allocator_type allocator)
+        : neighbours(std::move(other.neighbours), allocator),
+          labels(std::move(other.labels), allocator) {}
+    std::pmr::vector<Vertex> neighbours;
+    std::pmr::vector<Label> labels;
+  };
+  void erase_at(Vertex u, Vertex v);
+
+  std::pmr::vector<Ends> at_;  // by vertex
+};
+
+}  // namespace ph
