@@ -23,6 +23,19 @@ TEST(RandomRepresentatives, RipsSurfaces) {
   });
 }
 
+// A class of edges may lose a generator and get it back: its edges must still come once.
+TEST(RandomRepresentatives, CocyclesOfWideClasses) {
+  for_each_seed(16, [](Generator& random, bool, std::int64_t field) {
+    const Rips rips(random.distances(34, false));
+    rips.with_filtration(1, [&]<class F>(const F& f) {
+      const OrderedCells<F> cells(f, 2, field);
+      const Barcode bars =
+          persistence(rips, {.field = field, .representatives = Representatives::cocycles});
+      for (std::size_t i = 0; i < bars.size(); ++i) check_cocycle(cells, bars, i);
+    });
+  });
+}
+
 TEST(RandomRepresentatives, ComponentsOfAForestAreThoseOfTheWholeFiltration) {
   for_each_seed(1200, [](Generator& random, bool ties, std::int64_t field) {
     const Points points = random.points(random.integer(1, 9), random.integer(1, 3), ties);

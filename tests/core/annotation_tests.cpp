@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// What the classes of edges of the lens sweep are kept in.
+#include <map>
+#include <set>
+
+#include "ph/engine/active_edges.hpp"
+#include "ph/engine/id_set.hpp"
+#include "support/for_each_seed.hpp"
+
+namespace ph::test {
+namespace {
+
+std::vector<std::uint32_t> numbers_of(const IdSet& set) {
+  std::vector<std::uint32_t> numbers;
+  set.for_each([&](std::uint32_t id) { numbers.push_back(id); });
+  std::ranges::sort(numbers);
+  return numbers;
+}
+
+// Against std::set; small sets stay lists, large ones become bits, and both are added to both.
+TEST(IdSet, IsASet) {
+  for_each_seed(300, [](Generator& random, bool, std::int64_t) {
+    std::pmr::memory_resource* memory = std::pmr::get_default_resource();
+    const auto size = random.integer(1, random.coin() ? 60 : 300);
+    std::vector<IdSet> sets;
+    for (int k = 0; k < 3; ++k) sets.emplace_back(memory);
+    std::array<std::set<std::uint32_t>, 3> expected;
+    for (int step = 0; step < 4 * size; ++step) {
+      const auto k = static_cast<std::size_t>(random.integer(0, 2));
+      if (random.integer(0, 99) == 0) {
+        const std::size_t other = (k + 1) % 3;
+        sets[k].add(sets[other]);
+        for (const std::uint32_t id : expected[other])
+          if (expected[k].erase(id) == 0) expected[k].insert(id);
+        continue;
+      }
+      const auto id = static_cast<std::uint32_t>(random.integer(0, size));
+      EXPECT_EQ(sets[k].has(id), expected[k].contains(id));
+      if (expected[k].insert(id).second) {
+        sets[k].insert(id);
+      } else if (random.coin()) {
+        expected[k].erase(id);
+        sets[k].erase(id);
+      }
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(numbers_of(sets[k]), std::vector(expected[k].begin(), expected[k].end()));
+  });
+}
+
+TEST(ActiveEdges, AreAMap) {
+  for_each_seed(100, [](Generator& random, bool, std::int64_t) {
+    const int n = random.integer(2, 90);  // so that lists are searched in blocks
+    ActiveEdges edges(static_cast<std::size_t>(n), std::pmr::get_default_resource());
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> labels;
+    for (std::uint32_t step = 0; step < 2000; ++step) {
+      const auto u = static_cast<std::uint32_t>(random.integer(1, n - 1));
+      const auto v = static_cast<std::uint32_t>(random.integer(0, static_cast<int>(u) - 1));
+      if (labels.contains({u, v})) {
+        EXPECT_EQ(*edges.find(u, v), labels.at({u, v}));
+        EXPECT_EQ(*edges.find(v, u), labels.at({v, u}));
+        if (random.integer(0, 3) != 0) continue;
+        edges.erase(u, v);
+        labels.erase({u, v});
+        labels.erase({v, u});
+      } else {
+        EXPECT_EQ(edges.find(u, v), nullptr);
+        edges.insert(u, v, 2 * step, 2 * step + 1);
+        labels[{u, v}] = 2 * step;
+        labels[{v, u}] = 2 * step + 1;
+      }
+    }
+    std::size_t ends = 0;
+    for (std::uint32_t v = 0; v < edges.vertex_count(); ++v) ends += edges.neighbours(v).size();
+    EXPECT_EQ(ends, labels.size());
+  });
+}
+
+}  // namespace
+}  // namespace ph::test
