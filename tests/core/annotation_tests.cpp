@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What the classes of edges of the lens sweep are kept in.
+#include <array>
 #include <map>
+#include <memory_resource>
 #include <set>
+#include <vector>
 
 #include "ph/engine/active_edges.hpp"
 #include "ph/engine/id_set.hpp"
