@@ -128,7 +128,7 @@ TEST(RandomConformance, LensOfWideClasses) {
     rips.with_filtration(1, [&](const auto& f) {
       const auto oracle = pairs_of(f, 1, field, Engine::standard);
       for (const LensLayout layout : {LensLayout::rows, LensLayout::lists})
-        EXPECT_EQ(pairs_of_lens(f, 1, field, layout, -1), oracle);
+        EXPECT_EQ(pairs_of_lens(f, 1, field, {.layout = layout}, -1), oracle);
     });
   });
 }
