@@ -171,7 +171,7 @@ class WaysOut(ProgramTest):
              "--collapse", "off"),
             ("high.txt", 64, 3),
             ("plane.txt", 64, 3, "--max-dim", "1"),
-            ("cloud.txt", 128, 3, "--threshold", "0.03"),
+            ("cloud.txt", 128, 2, "--threshold", "0.03"),
             ("graph.txt", 60, 1, "--format", "sparse"))
 
     def setUp(self):
