@@ -66,10 +66,13 @@ class WaysOut {
     const bool is_rips =
         std::visit([&](const auto& data) { return sample(data); }, data_.read.data);
     if (arguments_.options.engine != Engine::automatic) change_engine();
-    if (is_rips) lower_threshold();
+    // What is quick to try comes first: patience ends.
     lower_dimension();
-    if (is_rips && arguments_.options.collapse != Collapse::on) collapse();
-    if (is_rips) subsample();
+    if (is_rips) {
+      subsample();
+      lower_threshold();
+      if (arguments_.options.collapse != Collapse::on) collapse();
+    }
     return std::move(found_);
   }
 
