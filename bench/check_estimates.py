@@ -77,7 +77,7 @@ class Checker:
         peak = max(0.0, whole.peak - start)
         holds = foreseen.low - START_SLACK <= peak <= foreseen.high + START_SLACK
         counted = self.cells(row, path, foreseen)
-        near = counted is not None and all(a <= 2 * b and b <= 2 * a for a, b in zip(foreseen.cells, counted))
+        near = counted is None or all(a <= 2 * b and b <= 2 * a for a, b in zip(foreseen.cells, counted))
         ratio = max((max(a, 1) / max(b, 1) for a, b in zip(foreseen.cells, counted or [])),
                     key=lambda r: max(r, 1 / r), default=1)
         return [row.name, foreseen.engine + (", collapse" if foreseen.collapses else ""),
