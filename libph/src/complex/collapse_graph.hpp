@@ -12,15 +12,15 @@
 /// edge. A vertex or an edge that has entered by key `now` is there; `now` is never less than the
 /// key of the edge at hand.
 ///
-///   Set                            a set of vertices, made by make_set()
-///   enter_until(key)               edges up to that key enter; before anything else
-///   find_lens(e, now, lens)        the common neighbours of the ends of e, the edge at hand, by now
-///   find_arrivals(e, now, out)     those that come later, each with the key at which it does
-///   are_joined(a, b, now)          whether two vertices are joined by now
-///   first_apart(lens, c, now)      a vertex of the lens other than c not joined to c; kNone if
-///   none keep_neighbours(set, w, now)   takes out of a set what is not joined to w move(e, key) e
-///   enters at a later key, or never leave(e, now)                  all edges of its value are
-///   done: from now on e comes later
+///   Set                           a set of vertices, made by make_set()
+///   enter_until(key)              edges up to that key enter; before anything else
+///   find_lens(e, now, lens)       the common neighbours by now of the ends of e, the edge at hand
+///   find_arrivals(e, now, out)    those that come later, each with the key at which it does
+///   are_joined(a, b, now)         whether two vertices are joined by now
+///   first_apart(lens, c, now)     a vertex of the lens other than c not joined to c, or kNone
+///   keep_neighbours(set, w, now)  takes out of a set what is not joined to w
+///   move(e, key)                  e enters at a later key, or never
+///   leave(e, now)                 all edges of its value are done: from now on e comes later
 namespace ph::collapse {
 
 using Key = RipsGraph::Key;

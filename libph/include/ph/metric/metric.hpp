@@ -11,8 +11,8 @@ namespace ph {
 using Points = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// A finite set with a dissimilarity: symmetric, zero on the diagonal, never negative or NaN;
-/// +infinity means that two points are never joined. The triangle inequality is not required. Several
-/// threads may ask at once.
+/// +infinity means that two points are never joined. The triangle inequality is not required.
+/// Several threads may ask at once.
 template <class M>
 concept Metric = requires(const M& m, Index i, Index j) {
   { m.size() } -> std::convertible_to<Index>;
