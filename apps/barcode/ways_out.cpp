@@ -95,6 +95,7 @@ class WaysOut {
     pairs_ = static_cast<double>(sample_.size());
     return true;
   }
+  bool sample(const Mesh& mesh) { return mesh.values.empty() && sample(mesh.vertices); }
   template <class Other>
   bool sample(const Other&) {
     return false;

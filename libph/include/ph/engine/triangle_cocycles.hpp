@@ -62,6 +62,7 @@ class TriangleCocycles {
   }
   void enter(Generator g, Vertex a, ListId list) { at_[a].insert(place(g, a), At{g, list}); }
   void leave(Generator g, Vertex a) { at_[a].erase(place(g, a)); }
+
   const RunContext& context_;
   typename Cochain::Shared shared_;
   std::pmr::vector<Cochain> cochains_;

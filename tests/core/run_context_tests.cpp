@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+// Memory that is counted and refused, stops that are heard, progress that is reported.
+#include "ph/core/run_context.hpp"
+
+#include <chrono>
+#include <climits>
+#include <thread>
+
+#include "ph/persistence.hpp"
+#include "support/expect_error.hpp"
+#include "support/generators.hpp"
+#include "support/known_spaces.hpp"
+
+namespace ph::test {
+namespace {
+
+// ---- memory
+
+TEST(MemoryBudgets, CountAndRefuse) {
+  MemoryBudget budget(1000);
+  void* a = budget.allocate(600, 8);
+  EXPECT_EQ(budget.used(), 600U);
+  expect_error(ErrorKind::resource, "memory limit", [&] { (void)budget.allocate(401, 8); });
+  EXPECT_EQ(budget.used(), 600U) << "a refusal changes nothing";
+  EXPECT_NO_THROW(budget.require(400));
+  expect_error(ErrorKind::resource, "memory limit", [&] { budget.require(401); });
+  expect_error(ErrorKind::resource, "memory limit", [&] { budget.require(SIZE_MAX); });
+  expect_error(ErrorKind::resource, "memory limit",
+               [&] { (void)budget.allocate(SIZE_MAX - 8, 8); });
+  void* b = budget.allocate(400, 64);
+  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(b) % 64, 0U);
+  budget.deallocate(b, 400, 64);
+  budget.deallocate(a, 600, 8);
+  EXPECT_EQ(budget.used(), 0U);
+  EXPECT_EQ(budget.peak(), 1000U);
+}
+
+// Under any limit a computation gives the right answer or says that memory is short, and then it
+// has given everything back.
+TEST(MemoryBudgets, HoldForEveryEngine) {
+  Generator random(3);
+  const Points points = random.points(24, 3, false);
+  for_each_engine([&](auto engine) {
+    SCOPED_TRACE(engine.name);
+    const int max_dim = engine.id == Engine::union_find ? 0 : engine.id == Engine::lens ? 1 : 2;
+    const Options options{.max_dim = max_dim, .field = 3, .engine = engine.id};
+    std::size_t peak = 0;
+    Barcode expected;
+    {
+      RunContext context;
+      expected = persistence(Rips(points, {}, context), options, context);
+      peak = context.memory.peak();
+      EXPECT_EQ(context.memory.used(), 0U);
+    }
+    for (std::size_t k = 0; k <= 20; ++k) {
+      RunContext context;
+      context.memory.set_limit(peak * k / 20);
+      try {
+        EXPECT_EQ(bars_of(persistence(Rips(points, {}, context), options, context)),
+                  bars_of(expected));
+      } catch (const Error& e) {
+        EXPECT_EQ(e.kind(), ErrorKind::resource);
+        EXPECT_LT(k, 20U) << "what was enough once is enough again";
+      }
+      EXPECT_LE(context.memory.peak(), context.memory.limit());
+      EXPECT_EQ(context.memory.used(), 0U);
+    }
+  });
+}
+
+TEST(MemoryBudgets, HoldForImages) {
+  Generator random(3);
+  const Image image = random.image({20, 20}, false);
+  for (const std::size_t limit : {0U, 100U, 5000U, 20000U, 60000U}) {
+    RunContext context;
+    context.memory.set_limit(limit);
+    try {
+      persistence(Cubical(image, {}, context), {}, context);
+    } catch (const Error& e) {
+      EXPECT_EQ(e.kind(), ErrorKind::resource);
+    }
+    EXPECT_LE(context.memory.peak(), limit);
+    EXPECT_EQ(context.memory.used(), 0U);
+  }
+}
+
+TEST(MemoryBudgets, HoldForExplicitComplexes) {
+  Generator random(3);
+  const SimplexList simplices = random.simplices(40, 3, 60, false);
+  const std::vector<double> values(40, 0.0);
+  for (const std::size_t limit : {0U, 1000U, 20000U, 40000U, 80000U, 1000000U}) {
+    RunContext context;
+    context.memory.set_limit(limit);
+    const auto stays_below = [&](auto&& build) {
+      try {
+        persistence(build(), {}, context);
+        EXPECT_GT(limit, 1000U);
+      } catch (const Error& e) {
+        EXPECT_EQ(e.kind(), ErrorKind::resource);
+        EXPECT_LT(limit, 1000000U);
+      }
+      EXPECT_LE(context.memory.peak(), limit);
+      EXPECT_EQ(context.memory.used(), 0U);
+    };
+    stays_below([&] { return ExplicitComplex::from_simplices(simplices, {}, context); });
+    stays_below([&] { return lower_star(simplices, values, {}, context); });
+  }
+}
+
+TEST(MemoryBudgets, CountWhatComesFromElsewhere) {
+  MemoryBudget budget(1000);
+  {
+    const MemoryClaim claim(budget, 600);
+    EXPECT_EQ(budget.used(), 600U);
+    expect_error(ErrorKind::resource, "memory limit", [&] { MemoryClaim(budget, 401); });
+  }
+  EXPECT_EQ(budget.used(), 0U);
+  EXPECT_EQ(budget.peak(), 600U);
+}
+
+// ---- run contexts
+
+using Clock = std::chrono::steady_clock;
+
+// A job of many seconds for every engine that goes beyond H0.
+Points long_job(Engine engine) {
+  return Generator(1).points(engine == Engine::cohomology ? 400 : 90, 6, false);
+}
+
+TEST(RunContexts, AStopRequestEndsALongJobSoon) {
+  for (const Engine engine : {Engine::standard, Engine::twist, Engine::cohomology}) {
+    SCOPED_TRACE(engine_name(engine));
+    std::stop_source source;
+    RunContext context;
+    context.stop = source.get_token();
+    Clock::time_point asked;
+    std::thread stopper([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(150));
+      asked = Clock::now();
+      source.request_stop();
+    });
+    const Rips rips(long_job(engine), {.threshold = 10}, context);
+    const Options options{.max_dim = 3, .field = 3, .engine = engine, .collapse = Collapse::off};
+    expect_error(ErrorKind::cancelled, "stopped", [&] { persistence(rips, options, context); });
+    const auto late = Clock::now();
+    stopper.join();
+    EXPECT_LT(late - asked, std::chrono::milliseconds(500));
+  }
+}
+
+TEST(RunContexts, AStopRequestedBeforehandStopsEverything) {
+  std::stop_source source;
+  source.request_stop();
+  RunContext context;
+  context.stop = source.get_token();
+  const Points points = circle(5);
+  expect_error(ErrorKind::cancelled, "stopped", [&] { Rips rips(points, {}, context); });
+  expect_error(ErrorKind::cancelled, "stopped",
+               [&] { Rips rips(points, {.threshold = 1}, context); });
+  expect_error(ErrorKind::cancelled, "stopped", [&] {
+    Cubical cubical(Image{{2}, {0, 1}}, {}, context);
+  });
+  const Rips rips(points);
+  for_each_engine([&](auto engine) {
+    expect_error(ErrorKind::cancelled, "stopped",
+                 [&] { persistence(rips, {.max_dim = 0, .engine = engine.id}, context); });
+  });
+}
+
+TEST(RunContexts, SlowStepsAreReportedAndStopped) {
+  std::stop_source source;
+  RunContext context;
+  context.stop = source.get_token();
+  int reports = 0;
+  context.on_progress = [&](const Progress&) { ++reports; };
+  Ticker ticker(context, "slow");
+  for (int step = 0; step < 100; ++step) ticker.tick(1000);  // quick ones before
+  const auto step = [&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    ticker.tick(400);
+  };
+  for (int i = 0; i < 40 && reports < 2; ++i) step();
+  EXPECT_EQ(reports, 2);
+  source.request_stop();
+  expect_error(ErrorKind::cancelled, "stopped", [&] {
+    for (int i = 0; i < 4; ++i) step();
+  });
+}
+
+TEST(RunContexts, ManyShortStagesAreReported) {
+  RunContext context;
+  int reports = 0;
+  context.on_progress = [&](const Progress&) { ++reports; };
+  for (int stage = 0; stage < 20; ++stage) {
+    Ticker ticker(context, "short");
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    ticker.tick();
+  }
+  EXPECT_GE(reports, 2);
+}
+
+TEST(RunContexts, ProgressComesAtMostTenTimesASecond) {
+  std::stop_source source;
+  RunContext context;
+  context.stop = source.get_token();
+  std::vector<Clock::time_point> calls;
+  context.on_progress = [&](const Progress& progress) {
+    calls.push_back(Clock::now());
+    EXPECT_FALSE(progress.stage.empty());
+    if (progress.total > 0) {
+      EXPECT_LE(progress.done, progress.total);
+    }
+    if (calls.size() == 5) source.request_stop();
+  };
+  expect_error(ErrorKind::cancelled, "stopped", [&] {
+    const Rips rips(long_job(Engine::cohomology), {.threshold = 10}, context);
+    persistence(rips, {.max_dim = 3, .engine = Engine::cohomology, .collapse = Collapse::off},
+                context);
+  });
+  ASSERT_EQ(calls.size(), 5U);
+  for (std::size_t i = 1; i < calls.size(); ++i)
+    EXPECT_GE(calls[i] - calls[i - 1], std::chrono::milliseconds(95));
+}
+
+}  // namespace
+}  // namespace ph::test
