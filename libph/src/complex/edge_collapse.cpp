@@ -115,7 +115,7 @@ class EdgeCollapse {
 
   RipsGraph collapsed(std::pmr::vector<Move>&& kept) const {
     std::ranges::sort(kept);  // among those of one value, the ones moved there come first
-    std::pmr::vector<FlagEdge> edges(&context_.memory);
+    FlagEdges edges(&context_.memory);
     edges.reserve(kept.size());
     for (const auto& [to, key] : kept) {
       const FlagEdge& e = input_.edge(key);

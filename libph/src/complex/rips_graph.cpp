@@ -42,7 +42,7 @@ void RipsGraph::name_vertices(std::span<const std::uint32_t> points, const RunCo
 RipsGraph RipsGraph::of_points_within(const Points& points, double threshold,
                                       const RunContext& context, const VertexWeights& weights) {
   check_arguments(points.rows(), threshold);
-  std::pmr::vector<FlagEdge> edges(&context.memory);
+  FlagEdges edges(&context.memory);
   Ticker ticker(context, "edges");
   for_each_pair_within(
       points, threshold,
@@ -62,7 +62,7 @@ RipsGraph RipsGraph::of_edges(Index size, std::span<const WeightedEdge> edges,
                               const VertexWeights& weights) {
   check_arguments(size, threshold);
   const double limit = threshold.value_or(kNoLimit);
-  std::pmr::vector<FlagEdge> within(&context.memory);
+  FlagEdges within(&context.memory);
   within.reserve(edges.size());
   for (const WeightedEdge& e : edges) {
     const double value = weights.edge_value(e.u, e.v, e.value);
@@ -73,7 +73,7 @@ RipsGraph RipsGraph::of_edges(Index size, std::span<const WeightedEdge> edges,
   return RipsGraph(size, limit, bin_edges(std::move(within), context), context, weights.births());
 }
 
-RipsGraph RipsGraph::with_edges(const RipsGraph& graph, std::pmr::vector<FlagEdge>&& edges,
+RipsGraph RipsGraph::with_edges(const RipsGraph& graph, FlagEdges&& edges,
                                 const RunContext& context) {
   RipsGraph result(graph.size_, graph.threshold_, BinnedEdges(std::move(edges)), context,
                    graph.births_);
@@ -94,7 +94,7 @@ RipsGraph RipsGraph::forest_of_edges(Index size, std::span<const WeightedEdge> e
                                      const VertexWeights& weights) {
   const RipsGraph graph = of_edges(size, edges, threshold, context, weights);
   DisjointSets sets(static_cast<std::size_t>(size), &context.memory);
-  std::pmr::vector<FlagEdge> forest(&context.memory);
+  FlagEdges forest(&context.memory);
   for (const FlagEdge& e : graph.edges()) {  // Kruskal's algorithm
     const std::uint32_t a = sets.find(e.u), b = sets.find(e.v);
     if (a == b) continue;
@@ -104,7 +104,7 @@ RipsGraph RipsGraph::forest_of_edges(Index size, std::span<const WeightedEdge> e
   return of_forest(size, graph.threshold_, std::move(forest), context, weights.births());
 }
 
-RipsGraph RipsGraph::of_forest(Index size, double limit, std::pmr::vector<FlagEdge>&& forest,
+RipsGraph RipsGraph::of_forest(Index size, double limit, FlagEdges&& forest,
                                const RunContext& context, std::span<const double> births) {
   RipsGraph graph(size, limit, bin_edges(std::move(forest), context), context, births);
   graph.is_forest_ = true;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <limits>
+#include <system_error>
 #include <utility>
 
 #include "ph/core/parallel.hpp"
@@ -18,7 +19,7 @@ using Begins = std::array<std::size_t, (1U << kDigitBits) + 1>;
 
 // Moves edges whose values share the bits from `shift` on into bins by the next bits.
 // @return where each bin begins.
-Begins split(std::span<FlagEdge> edges, int shift, std::pmr::vector<FlagEdge>& buffer) {
+Begins split(std::span<FlagEdge> edges, int shift, FlagEdges& buffer) {
   const auto digit = [&](const FlagEdge& e) {
     return std::bit_cast<std::uint64_t>(e.value) >> (shift - kDigitBits) & ((1U << kDigitBits) - 1);
   };
@@ -41,7 +42,7 @@ bool is_sorted_at_once(std::span<FlagEdge> edges, int shift) {
   return true;
 }
 
-void sort_edges(std::span<FlagEdge> edges, int shift, std::pmr::vector<FlagEdge>& buffer) {
+void sort_edges(std::span<FlagEdge> edges, int shift, FlagEdges& buffer) {
   if (is_sorted_at_once(edges, shift)) return;
   const Begins begin = split(edges, shift, buffer);
   for (std::size_t d = 0; d + 1 < begin.size(); ++d)
@@ -50,15 +51,15 @@ void sort_edges(std::span<FlagEdge> edges, int shift, std::pmr::vector<FlagEdge>
 
 }  // namespace
 
-BinnedEdges::BinnedEdges(std::pmr::vector<FlagEdge>&& edges)
+BinnedEdges::BinnedEdges(FlagEdges&& edges)
     : edges_(std::move(edges)), ends_(edges_.get_allocator()) {
   ends_.push_back(edges_.size());
   lazy_->sorted_bins = 1;
   lazy_->sorted_edges = edges_.size();
 }
 
-BinnedEdges::BinnedEdges(std::pmr::vector<FlagEdge>&& edges, std::pmr::vector<std::size_t>&& ends,
-                         int shared_bits, const RunContext& context)
+BinnedEdges::BinnedEdges(FlagEdges&& edges, std::pmr::vector<std::size_t>&& ends, int shared_bits,
+                         const RunContext& context)
     : edges_(std::move(edges)),
       ends_(std::move(ends)),
       shared_bits_(shared_bits),
@@ -72,28 +73,61 @@ std::span<const FlagEdge> BinnedEdges::sorted_bins(std::size_t count) const {
 
 void BinnedEdges::sort_until(std::size_t count) const {
   const std::lock_guard lock(lazy_->mutex);
-  std::size_t& bin = lazy_->sorted_bins;
-  while (bin_begin(bin) < count) {
-    sort_bin(bin++);
-    lazy_->sorted_edges.store(bin_begin(bin), std::memory_order_release);
+  finish_ahead();
+  while (bin_begin(lazy_->sorted_bins) < count) {
+    sort_bin(lazy_->sorted_bins);
+    count_sorted_bin();
   }
+}
+
+void BinnedEdges::count_sorted_bin() const {
+  lazy_->sorted_edges.store(bin_begin(++lazy_->sorted_bins), std::memory_order_release);
 }
 
 void BinnedEdges::sort_bin(std::size_t bin) const {
   context_->poll();
-  const auto edges = std::span(edges_).subspan(bin_begin(bin), bin_begin(bin + 1) - bin_begin(bin));
+  const std::span<FlagEdge> edges = edges_of(bin);
   if (is_sorted_at_once(edges, shared_bits_)) return;
-  std::pmr::vector<FlagEdge> buffer(&context_->memory);
+  FlagEdges buffer(&context_->memory);
   const Begins begin = split(edges, shared_bits_, buffer);
-  buffer = std::pmr::vector<FlagEdge>(&context_->memory);
+  buffer = FlagEdges(&context_->memory);
   constexpr std::size_t digits_a_piece = 64;
   for_each_piece("sort edges", begin.size() - 1, digits_a_piece, *context_,
                  [&](std::size_t first, std::size_t last) {
-                   std::pmr::vector<FlagEdge> own(&context_->memory);
+                   FlagEdges own(&context_->memory);
                    for (std::size_t d = first; d < last; ++d)
                      sort_edges(edges.subspan(begin[d], begin[d + 1] - begin[d]),
                                 shared_bits_ - kDigitBits, own);
                  });
+}
+
+void BinnedEdges::sort_ahead(std::size_t bin) const {
+  constexpr std::size_t few = 1 << 14;  // a thread costs more
+  if (bin >= bin_count() || bin_begin(bin + 1) - bin_begin(bin) < few) return;
+  if (thread_count(*context_) < 2) return;
+  const std::lock_guard lock(lazy_->mutex);
+  finish_ahead();
+  if (bin != lazy_->sorted_bins) return;
+  const auto sort = [lazy = lazy_.get(), edges = edges_of(bin), shift = shared_bits_,
+                     context = context_] {
+    try {
+      context->poll();
+      FlagEdges buffer(&context->memory);
+      sort_edges(edges, shift, buffer);
+      lazy->is_next_sorted = true;
+    } catch (...) {  // in some order still: whoever needs the bin sorts it, and meets the error
+    }
+  };
+  try {
+    lazy_->ahead = std::jthread(sort);
+  } catch (const std::system_error&) {  // no thread to be had
+  }
+}
+
+void BinnedEdges::finish_ahead() const {
+  if (!lazy_->ahead.joinable()) return;
+  lazy_->ahead.join();
+  if (std::exchange(lazy_->is_next_sorted, false)) count_sorted_bin();
 }
 
 void EdgeBinner::allocate(double limit) {
@@ -126,13 +160,13 @@ BinnedEdges EdgeBinner::finish() {
   return BinnedEdges(std::move(edges_), std::move(ends), shift_, context_);
 }
 
-BinnedEdges bin_edges(std::pmr::vector<FlagEdge>&& edges, const RunContext& context) {
+BinnedEdges bin_edges(FlagEdges&& edges, const RunContext& context) {
   context.poll();
   EdgeBinner binner(edges.size(), 1, context);
   for (const FlagEdge& e : edges) binner.count(e.value);
   binner.allocate(std::numeric_limits<double>::max());
   for (const FlagEdge& e : edges) binner.add(e);
-  edges = std::pmr::vector<FlagEdge>(edges.get_allocator());
+  edges = FlagEdges(edges.get_allocator());
   return binner.finish();
 }
 

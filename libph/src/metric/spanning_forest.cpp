@@ -39,7 +39,7 @@ class Boruvka {
   }
 
   /// Appends the edges, between rows.
-  void run(std::pmr::vector<FlagEdge>& forest) {
+  void run(FlagEdges& forest) {
     find_neighbours();
     do {
       propose();
@@ -172,7 +172,7 @@ class Boruvka {
   }
 
   /// Takes the best edge of each component. @return whether components are left that may join.
-  bool join(std::pmr::vector<FlagEdge>& forest) {
+  bool join(FlagEdges& forest) {
     const std::size_t before = components_;
     for (Position c = 0; c < best_.size(); ++c) {
       if (best_[c] == kNone) continue;
@@ -224,10 +224,10 @@ bool has_fast_spanning_forest(const Points& points, PointDistance distance) {
   return points.cols() <= most_axes && NeighbourSearch::can_search(distance);
 }
 
-std::pmr::vector<FlagEdge> spanning_forest(const Points& points, PointDistance distance, double p,
-                                           double limit, const RunContext& context) {
+FlagEdges spanning_forest(const Points& points, PointDistance distance, double p, double limit,
+                          const RunContext& context) {
   const PointMetric checked(points, distance, p);
-  std::pmr::vector<FlagEdge> forest(&context.memory);
+  FlagEdges forest(&context.memory);
   const std::pmr::vector<std::uint32_t> first_equal = first_equal_points(points, context);
   // Among copies each is joined to the first; no other edge of theirs precedes that of the first.
   for (std::uint32_t i = 0; i < first_equal.size(); ++i)

@@ -81,7 +81,7 @@ Pilot run_pilot(const Rips& part, double listed, const Options& options,
                        std::min(context.memory.used(), context.memory.limit()));
   const Rips copy(
       RipsGraph::with_edges(part.graph(),
-                            std::pmr::vector<FlagEdge>(part.graph().edges().begin(),
+                            FlagEdges(part.graph().edges().begin(),
                                                        part.graph().edges().end(), &own.memory),
                             own));
   const Barcode barcode = persistence(copy, options, own);

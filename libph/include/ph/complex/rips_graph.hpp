@@ -49,8 +49,7 @@ class RipsGraph {
 
   /// The same vertices, names, births and threshold with other edges.
   /// @param edges by ascending value; ties come in the order given.
-  static RipsGraph with_edges(const RipsGraph& graph, std::pmr::vector<FlagEdge>&& edges,
-                              const RunContext& context);
+  static RipsGraph with_edges(const RipsGraph& graph, FlagEdges&& edges, const RunContext& context);
 
   /// Only a minimum spanning forest, which has the components of the whole graph at every distance.
   /// Without a threshold there is none. Evaluates each distance once and keeps O(n) memory.
@@ -121,7 +120,7 @@ class RipsGraph {
   };
   RipsGraph(Index size, double threshold, BinnedEdges&& edges, const RunContext& context,
             std::span<const double> births = {});
-  static RipsGraph of_forest(Index size, double limit, std::pmr::vector<FlagEdge>&& forest,
+  static RipsGraph of_forest(Index size, double limit, FlagEdges&& forest,
                              const RunContext& context, std::span<const double> births = {});
   static void check_arguments(Index size, std::optional<double> threshold);
   /// Rows of a triangle in ranges of equally many pairs: where range r of so many begins.

@@ -8,6 +8,7 @@
 #include <memory_resource>
 #include <mutex>
 #include <span>
+#include <thread>
 #include <vector>
 
 #include "ph/core/filtration.hpp"
@@ -21,11 +22,11 @@ namespace ph {
 class BinnedEdges {
  public:
   /// @param edges sorted, ties in any order.
-  explicit BinnedEdges(std::pmr::vector<FlagEdge>&& edges);
+  explicit BinnedEdges(FlagEdges&& edges);
   /// @param ends of each bin in `edges`, ascending. @param shared_bits that the values of a bin
   /// have in common, from this one up.
-  BinnedEdges(std::pmr::vector<FlagEdge>&& edges, std::pmr::vector<std::size_t>&& ends,
-              int shared_bits, const RunContext& context);
+  BinnedEdges(FlagEdges&& edges, std::pmr::vector<std::size_t>&& ends, int shared_bits,
+              const RunContext& context);
 
   std::size_t size() const { return edges_.size(); }
   /// By position in the order.
@@ -39,6 +40,9 @@ class BinnedEdges {
   std::size_t bin_count() const { return ends_.size(); }
   /// Where a bin begins; bin_count() is a place, too.
   std::size_t bin_begin(std::size_t bin) const { return bin == 0 ? 0 : ends_[bin - 1]; }
+  /// Lets another thread sort a bin while the caller is busy with those before it, if the context
+  /// allows two and they are sorted. What fails there is done again by whoever needs the bin.
+  void sort_ahead(std::size_t bin) const;
   /// The edges of the first `count` bins, in order.
   std::span<const FlagEdge> sorted_bins(std::size_t count) const;
   /// Calls `use(edges)` with those of the bins [first, last): bin after bin, but within a bin in no
@@ -46,6 +50,7 @@ class BinnedEdges {
   template <class Use>
   decltype(auto) with_bins(std::size_t first, std::size_t last, Use&& use) const {
     const std::lock_guard lock(lazy_->mutex);
+    finish_ahead();
     return use(std::span<const FlagEdge>(edges_).subspan(bin_begin(first),
                                                          bin_begin(last) - bin_begin(first)));
   }
@@ -55,12 +60,20 @@ class BinnedEdges {
     std::mutex mutex;  // held by who sorts and by who looks at what is not sorted
     std::size_t sorted_bins = 0;
     std::atomic<std::size_t> sorted_edges{0};  // in these bins
+    bool is_next_sorted = false;               // by `ahead`, which is the only one to look there
+    std::jthread ahead;
   };
+  std::span<FlagEdge> edges_of(std::size_t bin) const {
+    return std::span(edges_).subspan(bin_begin(bin), bin_begin(bin + 1) - bin_begin(bin));
+  }
   /// Sorts the bins with the first `count` edges.
   void sort_until(std::size_t count) const;
   void sort_bin(std::size_t bin) const;
+  /// Waits for the bin that is sorted ahead, if there is one. Needs the mutex.
+  void finish_ahead() const;
+  void count_sorted_bin() const;
 
-  mutable std::pmr::vector<FlagEdge> edges_;
+  mutable FlagEdges edges_;
   std::pmr::vector<std::size_t> ends_;
   int shared_bits_ = 0;
   const RunContext* context_ = nullptr;
@@ -103,10 +116,10 @@ class EdgeBinner {
   double limit_ = 0;
   std::pmr::vector<std::size_t> counts_;      // from allocate on: where the next edge of a bin goes
   std::pmr::vector<std::size_t> last_parts_;  // by worker: where its part of the last bin begins
-  std::pmr::vector<FlagEdge> edges_;
+  FlagEdges edges_;
 };
 
 /// Edges in no order.
-BinnedEdges bin_edges(std::pmr::vector<FlagEdge>&& edges, const RunContext& context);
+BinnedEdges bin_edges(FlagEdges&& edges, const RunContext& context);
 
 }  // namespace ph

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "ph/core/raw_vector.hpp"
+
 namespace ph {
 
 /// A number of the input: a vertex, a grid coordinate, a row. Never negative.
@@ -111,6 +113,7 @@ struct FlagEdge {
   double value;
   std::uint32_t u, v;
 };
+using FlagEdges = RawVector<FlagEdge>;
 /// The order of edges in a flag filtration: (value, u, v).
 inline bool precedes(const FlagEdge& a, const FlagEdge& b) {
   if (a.value != b.value) return a.value < b.value;

@@ -72,6 +72,10 @@ class LensSweep {
 
   static constexpr Position kDead = UINT32_MAX;
 
+  /// Whether an edge does something only if its lens is empty.
+  bool can_bins_be_idle() const {
+    return !surfaces_ && !wanted_.zero_length && living_ == 0 && components_left_ == 1;
+  }
   /// Whether nothing happens at the edges of a bin. They are not added, see first_unadded_bin_.
   bool is_bin_idle(std::size_t bin);
   /// Adds the edges of idle bins.
@@ -117,6 +121,7 @@ void LensSweep<K>::run() {
     }
     add_bins_until(bin);
     edges_.sorted_bins(bin + 1);
+    if (!can_bins_be_idle()) edges_.sort_ahead(bin + 1);
     for (std::size_t position = begin; position < end; ++position) {
       add_edge(static_cast<Position>(position));
       ticker.tick();
@@ -133,9 +138,8 @@ void LensSweep<K>::run() {
 
 template <Field K>
 bool LensSweep<K>::is_bin_idle(std::size_t bin) {
-  // Where no class of H1 lives, an edge does something only if its lens is empty, and a lens that
-  // is not empty stays so.
-  if (surfaces_ || wanted_.zero_length || living_ != 0 || components_left_ != 1) return false;
+  // A lens that is not empty stays so.
+  if (!can_bins_be_idle()) return false;
   const auto have_lenses = [&](std::span<const FlagEdge> edges) {
     return graph_.have_lenses(edges, context_);
   };

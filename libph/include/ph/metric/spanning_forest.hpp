@@ -25,15 +25,15 @@ namespace ph {
 /// O(n^2) time, O(n) memory.
 /// @param distance_of(i, j) for i > j: >= 0 or infinite.
 template <class DistanceOf>
-std::pmr::vector<FlagEdge> spanning_forest(Index size, DistanceOf&& distance_of, double limit,
-                                           const RunContext& context) {
+FlagEdges spanning_forest(Index size, DistanceOf&& distance_of, double limit,
+                          const RunContext& context) {
   // A vertex that is not in the forest yet, with its first edge to the tree that grows.
   struct Outside {
     FlagEdge edge;
     std::uint32_t vertex;
   };
   constexpr double never = std::numeric_limits<double>::infinity();
-  std::pmr::vector<FlagEdge> forest(&context.memory);
+  FlagEdges forest(&context.memory);
   std::pmr::vector<Outside> outside(static_cast<std::size_t>(size), &context.memory);
   for (std::uint32_t v = 0; v < outside.size(); ++v) outside[v] = {{never, 0, 0}, v};
   Ticker ticker(context, "spanning forest", outside.size());
@@ -71,7 +71,7 @@ bool has_fast_spanning_forest(const Points& points, PointDistance distance);
 /// @param points one point a row. @param p exponent of PointDistance::minkowski.
 /// Precondition: has_fast_spanning_forest(points, distance).
 /// @throws Error (bad_data) as PointMetric.
-std::pmr::vector<FlagEdge> spanning_forest(const Points& points, PointDistance distance, double p,
-                                           double limit, const RunContext& context);
+FlagEdges spanning_forest(const Points& points, PointDistance distance, double p, double limit,
+                          const RunContext& context);
 
 }  // namespace ph
