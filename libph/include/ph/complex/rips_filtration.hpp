@@ -81,6 +81,9 @@ class RipsFiltration {
     const FlagEdge& e = graph_.edge(position + 1);
     return {position + 1, Vertices(e.u) << bits_ | Vertices(e.v)};
   }
+  std::uint32_t edge_position(std::uint32_t u, std::uint32_t v) const {
+    return adjacency().key_of(u, v) - 1;
+  }
   Cell triangle_cell(std::uint32_t longest, std::uint32_t apex) const {
     return over_edge(longest, std::array{apex});
   }

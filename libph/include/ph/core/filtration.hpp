@@ -135,6 +135,8 @@ concept FlagFiltration = Filtration<F> && requires(const F& f, std::uint32_t i) 
   { f.vertex_cell(i) } -> std::same_as<typename F::Cell>;
   /// By position in their order.
   { f.edge_cell(i) } -> std::same_as<typename F::Cell>;
+  /// And back, from its vertices.
+  { f.edge_position(i, i) } -> std::same_as<std::uint32_t>;
   /// The triangle of the edge at a position and another vertex; the edge is the last of the three.
   { f.triangle_cell(i, i) } -> std::same_as<typename F::Cell>;
 };

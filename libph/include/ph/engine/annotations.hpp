@@ -96,6 +96,12 @@ class Annotations {
     if (term == nullptr) return field_.from_int(0);
     return a.negated ? field_.negate(term->coefficient()) : term->coefficient();
   }
+  /// Calls `visit(generator, value)` for those that are not zero in a class.
+  template <class Visit>
+  void for_each_generator(Class a, Visit&& visit) const {
+    for (const Term& t : vectors_[a.id])
+      visit(t.cell, a.negated ? field_.negate(t.coefficient()) : t.coefficient());
+  }
   Generator youngest(Class a) const { return vectors_[a.id].back().cell; }
 
   /// Makes a class zero: its youngest generator becomes a combination of the others, everywhere.

@@ -6,7 +6,7 @@
 #include "ph/core/barcode.hpp"
 #include "ph/core/chain.hpp"
 #include "ph/core/filtration.hpp"
-#include "ph/engine/elder_rule.hpp"
+#include "ph/engine/component_representatives.hpp"
 #include "ph/engine/engine.hpp"
 #include "ph/engine/lens_sweep.hpp"
 
@@ -20,8 +20,8 @@ struct LensEngine {
   template <Filtration F>
   static bool can_run(const F& f, int max_dim, Representatives wanted = Representatives::none) {
     if constexpr (FlagFiltration<F>)
-      return max_dim <= 2 && wanted != Representatives::cycles &&
-             (max_dim < 2 || f.vertex_count() <= kMostVerticesOfSurfaces);
+      return max_dim < 2 || (max_dim == 2 && wanted != Representatives::cycles &&
+                             f.vertex_count() <= kMostVerticesOfSurfaces);
     else
       return false;
   }
@@ -32,6 +32,7 @@ struct LensEngine {
     if constexpr (FlagFiltration<F>) {
       Reporter<F, K> reporter(f, field, bars, context);
       const LensWanted wanted{.surfaces = bars.max_dim() >= 2,
+                              .cycles = bars.representatives() == Representatives::cycles,
                               .cocycles = bars.representatives() == Representatives::cocycles,
                               .zero_length = bars.wants_zero_length(),
                               .tuning = tuning};
@@ -62,50 +63,50 @@ struct LensEngine {
           field_(field),
           bars_(bars),
           is_dead_(f.vertex_count(), false, &context.memory),
-          components_(is_dead_.size(), &context.memory),
+          components_(is_dead_.size(), field, bars, &context.memory),
           terms_(&context.memory) {}
 
     void on_join(Vertex elder, Vertex younger, Position edge) override {
       is_dead_[younger] = true;
-      if (bars_.add_pair(0, f_.vertex_cell(younger), f_.edge_cell(edge))) give_component(younger);
+      if (bars_.add_pair(0, f_.vertex_cell(younger), f_.edge_cell(edge)))
+        components_.give(younger, elder, cell_of_vertex());
       components_.join(elder, younger);
     }
-    void on_death(Position birth, Triangle death, EdgeValues cocycle) override {
+    Position position_of(Vertex u, Vertex v) const override { return f_.edge_position(u, v); }
+    void on_death(Position birth, Triangle death, EdgeValues representative) override {
       if (bars_.add_pair(1, f_.edge_cell(birth), f_.triangle_cell(death.edge, death.apex)))
-        give_cocycle(cocycle);
+        give(representative);
     }
     void on_death(Triangle birth, Tetrahedron death, TriangleValues cocycle) override {
       if (bars_.add_pair(2, f_.triangle_cell(birth.edge, birth.apex),
                          f_.tetrahedron_cell(death.edge, death.larger, death.smaller)))
-        give_cocycle(cocycle);
+        give(cocycle);
     }
-    void on_essential(Position birth, EdgeValues cocycle) override {
-      if (bars_.add_essential(1, f_.edge_cell(birth))) give_cocycle(cocycle);
+    void on_essential(Position birth, EdgeValues representative) override {
+      if (bars_.add_essential(1, f_.edge_cell(birth))) give(representative);
     }
     void on_essential(Triangle birth, TriangleValues cocycle) override {
-      if (bars_.add_essential(2, f_.triangle_cell(birth.edge, birth.apex))) give_cocycle(cocycle);
+      if (bars_.add_essential(2, f_.triangle_cell(birth.edge, birth.apex))) give(cocycle);
     }
 
     void report_components() {
       for (Vertex v = 0; v < is_dead_.size(); ++v)
-        if (!is_dead_[v] && bars_.add_essential(0, f_.vertex_cell(v))) give_component(v);
+        if (!is_dead_[v] && bars_.add_essential(0, f_.vertex_cell(v)))
+          components_.give(v, std::nullopt, cell_of_vertex());
     }
 
    private:
-    void give_component(Vertex v) {
-      if (bars_.representatives() == Representatives::none) return;
-      terms_.clear();
-      components_.for_each(
-          v, [&](Vertex w) { terms_.emplace_back(f_.vertex_cell(w), field_.from_int(1)); });
-      bars_.add_representative(0, terms_, field_);
+    auto cell_of_vertex() const {
+      return [this](Vertex v) { return f_.vertex_cell(v); };
     }
-    void give_cocycle(EdgeValues cocycle) {
+    void give(EdgeValues representative) {
       if (bars_.representatives() == Representatives::none) return;
       terms_.clear();
-      for (const auto& [edge, value] : cocycle) terms_.emplace_back(f_.edge_cell(edge), value);
+      for (const auto& [edge, value] : representative)
+        terms_.emplace_back(f_.edge_cell(edge), value);
       bars_.add_representative(1, terms_, field_);
     }
-    void give_cocycle(TriangleValues cocycle) {
+    void give(TriangleValues cocycle) {
       if (bars_.representatives() == Representatives::none) return;
       terms_.clear();
       for (const auto& [v, value] : cocycle)
@@ -117,7 +118,7 @@ struct LensEngine {
     const K& field_;
     BarcodeBuilder<F>& bars_;
     std::pmr::vector<bool> is_dead_;
-    ComponentRings components_;
+    ComponentRepresentatives<F, K> components_;
     std::pmr::vector<Entry<typename F::Cell, K>> terms_;
   };
 };

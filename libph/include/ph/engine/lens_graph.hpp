@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
@@ -43,6 +44,20 @@ class LensGraph {
   /// Adds many edges, on several threads.
   void add_all(std::span<const FlagEdge> edges, const RunContext& context);
 
+  /// Calls `visit(w)` for each neighbour in a set. @param set a bit for each vertex; `visit` may
+  /// take vertices out.
+  template <class Visit>
+  void for_each_neighbour(Vertex v, const Word* set, Visit&& visit) const {
+    if (layout_ == LensLayout::lists) {
+      for (const Vertex w : lists_[v])
+        if ((set[w / 64] >> (w % 64) & 1) != 0) visit(w);
+      return;
+    }
+    const Word* row = joined_.row(v);
+    for (std::size_t k = 0; k < joined_.words(); ++k)
+      for (Word rest = row[k] & set[k]; rest != 0; rest &= rest - 1)
+        visit(static_cast<Vertex>(k * 64 + static_cast<std::size_t>(std::countr_zero(rest))));
+  }
   /// Whether two vertices have a common neighbour.
   bool has_lens(Vertex u, Vertex v) const;
   /// Whether the ends of each edge have one; on several threads.

@@ -19,13 +19,14 @@ struct LensTuning {
 /// What a lens sweep is to find.
 struct LensWanted {
   bool surfaces = false;  ///< H2 too
+  bool cycles = false;    ///< of H1
   bool cocycles = false;
   bool zero_length = false;
   LensTuning tuning = {};
 };
 
-/// Hears what happens in a lens sweep, as it happens. Cocycles are empty unless they are wanted,
-/// and valid during the call.
+/// Hears what happens in a lens sweep, as it happens. Representatives, cycles or cocycles, are
+/// empty unless they are wanted, and valid during the call.
 template <Field K>
 class LensObserver {
  public:
@@ -42,7 +43,7 @@ class LensObserver {
     Position edge;
     Vertex larger, smaller;
   };
-  /// A term of a 1-cochain: the value on an edge, from its larger end to the smaller one.
+  /// A term of a 1-chain or 1-cochain: its value on an edge, from the larger end to the smaller.
   struct EdgeValue {
     Position edge;
     typename K::Element value;
@@ -54,15 +55,18 @@ class LensObserver {
   };
 
   virtual ~LensObserver() = default;
+  /// Where an edge so far is in the order; asked for the edges of cycles.
+  virtual Position position_of(Vertex u, Vertex v) const = 0;
   /// Two components are joined, named by their oldest vertices.
   virtual void on_join(Vertex elder, Vertex younger, Position edge) = 0;
   /// A class of H1 dies.
-  virtual void on_death(Position birth, Triangle death, std::span<const EdgeValue> cocycle) = 0;
+  virtual void on_death(Position birth, Triangle death,
+                        std::span<const EdgeValue> representative) = 0;
   /// A class of H2 dies.
   virtual void on_death(Triangle birth, Tetrahedron death,
                         std::span<const TriangleValue> cocycle) = 0;
   /// A class that never dies.
-  virtual void on_essential(Position birth, std::span<const EdgeValue> cocycle) = 0;
+  virtual void on_essential(Position birth, std::span<const EdgeValue> representative) = 0;
   virtual void on_essential(Triangle birth, std::span<const TriangleValue> cocycle) = 0;
 };
 

@@ -14,6 +14,7 @@
 #include "ph/engine/annotations.hpp"
 #include "ph/engine/elder_rule.hpp"
 #include "ph/engine/lens_components.hpp"
+#include "ph/engine/lens_cycles.hpp"
 #include "ph/engine/lens_graph.hpp"
 #include "ph/engine/lens_observer.hpp"
 #include "ph/engine/lens_surfaces.hpp"
@@ -60,7 +61,8 @@ class LensSweep {
         sets_(vertices, &context.memory),
         annotations_(field, active_, &context.memory),
         births_(&context.memory),
-        cocycle_(&context.memory) {
+        representative_(&context.memory) {
+    if (wanted.cycles) cycles_.emplace(graph_, annotations_, field, &context.memory);
     if (wanted.surfaces) surfaces_.emplace(graph_, field, wanted, observer, context);
   }
 
@@ -82,13 +84,15 @@ class LensSweep {
   void add_bins_until(std::size_t bin);
   void add_edge(Position position);
   void join_or_give_birth(Position position, const FlagEdge& e);
-  void report_zero_length(Position position);
+  void report_zero_length(Position position, const FlagEdge& e);
   /// Gives the edge its class, and each further component of its lens what it causes.
   void annotate(Position position, const FlagEdge& e);
   /// @param of_edge the annotation that the last edge is about to get.
   void kill(Class relation, Triangle death, Class of_edge);
-  /// cocycle_ = what a generator is on the edges before this one, if cocycles are wanted.
-  void find_cocycle(typename Annotations<K>::Generator g);
+  /// representative_ = what a generator is on the edges before this one, if cocycles are wanted,
+  /// and the cycle with these values of the generators, or those of a class, if cycles are.
+  template <class Values>
+  void find_representative(typename Annotations<K>::Generator g, Values of_cycle);
 
   const BinnedEdges& edges_;
   const K& field_;
@@ -106,7 +110,8 @@ class LensSweep {
   DisjointSets sets_;                    // each root is the oldest vertex of its component
   Annotations<K> annotations_;
   std::pmr::vector<Position> births_;  // by generator; kDead once it died
-  std::pmr::vector<typename Observer::EdgeValue> cocycle_;
+  std::optional<LensCycles<K>> cycles_;
+  std::pmr::vector<typename Observer::EdgeValue> representative_;
   std::optional<LensSurfaces<K>> surfaces_;
 };
 
@@ -130,8 +135,8 @@ void LensSweep<K>::run() {
   }
   for (std::uint32_t g = 0; g < births_.size(); ++g) {
     if (births_[g] == kDead) continue;
-    find_cocycle(g);
-    observer_.on_essential(births_[g], cocycle_);
+    find_representative(g, g);
+    observer_.on_essential(births_[g], representative_);
   }
   if (surfaces_) surfaces_->finish();
 }
@@ -164,7 +169,7 @@ void LensSweep<K>::add_edge(Position position) {
   if (lens.is_empty) {
     join_or_give_birth(position, e);
   } else {
-    if (wanted_.zero_length) report_zero_length(position);
+    if (wanted_.zero_length) report_zero_length(position, e);
     if (lens.touches_active || surfaces_) components_.find(e);
     born_.clear();
     if (lens.touches_active)
@@ -182,10 +187,15 @@ void LensSweep<K>::add_edge(Position position) {
 }
 
 template <Field K>
-void LensSweep<K>::report_zero_length(Position position) {
-  cocycle_.clear();
-  if (wanted_.cocycles) cocycle_.push_back({position, field_.from_int(1)});
-  observer_.on_death(position, {position, graph_.global(graph_.first())}, cocycle_);
+void LensSweep<K>::report_zero_length(Position position, const FlagEdge& e) {
+  const Vertex apex = graph_.global(graph_.first());
+  representative_.clear();
+  if (wanted_.cocycles || wanted_.cycles) representative_.push_back({position, field_.from_int(1)});
+  if (wanted_.cycles)  // u to v to the apex to u, and u > v
+    for (const auto& [from, to] : {std::pair{e.v, apex}, std::pair{apex, e.u}})
+      representative_.push_back(
+          {observer_.position_of(from, to), field_.from_int(from > to ? 1 : -1)});
+  observer_.on_death(position, {position, apex}, representative_);
 }
 
 template <Field K>
@@ -198,6 +208,7 @@ void LensSweep<K>::join_or_give_birth(Position position, const FlagEdge& e) {
     observer_.on_join(elder, younger, position);
     return;
   }
+  if (cycles_) cycles_->add(e.u, e.v);
   annotations_.add_generator({e.u, e.v, position});
   births_.push_back(position);
   ++living_;
@@ -226,23 +237,29 @@ void LensSweep<K>::annotate(Position position, const FlagEdge& e) {
 template <Field K>
 void LensSweep<K>::kill(Class relation, Triangle death, Class of_edge) {
   const auto g = annotations_.youngest(relation);
-  find_cocycle(g);
+  find_representative(g, relation);
   if (wanted_.cocycles) {
     const auto value = annotations_.value(of_edge, g);
-    if (!field_.is_zero(value)) cocycle_.push_back({death.edge, value});
+    if (!field_.is_zero(value)) representative_.push_back({death.edge, value});
   }
-  observer_.on_death(births_[g], death, cocycle_);
+  observer_.on_death(births_[g], death, representative_);
+  if (cycles_) cycles_->erase(g);
   births_[g] = kDead;
   --living_;
   annotations_.kill(relation);
 }
 
 template <Field K>
-void LensSweep<K>::find_cocycle(typename Annotations<K>::Generator g) {
-  cocycle_.clear();
+template <class Values>
+void LensSweep<K>::find_representative(typename Annotations<K>::Generator g, Values of_cycle) {
+  representative_.clear();
   if (wanted_.cocycles)
     annotations_.for_each_value(g, [&](const auto& edge, typename K::Element a) {
-      cocycle_.push_back({edge.position, a});
+      representative_.push_back({edge.position, a});
+    });
+  if (cycles_)
+    cycles_->for_each_term(of_cycle, [&](Vertex u, Vertex v, typename K::Element a) {
+      representative_.push_back({observer_.position_of(u, v), a});
     });
 }
 

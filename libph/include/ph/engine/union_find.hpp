@@ -7,6 +7,7 @@
 #include "ph/core/chain.hpp"
 #include "ph/core/error.hpp"
 #include "ph/core/field.hpp"
+#include "ph/engine/component_representatives.hpp"
 #include "ph/engine/engine.hpp"
 #include "ph/engine/one_skeleton.hpp"
 
@@ -21,43 +22,26 @@ bool is_graph_like(const F& f) {
     return false;
 }
 
-/// Reports the pairs of H0, with representatives where they are wanted: the cycle is the difference
-/// of the oldest vertices of the two components that join, the cocycle is one on the component that
-/// dies.
+/// Reports the pairs of H0, with representatives where they are wanted.
 /// @param on_killer called with each edge that kills a component.
 template <GraphFiltration F, Field K, class OnKiller>
 void join_components(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context,
                      OnKiller&& on_killer) {
   const OneSkeleton<F> graph(f, context);
-  const Representatives wanted = bars.representatives();
   std::vector<bool> lives(graph.vertices.size(), true);
-  ComponentRings components(wanted == Representatives::cocycles ? lives.size() : 0,
-                            &context.memory);
-  std::pmr::vector<Entry<typename F::Cell, K>> terms(&context.memory);
-  const auto give = [&](std::uint32_t v, const std::uint32_t* elder) {
-    if (wanted == Representatives::none) return;
-    terms.clear();
-    const auto add = [&](std::uint32_t w, int a) {
-      terms.emplace_back(graph.vertices[w], field.from_int(a));
-    };
-    if (wanted == Representatives::cocycles) {
-      components.for_each(v, [&](std::uint32_t w) { add(w, 1); });
-    } else {
-      add(v, 1);
-      if (elder) add(*elder, -1);
-    }
-    bars.add_representative(0, terms, field);
-  };
+  ComponentRepresentatives representatives(lives.size(), field, bars, &context.memory);
+  const auto cell_of = [&](std::uint32_t v) { return graph.vertices[v]; };
   join_by_elder_rule(graph.age, graph.ends, context,
                      [&](std::size_t edge, std::uint32_t elder, std::uint32_t younger) {
                        lives[younger] = false;
                        on_killer(graph.edges[edge]);
                        if (bars.add_pair(0, graph.vertices[younger], graph.edges[edge]))
-                         give(younger, &elder);
-                       if (wanted == Representatives::cocycles) components.join(elder, younger);
+                         representatives.give(younger, elder, cell_of);
+                       representatives.join(elder, younger);
                      });
   for (std::uint32_t v = 0; v < lives.size(); ++v)
-    if (lives[v] && bars.add_essential(0, graph.vertices[v])) give(v, nullptr);
+    if (lives[v] && bars.add_essential(0, graph.vertices[v]))
+      representatives.give(v, std::nullopt, cell_of);
 }
 
 /// H0 by union-find with the elder rule. See merge_tree.hpp for the whole tree.
