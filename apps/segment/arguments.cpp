@@ -18,7 +18,7 @@ using app::add_value;
 
 /// What --version --verbose adds.
 constexpr std::string_view kBuiltIn =
-    "methods     paper\n"
+    "methods     surface paper\n"
     "reads       pcd ply xyz csv png\n"
     "writes      pcd ply npy csv png json svg\n";
 
@@ -63,9 +63,16 @@ bool parse_switch(std::string_view option, const std::string& text) {
   return app::choose(option, text, choices) == 1;
 }
 
-void require_method(const std::string& text) {
-  static constexpr std::array<std::string_view, 2> choices = {"paper", "surface"};
-  if (app::choose("--method", text, choices) == 1) not_built_in("--method surface");
+Method parse_method(const std::string& text) {
+  static constexpr std::array<std::string_view, 2> choices = {"surface", "paper"};
+  return app::choose("--method", text, choices) == 0 ? Method::surface : Method::paper;
+}
+
+/// "0.005, paper: 0.01".
+template <class Value>
+std::string defaults_of(Value value_of) {
+  return fmt::format("{}, paper: {}", (SegmentOptions{}.*value_of)(),
+                     (SegmentOptions{.method = Method::paper}.*value_of)());
 }
 
 int parse_steps(const std::string& text) {
@@ -94,8 +101,9 @@ void add_input_options(CLI::App& app, Arguments& a) {
 void add_stage_options(CLI::App& app, SegmentOptions& o) {
   const SegmentOptions d;
   add_value(app, "--method", "NAME",
-            "paper: by distance alone, the pipeline of the ICRA 2016 paper (default)",
-            require_method);
+            "surface: by the shape of the visible surface (default); paper: by distance alone, the "
+            "pipeline of the ICRA 2016 paper",
+            [&o](const std::string& v) { o.method = parse_method(v); });
   add_value(app, "--max-range", "M",
             fmt::format("keep points up to M metres from the viewpoint; inf: all (default: {})",
                         d.max_range),
@@ -110,19 +118,38 @@ void add_stage_options(CLI::App& app, SegmentOptions& o) {
             "remove the supporting plane and what lies behind it (default: on)",
             [&o](const std::string& v) { o.plane = parse_switch("--plane", v); });
   add_value(app, "--plane-distance", "M",
-            fmt::format("half the thickness of the plane, metres (default: {})", d.plane_distance),
+            fmt::format("half the thickness of the plane, metres (default: {})",
+                        defaults_of(&SegmentOptions::plane_margin)),
             [&o](const std::string& v) { o.plane_distance = length("--plane-distance", v); });
   add_value(app, "--viewpoint", "X,Y,Z",
             "where the sensor stood, metres (default: the file's VIEWPOINT, else 0,0,0)",
             [&o](const std::string& v) { o.viewpoint = parse_point("--viewpoint", v); });
-  add_value(app, "--voxel", "M", fmt::format("edge of a voxel, metres (default: {})", d.voxel),
+  add_value(app, "--voxel", "M",
+            fmt::format("edge of a voxel, metres (default: {})",
+                        defaults_of(&SegmentOptions::voxel_size)),
             [&o](const std::string& v) { o.voxel = length("--voxel", v); });
-  add_value(app, "--distance", "M",
-            fmt::format("maximum distance of the Vietoris-Rips complex, metres (default: {})",
-                        d.distance),
-            [&o](const std::string& v) { o.distance = length("--distance", v, true); });
+  add_value(app, "--min-persistence", "X",
+            fmt::format("surface: least persistence of a part, a mean concavity from 0 to 2; one "
+                        "of less joins the neighbour that it meets first (default: {})",
+                        d.min_persistence),
+            [&o](const std::string& v) {
+              o.min_persistence = app::parse_number("--min-persistence", v);
+              if (!(o.min_persistence >= 0))
+                throw Error(ErrorKind::usage,
+                            fmt::format("--min-persistence: found {}, expected at least 0", v));
+            });
+  add_value(app, "--min-part", "N",
+            fmt::format("surface: fewest voxels of a part; a smaller one joins the neighbour that "
+                        "it meets first (default: {})",
+                        d.min_part),
+            [&o](const std::string& v) { o.min_part = app::parse_integer("--min-part", v, 1); });
+  add_value(
+      app, "--distance", "M",
+      fmt::format("paper: maximum distance of the Vietoris-Rips complex, metres (default: {})",
+                  d.distance),
+      [&o](const std::string& v) { o.distance = length("--distance", v, true); });
   add_value(app, "--steps", "N|exact",
-            fmt::format("filtration steps up to the distance; exact: as many as there are "
+            fmt::format("paper: filtration steps up to the distance; exact: as many as there are "
                         "distances (default: {})",
                         d.steps),
             [&o](const std::string& v) { o.steps = parse_steps(v); });
@@ -165,8 +192,8 @@ void add_planned_options(CLI::App& app) {
         name, [name] { not_built_in(name); }, "not built in yet");
   }
   using Option = std::pair<std::string, std::string>;
-  for (const Option& option : {Option("--min-persistence", "X"), Option("--cut", "X"),
-                               Option("--explain", "A,B"), Option("--report", "FILE.html")}) {
+  for (const Option& option :
+       {Option("--cut", "X"), Option("--explain", "A,B"), Option("--report", "FILE.html")}) {
     add_value(app, option.first, option.second, "not built in yet",
               [name = option.first](const std::string&) { not_built_in(name); });
   }

@@ -9,7 +9,8 @@ namespace {
 
 /// One component while it is measured.
 struct Component {
-  Index root = 0;  // the vertex that gave birth to it: the first of its voxels in grid order
+  Index root = 0;     // the voxel that names it
+  Index in_grid = 0;  // points that its centroid is of
   Segment segment;
 };
 
@@ -21,12 +22,14 @@ bool comes_before(const Component& a, const Component& b) {
   return a.root < b.root;
 }
 
-void measure_voxels(const VoxelGrid& grid, const std::vector<Index>& root_of,
+/// Centroids stay sums.
+void measure_voxels(const VoxelGrid& grid, const std::vector<Index>& component_of,
                     std::vector<Component>& by_root) {
-  for (std::size_t v = 0; v < root_of.size(); ++v) {
-    Segment& s = by_root[static_cast<std::size_t>(root_of[v])].segment;
+  for (std::size_t v = 0; v < component_of.size(); ++v) {
+    Component& component = by_root[static_cast<std::size_t>(component_of[v])];
+    Segment& s = component.segment;
     ++s.voxels;
-    s.points += grid.counts[v];
+    component.in_grid += grid.counts[v];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       s.centroid[axis] += static_cast<double>(grid.counts[v]) *
                           grid.centroids(static_cast<Index>(v), static_cast<Index>(axis));
@@ -45,13 +48,16 @@ void measure_point(Segment& s, bool first, const float* p) {
 }  // namespace
 
 Components extract_components(const CloudView& cloud, const std::vector<Index>& points,
-                              const VoxelGrid& grid, const MergeTree& tree, Index min_size) {
+                              const VoxelGrid& grid, const std::vector<Index>& component_of,
+                              Index min_size) {
   Components result;
   result.labels.resize(cloud.xyz.size() / 3);
-  // The edges of the complex are those of the whole filtration: at its end every merge is done.
-  const std::vector<Index> root_of = tree.components(kInfinity);
-  std::vector<Component> by_root(root_of.size());
-  measure_voxels(grid, root_of, by_root);
+  std::vector<Component> by_root(component_of.size());
+  measure_voxels(grid, component_of, by_root);
+  const auto root_of_point = [&](std::size_t k) {
+    return static_cast<std::size_t>(component_of[grid.voxel_of[k]]);
+  };
+  for (std::size_t k = 0; k < points.size(); ++k) ++by_root[root_of_point(k)].segment.points;
 
   std::vector<Component> kept;
   for (std::size_t v = 0; v < by_root.size(); ++v) {
@@ -65,14 +71,16 @@ Components extract_components(const CloudView& cloud, const std::vector<Index>& 
   for (std::size_t i = 0; i < kept.size(); ++i) {
     Segment& s = kept[i].segment;
     s.label = static_cast<std::uint32_t>(i + 1);
-    for (double& c : s.centroid) c /= static_cast<double>(s.points);
+    for (double& c : s.centroid) c /= static_cast<double>(kept[i].in_grid);
     label_of_root[static_cast<std::size_t>(kept[i].root)] = s.label;
     result.segments.push_back(s);
   }
+  result.label_of_voxel.reserve(component_of.size());
+  for (const Index root : component_of)
+    result.label_of_voxel.push_back(label_of_root[static_cast<std::size_t>(root)]);
   std::vector<bool> seen(kept.size());
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const auto root = static_cast<std::size_t>(root_of[grid.voxel_of[k]]);
-    const std::uint32_t label = label_of_root[root];
+    const std::uint32_t label = result.label_of_voxel[grid.voxel_of[k]];
     if (label == 0) continue;
     const auto i = static_cast<std::size_t>(points[k]);
     result.labels[i] = label;
@@ -80,6 +88,27 @@ Components extract_components(const CloudView& cloud, const std::vector<Index>& 
     seen[label - 1] = true;
   }
   return result;
+}
+
+void find_neighbours(const MergeTree& tree, Components& components) {
+  const std::vector<std::uint32_t>& label = components.label_of_voxel;
+  std::vector<double> birth(components.segments.size() + 1, kInfinity);
+  for (std::size_t v = 0; v < label.size(); ++v)
+    birth[label[v]] = std::min(birth[label[v]], tree.births[v]);
+  const auto meet = [&](std::uint32_t a, std::uint32_t b, double value) {
+    Segment& s = components.segments[a - 1];
+    if (s.neighbour != 0) return;
+    s.neighbour = b;
+    s.meets_at = value;
+    s.persistence = value - birth[a];
+  };
+  for (const Merge& m : tree.merges) {  // by value: the first one counts
+    const std::uint32_t a = label[static_cast<std::size_t>(m.u)];
+    const std::uint32_t b = label[static_cast<std::size_t>(m.v)];
+    if (a == b || a == 0 || b == 0) continue;
+    meet(a, b, m.value);
+    meet(b, a, m.value);
+  }
 }
 
 }  // namespace ph::segment

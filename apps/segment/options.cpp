@@ -27,14 +27,16 @@ void validate(const CloudView& cloud, const SegmentOptions& o) {
                 fmt::format("found {} coordinates, expected three a point", cloud.xyz.size()));
   }
   constexpr std::string_view kLength = "a positive finite length";
-  require(std::isfinite(o.voxel) && o.voxel > 0, "voxel", o.voxel, kLength);
+  const double voxel = o.voxel_size(), margin = o.plane_margin();
+  require(std::isfinite(voxel) && voxel > 0, "voxel", voxel, kLength);
   require(std::isfinite(o.distance) && o.distance >= 0, "distance", o.distance,
           "a finite length of at least 0");
   require(o.steps >= 0, "steps", o.steps, "at least 0");
   require(o.min_size >= 1, "min_size", static_cast<double>(o.min_size), "at least 1");
   require(o.max_range >= 0, "max_range", o.max_range, "a length of at least 0 or infinity");
-  require(std::isfinite(o.plane_distance) && o.plane_distance > 0, "plane_distance",
-          o.plane_distance, kLength);
+  require(o.min_persistence >= 0, "min_persistence", o.min_persistence, "at least 0");
+  require(o.min_part >= 1, "min_part", static_cast<double>(o.min_part), "at least 1");
+  require(std::isfinite(margin) && margin > 0, "plane_distance", margin, kLength);
   require_finite(o.viewpoint.value_or(cloud.viewpoint), "viewpoint");
   if (!o.crop) return;
   for (std::size_t axis = 0; axis < 3; ++axis) {

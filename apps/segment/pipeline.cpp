@@ -1,42 +1,19 @@
 // SPDX-License-Identifier: MIT
 // W. J. Beksi and N. Papanikolopoulos, 3D Point Cloud Segmentation Using Topological Persistence,
-// ICRA 2016. Section and algorithm numbers below are those of the paper.
-#include <algorithm>
-#include <chrono>
-#include <cmath>
+// ICRA 2016. Section and algorithm numbers here and in methods.cpp are those of the paper.
+#include <utility>
 
 #include "components.hpp"
 #include "cross_check.hpp"
+#include "methods.hpp"
 #include "options.hpp"
 #include "ph/core/error.hpp"
 #include "ph/segment.hpp"
 #include "plane.hpp"
 #include "range_filter.hpp"
-#include "rips_graph.hpp"
-#include "voxel_grid.hpp"
 
 namespace ph::segment {
 namespace {
-
-/// Writes the stage table and, between stages, reports progress and obeys a stop request.
-class StageClock {
- public:
-  StageClock(const RunContext& context, std::vector<Stage>& stages)
-      : context_(context), stages_(stages) {}
-
-  void finish(std::string_view name, Index points) {
-    const auto now = std::chrono::steady_clock::now();
-    stages_.push_back({name, points, std::chrono::duration<double>(now - start_).count()});
-    if (context_.on_progress) context_.on_progress({name, stages_.size(), 0});
-    context_.poll();
-    start_ = std::chrono::steady_clock::now();
-  }
-
- private:
-  const RunContext& context_;
-  std::vector<Stage>& stages_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// What the stages before the voxel grid and the labels take for each point, at most.
 std::size_t bytes_for_points(const CloudView& cloud) {
@@ -45,6 +22,43 @@ std::size_t bytes_for_points(const CloudView& cloud) {
 }
 
 Index count(const std::vector<Index>& points) { return static_cast<Index>(points.size()); }
+
+/// What is in range and stands before the supporting plane; the plane goes into the result, too.
+Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageClock& clock,
+                  Segmentation& result) {
+  constexpr double noise_grows_from = 1;  // metres
+  const bool is_paper = options.method == Method::paper;
+  Scene scene;
+  scene.cloud = cloud;
+  scene.margin = {options.plane_margin(), is_paper ? kInfinity : noise_grows_from};
+
+  // Section VI: "we remove outlying points (background clutter) that are beyond range"
+  scene.in_range = range_filter(cloud, options.max_range, options.crop);
+  clock.finish("range filter", count(scene.in_range));
+
+  if (!options.plane) {
+    result.plane_note = "no plane: its removal is switched off";
+    scene.points = scene.in_range;
+    return scene;
+  }
+  // Section VI: "we find all points that correspond to a planar model and remove them"
+  PlaneSearch search = find_plane(cloud, scene.in_range, scene.margin.distance);
+  result.plane = scene.plane = search.plane;
+  result.plane_note = std::move(search.note);
+  scene.points = scene.plane ? remove_plane(cloud, scene.in_range, *scene.plane, scene.margin)
+                             : scene.in_range;
+  clock.finish("plane", count(scene.points));
+  return scene;
+}
+
+/// For each voxel the component that becomes a segment, if it is large enough.
+std::vector<Index> components_of(const MergeTree& tree, const SegmentOptions& options) {
+  if (options.method == Method::surface)
+    return tree.basins(options.min_persistence, options.min_part);
+  // Section V.C: the sets joined to 0-simplices of infinite persistence. The edges of the complex
+  // are those of the whole filtration: at its end every merge is done.
+  return tree.components(kInfinity);
+}
 
 }  // namespace
 
@@ -55,38 +69,22 @@ Segmentation segment(const CloudView& input, const SegmentOptions& options,
   context.memory.require(bytes_for_points(cloud));
   Segmentation result;
   StageClock clock(context, result.stages);
-
-  // Section VI: "we remove outlying points (background clutter) that are beyond range"
-  std::vector<Index> points = range_filter(cloud, options.max_range, options.crop);
-  clock.finish("range filter", count(points));
-
-  // Section VI: "we find all points that correspond to a planar model and remove them"
-  if (options.plane) {
-    const PlaneSearch search = find_plane(cloud, points, options.plane_distance);
-    result.plane = search.plane;
-    result.plane_note = search.note;
-    if (search.plane) points = remove_plane(cloud, points, *search.plane, options.plane_distance);
-    clock.finish("plane", count(points));
-  } else {
-    result.plane_note = "no plane: its removal is switched off";
-  }
-
-  // Assumption 1: "points in the space are approximated (downsampled) with their centroid"
-  VoxelGrid grid = voxel_grid(cloud, points, options.voxel);
-  clock.finish("voxel grid", grid.centroids.rows());
-
-  // Alg. 1 (V.A) and the filtration of V.B: the 1-skeleton of the Vietoris-Rips complex
-  const FilteredGraph rips = rips_graph(grid.centroids, options.distance, options.steps, context);
-  result.edges = static_cast<Index>(rips.edge_count());
-  clock.finish("complex", rips.size());
+  const Scene scene = clear_scene(cloud, options, clock, result);
+  Filtered filtered = options.method == Method::surface
+                          ? filter_by_surface(scene, options, context, clock)
+                          : filter_by_distance(scene, options, context, clock);
+  const FilteredGraph& graph = filtered.graph;
+  result.edges = static_cast<Index>(graph.edge_count());
 
   // Alg. 2: the death times of the zero-dimensional cycles, by the disjoint sets of V.C
-  result.tree = merge_tree(rips, context);
+  result.tree = merge_tree(graph, context);
   result.barcode = barcode_of(result.tree);
-  clock.finish("persistence", rips.size());
+  clock.finish("persistence", graph.size());
 
-  // Section V.C: the sets joined to 0-simplices of infinite persistence; VI: at least 32 points
-  Components found = extract_components(cloud, points, grid, result.tree, options.min_size);
+  const std::vector<Index> component_of = components_of(result.tree, options);
+  Components found =
+      extract_components(cloud, filtered.points, filtered.grid, component_of, options.min_size);
+  find_neighbours(result.tree, found);
   result.segments = std::move(found.segments);
   result.labels = std::move(found.labels);
   Index in_segments = 0;
@@ -95,11 +93,11 @@ Segmentation segment(const CloudView& input, const SegmentOptions& options,
 
   // Section V.B defines persistence by the boundary matrix: the fast path must agree with it.
   if (options.check) {
-    result.difference = cross_check(rips, result.barcode, context);
+    result.difference = cross_check(graph, result.barcode, context);
     result.checked = true;
     clock.finish("check", in_segments);
   }
-  result.vertices = std::move(grid.centroids);
+  result.vertices = std::move(filtered.grid.centroids);
   return result;
 }
 

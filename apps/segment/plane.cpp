@@ -181,13 +181,13 @@ PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points,
 }
 
 std::vector<Index> remove_plane(const CloudView& cloud, const std::vector<Index>& points,
-                                const Plane& plane, double distance) {
+                                const Plane& plane, const PlaneMargin& margin) {
   std::vector<Index> kept(points.size());
   std::size_t count = 0;
   for (const Index i : points) {
     const float* p = &cloud.xyz[3 * static_cast<std::size_t>(i)];
     kept[count] = i;  // written always, kept sometimes: no branch to mispredict
-    count += static_cast<std::size_t>(plane.signed_distance(p[0], p[1], p[2]) > distance);
+    count += static_cast<std::size_t>(plane.signed_distance(p[0], p[1], p[2]) > margin(cloud, p));
   }
   kept.resize(count);
   return kept;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,9 +24,23 @@ struct PlaneSearch {
 /// @param distance half the thickness of the plane, metres, > 0.
 PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points, double distance);
 
-/// The points on the sensor's side of the plane and more than `distance` away from it. What lies on
-/// the plane or behind it (the floor beyond a table's edge, reflections) stands on nothing.
+/// How near to a plane points count as part of it.
+struct PlaneMargin {
+  double distance;  ///< metres
+  /// Up to here, metres from the sensor; farther away it grows with the square of the range, as the
+  /// noise of depth from disparity does (Khoshelham & Elberink 2012).
+  double range = kInfinity;
+
+  double operator()(const CloudView& cloud, const float* p) const {
+    const double x = p[0] - cloud.viewpoint[0], y = p[1] - cloud.viewpoint[1];
+    const double z = p[2] - cloud.viewpoint[2];
+    return distance * std::max(1.0, (x * x + y * y + z * z) / (range * range));
+  }
+};
+
+/// The points on the sensor's side of the plane and beyond the margin. What lies on the plane or
+/// behind it (the floor beyond a table's edge, reflections) stands on nothing.
 std::vector<Index> remove_plane(const CloudView& cloud, const std::vector<Index>& points,
-                                const Plane& plane, double distance);
+                                const Plane& plane, const PlaneMargin& margin);
 
 }  // namespace ph::segment

@@ -57,16 +57,20 @@ std::string input_of(const Cloud& cloud, const RunInfo& info) {
                  {"organised", boolean(cloud.organised())}});
 }
 
+std::string_view name_of(Method method) { return method == Method::paper ? "paper" : "surface"; }
+
 std::string options_of(const SegmentOptions& o) {
   return object({{"max_range", number(o.max_range)},
                  {"crop", o.crop ? box_of(*o.crop) : "null"},
                  {"plane", boolean(o.plane)},
-                 {"plane_distance", number(o.plane_distance)},
+                 {"plane_distance", number(o.plane_margin())},
                  {"viewpoint", o.viewpoint ? numbers(*o.viewpoint) : "null"},
-                 {"voxel", number(o.voxel)},
+                 {"voxel", number(o.voxel_size())},
                  {"distance", number(o.distance)},
                  {"steps", o.steps == 0 ? json_string("exact") : integer(o.steps)},
                  {"min_size", integer(o.min_size)},
+                 {"min_persistence", number(o.min_persistence)},
+                 {"min_part", integer(o.min_part)},
                  {"check", boolean(o.check)}});
 }
 
@@ -92,6 +96,8 @@ std::string segments_of(const Segmentation& s) {
                    {"points", integer(g.points)},
                    {"voxels", integer(g.voxels)},
                    {"persistence", number(g.persistence)},
+                   {"neighbour", integer(g.neighbour)},
+                   {"meets_at", number(g.meets_at)},
                    {"centroid", numbers(g.centroid)},
                    {"box", box_of(g.box)}});
   });
@@ -131,7 +137,7 @@ std::string json_summary(const Cloud& cloud, const Arguments& arguments, const S
               {"version", "1"},
               {"program", json_string(info.program)},
               {"input", input_of(cloud, info)},
-              {"method", json_string("paper")},
+              {"method", json_string(std::string(name_of(o.method)))},
               {"options", options_of(o)},
               {"stages", stages_of(s)},
               {"plane", plane_of(s)},

@@ -114,6 +114,7 @@ VoxelGrid voxel_grid(const CloudView& cloud, const std::vector<Index>& points, d
     return a.x < b.x;
   });
   grid.centroids.resize(static_cast<Index>(voxels.size()), 3);
+  grid.cells.resize(voxels.size());
   grid.counts.resize(voxels.size());
   std::vector<std::uint32_t> rank(voxels.size());
   for (std::uint32_t r = 0; r < order.size(); ++r) {
@@ -122,6 +123,7 @@ VoxelGrid voxel_grid(const CloudView& cloud, const std::vector<Index>& points, d
     grid.centroids.row(r) << (v.x + static_cast<double>(v.sum_x) / n) * voxel,
         (v.y + static_cast<double>(v.sum_y) / n) * voxel,
         (v.z + static_cast<double>(v.sum_z) / n) * voxel;
+    grid.cells[r] = {v.x, v.y, v.z};
     grid.counts[r] = v.count;
     rank[order[r]] = r;
   }

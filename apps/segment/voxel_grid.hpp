@@ -9,6 +9,7 @@ namespace ph::segment {
 /// The occupied voxels of a grid whose corner is the origin, in the order of their coordinates
 /// (z slowest).
 struct VoxelGrid {
+  std::vector<Vec3> cells;              ///< of each voxel: whole numbers, its corner / voxel
   Points centroids;                     ///< mean of the points of each voxel, one a row, metres
   std::vector<Index> counts;            ///< points of each voxel
   std::vector<std::uint32_t> voxel_of;  ///< the voxel of each point that was put in, in their order

@@ -11,8 +11,10 @@ import time
 import program
 from program import ProgramTest, main
 
-# 0.2 s are promised; a busy machine of a test may take a little longer to notice.
+# 0.2 s are promised; a busy machine of a test may take a little longer to notice, and longer still
+# when it is busy with something else: what was too slow is tried again.
 PATIENCE = 0.2 + 0.3
+TRIES = 3
 
 
 class Signals(ProgramTest):
@@ -36,19 +38,29 @@ class Signals(ProgramTest):
         seconds = time.monotonic() - begin
         self.assertEqual(run.stderr.read(), b"")
         run.stderr.close()
-        run.stdin.close()
-        self.assertLess(seconds, PATIENCE)
-        return run.returncode
+        if run.stdin:
+            run.stdin.close()
+        return run.returncode, seconds
+
+    def expect_end(self, start, delay, code, *numbers):
+        """Sends signals to a run that `start` returns and that must still be there."""
+        for _ in range(TRIES):
+            run = start()
+            time.sleep(delay)
+            self.assertIsNone(run.poll(), "the computation was over too soon")
+            for number in numbers:
+                run.send_signal(number)
+            found, seconds = self.finish(run)
+            self.assertEqual(found, code)
+            if seconds < PATIENCE:
+                return
+        self.fail(f"ended after {seconds:.2f} s, expected less than {PATIENCE} s")
 
     def test_each_signal_ends_a_computation(self):
         for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)):
             for delay in (0.15, 0.8):
                 with self.subTest(signal=number, delay=delay):
-                    run = self.start()
-                    time.sleep(delay)
-                    self.assertIsNone(run.poll(), "the computation was over too soon")
-                    run.send_signal(number)
-                    self.assertEqual(self.finish(run), code)
+                    self.expect_end(self.start, delay, code, number)
                     self.assertEqual(self.files(), ["many.txt", "square.txt"])
 
     def test_interrupts_of_the_lens_sweep(self):
@@ -58,25 +70,16 @@ class Signals(ProgramTest):
                 file.write(" ".join(f"{c / math.hypot(*x):.6f}" for c in x) + "\n")
         for delay in (0.1, 0.4, 0.8, 1.2):
             with self.subTest(delay=delay):
-                run = self.start("--engine", "lens")
-                time.sleep(delay)
-                self.assertIsNone(run.poll(), "the computation was over too soon")
-                run.send_signal(signal.SIGINT)
-                self.assertEqual(self.finish(run), 130)
+                self.expect_end(lambda: self.start("--engine", "lens"), delay, 130, signal.SIGINT)
 
     def test_a_signal_ends_reading(self):
-        run = subprocess.Popen([program.PROGRAM, "-", "--quiet"], stdin=subprocess.PIPE,
-                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-        time.sleep(0.3)
-        run.send_signal(signal.SIGINT)
-        self.assertEqual(self.finish(run), 130)
+        def start():
+            return subprocess.Popen([program.PROGRAM, "-", "--quiet"], stdin=subprocess.PIPE,
+                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        self.expect_end(start, 0.3, 130, signal.SIGINT)
 
     def test_a_second_signal(self):
-        run = self.start()
-        time.sleep(0.3)
-        run.send_signal(signal.SIGINT)
-        run.send_signal(signal.SIGINT)
-        self.assertEqual(self.finish(run), 130)
+        self.expect_end(self.start, 0.3, 130, signal.SIGINT, signal.SIGINT)
         self.assertEqual(self.files(), ["many.txt", "square.txt"])
 
     def test_kill_leaves_no_final_name(self):

@@ -27,7 +27,20 @@ std::vector<float> cluttered() {
   return xyz;
 }
 
-TEST(Invariance, OrderOfThePoints) {
+class Invariance : public testing::TestWithParam<Method> {
+ protected:
+  Segmentation segment(const CloudView& cloud, SegmentOptions options = {},
+                       const RunContext& context = default_context()) const {
+    options.method = GetParam();
+    return segment::segment(cloud, options, context);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Methods, Invariance, testing::Values(Method::surface, Method::paper),
+                         [](const auto& method) {
+                           return method.param == Method::paper ? "Paper" : "Surface";
+                         });
+
+TEST_P(Invariance, OrderOfThePoints) {
   const std::vector<float> xyz = cluttered();
   const Segmentation s = segment(CloudView{xyz, {}});
   EXPECT_GE(s.segments.size(), 3U);
@@ -48,18 +61,20 @@ TEST(Invariance, OrderOfThePoints) {
   }
 }
 
-TEST(Invariance, ScalingByPowersOfTwo) {
+// Method surface reckons with the noise of depth, which is not scaled along.
+TEST(Scaling, PowersOfTwo) {
   const std::vector<float> xyz = cluttered();
-  const SegmentOptions o;
+  const SegmentOptions o{.method = Method::paper};
   const Segmentation s = segment(CloudView{xyz, {}}, o);
   for (const double scale : {0.125, 1024.0}) {
     std::vector<float> scaled;
     for (const float c : xyz) scaled.push_back(static_cast<float>(c * scale));
     const Segmentation t =
-        segment(CloudView{scaled, {}}, {.voxel = o.voxel * scale,
-                                        .distance = o.distance * scale,
+        segment(CloudView{scaled, {}}, {.method = o.method,
+                                        .voxel = o.voxel_size() * scale,
                                         .max_range = o.max_range * scale,
-                                        .plane_distance = o.plane_distance * scale});
+                                        .plane_distance = o.plane_margin() * scale,
+                                        .distance = o.distance * scale});
     EXPECT_EQ(t.labels, s.labels);
     ASSERT_EQ(t.barcode.size(), s.barcode.size());
     for (std::size_t i = 0; i < s.barcode.size(); ++i) {
@@ -68,7 +83,7 @@ TEST(Invariance, ScalingByPowersOfTwo) {
   }
 }
 
-TEST(Invariance, Duplicates) {
+TEST_P(Invariance, Duplicates) {
   const std::vector<float> xyz = cluttered();
   const Segmentation s = segment(CloudView{xyz, {}});
   std::vector<float> twice = xyz;
@@ -80,7 +95,7 @@ TEST(Invariance, Duplicates) {
   EXPECT_EQ(t.tree.merges, s.tree.merges);
 }
 
-TEST(Invariance, AllPointsEqual) {
+TEST_P(Invariance, AllPointsEqual) {
   const std::vector<float> xyz(3 * 100000, 0.5F);
   const Segmentation s = segment(CloudView{xyz, {}}, {.min_size = 1});
   ASSERT_EQ(s.segments.size(), 1U);
@@ -89,7 +104,7 @@ TEST(Invariance, AllPointsEqual) {
   EXPECT_FALSE(s.plane);
 }
 
-TEST(Invariance, Threads) {
+TEST_P(Invariance, Threads) {
   const std::vector<float> xyz = cluttered();
   const Segmentation s = segment(CloudView{xyz, {}});
   for (const int threads : {1, 2, 7}) {
@@ -101,7 +116,7 @@ TEST(Invariance, Threads) {
   }
 }
 
-TEST(Invariance, Holes) {
+TEST_P(Invariance, Holes) {
   const std::vector<float> xyz = cluttered();
   std::vector<float> dense;
   std::vector<std::uint32_t> expected;

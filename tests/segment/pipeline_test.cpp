@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The whole pipeline on small scenes with known answers, and on inputs with nothing in them.
+// Method paper on small scenes with known answers, and on inputs with nothing in them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,12 +14,13 @@ namespace {
 using test::kHole;
 using test::TableScene;
 
+const SegmentOptions kPaper{.method = Method::paper};
 const std::vector<std::string_view> kStages = {
     "range filter", "plane", "voxel grid", "complex", "persistence", "components", "check"};
 
 TEST(Pipeline, TwoBoxesOnATable) {
   const TableScene scene = TableScene::two_boxes();
-  const Segmentation s = segment(CloudView{scene.xyz(), {}});
+  const Segmentation s = segment(CloudView{scene.xyz(), {}}, kPaper);
   ASSERT_TRUE(s.plane) << s.plane_note;
   EXPECT_EQ(s.plane_note, "");
   EXPECT_TRUE(s.checked);
@@ -50,7 +51,7 @@ TEST(Pipeline, TwoBoxesOnATable) {
 
 TEST(Pipeline, StagesAndComplex) {
   const TableScene scene = TableScene::two_boxes();
-  const Segmentation s = segment(CloudView{scene.xyz(), {}});
+  const Segmentation s = segment(CloudView{scene.xyz(), {}}, kPaper);
   ASSERT_EQ(s.stages.size(), kStages.size());
   for (std::size_t i = 0; i < kStages.size(); ++i) {
     EXPECT_EQ(s.stages[i].name, kStages[i]);
@@ -74,14 +75,17 @@ TEST(Pipeline, BoxesThatNearlyTouchAreOneSegmentBeyondTheirGap) {
   // 40 mm apart: apart at 25 mm, one at 60 mm.
   const TableScene scene(
       {{{-0.12, -0.05, 0}, {-0.02, 0.05, 0.1}}, {{0.02, -0.05, 0}, {0.12, 0.05, 0.1}}});
-  EXPECT_EQ(segment(CloudView{scene.xyz(), {}}).segments.size(), 2U);
-  EXPECT_EQ(segment(CloudView{scene.xyz(), {}}, {.distance = 0.06}).segments.size(), 1U);
+  EXPECT_EQ(segment(CloudView{scene.xyz(), {}}, kPaper).segments.size(), 2U);
+  EXPECT_EQ(segment(CloudView{scene.xyz(), {}}, {.method = Method::paper, .distance = 0.06})
+                .segments.size(),
+            1U);
 }
 
 TEST(Pipeline, StepsChangeTheBarcodeButNotTheSegments) {
   const TableScene scene = TableScene::two_boxes();
-  const Segmentation ten = segment(CloudView{scene.xyz(), {}});
-  const Segmentation exact = segment(CloudView{scene.xyz(), {}}, {.steps = 0});
+  const Segmentation ten = segment(CloudView{scene.xyz(), {}}, kPaper);
+  const Segmentation exact =
+      segment(CloudView{scene.xyz(), {}}, {.method = Method::paper, .steps = 0});
   EXPECT_EQ(ten.labels, exact.labels);
   ASSERT_EQ(ten.barcode.size(), exact.barcode.size());
   EXPECT_EQ(ten.edges, exact.edges);
@@ -95,7 +99,7 @@ TEST(Pipeline, StepsChangeTheBarcodeButNotTheSegments) {
 
 TEST(Pipeline, EverythingPlane) {
   const TableScene scene(std::vector<test::Block>{});
-  const Segmentation s = segment(CloudView{scene.xyz(), {}});
+  const Segmentation s = segment(CloudView{scene.xyz(), {}}, kPaper);
   ASSERT_TRUE(s.plane);
   EXPECT_DOUBLE_EQ(s.plane->share, 1);
   EXPECT_TRUE(s.segments.empty());
@@ -107,7 +111,8 @@ TEST(Pipeline, EverythingPlane) {
 
 TEST(Pipeline, WithoutThePlaneTheTableIsASegment) {
   const TableScene scene = TableScene::two_boxes();
-  const Segmentation s = segment(CloudView{scene.xyz(), {}}, {.plane = false});
+  const Segmentation s =
+      segment(CloudView{scene.xyz(), {}}, {.method = Method::paper, .plane = false});
   EXPECT_FALSE(s.plane);
   EXPECT_NE(s.plane_note, "");
   ASSERT_EQ(s.stages.size(), kStages.size() - 1);
@@ -118,7 +123,7 @@ TEST(Pipeline, WithoutThePlaneTheTableIsASegment) {
 TEST(Pipeline, NothingInIt) {
   for (const std::size_t n : {std::size_t{0}, std::size_t{1}, std::size_t{12}}) {
     const std::vector<float> holes(3 * n, kHole);
-    const Segmentation s = segment(CloudView{holes, {}});
+    const Segmentation s = segment(CloudView{holes, {}}, kPaper);
     EXPECT_EQ(s.labels, std::vector<std::uint32_t>(n));
     EXPECT_TRUE(s.segments.empty());
     EXPECT_FALSE(s.plane);
@@ -131,8 +136,8 @@ TEST(Pipeline, OneValidPixel) {
   std::vector<float> xyz(3 * 12, kHole);
   xyz[9] = xyz[10] = 0;
   xyz[11] = 1;
-  EXPECT_TRUE(segment(CloudView{xyz, {}}).segments.empty());
-  const Segmentation s = segment(CloudView{xyz, {}}, {.min_size = 1});
+  EXPECT_TRUE(segment(CloudView{xyz, {}}, kPaper).segments.empty());
+  const Segmentation s = segment(CloudView{xyz, {}}, {.method = Method::paper, .min_size = 1});
   ASSERT_EQ(s.segments.size(), 1U);
   EXPECT_EQ(s.segments[0].points, 1);
   EXPECT_EQ(s.labels[3], 1U);
@@ -143,14 +148,15 @@ TEST(Pipeline, OneValidPixel) {
 
 TEST(Pipeline, TooFarAwayIsNothing) {
   const TableScene scene = TableScene::two_boxes();
-  const Segmentation s = segment(CloudView{scene.xyz(), {}}, {.max_range = 0.1});
+  const Segmentation s =
+      segment(CloudView{scene.xyz(), {}}, {.method = Method::paper, .max_range = 0.1});
   EXPECT_EQ(s.stages[0].points, 0);
   EXPECT_TRUE(s.segments.empty());
 }
 
 TEST(Pipeline, CropLeavesOneBox) {
   const TableScene scene = TableScene::two_boxes();
-  const SegmentOptions left{.crop = Box{{-1, -1, 0}, {0, 1, 2}}};
+  const SegmentOptions left{.method = Method::paper, .crop = Box{{-1, -1, 0}, {0, 1, 2}}};
   const Segmentation s = segment(CloudView{scene.xyz(), {}}, left);
   ASSERT_EQ(s.segments.size(), 1U);
   EXPECT_LT(s.segments[0].centroid[0], 0);
@@ -159,10 +165,11 @@ TEST(Pipeline, CropLeavesOneBox) {
 TEST(Pipeline, TheViewpointDecidesWhichSideIsKept) {
   const TableScene scene = TableScene::two_boxes();
   Cloud cloud = scene.cloud();
-  EXPECT_EQ(segment(cloud).segments.size(), 2U);
+  EXPECT_EQ(segment(cloud, kPaper).segments.size(), 2U);
   cloud.viewpoint[2] = 2.5;  // below the table
-  EXPECT_EQ(segment(cloud, {.max_range = 5}).segments.size(), 0U);
-  EXPECT_EQ(segment(cloud, {.viewpoint = Vec3{0, 0, 0}}).segments.size(), 2U);
+  EXPECT_EQ(segment(cloud, {.method = Method::paper, .max_range = 5}).segments.size(), 0U);
+  EXPECT_EQ(segment(cloud, {.method = Method::paper, .viewpoint = Vec3{0, 0, 0}}).segments.size(),
+            2U);
 }
 
 TEST(Pipeline, OptionsOutOfRange) {
@@ -182,6 +189,9 @@ TEST(Pipeline, OptionsOutOfRange) {
     expect_usage({.plane_distance = bad});
   }
   for (const double bad : {-1.0, nan, kInfinity}) expect_usage({.distance = bad});
+  expect_usage({.min_persistence = -1});
+  expect_usage({.min_persistence = nan});
+  expect_usage({.min_part = 0});
   expect_usage({.steps = -1});
   expect_usage({.min_size = 0});
   expect_usage({.max_range = nan});
@@ -197,7 +207,7 @@ TEST(Pipeline, StopsWhenAsked) {
   context.stop = source.get_token();
   source.request_stop();
   try {
-    segment(CloudView{scene.xyz(), {}}, {}, context);
+    segment(CloudView{scene.xyz(), {}}, kPaper, context);
     FAIL() << "did not stop";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::cancelled);

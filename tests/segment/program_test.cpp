@@ -181,6 +181,8 @@ TEST_F(Program, UsageErrors) {
                                 "scene.pcd --steps 0",
                                 "scene.pcd --steps many",
                                 "scene.pcd --min-size 0",
+                                "scene.pcd --min-part 0",
+                                "scene.pcd --min-persistence -1",
                                 "scene.pcd --crop 1,2,3",
                                 "scene.pcd --crop 1,0,0,1,0,1",
                                 "scene.pcd --plane maybe",
@@ -205,8 +207,8 @@ TEST_F(Program, UsageErrors) {
 }
 
 TEST_F(Program, WhatIsNotBuiltInYet) {
-  for (const char* arguments : {"--method surface", "--objects", "--parts", "--min-persistence 1",
-                                "--cut 0.1", "--explain 1,2", "--report r.html"}) {
+  for (const char* arguments :
+       {"--objects", "--parts", "--cut 0.1", "--explain 1,2", "--report r.html"}) {
     EXPECT_EQ(run(std::string("scene.pcd ") + arguments), 69) << arguments;
     EXPECT_NE(err().find("not built in yet"), std::string::npos) << err();
   }
@@ -222,21 +224,50 @@ TEST_F(Program, InputErrors) {
   std::ofstream(at("empty.pcd"));
   EXPECT_EQ(run("empty.pcd"), 65);
   EXPECT_EQ(run("scene.pcd -o no/such/folder/out.pcd"), 73);
-  EXPECT_EQ(run("scene.pcd --plane off --distance 2 --memory-limit 50MB --json s.json"), 75);
+  EXPECT_EQ(
+      run("scene.pcd --method paper --plane off --distance 2 --memory-limit 50MB --json s.json"),
+      75);
   EXPECT_NE(err().find("lower --distance"), std::string::npos) << err();
   EXPECT_FALSE(fs::exists(at("s.json")));
 }
 
 TEST_F(Program, HelpAndVersion) {
   EXPECT_EQ(run("--help"), 0);
-  for (const char* option :
-       {"--method",   "--max-range", "--crop",    "--plane",        "--plane-distance",
-        "--voxel",    "--distance",  "--steps",   "--min-size",     "--viewpoint",
-        "--no-check", "--output",    "--labels",  "--barcode",      "--plot",
-        "--json",     "--depth",     "--color",   "--intrinsics",   "--depth-scale",
-        "--coloured", "--picture",   "--threads", "--memory-limit", "--progress",
-        "--quiet",    "--verbose",   "--version", "--objects",      "--parts",
-        "--cut",      "--explain",   "--report"}) {
+  for (const char* option : {"--method",
+                             "--max-range",
+                             "--crop",
+                             "--plane",
+                             "--plane-distance",
+                             "--voxel",
+                             "--min-part",
+                             "--min-persistence",
+                             "--distance",
+                             "--steps",
+                             "--min-size",
+                             "--viewpoint",
+                             "--no-check",
+                             "--output",
+                             "--labels",
+                             "--barcode",
+                             "--plot",
+                             "--json",
+                             "--depth",
+                             "--color",
+                             "--intrinsics",
+                             "--depth-scale",
+                             "--coloured",
+                             "--picture",
+                             "--threads",
+                             "--memory-limit",
+                             "--progress",
+                             "--quiet",
+                             "--verbose",
+                             "--version",
+                             "--objects",
+                             "--parts",
+                             "--cut",
+                             "--explain",
+                             "--report"}) {
     EXPECT_NE(out().find(option), std::string::npos) << option;
   }
   EXPECT_EQ(run("--version"), 0);

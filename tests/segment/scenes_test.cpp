@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The pipeline against an independent single linkage on real frames.
+// Method paper against an independent single linkage on real frames.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,10 +41,10 @@ std::map<Cell, Means> voxels_of(const std::vector<float>& xyz, const Segmentatio
   for (std::size_t i = 0; i < xyz.size() / 3; ++i) {
     const double x = xyz[3 * i], y = xyz[3 * i + 1], z = xyz[3 * i + 2];
     if (!(std::sqrt(x * x + y * y + z * z) <= o.max_range)) continue;
-    if (s.plane && !(s.plane->signed_distance(x, y, z) > o.plane_distance)) continue;
-    Means& voxel =
-        voxels[{std::lround(std::floor(z / o.voxel)), std::lround(std::floor(y / o.voxel)),
-                std::lround(std::floor(x / o.voxel))}];
+    if (s.plane && !(s.plane->signed_distance(x, y, z) > o.plane_margin())) continue;
+    Means& voxel = voxels[{std::lround(std::floor(z / o.voxel_size())),
+                           std::lround(std::floor(y / o.voxel_size())),
+                           std::lround(std::floor(x / o.voxel_size()))}];
     voxel.sum[0] += x, voxel.sum[1] += y, voxel.sum[2] += z;
     voxel.count += 1;
     voxel.points.push_back(i);
@@ -84,7 +84,7 @@ TEST_P(SceneTest, IsSingleLinkageOfTheVoxels) {
   for (const fs::path& file : files) {
     SCOPED_TRACE(file.filename());
     const std::vector<float> xyz = read_cloud(file).xyz();
-    const SegmentOptions options{.distance = GetParam()};
+    const SegmentOptions options{.method = Method::paper, .distance = GetParam()};
     const Segmentation s = segment(CloudView{xyz, {}}, options);
     EXPECT_TRUE(s.checked);
     EXPECT_EQ(s.difference, "");

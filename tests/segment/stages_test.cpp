@@ -209,7 +209,8 @@ TEST(Components, LabelsByDecreasingNumberOfPoints) {
   const auto points = all_of(13);
   const VoxelGrid grid = voxel_grid(cloud, points, 1);
   const MergeTree tree = merge_tree(rips_graph(grid.centroids, 1, 0));
-  const Components found = extract_components(cloud, points, grid, tree, 1);
+  const std::vector<Index> components = tree.components(kInfinity);
+  const Components found = extract_components(cloud, points, grid, components, 1);
   ASSERT_EQ(found.segments.size(), 3U);
   EXPECT_EQ(found.labels, (std::vector<std::uint32_t>{3, 3, 1, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 0}));
   EXPECT_EQ(found.segments[1].voxels, 3);
@@ -217,8 +218,8 @@ TEST(Components, LabelsByDecreasingNumberOfPoints) {
   EXPECT_DOUBLE_EQ(found.segments[1].centroid[0], 11.5);
   EXPECT_EQ(found.segments[1].box, (Box{{10.5, 0.5, 0.5}, {12.5, 0.5, 0.5}}));
   EXPECT_TRUE(std::isinf(found.segments[0].persistence));
-  EXPECT_EQ(extract_components(cloud, points, grid, tree, 2).segments.size(), 2U);
-  EXPECT_EQ(extract_components(cloud, points, grid, tree, 4).segments.size(), 0U);
+  EXPECT_EQ(extract_components(cloud, points, grid, components, 2).segments.size(), 2U);
+  EXPECT_EQ(extract_components(cloud, points, grid, components, 4).segments.size(), 0U);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "ph/complex/filtered_graph.hpp"
 #include "ph/complex/rips.hpp"
 #include "ph/core/barcode.hpp"
+#include "ph/core/disjoint_sets.hpp"
 #include "ph/core/error.hpp"
 #include "ph/engine/one_skeleton.hpp"
 
@@ -75,6 +76,19 @@ std::vector<Index> MergeTree::components(double value) const {
     }
   }
   return parent;
+}
+
+std::vector<Index> MergeTree::basins(double min_persistence, Index min_size) const {
+  DisjointSets sets(births.size(), std::pmr::get_default_resource());
+  for (const Merge& m : merges) {
+    if (m.separates(min_persistence, min_size)) continue;
+    sets.link(sets.find(static_cast<std::uint32_t>(m.u)),
+              sets.find(static_cast<std::uint32_t>(m.v)));
+  }
+  std::vector<Index> basins(births.size(), -1);
+  for (std::uint32_t v = 0; v < births.size(); ++v)
+    if (births[v] < kInfinity) basins[v] = sets.find(v);
+  return basins;
 }
 
 std::vector<LinkageRow> linkage(const MergeTree& tree) {

@@ -35,19 +35,39 @@ struct CloudView {
   Vec3 viewpoint{};            ///< where the sensor stood, in the coordinates of the points
 };
 
-/// Options of the paper's pipeline. A default-constructed value suits a table top seen by a
-/// structured-light or time-of-flight camera from about a metre.
+/// What decides which voxels belong together.
+enum class Method {
+  surface,  ///< the shape of the visible surface: cut where it is hollow, so that objects that
+            ///< touch come apart
+  paper,    ///< distance alone: Beksi & Papanikolopoulos, ICRA 2016
+};
+
+/// A default-constructed value suits a table top seen by a structured-light or time-of-flight
+/// camera from about a metre.
 struct SegmentOptions {
-  double voxel = 0.01;            ///< edge of a voxel, metres, > 0
-  double distance = 0.025;        ///< maximum distance of the Vietoris-Rips complex, metres, >= 0
-  int steps = 10;                 ///< filtration steps up to `distance`; 0: exact deaths
-  Index min_size = 32;            ///< fewest voxels of a segment, >= 1
-  double max_range = 2.0;         ///< farthest distance from the viewpoint, metres; may be infinite
-  std::optional<Box> crop = {};   ///< keep the points inside this box only
-  bool plane = true;              ///< remove the supporting plane and what lies behind it
-  double plane_distance = 0.006;  ///< half the thickness of the supporting plane, metres, > 0
-  std::optional<Vec3> viewpoint = {};  ///< where the sensor stood; default: what the cloud says
-  bool check = true;                   ///< compare union-find with boundary-matrix reduction
+  Method method = Method::surface;
+  std::optional<double> voxel = {};           ///< edge of a voxel, metres, > 0; see voxel_size
+  Index min_size = 32;                        ///< fewest voxels of a segment, >= 1
+  double max_range = 2.0;                     ///< farthest from the viewpoint, metres; inf: all
+  std::optional<Box> crop = {};               ///< keep the points inside this box only
+  bool plane = true;                          ///< remove the supporting plane and what is behind
+  std::optional<double> plane_distance = {};  ///< half its thickness, metres, > 0; see plane_margin
+  std::optional<Vec3> viewpoint = {};         ///< where the sensor stood; default: the cloud's
+  bool check = true;                          ///< compare union-find with boundary-matrix reduction
+
+  // Method surface
+  double min_persistence = 0.01;  ///< least persistence of a part, a mean concavity (0…2), >= 0
+  Index min_part = 200;  ///< fewest voxels of a part; a smaller one joins a neighbour, >= 1
+
+  // Method paper
+  double distance = 0.025;  ///< maximum distance of the Vietoris-Rips complex, metres, >= 0
+  int steps = 10;           ///< filtration steps up to `distance`; 0: exact deaths
+
+  /// What was asked for, or the default of the method.
+  double voxel_size() const { return voxel.value_or(method == Method::paper ? 0.01 : 0.005); }
+  double plane_margin() const {
+    return plane_distance.value_or(method == Method::paper ? 0.006 : 0.005);
+  }
 };
 
 /// The plane normal·x + offset = 0, its unit normal turned towards the sensor: the signed distance
@@ -61,14 +81,19 @@ struct Plane {
   }
 };
 
-/// One segment: a component of infinite persistence with enough voxels.
+/// One segment: a component with enough voxels, of infinite persistence (paper) or a basin of the
+/// merge tree (surface).
 struct Segment {
   std::uint32_t label = 0;  ///< 1…k by decreasing number of points
   Index points = 0;
   Index voxels = 0;
-  double persistence = kInfinity;  ///< death - birth of its component, metres
-  Vec3 centroid{};                 ///< mean of its points
-  Box box;                         ///< of its points
+  /// How much higher than where it was born it first meets another segment: in metres (paper) or as
+  /// a concavity (surface). Infinite if it meets none.
+  double persistence = kInfinity;
+  std::uint32_t neighbour = 0;  ///< label of the segment it meets first; 0: none
+  double meets_at = kInfinity;  ///< value of the filtration at which it does
+  Vec3 centroid{};              ///< mean of its points, without those won back from the plane
+  Box box;                      ///< of its points
 };
 
 /// What one stage left behind and what it took.
@@ -84,8 +109,8 @@ struct Segmentation {
   std::vector<Segment> segments;      ///< segment i has label i + 1
   std::optional<Plane> plane;         ///< the plane that was removed
   std::string plane_note;             ///< why there is none; empty if there is one
-  Points vertices;                    ///< vertex i of the complex: centroid of voxel i, one a row
-  Index edges = 0;                    ///< edges of the complex
+  Points vertices;                    ///< vertex i of the graph: centroid of voxel i, one a row
+  Index edges = 0;                    ///< edges of the filtered graph
   MergeTree tree;                     ///< which vertices join, at which value
   Barcode barcode = Barcode();        ///< H0, zero-length bars included
   bool checked = false;               ///< whether the cross-check ran
@@ -93,9 +118,13 @@ struct Segmentation {
   std::vector<Stage> stages;          ///< in the order in which they ran
 };
 
-/// Segments a cloud by the paper's pipeline: range filter, supporting plane, voxel grid,
-/// Vietoris-Rips complex, H0 persistence, components of infinite persistence. Deterministic: the
-/// result depends neither on threads nor on the order of the points.
+/// Segments a cloud: range filter, supporting plane, voxel grid, a filtered graph on the voxels,
+/// its H0 persistence, and the components that are there to stay.
+///
+/// Method surface: the voxels enter with the concavity of the surface around them, the darkest
+/// seams last; objects are basins between seams. Method paper: the Vietoris-Rips complex of the
+/// voxels; objects are components of infinite persistence. Deterministic: the result depends
+/// neither on threads nor on the order of the points.
 /// @throws Error (usage) on an option out of its range; Error (bad_data) if `xyz` is not a
 ///         multiple of three long; Error (cancelled, resource) as `context` asks.
 Segmentation segment(const CloudView& cloud, const SegmentOptions& options = {},

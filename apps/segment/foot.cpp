@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "foot.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <memory_resource>
+
+#include "ph/core/flat_map.hpp"
+
+namespace ph::segment {
+namespace {
+
+/// The plane as squared paper.
+class Squares {
+ public:
+  Squares(const Plane& plane, double side)
+      : first_(Eigen::Vector3d(plane.normal[0], plane.normal[1], plane.normal[2]).unitOrthogonal() /
+               side),
+        second_(Eigen::Vector3d(plane.normal[0], plane.normal[1], plane.normal[2]).cross(first_)) {}
+
+  /// The number of the square over which a point stands.
+  std::uint64_t operator()(const float* p) const {
+    const Eigen::Vector3d x(p[0], p[1], p[2]);
+    return std::uint64_t{part(first_.dot(x))} << 32 | part(second_.dot(x));
+  }
+
+ private:
+  static std::uint32_t part(double units) {
+    const double whole = std::clamp(std::floor(units), double{INT32_MIN}, double{INT32_MAX} - 1);
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(whole));
+  }
+  Eigen::Vector3d first_, second_;
+};
+
+/// The lowest point over a square.
+struct Wall {
+  double height = kInfinity;
+  std::uint32_t voxel = 0;
+};
+
+}  // namespace
+
+void adopt_feet(const CloudView& cloud, const std::vector<Index>& in_range, const Plane& plane,
+                const PlaneMargin& margin, double side, std::vector<Index>& points,
+                VoxelGrid& grid) {
+  constexpr double squares_up = 2;      // how far beyond the margin a wall may begin
+  constexpr double lowest_share = 0.2;  // of the margin: nearer to the plane nothing can be told
+  const auto point = [&](Index i) { return &cloud.xyz[3 * static_cast<std::size_t>(i)]; };
+  const auto height_of = [&](const float* p) { return plane.signed_distance(p[0], p[1], p[2]); };
+  const Squares square(plane, side);
+  FlatMap<Wall> walls(std::pmr::get_default_resource());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const float* p = point(points[k]);
+    const double height = height_of(p);
+    if (height > margin(cloud, p) + squares_up * side) continue;
+    Wall& wall = *walls.try_emplace(square(p)).first;
+    if (height < wall.height || (height == wall.height && grid.voxel_of[k] < wall.voxel))
+      wall = {height, grid.voxel_of[k]};
+  }
+  for (const Index i : in_range) {
+    const float* p = point(i);
+    const double height = height_of(p), limit = margin(cloud, p);
+    if (height <= lowest_share * limit || height > limit) continue;
+    const Wall* wall = walls.find(square(p));
+    if (wall == nullptr) continue;
+    points.push_back(i);
+    grid.voxel_of.push_back(wall->voxel);
+  }
+}
+
+}  // namespace ph::segment

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <chrono>
+#include <string_view>
+#include <vector>
+
+#include "ph/complex/filtered_graph.hpp"
+#include "ph/segment.hpp"
+#include "plane.hpp"
+#include "voxel_grid.hpp"
+
+namespace ph::segment {
+
+/// Writes the stage table and, between stages, reports progress and obeys a stop request.
+class StageClock {
+ public:
+  StageClock(const RunContext& context, std::vector<Stage>& stages)
+      : context_(context), stages_(stages) {}
+  void finish(std::string_view name, Index points);
+
+ private:
+  const RunContext& context_;
+  std::vector<Stage>& stages_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// What stands before the supporting plane, or everything in range if there is none.
+struct Scene {
+  CloudView cloud;
+  std::vector<Index> in_range;
+  std::optional<Plane> plane;
+  PlaneMargin margin;
+  std::vector<Index> points;  ///< those beyond the margin
+};
+
+/// What a method makes of a scene; `grid` and `points` belong together.
+struct Filtered {
+  VoxelGrid grid;
+  std::vector<Index> points;
+  FilteredGraph graph;  ///< on the voxels
+};
+
+/// Voxels enter with the concavity of the surface around them, edges between adjacent ones with the
+/// later of their ends.
+Filtered filter_by_surface(const Scene& scene, const SegmentOptions& options,
+                           const RunContext& context, StageClock& clock);
+/// The 1-skeleton of the Vietoris-Rips complex of the voxels.
+Filtered filter_by_distance(const Scene& scene, const SegmentOptions& options,
+                            const RunContext& context, StageClock& clock);
+
+}  // namespace ph::segment

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+// Method surface on small scenes with known answers, and its stages one by one.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <random>
+
+#include "concavity.hpp"
+#include "foot.hpp"
+#include "scenery.hpp"
+#include "voxel_pairs.hpp"
+
+namespace ph::segment {
+namespace {
+
+using test::kHole;
+using test::TableScene;
+
+std::vector<Index> all_of(const std::vector<float>& xyz) {
+  std::vector<Index> points(xyz.size() / 3);
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = static_cast<Index>(i);
+  return points;
+}
+
+/// The share of the points of each block that carry its most frequent label, and that these differ.
+void expect_blocks_apart(const TableScene& scene, const Segmentation& s, double share) {
+  std::map<int, std::map<std::uint32_t, Index>> labels;
+  std::map<int, Index> sizes;
+  for (std::size_t i = 0; i < s.labels.size(); ++i) {
+    if (scene.truth()[i] <= 0) continue;
+    ++labels[scene.truth()[i]][s.labels[i]];
+    ++sizes[scene.truth()[i]];
+  }
+  std::map<std::uint32_t, int> owner;
+  for (const auto& [block, counts] : labels) {
+    const auto most = std::ranges::max_element(
+        counts, [](const auto& a, const auto& b) { return a.second < b.second; });
+    EXPECT_GE(static_cast<double>(most->second), share * static_cast<double>(sizes[block]))
+        << "block " << block;
+    EXPECT_NE(most->first, 0U) << "block " << block;
+    EXPECT_TRUE(owner.emplace(most->first, block).second) << "two blocks, one label";
+  }
+}
+
+TEST(Surface, ObjectsThatStandOnEachOtherComeApart) {
+  const TableScene scene(
+      {{{-0.15, -0.1, 0}, {0.15, 0.15, 0.08}}, {{-0.06, 0.0, 0.08}, {0.06, 0.1, 0.2}}});
+  const Segmentation s = segment(CloudView{scene.xyz(), {}});
+  ASSERT_EQ(s.segments.size(), 2U);
+  expect_blocks_apart(scene, s, 0.95);
+  // They meet in the seam, and each says so.
+  EXPECT_EQ(s.segments[0].neighbour, 2U);
+  EXPECT_EQ(s.segments[1].neighbour, 1U);
+  EXPECT_EQ(s.segments[0].meets_at, s.segments[1].meets_at);
+  EXPECT_GT(s.segments[0].meets_at, 0.1);
+  EXPECT_GT(s.segments[1].persistence, 0.1);
+  EXPECT_LE(s.segments[1].persistence, s.segments[1].meets_at);
+  EXPECT_EQ(s.difference, "");
+  // By distance alone they are one.
+  EXPECT_EQ(segment(CloudView{scene.xyz(), {}}, {.method = Method::paper}).segments.size(), 1U);
+}
+
+TEST(Surface, ObjectsThatTouchInACornerComeApart) {
+  const TableScene scene(
+      {{{-0.15, -0.05, 0}, {0.0, 0.15, 0.15}}, {{0.0, -0.15, 0}, {0.12, 0.05, 0.1}}});
+  const Segmentation s = segment(CloudView{scene.xyz(), {}});
+  ASSERT_EQ(s.segments.size(), 2U);
+  expect_blocks_apart(scene, s, 0.95);
+}
+
+TEST(Surface, TheCutFollowsPersistenceAndSize) {
+  const TableScene scene(
+      {{{-0.15, -0.1, 0}, {0.15, 0.15, 0.08}}, {{-0.06, 0.0, 0.08}, {0.06, 0.1, 0.2}}});
+  const CloudView cloud{scene.xyz(), {}};
+  const Segmentation s = segment(cloud);
+  const double persistence = s.segments[1].persistence;
+  EXPECT_EQ(segment(cloud, {.min_persistence = 1.01 * persistence}).segments.size(), 1U);
+  EXPECT_EQ(segment(cloud, {.min_persistence = 0.99 * persistence}).segments.size(), 2U);
+  EXPECT_EQ(segment(cloud, {.min_part = s.segments[1].voxels + 50}).segments.size(), 1U);
+  // The same from the tree that was stored.
+  const std::vector<Index> basins = s.tree.basins(1.01 * persistence, 200);
+  EXPECT_EQ(std::ranges::count(basins, basins[0]), static_cast<Index>(basins.size()));
+}
+
+TEST(Surface, SeparateObjectsMeetNobody) {
+  const Segmentation s = segment(CloudView{TableScene::two_boxes().xyz(), {}});
+  ASSERT_EQ(s.segments.size(), 2U);
+  for (const Segment& g : s.segments) {
+    EXPECT_EQ(g.neighbour, 0U);
+    EXPECT_EQ(g.meets_at, kInfinity);
+    EXPECT_EQ(g.persistence, kInfinity);
+  }
+}
+
+TEST(Surface, FeetAreWonBackFromThePlane) {
+  const TableScene scene = TableScene::two_boxes();
+  const Segmentation s = segment(CloudView{scene.xyz(), {}});
+  Index within = 0, won = 0, lost = 0;
+  for (std::size_t i = 0; i < s.labels.size(); ++i) {
+    const float* p = &scene.xyz()[3 * i];
+    const double height = s.plane->signed_distance(p[0], p[1], p[2]);
+    if (scene.truth()[i] > 0 && height > 0.001 && height <= 0.005) {
+      ++within;
+      won += s.labels[i] == static_cast<std::uint32_t>(scene.truth()[i]);
+    }
+    lost += scene.truth()[i] == 0 && s.labels[i] != 0;
+  }
+  EXPECT_GT(within, 30);
+  EXPECT_GT(static_cast<double>(won), 0.9 * static_cast<double>(within));
+  EXPECT_EQ(lost, 0);
+}
+
+TEST(Surface, NoiseThatGrowsWithTheRangeLeavesTheTableEmpty) {
+  // As of a sensor by disparity: a deviation of 1.4 mm at one metre.
+  TableScene scene = TableScene::two_boxes();
+  std::vector<float> xyz = scene.xyz();
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0, 0.0014);
+  for (std::size_t i = 0; i < xyz.size(); i += 3) {
+    const double z = xyz[i + 2], factor = 1 + noise(random) * z;
+    for (std::size_t k = 0; k < 3; ++k) xyz[i + k] = static_cast<float>(factor * xyz[i + k]);
+  }
+  const Segmentation s = segment(CloudView{xyz, {}});
+  EXPECT_EQ(s.segments.size(), 2U);
+  expect_blocks_apart(scene, s, 0.9);
+}
+
+TEST(Surface, PartsOfABallAndAWallAreOne) {
+  std::vector<float> xyz;  // half a ball of 8 cm, seen from the origin
+  constexpr int steps = 120;
+  for (int i = 0; i < steps; ++i) {
+    for (int k = 0; k < steps; ++k) {
+      const double a = std::numbers::pi * i / steps, b = std::numbers::pi * k / steps;
+      xyz.push_back(static_cast<float>(0.08 * std::cos(a)));
+      xyz.push_back(static_cast<float>(0.08 * std::sin(a) * std::cos(b)));
+      xyz.push_back(static_cast<float>(0.8 - 0.08 * std::sin(a) * std::sin(b)));
+    }
+  }
+  EXPECT_EQ(segment(CloudView{xyz, {}}, {.plane = false}).segments.size(), 1U);
+}
+
+TEST(VoxelPairs, AreAllThatAreClose) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> coordinate(-0.04F, 0.05F);
+  for (const double radius : {0.3, 1.0, 2.4, 3.0}) {
+    std::vector<float> xyz(3 * 1500);
+    for (float& c : xyz) c = coordinate(random);
+    constexpr double voxel = 0.006;
+    const VoxelGrid grid = voxel_grid({xyz, {}}, all_of(xyz), voxel);
+    std::map<std::pair<std::uint32_t, std::uint32_t>, double> expected;
+    for (Index v = 0; v < grid.centroids.rows(); ++v)
+      for (Index u = 0; u < v; ++u) {
+        const double d = (grid.centroids.row(u) - grid.centroids.row(v)).norm();
+        if (d < radius * voxel) expected[{u, v}] = d;
+      }
+    const std::vector<VoxelPair> pairs = close_voxels(grid, voxel, radius * voxel);
+    EXPECT_EQ(pairs.size(), expected.size());
+    for (const VoxelPair& p : pairs) {
+      const auto it = expected.find({p.u, p.v});
+      ASSERT_NE(it, expected.end());
+      EXPECT_DOUBLE_EQ(p.distance, it->second);
+    }
+  }
+}
+
+/// Two half planes that meet in the line y = z = 0 and rise by an angle on both sides of it, as
+/// seen from high above.
+Points valley(double angle, double step) {
+  std::vector<Vec3> points;
+  for (double x = -0.05; x < 0.05; x += step) {
+    for (double t = -0.05; t < 0.05; t += step)
+      points.push_back({x, t * std::cos(angle), std::abs(t) * std::sin(angle)});
+  }
+  Points result(static_cast<Index>(points.size()), 3);
+  for (Index i = 0; i < result.rows(); ++i)
+    for (Index k = 0; k < 3; ++k)
+      result(i, k) = points[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
+  return result;
+}
+
+std::vector<VoxelPair> pairs_within(const Points& points, double radius) {
+  std::vector<VoxelPair> pairs;
+  for (std::uint32_t v = 0; v < points.rows(); ++v)
+    for (std::uint32_t u = 0; u < v; ++u)
+      if (const double d = (points.row(u) - points.row(v)).norm(); d < radius)
+        pairs.push_back({u, v, d});
+  return pairs;
+}
+
+TEST(Concavity, IsLargeInValleysAndZeroOnRidges) {
+  for (const double angle : {-0.6, 0.0, 0.3, 0.6}) {
+    const Points points = valley(angle, 0.005);
+    const auto pairs = pairs_within(points, 0.015);
+    const Points normals = surface_normals(points, pairs, 0.012, {0, 0, 10});
+    const std::vector<double> f = concavity(points, normals, pairs);
+    double seam = 0, flat = 0;
+    for (Index v = 0; v < points.rows(); ++v) {
+      EXPECT_NEAR(normals.row(v).norm(), 1, 1e-9);
+      EXPECT_GT(normals(v, 2), 0);
+      const double value = f[static_cast<std::size_t>(v)];
+      EXPECT_GE(value, 0);
+      if (std::abs(points(v, 1)) < 0.004) seam = std::max(seam, value);
+      if (std::abs(points(v, 1)) > 0.03) flat = std::max(flat, value);
+    }
+    EXPECT_LT(flat, 1e-9);
+    if (angle <= 0)
+      EXPECT_LT(seam, 1e-9);
+    else
+      EXPECT_GT(seam, 0.5 * std::sin(angle));
+  }
+}
+
+TEST(Concavity, FewNeighboursHaveNoNormalAndNoValue) {
+  Points points(2, 3);
+  points << 0, 0, 1, 0, 0.01, 1;
+  const auto pairs = pairs_within(points, 0.02);
+  const Points normals = surface_normals(points, pairs, 0.02, {});
+  EXPECT_TRUE(std::isnan(normals(0, 0)));
+  EXPECT_EQ(concavity(points, normals, pairs), (std::vector<double>{0, 0}));
+}
+
+TEST(MergeTree, BasinsAreWhatTheCutLeaves) {
+  // A path with the values 0 5 1 9 2 3: minima 0, 1, 2; the merges at 5 and 9.
+  const std::vector<double> values = {0, 5, 1, 9, 2, 3};
+  std::vector<WeightedEdge> edges;
+  for (Index v = 1; v < 6; ++v) edges.push_back({v - 1, v, 0.0});
+  const MergeTree tree = merge_tree(FilteredGraph::lower_star(values, edges));
+  const auto sizes = [&](double persistence, Index size) {
+    std::map<Index, Index> count;
+    for (const Index b : tree.basins(persistence, size)) ++count[b];
+    std::vector<Index> result;
+    for (const auto& [basin, n] : count) result.push_back(n);
+    std::ranges::sort(result);
+    return result;
+  };
+  EXPECT_EQ(sizes(1, 1), (std::vector<Index>{1, 2, 3}));
+  EXPECT_EQ(sizes(5, 1), (std::vector<Index>{2, 4}));  // the merge at 5 has persistence 4
+  EXPECT_EQ(sizes(8, 1), (std::vector<Index>{6}));
+  EXPECT_EQ(sizes(1, 2), (std::vector<Index>{2, 4}));  // and a component of one vertex
+}
+
+}  // namespace
+}  // namespace ph::segment
