@@ -143,6 +143,12 @@ void add_stage_options(CLI::App& app, SegmentOptions& o) {
                         "it meets first (default: {})",
                         d.min_part),
             [&o](const std::string& v) { o.min_part = app::parse_integer("--min-part", v, 1); });
+  app.add_flag_callback(
+      "--objects", [&o] { o.objects = true; },
+      "surface: join the visible parts of an object, over a rim or behind what hides its middle "
+      "(default)");
+  app.add_flag_callback(
+      "--parts", [&o] { o.objects = false; }, "surface: leave each visible part a segment");
   add_value(
       app, "--distance", "M",
       fmt::format("paper: maximum distance of the Vietoris-Rips complex, metres (default: {})",
@@ -187,10 +193,6 @@ void add_output_options(CLI::App& app, Arguments& a) {
 
 /// What the contract of the program promises for later.
 void add_planned_options(CLI::App& app) {
-  for (const std::string name : {"--objects", "--parts"}) {
-    app.add_flag_callback(
-        name, [name] { not_built_in(name); }, "not built in yet");
-  }
   using Option = std::pair<std::string, std::string>;
   for (const Option& option :
        {Option("--cut", "X"), Option("--explain", "A,B"), Option("--report", "FILE.html")}) {

@@ -51,6 +51,12 @@ Points surface_normals(const Points& centroids, const std::vector<VoxelPair>& pa
   return normals;
 }
 
+double rise(const Points& centroids, const Points& normals, const VoxelPair& pair) {
+  return (row(normals, pair.u) - row(normals, pair.v))
+             .dot(row(centroids, pair.v) - row(centroids, pair.u)) /
+         pair.distance;
+}
+
 std::vector<double> concavity(const Points& centroids, const Points& normals,
                               const std::vector<VoxelPair>& pairs) {
   struct Mean {
@@ -63,12 +69,10 @@ std::vector<double> concavity(const Points& centroids, const Points& normals,
   };
   std::vector<Mean> means(static_cast<std::size_t>(centroids.rows()));
   for (const VoxelPair& p : pairs) {
-    const double rise =
-        (row(normals, p.u) - row(normals, p.v)).dot(row(centroids, p.v) - row(centroids, p.u)) /
-        p.distance;
-    if (!std::isfinite(rise)) continue;  // no normal
-    means[p.u].add(rise);                // the same seen from both
-    means[p.v].add(rise);
+    const double value = rise(centroids, normals, p);
+    if (!std::isfinite(value)) continue;
+    means[p.u].add(value);
+    means[p.v].add(value);
   }
   std::vector<double> values(means.size());
   for (std::size_t v = 0; v < means.size(); ++v)

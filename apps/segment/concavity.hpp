@@ -12,10 +12,14 @@ namespace ph::segment {
 Points surface_normals(const Points& centroids, const std::vector<VoxelPair>& pairs, double radius,
                        const Vec3& viewpoint);
 
-/// How much the surface is hollowed out at each voxel: the mean of (n_v - n_u)·(u - v)/|u - v| over
-/// the voxels u near v, or 0 where that is negative. It is about 0 where the surface is flat or
-/// bulges, and large along the seam where one object stands on or touches another: the sum of the
-/// sines of the angles at which both surfaces rise from the line that joins them (the criterion of
+/// The sum of the sines of the angles at which the surface rises at each of two voxels from the
+/// line between them, (n_v - n_u)·(u - v)/|u - v|: above 0 in a valley, below on a ridge, NaN
+/// without a normal. The same from both sides.
+double rise(const Points& centroids, const Points& normals, const VoxelPair& pair);
+
+/// How much the surface is hollowed out at each voxel: the mean rise over the voxels near it, or 0
+/// where that is negative. It is about 0 where the surface is flat or
+/// bulges, and large along the seam where one object stands on or touches another (the criterion of
 /// LCCP; Stein, Schoeler, Papon & Wörgötter, Object partitioning using local convexity, 2014).
 /// @param pairs of voxels: who is near whom.
 std::vector<double> concavity(const Points& centroids, const Points& normals,

@@ -35,9 +35,9 @@ Filtered filter_by_surface(const Scene& scene, const SegmentOptions& options,
   const Index voxels = grid.centroids.rows();
   clock.finish("voxel grid", voxels);
 
-  const std::vector<VoxelPair> pairs = close_voxels(grid, voxel, neighbourhood * voxel);
+  std::vector<VoxelPair> pairs = close_voxels(grid, voxel, neighbourhood * voxel);
   clock.finish("neighbours", voxels);
-  const Points normals =
+  Points normals =
       surface_normals(grid.centroids, pairs, of_normals * voxel, scene.cloud.viewpoint);
   clock.finish("normals", voxels);
   const std::vector<double> values =
@@ -47,7 +47,8 @@ Filtered filter_by_surface(const Scene& scene, const SegmentOptions& options,
     if (p.distance < adjacent * voxel) edges.push_back({p.v, p.u, 0.0});
   FilteredGraph graph = FilteredGraph::lower_star(values, edges, context);
   clock.finish("complex", voxels);
-  return {std::move(grid), std::move(points), std::move(graph)};
+  return {
+      std::move(grid), std::move(points), std::move(graph), {std::move(normals), std::move(pairs)}};
 }
 
 Filtered filter_by_distance(const Scene& scene, const SegmentOptions& options,
@@ -58,7 +59,7 @@ Filtered filter_by_distance(const Scene& scene, const SegmentOptions& options,
   // Alg. 1 (V.A) and the filtration of V.B: the 1-skeleton of the Vietoris-Rips complex
   FilteredGraph rips = rips_graph(grid.centroids, options.distance, options.steps, context);
   clock.finish("complex", rips.size());
-  return {std::move(grid), scene.points, std::move(rips)};
+  return {std::move(grid), scene.points, std::move(rips), {}};
 }
 
 }  // namespace ph::segment

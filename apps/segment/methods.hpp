@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "objects.hpp"
 #include "ph/complex/filtered_graph.hpp"
 #include "ph/segment.hpp"
 #include "plane.hpp"
@@ -38,6 +39,7 @@ struct Filtered {
   VoxelGrid grid;
   std::vector<Index> points;
   FilteredGraph graph;  ///< on the voxels
+  Surface surface;      ///< empty if the method does not look at it
 };
 
 /// Voxels enter with the concavity of the surface around them, edges between adjacent ones with the

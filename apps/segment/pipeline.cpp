@@ -81,7 +81,11 @@ Segmentation segment(const CloudView& input, const SegmentOptions& options,
   result.barcode = barcode_of(result.tree);
   clock.finish("persistence", graph.size());
 
-  const std::vector<Index> component_of = components_of(result.tree, options);
+  std::vector<Index> component_of = components_of(result.tree, options);
+  if (options.method == Method::surface && options.objects) {
+    component_of = join_parts(filtered.grid, filtered.surface, options.voxel_size(),
+                              cloud.viewpoint, component_of, options.min_size);
+  }
   Components found =
       extract_components(cloud, filtered.points, filtered.grid, component_of, options.min_size);
   find_neighbours(result.tree, found);

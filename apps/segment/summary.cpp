@@ -70,6 +70,7 @@ std::string options_of(const SegmentOptions& o) {
                  {"steps", o.steps == 0 ? json_string("exact") : integer(o.steps)},
                  {"min_size", integer(o.min_size)},
                  {"min_persistence", number(o.min_persistence)},
+                 {"objects", boolean(o.objects)},
                  {"min_part", integer(o.min_part)},
                  {"check", boolean(o.check)}});
 }

@@ -207,8 +207,7 @@ TEST_F(Program, UsageErrors) {
 }
 
 TEST_F(Program, WhatIsNotBuiltInYet) {
-  for (const char* arguments :
-       {"--objects", "--parts", "--cut 0.1", "--explain 1,2", "--report r.html"}) {
+  for (const char* arguments : {"--cut 0.1", "--explain 1,2", "--report r.html"}) {
     EXPECT_EQ(run(std::string("scene.pcd ") + arguments), 69) << arguments;
     EXPECT_NE(err().find("not built in yet"), std::string::npos) << err();
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -10,6 +11,8 @@
 
 #include "concavity.hpp"
 #include "foot.hpp"
+#include "objects.hpp"
+#include "ph/complex/filtered_graph.hpp"
 #include "scenery.hpp"
 #include "voxel_pairs.hpp"
 
@@ -63,9 +66,9 @@ TEST(Surface, ObjectsThatStandOnEachOtherComeApart) {
   EXPECT_EQ(segment(CloudView{scene.xyz(), {}}, {.method = Method::paper}).segments.size(), 1U);
 }
 
-TEST(Surface, ObjectsThatTouchInACornerComeApart) {
+TEST(Surface, AnObjectThatLeansOnAnotherComesApart) {
   const TableScene scene(
-      {{{-0.15, -0.05, 0}, {0.0, 0.15, 0.15}}, {{0.0, -0.15, 0}, {0.12, 0.05, 0.1}}});
+      {{{-0.1, 0.05, 0}, {0.1, 0.2, 0.2}}, {{-0.06, -0.1, 0}, {0.05, 0.05, 0.08}}});
   const Segmentation s = segment(CloudView{scene.xyz(), {}});
   ASSERT_EQ(s.segments.size(), 2U);
   expect_blocks_apart(scene, s, 0.95);
@@ -96,15 +99,22 @@ TEST(Surface, SeparateObjectsMeetNobody) {
 }
 
 TEST(Surface, FeetAreWonBackFromThePlane) {
-  const TableScene scene = TableScene::two_boxes();
+  std::vector<test::Block> blocks;  // as rows of pixels meet them at several heights
+  for (int i = 0; i < 5; ++i) {
+    const double x = 0.11 * i - 0.27, y = 0.0011 * i - 0.05;
+    blocks.push_back({{x, y, 0}, {x + 0.08, y + 0.08, 0.1}});
+  }
+  const TableScene scene(blocks);
   const Segmentation s = segment(CloudView{scene.xyz(), {}});
+  ASSERT_EQ(s.segments.size(), blocks.size());
+  expect_blocks_apart(scene, s, 0.95);
   Index within = 0, won = 0, lost = 0;
   for (std::size_t i = 0; i < s.labels.size(); ++i) {
     const float* p = &scene.xyz()[3 * i];
     const double height = s.plane->signed_distance(p[0], p[1], p[2]);
     if (scene.truth()[i] > 0 && height > 0.001 && height <= 0.005) {
       ++within;
-      won += s.labels[i] == static_cast<std::uint32_t>(scene.truth()[i]);
+      won += s.labels[i] != 0;
     }
     lost += scene.truth()[i] == 0 && s.labels[i] != 0;
   }
@@ -140,6 +150,29 @@ TEST(Surface, PartsOfABallAndAWallAreOne) {
     }
   }
   EXPECT_EQ(segment(CloudView{xyz, {}}, {.plane = false}).segments.size(), 1U);
+}
+
+/// A wide box and in front of it a post that hides its middle.
+TableScene box_behind_post() {
+  return TableScene(
+      {{{-0.15, 0.1, 0}, {0.15, 0.2, 0.12}}, {{-0.02, -0.12, 0}, {0.03, -0.06, 0.3}}});
+}
+
+TEST(Objects, PartsOnBothSidesOfAnOccluderAreOne) {
+  const TableScene scene = box_behind_post();
+  const CloudView cloud{scene.xyz(), {}};
+  const Segmentation parts = segment(cloud, {.objects = false});
+  EXPECT_EQ(parts.segments.size(), 3U);
+  const Segmentation objects = segment(cloud);
+  ASSERT_EQ(objects.segments.size(), 2U);
+  expect_blocks_apart(scene, objects, 0.95);
+}
+
+TEST(Objects, BoxesOfDifferentDepthBehindAnOccluderAreTwo) {
+  const TableScene scene({{{-0.15, 0.1, 0}, {-0.005, 0.2, 0.12}},
+                          {{0.005, 0.16, 0}, {0.15, 0.26, 0.15}},
+                          {{-0.04, -0.12, 0}, {0.04, -0.06, 0.3}}});
+  EXPECT_EQ(segment(CloudView{scene.xyz(), {}}).segments.size(), 3U);
 }
 
 TEST(VoxelPairs, AreAllThatAreClose) {
@@ -213,6 +246,28 @@ TEST(Concavity, IsLargeInValleysAndZeroOnRidges) {
   }
 }
 
+TEST(Objects, PartsJoinOverARidgeAndNotInAValley) {
+  for (const double angle : {-0.6, 0.6}) {
+    VoxelGrid grid;
+    grid.centroids = valley(angle, 0.005);
+    Surface surface{{}, pairs_within(grid.centroids, 0.015)};
+    surface.normals = surface_normals(grid.centroids, surface.pairs, 0.012, {0, 0, 10});
+    std::vector<Index> part_of;
+    std::array<Index, 2> first = {-1, -1};
+    for (Index v = 0; v < grid.centroids.rows(); ++v) {
+      Index& part = first[grid.centroids(v, 1) < 0 ? 0 : 1];
+      if (part < 0) part = v;
+      part_of.push_back(part);
+    }
+    const std::vector<Index> objects = join_parts(grid, surface, 0.005, {0, 0, 10}, part_of, 32);
+    EXPECT_EQ(std::ranges::count(objects, objects[0]),
+              angle < 0 ? std::ssize(part_of) : std::ranges::count(part_of, part_of[0]))
+        << angle;
+    // Small parts stay by themselves.
+    EXPECT_EQ(join_parts(grid, surface, 0.005, {0, 0, 10}, part_of, 1000), part_of);
+  }
+}
+
 TEST(Concavity, FewNeighboursHaveNoNormalAndNoValue) {
   Points points(2, 3);
   points << 0, 0, 1, 0, 0.01, 1;
@@ -236,7 +291,7 @@ TEST(MergeTree, BasinsAreWhatTheCutLeaves) {
     std::ranges::sort(result);
     return result;
   };
-  EXPECT_EQ(sizes(1, 1), (std::vector<Index>{1, 2, 3}));
+  EXPECT_EQ(sizes(1, 1), (std::vector<Index>{2, 2, 2}));
   EXPECT_EQ(sizes(5, 1), (std::vector<Index>{2, 4}));  // the merge at 5 has persistence 4
   EXPECT_EQ(sizes(8, 1), (std::vector<Index>{6}));
   EXPECT_EQ(sizes(1, 2), (std::vector<Index>{2, 4}));  // and a component of one vertex

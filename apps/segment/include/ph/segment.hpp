@@ -57,6 +57,7 @@ struct SegmentOptions {
 
   // Method surface
   double min_persistence = 0.01;  ///< least persistence of a part, a mean concavity (0…2), >= 0
+  bool objects = true;            ///< join the visible parts of an object; false: parts stay apart
   Index min_part = 200;  ///< fewest voxels of a part; a smaller one joins a neighbour, >= 1
 
   // Method paper

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "objects.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory_resource>
+#include <utility>
+
+#include "concavity.hpp"
+#include "ph/core/disjoint_sets.hpp"
+#include "view.hpp"
+
+namespace ph::segment {
+namespace {
+
+constexpr std::uint32_t kSmall = UINT32_MAX;
+
+/// Parts that are large enough, numbered in the order of their first voxels.
+struct Parts {
+  std::vector<std::uint32_t> of;       // by voxel; kSmall for what stays by itself
+  std::vector<std::uint32_t> example;  // by part: a voxel
+};
+
+Parts number_parts(const std::vector<Index>& part_of, Index min_size) {
+  std::vector<Index> sizes(part_of.size());
+  for (const Index p : part_of) ++sizes[static_cast<std::size_t>(p)];
+  std::vector<std::uint32_t> number(part_of.size(), kSmall);
+  Parts parts;
+  for (std::uint32_t v = 0; v < part_of.size(); ++v) {
+    const auto p = static_cast<std::size_t>(part_of[v]);
+    if (sizes[p] >= min_size && number[p] == kSmall) {
+      number[p] = static_cast<std::uint32_t>(parts.example.size());
+      parts.example.push_back(v);
+    }
+    parts.of.push_back(number[p]);
+  }
+  return parts;
+}
+
+/// Calls `join(p, q)` for parts that meet, but not in a seam.
+template <class Join>
+void join_over_rims(const VoxelGrid& grid, const Surface& surface, const Parts& parts,
+                    Join&& join) {
+  constexpr double least_seam = 0.05;  // mean rise; seams between objects have 0.12 to 0.7
+  constexpr int fewest = 3;            // pairs of voxels that tell
+  struct Contact {
+    double sum = 0;
+    int count = 0;
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Contact> contacts;
+  for (const VoxelPair& pair : surface.pairs) {
+    const std::uint32_t p = parts.of[pair.u], q = parts.of[pair.v];
+    if (p == q || p == kSmall || q == kSmall) continue;
+    const double value = rise(grid.centroids, surface.normals, pair);
+    if (!std::isfinite(value)) continue;
+    Contact& contact = contacts[std::minmax(p, q)];
+    contact.sum += value;
+    ++contact.count;
+  }
+  for (const auto& [both, contact] : contacts)
+    if (contact.count >= fewest && contact.sum < least_seam * contact.count)
+      join(both.first, both.second);
+}
+
+/// Finds parts whose surfaces go on behind an occluder.
+class HiddenJoins {
+  double nearer() const { return 2 * voxel_; }
+  auto kind() const {
+    return [this](std::uint32_t v) { return parts_.of[v]; };
+  }
+
+ public:
+  HiddenJoins(const VoxelGrid& grid, const Surface& surface, double voxel, const Vec3& viewpoint,
+              const Parts& parts)
+      : grid_(grid),
+        surface_(surface),
+        voxel_(voxel),
+        parts_(parts),
+        view_(grid.centroids, voxel, viewpoint),
+        borders_(parts.example.size()) {
+    for (std::uint32_t v = 0; v < parts.of.size(); ++v)
+      if (parts.of[v] != kSmall && std::isfinite(surface.normals(v, 0)) &&
+          view_.is_at_occluder(v, nearer(), kind()))
+        borders_[parts.of[v]].push_back(v);
+    for (auto& border : borders_) thin_out(border);
+  }
+
+  template <class Join>
+  void find(Join&& join) const {
+    constexpr double least_of_each = 0.1, least_of_both = 0.34;  // shares of the borders
+    for (std::uint32_t p = 0; p < borders_.size(); ++p) {
+      for (std::uint32_t q = 0; q < p; ++q) {
+        const double a = share_that_goes_on(p, q);
+        if (a < least_of_each) continue;
+        const double b = share_that_goes_on(q, p);
+        if (b >= least_of_each && a + b >= least_of_both) join(p, q);
+      }
+    }
+  }
+
+ private:
+  /// A bounded number, spread over all: what is told of parts is a share anyway.
+  static void thin_out(std::vector<std::uint32_t>& border) {
+    constexpr std::size_t fewest = 5, most = 60;
+    if (border.size() < fewest) border.clear();
+    const std::size_t step = border.size() / most + 1;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < border.size(); i += step) border[kept++] = border[i];
+    border.resize(kept);
+  }
+  double share_that_goes_on(std::uint32_t p, std::uint32_t q) const {
+    if (borders_[p].empty()) return 0;
+    const auto count = std::ranges::count_if(borders_[p], [&](std::uint32_t a) {
+      return std::ranges::any_of(borders_[q], [&](std::uint32_t b) { return goes_on(a, b); });
+    });
+    return static_cast<double>(count) / static_cast<double>(borders_[p].size());
+  }
+  /// Whether one smooth surface through both voxels is hidden between them.
+  bool goes_on(std::uint32_t a, std::uint32_t b) const {
+    constexpr double cosine = 0.966;  // 15 degrees between the normals
+    constexpr double longest_gap = 0.3, slope = 0.05;
+    const auto n = surface_.normals.row(a), m = surface_.normals.row(b);
+    if (n.dot(m) < cosine) return false;
+    const auto d = (grid_.centroids.row(b) - grid_.centroids.row(a)).eval();
+    const double gap = d.norm(), tolerance = 0.6 * voxel_ + slope * gap;
+    if (gap > longest_gap || std::abs(n.dot(d)) > tolerance || std::abs(m.dot(d)) > tolerance)
+      return false;
+    constexpr int fewest_cells = 2;
+    constexpr double share = 0.85;
+    const View::Cover cover = view_.cover(a, b, nearer() / 2, kind());
+    return cover.hidden >= fewest_cells && cover.hidden >= share * cover.cells;
+  }
+
+  const VoxelGrid& grid_;
+  const Surface& surface_;
+  double voxel_;
+  const Parts& parts_;
+  View view_;
+  std::vector<std::vector<std::uint32_t>> borders_;  // by part: voxels next to an occluder
+};
+
+}  // namespace
+
+std::vector<Index> join_parts(const VoxelGrid& grid, const Surface& surface, double voxel,
+                              const Vec3& viewpoint, const std::vector<Index>& part_of,
+                              Index min_size) {
+  const Parts parts = number_parts(part_of, min_size);
+  DisjointSets objects(parts.example.size(), std::pmr::get_default_resource());
+  const auto join = [&](std::uint32_t p, std::uint32_t q) {
+    const std::uint32_t a = objects.find(p), b = objects.find(q);
+    objects.link(std::max(a, b), std::min(a, b));
+  };
+  join_over_rims(grid, surface, parts, join);
+  HiddenJoins(grid, surface, voxel, viewpoint, parts).find(join);
+  std::vector<Index> object_of = part_of;
+  for (std::size_t v = 0; v < object_of.size(); ++v)
+    if (parts.of[v] != kSmall) object_of[v] = part_of[parts.example[objects.find(parts.of[v])]];
+  return object_of;
+}
+
+}  // namespace ph::segment

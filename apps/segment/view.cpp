@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "view.hpp"
+
+#include <Eigen/Geometry>
+
+namespace ph::segment {
+
+View::View(const Points& centroids, double voxel, const Vec3& viewpoint)
+    : ranges_(static_cast<std::size_t>(centroids.rows())), places_(ranges_.size(), {-1, -1}) {
+  constexpr double voxels_a_cell = 1.3;    // fewer leave gaps between neighbours
+  constexpr double smallest_cosine = 0.2;  // 78 degrees
+  constexpr double most_cells = 2048;      // a side
+  const Eigen::Vector3d eye(viewpoint[0], viewpoint[1], viewpoint[2]);
+  const auto ray = [&](Voxel v) -> Eigen::Vector3d { return centroids.row(v).transpose() - eye; };
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();
+  double sum = 0;
+  for (Voxel v = 0; v < ranges_.size(); ++v) {
+    ranges_[v] = ray(v).norm();
+    sum += ranges_[v];
+    if (ranges_[v] > 0) axis += ray(v) / ranges_[v];
+  }
+  if (!(axis.norm() > 0)) return;
+  axis.normalize();
+  const Eigen::Vector3d right = axis.unitOrthogonal(), down = axis.cross(right);
+  double cell = voxels_a_cell * voxel * static_cast<double>(ranges_.size()) / sum;
+
+  std::vector<Eigen::Vector2d> directions(ranges_.size());
+  Eigen::Array2d low = Eigen::Array2d::Constant(kInfinity), high = -low;
+  const auto is_seen = [&](Voxel v) {
+    return ranges_[v] > 0 && ray(v).dot(axis) > smallest_cosine * ranges_[v];
+  };
+  for (Voxel v = 0; v < ranges_.size(); ++v) {
+    if (!is_seen(v)) continue;
+    const Eigen::Vector3d d = ray(v) / ray(v).dot(axis);
+    directions[v] = {d.dot(right), d.dot(down)};
+    low = low.min(directions[v].array());
+    high = high.max(directions[v].array());
+  }
+  if (!(low <= high).all()) return;
+  cell = std::max(cell, (high - low).maxCoeff() / most_cells);
+  width_ = static_cast<std::size_t>((high - low)[0] / cell) + 1;
+  height_ = static_cast<std::size_t>((high - low)[1] / cell) + 1;
+  nearest_.assign(width_ * height_, kNone);
+  for (Voxel v = 0; v < ranges_.size(); ++v) {
+    if (!is_seen(v)) continue;
+    const Eigen::Array2d place = (directions[v].array() - low) / cell;
+    places_[v] = {place[0], place[1]};
+    Voxel& first =
+        nearest_[static_cast<std::size_t>(place[1]) * width_ + static_cast<std::size_t>(place[0])];
+    if (first == kNone || ranges_[v] < ranges_[first]) first = v;
+  }
+}
+
+}  // namespace ph::segment

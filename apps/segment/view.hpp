@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "ph/segment.hpp"
+
+namespace ph::segment {
+
+/// The voxels as the sensor saw them: a raster of directions, of about a voxel a cell, with the
+/// nearest voxel in each. What lies to the side of the middle by more than 78 degrees is left out.
+class View {
+ public:
+  using Voxel = std::uint32_t;
+  static constexpr Voxel kNone = UINT32_MAX;
+
+  View(const Points& centroids, double voxel, const Vec3& viewpoint);
+
+  double range(Voxel v) const { return ranges_[v]; }  ///< from the viewpoint, metres
+  /// Whether a voxel has a nearer one of another kind within two cells.
+  /// @param kind_of a voxel. @param nearer by how much, metres.
+  template <class KindOf>
+  bool is_at_occluder(Voxel v, double nearer, KindOf&& kind_of) const;
+  /// How the straight line between two voxels is covered, without what is of the kind of its ends:
+  /// cells with something nearer than the line, and all cells.
+  struct Cover {
+    int hidden = 0, cells = 0;
+  };
+  template <class KindOf>
+  Cover cover(Voxel a, Voxel b, double nearer, KindOf&& kind_of) const;
+
+ private:
+  struct Place {
+    double x, y;  // in cells
+  };
+  bool has(Voxel v) const { return places_[v].x >= 0; }
+  Voxel nearest(double x, double y) const {
+    return nearest_[static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x)];
+  }
+
+  std::vector<double> ranges_;
+  std::vector<Place> places_;  // negative: left out
+  std::size_t width_ = 0, height_ = 0;
+  std::vector<Voxel> nearest_;
+};
+
+template <class KindOf>
+bool View::is_at_occluder(Voxel v, double nearer, KindOf&& kind_of) const {
+  constexpr int reach = 2;
+  if (!has(v)) return false;
+  const Place& p = places_[v];
+  for (int dy = -reach; dy <= reach; ++dy) {
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const double x = p.x + dx, y = p.y + dy;
+      if (x < 0 || y < 0 || x >= static_cast<double>(width_) || y >= static_cast<double>(height_))
+        continue;
+      const Voxel other = nearest(x, y);
+      if (other != kNone && kind_of(other) != kind_of(v) && ranges_[other] + nearer < ranges_[v])
+        return true;
+    }
+  }
+  return false;
+}
+
+template <class KindOf>
+auto View::cover(Voxel a, Voxel b, double nearer, KindOf&& kind_of) const -> Cover {
+  Cover cover;
+  if (!has(a) || !has(b)) return cover;
+  const Place &p = places_[a], &q = places_[b];
+  const double steps = std::ceil(std::max(std::abs(q.x - p.x), std::abs(q.y - p.y)));
+  for (double step = 1; step < steps; ++step) {
+    const double t = step / steps;
+    const Voxel between = nearest(p.x + t * (q.x - p.x), p.y + t * (q.y - p.y));
+    if (between != kNone && (kind_of(between) == kind_of(a) || kind_of(between) == kind_of(b)))
+      continue;
+    const double line = ranges_[a] + t * (ranges_[b] - ranges_[a]);
+    cover.hidden += static_cast<int>(between != kNone && ranges_[between] + nearer < line);
+    ++cover.cells;
+  }
+  return cover;
+}
+
+}  // namespace ph::segment
