@@ -1,43 +1,79 @@
 // SPDX-License-Identifier: MIT
 #include "voxel_pairs.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <utility>
 
 namespace ph::segment {
 namespace {
 
-/// Walks through the rows of voxels that lie at one offset from those that ask. Who asks in the
-/// order of the grid is answered in that order: a row is never looked for again.
-struct RowCursor {
-  double dy, dz;  // of the row, in voxels
-  std::size_t at = 0;
+/// Voxels that differ in x alone, one after the other in the grid.
+struct Row {
+  double y, z;  // in voxels
+  std::uint32_t begin, end;
 };
 
-auto by_row(const Vec3& cell) { return std::tuple(cell[2], cell[1], cell[0]); }
+std::vector<Row> rows_of(const VoxelGrid& grid) {
+  std::vector<Row> rows;
+  for (std::uint32_t v = 0; v < grid.cells.size(); ++v) {
+    const auto& [x, y, z] = grid.cells[v];
+    if (rows.empty() || rows.back().y != y || rows.back().z != z) rows.push_back({y, z, v, v});
+    rows.back().end = v + 1;
+  }
+  return rows;
+}
+
+/// How far a row lies from the one that looks for pairs: before it, or itself. Rows look in the
+/// order of the grid and meet those at one offset in that order: none is looked for again.
+struct Offset {
+  double y, z;
+  std::size_t next = 0;  // row
+};
+
+std::vector<Offset> offsets_within(double radius, double voxel) {
+  const double reach = std::ceil(radius / voxel);
+  // Centroids of voxels k rows apart may be as near as k - 1.
+  const auto gap = [&](double k) { return std::max(0.0, std::abs(k) - 1) * voxel; };
+  std::vector<Offset> offsets;
+  for (double z = -reach; z <= 0; ++z)
+    for (double y = -reach; y <= (z < 0 ? reach : 0); ++y)
+      if (gap(y) * gap(y) + gap(z) * gap(z) < radius * radius) offsets.push_back({y, z});
+  return offsets;
+}
+
+bool comes_before(const Row& row, double y, double z) { return row.z != z ? row.z < z : row.y < y; }
+
+/// Pairs of a voxel of `row` and one of `other`, which is not behind it.
+void add_pairs(const VoxelGrid& grid, const Row& row, const Row& other, double reach,
+               double square_of_radius, std::vector<VoxelPair>& pairs) {
+  const auto x_of = [&](std::uint32_t v) { return grid.cells[v][0]; };
+  std::uint32_t first = other.begin;
+  for (std::uint32_t v = row.begin; v < row.end; ++v) {
+    while (first < other.end && x_of(first) < x_of(v) - reach) ++first;
+    const double* p = &grid.centroids(v, 0);
+    for (std::uint32_t u = first; u < std::min(other.end, v) && x_of(u) <= x_of(v) + reach; ++u) {
+      const double* q = &grid.centroids(u, 0);
+      const double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
+      const double square = x * x + y * y + z * z;
+      if (square < square_of_radius) pairs.push_back({u, v, std::sqrt(square)});
+    }
+  }
+}
 
 }  // namespace
 
 std::vector<VoxelPair> close_voxels(const VoxelGrid& grid, double voxel, double radius) {
   const double reach = std::ceil(radius / voxel);
-  std::vector<RowCursor> rows;  // those before a voxel's own, and its own
-  for (double dz = -reach; dz <= 0; ++dz)
-    for (double dy = -reach; dy <= (dz < 0 ? reach : 0); ++dy) {
-      // Centroids of voxels k rows apart may be as near as k - 1.
-      const double y = std::max(0.0, std::abs(dy) - 1), z = std::max(0.0, -dz - 1);
-      if ((y * y + z * z) * voxel * voxel < radius * radius) rows.push_back({dy, dz});
-    }
+  const std::vector<Row> rows = rows_of(grid);
+  std::vector<Offset> offsets = offsets_within(radius, voxel);
   std::vector<VoxelPair> pairs;
-  for (std::uint32_t v = 0; v < grid.cells.size(); ++v) {
-    const auto& [x, y, z] = grid.cells[v];
-    for (RowCursor& row : rows) {
-      const Vec3 first{x - reach, y + row.dy, z + row.dz}, last{x + reach, first[1], first[2]};
-      while (by_row(grid.cells[row.at]) < by_row(first)) ++row.at;
-      for (std::size_t u = row.at; u < v && by_row(grid.cells[u]) <= by_row(last); ++u) {
-        const double distance =
-            (grid.centroids.row(v) - grid.centroids.row(static_cast<Index>(u))).norm();
-        if (distance < radius) pairs.push_back({static_cast<std::uint32_t>(u), v, distance});
-      }
+  for (const Row& row : rows) {
+    for (Offset& offset : offsets) {
+      const double y = row.y + offset.y, z = row.z + offset.z;
+      while (comes_before(rows[offset.next], y, z)) ++offset.next;
+      const Row& other = rows[offset.next];
+      if (other.y == y && other.z == z) add_pairs(grid, row, other, reach, radius * radius, pairs);
     }
   }
   return pairs;

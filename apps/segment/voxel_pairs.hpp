@@ -13,8 +13,8 @@ struct VoxelPair {
   double distance;     ///< of their centroids, metres
 };
 
-/// All pairs of voxels whose centroids are closer than a radius, by v, then in the order of the
-/// grid. O(voxels * (radius / voxel)^2 + pairs): no tree, no hash.
+/// All pairs of voxels whose centroids are closer than a radius, in an order that depends on the
+/// voxels alone. O(rows * (radius / voxel)^2 + pairs): no tree, no hash.
 /// @param voxel edge of a voxel of the grid, metres. @param radius metres, > 0.
 std::vector<VoxelPair> close_voxels(const VoxelGrid& grid, double voxel, double radius);
 
