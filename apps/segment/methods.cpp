@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "methods.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <utility>
 
 #include "concavity.hpp"
@@ -19,36 +19,63 @@ void StageClock::finish(std::string_view name, Index points) {
   start_ = std::chrono::steady_clock::now();
 }
 
+namespace {
+
+/// Lengths in voxels. A neighbourhood is far enough to see how the surface bends, near enough not
+/// to see over a thin object.
+constexpr double kNeighbourhood = 3, kOfNormals = 2.4, kSquareOfFoot = 0.6;
+constexpr double kAdjacent = 1.79;  // corners touch; sqrt(3) and a little
+
+bool are_adjacent(const VoxelPair& pair, double voxel) { return pair.distance < kAdjacent * voxel; }
+
+/// Whether voxels are so small that the points of a surface do not even touch: with fewer adjacent
+/// voxels on average than a plane that is sampled as coarsely as the grid has.
+bool is_too_fine(Index voxels, const std::vector<VoxelPair>& pairs, double voxel) {
+  constexpr double fewest = 6;
+  const auto adjacent = std::ranges::count_if(
+      pairs, [&](const VoxelPair& pair) { return are_adjacent(pair, voxel); });
+  return 2 * static_cast<double>(adjacent) < fewest * static_cast<double>(voxels);
+}
+
+}  // namespace
+
 Filtered filter_by_surface(const Scene& scene, const SegmentOptions& options,
                            const RunContext& context, StageClock& clock) {
-  // In voxels: far enough to see how the surface bends, near enough not to see over a thin object.
-  constexpr double neighbourhood = 3, of_normals = 2.4, square_of_foot = 0.6;
-  constexpr double adjacent = 1.79;  // corners touch; sqrt(3) and a little
-
-  const double voxel = options.voxel_size();
-  std::vector<Index> points = scene.points;
-  VoxelGrid grid = voxel_grid(scene.cloud, points, voxel);
-  if (scene.plane) {
-    adopt_feet(scene.cloud, scene.in_range, *scene.plane, scene.margin, square_of_foot * voxel,
-               points, grid);
+  constexpr double coarser = 1.5;
+  constexpr int most_times = 4;  // to five times the edge
+  double voxel = options.voxel_size();
+  std::vector<Index> points;
+  VoxelGrid grid;
+  std::vector<VoxelPair> pairs;
+  for (int times = 0;; ++times, voxel *= coarser) {
+    points = scene.points;
+    grid = voxel_grid(scene.cloud, points, voxel);
+    if (scene.plane) {
+      adopt_feet(scene.cloud, scene.in_range, *scene.plane, scene.margin, kSquareOfFoot * voxel,
+                 points, grid);
+    }
+    clock.finish("voxel grid", grid.centroids.rows());
+    pairs = close_voxels(grid, voxel, kNeighbourhood * voxel);
+    clock.finish("neighbours", grid.centroids.rows());
+    if (options.voxel || times == most_times || !is_too_fine(grid.centroids.rows(), pairs, voxel))
+      break;
   }
   const Index voxels = grid.centroids.rows();
-  clock.finish("voxel grid", voxels);
-
-  std::vector<VoxelPair> pairs = close_voxels(grid, voxel, neighbourhood * voxel);
-  clock.finish("neighbours", voxels);
   Points normals =
-      surface_normals(grid.centroids, pairs, of_normals * voxel, scene.cloud.viewpoint);
+      surface_normals(grid.centroids, pairs, kOfNormals * voxel, scene.cloud.viewpoint);
   clock.finish("normals", voxels);
   const std::vector<double> values =
-      smoothed(concavity(grid.centroids, normals, pairs), pairs, adjacent * voxel);
+      smoothed(concavity(grid.centroids, normals, pairs), pairs, kAdjacent * voxel);
   std::vector<WeightedEdge> edges;
   for (const VoxelPair& p : pairs)
-    if (p.distance < adjacent * voxel) edges.push_back({p.v, p.u, 0.0});
+    if (are_adjacent(p, voxel)) edges.push_back({p.v, p.u, 0.0});
   FilteredGraph graph = FilteredGraph::lower_star(values, edges, context);
   clock.finish("complex", voxels);
-  return {
-      std::move(grid), std::move(points), std::move(graph), {std::move(normals), std::move(pairs)}};
+  return {voxel,
+          std::move(grid),
+          std::move(points),
+          std::move(graph),
+          {std::move(normals), std::move(pairs)}};
 }
 
 Filtered filter_by_distance(const Scene& scene, const SegmentOptions& options,
@@ -59,7 +86,7 @@ Filtered filter_by_distance(const Scene& scene, const SegmentOptions& options,
   // Alg. 1 (V.A) and the filtration of V.B: the 1-skeleton of the Vietoris-Rips complex
   FilteredGraph rips = rips_graph(grid.centroids, options.distance, options.steps, context);
   clock.finish("complex", rips.size());
-  return {std::move(grid), scene.points, std::move(rips), {}};
+  return {options.voxel_size(), std::move(grid), scene.points, std::move(rips), {}};
 }
 
 }  // namespace ph::segment

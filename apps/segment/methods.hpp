@@ -36,6 +36,7 @@ struct Scene {
 
 /// What a method makes of a scene; `grid` and `points` belong together.
 struct Filtered {
+  double voxel;  ///< edge of a voxel of the grid, metres
   VoxelGrid grid;
   std::vector<Index> points;
   FilteredGraph graph;  ///< on the voxels

@@ -74,6 +74,7 @@ Segmentation segment(const CloudView& input, const SegmentOptions& options,
                           ? filter_by_surface(scene, options, context, clock)
                           : filter_by_distance(scene, options, context, clock);
   const FilteredGraph& graph = filtered.graph;
+  result.voxel = filtered.voxel;
   result.edges = static_cast<Index>(graph.edge_count());
 
   // Alg. 2: the death times of the zero-dimensional cycles, by the disjoint sets of V.C
@@ -83,8 +84,8 @@ Segmentation segment(const CloudView& input, const SegmentOptions& options,
 
   std::vector<Index> component_of = components_of(result.tree, options);
   if (options.method == Method::surface && options.objects) {
-    component_of = join_parts(filtered.grid, filtered.surface, options.voxel_size(),
-                              cloud.viewpoint, component_of, options.min_size);
+    component_of = join_parts(filtered.grid, filtered.surface, filtered.voxel, cloud.viewpoint,
+                              component_of, options.min_size);
   }
   Components found =
       extract_components(cloud, filtered.points, filtered.grid, component_of, options.min_size);

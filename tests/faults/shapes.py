@@ -42,7 +42,7 @@ def collinear():
     yield taken(86, "xyz", "a row of 40", text((i / 64, 0, 1) for i in range(40)),
                 labels(*[1] * 40), *KEEP_ALL)
     yield taken(86, "xyz", "a row of 40, plane", text((i / 64, 0, 1) for i in range(40)),
-                labels(*[1] * 40))
+                labels(*[1] * 40), "--method", "paper")
 
 
 def cocircular():

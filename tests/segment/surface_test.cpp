@@ -123,6 +123,21 @@ TEST(Surface, FeetAreWonBackFromThePlane) {
   EXPECT_EQ(lost, 0);
 }
 
+TEST(Surface, CoarseSamplesGetLargerVoxels) {
+  const TableScene scene = TableScene::two_boxes();
+  EXPECT_EQ(segment(CloudView{scene.xyz(), {}}).voxel, 0.005);
+  std::vector<float> xyz = scene.xyz();
+  for (Index v = 0; v < scene.kHeight; ++v)
+    for (Index u = 0; u < scene.kWidth; ++u)
+      if (u % 4 != 0 || v % 4 != 0) xyz[3 * static_cast<std::size_t>(v * scene.kWidth + u)] = kHole;
+  const Segmentation s = segment(CloudView{xyz, {}});
+  EXPECT_GT(s.voxel, 0.005);
+  EXPECT_LE(s.voxel, 0.026);
+  EXPECT_EQ(s.segments.size(), 2U);
+  // Who asks for a size gets it.
+  EXPECT_EQ(segment(CloudView{xyz, {}}, {.voxel = 0.005}).voxel, 0.005);
+}
+
 TEST(Surface, NoiseThatGrowsWithTheRangeLeavesTheTableEmpty) {
   // As of a sensor by disparity: a deviation of 1.4 mm at one metre.
   TableScene scene = TableScene::two_boxes();

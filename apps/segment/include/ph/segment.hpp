@@ -46,7 +46,9 @@ enum class Method {
 /// camera from about a metre.
 struct SegmentOptions {
   Method method = Method::surface;
-  std::optional<double> voxel = {};           ///< edge of a voxel, metres, > 0; see voxel_size
+  /// Edge of a voxel, metres, > 0. Not given: see voxel_size; method surface takes a larger one
+  /// where the points are so far apart that voxels of this size would not touch.
+  std::optional<double> voxel = {};
   Index min_size = 32;                        ///< fewest voxels of a segment, >= 1
   double max_range = 2.0;                     ///< farthest from the viewpoint, metres; inf: all
   std::optional<Box> crop = {};               ///< keep the points inside this box only
@@ -110,6 +112,7 @@ struct Segmentation {
   std::vector<Segment> segments;      ///< segment i has label i + 1
   std::optional<Plane> plane;         ///< the plane that was removed
   std::string plane_note;             ///< why there is none; empty if there is one
+  double voxel = 0;                   ///< edge of a voxel, metres
   Points vertices;                    ///< vertex i of the graph: centroid of voxel i, one a row
   Index edges = 0;                    ///< edges of the filtered graph
   MergeTree tree;                     ///< which vertices join, at which value
