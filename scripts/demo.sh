@@ -33,7 +33,7 @@ echo "   longest voids, length [birth, death)"
 longest 2 "$out/skull.csv"
 
 echo "3. RGB-D frame Motorcycle (python3-skimage): objects by persistence of components"
-$segment --depth "$out/data/depth.png" --color "$out/data/color.png" \
+$segment --method paper --depth "$out/data/depth.png" --color "$out/data/color.png" \
   --intrinsics 994.978,994.978,311.193,254.877 \
   --max-range 4 --plane-distance 0.03 --voxel 0.03 --distance 0.06 \
   -o "$out/motorcycle.ply" --labels "$out/motorcycle_labels.png" --json "$out/motorcycle.json" \

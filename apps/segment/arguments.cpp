@@ -58,6 +58,17 @@ Vec3 parse_point(std::string_view option, const std::string& text) {
   return {v[0], v[1], v[2]};
 }
 
+std::array<std::uint32_t, 2> parse_labels(std::string_view option, const std::string& text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string::npos)
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: found {}, expected two labels: A,B", option, text));
+  const auto label = [&](const std::string& word) {
+    return static_cast<std::uint32_t>(app::parse_integer(option, word, 1, UINT32_MAX));
+  };
+  return {label(text.substr(0, comma)), label(text.substr(comma + 1))};
+}
+
 bool parse_switch(std::string_view option, const std::string& text) {
   static constexpr std::array<std::string_view, 2> choices = {"off", "on"};
   return app::choose(option, text, choices) == 1;
@@ -187,6 +198,10 @@ void add_output_options(CLI::App& app, Arguments& a) {
   path("--coloured,--colored", "FILE.pcd|.ply",
        "the points with a colour a segment, safe for the colour-blind, and the rest in grey",
        a.coloured);
+  add_value(app, "--explain", "A,B",
+            "print where, and at which value of the filtration, the segments A and B join, in "
+            "place of the table",
+            [&a](const std::string& v) { a.explain = parse_labels("--explain", v); });
   path("--picture", "FILE.png", "the image with its segments coloured (organised clouds)",
        a.picture);
 }
@@ -194,14 +209,13 @@ void add_output_options(CLI::App& app, Arguments& a) {
 /// What the contract of the program promises for later.
 void add_planned_options(CLI::App& app) {
   using Option = std::pair<std::string, std::string>;
-  for (const Option& option :
-       {Option("--cut", "X"), Option("--explain", "A,B"), Option("--report", "FILE.html")}) {
+  for (const Option& option : {Option("--cut", "X"), Option("--report", "FILE.html")}) {
     add_value(app, option.first, option.second, "not built in yet",
               [name = option.first](const std::string&) { not_built_in(name); });
   }
 }
 
-void require_one_input(const Arguments& a) {
+void require_consistent(const Arguments& a) {
   const bool depth = !a.image.depth.empty();
   if (a.input.empty() && !depth) {
     throw Error(ErrorKind::usage, "expected INPUT or --depth; see --help");
@@ -211,6 +225,9 @@ void require_one_input(const Arguments& a) {
   }
   if (depth && !a.image.intrinsics) {
     throw Error(ErrorKind::usage, "--depth: expected --intrinsics FX,FY,CX,CY with it");
+  }
+  if (a.explain && a.writes_to_standard_output()) {
+    throw Error(ErrorKind::usage, "--explain and a result that goes to standard output, too");
   }
   if (!depth && (!a.image.colour.empty() || a.image.intrinsics)) {
     throw Error(ErrorKind::usage, "--color and --intrinsics: expected --depth with them");
@@ -229,7 +246,7 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
   app::add_common_options(app, a.common);
   if (auto answer = app::parse_command_line(app, a.common, argc, argv, std::string(kBuiltIn)))
     return answer;
-  require_one_input(a);
+  require_consistent(a);
   return std::nullopt;
 }
 

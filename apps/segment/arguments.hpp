@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -23,17 +26,24 @@ struct Arguments {
   DepthInput image;
   bool allow_empty = false;  ///< a cloud without points is an empty result, not an error
   SegmentOptions options;
-  std::string output;    ///< the cloud with its labels
-  std::string labels;    ///< one label a point
-  std::string json;      ///< the summary
-  std::string barcode;   ///< H0
-  std::string plot;      ///< the barcode as a figure
-  std::string coloured;  ///< the cloud with a colour a segment
-  std::string picture;   ///< the image with a colour a segment
+  std::string output;                                   ///< the cloud with its labels
+  std::string labels;                                   ///< one label a point
+  std::string json;                                     ///< the summary
+  std::string barcode;                                  ///< H0
+  std::string plot;                                     ///< the barcode as a figure
+  std::string coloured;                                 ///< the cloud with a colour a segment
+  std::string picture;                                  ///< the image with a colour a segment
+  std::optional<std::array<std::uint32_t, 2>> explain;  ///< two segments: where do they join?
   app::CommonOptions common;
 
+  std::array<const std::string*, 7> files() const {
+    return {&output, &labels, &json, &barcode, &plot, &coloured, &picture};
+  }
   bool writes_files() const {
-    return !(output + labels + json + barcode + plot + coloured + picture).empty();
+    return std::ranges::any_of(files(), [](const std::string* path) { return !path->empty(); });
+  }
+  bool writes_to_standard_output() const {
+    return std::ranges::any_of(files(), [](const std::string* path) { return *path == "-"; });
   }
 };
 

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "components.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <memory_resource>
 #include <numeric>
+
+#include "ph/core/disjoint_sets.hpp"
+#include "ph/core/error.hpp"
 
 namespace ph::segment {
 namespace {
@@ -109,6 +115,40 @@ void find_neighbours(const MergeTree& tree, Components& components) {
     meet(a, b, m.value);
     meet(b, a, m.value);
   }
+}
+
+std::optional<Meeting> first_meeting(const Segmentation& s, std::uint32_t a, std::uint32_t b) {
+  for (const std::uint32_t label : {a, b})
+    if (label == 0 || label > s.segments.size())
+      throw Error(ErrorKind::usage, fmt::format("segment {}: there are the segments 1 to {}", label,
+                                                s.segments.size()));
+  if (a == b) throw Error(ErrorKind::usage, fmt::format("segment {}: found it twice", a));
+  // The parts of a segment are one from the beginning.
+  DisjointSets sets(s.vertex_labels.size(), std::pmr::get_default_resource());
+  const auto join = [&](std::uint32_t u, std::uint32_t v) {
+    const std::uint32_t x = sets.find(u), y = sets.find(v);
+    if (x != y) sets.link(x, y);
+  };
+  const auto first_of = [&](std::uint32_t label) {
+    return static_cast<std::uint32_t>(std::ranges::find(s.vertex_labels, label) -
+                                      s.vertex_labels.begin());
+  };
+  const std::uint32_t first_a = first_of(a), first_b = first_of(b);
+  for (std::uint32_t v = 0; v < s.vertex_labels.size(); ++v) {
+    if (s.vertex_labels[v] == a) join(v, first_a);
+    if (s.vertex_labels[v] == b) join(v, first_b);
+  }
+  for (const Merge& m : s.tree.merges) {
+    join(static_cast<std::uint32_t>(m.u), static_cast<std::uint32_t>(m.v));
+    if (sets.find(first_a) != sets.find(first_b)) continue;
+    Meeting meeting{.value = m.value};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto axis = static_cast<Index>(k);
+      meeting.at[k] = (s.vertices(m.u, axis) + s.vertices(m.v, axis)) / 2;
+    }
+    return meeting;
+  }
+  return std::nullopt;
 }
 
 }  // namespace ph::segment

@@ -26,11 +26,11 @@ Index count(const std::vector<Index>& points) { return static_cast<Index>(points
 /// What is in range and stands before the supporting plane; the plane goes into the result, too.
 Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageClock& clock,
                   Segmentation& result) {
-  constexpr double noise_grows_from = 1;  // metres
+  constexpr double noise = 0.005;  // more than three deviations of a structured-light sensor
   const bool is_paper = options.method == Method::paper;
   Scene scene;
   scene.cloud = cloud;
-  scene.margin = {options.plane_margin(), is_paper ? kInfinity : noise_grows_from};
+  scene.margin = {options.plane_margin(), is_paper ? 0 : noise};
 
   // Section VI: "we remove outlying points (background clutter) that are beyond range"
   scene.in_range = range_filter(cloud, options.max_range, options.crop);
@@ -92,6 +92,7 @@ Segmentation segment(const CloudView& input, const SegmentOptions& options,
   find_neighbours(result.tree, found);
   result.segments = std::move(found.segments);
   result.labels = std::move(found.labels);
+  result.vertex_labels = std::move(found.label_of_voxel);
   Index in_segments = 0;
   for (const Segment& s : result.segments) in_segments += s.voxels;
   clock.finish("components", in_segments);

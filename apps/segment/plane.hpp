@@ -27,14 +27,14 @@ PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points,
 /// How near to a plane points count as part of it.
 struct PlaneMargin {
   double distance;  ///< metres
-  /// Up to here, metres from the sensor; farther away it grows with the square of the range, as the
-  /// noise of depth from disparity does (Khoshelham & Elberink 2012).
-  double range = kInfinity;
+  /// At least this, metres at a range of one metre: the noise of depth from disparity, which grows
+  /// with the square of the range (Khoshelham & Elberink 2012).
+  double noise = 0;
 
   double operator()(const CloudView& cloud, const float* p) const {
     const double x = p[0] - cloud.viewpoint[0], y = p[1] - cloud.viewpoint[1];
     const double z = p[2] - cloud.viewpoint[2];
-    return distance * std::max(1.0, (x * x + y * y + z * z) / (range * range));
+    return std::max(distance, noise * (x * x + y * y + z * z));
   }
 };
 

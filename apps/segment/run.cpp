@@ -90,7 +90,11 @@ int run(int argc, const char* const* argv, std::stop_token stop) {
   const std::string& path = arguments.input.empty() ? arguments.image.depth : arguments.input;
   outputs.write(cloud, result,
                 {app::program_and_version(std::string(kProgram)), path, reading.count()});
-  if (!arguments.writes_files()) write_file("-", text_summary(result));
+  if (arguments.explain) {
+    const auto& [a, b] = *arguments.explain;
+    write_file("-", explanation(result, a, b));
+  } else if (!arguments.writes_files())
+    write_file("-", text_summary(result));
   return result.difference.empty() ? app::kOk : app::kDifference;
 }
 

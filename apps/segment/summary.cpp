@@ -174,6 +174,19 @@ std::string text_summary(const Segmentation& s) {
   return text;
 }
 
+std::string explanation(const Segmentation& s, std::uint32_t a, std::uint32_t b) {
+  const std::optional<Meeting> meeting = first_meeting(s, a, b);
+  if (!meeting) {
+    return fmt::format(
+        "segments {} and {} never join: the graph of voxels has no path between "
+        "them\n",
+        a, b);
+  }
+  const auto& [x, y, z] = meeting->at;
+  return fmt::format("segments {} and {} join at {}, near ({:.4f}, {:.4f}, {:.4f})\n", a, b,
+                     shortest(meeting->value), x, y, z);
+}
+
 std::string one_line_summary(const Cloud& cloud, const Segmentation& s) {
   std::string text = fmt::format("{} points", cloud.size());
   for (const Stage& stage : s.stages) {

@@ -13,6 +13,9 @@ std::string json_summary(const Cloud& cloud, const Arguments& arguments,
 /// A table of the segments for people, one a line.
 std::string text_summary(const Segmentation& segmentation);
 
+/// Where two segments join, in a line. @throws Error (usage) as first_meeting.
+std::string explanation(const Segmentation& segmentation, std::uint32_t a, std::uint32_t b);
+
 /// The run in one line: what each stage left.
 std::string one_line_summary(const Cloud& cloud, const Segmentation& segmentation);
 

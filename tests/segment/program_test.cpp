@@ -206,8 +206,24 @@ TEST_F(Program, UsageErrors) {
   }
 }
 
+TEST_F(Program, ExplainsWhereSegmentsJoin) {
+  const test::TableScene scene(
+      {{{-0.15, -0.1, 0}, {0.15, 0.15, 0.08}}, {{-0.06, 0.0, 0.08}, {0.06, 0.1, 0.2}}});
+  std::ofstream file(at("stack.pcd"), std::ios::binary);
+  write_pcd(file, scene.cloud());
+  file.close();
+  ASSERT_EQ(run("stack.pcd --explain 1,2"), 0) << err();
+  EXPECT_EQ(out().substr(0, 25), "segments 1 and 2 join at ") << out();
+  ASSERT_EQ(run("stack.pcd --explain 2,1 --json s.json"), 0) << err();
+  EXPECT_EQ(out().substr(0, 25), "segments 2 and 1 join at ") << out();
+  ASSERT_EQ(run("scene.pcd --explain 1,2"), 0) << err();
+  EXPECT_NE(out().find("never join"), std::string::npos) << out();
+  for (const char* bad : {"1,3", "0,1", "1", "1,1", "a,b", "1,2 --json -"})
+    EXPECT_EQ(run(std::string("scene.pcd --explain ") + bad), 64) << bad;
+}
+
 TEST_F(Program, WhatIsNotBuiltInYet) {
-  for (const char* arguments : {"--cut 0.1", "--explain 1,2", "--report r.html"}) {
+  for (const char* arguments : {"--cut 0.1", "--report r.html"}) {
     EXPECT_EQ(run(std::string("scene.pcd ") + arguments), 69) << arguments;
     EXPECT_NE(err().find("not built in yet"), std::string::npos) << err();
   }

@@ -13,6 +13,7 @@
 #include "foot.hpp"
 #include "objects.hpp"
 #include "ph/complex/filtered_graph.hpp"
+#include "ph/core/error.hpp"
 #include "scenery.hpp"
 #include "voxel_pairs.hpp"
 
@@ -86,6 +87,21 @@ TEST(Surface, TheCutFollowsPersistenceAndSize) {
   // The same from the tree that was stored.
   const std::vector<Index> basins = s.tree.basins(1.01 * persistence, 200);
   EXPECT_EQ(std::ranges::count(basins, basins[0]), static_cast<Index>(basins.size()));
+}
+
+TEST(Surface, WhereSegmentsMeetFirst) {
+  const TableScene scene(
+      {{{-0.15, -0.1, 0}, {0.15, 0.15, 0.08}}, {{-0.06, 0.0, 0.08}, {0.06, 0.1, 0.2}}});
+  const Segmentation s = segment(CloudView{scene.xyz(), {}});
+  const auto meeting = first_meeting(s, 1, 2);
+  ASSERT_TRUE(meeting);
+  EXPECT_EQ(meeting->value, s.segments[0].meets_at);
+  const auto& [x, y, z] = meeting->at;  // in the seam, on top of the lower box
+  EXPECT_NEAR(s.plane->signed_distance(x, y, z), 0.08, 0.01);
+  EXPECT_FALSE(first_meeting(segment(CloudView{TableScene::two_boxes().xyz(), {}}), 1, 2));
+  for (const auto& [a, b] : {std::pair{0, 1}, std::pair{1, 3}, std::pair{2, 2}})
+    EXPECT_THROW(first_meeting(s, static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)),
+                 Error);
 }
 
 TEST(Surface, SeparateObjectsMeetNobody) {

@@ -114,12 +114,13 @@ struct Segmentation {
   std::string plane_note;             ///< why there is none; empty if there is one
   double voxel = 0;                   ///< edge of a voxel, metres
   Points vertices;                    ///< vertex i of the graph: centroid of voxel i, one a row
-  Index edges = 0;                    ///< edges of the filtered graph
-  MergeTree tree;                     ///< which vertices join, at which value
-  Barcode barcode = Barcode();        ///< H0, zero-length bars included
-  bool checked = false;               ///< whether the cross-check ran
-  std::string difference;             ///< what it found; empty: both engines agree
-  std::vector<Stage> stages;          ///< in the order in which they ran
+  std::vector<std::uint32_t> vertex_labels;  ///< one a vertex: 0 none, 1…k the segments
+  Index edges = 0;                           ///< edges of the filtered graph
+  MergeTree tree;                            ///< which vertices join, at which value
+  Barcode barcode = Barcode();               ///< H0, zero-length bars included
+  bool checked = false;                      ///< whether the cross-check ran
+  std::string difference;                    ///< what it found; empty: both engines agree
+  std::vector<Stage> stages;                 ///< in the order in which they ran
 };
 
 /// Segments a cloud: range filter, supporting plane, voxel grid, a filtered graph on the voxels,
@@ -136,6 +137,16 @@ Segmentation segment(const CloudView& cloud, const SegmentOptions& options = {},
 /// The same on a cloud as its file has it. Reads x, y, z and the viewpoint, nothing else.
 Segmentation segment(const Cloud& cloud, const SegmentOptions& options = {},
                      const RunContext& context = default_context());
+
+/// Where two segments meet first as the filtration grows.
+struct Meeting {
+  double value = 0;  ///< of the filtration: metres (paper), a concavity (surface)
+  Vec3 at{};         ///< between the two voxels whose edge joins them
+};
+/// @return nothing if they never meet. @throws Error (usage) on labels that are not those of two
+/// segments.
+std::optional<Meeting> first_meeting(const Segmentation& segmentation, std::uint32_t a,
+                                     std::uint32_t b);
 
 /// Reads a cloud: .pcd, .ply, .xyz, .csv. @throws Error as ph::read_cloud does.
 Cloud read_cloud(const std::filesystem::path& path);
