@@ -114,13 +114,15 @@ void BinnedEdges::sort_ahead(std::size_t bin) const {
       context->poll();
       FlagEdges buffer(&context->memory);
       sort_edges(edges, shift, buffer);
-      lazy->is_next_sorted = true;
-    } catch (...) {  // in some order still: whoever needs the bin sorts it, and meets the error
+    } catch (...) {
+      return;  // in some order still: whoever needs the bin sorts it, and meets the error
     }
+    lazy->is_next_sorted = true;
   };
   try {
     lazy_->ahead = std::jthread(sort);
-  } catch (const std::system_error&) {  // no thread to be had
+  } catch (const std::system_error&) {
+    return;  // no thread to be had
   }
 }
 

@@ -79,11 +79,9 @@ Pilot run_pilot(const Rips& part, double listed, const Options& options,
   own.threads = 1;
   own.memory.set_limit(context.memory.limit() -
                        std::min(context.memory.used(), context.memory.limit()));
-  const Rips copy(
-      RipsGraph::with_edges(part.graph(),
-                            FlagEdges(part.graph().edges().begin(),
-                                                       part.graph().edges().end(), &own.memory),
-                            own));
+  const Rips copy(RipsGraph::with_edges(
+      part.graph(),
+      FlagEdges(part.graph().edges().begin(), part.graph().edges().end(), &own.memory), own));
   const Barcode barcode = persistence(copy, options, own);
   double bars = 0;
   for (std::size_t i = 0; i < barcode.size(); ++i) bars += barcode[i].dim > 0 ? 1 : 0;

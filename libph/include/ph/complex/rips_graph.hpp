@@ -103,11 +103,11 @@ class RipsGraph {
   const RipsAdjacency& adjacency() const {
     if (const RipsAdjacency* made = lazy_->made.load(std::memory_order_acquire)) return *made;
     const std::lock_guard lock(lazy_->mutex);
-    if (!lazy_->adjacency) {
-      lazy_->adjacency.emplace(static_cast<std::size_t>(size_), edges_.sorted(), memory());
-      lazy_->made.store(&*lazy_->adjacency, std::memory_order_release);
-    }
-    return *lazy_->adjacency;
+    if (const RipsAdjacency* made = lazy_->made.load(std::memory_order_relaxed)) return *made;
+    const RipsAdjacency& made =
+        lazy_->adjacency.emplace(static_cast<std::size_t>(size_), edges_.sorted(), memory());
+    lazy_->made.store(&made, std::memory_order_release);
+    return made;
   }
 
  private:
