@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <optional>
 
 #include "arguments.hpp"
 #include "exit_code.hpp"
@@ -87,14 +88,16 @@ int run(int argc, const char* const* argv, std::stop_token stop) {
                     result.plane->normal[0], result.plane->normal[1], result.plane->normal[2],
                     result.plane->offset, 100 * result.plane->share));
   }
+  // Before anything is written: the labels may not be there.
+  std::optional<std::string> answer;
+  if (const auto& labels = arguments.explain)
+    answer = explanation(result, (*labels)[0], (*labels)[1]);
+  else if (!arguments.writes_files())
+    answer = text_summary(result);
   const std::string& path = arguments.input.empty() ? arguments.image.depth : arguments.input;
   outputs.write(cloud, result,
                 {app::program_and_version(std::string(kProgram)), path, reading.count()});
-  if (arguments.explain) {
-    const auto& [a, b] = *arguments.explain;
-    write_file("-", explanation(result, a, b));
-  } else if (!arguments.writes_files())
-    write_file("-", text_summary(result));
+  if (answer) write_file("-", *answer);
   return result.difference.empty() ? app::kOk : app::kDifference;
 }
 

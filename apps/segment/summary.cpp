@@ -133,6 +133,7 @@ std::string json_summary(const Cloud& cloud, const Arguments& arguments, const S
                          const RunInfo& info) {
   const SegmentOptions& o = arguments.options;
   const Index vertices = s.vertices.rows();
+  const std::string distance = o.method == Method::paper ? number(o.distance) : "null";
   const std::string members =
       object({{"format", json_string("ph-segment")},
               {"version", "1"},
@@ -146,9 +147,9 @@ std::string json_summary(const Cloud& cloud, const Arguments& arguments, const S
               {"complex", object({{"vertices", integer(vertices)},
                                   {"edges", integer(s.edges)},
                                   {"simplices", integer(vertices + s.edges)},
-                                  {"distance", number(o.distance)}})},
+                                  {"distance", distance}})},
               {"table", object({{"points", integer(vertices)},
-                                {"distance", number(o.distance)},
+                                {"distance", distance},
                                 {"complex", integer(vertices + s.edges)},
                                 {"time", number(table_seconds(s))}})},
               {"segments", segments_of(s)},

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -19,7 +18,6 @@ class View {
 
   View(const Points& centroids, double voxel, const Vec3& viewpoint);
 
-  double range(Voxel v) const { return ranges_[v]; }  ///< from the viewpoint, metres
   /// Whether a voxel has a nearer one of another kind within two cells.
   /// @param kind_of a voxel. @param nearer by how much, metres.
   template <class KindOf>
@@ -41,8 +39,8 @@ class View {
     return nearest_[static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x)];
   }
 
-  std::vector<double> ranges_;
-  std::vector<Place> places_;  // negative: left out
+  std::vector<double> ranges_;  // from the viewpoint, metres
+  std::vector<Place> places_;   // negative: left out
   std::size_t width_ = 0, height_ = 0;
   std::vector<Voxel> nearest_;
 };

@@ -218,6 +218,8 @@ TEST_F(Program, ExplainsWhereSegmentsJoin) {
   EXPECT_EQ(out().substr(0, 25), "segments 2 and 1 join at ") << out();
   ASSERT_EQ(run("scene.pcd --explain 1,2"), 0) << err();
   EXPECT_NE(out().find("never join"), std::string::npos) << out();
+  EXPECT_EQ(run("scene.pcd --explain 1,3 -o none.pcd"), 64);
+  EXPECT_FALSE(fs::exists(at("none.pcd")));
   for (const char* bad : {"1,3", "0,1", "1", "1,1", "a,b", "1,2 --json -"})
     EXPECT_EQ(run(std::string("scene.pcd --explain ") + bad), 64) << bad;
 }
