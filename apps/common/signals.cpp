@@ -79,7 +79,7 @@ SignalWatch::~SignalWatch() {
 int SignalWatch::received() { return first_signal.load(); }
 
 void SignalWatch::watch() {
-  constexpr int kGraceMilliseconds = 150;
+  constexpr int kGraceMilliseconds = 60;
   char byte = 0;
   ssize_t got = 0;
   do {
@@ -87,7 +87,9 @@ void SignalWatch::watch() {
   } while (got < 0 && errno == EINTR);
   if (got != 1 || byte == 0) return;
   stop_.request_stop();
-  // Unwinding normally takes a few milliseconds and ends with the byte 0 of the destructor.
+  // Unwinding normally takes a few milliseconds and ends with the byte 0 of the destructor. What
+  // takes longer is cut short: returning gigabytes to the system takes time too, and the whole
+  // must not take 0.2 s.
   pollfd done{pipe_[0], POLLIN, 0};
   int ready = 0;
   do {

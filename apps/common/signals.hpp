@@ -7,7 +7,7 @@
 namespace ph::app {
 
 /// Turns SIGINT, SIGTERM and SIGHUP into a stop request while it lives; there is one at a time.
-/// The first signal requests a stop; if the process is still there 0.15 s later, or on a second
+/// The first signal requests a stop; if the process is still there 0.06 s later, or on a second
 /// signal, it ends at once: registered temporary files are removed, nothing is unwound. Where no
 /// thread can be created the first signal does so.
 class SignalWatch {

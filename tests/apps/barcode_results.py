@@ -10,6 +10,7 @@ import subprocess
 import unittest
 import xml.dom.minidom
 
+import program
 from program import SQUARE, SQUARE_CSV, ProgramTest, main, npy
 
 TRIANGLE = "0 : 0\n1 : 0\n2 : 0\n0 1 : 1\n1 2 : 2\n0 2 : 3\n0 1 2 : 4\n"
@@ -376,6 +377,17 @@ class Options(ProgramTest):
         run = self.expect(0, "square.txt", "--progress", "json", "--quiet")
         for line in run.stderr.splitlines():
             json.loads(line)
+
+    def test_progress_is_heard_every_second(self):
+        """Also where nothing can be reported: here the program waits for its input."""
+        with subprocess.Popen([program.PROGRAM, "-", "--progress", "json", "--quiet"],
+                              stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.PIPE) as run:
+            heard = [json.loads(run.stderr.readline())["seconds"] for _ in range(3)]
+            run.communicate(b"0\n1\n", 20)
+        self.assertEqual(run.returncode, 0)
+        for before, after in zip([0, *heard], heard):
+            self.assertLess(after - before, 1)
 
 
 class Version(ProgramTest):
