@@ -75,7 +75,7 @@ Filtered filter_by_surface(const Scene& scene, const SegmentOptions& options,
           std::move(grid),
           std::move(points),
           std::move(graph),
-          {std::move(normals), std::move(pairs)}};
+          {std::move(normals), std::move(pairs), scene.cloud.viewpoint, scene.plane}};
 }
 
 Filtered filter_by_distance(const Scene& scene, const SegmentOptions& options,

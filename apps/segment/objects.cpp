@@ -8,35 +8,15 @@
 #include <utility>
 
 #include "concavity.hpp"
+#include "parts.hpp"
 #include "ph/core/disjoint_sets.hpp"
+#include "rims.hpp"
 #include "view.hpp"
 
 namespace ph::segment {
 namespace {
 
-constexpr std::uint32_t kSmall = UINT32_MAX;
-
-/// Parts that are large enough, numbered in the order of their first voxels.
-struct Parts {
-  std::vector<std::uint32_t> of;       // by voxel; kSmall for what stays by itself
-  std::vector<std::uint32_t> example;  // by part: a voxel
-};
-
-Parts number_parts(const std::vector<Index>& part_of, Index min_size) {
-  std::vector<Index> sizes(part_of.size());
-  for (const Index p : part_of) ++sizes[static_cast<std::size_t>(p)];
-  std::vector<std::uint32_t> number(part_of.size(), kSmall);
-  Parts parts;
-  for (std::uint32_t v = 0; v < part_of.size(); ++v) {
-    const auto p = static_cast<std::size_t>(part_of[v]);
-    if (sizes[p] >= min_size && number[p] == kSmall) {
-      number[p] = static_cast<std::uint32_t>(parts.example.size());
-      parts.example.push_back(v);
-    }
-    parts.of.push_back(number[p]);
-  }
-  return parts;
-}
+constexpr std::uint32_t kSmall = Parts::kSmall;
 
 /// Calls `join(p, q)` for parts that meet, but not in a seam.
 template <class Join>
@@ -71,14 +51,13 @@ class HiddenJoins {
   }
 
  public:
-  HiddenJoins(const VoxelGrid& grid, const Surface& surface, double voxel, const Vec3& viewpoint,
-              const Parts& parts)
+  HiddenJoins(const VoxelGrid& grid, const Surface& surface, double voxel, const Parts& parts)
       : grid_(grid),
         surface_(surface),
         voxel_(voxel),
         parts_(parts),
-        view_(grid.centroids, voxel, viewpoint),
-        borders_(parts.example.size()) {
+        view_(grid.centroids, voxel, surface.viewpoint),
+        borders_(parts.count()) {
     for (std::uint32_t v = 0; v < parts.of.size(); ++v)
       if (parts.of[v] != kSmall && std::isfinite(surface.normals(v, 0)) &&
           view_.is_at_occluder(v, nearer(), kind()))
@@ -118,8 +97,9 @@ class HiddenJoins {
   }
   /// Whether one smooth surface through both voxels is hidden between them.
   bool goes_on(std::uint32_t a, std::uint32_t b) const {
-    constexpr double cosine = 0.966;  // 15 degrees between the normals
-    constexpr double longest_gap = 0.3, slope = 0.05;
+    constexpr double cosine = 0.966;      // 15 degrees between the normals
+    constexpr double longest_gap = 0.15;  // metres; what hides more leaves only a guess
+    constexpr double slope = 0.05;
     const auto n = surface_.normals.row(a), m = surface_.normals.row(b);
     if (n.dot(m) < cosine) return false;
     const auto d = (grid_.centroids.row(b) - grid_.centroids.row(a)).eval();
@@ -143,16 +123,17 @@ class HiddenJoins {
 }  // namespace
 
 std::vector<Index> join_parts(const VoxelGrid& grid, const Surface& surface, double voxel,
-                              const Vec3& viewpoint, const std::vector<Index>& part_of,
-                              Index min_size) {
+                              const std::vector<Index>& part_of, Index min_size) {
   const Parts parts = number_parts(part_of, min_size);
-  DisjointSets objects(parts.example.size(), std::pmr::get_default_resource());
+  DisjointSets objects(parts.count(), std::pmr::get_default_resource());
   const auto join = [&](std::uint32_t p, std::uint32_t q) {
     const std::uint32_t a = objects.find(p), b = objects.find(q);
     objects.link(std::max(a, b), std::min(a, b));
   };
   join_over_rims(grid, surface, parts, join);
-  HiddenJoins(grid, surface, voxel, viewpoint, parts).find(join);
+  HiddenJoins(grid, surface, voxel, parts).find(join);
+  if (surface.support)
+    join_around_rims(grid.centroids, voxel, surface.support->normal, parts, join);
   std::vector<Index> object_of = part_of;
   for (std::size_t v = 0; v < object_of.size(); ++v)
     if (parts.of[v] != kSmall) object_of[v] = part_of[parts.example[objects.find(parts.of[v])]];

@@ -84,8 +84,8 @@ Segmentation segment(const CloudView& input, const SegmentOptions& options,
 
   std::vector<Index> component_of = components_of(result.tree, options);
   if (options.method == Method::surface && options.objects) {
-    component_of = join_parts(filtered.grid, filtered.surface, filtered.voxel, cloud.viewpoint,
-                              component_of, options.min_size);
+    component_of =
+        join_parts(filtered.grid, filtered.surface, filtered.voxel, component_of, options.min_size);
   }
   Components found =
       extract_components(cloud, filtered.points, filtered.grid, component_of, options.min_size);

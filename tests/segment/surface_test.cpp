@@ -290,12 +290,12 @@ TEST(Objects, PartsJoinOverARidgeAndNotInAValley) {
       if (part < 0) part = v;
       part_of.push_back(part);
     }
-    const std::vector<Index> objects = join_parts(grid, surface, 0.005, {0, 0, 10}, part_of, 32);
+    const std::vector<Index> objects = join_parts(grid, surface, 0.005, part_of, 32);
     EXPECT_EQ(std::ranges::count(objects, objects[0]),
               angle < 0 ? std::ssize(part_of) : std::ranges::count(part_of, part_of[0]))
         << angle;
     // Small parts stay by themselves.
-    EXPECT_EQ(join_parts(grid, surface, 0.005, {0, 0, 10}, part_of, 1000), part_of);
+    EXPECT_EQ(join_parts(grid, surface, 0.005, part_of, 1000), part_of);
   }
 }
 
