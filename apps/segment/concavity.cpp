@@ -12,21 +12,61 @@ namespace {
 /// The sum of some vectors and of their squares.
 struct Moments {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
   int count = 1;  // the voxel itself, from where the others are seen: zero
 
-  void add(const Eigen::Vector3d& d) {
-    sum += d;
-    squares += d * d.transpose();
+  void add(double x, double y, double z) {
+    sum += Eigen::Vector3d(x, y, z);
+    xx += x * x;
+    xy += x * y;
+    xz += x * z;
+    yy += y * y;
+    yz += y * z;
+    zz += z * z;
     ++count;
   }
-  Eigen::Vector3d direction_of_least_spread() const {
-    const Eigen::Matrix3d scatter = squares - sum * sum.transpose() / count;
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-    solver.computeDirect(scatter);
-    return solver.eigenvectors().col(0);
+  Eigen::Matrix3d scatter() const {
+    Eigen::Matrix3d squares;
+    squares << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+    return squares - sum * sum.transpose() / count;
   }
 };
+
+/// The smallest eigenvalue of a positive semi-definite matrix of trace one. On the left of its
+/// smallest root the characteristic polynomial is concave: Newton's method goes up to that root
+/// from zero and never beyond.
+double smallest_eigenvalue(const Eigen::Matrix3d& a) {
+  const double minors = a(0, 0) * a(1, 1) - a(0, 1) * a(0, 1) + a(0, 0) * a(2, 2) -
+                        a(0, 2) * a(0, 2) + a(1, 1) * a(2, 2) - a(1, 2) * a(1, 2);
+  const double determinant = a.determinant();
+  constexpr int most_steps = 20;  // of a double root it takes many, and is then exact enough
+  double x = 0;
+  for (int step = 0; step < most_steps; ++step) {
+    const double value = ((x - 1) * x + minors) * x - determinant;
+    const double slope = (3 * x - 2) * x + minors;
+    if (!(value < 0) || !(slope > 0)) break;
+    const double next = x - value / slope;
+    if (next - x < 1e-15) break;
+    x = next;
+  }
+  return x;
+}
+
+/// The direction in which vectors with this scatter spread least, unit length; any of these
+/// directions if they all lie on a line.
+Eigen::Vector3d direction_of_least_spread(const Eigen::Matrix3d& scatter) {
+  const Eigen::Matrix3d a = scatter / scatter.trace();
+  const Eigen::Matrix3d rest = a - smallest_eigenvalue(a) * Eigen::Matrix3d::Identity();
+  // Orthogonal to all rows: the longest of the products is the one with the least rounding.
+  Eigen::Vector3d best = rest.col(0).cross(rest.col(1));
+  for (const Eigen::Vector3d& other : {Eigen::Vector3d(rest.col(0).cross(rest.col(2))),
+                                       Eigen::Vector3d(rest.col(1).cross(rest.col(2)))})
+    if (other.squaredNorm() > best.squaredNorm()) best = other;
+  constexpr double parallel = 1e-20;
+  if (best.squaredNorm() > parallel) return best.normalized();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(a);
+  return solver.eigenvectors().col(0);
+}
 
 Eigen::Vector3d row(const Points& points, std::uint32_t i) { return points.row(i).transpose(); }
 
@@ -38,14 +78,14 @@ Points surface_normals(const Points& centroids, const std::vector<VoxelPair>& pa
   for (const VoxelPair& p : pairs) {
     if (p.distance >= radius) continue;
     const Eigen::Vector3d d = row(centroids, p.v) - row(centroids, p.u);
-    moments[p.u].add(d);
-    moments[p.v].add(-d);
+    moments[p.u].add(d.x(), d.y(), d.z());
+    moments[p.v].add(-d.x(), -d.y(), -d.z());
   }
   Points normals = Points::Constant(centroids.rows(), 3, std::numeric_limits<double>::quiet_NaN());
   const Eigen::Vector3d eye(viewpoint[0], viewpoint[1], viewpoint[2]);
   for (std::uint32_t v = 0; v < moments.size(); ++v) {
     if (moments[v].count < 3) continue;
-    const Eigen::Vector3d n = moments[v].direction_of_least_spread();
+    const Eigen::Vector3d n = direction_of_least_spread(moments[v].scatter());
     normals.row(v) = (n.dot(eye - row(centroids, v)) < 0 ? -n : n).transpose();
   }
   return normals;

@@ -41,28 +41,23 @@ struct Wall {
 
 }  // namespace
 
-void adopt_feet(const CloudView& cloud, const std::vector<Index>& in_range, const Plane& plane,
+void adopt_feet(const CloudView& cloud, const std::vector<Index>& strip, const Plane& plane,
                 const PlaneMargin& margin, double side, std::vector<Index>& points,
                 VoxelGrid& grid) {
-  constexpr double squares_up = 2;      // how far beyond the margin a wall may begin
-  constexpr double lowest_share = 0.2;  // of the margin: nearer to the plane nothing can be told
+  constexpr double squares_up = 2;  // how far beyond the margin a wall may begin
   const auto point = [&](Index i) { return &cloud.xyz[3 * static_cast<std::size_t>(i)]; };
-  const auto height_of = [&](const float* p) { return plane.signed_distance(p[0], p[1], p[2]); };
   const Squares square(plane, side);
   FlatMap<Wall> walls(std::pmr::get_default_resource());
   for (std::size_t k = 0; k < points.size(); ++k) {
     const float* p = point(points[k]);
-    const double height = height_of(p);
+    const double height = plane.signed_distance(p[0], p[1], p[2]);
     if (height > margin(cloud, p) + squares_up * side) continue;
     Wall& wall = *walls.try_emplace(square(p)).first;
     if (height < wall.height || (height == wall.height && grid.voxel_of[k] < wall.voxel))
       wall = {height, grid.voxel_of[k]};
   }
-  for (const Index i : in_range) {
-    const float* p = point(i);
-    const double height = height_of(p), limit = margin(cloud, p);
-    if (height <= lowest_share * limit || height > limit) continue;
-    const Wall* wall = walls.find(square(p));
+  for (const Index i : strip) {
+    const Wall* wall = walls.find(square(point(i)));
     if (wall == nullptr) continue;
     points.push_back(i);
     grid.voxel_of.push_back(wall->voxel);

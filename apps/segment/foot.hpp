@@ -11,9 +11,9 @@ namespace ph::segment {
 /// its margin: a point of the strip goes into the voxel of the lowest point beyond the margin that
 /// stands over the same small square of the plane, if that is just beyond. A wall has such points,
 /// the free plane beside it has none. Centroids and counts of the voxels stay what they are.
-/// @param in_range the points that were looked at. @param side of a square, metres.
+/// @param strip the points within the margin. @param side of a square, metres.
 /// @param points those beyond the margin, which are in the grid; the feet are appended.
-void adopt_feet(const CloudView& cloud, const std::vector<Index>& in_range, const Plane& plane,
+void adopt_feet(const CloudView& cloud, const std::vector<Index>& strip, const Plane& plane,
                 const PlaneMargin& margin, double side, std::vector<Index>& points,
                 VoxelGrid& grid);
 

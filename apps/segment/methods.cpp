@@ -48,10 +48,10 @@ Filtered filter_by_surface(const Scene& scene, const SegmentOptions& options,
   VoxelGrid grid;
   std::vector<VoxelPair> pairs;
   for (int times = 0;; ++times, voxel *= coarser) {
-    points = scene.points;
+    points = scene.points.beyond;
     grid = voxel_grid(scene.cloud, points, voxel);
     if (scene.plane) {
-      adopt_feet(scene.cloud, scene.in_range, *scene.plane, scene.margin, kSquareOfFoot * voxel,
+      adopt_feet(scene.cloud, scene.points.strip, *scene.plane, scene.margin, kSquareOfFoot * voxel,
                  points, grid);
     }
     clock.finish("voxel grid", grid.centroids.rows());
@@ -67,6 +67,7 @@ Filtered filter_by_surface(const Scene& scene, const SegmentOptions& options,
   const std::vector<double> values =
       smoothed(concavity(grid.centroids, normals, pairs), pairs, kAdjacent * voxel);
   std::vector<WeightedEdge> edges;
+  edges.reserve(pairs.size());
   for (const VoxelPair& p : pairs)
     if (are_adjacent(p, voxel)) edges.push_back({p.v, p.u, 0.0});
   FilteredGraph graph = FilteredGraph::lower_star(values, edges, context);
@@ -81,12 +82,12 @@ Filtered filter_by_surface(const Scene& scene, const SegmentOptions& options,
 Filtered filter_by_distance(const Scene& scene, const SegmentOptions& options,
                             const RunContext& context, StageClock& clock) {
   // Assumption 1: "points in the space are approximated (downsampled) with their centroid"
-  VoxelGrid grid = voxel_grid(scene.cloud, scene.points, options.voxel_size());
+  VoxelGrid grid = voxel_grid(scene.cloud, scene.points.beyond, options.voxel_size());
   clock.finish("voxel grid", grid.centroids.rows());
   // Alg. 1 (V.A) and the filtration of V.B: the 1-skeleton of the Vietoris-Rips complex
   FilteredGraph rips = rips_graph(grid.centroids, options.distance, options.steps, context);
   clock.finish("complex", rips.size());
-  return {options.voxel_size(), std::move(grid), scene.points, std::move(rips), {}};
+  return {options.voxel_size(), std::move(grid), scene.points.beyond, std::move(rips), {}};
 }
 
 }  // namespace ph::segment

@@ -25,13 +25,12 @@ class StageClock {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// What stands before the supporting plane, or everything in range if there is none.
+/// What stands before the supporting plane, or everything in range (as beyond) if there is none.
 struct Scene {
   CloudView cloud;
-  std::vector<Index> in_range;
   std::optional<Plane> plane;
   PlaneMargin margin;
-  std::vector<Index> points;  ///< those beyond the margin
+  Cleared points;
 };
 
 /// What a method makes of a scene; `grid` and `points` belong together.

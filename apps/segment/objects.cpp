@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "objects.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -62,7 +63,10 @@ class HiddenJoins {
       if (parts.of[v] != kSmall && std::isfinite(surface.normals(v, 0)) &&
           view_.is_at_occluder(v, nearer(), kind()))
         borders_[parts.of[v]].push_back(v);
-    for (auto& border : borders_) thin_out(border);
+    for (auto& border : borders_) {
+      thin_out(border);
+      boxes_.push_back(box_of(border));
+    }
   }
 
   template <class Join>
@@ -70,6 +74,7 @@ class HiddenJoins {
     constexpr double least_of_each = 0.1, least_of_both = 0.34;  // shares of the borders
     for (std::uint32_t p = 0; p < borders_.size(); ++p) {
       for (std::uint32_t q = 0; q < p; ++q) {
+        if (!(boxes_[p].squaredExteriorDistance(boxes_[q]) < kLongestGap * kLongestGap)) continue;
         const double a = share_that_goes_on(p, q);
         if (a < least_of_each) continue;
         const double b = share_that_goes_on(q, p);
@@ -79,6 +84,8 @@ class HiddenJoins {
   }
 
  private:
+  static constexpr double kLongestGap = 0.15;  // metres; what hides more leaves only a guess
+
   /// A bounded number, spread over all: what is told of parts is a share anyway.
   static void thin_out(std::vector<std::uint32_t>& border) {
     constexpr std::size_t fewest = 5, most = 60;
@@ -88,8 +95,12 @@ class HiddenJoins {
     for (std::size_t i = 0; i < border.size(); i += step) border[kept++] = border[i];
     border.resize(kept);
   }
+  Eigen::AlignedBox3d box_of(const std::vector<std::uint32_t>& voxels) const {
+    Eigen::AlignedBox3d box;
+    for (const std::uint32_t v : voxels) box.extend(grid_.centroids.row(v).transpose());
+    return box;
+  }
   double share_that_goes_on(std::uint32_t p, std::uint32_t q) const {
-    if (borders_[p].empty()) return 0;
     const auto count = std::ranges::count_if(borders_[p], [&](std::uint32_t a) {
       return std::ranges::any_of(borders_[q], [&](std::uint32_t b) { return goes_on(a, b); });
     });
@@ -97,14 +108,13 @@ class HiddenJoins {
   }
   /// Whether one smooth surface through both voxels is hidden between them.
   bool goes_on(std::uint32_t a, std::uint32_t b) const {
-    constexpr double cosine = 0.966;      // 15 degrees between the normals
-    constexpr double longest_gap = 0.15;  // metres; what hides more leaves only a guess
+    constexpr double cosine = 0.966;  // 15 degrees between the normals
     constexpr double slope = 0.05;
     const auto n = surface_.normals.row(a), m = surface_.normals.row(b);
     if (n.dot(m) < cosine) return false;
     const auto d = (grid_.centroids.row(b) - grid_.centroids.row(a)).eval();
     const double gap = d.norm(), tolerance = 0.6 * voxel_ + slope * gap;
-    if (gap > longest_gap || std::abs(n.dot(d)) > tolerance || std::abs(m.dot(d)) > tolerance)
+    if (gap > kLongestGap || std::abs(n.dot(d)) > tolerance || std::abs(m.dot(d)) > tolerance)
       return false;
     constexpr int fewest_cells = 2;
     constexpr double share = 0.85;
@@ -118,6 +128,7 @@ class HiddenJoins {
   const Parts& parts_;
   View view_;
   std::vector<std::vector<std::uint32_t>> borders_;  // by part: voxels next to an occluder
+  std::vector<Eigen::AlignedBox3d> boxes_;           // of them
 };
 
 }  // namespace

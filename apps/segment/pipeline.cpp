@@ -33,21 +33,23 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
   scene.margin = {options.plane_margin(), is_paper ? 0 : noise};
 
   // Section VI: "we remove outlying points (background clutter) that are beyond range"
-  scene.in_range = range_filter(cloud, options.max_range, options.crop);
-  clock.finish("range filter", count(scene.in_range));
+  std::vector<Index> in_range = range_filter(cloud, options.max_range, options.crop);
+  clock.finish("range filter", count(in_range));
 
   if (!options.plane) {
     result.plane_note = "no plane: its removal is switched off";
-    scene.points = scene.in_range;
+    scene.points.beyond = std::move(in_range);
     return scene;
   }
   // Section VI: "we find all points that correspond to a planar model and remove them"
-  PlaneSearch search = find_plane(cloud, scene.in_range, scene.margin.distance);
+  PlaneSearch search = find_plane(cloud, in_range, scene.margin.distance);
   result.plane = scene.plane = search.plane;
   result.plane_note = std::move(search.note);
-  scene.points = scene.plane ? remove_plane(cloud, scene.in_range, *scene.plane, scene.margin)
-                             : scene.in_range;
-  clock.finish("plane", count(scene.points));
+  if (scene.plane)
+    scene.points = remove_plane(cloud, in_range, *scene.plane, scene.margin);
+  else
+    scene.points.beyond = std::move(in_range);
+  clock.finish("plane", count(scene.points.beyond));
   return scene;
 }
 

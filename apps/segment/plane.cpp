@@ -25,13 +25,16 @@ std::uint64_t mix(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// A hash of the sign and the mantissa of each coordinate: the same after scaling by 2^k.
+/// A hash of the sign and the mantissa of each coordinate: the same after scaling by 2^k. Strongly
+/// universal in its upper half (multiply-shift of vectors; M. Thorup, High speed hashing for
+/// integers and strings, 2015).
 std::uint64_t hash_of(const float* p) {
-  constexpr std::uint32_t no_exponent = 0x807fffffU;
-  const std::uint64_t x = std::bit_cast<std::uint32_t>(p[0] + 0.0F) & no_exponent;
-  const std::uint64_t y = std::bit_cast<std::uint32_t>(p[1] + 0.0F) & no_exponent;
-  const std::uint64_t z = std::bit_cast<std::uint32_t>(p[2] + 0.0F) & no_exponent;
-  return mix(mix((x << 32 | y) + 0x9e3779b97f4a7c15ULL) + z);
+  const auto word = [](float x) -> std::uint64_t {
+    constexpr std::uint32_t no_exponent = 0x807fffffU;
+    return std::bit_cast<std::uint32_t>(x + 0.0F) & no_exponent;
+  };
+  return word(p[0]) * 0x9e3779b97f4a7c15ULL + word(p[1]) * 0xbf58476d1ce4e5b9ULL +
+         word(p[2]) * 0x94d049bb133111ebULL + 0xd6e8feb86659fd93ULL;
 }
 
 /// Some of the points, as columns, so that the compiler can vectorise over them.
@@ -82,14 +85,18 @@ struct Candidate {
 };
 
 /// The sum of squared distances of the first `count` points, each in units of `distance` and cut
-/// at one (the score of MSAC): small is good.
-double cost_of(const Candidate& plane, const Sample& sample, std::size_t count, double distance) {
+/// at one (the score of MSAC): small is good. Only a lower bound once that is `enough`.
+double cost_of(const Candidate& plane, const Sample& sample, std::size_t count, double distance,
+               double enough) {
   const double nx = plane.normal.x() / distance, ny = plane.normal.y() / distance;
   const double nz = plane.normal.z() / distance, d = plane.offset / distance;
   double cost = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double r = nx * sample.x[i] + ny * sample.y[i] + nz * sample.z[i] + d;
-    cost += std::min(r * r, 1.0);
+  constexpr std::size_t block = 128;
+  for (std::size_t begin = 0; begin < count && cost < enough; begin += block) {
+    for (std::size_t i = begin; i < std::min(count, begin + block); ++i) {
+      const double r = nx * sample.x[i] + ny * sample.y[i] + nz * sample.z[i] + d;
+      cost += std::min(r * r, 1.0);
+    }
   }
   return cost;
 }
@@ -111,7 +118,7 @@ std::optional<Candidate> best_hypothesis(const Sample& sample, double distance) 
     // Thinner than the plane: its direction would be noise.
     if (!(area > distance * (b - a).norm()) || !(area > distance * (c - a).norm())) continue;
     const Candidate plane{normal / area, -normal.dot(a) / area};
-    const double cost = cost_of(plane, sample, scored, distance);
+    const double cost = cost_of(plane, sample, scored, distance, best_cost);
     if (cost < best_cost) {
       best_cost = cost;
       best = plane;
@@ -180,17 +187,24 @@ PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points,
   return {Plane{{n.x(), n.y(), n.z()}, found->offset, share}, ""};
 }
 
-std::vector<Index> remove_plane(const CloudView& cloud, const std::vector<Index>& points,
-                                const Plane& plane, const PlaneMargin& margin) {
-  std::vector<Index> kept(points.size());
-  std::size_t count = 0;
+Cleared remove_plane(const CloudView& cloud, const std::vector<Index>& points, const Plane& plane,
+                     const PlaneMargin& margin) {
+  constexpr double lowest_share = 0.2;  // of the margin
+  const double lowest = lowest_share * margin.distance;
+  Cleared cleared{std::vector<Index>(points.size()), {}};
+  std::size_t beyond = 0;
   for (const Index i : points) {
     const float* p = &cloud.xyz[3 * static_cast<std::size_t>(i)];
-    kept[count] = i;  // written always, kept sometimes: no branch to mispredict
-    count += static_cast<std::size_t>(plane.signed_distance(p[0], p[1], p[2]) > margin(cloud, p));
+    const double height = plane.signed_distance(p[0], p[1], p[2]);
+    if (height <= lowest) continue;  // most points, and those that come next, too
+    const double limit = margin(cloud, p);
+    if (height > limit)
+      cleared.beyond[beyond++] = i;
+    else if (height > lowest_share * limit)
+      cleared.strip.push_back(i);
   }
-  kept.resize(count);
-  return kept;
+  cleared.beyond.resize(beyond);
+  return cleared;
 }
 
 }  // namespace ph::segment

@@ -38,9 +38,16 @@ struct PlaneMargin {
   }
 };
 
-/// The points on the sensor's side of the plane and beyond the margin. What lies on the plane or
-/// behind it (the floor beyond a table's edge, reflections) stands on nothing.
-std::vector<Index> remove_plane(const CloudView& cloud, const std::vector<Index>& points,
-                                const Plane& plane, const PlaneMargin& margin);
+/// Points in range, sorted out by a plane.
+struct Cleared {
+  std::vector<Index> beyond;  ///< on the sensor's side of the plane and beyond the margin
+  std::vector<Index> strip;   ///< on that side and within the margin, but not in its lowest fifth,
+                              ///< where nothing can be told from the plane
+};
+
+/// Removes what lies on the plane or behind it (the floor beyond a table's edge, reflections): it
+/// stands on nothing.
+Cleared remove_plane(const CloudView& cloud, const std::vector<Index>& points, const Plane& plane,
+                     const PlaneMargin& margin);
 
 }  // namespace ph::segment

@@ -45,10 +45,31 @@ View::View(const Points& centroids, double voxel, const Vec3& viewpoint)
     if (!is_seen(v)) continue;
     const Eigen::Array2d place = (directions[v].array() - low) / cell;
     places_[v] = {place[0], place[1]};
-    Voxel& first =
-        nearest_[static_cast<std::size_t>(place[1]) * width_ + static_cast<std::size_t>(place[0])];
+    Voxel& first = nearest_[this->cell(place[0], place[1])];
     if (first == kNone || ranges_[v] < ranges_[first]) first = v;
   }
+  find_least_ranges();
+}
+
+void View::find_least_ranges() {
+  constexpr auto reach = static_cast<std::size_t>(kReach);
+  const auto least_along = [&](std::size_t at, std::size_t size, auto&& value) {
+    double least = kInfinity;
+    const std::size_t end = std::min(size, at + reach + 1);
+    for (std::size_t k = at - std::min(at, reach); k < end; ++k) least = std::min(least, value(k));
+    return least;
+  };
+  std::vector<double> in_row(nearest_.size());
+  for (std::size_t i = 0; i < nearest_.size(); ++i) {
+    in_row[i] = least_along(i % width_, width_, [&](std::size_t x) {
+      const Voxel v = nearest_[i / width_ * width_ + x];
+      return v == kNone ? kInfinity : ranges_[v];
+    });
+  }
+  least_range_.resize(nearest_.size());
+  for (std::size_t i = 0; i < nearest_.size(); ++i)
+    least_range_[i] = least_along(i / width_, height_,
+                                  [&](std::size_t y) { return in_row[y * width_ + i % width_]; });
 }
 
 }  // namespace ph::segment

@@ -31,27 +31,32 @@ class View {
   Cover cover(Voxel a, Voxel b, double nearer, KindOf&& kind_of) const;
 
  private:
+  static constexpr int kReach = 2;
+
   struct Place {
     double x, y;  // in cells
   };
   bool has(Voxel v) const { return places_[v].x >= 0; }
-  Voxel nearest(double x, double y) const {
-    return nearest_[static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x)];
+  std::size_t cell(double x, double y) const {
+    return static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x);
   }
+  Voxel nearest(double x, double y) const { return nearest_[cell(x, y)]; }
+  void find_least_ranges();
 
   std::vector<double> ranges_;  // from the viewpoint, metres
   std::vector<Place> places_;   // negative: left out
   std::size_t width_ = 0, height_ = 0;
   std::vector<Voxel> nearest_;
+  std::vector<double> least_range_;  // of all voxels within kReach cells
 };
 
 template <class KindOf>
 bool View::is_at_occluder(Voxel v, double nearer, KindOf&& kind_of) const {
-  constexpr int reach = 2;
   if (!has(v)) return false;
   const Place& p = places_[v];
-  for (int dy = -reach; dy <= reach; ++dy) {
-    for (int dx = -reach; dx <= reach; ++dx) {
+  if (!(least_range_[cell(p.x, p.y)] + nearer < ranges_[v])) return false;
+  for (int dy = -kReach; dy <= kReach; ++dy) {
+    for (int dx = -kReach; dx <= kReach; ++dx) {
       const double x = p.x + dx, y = p.y + dy;
       if (x < 0 || y < 0 || x >= static_cast<double>(width_) || y >= static_cast<double>(height_))
         continue;

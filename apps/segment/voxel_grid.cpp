@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
+#include <compare>
 
 #include "ph/core/error.hpp"
 
@@ -72,7 +72,13 @@ class VoxelTable {
 };
 
 /// The grid coordinate of a number in units of voxels. Adding zero makes -0 and +0 the same bits.
-double cell_of(double units) { return std::floor(units) + 0.0; }
+double cell_of(double units) {
+  constexpr double huge = 1ULL << 52;  // has no fraction
+  if (!(std::abs(units) < huge)) return std::floor(units) + 0.0;
+  // A call of floor for each coordinate would be a third of the time of the grid.
+  const auto whole = static_cast<double>(static_cast<std::int64_t>(units));
+  return (whole > units ? whole - 1 : whole) + 0.0;
+}
 
 /// An offset inside a voxel, 0 <= units <= 1, as a whole number; what is below a unit is dropped.
 std::int64_t fixed_point(double units) { return static_cast<std::int64_t>(units * kUnits); }
@@ -105,27 +111,29 @@ VoxelGrid voxel_grid(const CloudView& cloud, const std::vector<Index>& points, d
   }
 
   const std::vector<Voxel>& voxels = table.voxels();
-  std::vector<std::uint32_t> order(voxels.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::ranges::sort(order, [&](std::uint32_t i, std::uint32_t j) {
-    const Voxel &a = voxels[i], &b = voxels[j];
-    if (a.z != b.z) return a.z < b.z;
-    if (a.y != b.y) return a.y < b.y;
-    return a.x < b.x;
-  });
+  struct Placed {
+    double z, y, x;
+    std::uint32_t number;
+    auto operator<=>(const Placed&) const = default;
+  };
+  std::vector<Placed> order;
+  order.reserve(voxels.size());
+  for (std::uint32_t i = 0; i < voxels.size(); ++i)
+    order.push_back({voxels[i].z, voxels[i].y, voxels[i].x, i});
+  std::ranges::sort(order);
   grid.centroids.resize(static_cast<Index>(voxels.size()), 3);
   grid.cells.resize(voxels.size());
   grid.counts.resize(voxels.size());
   std::vector<std::uint32_t> rank(voxels.size());
   for (std::uint32_t r = 0; r < order.size(); ++r) {
-    const Voxel& v = voxels[order[r]];
+    const Voxel& v = voxels[order[r].number];
     const double n = static_cast<double>(v.count) * kUnits;
     grid.centroids.row(r) << (v.x + static_cast<double>(v.sum_x) / n) * voxel,
         (v.y + static_cast<double>(v.sum_y) / n) * voxel,
         (v.z + static_cast<double>(v.sum_z) / n) * voxel;
     grid.cells[r] = {v.x, v.y, v.z};
     grid.counts[r] = v.count;
-    rank[order[r]] = r;
+    rank[order[r].number] = r;
   }
   for (std::uint32_t& v : grid.voxel_of) v = rank[v];
   return grid;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace ph::segment {
@@ -28,17 +29,26 @@ std::vector<Row> rows_of(const VoxelGrid& grid) {
 /// order of the grid and meet those at one offset in that order: none is looked for again.
 struct Offset {
   double y, z;
+  double reach;          // how far along x a voxel of the other row can be near
   std::size_t next = 0;  // row
 };
 
 std::vector<Offset> offsets_within(double radius, double voxel) {
-  const double reach = std::ceil(radius / voxel);
+  const double most = std::ceil(radius / voxel);
   // Centroids of voxels k rows apart may be as near as k - 1.
-  const auto gap = [&](double k) { return std::max(0.0, std::abs(k) - 1) * voxel; };
+  const auto square_of_gap = [&](double k) {
+    return std::pow(std::max(0.0, std::abs(k) - 1) * voxel, 2);
+  };
   std::vector<Offset> offsets;
-  for (double z = -reach; z <= 0; ++z)
-    for (double y = -reach; y <= (z < 0 ? reach : 0); ++y)
-      if (gap(y) * gap(y) + gap(z) * gap(z) < radius * radius) offsets.push_back({y, z});
+  for (double z = -most; z <= 0; ++z) {
+    for (double y = -most; y <= (z < 0 ? most : 0); ++y) {
+      double reach = most;
+      while (reach >= 0 &&
+             square_of_gap(reach) + square_of_gap(y) + square_of_gap(z) >= radius * radius)
+        --reach;
+      if (reach >= 0) offsets.push_back({y, z, reach});
+    }
+  }
   return offsets;
 }
 
@@ -56,7 +66,7 @@ void add_pairs(const VoxelGrid& grid, const Row& row, const Row& other, double r
       const double* q = &grid.centroids(u, 0);
       const double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
       const double square = x * x + y * y + z * z;
-      if (square < square_of_radius) pairs.push_back({u, v, std::sqrt(square)});
+      if (square < square_of_radius) pairs.push_back({u, v, std::sqrt(static_cast<float>(square))});
     }
   }
 }
@@ -64,16 +74,19 @@ void add_pairs(const VoxelGrid& grid, const Row& row, const Row& other, double r
 }  // namespace
 
 std::vector<VoxelPair> close_voxels(const VoxelGrid& grid, double voxel, double radius) {
-  const double reach = std::ceil(radius / voxel);
   const std::vector<Row> rows = rows_of(grid);
   std::vector<Offset> offsets = offsets_within(radius, voxel);
   std::vector<VoxelPair> pairs;
+  // Those of a flat surface, half of the disk around each voxel: growing would copy them all.
+  const double disk = std::numbers::pi * std::pow(radius / voxel, 2);
+  pairs.reserve(static_cast<std::size_t>(disk / 2 * static_cast<double>(grid.cells.size())));
   for (const Row& row : rows) {
     for (Offset& offset : offsets) {
       const double y = row.y + offset.y, z = row.z + offset.z;
       while (comes_before(rows[offset.next], y, z)) ++offset.next;
       const Row& other = rows[offset.next];
-      if (other.y == y && other.z == z) add_pairs(grid, row, other, reach, radius * radius, pairs);
+      if (other.y == y && other.z == z)
+        add_pairs(grid, row, other, offset.reach, radius * radius, pairs);
     }
   }
   return pairs;

@@ -10,7 +10,7 @@ namespace ph::segment {
 /// Two voxels near each other.
 struct VoxelPair {
   std::uint32_t u, v;  ///< u < v
-  double distance;     ///< of their centroids, metres
+  float distance;      ///< of their centroids, metres
 };
 
 /// All pairs of voxels whose centroids are closer than a radius, in an order that depends on the

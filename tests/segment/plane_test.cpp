@@ -64,7 +64,7 @@ TEST(Plane, RemovesItselfAndWhatLiesBehind) {
   const CloudView cloud{xyz, {}};
   const PlaneSearch search = find_plane(cloud, all_of(xyz), 0.006);
   ASSERT_TRUE(search.plane);
-  EXPECT_EQ(remove_plane(cloud, all_of(xyz), *search.plane, {0.006}), (std::vector<Index>{1000}));
+  EXPECT_EQ(remove_plane(cloud, all_of(xyz), *search.plane, {0.006}).beyond, (std::vector<Index>{1000}));
 }
 
 TEST(Plane, DoesNotDependOnOrderDuplicatesOrPowersOfTwo) {

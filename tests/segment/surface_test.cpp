@@ -2,6 +2,8 @@
 // Method surface on small scenes with known answers, and its stages one by one.
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -225,7 +227,7 @@ TEST(VoxelPairs, AreAllThatAreClose) {
     for (const VoxelPair& p : pairs) {
       const auto it = expected.find({p.u, p.v});
       ASSERT_NE(it, expected.end());
-      EXPECT_DOUBLE_EQ(p.distance, it->second);
+      EXPECT_FLOAT_EQ(p.distance, static_cast<float>(it->second));
     }
   }
 }
@@ -250,8 +252,36 @@ std::vector<VoxelPair> pairs_within(const Points& points, double radius) {
   for (std::uint32_t v = 0; v < points.rows(); ++v)
     for (std::uint32_t u = 0; u < v; ++u)
       if (const double d = (points.row(u) - points.row(v)).norm(); d < radius)
-        pairs.push_back({u, v, d});
+        pairs.push_back({u, v, static_cast<float>(d)});
   return pairs;
+}
+
+TEST(Normals, AreTheDirectionsOfLeastSpread) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> gauss;
+  for (int round = 0; round < 2000; ++round) {
+    // From a ball to a needle, in a random position, far from the origin or not.
+    const Eigen::Vector3d sizes(1, std::pow(10, -1.0 * (round % 5)),
+                                std::pow(10, -1.0 * (round % 7)));
+    const Eigen::Matrix3d turn = Eigen::Quaterniond::UnitRandom().toRotationMatrix();
+    Points points(3 + round % 20, 3);
+    for (Index i = 0; i < points.rows(); ++i) {
+      const Eigen::Vector3d p(gauss(random), gauss(random), gauss(random));
+      points.row(i) = (0.01 * (turn * (sizes.array() * p.array()).matrix())).transpose();
+    }
+    const Eigen::RowVector3d mean = points.colwise().mean();
+    const Eigen::Matrix3d scatter =
+        (points.rowwise() - mean).transpose() * (points.rowwise() - mean);
+    std::vector<VoxelPair> pairs;
+    for (std::uint32_t v = 1; v < points.rows(); ++v)
+      pairs.push_back({0, v, static_cast<float>((points.row(v) - points.row(0)).norm())});
+    const Points normals = surface_normals(points, pairs, 1, {0, 0, 10});
+    const Eigen::Vector3d n = normals.row(0).transpose();
+    ASSERT_NEAR(n.norm(), 1, 1e-12);
+    // A direction may be any of many; how little spreads along it may not.
+    const double least = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvalues()[0];
+    ASSERT_NEAR(n.dot(scatter * n), least, 1e-9 * scatter.trace()) << sizes.transpose();
+  }
 }
 
 TEST(Concavity, IsLargeInValleysAndZeroOnRidges) {

@@ -5,41 +5,52 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "ph/core/error.hpp"
 #include "ph/core/radix_sort.hpp"
 
 namespace ph {
 
-FilteredGraph::FilteredGraph(std::span<const double> births, std::span<const WeightedEdge> edges,
+FilteredGraph::FilteredGraph(std::span<const double> births, std::size_t edge_count,
                              const RunContext& context)
     : births_(births.begin(), births.end(), &context.memory), edges_(&context.memory) {
-  if (births.size() + edges.size() >= UINT32_MAX) {
+  if (births.size() + edge_count >= UINT32_MAX) {
     throw Error(ErrorKind::resource,
                 fmt::format("graph: found {} vertices and {} edges, expected fewer than 2^32 - 1 "
                             "cells",
-                            births.size(), edges.size()));
+                            births.size(), edge_count));
   }
   for (std::size_t v = 0; v < births_.size(); ++v) {
     if (std::isnan(births_[v]))
       throw Error(ErrorKind::bad_data, fmt::format("vertex {}: found the value nan", v));
     births_[v] += 0.0;
   }
-  edges_.reserve(edges.size());
+  edges_.reserve(edge_count);
+}
+
+FilteredGraph::Edge FilteredGraph::edge_between(const WeightedEdge& e) const {
+  const auto [u, v] = std::minmax(e.u, e.v);
+  if (u < 0 || v >= size()) {
+    throw Error(ErrorKind::bad_data,
+                fmt::format("edge ({}, {}): expected vertices below {}", e.u, e.v, size()));
+  }
+  return {static_cast<std::uint32_t>(u), static_cast<std::uint32_t>(v),
+          std::max(births_[static_cast<std::size_t>(u)], births_[static_cast<std::size_t>(v)])};
+}
+
+FilteredGraph::FilteredGraph(std::span<const double> births, std::span<const WeightedEdge> edges,
+                             const RunContext& context)
+    : FilteredGraph(births, edges.size(), context) {
   for (const WeightedEdge& e : edges) {
-    const auto [u, v] = std::minmax(e.u, e.v);
-    if (u < 0 || v >= size()) {
-      throw Error(ErrorKind::bad_data,
-                  fmt::format("edge ({}, {}): expected vertices below {}", e.u, e.v, size()));
-    }
-    const double last_end =
-        std::max(births_[static_cast<std::size_t>(u)], births_[static_cast<std::size_t>(v)]);
-    if (!(e.value >= last_end)) {
+    Edge edge = edge_between(e);
+    if (!(e.value >= edge.value)) {
       throw Error(ErrorKind::bad_data, fmt::format("edge ({}, {}): found the value {}, expected at "
                                                    "least that of its ends, {}",
-                                                   e.u, e.v, e.value, last_end));
+                                                   e.u, e.v, e.value, edge.value));
     }
-    edges_.push_back({static_cast<std::uint32_t>(u), static_cast<std::uint32_t>(v), e.value + 0.0});
+    edge.value = e.value + 0.0;
+    edges_.push_back(edge);
   }
   radix_sort_by_value(edges_, [](const Edge& e) { return e.value; });
 }
@@ -47,13 +58,29 @@ FilteredGraph::FilteredGraph(std::span<const double> births, std::span<const Wei
 FilteredGraph FilteredGraph::lower_star(std::span<const double> vertex_values,
                                         std::span<const WeightedEdge> edges,
                                         const RunContext& context) {
-  const auto value_of = [&](Index v) {
-    const bool is_vertex = v >= 0 && v < static_cast<Index>(vertex_values.size());
-    return is_vertex ? vertex_values[static_cast<std::size_t>(v)] : 0.0;
+  FilteredGraph graph(vertex_values, edges.size(), context);
+  const auto& births = graph.births_;
+  // An edge has one of the values of the vertices: sorting these, which are fewer, sorts the edges.
+  std::pmr::vector<std::uint32_t> order(births.size(), &context.memory);
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::sort(order, {}, [&](std::uint32_t v) { return births[v]; });
+  std::pmr::vector<std::uint32_t> place_of_value(births.size(), &context.memory);
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const std::uint32_t before = order[i - 1], v = order[i];
+    place_of_value[v] = place_of_value[before] + (births[before] < births[v] ? 1 : 0);
+  }
+  const auto place_of = [&](const Edge& e) {
+    return std::max(place_of_value[e.u], place_of_value[e.v]);
   };
-  std::vector<WeightedEdge> valued(edges.begin(), edges.end());
-  for (WeightedEdge& e : valued) e.value = std::max(value_of(e.u), value_of(e.v));
-  return FilteredGraph(vertex_values, valued, context);
+  std::pmr::vector<std::uint32_t> next(births.size() + 1, &context.memory);
+  for (const WeightedEdge& e : edges) ++next[place_of(graph.edge_between(e)) + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  graph.edges_.resize(edges.size());
+  for (const WeightedEdge& e : edges) {
+    const Edge edge = graph.edge_between(e);
+    graph.edges_[next[place_of(edge)]++] = edge;
+  }
+  return graph;
 }
 
 void FilteredGraph::append_input_cell(int dim, Cell cell, std::vector<Index>& numbers) const {

@@ -25,7 +25,7 @@ class FilteredGraph {
                 const RunContext& context = default_context());
 
   /// The lower-star filtration of a graph: each edge enters with the later of its ends.
-  /// @param edges their values are ignored.
+  /// @param edges their values are ignored. O(vertices log vertices + edges).
   static FilteredGraph lower_star(std::span<const double> vertex_values,
                                   std::span<const WeightedEdge> edges,
                                   const RunContext& context = default_context());
@@ -70,6 +70,10 @@ class FilteredGraph {
     std::uint32_t u, v;  // u <= v
     double value;
   };
+  FilteredGraph(std::span<const double> births, std::size_t edge_count, const RunContext& context);
+  /// With the value of its later end. @throws Error (bad_data) on a vertex out of range.
+  Edge edge_between(const WeightedEdge& edge) const;
+
   std::pmr::vector<double> births_;
   std::pmr::vector<Edge> edges_;  // in the order of the filtration
 };
