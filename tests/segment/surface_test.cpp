@@ -260,8 +260,8 @@ TEST(Normals, AreTheDirectionsOfLeastSpread) {
   std::mt19937 random(5);
   std::normal_distribution<double> gauss;
   for (int round = 0; round < 2000; ++round) {
-    // From a ball to a needle, in a random position, far from the origin or not.
-    const Eigen::Vector3d sizes(1, std::pow(10, -1.0 * (round % 5)),
+    // From a ball to a needle of 10 mm by 10 um, in a random position. far from the origin or not.
+    const Eigen::Vector3d sizes(1, std::pow(10, -1.0 * (round % 4)),
                                 std::pow(10, -1.0 * (round % 7)));
     const Eigen::Matrix3d turn = Eigen::Quaterniond::UnitRandom().toRotationMatrix();
     Points points(3 + round % 20, 3);
