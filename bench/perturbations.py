@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: MIT
+"""Frames made worse, each in one way and by a stated amount; the same for the same frame, kind and
+amount."""
+import dataclasses
+import typing
+import zlib
+
+import numpy
+
+BLOCK = 16  # pixels
+
+
+def without(scene, lost):
+    points = scene.points.copy()
+    points[lost] = numpy.nan
+    return dataclasses.replace(scene, points=points)
+
+
+def noise(scene, millimetres, generator):
+    """Each point moves along its ray, by a normal deviate of `millimetres` at one metre that grows
+    with depth²."""
+    z = scene.points[:, 2:]
+    sigma = millimetres / 1000 * z**2
+    moved = scene.points * (1 + sigma * generator.standard_normal(z.shape) / z)
+    return dataclasses.replace(scene, points=moved.astype(numpy.float32))
+
+
+def dropout(scene, percent, generator):
+    """Points lose their depth, each by itself."""
+    return without(scene, generator.random(len(scene.truth)) < percent / 100)
+
+
+def blocks(scene, percent, generator):
+    """Squares of 16 x 16 pixels lose depth. Frames without rows and columns stay as they are."""
+    if not scene.organised:
+        return scene
+    shape = -(-scene.height // BLOCK), -(-scene.width // BLOCK)
+    lost = numpy.kron(generator.random(shape) < percent / 100, numpy.ones((BLOCK, BLOCK), bool))
+    return without(scene, lost[: scene.height, : scene.width].ravel())
+
+
+def stride(scene, step, _):
+    """A smaller image: each step-th row and column; of a frame without them each step²-th point."""
+    index = numpy.arange(len(scene.truth)).reshape(scene.height, scene.width)
+    index = index[::step, ::step] if scene.organised else index[:, :: step * step]
+    return dataclasses.replace(
+        scene,
+        points=scene.points[index.ravel()],
+        truth=scene.truth[index.ravel()],
+        height=index.shape[0],
+        width=index.shape[1],
+    )
+
+
+def subset(scene, percent, generator):
+    """A random choice of the points with depth, in random order, without rows and columns."""
+    there = numpy.flatnonzero(numpy.isfinite(scene.points).all(axis=1))
+    kept = generator.permutation(there)[: round(len(there) * percent / 100)]
+    return dataclasses.replace(
+        scene, points=scene.points[kept], truth=scene.truth[kept], width=len(kept), height=1
+    )
+
+
+@dataclasses.dataclass(frozen=True)
+class Kind:
+    apply: typing.Callable
+    what: str  # what the amount says
+    unharmed: float  # the amount that changes nothing
+
+
+KINDS = {
+    "noise": Kind(noise, "noise of depth, σ in mm at 1 m", 0),
+    "dropout": Kind(dropout, "points without depth, %", 0),
+    "blocks": Kind(blocks, "16 × 16 pixels without depth, %", 0),
+    "stride": Kind(stride, "each k-th row and column", 1),
+    "subset": Kind(subset, "random points kept, %", 100),
+}
+
+
+def perturbed(scene, kind, amount):
+    seed = zlib.crc32(f"{kind} {amount:g} {scene.name}".encode())
+    amount = int(amount) if kind == "stride" else amount
+    return KINDS[kind].apply(scene, amount, numpy.random.default_rng(seed))

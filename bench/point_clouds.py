@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: MIT
+"""Point clouds in PCD files with ground truth, and images of labels."""
+import pathlib
+from dataclasses import dataclass
+
+import numpy
+
+TYPES = {
+    ("F", 4): "<f4",
+    ("F", 8): "<f8",
+    ("U", 1): "u1",
+    ("U", 2): "<u2",
+    ("U", 4): "<u4",
+    ("U", 8): "<u8",
+    ("I", 1): "i1",
+    ("I", 2): "<i2",
+    ("I", 4): "<i4",
+    ("I", 8): "<i8",
+}
+WANTED = ("label", "x", "y", "z")
+
+
+def decompressed(data, size):
+    """The first `size` bytes of an LZF stream."""
+    result, at, end = bytearray(), 0, len(data)
+    try:
+        while len(result) < size and at < end:
+            control = data[at]
+            at += 1
+            if control < 32:
+                result += data[at : at + control + 1]
+                at += control + 1
+                continue
+            length = control >> 5
+            if length == 7:
+                length += data[at]
+                at += 1
+            start = len(result) - ((control & 31) << 8) - data[at] - 1
+            at += 1
+            length += 2
+            if start < 0:
+                raise ValueError("LZF: a reference before the beginning")
+            if start + length <= len(result):
+                result += result[start : start + length]
+            else:  # it overlaps what it makes
+                period = result[start:]
+                result += (period * (length // len(period) + 1))[:length]
+    except IndexError:
+        raise ValueError("LZF: truncated") from None
+    if len(result) < size:
+        raise ValueError("LZF: truncated")
+    return bytes(result[:size])
+
+
+def read_pcd(path):
+    """The columns label, x, y, z that a PCD file has, with its width and height. Other fields are
+    not looked at."""
+    data = pathlib.Path(path).read_bytes()
+    header, at = {}, 0
+    while "DATA" not in header:
+        end = data.index(b"\n", at)
+        words = data[at:end].decode("ascii").split()
+        at = end + 1
+        if words and not words[0].startswith("#"):
+            header[words[0]] = words[1:]
+    names = header["FIELDS"]
+    counts = [int(n) for n in header.get("COUNT", ["1"] * len(names))]
+    types = [TYPES[kind, int(size)] for kind, size in zip(header["TYPE"], header["SIZE"])]
+    record = numpy.dtype([(str(i), t, (n,)) for i, (t, n) in enumerate(zip(types, counts))])
+    width, height = int(header["WIDTH"][0]), int(header["HEIGHT"][0])
+    size = width * height
+    field = {name: str(i) for i, name in enumerate(names) if name in WANTED}
+    kind = header["DATA"][0]
+    if kind == "ascii":
+        table = numpy.loadtxt(data[at:].decode("ascii").splitlines(), ndmin=2)
+        offsets = numpy.cumsum([0, *counts])
+        columns = {name: table[:, offsets[int(i)]] for name, i in field.items()}
+    elif kind == "binary":
+        rows = numpy.frombuffer(data, record, size, at)
+        columns = {name: rows[i][:, 0] for name, i in field.items()}
+    elif kind == "binary_compressed":
+        packed = int.from_bytes(data[at : at + 4], "little")
+        starts = [size * record.fields[str(i)][1] for i in range(len(names))]
+        enough = max(starts[int(i)] + size * record[i].itemsize for i in field.values())
+        plain = decompressed(data[at + 8 : at + 8 + packed], enough)
+        columns = {
+            name: numpy.frombuffer(plain, record[i].base, size * counts[int(i)], starts[int(i)])[
+                :: counts[int(i)]
+            ]
+            for name, i in field.items()
+        }
+    else:
+        raise ValueError(f"{path}: DATA {kind}")
+    return columns, width, height
+
+
+@dataclass
+class Scene:
+    """One frame. `points` are rows x, y, z, NaN where there is no depth; `truth` holds a label a
+    point: 0 no depth, 1 to 9 the table, from 10 on the parts of objects (label // 10 is which)."""
+
+    name: str
+    points: numpy.ndarray
+    truth: numpy.ndarray
+    width: int
+    height: int  # 1: not organised
+
+    def __post_init__(self):
+        self.truth = numpy.where(numpy.isfinite(self.points).all(axis=1), self.truth, 0)
+
+    @property
+    def organised(self):
+        return self.height > 1
+
+
+def read_scene(path):
+    columns, width, height = read_pcd(path)
+    if missing := [name for name in WANTED if name not in columns]:
+        raise ValueError(f"{path}: no field {missing[0]}")
+    points = numpy.stack([columns[axis] for axis in "xyz"], axis=1).astype(numpy.float32)
+    return Scene(
+        pathlib.Path(path).stem, points, columns["label"].astype(numpy.int32), width, height
+    )
+
+
+def write_scene(path, scene):
+    rows = numpy.empty(len(scene.truth), [("xyz", "<f4", 3), ("label", "<u4")])
+    rows["xyz"], rows["label"] = scene.points, scene.truth
+    header = (
+        "VERSION 0.7",
+        "FIELDS x y z label",
+        "SIZE 4 4 4 4",
+        "TYPE F F F U",
+        "COUNT 1 1 1 1",
+        f"WIDTH {scene.width}",
+        f"HEIGHT {scene.height}",
+        "VIEWPOINT 0 0 0 1 0 0 0",
+        f"POINTS {len(rows)}",
+        "DATA binary",
+        "",
+    )
+    pathlib.Path(path).write_bytes("\n".join(header).encode() + rows.tobytes())
+
+
+def read_pgm(path):
+    data = pathlib.Path(path).read_bytes()
+    words, at = [], 0
+    while len(words) < 4:
+        start = at
+        while not data[at : at + 1].isspace():
+            at += 1
+        words.append(data[start:at])
+        at += 1
+    if words[0] != b"P5":
+        raise ValueError(f"{path}: not a binary PGM")
+    width, height, largest = map(int, words[1:])
+    return numpy.frombuffer(data, ">u2" if largest > 255 else "u1", width * height, at)
+
+
+def read_labels(stem):
+    """Labels, one a point, that a program wrote to `stem` with .npy, .pgm (binary) or .pcd behind
+    it; None if it wrote none."""
+    for ending, read in (
+        (".npy", numpy.load),
+        (".pgm", read_pgm),
+        (".pcd", lambda p: read_pcd(p)[0]["label"]),
+    ):
+        path = pathlib.Path(f"{stem}{ending}")
+        if path.exists():
+            return numpy.asarray(read(path)).ravel().astype(numpy.int64)
+    return None
+
+
+@dataclass(frozen=True)
+class Pinhole:
+    """A camera that puts the points of a frame without rows and columns back on its pixels."""
+
+    focal: float = 525.0
+    centre_x: float = 319.5
+    centre_y: float = 239.5
+    width: int = 640
+    height: int = 480
+
+    def image(self, scene, labels):
+        """`labels` as an image; of two points on one pixel the later counts."""
+        seen = numpy.isfinite(scene.points).all(axis=1) & (scene.points[:, 2] > 0)
+        x, y, z = scene.points[seen].T.astype(float)
+        u = numpy.rint(self.focal * x / z + self.centre_x).astype(int)
+        v = numpy.rint(self.focal * y / z + self.centre_y).astype(int)
+        inside = (u >= 0) & (v >= 0) & (u < self.width) & (v < self.height)
+        image = numpy.zeros((self.height, self.width), numpy.int64)
+        image[v[inside], u[inside]] = labels[seen][inside]
+        return image
