@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What --perturb of segmentation_scores.py found, as a figure: a panel a kind, a line a program."""
+import math
 from xml.sax.saxutils import escape
 
 import perturbations
@@ -23,11 +24,9 @@ def lines_of(report, kind, truth):
 
 def panel(kind, lines, colour, x0, lowest):
     amounts = sorted({amount for points in lines.values() for amount, _ in points})
-    least, most = amounts[0], amounts[-1]
-    span = most - least or 1.0
-    across = lambda amount: x0 + WIDTH * (
-        (most - amount if kind == "subset" else amount - least) / span
-    )
+    place = lambda amount: -math.log(amount) if kind == "subset" else amount
+    left, right = min(map(place, amounts)), max(map(place, amounts))
+    across = lambda amount: x0 + WIDTH * (place(amount) - left) / ((right - left) or 1)
     up = lambda f: TOP + HEIGHT * (1 - (f - lowest) / (1 - lowest))
     parts = [
         f'<rect x="{x0}" y="{TOP}" width="{WIDTH}" height="{HEIGHT}" fill="none" stroke="#999"/>'
@@ -52,10 +51,7 @@ def panel(kind, lines, colour, x0, lowest):
         f'<text x="{x0 + WIDTH / 2}" y="{TOP + HEIGHT + 30}" text-anchor="middle">{what}</text>'
     )
     for program, points in lines.items():
-        path = " ".join(
-            f"{across(a):.1f},{max(up(f), TOP) if f >= lowest else TOP + HEIGHT:.1f}"
-            for a, f in points
-        )
+        path = " ".join(f"{across(amount):.1f},{up(f):.1f}" for amount, f in points)
         parts.append(
             f'<polyline points="{path}" fill="none" stroke="{colour[program]}" stroke-width="2"/>'
         )
@@ -70,7 +66,7 @@ def svg(report, truth="objects"):
     least = min(
         (f for panels in lines.values() for points in panels.values() for _, f in points), default=0
     )
-    lowest = max(0.0, int(10 * least) / 10)
+    lowest = min(0.9, math.floor(10 * least) / 10)
     width, height = LEFT + len(kinds) * (WIDTH + GAP), TOP + HEIGHT + 40
     parts = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" '
