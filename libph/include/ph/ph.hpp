@@ -8,5 +8,6 @@
 #include "ph/complex/rips.hpp"
 #include "ph/engine/merge_tree.hpp"
 #include "ph/estimate.hpp"
+#include "ph/image/distance_image.hpp"
 #include "ph/metric/distance_to_measure.hpp"
 #include "ph/persistence.hpp"

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "ph/core/error.hpp"
+#include "ph/image/distance_image.hpp"
+#include "ph/persistence.hpp"
+
+namespace ph {
+namespace {
+
+Points random_points(std::mt19937& random, Index rows, Index cols) {
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  return Points::NullaryExpr(rows, cols, [&] { return uniform(random); });
+}
+
+/// The centre of voxel i.
+Eigen::RowVectorXd centre(const PointImage& image, Index i) {
+  const auto d = static_cast<Index>(image.first.size());
+  Eigen::RowVectorXd x(d);
+  for (Index k = d - 1; k >= 0; --k) {
+    const Index extent = image.image.extents[static_cast<std::size_t>(k)];
+    x[k] = image.first[static_cast<std::size_t>(k)] + static_cast<double>(i % extent) * image.voxel;
+    i /= extent;
+  }
+  return x;
+}
+
+TEST(DistanceImage, IsTheDistanceToTheNearestOccupiedVoxel) {
+  std::mt19937 random(3);
+  for (int round = 0; round < 60; ++round) {
+    const Index cols = 1 + round % 4;
+    const Points points = random_points(random, 1 + round % 13, cols);
+    const double voxel = cols == 4 ? 0.4 : 0.15;
+    const PointImage image = distance_image(points, voxel, round % 3);
+    std::vector<Index> occupied;
+    const auto size = static_cast<Index>(image.image.values.size());
+    for (Index i = 0; i < size; ++i)
+      if (image.image.values[static_cast<std::size_t>(i)] == 0) occupied.push_back(i);
+    // Each point lies in an occupied voxel, and each of these has a point.
+    const auto has = [&](Index i, Index p) {
+      return ((points.row(p) - centre(image, i)).cwiseAbs().array() <= 0.5 * voxel + 1e-12).all();
+    };
+    for (Index p = 0; p < points.rows(); ++p)
+      EXPECT_TRUE(std::ranges::any_of(occupied, [&](Index i) { return has(i, p); }));
+    for (const Index i : occupied) {
+      bool found = false;
+      for (Index p = 0; p < points.rows(); ++p) found = found || has(i, p);
+      EXPECT_TRUE(found);
+    }
+    for (Index i = 0; i < size; ++i) {
+      double nearest = kInfinity;
+      for (const Index j : occupied)
+        nearest = std::min(nearest, (centre(image, i) - centre(image, j)).norm());
+      ASSERT_NEAR(image.image.values[static_cast<std::size_t>(i)], nearest, 1e-12);
+    }
+  }
+}
+
+/// Bars of a dimension longer than `length`.
+std::vector<Bar> long_bars(const Barcode& barcode, int dim, double length) {
+  std::vector<Bar> found;
+  for (const Bar& bar : barcode.bars(dim))
+    if (bar.death - bar.birth > length) found.push_back(bar);
+  return found;
+}
+
+TEST(DistanceImage, HasTheHomologyOfTheShape) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> gauss;
+  constexpr double voxel = 0.1;
+  Points sphere(3000, 3), circle(400, 3);
+  for (Index i = 0; i < sphere.rows(); ++i)
+    sphere.row(i) = Eigen::RowVector3d(gauss(random), gauss(random), gauss(random)).normalized();
+  for (Index i = 0; i < circle.rows(); ++i) {
+    const double a =
+        static_cast<double>(i) * 2 * std::acos(-1.0) / static_cast<double>(circle.rows());
+    circle.row(i) = Eigen::RowVector3d(std::cos(a), std::sin(a), 0);
+  }
+  CubicalOptions cells;
+  cells.construction = CubicalOptions::Construction::cells;
+  for (const auto& [points, dim] : {std::pair{sphere, 2}, std::pair{circle, 1}}) {
+    const Barcode barcode = persistence(Cubical(distance_image(points, voxel).image, cells));
+    EXPECT_EQ(long_bars(barcode, 0, 0.4).size(), 1U);
+    EXPECT_EQ(long_bars(barcode, 3 - dim, 0.4).size(), 0U);
+    const std::vector<Bar> hollow = long_bars(barcode, dim, 0.4);
+    ASSERT_EQ(hollow.size(), 1U);
+    EXPECT_NEAR(hollow[0].death, 1, 2 * voxel);  // the radius
+  }
+}
+
+TEST(DistanceImage, RefusesWhatItCannotDo) {
+  const Points two = (Points(2, 2) << 0, 0, 1, 1).finished();
+  const auto kind = [](auto&&... arguments) {
+    try {
+      distance_image(arguments...);
+    } catch (const Error& error) {
+      return error.kind();
+    }
+    return ErrorKind::internal;
+  };
+  for (const double voxel : {0.0, -1.0, kInfinity, std::nan("")})
+    EXPECT_EQ(kind(two, voxel), ErrorKind::usage) << voxel;
+  EXPECT_EQ(kind(two, 0.1, Index{-1}), ErrorKind::usage);
+  EXPECT_EQ(kind(Points(2, 9), 0.1), ErrorKind::usage);
+  EXPECT_EQ(kind(Points(0, 2), 0.1), ErrorKind::bad_data);
+  EXPECT_EQ(kind(two, 1e-6), ErrorKind::resource);
+  Points hole = two;
+  hole(1, 1) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(kind(hole, 0.1), ErrorKind::bad_data);
+  RunContext little;
+  little.memory.set_limit(1000);
+  EXPECT_EQ(kind(two, 0.01, Index{1}, little), ErrorKind::resource);
+}
+
+}  // namespace
+}  // namespace ph
