@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // W. J. Beksi and N. Papanikolopoulos, 3D Point Cloud Segmentation Using Topological Persistence,
 // ICRA 2016. Section and algorithm numbers here and in methods.cpp are those of the paper.
+#include <algorithm>
 #include <utility>
 
 #include "components.hpp"
@@ -26,11 +27,9 @@ Index count(const std::vector<Index>& points) { return static_cast<Index>(points
 /// What is in range and stands before the supporting plane; the plane goes into the result, too.
 Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageClock& clock,
                   Segmentation& result) {
-  constexpr double noise = 0.005;  // more than three deviations of a structured-light sensor
-  const bool is_paper = options.method == Method::paper;
   Scene scene;
   scene.cloud = cloud;
-  scene.margin = {options.plane_margin(), is_paper ? 0 : noise};
+  scene.margin = {options.plane_margin()};
 
   // Section VI: "we remove outlying points (background clutter) that are beyond range"
   std::vector<Index> in_range = range_filter(cloud, options.max_range, options.crop);
@@ -43,6 +42,12 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
   }
   // Section VI: "we find all points that correspond to a planar model and remove them"
   PlaneSearch search = find_plane(cloud, in_range, scene.margin.distance);
+  if (options.method == Method::surface) {
+    constexpr double least = 0.005, deviations = 4;  // a structured-light sensor has 1.2 mm
+    if (deviations * search.noise > scene.margin.distance)
+      search = find_plane(cloud, in_range, deviations * search.noise);
+    scene.margin.noise = std::max(least, deviations * search.noise);
+  }
   result.plane = scene.plane = search.plane;
   result.plane_note = std::move(search.note);
   if (scene.plane)

@@ -159,6 +159,22 @@ double share_of(const Candidate& plane, const Sample& sample, double distance) {
   return static_cast<double>(inliers) / static_cast<double>(sample.size());
 }
 
+/// See PlaneSearch::noise. @param reach what lies farther behind is another surface.
+double noise_of(const Plane& plane, const Sample& sample, const Vec3& viewpoint, double reach) {
+  constexpr std::size_t fewest = 30;
+  constexpr double median_of_half_normal = 0.6745;  // in standard deviations
+  const Eigen::Vector3d eye(viewpoint[0], viewpoint[1], viewpoint[2]);
+  std::vector<double> depths;
+  for (std::size_t i = 0; i < sample.size(); ++i) {
+    const double depth = -plane.signed_distance(sample.x[i], sample.y[i], sample.z[i]);
+    if (depth > 0 && depth < reach) depths.push_back(depth / (sample[i] - eye).squaredNorm());
+  }
+  if (depths.size() < fewest) return 0;
+  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+  std::ranges::nth_element(depths, middle);
+  return *middle / median_of_half_normal;
+}
+
 }  // namespace
 
 PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points, double distance) {
@@ -184,7 +200,9 @@ PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points,
     found->offset = -found->offset;
   }
   const Eigen::Vector3d& n = found->normal;
-  return {Plane{{n.x(), n.y(), n.z()}, found->offset, share}, ""};
+  const Plane plane{{n.x(), n.y(), n.z()}, found->offset, share};
+  constexpr double margins = 6;  // that noise may reach
+  return {plane, "", noise_of(plane, sample, cloud.viewpoint, margins * distance)};
 }
 
 Cleared remove_plane(const CloudView& cloud, const std::vector<Index>& points, const Plane& plane,

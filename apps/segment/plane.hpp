@@ -13,6 +13,9 @@ namespace ph::segment {
 struct PlaneSearch {
   std::optional<Plane> plane;
   std::string note;  ///< why there is none; empty if there is one
+  /// Standard deviation of the heights of its points at a range of one unit, if it grows with the
+  /// square of the range. Told from the points behind the plane, where no object is.
+  double noise = 0;
 };
 
 /// The supporting plane: the plane on which most of the points lie, by RANSAC on a sample (Fischler

@@ -49,6 +49,24 @@ TEST(Plane, IsFoundAmongNoiseAndOutliers) {
   }
 }
 
+TEST(Plane, TellsHowNoisyItsPointsAre) {
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> place(-0.3, 0.3);
+  std::normal_distribution<double> gauss;
+  for (const double noise : {0.0, 0.001, 0.003, 0.005}) {
+    std::vector<float> xyz;
+    for (int i = 0; i < 20000; ++i) {  // z = 1, and objects on it
+      const double x = place(random), y = place(random), square = x * x + y * y + 1;
+      const double object = i % 3 == 0 ? -0.1 * std::abs(place(random)) : 0;
+      for (const double c : {x, y, 1 + object + noise * square * gauss(random)})
+        xyz.push_back(static_cast<float>(c));
+    }
+    const PlaneSearch search = find_plane({xyz, {}}, all_of(xyz), 0.005);
+    ASSERT_TRUE(search.plane) << search.note;
+    EXPECT_NEAR(search.noise, noise, 0.15 * noise + 3e-4);
+  }
+}
+
 TEST(Plane, LooksAtTheSensor) {
   const std::vector<float> xyz = tilted_plane(1000, 0, 0);
   for (const Vec3& viewpoint : {Vec3{0, 0, 0}, Vec3{0, 0, 3}}) {
@@ -64,7 +82,8 @@ TEST(Plane, RemovesItselfAndWhatLiesBehind) {
   const CloudView cloud{xyz, {}};
   const PlaneSearch search = find_plane(cloud, all_of(xyz), 0.006);
   ASSERT_TRUE(search.plane);
-  EXPECT_EQ(remove_plane(cloud, all_of(xyz), *search.plane, {0.006}).beyond, (std::vector<Index>{1000}));
+  EXPECT_EQ(remove_plane(cloud, all_of(xyz), *search.plane, {0.006}).beyond,
+            (std::vector<Index>{1000}));
 }
 
 TEST(Plane, DoesNotDependOnOrderDuplicatesOrPowersOfTwo) {
