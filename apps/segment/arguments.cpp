@@ -19,12 +19,8 @@ using app::add_value;
 /// What --version --verbose adds.
 constexpr std::string_view kBuiltIn =
     "methods     surface paper\n"
-    "reads       pcd ply xyz csv png\n"
-    "writes      pcd ply npy csv png json svg\n";
-
-[[noreturn]] void not_built_in(std::string_view option) {
-  throw Error(ErrorKind::not_built_in, fmt::format("{}: not built in yet", option));
-}
+    "reads       pcd ply xyz csv png tree\n"
+    "writes      pcd ply npy csv png json svg tree\n";
 
 /// A number that must be above zero (or, with `zero`, at least zero) and finite.
 double length(std::string_view option, const std::string& text, bool zero = false) {
@@ -92,7 +88,9 @@ int parse_steps(const std::string& text) {
 }
 
 void add_input_options(CLI::App& app, Arguments& a) {
-  app.add_option("INPUT", a.input, "point cloud: .pcd, .ply, .xyz or .csv; - is standard input");
+  app.add_option("INPUT", a.input,
+                 "point cloud: .pcd, .ply, .xyz or .csv, or a stored merge tree (see --tree); - is "
+                 "standard input");
   add_value(app, "--depth", "D.png", "depth image in place of INPUT; 0 is a hole",
             [&a](const std::string& v) { a.image.depth = v; });
   add_value(app, "--color,--colour", "C.png", "colour image of the same size",
@@ -107,6 +105,14 @@ void add_input_options(CLI::App& app, Arguments& a) {
             [&a](const std::string& v) { a.image.scale = length("--depth-scale", v); });
   app.add_flag("--allow-empty", a.allow_empty,
                "a cloud without points is an empty result (default: an error)");
+}
+
+/// A number of at least 0.
+double at_least_zero(std::string_view option, const std::string& text) {
+  const double value = app::parse_number(option, text);
+  if (!(value >= 0))
+    throw Error(ErrorKind::usage, fmt::format("{}: found {}, expected at least 0", option, text));
+  return value;
 }
 
 void add_stage_options(CLI::App& app, SegmentOptions& o) {
@@ -139,27 +145,12 @@ void add_stage_options(CLI::App& app, SegmentOptions& o) {
             fmt::format("edge of a voxel, metres (default: {})",
                         defaults_of(&SegmentOptions::voxel_size)),
             [&o](const std::string& v) { o.voxel = length("--voxel", v); });
-  add_value(app, "--min-persistence", "X",
-            fmt::format("surface: least persistence of a part, a mean concavity from 0 to 2; one "
-                        "of less joins the neighbour that it meets first (default: {})",
-                        d.min_persistence),
-            [&o](const std::string& v) {
-              o.min_persistence = app::parse_number("--min-persistence", v);
-              if (!(o.min_persistence >= 0))
-                throw Error(ErrorKind::usage,
-                            fmt::format("--min-persistence: found {}, expected at least 0", v));
-            });
-  add_value(app, "--min-part", "N",
-            fmt::format("surface: fewest voxels of a part; a smaller one joins the neighbour that "
-                        "it meets first (default: {})",
-                        d.min_part),
-            [&o](const std::string& v) { o.min_part = app::parse_integer("--min-part", v, 1); });
-  app.add_flag_callback(
-      "--objects", [&o] { o.objects = true; },
-      "surface: join the visible parts of an object, over a rim or behind what hides its middle "
-      "(default)");
-  app.add_flag_callback(
-      "--parts", [&o] { o.objects = false; }, "surface: leave each visible part a segment");
+  add_value(
+      app, "--min-persistence", "X",
+      fmt::format("surface: least persistence of a part, a mean concavity from 0 to 2; one "
+                  "of less joins the neighbour that it meets first (default: {})",
+                  d.min_persistence),
+      [&o](const std::string& v) { o.min_persistence = at_least_zero("--min-persistence", v); });
   add_value(
       app, "--distance", "M",
       fmt::format("paper: maximum distance of the Vietoris-Rips complex, metres (default: {})",
@@ -170,16 +161,38 @@ void add_stage_options(CLI::App& app, SegmentOptions& o) {
                         "distances (default: {})",
                         d.steps),
             [&o](const std::string& v) { o.steps = parse_steps(v); });
-  add_value(app, "--min-size", "N",
-            fmt::format("fewest voxels of a segment (default: {})", d.min_size),
-            [&o](const std::string& v) { o.min_size = app::parse_integer("--min-size", v, 1); });
   app.add_flag_callback(
       "--no-check", [&o] { o.check = false; },
       "skip the cross-check of union-find against boundary-matrix reduction "
       "(on by default; a difference exits 1)");
 }
 
+/// What a stored tree follows, too.
+void add_cut_options(CLI::App& app, CutArguments& cut) {
+  const CutOptions d;
+  add_value(app, "--cut", "X",
+            "cut the merge tree here. surface: the same as --min-persistence; paper: segments are "
+            "the components at X metres, at most --distance (default: as the tree was cut)",
+            [&cut](const std::string& v) { cut.value = at_least_zero("--cut", v); });
+  add_value(
+      app, "--min-part", "N",
+      fmt::format("surface: fewest voxels of a part; a smaller one joins the neighbour that "
+                  "it meets first (default: {})",
+                  d.min_part),
+      [&cut](const std::string& v) { cut.min_part = app::parse_integer("--min-part", v, 1); });
+  add_value(
+      app, "--min-size", "N", fmt::format("fewest voxels of a segment (default: {})", d.min_size),
+      [&cut](const std::string& v) { cut.min_size = app::parse_integer("--min-size", v, 1); });
+  app.add_flag_callback(
+      "--objects", [&cut] { cut.objects = true; },
+      "surface: join the visible parts of an object, over a rim or behind what hides its middle "
+      "(default)");
+  app.add_flag_callback(
+      "--parts", [&cut] { cut.objects = false; }, "surface: leave each visible part a segment");
+}
+
 void add_output_options(CLI::App& app, Arguments& a) {
+  OutputPaths& files = a.files;
   const auto path = [&app](const std::string& names, const std::string& placeholder,
                            const std::string& what, std::string& target) {
     add_value(app, names, placeholder, what, [&target](const std::string& v) { target = v; });
@@ -187,32 +200,43 @@ void add_output_options(CLI::App& app, Arguments& a) {
   path("-o,--output", "FILE.pcd|.ply",
        "the same points in the same order with all their fields and `label` (an existing `label` "
        "becomes `label_in`)",
-       a.output);
+       files.output);
   path("--labels", "FILE.npy|.csv|.png",
        "one label a point: 0 no segment, 1…k by decreasing number of points (csv: one a line; "
        "png: 16 bits, organised clouds)",
-       a.labels);
-  path("--json", "FILE", "summary: stages, complex, plane, segments", a.json);
-  path("--barcode", "FILE", "barcode of H0: .csv, .json, .txt, .pers, .dipha, .npy", a.barcode);
-  path("--plot", "FILE.svg", "figure of the barcode; a triangle is infinite persistence", a.plot);
+       files.labels);
+  path("--json", "FILE", "summary: stages, complex, plane, segments", files.json);
+  path("--tree", "FILE.tree|.json",
+       "the merge tree and what other cuts need: .tree is an INPUT for --cut and --explain, .json "
+       "is for other programs",
+       files.tree);
+  path("--barcode", "FILE", "barcode of H0: .csv, .json, .txt, .pers, .dipha, .npy", files.barcode);
+  path("--plot", "FILE.svg", "figure of the barcode; a triangle is infinite persistence",
+       files.plot);
   path("--coloured,--colored", "FILE.pcd|.ply",
        "the points with a colour a segment, safe for the colour-blind, and the rest in grey",
-       a.coloured);
+       files.coloured);
   add_value(app, "--explain", "A,B",
             "print where, and at which value of the filtration, the segments A and B join, in "
             "place of the table",
             [&a](const std::string& v) { a.explain = parse_labels("--explain", v); });
   path("--picture", "FILE.png", "the image with its segments coloured (organised clouds)",
-       a.picture);
+       files.picture);
 }
 
 /// What the contract of the program promises for later.
 void add_planned_options(CLI::App& app) {
-  using Option = std::pair<std::string, std::string>;
-  for (const Option& option : {Option("--cut", "X"), Option("--report", "FILE.html")}) {
-    add_value(app, option.first, option.second, "not built in yet",
-              [name = option.first](const std::string&) { not_built_in(name); });
-  }
+  add_value(app, "--report", "FILE.html", "not built in yet", [](const std::string&) {
+    throw Error(ErrorKind::not_built_in, "--report: not built in yet");
+  });
+}
+
+/// The first option that was given of those that a stored tree cannot follow.
+std::string scene_option(const CLI::App& app) {
+  for (const char* name : {"--method", "--max-range", "--crop", "--plane", "--plane-distance",
+                           "--viewpoint", "--voxel", "--min-persistence", "--distance", "--steps"})
+    if (app.get_option(name)->count() > 0) return name;
+  return {};
 }
 
 void require_consistent(const Arguments& a) {
@@ -226,7 +250,7 @@ void require_consistent(const Arguments& a) {
   if (depth && !a.image.intrinsics) {
     throw Error(ErrorKind::usage, "--depth: expected --intrinsics FX,FY,CX,CY with it");
   }
-  if (a.explain && a.writes_to_standard_output()) {
+  if (a.explain && a.files.to_standard_output()) {
     throw Error(ErrorKind::usage, "--explain and a result that goes to standard output, too");
   }
   if (!depth && (!a.image.colour.empty() || a.image.intrinsics)) {
@@ -241,11 +265,16 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
                "ph-segment");
   add_input_options(app, a);
   add_stage_options(app, a.options);
+  add_cut_options(app, a.cut);
   add_output_options(app, a);
   add_planned_options(app);
   app::add_common_options(app, a.common);
   if (auto answer = app::parse_command_line(app, a.common, argc, argv, std::string(kBuiltIn)))
     return answer;
+  a.scene_option = scene_option(app);
+  a.options.min_part = a.cut.min_part.value_or(a.options.min_part);
+  a.options.min_size = a.cut.min_size.value_or(a.options.min_size);
+  a.options.objects = a.cut.objects.value_or(a.options.objects);
   require_consistent(a);
   return std::nullopt;
 }

@@ -20,31 +20,52 @@ struct DepthInput {
   double scale = 1000;                   ///< depth units a metre
 };
 
-/// The command line of ph-segment. An empty path: not asked for.
+/// The files to write. An empty path: not asked for.
+struct OutputPaths {
+  std::string output;    ///< the cloud with its labels
+  std::string labels;    ///< one label a point
+  std::string json;      ///< the summary
+  std::string tree;      ///< the merge tree
+  std::string barcode;   ///< H0
+  std::string plot;      ///< the barcode as a figure
+  std::string coloured;  ///< the cloud with a colour a segment
+  std::string picture;   ///< the image with a colour a segment
+
+  std::array<const std::string*, 8> all() const {
+    return {&output, &labels, &json, &tree, &barcode, &plot, &coloured, &picture};
+  }
+  bool any() const {
+    return std::ranges::any_of(all(), [](const std::string* path) { return !path->empty(); });
+  }
+  bool to_standard_output() const {
+    return std::ranges::any_of(all(), [](const std::string* path) { return *path == "-"; });
+  }
+};
+
+/// What the command line says of the cut.
+struct CutArguments {
+  std::optional<double> value;
+  std::optional<Index> min_part, min_size;
+  std::optional<bool> objects;
+
+  /// The rest as the tree has it.
+  CutOptions over(const CutOptions& tree) const {
+    return {value.value_or(tree.value), min_part.value_or(tree.min_part),
+            min_size.value_or(tree.min_size), objects.value_or(tree.objects)};
+  }
+};
+
+/// The command line of ph-segment.
 struct Arguments {
-  std::string input;  ///< a cloud; empty: the depth image
+  std::string input;  ///< a cloud or a stored tree; empty: the depth image
   DepthInput image;
   bool allow_empty = false;  ///< a cloud without points is an empty result, not an error
   SegmentOptions options;
-  std::string output;                                   ///< the cloud with its labels
-  std::string labels;                                   ///< one label a point
-  std::string json;                                     ///< the summary
-  std::string barcode;                                  ///< H0
-  std::string plot;                                     ///< the barcode as a figure
-  std::string coloured;                                 ///< the cloud with a colour a segment
-  std::string picture;                                  ///< the image with a colour a segment
+  CutArguments cut;
+  std::string scene_option;  ///< an option that was given and that a stored tree cannot follow
+  OutputPaths files;
   std::optional<std::array<std::uint32_t, 2>> explain;  ///< two segments: where do they join?
   app::CommonOptions common;
-
-  std::array<const std::string*, 7> files() const {
-    return {&output, &labels, &json, &barcode, &plot, &coloured, &picture};
-  }
-  bool writes_files() const {
-    return std::ranges::any_of(files(), [](const std::string* path) { return !path->empty(); });
-  }
-  bool writes_to_standard_output() const {
-    return std::ranges::any_of(files(), [](const std::string* path) { return *path == "-"; });
-  }
 };
 
 /// Reads the command line; prints nothing.

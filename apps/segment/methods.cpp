@@ -26,8 +26,6 @@ namespace {
 constexpr double kNeighbourhood = 3, kOfNormals = 2.4, kSquareOfFoot = 0.6;
 constexpr double kAdjacent = 1.79;  // corners touch; sqrt(3) and a little
 
-bool are_adjacent(const VoxelPair& pair, double voxel) { return pair.distance < kAdjacent * voxel; }
-
 /// Whether voxels are so small that the points of a surface do not even touch: with fewer adjacent
 /// voxels on average than a plane that is sampled as coarsely as the grid has.
 bool is_too_fine(Index voxels, const std::vector<VoxelPair>& pairs, double voxel) {
@@ -38,6 +36,12 @@ bool is_too_fine(Index voxels, const std::vector<VoxelPair>& pairs, double voxel
 }
 
 }  // namespace
+
+std::vector<VoxelPair> near_voxels(const VoxelGrid& grid, double voxel) {
+  return close_voxels(grid, voxel, kNeighbourhood * voxel);
+}
+
+bool are_adjacent(const VoxelPair& pair, double voxel) { return pair.distance < kAdjacent * voxel; }
 
 Filtered filter_by_surface(const Scene& scene, const SegmentOptions& options,
                            const RunContext& context, StageClock& clock) {
@@ -55,7 +59,7 @@ Filtered filter_by_surface(const Scene& scene, const SegmentOptions& options,
                  points, grid);
     }
     clock.finish("voxel grid", grid.centroids.rows());
-    pairs = close_voxels(grid, voxel, kNeighbourhood * voxel);
+    pairs = near_voxels(grid, voxel);
     clock.finish("neighbours", grid.centroids.rows());
     if (options.voxel || times == most_times || !is_too_fine(grid.centroids.rows(), pairs, voxel))
       break;

@@ -42,6 +42,11 @@ struct Filtered {
   Surface surface;      ///< empty if the method does not look at it
 };
 
+/// Method surface: the pairs of voxels in each other's neighbourhood, see Surface.
+std::vector<VoxelPair> near_voxels(const VoxelGrid& grid, double voxel);
+/// Whether an edge of the graph of method surface joins them.
+bool are_adjacent(const VoxelPair& pair, double voxel);
+
 /// Voxels enter with the concavity of the surface around them, edges between adjacent ones with the
 /// later of their ends.
 Filtered filter_by_surface(const Scene& scene, const SegmentOptions& options,

@@ -45,4 +45,12 @@ void validate(const CloudView& cloud, const SegmentOptions& o) {
   }
 }
 
+void validate(const SceneTree& scene, const CutOptions& o) {
+  require(o.value >= 0, "cut", o.value, "at least 0");
+  require(scene.method == Method::surface || o.value <= scene.distance, "cut", o.value,
+          fmt::format("at most {}, the distance up to which the tree was made", scene.distance));
+  require(o.min_part >= 1, "min_part", static_cast<double>(o.min_part), "at least 1");
+  require(o.min_size >= 1, "min_size", static_cast<double>(o.min_size), "at least 1");
+}
+
 }  // namespace ph::segment

@@ -46,9 +46,9 @@ std::string text_of(Write&& write) {
   return std::move(out).str();
 }
 
-Raster label_image(const Cloud& cloud, std::span<const std::uint32_t> labels) {
-  Raster raster{cloud.width, cloud.height, 1, 16, {}};
-  for (const std::uint32_t label : labels) {
+Raster label_image(const Segmentation& s) {
+  Raster raster{s.width, s.height, 1, 16, {}};
+  for (const std::uint32_t label : s.labels) {
     if (label > UINT16_MAX) {
       throw Error(ErrorKind::bad_data, fmt::format("--labels: a PNG holds labels up to 65535, "
                                                    "found {}; use .npy",
@@ -59,27 +59,28 @@ Raster label_image(const Cloud& cloud, std::span<const std::uint32_t> labels) {
   return raster;
 }
 
-std::string label_file(const std::string& path, const Cloud& cloud,
-                       std::span<const std::uint32_t> labels) {
+std::string label_file(const std::string& path, const Segmentation& s) {
   const std::string extension = extension_of(path);
   if (extension == ".npy") {
-    return text_of([&](std::ostream& o) { write_npy(o, labels, cloud.width, cloud.height); });
+    return text_of([&](std::ostream& o) { write_npy(o, s.labels, s.width, s.height); });
   }
   if (extension == ".png") {
-    return text_of([&](std::ostream& o) { write_png(o, label_image(cloud, labels)); });
+    return text_of([&](std::ostream& o) { write_png(o, label_image(s)); });
   }
   std::string text;
-  for (const std::uint32_t label : labels) fmt::format_to(std::back_inserter(text), "{}\n", label);
+  for (const std::uint32_t label : s.labels)
+    fmt::format_to(std::back_inserter(text), "{}\n", label);
   return text;
 }
 
-BarcodeInfo barcode_info(const Arguments& a, const Segmentation& s, const RunInfo& info) {
+BarcodeInfo barcode_info(const Segmentation& s, const RunInfo& info) {
   BarcodeInfo result;
   result.program = info.program;
   result.input = info.input;
   result.input_description = fmt::format("{} voxel centroids in R^3", s.vertices.rows());
-  result.complex = "rips";
-  result.threshold = a.options.distance;
+  const bool paper = s.method == Method::paper;
+  result.complex = paper ? "rips" : "lower-star";
+  if (paper) result.threshold = s.distance;
   result.engine = "union-find";
   for (const Stage& stage : s.stages) result.timings.emplace_back(stage.name, stage.seconds);
   result.peak_memory = app::peak_memory();
@@ -89,38 +90,52 @@ BarcodeInfo barcode_info(const Arguments& a, const Segmentation& s, const RunInf
 }  // namespace
 
 Outputs::Outputs(const Arguments& a) : arguments_(a) {
-  for (const std::string& path : {a.output, a.coloured}) {
+  const OutputPaths& f = a.files;
+  for (const std::string& path : {f.output, f.coloured}) {
     if (!path.empty()) cloud_format_of(path);
   }
-  require_extension("--labels", a.labels, {".npy", ".csv", ".png"});
-  require_extension("--plot", a.plot, {".svg"});
-  require_extension("--picture", a.picture, {".png"});
-  if (!a.barcode.empty() && a.barcode != "-" && !barcode_format_of_path(a.barcode)) {
-    require_extension("--barcode", a.barcode, {".csv", ".json", ".txt", ".pers", ".dipha", ".npy"});
+  require_extension("--labels", f.labels, {".npy", ".csv", ".png"});
+  require_extension("--tree", f.tree, {".tree", ".json"});
+  require_extension("--plot", f.plot, {".svg"});
+  require_extension("--picture", f.picture, {".png"});
+  if (!f.barcode.empty() && f.barcode != "-" && !barcode_format_of_path(f.barcode)) {
+    require_extension("--barcode", f.barcode, {".csv", ".json", ".txt", ".pers", ".dipha", ".npy"});
   }
-  open(Kind::cloud, a.output);
-  open(Kind::labels, a.labels);
-  open(Kind::json, a.json);
-  open(Kind::barcode, a.barcode);
-  open(Kind::plot, a.plot);
-  open(Kind::coloured, a.coloured);
-  open(Kind::picture, a.picture);
+  open(Kind::cloud, f.output);
+  open(Kind::labels, f.labels);
+  open(Kind::json, f.json);
+  open(Kind::tree, f.tree);
+  open(Kind::barcode, f.barcode);
+  open(Kind::plot, f.plot);
+  open(Kind::coloured, f.coloured);
+  open(Kind::picture, f.picture);
 }
 
 void Outputs::open(Kind kind, const std::string& path) {
   if (!path.empty()) files_.push_back({kind, app::Output(path)});
 }
 
-void Outputs::require_suitable(const Cloud& cloud) const {
-  if (cloud.organised()) return;
+void Outputs::require_suitable(const Cloud* cloud, Index height) const {
+  const OutputPaths& f = arguments_.files;
+  if (!cloud) {
+    for (const auto& [option, path] :
+         {std::pair("--output", &f.output), std::pair("--coloured", &f.coloured),
+          std::pair("--picture", &f.picture)}) {
+      if (path->empty()) continue;
+      throw Error(ErrorKind::usage,
+                  fmt::format("{}: found a stored tree, expected a cloud; --labels "
+                              "writes the labels of its points",
+                              option));
+    }
+  }
+  if (height > 1) return;
   const auto refuse = [&](std::string_view option, std::string_view hint) {
-    throw Error(ErrorKind::usage,
-                fmt::format("{}: found an unorganised cloud of {} points, expected rows and "
-                            "columns; {}",
-                            option, cloud.size(), hint));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("{}: found an unorganised cloud, expected rows and columns; {}", option, hint));
   };
-  if (extension_of(arguments_.labels) == ".png") refuse("--labels", "use .npy or .csv");
-  if (!arguments_.picture.empty()) refuse("--picture", "use --coloured");
+  if (extension_of(f.labels) == ".png") refuse("--labels", "use .npy or .csv");
+  if (!f.picture.empty()) refuse("--picture", "use --coloured");
 }
 
 std::vector<std::uint32_t> Outputs::colours(const Cloud& cloud,
@@ -129,34 +144,38 @@ std::vector<std::uint32_t> Outputs::colours(const Cloud& cloud,
   return segment_colours(neighbouring_segments(cloud, segmentation, reach));
 }
 
-void Outputs::write_file(File& file, const Cloud& cloud, const Segmentation& s,
+void Outputs::write_file(File& file, const Cloud* cloud, const Segmentation& s,
                          const RunInfo& info) const {
-  const Arguments& a = arguments_;
+  const OutputPaths& f = arguments_.files;
   app::Output& out = file.output;
   switch (file.kind) {
     case Kind::cloud:
-      return out.write(cloud_bytes(with_labels(cloud, s.labels), cloud_format_of(a.output)));
+      return out.write(cloud_bytes(with_labels(*cloud, s.labels), cloud_format_of(f.output)));
     case Kind::labels:
-      return out.write(label_file(a.labels, cloud, s.labels));
+      return out.write(label_file(f.labels, s));
     case Kind::json:
-      return out.write(json_summary(cloud, a, s, info));
+      return out.write(json_summary(arguments_, s, info));
+    case Kind::tree:
+      return out.write(extension_of(f.tree) == ".json" ? tree_json(s) : tree_bytes(s));
     case Kind::barcode:
       return write_barcode(out.file(), s.barcode,
-                           barcode_format_of_path(a.barcode).value_or(BarcodeFormat::csv),
-                           barcode_info(a, s, info));
+                           barcode_format_of_path(f.barcode).value_or(BarcodeFormat::csv),
+                           barcode_info(s, info));
     case Kind::plot:
-      return out.write(svg_plot(s.barcode, {.title = "", .value_label = "Filtration value (m)"}));
+      return out.write(svg_plot(
+          s.barcode,
+          {.title = "", .value_label = s.method == Method::paper ? "Distance (m)" : "Concavity"}));
     case Kind::coloured:
-      return out.write(cloud_bytes(coloured_cloud(cloud, s.labels, colours(cloud, s)),
-                                   cloud_format_of(a.coloured)));
+      return out.write(cloud_bytes(coloured_cloud(*cloud, s.labels, colours(*cloud, s)),
+                                   cloud_format_of(f.coloured)));
     case Kind::picture:
       return out.write(text_of([&](std::ostream& o) {
-        write_png(o, ph::segment::picture(cloud, s.labels, colours(cloud, s)));
+        write_png(o, ph::segment::picture(*cloud, s.labels, colours(*cloud, s)));
       }));
   }
 }
 
-void Outputs::write(const Cloud& cloud, const Segmentation& segmentation, const RunInfo& info) {
+void Outputs::write(const Cloud* cloud, const Segmentation& segmentation, const RunInfo& info) {
   for (File& file : files_) write_file(file, cloud, segmentation, info);
   for (File& file : files_) file.output.commit();
 }

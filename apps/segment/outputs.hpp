@@ -15,6 +15,7 @@ struct RunInfo {
   std::string program;      ///< name and version
   std::string input;        ///< path of the input
   double read_seconds = 0;  ///< wall-clock time of reading it
+  bool from_tree = false;   ///< a stored tree was cut
 };
 
 /// The files that the command line asks for: opened before the computation, complete or absent.
@@ -23,19 +24,21 @@ class Outputs {
   /// @throws Error (usage) on an unknown extension; Error (cannot_create).
   explicit Outputs(const Arguments& arguments);
 
-  /// @throws Error (usage) if a file asks for rows and columns that the cloud has not.
-  void require_suitable(const Cloud& cloud) const;
+  /// @throws Error (usage) if a file asks for points that are not there (those of a stored tree),
+  /// or for rows and columns that they have not.
+  void require_suitable(const Cloud* cloud, Index height) const;
+  /// @param cloud null: a stored tree was cut.
   /// Writes and completes all of them.
-  void write(const Cloud& cloud, const Segmentation& segmentation, const RunInfo& info);
+  void write(const Cloud* cloud, const Segmentation& segmentation, const RunInfo& info);
 
  private:
-  enum class Kind { cloud, labels, json, barcode, plot, coloured, picture };
+  enum class Kind { cloud, labels, json, tree, barcode, plot, coloured, picture };
   struct File {
     Kind kind;
     app::Output output;
   };
   void open(Kind kind, const std::string& path);
-  void write_file(File& file, const Cloud& cloud, const Segmentation& segmentation,
+  void write_file(File& file, const Cloud* cloud, const Segmentation& segmentation,
                   const RunInfo& info) const;
   std::vector<std::uint32_t> colours(const Cloud& cloud, const Segmentation& segmentation) const;
 

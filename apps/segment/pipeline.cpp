@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "components.hpp"
 #include "cross_check.hpp"
+#include "cut.hpp"
 #include "methods.hpp"
 #include "options.hpp"
 #include "ph/core/error.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 /// What the stages before the voxel grid and the labels take for each point, at most.
 std::size_t bytes_for_points(const CloudView& cloud) {
-  constexpr std::size_t bytes_per_point = 32;
+  constexpr std::size_t bytes_per_point = 48;
   return cloud.xyz.size() / 3 * bytes_per_point;
 }
 
@@ -58,13 +58,33 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
   return scene;
 }
 
-/// For each voxel the component that becomes a segment, if it is large enough.
-std::vector<Index> components_of(const MergeTree& tree, const SegmentOptions& options) {
-  if (options.method == Method::surface)
-    return tree.basins(options.min_persistence, options.min_part);
-  // Section V.C: the sets joined to 0-simplices of infinite persistence. The edges of the complex
-  // are those of the whole filtration: at its end every merge is done.
-  return tree.components(kInfinity);
+/// The tree and what a cut needs besides. `plane` is there already.
+void keep_scene(const CloudView& cloud, const Filtered& filtered, const SegmentOptions& options,
+                SceneTree& scene) {
+  scene.method = options.method;
+  scene.voxel = filtered.voxel;
+  if (options.method == Method::paper) {
+    scene.distance = options.distance;
+    scene.steps = options.steps;
+  }
+  scene.viewpoint = cloud.viewpoint;
+  scene.width = static_cast<Index>(cloud.xyz.size() / 3);
+  scene.first_cut = options.cut();
+  scene.vertex_of_point.assign(cloud.xyz.size() / 3, SceneTree::kNoVertex);
+  for (std::size_t k = 0; k < filtered.points.size(); ++k) {
+    scene.vertex_of_point[static_cast<std::size_t>(filtered.points[k])] = filtered.grid.voxel_of[k];
+  }
+  scene.xyz.reserve(3 * filtered.points.size());
+  for (std::size_t i = 0; i < scene.vertex_of_point.size(); ++i) {
+    if (scene.vertex_of_point[i] == SceneTree::kNoVertex) continue;
+    const auto p = cloud.xyz.subspan(3 * i, 3);
+    scene.xyz.insert(scene.xyz.end(), p.begin(), p.end());
+  }
+  scene.cells = filtered.grid.cells;
+  scene.vertices = filtered.grid.centroids;
+  scene.normals = filtered.surface.normals;
+  scene.counts = filtered.grid.counts;
+  scene.edges = static_cast<Index>(filtered.graph.edge_count());
 }
 
 }  // namespace
@@ -77,47 +97,38 @@ Segmentation segment(const CloudView& input, const SegmentOptions& options,
   Segmentation result;
   StageClock clock(context, result.stages);
   const Scene scene = clear_scene(cloud, options, clock, result);
-  Filtered filtered = options.method == Method::surface
-                          ? filter_by_surface(scene, options, context, clock)
-                          : filter_by_distance(scene, options, context, clock);
-  const FilteredGraph& graph = filtered.graph;
-  result.voxel = filtered.voxel;
-  result.edges = static_cast<Index>(graph.edge_count());
+  const Filtered filtered = options.method == Method::surface
+                                ? filter_by_surface(scene, options, context, clock)
+                                : filter_by_distance(scene, options, context, clock);
 
   // Alg. 2: the death times of the zero-dimensional cycles, by the disjoint sets of V.C
-  result.tree = merge_tree(graph, context);
+  result.tree = merge_tree(filtered.graph, context);
   result.barcode = barcode_of(result.tree);
-  clock.finish("persistence", graph.size());
+  clock.finish("persistence", filtered.graph.size());
 
-  std::vector<Index> component_of = components_of(result.tree, options);
-  if (options.method == Method::surface && options.objects) {
-    component_of =
-        join_parts(filtered.grid, filtered.surface, filtered.voxel, component_of, options.min_size);
-  }
-  Components found =
-      extract_components(cloud, filtered.points, filtered.grid, component_of, options.min_size);
-  find_neighbours(result.tree, found);
-  result.segments = std::move(found.segments);
-  result.labels = std::move(found.labels);
-  result.vertex_labels = std::move(found.label_of_voxel);
+  keep_scene(cloud, filtered, options, result);
+  static_cast<SceneCut&>(result) =
+      cut_scene(result, filtered.grid, filtered.surface, result.first_cut);
   Index in_segments = 0;
   for (const Segment& s : result.segments) in_segments += s.voxels;
   clock.finish("components", in_segments);
 
   // Section V.B defines persistence by the boundary matrix: the fast path must agree with it.
   if (options.check) {
-    result.difference = cross_check(graph, result.barcode, context);
+    result.difference = cross_check(filtered.graph, result.barcode, context);
     result.checked = true;
     clock.finish("check", in_segments);
   }
-  result.vertices = std::move(filtered.grid.centroids);
   return result;
 }
 
 Segmentation segment(const Cloud& cloud, const SegmentOptions& options, const RunContext& context) {
   const std::vector<float> xyz = cloud.xyz();
   const auto& [x, y, z, qw, qx, qy, qz] = cloud.viewpoint;
-  return segment(CloudView{xyz, {x, y, z}}, options, context);
+  Segmentation result = segment(CloudView{xyz, {x, y, z}}, options, context);
+  result.width = cloud.width;
+  result.height = cloud.height;
+  return result;
 }
 
 }  // namespace ph::segment

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "arguments.hpp"
+#include "cross_check.hpp"
 #include "exit_code.hpp"
 #include "outputs.hpp"
 #include "ph/core/error.hpp"
@@ -26,13 +27,12 @@ Cloud read_depth(const DepthInput& image, const RunContext& context) {
   return cloud_from_depth(depth, colour, *image.intrinsics, image.scale);
 }
 
-Cloud read_input(const Arguments& arguments, app::Session& session) {
-  if (arguments.input.empty()) return read_depth(arguments.image, session.context());
+Cloud read_points(const Input& input, bool allow_empty, app::Session& session) {
   ReadOptions options;
   options.context = &session.context();
-  options.allow_empty = arguments.allow_empty;
+  options.allow_empty = allow_empty;
   options.note = [&session](const std::string& text) { session.note(text); };
-  return ph::read_cloud(arguments.input, options);
+  return ph::read_cloud(input, options);
 }
 
 /// What a user should know before trusting the result.
@@ -60,6 +60,83 @@ Segmentation segment_within_limits(const Cloud& cloud, const SegmentOptions& opt
   }
 }
 
+/// Another cut of what is there.
+void cut_again(Segmentation& s, const CutOptions& options, const RunContext& context) {
+  static_cast<SceneCut&>(s) = cut(s, options, context);
+  s.first_cut = options;
+}
+
+Segmentation cut_of_tree(const Input& input, const Arguments& arguments,
+                         const RunContext& context) {
+  if (!arguments.scene_option.empty()) {
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: found a stored tree, which was made with what it was made with; "
+                            "--cut, --min-part, --min-size, --objects and --parts cut it anew",
+                            arguments.scene_option));
+  }
+  Segmentation s;
+  static_cast<SceneTree&>(s) = read_tree(input);
+  if (!s.plane) s.plane_note = "the tree was made without one";
+  s.barcode = barcode_of(s.tree);
+  const auto start = std::chrono::steady_clock::now();
+  cut_again(s, arguments.cut.over(s.first_cut), context);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  s.stages.push_back({"cut", s.vertices.rows(), seconds.count()});
+  return s;
+}
+
+/// What was read, and what became of it.
+struct Result {
+  std::optional<Cloud> cloud;  ///< none: a stored tree was read
+  Segmentation segmentation;
+  double read_seconds = 0;
+};
+
+Result result_of(const Arguments& arguments, const Outputs& outputs, app::Session& session) {
+  const RunContext& context = session.context();
+  Result result;
+  const auto start = std::chrono::steady_clock::now();
+  std::optional<Input> input;
+  if (arguments.input.empty()) {
+    result.cloud = read_depth(arguments.image, context);
+  } else {
+    input.emplace(Input::open(arguments.input, &context));
+    if (!is_tree(*input)) result.cloud = read_points(*input, arguments.allow_empty, session);
+  }
+  Segmentation& s = result.segmentation;
+  const auto stop_reading = [&] {
+    result.read_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  if (!result.cloud) {
+    s = cut_of_tree(*input, arguments, context);
+    stop_reading();
+    result.read_seconds -= s.stages.front().seconds;
+    outputs.require_suitable(nullptr, s.height);
+    return result;
+  }
+  input.reset();
+  stop_reading();
+  outputs.require_suitable(&*result.cloud, result.cloud->height);
+  s = segment_within_limits(*result.cloud, arguments.options, context);
+  const CutOptions asked = arguments.cut.over(s.first_cut);
+  if (asked != s.first_cut) cut_again(s, asked, context);
+  return result;
+}
+
+/// What --verbose tells of the stages.
+void explain_stages(const Segmentation& s, app::Session& session) {
+  for (const Stage& stage : s.stages) {
+    session.explain(
+        fmt::format("{:12} {:8} points {:9.3f} ms", stage.name, stage.points, 1e3 * stage.seconds));
+  }
+  if (!s.plane) return;
+  const auto& [normal, offset, share] = *s.plane;
+  session.explain(fmt::format(
+      "plane {:.4f} x + {:.4f} y + {:.4f} z + {:.4f} = 0, {:.1f} % of the points in range",
+      normal[0], normal[1], normal[2], offset, 100 * share));
+}
+
 }  // namespace
 
 int run(int argc, const char* const* argv, std::stop_token stop) {
@@ -68,37 +145,26 @@ int run(int argc, const char* const* argv, std::stop_token stop) {
     return app::answer_command_line(*answer);
   app::Session session(kProgram, arguments.common, std::move(stop));
   Outputs outputs(arguments);
+  const Result result = result_of(arguments, outputs, session);
+  const Segmentation& s = result.segmentation;
+  if (result.cloud) warn(s, arguments.options, session);
+  session.note(one_line_summary(s));
+  explain_stages(s, session);
 
-  const auto start = std::chrono::steady_clock::now();
-  const Cloud cloud = read_input(arguments, session);
-  const std::chrono::duration<double> reading = std::chrono::steady_clock::now() - start;
-  outputs.require_suitable(cloud);
-
-  const Segmentation result = segment_within_limits(cloud, arguments.options, session.context());
-  warn(result, arguments.options, session);
-  session.note(one_line_summary(cloud, result));
-  for (const Stage& stage : result.stages) {
-    session.explain(
-        fmt::format("{:12} {:8} points {:9.3f} ms", stage.name, stage.points, 1e3 * stage.seconds));
-  }
-  if (result.plane) {
-    session.explain(
-        fmt::format("plane {:.4f} x + {:.4f} y + {:.4f} z + {:.4f} = 0, {:.1f} % of "
-                    "the points in range",
-                    result.plane->normal[0], result.plane->normal[1], result.plane->normal[2],
-                    result.plane->offset, 100 * result.plane->share));
-  }
   // Before anything is written: the labels may not be there.
   std::optional<std::string> answer;
   if (const auto& labels = arguments.explain)
-    answer = explanation(result, (*labels)[0], (*labels)[1]);
-  else if (!arguments.writes_files())
-    answer = text_summary(result);
+    answer = explanation(s, (*labels)[0], (*labels)[1]);
+  else if (!arguments.files.any())
+    answer = text_summary(s);
   const std::string& path = arguments.input.empty() ? arguments.image.depth : arguments.input;
-  outputs.write(cloud, result,
-                {app::program_and_version(std::string(kProgram)), path, reading.count()});
+  outputs.write(result.cloud ? &*result.cloud : nullptr, s,
+                {.program = app::program_and_version(std::string(kProgram)),
+                 .input = path,
+                 .read_seconds = result.read_seconds,
+                 .from_tree = !result.cloud});
   if (answer) write_file("-", *answer);
-  return result.difference.empty() ? app::kOk : app::kDifference;
+  return s.difference.empty() ? app::kOk : app::kDifference;
 }
 
 }  // namespace ph::segment

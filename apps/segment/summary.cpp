@@ -3,61 +3,26 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <initializer_list>
 #include <string_view>
-#include <utility>
 
-#include "ph/io/barcode_io.hpp"
+#include "json_text.hpp"
 
 namespace ph::segment {
 namespace {
 
-// Values are JSON texts. No tree of values is built: the usual ones allocate in their destructors.
-using Members = std::initializer_list<std::pair<std::string_view, std::string>>;
-
-std::string number(double value) { return std::isfinite(value) ? shortest(value) : "null"; }
-std::string integer(Index value) { return fmt::format("{}", value); }
-std::string boolean(bool value) { return value ? "true" : "false"; }
-
-/// `between` stands between the members: ", " for one line.
-std::string object(Members members, std::string_view between = ", ") {
-  std::string text;
-  for (const auto& [key, value] : members) {
-    if (!text.empty()) text += between;
-    text += fmt::format("{}: {}", json_string(key), value);
-  }
-  return fmt::format("{{{}}}", text);
-}
-
-std::string numbers(const Vec3& values) {
-  return fmt::format("[{}, {}, {}]", number(values[0]), number(values[1]), number(values[2]));
-}
-
-/// An array with an element a line.
-template <class Values, class Write>
-std::string lines(const Values& values, Write&& write) {
-  std::string text;
-  for (const auto& value : values) {
-    text += text.empty() ? "\n    " : ",\n    ";
-    text += write(value);
-  }
-  return fmt::format("[{}{}]", text, text.empty() ? "" : "\n  ");
-}
+using namespace json;
 
 std::string box_of(const Box& box) {
   return object({{"min", numbers(box.min)}, {"max", numbers(box.max)}});
 }
 
-std::string input_of(const Cloud& cloud, const RunInfo& info) {
+std::string input_of(const SceneTree& scene, const RunInfo& info) {
   return object({{"path", json_string(info.input)},
-                 {"points", integer(cloud.size())},
-                 {"width", integer(cloud.width)},
-                 {"height", integer(cloud.height)},
-                 {"organised", boolean(cloud.organised())}});
+                 {"points", integer(scene.width * scene.height)},
+                 {"width", integer(scene.width)},
+                 {"height", integer(scene.height)},
+                 {"organised", boolean(scene.height > 1)}});
 }
-
-std::string_view name_of(Method method) { return method == Method::paper ? "paper" : "surface"; }
 
 std::string options_of(const SegmentOptions& o) {
   return object({{"max_range", number(o.max_range)},
@@ -129,36 +94,32 @@ double table_seconds(const Segmentation& s) {
 
 }  // namespace
 
-std::string json_summary(const Cloud& cloud, const Arguments& arguments, const Segmentation& s,
-                         const RunInfo& info) {
-  const SegmentOptions& o = arguments.options;
+std::string json_summary(const Arguments& arguments, const Segmentation& s, const RunInfo& info) {
   const Index vertices = s.vertices.rows();
-  const std::string distance = o.method == Method::paper ? number(o.distance) : "null";
-  const std::string members =
-      object({{"format", json_string("ph-segment")},
-              {"version", "1"},
-              {"program", json_string(info.program)},
-              {"input", input_of(cloud, info)},
-              {"method", json_string(std::string(name_of(o.method)))},
-              {"options", options_of(o)},
-              {"stages", stages_of(s)},
-              {"plane", plane_of(s)},
-              {"voxel", number(s.voxel)},
-              {"complex", object({{"vertices", integer(vertices)},
-                                  {"edges", integer(s.edges)},
-                                  {"simplices", integer(vertices + s.edges)},
-                                  {"distance", distance}})},
-              {"table", object({{"points", integer(vertices)},
-                                {"distance", distance},
-                                {"complex", integer(vertices + s.edges)},
-                                {"time", number(table_seconds(s))}})},
-              {"segments", segments_of(s)},
-              {"check", check_of(s)},
-              {"timings",
-               object({{"read", number(info.read_seconds)}, {"segment", number(seconds_of(s))}})},
-              {"peak_memory", fmt::format("{}", app::peak_memory())}},
-             ",\n  ");
-  return fmt::format("{{\n  {}\n}}\n", std::string_view(members).substr(1, members.size() - 2));
+  const std::string distance = s.method == Method::paper ? number(s.distance) : "null";
+  return document({{"format", json_string("ph-segment")},
+                   {"version", "1"},
+                   {"program", json_string(info.program)},
+                   {"input", input_of(s, info)},
+                   {"method", method(s.method)},
+                   {"options", info.from_tree ? "null" : options_of(arguments.options)},
+                   {"cut", cut(s.first_cut)},
+                   {"stages", stages_of(s)},
+                   {"plane", plane_of(s)},
+                   {"voxel", number(s.voxel)},
+                   {"complex", object({{"vertices", integer(vertices)},
+                                       {"edges", integer(s.edges)},
+                                       {"simplices", integer(vertices + s.edges)},
+                                       {"distance", distance}})},
+                   {"table", object({{"points", integer(vertices)},
+                                     {"distance", distance},
+                                     {"complex", integer(vertices + s.edges)},
+                                     {"time", number(table_seconds(s))}})},
+                   {"segments", segments_of(s)},
+                   {"check", check_of(s)},
+                   {"timings", object({{"read", number(info.read_seconds)},
+                                       {"segment", number(seconds_of(s))}})},
+                   {"peak_memory", fmt::format("{}", app::peak_memory())}});
 }
 
 std::string text_summary(const Segmentation& s) {
@@ -188,8 +149,8 @@ std::string explanation(const Segmentation& s, std::uint32_t a, std::uint32_t b)
                      shortest(meeting->value), x, y, z);
 }
 
-std::string one_line_summary(const Cloud& cloud, const Segmentation& s) {
-  std::string text = fmt::format("{} points", cloud.size());
+std::string one_line_summary(const Segmentation& s) {
+  std::string text = fmt::format("{} points", s.width * s.height);
   for (const Stage& stage : s.stages) {
     if (stage.name == "range filter") {
       fmt::format_to(std::back_inserter(text), ", {} in range", stage.points);

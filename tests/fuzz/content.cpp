@@ -247,6 +247,20 @@ Content content_of(const Barcode& barcode) {
   return content;
 }
 
+Content content_of(const segment::SceneTree& scene) {
+  Content content;
+  content.head = segment::tree_bytes(scene);
+  const segment::SceneCut cut = segment::cut(scene, scene.first_cut);
+  require(cut.labels.size() == static_cast<std::size_t>(scene.width * scene.height),
+          "a point has no label");
+  for (const std::uint32_t label : cut.labels) {
+    require(label <= cut.segments.size(), "a label without a segment");
+    content.numbers.push_back(label);
+    content.end_row();
+  }
+  return content;
+}
+
 Content content_of(const ReadResult& result) {
   require(result.format != Format::automatic && !result.description.empty(),
           "a result does not say what it is");

@@ -7,6 +7,7 @@
 #include "ph/io/barcode_io.hpp"
 #include "ph/io/cloud_io.hpp"
 #include "ph/io/formats.hpp"
+#include "ph/scene_tree.hpp"
 
 namespace ph::fuzz {
 
@@ -44,6 +45,7 @@ Content content_of(const Mesh& mesh);                 ///< vertices, then faces
 Content content_of(const Cloud& cloud);               ///< a point a row, its fields byte by byte
 Content content_of(const Raster& raster);             ///< a row of pixels a row
 Content content_of(const Barcode& barcode);           ///< a bar a row, its cells behind it
+Content content_of(const segment::SceneTree& scene);  ///< its bytes, the labels of its cut behind
 Content content_of(const ReadResult& result);
 Content content_of(const std::vector<double>& values);  ///< one a row, none NaN
 

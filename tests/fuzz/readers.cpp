@@ -45,6 +45,10 @@ Barcode barcode_of(const Input& input, const ReadOptions&) {
 
 Raster png(const Input& input, const ReadOptions&) { return read_png(input); }
 
+segment::SceneTree tree(const Input& input, const ReadOptions&) {
+  return segment::read_tree(input);
+}
+
 /// A file of values says what it belongs to by nothing but their number.
 constexpr std::size_t kValues = 6;
 std::vector<double> values(const Input& input, const ReadOptions& options) {
@@ -97,6 +101,7 @@ constexpr std::array kReaders{
     reader<&of_format<Format::xyz>>("xyz_points", ".xyz"),
     reader<&read_pts>("pts", ".pts"),
     reader<&of_format<Format::pts>>("pts_points", ".pts"),
+    reader<&tree>("tree", ".tree"),
     reader<&barcode>("barcode", ""),
     reader<&barcode_of<BarcodeFormat::csv>>("barcode_csv", ".csv"),
     reader<&barcode_of<BarcodeFormat::json>>("barcode_json", ".json"),

@@ -149,4 +149,10 @@ void write_and_read_again(const Raster& raster) {
           "a picture changes through PNG");
 }
 
+void write_and_read_again(const segment::SceneTree& scene) {
+  const std::string bytes = segment::tree_bytes(scene);
+  require(segment::tree_bytes(segment::read_tree(Input::view(bytes, "written.tree"))) == bytes,
+          "a tree changes when it is written and read");
+}
+
 }  // namespace ph::fuzz

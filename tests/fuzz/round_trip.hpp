@@ -9,6 +9,7 @@ namespace ph::fuzz {
 void write_and_read_again(const Barcode& barcode);
 void write_and_read_again(const Cloud& cloud);
 void write_and_read_again(const Raster& raster);
+void write_and_read_again(const segment::SceneTree& scene);
 /// Nothing else is written.
 template <class T>
 void write_and_read_again(const T&) {}

@@ -16,6 +16,7 @@ const std::vector<Target>& targets() {
     }
     list.push_back({"gzip", &run_gzip});
     list.push_back({"png_chunks", &run_png});
+    list.push_back({"tree_sums", &run_tree});
     list.push_back({"barcode_arguments", &run_barcode_arguments});
     list.push_back({"segment_arguments", &run_segment_arguments});
     list.push_back({"engines", &run_engines});

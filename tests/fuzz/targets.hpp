@@ -27,6 +27,8 @@ void run_reader(std::string_view reader, std::string_view bytes);
 void run_gzip(std::string_view bytes);
 /// A picture as it is and with the right checksums, and as a depth image.
 void run_png(std::string_view bytes);
+/// A stored tree as it is and with the right checksum.
+void run_tree(std::string_view bytes);
 /// The lines are the words of a command line.
 void run_barcode_arguments(std::string_view bytes);
 void run_segment_arguments(std::string_view bytes);

@@ -12,8 +12,9 @@ import arrays
 import barcodes
 import clouds
 import text
+import trees
 
-SAMPLES = [*text.SAMPLES, *arrays.SAMPLES, *clouds.SAMPLES, *barcodes.SAMPLES]
+SAMPLES = [*text.SAMPLES, *arrays.SAMPLES, *clouds.SAMPLES, *barcodes.SAMPLES, *trees.SAMPLES]
 
 
 def named(reader, name):

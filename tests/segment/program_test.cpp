@@ -224,11 +224,49 @@ TEST_F(Program, ExplainsWhereSegmentsJoin) {
     EXPECT_EQ(run(std::string("scene.pcd --explain ") + bad), 64) << bad;
 }
 
-TEST_F(Program, WhatIsNotBuiltInYet) {
-  for (const char* arguments : {"--cut 0.1", "--report r.html"}) {
-    EXPECT_EQ(run(std::string("scene.pcd ") + arguments), 69) << arguments;
-    EXPECT_NE(err().find("not built in yet"), std::string::npos) << err();
+TEST_F(Program, AStoredTreeIsAnInput) {
+  ASSERT_EQ(run("scene.pcd --tree s.tree --labels a.npy --barcode a.csv"), 0) << err();
+  ASSERT_EQ(run("s.tree --labels b.npy --barcode b.csv --json b.json"), 0) << err();
+  EXPECT_EQ(contents(at("a.npy")), contents(at("b.npy")));
+  EXPECT_EQ(contents(at("a.csv")), contents(at("b.csv")));
+  EXPECT_NE(contents(at("b.json")).find("\"cut\": {\"value\": 0.01,"), std::string::npos);
+  ASSERT_EQ(run("s.tree --cut 0.01 --labels b.npy --tree again.tree"), 0) << err();
+  EXPECT_EQ(contents(at("a.npy")), contents(at("b.npy")));
+  EXPECT_EQ(contents(at("s.tree")), contents(at("again.tree")));
+  ASSERT_EQ(run("- --explain 1,2 <s.tree"), 0) << err();
+  EXPECT_NE(out().find("never join"), std::string::npos) << out();
+  ASSERT_EQ(run("s.tree --min-size 100000 --tree s.json"), 0) << err();
+  EXPECT_NE(err().find("0 segments"), std::string::npos) << err();
+  EXPECT_EQ(contents(at("s.json")).substr(0, 33), "{\n  \"format\": \"ph-segment-tree\"");
+}
+
+TEST_F(Program, WhatAStoredTreeCannotDo) {
+  ASSERT_EQ(run("scene.pcd --tree s.tree"), 0) << err();
+  for (const char* arguments :
+       {"-o o.pcd", "--coloured c.pcd", "--picture p.png", "--voxel 0.01", "--method paper",
+        "--distance 0.01", "--plane off", "--min-persistence 0.1", "--cut -1", "--tree t.txt"}) {
+    EXPECT_EQ(run(std::string("s.tree ") + arguments), 64) << arguments;
+    EXPECT_EQ(std::ranges::count(err(), '\n'), 1) << err();
   }
+  const std::string whole = contents(at("s.tree"));
+  std::ofstream(at("half.tree"), std::ios::binary) << whole.substr(0, whole.size() / 2);
+  EXPECT_EQ(run("half.tree --labels l.npy"), 65);
+  EXPECT_NE(err().find("truncated"), std::string::npos) << err();
+  EXPECT_FALSE(fs::exists(at("l.npy")));
+}
+
+TEST_F(Program, ACutOfACloudIsThatOfItsTree) {
+  for (const char* method : {"--method surface --cut 0.3", "--method paper --cut 0.015"}) {
+    ASSERT_EQ(run(std::string("scene.pcd --labels a.npy --tree s.tree ") + method), 0) << err();
+    ASSERT_EQ(run("s.tree --labels b.npy"), 0) << err();
+    EXPECT_EQ(contents(at("a.npy")), contents(at("b.npy")));
+  }
+  EXPECT_EQ(run("scene.pcd --method paper --cut 0.03"), 64);
+}
+
+TEST_F(Program, WhatIsNotBuiltInYet) {
+  EXPECT_EQ(run("scene.pcd --report r.html"), 69);
+  EXPECT_NE(err().find("not built in yet"), std::string::npos) << err();
 }
 
 TEST_F(Program, InputErrors) {
@@ -283,6 +321,7 @@ TEST_F(Program, HelpAndVersion) {
                              "--objects",
                              "--parts",
                              "--cut",
+                             "--tree",
                              "--explain",
                              "--report"}) {
     EXPECT_NE(out().find(option), std::string::npos) << option;

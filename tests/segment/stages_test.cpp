@@ -208,9 +208,15 @@ TEST(Components, LabelsByDecreasingNumberOfPoints) {
   const CloudView cloud{xyz, {}};
   const auto points = all_of(13);
   const VoxelGrid grid = voxel_grid(cloud, points, 1);
-  const MergeTree tree = merge_tree(rips_graph(grid.centroids, 1, 0));
-  const std::vector<Index> components = tree.components(kInfinity);
-  const Components found = extract_components(cloud, points, grid, components, 1);
+  SceneTree scene;
+  scene.xyz.assign(xyz.begin(), xyz.end() - 3);
+  scene.vertex_of_point = grid.voxel_of;
+  scene.vertex_of_point.push_back(SceneTree::kNoVertex);
+  scene.vertices = grid.centroids;
+  scene.counts = grid.counts;
+  const std::vector<Index> components =
+      merge_tree(rips_graph(grid.centroids, 1, 0)).components(kInfinity);
+  const SceneCut found = extract_components(scene, components, 1);
   ASSERT_EQ(found.segments.size(), 3U);
   EXPECT_EQ(found.labels, (std::vector<std::uint32_t>{3, 3, 1, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 0}));
   EXPECT_EQ(found.segments[1].voxels, 3);
@@ -218,8 +224,8 @@ TEST(Components, LabelsByDecreasingNumberOfPoints) {
   EXPECT_DOUBLE_EQ(found.segments[1].centroid[0], 11.5);
   EXPECT_EQ(found.segments[1].box, (Box{{10.5, 0.5, 0.5}, {12.5, 0.5, 0.5}}));
   EXPECT_TRUE(std::isinf(found.segments[0].persistence));
-  EXPECT_EQ(extract_components(cloud, points, grid, components, 2).segments.size(), 2U);
-  EXPECT_EQ(extract_components(cloud, points, grid, components, 4).segments.size(), 0U);
+  EXPECT_EQ(extract_components(scene, components, 2).segments.size(), 2U);
+  EXPECT_EQ(extract_components(scene, components, 4).segments.size(), 0U);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -11,35 +10,17 @@
 
 #include "ph/core/barcode.hpp"
 #include "ph/core/run_context.hpp"
-#include "ph/engine/merge_tree.hpp"
 #include "ph/io/cloud.hpp"
-#include "ph/metric/metric.hpp"
+#include "ph/scene_tree.hpp"
 
 /// Segmentation of RGB-D scenes by persistent homology. All lengths are metres (or whatever unit
 /// the cloud is in: nothing here knows of metres but the defaults).
 namespace ph::segment {
 
-/// A point or a direction: x, y, z.
-using Vec3 = std::array<double, 3>;
-
-/// An axis-aligned box, borders included.
-struct Box {
-  Vec3 min{};
-  Vec3 max{};
-  friend bool operator==(const Box&, const Box&) = default;
-};
-
 /// What the pipeline reads of a cloud: plain arrays, owned by someone else.
 struct CloudView {
   std::span<const float> xyz;  ///< x, y, z of each point; one not finite: a hole, label 0
   Vec3 viewpoint{};            ///< where the sensor stood, in the coordinates of the points
-};
-
-/// What decides which voxels belong together.
-enum class Method {
-  surface,  ///< the shape of the visible surface: cut where it is hollow, so that objects that
-            ///< touch come apart
-  paper,    ///< distance alone: Beksi & Papanikolopoulos, ICRA 2016
 };
 
 /// A default-constructed value suits a table top seen by a structured-light or time-of-flight
@@ -71,32 +52,10 @@ struct SegmentOptions {
   double plane_margin() const {
     return plane_distance.value_or(method == Method::paper ? 0.006 : 0.005);
   }
-};
-
-/// The plane normal·x + offset = 0, its unit normal turned towards the sensor: the signed distance
-/// of a point is positive on the sensor's side.
-struct Plane {
-  Vec3 normal{};
-  double offset = 0;  ///< metres
-  double share = 0;   ///< share of the points in range that lie on it, 0…1
-  double signed_distance(double x, double y, double z) const {
-    return normal[0] * x + normal[1] * y + normal[2] * z + offset;
+  /// Where these options cut the tree.
+  CutOptions cut() const {
+    return {method == Method::paper ? distance : min_persistence, min_part, min_size, objects};
   }
-};
-
-/// One segment: a component with enough voxels, of infinite persistence (paper) or a basin of the
-/// merge tree (surface).
-struct Segment {
-  std::uint32_t label = 0;  ///< 1…k by decreasing number of points
-  Index points = 0;
-  Index voxels = 0;
-  /// How much higher than where it was born it first meets another segment: in metres (paper) or as
-  /// a concavity (surface). Infinite if it meets none.
-  double persistence = kInfinity;
-  std::uint32_t neighbour = 0;  ///< label of the segment it meets first; 0: none
-  double meets_at = kInfinity;  ///< value of the filtration at which it does
-  Vec3 centroid{};              ///< mean of its points, without those won back from the plane
-  Box box;                      ///< of its points
 };
 
 /// What one stage left behind and what it took.
@@ -106,21 +65,14 @@ struct Stage {
   double seconds = 0;  ///< wall-clock time
 };
 
-/// The result of the pipeline. A value: it refers to nothing outside.
-struct Segmentation {
-  std::vector<std::uint32_t> labels;  ///< one a point of the input: 0 none, 1…k the segments
-  std::vector<Segment> segments;      ///< segment i has label i + 1
-  std::optional<Plane> plane;         ///< the plane that was removed
-  std::string plane_note;             ///< why there is none; empty if there is one
-  double voxel = 0;                   ///< edge of a voxel, metres
-  Points vertices;                    ///< vertex i of the graph: centroid of voxel i, one a row
-  std::vector<std::uint32_t> vertex_labels;  ///< one a vertex: 0 none, 1…k the segments
-  Index edges = 0;                           ///< edges of the filtered graph
-  MergeTree tree;                            ///< which vertices join, at which value
-  Barcode barcode = Barcode();               ///< H0, zero-length bars included
-  bool checked = false;                      ///< whether the cross-check ran
-  std::string difference;                    ///< what it found; empty: both engines agree
-  std::vector<Stage> stages;                 ///< in the order in which they ran
+/// The result of the pipeline: the merge tree of the scene, one cut of it, and how it went. A
+/// value: it refers to nothing outside.
+struct Segmentation : SceneTree, SceneCut {
+  std::string plane_note;       ///< why there is no plane; empty if there is one
+  Barcode barcode = Barcode();  ///< H0, zero-length bars included
+  bool checked = false;         ///< whether the cross-check ran
+  std::string difference;       ///< what it found; empty: both engines agree
+  std::vector<Stage> stages;    ///< in the order in which they ran
 };
 
 /// Segments a cloud: range filter, supporting plane, voxel grid, a filtered graph on the voxels,
@@ -138,15 +90,11 @@ Segmentation segment(const CloudView& cloud, const SegmentOptions& options = {},
 Segmentation segment(const Cloud& cloud, const SegmentOptions& options = {},
                      const RunContext& context = default_context());
 
-/// Where two segments meet first as the filtration grows.
-struct Meeting {
-  double value = 0;  ///< of the filtration: metres (paper), a concavity (surface)
-  Vec3 at{};         ///< between the two voxels whose edge joins them
-};
-/// @return nothing if they never meet. @throws Error (usage) on labels that are not those of two
-/// segments.
-std::optional<Meeting> first_meeting(const Segmentation& segmentation, std::uint32_t a,
-                                     std::uint32_t b);
+/// first_meeting of two segments of its cut.
+inline std::optional<Meeting> first_meeting(const Segmentation& s, std::uint32_t a,
+                                            std::uint32_t b) {
+  return first_meeting(s, s, a, b);
+}
 
 /// Reads a cloud: .pcd, .ply, .xyz, .csv. @throws Error as ph::read_cloud does.
 Cloud read_cloud(const std::filesystem::path& path);

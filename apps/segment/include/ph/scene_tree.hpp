@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ph/core/barcode.hpp"
+#include "ph/core/run_context.hpp"
+#include "ph/engine/merge_tree.hpp"
+#include "ph/io/reader.hpp"
+#include "ph/metric/metric.hpp"
+
+/// The merge tree of a scene, and the cuts of it. All lengths are metres.
+namespace ph::segment {
+
+/// A point or a direction: x, y, z.
+using Vec3 = std::array<double, 3>;
+
+/// An axis-aligned box, borders included.
+struct Box {
+  Vec3 min{};
+  Vec3 max{};
+  friend bool operator==(const Box&, const Box&) = default;
+};
+
+/// What decides which voxels belong together.
+enum class Method {
+  surface,  ///< the shape of the visible surface: cut where it is hollow, so that objects that
+            ///< touch come apart
+  paper,    ///< distance alone: Beksi & Papanikolopoulos, ICRA 2016
+};
+
+/// The plane normal·x + offset = 0, its unit normal turned towards the sensor: the signed distance
+/// of a point is positive on the sensor's side.
+struct Plane {
+  Vec3 normal{};
+  double offset = 0;  ///< metres
+  double share = 0;   ///< share of the points in range that lie on it, 0…1
+  double signed_distance(double x, double y, double z) const {
+    return normal[0] * x + normal[1] * y + normal[2] * z + offset;
+  }
+  friend bool operator==(const Plane&, const Plane&) = default;
+};
+
+/// One segment: a component with enough voxels, of infinite persistence (paper) or a basin of the
+/// merge tree (surface).
+struct Segment {
+  std::uint32_t label = 0;  ///< 1…k by decreasing number of points
+  Index points = 0;
+  Index voxels = 0;
+  /// How much higher than where it was born it first meets another segment: in metres (paper) or as
+  /// a concavity (surface). Infinite if it meets none.
+  double persistence = kInfinity;
+  std::uint32_t neighbour = 0;  ///< label of the segment it meets first; 0: none
+  double meets_at = kInfinity;  ///< value of the filtration at which it does
+  Vec3 centroid{};              ///< mean of its points, without those won back from the plane
+  Box box;                      ///< of its points
+  friend bool operator==(const Segment&, const Segment&) = default;
+};
+
+/// Where to cut a merge tree.
+struct CutOptions {
+  /// Method surface: least persistence of a part, a mean concavity (0…2). Method paper: components
+  /// at this distance, metres, at most that of the tree. >= 0.
+  double value = 0.01;
+  Index min_part =
+      200;              ///< surface: fewest voxels of a part; a smaller one joins a neighbour, >= 1
+  Index min_size = 32;  ///< fewest voxels of a segment, >= 1
+  bool objects = true;  ///< surface: join the visible parts of an object
+  friend bool operator==(const CutOptions&, const CutOptions&) = default;
+};
+
+/// How the voxels of a scene join: each merge with its value, the edge that joined, sizes and
+/// births
+/// (`tree`), and what is needed of the scene to make segments of a cut. A value: it refers to
+/// nothing outside.
+struct SceneTree {
+  static constexpr std::uint32_t kNoVertex = UINT32_MAX;
+
+  Method method = Method::surface;
+  double voxel = 0;            ///< edge of a voxel, metres
+  double distance = 0;         ///< paper: maximum distance of the complex, metres
+  int steps = 0;               ///< paper: levels up to it; 0: exact deaths
+  Vec3 viewpoint{};            ///< where the sensor stood
+  std::optional<Plane> plane;  ///< the plane that was removed
+  Index width = 0;             ///< columns of the cloud; of an unorganised one its points
+  Index height = 1;            ///< rows of the cloud; 1 if it is not organised
+  CutOptions first_cut;        ///< the cut that the segmentation was made with
+
+  std::vector<std::uint32_t> vertex_of_point;  ///< one a point of the cloud; kNoVertex: none
+  std::vector<float> xyz;                      ///< of the points that have a vertex, in their order
+
+  // By vertex, that is, by voxel in the order of the grid (z slowest).
+  std::vector<Vec3> cells;  ///< whole numbers: the corner of the voxel / voxel
+  Points vertices;          ///< centroid, one a row
+  Points normals;  ///< surface: unit normal, one a row, NaN where there is none; else 0 rows
+  std::vector<Index> counts;  ///< points that the centroid is the mean of
+
+  Index edges = 0;  ///< edges of the filtered graph
+  MergeTree tree;   ///< which vertices join, at which value
+};
+
+/// The segments of one cut.
+struct SceneCut {
+  std::vector<std::uint32_t> labels;  ///< one a point of the cloud: 0 none, 1…k the segments
+  std::vector<Segment> segments;      ///< segment i has label i + 1
+  std::vector<std::uint32_t> vertex_labels;  ///< one a vertex: 0 none, 1…k the segments
+};
+
+/// A coarser or finer cut without segmenting anew: milliseconds. `cut(scene, scene.first_cut)` is
+/// what ph::segment::segment gave.
+/// @throws Error (usage) on an option out of its range, or a distance beyond that of the tree.
+SceneCut cut(const SceneTree& scene, const CutOptions& options,
+             const RunContext& context = default_context());
+
+/// Where two segments meet first as the filtration grows.
+struct Meeting {
+  double value = 0;  ///< of the filtration: metres (paper), a concavity (surface)
+  Vec3 at{};         ///< between the two voxels whose edge joins them
+};
+/// @return nothing if they never meet. @throws Error (usage) on labels that are not those of two
+/// segments.
+std::optional<Meeting> first_meeting(const SceneTree& scene, const SceneCut& cut, std::uint32_t a,
+                                     std::uint32_t b);
+
+/// The tree as a file; docs/segmentation.md says what its bytes are.
+std::string tree_bytes(const SceneTree& scene);
+/// The same as JSON, for other programs; it is not read back.
+std::string tree_json(const SceneTree& scene);
+/// Whether a file begins as `tree_bytes` does.
+bool is_tree(const Input& input);
+/// Reads what `tree_bytes` wrote, nothing else: every number is checked, and so is the sum at its
+/// end. @throws Error (bad_data) naming the byte.
+SceneTree read_tree(const Input& input);
+SceneTree read_tree(const std::filesystem::path& path);
+
+}  // namespace ph::segment

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "meetings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory_resource>
+
+#include "ph/core/disjoint_sets.hpp"
+#include "ph/core/error.hpp"
+
+namespace ph::segment {
+
+void find_neighbours(const MergeTree& tree, SceneCut& cut) {
+  const std::vector<std::uint32_t>& label = cut.vertex_labels;
+  std::vector<double> birth(cut.segments.size() + 1, kInfinity);
+  for (std::size_t v = 0; v < label.size(); ++v)
+    birth[label[v]] = std::min(birth[label[v]], tree.births[v]);
+  const auto meet = [&](std::uint32_t a, std::uint32_t b, double value) {
+    Segment& s = cut.segments[a - 1];
+    if (s.neighbour != 0) return;
+    s.neighbour = b;
+    s.meets_at = value;
+    s.persistence = value - birth[a];
+  };
+  for (const Merge& m : tree.merges) {  // by value: the first one counts
+    const std::uint32_t a = label[static_cast<std::size_t>(m.u)];
+    const std::uint32_t b = label[static_cast<std::size_t>(m.v)];
+    if (a == b || a == 0 || b == 0) continue;
+    meet(a, b, m.value);
+    meet(b, a, m.value);
+  }
+}
+
+std::optional<Meeting> first_meeting(const SceneTree& scene, const SceneCut& cut, std::uint32_t a,
+                                     std::uint32_t b) {
+  for (const std::uint32_t label : {a, b})
+    if (label == 0 || label > cut.segments.size())
+      throw Error(ErrorKind::usage, fmt::format("segment {}: there are the segments 1 to {}", label,
+                                                cut.segments.size()));
+  if (a == b) throw Error(ErrorKind::usage, fmt::format("segment {}: found it twice", a));
+  // The parts of a segment are one from the beginning.
+  DisjointSets sets(cut.vertex_labels.size(), std::pmr::get_default_resource());
+  const auto join = [&](std::uint32_t u, std::uint32_t v) {
+    const std::uint32_t x = sets.find(u), y = sets.find(v);
+    if (x != y) sets.link(x, y);
+  };
+  const auto first_of = [&](std::uint32_t label) {
+    return static_cast<std::uint32_t>(std::ranges::find(cut.vertex_labels, label) -
+                                      cut.vertex_labels.begin());
+  };
+  const std::uint32_t first_a = first_of(a), first_b = first_of(b);
+  for (std::uint32_t v = 0; v < cut.vertex_labels.size(); ++v) {
+    if (cut.vertex_labels[v] == a) join(v, first_a);
+    if (cut.vertex_labels[v] == b) join(v, first_b);
+  }
+  for (const Merge& m : scene.tree.merges) {
+    join(static_cast<std::uint32_t>(m.u), static_cast<std::uint32_t>(m.v));
+    if (sets.find(first_a) != sets.find(first_b)) continue;
+    Meeting meeting{.value = m.value};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto axis = static_cast<Index>(k);
+      meeting.at[k] = (scene.vertices(m.u, axis) + scene.vertices(m.v, axis)) / 2;
+    }
+    return meeting;
+  }
+  return std::nullopt;
+}
+
+}  // namespace ph::segment

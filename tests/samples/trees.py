@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: MIT
+"""Merge trees of scenes as ph-segment stores them."""
+import binascii
+import struct
+
+from sample import Sample, words
+
+SURFACE, PAPER = 0, 1
+NO_VERTEX = 0xFFFFFFFF
+
+
+def header(method, size, counts, distance, plane, cut):
+    """@param counts vertices, merges, points with a vertex, edges. @param cut value, min_part, …"""
+    return b"ph-tree\n" + words("<", 1, method, *size, *counts, 1.0, 0.0, 0.0, 0.0, distance, 0,
+                                *plane, *cut)
+
+
+def tree(name, *parts):
+    content = b"".join(parts)
+    content += struct.pack("<I", binascii.crc32(content))
+    return Sample(name, "tree", content, True, program="ph-segment")
+
+
+def merge(value, u, v):
+    return struct.pack("<dII", value, u, v)
+
+
+# Three voxels of an edge of one metre in a row; four points and a hole.
+CELLS = words("<", 0., 0., 1., 1., 0., 1., 2., 0., 1.)
+CENTROIDS = words("<", .5, .5, 1.5, 1.25, .5, 1.5, 2.5, .5, 1.5)
+POINTS = struct.pack("<5I", 0, 1, NO_VERTEX, 1, 2) + struct.pack(
+    "<12f", .5, .5, 1.5, 1.25, .25, 1.5, 1.25, .75, 1.5, 2.5, .5, 1.5)
+
+SAMPLES = [
+    tree("surface.tree",
+         header(SURFACE, (5, 1), (3, 2, 4, 2), 0., (1, 0., 0., -1., 3., .25), (.5, 1, 1, 1)),
+         CELLS, CENTROIDS, words("<", 0., 0., -1., 0., 0., -1., *[float("nan")] * 3),
+         words("<", 1, 2, 1), words("<", .25, 0., .125), merge(.25, 0, 1), merge(.75, 1, 2), POINTS),
+    tree("paper.tree",
+         header(PAPER, (5, 1), (3, 2, 4, 2), 1.5, (0, 0., 0., 0., 0., 0.), (1., 1, 1, 0)),
+         CELLS, CENTROIDS, words("<", 1, 2, 1), words("<", 0., 0., 0.), merge(.75, 0, 1),
+         merge(1.25, 1, 2), POINTS),
+    tree("empty.tree",
+         header(SURFACE, (2, 1), (0, 0, 0, 0), 0., (0, 0., 0., 0., 0., 0.), (.01, 200, 32, 1)),
+         struct.pack("<2I", NO_VERTEX, NO_VERTEX)),
+]
