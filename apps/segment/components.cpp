@@ -2,49 +2,85 @@
 #include "components.hpp"
 
 #include <algorithm>
+#include <span>
+
+#include "oriented_box.hpp"
 
 namespace ph::segment {
 namespace {
 
 /// One component while it is measured.
 struct Component {
-  Index root = 0;     // the vertex that names it
+  Index root = 0;  // the vertex that names it
+  Index points = 0;
+  Index voxels = 0;
   Index in_grid = 0;  // points that its centroid is of
-  Segment segment;
+  Vec3 sum{};         // of these points
 };
 
 /// By decreasing number of points, then of voxels, then in grid order: independent of the order of
 /// the points.
 bool comes_before(const Component& a, const Component& b) {
-  if (a.segment.points != b.segment.points) return a.segment.points > b.segment.points;
-  if (a.segment.voxels != b.segment.voxels) return a.segment.voxels > b.segment.voxels;
+  if (a.points != b.points) return a.points > b.points;
+  if (a.voxels != b.voxels) return a.voxels > b.voxels;
   return a.root < b.root;
 }
 
-/// Centroids stay sums.
 std::vector<Component> measured(const SceneTree& scene, const std::vector<Index>& component_of) {
   std::vector<Component> by_root(component_of.size());
   for (std::size_t v = 0; v < component_of.size(); ++v) {
-    Component& component = by_root[static_cast<std::size_t>(component_of[v])];
-    Segment& s = component.segment;
-    ++s.voxels;
-    component.in_grid += scene.counts[v];
+    Component& c = by_root[static_cast<std::size_t>(component_of[v])];
+    ++c.voxels;
+    c.in_grid += scene.counts[v];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      s.centroid[axis] += static_cast<double>(scene.counts[v]) *
-                          scene.vertices(static_cast<Index>(v), static_cast<Index>(axis));
+      c.sum[axis] += static_cast<double>(scene.counts[v]) *
+                     scene.vertices(static_cast<Index>(v), static_cast<Index>(axis));
     }
   }
   for (const std::uint32_t v : scene.vertex_of_point)
-    if (v != SceneTree::kNoVertex)
-      ++by_root[static_cast<std::size_t>(component_of[v])].segment.points;
+    if (v != SceneTree::kNoVertex) ++by_root[static_cast<std::size_t>(component_of[v])].points;
+  for (std::size_t v = 0; v < by_root.size(); ++v) by_root[v].root = static_cast<Index>(v);
   return by_root;
 }
 
-void measure_point(Segment& s, bool first, const float* p) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double x = p[axis];
-    s.box.min[axis] = first ? x : std::min(s.box.min[axis], x);
-    s.box.max[axis] = first ? x : std::max(s.box.max[axis], x);
+Box box_of(std::span<const float> xyz) {
+  Box box{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+  for (std::size_t i = 0; i < xyz.size(); ++i) {
+    box.min[i % 3] = std::min(box.min[i % 3], double{xyz[i]});
+    box.max[i % 3] = std::max(box.max[i % 3], double{xyz[i]});
+  }
+  return box;
+}
+
+/// The principal axes of the voxels of each segment.
+std::vector<std::array<Vec3, 3>> axes_of(const SceneTree& scene, const SceneCut& cut) {
+  std::vector<std::vector<Index>> voxels(cut.segments.size());
+  for (std::size_t v = 0; v < cut.vertex_labels.size(); ++v)
+    if (const std::uint32_t label = cut.vertex_labels[v])
+      voxels[label - 1].push_back(static_cast<Index>(v));
+  std::vector<std::array<Vec3, 3>> axes;
+  for (const std::vector<Index>& of_segment : voxels) {
+    Points places(static_cast<Index>(of_segment.size()), 3);
+    std::vector<double> weights;
+    for (const Index v : of_segment) {
+      places.row(static_cast<Index>(weights.size())) = scene.vertices.row(v);
+      weights.push_back(static_cast<double>(scene.counts[static_cast<std::size_t>(v)]));
+    }
+    axes.push_back(principal_axes(places, weights, scene.viewpoint));
+  }
+  return axes;
+}
+
+/// Both boxes of each segment. @param xyz the points of segment after segment.
+void measure_boxes(const SceneTree& scene, std::span<const float> xyz, SceneCut& cut) {
+  std::vector<std::array<Vec3, 3>> axes;
+  if (!scene.plane) axes = axes_of(scene, cut);
+  for (Segment& s : cut.segments) {
+    const auto points = xyz.first(3 * static_cast<std::size_t>(s.points));
+    xyz = xyz.subspan(points.size());
+    s.box = box_of(points);
+    s.oriented_box = scene.plane ? box_on_plane(points, scene.plane->normal)
+                                 : box_along(points, axes[s.label - 1]);
   }
 }
 
@@ -52,22 +88,26 @@ void measure_point(Segment& s, bool first, const float* p) {
 
 SceneCut extract_components(const SceneTree& scene, const std::vector<Index>& component_of,
                             Index min_size) {
-  std::vector<Component> by_root = measured(scene, component_of);
-  std::vector<Component> kept;
-  for (std::size_t v = 0; v < by_root.size(); ++v) {
-    if (by_root[v].segment.voxels < std::max<Index>(min_size, 1)) continue;
-    by_root[v].root = static_cast<Index>(v);
-    kept.push_back(by_root[v]);
-  }
+  std::vector<Component> kept = measured(scene, component_of);
+  std::vector<std::uint32_t> label_of_root(kept.size());
+  std::erase_if(kept, [&](const Component& c) { return c.voxels < std::max<Index>(min_size, 1); });
   std::ranges::sort(kept, comes_before);
 
   SceneCut result;
-  std::vector<std::uint32_t> label_of_root(by_root.size());
-  for (std::size_t i = 0; i < kept.size(); ++i) {
-    Segment& s = kept[i].segment;
-    s.label = static_cast<std::uint32_t>(i + 1);
-    for (double& c : s.centroid) c /= static_cast<double>(kept[i].in_grid);
-    label_of_root[static_cast<std::size_t>(kept[i].root)] = s.label;
+  std::vector<float*> place;  // of the next point of each segment, when they are sorted
+  std::vector<float> sorted;
+  std::size_t points = 0;
+  for (const Component& c : kept) points += static_cast<std::size_t>(c.points);
+  sorted.resize(3 * points);
+  for (const Component& c : kept) {
+    place.push_back(place.empty() ? sorted.data()
+                                  : place.back() + 3 * result.segments.back().points);
+    Segment s;
+    s.label = static_cast<std::uint32_t>(place.size());
+    s.points = c.points;
+    s.voxels = c.voxels;
+    for (std::size_t k = 0; k < 3; ++k) s.centroid[k] = c.sum[k] / static_cast<double>(c.in_grid);
+    label_of_root[static_cast<std::size_t>(c.root)] = s.label;
     result.segments.push_back(s);
   }
   result.vertex_labels.reserve(component_of.size());
@@ -75,7 +115,6 @@ SceneCut extract_components(const SceneTree& scene, const std::vector<Index>& co
     result.vertex_labels.push_back(label_of_root[static_cast<std::size_t>(root)]);
 
   result.labels.resize(scene.vertex_of_point.size());
-  std::vector<bool> seen(kept.size());
   const float* next = scene.xyz.data();
   for (std::size_t i = 0; i < result.labels.size(); ++i) {
     if (scene.vertex_of_point[i] == SceneTree::kNoVertex) continue;
@@ -84,9 +123,9 @@ SceneCut extract_components(const SceneTree& scene, const std::vector<Index>& co
     const std::uint32_t label = result.vertex_labels[scene.vertex_of_point[i]];
     if (label == 0) continue;
     result.labels[i] = label;
-    measure_point(result.segments[label - 1], !seen[label - 1], p);
-    seen[label - 1] = true;
+    place[label - 1] = std::copy_n(p, 3, place[label - 1]);
   }
+  measure_boxes(scene, sorted, result);
   return result;
 }
 

@@ -1,15 +1,47 @@
 // SPDX-License-Identifier: MIT
 #include "cut.hpp"
 
+#include <algorithm>
+
 #include "components.hpp"
 #include "meetings.hpp"
 #include "methods.hpp"
 #include "options.hpp"
+#include "ph/metric/pairs_within.hpp"
+#include "rips_graph.hpp"
 
 namespace ph::segment {
+namespace {
+
+/// The edges of the graph between segments.
+std::vector<Contact> contacts_of(const SceneTree& scene, const Surface& surface,
+                                 const CutOptions& options, const SceneCut& cut,
+                                 const RunContext& context) {
+  std::vector<Contact> contacts;
+  const auto see = [&](std::uint32_t u, std::uint32_t v, double value) {
+    const std::uint32_t a = cut.vertex_labels[u], b = cut.vertex_labels[v];
+    if (a != b && a != 0 && b != 0) contacts.push_back({u, v, value});
+  };
+  if (scene.method == Method::surface) {
+    for (const VoxelPair& p : surface.pairs)
+      if (are_adjacent(p, scene.voxel))
+        see(p.u, p.v, std::max(scene.tree.births[p.u], scene.tree.births[p.v]));
+  } else if (options.value < scene.distance) {  // else all that have an edge are one
+    for_each_pair_within(
+        scene.vertices, scene.distance,
+        [&](Index i, Index j, double length) {
+          see(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j),
+              filtration_value(length, scene.distance, scene.steps));
+        },
+        context);
+  }
+  return contacts;
+}
+
+}  // namespace
 
 SceneCut cut_scene(const SceneTree& scene, const VoxelGrid& grid, const Surface& surface,
-                   const CutOptions& options) {
+                   const CutOptions& options, const RunContext& context) {
   std::vector<Index> component_of;
   if (scene.method == Method::paper) {
     // Section V.C: the sets joined to 0-simplices of infinite persistence. At the distance of the
@@ -22,18 +54,18 @@ SceneCut cut_scene(const SceneTree& scene, const VoxelGrid& grid, const Surface&
     }
   }
   SceneCut result = extract_components(scene, component_of, options.min_size);
-  find_neighbours(scene.tree, result);
+  find_neighbours(scene.tree, contacts_of(scene, surface, options, result, context), result);
   return result;
 }
 
 SceneCut cut(const SceneTree& scene, const CutOptions& options, const RunContext& context) {
   validate(scene, options);
   context.poll();
-  if (scene.method == Method::paper || !options.objects) return cut_scene(scene, {}, {}, options);
+  if (scene.method == Method::paper) return cut_scene(scene, {}, {}, options, context);
   const VoxelGrid grid{scene.cells, scene.vertices, scene.counts, {}};
-  return cut_scene(scene, grid,
-                   {scene.normals, near_voxels(grid, scene.voxel), scene.viewpoint, scene.plane},
-                   options);
+  const Surface surface{scene.normals, near_voxels(grid, scene.voxel), scene.viewpoint,
+                        scene.plane};
+  return cut_scene(scene, grid, surface, options, context);
 }
 
 }  // namespace ph::segment

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <memory_resource>
 
 #include "ph/core/disjoint_sets.hpp"
@@ -11,24 +12,26 @@
 
 namespace ph::segment {
 
-void find_neighbours(const MergeTree& tree, SceneCut& cut) {
+void find_neighbours(const MergeTree& tree, const std::vector<Contact>& contacts, SceneCut& cut) {
   const std::vector<std::uint32_t>& label = cut.vertex_labels;
   std::vector<double> birth(cut.segments.size() + 1, kInfinity);
   for (std::size_t v = 0; v < label.size(); ++v)
     birth[label[v]] = std::min(birth[label[v]], tree.births[v]);
-  const auto meet = [&](std::uint32_t a, std::uint32_t b, double value) {
-    Segment& s = cut.segments[a - 1];
-    if (s.neighbour != 0) return;
-    s.neighbour = b;
-    s.meets_at = value;
-    s.persistence = value - birth[a];
-  };
-  for (const Merge& m : tree.merges) {  // by value: the first one counts
-    const std::uint32_t a = label[static_cast<std::size_t>(m.u)];
-    const std::uint32_t b = label[static_cast<std::size_t>(m.v)];
-    if (a == b || a == 0 || b == 0) continue;
-    meet(a, b, m.value);
-    meet(b, a, m.value);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double> first;
+  for (const Contact& c : contacts) {
+    const auto [at, is_new] = first.emplace(std::minmax(label[c.u], label[c.v]), c.value);
+    if (!is_new) at->second = std::min(at->second, c.value);
+  }
+  for (const auto& [both, value] : first) {
+    cut.segments[both.first - 1].neighbours.push_back({both.second, value});
+    cut.segments[both.second - 1].neighbours.push_back({both.first, value});
+  }
+  for (Segment& s : cut.segments) {
+    if (s.neighbours.empty()) continue;
+    std::ranges::stable_sort(s.neighbours, {}, &Neighbour::meets_at);  // ties: by label
+    s.neighbour = s.neighbours.front().label;
+    s.meets_at = s.neighbours.front().meets_at;
+    s.persistence = s.meets_at - birth[s.label];
   }
 }
 

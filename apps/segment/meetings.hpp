@@ -4,7 +4,13 @@
 
 namespace ph::segment {
 
-/// Gives each segment its neighbour, where they meet, and its persistence.
-void find_neighbours(const MergeTree& tree, SceneCut& cut);
+/// Two vertices in different segments, with an edge between them.
+struct Contact {
+  std::uint32_t u, v;
+  double value;  ///< at which the edge enters
+};
+
+/// Gives each segment its neighbours, where they meet, and its persistence.
+void find_neighbours(const MergeTree& tree, const std::vector<Contact>& contacts, SceneCut& cut);
 
 }  // namespace ph::segment

@@ -108,7 +108,7 @@ Segmentation segment(const CloudView& input, const SegmentOptions& options,
 
   keep_scene(cloud, filtered, options, result);
   static_cast<SceneCut&>(result) =
-      cut_scene(result, filtered.grid, filtered.surface, result.first_cut);
+      cut_scene(result, filtered.grid, filtered.surface, result.first_cut, context);
   Index in_segments = 0;
   for (const Segment& s : result.segments) in_segments += s.voxels;
   clock.finish("components", in_segments);

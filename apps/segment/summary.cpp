@@ -56,6 +56,23 @@ std::string plane_of(const Segmentation& s) {
                  {"share", number(s.plane->share)}});
 }
 
+std::string oriented_box_of(const OrientedBox& box) {
+  const auto& [first, second, third] = box.axes;
+  return object(
+      {{"centre", numbers(box.centre)},
+       {"axes", fmt::format("[{}, {}, {}]", numbers(first), numbers(second), numbers(third))},
+       {"size", numbers(box.size)}});
+}
+
+std::string neighbours_of(const Segment& segment) {
+  std::string text;
+  for (const Neighbour& n : segment.neighbours) {
+    text += text.empty() ? "" : ", ";
+    text += object({{"label", integer(n.label)}, {"meets_at", number(n.meets_at)}});
+  }
+  return "[" + text + "]";
+}
+
 std::string segments_of(const Segmentation& s) {
   return lines(s.segments, [](const Segment& g) {
     return object({{"label", integer(g.label)},
@@ -65,7 +82,9 @@ std::string segments_of(const Segmentation& s) {
                    {"neighbour", integer(g.neighbour)},
                    {"meets_at", number(g.meets_at)},
                    {"centroid", numbers(g.centroid)},
-                   {"box", box_of(g.box)}});
+                   {"box", box_of(g.box)},
+                   {"oriented_box", oriented_box_of(g.oriented_box)},
+                   {"neighbours", neighbours_of(g)}});
   });
 }
 

@@ -237,7 +237,7 @@ TEST_F(Program, AStoredTreeIsAnInput) {
   EXPECT_NE(out().find("never join"), std::string::npos) << out();
   ASSERT_EQ(run("s.tree --min-size 100000 --tree s.json"), 0) << err();
   EXPECT_NE(err().find("0 segments"), std::string::npos) << err();
-  EXPECT_EQ(contents(at("s.json")).substr(0, 33), "{\n  \"format\": \"ph-segment-tree\"");
+  EXPECT_TRUE(contents(at("s.json")).starts_with("{\n  \"format\": \"ph-segment-tree\""));
 }
 
 TEST_F(Program, WhatAStoredTreeCannotDo) {

@@ -45,19 +45,39 @@ struct Plane {
   friend bool operator==(const Plane&, const Plane&) = default;
 };
 
+/// A box with axes of its own.
+struct OrientedBox {
+  Vec3 centre{};
+  std::array<Vec3, 3> axes{};  ///< unit, right-handed
+  Vec3 size{};                 ///< whole lengths along the axes, metres
+  friend bool operator==(const OrientedBox&, const OrientedBox&) = default;
+};
+
+/// A segment that touches another one.
+struct Neighbour {
+  std::uint32_t label = 0;
+  double meets_at = 0;  ///< value of the first edge of the graph that joins the two
+  friend bool operator==(const Neighbour&, const Neighbour&) = default;
+};
+
 /// One segment: a component with enough voxels, of infinite persistence (paper) or a basin of the
 /// merge tree (surface).
 struct Segment {
   std::uint32_t label = 0;  ///< 1…k by decreasing number of points
   Index points = 0;
   Index voxels = 0;
-  /// How much higher than where it was born it first meets another segment: in metres (paper) or as
-  /// a concavity (surface). Infinite if it meets none.
+  /// How much higher than where it was born it first touches another segment: in metres (paper) or
+  /// as a concavity (surface). Infinite if it touches none. The confidence in it.
   double persistence = kInfinity;
-  std::uint32_t neighbour = 0;  ///< label of the segment it meets first; 0: none
+  std::uint32_t neighbour = 0;  ///< neighbours.front(); 0: none
   double meets_at = kInfinity;  ///< value of the filtration at which it does
   Vec3 centroid{};              ///< mean of its points, without those won back from the plane
   Box box;                      ///< of its points
+  /// Of its points, as tight as can be. Where a plane was removed it stands on it: axes[2] is the
+  /// normal of the plane and axes[0] the longer side of the smallest rectangle around what the
+  /// points cover of the plane. Without a plane: the principal axes, longest first.
+  OrientedBox oriented_box;
+  std::vector<Neighbour> neighbours;  ///< all segments that it touches, the first met first
   friend bool operator==(const Segment&, const Segment&) = default;
 };
 

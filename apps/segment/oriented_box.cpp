@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "oriented_box.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace ph::segment {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+Vector3d vector(const Vec3& v) { return {v[0], v[1], v[2]}; }
+Vec3 array(const Vector3d& v) { return {v[0], v[1], v[2]}; }
+
+double cross(const Vector2d& a, const Vector2d& b) { return a[0] * b[1] - a[1] * b[0]; }
+
+/// Takes out what cannot be on the hull: points inside the octagon of those that are farthest in
+/// eight directions (Akl & Toussaint 1978). What is left is few, whatever the shape of an object.
+void keep_outer(std::vector<Vector2d>& points) {
+  constexpr std::size_t corners = 8, few = 64;
+  if (points.size() < few) return;
+  std::array<Vector2d, corners> directions, farthest;
+  for (std::size_t k = 0; k < corners; ++k) {
+    const double angle = std::numbers::pi / 4 * static_cast<double>(k);
+    directions[k] = {std::cos(angle), std::sin(angle)};
+    farthest[k] = points.front();
+  }
+  for (const Vector2d& p : points)
+    for (std::size_t k = 0; k < corners; ++k)
+      if (directions[k].dot(p) > directions[k].dot(farthest[k])) farthest[k] = p;
+  std::erase_if(points, [&](const Vector2d& p) {
+    for (std::size_t k = 0; k < corners; ++k) {
+      const Vector2d& a = farthest[k];
+      const Vector2d& b = farthest[(k + 1) % corners];
+      if (a != b && !(cross(b - a, p - a) > 0)) return false;
+    }
+    return true;
+  });
+}
+
+/// The corners of the convex hull, counter-clockwise (Andrew's monotone chain).
+std::vector<Vector2d> convex_hull(std::vector<Vector2d> points) {
+  keep_outer(points);
+  const auto comes_before = [](const Vector2d& a, const Vector2d& b) {
+    return a[0] != b[0] ? a[0] < b[0] : a[1] < b[1];
+  };
+  std::ranges::sort(points, comes_before);
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  if (points.size() < 3) return points;
+  std::vector<Vector2d> hull;
+  const auto add = [&](const Vector2d& p, std::size_t least) {
+    while (hull.size() > least &&
+           !(cross(hull.back() - hull[hull.size() - 2], p - hull.back()) > 0))
+      hull.pop_back();
+    hull.push_back(p);
+  };
+  for (const Vector2d& p : points) add(p, 1);
+  const std::size_t lower = hull.size();
+  for (std::size_t i = points.size() - 1; i-- > 0;) add(points[i], lower);
+  hull.pop_back();  // the first one again
+  return hull;
+}
+
+/// A direction along which the smallest rectangle around a convex polygon lies.
+Vector2d direction_of_smallest_rectangle(const std::vector<Vector2d>& hull) {
+  const std::size_t n = hull.size();
+  if (n == 1) return {1, 0};
+  if (n == 2) return (hull[1] - hull[0]).normalized();
+  Vector2d best{1, 0};
+  double least = kInfinity;
+  std::size_t right = 0, top = 0, left = 0;  // corners that touch the other sides
+  const auto turn = [&](std::size_t& corner, const Vector2d& direction) {
+    for (std::size_t steps = 0; steps < n; ++steps) {
+      const std::size_t next = (corner + 1) % n;
+      if (!(direction.dot(hull[next]) > direction.dot(hull[corner]))) return;
+      corner = next;
+    }
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vector2d along = (hull[(i + 1) % n] - hull[i]).normalized();
+    const Vector2d inwards(-along[1], along[0]);
+    if (i == 0) right = 1;
+    turn(right, along);
+    if (i == 0) top = right;
+    turn(top, inwards);
+    if (i == 0) left = top;
+    turn(left, -along);
+    const double area = along.dot(hull[right] - hull[left]) * inwards.dot(hull[top] - hull[i]);
+    if (!(area < least)) continue;
+    least = area;
+    best = along;
+  }
+  return best;
+}
+
+/// Of a direction and its opposite the one whose largest coordinate is positive.
+Vector3d pointing_forward(const Vector3d& direction) {
+  Index largest = 0;
+  direction.cwiseAbs().maxCoeff(&largest);
+  return direction[largest] < 0 ? Vector3d(-direction) : direction;
+}
+
+}  // namespace
+
+OrientedBox box_along(std::span<const float> xyz, const std::array<Vec3, 3>& axes) {
+  Eigen::Matrix3d rows;
+  for (std::size_t k = 0; k < 3; ++k) rows.row(static_cast<Index>(k)) = vector(axes[k]).transpose();
+  Vector3d low = Vector3d::Constant(kInfinity), high = -low;
+  for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) {
+    const Vector3d p = rows * Vector3d(xyz[i], xyz[i + 1], xyz[i + 2]);
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return {array(rows.transpose() * (low + high) / 2), axes, array(high - low)};
+}
+
+OrientedBox box_on_plane(std::span<const float> xyz, const Vec3& up) {
+  const Vector3d normal = vector(up);
+  const Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
+  std::vector<Vector2d> footprint(xyz.size() / 3);
+  for (std::size_t i = 0; i < footprint.size(); ++i) {
+    const Vector3d p(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
+    footprint[i] = {u.dot(p), v.dot(p)};
+  }
+  const Vector2d along = direction_of_smallest_rectangle(convex_hull(std::move(footprint)));
+  const Vector3d first = pointing_forward(along[0] * u + along[1] * v);
+  const Vector3d second = normal.cross(first);
+  const OrientedBox box = box_along(xyz, {array(first), array(second), up});
+  if (box.size[0] >= box.size[1]) return box;
+  const Vector3d longer = pointing_forward(second);
+  return box_along(xyz, {array(longer), array(normal.cross(longer)), up});
+}
+
+std::array<Vec3, 3> principal_axes(const Points& places, std::span<const double> weights,
+                                   const Vec3& viewpoint) {
+  Vector3d mean = Vector3d::Zero();
+  double sum = 0;
+  for (Index i = 0; i < places.rows(); ++i) {
+    mean += weights[static_cast<std::size_t>(i)] * Vector3d(places.row(i));
+    sum += weights[static_cast<std::size_t>(i)];
+  }
+  mean /= sum;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (Index i = 0; i < places.rows(); ++i) {
+    const Vector3d d = Vector3d(places.row(i)) - mean;
+    covariance += weights[static_cast<std::size_t>(i)] * d * d.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);  // least first
+  Vector3d last = solver.eigenvectors().col(0);
+  if (last.dot(vector(viewpoint) - mean) < 0) last = -last;
+  const Vector3d first = pointing_forward(solver.eigenvectors().col(2));
+  return {array(first), array(last.cross(first)), array(last)};
+}
+
+}  // namespace ph::segment

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <span>
+
+#include "ph/scene_tree.hpp"
+
+namespace ph::segment {
+
+/// The box of points on a plane: the smallest rectangle around their projections onto it (one side
+/// lies along an edge of their convex hull: Freeman & Shapira 1975; found by rotating calipers,
+/// Toussaint 1983), as high as they are. O(n) and O(h log h) for the h that are near the hull.
+/// @param xyz x, y, z of each point, at least one. @param up unit normal of the plane.
+OrientedBox box_on_plane(std::span<const float> xyz, const Vec3& up);
+
+/// The box of points along given axes. @param axes unit, orthogonal.
+OrientedBox box_along(std::span<const float> xyz, const std::array<Vec3, 3>& axes);
+
+/// The principal axes of weighted places, those that spread most first, right-handed; the last one
+/// is turned towards the viewpoint. @param places one a row, at least one.
+std::array<Vec3, 3> principal_axes(const Points& places, std::span<const double> weights,
+                                   const Vec3& viewpoint);
+
+}  // namespace ph::segment
