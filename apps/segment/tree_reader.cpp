@@ -171,7 +171,8 @@ class TreeReader {
 
   void read_tree(std::size_t n) {
     std::vector<double> births(n);
-    for (double& birth : births) birth = number("birth", 0);
+    const double latest = scene_.method == Method::paper ? 0 : kInfinity;
+    for (double& birth : births) birth = number("birth", 0, latest);
     const std::size_t first = cursor_.offset();
     std::vector<WeightedEdge> forest;
     forest.reserve(static_cast<std::size_t>(merges_));

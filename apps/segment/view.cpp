@@ -38,6 +38,7 @@ View::View(const Points& centroids, double voxel, const Vec3& viewpoint)
   }
   if (!(low <= high).all()) return;
   cell = std::max(cell, (high - low).maxCoeff() / most_cells);
+  if (!(cell > 0)) return;  // a viewpoint so far away that all lies in one direction
   width_ = static_cast<std::size_t>((high - low)[0] / cell) + 1;
   height_ = static_cast<std::size_t>((high - low)[1] / cell) + 1;
   nearest_.assign(width_ * height_, kNone);

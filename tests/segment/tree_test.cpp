@@ -210,6 +210,12 @@ TEST(DamagedTree, ContentsThatCannotBe) {
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.normals.row(3) *= 2; }), "normal"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.counts[3] += 1000; }), "points of a voxel"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.tree.births[3] = -1; }), "birth"));
+  EXPECT_TRUE(says(damaged([](SceneTree& t) {
+                     t.method = Method::paper;  // whose voxels enter at 0
+                     t.normals.resize(0, 3);
+                     t.distance = 1;
+                   }),
+                   "birth"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.tree.merges[9].value = kInfinity; }), "merge"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.tree.merges[9].u = 1 << 30; }), "vertices"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.tree.merges[9] = t.tree.merges[8]; }), "forest"));
