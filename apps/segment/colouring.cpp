@@ -144,6 +144,20 @@ std::vector<std::uint32_t> segment_colours(const Neighbours& neighbours) {
   return colours;
 }
 
+std::vector<std::uint32_t> segment_colours(const SceneCut& cut) {
+  Neighbours neighbours(cut.segments.size());
+  for (const Segment& s : cut.segments)
+    for (const Neighbour& n : s.neighbours) neighbours[s.label - 1].push_back(n.label - 1);
+  return segment_colours(neighbours);
+}
+
+std::vector<std::uint32_t> object_colours(std::span<const std::uint32_t> numbers) {
+  std::vector<std::uint32_t> colours;
+  for (const std::uint32_t number : numbers)
+    colours.push_back(kPalette[(number - 1) % kPalette.size()]);
+  return colours;
+}
+
 Cloud coloured_cloud(const Cloud& cloud, std::span<const std::uint32_t> labels,
                      std::span<const std::uint32_t> colours) {
   const std::vector<float> xyz = cloud.xyz();

@@ -21,6 +21,9 @@ std::vector<std::vector<std::size_t>> neighbouring_segments(const Cloud& cloud,
 /// than six; the rest of the palette is spread evenly.
 std::vector<std::uint32_t> segment_colours(const std::vector<std::vector<std::size_t>>& neighbours);
 
+/// The same palette by the number of an object, from 1: it keeps its colour in a stream.
+std::vector<std::uint32_t> object_colours(std::span<const std::uint32_t> numbers);
+
 /// The points with x, y, z, `rgba` and `label`: segments in their colours, all else in grey, as
 /// bright as it was. Same points, order and organisation.
 Cloud coloured_cloud(const Cloud& cloud, std::span<const std::uint32_t> labels,

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <ph/pcl.hpp>
+#include <stdexcept>
 
 #include "scenery.hpp"
 
@@ -86,6 +88,80 @@ TEST(PclAdapter, TheSensorsOriginIsTheViewpoint) {
   const auto cloud = cloud_of<::pcl::PointXYZ>(scene);
   cloud->sensor_origin_[2] = 2.5F;  // below the table
   EXPECT_TRUE(segment_cloud(*cloud, {.max_range = 5}).segments.empty());
+}
+
+TEST(PclAdapter, EverySetterReachesItsOption) {
+  PersistenceSegmentation<::pcl::PointXYZ> s;
+  s.setMethod(ph::segment::Method::paper);
+  EXPECT_EQ(s.getVoxelSize(), 0.01);  // the default of the method
+  EXPECT_EQ(s.getPlaneDistance(), 0.006);
+  s.setMaxRange(3), s.setCropBox({-1, -2, -3}, {1, 2, 3}), s.setPlaneRemoval(false);
+  s.setPlaneDistance(0.02), s.setViewPoint(1, 2, 3), s.setVoxelSize(0.004);
+  s.setMinClusterSize(5), s.setMinPersistence(0.25), s.setMinPartSize(6), s.setObjects(false);
+  s.setDistance(0.125), s.setSteps(7), s.setCheck(false);
+  const ph::segment::SegmentOptions& o = s.getOptions();
+  EXPECT_EQ(o.max_range, 3);
+  EXPECT_EQ(o.crop, (ph::segment::Box{{-1, -2, -3}, {1, 2, 3}}));
+  EXPECT_EQ(o.viewpoint, (ph::segment::Vec3{1, 2, 3}));
+  EXPECT_EQ(s.getMethod(), ph::segment::Method::paper);
+  EXPECT_EQ(s.getMaxRange(), 3);
+  EXPECT_FALSE(s.getPlaneRemoval());
+  EXPECT_EQ(s.getPlaneDistance(), 0.02);
+  EXPECT_EQ(s.getVoxelSize(), 0.004);
+  EXPECT_EQ(s.getMinClusterSize(), 5);
+  EXPECT_EQ(s.getMinPersistence(), 0.25);
+  EXPECT_EQ(s.getMinPartSize(), 6);
+  EXPECT_FALSE(s.getObjects());
+  EXPECT_EQ(s.getDistance(), 0.125);
+  EXPECT_EQ(s.getSteps(), 7);
+  EXPECT_FALSE(s.getCheck());
+  s.unsetCropBox(), s.useSensorOriginAsViewPoint();
+  EXPECT_FALSE(o.crop || o.viewpoint);
+}
+
+TEST(PclAdapter, WhatIsKnownOfTheSegments) {
+  const TableScene scene(
+      {{{-0.15, -0.1, 0}, {0.15, 0.15, 0.08}}, {{-0.06, 0.0, 0.08}, {0.06, 0.1, 0.2}}});
+  const auto cloud = cloud_of<::pcl::PointXYZRGB>(scene);
+  cloud->header.frame_id = "camera";
+  PersistenceSegmentation<::pcl::PointXYZRGB> s;
+  s.setInputCloud(cloud);
+  std::vector<::pcl::PointIndices> clusters;
+  s.segment(clusters);
+  ASSERT_EQ(clusters.size(), 2U);
+  EXPECT_EQ(clusters[0].header.frame_id, "camera");
+  const auto confidences = s.getConfidences();
+  EXPECT_EQ(confidences[1], s.getSegments()[1].persistence);
+  EXPECT_GT(s.getTree().tree.size(), 0);
+
+  ::pcl::ModelCoefficients plane;
+  s.getPlane(plane);
+  ASSERT_EQ(plane.values.size(), 4U);
+  EXPECT_EQ(plane.header.frame_id, "camera");
+  EXPECT_NEAR(plane.values[3], std::sqrt(0.5), 1e-3);
+
+  Eigen::Vector3f centre, size;
+  Eigen::Matrix3f rotation;
+  s.getOrientedBox(1, centre, rotation, size);
+  EXPECT_NEAR(rotation.determinant(), 1, 1e-5);
+  EXPECT_NEAR(rotation.col(2).dot(Eigen::Vector3f(plane.values.data())), 1, 1e-5);
+  EXPECT_NEAR(size[0], 0.12, 0.01);
+  EXPECT_THROW(s.getOrientedBox(2, centre, rotation, size), std::out_of_range);
+
+  const auto coloured = s.getColoredCloud();
+  ASSERT_EQ(coloured->size(), cloud->size());
+  EXPECT_EQ(coloured->width, cloud->width);
+  const auto colour_of = [&](std::size_t k) {
+    return (*coloured)[static_cast<std::size_t>(clusters[k].indices[0])].rgba & 0xFFFFFF;
+  };
+  EXPECT_NE(colour_of(0), colour_of(1));
+
+  s.cut(2.0, clusters);  // nothing is that persistent
+  EXPECT_EQ(clusters.size(), 1U);
+  EXPECT_EQ(s.getSegments().size(), 1U);
+  s.cut(s.getTree().first_cut, clusters);
+  EXPECT_EQ(clusters.size(), 2U);
+  EXPECT_THROW(s.cut(-1.0, clusters), ph::Error);
 }
 
 }  // namespace

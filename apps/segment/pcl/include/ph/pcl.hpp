@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <pcl/ModelCoefficients.h>
 #include <pcl/PointIndices.h>
 #include <pcl/pcl_base.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
+#include <Eigen/Core>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "ph/core/error.hpp"
@@ -58,7 +61,7 @@ segment::Segmentation segment_cloud(const ::pcl::PointCloud<PointT>& cloud,
 }
 
 /// The points of each segment, by label, as PCL's segmentations give them.
-inline std::vector<::pcl::PointIndices> point_indices(const segment::Segmentation& segmentation,
+inline std::vector<::pcl::PointIndices> point_indices(const segment::SceneCut& segmentation,
                                                       const ::pcl::PCLHeader& header = {}) {
   std::vector<::pcl::PointIndices> clusters(segmentation.segments.size());
   for (std::size_t k = 0; k < clusters.size(); ++k) {
@@ -72,15 +75,16 @@ inline std::vector<::pcl::PointIndices> point_indices(const segment::Segmentatio
   return clusters;
 }
 
-/// The same points in the same order and organisation with their labels.
-template <class PointT>
-::pcl::PointCloud<::pcl::PointXYZL> labelled_cloud(const ::pcl::PointCloud<PointT>& cloud,
-                                                   const std::vector<std::uint32_t>& labels) {
+/// The same points in the same order and organisation as another type: x, y, z, and what `paint`
+/// adds to point i.
+template <class To, class PointT, class Paint>
+::pcl::PointCloud<To> converted(const ::pcl::PointCloud<PointT>& cloud,
+                                const std::vector<std::uint32_t>& labels, Paint&& paint) {
   if (labels.size() != cloud.size()) {
     throw Error(ErrorKind::usage, "found " + std::to_string(labels.size()) + " labels, expected " +
                                       std::to_string(cloud.size()) + ", one a point");
   }
-  ::pcl::PointCloud<::pcl::PointXYZL> result;
+  ::pcl::PointCloud<To> result;
   result.header = cloud.header;
   result.width = cloud.width;
   result.height = cloud.height;
@@ -89,22 +93,95 @@ template <class PointT>
   result.sensor_orientation_ = cloud.sensor_orientation_;
   result.points.resize(cloud.size());
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    ::pcl::PointXYZL& p = result.points[i];
+    To& p = result.points[i];
     p.x = cloud[i].x;
     p.y = cloud[i].y;
     p.z = cloud[i].z;
-    p.label = labels[i];
+    paint(i, p);
   }
   return result;
 }
 
-/// The pipeline with the manners of PCL's segmentations: setInputCloud, setIndices, segment.
+/// The points with their labels.
+template <class PointT>
+::pcl::PointCloud<::pcl::PointXYZL> labelled_cloud(const ::pcl::PointCloud<PointT>& cloud,
+                                                   const std::vector<std::uint32_t>& labels) {
+  return converted<::pcl::PointXYZL>(
+      cloud, labels, [&](std::size_t i, ::pcl::PointXYZL& p) { p.label = labels[i]; });
+}
+
+/// The points in the colours of their segments, the rest in grey.
+template <class PointT>
+::pcl::PointCloud<::pcl::PointXYZRGB> coloured_cloud(const ::pcl::PointCloud<PointT>& cloud,
+                                                     const segment::SceneCut& cut) {
+  constexpr std::uint32_t grey = 0x606060;
+  const std::vector<std::uint32_t> colours = segment::segment_colours(cut);
+  return converted<::pcl::PointXYZRGB>(
+      cloud, cut.labels, [&](std::size_t i, ::pcl::PointXYZRGB& p) {
+        const std::uint32_t colour = cut.labels[i] == 0 ? grey : colours[cut.labels[i] - 1];
+        p.r = static_cast<std::uint8_t>(colour >> 16 & 0xFF);
+        p.g = static_cast<std::uint8_t>(colour >> 8 & 0xFF);
+        p.b = static_cast<std::uint8_t>(colour & 0xFF);
+      });
+}
+
+/// The pipeline with the manners of PCL's segmentations: setInputCloud, setIndices, segment. All
+/// lengths are metres; no option is an angle. Each default is that of segment::SegmentOptions.
 template <class PointT>
 class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
  public:
-  /// Lengths in metres; see ph/segment.hpp.
+  using Ptr = ::pcl::shared_ptr<PersistenceSegmentation<PointT>>;
+  using ConstPtr = ::pcl::shared_ptr<const PersistenceSegmentation<PointT>>;
+  using Method = segment::Method;
+
+  /// All options at once.
   void setOptions(const segment::SegmentOptions& options) { options_ = options; }
   const segment::SegmentOptions& getOptions() const { return options_; }
+
+  /// What decides which voxels belong together: surface (default) or paper.
+  void setMethod(Method method) { options_.method = method; }
+  Method getMethod() const { return options_.method; }
+  /// Points farther from the viewpoint are left out; metres, may be infinite.
+  void setMaxRange(double metres) { options_.max_range = metres; }
+  double getMaxRange() const { return options_.max_range; }
+  /// Only points inside this box count.
+  void setCropBox(const Eigen::Vector3f& min, const Eigen::Vector3f& max) {
+    options_.crop = segment::Box{{min[0], min[1], min[2]}, {max[0], max[1], max[2]}};
+  }
+  void unsetCropBox() { options_.crop.reset(); }
+  /// Whether the supporting plane and what lies behind it is removed.
+  void setPlaneRemoval(bool remove) { options_.plane = remove; }
+  bool getPlaneRemoval() const { return options_.plane; }
+  /// Half the thickness of the plane, metres.
+  void setPlaneDistance(double metres) { options_.plane_distance = metres; }
+  double getPlaneDistance() const { return options_.plane_margin(); }
+  /// Where the sensor stood; else the origin that the cloud states.
+  void setViewPoint(float x, float y, float z) { options_.viewpoint = segment::Vec3{x, y, z}; }
+  void useSensorOriginAsViewPoint() { options_.viewpoint.reset(); }
+  /// Edge of a voxel, metres.
+  void setVoxelSize(double metres) { options_.voxel = metres; }
+  double getVoxelSize() const { return options_.voxel_size(); }
+  /// Fewest voxels of a segment.
+  void setMinClusterSize(Index voxels) { options_.min_size = voxels; }
+  Index getMinClusterSize() const { return options_.min_size; }
+  /// Method surface: least persistence of a part, a mean concavity (0…2).
+  void setMinPersistence(double persistence) { options_.min_persistence = persistence; }
+  double getMinPersistence() const { return options_.min_persistence; }
+  /// Method surface: fewest voxels of a part.
+  void setMinPartSize(Index voxels) { options_.min_part = voxels; }
+  Index getMinPartSize() const { return options_.min_part; }
+  /// Method surface: whether the visible parts of an object are joined.
+  void setObjects(bool join) { options_.objects = join; }
+  bool getObjects() const { return options_.objects; }
+  /// Method paper: maximum distance of the Vietoris-Rips complex, metres.
+  void setDistance(double metres) { options_.distance = metres; }
+  double getDistance() const { return options_.distance; }
+  /// Method paper: levels up to the distance; 0: exact deaths.
+  void setSteps(int steps) { options_.steps = steps; }
+  int getSteps() const { return options_.steps; }
+  /// Whether union-find is compared with boundary-matrix reduction.
+  void setCheck(bool check) { options_.check = check; }
+  bool getCheck() const { return options_.check; }
 
   /// The points of each segment, largest first. Without an input cloud there are none.
   /// @throws ph::Error as ph::segment::segment does.
@@ -117,11 +194,60 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
     clusters = point_indices(result_, this->input_->header);
     this->deinitCompute();
   }
-  /// Everything the last call of `segment` found: persistence, boxes, the merge tree, times.
+  /// A coarser or finer cut of what the last call of `segment` found, in milliseconds; the getters
+  /// below then tell of it. @param value see segment::CutOptions. @throws ph::Error (usage) on a
+  /// value out of its range.
+  void cut(double value, std::vector<::pcl::PointIndices>& clusters) {
+    segment::CutOptions options = result_.first_cut;
+    options.value = value;
+    cut(options, clusters);
+  }
+  void cut(const segment::CutOptions& options, std::vector<::pcl::PointIndices>& clusters) {
+    static_cast<segment::SceneCut&>(result_) = ph::segment::cut(result_, options);
+    clusters = point_indices(result_, this->input_ ? this->input_->header : ::pcl::PCLHeader());
+  }
+
+  /// Everything the last call found: segments with boxes and neighbours, the tree, times.
   const segment::Segmentation& result() const { return result_; }
+  const std::vector<segment::Segment>& getSegments() const { return result_.segments; }
+  /// The merge tree with what other cuts need.
+  const segment::SceneTree& getTree() const { return result_; }
+  /// The persistence of each segment; infinite for one that touches no other.
+  std::vector<double> getConfidences() const {
+    std::vector<double> confidences;
+    for (const segment::Segment& s : result_.segments) confidences.push_back(s.persistence);
+    return confidences;
+  }
+  /// The plane that was removed, as SACMODEL_PLANE has it: a x + b y + c z + d = 0. Without one no
+  /// values.
+  void getPlane(::pcl::ModelCoefficients& coefficients) const {
+    coefficients = ::pcl::ModelCoefficients();
+    if (this->input_) coefficients.header = this->input_->header;
+    if (!result_.plane) return;
+    for (const double n : result_.plane->normal)
+      coefficients.values.push_back(static_cast<float>(n));
+    coefficients.values.push_back(static_cast<float>(result_.plane->offset));
+  }
+  /// The box of a segment: its axes are the columns of `rotation`. @param i from 0, below the
+  /// number of segments.
+  void getOrientedBox(std::size_t i, Eigen::Vector3f& centre, Eigen::Matrix3f& rotation,
+                      Eigen::Vector3f& size) const {
+    const segment::OrientedBox& box = result_.segments.at(i).oriented_box;
+    const auto vector = [](const segment::Vec3& v) -> Eigen::Vector3f {
+      return Eigen::Vector3d(v[0], v[1], v[2]).cast<float>();
+    };
+    centre = vector(box.centre);
+    size = vector(box.size);
+    for (int k = 0; k < 3; ++k) rotation.col(k) = vector(box.axes[static_cast<std::size_t>(k)]);
+  }
   /// The label of each point of the input cloud; 0 for points outside the indices.
   ::pcl::PointCloud<::pcl::PointXYZL> getLabeledCloud() const {
     return labelled_cloud(*this->input_, result_.labels);
+  }
+  /// The input cloud in the colours of its segments, the rest in grey.
+  typename ::pcl::PointCloud<::pcl::PointXYZRGB>::Ptr getColoredCloud() const {
+    return ::pcl::make_shared<::pcl::PointCloud<::pcl::PointXYZRGB>>(
+        coloured_cloud(*this->input_, result_));
   }
 
  private:
