@@ -2,14 +2,11 @@
 #include "batch.hpp"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
-#include <algorithm>
-#include <cerrno>
 #include <map>
 #include <string_view>
-#include <system_error>
 
+#include "batch_names.hpp"
 #include "exit_code.hpp"
 #include "program.hpp"
 #include "run.hpp"
@@ -39,47 +36,6 @@ void require_room(BarcodeFormat format, const Arguments& arguments) {
                           barcode_format_name(format)));
 }
 
-std::string file_name(const std::string& path) {
-  const std::size_t slash = path.rfind('/');
-  const std::string name = slash == path.npos ? path : path.substr(slash + 1);
-  return name == "-" ? "stdin" : name;
-}
-
-std::string stem(const std::string& name) {
-  const std::size_t dot = name.rfind('.');
-  return dot == name.npos || dot == 0 ? name : name.substr(0, dot);
-}
-
-/// The file name behind the names of its folders: "monday/../run/a.txt" is "monday-run-a.txt".
-std::string name_with_folders(const std::string& path) {
-  std::string joined;
-  for (std::size_t begin = 0; begin < path.size();) {
-    const std::size_t end = std::min(path.find('/', begin), path.size());
-    const std::string part = path.substr(begin, end - begin);
-    if (!part.empty() && part != "." && part != "..") joined += (joined.empty() ? "" : "-") + part;
-    begin = end + 1;
-  }
-  return joined == "-" ? file_name(path) : joined;
-}
-
-/// Names for the outputs of inputs: the shortest that only one of them has, without extension, with
-/// it, or with folders.
-std::vector<std::string> output_names(const std::vector<std::string>& inputs) {
-  std::map<std::string, int> stems, names;
-  for (const std::string& input : inputs) {
-    ++stems[stem(file_name(input))];
-    ++names[file_name(input)];
-  }
-  std::vector<std::string> result;
-  for (const std::string& input : inputs) {
-    const std::string name = file_name(input), short_name = stem(name);
-    result.push_back(stems[short_name] == 1 ? short_name
-                     : names[name] == 1     ? name
-                                            : name_with_folders(input));
-  }
-  return result;
-}
-
 /// One job an input.
 std::vector<Job> jobs_of(const Arguments& arguments, BarcodeFormat format) {
   std::vector<Job> jobs;
@@ -88,7 +44,7 @@ std::vector<Job> jobs_of(const Arguments& arguments, BarcodeFormat format) {
       jobs.push_back({input, arguments.output, format});
     return jobs;
   }
-  const std::vector<std::string> names = output_names(arguments.inputs);
+  const std::vector<std::string> names = app::output_names(arguments.inputs);
   std::map<std::string, std::string> taken;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string& input = arguments.inputs[i];
@@ -102,16 +58,6 @@ std::vector<Job> jobs_of(const Arguments& arguments, BarcodeFormat format) {
     jobs.push_back({input, output, format});
   }
   return jobs;
-}
-
-void create_folder(const std::string& path) {
-  if (mkdir(path.c_str(), 0777) == 0) return;
-  const int error = errno;
-  struct stat status {};
-  if (stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode)) return;
-  throw Error(ErrorKind::cannot_create,
-              fmt::format("{}: cannot create the folder: {}", path,
-                          std::error_code(error, std::generic_category()).message()));
 }
 
 /// One input of several: a line on stderr, whatever becomes of it. @return the exit code.
@@ -141,7 +87,7 @@ int run_all(const Arguments& arguments, app::Session& session) {
   if (jobs.size() == 1 && !arguments.is_batch()) return run(jobs[0], arguments, session).code;
 
   if (arguments.is_batch() && !arguments.dry_run && format != BarcodeFormat::none)
-    create_folder(arguments.output);
+    app::create_folder(arguments.output);
   int first_failure = app::kOk;
   std::size_t failures = 0;
   for (const Job& job : jobs) {

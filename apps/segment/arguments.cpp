@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <string_view>
 
+#include "batch_names.hpp"
 #include "choices.hpp"
 #include "numbers.hpp"
 #include "ph/core/error.hpp"
@@ -88,9 +90,19 @@ int parse_steps(const std::string& text) {
 }
 
 void add_input_options(CLI::App& app, Arguments& a) {
-  app.add_option("INPUT", a.input,
-                 "point cloud: .pcd, .ply, .xyz or .csv, or a stored merge tree (see --tree); - is "
-                 "standard input");
+  app.add_option(
+      "INPUT", a.inputs,
+      "point cloud: .pcd, .ply, .xyz or .csv; a stored merge tree (see --tree); with "
+      "--intrinsics also a depth image; - is standard input. Several, or a folder, are a "
+      "stream of frames: its outputs are folders (FOLDER/) or have a * for the frame's "
+      "name, and --json gets one line a frame");
+  add_value(app, "--frames-from", "LIST",
+            "a stream of the files that LIST names, one a line; -: standard input, each as soon as "
+            "it is named",
+            [&a](const std::string& v) { a.frames_from = v; });
+  app.add_flag("--stable-labels", a.stable_labels,
+               "stream: an object keeps its label from frame to frame (by overlap in the image, of "
+               "unorganised clouds in voxels); labels are then not in the order of size");
   add_value(app, "--depth", "D.png", "depth image in place of INPUT; 0 is a hole",
             [&a](const std::string& v) { a.image.depth = v; });
   add_value(app, "--color,--colour", "C.png", "colour image of the same size",
@@ -239,22 +251,42 @@ std::string scene_option(const CLI::App& app) {
   return {};
 }
 
+bool is_png(const std::string& path) { return path.ends_with(".png") || path.ends_with(".PNG"); }
+
+void require_inputs(const Arguments& a) {
+  const bool depth = !a.image.depth.empty(), several = a.is_stream();
+  const auto reject = [](const std::string& what) { throw Error(ErrorKind::usage, what); };
+  if (a.inputs.empty() && a.frames_from.empty() && !depth)
+    reject("expected INPUT or --depth; see --help");
+  if ((!a.inputs.empty() || !a.frames_from.empty()) && depth)
+    reject("found both INPUT and --depth, expected one of them");
+  for (const std::string& input : a.inputs) {
+    if (input.empty()) reject("INPUT: found '', expected a path");
+    if (is_png(input) && !a.image.intrinsics)
+      reject(fmt::format("{}: expected --intrinsics FX,FY,CX,CY with a depth image",
+                         printable(input)));
+  }
+  if (std::ranges::count(a.inputs, "-") + (a.frames_from == "-") > 1)
+    reject("INPUT: standard input can be read once only");
+  if (several && depth) reject("--depth: several frames need INPUT, a folder or --frames-from");
+  if (several && a.explain) reject("--explain takes one input only");
+  if (!several && a.stable_labels) reject("--stable-labels: expected several frames");
+}
+
 void require_consistent(const Arguments& a) {
+  require_inputs(a);
   const bool depth = !a.image.depth.empty();
-  if (a.input.empty() && !depth) {
-    throw Error(ErrorKind::usage, "expected INPUT or --depth; see --help");
-  }
-  if (!a.input.empty() && depth) {
-    throw Error(ErrorKind::usage, "found both INPUT and --depth, expected one of them");
-  }
   if (depth && !a.image.intrinsics) {
     throw Error(ErrorKind::usage, "--depth: expected --intrinsics FX,FY,CX,CY with it");
   }
   if (a.explain && a.files.to_standard_output()) {
     throw Error(ErrorKind::usage, "--explain and a result that goes to standard output, too");
   }
-  if (!depth && (!a.image.colour.empty() || a.image.intrinsics)) {
-    throw Error(ErrorKind::usage, "--color and --intrinsics: expected --depth with them");
+  if (!depth && !a.image.colour.empty()) {
+    throw Error(ErrorKind::usage, "--color: expected --depth with it");
+  }
+  if (a.image.intrinsics && !depth && !a.is_stream() && !is_png(a.inputs.front())) {
+    throw Error(ErrorKind::usage, "--intrinsics: expected a depth image, found a cloud");
   }
 }
 
@@ -276,7 +308,18 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
   a.options.min_size = a.cut.min_size.value_or(a.options.min_size);
   a.options.objects = a.cut.objects.value_or(a.options.objects);
   require_consistent(a);
+  if (!a.is_stream() && !a.inputs.empty()) a.input = a.inputs.front();
   return std::nullopt;
+}
+
+bool Arguments::is_stream() const {
+  return !frames_from.empty() || inputs.size() > 1 ||
+         (!inputs.empty() && app::is_folder(inputs.front())) ||
+         std::ranges::any_of(files.all(), [](const auto* path) { return path->ends_with('/'); });
+}
+
+bool Arguments::is_depth_image() const {
+  return !image.depth.empty() || (image.intrinsics && is_png(input));
 }
 
 }  // namespace ph::segment

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "command_line.hpp"
 #include "ph/io/cloud_io.hpp"
@@ -57,7 +58,10 @@ struct CutArguments {
 
 /// The command line of ph-segment.
 struct Arguments {
-  std::string input;  ///< a cloud or a stored tree; empty: the depth image
+  std::vector<std::string> inputs;  ///< as given: files, or folders of frames
+  std::string frames_from;          ///< a list of frames, one a line; empty: none
+  bool stable_labels = false;       ///< an object keeps its label from frame to frame
+  std::string input;  ///< the one that is looked at: a cloud or a stored tree; empty: image.depth
   DepthInput image;
   bool allow_empty = false;  ///< a cloud without points is an empty result, not an error
   SegmentOptions options;
@@ -66,6 +70,11 @@ struct Arguments {
   OutputPaths files;
   std::optional<std::array<std::uint32_t, 2>> explain;  ///< two segments: where do they join?
   app::CommonOptions common;
+
+  /// Whether frames go in and folders of results come out.
+  bool is_stream() const;
+  /// Whether `input` is a depth image, or `image` has one.
+  bool is_depth_image() const;
 };
 
 /// Reads the command line; prints nothing.

@@ -46,9 +46,16 @@ std::string text_of(Write&& write) {
   return std::move(out).str();
 }
 
-Raster label_image(const Segmentation& s) {
-  Raster raster{s.width, s.height, 1, 16, {}};
-  for (const std::uint32_t label : s.labels) {
+std::vector<std::uint32_t> numbers_of(std::span<const std::uint32_t> labels, const RunInfo& info) {
+  std::vector<std::uint32_t> numbers;
+  numbers.reserve(labels.size());
+  for (const std::uint32_t label : labels) numbers.push_back(info.number_of(label));
+  return numbers;
+}
+
+Raster label_image(const SceneTree& scene, std::span<const std::uint32_t> labels) {
+  Raster raster{scene.width, scene.height, 1, 16, {}};
+  for (const std::uint32_t label : labels) {
     if (label > UINT16_MAX) {
       throw Error(ErrorKind::bad_data, fmt::format("--labels: a PNG holds labels up to 65535, "
                                                    "found {}; use .npy",
@@ -59,16 +66,17 @@ Raster label_image(const Segmentation& s) {
   return raster;
 }
 
-std::string label_file(const std::string& path, const Segmentation& s) {
+std::string label_file(const std::string& path, const SceneTree& scene,
+                       std::span<const std::uint32_t> labels) {
   const std::string extension = extension_of(path);
   if (extension == ".npy") {
-    return text_of([&](std::ostream& o) { write_npy(o, s.labels, s.width, s.height); });
+    return text_of([&](std::ostream& o) { write_npy(o, labels, scene.width, scene.height); });
   }
   if (extension == ".png") {
-    return text_of([&](std::ostream& o) { write_png(o, label_image(s)); });
+    return text_of([&](std::ostream& o) { write_png(o, label_image(scene, labels)); });
   }
   std::string text;
-  for (const std::uint32_t label : s.labels)
+  for (const std::uint32_t label : labels)
     fmt::format_to(std::back_inserter(text), "{}\n", label);
   return text;
 }
@@ -138,8 +146,9 @@ void Outputs::require_suitable(const Cloud* cloud, Index height) const {
   if (!f.picture.empty()) refuse("--picture", "use --coloured");
 }
 
-std::vector<std::uint32_t> Outputs::colours(const Cloud& cloud,
-                                            const Segmentation& segmentation) const {
+std::vector<std::uint32_t> Outputs::colours(const Cloud& cloud, const Segmentation& segmentation,
+                                            const RunInfo& info) const {
+  if (!info.numbers.empty()) return object_colours(info.numbers);
   const double reach = 2 * arguments_.options.distance;
   return segment_colours(neighbouring_segments(cloud, segmentation, reach));
 }
@@ -150,9 +159,10 @@ void Outputs::write_file(File& file, const Cloud* cloud, const Segmentation& s,
   app::Output& out = file.output;
   switch (file.kind) {
     case Kind::cloud:
-      return out.write(cloud_bytes(with_labels(*cloud, s.labels), cloud_format_of(f.output)));
+      return out.write(
+          cloud_bytes(with_labels(*cloud, numbers_of(s.labels, info)), cloud_format_of(f.output)));
     case Kind::labels:
-      return out.write(label_file(f.labels, s));
+      return out.write(label_file(f.labels, s, numbers_of(s.labels, info)));
     case Kind::json:
       return out.write(json_summary(arguments_, s, info));
     case Kind::tree:
@@ -166,11 +176,11 @@ void Outputs::write_file(File& file, const Cloud* cloud, const Segmentation& s,
           s.barcode,
           {.title = "", .value_label = s.method == Method::paper ? "Distance (m)" : "Concavity"}));
     case Kind::coloured:
-      return out.write(cloud_bytes(coloured_cloud(*cloud, s.labels, colours(*cloud, s)),
+      return out.write(cloud_bytes(coloured_cloud(*cloud, s.labels, colours(*cloud, s, info)),
                                    cloud_format_of(f.coloured)));
     case Kind::picture:
       return out.write(text_of([&](std::ostream& o) {
-        write_png(o, ph::segment::picture(*cloud, s.labels, colours(*cloud, s)));
+        write_png(o, ph::segment::picture(*cloud, s.labels, colours(*cloud, s, info)));
       }));
   }
 }

@@ -16,6 +16,12 @@ struct RunInfo {
   std::string input;        ///< path of the input
   double read_seconds = 0;  ///< wall-clock time of reading it
   bool from_tree = false;   ///< a stored tree was cut
+  /// What each segment is called in the files; empty: by its label.
+  std::vector<std::uint32_t> numbers = {};
+
+  std::uint32_t number_of(std::uint32_t label) const {
+    return label == 0 || numbers.empty() ? label : numbers[label - 1];
+  }
 };
 
 /// The files that the command line asks for: opened before the computation, complete or absent.
@@ -40,7 +46,8 @@ class Outputs {
   void open(Kind kind, const std::string& path);
   void write_file(File& file, const Cloud* cloud, const Segmentation& segmentation,
                   const RunInfo& info) const;
-  std::vector<std::uint32_t> colours(const Cloud& cloud, const Segmentation& segmentation) const;
+  std::vector<std::uint32_t> colours(const Cloud& cloud, const Segmentation& segmentation,
+                                     const RunInfo& info) const;
 
   const Arguments& arguments_;
   std::vector<File> files_;

@@ -12,8 +12,9 @@
 #include "outputs.hpp"
 #include "ph/core/error.hpp"
 #include "ph/io/output_file.hpp"
-#include "session.hpp"
+#include "stream.hpp"
 #include "summary.hpp"
+#include "warnings.hpp"
 
 namespace ph::segment {
 namespace {
@@ -33,17 +34,6 @@ Cloud read_points(const Input& input, bool allow_empty, app::Session& session) {
   options.allow_empty = allow_empty;
   options.note = [&session](const std::string& text) { session.note(text); };
   return ph::read_cloud(input, options);
-}
-
-/// What a user should know before trusting the result.
-void warn(const Segmentation& s, const SegmentOptions& options, app::Session& session) {
-  if (!s.difference.empty()) session.note("check: " + s.difference);
-  if (!s.stages.empty() && s.stages.front().points == 0) {
-    session.note(fmt::format("no point within {} m of the viewpoint{}; see --max-range",
-                             options.max_range, options.crop ? " and inside the crop box" : ""));
-  } else if (options.plane && !s.plane) {
-    session.note(s.plane_note + "; nothing removed");
-  }
 }
 
 /// The library knows what is missing, the program which of its options help.
@@ -97,8 +87,10 @@ Result result_of(const Arguments& arguments, const Outputs& outputs, app::Sessio
   Result result;
   const auto start = std::chrono::steady_clock::now();
   std::optional<Input> input;
-  if (arguments.input.empty()) {
-    result.cloud = read_depth(arguments.image, context);
+  if (arguments.is_depth_image()) {
+    DepthInput image = arguments.image;
+    if (image.depth.empty()) image.depth = arguments.input;
+    result.cloud = read_depth(image, context);
   } else {
     input.emplace(Input::open(arguments.input, &context));
     if (!is_tree(*input)) result.cloud = read_points(*input, arguments.allow_empty, session);
@@ -139,32 +131,39 @@ void explain_stages(const Segmentation& s, app::Session& session) {
 
 }  // namespace
 
-int run(int argc, const char* const* argv, std::stop_token stop) {
-  Arguments arguments;
-  if (const auto answer = parse_arguments(argc, argv, arguments))
-    return app::answer_command_line(*answer);
-  app::Session session(kProgram, arguments.common, std::move(stop));
+Outcome run_frame(const Arguments& arguments, app::Session& session, const OfStream* stream) {
   Outputs outputs(arguments);
   const Result result = result_of(arguments, outputs, session);
   const Segmentation& s = result.segmentation;
-  if (result.cloud) warn(s, arguments.options, session);
-  session.note(one_line_summary(s));
+  for (const std::string& text : warnings(arguments, result.cloud, s)) session.note(text);
   explain_stages(s, session);
 
   // Before anything is written: the labels may not be there.
   std::optional<std::string> answer;
   if (const auto& labels = arguments.explain)
     answer = explanation(s, (*labels)[0], (*labels)[1]);
-  else if (!arguments.files.any())
+  else if (!stream && !arguments.files.any())
     answer = text_summary(s);
-  const std::string& path = arguments.input.empty() ? arguments.image.depth : arguments.input;
-  outputs.write(result.cloud ? &*result.cloud : nullptr, s,
-                {.program = app::program_and_version(std::string(kProgram)),
-                 .input = path,
-                 .read_seconds = result.read_seconds,
-                 .from_tree = !result.cloud});
+  RunInfo info{.program = app::program_and_version(std::string(kProgram)),
+               .input = arguments.input.empty() ? arguments.image.depth : arguments.input,
+               .read_seconds = result.read_seconds,
+               .from_tree = !result.cloud};
+  if (stream && stream->tracker) info.numbers = stream->tracker->update(s, s);
+  outputs.write(result.cloud ? &*result.cloud : nullptr, s, info);
   if (answer) write_file("-", *answer);
-  return s.difference.empty() ? app::kOk : app::kDifference;
+  return {s.difference.empty() ? app::kOk : app::kDifference, one_line_summary(s),
+          stream && stream->json ? json_summary(arguments, s, info) : ""};
+}
+
+int run(int argc, const char* const* argv, std::stop_token stop) {
+  Arguments arguments;
+  if (const auto answer = parse_arguments(argc, argv, arguments))
+    return app::answer_command_line(*answer);
+  app::Session session(kProgram, arguments.common, std::move(stop));
+  if (arguments.is_stream()) return run_stream(arguments, session);
+  const Outcome outcome = run_frame(arguments, session, nullptr);
+  session.note(outcome.summary);
+  return outcome.code;
 }
 
 }  // namespace ph::segment

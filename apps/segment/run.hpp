@@ -1,10 +1,30 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <stop_token>
+#include <string>
+
+#include "arguments.hpp"
+#include "ph/label_tracker.hpp"
+#include "session.hpp"
 
 namespace ph::segment {
 
-/// The program: reads, segments, writes. @return its exit code. @throws Error.
+/// Runs ph-segment; results go to files or standard output. @return the exit code.
 int run(int argc, const char* const* argv, std::stop_token stop);
+
+/// What a stream wants of one of its frames.
+struct OfStream {
+  LabelTracker* tracker = nullptr;  ///< null: labels by size
+  bool json = false;                ///< whether to give the summary
+};
+/// What became of one input.
+struct Outcome {
+  int code;             ///< exit code
+  std::string summary;  ///< one line for people
+  std::string json;     ///< as --json has it; empty: not asked for
+};
+/// Reads `arguments.input`, segments it and writes `arguments.files`.
+/// @param stream null: the only input. @throws Error.
+Outcome run_frame(const Arguments& arguments, app::Session& session, const OfStream* stream);
 
 }  // namespace ph::segment

@@ -64,27 +64,27 @@ std::string oriented_box_of(const OrientedBox& box) {
        {"size", numbers(box.size)}});
 }
 
-std::string neighbours_of(const Segment& segment) {
+std::string neighbours_of(const Segment& segment, const RunInfo& info) {
   std::string text;
   for (const Neighbour& n : segment.neighbours) {
     text += text.empty() ? "" : ", ";
-    text += object({{"label", integer(n.label)}, {"meets_at", number(n.meets_at)}});
+    text += object({{"label", integer(info.number_of(n.label))}, {"meets_at", number(n.meets_at)}});
   }
   return "[" + text + "]";
 }
 
-std::string segments_of(const Segmentation& s) {
-  return lines(s.segments, [](const Segment& g) {
-    return object({{"label", integer(g.label)},
+std::string segments_of(const Segmentation& s, const RunInfo& info) {
+  return lines(s.segments, [&](const Segment& g) {
+    return object({{"label", integer(info.number_of(g.label))},
                    {"points", integer(g.points)},
                    {"voxels", integer(g.voxels)},
                    {"persistence", number(g.persistence)},
-                   {"neighbour", integer(g.neighbour)},
+                   {"neighbour", integer(info.number_of(g.neighbour))},
                    {"meets_at", number(g.meets_at)},
                    {"centroid", numbers(g.centroid)},
                    {"box", box_of(g.box)},
                    {"oriented_box", oriented_box_of(g.oriented_box)},
-                   {"neighbours", neighbours_of(g)}});
+                   {"neighbours", neighbours_of(g, info)}});
   });
 }
 
@@ -134,7 +134,7 @@ std::string json_summary(const Arguments& arguments, const Segmentation& s, cons
                                      {"distance", distance},
                                      {"complex", integer(vertices + s.edges)},
                                      {"time", number(table_seconds(s))}})},
-                   {"segments", segments_of(s)},
+                   {"segments", segments_of(s, info)},
                    {"check", check_of(s)},
                    {"timings", object({{"read", number(info.read_seconds)},
                                        {"segment", number(seconds_of(s))}})},

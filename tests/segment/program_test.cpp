@@ -1,53 +1,17 @@
 // SPDX-License-Identifier: MIT
 // ph-segment as a user runs it: exit codes, files, messages.
 #include <gtest/gtest.h>
-#include <stdlib.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 
-#include "ph/io/cloud_io.hpp"
 #include "ph/io/png.hpp"
-#include "scenery.hpp"
+#include "program_fixture.hpp"
 
 namespace ph::segment {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string contents(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-class Program : public testing::Test {
- protected:
-  void SetUp() override {
-    char name[] = "/tmp/ph_segment_XXXXXX";
-    folder_ = mkdtemp(name);
-    std::ofstream out(at("scene.pcd"), std::ios::binary);
-    write_pcd(out, scene_.cloud());
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string at(const std::string& file) const { return (folder_ / file).string(); }
-  /// Runs it in the test's folder; the exit code.
-  int run(const std::string& arguments) {
-    const std::string command =
-        "cd " + folder_.string() + " && " PH_SEGMENT_PROGRAM " " + arguments + " >stdout 2>stderr";
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  std::string out() const { return contents(at("stdout")); }
-  std::string err() const { return contents(at("stderr")); }
-
-  test::TableScene scene_ = test::TableScene::two_boxes();
-  fs::path folder_;
-};
+using test::Program;
 
 TEST_F(Program, PrintsATableByDefault) {
   EXPECT_EQ(run("scene.pcd"), 0) << err();
@@ -198,7 +162,7 @@ TEST_F(Program, UsageErrors) {
                                 "--depth d.png",
                                 "scene.pcd --color c.png",
                                 "--depth d.png --intrinsics 1,2,3",
-                                "scene.pcd extra",
+                                "scene.pcd scene.pcd",
                                 "scene.pcd --voxel"}) {
     EXPECT_EQ(run(arguments), 64) << arguments;
     const std::string message = err();

@@ -39,9 +39,14 @@ class TableScene {
  public:
   static constexpr Index kWidth = 320, kHeight = 240;
 
-  explicit TableScene(std::vector<Block> blocks) : blocks_(std::move(blocks)) {
-    for (Index v = 0; v < kHeight; ++v) {
-      for (Index u = 0; u < kWidth; ++u) cast(u, v);
+  /// @param finer as many times the pixels along each axis.
+  explicit TableScene(std::vector<Block> blocks, double finer = 1) : blocks_(std::move(blocks)) {
+    width_ = static_cast<Index>(std::lround(kWidth * finer));
+    height_ = static_cast<Index>(std::lround(kHeight * finer));
+    for (Index v = 0; v < height_; ++v) {
+      for (Index u = 0; u < width_; ++u)
+        cast((static_cast<double>(u) + 0.5) / finer - 160,
+             (static_cast<double>(v) + 0.5) / finer - 120);
     }
   }
   /// A table with two boxes of 10 cm, 20 cm apart, the left one larger.
@@ -53,15 +58,15 @@ class TableScene {
   const std::vector<float>& xyz() const { return xyz_; }
   /// By pixel: -1 nothing, 0 the table, 1… the blocks.
   const std::vector<int>& truth() const { return truth_; }
-  Cloud cloud() const { return cloud_of(xyz_, kWidth, kHeight); }
+  Cloud cloud() const { return cloud_of(xyz_, width_, height_); }
 
  private:
-  void cast(Index u, Index v) {
+  /// The ray through a pixel, counted from the middle.
+  void cast(double u, double v) {
     // Camera at (0, -1/sqrt 2, 1/sqrt 2); forward (0, c, -c), down (0, -c, -c), right (1, 0, 0).
     const double c = std::sqrt(0.5);
     const Vec3 eye{0, -c, c};
-    const double px = (static_cast<double>(u) - 159.5) / 260;
-    const double py = (static_cast<double>(v) - 119.5) / 260;
+    const double px = u / 260, py = v / 260;
     const Vec3 ray{px, c - c * py, -c - c * py};
     double nearest = std::numeric_limits<double>::infinity();
     int hit = -1;
@@ -96,6 +101,7 @@ class TableScene {
   }
 
   std::vector<Block> blocks_;
+  Index width_ = 0, height_ = 0;
   std::vector<float> xyz_;
   std::vector<int> truth_;
 };

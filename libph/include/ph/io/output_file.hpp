@@ -38,6 +38,9 @@ class OutputFile {
   void write(std::span<const std::byte> bytes) {
     write(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
   }
+  /// Hands over what was written so far: whoever reads along sees it now.
+  /// @throws Error (io), BrokenPipe.
+  void flush();
   /// Completes the file and gives it its name. Nothing may be written afterwards.
   /// @throws Error (io or cannot_create), BrokenPipe.
   void commit();
@@ -49,7 +52,6 @@ class OutputFile {
 
  private:
   void open_regular();
-  void flush();
   void discard() noexcept;
   [[noreturn]] void fail_writing(int error) const;
 

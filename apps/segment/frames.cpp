@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "frames.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "batch_names.hpp"
+#include "ph/core/error.hpp"
+#include "ph/io/reader.hpp"
+
+namespace ph::segment {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 8> kExtensions = {".pcd", ".ply", ".xyz",  ".xyzrgb",
+                                                         ".csv", ".pts", ".tree", ".png"};
+
+/// The files of a folder that may be frames, by name.
+std::vector<std::string> frames_in(const std::string& folder, bool depth_images) {
+  std::vector<std::string> frames;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    std::string extension = entry.path().extension().string();
+    std::ranges::transform(extension, extension.begin(),
+                           [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; });
+    const bool known = std::ranges::find(kExtensions, extension) != kExtensions.end();
+    if (known && (depth_images || extension != ".png")) frames.push_back(entry.path().string());
+  }
+  if (error || frames.empty()) {
+    throw Error(
+        ErrorKind::no_input,
+        fmt::format("{}: {}", printable(folder),
+                    error ? error.message() : "a folder without frames: no file is a cloud"));
+  }
+  std::ranges::sort(frames);
+  return frames;
+}
+
+/// A path for one frame: a folder gets a file of its name, a `*` becomes its name.
+std::string filled(const std::string& pattern, const std::string& name,
+                   std::string_view extension) {
+  if (pattern.empty()) return {};
+  if (pattern.ends_with('/')) return fmt::format("{}{}{}", pattern, name, extension);
+  const std::size_t star = pattern.rfind('*');
+  if (star == pattern.npos) return fmt::format("{}/{}{}", pattern, name, extension);
+  std::string path = pattern;
+  return path.replace(star, 1, name);
+}
+
+/// Creates the folder that a pattern names. @throws Error (usage) if it names none.
+void prepare(std::string_view option, const std::string& pattern) {
+  if (pattern.empty() || app::is_folder(pattern)) return;
+  const std::size_t slash = pattern.rfind('/'), star = pattern.rfind('*');
+  const bool has_star = star != pattern.npos && (slash == pattern.npos || slash < star);
+  if (!has_star && !pattern.ends_with('/')) {
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: several inputs need a folder (FOLDER/) or a * for their names, "
+                            "found '{}'",
+                            option, printable(pattern)));
+  }
+  if (slash != pattern.npos && slash > 0) app::create_folder(pattern.substr(0, slash));
+}
+
+}  // namespace
+
+FrameSource::FrameSource(const Arguments& a) : patterns_(a.files) {
+  for (const auto& [option, path] :
+       {std::pair("--output", &patterns_.output), std::pair("--labels", &patterns_.labels),
+        std::pair("--tree", &patterns_.tree), std::pair("--barcode", &patterns_.barcode),
+        std::pair("--plot", &patterns_.plot), std::pair("--coloured", &patterns_.coloured),
+        std::pair("--picture", &patterns_.picture)})
+    prepare(option, *path);
+  for (const std::string& input : a.inputs) {
+    if (!app::is_folder(input)) {
+      inputs_.push_back(input);
+      continue;
+    }
+    for (std::string& frame : frames_in(input, a.image.intrinsics.has_value()))
+      inputs_.push_back(std::move(frame));
+  }
+  names_ = app::output_names(inputs_);
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    const auto [other, fresh] = taken_.emplace(names_[i], inputs_[i]);
+    if (fresh) continue;
+    throw Error(ErrorKind::usage,
+                fmt::format("{} and {} would both be written to files named {}",
+                            printable(other->second), printable(inputs_[i]), printable(names_[i])));
+  }
+  if (a.frames_from == "-") list_ = &std::cin;
+  if (list_ || a.frames_from.empty()) return;
+  file_ = std::make_unique<std::ifstream>(a.frames_from);
+  list_ = file_.get();
+  if (!*list_ || app::is_folder(a.frames_from))
+    throw Error(ErrorKind::no_input,
+                fmt::format("{}: cannot read the list of frames", printable(a.frames_from)));
+}
+
+FrameSource::~FrameSource() = default;
+
+std::optional<Frame> FrameSource::next() {
+  if (given_ < inputs_.size()) {
+    Frame frame{inputs_[given_], files_of(names_[given_])};
+    ++given_;
+    return frame;
+  }
+  std::string line;
+  while (list_ && std::getline(*list_, line)) {
+    if (line.ends_with('\r')) line.pop_back();
+    if (!line.empty()) return Frame{line, files_of(name_of(line))};
+  }
+  return std::nullopt;
+}
+
+/// The frames to come are not known: the name without extension, or one with a number behind it.
+std::string FrameSource::name_of(const std::string& input) {
+  const std::string stem = app::output_names({input}).front();
+  std::string name = stem;
+  for (int i = 2; !taken_.emplace(name, input).second; ++i) name = fmt::format("{}-{}", stem, i);
+  return name;
+}
+
+OutputPaths FrameSource::files_of(const std::string& name) const {
+  const OutputPaths& p = patterns_;
+  return {.output = filled(p.output, name, ".pcd"),
+          .labels = filled(p.labels, name, ".npy"),
+          .json = {},  // one file for all
+          .tree = filled(p.tree, name, ".tree"),
+          .barcode = filled(p.barcode, name, ".csv"),
+          .plot = filled(p.plot, name, ".svg"),
+          .coloured = filled(p.coloured, name, ".pcd"),
+          .picture = filled(p.picture, name, ".png")};
+}
+
+}  // namespace ph::segment

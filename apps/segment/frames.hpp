@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstddef>
+#include <iosfwd>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "arguments.hpp"
+
+namespace ph::segment {
+
+/// One of several inputs, and where its results go.
+struct Frame {
+  std::string input;
+  OutputPaths files;
+};
+
+/// The frames of a stream, one after the other: inputs, the files of folders by name, and then the
+/// lines of a list, each as soon as it is there.
+class FrameSource {
+ public:
+  /// Creates the folders of the outputs. @throws Error (usage) if the files of two frames would be
+  /// the same or an output is no folder and has no `*`; Error (no_input); Error (cannot_create).
+  explicit FrameSource(const Arguments& arguments);
+  ~FrameSource();
+
+  /// @throws Error as the constructor, about this frame only.
+  std::optional<Frame> next();
+
+ private:
+  std::string name_of(const std::string& input);
+  OutputPaths files_of(const std::string& name) const;
+
+  const OutputPaths& patterns_;
+  std::vector<std::string> inputs_, names_;
+  std::size_t given_ = 0;
+  std::unique_ptr<std::istream> file_;        // of the list
+  std::istream* list_ = nullptr;              // null: none
+  std::map<std::string, std::string> taken_;  // by name: the input
+};
+
+}  // namespace ph::segment

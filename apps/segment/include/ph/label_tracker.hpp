@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "ph/scene_tree.hpp"
+
+namespace ph::segment {
+
+/// Numbers for the segments of a stream of frames: an object keeps its number from frame to frame.
+///
+/// A segment takes the number of the object with which it shares most places, largest share first
+/// (of their union), if that is more than a quarter of the smaller of the two; no object is taken
+/// twice. All else gets new numbers, 1, 2, …. An object that no segment took keeps its places, as
+/// far as no segment covers them, and its number for some frames more. O(n log n) a frame; memory
+/// is that of one frame.
+class LabelTracker {
+ public:
+  /// @param patience frames for which an object that is not seen is remembered, >= 0.
+  explicit LabelTracker(int patience = 5) : patience_(patience) {}
+
+  /// The next frame of a sensor with a fixed raster: places are pixels.
+  /// @param labels one a pixel: 0 none, else the number of a segment, from 1. A frame of another
+  /// size than that before shares nothing with it.
+  /// @return the number of the object that each segment is: that of label i + 1 at i.
+  std::vector<std::uint32_t> update(std::span<const std::uint32_t> labels);
+  /// The same for the result of ph::segment::segment. Of an unorganised cloud places are voxels:
+  /// the sensor must stand still, and voxels of another size share nothing.
+  std::vector<std::uint32_t> update(const SceneTree& scene, const SceneCut& cut);
+
+ private:
+  using Key = std::array<double, 4>;  // size of the raster or of a voxel, then where
+  struct Place {
+    Key key;
+    std::uint32_t number;  // of a segment (from 0), or of an object
+  };
+  struct Object {
+    std::uint32_t number;
+    int unseen;  // frames
+  };
+  std::vector<std::uint32_t> match(std::vector<Place> places, std::size_t segments);
+
+  int patience_;
+  std::uint32_t next_ = 1;
+  std::vector<Place> places_;    // of the objects, by key
+  std::vector<Object> objects_;  // by number
+};
+
+}  // namespace ph::segment

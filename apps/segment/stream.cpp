@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "stream.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <string_view>
+
+#include "exit_code.hpp"
+#include "frames.hpp"
+#include "json_text.hpp"
+#include "ph/core/error.hpp"
+#include "ph/label_tracker.hpp"
+#include "program.hpp"
+#include "run.hpp"
+
+namespace ph::segment {
+namespace {
+
+/// A text of several lines as one: strings in JSON hold no line ends.
+std::string one_line(std::string_view text) {
+  std::string line;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '\n') {
+      line += text[i];
+      continue;
+    }
+    while (i + 1 < text.size() && text[i + 1] == ' ') ++i;
+    if (line.ends_with(',')) line += ' ';
+  }
+  return line + '\n';
+}
+
+std::string failure_line(const std::string& input, int code) {
+  return one_line(json::object({{"format", json_string("ph-segment")},
+                                {"version", "1"},
+                                {"input", json::object({{"path", json_string(input)}})},
+                                {"exit_code", json::integer(code)}}));
+}
+
+/// The frames of one run, one by one.
+class Stream {
+ public:
+  Stream(const Arguments& arguments, app::Session& session)
+      : arguments_(arguments), session_(session), source_(arguments) {
+    if (!arguments.files.any()) {
+      throw Error(ErrorKind::usage,
+                  "several inputs: expected a folder for their results, such as --labels FOLDER/, "
+                  "or --json FILE");
+    }
+    if (!arguments.files.json.empty()) json_.emplace(arguments.files.json);
+  }
+
+  int run() {
+    while (next_frame()) session_.context().poll();
+    if (json_) json_->commit();
+    report_throughput();
+    return first_failure_;
+  }
+
+ private:
+  /// @return whether there was one. @throws Error if the others need not be tried.
+  bool next_frame() {
+    Arguments one = arguments_;
+    one.frames_from.clear();
+    one.inputs.clear();
+    int code = app::kOk;
+    std::string line;
+    try {
+      std::optional<Frame> frame = source_.next();
+      if (!frame) return false;
+      ++frames_;
+      one.input = frame->input;
+      one.files = std::move(frame->files);
+      const OfStream stream{arguments_.stable_labels ? &tracker_ : nullptr, json_.has_value()};
+      const Outcome outcome = run_frame(one, session_, &stream);
+      code = outcome.code;
+      line = one_line(outcome.json);
+      session_.note(fmt::format("{}: {}", printable(one.input), outcome.summary));
+    } catch (const BrokenPipe&) {
+      throw;
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::cancelled) throw;
+      const bool named = std::string_view(error.what()).find(one.input) != std::string_view::npos;
+      code = app::report_current_exception(named ? "ph-segment"
+                                                 : "ph-segment: " + printable(one.input));
+      line = failure_line(one.input, code);
+    } catch (...) {
+      code = app::report_current_exception("ph-segment: " + printable(one.input));
+      line = failure_line(one.input, code);
+    }
+    if (json_) {
+      json_->write(line);
+      json_->file().flush();
+    }
+    if (code == app::kOk) return true;
+    if (first_failure_ == app::kOk) first_failure_ = code;
+    ++failures_;
+    return true;
+  }
+
+  void report_throughput() const {
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const double cpu = static_cast<double>(std::clock() - cpu_start_) / CLOCKS_PER_SEC;
+    const auto frames = static_cast<double>(std::max<std::size_t>(frames_, 1));
+    if (failures_ > 0) session_.note(fmt::format("{} of {} frames failed", failures_, frames_));
+    session_.note(fmt::format("{} frames in {:.2f} s: {:.1f} frames/s, {:.1f} ms CPU a frame",
+                              frames_, seconds, frames_ == 0 ? 0 : frames / seconds,
+                              1e3 * cpu / frames));
+  }
+
+  const Arguments& arguments_;
+  app::Session& session_;
+  FrameSource source_;
+  std::optional<app::Output> json_;
+  LabelTracker tracker_;
+  std::size_t frames_ = 0, failures_ = 0;
+  int first_failure_ = app::kOk;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::clock_t cpu_start_ = std::clock();
+};
+
+}  // namespace
+
+int run_stream(const Arguments& arguments, app::Session& session) {
+  return Stream(arguments, session).run();
+}
+
+}  // namespace ph::segment

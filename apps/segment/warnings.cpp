@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace ph::segment {
+namespace {
+
+/// How far the nearest and the farthest point are, metres; nothing without points.
+std::optional<std::array<double, 2>> distances(const Cloud& cloud, const Vec3& viewpoint) {
+  double nearest = kInfinity, farthest = 0;
+  const std::vector<float> xyz = cloud.xyz();
+  for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) {
+    const double x = xyz[i] - viewpoint[0], y = xyz[i + 1] - viewpoint[1];
+    const double distance = std::hypot(x, y, xyz[i + 2] - viewpoint[2]);
+    if (!std::isfinite(distance)) continue;
+    nearest = std::min(nearest, distance);
+    farthest = std::max(farthest, distance);
+  }
+  if (nearest == kInfinity) return std::nullopt;
+  return std::array{nearest, farthest};
+}
+
+/// Where nothing is found: are the lengths metres?
+std::string about_units(const Arguments& a, const Cloud& cloud, const Segmentation& s) {
+  constexpr double room = 50, crumb = 0.02;  // metres: no table top is as far, or as small
+  const auto found = distances(cloud, s.viewpoint);
+  if (!found)
+    return fmt::format("no point within {} m of the viewpoint: all are holes", a.options.max_range);
+  const auto [nearest, farthest] = *found;
+  const std::string_view option = a.is_depth_image() ? "--depth-scale" : "a length is in metres";
+  if (s.stages.front().points == 0) {
+    return fmt::format(
+        "no point within {} m of the viewpoint{}, the nearest is at {:.3g} m; see {}",
+        a.options.max_range, a.options.crop ? " and inside the crop box" : "", nearest,
+        nearest > room ? fmt::format("{}: are these millimetres?", option) : "--max-range");
+  }
+  if (farthest >= crumb) return {};
+  return fmt::format("all points are within {:.3g} m of the viewpoint; see {}", farthest, option);
+}
+
+/// A pinhole camera sees between a few degrees and a half circle, and its axis meets the image.
+std::string about_camera(const Intrinsics& camera, const Cloud& cloud) {
+  constexpr double least = 5, most = 160;  // degrees
+  const auto view = [](Index pixels, double focal_length) {
+    return 360 / std::numbers::pi * std::atan(static_cast<double>(pixels) / 2 / focal_length);
+  };
+  const double across = view(cloud.width, camera.fx), down = view(cloud.height, camera.fy);
+  if (std::max(across, down) > most || std::max(across, down) < least) {
+    return fmt::format(
+        "--intrinsics: a field of view of {:.3g} x {:.3g} degrees; are FX and FY in "
+        "pixels?",
+        across, down);
+  }
+  if (camera.cx >= 0 && camera.cy >= 0 && camera.cx < static_cast<double>(cloud.width) &&
+      camera.cy < static_cast<double>(cloud.height))
+    return {};
+  return fmt::format("--intrinsics: the principal point {}, {} is outside the image of {} x {}",
+                     camera.cx, camera.cy, cloud.width, cloud.height);
+}
+
+}  // namespace
+
+std::vector<std::string> warnings(const Arguments& a, const std::optional<Cloud>& cloud,
+                                  const Segmentation& s) {
+  std::vector<std::string> texts;
+  if (!s.difference.empty()) texts.push_back("check: " + s.difference);
+  if (cloud && a.is_depth_image()) texts.push_back(about_camera(*a.image.intrinsics, *cloud));
+  if (cloud && s.segments.empty() && cloud->size() > 0) texts.push_back(about_units(a, *cloud, s));
+  if (cloud && a.options.plane && !s.plane && s.stages.front().points > 0)
+    texts.push_back(s.plane_note + "; nothing removed");
+  std::erase(texts, "");
+  return texts;
+}
+
+}  // namespace ph::segment

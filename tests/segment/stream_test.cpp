@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// ph-segment on streams of frames.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "program_fixture.hpp"
+
+namespace ph::segment {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Stream : public test::Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    fs::create_directory(at("in"));
+    // The right box grows past the left one.
+    for (int frame = 0; frame < 4; ++frame) {
+      const test::TableScene scene({{{-0.22, -0.05, 0}, {-0.10, 0.07, 0.12}},
+                                    {{0.10, -0.05, 0}, {0.2 + 0.03 * frame, 0.05, 0.1}}});
+      write_cloud(at("in/" + std::to_string(frame) + ".pcd"), scene.cloud());
+    }
+  }
+  std::vector<std::string> lines(const std::string& text) const {
+    std::vector<std::string> result;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) result.push_back(line);
+    return result;
+  }
+};
+
+TEST_F(Stream, AFolderOfFrames) {
+  ASSERT_EQ(run("in --labels out/ --json all.json"), 0) << err();
+  ASSERT_EQ(run("in/2.pcd --labels two.npy"), 0) << err();
+  EXPECT_EQ(contents(at("out/2.npy")), contents(at("two.npy")));
+  EXPECT_EQ(std::distance(fs::directory_iterator(at("out")), {}), 4);
+  const auto json = lines(contents(at("all.json")));
+  ASSERT_EQ(json.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_TRUE(json[i].starts_with("{\"format\": \"ph-segment\", \"version\": 1, ")) << json[i];
+    EXPECT_NE(json[i].find("in/" + std::to_string(i) + ".pcd"), std::string::npos);
+    EXPECT_TRUE(json[i].ends_with("}"));
+  }
+}
+
+TEST_F(Stream, SaysItsThroughput) {
+  ASSERT_EQ(run("in --labels out/"), 0);
+  const auto messages = lines(err());
+  ASSERT_EQ(messages.size(), 5U) << err();
+  EXPECT_NE(messages.back().find("4 frames in "), std::string::npos);
+  EXPECT_NE(messages.back().find(" frames/s, "), std::string::npos);
+  EXPECT_NE(messages.back().find(" ms CPU a frame"), std::string::npos);
+  ASSERT_EQ(run("in --labels out/ --quiet"), 0);
+  EXPECT_EQ(err(), "");
+}
+
+TEST_F(Stream, InputsListsAndPatterns) {
+  ASSERT_EQ(run("in/0.pcd in/1.pcd -o out/ --labels 'out/labels-*.csv' --tree trees/"), 0) << err();
+  for (const char* file : {"out/0.pcd", "out/1.pcd", "out/labels-0.csv", "trees/1.tree"})
+    EXPECT_TRUE(fs::exists(at(file))) << file;
+  ASSERT_EQ(run("trees --labels 'again/*.csv'"), 0) << err();  // a folder of stored trees
+  EXPECT_EQ(contents(at("again/1.csv")), contents(at("out/labels-1.csv")));
+  std::ofstream(at("list.txt")) << "in/3.pcd\r\n\nin/1.pcd\n";
+  ASSERT_EQ(run("--frames-from - --json - <list.txt"), 0) << err();
+  const auto json = lines(out());
+  ASSERT_EQ(json.size(), 2U);
+  EXPECT_NE(json[0].find("in/3.pcd"), std::string::npos);
+  ASSERT_EQ(run("--frames-from list.txt --labels out/"), 0) << err();
+  EXPECT_TRUE(fs::exists(at("out/3.npy")));
+}
+
+TEST_F(Stream, AFailureDoesNotStopTheOthers) {
+  const std::string whole = contents(at("in/1.pcd"));
+  std::ofstream(at("in/1.pcd"), std::ios::binary) << whole.substr(0, whole.size() / 2);
+  std::ofstream(at("in/2.pcd")) << "";
+  EXPECT_EQ(run("in missing.pcd --labels out/ --json all.json"), 65);
+  EXPECT_TRUE(fs::exists(at("out/0.npy")));
+  EXPECT_FALSE(fs::exists(at("out/1.npy")));
+  EXPECT_TRUE(fs::exists(at("out/3.npy")));
+  EXPECT_NE(err().find("3 of 5 frames failed"), std::string::npos) << err();
+  const auto json = lines(contents(at("all.json")));
+  ASSERT_EQ(json.size(), 5U);
+  EXPECT_NE(json[1].find("\"exit_code\": 65"), std::string::npos) << json[1];
+  EXPECT_NE(json[4].find("\"exit_code\": 66"), std::string::npos) << json[4];
+}
+
+TEST_F(Stream, StableLabels) {
+  // The third object of the JSON line is not there; the label of the first says which is larger.
+  const auto first_label = [](const std::string& line) {
+    const std::size_t at = line.find("\"segments\": [{\"label\": ");
+    return line[at + 23 + 1];
+  };
+  ASSERT_EQ(run("in --json plain.json"), 0) << err();
+  ASSERT_EQ(run("in --json stable.json --labels 'out/*.csv' --stable-labels"), 0) << err();
+  const auto plain = lines(contents(at("plain.json")));
+  const auto stable = lines(contents(at("stable.json")));
+  EXPECT_EQ(first_label(plain[3]), '1');
+  EXPECT_EQ(first_label(stable[0]), '1');
+  EXPECT_EQ(first_label(stable[3]), '2') << "the box that grew was the second one";
+  ASSERT_EQ(run("in/3.pcd --labels plain.csv"), 0);
+  std::string swapped = contents(at("plain.csv"));
+  for (char& c : swapped) c = c == '1' ? '2' : c == '2' ? '1' : c;
+  EXPECT_EQ(contents(at("out/3.csv")), swapped);
+}
+
+TEST_F(Stream, UsageErrors) {
+  fs::create_directory(at("empty"));
+  EXPECT_EQ(run("empty --labels out/"), 66);
+  EXPECT_EQ(run("--frames-from missing.txt --labels out/"), 66);
+  for (const char* arguments :
+       {"in", "in --labels l.npy", "in/0.pcd in/1.pcd", "in --labels out/ --explain 1,2",
+        "in/0.pcd --stable-labels", "in/0.pcd in/0.pcd --labels out/", "- - --labels out/"}) {
+    EXPECT_EQ(run(arguments), 64) << arguments;
+    EXPECT_EQ(std::ranges::count(err(), '\n'), 1) << arguments << '\n' << err();
+  }
+}
+
+}  // namespace
+}  // namespace ph::segment
