@@ -313,9 +313,10 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
 }
 
 bool Arguments::is_stream() const {
-  return !frames_from.empty() || inputs.size() > 1 ||
-         (!inputs.empty() && app::is_folder(inputs.front())) ||
-         std::ranges::any_of(files.all(), [](const auto* path) { return path->ends_with('/'); });
+  const bool several = !frames_from.empty() || inputs.size() > 1;
+  const auto is_folder_name = [](const std::string* path) { return path->ends_with('/'); };
+  return several || std::ranges::any_of(files.all(), is_folder_name) ||
+         (files.any() && !inputs.empty() && app::is_folder(inputs.front()));
 }
 
 bool Arguments::is_depth_image() const {

@@ -144,7 +144,7 @@ std::vector<std::uint32_t> segment_colours(const Neighbours& neighbours) {
   return colours;
 }
 
-std::vector<std::uint32_t> segment_colours(const SceneCut& cut) {
+std::vector<std::uint32_t> label_colours(const SceneCut& cut) {
   Neighbours neighbours(cut.segments.size());
   for (const Segment& s : cut.segments)
     for (const Neighbour& n : s.neighbours) neighbours[s.label - 1].push_back(n.label - 1);

@@ -97,7 +97,7 @@ TEST_P(BadInput, SeveralPlanes) {
 }
 
 TEST_P(BadInput, UnorganisedIsTheSame) {
-  const std::vector<float>& xyz = TableScene::two_boxes().xyz();
+  const std::vector<float> xyz = TableScene::two_boxes().xyz();
   const Segmentation s = segmented(xyz);
   std::vector<float> dense;
   std::vector<std::uint32_t> labels;
@@ -134,7 +134,7 @@ TEST_P(BadInput, MetresForMillimetresAreACrumb) {
 }
 
 TEST_P(BadInput, AbsurdFocalLengths) {
-  const std::vector<float>& xyz = TableScene::two_boxes().xyz();
+  const std::vector<float> xyz = TableScene::two_boxes().xyz();
   for (const double factor : {1e-9, 1e-3, 50.0, 1e3, 1e9}) {  // on x and y, as 1/fx has it
     std::vector<float> stretched = xyz;
     for (std::size_t i = 0; i < stretched.size(); ++i)

@@ -98,7 +98,7 @@ inline std::optional<Meeting> first_meeting(const Segmentation& s, std::uint32_t
 
 /// A colour a segment, 0x00RRGGBB, that people with any common kind of colour blindness can tell
 /// apart. Those that touch differ as long as none touches more than six.
-std::vector<std::uint32_t> segment_colours(const SceneCut& cut);
+std::vector<std::uint32_t> label_colours(const SceneCut& cut);
 
 /// Reads a cloud: .pcd, .ply, .xyz, .csv. @throws Error as ph::read_cloud does.
 Cloud read_cloud(const std::filesystem::path& path);

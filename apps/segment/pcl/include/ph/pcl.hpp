@@ -115,7 +115,7 @@ template <class PointT>
 ::pcl::PointCloud<::pcl::PointXYZRGB> coloured_cloud(const ::pcl::PointCloud<PointT>& cloud,
                                                      const segment::SceneCut& cut) {
   constexpr std::uint32_t grey = 0x606060;
-  const std::vector<std::uint32_t> colours = segment::segment_colours(cut);
+  const std::vector<std::uint32_t> colours = segment::label_colours(cut);
   return converted<::pcl::PointXYZRGB>(
       cloud, cut.labels, [&](std::size_t i, ::pcl::PointXYZRGB& p) {
         const std::uint32_t colour = cut.labels[i] == 0 ? grey : colours[cut.labels[i] - 1];
