@@ -20,7 +20,7 @@ using app::add_value;
 
 /// What --version --verbose adds.
 constexpr std::string_view kBuiltIn =
-    "methods     surface paper\n"
+    "methods     surface paper supervoxels\n"
     "reads       pcd ply xyz csv png tree\n"
     "writes      pcd ply npy csv png json svg tree\n";
 
@@ -73,8 +73,8 @@ bool parse_switch(std::string_view option, const std::string& text) {
 }
 
 Method parse_method(const std::string& text) {
-  static constexpr std::array<std::string_view, 2> choices = {"surface", "paper"};
-  return app::choose("--method", text, choices) == 0 ? Method::surface : Method::paper;
+  static constexpr std::array<std::string_view, 3> choices = {"surface", "paper", "supervoxels"};
+  return static_cast<Method>(app::choose("--method", text, choices));
 }
 
 /// "0.005, paper: 0.01".
@@ -131,8 +131,16 @@ void add_stage_options(CLI::App& app, SegmentOptions& o) {
   const SegmentOptions d;
   add_value(app, "--method", "NAME",
             "surface: by the shape of the visible surface (default); paper: by distance alone, the "
-            "pipeline of the ICRA 2016 paper",
+            "pipeline of the ICRA 2016 paper; supervoxels: see --supervoxels",
             [&o](const std::string& v) { o.method = parse_method(v); });
+  add_value(app, "--supervoxels", "M",
+            fmt::format("method supervoxels, with seeds so far apart that the surface is nowhere "
+                        "more than M metres from one (default: {})",
+                        d.spacing),
+            [&o](const std::string& v) {
+              o.method = Method::supervoxels;
+              o.spacing = length("--supervoxels", v);
+            });
   add_value(app, "--max-range", "M",
             fmt::format("keep points up to M metres from the viewpoint; inf: all (default: {})",
                         d.max_range),
@@ -159,9 +167,10 @@ void add_stage_options(CLI::App& app, SegmentOptions& o) {
             [&o](const std::string& v) { o.voxel = length("--voxel", v); });
   add_value(
       app, "--min-persistence", "X",
-      fmt::format("surface: least persistence of a part, a mean concavity from 0 to 2; one "
-                  "of less joins the neighbour that it meets first (default: {})",
-                  d.min_persistence),
+      fmt::format("least persistence of a part; one of less joins the neighbour that it meets "
+                  "first. surface: a mean concavity from 0 to 2 (default: {}); supervoxels: metres "
+                  "(default: {})",
+                  d.cut().value, SegmentOptions{.method = Method::supervoxels}.cut().value),
       [&o](const std::string& v) { o.min_persistence = at_least_zero("--min-persistence", v); });
   add_value(
       app, "--distance", "M",
@@ -181,19 +190,21 @@ void add_stage_options(CLI::App& app, SegmentOptions& o) {
 
 /// What a stored tree follows, too.
 void add_cut_options(CLI::App& app, CutArguments& cut) {
-  const CutOptions d;
+  const CutOptions d, supervoxels = SegmentOptions{.method = Method::supervoxels}.cut();
   add_value(app, "--cut", "X",
-            "cut the merge tree here. surface: the same as --min-persistence; paper: segments are "
+            "cut the merge tree here: the same as --min-persistence; paper: segments are "
             "the components at X metres, at most --distance (default: as the tree was cut)",
             [&cut](const std::string& v) { cut.value = at_least_zero("--cut", v); });
   add_value(
       app, "--min-part", "N",
-      fmt::format("surface: fewest voxels of a part; a smaller one joins the neighbour that "
-                  "it meets first (default: {})",
-                  d.min_part),
+      fmt::format("fewest voxels of a part; a smaller one joins the neighbour that it meets first "
+                  "(default: {}; supervoxels: {})",
+                  d.min_part, supervoxels.min_part),
       [&cut](const std::string& v) { cut.min_part = app::parse_integer("--min-part", v, 1); });
   add_value(
-      app, "--min-size", "N", fmt::format("fewest voxels of a segment (default: {})", d.min_size),
+      app, "--min-size", "N",
+      fmt::format("fewest voxels of a segment (default: {}; supervoxels: {})", d.min_size,
+                  supervoxels.min_size),
       [&cut](const std::string& v) { cut.min_size = app::parse_integer("--min-size", v, 1); });
   app.add_flag_callback(
       "--objects", [&cut] { cut.objects = true; },
@@ -245,8 +256,9 @@ void add_planned_options(CLI::App& app) {
 
 /// The first option that was given of those that a stored tree cannot follow.
 std::string scene_option(const CLI::App& app) {
-  for (const char* name : {"--method", "--max-range", "--crop", "--plane", "--plane-distance",
-                           "--viewpoint", "--voxel", "--min-persistence", "--distance", "--steps"})
+  for (const char* name :
+       {"--method", "--max-range", "--crop", "--plane", "--plane-distance", "--viewpoint",
+        "--voxel", "--min-persistence", "--distance", "--steps", "--supervoxels"})
     if (app.get_option(name)->count() > 0) return name;
   return {};
 }
@@ -304,8 +316,8 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
   if (auto answer = app::parse_command_line(app, a.common, argc, argv, std::string(kBuiltIn)))
     return answer;
   a.scene_option = scene_option(app);
-  a.options.min_part = a.cut.min_part.value_or(a.options.min_part);
-  a.options.min_size = a.cut.min_size.value_or(a.options.min_size);
+  a.options.min_part = a.cut.min_part;
+  a.options.min_size = a.cut.min_size;
   a.options.objects = a.cut.objects.value_or(a.options.objects);
   require_consistent(a);
   if (!a.is_stream() && !a.inputs.empty()) a.input = a.inputs.front();

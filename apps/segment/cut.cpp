@@ -22,7 +22,7 @@ std::vector<Contact> contacts_of(const SceneTree& scene, const Surface& surface,
     const std::uint32_t a = cut.vertex_labels[u], b = cut.vertex_labels[v];
     if (a != b && a != 0 && b != 0) contacts.push_back({u, v, value});
   };
-  if (scene.method == Method::surface) {
+  if (scene.method != Method::paper) {
     for (const VoxelPair& p : surface.pairs)
       if (are_adjacent(p, scene.voxel))
         see(p.u, p.v, std::max(scene.tree.births[p.u], scene.tree.births[p.v]));

@@ -7,6 +7,7 @@
 #include "concavity.hpp"
 #include "foot.hpp"
 #include "rips_graph.hpp"
+#include "spacing.hpp"
 #include "voxel_pairs.hpp"
 
 namespace ph::segment {
@@ -68,12 +69,14 @@ Filtered filter_by_surface(const Scene& scene, const SegmentOptions& options,
   Points normals =
       surface_normals(grid.centroids, pairs, kOfNormals * voxel, scene.cloud.viewpoint);
   clock.finish("normals", voxels);
-  const std::vector<double> values =
+  std::vector<double> values =
       smoothed(concavity(grid.centroids, normals, pairs), pairs, kAdjacent * voxel);
   std::vector<WeightedEdge> edges;
   edges.reserve(pairs.size());
   for (const VoxelPair& p : pairs)
-    if (are_adjacent(p, voxel)) edges.push_back({p.v, p.u, 0.0});
+    if (are_adjacent(p, voxel)) edges.push_back({p.v, p.u, p.distance});
+  if (options.method == Method::supervoxels)
+    values = distance_to_seeds(grid.centroids, edges, values, options.spacing, context);
   FilteredGraph graph = FilteredGraph::lower_star(values, edges, context);
   clock.finish("complex", voxels);
   return {voxel,

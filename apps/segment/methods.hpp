@@ -47,8 +47,8 @@ std::vector<VoxelPair> near_voxels(const VoxelGrid& grid, double voxel);
 /// Whether an edge of the graph of method surface joins them.
 bool are_adjacent(const VoxelPair& pair, double voxel);
 
-/// Voxels enter with the concavity of the surface around them, edges between adjacent ones with the
-/// later of their ends.
+/// Voxels enter with the concavity of the surface around them (supervoxels: with their distance to
+/// the seeds), edges between adjacent ones with the later of their ends.
 Filtered filter_by_surface(const Scene& scene, const SegmentOptions& options,
                            const RunContext& context, StageClock& clock);
 /// The 1-skeleton of the Vietoris-Rips complex of the voxels.

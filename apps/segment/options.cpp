@@ -32,10 +32,12 @@ void validate(const CloudView& cloud, const SegmentOptions& o) {
   require(std::isfinite(o.distance) && o.distance >= 0, "distance", o.distance,
           "a finite length of at least 0");
   require(o.steps >= 0, "steps", o.steps, "at least 0");
-  require(o.min_size >= 1, "min_size", static_cast<double>(o.min_size), "at least 1");
   require(o.max_range >= 0, "max_range", o.max_range, "a length of at least 0 or infinity");
-  require(o.min_persistence >= 0, "min_persistence", o.min_persistence, "at least 0");
-  require(o.min_part >= 1, "min_part", static_cast<double>(o.min_part), "at least 1");
+  require(std::isfinite(o.spacing) && o.spacing > 0, "spacing", o.spacing, kLength);
+  const CutOptions cut = o.cut();
+  require(cut.value >= 0, "min_persistence", cut.value, "at least 0");
+  require(cut.min_part >= 1, "min_part", static_cast<double>(cut.min_part), "at least 1");
+  require(cut.min_size >= 1, "min_size", static_cast<double>(cut.min_size), "at least 1");
   require(std::isfinite(margin) && margin > 0, "plane_distance", margin, kLength);
   require_finite(o.viewpoint.value_or(cloud.viewpoint), "viewpoint");
   if (!o.crop) return;
@@ -47,7 +49,7 @@ void validate(const CloudView& cloud, const SegmentOptions& o) {
 
 void validate(const SceneTree& scene, const CutOptions& o) {
   require(o.value >= 0, "cut", o.value, "at least 0");
-  require(scene.method == Method::surface || o.value <= scene.distance, "cut", o.value,
+  require(scene.method != Method::paper || o.value <= scene.distance, "cut", o.value,
           fmt::format("at most {}, the distance up to which the tree was made", scene.distance));
   require(o.min_part >= 1, "min_part", static_cast<double>(o.min_part), "at least 1");
   require(o.min_size >= 1, "min_size", static_cast<double>(o.min_size), "at least 1");

@@ -76,8 +76,7 @@ std::string label_file(const std::string& path, const SceneTree& scene,
     return text_of([&](std::ostream& o) { write_png(o, label_image(scene, labels)); });
   }
   std::string text;
-  for (const std::uint32_t label : labels)
-    fmt::format_to(std::back_inserter(text), "{}\n", label);
+  for (const std::uint32_t label : labels) fmt::format_to(std::back_inserter(text), "{}\n", label);
   return text;
 }
 
@@ -173,8 +172,8 @@ void Outputs::write_file(File& file, const Cloud* cloud, const Segmentation& s,
                            barcode_info(s, info));
     case Kind::plot:
       return out.write(svg_plot(
-          s.barcode,
-          {.title = "", .value_label = s.method == Method::paper ? "Distance (m)" : "Concavity"}));
+          s.barcode, {.title = "",
+                      .value_label = s.method == Method::surface ? "Concavity" : "Distance (m)"}));
     case Kind::coloured:
       return out.write(cloud_bytes(coloured_cloud(*cloud, s.labels, colours(*cloud, s, info)),
                                    cloud_format_of(f.coloured)));

@@ -42,7 +42,7 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
   }
   // Section VI: "we find all points that correspond to a planar model and remove them"
   PlaneSearch search = find_plane(cloud, in_range, scene.margin.distance);
-  if (options.method == Method::surface) {
+  if (options.method != Method::paper) {
     constexpr double least = 0.005, deviations = 4;  // a structured-light sensor has 1.2 mm
     if (deviations * search.noise > scene.margin.distance)
       search = find_plane(cloud, in_range, deviations * search.noise);
@@ -97,9 +97,9 @@ Segmentation segment(const CloudView& input, const SegmentOptions& options,
   Segmentation result;
   StageClock clock(context, result.stages);
   const Scene scene = clear_scene(cloud, options, clock, result);
-  const Filtered filtered = options.method == Method::surface
-                                ? filter_by_surface(scene, options, context, clock)
-                                : filter_by_distance(scene, options, context, clock);
+  const Filtered filtered = options.method == Method::paper
+                                ? filter_by_distance(scene, options, context, clock)
+                                : filter_by_surface(scene, options, context, clock);
 
   // Alg. 2: the death times of the zero-dimensional cycles, by the disjoint sets of V.C
   result.tree = merge_tree(filtered.graph, context);

@@ -33,10 +33,7 @@ std::string options_of(const SegmentOptions& o) {
                  {"voxel", o.voxel ? number(*o.voxel) : "null"},
                  {"distance", number(o.distance)},
                  {"steps", o.steps == 0 ? json_string("exact") : integer(o.steps)},
-                 {"min_size", integer(o.min_size)},
-                 {"min_persistence", number(o.min_persistence)},
-                 {"objects", boolean(o.objects)},
-                 {"min_part", integer(o.min_part)},
+                 {"spacing", number(o.spacing)},
                  {"check", boolean(o.check)}});
 }
 

@@ -46,7 +46,7 @@ std::string tree_bytes(const SceneTree& scene) {
   const auto integer = [&](std::int64_t value) { put(bytes, value); };
   const auto number = [&](double value) { put(bytes, value); };
   for (const std::int64_t value :
-       {kTreeVersion, std::int64_t{scene.method == Method::paper}, scene.width, scene.height,
+       {kTreeVersion, static_cast<std::int64_t>(scene.method), scene.width, scene.height,
         static_cast<std::int64_t>(n), static_cast<std::int64_t>(scene.tree.merges.size()),
         static_cast<std::int64_t>(scene.xyz.size() / 3), scene.edges})
     integer(value);

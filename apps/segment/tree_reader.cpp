@@ -75,7 +75,7 @@ class TreeReader {
     constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
     const double least_length = std::numeric_limits<double>::min();
     integer("version", kTreeVersion, kTreeVersion);
-    scene_.method = integer("method", 0, 1) == 0 ? Method::surface : Method::paper;
+    scene_.method = static_cast<Method>(integer("method", 0, 2));
     scene_.width = integer("width", 0, kMost);
     scene_.height = integer("height", 0, kMost);
     vertices_ = integer("number of vertices", 0, kMost - 2);
@@ -110,7 +110,7 @@ class TreeReader {
     at_ = 3 * kWord;
     if (!cloud || *cloud > static_cast<std::size_t>(kMost))
       fail("width times height", "more than 2^32", "at most 2^32");
-    const std::size_t vectors = scene_.method == Method::surface ? 3 : 2;  // normals
+    const std::size_t vectors = scene_.method != Method::paper ? 3 : 2;  // normals
     const std::size_t expected =
         kHeader + static_cast<std::size_t>(vertices_) * (3 * vectors + 2) * kWord +
         static_cast<std::size_t>(merges_) * 2 * kWord + *cloud * sizeof(std::uint32_t) +
@@ -152,7 +152,7 @@ class TreeReader {
         scene_.vertices(static_cast<Index>(v), static_cast<Index>(k)) = c[k];
       }
     }
-    if (scene_.method == Method::surface) read_normals();
+    if (scene_.method != Method::paper) read_normals();
     scene_.counts.resize(n);
     for (Index& count : scene_.counts) count = integer("points of a voxel", 1, points_);
   }

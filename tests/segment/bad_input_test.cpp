@@ -29,9 +29,10 @@ class BadInput : public testing::TestWithParam<Method> {
     return s;
   }
 };
-INSTANTIATE_TEST_SUITE_P(Methods, BadInput, testing::Values(Method::surface, Method::paper),
+INSTANTIATE_TEST_SUITE_P(Methods, BadInput,
+                         testing::Values(Method::surface, Method::paper, Method::supervoxels),
                          [](const auto& method) {
-                           return method.param == Method::paper ? "Paper" : "Surface";
+                           return std::string(test::name_of(method.param));
                          });
 
 std::vector<float> scaled(std::vector<float> xyz, double factor) {

@@ -35,9 +35,10 @@ class Invariance : public testing::TestWithParam<Method> {
     return segment::segment(cloud, options, context);
   }
 };
-INSTANTIATE_TEST_SUITE_P(Methods, Invariance, testing::Values(Method::surface, Method::paper),
+INSTANTIATE_TEST_SUITE_P(Methods, Invariance,
+                         testing::Values(Method::surface, Method::paper, Method::supervoxels),
                          [](const auto& method) {
-                           return method.param == Method::paper ? "Paper" : "Surface";
+                           return std::string(test::name_of(method.param));
                          });
 
 TEST_P(Invariance, OrderOfThePoints) {

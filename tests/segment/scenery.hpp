@@ -10,6 +10,11 @@
 /// Small scenes with known answers.
 namespace ph::segment::test {
 
+/// For the names of tests.
+inline const char* name_of(Method method) {
+  return method == Method::paper ? "Paper" : method == Method::surface ? "Surface" : "Supervoxels";
+}
+
 inline constexpr float kHole = std::numeric_limits<float>::quiet_NaN();
 
 /// An organised cloud of x, y, z from triples of coordinates.

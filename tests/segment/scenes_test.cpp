@@ -115,7 +115,7 @@ TEST_P(SceneTest, IsSingleLinkageOfTheVoxels) {
     std::set<std::uint32_t> used;
     for (const auto& [c, labels] : labels_of) {
       ASSERT_EQ(labels.size(), 1U) << "component " << c << " has several labels";
-      if (sizes[c] < options.min_size) {
+      if (sizes[c] < options.cut().min_size) {
         EXPECT_EQ(*labels.begin(), 0U);
       } else {
         EXPECT_NE(*labels.begin(), 0U);

@@ -43,9 +43,10 @@ class StoredTree : public testing::TestWithParam<Method> {
     return segment(CloudView{scene.xyz(), {}}, options());
   }
 };
-INSTANTIATE_TEST_SUITE_P(Methods, StoredTree, testing::Values(Method::surface, Method::paper),
+INSTANTIATE_TEST_SUITE_P(Methods, StoredTree,
+                         testing::Values(Method::surface, Method::paper, Method::supervoxels),
                          [](const auto& method) {
-                           return method.param == Method::paper ? "Paper" : "Surface";
+                           return std::string(test::name_of(method.param));
                          });
 
 TEST_P(StoredTree, GivesTheSameSegments) {

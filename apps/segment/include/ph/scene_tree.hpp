@@ -28,9 +28,11 @@ struct Box {
 
 /// What decides which voxels belong together.
 enum class Method {
-  surface,  ///< the shape of the visible surface: cut where it is hollow, so that objects that
-            ///< touch come apart
-  paper,    ///< distance alone: Beksi & Papanikolopoulos, ICRA 2016
+  surface,      ///< the shape of the visible surface: cut where it is hollow, so that objects that
+                ///< touch come apart
+  paper,        ///< distance alone: Beksi & Papanikolopoulos, ICRA 2016
+  supervoxels,  ///< pieces of about one size that do not cross seams: the distance along the
+                ///< surface to evenly spread seeds
 };
 
 /// The plane normal·x + offset = 0, its unit normal turned towards the sensor: the signed distance
@@ -83,11 +85,11 @@ struct Segment {
 
 /// Where to cut a merge tree.
 struct CutOptions {
-  /// Method surface: least persistence of a part, a mean concavity (0…2). Method paper: components
-  /// at this distance, metres, at most that of the tree. >= 0.
+  /// Least persistence of a part: a mean concavity, 0…2 (surface), or metres (supervoxels). Method
+  /// paper: components at this distance, metres, at most that of the tree. >= 0.
   double value = 0.01;
   Index min_part =
-      200;              ///< surface: fewest voxels of a part; a smaller one joins a neighbour, >= 1
+      200;  ///< not paper: fewest voxels of a part; a smaller one joins a neighbour, >= 1
   Index min_size = 32;  ///< fewest voxels of a segment, >= 1
   bool objects = true;  ///< surface: join the visible parts of an object
   friend bool operator==(const CutOptions&, const CutOptions&) = default;

@@ -30,7 +30,7 @@ struct SegmentOptions {
   /// Edge of a voxel, metres, > 0. Not given: see voxel_size; method surface takes a larger one
   /// where the points are so far apart that voxels of this size would not touch.
   std::optional<double> voxel = {};
-  Index min_size = 32;                        ///< fewest voxels of a segment, >= 1
+  std::optional<Index> min_size = {};         ///< fewest voxels of a segment, >= 1; see cut
   double max_range = 2.0;                     ///< farthest from the viewpoint, metres; inf: all
   std::optional<Box> crop = {};               ///< keep the points inside this box only
   bool plane = true;                          ///< remove the supporting plane and what is behind
@@ -38,10 +38,11 @@ struct SegmentOptions {
   std::optional<Vec3> viewpoint = {};         ///< where the sensor stood; default: the cloud's
   bool check = true;                          ///< compare union-find with boundary-matrix reduction
 
-  // Method surface
-  double min_persistence = 0.01;  ///< least persistence of a part, a mean concavity (0…2), >= 0
-  bool objects = true;            ///< join the visible parts of an object; false: parts stay apart
-  Index min_part = 200;  ///< fewest voxels of a part; a smaller one joins a neighbour, >= 1
+  // Methods surface and supervoxels. Not given: see cut.
+  std::optional<double> min_persistence = {};  ///< least persistence of a part, >= 0; unit: Segment
+  bool objects = true;  ///< surface: join the visible parts of an object; false: they stay apart
+  std::optional<Index> min_part = {};  ///< fewest voxels of a part; a smaller one joins, >= 1
+  double spacing = 0.03;  ///< supervoxels: how far the surface is from a seed at most, metres, > 0
 
   // Method paper
   double distance = 0.025;  ///< maximum distance of the Vietoris-Rips complex, metres, >= 0
@@ -52,9 +53,13 @@ struct SegmentOptions {
   double plane_margin() const {
     return plane_distance.value_or(method == Method::paper ? 0.006 : 0.005);
   }
-  /// Where these options cut the tree.
+  /// Where these options cut the tree; what was not given is what suits the method.
   CutOptions cut() const {
-    return {method == Method::paper ? distance : min_persistence, min_part, min_size, objects};
+    if (method == Method::supervoxels)
+      return {min_persistence.value_or(0), min_part.value_or(8), min_size.value_or(1), false};
+    const CutOptions d;
+    return {method == Method::paper ? distance : min_persistence.value_or(d.value),
+            min_part.value_or(d.min_part), min_size.value_or(d.min_size), objects};
   }
 };
 
@@ -80,8 +85,9 @@ struct Segmentation : SceneTree, SceneCut {
 ///
 /// Method surface: the voxels enter with the concavity of the surface around them, the darkest
 /// seams last; objects are basins between seams. Method paper: the Vietoris-Rips complex of the
-/// voxels; objects are components of infinite persistence. Deterministic: the result depends
-/// neither on threads nor on the order of the points.
+/// voxels; objects are components of infinite persistence. Method supervoxels: the voxels enter
+/// with their distance to the nearest seed; each basin is a supervoxel. Deterministic: the result
+/// depends neither on threads nor on the order of the points.
 /// @throws Error (usage) on an option out of its range; Error (bad_data) if `xyz` is not a
 ///         multiple of three long; Error (cancelled, resource) as `context` asks.
 Segmentation segment(const CloudView& cloud, const SegmentOptions& options = {},
@@ -95,6 +101,19 @@ inline std::optional<Meeting> first_meeting(const Segmentation& s, std::uint32_t
                                             std::uint32_t b) {
   return first_meeting(s, s, a, b);
 }
+
+/// The shape of some segments, of which nothing but their voxels is looked at, by persistent
+/// homology in dimensions 0 to 2: pieces, loops (a handle, a rim, a hole that one can see through)
+/// and hollows. The filtration is the distance to the nearest voxel (ph::distance_image): a bar
+/// (b, d) in dimension 1 is a loop that closes when the voxels have grown by b metres, and is
+/// filled when they have grown by d, which is the radius of the largest ball that goes through it.
+/// Bars no longer than a voxel are left out: the grid may have made them. Cells are those of an
+/// image around the segments. O(volume of their box).
+/// @throws Error (usage) on no label, or one that is not that of a segment; Error (resource,
+///         cancelled) as `context` asks.
+Barcode signature(const SceneTree& scene, const SceneCut& cut,
+                  std::span<const std::uint32_t> labels,
+                  const RunContext& context = default_context());
 
 /// A colour a segment, 0x00RRGGBB, that people with any common kind of colour blindness can tell
 /// apart. Those that touch differ as long as none touches more than six.

@@ -163,13 +163,16 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   double getVoxelSize() const { return options_.voxel_size(); }
   /// Fewest voxels of a segment.
   void setMinClusterSize(Index voxels) { options_.min_size = voxels; }
-  Index getMinClusterSize() const { return options_.min_size; }
+  Index getMinClusterSize() const { return options_.cut().min_size; }
   /// Method surface: least persistence of a part, a mean concavity (0…2).
   void setMinPersistence(double persistence) { options_.min_persistence = persistence; }
-  double getMinPersistence() const { return options_.min_persistence; }
+  double getMinPersistence() const {
+    return options_.min_persistence.value_or(
+        options_.method == ph::segment::Method::paper ? CutOptions().value : options_.cut().value);
+  }
   /// Method surface: fewest voxels of a part.
   void setMinPartSize(Index voxels) { options_.min_part = voxels; }
-  Index getMinPartSize() const { return options_.min_part; }
+  Index getMinPartSize() const { return options_.cut().min_part; }
   /// Method surface: whether the visible parts of an object are joined.
   void setObjects(bool join) { options_.objects = join; }
   bool getObjects() const { return options_.objects; }
