@@ -229,6 +229,9 @@ void add_output_options(CLI::App& app, Arguments& a) {
        "png: 16 bits, organised clouds)",
        files.labels);
   path("--json", "FILE", "summary: stages, complex, plane, segments", files.json);
+  app.add_flag("--signatures", a.signatures,
+               "JSON: H0, H1 and H2 of the shape of each segment (a handle is a loop, a hollow a "
+               "bar in dimension 2), in metres");
   path("--tree", "FILE.tree|.json",
        "the merge tree and what other cuts need: .tree is an INPUT for --cut and --explain, .json "
        "is for other programs",
@@ -281,6 +284,7 @@ void require_inputs(const Arguments& a) {
   if (std::ranges::count(a.inputs, "-") + (a.frames_from == "-") > 1)
     reject("INPUT: standard input can be read once only");
   if (several && depth) reject("--depth: several frames need INPUT, a folder or --frames-from");
+  if (a.signatures && a.files.json.empty()) reject("--signatures: expected --json with it");
   if (several && a.explain) reject("--explain takes one input only");
   if (!several && a.stable_labels) reject("--stable-labels: expected several frames");
 }

@@ -68,6 +68,7 @@ struct Arguments {
   CutArguments cut;
   std::string scene_option;  ///< an option that was given and that a stored tree cannot follow
   OutputPaths files;
+  bool signatures = false;  ///< the homology of each segment goes into the JSON
   std::optional<std::array<std::uint32_t, 2>> explain;  ///< two segments: where do they join?
   app::CommonOptions common;
 

@@ -49,7 +49,7 @@ SceneCut cut_scene(const SceneTree& scene, const VoxelGrid& grid, const Surface&
     component_of = scene.tree.components(options.value);
   } else {
     component_of = scene.tree.basins(options.value, options.min_part);
-    if (options.objects) {
+    if (options.objects && scene.method == Method::surface) {
       component_of = join_parts(grid, surface, scene.voxel, component_of, options.min_size);
     }
   }

@@ -18,6 +18,7 @@ struct RunInfo {
   bool from_tree = false;   ///< a stored tree was cut
   /// What each segment is called in the files; empty: by its label.
   std::vector<std::uint32_t> numbers = {};
+  std::vector<Barcode> signatures = {};  ///< of each segment; empty: not asked for
 
   std::uint32_t number_of(std::uint32_t label) const {
     return label == 0 || numbers.empty() ? label : numbers[label - 1];

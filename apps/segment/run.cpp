@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <optional>
+#include <span>
 
 #include "arguments.hpp"
 #include "cross_check.hpp"
@@ -149,6 +150,9 @@ Outcome run_frame(const Arguments& arguments, app::Session& session, const OfStr
                .read_seconds = result.read_seconds,
                .from_tree = !result.cloud};
   if (stream && stream->tracker) info.numbers = stream->tracker->update(s, s);
+  if (arguments.signatures)
+    for (const Segment& g : s.segments)
+      info.signatures.push_back(signature(s, s, std::span(&g.label, 1), session.context()));
   outputs.write(result.cloud ? &*result.cloud : nullptr, s, info);
   if (answer) write_file("-", *answer);
   return {s.difference.empty() ? app::kOk : app::kDifference, one_line_summary(s),

@@ -70,6 +70,19 @@ std::string neighbours_of(const Segment& segment, const RunInfo& info) {
   return "[" + text + "]";
 }
 
+std::string signature_of(const Segment& segment, const RunInfo& info) {
+  if (info.signatures.empty()) return "null";
+  const auto bars_of = [&](int dim) {
+    std::string text;
+    for (const Bar& bar : info.signatures[segment.label - 1].bars(dim)) {
+      text += text.empty() ? "" : ", ";
+      text += "[" + number(bar.birth) + ", " + number(bar.death) + "]";
+    }
+    return "[" + text + "]";
+  };
+  return object({{"h0", bars_of(0)}, {"h1", bars_of(1)}, {"h2", bars_of(2)}});
+}
+
 std::string segments_of(const Segmentation& s, const RunInfo& info) {
   return lines(s.segments, [&](const Segment& g) {
     return object({{"label", integer(info.number_of(g.label))},
@@ -81,7 +94,8 @@ std::string segments_of(const Segmentation& s, const RunInfo& info) {
                    {"centroid", numbers(g.centroid)},
                    {"box", box_of(g.box)},
                    {"oriented_box", oriented_box_of(g.oriented_box)},
-                   {"neighbours", neighbours_of(g, info)}});
+                   {"neighbours", neighbours_of(g, info)},
+                   {"signature", signature_of(g, info)}});
   });
 }
 

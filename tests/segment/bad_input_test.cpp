@@ -29,8 +29,7 @@ class BadInput : public testing::TestWithParam<Method> {
     return s;
   }
 };
-INSTANTIATE_TEST_SUITE_P(Methods, BadInput,
-                         testing::Values(Method::surface, Method::paper, Method::supervoxels),
+INSTANTIATE_TEST_SUITE_P(Methods, BadInput, testing::Values(Method::surface, Method::paper),
                          [](const auto& method) {
                            return std::string(test::name_of(method.param));
                          });

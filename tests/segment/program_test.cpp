@@ -188,6 +188,23 @@ TEST_F(Program, ExplainsWhereSegmentsJoin) {
     EXPECT_EQ(run(std::string("scene.pcd --explain ") + bad), 64) << bad;
 }
 
+TEST_F(Program, SupervoxelsAndSignatures) {
+  ASSERT_EQ(run("scene.pcd --supervoxels 0.03 --json s.json --tree s.tree --labels a.npy"), 0)
+      << err();
+  const std::string summary = contents(at("s.json"));
+  EXPECT_NE(summary.find("\"method\": \"supervoxels\""), std::string::npos);
+  EXPECT_NE(summary.find("\"label\": 10,"), std::string::npos) << summary;
+  EXPECT_NE(summary.find("\"signature\": null"), std::string::npos);
+  ASSERT_EQ(run("s.tree --cut 0 --objects --labels b.npy"), 0) << err();
+  EXPECT_EQ(contents(at("a.npy")), contents(at("b.npy")));
+  ASSERT_EQ(run("scene.pcd --signatures --json s.json"), 0) << err();
+  EXPECT_NE(
+      contents(at("s.json")).find("\"signature\": {\"h0\": [[0, null]], \"h1\": [], \"h2\": []}"),
+      std::string::npos);
+  for (const char* bad : {"--supervoxels 0", "--supervoxels x", "--signatures"})
+    EXPECT_EQ(run(std::string("scene.pcd ") + bad), 64) << bad;
+}
+
 TEST_F(Program, AStoredTreeIsAnInput) {
   ASSERT_EQ(run("scene.pcd --tree s.tree --labels a.npy --barcode a.csv"), 0) << err();
   ASSERT_EQ(run("s.tree --labels b.npy --barcode b.csv --json b.json"), 0) << err();

@@ -34,7 +34,8 @@ TEST(Supervoxels, CoverWhatStandsOnTheTable) {
 }
 
 TEST(Supervoxels, AreNoLargerThanTheSpacingAllowsAndFewerWhereItIsLarge) {
-  const CloudView cloud{TableScene::two_boxes().xyz(), {}};
+  const TableScene scene = TableScene::two_boxes();
+  const CloudView cloud{scene.xyz(), {}};
   std::size_t before = SIZE_MAX;
   for (const double spacing : {0.02, 0.03, 0.05}) {
     const Segmentation s = segment(cloud, spaced(spacing));
@@ -47,7 +48,8 @@ TEST(Supervoxels, AreNoLargerThanTheSpacingAllowsAndFewerWhereItIsLarge) {
 }
 
 TEST(Supervoxels, ACoarserCutJoinsWholeOnes) {
-  const CloudView cloud{TableScene::two_boxes().xyz(), {}};
+  const TableScene scene = TableScene::two_boxes();
+  const CloudView cloud{scene.xyz(), {}};
   const Segmentation fine = segment(cloud, spaced(0.02));
   CutOptions options = fine.first_cut;
   options.value = 0.02;
