@@ -44,7 +44,7 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
   PlaneSearch search = find_plane(cloud, in_range, scene.margin.distance);
   if (options.method != Method::paper) {
     constexpr double least = 0.005, deviations = 4;  // a structured-light sensor has 1.2 mm
-    if (deviations * search.noise > scene.margin.distance)
+    if (deviations * search.noise > 2 * scene.margin.distance)
       search = find_plane(cloud, in_range, deviations * search.noise);
     scene.margin.noise = std::max(least, deviations * search.noise);
   }
