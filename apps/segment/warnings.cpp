@@ -32,15 +32,15 @@ std::string about_units(const Arguments& a, const Cloud& cloud, const Segmentati
   if (!found)
     return fmt::format("no point within {} m of the viewpoint: all are holes", a.options.max_range);
   const auto [nearest, farthest] = *found;
-  const std::string_view option = a.is_depth_image() ? "--depth-scale" : "a length is in metres";
+  const std::string_view unit = a.is_depth_image() ? "see --depth-scale" : "lengths are in metres";
   if (s.stages.front().points == 0) {
     return fmt::format(
-        "no point within {} m of the viewpoint{}, the nearest is at {:.3g} m; see {}",
+        "no point within {} m of the viewpoint{}, the nearest is at {:.3g} m; {}",
         a.options.max_range, a.options.crop ? " and inside the crop box" : "", nearest,
-        nearest > room ? fmt::format("{}: are these millimetres?", option) : "--max-range");
+        nearest > room ? fmt::format("{}: are these millimetres?", unit) : "see --max-range");
   }
   if (farthest >= crumb) return {};
-  return fmt::format("all points are within {:.3g} m of the viewpoint; see {}", farthest, option);
+  return fmt::format("all points are within {:.3g} m of the viewpoint; {}", farthest, unit);
 }
 
 /// A pinhole camera sees between a few degrees and a half circle, and its axis meets the image.

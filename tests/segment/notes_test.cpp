@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// What ph-segment notes where lengths or a camera cannot be meant.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ph/io/png.hpp"
+#include "program_fixture.hpp"
+
+namespace ph::segment {
+namespace {
+
+class Notes : public test::Program {
+ protected:
+  void write_scaled(const std::string& name, double factor) {
+    std::vector<float> xyz = scene_.xyz();
+    for (float& x : xyz) x = static_cast<float>(x * factor);
+    write_cloud(at(name), test::cloud_of(xyz, scene_.kWidth, scene_.kHeight));
+  }
+  /// Millimetres.
+  void write_depth() {
+    Raster depth{scene_.kWidth, scene_.kHeight, 1, 16, {}};
+    for (std::size_t i = 0; i < scene_.truth().size(); ++i) {
+      const float z = scene_.xyz()[3 * i + 2];
+      depth.samples.push_back(
+          static_cast<std::uint16_t>(std::isnan(z) ? 0 : std::lround(z * 1000)));
+    }
+    std::ofstream file(at("d.png"), std::ios::binary);
+    write_png(file, depth);
+  }
+  bool notes(const std::string& text) const { return err().find(text) != std::string::npos; }
+};
+
+TEST_F(Notes, MillimetresAndMetres) {
+  write_scaled("mm.pcd", 1000);
+  EXPECT_EQ(run("mm.pcd"), 0);
+  EXPECT_TRUE(notes("no point within 2 m of the viewpoint, the nearest is at 7")) << err();
+  EXPECT_TRUE(notes("lengths are in metres: are these millimetres?")) << err();
+  write_scaled("km.pcd", 0.001);
+  EXPECT_EQ(run("km.pcd"), 0);
+  EXPECT_TRUE(notes("all points are within 0.00")) << err();
+  EXPECT_EQ(run("scene.pcd --max-range 0.1"), 0);
+  EXPECT_TRUE(notes("see --max-range")) << err();
+}
+
+TEST_F(Notes, DepthImages) {
+  write_depth();
+  const std::string camera = "--intrinsics 260,260,159.5,119.5";
+  ASSERT_EQ(run("--depth d.png " + camera), 0) << err();
+  EXPECT_EQ(std::ranges::count(err(), '\n'), 1) << err();
+  ASSERT_EQ(run("d.png " + camera), 0) << err();  // the same
+  EXPECT_TRUE(notes("2 segments")) << err();
+  ASSERT_EQ(run("d.png --depth-scale 1 " + camera), 0);
+  EXPECT_TRUE(notes("--depth-scale: are these millimetres?")) << err();
+  ASSERT_EQ(run("d.png --depth-scale 1000000 " + camera), 0);
+  EXPECT_TRUE(notes("see --depth-scale")) << err();
+  for (const char* absurd : {"0.26,0.26,159.5,119.5", "260000,260000,159.5,119.5"}) {
+    ASSERT_EQ(run(std::string("d.png --intrinsics ") + absurd), 0) << err();
+    EXPECT_TRUE(notes("--intrinsics: a field of view of")) << err();
+  }
+  ASSERT_EQ(run("d.png --intrinsics 260,260,1595,119.5"), 0) << err();
+  EXPECT_TRUE(notes("the principal point 1595, 119.5 is outside")) << err();
+  EXPECT_EQ(run("d.png"), 64);
+  EXPECT_EQ(run("scene.pcd " + camera), 64);
+}
+
+TEST_F(Notes, ThreadsChangeNoByte) {
+  ASSERT_EQ(run("scene.pcd --threads 1 --labels a.npy --tree a.tree"), 0) << err();
+  ASSERT_EQ(run("scene.pcd --threads 4 --labels b.npy --tree b.tree"), 0) << err();
+  EXPECT_EQ(contents(at("a.npy")), contents(at("b.npy")));
+  EXPECT_EQ(contents(at("a.tree")), contents(at("b.tree")));
+}
+
+}  // namespace
+}  // namespace ph::segment
