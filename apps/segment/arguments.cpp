@@ -329,10 +329,16 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
 }
 
 bool Arguments::is_stream() const {
-  const bool several = !frames_from.empty() || inputs.size() > 1;
-  const auto is_folder_name = [](const std::string* path) { return path->ends_with('/'); };
-  return several || std::ranges::any_of(files.all(), is_folder_name) ||
-         (files.any() && !inputs.empty() && app::is_folder(inputs.front()));
+  if (!frames_from.empty() || inputs.size() > 1) return true;
+  const std::vector<std::string> outputs = files.of_each_frame();
+  if (std::ranges::any_of(outputs, [](const auto& path) { return path.ends_with('/'); }))
+    return true;
+  // A folder is one only if its results have a place; else it is an input that cannot be read.
+  const auto takes_several = [](const std::string& path) {
+    return path.find('*') != path.npos || app::is_folder(path);
+  };
+  return files.any() && !inputs.empty() && app::is_folder(inputs.front()) &&
+         std::ranges::all_of(outputs, takes_several);
 }
 
 bool Arguments::is_depth_image() const {

@@ -35,6 +35,13 @@ struct OutputPaths {
   std::array<const std::string*, 8> all() const {
     return {&output, &labels, &json, &tree, &barcode, &plot, &coloured, &picture};
   }
+  /// Those that a stream has for each of its frames, and that are asked for.
+  std::vector<std::string> of_each_frame() const {
+    std::vector<std::string> paths;
+    for (const std::string* path : all())
+      if (path != &json && !path->empty()) paths.push_back(*path);
+    return paths;
+  }
   bool any() const {
     return std::ranges::any_of(all(), [](const std::string* path) { return !path->empty(); });
   }

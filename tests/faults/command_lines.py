@@ -167,7 +167,7 @@ SEGMENT = [
     (49, ["-o", "x.obj"], "x.obj: expected a file name that ends in .pcd or .ply"),
     (50, ["--distance"], "--distance"),
     (50, ["--voxle", "0.1"], "did you mean '--voxel'"),
-    (50, ["another.pcd"], "unexpected argument 'another.pcd'"),
+    (50, ["another.pcd"], "several inputs need a folder"),
 ]
 
 

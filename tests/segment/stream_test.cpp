@@ -109,9 +109,10 @@ TEST_F(Stream, UsageErrors) {
   fs::create_directory(at("empty"));
   EXPECT_EQ(run("empty --labels out/"), 66);
   EXPECT_EQ(run("in"), 66);  // no place for the results of several
+  EXPECT_EQ(run("in --labels l.npy"), 66);
   EXPECT_EQ(run("--frames-from missing.txt --labels out/"), 66);
   for (const char* arguments :
-       {"in --labels l.npy", "in/0.pcd in/1.pcd", "in --labels out/ --explain 1,2",
+       {"in/0.pcd in/1.pcd --labels l.npy", "in/0.pcd in/1.pcd", "in --labels out/ --explain 1,2",
         "in/0.pcd --stable-labels", "in/0.pcd in/0.pcd --labels out/", "- - --labels out/"}) {
     EXPECT_EQ(run(arguments), 64) << arguments;
     EXPECT_EQ(std::ranges::count(err(), '\n'), 1) << arguments << '\n' << err();
