@@ -41,13 +41,15 @@ int main(int argc, char** argv) {
     const std::string name = engine.name;
     const bool components_only = engine.id == ph::Engine::union_find;
     const bool is_oracle = engine.id == ph::Engine::standard;
+    const bool images_only = engine.id == ph::Engine::arrows;
     const ph::Options options{.max_dim = components_only ? 0 : 1, .engine = engine.id};
-    benchmark::RegisterBenchmark(("rips_60/" + name).c_str(),
-                                 [=](auto& state) { run(state, small, options); });
+    if (!images_only)
+      benchmark::RegisterBenchmark(("rips_60/" + name).c_str(),
+                                   [=](auto& state) { run(state, small, options); });
     benchmark::RegisterBenchmark(("cubical_12/" + name).c_str(),
                                  [=, &grid](auto& state) { run(state, grid, options); });
     if (is_oracle) return;
-    if (engine.id != ph::Engine::twist) {  // twist would list every triangle
+    if (engine.id != ph::Engine::twist && !images_only) {  // twist would list every triangle
       benchmark::RegisterBenchmark(("rips_1000/" + name).c_str(), [=](auto& state) {
         run(state, large, options);
       })->Unit(benchmark::kMillisecond);

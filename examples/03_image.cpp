@@ -4,9 +4,9 @@
 #include <ph/ph.hpp>
 
 int main() {
-  ph::Image volume{{7, 7, 7}, std::vector<double>(7 * 7 * 7, 9.0)};
+  std::vector<double> voxels(7 * 7 * 7, 9.0);  // bytes, short integers and floats will do, too
   const auto at = [&](int x, int y, int z) -> double& {
-    return volume.values[static_cast<std::size_t>((x * 7 + y) * 7 + z)];
+    return voxels[static_cast<std::size_t>((x * 7 + y) * 7 + z)];
   };
   for (int x = 1; x <= 5; ++x)
     for (int y = 1; y <= 5; ++y)
@@ -15,7 +15,7 @@ int main() {
     for (int y = 2; y <= 4; ++y)
       for (int z = 2; z <= 4; ++z) at(x, y, z) = 9;
 
-  const ph::Barcode bars = ph::persistence(ph::Cubical(volume));
+  const ph::Barcode bars = ph::persistence(ph::Cubical(ph::Image{{7, 7, 7}, voxels}));
   for (const ph::Bar& bar : bars.bars(2)) {
     std::cout << bars.bars(2).size() << " void, born at " << bar.birth << ", filled at "
               << bar.death << "\n";

@@ -50,9 +50,7 @@ std::size_t size_of(const ReadResult& read) {
     std::size_t operator()(const SparseDistances& distances) const {
       return distances.edges().size() * sizeof(WeightedEdge);
     }
-    std::size_t operator()(const Image& image) const {
-      return image.values.size() * sizeof(double);
-    }
+    std::size_t operator()(const Image& image) const { return image.values.bytes(); }
     std::size_t operator()(const SimplicesInput&) const { return 0; }  // becomes the complex
     std::size_t operator()(const BoundaryInput&) const { return 0; }
     std::size_t operator()(const Mesh& mesh) const {

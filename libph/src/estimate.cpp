@@ -25,12 +25,14 @@ std::vector<double> cells_of(const F& filtration, int top) {
   return cells;
 }
 
-double stored_bytes(const Cubical& cubical) {
-  double voxels = 0;
-  cubical.for_each_cell(0, [&](const auto&) { ++voxels; });
-  return 4 * static_cast<double>(cubical.slot_count()) + 8 * voxels;
+/// What the complex holds when the engine is at work.
+double stored_bytes(const Cubical& cubical, Engine engine) {
+  const auto voxels = static_cast<double>(cubical.voxel_grid().size());
+  const auto held = static_cast<double>(cubical.voxel_bytes());
+  if (cubical.slot_count() == 0 || engine == Engine::arrows) return held;
+  return held + 4 * static_cast<double>(cubical.slot_count()) + 8 * voxels;
 }
-double stored_bytes(const ExplicitComplex& complex) {
+double stored_bytes(const ExplicitComplex& complex, Engine) {
   double entries = 0;
   for (int d = 1; d <= complex.top_dim(); ++d) {
     complex.for_each_cell(d, [&](const auto& c) {
@@ -76,10 +78,21 @@ template <class Complex>
 Estimate estimate_one(const Complex& complex, const Options& options, const RunContext& context) {
   Estimate e;
   static_cast<RunPlan&>(e) = plan_one(complex, options, context);
-  e.cells = cells_of(complex, detail::listed_dim(e.engine, e.max_dim));
+  e.bytes_held = stored_bytes(complex, e.engine);
+  detail::MemoryForecast forecast;
+  if (e.engine == Engine::arrows) {
+    if constexpr (std::same_as<Complex, Cubical>) {
+      const double voxels =
+          e.bytes_held == 0 ? 0.0 : static_cast<double>(complex.voxel_grid().size());
+      e.cells = {voxels};
+      forecast = detail::forecast_voxels(e.bytes_held, voxels);
+    }
+  } else {
+    e.cells = cells_of(complex, detail::listed_dim(e.engine, e.max_dim));
+    forecast = detail::forecast_cells(e.bytes_held, e.cells);
+  }
   e.counted_dims = static_cast<int>(e.cells.size());
-  e.bytes_held = stored_bytes(complex);
-  const auto [low, high] = detail::forecast_cells(e.bytes_held, e.cells);
+  const auto [low, high] = forecast;
   e.bytes_low = low;
   e.bytes_high = high;
   return e;

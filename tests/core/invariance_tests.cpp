@@ -89,9 +89,10 @@ TEST(Invariance, AnImageMayBeTransposed) {
   for (std::uint64_t seed = 0; seed < 150; ++seed) {
     Generator random(seed);
     const Image image = random.image({3, 5}, random.coin());
-    Image turned{{5, 3}, image.values};
+    std::vector<double> values(15);
     for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 5; ++j) turned.values[j * 3 + i] = image.values[i * 5 + j];
+      for (std::size_t j = 0; j < 5; ++j) values[j * 3 + i] = image.values[i * 5 + j];
+    const Image turned{{5, 3}, values};
     CubicalOptions options = random.cubical_options(2), swapped = options;
     swapped.periodic = {options.periodic[1], options.periodic[0]};
     EXPECT_EQ(bars_of(persistence(Cubical(image, options), kUpToTwo)),

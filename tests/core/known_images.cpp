@@ -15,13 +15,13 @@ constexpr Construction kBoth[] = {Construction::vertices, Construction::cells};
 /// An image of side `n` along `dim` axes; `value(coordinates)` for each voxel.
 template <class Value>
 Image make_image(int dim, Index n, Value&& value) {
-  Image image{std::vector<Index>(static_cast<std::size_t>(dim), n), {}};
+  std::vector<double> values;
   std::vector<Index> at(static_cast<std::size_t>(dim), 0);
   for (;;) {
-    image.values.push_back(value(at));
+    values.push_back(value(at));
     std::size_t k = at.size();
     while (k > 0 && ++at[k - 1] == n) at[--k] = 0;
-    if (k == 0) return image;
+    if (k == 0) return {std::vector<Index>(static_cast<std::size_t>(dim), n), values};
   }
 }
 
@@ -76,11 +76,12 @@ TEST(KnownImages, BirthsAtMinusInfinity) {
 
 // A ring of voxels, four thick: a solid torus is a circle up to homotopy.
 TEST(KnownImages, SolidTorus) {
-  Image ring{{5, 5, 2}, {}};
+  std::vector<double> values;
   for (Index x = 0; x < 5; ++x)
     for (Index y = 0; y < 5; ++y)
       for (Index z = 0; z < 2; ++z)
-        ring.values.push_back(x == 2 && y == 2 ? 4.0 : (x + y + z) % 2 == 0 ? 0.0 : 0.5);
+        values.push_back(x == 2 && y == 2 ? 4.0 : (x + y + z) % 2 == 0 ? 0.0 : 0.5);
+  const Image ring{{5, 5, 2}, values};
   for (const Construction construction : kBoth) {
     const Cubical torus(ring, {.construction = construction});
     check(torus, 3, {3});
@@ -119,9 +120,10 @@ TEST(KnownImages, PeriodicBoxesAreTori) {
     for (int k = 0; k <= dim; ++k) torus.push_back(binomial(dim, k));
     Index voxels = 1;
     for (const Index n : extents) voxels *= n;
-    Image constant{extents, std::vector<double>(static_cast<std::size_t>(voxels), 7.0)};
-    Image varied = constant;
-    for (double& v : varied.values) v = random.value(true);
+    const Image constant{extents, std::vector<double>(static_cast<std::size_t>(voxels), 7.0)};
+    std::vector<double> values(static_cast<std::size_t>(voxels));
+    for (double& v : values) v = random.value(true);
+    const Image varied{extents, values};
     for (const Construction construction : kBoth) {
       const CubicalOptions options{.construction = construction,
                                    .periodic = std::vector<bool>(extents.size(), true)};
@@ -164,7 +166,9 @@ TEST(KnownImages, SuperlevelIsTheSublevelOfTheNegative) {
     if (random.coin()) options.threshold = 0;
     options.superlevel = true;
     const auto above = pairs_of(Cubical(image, options), 2, 3, Engine::automatic);
-    for (double& v : image.values) v = -v;
+    image.values.change([](auto& values) {
+      for (auto& v : values) v = -v;
+    });
     options.superlevel = false;
     EXPECT_EQ(above, pairs_of(Cubical(image, options), 2, 3, Engine::automatic)) << seed;
   }

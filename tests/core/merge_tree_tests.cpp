@@ -129,10 +129,11 @@ TEST(MergeTrees, OfImages) {
     Generator random(seed);
     const Index rows = random.integer(1, 4), columns = random.integer(1, 4);
     Image image = random.image({rows, columns}, random.coin());
-    if (random.coin()) image.values[0] = kInf;
+    std::vector<double> births = image.values.doubles();
+    if (random.coin()) births[0] = kInf;
+    image.values = births;
     CubicalOptions options;
     if (random.coin()) options.threshold = 0.5;
-    std::vector<double> births = image.values;
     for (double& b : births)
       if (options.threshold && b > *options.threshold) b = kInf;
     std::vector<WeightedEdge> edges;

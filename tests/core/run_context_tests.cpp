@@ -40,15 +40,21 @@ TEST(MemoryBudgets, CountAndRefuse) {
 TEST(MemoryBudgets, HoldForEveryEngine) {
   Generator random(3);
   const Points points = random.points(24, 3, false);
+  const Image image = random.image({9, 8, 7}, false);
   for_each_engine([&](auto engine) {
     SCOPED_TRACE(engine.name);
     const int max_dim = engine.id == Engine::union_find ? 0 : engine.id == Engine::lens ? 1 : 2;
     const Options options{.max_dim = max_dim, .field = 3, .engine = engine.id};
+    const auto run = [&](const RunContext& context) {
+      if (engine.id == Engine::arrows)
+        return persistence(Cubical(image, {}, context), options, context);
+      return persistence(Rips(points, {}, context), options, context);
+    };
     std::size_t peak = 0;
     Barcode expected;
     {
       RunContext context;
-      expected = persistence(Rips(points, {}, context), options, context);
+      expected = run(context);
       peak = context.memory.peak();
       EXPECT_EQ(context.memory.used(), 0U);
     }
@@ -56,8 +62,7 @@ TEST(MemoryBudgets, HoldForEveryEngine) {
       RunContext context;
       context.memory.set_limit(peak * k / 20);
       try {
-        EXPECT_EQ(bars_of(persistence(Rips(points, {}, context), options, context)),
-                  bars_of(expected));
+        EXPECT_EQ(bars_of(run(context)), bars_of(expected));
       } catch (const Error& e) {
         EXPECT_EQ(e.kind(), ErrorKind::resource);
         EXPECT_LT(k, 20U) << "what was enough once is enough again";
@@ -161,9 +166,14 @@ TEST(RunContexts, AStopRequestedBeforehandStopsEverything) {
     Cubical cubical(Image{{2}, {0, 1}}, {}, context);
   });
   const Rips rips(points);
+  const Cubical image(Image{{2}, {0, 1}});
   for_each_engine([&](auto engine) {
-    expect_error(ErrorKind::cancelled, "stopped",
-                 [&] { persistence(rips, {.max_dim = 0, .engine = engine.id}, context); });
+    expect_error(ErrorKind::cancelled, "stopped", [&] {
+      if (engine.id == Engine::arrows)
+        persistence(image, {.engine = engine.id}, context);
+      else
+        persistence(rips, {.max_dim = 0, .engine = engine.id}, context);
+    });
   });
 }
 

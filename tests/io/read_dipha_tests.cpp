@@ -141,7 +141,7 @@ TEST(ReadDipha, ReadsWhatNpyReads) {
     std::vector<std::int64_t> numbers{static_cast<std::int64_t>(image.values.size()), image.dim()};
     numbers.insert(numbers.end(), image.extents.rbegin(), image.extents.rend());
     // C order with the axes reversed is x fastest.
-    const Image back = read_image(Input::view(dipha(1, numbers, image.values), "a"));
+    const Image back = read_image(Input::view(dipha(1, numbers, image.values.doubles()), "a"));
     ASSERT_EQ(back.dim(), image.dim());
     EXPECT_TRUE(std::equal(back.extents.rbegin(), back.extents.rend(), image.extents.begin()));
     double sum = 0, expected = 0;

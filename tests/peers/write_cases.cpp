@@ -82,13 +82,15 @@ void write_cubical(std::ostream& out, Generator& random, std::int64_t field) {
     options.periodic.push_back(random.integer(0, 2) == 0);
   }
   const bool ties = random.coin();
-  for (std::size_t i = 0; i < voxels; ++i) {
-    image.values.push_back(random.value(ties));
-    if (random.integer(0, 29) == 0) image.values.back() = kInfinity;
+  std::vector<double> values(voxels);
+  for (double& v : values) {
+    v = random.value(ties);
+    if (random.integer(0, 29) == 0) v = kInfinity;
   }
+  image.values = values;
   out << fmt::format(
       R"({{"kind":"cubical","extents":{},"values":{},"periodic":{},"field":{},"bars":{}}})",
-      list(image.extents), list(image.values), list(options.periodic), field,
+      list(image.extents), list(values), list(options.periodic), field,
       bars(persistence(Cubical(image, options), {.field = field})));
   out << '\n';
 }

@@ -60,13 +60,13 @@ class InputGenerator {
   Image image(std::vector<Index> extents, bool ties) {
     Index voxels = 1;
     for (const Index n : extents) voxels *= n;
-    Image image{std::move(extents), std::vector<double>(static_cast<std::size_t>(voxels))};
-    for (double& v : image.values) {
+    std::vector<double> values(static_cast<std::size_t>(voxels));
+    for (double& v : values) {
       v = value(ties) - 1;
       if (integer(0, 39) == 0) v = kInfinity;
       if (integer(0, 39) == 0) v = -kInfinity;
     }
-    return image;
+    return {std::move(extents), std::move(values)};
   }
   CubicalOptions cubical_options(int dim) {
     CubicalOptions options;

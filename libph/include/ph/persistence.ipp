@@ -24,6 +24,8 @@ struct EngineChoice {
 template <Filtration F>
 EngineChoice choose_engine(const F& f, Engine asked, int max_dim, Representatives wanted) {
   if (asked == Engine::automatic) {
+    if (ArrowsEngine::can_run(f, max_dim, wanted))
+      return {Engine::arrows, "an image is paired voxel by voxel"};
     if (UnionFindEngine::can_run(f, max_dim, wanted))
       return {Engine::union_find, "only components are asked for"};
     if (LensEngine::can_run(f, max_dim, wanted))

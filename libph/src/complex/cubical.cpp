@@ -44,82 +44,119 @@ void check(const Image& image, const CubicalOptions& options) {
   }
 }
 
+void refuse_nan(const VoxelGrid& grid, const RunContext& context) {
+  with_voxels(grid.type, grid.voxels, [&]<class T>(const T* voxels) {
+    if constexpr (std::is_floating_point_v<T>) {
+      constexpr std::size_t block = 1 << 16;
+      const std::size_t count = grid.size();
+      for (std::size_t begin = 0; begin < count; begin += block) {
+        context.poll();
+        const std::size_t end = std::min(count, begin + block);
+        bool any = false;  // without a branch: several at a time
+        for (std::size_t i = begin; i < end; ++i) any |= voxels[i] != voxels[i];
+        for (std::size_t i = begin; any && i < end; ++i)
+          if (std::isnan(voxels[i]))
+            throw Error(ErrorKind::bad_data,
+                        fmt::format("voxel {}: found nan, expected a number", i));
+      }
+    }
+  });
+}
+
 }  // namespace
 
 Cubical::Cubical(const Image& image, const CubicalOptions& options, const RunContext& context)
-    : dim_(image.dim()), keys_(&context.memory), values_(&context.memory) {
+    : dim_(image.dim()), voxels_(image.values), context_(&context) {
   check(image, options);
-  const std::size_t voxels = image.values.size();
-  if (voxels == 0) return;  // a file may hold an image of no dimension and no voxel
-  const bool voxels_are_vertices = options.construction == CubicalOptions::Construction::vertices;
+  const std::size_t count = voxels_.size();
+  if (count == 0) return;  // a file may hold an image of no dimension and no voxel
+  context.poll();
+  claim_ = std::make_shared<MemoryClaim>(context.memory, voxels_.bytes());
+  const double most = std::numeric_limits<double>::max();
+  grid_.limit = std::min(most, options.threshold.value_or(most));
+  if (options.threshold && std::isnan(*options.threshold))
+    throw Error(ErrorKind::usage, "threshold: found nan, expected a number");
+  grid_.extents = image.extents;
+  grid_.periodic = options.periodic;
+  grid_.periodic.resize(image.extents.size(), false);
+  grid_.type = voxels_.type();
+  grid_.voxels = voxels_.data();
+  grid_.voxels_are_vertices = options.construction == CubicalOptions::Construction::vertices;
+  grid_.superlevel = options.superlevel;
+  refuse_nan(grid_, context);
 
+  cells_ = 1;
+  for (int k = dim_ - 1; k >= 0; --k) {
+    Axis& axis = axes_[k];
+    const auto n = static_cast<std::uint64_t>(image.extents[static_cast<std::size_t>(k)]);
+    axis.periodic = grid_.periodic[static_cast<std::size_t>(k)];
+    axis.stride = cells_;
+    axis.length = axis.periodic ? 2 * n : grid_.voxels_are_vertices ? 2 * n - 1 : 2 * n + 1;
+    cells_ *= axis.length;
+  }
+}
+
+const Cubical::Table& Cubical::make_table() const {
+  const std::lock_guard lock(lazy_->mutex);
+  if (const Table* made = lazy_->made.load(std::memory_order_relaxed)) return *made;
+  const Table& made = lazy_->table.emplace(new_table());
+  lazy_->made.store(&made, std::memory_order_release);
+  return made;
+}
+
+Cubical::Table Cubical::new_table() const {
+  Table table{std::pmr::vector<std::uint32_t>(&context_->memory),
+              std::pmr::vector<double>(&context_->memory)};
   // Ranks of the voxels that enter, by (value, position).
   struct Voxel {
     double value;
     std::uint32_t position;
   };
-  std::pmr::vector<Voxel> order(&context.memory);
-  order.reserve(voxels);
-  const double limit = options.threshold.value_or(std::numeric_limits<double>::max());
-  if (std::isnan(limit)) throw Error(ErrorKind::usage, "threshold: found nan, expected a number");
-  for (std::size_t i = 0; i < voxels; ++i) {
-    const double value = (options.superlevel ? -image.values[i] : image.values[i]) + 0.0;
-    if (std::isnan(value)) {
-      throw Error(ErrorKind::bad_data, fmt::format("voxel {}: found nan, expected a number", i));
-    }
-    if (value <= limit && value < std::numeric_limits<double>::infinity())
+  std::pmr::vector<Voxel> order(&context_->memory);
+  order.reserve(voxels_.size());
+  for (std::size_t i = 0; i < voxels_.size(); ++i)
+    if (const double value = grid_.value(i); value <= grid_.limit)
       order.push_back({value, static_cast<std::uint32_t>(i)});
-  }
-  context.poll();
+  context_->poll();
   radix_sort_by_value(order, [](const Voxel& v) { return v.value; });
-  context.poll();
-  values_.reserve(order.size());
-  for (const Voxel& v : order) values_.push_back(v.value);
-
-  // The doubled grid.
-  std::uint64_t cells = 1;
-  for (int k = dim_ - 1; k >= 0; --k) {
-    Axis& axis = axes_[k];
-    const auto n = static_cast<std::uint64_t>(image.extents[static_cast<std::size_t>(k)]);
-    axis.periodic = static_cast<std::size_t>(k) < options.periodic.size() &&
-                    options.periodic[static_cast<std::size_t>(k)];
-    axis.stride = cells;
-    axis.length = axis.periodic ? 2 * n : voxels_are_vertices ? 2 * n - 1 : 2 * n + 1;
-    cells *= axis.length;
-  }
-  keys_.assign(cells, kNever);
+  context_->poll();
+  table.values.reserve(order.size());
+  for (const Voxel& v : order) table.values.push_back(v.value);
+  table.keys.assign(cells_, kNever);
 
   // Voxels stand at the even coordinates (V) or the odd ones (T). A cube of V enters with the last
   // of its vertices, a face of T with the first of its cofaces: spread the keys axis by axis.
-  const std::uint64_t voxel_parity = voxels_are_vertices ? 0 : 1;
+  const std::uint64_t voxel_parity = grid_.voxels_are_vertices ? 0 : 1;
   const auto grid_index = [&](std::uint64_t voxel) {
     std::uint64_t index = 0;
     for (int k = dim_ - 1; k >= 0; --k) {
-      const auto n = static_cast<std::uint64_t>(image.extents[static_cast<std::size_t>(k)]);
+      const auto n = static_cast<std::uint64_t>(grid_.extents[static_cast<std::size_t>(k)]);
       index += (2 * (voxel % n) + voxel_parity) * axes_[k].stride;
       voxel /= n;
     }
     return index;
   };
   for (std::size_t rank = 0; rank < order.size(); ++rank)
-    keys_[grid_index(order[rank].position)] = static_cast<std::uint32_t>(rank);
+    table.keys[grid_index(order[rank].position)] = static_cast<std::uint32_t>(rank);
 
   for (int k = 0; k < dim_; ++k) {
-    spread_keys(axes_[k], voxels_are_vertices);
-    context.poll();
+    spread_keys(table.keys, axes_[k], grid_.voxels_are_vertices);
+    context_->poll();
   }
+  return table;
 }
 
-void Cubical::spread_keys(const Axis& axis, bool voxels_are_vertices) {
+void Cubical::spread_keys(std::pmr::vector<std::uint32_t>& keys, const Axis& axis,
+                          bool voxels_are_vertices) {
   const std::uint64_t last = axis.length - 1, slab = axis.stride * axis.length;
-  for (std::uint64_t first = 0; first < keys_.size(); first += slab) {
+  for (std::uint64_t first = 0; first < keys.size(); first += slab) {
     for (std::uint64_t x = voxels_are_vertices ? 1 : 0; x <= last; x += 2) {
       // The layers below and above along the axis; at a border of T there is only one.
       const bool has_lower = x > 0 || axis.periodic, has_upper = x < last || axis.periodic;
       const std::uint64_t below = x > 0 ? x - 1 : last, above = x < last ? x + 1 : 0;
-      std::uint32_t* layer = keys_.data() + first + x * axis.stride;
-      const std::uint32_t* lower = keys_.data() + first + (has_lower ? below : above) * axis.stride;
-      const std::uint32_t* upper = keys_.data() + first + (has_upper ? above : below) * axis.stride;
+      std::uint32_t* layer = keys.data() + first + x * axis.stride;
+      const std::uint32_t* lower = keys.data() + first + (has_lower ? below : above) * axis.stride;
+      const std::uint32_t* upper = keys.data() + first + (has_upper ? above : below) * axis.stride;
       for (std::uint64_t i = 0; i < axis.stride; ++i) {
         layer[i] =
             voxels_are_vertices ? std::max(lower[i], upper[i]) : std::min(lower[i], upper[i]);
@@ -134,7 +171,7 @@ void Cubical::append_input_cell(int, const Cell& cell, std::vector<Index>& numbe
 }
 
 std::size_t Cubical::vertex_count() const {
-  if (keys_.empty()) return 0;
+  if (cells_ == 0) return 0;
   std::size_t count = 1;
   for (int k = 0; k < dim_; ++k) count *= (axes_[k].length + 1) / 2;
   return count;

@@ -2,10 +2,10 @@
 #include "ph/core/barcode.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 
 #include "ph/core/error.hpp"
+#include "ph/core/radix_sort.hpp"
 
 namespace ph {
 
@@ -18,43 +18,58 @@ Barcode::Range Barcode::store(std::span<const Index> numbers) {
 void Barcode::add(const Bar& bar, std::span<const Index> birth_cell,
                   std::span<const Index> death_cell) {
   bars_.push_back(bar);
-  const Range birth = store(birth_cell);
-  cells_.push_back({birth, store(death_cell), {}, {}});
+  const Range birth = store(birth_cell), death = store(death_cell);
+  cells_.push_back({birth.begin, death.begin, death.end, kNone});
 }
 
 void Barcode::set_representative(Representatives kind, std::span<const Index> numbers,
                                  std::span<const std::int64_t> coefficients) {
   representatives_ = kind;
-  cells_.back().chain = store(numbers);
-  cells_.back().coefficients.begin = coefficients_.size();
+  const Range cells = store(numbers);
+  const std::size_t begin = coefficients_.size();
   coefficients_.insert(coefficients_.end(), coefficients.begin(), coefficients.end());
-  cells_.back().coefficients.end = coefficients_.size();
+  cells_.back().chain = chains_.size();
+  chains_.push_back({cells, {begin, coefficients_.size()}});
 }
 
 InputChain Barcode::representative(std::size_t i) const {
   if (representatives_ == Representatives::none)
     throw Error(ErrorKind::usage, "the barcode was computed without representatives");
-  const auto [begin, end] = cells_[i].coefficients;
-  return {kind_, numbers_of(cells_[i].chain), std::span(coefficients_).subspan(begin, end - begin)};
+  const Chain chain = cells_[i].chain == kNone ? Chain{} : chains_[cells_[i].chain];
+  const auto [begin, end] = chain.coefficients;
+  return {kind_, numbers_of(chain.numbers), std::span(coefficients_).subspan(begin, end - begin)};
 }
 
 void Barcode::sort() {
-  std::vector<std::size_t> order(bars_.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
+  struct Place {
+    double value;
+    std::size_t bar;
+  };
+  std::pmr::vector<Place> order(bars_.size());
+  // By digits: death, then birth, each keeping what was sorted before; -0.0 is +0.0 in both.
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = {bars_[i].death + 0.0, i};
+  const auto value_of = [](const Place& place) { return place.value; };
+  radix_sort_by_value(order, value_of);
+  for (Place& place : order) place.value = bars_[place.bar].birth + 0.0;
+  radix_sort_by_value(order, value_of);
+  for (Place& place : order) place.value = bars_[place.bar].dim;
+  radix_sort_by_value(order, value_of);
   // Stable: bars without cells keep their order when they are written and read again.
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    const Bar &x = bars_[a], &y = bars_[b];
-    if (x.dim != y.dim) return x.dim < y.dim;
-    if (x.birth != y.birth) return x.birth < y.birth;
-    if (x.death != y.death) return x.death < y.death;
-    return std::ranges::lexicographical_compare(numbers_of(cells_[a].birth),
-                                                numbers_of(cells_[b].birth));
-  });
+  for (std::size_t begin = 0, end; begin < order.size(); begin = end) {
+    const Bar& bar = bars_[order[begin].bar];
+    for (end = begin + 1; end < order.size() && bars_[order[end].bar] == bar;) ++end;
+    if (end - begin < 2) continue;
+    std::stable_sort(
+        order.begin() + static_cast<std::ptrdiff_t>(begin),
+        order.begin() + static_cast<std::ptrdiff_t>(end), [&](const Place& a, const Place& b) {
+          return std::ranges::lexicographical_compare(birth_numbers(a.bar), birth_numbers(b.bar));
+        });
+  }
   std::vector<Bar> bars(bars_.size());
   std::vector<Cells> cells(cells_.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
-    bars[i] = bars_[order[i]];
-    cells[i] = cells_[order[i]];
+    bars[i] = bars_[order[i].bar];
+    cells[i] = cells_[order[i].bar];
   }
   bars_ = std::move(bars);
   cells_ = std::move(cells);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace ph::detail {
 namespace {
@@ -42,18 +43,18 @@ double half(const std::byte* from, std::endian order, bool&) {
 }  // namespace
 
 std::optional<ElementType> element_type(std::string_view kind) {
-  if (kind == "b1") return ElementType{1, &element<std::uint8_t>};
-  if (kind == "u1") return ElementType{1, &element<std::uint8_t>};
-  if (kind == "u2") return ElementType{2, &element<std::uint16_t>};
+  if (kind == "b1") return ElementType{1, &element<std::uint8_t>, VoxelType::uint8, true};
+  if (kind == "u1") return ElementType{1, &element<std::uint8_t>, VoxelType::uint8, true};
+  if (kind == "u2") return ElementType{2, &element<std::uint16_t>, VoxelType::uint16, true};
   if (kind == "u4") return ElementType{4, &element<std::uint32_t>};
   if (kind == "u8") return ElementType{8, &element<std::uint64_t>};
-  if (kind == "i1") return ElementType{1, &element<std::int8_t>};
-  if (kind == "i2") return ElementType{2, &element<std::int16_t>};
+  if (kind == "i1") return ElementType{1, &element<std::int8_t>, VoxelType::int16};
+  if (kind == "i2") return ElementType{2, &element<std::int16_t>, VoxelType::int16, true};
   if (kind == "i4") return ElementType{4, &element<std::int32_t>};
   if (kind == "i8") return ElementType{8, &element<std::int64_t>};
-  if (kind == "f2") return ElementType{2, &half};
-  if (kind == "f4") return ElementType{4, &element<float>};
-  if (kind == "f8") return ElementType{8, &element<double>};
+  if (kind == "f2") return ElementType{2, &half, VoxelType::float32};
+  if (kind == "f4") return ElementType{4, &element<float>, VoxelType::float32, true};
+  if (kind == "f8") return ElementType{8, &element<double>, VoxelType::float64, true};
   return std::nullopt;
 }
 
@@ -77,46 +78,77 @@ std::size_t count_elements(const Input& input, const ArrayLayout& layout,
   return there / layout.type.size;
 }
 
-Image load_array(const Input& input, const ArrayLayout& layout, std::vector<Index> extents) {
-  Image image;
-  image.extents = std::move(extents);
-  const std::size_t count = count_elements(input, layout, image.extents);
-  input.require_memory(count * sizeof(double));
-  image.values.resize(count);
+namespace {
+
+template <class T>
+std::vector<T> load_as(const Input& input, const ArrayLayout& layout,
+                       const std::vector<Index>& extents, std::size_t count) {
+  input.require_memory(count * sizeof(T));
+  std::vector<T> values(count);
+  const std::byte* bytes = input.bytes().data() + layout.offset;
+  const bool in_order = !layout.first_axis_fastest || extents.size() < 2;
+  const bool as_it_is =
+      layout.type.is_native && (layout.order == std::endian::native || sizeof(T) == 1);
+  if (in_order && as_it_is) {
+    for (std::size_t k = 0; k < count; k += kPollMask + 1) {
+      input.poll();
+      std::memcpy(values.data() + k, bytes + k * sizeof(T),
+                  std::min(count - k, kPollMask + 1) * sizeof(T));
+    }
+    if constexpr (std::is_floating_point_v<T>)
+      for (T& value : values) value += 0;  // -0.0 becomes +0.0
+    return values;
+  }
   const auto element_at = [&](std::size_t k) {
     if ((k & kPollMask) == 0) input.poll();
-    const std::size_t at = layout.offset + k * layout.type.size;
+    const std::size_t at = k * layout.type.size;
+    if (as_it_is) {
+      T value;
+      std::memcpy(&value, bytes + at, sizeof(T));
+      return static_cast<T>(value + T{0});
+    }
     bool exact = true;
-    const double value = layout.type.load(input.bytes().data() + at, layout.order, exact);
+    const double value = layout.type.load(bytes + at, layout.order, exact);
     if (!exact) {
       const std::string near = fmt::format("{:.0f} nearby", value);
-      input.fail_at_byte(at, {"integer that double cannot hold", near, "at most 2^53", {}});
+      input.fail_at_byte(layout.offset + at,
+                         {"integer that double cannot hold", near, "at most 2^53", {}});
     }
-    return value;
+    return static_cast<T>(value);
   };
-  if (!layout.first_axis_fastest || image.extents.size() < 2) {
-    for (std::size_t k = 0; k < count; ++k) image.values[k] = element_at(k);
-    return image;
+  if (in_order) {
+    for (std::size_t k = 0; k < count; ++k) values[k] = element_at(k);
+    return values;
   }
   // The first and the last axis change places in tiles that a few cache lines hold; the axes
   // between them run in the file's order.
   constexpr std::size_t kTile = 8;
-  const auto first = static_cast<std::size_t>(image.extents.front());
-  const auto last = static_cast<std::size_t>(image.extents.back());
+  const auto first = static_cast<std::size_t>(extents.front());
+  const auto last = static_cast<std::size_t>(extents.back());
   const std::size_t between = count == 0 ? 0 : count / first / last;
-  FirstAxisFastest middle({image.extents.begin() + 1, image.extents.end() - 1});
+  FirstAxisFastest middle({extents.begin() + 1, extents.end() - 1});
   for (std::size_t m = 0; m < between; ++m, middle.next()) {
     for (std::size_t z0 = 0; z0 < last; z0 += kTile) {
       for (std::size_t x0 = 0; x0 < first; x0 += kTile) {
         for (std::size_t x = x0; x < std::min(x0 + kTile, first); ++x) {
-          double* to = image.values.data() + (x * between + middle.place()) * last;
+          T* to = values.data() + (x * between + middle.place()) * last;
           for (std::size_t z = z0; z < std::min(z0 + kTile, last); ++z)
             to[z] = element_at(x + first * (m + between * z));
         }
       }
     }
   }
-  return image;
+  return values;
+}
+
+}  // namespace
+
+Image load_array(const Input& input, const ArrayLayout& layout, std::vector<Index> extents) {
+  const std::size_t count = count_elements(input, layout, extents);
+  return with_voxels(layout.type.stored, nullptr, [&]<class T>(const T*) {
+    auto values = load_as<T>(input, layout, extents, count);
+    return Image{std::move(extents), std::move(values)};
+  });
 }
 
 FirstAxisFastest::FirstAxisFastest(const std::vector<Index>& extents) : axes_(extents.size()) {

@@ -14,6 +14,8 @@ struct ElementType {
   std::size_t size = 0;  ///< bytes
   /// The number at an address; sets its last argument to false if double cannot hold it.
   double (*load)(const std::byte*, std::endian, bool&) = nullptr;
+  VoxelType stored = VoxelType::float64;  ///< the smallest type of voxels that holds them all
+  bool is_native = false;  ///< whether that is the type itself, but for the order of its bytes
 };
 
 /// By NumPy's letter and size in bytes: b1 u1 u2 u4 u8 i1 i2 i4 i8 f2 f4 f8.

@@ -138,7 +138,9 @@ void scale(Image& image, const Header& header, const Input& input, const ReadOpt
         kSlope,
         {"scale of the values", fmt::format("{} and {}", slope, intercept), "finite numbers", {}});
   }
-  for (double& value : image.values) value = value * slope + intercept + 0.0;
+  std::vector<double> values = image.values.doubles();
+  for (double& value : values) value = value * slope + intercept + 0.0;
+  image.values = std::move(values);
   detail::note(options,
                fmt::format("values scaled: {} times the stored ones plus {}", slope, intercept));
 }

@@ -187,21 +187,25 @@ Image read_npy_array(const Input& input) {
 
 Image without_nan_pixels(Image image, const Input& input, const ReadOptions& options) {
   std::size_t masked = 0;
-  for (std::size_t k = 0; k < image.values.size(); ++k) {
-    if (!std::isnan(image.values[k])) continue;
-    if (options.nan == NanPolicy::error) {
-      std::vector<Index> place(image.extents.size());
-      auto rest = static_cast<Index>(k);
-      for (std::size_t axis = place.size(); axis-- > 0;) {
-        place[axis] = rest % image.extents[axis];
-        rest /= image.extents[axis];
+  image.values.change([&]<class T>(std::vector<T>& values) {
+    if constexpr (std::is_floating_point_v<T>) {
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        if (!std::isnan(values[k])) continue;
+        if (options.nan == NanPolicy::error) {
+          std::vector<Index> place(image.extents.size());
+          auto rest = static_cast<Index>(k);
+          for (std::size_t axis = place.size(); axis-- > 0;) {
+            place[axis] = rest % image.extents[axis];
+            rest /= image.extents[axis];
+          }
+          input.fail({fmt::format("value at [{}]", fmt::join(place, ", ")), "NaN", "a number",
+                      "--nan drop masks such voxels"});
+        }
+        values[k] = std::numeric_limits<T>::infinity();
+        ++masked;
       }
-      input.fail({fmt::format("value at [{}]", fmt::join(place, ", ")), "NaN", "a number",
-                  "--nan drop masks such voxels"});
     }
-    image.values[k] = std::numeric_limits<double>::infinity();
-    ++masked;
-  }
+  });
   if (masked > 0) note(options, fmt::format("{} voxels are NaN: masked", masked));
   if (image.values.empty() && !options.allow_empty) {
     input.fail({"no voxels", fmt::format("shape ({})", fmt::join(image.extents, ", ")),

@@ -49,13 +49,13 @@ class CellStream {
 
 // What -1 says. Perseus takes positive integers, and -1 for a cube that is never there; in GUDHI,
 // which takes any number, it is a value like another. A file that Perseus could read is meant so.
-void take_missing_cubes(Image& image, const ReadOptions& options) {
-  const auto count = std::count(image.values.begin(), image.values.end(), -1.0);
+void take_missing_cubes(std::vector<double>& values, const ReadOptions& options) {
+  const auto count = std::count(values.begin(), values.end(), -1.0);
   if (count == 0) return;
-  const bool perseus = std::all_of(image.values.begin(), image.values.end(), [](double v) {
+  const bool perseus = std::all_of(values.begin(), values.end(), [](double v) {
     return v == -1 || (v > 0 && (v == std::floor(v) || v == kInfinity));
   });
-  if (perseus) std::replace(image.values.begin(), image.values.end(), -1.0, kInfinity);
+  if (perseus) std::replace(values.begin(), values.end(), -1.0, kInfinity);
   detail::note(options, perseus ? fmt::format("{} cubes of value -1 never enter, as in Perseus "
                                               "(all other values are positive integers)",
                                               count)
@@ -88,16 +88,17 @@ PerseusImage read_dense(TextLines& lines, std::size_t axes) {
                 {}});
   }
   input.require_memory(*count * sizeof(double));
-  result.image.values.resize(*count);
+  std::vector<double> values(*count);
   detail::FirstAxisFastest walk(result.image.extents);
   for (std::size_t k = 0; k < *count; ++k, walk.next()) {
     if (!stream.more()) fail_truncated(input, k, *count, "values of the cubes");
-    result.image.values[walk.place()] = stream.cells().number(Allow::infinite);
+    values[walk.place()] = stream.cells().number(Allow::infinite);
   }
   if (stream.more()) {
     lines.fail(stream.cells().place(),
                {"trailing data", "another value", fmt::format("{} values", *count), {}});
   }
+  result.image.values = std::move(values);
   return result;
 }
 
@@ -147,22 +148,23 @@ PerseusImage read_sparse_cubes(TextLines& lines, std::size_t axes) {
   }
   input.require_memory(*count * sizeof(double));
   // NaN: not listed yet
-  result.image.values.assign(*count, std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> values(*count, std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < cubes.values.size(); ++i) {
     std::size_t place = 0;
     for (std::size_t axis = 0; axis < axes; ++axis) {
       place = place * static_cast<std::size_t>(extents[axis]) +
               static_cast<std::size_t>(cubes.at[i * axes + axis]);
     }
-    double& value = result.image.values[place];
+    double& value = values[place];
     if (!std::isnan(value)) {
       input.fail_at(cubes.lines[i], 1, {"cube listed twice", {}, "each cube once", {}});
     }
     value = cubes.values[i];
   }
-  for (double& value : result.image.values) {
+  for (double& value : values) {
     if (std::isnan(value)) value = kInfinity;
   }
+  result.image.values = std::move(values);
   return result;
 }
 
@@ -191,7 +193,9 @@ PerseusImage read_perseus(const Input& input, const ReadOptions& options) {
   } else {
     result = read_dense(lines, axes);
   }
-  take_missing_cubes(result.image, options);
+  result.image.values.change([&]<class T>(std::vector<T>& values) {
+    if constexpr (std::same_as<T, double>) take_missing_cubes(values, options);
+  });
   return result;
 }
 

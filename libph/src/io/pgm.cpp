@@ -102,21 +102,26 @@ Image read_pgm_image(const Input& input) {
                                fmt::format("{} x {} pixels", width, height),
                                {}});
   }
-  Image image;
-  image.extents = {static_cast<Index>(height), static_cast<Index>(width)};
-  input.require_memory(count * sizeof(double));
-  image.values.resize(count);
+  input.require_memory(count * bytes_each);
+  std::vector<std::uint8_t> bytes(bytes_each == 1 ? count : 0);
+  std::vector<std::uint16_t> words(bytes_each == 2 ? count : 0);
+  const auto set = [&](std::size_t k, std::size_t value) {
+    if (bytes_each == 1)
+      bytes[k] = static_cast<std::uint8_t>(value);
+    else
+      words[k] = static_cast<std::uint16_t>(value);
+  };
   for (std::size_t k = 0; k < count; ++k) {
     if ((k & kPollMask) == 0) input.poll();
     if (!binary) {
-      image.values[k] = static_cast<double>(numbers.next("grey value", 0, most, true));
+      set(k, numbers.next("grey value", 0, most, true));
       continue;
     }
     const std::byte* from = input.bytes().data() + begin + k * bytes_each;
     const std::size_t value = bytes_each == 2 ? load<std::uint16_t>(from, std::endian::big)
                                               : std::to_integer<std::size_t>(*from);
     if (value > most) fail_sample(input, begin + k * bytes_each, value, most);
-    image.values[k] = static_cast<double>(value);
+    set(k, value);
   }
   std::size_t end = begin + count * bytes_each;
   if (!binary) {
@@ -128,7 +133,9 @@ Image read_pgm_image(const Input& input) {
         end, {"trailing data", fmt::format("{} bytes more", input.size() - end),
               "the end of the file", binary ? "files of several pictures are not read" : ""});
   }
-  return image;
+  const std::vector<Index> extents{static_cast<Index>(height), static_cast<Index>(width)};
+  if (bytes_each == 1) return {extents, std::move(bytes)};
+  return {extents, std::move(words)};
 }
 
 }  // namespace ph::detail

@@ -246,15 +246,17 @@ void write_png(std::ostream& out, const Raster& raster) {
 namespace detail {
 
 Image read_png_image(const Input& input) {
-  const Raster raster = read_png(input);
+  Raster raster = read_png(input);
   if (raster.channels != 1) {
     input.fail({"not a grey image", fmt::format("{} channels", raster.channels), "1", {}});
   }
-  Image image;
-  image.extents = {raster.height, raster.width};
-  input.require_memory(raster.samples.size() * sizeof(double));
-  image.values.assign(raster.samples.begin(), raster.samples.end());
-  return image;
+  const std::vector<Index> extents{raster.height, raster.width};
+  if (raster.bits > 8) return {extents, std::move(raster.samples)};
+  input.require_memory(raster.samples.size());
+  std::vector<std::uint8_t> bytes(raster.samples.size());
+  std::transform(raster.samples.begin(), raster.samples.end(), bytes.begin(),
+                 [](std::uint16_t sample) { return static_cast<std::uint8_t>(sample); });
+  return {extents, std::move(bytes)};
 }
 
 }  // namespace detail

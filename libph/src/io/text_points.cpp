@@ -145,7 +145,8 @@ Points read_points(const Input& input, const ReadOptions& options) {
                   {}});
     }
     input.require_memory(array.values.size() * sizeof(double));
-    points = Eigen::Map<const Points>(array.values.data(), array.extents[0], array.extents[1]);
+    points =
+        Eigen::Map<const Points>(array.values.doubles().data(), array.extents[0], array.extents[1]);
     points = detail::without_nan_rows(std::move(points), input, options, false);
   } else if (detail::is_pcd(input) || detail::is_ply(input)) {
     points = detail::without_nan_rows(

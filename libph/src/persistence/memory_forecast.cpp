@@ -144,6 +144,8 @@ int listed_dim(Engine engine, int max_dim) {
     case Engine::lens:
     case Engine::union_find:
       return 1;
+    case Engine::arrows:
+      return 0;
     case Engine::cohomology:
       return max_dim;
     default:
@@ -186,6 +188,12 @@ MemoryForecast forecast_rips(const Rips& rips, std::span<const double> cells,
       std::clamp(power, 0.8, 1.6) + (rips.graph().is_dense() ? kPowerMargin : kPowerMarginOfLocal);
   const double factor = listed / std::max(1.0, large.listed);
   return {least, most + kMargin * large.extra * std::pow(factor, power)};
+}
+
+MemoryForecast forecast_voxels(double stored, double voxels) {
+  // A star and a node of a graph; critical cells with their columns, and bars.
+  constexpr double least = 4, most = 8 + 160;
+  return {stored + least * voxels, stored + most * voxels + kAlways};
 }
 
 MemoryForecast forecast_cells(double stored, std::span<const double> cells) {

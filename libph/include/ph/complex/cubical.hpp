@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cstdint>
+#include <memory>
 #include <memory_resource>
+#include <mutex>
 #include <optional>
 #include <vector>
 
 #include "ph/core/filtration.hpp"
 #include "ph/core/run_context.hpp"
+#include "ph/core/voxel_grid.hpp"
 #include "ph/image/image.hpp"
 
 namespace ph {
@@ -33,8 +37,9 @@ struct CubicalOptions {
 /// T-construction (odd: a voxel), 2n in both if it is periodic. A cell's dimension is the number of
 /// its odd coordinates. Order: (rank of the voxel that decides the value, dimension, grid index).
 ///
-/// Stores 4 bytes a cell: 2^d cells a voxel. +infinity never enters; -infinity is born at
-/// -infinity.
+/// Holds the voxels, shared with the image. What generic engines need, 4 bytes a cell (2^d cells a
+/// voxel) and the sorted values, is made when a cell is first asked for; an engine that goes voxel
+/// by voxel does without. +infinity never enters; -infinity is born at -infinity.
 class Cubical {
  public:
   struct Cell {
@@ -45,6 +50,7 @@ class Cubical {
   static constexpr int kMaxDim = 8;
   static constexpr bool first_equal_cofacet_is_oldest = true;
 
+  /// @param context outlives the filtration.
   /// @throws Error (bad_data) on NaN, an axis of length 0 or sizes that disagree; Error (usage) on
   ///         more than 8 axes or a periodic axis that does not exist; Error (resource) on more
   ///         than 2^32 - 2 voxels or beyond the context's memory limit.
@@ -53,15 +59,19 @@ class Cubical {
 
   int top_dim() const { return dim_; }
   std::uint32_t key(const Cell& c) const { return c.key; }
-  double value(const Cell& c) const { return values_[c.key]; }
+  double value(const Cell& c) const { return table().values[c.key]; }
   static bool precedes(const Cell& a, const Cell& b) {
     return a.key != b.key ? a.key < b.key : a.index < b.index;
   }
-  std::size_t slot_count() const { return keys_.size(); }
+  std::size_t slot_count() const { return cells_; }
   static std::size_t slot(const Cell& c) { return c.index; }
   static bool edges_join_vertices() { return true; }
   static CellKind cell_kind() { return CellKind::grid; }
   void append_input_cell(int dim, const Cell& cell, std::vector<Index>& numbers) const;
+  /// The image as it is, in the order of this filtration.
+  VoxelGrid voxel_grid() const { return grid_; }
+  /// Bytes that the voxels take.
+  std::size_t voxel_bytes() const { return voxels_.bytes(); }
   /// How many vertices the grid has, those that never enter included: voxels (V), corners (T).
   std::size_t vertex_count() const;
   /// The place of a vertex among them in C order.
@@ -81,16 +91,38 @@ class Cubical {
     std::uint64_t length = 0;  // doubled coordinates
     bool periodic = false;
   };
+  /// What cells are made of.
+  struct Table {
+    std::pmr::vector<std::uint32_t> keys;  // by grid index; kNever: never enters
+    std::pmr::vector<double> values;       // by key
+  };
+  struct Lazy {
+    std::mutex mutex;
+    std::optional<Table> table;
+    std::atomic<const Table*> made{nullptr};
+  };
+  /// Made by whichever thread comes first.
+  const Table& table() const {
+    if (const Table* made = lazy_->made.load(std::memory_order_acquire)) return *made;
+    return make_table();
+  }
+  const Table& make_table() const;
+  Table new_table() const;
   /// Fills the layers between (V) or around (T) the voxels along an axis.
-  void spread_keys(const Axis& axis, bool voxels_are_vertices);
+  static void spread_keys(std::pmr::vector<std::uint32_t>& keys, const Axis& axis,
+                          bool voxels_are_vertices);
   std::uint64_t coordinate(std::uint64_t index, const Axis& axis) const {
     return index / axis.stride % axis.length;
   }
 
   int dim_ = 0;
-  std::array<Axis, kMaxDim> axes_;        // in the input's order, the last one fastest
-  std::pmr::vector<std::uint32_t> keys_;  // by grid index; kNever: never enters
-  std::pmr::vector<double> values_;       // by key
+  std::array<Axis, kMaxDim> axes_;  // in the input's order, the last one fastest
+  std::size_t cells_ = 0;           // of the doubled grid
+  Voxels voxels_;
+  VoxelGrid grid_;  // points into voxels_
+  const RunContext* context_;
+  std::shared_ptr<const MemoryClaim> claim_;  // of the voxels
+  std::shared_ptr<Lazy> lazy_ = std::make_shared<Lazy>();
 };
 
 }  // namespace ph

@@ -6,7 +6,8 @@ namespace ph {
 
 template <class Visit>
 void Cubical::for_each_cell(int dim, Visit&& visit) const {
-  if (dim < 0 || dim > dim_ || keys_.empty()) return;
+  if (dim < 0 || dim > dim_ || cells_ == 0) return;
+  const auto& keys = table().keys;
   // One set of odd axes after the other; within a set the cells in grid order.
   for (unsigned odd = 0; odd < (1U << dim_); ++odd) {
     if (std::popcount(odd) != dim) continue;
@@ -19,7 +20,7 @@ void Cubical::for_each_cell(int dim, Visit&& visit) const {
       index += at[k] * axes_[k].stride;
     }
     while (!empty) {
-      if (keys_[index] != kNever) visit(Cell{keys_[index], index});
+      if (keys[index] != kNever) visit(Cell{keys[index], index});
       int k = dim_ - 1;
       for (; k >= 0; --k) {
         at[k] += 2;
@@ -39,6 +40,7 @@ void Cubical::for_each_cell(int dim, Visit&& visit) const {
 // see Kaczynski, Mischaikow, Mrozek, Computational Homology, section 2.2.
 template <class Visit>
 void Cubical::for_each_facet(int, const Cell& cell, Visit&& visit) const {
+  const auto& keys = table().keys;
   int sign = 1;
   for (int k = 0; k < dim_; ++k) {
     const Axis& axis = axes_[k];
@@ -49,8 +51,8 @@ void Cubical::for_each_facet(int, const Cell& cell, Visit&& visit) const {
       const std::uint64_t lower = cell.index - axis.stride;
       const std::uint64_t upper =
           x + 1 < axis.length ? cell.index + axis.stride : cell.index - x * axis.stride;
-      visit(Cell{keys_[upper], upper}, sign);
-      visit(Cell{keys_[lower], lower}, -sign);
+      visit(Cell{keys[upper], upper}, sign);
+      visit(Cell{keys[lower], lower}, -sign);
     }
     sign = -sign;
   }
@@ -93,8 +95,9 @@ void Cubical::for_each_cofacet(int, const Cell& cell, Visit&& visit) const {
       for (int j = i; j > 0 && cofacets[j].index < cofacets[j - 1].index; --j)
         std::swap(cofacets[j], cofacets[j - 1]);
   }
+  const auto& keys = table().keys;
   for (int i = 0; i < count; ++i) {
-    const std::uint32_t key = keys_[cofacets[i].index];
+    const std::uint32_t key = keys[cofacets[i].index];
     if (key != kNever && !visit(Cell{key, cofacets[i].index}, cofacets[i].incidence)) return;
   }
 }

@@ -79,11 +79,11 @@ class Barcode {
   std::size_t longest(int dim) const;
 
   CellKind cell_kind() const { return kind_; }
-  InputCell birth_cell(std::size_t i) const { return {kind_, numbers_of(cells_[i].birth)}; }
+  InputCell birth_cell(std::size_t i) const { return {kind_, birth_numbers(i)}; }
   /// The cell that killed bar i; nothing for an infinite bar.
   std::optional<InputCell> death_cell(std::size_t i) const {
-    if (cells_[i].death.begin == cells_[i].death.end) return std::nullopt;
-    return InputCell{kind_, numbers_of(cells_[i].death)};
+    if (cells_[i].death == cells_[i].end) return std::nullopt;
+    return InputCell{kind_, death_numbers(i)};
   }
 
   /// What `representative` gives: as asked for in Options.
@@ -105,9 +105,19 @@ class Barcode {
     std::size_t begin = 0, end = 0;
   };
   struct Cells {
-    Range birth, death;
-    Range chain, coefficients;  // the representative
+    std::size_t birth = 0, death = 0, end = 0;  // where their numbers begin
+    std::size_t chain = kNone;                  // in chains_
   };
+  struct Chain {
+    Range numbers, coefficients;
+  };
+  static constexpr std::size_t kNone = SIZE_MAX;
+  std::span<const Index> birth_numbers(std::size_t i) const {
+    return numbers_of({cells_[i].birth, cells_[i].death});
+  }
+  std::span<const Index> death_numbers(std::size_t i) const {
+    return numbers_of({cells_[i].death, cells_[i].end});
+  }
   Range store(std::span<const Index> numbers);
   std::span<const Index> numbers_of(Range r) const {
     return std::span(numbers_).subspan(r.begin, r.end - r.begin);
@@ -118,6 +128,7 @@ class Barcode {
   std::vector<Cells> cells_;    // parallel to bars_
   std::vector<Index> numbers_;  // all cells, one after another
   Representatives representatives_ = Representatives::none;
+  std::vector<Chain> chains_;
   std::vector<std::int64_t> coefficients_;
 };
 
@@ -156,6 +167,14 @@ class BarcodeBuilder {
   bool add_essential(int dim, const Cell& birth) {
     if (dim > max_dim_) return false;
     add(Bar{dim, filtration_.value(birth), kInfinity}, birth, nullptr);
+    return true;
+  }
+  /// A bar whose cells are known by their numbers; no death cell: it never dies.
+  bool add_bar(const Bar& bar, std::span<const Index> birth_cell,
+               std::span<const Index> death_cell) {
+    if (bar.dim > max_dim_) return false;
+    if (!death_cell.empty() && !(bar.persistence() > min_persistence_)) return false;
+    barcode_.add(bar, birth_cell, death_cell);
     return true;
   }
   /// Gives the bar kept last its representative: terms with `cell` and `coefficient()`.

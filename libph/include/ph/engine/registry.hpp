@@ -4,6 +4,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "ph/engine/arrows.hpp"
 #include "ph/engine/cohomology.hpp"
 #include "ph/engine/lens.hpp"
 #include "ph/engine/standard.hpp"
@@ -14,8 +15,8 @@ namespace ph {
 
 /// All engines: a new one is a file and a line here (and its name in `Engine`). Names on the
 /// command line, the conformance suite and the benchmarks iterate over this list.
-using Engines =
-    std::tuple<StandardEngine, TwistEngine, CohomologyEngine, UnionFindEngine, LensEngine>;
+using Engines = std::tuple<StandardEngine, TwistEngine, CohomologyEngine, UnionFindEngine,
+                           LensEngine, ArrowsEngine>;
 
 /// Calls `use(engine)` for each registered engine.
 template <class Use>

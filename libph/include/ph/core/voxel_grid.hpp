@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "ph/core/filtration.hpp"
+
+namespace ph {
+
+/// How the numbers of an image are stored.
+enum class VoxelType { uint8, uint16, int16, float32, float64 };
+
+/// Calls `use(pointer)` with a pointer of the type that `type` names.
+template <class Use>
+decltype(auto) with_voxels(VoxelType type, const void* data, Use&& use) {
+  switch (type) {
+    case VoxelType::uint8:
+      return use(static_cast<const std::uint8_t*>(data));
+    case VoxelType::uint16:
+      return use(static_cast<const std::uint16_t*>(data));
+    case VoxelType::int16:
+      return use(static_cast<const std::int16_t*>(data));
+    case VoxelType::float32:
+      return use(static_cast<const float*>(data));
+    default:
+      return use(static_cast<const double*>(data));
+  }
+}
+
+/// The cubical filtration of an image as the image itself: what an engine needs that goes voxel by
+/// voxel and never lists cells. Points to voxels that outlive it. No value is NaN.
+struct VoxelGrid {
+  std::vector<Index> extents;  ///< in C order: the last axis is the fastest
+  std::vector<bool> periodic;  ///< as many as extents
+  VoxelType type = VoxelType::float64;
+  const void* voxels = nullptr;     ///< null: there are none
+  bool voxels_are_vertices = true;  ///< V-construction; else the voxels are top cubes (T)
+  bool superlevel = false;          ///< values are those of -f
+  double limit = 0;                 ///< values above it never enter; finite
+
+  std::size_t size() const {
+    std::size_t product = voxels == nullptr ? 0 : 1;
+    for (const Index n : extents) product *= static_cast<std::size_t>(n);
+    return product;
+  }
+  /// The value at which a voxel enters.
+  double value(std::size_t i) const {
+    const double v =
+        with_voxels(type, voxels, [i](const auto* all) { return static_cast<double>(all[i]); });
+    return (superlevel ? -v : v) + 0.0;
+  }
+};
+
+/// Capability: the cubical filtration of an image. Its order is (value, place of the voxel that
+/// decides the value in C order; dimension; place of the cell in the doubled grid in C order).
+template <class F>
+concept VoxelFiltration = Filtration<F> && requires(const F& f) {
+  { f.voxel_grid() } -> std::same_as<VoxelGrid>;
+};
+
+}  // namespace ph

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "ph/core/raw_vector.hpp"
+#include "ph/core/run_context.hpp"
+#include "ph/core/voxel_grid.hpp"
+#include "ph/cubical/star_tables.hpp"
+
+namespace ph::cubical {
+
+/// A cell as the star that it is in sees it.
+struct StarCell {
+  std::uint32_t voxel = 0;
+  Direction direction{};
+};
+
+/// Divides by a number that is known beforehand (Lemire, Kaser, Kurz, Faster remainder by direct
+/// computation, 2019).
+class Divisor {
+ public:
+  Divisor() = default;
+  explicit Divisor(std::uint32_t by) : factor_(by > 1 ? UINT64_MAX / by + 1 : 0) {}
+  std::uint32_t divide(std::uint32_t a) const {
+    __extension__ using Wide = unsigned __int128;
+    return factor_ == 0 ? a : static_cast<std::uint32_t>((Wide{factor_} * a) >> 64);
+  }
+
+ private:
+  std::uint64_t factor_ = 0;
+};
+
+/// The lower stars of a grid of at most three axes. Axes of one voxel are left out; what a periodic
+/// one of them adds is put back by `for_each_copy`.
+///
+/// Both constructions are seen as one. The T-construction of f is the V-construction of -f turned
+/// around: reversed in value, with all axes running backwards, a border of voxels that have always
+/// been there around it, and dimension k in place of top - k. Its stars are those; what has always
+/// been there is no cell ("relative").
+class StarGrid {
+ public:
+  /// Three axes at most that have more than one voxel (V) or are not closed up at one (T).
+  static bool can_hold(const VoxelGrid& grid);
+  /// Precondition: can_hold(grid).
+  StarGrid(const VoxelGrid& grid, const RunContext& context);
+
+  int top_dim() const { return top_dim_; }      ///< of the stars' grid
+  bool relative() const { return relative_; }   ///< T-construction
+  std::uint32_t size() const { return size_; }  ///< voxels
+  std::uint32_t star(std::uint32_t v) const { return stars_[v]; }
+  bool enters(std::uint32_t v) const { return stars_[v] != kAbsent; }
+  /// Whether anybody will ask which edges are marked: for H1 of three axes, and for loops around
+  /// periodic ones.
+  bool wants_marks() const { return top_dim_ == 3 || any_periodic_; }
+  void mark(std::uint32_t v, std::uint32_t bits) { stars_[v] |= bits; }
+  bool all_enter() const { return all_enter_; }
+  /// The voxels with a critical cell in their stars, ascending.
+  std::span<const std::uint32_t> critical() const { return critical_; }
+  bool has_axis(int axis) const { return axes_[axis].exists; }
+  bool is_periodic(int axis) const { return axes_[axis].periodic; }
+  std::uint32_t extent(int axis) const { return axes_[axis].extent; }
+  /// How many axes have two ends.
+  int open_axes() const { return open_axes_; }
+
+  /// The value in the order of the stars.
+  double value(std::uint32_t v) const {
+    return relative_ ? -grid_.value(size_ - 1 - v) : grid_.value(v);
+  }
+
+  std::uint32_t coordinate(std::uint32_t v, int axis) const {
+    const Axis& a = axes_[axis];
+    const std::uint32_t layer = a.by_stride.divide(v);
+    return layer - a.by_extent.divide(layer) * a.extent;
+  }
+  /// The tables for a voxel's star.
+  const StarTables& tables(std::uint32_t v) const {
+    return any_periodic_ ? star_tables(wrapped(v)) : plain_tables_;
+  }
+
+  static constexpr std::uint32_t kOutside = UINT32_MAX;
+  /// The voxel one step away, or kOutside.
+  std::uint32_t step(std::uint32_t v, int axis, int sign) const {
+    const Axis& a = axes_[axis];
+    const std::uint32_t x = coordinate(v, axis);
+    if (sign > 0) {
+      if (x + 1 < a.extent) return v + a.stride;
+      return a.periodic ? v - x * a.stride : kOutside;
+    }
+    if (x > 0) return v - a.stride;
+    return a.periodic ? v + (a.extent - 1) * a.stride : kOutside;
+  }
+  /// The same for a step along an edge of the star of v: without looking where v lies, if no step
+  /// in such a direction leaves the grid.
+  std::uint32_t step_in_star(std::uint32_t v, int edge) const {
+    const int axis = axis_of_edge(edge), sign = kEdges[edge][axis];
+    if (relative_ || any_periodic_) return step(v, axis, sign);
+    return sign > 0 ? v + axes_[axis].stride : v - axes_[axis].stride;
+  }
+
+  /// Calls `use(numbers of a, numbers of b, shift)`, coordinates of the input's doubled grid, for
+  /// the cells and what periodic axes of one voxel make of them; `shift` is what they add to the
+  /// dimension. @param b may be null.
+  template <class Use>
+  void for_each_copy(const StarCell& a, const StarCell* b, Use&& use) const;
+
+ private:
+  struct Axis {
+    std::uint32_t extent = 1, stride = 1;
+    bool exists = false, periodic = false;
+    Divisor by_extent, by_stride;
+  };
+  /// A part of a row.
+  struct Block {
+    std::uint32_t z, y, begin, end;
+  };
+  template <class T, bool descending>
+  void find_stars(const T* voxels);
+  template <class T, bool descending>
+  void find_block(const T* voxels, const Block& block, std::uint32_t* stars) const;
+  template <class T, bool descending>
+  std::uint32_t find_one(const T* voxels, std::uint32_t v) const;
+  unsigned wrapped(std::uint32_t v) const {
+    unsigned result = 0;
+    for (int a = 0; a < 3; ++a)
+      if (axes_[a].periodic && coordinate(v, a) == 0) result |= 1U << a;
+    return result;
+  }
+  void append_numbers(const StarCell& cell, unsigned loops, std::vector<Index>& numbers) const;
+
+  VoxelGrid grid_;
+  const RunContext& context_;
+  const StarTables& plain_tables_ = star_tables(0);
+  std::array<Axis, 3> axes_;         // the last one is the fastest
+  std::array<int, 3> input_axis_{};  // the axis of the input
+  std::vector<std::size_t> loops_;   // periodic axes of the input with one voxel
+  std::uint32_t size_ = 0;
+  int top_dim_ = 0, open_axes_ = 0;
+  bool relative_ = false, any_periodic_ = false, all_enter_ = true;
+  RawVector<std::uint32_t> stars_;
+  std::pmr::vector<std::uint32_t> critical_;
+  mutable std::array<std::vector<Index>, 2> numbers_;  // for one thread at a time
+};
+
+template <class Use>
+void StarGrid::for_each_copy(const StarCell& a, const StarCell* b, Use&& use) const {
+  std::vector<Index>&first = numbers_[0], &second = numbers_[1];
+  for (unsigned loops = 0; loops < 1U << loops_.size(); ++loops) {
+    first.clear();
+    second.clear();
+    append_numbers(a, loops, first);
+    if (b != nullptr) append_numbers(*b, loops, second);
+    use(first, second, std::popcount(loops));
+  }
+}
+
+}  // namespace ph::cubical

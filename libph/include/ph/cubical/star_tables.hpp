@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cstdint>
+#include <memory>
+
+namespace ph::cubical {
+
+// The lower star of a voxel v in a grid of at most three axes: v and the edges, squares and cubes
+// whose youngest voxel is v. Each cell is named by its direction, the offset in {-1, 0, 1}^3 from v
+// to its centre, doubled. A star is one word: bits 0-5 the edges, 6-17 the squares, 18-25 the
+// cubes, each in lexicographic order of the directions. As a complex it is a cone over the lower
+// link, a part of the octahedron: edges of the star are its vertices, squares its edges, cubes its
+// triangles.
+
+/// A direction, by axis; the last axis is the fastest.
+using Direction = std::array<int, 3>;
+
+constexpr int kEdgeCount = 6, kSquareCount = 12, kCubeCount = 8;
+constexpr int kSquareShift = kEdgeCount, kCubeShift = kEdgeCount + kSquareCount;
+/// Bits 26-30 mark edges that are known to be in a pair; the oldest edge needs no mark.
+constexpr int kTakenShift = kCubeShift + kCubeCount - 1;   // of rank 0
+constexpr std::uint32_t kAbsent = std::uint32_t{1} << 31;  ///< the voxel never enters
+
+constexpr int dimension_of(const Direction& d) { return (d[0] != 0) + (d[1] != 0) + (d[2] != 0); }
+
+/// All directions of one dimension in lexicographic order.
+template <int count>
+constexpr std::array<Direction, count> directions_of(int dim) {
+  std::array<Direction, count> all{};
+  int next = 0;
+  for (int z = -1; z <= 1; ++z)
+    for (int y = -1; y <= 1; ++y)
+      for (int x = -1; x <= 1; ++x)
+        if (dimension_of({z, y, x}) == dim) all[next++] = {z, y, x};
+  return all;
+}
+inline constexpr auto kEdges = directions_of<kEdgeCount>(1);
+inline constexpr auto kSquares = directions_of<kSquareCount>(2);
+inline constexpr auto kCubes = directions_of<kCubeCount>(3);
+
+constexpr int place_of(const Direction& d) { return (d[0] + 1) * 9 + (d[1] + 1) * 3 + d[2] + 1; }
+/// By place_of a direction: its number among those of its dimension.
+inline constexpr std::array<int, 27> kNumbers = [] {
+  std::array<int, 27> numbers{};
+  for (int i = 0; i < kEdgeCount; ++i) numbers[place_of(kEdges[i])] = i;
+  for (int i = 0; i < kSquareCount; ++i) numbers[place_of(kSquares[i])] = i;
+  for (int i = 0; i < kCubeCount; ++i) numbers[place_of(kCubes[i])] = i;
+  return numbers;
+}();
+constexpr int number_of(const Direction& d) { return kNumbers[place_of(d)]; }
+/// The bit of a direction in a star.
+constexpr std::uint32_t star_bit(const Direction& d) {
+  const int shift = dimension_of(d) == 1 ? 0 : dimension_of(d) == 2 ? kSquareShift : kCubeShift;
+  return std::uint32_t{1} << (shift + number_of(d));
+}
+constexpr Direction opposite(const Direction& d) { return {-d[0], -d[1], -d[2]}; }
+constexpr Direction sum_of(const Direction& a, const Direction& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+/// The same direction but for one axis.
+constexpr Direction turned(Direction d, int axis, int to) {
+  d[axis] = to;
+  return d;
+}
+constexpr int axis_of_edge(int edge) {
+  return kEdges[edge][0] != 0 ? 0 : kEdges[edge][1] != 0 ? 1 : 2;
+}
+/// The two edges of a square at the star's voxel, the one along the slower axis first.
+constexpr std::array<int, 2> edges_of_square(int square) {
+  std::array<int, 2> edges{};
+  int next = 0;
+  for (int a = 0; a < 3; ++a)
+    if (const int sign = kSquares[square][a]; sign != 0) {
+      Direction d{};
+      d[a] = sign;
+      edges[next++] = number_of(d);
+    }
+  return edges;
+}
+inline constexpr auto kEdgesOfSquare = [] {
+  std::array<std::array<int, 2>, kSquareCount> all{};
+  for (int s = 0; s < kSquareCount; ++s) all[s] = edges_of_square(s);
+  return all;
+}();
+/// The axis that a square does not span.
+constexpr int normal_of_square(int square) {
+  return kSquares[square][0] == 0 ? 0 : kSquares[square][1] == 0 ? 1 : 2;
+}
+/// The square of a cube at the star's voxel across an axis.
+constexpr int square_of_cube(int cube, int axis) {
+  return number_of(turned(kCubes[cube], axis, 0));
+}
+
+/// What the cubes of a star are paired with, and what is left; in one word.
+class CubePairs {
+ public:
+  CubePairs() = default;
+  explicit CubePairs(std::uint64_t word) : word_(word) {}
+  std::uint64_t word() const { return word_; }
+
+  /// The axis to turn to leave a cube by the square that it is paired with.
+  int exit(int cube) const { return static_cast<int>(word_ >> (2 * cube) & 3U); }
+  /// The squares that are paired with cubes.
+  unsigned squares() const { return static_cast<unsigned>(word_ >> 16) & 4095U; }
+  /// Cubes that are not paired.
+  unsigned critical_cubes() const { return static_cast<unsigned>(word_ >> 28) & 255U; }
+
+  void set_exit(int cube, int axis) { word_ |= static_cast<std::uint64_t>(axis) << (2 * cube); }
+  void set_squares(unsigned squares) { word_ |= std::uint64_t{squares} << 16; }
+  void set_critical(int cube) { word_ |= std::uint64_t{1} << (28 + cube); }
+
+ private:
+  std::uint64_t word_ = 0;
+};
+
+/// Pairs inside a star: the persistence pairs of the star modulo its lower link, in the order of
+/// the filtration. Which cells are killed, which kill and which do neither (critical cells) is that
+/// of the pairs; who is matched with whom is changed so that the matching is a forest, which alters
+/// nothing for critical cells (see docs/algorithms.md).
+class StarTables {
+ public:
+  /// @param wrapped bit a: the voxel is the first one of the periodic axis a, so that the cells
+  ///        before it along a come last in the grid.
+  explicit StarTables(unsigned wrapped);
+
+  /// Takes out squares that lack an edge and cubes that lack a square.
+  std::uint32_t closed(std::uint32_t raw) const {
+    const unsigned edges = raw & 63U;
+    const unsigned squares = raw >> kSquareShift & squares_on_[edges];
+    const unsigned cubes = raw >> kCubeShift & cubes_on_[squares];
+    return edges | squares << kSquareShift | cubes << kCubeShift;
+  }
+  static unsigned edges(std::uint32_t star) { return star & 63U; }
+  static unsigned squares(std::uint32_t star) { return star >> kSquareShift & 4095U; }
+  static unsigned cubes(std::uint32_t star) { return star >> kCubeShift & 255U; }
+
+  /// Whether a cell of the star, or the voxel, is critical: not paired inside the star.
+  bool has_critical(std::uint32_t star) const {
+    const unsigned e = edges(star), s = squares(star), c = cubes(star);
+    // Each cube but one in a full star takes a square that closes a loop.
+    return (static_cast<unsigned>(e == 0) | (e & ~(joined_[s] | kLowest[arrow_[e]])) |
+            (loops_[s] ^ kBitCount[c]) | static_cast<unsigned>(c == 255)) != 0;
+  }
+  /// The edge with which the voxel is paired: the oldest one. Precondition: there is one.
+  int arrow(std::uint32_t star) const { return arrow_[edges(star)]; }
+  /// The edges not paired inside the star.
+  unsigned critical_edges(std::uint32_t star) const {
+    const unsigned e = edges(star);
+    if (e == 0) return 0;
+    return e & ~(joined_[squares(star)] | 1U << arrow_[e]);
+  }
+  /// The critical edges that are not marked.
+  unsigned free_edges(std::uint32_t star) const {
+    unsigned free = critical_edges(star);
+    for (unsigned rest = star >> (kTakenShift + 1) & 31U; rest != 0; rest &= rest - 1)
+      free &= ~(1U << edge_order_[std::countr_zero(rest) + 1]);
+    return free;
+  }
+  /// The mark of an edge. Precondition: it is not the arrow.
+  std::uint32_t taken_mark(int edge) const {
+    return std::uint32_t{1} << (kTakenShift + edge_rank_[edge]);
+  }
+  /// The square with which an edge is paired; -1 if there is none.
+  int square_of(std::uint32_t star, int edge) const { return up_[squares(star)][edge]; }
+  /// The squares that are paired with edges.
+  unsigned edge_squares(std::uint32_t star) const { return tree_[squares(star)]; }
+  /// The edge with which a square is paired. Precondition: it is in `edge_squares`.
+  int edge_of(std::uint32_t star, int square) const {
+    const auto [a, b] = kEdgesOfSquare[square];
+    return up_[squares(star)][a] == square ? a : b;
+  }
+  CubePairs pair_cubes(std::uint32_t star) const {
+    const unsigned c = cubes(star);
+    if (c == 0) return {};
+    // Which subset of the cubes that the squares allow.
+    std::size_t place = pairs_begin_[squares(star)];
+    int bit = 0;
+    for (unsigned rest = cubes_on_[squares(star)]; rest != 0; rest &= rest - 1, ++bit)
+      place += std::size_t{(c & rest & (0U - rest)) != 0} << bit;
+    std::uint64_t word = pairs_[place].load(std::memory_order_relaxed);
+    if (word == 0)
+      pairs_[place].store(word = find_cube_pairs(star).word(), std::memory_order_relaxed);
+    return CubePairs(word);
+  }
+  /// The squares not paired inside the star.
+  unsigned critical_squares(std::uint32_t star, const CubePairs& pairs) const {
+    return squares(star) & ~(tree_[squares(star)] | pairs.squares());
+  }
+
+  /// By number: the place in the order of the grid, and back.
+  int edge_rank(int edge) const { return edge_rank_[edge]; }
+  int edge_at(int rank) const { return edge_order_[rank]; }
+  int square_at(int rank) const { return square_order_[rank]; }
+  int cube_at(int rank) const { return cube_order_[rank]; }
+
+ private:
+  static constexpr std::array<std::uint8_t, kEdgeCount> kLowest{1, 2, 4, 8, 16, 32};
+  static constexpr auto kBitCount = [] {
+    std::array<std::uint8_t, 256> counts{};
+    for (unsigned i = 1; i < 256; ++i)
+      counts[i] = static_cast<std::uint8_t>(counts[i / 2] + (i & 1U));
+    return counts;
+  }();
+
+  void pair_edges(unsigned squares);
+  CubePairs find_cube_pairs(std::uint32_t star) const;
+
+  std::array<int, kEdgeCount> edge_order_{}, edge_rank_{};
+  std::array<int, kSquareCount> square_order_{}, square_rank_{};
+  std::array<int, kCubeCount> cube_order_{}, cube_rank_{};
+  std::array<std::uint8_t, 64> arrow_{};
+  std::array<std::uint16_t, 64> squares_on_{};  // by edges: squares that have both
+  std::array<std::uint8_t, 4096> cubes_on_{};   // by squares: cubes that have all three
+  std::array<std::uint8_t, 4096> joined_{};     // by squares: edges paired with one of them
+  std::array<std::uint16_t, 4096> tree_{};      // by squares: those paired with an edge
+  std::array<std::uint8_t, 4096> loops_{};      // by squares: how many are not
+  std::array<std::array<std::int8_t, kEdgeCount>, 4096> up_{};
+  std::array<std::uint32_t, 4096> pairs_begin_{};  // by squares
+  // Found when first asked for: most are never. Never 0 once found.
+  std::unique_ptr<std::atomic<std::uint64_t>[]> pairs_;
+};
+
+/// Made once, when they are first asked for.
+const StarTables& star_tables(unsigned wrapped);
+
+}  // namespace ph::cubical

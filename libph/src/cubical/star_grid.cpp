@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+#include "ph/cubical/star_grid.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <mutex>
+
+#include "ph/core/parallel.hpp"
+
+namespace ph::cubical {
+namespace {
+
+constexpr std::uint32_t kBlock = 4096;     // voxels of a row that are looked at together
+constexpr std::uint32_t kPiece = 1 << 16;  // voxels that a thread takes at a time, about
+
+bool keeps_axis(const VoxelGrid& grid, std::size_t k) {
+  return grid.extents[k] > 1 || (!grid.voxels_are_vertices && !grid.periodic[k]);
+}
+
+// Whether u is older than v: with and without equality, which the places decide.
+template <bool descending, class T>
+bool is_older(T u, T v) {
+  return descending ? u > v : u < v;
+}
+template <bool descending, class T>
+bool is_not_younger(T u, T v) {
+  return descending ? u >= v : u <= v;
+}
+
+}  // namespace
+
+bool StarGrid::can_hold(const VoxelGrid& grid) {
+  int axes = 0;
+  for (std::size_t k = 0; k < grid.extents.size(); ++k) axes += keeps_axis(grid, k) ? 1 : 0;
+  // Nodes and labels of the graphs are below 2^31.
+  double cells = 1;
+  for (const Index n : grid.extents) cells *= static_cast<double>(n) + 1;
+  return axes <= 3 && grid.size() > 0 && cells < 2e9;
+}
+
+StarGrid::StarGrid(const VoxelGrid& grid, const RunContext& context)
+    : grid_(grid),
+      context_(context),
+      size_(static_cast<std::uint32_t>(grid.size())),
+      relative_(!grid.voxels_are_vertices),
+      stars_(&context.memory),
+      critical_(&context.memory) {
+  int axis = 3;
+  std::uint32_t stride = 1;
+  for (std::size_t k = grid.extents.size(); k-- > 0;) {
+    if (!keeps_axis(grid, k)) {
+      if (grid.periodic[k]) loops_.push_back(k);
+      continue;
+    }
+    const auto extent = static_cast<std::uint32_t>(grid.extents[k]);
+    axes_[--axis] = {extent, stride, true, grid.periodic[k], Divisor(extent), Divisor(stride)};
+    input_axis_[axis] = static_cast<int>(k);
+    stride *= extent;
+    ++top_dim_;
+    if (grid.periodic[k])
+      any_periodic_ = true;
+    else
+      ++open_axes_;
+  }
+  stars_.resize(size_);
+  with_voxels(grid.type, grid.voxels, [&]<class T>(const T* voxels) {
+    if (grid.superlevel != relative_)
+      find_stars<T, true>(voxels);
+    else
+      find_stars<T, false>(voxels);
+  });
+}
+
+template <class T, bool descending>
+std::uint32_t StarGrid::find_one(const T* voxels, std::uint32_t v) const {
+  const auto at = [&](std::uint32_t u) { return voxels[relative_ ? size_ - 1 - u : u]; };
+  std::uint32_t star = 0;
+  const T value = at(v);
+  const auto look = [&](const Direction& d) {
+    std::uint32_t u = v;
+    for (int a = 0; a < 3; ++a) {
+      if (d[a] == 0) continue;
+      if (!axes_[a].exists) return;
+      if (u != kOutside) u = step(u, a, d[a]);
+    }
+    const bool older = u == kOutside ? relative_
+                       : u < v       ? is_not_younger<descending>(at(u), value)
+                                     : is_older<descending>(at(u), value);
+    if (older) star |= star_bit(d);
+  };
+  for (const Direction& d : kEdges) look(d);
+  for (const Direction& d : kSquares) look(d);
+  for (const Direction& d : kCubes) look(d);
+  return star;
+}
+
+// The stars of a part of a row. Inside the row neighbours are at fixed distances: no test, one
+// comparison each, which compilers do for several voxels at a time.
+template <class T, bool descending>
+void StarGrid::find_block(const T* voxels, const Block& block, std::uint32_t* stars) const {
+  const Axis &deep = axes_[0], &high = axes_[1];
+  const std::uint32_t n = axes_[2].extent, first = block.z * deep.stride + block.y * high.stride;
+  const std::uint32_t count = block.end - block.begin;
+  std::fill_n(stars, count, 0U);
+  // From here on x runs as the memory does; in the T-construction that is backwards.
+  const auto block_at = [&](std::uint32_t row) {
+    return relative_ ? voxels + (size_ - row - block.end) : voxels + (row + block.begin);
+  };
+  const T* center = block_at(first);
+  const bool from_border = (relative_ ? block.end == n : block.begin == 0);
+  const bool to_border = (relative_ ? block.begin == 0 : block.end == n);
+  const std::uint32_t x_begin = from_border ? 1 : 0, x_end = count - (to_border ? 1 : 0);
+  const int forward = relative_ ? -1 : 1;
+  for (int dz = -1; dz <= 1; ++dz) {
+    if (dz != 0 && !deep.exists) continue;
+    for (int dy = -1; dy <= 1; ++dy) {
+      if (dy != 0 && !high.exists) continue;
+      std::array<std::uint32_t, 3> bits{};  // by x - 1, x, x + 1 in memory
+      for (int dx = -1; dx <= 1; ++dx)
+        if (const Direction d{dz, dy, dx * forward}; dimension_of(d) != 0)
+          bits[dx + 1] = star_bit(d);
+      std::uint32_t row = first;
+      bool outside = false;
+      const auto move = [&](const Axis& axis, std::uint32_t x, int by) {
+        if (by == 0) return;
+        const bool leaves = by > 0 ? x + 1 == axis.extent : x == 0;
+        outside = outside || (leaves && !axis.periodic);
+        const std::uint32_t to = by > 0 ? (leaves ? 0 : x + 1) : (leaves ? axis.extent : x) - 1;
+        row += (to - x) * axis.stride;  // unsigned, also where it goes down
+      };
+      move(deep, block.z, dz);
+      move(high, block.y, dy);
+      if (outside) {
+        if (relative_)
+          for (std::uint32_t x = 0; x < count; ++x) stars[x] |= bits[0] | bits[1] | bits[2];
+        continue;
+      }
+      const T* other = block_at(row);
+      const auto compare = [&](auto&& is_older_below, auto&& is_older_above) {
+        const std::uint32_t below = bits[0], beside = bits[1], above = bits[2];
+        for (std::uint32_t x = x_begin; x < x_end; ++x) {
+          const T v = center[x];
+          stars[x] |= (is_older_below(other[std::ptrdiff_t{x} - 1], v) ? below : 0U) |
+                      (is_older_above(other[x], v) ? beside : 0U) |
+                      (is_older_above(other[x + 1], v) ? above : 0U);
+        }
+      };
+      // Voxels that come before v are older if they are equal.
+      const auto older = [](T u, T v) { return is_older<descending>(u, v); };
+      const auto not_younger = [](T u, T v) { return is_not_younger<descending>(u, v); };
+      if (row < first) {
+        compare(not_younger, not_younger);
+      } else if (row > first) {
+        compare(older, older);
+      } else if (relative_) {
+        compare(older, not_younger);
+      } else {
+        compare(not_younger, older);
+      }
+    }
+  }
+  if (relative_) std::reverse(stars, stars + count);
+  if (block.begin == 0) stars[0] = find_one<T, descending>(voxels, first);
+  if (block.end == n) stars[count - 1] = find_one<T, descending>(voxels, first + n - 1);
+}
+
+template <class T, bool descending>
+void StarGrid::find_stars(const T* voxels) {
+  const std::uint32_t n = axes_[2].extent, high = axes_[1].extent;
+  const std::uint32_t blocks_a_row = (n - 1) / kBlock + 1;
+  const std::size_t blocks = std::size_t{size_ / n} * blocks_a_row;
+  const std::size_t blocks_a_piece = std::max<std::size_t>(1, kPiece / std::min(n, kBlock));
+  // What enters: value <= limit, with the sign that superlevel sets have.
+  const bool superlevel = grid_.superlevel;
+  const double limit = grid_.limit;
+  const bool some_may_not = std::is_floating_point_v<T> || limit < std::numeric_limits<int>::max();
+  const auto enters = [&](T x) {
+    return (superlevel ? -static_cast<double>(x) : static_cast<double>(x)) <= limit;
+  };
+  struct Piece {
+    std::size_t begin;
+    std::pmr::vector<std::uint32_t> found;
+  };
+  std::mutex mutex;
+  std::vector<Piece> pieces;
+  for_each_piece(
+      "stars", blocks, blocks_a_piece, context_, [&](std::size_t begin, std::size_t end) {
+        Ticker ticker(context_, "stars", size_);
+        std::pmr::vector<std::uint32_t> found(&context_.memory);
+        bool all = true;
+        for (std::size_t i = begin; i < end; ++i) {
+          const auto row = static_cast<std::uint32_t>(i / blocks_a_row);
+          const auto x = static_cast<std::uint32_t>(i % blocks_a_row) * kBlock;
+          const Block block{row / high, row % high, x, std::min(n, x + kBlock)};
+          const std::uint32_t first = row * n + block.begin, count = block.end - block.begin;
+          std::uint32_t* stars = stars_.data() + first;
+          find_block<T, descending>(voxels, block, stars);
+          if (some_may_not) {
+            const T* there = relative_ ? voxels + (size_ - first - count) : voxels + first;
+            bool block_enters = true;
+            for (std::uint32_t k = 0; k < count; ++k) block_enters &= enters(there[k]);
+            if (!block_enters)
+              for (std::uint32_t k = 0; k < count; ++k)
+                if (!enters(there[k])) stars[relative_ ? count - 1 - k : k] = kAbsent;
+            all = all && block_enters;
+          }
+          // Written first, counted afterwards: which voxels are critical cannot be foretold.
+          std::size_t next = found.size();
+          found.resize(next + count);
+          for (std::uint32_t k = 0; k < count; ++k) {
+            if (stars[k] == kAbsent) continue;
+            const StarTables& tables = this->tables(first + k);
+            stars[k] = tables.closed(stars[k]);
+            found[next] = first + k;
+            next += tables.has_critical(stars[k]) ? 1 : 0;
+          }
+          found.resize(next);
+          ticker.tick(count);
+        }
+        const std::lock_guard lock(mutex);
+        all_enter_ = all_enter_ && all;
+        pieces.push_back({begin, std::move(found)});
+      });
+  std::ranges::sort(pieces, {}, &Piece::begin);
+  std::size_t count = 0;
+  for (const Piece& piece : pieces) count += piece.found.size();
+  critical_.reserve(count);
+  for (Piece& piece : pieces) {
+    critical_.insert(critical_.end(), piece.found.begin(), piece.found.end());
+    piece.found = std::pmr::vector<std::uint32_t>(&context_.memory);
+  }
+}
+
+void StarGrid::append_numbers(const StarCell& cell, unsigned loops,
+                              std::vector<Index>& numbers) const {
+  const std::size_t base = numbers.size();
+  numbers.resize(base + grid_.extents.size(), 0);
+  for (int a = 0; a < 3; ++a) {
+    if (!axes_[a].exists) continue;
+    const Index n = axes_[a].extent;
+    Index x = 2 * Index{coordinate(cell.voxel, a)} + cell.direction[a];
+    if (x < 0 && axes_[a].periodic) x = 2 * n - 1;
+    numbers[base + static_cast<std::size_t>(input_axis_[a])] = relative_ ? 2 * n - 1 - x : x;
+  }
+  for (std::size_t i = 0; i < loops_.size(); ++i)
+    numbers[base + loops_[i]] = static_cast<Index>(loops >> i & 1U);
+}
+
+}  // namespace ph::cubical

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "ph/cubical/star_tables.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+
+namespace ph::cubical {
+namespace {
+
+/// Numbers of directions in the order of the grid, and the place of each.
+void order_directions(std::span<const Direction> directions, unsigned wrapped, std::span<int> order,
+                      std::span<int> rank) {
+  const auto place = [&](int i) {
+    Direction d = directions[static_cast<std::size_t>(i)];
+    for (int a = 0; a < 3; ++a)
+      if (d[a] < 0 && (wrapped >> a & 1U) != 0) d[a] = 2;  // behind all others of the axis
+    return d;
+  };
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, [&](int a, int b) { return place(a) < place(b); });
+  for (std::size_t i = 0; i < order.size(); ++i)
+    rank[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
+}
+
+template <std::size_t size>
+int root_of(const std::array<int, size>& parent, int i) {
+  while (parent[i] != i) i = parent[i];
+  return i;
+}
+
+}  // namespace
+
+StarTables::StarTables(unsigned wrapped) {
+  order_directions(kEdges, wrapped, edge_order_, edge_rank_);
+  order_directions(kSquares, wrapped, square_order_, square_rank_);
+  order_directions(kCubes, wrapped, cube_order_, cube_rank_);
+  for (unsigned e = 0; e < 64; ++e) {
+    for (int rank = kEdgeCount - 1; rank >= 0; --rank)
+      if ((e >> edge_order_[rank] & 1U) != 0)
+        arrow_[e] = static_cast<std::uint8_t>(edge_order_[rank]);
+    for (int s = 0; s < kSquareCount; ++s) {
+      const auto [a, b] = kEdgesOfSquare[s];
+      if ((e >> a & e >> b & 1U) != 0) squares_on_[e] |= static_cast<std::uint16_t>(1U << s);
+    }
+  }
+  std::uint32_t count = 0;
+  for (unsigned s = 0; s < 4096; ++s) {
+    for (int c = 0; c < kCubeCount; ++c) {
+      const bool on = (s >> square_of_cube(c, 0) & s >> square_of_cube(c, 1) &
+                       s >> square_of_cube(c, 2) & 1U) != 0;
+      if (on) cubes_on_[s] |= static_cast<std::uint8_t>(1U << c);
+    }
+    pair_edges(s);
+    pairs_begin_[s] = count;
+    count += 1U << std::popcount(unsigned{cubes_on_[s]});
+  }
+  pairs_ = std::make_unique<std::atomic<std::uint64_t>[]>(count);
+}
+
+// Kruskal with the elder rule on the link: squares, in order, join edges of the star; of two
+// components the one whose oldest edge is younger dies. So all but the oldest edge of a component
+// are killed. In the tree that is left each of them is matched with the square towards the oldest.
+void StarTables::pair_edges(unsigned squares) {
+  std::array<int, kEdgeCount> parent{};
+  std::iota(parent.begin(), parent.end(), 0);
+  unsigned tree = 0;
+  for (const int s : square_order_) {
+    if ((squares >> s & 1U) == 0) continue;
+    int a = root_of(parent, kEdgesOfSquare[s][0]), b = root_of(parent, kEdgesOfSquare[s][1]);
+    if (a == b) continue;
+    if (edge_rank_[b] < edge_rank_[a]) std::swap(a, b);
+    parent[b] = a;
+    tree |= 1U << s;
+  }
+  unsigned reached = 0;
+  for (int e = 0; e < kEdgeCount; ++e)
+    if (parent[e] == e) reached |= 1U << e;
+  const unsigned roots = reached;
+  auto& up = up_[squares];
+  up.fill(-1);
+  for (bool more = true; more;) {
+    more = false;
+    for (int s = 0; s < kSquareCount; ++s) {
+      if ((tree >> s & 1U) == 0) continue;
+      const auto [a, b] = kEdgesOfSquare[s];
+      if ((reached >> a & 1U) == (reached >> b & 1U)) continue;
+      const int far = (reached >> a & 1U) != 0 ? b : a;
+      up[far] = static_cast<std::int8_t>(s);
+      reached |= 1U << far;
+      more = true;
+    }
+  }
+  tree_[squares] = static_cast<std::uint16_t>(tree);
+  loops_[squares] = static_cast<std::uint8_t>(std::popcount(squares & ~tree));
+  joined_[squares] = static_cast<std::uint8_t>(63U & ~roots);
+}
+
+// The same on the dual, backwards: the eight triangles of the octahedron are nodes, those that are
+// not in the star have always been there; squares, the youngest first, join the cubes beside them.
+CubePairs StarTables::find_cube_pairs(std::uint32_t star) const {
+  CubePairs pairs;
+  const unsigned cubes = this->cubes(star), all = squares(star);
+  const auto axis_of = [](int square) { return normal_of_square(square); };
+  if (std::has_single_bit(cubes)) {
+    const int c = std::countr_zero(cubes);
+    int youngest = square_of_cube(c, 0);
+    for (int a = 1; a < 3; ++a)
+      if (const int s = square_of_cube(c, a); square_rank_[s] > square_rank_[youngest])
+        youngest = s;
+    pairs.set_exit(c, axis_of(youngest));
+    pairs.set_squares(1U << youngest);
+    return pairs;
+  }
+  std::array<int, kCubeCount> parent{};
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto beside = [](int s, int sign) {
+    return number_of(turned(kSquares[s], normal_of_square(s), sign));
+  };
+  const auto is_there = [&](int c) { return (cubes >> c & 1U) != 0; };
+  // Roots: what has always been there, then the youngest.
+  const auto outlives = [&](int a, int b) {
+    if (is_there(a) != is_there(b)) return !is_there(a);
+    return cube_rank_[a] > cube_rank_[b];
+  };
+  unsigned tree = 0;
+  const auto join = [&](int s, bool present) {
+    int a = root_of(parent, beside(s, -1)), b = root_of(parent, beside(s, 1));
+    if (a == b) return;
+    if (outlives(b, a)) std::swap(a, b);
+    parent[b] = a;
+    if (present && is_there(b)) tree |= 1U << s;
+  };
+  for (int s = 0; s < kSquareCount; ++s)
+    if ((all >> s & 1U) == 0) join(s, false);
+  for (int rank = kSquareCount - 1; rank >= 0; --rank)
+    if (const int s = square_order_[rank]; (all >> s & 1U) != 0) join(s, true);
+  pairs.set_squares(tree);
+  unsigned reached = 255U & ~cubes;
+  for (int c = 0; c < kCubeCount; ++c)
+    if (is_there(c) && parent[c] == c) {
+      pairs.set_critical(c);
+      reached |= 1U << c;
+    }
+  while (reached != 255U) {
+    for (int s = 0; s < kSquareCount; ++s) {
+      if ((tree >> s & 1U) == 0) continue;
+      const int a = beside(s, -1), b = beside(s, 1);
+      if ((reached >> a & 1U) == (reached >> b & 1U)) continue;
+      const int far = (reached >> a & 1U) != 0 ? b : a;
+      pairs.set_exit(far, axis_of(s));
+      reached |= 1U << far;
+    }
+  }
+  return pairs;
+}
+
+const StarTables& star_tables(unsigned wrapped) {
+  static const StarTables plain(0);
+  if (wrapped == 0) return plain;
+  static const std::array<StarTables, 7> others{StarTables(1), StarTables(2), StarTables(3),
+                                                StarTables(4), StarTables(5), StarTables(6),
+                                                StarTables(7)};
+  return others[wrapped - 1];
+}
+
+}  // namespace ph::cubical

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+// Images paired voxel by voxel, against the oracle cell by cell: all types of voxels, both
+// constructions, holes, axes that close up, and the duality of the two constructions.
+#include <gtest/gtest.h>
+
+#include "support/conformance.hpp"
+#include "support/for_each_seed.hpp"
+#include "support/generators.hpp"
+#include "support/known_spaces.hpp"
+
+namespace ph::test {
+namespace {
+
+using Construction = CubicalOptions::Construction;
+
+std::vector<Index> random_extents(Generator& random, int most_axes) {
+  std::vector<Index> extents;
+  const int axes = random.integer(1, most_axes);
+  constexpr int kMostVoxels[] = {0, 14, 8, 5, 4};
+  for (int k = 0; k < axes; ++k) extents.push_back(random.integer(1, kMostVoxels[axes]));
+  return extents;
+}
+
+template <class T>
+Image image_of(Generator& random, const std::vector<Index>& extents, int most) {
+  std::size_t voxels = 1;
+  for (const Index n : extents) voxels *= static_cast<std::size_t>(n);
+  std::vector<T> values(voxels);
+  for (T& v : values) v = static_cast<T>(random.integer(0, most));
+  return {extents, std::move(values)};
+}
+
+Image image_of_type(Generator& random, const std::vector<Index>& extents) {
+  const int most = random.coin() ? 255 : 3;
+  switch (random.integer(0, 5)) {
+    case 0:
+      return image_of<std::uint8_t>(random, extents, most);
+    case 1:
+      return image_of<std::uint16_t>(random, extents, most);
+    case 2:
+      return image_of<std::int16_t>(random, extents, most);
+    case 3:
+      return image_of<float>(random, extents, most);
+    default:
+      return random.image(extents, random.coin());
+  }
+}
+
+TEST(Arrows, AgreeWithTheOracleCellByCell) {
+  std::size_t longer = 0;
+  for (std::uint64_t seed = 0; seed < 1500; ++seed) {
+    SCOPED_TRACE(seed);
+    Generator random(seed);
+    const std::vector<Index> extents = random_extents(random, 3);
+    const int axes = static_cast<int>(extents.size());
+    CubicalOptions options = random.cubical_options(axes);
+    const Image image = image_of_type(random, extents);
+    if (random.integer(0, 3) == 0) options.threshold = random.integer(-2, 200);
+    const Cubical cubical(image, options);
+    const int max_dim = random.integer(0, axes);
+    for (const std::int64_t field : {2, 3}) {
+      const auto bars = [&](Engine engine) {
+        return pairs_of(
+            persistence(cubical, {.max_dim = max_dim, .field = field, .engine = engine}));
+      };
+      const auto found = bars(Engine::arrows);
+      ASSERT_EQ(found, bars(Engine::standard));
+      longer += found.size();
+    }
+  }
+  EXPECT_GT(longer, 3000U);
+}
+
+// Larger ones against the boundary matrix: loops with long boundaries, columns that are added.
+TEST(Arrows, AgreeOnLargerVolumes) {
+  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+    SCOPED_TRACE(seed);
+    Generator random(seed);
+    const std::vector<Index> extents{random.integer(10, 16), random.integer(10, 16),
+                                     random.integer(10, 16)};
+    const Cubical cubical(image_of_type(random, extents), random.cubical_options(3));
+    const std::int64_t field = random.coin() ? 2 : 5;
+    const auto bars = [&](Engine engine) {
+      return pairs_of(persistence(cubical, {.field = field, .engine = engine}));
+    };
+    ASSERT_EQ(bars(Engine::arrows), bars(Engine::twist));
+  }
+}
+
+// V of f is T of -f with a border that is there first, with dimension k for d-1-k, ends changed
+// and negated, but for the classes that never die.
+TEST(Arrows, ConstructionsAreDual) {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE(seed);
+    Generator random(seed);
+    const int axes = random.integer(1, 3);
+    std::vector<Index> extents, padded;
+    std::size_t voxels = 1;
+    for (int k = 0; k < axes; ++k) {
+      extents.push_back(random.integer(2, 5));
+      padded.push_back(extents.back() + 2);
+      voxels *= static_cast<std::size_t>(extents.back());
+    }
+    std::vector<double> values(voxels);
+    for (double& v : values) v = random.value(random.coin());
+    constexpr double border = 100;
+    std::vector<double> around;
+    std::vector<Index> at(static_cast<std::size_t>(axes), 0);
+    for (bool more = true; more;) {
+      std::size_t place = 0;
+      bool inside = true;
+      for (std::size_t k = 0; k < at.size(); ++k) {
+        inside = inside && at[k] > 0 && at[k] <= extents[k];
+        place = place * static_cast<std::size_t>(extents[k]) + static_cast<std::size_t>(at[k] - 1);
+      }
+      around.push_back(inside ? -values[place] : -border);
+      std::size_t k = at.size();
+      while (k > 0 && ++at[k - 1] == padded[k - 1]) at[--k] = 0;
+      more = k > 0;
+    }
+    std::vector<Bar> direct, dual;
+    const Barcode vertices = persistence(Cubical(Image{extents, values}));
+    for (const Bar& bar : vertices)
+      if (!bar.is_infinite()) direct.push_back(bar);
+    const Barcode cells =
+        persistence(Cubical(Image{padded, around}, {.construction = Construction::cells}));
+    for (const Bar& bar : cells)
+      if (!bar.is_infinite() && bar.birth > -border)
+        dual.push_back({axes - 1 - bar.dim, -bar.death, -bar.birth});
+    const auto before = [](const Bar& a, const Bar& b) {
+      return std::tie(a.dim, a.birth, a.death) < std::tie(b.dim, b.birth, b.death);
+    };
+    std::ranges::sort(direct, before);
+    std::ranges::sort(dual, before);
+    // The border dies against what is highest: one bar more, of the highest dimension.
+    EXPECT_EQ(direct, dual);
+  }
+}
+
+TEST(Arrows, SolidAndHollowTori) {
+  const auto distance_to_circle = [](Index x, Index y, Index z) {
+    const double from_axis = std::hypot(static_cast<double>(x) - 16, static_cast<double>(y) - 16);
+    return std::hypot(from_axis - 9, static_cast<double>(z) - 6);
+  };
+  std::vector<double> solid, hollow;
+  for (Index x = 0; x < 33; ++x)
+    for (Index y = 0; y < 33; ++y)
+      for (Index z = 0; z < 13; ++z) {
+        solid.push_back(distance_to_circle(x, y, z));
+        hollow.push_back(std::abs(solid.back() - 3));
+      }
+  for (const Construction construction : {Construction::vertices, Construction::cells}) {
+    for (const std::int64_t field : {2, 3}) {
+      const Options options{.field = field, .engine = Engine::arrows};
+      const Cubical filled(Image{{33, 33, 13}, solid}, {.construction = construction});
+      EXPECT_EQ(betti_at(persistence(filled, options), 4, 3), (std::vector<int>{1, 1, 0, 0}));
+      const Cubical surface(Image{{33, 33, 13}, hollow}, {.construction = construction});
+      EXPECT_EQ(betti_at(persistence(surface, options), 1.5, 3), (std::vector<int>{1, 2, 1, 0}));
+    }
+  }
+}
+
+TEST(Arrows, AreTakenWhereTheyCan) {
+  const Image flat{{2, 3}, {1, 2, 3, 4, 5, 6}};
+  EXPECT_EQ(detail::plan(Cubical(flat), {}).choice.engine, Engine::arrows);
+  EXPECT_EQ(detail::plan(Cubical(flat), {.max_dim = 0}).choice.engine, Engine::arrows);
+  const Image deep{{2, 2, 2, 2}, std::vector<double>(16, 0.0)};
+  EXPECT_EQ(detail::plan(Cubical(deep), {}).choice.engine, Engine::twist);
+  // Axes of one voxel do not count.
+  const Image thin{{2, 1, 2, 1, 2}, std::vector<double>(8, 0.0)};
+  EXPECT_EQ(detail::plan(Cubical(thin), {}).choice.engine, Engine::arrows);
+  const Options cycles{.representatives = Representatives::cycles};
+  EXPECT_EQ(detail::plan(Cubical(flat), cycles).choice.engine, Engine::twist);
+}
+
+TEST(Arrows, ThreadsDoNotMatter) {
+  Generator random(7);
+  std::vector<double> values(90 * 70 * 50);
+  for (double& v : values) v = random.integer(0, 40);
+  const Image image{{90, 70, 50}, values};
+  for (const Construction construction : {Construction::vertices, Construction::cells}) {
+    std::vector<std::vector<Pair>> results;
+    for (const int threads : {1, 2, 5}) {
+      RunContext context;
+      context.threads = threads;
+      const Cubical cubical(image, {.construction = construction}, context);
+      results.push_back(pairs_of(persistence(cubical, {.max_dim = 2}, context)));
+    }
+    EXPECT_EQ(results[0], results[1]);
+    EXPECT_EQ(results[0], results[2]);
+  }
+}
+
+TEST(Arrows, VoxelsStayWhatTheyAre) {
+  const Image bytes{{4}, std::vector<std::uint8_t>{3, 255, 0, 7}};
+  EXPECT_EQ(bytes.values.type(), VoxelType::uint8);
+  EXPECT_EQ(bytes.values.bytes(), 4U);
+  EXPECT_EQ(bytes.values, (std::vector<double>{3, 255, 0, 7}));
+  Voxels copy = bytes.values;
+  copy.change([](auto& all) { all[0] = 9; });
+  EXPECT_EQ(copy[0], 9);
+  EXPECT_EQ(bytes.values[0], 3);
+  EXPECT_EQ(Cubical(bytes).voxel_bytes(), 4U);
+}
+
+}  // namespace
+}  // namespace ph::test
