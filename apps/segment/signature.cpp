@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "ph/complex/distance_image.hpp"
 #include "ph/core/error.hpp"
-#include "ph/image/distance_image.hpp"
 #include "ph/persistence.hpp"
 #include "ph/segment.hpp"
 

@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "ph/complex/distance_image.hpp"
 #include "ph/core/error.hpp"
-#include "ph/image/distance_image.hpp"
 #include "ph/persistence.hpp"
 
 namespace ph {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/image/distance_image.hpp"
+#include "ph/complex/distance_image.hpp"
 
 #include <fmt/format.h>
 
