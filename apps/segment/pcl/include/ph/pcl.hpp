@@ -167,9 +167,12 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   /// Method surface: least persistence of a part, a mean concavity (0…2).
   void setMinPersistence(double persistence) { options_.min_persistence = persistence; }
   double getMinPersistence() const {
-    return options_.min_persistence.value_or(
-        options_.method == ph::segment::Method::paper ? CutOptions().value : options_.cut().value);
+    const bool supervoxels = options_.method == ph::segment::Method::supervoxels;
+    return options_.min_persistence.value_or(supervoxels ? 0 : ph::segment::CutOptions().value);
   }
+  /// Method supervoxels: how far the surface is from a seed at most, metres.
+  void setSpacing(double metres) { options_.spacing = metres; }
+  double getSpacing() const { return options_.spacing; }
   /// Method surface: fewest voxels of a part.
   void setMinPartSize(Index voxels) { options_.min_part = voxels; }
   Index getMinPartSize() const { return options_.cut().min_part; }
