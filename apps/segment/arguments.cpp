@@ -259,10 +259,16 @@ void add_planned_options(CLI::App& app) {
 
 /// The first option that was given of those that a stored tree cannot follow.
 std::string scene_option(const CLI::App& app) {
-  for (const char* name :
-       {"--method", "--max-range", "--crop", "--plane", "--plane-distance", "--viewpoint",
-        "--voxel", "--min-persistence", "--distance", "--steps", "--supervoxels"})
-    if (app.get_option(name)->count() > 0) return name;
+  constexpr std::array<std::string_view, 11> names = {
+      "method",          "max-range", "crop",        "plane",
+      "plane-distance",  "viewpoint", "supervoxels", "voxel",
+      "min-persistence", "distance",  "steps"};
+  // Not asked for by name: that ends the program if there is no memory for a copy of the name.
+  for (const CLI::Option* option : app.get_options()) {
+    const std::vector<std::string>& known_as = option->get_lnames();
+    if (option->count() > 0 && !known_as.empty() && std::ranges::count(names, known_as.front()) > 0)
+      return "--" + known_as.front();
+  }
   return {};
 }
 

@@ -170,7 +170,7 @@ class WaysOut(ProgramTest):
             ("high.txt", 64, 3),
             ("plane.txt", 64, 3, "--max-dim", "1"),
             ("cloud.txt", 128, 2, "--threshold", "0.03"),
-            ("graph.txt", 60, 1, "--format", "sparse"))
+            ("graph.txt", 40, 0, "--format", "sparse"))
 
     def setUp(self):
         super().setUp()
