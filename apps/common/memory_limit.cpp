@@ -87,4 +87,12 @@ void bound_heap(std::size_t bytes) {
   setrlimit(RLIMIT_DATA, &data);
 }
 
+void loosen_heap_bound() {
+  constexpr rlim_t holes = 4 << 20;
+  rlimit data{};
+  if (getrlimit(RLIMIT_DATA, &data) != 0 || data.rlim_cur > data.rlim_max - holes) return;
+  data.rlim_cur += holes;
+  setrlimit(RLIMIT_DATA, &data);
+}
+
 }  // namespace ph::app

@@ -22,4 +22,8 @@ std::optional<std::uint64_t> control_group_limit(std::istream& memberships,
 /// then fails with std::bad_alloc.
 void bound_heap(std::size_t bytes);
 
+/// Lets go of a little of that bound: after a run that met it, addresses between blocks still in
+/// use are lost to the next one.
+void loosen_heap_bound();
+
 }  // namespace ph::app

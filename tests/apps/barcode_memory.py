@@ -66,6 +66,8 @@ def write_inputs(folder):
     write_lines(path("graph.txt"),
                 (f"{i} {i + 1 + random.randrange(50)} {random.random():.4f}"
                  for i in range(200000)))
+    write_lines(path("band.txt"), (f"{i} {i + 1 + j} {random.random():.4f}"
+                                   for i in range(8000) for j in range(25)))
     write_lines(path("tree.txt"), (f"{i} : {i % 10}" for i in range(150000)))
     with open(path("tree.txt"), "a") as file:
         file.writelines(f"{i} {i + 1} : {10 + i % 7}\n" for i in range(149999))
@@ -170,7 +172,8 @@ class WaysOut(ProgramTest):
             ("high.txt", 64, 3),
             ("plane.txt", 64, 3, "--max-dim", "1"),
             ("cloud.txt", 128, 2, "--threshold", "0.03"),
-            ("graph.txt", 40, 0, "--format", "sparse"))
+            ("graph.txt", 45, 1, "--format", "sparse"),
+            ("band.txt", 32, 2, "--format", "sparse", "--max-dim", "2"))
 
     def setUp(self):
         super().setUp()

@@ -14,7 +14,7 @@ namespace ph::detail {
 namespace {
 
 // A bar with its cells, while bars are sorted and when they are written.
-constexpr double kBytesPerBar = 256;
+constexpr double kBytesPerBar = 160;
 // What small containers, the allocator and the pages of the program's own code come to.
 constexpr double kAlways = 4 << 20;
 // Cells that the engine lists in the larger part that it computes: enough to show how memory grows,
