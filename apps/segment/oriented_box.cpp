@@ -22,22 +22,27 @@ double cross(const Vector2d& a, const Vector2d& b) { return a[0] * b[1] - a[1] *
 void keep_outer(std::vector<Vector2d>& points) {
   constexpr std::size_t corners = 8, few = 64;
   if (points.size() < few) return;
-  std::array<Vector2d, corners> directions, farthest;
-  for (std::size_t k = 0; k < corners; ++k) {
-    const double angle = std::numbers::pi / 4 * static_cast<double>(k);
-    directions[k] = {std::cos(angle), std::sin(angle)};
-    farthest[k] = points.front();
+  // Along x, x + y, y, y - x, and against them.
+  std::array<double, corners> most;
+  most.fill(-kInfinity);
+  std::array<Vector2d, corners> farthest;
+  for (const Vector2d& p : points) {
+    const std::array<double, corners / 2> along{p[0], p[0] + p[1], p[1], p[1] - p[0]};
+    for (std::size_t k = 0; k < corners; ++k) {
+      const double far = k < corners / 2 ? along[k] : -along[k - corners / 2];
+      if (!(far > most[k])) continue;
+      most[k] = far;
+      farthest[k] = p;
+    }
   }
-  for (const Vector2d& p : points)
-    for (std::size_t k = 0; k < corners; ++k)
-      if (directions[k].dot(p) > directions[k].dot(farthest[k])) farthest[k] = p;
   std::erase_if(points, [&](const Vector2d& p) {
+    bool is_inside = true;
     for (std::size_t k = 0; k < corners; ++k) {
       const Vector2d& a = farthest[k];
       const Vector2d& b = farthest[(k + 1) % corners];
-      if (a != b && !(cross(b - a, p - a) > 0)) return false;
+      is_inside &= a == b || cross(b - a, p - a) > 0;
     }
-    return true;
+    return is_inside;
   });
 }
 
@@ -121,17 +126,32 @@ OrientedBox box_on_plane(std::span<const float> xyz, const Vec3& up) {
   const Vector3d normal = vector(up);
   const Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
   std::vector<Vector2d> footprint(xyz.size() / 3);
+  double low = kInfinity, high = -kInfinity;
   for (std::size_t i = 0; i < footprint.size(); ++i) {
     const Vector3d p(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
     footprint[i] = {u.dot(p), v.dot(p)};
+    const double height = normal.dot(p);
+    low = std::min(low, height);
+    high = std::max(high, height);
   }
-  const Vector2d along = direction_of_smallest_rectangle(convex_hull(std::move(footprint)));
-  const Vector3d first = pointing_forward(along[0] * u + along[1] * v);
-  const Vector3d second = normal.cross(first);
-  const OrientedBox box = box_along(xyz, {array(first), array(second), up});
-  if (box.size[0] >= box.size[1]) return box;
-  const Vector3d longer = pointing_forward(second);
-  return box_along(xyz, {array(longer), array(normal.cross(longer)), up});
+  const std::vector<Vector2d> hull = convex_hull(std::move(footprint));
+  const auto box_with_side = [&](const Vector3d& side) {
+    const Vector3d first = pointing_forward(side), second = normal.cross(first);
+    const Vector2d a(u.dot(first), v.dot(first)), b(-a[1], a[0]);
+    Vector2d least(kInfinity, kInfinity), most = -least;
+    for (const Vector2d& p : hull) {
+      const Vector2d q(a.dot(p), b.dot(p));
+      least = least.cwiseMin(q);
+      most = most.cwiseMax(q);
+    }
+    const Vector2d middle = (least + most) / 2, size = most - least;
+    const Vector3d centre = middle[0] * first + middle[1] * second + (low + high) / 2 * normal;
+    return OrientedBox{
+        array(centre), {array(first), array(second), up}, {size[0], size[1], high - low}};
+  };
+  const Vector2d along = direction_of_smallest_rectangle(hull);
+  const OrientedBox box = box_with_side(along[0] * u + along[1] * v);
+  return box.size[0] >= box.size[1] ? box : box_with_side(vector(box.axes[1]));
 }
 
 std::array<Vec3, 3> principal_axes(const Points& places, std::span<const double> weights,

@@ -27,7 +27,7 @@ std::vector<double> cells_of(const F& filtration, int top) {
 
 /// What the complex holds when the engine is at work.
 double stored_bytes(const Cubical& cubical, Engine engine) {
-  const auto voxels = static_cast<double>(cubical.voxel_grid().size());
+  const auto voxels = static_cast<double>(cubical.cubical_image().size());
   const auto held = static_cast<double>(cubical.voxel_bytes());
   if (cubical.slot_count() == 0 || engine == Engine::arrows) return held;
   return held + 4 * static_cast<double>(cubical.slot_count()) + 8 * voxels;
@@ -81,12 +81,10 @@ Estimate estimate_one(const Complex& complex, const Options& options, const RunC
   e.bytes_held = stored_bytes(complex, e.engine);
   detail::MemoryForecast forecast;
   if (e.engine == Engine::arrows) {
-    if constexpr (std::same_as<Complex, Cubical>) {
-      const double voxels =
-          e.bytes_held == 0 ? 0.0 : static_cast<double>(complex.voxel_grid().size());
-      e.cells = {voxels};
-      forecast = detail::forecast_voxels(e.bytes_held, voxels);
-    }
+    if constexpr (std::same_as<Complex, Cubical>)
+      forecast = detail::forecast_voxels(
+          e.bytes_held,
+          e.bytes_held == 0 ? 0.0 : static_cast<double>(complex.cubical_image().size()));
   } else {
     e.cells = cells_of(complex, detail::listed_dim(e.engine, e.max_dim));
     forecast = detail::forecast_cells(e.bytes_held, e.cells);

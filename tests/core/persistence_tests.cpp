@@ -100,7 +100,7 @@ TEST(Estimates, CountTheCells) {
     };
     EXPECT_EQ(with_twist(2), count_cells(cubical, 2));
     EXPECT_EQ(with_twist(0), count_cells(cubical, 1));
-    EXPECT_EQ(estimate(cubical).cells, (std::vector<double>{12}));  // voxels, no more
+    EXPECT_TRUE(estimate(cubical).cells.empty());  // voxel by voxel: none is listed
     const auto complex = ExplicitComplex::from_simplices(random.simplices(7, 3, 6, true));
     EXPECT_EQ(estimate(complex).cells, count_cells(complex, 3));
 

@@ -213,13 +213,20 @@ void check_engines(const F& f, int max_dim, std::int64_t field) {
   const auto components = pairs_of(f, 0, field, Engine::standard);
   for_each_engine([&](auto engine) {
     SCOPED_TRACE(engine.name);
-    if (engine.can_run(f, max_dim)) {
+    if (engine.can_run(f, Task{.max_dim = max_dim, .zero_length = true})) {
       EXPECT_EQ(pairs_of(f, max_dim, field, engine.id), oracle);
-      // An engine may take another way where only some pairs are wanted.
-      const Options options{.max_dim = max_dim, .field = field, .engine = engine.id};
-      EXPECT_EQ(pairs_of(persistence(f, options)), of_positive_length(oracle));
     }
-    if (engine.can_run(f, 0)) {
+    // An engine may take another way where only some pairs are wanted.
+    if (engine.can_run(f, Task{.max_dim = max_dim})) {
+      Options options{.max_dim = max_dim, .field = field, .engine = engine.id};
+      const Barcode barcode = persistence(f, options);
+      EXPECT_EQ(pairs_of(barcode), of_positive_length(oracle));
+      options.cells = false;
+      const Barcode without_cells = persistence(f, options);
+      EXPECT_TRUE(std::ranges::equal(without_cells, barcode));
+      EXPECT_TRUE(without_cells.empty() || without_cells.birth_cell(0).numbers.empty());
+    }
+    if (engine.can_run(f, Task{.zero_length = true})) {
       EXPECT_EQ(pairs_of(f, 0, field, engine.id), components);
     }
   });

@@ -140,7 +140,7 @@ void check_representatives(const F& f, int max_dim, std::int64_t field) {
   const auto oracle = pairs_of(f, max_dim, field, Engine::standard);
   for (const Representatives wanted : {Representatives::cycles, Representatives::cocycles}) {
     for_each_engine([&](auto engine) {
-      if (!engine.can_run(f, max_dim, wanted)) return;
+      if (!engine.can_run(f, Task{max_dim, wanted, true})) return;
       SCOPED_TRACE(std::string(engine.name) +
                    (wanted == Representatives::cycles ? ", cycles" : ", cocycles"));
       const Barcode bars = persistence(f, Options{.max_dim = max_dim,

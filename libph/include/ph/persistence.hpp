@@ -34,6 +34,7 @@ struct Options {
   Collapse collapse = Collapse::automatic;
   double min_persistence = 0;  ///< bars with death - birth <= this are left out; < 0: none
   Representatives representatives = Representatives::none;  ///< chains that come with the bars
+  bool cells = true;  ///< whether bars know the cells of their birth and death: time and memory
 };
 
 /// The barcode of a filtered complex.

@@ -22,35 +22,37 @@ struct EngineChoice {
 
 /// @throws Error (usage) if the engine asked for cannot do it.
 template <Filtration F>
-EngineChoice choose_engine(const F& f, Engine asked, int max_dim, Representatives wanted) {
+EngineChoice choose_engine(const F& f, Engine asked, const Task& task) {
   if (asked == Engine::automatic) {
-    if (ArrowsEngine::can_run(f, max_dim, wanted))
+    if (ArrowsEngine::can_run(f, task))
       return {Engine::arrows, "an image is paired voxel by voxel"};
-    if (UnionFindEngine::can_run(f, max_dim, wanted))
+    if (UnionFindEngine::can_run(f, task))
       return {Engine::union_find, "only components are asked for"};
-    if (LensEngine::can_run(f, max_dim, wanted))
+    if (LensEngine::can_run(f, task))
       return {Engine::lens, "H1 and H2 of a Rips complex need no triangles"};
     // Measured: where cells are numbered, columns are few and short in both directions and the
     // boundary wins; where they are not, the next dimension must never be listed.
-    if (SlottedFiltration<F> && TwistEngine::can_run(f, max_dim, wanted))
+    if (SlottedFiltration<F> && TwistEngine::can_run(f, task))
       return {Engine::twist, "the complex numbers its cells"};
-    if (CohomologyEngine::can_run(f, max_dim, wanted))
+    if (CohomologyEngine::can_run(f, task))
       return {Engine::cohomology, "cells of the highest dimension are too many to list"};
-    if (TwistEngine::can_run(f, max_dim, wanted))
+    if (TwistEngine::can_run(f, task))
       return {Engine::twist, "the complex lists facets only"};
     throw Error(ErrorKind::usage, "cocycles need a complex that lists cofacets");
   }
   bool can_run = false;
   for_each_engine([&](auto engine) {
-    if (engine.id == asked) can_run = engine.can_run(f, max_dim, wanted);
+    if (engine.id == asked) can_run = engine.can_run(f, task);
   });
   if (!can_run) {
+    const Representatives wanted = task.representatives;
     throw Error(ErrorKind::usage, "engine " + std::string(engine_name(asked)) +
                                       " cannot compute homology up to dimension " +
-                                      std::to_string(max_dim) + " of this complex" +
+                                      std::to_string(task.max_dim) + " of this complex" +
                                       (wanted == Representatives::none     ? ""
                                        : wanted == Representatives::cycles ? " with cycles"
-                                                                           : " with cocycles"));
+                                                                           : " with cocycles") +
+                                      (task.zero_length ? ", zero-length bars included" : ""));
   }
   return {asked, "asked for"};
 }
@@ -65,6 +67,10 @@ struct CollapseChoice {
 /// choose_engine.
 CollapseChoice choose_collapse(const Rips& rips, const Options& options, const RunContext& context);
 
+inline Task task_of(const Options& options, int max_dim) {
+  return {max_dim, options.representatives, options.min_persistence < 0};
+}
+
 /// What will be computed: up to which dimension, by which engine.
 struct Plan {
   int max_dim;
@@ -76,13 +82,13 @@ Plan plan(const F& f, const Options& options) {
   // Low dimensions first: the top dimension of a flag complex takes time and memory to find.
   if (options.max_dim && checked_max_dim(*options.max_dim) <= 2) {
     const EngineChoice choice =
-        choose_engine(f, options.engine, *options.max_dim, options.representatives);
+        choose_engine(f, options.engine, task_of(options, *options.max_dim));
     if (choice.engine == Engine::lens || choice.engine == Engine::union_find)
       return {*options.max_dim, choice};
   }
   const int top = std::max(0, f.top_dim());
   const int max_dim = std::min(checked_max_dim(options.max_dim.value_or(top)), top);
-  return {max_dim, choose_engine(f, options.engine, max_dim, options.representatives)};
+  return {max_dim, choose_engine(f, options.engine, task_of(options, max_dim))};
 }
 
 /// Calls `use(field)` with the field of the given characteristic. @throws Error (usage) if none.
@@ -100,7 +106,8 @@ Barcode persistence(const F& filtration, const Options& options, const RunContex
     throw Error(ErrorKind::usage, "edge collapse is for Rips complexes only");
   const auto [max_dim, choice] = detail::plan(filtration, options);
   const Engine chosen = choice.engine;
-  BarcodeBuilder<F> bars(filtration, max_dim, options.min_persistence, options.representatives);
+  BarcodeBuilder<F> bars(filtration, max_dim, options.min_persistence, options.representatives,
+                         options.cells, context);
   detail::with_field(options.field, [&](const auto& field) {
     for_each_engine([&](auto engine) {
       if (engine.id == chosen) engine.run(filtration, field, bars, context);

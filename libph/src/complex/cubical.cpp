@@ -44,7 +44,7 @@ void check(const Image& image, const CubicalOptions& options) {
   }
 }
 
-void refuse_nan(const VoxelGrid& grid, const RunContext& context) {
+void refuse_nan(const CubicalImage& grid, const RunContext& context) {
   with_voxels(grid.type, grid.voxels, [&]<class T>(const T* voxels) {
     if constexpr (std::is_floating_point_v<T>) {
       constexpr std::size_t block = 1 << 16;

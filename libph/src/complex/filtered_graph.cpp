@@ -52,7 +52,8 @@ FilteredGraph::FilteredGraph(std::span<const double> births, std::span<const Wei
     edge.value = e.value + 0.0;
     edges_.push_back(edge);
   }
-  radix_sort_by_value(edges_, [](const Edge& e) { return e.value; });
+  radix_sort_by_value(
+      edges_, [](const Edge& e) { return e.value; }, context);
 }
 
 FilteredGraph FilteredGraph::lower_star(std::span<const double> vertex_values,

@@ -17,7 +17,10 @@ Barcode::Range Barcode::store(std::span<const Index> numbers) {
 
 void Barcode::add(const Bar& bar, std::span<const Index> birth_cell,
                   std::span<const Index> death_cell) {
+  const bool has_cells = !birth_cell.empty() || !death_cell.empty();
+  if (has_cells) cells_.resize(bars_.size());
   bars_.push_back(bar);
+  if (!has_cells && cells_.empty()) return;
   const Range birth = store(birth_cell), death = store(death_cell);
   cells_.push_back({birth.begin, death.begin, death.end, kNone});
 }
@@ -28,6 +31,7 @@ void Barcode::set_representative(Representatives kind, std::span<const Index> nu
   const Range cells = store(numbers);
   const std::size_t begin = coefficients_.size();
   coefficients_.insert(coefficients_.end(), coefficients.begin(), coefficients.end());
+  cells_.resize(bars_.size());
   cells_.back().chain = chains_.size();
   chains_.push_back({cells, {begin, coefficients_.size()}});
 }
@@ -35,25 +39,39 @@ void Barcode::set_representative(Representatives kind, std::span<const Index> nu
 InputChain Barcode::representative(std::size_t i) const {
   if (representatives_ == Representatives::none)
     throw Error(ErrorKind::usage, "the barcode was computed without representatives");
-  const Chain chain = cells_[i].chain == kNone ? Chain{} : chains_[cells_[i].chain];
+  const std::size_t place = cells_.empty() ? kNone : cells_[i].chain;
+  const Chain chain = place == kNone ? Chain{} : chains_[place];
   const auto [begin, end] = chain.coefficients;
   return {kind_, numbers_of(chain.numbers), std::span(coefficients_).subspan(begin, end - begin)};
 }
 
-void Barcode::sort() {
+void Barcode::sort(const RunContext& context) {
+  // By digits: death, then birth, then dimension, each keeping what was sorted before; -0.0 is
+  // +0.0.
+  if (cells_.empty()) {
+    const MemoryClaim buffer(context.memory, bars_.size() * sizeof(Bar));
+    radix_sort_by_value(
+        bars_, [](const Bar& bar) { return bar.death + 0.0; }, context);
+    radix_sort_by_value(
+        bars_, [](const Bar& bar) { return bar.birth + 0.0; }, context);
+    radix_sort_by_value(
+        bars_, [](const Bar& bar) { return bar.dim; }, context);
+    return;
+  }
   struct Place {
     double value;
     std::size_t bar;
   };
-  std::pmr::vector<Place> order(bars_.size());
-  // By digits: death, then birth, each keeping what was sorted before; -0.0 is +0.0 in both.
+  const MemoryClaim copies(context.memory,
+                           bars_.size() * (sizeof(Place) + sizeof(Bar) + sizeof(Cells)));
+  std::vector<Place> order(bars_.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = {bars_[i].death + 0.0, i};
   const auto value_of = [](const Place& place) { return place.value; };
-  radix_sort_by_value(order, value_of);
+  radix_sort_by_value(order, value_of, context);
   for (Place& place : order) place.value = bars_[place.bar].birth + 0.0;
-  radix_sort_by_value(order, value_of);
+  radix_sort_by_value(order, value_of, context);
   for (Place& place : order) place.value = bars_[place.bar].dim;
-  radix_sort_by_value(order, value_of);
+  radix_sort_by_value(order, value_of, context);
   // Stable: bars without cells keep their order when they are written and read again.
   for (std::size_t begin = 0, end; begin < order.size(); begin = end) {
     const Bar& bar = bars_[order[begin].bar];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/cubical/star_grid.hpp"
+#include "star_grid.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -13,7 +13,9 @@ namespace {
 constexpr std::uint32_t kBlock = 4096;     // voxels of a row that are looked at together
 constexpr std::uint32_t kPiece = 1 << 16;  // voxels that a thread takes at a time, about
 
-bool keeps_axis(const VoxelGrid& grid, std::size_t k) {
+constexpr double kMostNodes = 2'147'000'000;  // ids of nodes and labels have 31 bits
+
+bool keeps_axis(const CubicalImage& grid, std::size_t k) {
   return grid.extents[k] > 1 || (!grid.voxels_are_vertices && !grid.periodic[k]);
 }
 
@@ -29,16 +31,19 @@ bool is_not_younger(T u, T v) {
 
 }  // namespace
 
-bool StarGrid::can_hold(const VoxelGrid& grid) {
+bool StarGrid::can_hold(const CubicalImage& grid) {
   int axes = 0;
-  for (std::size_t k = 0; k < grid.extents.size(); ++k) axes += keeps_axis(grid, k) ? 1 : 0;
-  // Nodes and labels of the graphs are below 2^31.
-  double cells = 1;
-  for (const Index n : grid.extents) cells *= static_cast<double>(n) + 1;
-  return axes <= 3 && grid.size() > 0 && cells < 2e9;
+  double nodes = 1;  // of the larger one of the two graphs, but for the outside
+  for (std::size_t k = 0; k < grid.extents.size(); ++k) {
+    if (!keeps_axis(grid, k)) continue;
+    ++axes;
+    nodes *= static_cast<double>(grid.extents[k]) + (grid.voxels_are_vertices ? 0 : 1);
+  }
+  // Labels are those of the outside, of what never enters and of the roots, fewer than nodes.
+  return axes <= 3 && grid.size() > 0 && nodes < kMostNodes;
 }
 
-StarGrid::StarGrid(const VoxelGrid& grid, const RunContext& context)
+StarGrid::StarGrid(const CubicalImage& grid, const RunContext& context)
     : grid_(grid),
       context_(context),
       size_(static_cast<std::uint32_t>(grid.size())),
@@ -185,7 +190,6 @@ void StarGrid::find_stars(const T* voxels) {
   std::vector<Piece> pieces;
   for_each_piece(
       "stars", blocks, blocks_a_piece, context_, [&](std::size_t begin, std::size_t end) {
-        Ticker ticker(context_, "stars", size_);
         std::pmr::vector<std::uint32_t> found(&context_.memory);
         bool all = true;
         for (std::size_t i = begin; i < end; ++i) {
@@ -215,7 +219,7 @@ void StarGrid::find_stars(const T* voxels) {
             next += tables.has_critical(stars[k]) ? 1 : 0;
           }
           found.resize(next);
-          ticker.tick(count);
+          context_.poll();
         }
         const std::lock_guard lock(mutex);
         all_enter_ = all_enter_ && all;

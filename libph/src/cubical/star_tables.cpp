@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/cubical/star_tables.hpp"
+#include "star_tables.hpp"
 
 #include <algorithm>
 #include <numeric>

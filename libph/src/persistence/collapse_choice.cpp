@@ -35,8 +35,8 @@ CollapseChoice choose_collapse(const Rips& rips, const Options& options,
                                const RunContext& context) {
   // Engines are told apart by the kind of a filtration only, not by the size of its cells.
   const RipsFiltration<RipsLayout::sparse, 1> filtration(rips.graph());
-  const EngineChoice engine = choose_engine(filtration, options.engine, options.max_dim.value_or(1),
-                                            options.representatives);
+  const EngineChoice engine =
+      choose_engine(filtration, options.engine, task_of(options, options.max_dim.value_or(1)));
   const auto decide = [&](bool collapses, std::string_view reason) {
     return CollapseChoice{collapses, std::string(reason), engine};
   };

@@ -13,8 +13,8 @@
 namespace ph::detail {
 namespace {
 
-// A bar with its cells, while bars are sorted and when they are written.
-constexpr double kBytesPerBar = 160;
+// A bar with its cells, vertex and edge or edge and triangle, while bars are sorted.
+constexpr double kBytesPerBar = 24 + 32 + 5 * 8 + 72;
 // What small containers, the allocator and the pages of the program's own code come to.
 constexpr double kAlways = 4 << 20;
 // Cells that the engine lists in the larger part that it computes: enough to show how memory grows,
@@ -192,7 +192,7 @@ MemoryForecast forecast_rips(const Rips& rips, std::span<const double> cells,
 
 MemoryForecast forecast_voxels(double stored, double voxels) {
   // A star and a node of a graph; critical cells with their columns, and bars.
-  constexpr double least = 4, most = 8 + 160;
+  constexpr double least = 8, most = 8 + 160;
   return {stored + least * voxels, stored + most * voxels + kAlways};
 }
 

@@ -10,9 +10,9 @@
 #include <optional>
 #include <vector>
 
+#include "ph/core/cubical_image.hpp"
 #include "ph/core/filtration.hpp"
 #include "ph/core/run_context.hpp"
-#include "ph/core/voxel_grid.hpp"
 #include "ph/image/image.hpp"
 
 namespace ph {
@@ -69,7 +69,7 @@ class Cubical {
   static CellKind cell_kind() { return CellKind::grid; }
   void append_input_cell(int dim, const Cell& cell, std::vector<Index>& numbers) const;
   /// The image as it is, in the order of this filtration.
-  VoxelGrid voxel_grid() const { return grid_; }
+  CubicalImage cubical_image() const { return grid_; }
   /// Bytes that the voxels take.
   std::size_t voxel_bytes() const { return voxels_.bytes(); }
   /// How many vertices the grid has, those that never enter included: voxels (V), corners (T).
@@ -119,7 +119,7 @@ class Cubical {
   std::array<Axis, kMaxDim> axes_;  // in the input's order, the last one fastest
   std::size_t cells_ = 0;           // of the doubled grid
   Voxels voxels_;
-  VoxelGrid grid_;  // points into voxels_
+  CubicalImage grid_;  // points into voxels_
   const RunContext* context_;
   std::shared_ptr<const MemoryClaim> claim_;  // of the voxels
   std::shared_ptr<Lazy> lazy_ = std::make_shared<Lazy>();

@@ -8,6 +8,7 @@
 
 #include "ph/core/field.hpp"
 #include "ph/core/filtration.hpp"
+#include "ph/core/run_context.hpp"
 
 namespace ph {
 
@@ -61,7 +62,7 @@ enum class Representatives {
 
 /// The result of persistent homology: bars ordered by dimension, birth, death (an infinite death
 /// last) and birth cell, each with the cell that gave birth to it and, if it died, the cell that
-/// killed it. A value: it owns all it shows.
+/// killed it, unless they were not asked for (Options::cells). A value: it owns all it shows.
 class Barcode {
  public:
   explicit Barcode(CellKind kind = CellKind::vertices) : kind_(kind) {}
@@ -79,11 +80,13 @@ class Barcode {
   std::size_t longest(int dim) const;
 
   CellKind cell_kind() const { return kind_; }
+  /// The cell that gave birth to bar i; without numbers if cells are not kept.
   InputCell birth_cell(std::size_t i) const { return {kind_, birth_numbers(i)}; }
-  /// The cell that killed bar i; nothing for an infinite bar.
+  /// The cell that killed bar i; nothing for an infinite bar, or if cells are not kept.
   std::optional<InputCell> death_cell(std::size_t i) const {
-    if (cells_[i].death == cells_[i].end) return std::nullopt;
-    return InputCell{kind_, death_numbers(i)};
+    const std::span<const Index> numbers = death_numbers(i);
+    if (numbers.empty()) return std::nullopt;
+    return InputCell{kind_, numbers};
   }
 
   /// What `representative` gives: as asked for in Options.
@@ -92,13 +95,20 @@ class Barcode {
   /// @throws Error (usage) if none were asked for.
   InputChain representative(std::size_t i) const;
 
-  /// Appends a bar; an empty `death_cell` says that the class lives for ever.
-  void add(const Bar& bar, std::span<const Index> birth_cell, std::span<const Index> death_cell);
+  /// Appends a bar. No `death_cell`: the class lives for ever, or cells are not kept.
+  void add(const Bar& bar, std::span<const Index> birth_cell = {},
+           std::span<const Index> death_cell = {});
   /// Gives the bar added last its representative: the numbers of all cells, one after another.
   void set_representative(Representatives kind, std::span<const Index> numbers,
                           std::span<const std::int64_t> coefficients);
-  /// Brings the bars into the order stated above.
-  void sort();
+  /// Brings the bars into the order stated above. @throws Error (resource, cancelled).
+  void sort(const RunContext& context = default_context());
+  /// What it takes.
+  std::size_t bytes() const {
+    return bars_.capacity() * sizeof(Bar) + cells_.capacity() * sizeof(Cells) +
+           chains_.capacity() * sizeof(Chain) +
+           (numbers_.capacity() + coefficients_.capacity()) * sizeof(Index);
+  }
 
  private:
   struct Range {
@@ -113,10 +123,11 @@ class Barcode {
   };
   static constexpr std::size_t kNone = SIZE_MAX;
   std::span<const Index> birth_numbers(std::size_t i) const {
-    return numbers_of({cells_[i].birth, cells_[i].death});
+    return cells_.empty() ? std::span<const Index>()
+                          : numbers_of({cells_[i].birth, cells_[i].death});
   }
   std::span<const Index> death_numbers(std::size_t i) const {
-    return numbers_of({cells_[i].death, cells_[i].end});
+    return cells_.empty() ? std::span<const Index>() : numbers_of({cells_[i].death, cells_[i].end});
   }
   Range store(std::span<const Index> numbers);
   std::span<const Index> numbers_of(Range r) const {
@@ -125,7 +136,7 @@ class Barcode {
 
   CellKind kind_;
   std::vector<Bar> bars_;
-  std::vector<Cells> cells_;    // parallel to bars_
+  std::vector<Cells> cells_;    // parallel to bars_, or empty: no bar has any
   std::vector<Index> numbers_;  // all cells, one after another
   Representatives representatives_ = Representatives::none;
   std::vector<Chain> chains_;
@@ -139,18 +150,25 @@ class BarcodeBuilder {
   using Cell = typename F::Cell;
 
   /// Keeps bars of dimension <= max_dim with death - birth > min_persistence; a negative
-  /// `min_persistence` keeps the zero-length bars too.
+  /// `min_persistence` keeps the zero-length bars too. What the bars take counts in the budget of
+  /// the context until they are finished.
   BarcodeBuilder(const F& filtration, int max_dim, double min_persistence,
-                 Representatives representatives = Representatives::none)
+                 Representatives representatives = Representatives::none, bool cells = true,
+                 const RunContext& context = default_context())
       : filtration_(filtration),
         max_dim_(max_dim),
         min_persistence_(min_persistence),
         representatives_(representatives),
+        cells_(cells),
+        context_(context),
+        claim_(context.memory, 0),
         barcode_(filtration.cell_kind()) {}
 
   int max_dim() const { return max_dim_; }
   /// What an engine must hand over with each bar.
   Representatives representatives() const { return representatives_; }
+  /// Whether bars keep their cells.
+  bool wants_cells() const { return cells_; }
   /// Whether an engine must report pairs of equal value.
   bool wants_zero_length() const { return min_persistence_ < 0; }
 
@@ -169,12 +187,14 @@ class BarcodeBuilder {
     add(Bar{dim, filtration_.value(birth), kInfinity}, birth, nullptr);
     return true;
   }
-  /// A bar whose cells are known by their numbers; no death cell: it never dies.
+  /// A bar whose cells, if they are kept, are known by their numbers; it never dies if its death is
+  /// infinite.
   bool add_bar(const Bar& bar, std::span<const Index> birth_cell,
                std::span<const Index> death_cell) {
     if (bar.dim > max_dim_) return false;
-    if (!death_cell.empty() && !(bar.persistence() > min_persistence_)) return false;
+    if (!bar.is_infinite() && !(bar.persistence() > min_persistence_)) return false;
     barcode_.add(bar, birth_cell, death_cell);
+    claim_.grow_to(barcode_.bytes());
     return true;
   }
   /// Gives the bar kept last its representative: terms with `cell` and `coefficient()`.
@@ -187,27 +207,32 @@ class BarcodeBuilder {
       coefficients_.push_back(field.to_int(term.coefficient()));
     }
     barcode_.set_representative(representatives_, numbers_, coefficients_);
+    claim_.grow_to(barcode_.bytes());
   }
 
   Barcode finish() {
-    barcode_.sort();
+    barcode_.sort(context_);
     return std::move(barcode_);
   }
 
  private:
   void add(const Bar& bar, const Cell& birth, const Cell* death) {
     numbers_.clear();
-    filtration_.append_input_cell(bar.dim, birth, numbers_);
+    if (cells_) filtration_.append_input_cell(bar.dim, birth, numbers_);
     const std::size_t split = numbers_.size();
-    if (death) filtration_.append_input_cell(bar.dim + 1, *death, numbers_);
+    if (cells_ && death) filtration_.append_input_cell(bar.dim + 1, *death, numbers_);
     const std::span<const Index> all(numbers_);
     barcode_.add(bar, all.first(split), all.subspan(split));
+    claim_.grow_to(barcode_.bytes());
   }
 
   const F& filtration_;
   int max_dim_;
   double min_persistence_;
   Representatives representatives_;
+  bool cells_;
+  const RunContext& context_;
+  MemoryClaim claim_;
   Barcode barcode_;
   std::vector<Index> numbers_;
   std::vector<std::int64_t> coefficients_;

@@ -49,6 +49,12 @@ class MemoryClaim {
     budget_.add(bytes_);
   }
   ~MemoryClaim() { budget_.subtract(bytes_); }
+  /// Claims more, up to `bytes` in all. @throws Error (resource) as the constructor.
+  void grow_to(std::size_t bytes) {
+    if (bytes <= bytes_) return;
+    budget_.add(bytes - bytes_);
+    bytes_ = bytes;
+  }
   MemoryClaim(const MemoryClaim&) = delete;
   MemoryClaim& operator=(const MemoryClaim&) = delete;
 

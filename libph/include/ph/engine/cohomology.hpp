@@ -17,7 +17,7 @@ struct CohomologyEngine {
   static constexpr Engine id = Engine::cohomology;
   static constexpr const char* name = "cohomology";
   template <Filtration F>
-  static bool can_run(const F&, int, Representatives = Representatives::none) {
+  static bool can_run(const F&, const Task&) {
     return CofacetFiltration<F>;
   }
 

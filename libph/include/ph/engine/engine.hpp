@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include "ph/core/barcode.hpp"
 
 namespace ph {
 
@@ -12,6 +13,13 @@ enum class Engine {
   union_find,  ///< H0 only
   lens,        ///< Rips, H0 to H2: edge by edge
   arrows,      ///< images of up to three axes: voxel by voxel
+};
+
+/// What an engine is asked for.
+struct Task {
+  int max_dim = 0;  ///< highest dimension of homology
+  Representatives representatives = Representatives::none;
+  bool zero_length = false;  ///< pairs of one value, too
 };
 
 }  // namespace ph

@@ -18,10 +18,11 @@ struct LensEngine {
   static constexpr Engine id = Engine::lens;
   static constexpr const char* name = "lens";
   template <Filtration F>
-  static bool can_run(const F& f, int max_dim, Representatives wanted = Representatives::none) {
+  static bool can_run(const F& f, const Task& task) {
     if constexpr (FlagFiltration<F>)
-      return max_dim < 2 || (max_dim == 2 && wanted != Representatives::cycles &&
-                             f.vertex_count() <= kMostVerticesOfSurfaces);
+      return task.max_dim < 2 ||
+             (task.max_dim == 2 && task.representatives != Representatives::cycles &&
+              f.vertex_count() <= kMostVerticesOfSurfaces);
     else
       return false;
   }

@@ -20,8 +20,8 @@ struct StandardEngine {
   static constexpr Engine id = Engine::standard;
   static constexpr const char* name = "standard";
   template <Filtration F>
-  static bool can_run(const F&, int, Representatives wanted = Representatives::none) {
-    return wanted == Representatives::none;
+  static bool can_run(const F&, const Task& task) {
+    return task.representatives == Representatives::none;
   }
 
   template <Filtration F, Field K>

@@ -12,8 +12,8 @@ struct TwistEngine {
   static constexpr Engine id = Engine::twist;
   static constexpr const char* name = "twist";
   template <Filtration F>
-  static bool can_run(const F&, int, Representatives wanted = Representatives::none) {
-    return wanted != Representatives::cocycles;
+  static bool can_run(const F&, const Task& task) {
+    return task.representatives != Representatives::cocycles;
   }
 
   template <Filtration F, Field K>

@@ -49,8 +49,8 @@ struct UnionFindEngine {
   static constexpr Engine id = Engine::union_find;
   static constexpr const char* name = "union_find";
   template <Filtration F>
-  static bool can_run(const F& f, int max_dim, Representatives = Representatives::none) {
-    return max_dim == 0 && is_graph_like(f);
+  static bool can_run(const F& f, const Task& task) {
+    return task.max_dim == 0 && is_graph_like(f);
   }
 
   template <Filtration F, Field K>

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "ph/core/voxel_grid.hpp"
+#include "ph/core/cubical_image.hpp"
 
 namespace ph {
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "ph/core/filtration.hpp"
@@ -30,14 +31,15 @@ decltype(auto) with_voxels(VoxelType type, const void* data, Use&& use) {
 
 /// The cubical filtration of an image as the image itself: what an engine needs that goes voxel by
 /// voxel and never lists cells. Points to voxels that outlive it. No value is NaN.
-struct VoxelGrid {
+struct CubicalImage {
   std::vector<Index> extents;  ///< in C order: the last axis is the fastest
   std::vector<bool> periodic;  ///< as many as extents
   VoxelType type = VoxelType::float64;
   const void* voxels = nullptr;     ///< null: there are none
   bool voxels_are_vertices = true;  ///< V-construction; else the voxels are top cubes (T)
   bool superlevel = false;          ///< values are those of -f
-  double limit = 0;                 ///< values above it never enter; finite
+  /// Values above it never enter; finite.
+  double limit = std::numeric_limits<double>::max();
 
   std::size_t size() const {
     std::size_t product = voxels == nullptr ? 0 : 1;
@@ -56,7 +58,7 @@ struct VoxelGrid {
 /// decides the value in C order; dimension; place of the cell in the doubled grid in C order).
 template <class F>
 concept VoxelFiltration = Filtration<F> && requires(const F& f) {
-  { f.voxel_grid() } -> std::same_as<VoxelGrid>;
+  { f.cubical_image() } -> std::same_as<CubicalImage>;
 };
 
 }  // namespace ph

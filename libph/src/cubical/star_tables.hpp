@@ -56,10 +56,6 @@ constexpr std::uint32_t star_bit(const Direction& d) {
   const int shift = dimension_of(d) == 1 ? 0 : dimension_of(d) == 2 ? kSquareShift : kCubeShift;
   return std::uint32_t{1} << (shift + number_of(d));
 }
-constexpr Direction opposite(const Direction& d) { return {-d[0], -d[1], -d[2]}; }
-constexpr Direction sum_of(const Direction& a, const Direction& b) {
-  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
 /// The same direction but for one axis.
 constexpr Direction turned(Direction d, int axis, int to) {
   d[axis] = to;
@@ -92,6 +88,14 @@ constexpr int normal_of_square(int square) {
 /// The square of a cube at the star's voxel across an axis.
 constexpr int square_of_cube(int cube, int axis) {
   return number_of(turned(kCubes[cube], axis, 0));
+}
+
+/// Calls `use(number)` for the bits of a set in the order of `at(rank)`.
+template <class At, class Use>
+void for_each_in_order(unsigned set, int count, At&& at, Use&& use) {
+  if (set == 0) return;
+  for (int rank = 0; rank < count; ++rank)
+    if (const int number = at(rank); (set >> number & 1U) != 0) use(number);
 }
 
 /// What the cubes of a star are paired with, and what is left; in one word.

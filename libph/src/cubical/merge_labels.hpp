@@ -55,9 +55,8 @@ class LabelMerger {
       merge_round(on_merge);
       drop_loops(on_loop);
     }
-    context_.poll();
-    radix_sort_by_value(bridges_, [](const Bridge& b) { return b.value; });
-    context_.poll();
+    radix_sort_by_value(
+        bridges_, [](const Bridge& b) { return b.value; }, context_);
     Ticker ticker(context_, "components", bridges_.size());
     for (std::size_t i = 0; i < bridges_.size(); ++i) {
       ticker.tick();
@@ -71,8 +70,10 @@ class LabelMerger {
       sets_.link(younger, elder);
       on_merge(bridge, younger < endless_ ? nullptr : &roots_[younger - endless_]);
     }
-    for (std::uint32_t i = 0; i < roots_.size(); ++i)
+    for (std::uint32_t i = 0; i < roots_.size(); ++i) {
+      ticker.work();
       if (sets_.find(endless_ + i) == endless_ + i) on_survivor(roots_[i]);
+    }
   }
 
  private:
@@ -102,6 +103,7 @@ class LabelMerger {
       }
     }
     for (std::uint32_t r = 0; r < roots_.size(); ++r) {
+      ticker.work();
       if (first[r] == kNone) continue;
       Bridge& bridge = bridges_[first[r]];
       const std::uint32_t label = endless_ + r;

@@ -6,17 +6,18 @@
 #include <span>
 #include <vector>
 
+#include "ph/core/cubical_image.hpp"
 #include "ph/core/raw_vector.hpp"
 #include "ph/core/run_context.hpp"
-#include "ph/core/voxel_grid.hpp"
-#include "ph/cubical/star_tables.hpp"
+#include "star_tables.hpp"
 
 namespace ph::cubical {
 
-/// A cell as the star that it is in sees it.
+/// A cell as the star that it is in sees it, with its value in the order of the stars.
 struct StarCell {
   std::uint32_t voxel = 0;
   Direction direction{};
+  double value = 0;
 };
 
 /// Divides by a number that is known beforehand (Lemire, Kaser, Kurz, Faster remainder by direct
@@ -43,10 +44,11 @@ class Divisor {
 /// been there is no cell ("relative").
 class StarGrid {
  public:
-  /// Three axes at most that have more than one voxel (V) or are not closed up at one (T).
-  static bool can_hold(const VoxelGrid& grid);
+  /// Three axes at most that have more than one voxel (V) or are not closed up at one (T), and no
+  /// more than about 2^31 voxels.
+  static bool can_hold(const CubicalImage& grid);
   /// Precondition: can_hold(grid).
-  StarGrid(const VoxelGrid& grid, const RunContext& context);
+  StarGrid(const CubicalImage& grid, const RunContext& context);
 
   int top_dim() const { return top_dim_; }      ///< of the stars' grid
   bool relative() const { return relative_; }   ///< T-construction
@@ -103,9 +105,9 @@ class StarGrid {
 
   /// Calls `use(numbers of a, numbers of b, shift)`, coordinates of the input's doubled grid, for
   /// the cells and what periodic axes of one voxel make of them; `shift` is what they add to the
-  /// dimension. @param b may be null.
+  /// dimension. @param b may be null. @param wants_numbers else they are empty.
   template <class Use>
-  void for_each_copy(const StarCell& a, const StarCell* b, Use&& use) const;
+  void for_each_copy(const StarCell& a, const StarCell* b, bool wants_numbers, Use&& use) const;
 
  private:
   struct Axis {
@@ -131,7 +133,7 @@ class StarGrid {
   }
   void append_numbers(const StarCell& cell, unsigned loops, std::vector<Index>& numbers) const;
 
-  VoxelGrid grid_;
+  CubicalImage grid_;
   const RunContext& context_;
   const StarTables& plain_tables_ = star_tables(0);
   std::array<Axis, 3> axes_;         // the last one is the fastest
@@ -146,13 +148,14 @@ class StarGrid {
 };
 
 template <class Use>
-void StarGrid::for_each_copy(const StarCell& a, const StarCell* b, Use&& use) const {
+void StarGrid::for_each_copy(const StarCell& a, const StarCell* b, bool wants_numbers,
+                             Use&& use) const {
   std::vector<Index>&first = numbers_[0], &second = numbers_[1];
   for (unsigned loops = 0; loops < 1U << loops_.size(); ++loops) {
     first.clear();
     second.clear();
-    append_numbers(a, loops, first);
-    if (b != nullptr) append_numbers(*b, loops, second);
+    if (wants_numbers) append_numbers(a, loops, first);
+    if (wants_numbers && b != nullptr) append_numbers(*b, loops, second);
     use(first, second, std::popcount(loops));
   }
 }

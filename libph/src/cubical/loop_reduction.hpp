@@ -9,7 +9,7 @@
 #include "ph/core/chain.hpp"
 #include "ph/core/field.hpp"
 #include "ph/core/radix_sort.hpp"
-#include "ph/cubical/two_graphs.hpp"
+#include "two_graphs.hpp"
 
 namespace ph::cubical {
 
@@ -35,9 +35,11 @@ class LoopReduction {
         heap_(&context.memory) {}
 
   void run() {
-    number_edges();
+    Ticker gathering(context_, "loops");
+    number_edges(gathering);
     std::pmr::vector<Square> squares(&context_.memory);
     for (std::size_t i = 0; i < grid_.critical().size(); ++i) {
+      gathering.work();
       const std::uint32_t v = grid_.critical()[i], star = grid_.star(v);
       const StarTables& tables = grid_.tables(v);
       const unsigned free =
@@ -47,15 +49,14 @@ class LoopReduction {
         if (const int s = tables.square_at(rank); (free >> s & 1U) != 0)
           squares.push_back({grid_.value(v), v, s});
     }
-    context_.poll();
-    radix_sort_by_value(squares, [](const Square& s) { return s.value; });
-    context_.poll();
+    radix_sort_by_value(
+        squares, [](const Square& s) { return s.value; }, context_);
     Ticker ticker(context_, "loops", squares.size());
     for (const Square& s : squares) {
       ticker.tick();
       reduce(s, ticker);
     }
-    report_essential();
+    report_essential(ticker);
   }
 
  private:
@@ -83,23 +84,20 @@ class LoopReduction {
   };
 
   static std::uint32_t voxel_of(Name name) { return static_cast<std::uint32_t>(name >> 3); }
-  static std::uint64_t ordered(double value) {
-    const auto bits = std::bit_cast<std::uint64_t>(value);
-    return bits >> 63 ? ~bits : bits | std::uint64_t{1} << 63;
-  }
   void append(Name name, Element coefficient) {
-    heap_.emplace_back(Edge{ordered(grid_.value(voxel_of(name)) + 0.0), name}, coefficient);
+    heap_.emplace_back(Edge{ordered_bits(grid_.value(voxel_of(name)) + 0.0), name}, coefficient);
   }
   // The edges of the stars that may be pivots, by critical voxel.
   unsigned free_edges(std::size_t i) const {
     const std::uint32_t v = grid_.critical()[i];
     return grid_.tables(v).free_edges(grid_.star(v));
   }
-  void number_edges() {
+  void number_edges(Ticker& ticker) {
     const auto critical = grid_.critical();
     first_owner_.reserve(critical.size());
     std::uint32_t count = 0;
     for (std::size_t i = 0; i < critical.size(); ++i) {
+      ticker.work();
       critical_at_[critical[i]] = static_cast<std::uint32_t>(i);
       first_owner_.push_back(count);
       count += static_cast<std::uint32_t>(std::popcount(free_edges(i)));
@@ -212,8 +210,8 @@ class LoopReduction {
       if (*owner == kNone) {
         *owner = static_cast<std::uint32_t>(columns_.size());
         store(pivot.coefficient());
-        if (grid_.value(u) != column_cell.value)
-          sink_.pair(1, {u, kEdges[edge]}, {v, kSquares[square]});
+        if (const double birth = grid_.value(u); birth != column_cell.value)
+          sink_.pair(1, {u, kEdges[edge], birth}, {v, kSquares[square], column_cell.value});
         return;
       }
       const Column& column = columns_[*owner];
@@ -225,7 +223,7 @@ class LoopReduction {
       });
       ticker.work(column.end - column.begin);
     }
-    sink_.essential(2, {v, kSquares[square]});
+    sink_.essential(2, {v, kSquares[square], column_cell.value});
   }
   // Keeps what the working column has below its pivot.
   void store(Element pivot) {
@@ -242,14 +240,16 @@ class LoopReduction {
     column.end = terms_.size();
     columns_.push_back(column);
   }
-  void report_essential() {
-    for (std::size_t i = 0; i < grid_.critical().size(); ++i)
+  void report_essential(Ticker& ticker) {
+    for (std::size_t i = 0; i < grid_.critical().size(); ++i) {
+      ticker.work();
       for (unsigned rest = free_edges(i); rest != 0; rest &= rest - 1) {
         const std::uint32_t v = grid_.critical()[i];
         const int edge = std::countr_zero(rest);
         if (*owner_of(v, edge) == kNone)
-          sink_.essential(1, {v, kEdges[static_cast<std::size_t>(edge)]});
+          sink_.essential(1, {v, kEdges[static_cast<std::size_t>(edge)], grid_.value(v)});
       }
+    }
   }
 
   const StarGrid& grid_;

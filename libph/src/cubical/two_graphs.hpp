@@ -4,7 +4,7 @@
 #include <memory_resource>
 #include <vector>
 
-#include "ph/cubical/star_grid.hpp"
+#include "star_grid.hpp"
 
 namespace ph::cubical {
 

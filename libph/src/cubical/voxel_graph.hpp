@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+
+#include "star_grid.hpp"
+
+namespace ph::cubical {
+
+/// Voxels, and what has always been there: the outside, in two parts where one axis alone has ends,
+/// and voxels that never enter if what never enters is no cell. Roots are voxels without an older
+/// neighbour, bridges critical edges.
+class VoxelGraph {
+ public:
+  static constexpr bool kBackwards = false;
+
+  explicit VoxelGraph(const StarGrid& grid) : grid_(grid) {}
+
+  std::size_t size() const { return std::size_t{grid_.size()} + 2; }
+  std::uint32_t outside(int part) const { return grid_.size() + static_cast<std::uint32_t>(part); }
+  Direction root_direction(std::uint32_t) const { return {}; }
+  Direction bridge_direction(std::uint32_t number) const { return kEdges[number]; }
+
+  std::uint32_t arrow(std::uint32_t v) const {
+    return across(v, grid_.tables(v).arrow(grid_.star(v)));
+  }
+  template <class Use>
+  void for_each_arrow(Use&& use, Ticker& ticker) const {
+    for (std::uint32_t v = 0; v < grid_.size(); ++v) {
+      ticker.work();
+      if (StarTables::edges(grid_.star(v)) != 0) use(v, arrow(v));
+    }
+  }
+  /// Whether anything but the outside has always been there.
+  bool has_endless() const { return grid_.relative() && !grid_.all_enter(); }
+  /// Calls `use(node)` for what has always been there and hangs together because a voxel never
+  /// enters.
+  template <class Use>
+  void for_each_endless(std::uint32_t v, Use&& use) const {
+    use(v);
+    for (int e = 0; e < kEdgeCount; ++e) {
+      const int axis = axis_of_edge(e);
+      if (!grid_.has_axis(axis)) continue;
+      const std::uint32_t u = or_outside(grid_.step(v, axis, kEdges[e][axis]), e);
+      if (u >= grid_.size() || !grid_.enters(u)) use(u);
+    }
+  }
+  /// Calls `use(node, number)` for the roots in the star of a voxel.
+  template <class Use>
+  void for_each_root(std::uint32_t v, Use&& use) const {
+    if (StarTables::edges(grid_.star(v)) == 0) use(v, 0U);
+  }
+  /// Calls `use(node, node, number)` for the bridges in the star of a voxel, in the order of the
+  /// grid.
+  template <class Use>
+  void for_each_bridge(std::uint32_t v, Use&& use) const {
+    const StarTables& tables = grid_.tables(v);
+    for_each_in_order(
+        tables.critical_edges(grid_.star(v)), kEdgeCount,
+        [&](int rank) { return tables.edge_at(rank); },
+        [&](int e) { use(v, across(v, e), static_cast<std::uint32_t>(e)); });
+  }
+
+ private:
+  // Across an edge of the star of v.
+  std::uint32_t across(std::uint32_t v, int edge) const {
+    return or_outside(grid_.step_in_star(v, edge), edge);
+  }
+  std::uint32_t or_outside(std::uint32_t u, int edge) const {
+    if (u != StarGrid::kOutside) return u;
+    return outside(grid_.open_axes() == 1 && kEdges[edge][axis_of_edge(edge)] > 0 ? 1 : 0);
+  }
+
+  const StarGrid& grid_;
+};
+
+}  // namespace ph::cubical
