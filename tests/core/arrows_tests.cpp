@@ -3,6 +3,9 @@
 // constructions, holes, axes that close up, and the duality of the two constructions.
 #include <gtest/gtest.h>
 
+#include <string>
+#include <thread>
+
 #include "support/conformance.hpp"
 #include "support/for_each_seed.hpp"
 #include "support/generators.hpp"
@@ -188,6 +191,53 @@ TEST(Arrows, ThreadsDoNotMatter) {
     }
     EXPECT_EQ(results[0], results[1]);
     EXPECT_EQ(results[0], results[2]);
+  }
+}
+
+TEST(Arrows, LongRowsAreLookedAtInParts) {
+  Generator random(8);
+  for (const std::vector<Index>& extents : {std::vector<Index>{9001}, {3, 5000}, {2, 2, 4097}})
+    for (const Construction construction : {Construction::vertices, Construction::cells})
+      for (const bool periodic : {false, true}) {
+        const Image image = image_of<std::uint8_t>(random, extents, 250);
+        const Cubical cubical(image, {.construction = construction,
+                                      .periodic = std::vector<bool>(extents.size(), periodic)});
+        Options options{.engine = Engine::arrows};
+        const Barcode barcode = persistence(cubical, options);
+        options.engine = Engine::twist;
+        EXPECT_EQ(pairs_of(barcode), pairs_of(persistence(cubical, options)));
+      }
+}
+
+TEST(Arrows, ProgressComesFromOneThread) {
+  Generator random(9);
+  const Image image = image_of<std::uint16_t>(random, {120, 120, 120}, 60000);
+  RunContext context;
+  context.threads = 4;
+  const std::thread::id here = std::this_thread::get_id();
+  std::vector<std::string> stages;
+  context.on_progress = [&](const Progress& progress) {
+    EXPECT_EQ(std::this_thread::get_id(), here);
+    EXPECT_TRUE(progress.total == 0 || progress.done <= progress.total) << progress.stage;
+    stages.emplace_back(progress.stage);
+  };
+  persistence(Cubical(image, {}, context), {}, context);
+  EXPECT_FALSE(stages.empty());
+}
+
+TEST(Arrows, HolesTakeNoMemory) {
+  Generator random(10);
+  const std::vector<Index> extents{100, 100, 100};
+  const Image image = image_of<std::uint8_t>(random, extents, 250);
+  for (const Construction construction : {Construction::vertices, Construction::cells}) {
+    RunContext context;
+    context.threads = 1;
+    // All but a tenth of the voxels never enter.
+    const Cubical cubical(image, {.construction = construction, .threshold = 25}, context);
+    const std::size_t before = context.memory.used();
+    persistence(cubical, {.max_dim = 0, .cells = false}, context);
+    // A star and a node of a graph for each voxel; critical cells.
+    EXPECT_LE(context.memory.peak() - before, std::size_t{18'000'000});
   }
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "ph/core/error.hpp"
+#include "ph/core/polled_sort.hpp"
 #include "ph/core/radix_sort.hpp"
 
 namespace ph {
@@ -45,19 +46,28 @@ InputChain Barcode::representative(std::size_t i) const {
   return {kind_, numbers_of(chain.numbers), std::span(coefficients_).subspan(begin, end - begin)};
 }
 
+// Without cells equal bars are the same: each run of one birth can be sorted by death in place.
+void Barcode::sort_values(const RunContext& context) {
+  const MemoryClaim buffer(context.memory, bars_.size() * sizeof(Bar));
+  // By digits, each keeping what was sorted before; -0.0 is +0.0.
+  radix_sort_by_value(
+      bars_, [](const Bar& bar) { return bar.birth + 0.0; }, context);
+  radix_sort_by_value(
+      bars_, [](const Bar& bar) { return bar.dim; }, context);
+  Ticker ticker(context, "bars", bars_.size());
+  const auto dies_first = [](const Bar& a, const Bar& b) { return a.death < b.death; };
+  for (auto begin = bars_.begin(), end = begin; begin != bars_.end(); begin = end) {
+    ticker.tick();
+    while (++end != bars_.end() && end->birth == begin->birth && end->dim == begin->dim) continue;
+    std::span run(begin, end);
+    if (run.size() > 1) polled_sort(run, dies_first, ticker);
+  }
+}
+
 void Barcode::sort(const RunContext& context) {
+  if (cells_.empty()) return sort_values(context);
   // By digits: death, then birth, then dimension, each keeping what was sorted before; -0.0 is
   // +0.0.
-  if (cells_.empty()) {
-    const MemoryClaim buffer(context.memory, bars_.size() * sizeof(Bar));
-    radix_sort_by_value(
-        bars_, [](const Bar& bar) { return bar.death + 0.0; }, context);
-    radix_sort_by_value(
-        bars_, [](const Bar& bar) { return bar.birth + 0.0; }, context);
-    radix_sort_by_value(
-        bars_, [](const Bar& bar) { return bar.dim; }, context);
-    return;
-  }
   struct Place {
     double value;
     std::size_t bar;

@@ -2,6 +2,9 @@
 #include "ph/core/run_context.hpp"
 
 #include <fmt/format.h>
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
 
 #include <algorithm>
 #include <utility>
@@ -19,6 +22,21 @@ constexpr double kMiB = 1024.0 * 1024.0;
                           "{:.1f} MiB more needed",
                           static_cast<double>(limit) / kMiB, static_cast<double>(used) / kMiB,
                           static_cast<double>(bytes) / kMiB));
+}
+
+// Large blocks lie on pages of 2 MiB where the system has them for those who ask: what is read in
+// no order then misses the table of pages a few hundred times less often.
+constexpr std::size_t kHugePage = std::size_t{2} << 20;
+constexpr std::size_t kLeastHuge = 4 * kHugePage;
+
+std::size_t alignment_of(std::size_t bytes, std::size_t alignment) {
+  return bytes < kLeastHuge ? alignment : std::max(alignment, kHugePage);
+}
+void advise(void* block, std::size_t bytes) {
+#if defined(MADV_HUGEPAGE)
+  // A hint: what comes of it is the system's business.
+  if (bytes >= kLeastHuge) madvise(block, bytes / kHugePage * kHugePage, MADV_HUGEPAGE);
+#endif
 }
 
 }  // namespace
@@ -43,7 +61,10 @@ void MemoryBudget::add(std::size_t bytes) {
 void* MemoryBudget::do_allocate(std::size_t bytes, std::size_t alignment) {
   add(bytes);
   try {
-    return std::pmr::new_delete_resource()->allocate(bytes, alignment);
+    void* const block =
+        std::pmr::new_delete_resource()->allocate(bytes, alignment_of(bytes, alignment));
+    advise(block, bytes);
+    return block;
   } catch (...) {
     subtract(bytes);
     throw;
@@ -51,7 +72,7 @@ void* MemoryBudget::do_allocate(std::size_t bytes, std::size_t alignment) {
 }
 
 void MemoryBudget::do_deallocate(void* p, std::size_t bytes, std::size_t alignment) {
-  std::pmr::new_delete_resource()->deallocate(p, bytes, alignment);
+  std::pmr::new_delete_resource()->deallocate(p, bytes, alignment_of(bytes, alignment));
   subtract(bytes);
 }
 

@@ -20,10 +20,11 @@ namespace ph::cubical {
 template <Field K>
 class LoopReduction {
  public:
-  LoopReduction(const StarGrid& grid, const TakenSquares& taken, const K& field,
+  /// @param squares critical ones that give birth to nothing, by (value, place).
+  LoopReduction(const StarGrid& grid, const NumberedCells& squares, const K& field,
                 const RunContext& context, const PairSink& sink)
       : grid_(grid),
-        taken_(taken),
+        squares_(squares),
         field_(field),
         sink_(sink),
         context_(context),
@@ -35,26 +36,11 @@ class LoopReduction {
         heap_(&context.memory) {}
 
   void run() {
-    Ticker gathering(context_, "loops");
-    number_edges(gathering);
-    std::pmr::vector<Square> squares(&context_.memory);
-    for (std::size_t i = 0; i < grid_.critical().size(); ++i) {
-      gathering.work();
-      const std::uint32_t v = grid_.critical()[i], star = grid_.star(v);
-      const StarTables& tables = grid_.tables(v);
-      const unsigned free =
-          tables.critical_squares(star, tables.pair_cubes(star)) & ~unsigned{taken_[i]};
-      if (free == 0) continue;
-      for (int rank = 0; rank < kSquareCount; ++rank)
-        if (const int s = tables.square_at(rank); (free >> s & 1U) != 0)
-          squares.push_back({grid_.value(v), v, s});
-    }
-    radix_sort_by_value(
-        squares, [](const Square& s) { return s.value; }, context_);
-    Ticker ticker(context_, "loops", squares.size());
-    for (const Square& s : squares) {
+    Ticker ticker(context_, "loops", squares_.size());
+    number_edges(ticker);
+    for (const NumberedCell& square : squares_) {
       ticker.tick();
-      reduce(s, ticker);
+      reduce(square, ticker);
     }
     report_essential(ticker);
   }
@@ -73,11 +59,6 @@ class LoopReduction {
   static bool precedes(const Term& a, const Term& b) {
     return a.cell.key != b.cell.key ? a.cell.key < b.cell.key : a.cell.name < b.cell.name;
   }
-  struct Square {
-    double value;
-    std::uint32_t voxel;
-    int number;
-  };
   struct Column {
     std::size_t begin, end;  // in terms_
     Element pivot;
@@ -186,9 +167,9 @@ class LoopReduction {
       std::push_heap(heap_.begin(), heap_.begin() + static_cast<std::ptrdiff_t>(i), precedes);
   }
 
-  void reduce(const Square& column_cell, Ticker& ticker) {
+  void reduce(const NumberedCell& column_cell, Ticker& ticker) {
     const std::uint32_t v = column_cell.voxel;
-    const int square = column_cell.number;
+    const int square = static_cast<int>(column_cell.number);
     heap_.clear();
     push([&] { append_boundary(v, square, field_.from_int(1), -1); });
     Term pivot;
@@ -253,7 +234,7 @@ class LoopReduction {
   }
 
   const StarGrid& grid_;
-  const TakenSquares& taken_;
+  const NumberedCells& squares_;
   const K& field_;
   const PairSink& sink_;
   const RunContext& context_;

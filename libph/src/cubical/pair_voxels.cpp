@@ -34,20 +34,19 @@ void pair_voxels(const CubicalImage& voxels, const K& field, int max_dim, bool w
   // Components come from one graph, the highest dimension from the other; turned around they have
   // changed places.
   const bool only_components = max_dim == 0;
-  if (top < 2 || !turned_around || !only_components) pair_vertices_with_edges(grid, context, pairs);
-  if (top < 2 || (!turned_around && only_components)) return;
-  const TakenSquares taken = pair_facets_with_top_cells(grid, context, pairs);
-  if (only_components) return;
-  if (top == 2) {
-    if (!grid.wants_marks()) return;
-    // What neither graph takes lives for ever: loops around periodic axes.
-    for (const std::uint32_t v : grid.critical())
-      for (unsigned rest = grid.tables(v).free_edges(grid.star(v)); rest != 0; rest &= rest - 1)
-        pairs.essential(
-            1, {v, kEdges[static_cast<std::size_t>(std::countr_zero(rest))], grid.value(v)});
-    return;
+  const bool takes_voxels = top < 2 || !turned_around || !only_components;
+  NumberedCells edges(&context.memory);
+  if (takes_voxels || top == 2) edges = critical_cells(grid, 1, context);
+  if (takes_voxels) pair_vertices_with_edges(grid, edges, context, pairs);
+  if (top > 1 && (turned_around || !only_components)) {
+    NumberedCells squares(&context.memory);
+    if (top == 3) squares = critical_cells(grid, 2, context);
+    pair_facets_with_top_cells(grid, top == 3 ? squares : edges, context, pairs);
+    if (top == 3 && !only_components) LoopReduction<K>(grid, squares, field, context, pairs).run();
   }
-  LoopReduction<K>(grid, taken, field, context, pairs).run();
+  // What neither graph takes lives for ever: loops around periodic axes.
+  if (top == 3 || (top == 2 && only_components)) return;
+  for (const NumberedCell& e : edges) pairs.essential(1, {e.voxel, kEdges[e.number], e.value});
 }
 
 template void pair_voxels(const CubicalImage&, const Z2&, int, bool, const RunContext&,

@@ -55,9 +55,7 @@ class StarGrid {
   std::uint32_t size() const { return size_; }  ///< voxels
   std::uint32_t star(std::uint32_t v) const { return stars_[v]; }
   bool enters(std::uint32_t v) const { return stars_[v] != kAbsent; }
-  /// Whether anybody will ask which edges are marked: for H1 of three axes, and for loops around
-  /// periodic ones.
-  bool wants_marks() const { return top_dim_ == 3 || any_periodic_; }
+  /// Marks edges of a star: they kill a component. Of three axes only.
   void mark(std::uint32_t v, std::uint32_t bits) { stars_[v] |= bits; }
   bool all_enter() const { return all_enter_; }
   /// The voxels with a critical cell in their stars, ascending.
@@ -82,6 +80,26 @@ class StarGrid {
   const StarTables& tables(std::uint32_t v) const {
     return any_periodic_ ? star_tables(wrapped(v)) : plain_tables_;
   }
+
+  std::uint32_t stride(int axis) const { return axes_[axis].stride; }
+
+  /// Voxels along the last axis.
+  struct Row {
+    std::uint32_t z, y, first;
+    unsigned borders;  ///< at which ends of the other axes it lies, see `border_of`
+  };
+  /// Calls `use(row)`; counts the voxels as work.
+  template <class Use>
+  void for_each_row(Ticker& ticker, Use&& use) const {
+    std::uint32_t first = 0;
+    for (std::uint32_t z = 0; z < extent(0); ++z)
+      for (std::uint32_t y = 0; y < extent(1); ++y, first += extent(2)) {
+        ticker.work(extent(2));
+        use(Row{z, y, first, borders_at(0, z) | borders_at(1, y)});
+      }
+  }
+  /// At which ends of the axes a voxel of a row lies.
+  unsigned borders(const Row& row, std::uint32_t x) const { return row.borders | borders_at(2, x); }
 
   static constexpr std::uint32_t kOutside = UINT32_MAX;
   /// The voxel one step away, or kOutside.
@@ -119,6 +137,9 @@ class StarGrid {
   struct Block {
     std::uint32_t z, y, begin, end;
   };
+  unsigned borders_at(int a, std::uint32_t x) const {
+    return (x == 0 ? 1U << (2 * a) : 0U) | (x + 1 == axes_[a].extent ? 2U << (2 * a) : 0U);
+  }
   template <class T, bool descending>
   void find_stars(const T* voxels);
   template <class T, bool descending>

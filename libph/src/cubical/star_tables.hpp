@@ -61,6 +61,14 @@ constexpr Direction turned(Direction d, int axis, int to) {
   d[axis] = to;
   return d;
 }
+/// The ends of axes that a step in a direction crosses where a voxel lies at them: bit 2a is the
+/// beginning of axis a, bit 2a + 1 its end.
+constexpr unsigned border_of(const Direction& d) {
+  unsigned bits = 0;
+  for (int a = 0; a < 3; ++a)
+    if (d[a] != 0) bits |= (d[a] > 0 ? 2U : 1U) << (2 * a);
+  return bits;
+}
 constexpr int axis_of_edge(int edge) {
   return kEdges[edge][0] != 0 ? 0 : kEdges[edge][1] != 0 ? 1 : 2;
 }
@@ -94,6 +102,7 @@ constexpr int square_of_cube(int cube, int axis) {
 template <class At, class Use>
 void for_each_in_order(unsigned set, int count, At&& at, Use&& use) {
   if (set == 0) return;
+  if (std::has_single_bit(set)) return use(std::countr_zero(set));
   for (int rank = 0; rank < count; ++rank)
     if (const int number = at(rank); (set >> number & 1U) != 0) use(number);
 }

@@ -8,6 +8,7 @@ TopGraph::TopGraph(const StarGrid& grid) : grid_(grid) {
     // With a border around the voxels there is one more cell than voxels along an axis.
     border_[a] = grid.relative() && grid.has_axis(a) && !grid.is_periodic(a) ? 1 : 0;
     extent_[a] = grid.extent(a) + border_[a];
+    if (border_[a] == 0) inner_borders_ |= 3U << (2 * a);
     stride_[a] = count_;
     by_extent_[a] = Divisor(extent_[a]);
     count_ *= extent_[a];
@@ -33,6 +34,13 @@ std::uint32_t TopGraph::node(std::uint32_t v, const Direction& d) const {
     result += low * stride_[a];
   }
   return result;
+}
+
+std::array<std::uint32_t, 2> TopGraph::ends(std::uint32_t v, std::uint32_t number) const {
+  const Direction d = bridge_direction(number);
+  const int n = static_cast<int>(number);
+  const int normal = has_cubes() ? normal_of_square(n) : 3 - axis_of_edge(n);
+  return {node(v, turned(d, normal, -1)), node(v, turned(d, normal, 1))};
 }
 
 std::uint32_t TopGraph::arrow(std::uint32_t node) const {

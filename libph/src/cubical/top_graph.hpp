@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "star_grid.hpp"
 
@@ -9,8 +10,9 @@ namespace ph::cubical {
 
 /// The cells of the highest dimension (two or three), numbered by their corner that comes first,
 /// and what has always been there: the outside, in two parts where one axis alone has ends, and
-/// cells that never enter. Roots are critical top cells, bridges critical facets. The same as the
-/// graph of voxels for the image turned around.
+/// cells that never enter. Roots are critical top cells, bridges critical facets, but for edges
+/// that are marked: they are in pairs with voxels. The same as the graph of voxels for the image
+/// turned around.
 class TopGraph {
  public:
   static constexpr bool kBackwards = true;
@@ -27,21 +29,21 @@ class TopGraph {
   /// Out of a cell by the facet that it is paired with. Precondition: the cell enters and is not
   /// critical.
   std::uint32_t arrow(std::uint32_t node) const;
-  template <class Use>
-  void for_each_arrow(Use&& use, Ticker& ticker) const;
+  /// Calls `use_arrow(node, node)` for all arrows and `use_root` as `for_each_root` does.
+  template <class UseArrow, class UseRoot>
+  void for_each_node(UseArrow&& use_arrow, UseRoot&& use_root, Ticker& ticker) const;
   /// Whether anything but the outside has always been there.
   bool has_endless() const { return !grid_.relative() && !grid_.all_enter(); }
   /// Calls `use(node)` for what hangs together because a voxel never enters: all top cells around
   /// it.
   template <class Use>
   void for_each_endless(std::uint32_t v, Use&& use) const;
-  /// Calls `use(node, number)` for the roots in the star of a voxel, in the order of the grid.
-  template <class Use>
-  void for_each_root(std::uint32_t v, Use&& use) const;
-  /// Calls `use(node, node, number)` for the bridges in the star of a voxel, in the order of the
+  /// Calls `use(node, voxel, number)` for the roots in the star of a voxel, in the order of the
   /// grid.
   template <class Use>
-  void for_each_bridge(std::uint32_t v, Use&& use) const;
+  void for_each_root(std::uint32_t v, Use&& use) const;
+  /// What a facet in the star of a voxel joins.
+  std::array<std::uint32_t, 2> ends(std::uint32_t v, std::uint32_t number) const;
 
  private:
   bool has_cubes() const { return grid_.top_dim() == 3; }
@@ -58,55 +60,55 @@ class TopGraph {
 
   const StarGrid& grid_;
   std::array<std::uint32_t, 3> extent_{}, stride_{}, border_{};
+  unsigned inner_borders_ = 0;  // of axes without a border around them
   std::array<Divisor, 3> by_extent_;
   std::uint32_t count_ = 1;
 };
 
-template <class Use>
-void TopGraph::for_each_arrow(Use&& use, Ticker& ticker) const {
-  // By place_of a direction: from the cell towards +, +, + of a voxel to that in the direction, and
-  // at which borders (bit 2a at the first voxel along a, 2a + 1 at the last one) that leaves the
-  // graph or comes back on the other side.
-  std::array<std::uint32_t, 27> offset{};
-  std::array<unsigned, 27> leaves{};
-  const auto prepare = [&](const Direction& d) {
+template <class UseArrow, class UseRoot>
+void TopGraph::for_each_node(UseArrow&& use_arrow, UseRoot&& use_root, Ticker& ticker) const {
+  // By number of a top cell in a star: where it lies from the one towards +, +, +, at which borders
+  // that is not so (it leaves the graph, or comes back on the other side), and what is across the
+  // facet that it is left by.
+  struct Step {
+    std::uint32_t offset = 0;
+    unsigned borders = 0;
+    std::array<int, 3> across{};  // by axis
+  };
+  std::array<Step, kSquareCount> steps;
+  const int count = has_cubes() ? kCubeCount : kSquareCount;
+  for (int n = 0; n < count; ++n) {
+    const Direction d = root_direction(static_cast<std::uint32_t>(n));
+    steps[n].borders = border_of(d) & inner_borders_;
     for (int a = 0; a < 3; ++a) {
-      if (d[a] == 0) continue;
-      if (d[a] < 0) offset[place_of(d)] -= stride_[a];
-      if (border_[a] == 0) leaves[place_of(d)] |= 1U << (2 * a + (d[a] > 0 ? 1 : 0));
+      if (d[a] < 0) steps[n].offset -= stride_[a];
+      steps[n].across[a] = number_of(turned(d, a, -d[a]));
     }
-  };
-  for (const Direction& d : has_cubes() ? std::span<const Direction>(kCubes) : kSquares) prepare(d);
-  const auto at_borders = [&](int a, std::uint32_t x) {
-    return (x == 0 ? 1U << (2 * a) : 0U) | (x + 1 == grid_.extent(a) ? 2U << (2 * a) : 0U);
-  };
-  std::uint32_t v = 0;
-  for (std::uint32_t z = 0; z < grid_.extent(0); ++z)
-    for (std::uint32_t y = 0; y < grid_.extent(1); ++y) {
-      const unsigned row_borders = at_borders(0, z) | at_borders(1, y);
-      const std::uint32_t base =
-          (z + border_[0]) * stride_[0] + (y + border_[1]) * stride_[1] + border_[2] * stride_[2];
-      ticker.work(grid_.extent(2));
-      for (std::uint32_t x = 0; x < grid_.extent(2); ++x, ++v) {
-        const std::uint32_t star = grid_.star(v);
-        const StarTables& tables = grid_.tables(v);
-        const unsigned paired =
-            has_cubes() ? StarTables::cubes(star) & ~tables.pair_cubes(star).critical_cubes()
-                        : tables.edge_squares(star);
-        const unsigned borders = row_borders | at_borders(2, x);
-        const auto near = [&](const Direction& d) {
-          const int place = place_of(d);
-          return (leaves[place] & borders) != 0 ? node(v, d)
-                                                : base + x * stride_[2] + offset[place];
-        };
-        for (unsigned rest = paired; rest != 0; rest &= rest - 1) {
-          const int number = std::countr_zero(rest);
-          const Direction d = root_direction(static_cast<std::uint32_t>(number));
-          const int axis = exit_axis(tables, star, number);
-          use(near(d), near(turned(d, axis, -d[axis])));
-        }
+  }
+  grid_.for_each_row(ticker, [&](const StarGrid::Row& row) {
+    std::uint32_t base = (row.z + border_[0]) * stride_[0] + (row.y + border_[1]) * stride_[1] +
+                         border_[2] * stride_[2];
+    for (std::uint32_t x = 0, v = row.first; x < grid_.extent(2); ++x, ++v, base += stride_[2]) {
+      const std::uint32_t star = grid_.star(v);
+      const unsigned all = has_cubes() ? StarTables::cubes(star) : StarTables::squares(star);
+      if (all == 0) continue;
+      const StarTables& tables = grid_.tables(v);
+      const unsigned paired =
+          has_cubes() ? all & ~tables.pair_cubes(star).critical_cubes() : tables.edge_squares(star);
+      const unsigned borders = grid_.borders(row, x);
+      const auto near = [&](int n) {
+        const Step& step = steps[n];
+        return (step.borders & borders) != 0
+                   ? node(v, root_direction(static_cast<std::uint32_t>(n)))
+                   : base + step.offset;
+      };
+      for (unsigned rest = paired; rest != 0; rest &= rest - 1) {
+        const int n = std::countr_zero(rest);
+        use_arrow(near(n), near(steps[n].across[exit_axis(tables, star, n)]));
       }
+      if (paired != all) for_each_root(v, use_root);
     }
+  });
 }
 
 template <class Use>
@@ -129,7 +131,7 @@ void TopGraph::for_each_root(std::uint32_t v, Use&& use) const {
   const StarTables& tables = grid_.tables(v);
   const auto use_cell = [&](int number) {
     const auto n = static_cast<std::uint32_t>(number);
-    use(node(v, root_direction(n)), n);
+    use(node(v, root_direction(n)), v, n);
   };
   if (!has_cubes())
     for_each_in_order(
@@ -139,26 +141,6 @@ void TopGraph::for_each_root(std::uint32_t v, Use&& use) const {
     for_each_in_order(
         tables.pair_cubes(star).critical_cubes(), kCubeCount,
         [&](int rank) { return tables.cube_at(rank); }, use_cell);
-}
-
-template <class Use>
-void TopGraph::for_each_bridge(std::uint32_t v, Use&& use) const {
-  const std::uint32_t star = grid_.star(v);
-  const StarTables& tables = grid_.tables(v);
-  const auto use_facet = [&](int number) {
-    const auto n = static_cast<std::uint32_t>(number);
-    const Direction d = bridge_direction(n);
-    const int normal = has_cubes() ? normal_of_square(number) : 3 - axis_of_edge(number);
-    use(node(v, turned(d, normal, -1)), node(v, turned(d, normal, 1)), n);
-  };
-  if (has_cubes())
-    for_each_in_order(
-        tables.critical_squares(star, tables.pair_cubes(star)), kSquareCount,
-        [&](int rank) { return tables.square_at(rank); }, use_facet);
-  else
-    for_each_in_order(
-        tables.critical_edges(star), kEdgeCount, [&](int rank) { return tables.edge_at(rank); },
-        use_facet);
 }
 
 }  // namespace ph::cubical

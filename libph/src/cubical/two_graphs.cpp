@@ -1,73 +1,82 @@
 // SPDX-License-Identifier: MIT
 #include "two_graphs.hpp"
 
-#include <algorithm>
-
-#include "pair_components.hpp"
+#include "ph/core/radix_sort.hpp"
 #include "top_graph.hpp"
 #include "voxel_graph.hpp"
 
 namespace ph::cubical {
 namespace {
 
-void mark_edge(StarGrid& grid, const Bridge& bridge) {
-  const std::uint32_t v = bridge.voxel;
-  grid.mark(v, grid.tables(v).taken_mark(static_cast<int>(bridge.number)));
-}
-
-/// The cells that roots and bridges of a graph are.
+/// What roots are in a graph, and what bridges are.
 template <class Graph>
-StarCell cell_of(const Graph& graph, const Root& root) {
+StarCell root_cell(const Graph& graph, const NumberedCell& root) {
   return {root.voxel, graph.root_direction(root.number), root.value};
 }
 template <class Graph>
-StarCell cell_of(const Graph& graph, const Bridge& bridge) {
+StarCell bridge_cell(const Graph& graph, const NumberedCell& bridge) {
   return {bridge.voxel, graph.bridge_direction(bridge.number), bridge.value};
 }
 
 }  // namespace
 
-void pair_vertices_with_edges(StarGrid& grid, const RunContext& context, const PairSink& sink) {
-  const VoxelGraph graph(grid);
-  const bool wants_loops = grid.top_dim() == 1;
-  pair_components(
-      grid, graph, wants_loops, context,
-      [&](const Bridge& bridge, const Root* dies) {
-        if (grid.wants_marks()) mark_edge(grid, bridge);
-        if (dies == nullptr)
-          sink.essential(1, cell_of(graph, bridge));
-        else if (dies->value != bridge.value)
-          sink.pair(0, cell_of(graph, *dies), cell_of(graph, bridge));
-      },
-      [&](const Bridge& bridge) {
-        if (wants_loops) sink.essential(1, cell_of(graph, bridge));
-      },
-      [&](const Root& root) { sink.essential(0, cell_of(graph, root)); });
+NumberedCells critical_cells(const StarGrid& grid, int dim, const RunContext& context) {
+  NumberedCells cells(&context.memory);
+  Ticker ticker(context, "critical cells", grid.critical().size());
+  for (const std::uint32_t v : grid.critical()) {
+    ticker.tick();
+    const std::uint32_t star = grid.star(v);
+    const StarTables& tables = grid.tables(v);
+    const auto add = [&](int number) {
+      cells.push_back({grid.value(v), v, static_cast<std::uint32_t>(number)});
+    };
+    if (dim == 1)
+      for_each_in_order(
+          tables.critical_edges(star), kEdgeCount, [&](int rank) { return tables.edge_at(rank); },
+          add);
+    else
+      for_each_in_order(
+          tables.critical_squares(star, tables.pair_cubes(star)), kSquareCount,
+          [&](int rank) { return tables.square_at(rank); }, add);
+  }
+  radix_sort_by_value(
+      cells, [](const NumberedCell& cell) { return cell.value; }, context);
+  return cells;
 }
 
-TakenSquares pair_facets_with_top_cells(StarGrid& grid, const RunContext& context,
-                                        const PairSink& sink) {
+void pair_vertices_with_edges(StarGrid& grid, NumberedCells& edges, const RunContext& context,
+                              const PairSink& sink) {
+  const VoxelGraph graph(grid);
+  ComponentPairing(grid, graph, context)
+      .run(
+          edges,
+          [&](const NumberedCell& edge, const NumberedCell* dies) {
+            if (grid.top_dim() == 3) {
+              const StarTables& tables = grid.tables(edge.voxel);
+              grid.mark(edge.voxel, tables.taken_mark(static_cast<int>(edge.number)));
+            }
+            if (dies == nullptr)
+              sink.essential(1, bridge_cell(graph, edge));
+            else if (dies->value != edge.value)
+              sink.pair(0, root_cell(graph, *dies), bridge_cell(graph, edge));
+          },
+          [&](const NumberedCell& root) { sink.essential(0, root_cell(graph, root)); });
+}
+
+void pair_facets_with_top_cells(const StarGrid& grid, NumberedCells& facets,
+                                const RunContext& context, const PairSink& sink) {
   const int top = grid.top_dim();
   const TopGraph graph(grid);
-  TakenSquares taken(top == 3 ? grid.critical().size() : 0, 0, &context.memory);
-  pair_components(
-      grid, graph, false, context,
-      [&](const Bridge& bridge, const Root* dies) {
-        if (top == 3) {
-          const auto critical = grid.critical();
-          const auto at = std::ranges::lower_bound(critical, bridge.voxel);
-          taken[static_cast<std::size_t>(at - critical.begin())] |=
-              static_cast<std::uint16_t>(1U << bridge.number);
-        } else if (grid.wants_marks()) {
-          mark_edge(grid, bridge);
-        }
-        if (dies == nullptr)
-          sink.essential(top - 1, cell_of(graph, bridge));
-        else if (dies->value != bridge.value)
-          sink.pair(top - 1, cell_of(graph, bridge), cell_of(graph, *dies));
-      },
-      [](const Bridge&) {}, [&](const Root& root) { sink.essential(top, cell_of(graph, root)); });
-  return taken;
+  ComponentPairing(grid, graph, context)
+      .run(
+          facets,
+          [&](const NumberedCell& facet, const NumberedCell* dies) {
+            if (dies == nullptr)
+              sink.essential(top - 1, bridge_cell(graph, facet));
+            else if (dies->value != facet.value)
+              sink.pair(top - 1, bridge_cell(graph, facet), root_cell(graph, *dies));
+          },
+          [&](const NumberedCell& root) { sink.essential(top, root_cell(graph, root)); });
 }
 
 }  // namespace ph::cubical

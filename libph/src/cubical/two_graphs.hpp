@@ -4,6 +4,7 @@
 #include <memory_resource>
 #include <vector>
 
+#include "pair_components.hpp"
 #include "star_grid.hpp"
 
 namespace ph::cubical {
@@ -17,18 +18,21 @@ struct PairSink {
   std::function<void(int dim, const StarCell& birth)> essential;
 };
 
-/// Critical squares that are in pairs with cubes, or live for ever, by position in
-/// StarGrid::critical().
-using TakenSquares = std::pmr::vector<std::uint16_t>;
+using NumberedCells = std::pmr::vector<NumberedCell>;
 
-/// Components of the sublevel sets: voxels joined by edges, in the order of the stars. Marks the
-/// edges that kill.
-void pair_vertices_with_edges(StarGrid& grid, const RunContext& context, const PairSink& sink);
+/// The cells of a dimension (1 or 2) that are not paired inside their stars, by (value, place).
+NumberedCells critical_cells(const StarGrid& grid, int dim, const RunContext& context);
+
+/// Components of the sublevel sets: voxels joined by edges, in the order of the stars. Takes the
+/// edges that kill from `edges`, all critical ones; of three axes it marks them in the grid.
+void pair_vertices_with_edges(StarGrid& grid, NumberedCells& edges, const RunContext& context,
+                              const PairSink& sink);
 
 /// The same on the dual, backwards: cells of the highest dimension joined by their facets, the
-/// youngest first; what never enters and what is outside has always been there. Facets that
-/// give birth are marked (edges) or returned (squares). Precondition: grid.top_dim() >= 2.
-TakenSquares pair_facets_with_top_cells(StarGrid& grid, const RunContext& context,
-                                        const PairSink& sink);
+/// youngest first; what never enters and what is outside has always been there. Takes the facets
+/// that give birth from `facets`, all critical ones that kill nothing. Precondition: grid.top_dim()
+/// >= 2.
+void pair_facets_with_top_cells(const StarGrid& grid, NumberedCells& facets,
+                                const RunContext& context, const PairSink& sink);
 
 }  // namespace ph::cubical

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <array>
 #include <cstdint>
 
 #include "star_grid.hpp"
@@ -23,12 +24,26 @@ class VoxelGraph {
   std::uint32_t arrow(std::uint32_t v) const {
     return across(v, grid_.tables(v).arrow(grid_.star(v)));
   }
-  template <class Use>
-  void for_each_arrow(Use&& use, Ticker& ticker) const {
-    for (std::uint32_t v = 0; v < grid_.size(); ++v) {
-      ticker.work();
-      if (StarTables::edges(grid_.star(v)) != 0) use(v, arrow(v));
+  /// Calls `use_arrow(node, node)` for all arrows and `use_root` as `for_each_root` does.
+  template <class UseArrow, class UseRoot>
+  void for_each_node(UseArrow&& use_arrow, UseRoot&& use_root, Ticker& ticker) const {
+    std::array<std::uint32_t, kEdgeCount> offset{};
+    for (int e = 0; e < kEdgeCount; ++e) {
+      const std::uint32_t stride = grid_.stride(axis_of_edge(e));
+      offset[e] = kEdges[e][axis_of_edge(e)] > 0 ? stride : 0 - stride;
     }
+    grid_.for_each_row(ticker, [&](const StarGrid::Row& row) {
+      for (std::uint32_t x = 0, v = row.first; x < grid_.extent(2); ++x, ++v) {
+        const std::uint32_t star = grid_.star(v);
+        if (StarTables::edges(star) == 0) {
+          if (star != kAbsent) use_root(v, v, 0U);
+          continue;
+        }
+        const int e = grid_.tables(v).arrow(star);
+        const bool leaves = (grid_.borders(row, x) & border_of(kEdges[e])) != 0;
+        use_arrow(v, leaves ? across(v, e) : v + offset[e]);
+      }
+    });
   }
   /// Whether anything but the outside has always been there.
   bool has_endless() const { return grid_.relative() && !grid_.all_enter(); }
@@ -44,20 +59,14 @@ class VoxelGraph {
       if (u >= grid_.size() || !grid_.enters(u)) use(u);
     }
   }
-  /// Calls `use(node, number)` for the roots in the star of a voxel.
+  /// Calls `use(node, voxel, number)` for the roots in the star of a voxel.
   template <class Use>
   void for_each_root(std::uint32_t v, Use&& use) const {
-    if (StarTables::edges(grid_.star(v)) == 0) use(v, 0U);
+    if (StarTables::edges(grid_.star(v)) == 0) use(v, v, 0U);
   }
-  /// Calls `use(node, node, number)` for the bridges in the star of a voxel, in the order of the
-  /// grid.
-  template <class Use>
-  void for_each_bridge(std::uint32_t v, Use&& use) const {
-    const StarTables& tables = grid_.tables(v);
-    for_each_in_order(
-        tables.critical_edges(grid_.star(v)), kEdgeCount,
-        [&](int rank) { return tables.edge_at(rank); },
-        [&](int e) { use(v, across(v, e), static_cast<std::uint32_t>(e)); });
+  /// What an edge of the star of a voxel joins.
+  std::array<std::uint32_t, 2> ends(std::uint32_t v, std::uint32_t number) const {
+    return {v, across(v, static_cast<int>(number))};
   }
 
  private:

@@ -130,6 +130,7 @@ class Barcode {
     return cells_.empty() ? std::span<const Index>() : numbers_of({cells_[i].death, cells_[i].end});
   }
   Range store(std::span<const Index> numbers);
+  void sort_values(const RunContext& context);
   std::span<const Index> numbers_of(Range r) const {
     return std::span(numbers_).subspan(r.begin, r.end - r.begin);
   }
