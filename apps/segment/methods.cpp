@@ -7,7 +7,7 @@
 #include "concavity.hpp"
 #include "foot.hpp"
 #include "rips_graph.hpp"
-#include "spacing.hpp"
+#include "seeds.hpp"
 #include "voxel_pairs.hpp"
 
 namespace ph::segment {

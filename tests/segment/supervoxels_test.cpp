@@ -2,12 +2,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <iostream>
 #include <map>
+#include <random>
 #include <set>
 
+#include "ph/core/error.hpp"
+#include "ph/metric/greedy_permutation.hpp"
 #include "scenery.hpp"
-#include "spacing.hpp"
+#include "seeds.hpp"
 
 namespace ph::segment {
 namespace {
@@ -59,6 +64,43 @@ TEST(Supervoxels, ACoarserCutJoinsWholeOnes) {
   for (std::size_t v = 0; v < fine.vertex_labels.size(); ++v)
     EXPECT_EQ(whole.try_emplace(fine.vertex_labels[v], coarse.vertex_labels[v]).first->second,
               coarse.vertex_labels[v]);
+}
+
+TEST(Supervoxels, SeedsAsDenseAsVoxelsTakeBoundedTime) {
+  std::vector<float> xyz;  // 60 000 voxels of 5 mm
+  for (int i = 0; i < 490; ++i)
+    for (int k = 0; k < 490; ++k)
+      xyz.insert(xyz.end(),
+                 {0.0025F * static_cast<float>(i), 0.0025F * static_cast<float>(k), 1.0F});
+  const auto start = std::chrono::steady_clock::now();
+  SegmentOptions o = spaced(0.005);
+  o.plane = o.check = false;
+  const Segmentation s = segment(CloudView{xyz, {}}, o);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  std::cout << s.vertices.rows() << " voxels in " << took.count() << " s\n";
+  EXPECT_GT(s.vertices.rows(), 50000);
+  EXPECT_LT(took.count(), 20);
+  o.spacing = 0.0049;
+  EXPECT_THROW(segment(CloudView{xyz, {}}, o), Error);
+}
+
+TEST(Spacing, SeedsAreThoseOfAGreedyPermutation) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> place(0, 1);
+  for (const double spacing : {0.02, 0.1, 0.3, 2.0}) {
+    Points points(1500, 3);
+    for (Index i = 0; i < points.rows(); ++i)
+      points.row(i) << place(random), place(random), 0.1 * place(random);
+    GreedyLimits limits;
+    limits.radius = spacing;
+    const auto expected = greedy_permutation(points, limits, PointDistance::euclidean, 2);
+    std::vector<WeightedEdge> edges;  // a path through all: what is no seed is a step away from one
+    for (Index i = 1; i < points.rows(); ++i) edges.push_back({i, i - 1, 1.0});
+    const std::vector<double> f =
+        distance_to_seeds(points, edges, std::vector<double>(1500), spacing, default_context());
+    for (std::uint32_t i = 0; i < 1500; ++i)
+      EXPECT_EQ(f[i] == 0, std::ranges::count(expected.points, i) == 1) << i;
+  }
 }
 
 TEST(Spacing, DistancesAreThoseAlongTheGraph) {
