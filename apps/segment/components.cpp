@@ -90,7 +90,7 @@ SceneCut extract_components(const SceneTree& scene, const std::vector<Index>& co
                             Index min_size) {
   std::vector<Component> kept = measured(scene, component_of);
   std::vector<std::uint32_t> label_of_root(kept.size());
-  std::erase_if(kept, [&](const Component& c) { return c.voxels < std::max<Index>(min_size, 1); });
+  std::erase_if(kept, [&](const Component& c) { return c.voxels < min_size; });
   std::ranges::sort(kept, comes_before);
 
   SceneCut result;

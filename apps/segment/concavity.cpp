@@ -72,7 +72,7 @@ Eigen::Vector3d row(const Points& points, std::uint32_t i) { return points.row(i
 
 }  // namespace
 
-Points surface_normals(const Points& centroids, const std::vector<VoxelPair>& pairs, double radius,
+Points surface_normals(const Points& centroids, std::span<const VoxelPair> pairs, double radius,
                        const Vec3& viewpoint) {
   std::vector<Moments> moments(static_cast<std::size_t>(centroids.rows()));
   for (const VoxelPair& p : pairs) {
@@ -98,7 +98,7 @@ double rise(const Points& centroids, const Points& normals, const VoxelPair& pai
 }
 
 std::vector<double> concavity(const Points& centroids, const Points& normals,
-                              const std::vector<VoxelPair>& pairs) {
+                              std::span<const VoxelPair> pairs) {
   struct Mean {
     double sum = 0;
     int count = 0;
@@ -120,7 +120,7 @@ std::vector<double> concavity(const Points& centroids, const Points& normals,
   return values;
 }
 
-std::vector<double> smoothed(const std::vector<double>& values, const std::vector<VoxelPair>& pairs,
+std::vector<double> smoothed(const std::vector<double>& values, std::span<const VoxelPair> pairs,
                              double radius) {
   std::vector<double> sums = values;
   std::vector<int> counts(values.size(), 1);

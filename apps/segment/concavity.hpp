@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <span>
 #include <vector>
 
 #include "voxel_pairs.hpp"
@@ -9,7 +10,7 @@ namespace ph::segment {
 /// Normals of the surface at each voxel, turned towards the viewpoint, unit length: the direction
 /// in which the centroids within a radius spread least. NaN where fewer than three are near.
 /// @param pairs of voxels, at least those within `radius`.
-Points surface_normals(const Points& centroids, const std::vector<VoxelPair>& pairs, double radius,
+Points surface_normals(const Points& centroids, std::span<const VoxelPair> pairs, double radius,
                        const Vec3& viewpoint);
 
 /// The sum of the sines of the angles at which the surface rises at each of two voxels from the
@@ -23,11 +24,11 @@ double rise(const Points& centroids, const Points& normals, const VoxelPair& pai
 /// LCCP; Stein, Schoeler, Papon & Wörgötter, Object partitioning using local convexity, 2014).
 /// @param pairs of voxels: who is near whom.
 std::vector<double> concavity(const Points& centroids, const Points& normals,
-                              const std::vector<VoxelPair>& pairs);
+                              std::span<const VoxelPair> pairs);
 
 /// Each value becomes the mean of itself and those of its neighbours.
 /// @param pairs those with distance < `radius` are neighbours.
-std::vector<double> smoothed(const std::vector<double>& values, const std::vector<VoxelPair>& pairs,
+std::vector<double> smoothed(const std::vector<double>& values, std::span<const VoxelPair> pairs,
                              double radius);
 
 }  // namespace ph::segment

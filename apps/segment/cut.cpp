@@ -13,14 +13,15 @@
 namespace ph::segment {
 namespace {
 
-/// The edges of the graph between segments.
-std::vector<Contact> contacts_of(const SceneTree& scene, const Surface& surface,
-                                 const CutOptions& options, const SceneCut& cut,
-                                 const RunContext& context) {
-  std::vector<Contact> contacts;
+/// Where segments meet first. There may be many edges between them: none is kept.
+Contacts contacts_of(const SceneTree& scene, const Surface& surface, const CutOptions& options,
+                     const SceneCut& cut, const RunContext& context) {
+  Contacts contacts(&context.memory);
   const auto see = [&](std::uint32_t u, std::uint32_t v, double value) {
     const std::uint32_t a = cut.vertex_labels[u], b = cut.vertex_labels[v];
-    if (a != b && a != 0 && b != 0) contacts.push_back({u, v, value});
+    if (a == b || a == 0 || b == 0) return;
+    const auto [known, is_new] = contacts.try_emplace(std::minmax(a, b), value);
+    if (!is_new) known->second = std::min(known->second, value);
   };
   if (scene.method != Method::paper) {
     for (const VoxelPair& p : surface.pairs)
@@ -50,7 +51,8 @@ SceneCut cut_scene(const SceneTree& scene, const VoxelGrid& grid, const Surface&
   } else {
     component_of = scene.tree.basins(options.value, options.min_part);
     if (options.objects && scene.method == Method::surface) {
-      component_of = join_parts(grid, surface, scene.voxel, component_of, options.min_size);
+      component_of =
+          join_parts(grid, surface, scene.voxel, component_of, options.min_size, context);
     }
   }
   SceneCut result = extract_components(scene, component_of, options.min_size);
@@ -63,7 +65,7 @@ SceneCut cut(const SceneTree& scene, const CutOptions& options, const RunContext
   context.poll();
   if (scene.method == Method::paper) return cut_scene(scene, {}, {}, options, context);
   const VoxelGrid grid{scene.cells, scene.vertices, scene.counts, {}};
-  const Surface surface{scene.normals, near_voxels(grid, scene.voxel), scene.viewpoint,
+  const Surface surface{scene.normals, near_voxels(grid, scene.voxel, context), scene.viewpoint,
                         scene.plane};
   return cut_scene(scene, grid, surface, options, context);
 }

@@ -52,8 +52,7 @@ inline std::string document(Members members) {
 }
 
 inline std::string method(Method method) {
-  constexpr std::array<std::string_view, 3> names = {"surface", "paper", "supervoxels"};
-  return json_string(names[static_cast<std::size_t>(method)]);
+  return json_string(kMethodNames[static_cast<std::size_t>(method)]);
 }
 inline std::string cut(const CutOptions& o) {
   return object({{"value", number(o.value)},

@@ -4,25 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
-#include <memory_resource>
 
 #include "ph/core/disjoint_sets.hpp"
 #include "ph/core/error.hpp"
 
 namespace ph::segment {
 
-void find_neighbours(const MergeTree& tree, const std::vector<Contact>& contacts, SceneCut& cut) {
+void find_neighbours(const MergeTree& tree, const Contacts& contacts, SceneCut& cut) {
   const std::vector<std::uint32_t>& label = cut.vertex_labels;
   std::vector<double> birth(cut.segments.size() + 1, kInfinity);
   for (std::size_t v = 0; v < label.size(); ++v)
     birth[label[v]] = std::min(birth[label[v]], tree.births[v]);
-  std::map<std::pair<std::uint32_t, std::uint32_t>, double> first;
-  for (const Contact& c : contacts) {
-    const auto [at, is_new] = first.emplace(std::minmax(label[c.u], label[c.v]), c.value);
-    if (!is_new) at->second = std::min(at->second, c.value);
-  }
-  for (const auto& [both, value] : first) {
+  for (const auto& [both, value] : contacts) {
     cut.segments[both.first - 1].neighbours.push_back({both.second, value});
     cut.segments[both.second - 1].neighbours.push_back({both.first, value});
   }

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <map>
+#include <memory_resource>
+#include <utility>
+
 #include "ph/scene_tree.hpp"
 
 namespace ph::segment {
 
-/// Two vertices in different segments, with an edge between them.
-struct Contact {
-  std::uint32_t u, v;
-  double value;  ///< at which the edge enters
-};
+/// Of two segments, the smaller label first, the value of the first edge between them.
+using Contacts = std::pmr::map<std::pair<std::uint32_t, std::uint32_t>, double>;
 
 /// Gives each segment its neighbours, where they meet, and its persistence.
-void find_neighbours(const MergeTree& tree, const std::vector<Contact>& contacts, SceneCut& cut);
+void find_neighbours(const MergeTree& tree, const Contacts& contacts, SceneCut& cut);
 
 }  // namespace ph::segment

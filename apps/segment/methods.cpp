@@ -13,8 +13,10 @@
 namespace ph::segment {
 
 void StageClock::finish(std::string_view name, Index points) {
-  const auto now = std::chrono::steady_clock::now();
-  stages_.push_back({name, points, std::chrono::duration<double>(now - start_).count()});
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start_;
+  const auto known = std::ranges::find(stages_, name, &Stage::name);
+  Stage& stage = known == stages_.end() ? stages_.emplace_back() : *known;
+  stage = {name, points, stage.seconds + took.count()};
   if (context_.on_progress) context_.on_progress({name, stages_.size(), 0});
   context_.poll();
   start_ = std::chrono::steady_clock::now();
@@ -28,30 +30,36 @@ constexpr double kNeighbourhood = 3, kOfNormals = 2.4, kSquareOfFoot = 0.6;
 constexpr double kAdjacent = 1.79;  // corners touch; sqrt(3) and a little
 
 /// Whether voxels are so small that the points of a surface do not even touch: with fewer adjacent
-/// voxels on average than a plane that is sampled as coarsely as the grid has.
-bool is_too_fine(Index voxels, const std::vector<VoxelPair>& pairs, double voxel) {
-  constexpr double fewest = 6;
+/// voxels on average than a plane that is sampled as coarsely as the grid has. That alone may be a
+/// thin thing, a pen or a cable: voxels of half the edge tell whether there are more points than
+/// voxels, and do so whatever points are there twice. Of a line they are twice as many, of a plane
+/// four times, of single points as many, of random points with too few adjacent voxels up to 1.45
+/// times.
+bool is_too_fine(const Scene& scene, Index voxels, const VoxelPairs& pairs, double voxel) {
+  constexpr double fewest = 6, of_half = 1.6;
   const auto adjacent = std::ranges::count_if(
       pairs, [&](const VoxelPair& pair) { return are_adjacent(pair, voxel); });
-  return 2 * static_cast<double>(adjacent) < fewest * static_cast<double>(voxels);
+  if (2 * static_cast<double>(adjacent) >= fewest * static_cast<double>(voxels)) return false;
+  const VoxelGrid half = voxel_grid(scene.cloud, scene.points.beyond, voxel / 2);
+  return static_cast<double>(half.cells.size()) < of_half * static_cast<double>(voxels);
 }
 
 }  // namespace
 
-std::vector<VoxelPair> near_voxels(const VoxelGrid& grid, double voxel) {
-  return close_voxels(grid, voxel, kNeighbourhood * voxel);
+VoxelPairs near_voxels(const VoxelGrid& grid, double voxel, const RunContext& context) {
+  return close_voxels(grid, voxel, kNeighbourhood, &context.memory);
 }
 
 bool are_adjacent(const VoxelPair& pair, double voxel) { return pair.distance < kAdjacent * voxel; }
 
-Filtered filter_by_surface(const Scene& scene, const SegmentOptions& options,
-                           const RunContext& context, StageClock& clock) {
+VoxelFiltration surface_filtration(const Scene& scene, const SegmentOptions& options,
+                                   const RunContext& context, StageClock& clock) {
   constexpr double coarser = 1.5;
   constexpr int most_times = 4;  // to five times the edge
   double voxel = options.voxel_size();
   std::vector<Index> points;
   VoxelGrid grid;
-  std::vector<VoxelPair> pairs;
+  VoxelPairs pairs(&context.memory);
   for (int times = 0;; ++times, voxel *= coarser) {
     points = scene.points.beyond;
     grid = voxel_grid(scene.cloud, points, voxel);
@@ -60,9 +68,10 @@ Filtered filter_by_surface(const Scene& scene, const SegmentOptions& options,
                  points, grid);
     }
     clock.finish("voxel grid", grid.centroids.rows());
-    pairs = near_voxels(grid, voxel);
+    pairs = near_voxels(grid, voxel, context);
     clock.finish("neighbours", grid.centroids.rows());
-    if (options.voxel || times == most_times || !is_too_fine(grid.centroids.rows(), pairs, voxel))
+    if (options.voxel || times == most_times ||
+        !is_too_fine(scene, grid.centroids.rows(), pairs, voxel))
       break;
   }
   const Index voxels = grid.centroids.rows();
@@ -86,8 +95,8 @@ Filtered filter_by_surface(const Scene& scene, const SegmentOptions& options,
           {std::move(normals), std::move(pairs), scene.cloud.viewpoint, scene.plane}};
 }
 
-Filtered filter_by_distance(const Scene& scene, const SegmentOptions& options,
-                            const RunContext& context, StageClock& clock) {
+VoxelFiltration rips_filtration(const Scene& scene, const SegmentOptions& options,
+                                const RunContext& context, StageClock& clock) {
   // Assumption 1: "points in the space are approximated (downsampled) with their centroid"
   VoxelGrid grid = voxel_grid(scene.cloud, scene.points.beyond, options.voxel_size());
   clock.finish("voxel grid", grid.centroids.rows());

@@ -12,7 +12,8 @@
 
 namespace ph::segment {
 
-/// Writes the stage table and, between stages, reports progress and obeys a stop request.
+/// Writes the stage table and, between stages, reports progress and obeys a stop request. A stage
+/// that comes again is the same one: its times add up, and what it left behind last counts.
 class StageClock {
  public:
   StageClock(const RunContext& context, std::vector<Stage>& stages)
@@ -34,7 +35,7 @@ struct Scene {
 };
 
 /// What a method makes of a scene; `grid` and `points` belong together.
-struct Filtered {
+struct VoxelFiltration {
   double voxel;  ///< edge of a voxel of the grid, metres
   VoxelGrid grid;
   std::vector<Index> points;
@@ -43,16 +44,16 @@ struct Filtered {
 };
 
 /// Method surface: the pairs of voxels in each other's neighbourhood, see Surface.
-std::vector<VoxelPair> near_voxels(const VoxelGrid& grid, double voxel);
+VoxelPairs near_voxels(const VoxelGrid& grid, double voxel, const RunContext& context);
 /// Whether an edge of the graph of method surface joins them.
 bool are_adjacent(const VoxelPair& pair, double voxel);
 
 /// Voxels enter with the concavity of the surface around them (supervoxels: with their distance to
 /// the seeds), edges between adjacent ones with the later of their ends.
-Filtered filter_by_surface(const Scene& scene, const SegmentOptions& options,
-                           const RunContext& context, StageClock& clock);
+VoxelFiltration surface_filtration(const Scene& scene, const SegmentOptions& options,
+                                   const RunContext& context, StageClock& clock);
 /// The 1-skeleton of the Vietoris-Rips complex of the voxels.
-Filtered filter_by_distance(const Scene& scene, const SegmentOptions& options,
-                            const RunContext& context, StageClock& clock);
+VoxelFiltration rips_filtration(const Scene& scene, const SegmentOptions& options,
+                                const RunContext& context, StageClock& clock);
 
 }  // namespace ph::segment

@@ -8,6 +8,7 @@
 #include <memory_resource>
 #include <utility>
 
+#include "close_boxes.hpp"
 #include "concavity.hpp"
 #include "parts.hpp"
 #include "ph/core/disjoint_sets.hpp"
@@ -21,8 +22,8 @@ constexpr std::uint32_t kSmall = Parts::kSmall;
 
 /// Calls `join(p, q)` for parts that meet, but not in a seam.
 template <class Join>
-void join_over_rims(const VoxelGrid& grid, const Surface& surface, const Parts& parts,
-                    Join&& join) {
+void join_without_seam(const VoxelGrid& grid, const Surface& surface, const Parts& parts,
+                       Join&& join) {
   constexpr double least_seam = 0.05;  // mean rise; seams between objects have 0.12 to 0.7
   constexpr int fewest = 3;            // pairs of voxels that tell
   struct Contact {
@@ -63,24 +64,23 @@ class HiddenJoins {
       if (parts.of[v] != kSmall && std::isfinite(surface.normals(v, 0)) &&
           view_.is_at_occluder(v, nearer(), kind()))
         borders_[parts.of[v]].push_back(v);
-    for (auto& border : borders_) {
-      thin_out(border);
-      boxes_.push_back(box_of(border));
-    }
+    for (auto& border : borders_) thin_out(border);
   }
 
   template <class Join>
-  void find(Join&& join) const {
+  void find(const RunContext& context, Join&& join) const {
     constexpr double least_of_each = 0.1, least_of_both = 0.34;  // shares of the borders
-    for (std::uint32_t p = 0; p < borders_.size(); ++p) {
-      for (std::uint32_t q = 0; q < p; ++q) {
-        if (!(boxes_[p].squaredExteriorDistance(boxes_[q]) < kLongestGap * kLongestGap)) continue;
-        const double a = share_that_goes_on(p, q);
-        if (a < least_of_each) continue;
-        const double b = share_that_goes_on(q, p);
-        if (b >= least_of_each && a + b >= least_of_both) join(p, q);
-      }
-    }
+    std::vector<PartBox<3>> boxes;
+    for (std::uint32_t p = 0; p < borders_.size(); ++p)
+      if (!borders_[p].empty()) boxes.push_back({p, box_of(borders_[p])});
+    for_each_close_pair(
+        boxes, [](const PartBox<3>&) { return kLongestGap; }, context,
+        [&](std::uint32_t p, std::uint32_t q) {
+          const double a = share_that_goes_on(p, q);
+          if (a < least_of_each) return;
+          const double b = share_that_goes_on(q, p);
+          if (b >= least_of_each && a + b >= least_of_both) join(p, q);
+        });
   }
 
  private:
@@ -128,23 +128,25 @@ class HiddenJoins {
   const Parts& parts_;
   View view_;
   std::vector<std::vector<std::uint32_t>> borders_;  // by part: voxels next to an occluder
-  std::vector<Eigen::AlignedBox3d> boxes_;           // of them
 };
 
 }  // namespace
 
 std::vector<Index> join_parts(const VoxelGrid& grid, const Surface& surface, double voxel,
-                              const std::vector<Index>& part_of, Index min_size) {
+                              const std::vector<Index>& part_of, Index min_size,
+                              const RunContext& context) {
   const Parts parts = number_parts(part_of, min_size);
+  if (parts.count() < 2) return part_of;
   DisjointSets objects(parts.count(), std::pmr::get_default_resource());
   const auto join = [&](std::uint32_t p, std::uint32_t q) {
     const std::uint32_t a = objects.find(p), b = objects.find(q);
     objects.link(std::max(a, b), std::min(a, b));
   };
-  join_over_rims(grid, surface, parts, join);
-  HiddenJoins(grid, surface, voxel, parts).find(join);
+  join_without_seam(grid, surface, parts, join);
+  context.poll();
+  HiddenJoins(grid, surface, voxel, parts).find(context, join);
   if (surface.support)
-    join_around_rims(grid.centroids, voxel, surface.support->normal, parts, join);
+    join_around_rims(grid.centroids, voxel, surface.support->normal, parts, join, context);
   std::vector<Index> object_of = part_of;
   for (std::size_t v = 0; v < object_of.size(); ++v)
     if (parts.of[v] != kSmall) object_of[v] = part_of[parts.example[objects.find(parts.of[v])]];

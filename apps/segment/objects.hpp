@@ -11,7 +11,7 @@ namespace ph::segment {
 /// What is known of the surface at the voxels.
 struct Surface {
   Points normals;                  ///< one a voxel, see surface_normals
-  std::vector<VoxelPair> pairs;    ///< voxels that are near each other
+  VoxelPairs pairs;                ///< voxels that are near each other
   Vec3 viewpoint{};                ///< where it was seen from
   std::optional<Plane> support{};  ///< what it stands on
 };
@@ -24,8 +24,10 @@ struct Surface {
 ///   other and the line between them is hidden;
 /// - if one round rim runs around both: see rims.hpp.
 /// @param part_of each voxel: one of the voxels of its part. @param min_size parts with fewer
-/// voxels stay by themselves. @return the same for the objects.
+/// voxels stay by themselves. @return the same for the objects. O(voxels log voxels + pairs) and
+/// the pairs of parts that are near each other. @throws Error (cancelled) as `context` asks.
 std::vector<Index> join_parts(const VoxelGrid& grid, const Surface& surface, double voxel,
-                              const std::vector<Index>& part_of, Index min_size);
+                              const std::vector<Index>& part_of, Index min_size,
+                              const RunContext& context = default_context());
 
 }  // namespace ph::segment

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ph/core/error.hpp"
+#include "voxel_grid.hpp"
 
 namespace ph::segment {
 namespace {
@@ -26,14 +27,26 @@ void validate(const CloudView& cloud, const SegmentOptions& o) {
     throw Error(ErrorKind::bad_data,
                 fmt::format("found {} coordinates, expected three a point", cloud.xyz.size()));
   }
+  const auto points = static_cast<Index>(cloud.xyz.size() / 3);
+  // Divided, for a product might overflow.
+  if (cloud.width < 0 ||
+      (cloud.width > 0 && (points % cloud.width != 0 || points / cloud.width != cloud.height))) {
+    throw Error(ErrorKind::bad_data, fmt::format("found {} points, expected {} rows of {}", points,
+                                                 cloud.height, cloud.width));
+  }
   constexpr std::string_view kLength = "a positive finite length";
   const double voxel = o.voxel_size(), margin = o.plane_margin();
-  require(std::isfinite(voxel) && voxel > 0, "voxel", voxel, kLength);
+  require(voxel >= kLeastVoxel && voxel <= kMostVoxel, "voxel", voxel,
+          fmt::format("a length from {} to {}", kLeastVoxel, kMostVoxel));
   require(std::isfinite(o.distance) && o.distance >= 0, "distance", o.distance,
           "a finite length of at least 0");
   require(o.steps >= 0, "steps", o.steps, "at least 0");
   require(o.max_range >= 0, "max_range", o.max_range, "a length of at least 0 or infinity");
-  require(std::isfinite(o.spacing) && o.spacing > 0, "spacing", o.spacing, kLength);
+  require(std::isfinite(o.plane_noise) && o.plane_noise >= 0, "plane_noise", o.plane_noise,
+          "a finite length of at least 0");
+  // Nearly every voxel would be a seed: supervoxels of a voxel each.
+  require(o.method != Method::supervoxels || (std::isfinite(o.spacing) && o.spacing >= voxel),
+          "spacing", o.spacing, fmt::format("a finite length of at least a voxel, {}", voxel));
   const CutOptions cut = o.cut();
   require(cut.value >= 0, "min_persistence", cut.value, "at least 0");
   require(cut.min_part >= 1, "min_part", static_cast<double>(cut.min_part), "at least 1");

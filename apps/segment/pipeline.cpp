@@ -16,10 +16,19 @@
 namespace ph::segment {
 namespace {
 
-/// What the stages before the voxel grid and the labels take for each point, at most.
+/// What all stages hold of a cloud at once, at most: of each point its number in two lists of those
+/// that are left, its voxel, its vertex, its coordinates as the tree has them and sorted by
+/// segment, its label.
 std::size_t bytes_for_points(const CloudView& cloud) {
-  constexpr std::size_t bytes_per_point = 48;
+  constexpr std::size_t bytes_per_point = 2 * 8 + 4 + 4 + 12 + 12 + 4;
   return cloud.xyz.size() / 3 * bytes_per_point;
+}
+
+/// The same of the voxels, without their pairs and the graph, which count themselves: places,
+/// normals and numbers of points, here and in the tree; the tree; the barcode.
+std::size_t bytes_for_voxels(const VoxelGrid& grid) {
+  constexpr std::size_t bytes_per_voxel = 2 * 80 + 80 + 160;
+  return grid.cells.size() * bytes_per_voxel;
 }
 
 Index count(const std::vector<Index>& points) { return static_cast<Index>(points.size()); }
@@ -42,11 +51,11 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
   }
   // Section VI: "we find all points that correspond to a planar model and remove them"
   PlaneSearch search = find_plane(cloud, in_range, scene.margin.distance);
-  if (options.method != Method::paper) {
-    constexpr double least = 0.005, deviations = 4;  // a structured-light sensor has 1.2 mm
-    if (deviations * search.noise > 2 * scene.margin.distance)
-      search = find_plane(cloud, in_range, deviations * search.noise);
-    scene.margin.noise = std::max(least, deviations * search.noise);
+  if (options.method != Method::paper && options.plane_noise > 0) {
+    constexpr double deviations = 4;
+    const double noise = deviations * search.noise * search.range * search.range;  // where it lies
+    if (noise > 2 * scene.margin.distance) search = find_plane(cloud, in_range, noise);
+    scene.margin.noise = std::max(options.noise_floor(), deviations * search.noise);
   }
   result.plane = scene.plane = search.plane;
   result.plane_note = std::move(search.note);
@@ -59,32 +68,34 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
 }
 
 /// The tree and what a cut needs besides. `plane` is there already.
-void keep_scene(const CloudView& cloud, const Filtered& filtered, const SegmentOptions& options,
-                SceneTree& scene) {
+void keep_scene(const CloudView& cloud, const VoxelFiltration& filtration,
+                const SegmentOptions& options, SceneTree& scene) {
   scene.method = options.method;
-  scene.voxel = filtered.voxel;
+  scene.voxel = filtration.voxel;
   if (options.method == Method::paper) {
     scene.distance = options.distance;
     scene.steps = options.steps;
   }
   scene.viewpoint = cloud.viewpoint;
-  scene.width = static_cast<Index>(cloud.xyz.size() / 3);
+  scene.width = cloud.columns();
+  scene.height = cloud.rows();
   scene.first_cut = options.cut();
   scene.vertex_of_point.assign(cloud.xyz.size() / 3, SceneTree::kNoVertex);
-  for (std::size_t k = 0; k < filtered.points.size(); ++k) {
-    scene.vertex_of_point[static_cast<std::size_t>(filtered.points[k])] = filtered.grid.voxel_of[k];
+  for (std::size_t k = 0; k < filtration.points.size(); ++k) {
+    scene.vertex_of_point[static_cast<std::size_t>(filtration.points[k])] =
+        filtration.grid.voxel_of[k];
   }
-  scene.xyz.reserve(3 * filtered.points.size());
+  scene.xyz.reserve(3 * filtration.points.size());
   for (std::size_t i = 0; i < scene.vertex_of_point.size(); ++i) {
     if (scene.vertex_of_point[i] == SceneTree::kNoVertex) continue;
     const auto p = cloud.xyz.subspan(3 * i, 3);
     scene.xyz.insert(scene.xyz.end(), p.begin(), p.end());
   }
-  scene.cells = filtered.grid.cells;
-  scene.vertices = filtered.grid.centroids;
-  scene.normals = filtered.surface.normals;
-  scene.counts = filtered.grid.counts;
-  scene.edges = static_cast<Index>(filtered.graph.edge_count());
+  scene.cells = filtration.grid.cells;
+  scene.vertices = filtration.grid.centroids;
+  scene.normals = filtration.surface.normals;
+  scene.counts = filtration.grid.counts;
+  scene.edges = static_cast<Index>(filtration.graph.edge_count());
 }
 
 }  // namespace
@@ -92,30 +103,33 @@ void keep_scene(const CloudView& cloud, const Filtered& filtered, const SegmentO
 Segmentation segment(const CloudView& input, const SegmentOptions& options,
                      const RunContext& context) {
   validate(input, options);
-  const CloudView cloud{input.xyz, options.viewpoint.value_or(input.viewpoint)};
-  context.memory.require(bytes_for_points(cloud));
+  CloudView cloud = input;
+  cloud.viewpoint = options.viewpoint.value_or(input.viewpoint);
+  const MemoryClaim of_points(context.memory, bytes_for_points(cloud));
   Segmentation result;
   StageClock clock(context, result.stages);
   const Scene scene = clear_scene(cloud, options, clock, result);
-  const Filtered filtered = options.method == Method::paper
-                                ? filter_by_distance(scene, options, context, clock)
-                                : filter_by_surface(scene, options, context, clock);
+  const VoxelFiltration filtration = options.method == Method::paper
+                                         ? rips_filtration(scene, options, context, clock)
+                                         : surface_filtration(scene, options, context, clock);
+
+  const MemoryClaim of_voxels(context.memory, bytes_for_voxels(filtration.grid));
 
   // Alg. 2: the death times of the zero-dimensional cycles, by the disjoint sets of V.C
-  result.tree = merge_tree(filtered.graph, context);
+  result.tree = merge_tree(filtration.graph, context);
   result.barcode = barcode_of(result.tree);
-  clock.finish("persistence", filtered.graph.size());
+  clock.finish("persistence", filtration.graph.size());
 
-  keep_scene(cloud, filtered, options, result);
+  keep_scene(cloud, filtration, options, result);
   static_cast<SceneCut&>(result) =
-      cut_scene(result, filtered.grid, filtered.surface, result.first_cut, context);
+      cut_scene(result, filtration.grid, filtration.surface, result.first_cut, context);
   Index in_segments = 0;
   for (const Segment& s : result.segments) in_segments += s.voxels;
   clock.finish("components", in_segments);
 
   // Section V.B defines persistence by the boundary matrix: the fast path must agree with it.
   if (options.check) {
-    result.difference = cross_check(filtered.graph, result.barcode, context);
+    result.difference = cross_check(filtration.graph, result.barcode, context);
     result.checked = true;
     clock.finish("check", in_segments);
   }
@@ -124,11 +138,9 @@ Segmentation segment(const CloudView& input, const SegmentOptions& options,
 
 Segmentation segment(const Cloud& cloud, const SegmentOptions& options, const RunContext& context) {
   const std::vector<float> xyz = cloud.xyz();
+  const MemoryClaim copy(context.memory, xyz.size() * sizeof(float));
   const auto& [x, y, z, qw, qx, qy, qz] = cloud.viewpoint;
-  Segmentation result = segment(CloudView{xyz, {x, y, z}}, options, context);
-  result.width = cloud.width;
-  result.height = cloud.height;
-  return result;
+  return segment(CloudView{xyz, {x, y, z}, cloud.width, cloud.height}, options, context);
 }
 
 }  // namespace ph::segment

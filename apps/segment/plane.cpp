@@ -159,6 +159,24 @@ double share_of(const Candidate& plane, const Sample& sample, double distance) {
   return static_cast<double>(inliers) / static_cast<double>(sample.size());
 }
 
+/// 0 of nothing.
+double median(std::vector<double>& values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// See PlaneSearch::range. @param distance half the thickness of the plane.
+double range_of(const Plane& plane, const Sample& sample, const Vec3& viewpoint, double distance) {
+  const Eigen::Vector3d eye(viewpoint[0], viewpoint[1], viewpoint[2]);
+  std::vector<double> ranges;
+  for (std::size_t i = 0; i < sample.size(); ++i)
+    if (std::abs(plane.signed_distance(sample.x[i], sample.y[i], sample.z[i])) <= distance)
+      ranges.push_back((sample[i] - eye).norm());
+  return median(ranges);
+}
+
 /// See PlaneSearch::noise. @param reach what lies farther behind is another surface.
 double noise_of(const Plane& plane, const Sample& sample, const Vec3& viewpoint, double reach) {
   constexpr std::size_t fewest = 30;
@@ -170,9 +188,7 @@ double noise_of(const Plane& plane, const Sample& sample, const Vec3& viewpoint,
     if (depth > 0 && depth < reach) depths.push_back(depth / (sample[i] - eye).squaredNorm());
   }
   if (depths.size() < fewest) return 0;
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::ranges::nth_element(depths, middle);
-  return *middle / median_of_half_normal;
+  return median(depths) / median_of_half_normal;
 }
 
 }  // namespace
@@ -202,7 +218,8 @@ PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points,
   const Eigen::Vector3d& n = found->normal;
   const Plane plane{{n.x(), n.y(), n.z()}, found->offset, share};
   constexpr double margins = 6;  // that noise may reach
-  return {plane, "", noise_of(plane, sample, cloud.viewpoint, margins * distance)};
+  return {plane, "", noise_of(plane, sample, cloud.viewpoint, margins * distance),
+          range_of(plane, sample, cloud.viewpoint, distance)};
 }
 
 Cleared remove_plane(const CloudView& cloud, const std::vector<Index>& points, const Plane& plane,

@@ -16,6 +16,7 @@ struct PlaneSearch {
   /// Standard deviation of the heights of its points at a range of one unit, if it grows with the
   /// square of the range. Told from the points behind the plane, where no object is.
   double noise = 0;
+  double range = 0;  ///< median distance of its points from the viewpoint
 };
 
 /// The supporting plane: the plane on which most of the points lie, by RANSAC on a sample (Fischler

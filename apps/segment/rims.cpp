@@ -9,6 +9,8 @@
 #include <optional>
 #include <vector>
 
+#include "close_boxes.hpp"
+
 namespace ph::segment {
 namespace {
 
@@ -57,6 +59,7 @@ Circle fit_circle(const Rim& a, const Rim& b) {
 
 constexpr std::size_t kSectors = 36;
 using Sectors = std::bitset<kSectors>;
+constexpr std::size_t kFewestOfEach = 9;
 
 /// The sectors of the circle in which a rim has points; nothing if it is not on the circle.
 std::optional<Sectors> arc(const Circle& circle, const Rim& rim, double tolerance) {
@@ -75,19 +78,20 @@ std::optional<Sectors> arc(const Circle& circle, const Rim& rim, double toleranc
 
 bool share_a_rim(const Rim& a, const Rim& b, double voxel) {
   constexpr double height = 2, of_voxel = 1.6, of_radius = 0.1;
-  constexpr std::size_t all = 29, of_each = 9, of_both = 2;  // sectors of 10 degrees
+  constexpr std::size_t all = 29, of_both = 2;  // sectors of 10 degrees
   if (std::abs(a.top - b.top) > height * voxel) return false;
   const Circle circle = fit_circle(a, b);
   const double tolerance = std::min(of_voxel * voxel, of_radius * circle.radius);
   const auto p = arc(circle, a, tolerance), q = arc(circle, b, tolerance);
-  return p && q && p->count() >= of_each && q->count() >= of_each && (*p & *q).count() <= of_both &&
-         (*p | *q).count() >= all;
+  return p && q && p->count() >= kFewestOfEach && q->count() >= kFewestOfEach &&
+         (*p & *q).count() <= of_both && (*p | *q).count() >= all;
 }
 
 }  // namespace
 
 void join_around_rims(const Points& centroids, double voxel, const Vec3& up, const Parts& parts,
-                      const std::function<void(std::uint32_t, std::uint32_t)>& join) {
+                      const std::function<void(std::uint32_t, std::uint32_t)>& join,
+                      const RunContext& context) {
   constexpr double depth = 2.4;  // voxels
   const Eigen::Vector3d normal(up[0], up[1], up[2]);
   Eigen::Matrix3d upright;
@@ -99,10 +103,18 @@ void join_around_rims(const Points& centroids, double voxel, const Vec3& up, con
     if (parts.of[v] != Parts::kSmall)
       points[parts.of[v]].emplace_back(upright * centroids.row(static_cast<Index>(v)).transpose());
   std::vector<Rim> rims;
-  for (const auto& part : points) rims.push_back(rim_of(part, depth * voxel));
-  for (std::uint32_t p = 0; p < rims.size(); ++p)
-    for (std::uint32_t q = 0; q < p; ++q)
-      if (share_a_rim(rims[p], rims[q], voxel)) join(p, q);
+  std::vector<PartBox<2>> boxes;
+  for (std::uint32_t p = 0; p < points.size(); ++p) {
+    rims.push_back(rim_of(points[p], depth * voxel));
+    if (rims[p].points.size() < kFewestOfEach) continue;  // in so many sectors there are none
+    boxes.push_back({p, {}});
+    for (const Eigen::Vector2d& point : rims[p].points) boxes.back().box.extend(point);
+  }
+  // An arc of so many sectors is longer than a third of the diameter: no rim is farther from it.
+  const auto reach = [](const PartBox<2>& b) { return 4 * b.box.diagonal().norm(); };
+  for_each_close_pair(boxes, reach, context, [&](std::uint32_t p, std::uint32_t q) {
+    if (share_a_rim(rims[p], rims[q], voxel)) join(p, q);
+  });
 }
 
 }  // namespace ph::segment

@@ -5,11 +5,22 @@
 
 namespace ph::segment {
 
+namespace {
+
+/// The edge of cells that are no more on a raster of this size than memory for the voxels allows: a
+/// few things that lie far apart have a raster that is nearly empty.
+double least_cell(const Eigen::Array2d& size, std::size_t voxels) {
+  constexpr double cells_a_voxel = 16, fewest = 1 << 18, most_a_side = 2048;
+  const double cells = std::max(fewest, cells_a_voxel * static_cast<double>(voxels));
+  return std::max(size.maxCoeff() / most_a_side, std::sqrt(size.prod() / cells));
+}
+
+}  // namespace
+
 View::View(const Points& centroids, double voxel, const Vec3& viewpoint)
     : ranges_(static_cast<std::size_t>(centroids.rows())), places_(ranges_.size(), {-1, -1}) {
   constexpr double voxels_a_cell = 1.3;    // fewer leave gaps between neighbours
   constexpr double smallest_cosine = 0.2;  // 78 degrees
-  constexpr double most_cells = 2048;      // a side
   const Eigen::Vector3d eye(viewpoint[0], viewpoint[1], viewpoint[2]);
   const auto ray = [&](Voxel v) -> Eigen::Vector3d { return centroids.row(v).transpose() - eye; };
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();
@@ -37,7 +48,7 @@ View::View(const Points& centroids, double voxel, const Vec3& viewpoint)
     high = high.max(directions[v].array());
   }
   if (!(low <= high).all()) return;
-  cell = std::max(cell, (high - low).maxCoeff() / most_cells);
+  cell = std::max(cell, least_cell(high - low, ranges_.size()));
   if (!(cell > 0)) return;  // a viewpoint so far away that all lies in one direction
   width_ = static_cast<std::size_t>((high - low)[0] / cell) + 1;
   height_ = static_cast<std::size_t>((high - low)[1] / cell) + 1;

@@ -10,7 +10,8 @@
 namespace ph::segment {
 
 /// The voxels as the sensor saw them: a raster of directions, of about a voxel a cell, with the
-/// nearest voxel in each. What lies to the side of the middle by more than 78 degrees is left out.
+/// nearest voxel in each; fewer and larger cells where there would be far more than voxels. What
+/// lies to the side of the middle by more than 78 degrees is left out.
 class View {
  public:
   using Voxel = std::uint32_t;

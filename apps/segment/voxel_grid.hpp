@@ -21,4 +21,14 @@ struct VoxelGrid {
 /// @throws Error (usage) if `voxel` is too small for coordinates of this size.
 VoxelGrid voxel_grid(const CloudView& cloud, const std::vector<Index>& points, double voxel);
 
+/// Edges of voxels, metres: with these squares of lengths are neither zero nor infinite, and a
+/// length of a few voxels is a float.
+inline constexpr double kLeastVoxel = 1e-30, kMostVoxel = 1e30;
+/// Corners up to here, in voxels, have exact neighbours.
+inline constexpr double kMostExactCell = 1ULL << 52;
+
+/// Where neighbours are looked for, the number after a corner must be another one.
+/// @throws Error (usage) on a voxel beyond kMostExactCell, naming it.
+void require_exact_cells(const VoxelGrid& grid, double voxel);
+
 }  // namespace ph::segment

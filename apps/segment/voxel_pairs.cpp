@@ -33,12 +33,10 @@ struct Offset {
   std::size_t next = 0;  // row
 };
 
-std::vector<Offset> offsets_within(double radius, double voxel) {
-  const double most = std::ceil(radius / voxel);
+std::vector<Offset> offsets_within(double radius) {
+  const double most = std::ceil(radius);
   // Centroids of voxels k rows apart may be as near as k - 1.
-  const auto square_of_gap = [&](double k) {
-    return std::pow(std::max(0.0, std::abs(k) - 1) * voxel, 2);
-  };
+  const auto square_of_gap = [&](double k) { return std::pow(std::max(0.0, std::abs(k) - 1), 2); };
   std::vector<Offset> offsets;
   for (double z = -most; z <= 0; ++z) {
     for (double y = -most; y <= (z < 0 ? most : 0); ++y) {
@@ -56,7 +54,7 @@ bool comes_before(const Row& row, double y, double z) { return row.z != z ? row.
 
 /// Pairs of a voxel of `row` and one of `other`, which is not behind it.
 void add_pairs(const VoxelGrid& grid, const Row& row, const Row& other, double reach,
-               double square_of_radius, std::vector<VoxelPair>& pairs) {
+               double square_of_radius, VoxelPairs& pairs) {
   const auto x_of = [&](std::uint32_t v) { return grid.cells[v][0]; };
   std::uint32_t first = other.begin;
   for (std::uint32_t v = row.begin; v < row.end; ++v) {
@@ -73,20 +71,25 @@ void add_pairs(const VoxelGrid& grid, const Row& row, const Row& other, double r
 
 }  // namespace
 
-std::vector<VoxelPair> close_voxels(const VoxelGrid& grid, double voxel, double radius) {
+VoxelPairs close_voxels(const VoxelGrid& grid, double voxel, double reach,
+                        std::pmr::memory_resource* memory) {
+  // Beyond, the row behind another one may be the same number: the search would not come to an end.
+  require_exact_cells(grid, voxel);
   const std::vector<Row> rows = rows_of(grid);
-  std::vector<Offset> offsets = offsets_within(radius, voxel);
-  std::vector<VoxelPair> pairs;
+  std::vector<Offset> offsets = offsets_within(reach);
+  const double square_of_radius = std::pow(reach * voxel, 2);
+  VoxelPairs pairs(memory);
   // Those of a flat surface, half of the disk around each voxel: growing would copy them all.
-  const double disk = std::numbers::pi * std::pow(radius / voxel, 2);
+  const double disk = std::numbers::pi * reach * reach;
   pairs.reserve(static_cast<std::size_t>(disk / 2 * static_cast<double>(grid.cells.size())));
   for (const Row& row : rows) {
     for (Offset& offset : offsets) {
       const double y = row.y + offset.y, z = row.z + offset.z;
-      while (comes_before(rows[offset.next], y, z)) ++offset.next;
+      while (offset.next < rows.size() && comes_before(rows[offset.next], y, z)) ++offset.next;
+      if (offset.next == rows.size()) continue;
       const Row& other = rows[offset.next];
       if (other.y == y && other.z == z)
-        add_pairs(grid, row, other, offset.reach, radius * radius, pairs);
+        add_pairs(grid, row, other, offset.reach, square_of_radius, pairs);
     }
   }
   return pairs;

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <random>
 
+#include "ph/persistence.hpp"
 #include "scenery.hpp"
 
 namespace ph::segment {
@@ -105,6 +107,8 @@ TEST_P(Invariance, AllPointsEqual) {
   EXPECT_FALSE(s.plane);
 }
 
+// The pipeline runs on one thread, whatever is asked for: this holds it to that. What does use
+// threads is the homology of segments.
 TEST_P(Invariance, Threads) {
   const std::vector<float> xyz = cluttered();
   const Segmentation s = segment(CloudView{xyz, {}});
@@ -115,6 +119,26 @@ TEST_P(Invariance, Threads) {
     EXPECT_EQ(t.labels, s.labels);
     EXPECT_EQ(t.tree.merges, s.tree.merges);
   }
+}
+
+TEST(Signatures, AreTheSameForAnyNumberOfThreads) {
+  std::vector<float> xyz;  // a bowl: a loop, and voxels enough for several threads
+  for (double a = 0.3; a < 1.57; a += 0.01)
+    for (double b = 0; b < 6.2832; b += 0.01)
+      for (const double c : {0.15 * std::sin(a) * std::cos(b), 0.15 * std::sin(a) * std::sin(b),
+                             1 + 0.15 * std::cos(a)})
+        xyz.push_back(static_cast<float>(c));
+  const Segmentation s = segment(CloudView{xyz, {}}, {.plane = false, .objects = false});
+  ASSERT_FALSE(s.segments.empty());
+  const auto bars = [&](int threads) {
+    RunContext context;
+    context.threads = threads;
+    return signature(s, s, std::vector{1U}, context);
+  };
+  const Barcode one = bars(1);
+  EXPECT_GT(one.bars(1).size(), 0U);
+  for (const int threads : {2, 3, 7})
+    EXPECT_EQ(first_difference(bars(threads), one), "") << threads;
 }
 
 TEST_P(Invariance, Holes) {

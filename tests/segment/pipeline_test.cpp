@@ -193,11 +193,53 @@ TEST(Pipeline, OptionsOutOfRange) {
   expect_usage({.min_persistence = nan});
   expect_usage({.min_part = 0});
   expect_usage({.steps = -1});
+  for (const double bad : {-1.0, nan, kInfinity}) expect_usage({.plane_noise = bad});
+  for (const double bad : {0.0, 0.001, nan, kInfinity})
+    expect_usage({.method = Method::supervoxels, .spacing = bad});
   expect_usage({.min_size = 0});
   expect_usage({.max_range = nan});
   expect_usage({.crop = Box{{1, 0, 0}, {0, 1, 1}}});
   expect_usage({.viewpoint = Vec3{nan, 0, 0}});
   EXPECT_THROW(segment(CloudView{{xyz.data(), 2}, {}}), Error);
+}
+
+TEST(Pipeline, PlainArraysKeepTheirRowsAndColumns) {
+  const TableScene scene = TableScene::two_boxes();
+  const CloudView cloud{scene.xyz(), {}, scene.kWidth, scene.kHeight};
+  for (const Method method : {Method::surface, Method::paper}) {
+    const Segmentation s = segment(cloud, {.method = method});
+    EXPECT_EQ(s.width, scene.kWidth);
+    EXPECT_EQ(s.height, scene.kHeight);
+    EXPECT_EQ(s.labels, segment(scene.cloud(), {.method = method}).labels);
+    const Segmentation row = segment(CloudView{scene.xyz(), {}}, {.method = method});
+    EXPECT_EQ(row.width, scene.kWidth * scene.kHeight);
+    EXPECT_EQ(row.height, 1);
+  }
+  const std::pair<Index, Index> wrong[] = {
+      {320, 239}, {321, 240}, {-320, -240}, {Index{1} << 62, 4}, {320, 0}};
+  for (const auto& [width, height] : wrong) {
+    try {
+      segment(CloudView{scene.xyz(), {}, width, height});
+      ADD_FAILURE() << width << " x " << height;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::bad_data);
+    }
+  }
+}
+
+TEST(Pipeline, WhatIsHeldCountsInTheBudget) {
+  const TableScene scene = TableScene::two_boxes();
+  const std::size_t points = scene.truth().size();
+  for (const Method method : {Method::surface, Method::paper, Method::supervoxels}) {
+    RunContext context;
+    const Segmentation s = segment(CloudView{scene.xyz(), {}}, {.method = method}, context);
+    const auto voxels = static_cast<std::size_t>(s.vertices.rows());
+    EXPECT_GT(context.memory.peak(), 52 * points + 400 * voxels);
+    EXPECT_EQ(context.memory.used(), 0U);
+    RunContext less;
+    less.memory.set_limit(context.memory.peak() - 1);
+    EXPECT_THROW(segment(CloudView{scene.xyz(), {}}, {.method = method}, less), Error);
+  }
 }
 
 TEST(Pipeline, StopsWhenAsked) {

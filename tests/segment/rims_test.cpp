@@ -3,9 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <iostream>
 #include <numbers>
 #include <vector>
+
+#include "ph/core/error.hpp"
 
 namespace ph::segment {
 namespace {
@@ -50,6 +54,41 @@ class TwoWalls {
   std::vector<Vec3> points_;
   std::vector<Index> part_of_;
 };
+
+TEST(Rims, ThousandsOfSpecksOfOneHeightAreNotAllCompared) {
+  constexpr int a_side = 110;
+  std::vector<Vec3> places;
+  std::vector<Index> part_of;
+  for (int i = 0; i < a_side * a_side; ++i) {
+    const auto first = static_cast<Index>(places.size());
+    for (int k = 0; k < 27; ++k) {
+      places.push_back({0.05 * (i % a_side) + kVoxel * (k % 3),
+                        0.05 * (i / a_side) + kVoxel * (k / 3 % 3), kVoxel * (k / 9)});
+      part_of.push_back(first);
+    }
+  }
+  Points points(std::ssize(places), 3);
+  for (Index i = 0; i < points.rows(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      points(i, static_cast<Index>(k)) = places[static_cast<std::size_t>(i)][k];
+  const auto start = std::chrono::steady_clock::now();
+  int joins = 0;
+  join_around_rims(points, kVoxel, {0, 0, 1}, number_parts(part_of, 1),
+                   [&](std::uint32_t, std::uint32_t) { ++joins; });
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  std::cout << a_side * a_side << " specks in " << took.count() << " s\n";
+  EXPECT_EQ(joins, 0);
+  EXPECT_LT(took.count(), 10) << "seventy million circles take minutes";
+
+  std::stop_source source;
+  RunContext context;
+  context.stop = source.get_token();
+  source.request_stop();
+  EXPECT_THROW(join_around_rims(
+                   points, kVoxel, {0, 0, 1}, number_parts(part_of, 1),
+                   [](std::uint32_t, std::uint32_t) {}, context),
+               Error);
+}
 
 constexpr double kPi = std::numbers::pi;
 

@@ -6,7 +6,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <iostream>
 #include <map>
 #include <numbers>
 #include <random>
@@ -156,6 +158,90 @@ TEST(Surface, CoarseSamplesGetLargerVoxels) {
   EXPECT_EQ(segment(CloudView{xyz, {}}, {.voxel = 0.005}).voxel, 0.005);
 }
 
+/// A strip of 10 x 140 mm, a point a millimetre, seen from 70 cm.
+std::vector<float> strip(int times) {
+  std::vector<float> xyz;
+  for (int i = 0; i < 140 * times; ++i)
+    for (int k = 0; k < 10; ++k)
+      xyz.insert(xyz.end(),
+                 {0.001F * static_cast<float>(i % 140), 0.001F * static_cast<float>(k), 0.7F});
+  return xyz;
+}
+
+TEST(Surface, AThinThingAloneIsNotASparseSample) {
+  for (const int times : {1, 3}) {
+    const Segmentation s = segment(CloudView{strip(times), {}}, {.plane = false});
+    EXPECT_EQ(s.voxel, 0.005);
+    ASSERT_EQ(s.segments.size(), 1U);
+    EXPECT_EQ(s.segments[0].points, 1400 * times);
+  }
+  // Points of a plane so far apart that they do not touch are sparse, be they there once or often.
+  for (const int times : {1, 5}) {
+    std::vector<float> xyz;
+    for (int i = 0; i < 40 * 40 * times; ++i)
+      xyz.insert(xyz.end(), {0.009F * static_cast<float>(i % 40),
+                             0.009F * static_cast<float>(i / 40 % 40), 0.7F});
+    const Segmentation s = segment(CloudView{xyz, {}}, {.plane = false});
+    EXPECT_GT(s.voxel, 0.005);
+    EXPECT_EQ(s.segments.size(), 1U);
+    // Each stage once, though the grid was made more often.
+    EXPECT_EQ(std::ranges::count(s.stages, "voxel grid", &Stage::name), 1);
+    EXPECT_EQ(std::ranges::count(s.stages, "neighbours", &Stage::name), 1);
+    EXPECT_EQ(std::ranges::find(s.stages, "voxel grid", &Stage::name)->points, s.vertices.rows());
+  }
+}
+
+/// Two boxes on a table, scaled, with noise of depth that grows with the square of the range and
+/// has this deviation where the middle of the table lies.
+std::vector<float> noisy_boxes(double scale, double deviation) {
+  std::vector<float> xyz = TableScene::two_boxes().xyz();
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0, deviation / scale);
+  for (std::size_t i = 0; i < xyz.size(); i += 3) {
+    const double z = xyz[i + 2], factor = scale * (1 + noise(random) * z);
+    for (std::size_t k = 0; k < 3; ++k) xyz[i + k] = static_cast<float>(factor * xyz[i + k]);
+  }
+  return xyz;
+}
+
+TEST(Surface, ThePlaneIsAsThickAsItsNoiseWhereItLies) {
+  // So much noise that the plane is looked for once more; near and far from the sensor.
+  const TableScene scene = TableScene::two_boxes();
+  for (const double range : {0.3, 2.0}) {
+    const Segmentation s =
+        segment(CloudView{noisy_boxes(range, 0.004), {}}, {.max_range = 10, .check = false});
+    ASSERT_TRUE(s.plane) << range;
+    EXPECT_NEAR(s.plane->normal[1], -std::sqrt(0.5), 0.02) << range;
+    EXPECT_NEAR(s.plane->offset, range * std::sqrt(0.5), 0.003) << range;
+    double table = 0, left_of_table = 0, high = 0, left_of_high = 0;
+    for (std::size_t i = 0; i < s.labels.size(); ++i) {
+      const bool kept = s.vertex_of_point[i] != SceneTree::kNoVertex;
+      const float* p = &scene.xyz()[3 * i];
+      const double height = std::sqrt(0.5) * (1 - p[2] - p[1]) * range;  // without the noise
+      table += scene.truth()[i] == 0;
+      left_of_table += scene.truth()[i] == 0 && kept;
+      if (scene.truth()[i] <= 0 || height < 0.8 * 0.1 * range) continue;
+      ++high;
+      left_of_high += kept;
+    }
+    EXPECT_LT(left_of_table, 0.02 * table) << range;
+    EXPECT_GT(left_of_high, 0.8 * high) << range;
+  }
+}
+
+TEST(Surface, ASmallerPlaneDistanceGoesBeforeTheNoiseFloor) {
+  // A sheet of four millimetres on the table, without noise.
+  const TableScene scene(std::vector<test::Block>{{{-0.1, -0.1, 0}, {0.1, 0.1, 0.004}}});
+  const CloudView cloud{scene.xyz(), {}};
+  EXPECT_TRUE(segment(cloud).segments.empty());
+  EXPECT_TRUE(segment(cloud, {.plane_distance = 0.01}).segments.empty());
+  EXPECT_EQ(segment(cloud, {.plane_distance = 0.002}).segments.size(), 1U);
+  EXPECT_EQ(segment(cloud, {.plane_distance = 0.002, .plane_noise = 0}).segments.size(), 1U);
+  EXPECT_EQ(segment(cloud, {.plane_distance = 0.003, .plane_noise = 0.002}).segments.size(), 1U);
+  EXPECT_TRUE(segment(cloud, {.plane_distance = 0.003, .plane_noise = 0.003}).segments.size() <=
+              1U);
+}
+
 TEST(Surface, NoiseThatGrowsWithTheRangeLeavesTheTableEmpty) {
   // As of a sensor by disparity: a deviation of 1.4 mm at one metre.
   TableScene scene = TableScene::two_boxes();
@@ -171,7 +257,7 @@ TEST(Surface, NoiseThatGrowsWithTheRangeLeavesTheTableEmpty) {
   expect_blocks_apart(scene, s, 0.9);
 }
 
-TEST(Surface, PartsOfABallAndAWallAreOne) {
+TEST(Surface, HalfABallIsOne) {
   std::vector<float> xyz;  // half a ball of 8 cm, seen from the origin
   constexpr int steps = 120;
   for (int i = 0; i < steps; ++i) {
@@ -183,6 +269,54 @@ TEST(Surface, PartsOfABallAndAWallAreOne) {
     }
   }
   EXPECT_EQ(segment(CloudView{xyz, {}}, {.plane = false}).segments.size(), 1U);
+}
+
+/// Specks of nine voxels and spaces between them, in front of a wall of specks that they hide here
+/// and there: as many parts as there are.
+std::vector<float> specks(int a_side) {
+  std::vector<float> xyz;
+  for (const double depth : {0.7, 0.8}) {
+    for (int i = 0; i < a_side; ++i)
+      for (int k = 0; k < a_side; ++k)
+        for (int dot = 0; dot < 81; ++dot)
+          for (const double c : {(0.03 * i + 0.0016 * (dot % 9)) * depth,
+                                 (0.03 * k + 0.0016 * (dot / 9)) * depth, depth})
+            xyz.push_back(static_cast<float>(c));
+  }
+  return xyz;
+}
+
+TEST(Objects, ManySpecksTakeBoundedTimeAndCanBeStopped) {
+  using Clock = std::chrono::steady_clock;
+  const std::vector<float> xyz = specks(35);
+  const SegmentOptions o{
+      .min_size = 1, .max_range = 10, .plane = false, .check = false, .min_part = 1};
+  const auto start = Clock::now();
+  const Segmentation s = segment(CloudView{xyz, {}}, o);
+  const std::chrono::duration<double> took = Clock::now() - start;
+  std::cout << s.segments.size() << " segments in " << took.count() << " s\n";
+  EXPECT_GT(s.segments.size(), 200U);
+  CutOptions apart = s.first_cut;
+  apart.objects = false;
+  EXPECT_GT(cut(s, apart).segments.size(), 2000U) << "parts that are compared";
+  EXPECT_LT(took.count(), 20);
+
+  // The joins ask, too: a stop that is requested in the middle of them is seen.
+  std::stop_source source;
+  RunContext context;
+  context.stop = source.get_token();
+  bool reached = false;
+  context.on_progress = [&](const Progress& progress) {
+    reached |= progress.stage == "objects";
+    if (reached) source.request_stop();
+  };
+  try {
+    for (int again = 0; again < 1000; ++again) cut(s, s.first_cut, context);
+    ADD_FAILURE() << "did not stop";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::cancelled);
+  }
+  EXPECT_TRUE(reached);
 }
 
 /// A wide box and in front of it a post that hides its middle.
@@ -222,13 +356,68 @@ TEST(VoxelPairs, AreAllThatAreClose) {
         const double d = (grid.centroids.row(u) - grid.centroids.row(v)).norm();
         if (d < radius * voxel) expected[{u, v}] = d;
       }
-    const std::vector<VoxelPair> pairs = close_voxels(grid, voxel, radius * voxel);
+    const VoxelPairs pairs = close_voxels(grid, voxel, radius);
     EXPECT_EQ(pairs.size(), expected.size());
     for (const VoxelPair& p : pairs) {
       const auto it = expected.find({p.u, p.v});
       ASSERT_NE(it, expected.end());
       EXPECT_FLOAT_EQ(p.distance, static_cast<float>(it->second));
     }
+  }
+}
+
+TEST(VoxelPairs, FarAwayThereAreNoneAndAnError) {
+  const auto refuses = [](const VoxelGrid& grid) {
+    try {
+      close_voxels(grid, 0.005, 3);
+    } catch (const Error& error) {
+      return error.kind() == ErrorKind::usage;
+    }
+    return false;
+  };
+  for (const std::size_t axis : {0U, 1U, 2U}) {
+    for (const double sign : {-1.0, 1.0}) {
+      VoxelGrid grid{std::vector<Vec3>(1), Points::Zero(1, 3), {1}, {0}};
+      grid.cells[0][axis] = sign * 0x1p52;
+      EXPECT_EQ(close_voxels(grid, 0.005, 3).size(), 0U);
+      grid.cells[0][axis] = sign * 0x1p53;
+      EXPECT_TRUE(refuses(grid)) << axis << ' ' << sign;
+    }
+  }
+}
+
+/// The kind of the error that segmenting one point with these options is, if any.
+std::optional<ErrorKind> failure(const std::vector<float>& xyz, const Vec3& viewpoint,
+                                 const SegmentOptions& options) {
+  try {
+    segment(CloudView{xyz, viewpoint}, options);
+  } catch (const Error& error) {
+    return error.kind();
+  }
+  return std::nullopt;
+}
+
+TEST(VoxelPairs, EveryWayToVoxelsWithoutNeighboursIsRefused) {
+  for (const Method method : {Method::surface, Method::supervoxels}) {
+    const auto far = static_cast<float>(0x1p70);
+    EXPECT_EQ(failure({0, 0, far}, {0, 0, far}, {.method = method}), ErrorKind::usage);
+    EXPECT_EQ(failure({0, 1e20F, 0}, {}, {.method = method, .max_range = kInfinity}),
+              ErrorKind::usage);
+    EXPECT_EQ(failure({0, 0, 1}, {}, {.method = method, .voxel = 1e-17}), ErrorKind::usage);
+  }
+  EXPECT_EQ(failure({0, 0, 1}, {}, {.method = Method::paper, .voxel = 1e-17}), std::nullopt);
+}
+
+TEST(VoxelPairs, HugeVoxelsAreRefusedOrHoldAll) {
+  const std::vector<float> xyz = {0, 0, 1, 3e38F, 0, 1, -3e38F, 0, 1};
+  for (const Method method : {Method::surface, Method::paper, Method::supervoxels}) {
+    for (const double voxel : {6e307, 1e308, 1e-300, 1.1e30})
+      EXPECT_EQ(failure(xyz, {}, {.method = method, .voxel = voxel}), ErrorKind::usage) << voxel;
+    SegmentOptions huge{.method = method, .voxel = 1e30, .min_size = 1, .max_range = kInfinity};
+    huge.spacing = 1e30;
+    EXPECT_EQ(segment(CloudView{xyz, {}}, huge).vertices.rows(), 3);
+    huge.max_range = 2;
+    EXPECT_EQ(segment(CloudView{xyz, {}}, huge).vertices.rows(), 1);
   }
 }
 
@@ -311,7 +500,9 @@ TEST(Objects, PartsJoinOverARidgeAndNotInAValley) {
   for (const double angle : {-0.6, 0.6}) {
     VoxelGrid grid;
     grid.centroids = valley(angle, 0.005);
-    Surface surface{{}, pairs_within(grid.centroids, 0.015)};
+    Surface surface;
+    const std::vector<VoxelPair> pairs = pairs_within(grid.centroids, 0.015);
+    surface.pairs.assign(pairs.begin(), pairs.end());
     surface.normals = surface_normals(grid.centroids, surface.pairs, 0.012, {0, 0, 10});
     std::vector<Index> part_of;
     std::array<Index, 2> first = {-1, -1};

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ph/core/barcode.hpp"
@@ -26,14 +27,17 @@ struct Box {
   friend bool operator==(const Box&, const Box&) = default;
 };
 
-/// What decides which voxels belong together.
+/// What decides which voxels belong together. The numbers are those of stored trees: never change
+/// one.
 enum class Method {
-  surface,      ///< the shape of the visible surface: cut where it is hollow, so that objects that
-                ///< touch come apart
-  paper,        ///< distance alone: Beksi & Papanikolopoulos, ICRA 2016
-  supervoxels,  ///< pieces of about one size that do not cross seams: the distance along the
-                ///< surface to evenly spread seeds
+  surface = 0,      ///< the shape of the visible surface: cut where it is hollow, so that objects
+                    ///< that touch come apart
+  paper = 1,        ///< distance alone: Beksi & Papanikolopoulos, ICRA 2016
+  supervoxels = 2,  ///< pieces of about one size that do not cross seams: the distance along the
+                    ///< surface to evenly spread seeds
 };
+/// What they are called, by number.
+inline constexpr std::array<std::string_view, 3> kMethodNames = {"surface", "paper", "supervoxels"};
 
 /// The plane normal·x + offset = 0, its unit normal turned towards the sensor: the signed distance
 /// of a point is positive on the sensor's side.
@@ -62,14 +66,14 @@ struct Neighbour {
   friend bool operator==(const Neighbour&, const Neighbour&) = default;
 };
 
-/// One segment: a component with enough voxels, of infinite persistence (paper) or a basin of the
-/// merge tree (surface).
+/// One segment with enough voxels: a component of infinite persistence (paper), a basin of the
+/// merge tree (supervoxels), or basins that are parts of one object (surface).
 struct Segment {
   std::uint32_t label = 0;  ///< 1…k by decreasing number of points
   Index points = 0;
   Index voxels = 0;
-  /// How much higher than where it was born it first touches another segment: in metres (paper) or
-  /// as a concavity (surface). Infinite if it touches none. The confidence in it.
+  /// How much higher than where it was born it first touches another segment: in metres (paper,
+  /// supervoxels) or as a concavity (surface). Infinite if it touches none. The confidence in it.
   double persistence = kInfinity;
   std::uint32_t neighbour = 0;  ///< neighbours.front(); 0: none
   double meets_at = kInfinity;  ///< value of the filtration at which it does
@@ -118,7 +122,7 @@ struct SceneTree {
   // By vertex, that is, by voxel in the order of the grid (z slowest).
   std::vector<Vec3> cells;  ///< whole numbers: the corner of the voxel / voxel
   Points vertices;          ///< centroid, one a row
-  Points normals;  ///< surface: unit normal, one a row, NaN where there is none; else 0 rows
+  Points normals;  ///< not paper: unit normal, one a row, NaN where there is none; else 0 rows
   std::vector<Index> counts;  ///< points that the centroid is the mean of
 
   Index edges = 0;  ///< edges of the filtered graph
@@ -132,15 +136,17 @@ struct SceneCut {
   std::vector<std::uint32_t> vertex_labels;  ///< one a vertex: 0 none, 1…k the segments
 };
 
-/// A coarser or finer cut without segmenting anew: milliseconds. `cut(scene, scene.first_cut)` is
-/// what ph::segment::segment gave.
+/// A coarser or finer cut without segmenting anew: milliseconds. What is found anew is which voxels
+/// are near each other and which parts make an object (not paper), which segments touch, and what
+/// is said of each; planes, voxels, normals and the tree are those of `scene`. `cut(scene,
+/// scene.first_cut)` is what ph::segment::segment gave.
 /// @throws Error (usage) on an option out of its range, or a distance beyond that of the tree.
 SceneCut cut(const SceneTree& scene, const CutOptions& options,
              const RunContext& context = default_context());
 
 /// Where two segments meet first as the filtration grows.
 struct Meeting {
-  double value = 0;  ///< of the filtration: metres (paper), a concavity (surface)
+  double value = 0;  ///< of the filtration: metres (paper, supervoxels), a concavity (surface)
   Vec3 at{};         ///< between the two voxels whose edge joins them
 };
 /// @return nothing if they never meet. @throws Error (usage) on labels that are not those of two

@@ -13,14 +13,20 @@
 #include "ph/io/cloud.hpp"
 #include "ph/scene_tree.hpp"
 
-/// Segmentation of RGB-D scenes by persistent homology. All lengths are metres (or whatever unit
-/// the cloud is in: nothing here knows of metres but the defaults).
+/// Segmentation of RGB-D scenes by persistent homology. All lengths are metres. Method paper knows
+/// of them by the defaults of its options alone, so that another unit will do if all lengths are in
+/// it; the others know of them besides where parts are joined behind what hides less than 15 cm.
 namespace ph::segment {
 
 /// What the pipeline reads of a cloud: plain arrays, owned by someone else.
 struct CloudView {
   std::span<const float> xyz;  ///< x, y, z of each point; one not finite: a hole, label 0
   Vec3 viewpoint{};            ///< where the sensor stood, in the coordinates of the points
+  Index width = 0;   ///< columns of an organised cloud; 0: it is not organised, all in one row
+  Index height = 1;  ///< its rows; width * height is the number of points
+
+  Index columns() const { return width > 0 ? width : static_cast<Index>(xyz.size() / 3); }
+  Index rows() const { return width > 0 ? height : 1; }
 };
 
 /// A default-constructed value suits a table top seen by a structured-light or time-of-flight
@@ -35,14 +41,20 @@ struct SegmentOptions {
   std::optional<Box> crop = {};               ///< keep the points inside this box only
   bool plane = true;                          ///< remove the supporting plane and what is behind
   std::optional<double> plane_distance = {};  ///< half its thickness, metres, > 0; see plane_margin
-  std::optional<Vec3> viewpoint = {};         ///< where the sensor stood; default: the cloud's
-  bool check = true;                          ///< compare union-find with boundary-matrix reduction
+  /// Methods surface and supervoxels: the noise of depth grows with the square of the range, and so
+  /// does the margin of the plane. At a range of one metre it is at least so thick (half of it,
+  /// metres, >= 0) and at least four standard deviations of the noise that is found; 0: as thick
+  /// as plane_distance everywhere. A plane_distance that is given and smaller goes before it.
+  double plane_noise = 0.005;
+  std::optional<Vec3> viewpoint = {};  ///< where the sensor stood; default: the cloud's
+  bool check = true;                   ///< compare union-find with boundary-matrix reduction
 
   // Methods surface and supervoxels. Not given: see cut.
   std::optional<double> min_persistence = {};  ///< least persistence of a part, >= 0; unit: Segment
   bool objects = true;  ///< surface: join the visible parts of an object; false: they stay apart
   std::optional<Index> min_part = {};  ///< fewest voxels of a part; a smaller one joins, >= 1
-  double spacing = 0.03;  ///< supervoxels: how far the surface is from a seed at most, metres, > 0
+  /// Supervoxels: how far the surface is from a seed at most, metres, no less than a voxel.
+  double spacing = 0.03;
 
   // Method paper
   double distance = 0.025;  ///< maximum distance of the Vietoris-Rips complex, metres, >= 0
@@ -53,13 +65,21 @@ struct SegmentOptions {
   double plane_margin() const {
     return plane_distance.value_or(method == Method::paper ? 0.006 : 0.005);
   }
+  /// The least margin at a range of one metre.
+  double noise_floor() const {
+    return plane_distance && *plane_distance < plane_noise ? 0 : plane_noise;
+  }
+  /// The least persistence of a part.
+  double part_persistence() const {
+    return min_persistence.value_or(method == Method::supervoxels ? 0 : CutOptions().value);
+  }
   /// Where these options cut the tree; what was not given is what suits the method.
   CutOptions cut() const {
     if (method == Method::supervoxels)
-      return {min_persistence.value_or(0), min_part.value_or(8), min_size.value_or(1), false};
+      return {part_persistence(), min_part.value_or(8), min_size.value_or(1), false};
     const CutOptions d;
-    return {method == Method::paper ? distance : min_persistence.value_or(d.value),
-            min_part.value_or(d.min_part), min_size.value_or(d.min_size), objects};
+    return {method == Method::paper ? distance : part_persistence(), min_part.value_or(d.min_part),
+            min_size.value_or(d.min_size), objects};
   }
 };
 
@@ -88,8 +108,11 @@ struct Segmentation : SceneTree, SceneCut {
 /// voxels; objects are components of infinite persistence. Method supervoxels: the voxels enter
 /// with their distance to the nearest seed; each basin is a supervoxel. Deterministic: the result
 /// depends neither on threads nor on the order of the points.
-/// @throws Error (usage) on an option out of its range; Error (bad_data) if `xyz` is not a
-///         multiple of three long; Error (cancelled, resource) as `context` asks.
+/// It runs on one thread.
+/// @throws Error (usage) on an option out of its range, or voxels so small that the coordinates of
+///         neighbours are the same numbers; Error (bad_data) if `xyz` is not a multiple of three
+///         long, or of another size than rows and columns say; Error (cancelled, resource) as
+///         `context` asks.
 Segmentation segment(const CloudView& cloud, const SegmentOptions& options = {},
                      const RunContext& context = default_context());
 /// The same on a cloud as its file has it. Reads x, y, z and the viewpoint, nothing else.
