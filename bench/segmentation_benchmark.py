@@ -70,6 +70,8 @@ class Benchmark:
     def scores_of(self, program, path):
         scene = self.scene(path)
         truth, labels = self.images(scene, scene.truth, self.labels(program, path, scene))
+        if program.makes_supervoxels:
+            return {"supervoxels": segmentation_metrics.supervoxel_scores(truth, labels).as_dict()}
         return {
             name: segmentation_metrics.score(truth, labels, parts).as_dict()
             for name, parts in TRUTHS.items()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """How well labels agree with ground truth: overlap and boundary F, as in the evaluation of
-UOIS-Net (Xie et al.).
+UOIS-Net (Xie et al.); and how well supervoxels keep to objects.
 
 Truth: 0 no depth (left out), 1 to 9 the table, from 10 on the parts of objects, label // 10 being
 the object.
@@ -161,3 +161,47 @@ def score(labels, prediction, parts, boundaries=True):
     precision, recall = agreed / found.sum(), agreed / sizes.sum()
     edge = boundary_scores(truth, segments, objects, count, pairs) if boundaries else (None,) * 3
     return Scores(precision, recall, harmonic_mean(precision, recall), *edge, objects, count)
+
+
+@dataclass(frozen=True)
+class SupervoxelScores:
+    """Of the pixels of objects. Shares from 0 to 1, None where there is nothing to share."""
+
+    supervoxels: int
+    boundary_recall: float
+    under_segmentation: float
+
+    as_dict = asdict
+
+
+def borders(labels):
+    """Pixels whose right or lower neighbour has another label; both have one (from 0 on)."""
+    found = numpy.zeros(labels.shape, bool)
+    for here, there, mark in (
+        (labels[:, :-1], labels[:, 1:], found[:, :-1]),
+        (labels[:-1], labels[1:], found[:-1]),
+    ):
+        mark |= (here != there) & (here >= 0) & (there >= 0)
+    return numpy.nonzero(found)
+
+
+def supervoxel_scores(labels, prediction, radius=2):
+    """Scores of pieces of objects in one image.
+
+    Boundary recall: the share of pixels at borders between objects that have a border of pieces
+    within the radius. Under-segmentation error (Neubert & Protzel, Superpixel benchmark and
+    comparison, 2012): what of a piece lies outside an object that it is partly in, or inside if
+    that is less, over all pixels of objects.
+    """
+    truth, objects = truth_of(labels, parts=False)
+    pieces, count = dense(prediction, truth >= 0)
+    if objects == 0:
+        return SupervoxelScores(0, None, None)
+    common, sizes, found = overlaps(truth, pieces, objects, count)
+    leak = numpy.minimum(common, found[None, :] - common).sum()
+    theirs = borders(truth)
+    recall = None
+    if len(theirs[0]) > 0:
+        recall = near(theirs, borders(pieces), truth.shape, radius) / len(theirs[0])
+    kept = numpy.unique(prediction[(truth >= 0) & (prediction > 0)])
+    return SupervoxelScores(len(kept), recall, leak / sizes.sum())

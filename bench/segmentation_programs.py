@@ -31,6 +31,11 @@ class Program:
             self._words.pop(0)
 
     @property
+    def makes_supervoxels(self):
+        """Pieces of objects, to which other scores apply."""
+        return "supervoxels" in self.name
+
+    @property
     def is_ours(self):
         return self.name.split()[0] == OURS
 

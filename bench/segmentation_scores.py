@@ -17,7 +17,8 @@ command may stand background=B (labels up to B are no segment; default 0) and st
 the seconds of each stage in columns t_NAME).
 Arguments may stand in a file, one a line, named as @FILE.
 
-Scores are always taken. --times measures CPU seconds and memory, --perturb makes the frames worse,
+Scores are always taken; of a program with "supervoxels" in its name or options those of pieces of
+objects: borders met and under-segmentation error. --times measures CPU seconds and memory, --perturb makes the frames worse,
 --cross-validate chooses options on other categories, --pictures draws labels; see
 docs/segmentation-benchmarks.md. Needs numpy.
 """

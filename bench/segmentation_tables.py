@@ -35,6 +35,30 @@ def categories(report):
     }
 
 
+def scores_of(report, kind):
+    """The programs that have scores of this kind."""
+    return {
+        program: frames
+        for program, frames in report["scores"].items()
+        if any(kind in scores for scores in frames.values())
+    }
+
+
+def supervoxels(report):
+    rows = []
+    for program, frames in scores_of(report, "supervoxels").items():
+        of = lambda key: mean(scores["supervoxels"][key] for scores in frames.values())
+        rows.append(
+            [
+                program,
+                f"{of('supervoxels'):.0f}",
+                share(of("boundary_recall")),
+                f"{of('under_segmentation'):.4f}".removeprefix("0"),
+            ]
+        )
+    return table(["", "supervoxels a frame", "borders met", "under-segmentation"], rows)
+
+
 def by_category(report, truth, key):
     groups = categories(report)
     rows = [
@@ -45,7 +69,7 @@ def by_category(report, truth, key):
                 for group in groups.values()
             ),
         ]
-        for program, frames in report["scores"].items()
+        for program, frames in scores_of(report, truth).items()
     ]
     for truths, row in report.get("cross_validation", {}).items():
         if (truths, key) == (truth, "f"):
@@ -145,7 +169,7 @@ def unharmed(report):
             truth: mean(frames[f][truth]["f"] for f in report["categories"] if f in frames)
             for truth in ("objects", "parts")
         }
-        for program, frames in report["scores"].items()
+        for program, frames in scores_of(report, "objects").items()
     }
 
 
@@ -171,7 +195,7 @@ def curves(report):
 
 
 def markdown(report):
-    scored = report["scores"] or report["cross_validation"]
+    scored = scores_of(report, "objects") or report["cross_validation"]
     parts = (
         [
             by_category(report, truth, key)
@@ -181,6 +205,8 @@ def markdown(report):
         if scored
         else []
     )
+    if scores_of(report, "supervoxels"):
+        parts.append(supervoxels(report))
     if report.get("cross_validation"):
         parts.append(chosen(report))
     if report.get("times"):

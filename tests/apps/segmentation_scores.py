@@ -116,6 +116,27 @@ class Metrics(unittest.TestCase):
         self.assertEqual(both(metrics.score(table, table, False)), (0, 1, 0, 0))
         self.assertEqual(both(metrics.score(0 * box, box, False)), (1, 1, 1, 1))  # no depth
 
+    def test_supervoxels(self):
+        truth = numpy.ones((8, 20), int)
+        truth[1:7, 2:10], truth[1:7, 10:18] = 20, 30  # two objects of 48 pixels, side by side
+        halves = numpy.where(truth > 9, truth, 0)
+        perfect = metrics.supervoxel_scores(truth, halves)
+        self.assertEqual(
+            perfect, metrics.SupervoxelScores(2, 1.0, 0.0), "and labels of the table do not count"
+        )
+        self.assertEqual(metrics.supervoxel_scores(truth, halves + (truth == 1)), perfect)
+        one = metrics.supervoxel_scores(truth, numpy.full(truth.shape, 7))
+        self.assertEqual((one.supervoxels, one.boundary_recall), (1, 0))
+        self.assertEqual(one.under_segmentation, 1)  # of both objects all of the other one
+        for step, recall in ((2, 1), (3, 0)):  # the border moves by so many columns
+            moved = numpy.where(numpy.indices(truth.shape)[1] < 10 + step, 1, 2)
+            found = metrics.supervoxel_scores(truth, moved)
+            self.assertEqual(found.boundary_recall, recall)
+            self.assertAlmostEqual(found.under_segmentation, 2 * 6 * step / 96)
+        nothing = metrics.supervoxel_scores(truth // 2, halves)
+        self.assertEqual(nothing, metrics.SupervoxelScores(2, None, 0.0))
+        self.assertIsNone(metrics.supervoxel_scores(truth * 0 + 1, halves).under_segmentation)
+
     def test_a_boundary_may_be_two_pixels_away(self):
         scene = table_scene("a")
         truth = scene.truth.reshape(240, 320)
