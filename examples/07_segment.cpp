@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
     return 64;
   }
   const auto cloud = ph::segment::read_cloud(argv[1]);
-  const auto parts = ph::segment::segment(cloud, {.voxel = 0.01, .distance = 0.025});  // metres
+  const auto parts = ph::segment::segment(cloud, {.voxel = 0.01});  // metres
   for (const auto& segment : parts.segments) {
     std::cout << "segment " << segment.label << ": " << segment.points << " points, "
               << segment.voxels << " voxels around (" << segment.centroid[0] << ", "

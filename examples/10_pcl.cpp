@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Segments a table top with the manners of the Point Cloud Library.
-//   10_pcl table.pcd
+// Segments a box on a box with the manners of the Point Cloud Library.
+//   10_pcl stack.pcd
 #include <iostream>
 #include <ph/pcl.hpp>
 
@@ -10,16 +10,22 @@ int main(int argc, char** argv) {
     return 64;
   }
   // Any cloud of points with x, y, z will do; the strict reader is ours.
-  const std::vector<float> xyz = ph::segment::read_cloud(argv[1]).xyz();
-  const auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
-  for (std::size_t i = 0; i < xyz.size(); i += 3)
-    cloud->emplace_back(xyz[i], xyz[i + 1], xyz[i + 2]);
+  const ph::Cloud file = ph::segment::read_cloud(argv[1]);
+  const std::vector<float> xyz = file.xyz();
+  const auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>(
+      static_cast<std::uint32_t>(file.width), static_cast<std::uint32_t>(file.height));
+  for (std::size_t i = 0; i < cloud->size(); ++i)
+    (*cloud)[i] = {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]};
+  cloud->is_dense = false;  // where the sensor saw nothing
 
   ph::pcl::PersistenceSegmentation<pcl::PointXYZ> segmentation;
   segmentation.setInputCloud(cloud);
-  segmentation.setVoxelSize(0.01);  // metres
+  segmentation.setMaxRange(1.5);  // metres
   std::vector<pcl::PointIndices> clusters;
   segmentation.segment(clusters);
+  const ph::segment::SceneTree& tree = segmentation.getTree();
+  std::cout << clusters.size() << " segments of " << tree.width << " x " << tree.height
+            << " points\n";
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     Eigen::Vector3f centre, size;
     Eigen::Matrix3f axes;
@@ -28,6 +34,7 @@ int main(int argc, char** argv) {
               << segmentation.getConfidences()[i] << ", box of " << size.transpose() << " m around "
               << centre.transpose() << "\n";
   }
-  segmentation.cut(0.1, clusters);  // a coarser cut of the same tree: nothing is computed anew
-  std::cout << clusters.size() << " segments when cut at 0.1\n";
+  // A coarser cut of the same tree: plane, voxels and normals are not looked for again.
+  segmentation.cut(1, clusters);
+  std::cout << clusters.size() << " segments when cut at 1\n";
 }
