@@ -69,7 +69,8 @@ void prepare(std::string_view option, const std::string& pattern) {
 
 }  // namespace
 
-FrameSource::FrameSource(const Arguments& a) : patterns_(a.files) {
+FrameSource::FrameSource(const Arguments& a)
+    : patterns_(a.files), has_files_(!a.files.of_each_frame().empty()) {
   for (const auto& [option, path] :
        {std::pair("--output", &patterns_.output), std::pair("--labels", &patterns_.labels),
         std::pair("--tree", &patterns_.tree), std::pair("--barcode", &patterns_.barcode),
@@ -84,14 +85,7 @@ FrameSource::FrameSource(const Arguments& a) : patterns_(a.files) {
     for (std::string& frame : frames_in(input, a.image.intrinsics.has_value()))
       inputs_.push_back(std::move(frame));
   }
-  names_ = app::output_names(inputs_);
-  for (std::size_t i = 0; i < names_.size(); ++i) {
-    const auto [other, fresh] = taken_.emplace(names_[i], inputs_[i]);
-    if (fresh) continue;
-    throw Error(ErrorKind::usage,
-                fmt::format("{} and {} would both be written to files named {}",
-                            printable(other->second), printable(inputs_[i]), printable(names_[i])));
-  }
+  if (has_files_) take_names();
   if (a.frames_from == "-") list_ = &std::cin;
   if (list_ || a.frames_from.empty()) return;
   file_ = std::make_unique<std::ifstream>(a.frames_from);
@@ -103,16 +97,29 @@ FrameSource::FrameSource(const Arguments& a) : patterns_(a.files) {
 
 FrameSource::~FrameSource() = default;
 
+/// Those of the inputs.
+void FrameSource::take_names() {
+  names_ = app::output_names(inputs_);
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    if (taken_.emplace(names_[i], 1).second) continue;
+    const auto other =
+        static_cast<std::size_t>(std::ranges::find(names_, names_[i]) - names_.begin());
+    throw Error(ErrorKind::usage, fmt::format("{} and {} would both be written to files named {}",
+                                              printable(inputs_[other]), printable(inputs_[i]),
+                                              printable(names_[i])));
+  }
+}
+
 std::optional<Frame> FrameSource::next() {
   if (given_ < inputs_.size()) {
-    Frame frame{inputs_[given_], files_of(names_[given_])};
+    Frame frame{inputs_[given_], has_files_ ? files_of(names_[given_]) : OutputPaths{}};
     ++given_;
     return frame;
   }
   std::string line;
   while (list_ && std::getline(*list_, line)) {
     if (line.ends_with('\r')) line.pop_back();
-    if (!line.empty()) return Frame{line, files_of(name_of(line))};
+    if (!line.empty()) return Frame{line, has_files_ ? files_of(name_of(line)) : OutputPaths{}};
   }
   return std::nullopt;
 }
@@ -120,8 +127,14 @@ std::optional<Frame> FrameSource::next() {
 /// The frames to come are not known: the name without extension, or one with a number behind it.
 std::string FrameSource::name_of(const std::string& input) {
   const std::string stem = app::output_names({input}).front();
-  std::string name = stem;
-  for (int i = 2; !taken_.emplace(name, input).second; ++i) name = fmt::format("{}-{}", stem, i);
+  const auto [known, is_new] = taken_.emplace(stem, 1);
+  if (is_new) return stem;
+  std::size_t number = known->second;
+  std::string name;
+  do {
+    name = fmt::format("{}-{}", stem, ++number);
+  } while (!taken_.emplace(name, 1).second);
+  taken_[stem] = number;
   return name;
 }
 

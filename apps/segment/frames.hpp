@@ -2,10 +2,10 @@
 #pragma once
 #include <cstddef>
 #include <iosfwd>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "arguments.hpp"
@@ -31,15 +31,19 @@ class FrameSource {
   std::optional<Frame> next();
 
  private:
+  void take_names();
   std::string name_of(const std::string& input);
   OutputPaths files_of(const std::string& name) const;
 
   const OutputPaths& patterns_;
+  bool has_files_;  // each frame has files: names matter
   std::vector<std::string> inputs_, names_;
   std::size_t given_ = 0;
-  std::unique_ptr<std::istream> file_;        // of the list
-  std::istream* list_ = nullptr;              // null: none
-  std::map<std::string, std::string> taken_;  // by name: the input
+  std::unique_ptr<std::istream> file_;  // of the list
+  std::istream* list_ = nullptr;        // null: none
+  // Names that are taken, each with the number behind the last one that was made of it. Without
+  // files none is: a stream may go on for ever.
+  std::unordered_map<std::string, std::size_t> taken_;
 };
 
 }  // namespace ph::segment

@@ -44,13 +44,16 @@ std::string failure_line(const std::string& input, int code) {
 class Stream {
  public:
   Stream(const Arguments& arguments, app::Session& session)
-      : arguments_(arguments), session_(session), source_(arguments) {
+      : arguments_(arguments), one_(arguments), session_(session), source_(arguments) {
     if (!arguments.files.any()) {
       throw Error(ErrorKind::usage,
                   "several inputs: expected a folder for their results, such as --labels FOLDER/, "
                   "or --json FILE");
     }
     if (!arguments.files.json.empty()) json_.emplace(arguments.files.json);
+    // Of a long list of inputs there is one copy here, not one a frame.
+    one_.inputs = {};
+    one_.frames_from.clear();
   }
 
   int run() {
@@ -63,9 +66,8 @@ class Stream {
  private:
   /// @return whether there was one. @throws Error if the others need not be tried.
   bool next_frame() {
-    Arguments one = arguments_;
-    one.frames_from.clear();
-    one.inputs.clear();
+    Arguments& one = one_;
+    one.input.clear();
     int code = app::kOk;
     std::string line;
     try {
@@ -113,6 +115,7 @@ class Stream {
   }
 
   const Arguments& arguments_;
+  Arguments one_;  // of the frame at hand
   app::Session& session_;
   FrameSource source_;
   std::optional<app::Output> json_;

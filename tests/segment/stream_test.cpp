@@ -105,6 +105,47 @@ TEST_F(Stream, StableLabels) {
   EXPECT_EQ(contents(at("out/3.csv")), swapped);
 }
 
+TEST_F(Stream, FramesOfOneNameAreNumbered) {
+  fs::create_directory(at("other"));
+  fs::copy_file(at("in/0.pcd"), at("other/0.pcd"));
+  fs::copy_file(at("in/0.pcd"), at("other/0-2.pcd"));
+  std::ofstream list(at("list.txt"));
+  for (const char* frame : {"in/0.pcd", "other/0-2.pcd", "other/0.pcd", "in/0.pcd", "other/0.pcd"})
+    list << frame << '\n';
+  list.close();
+  ASSERT_EQ(run("--frames-from list.txt --labels out/"), 0) << err();
+  for (const char* name : {"0", "0-2", "0-3", "0-4", "0-5"})
+    EXPECT_TRUE(fs::exists(at("out/" + std::string(name) + ".npy"))) << name;
+  EXPECT_EQ(std::distance(fs::directory_iterator(at("out")), {}), 5);
+  // Without files of their own they need no name.
+  EXPECT_EQ(run("in/0.pcd other/0.pcd in/0.pcd --json all.json"), 0) << err();
+}
+
+TEST_F(Stream, AThousandsOfFramesTakeNoMoreMemoryThanSome) {
+  const test::TableScene small(std::vector<test::Block>{{{-0.22, -0.05, 0}, {-0.10, 0.07, 0.12}}},
+                               0.2);
+  const Cloud cloud = test::cloud_of(small.xyz(), 64, 48);
+  write_cloud(at("s.pcd"), cloud);
+  std::ofstream list(at("list.txt"));
+  constexpr std::size_t frames = 3000;
+  for (std::size_t i = 0; i < frames; ++i) {
+    std::string path(2 * 500, '/');  // the same file by a long name, another one each time
+    for (std::size_t k = 0; k < path.size(); k += 2) path[k] = '.';
+    list << path << "s.pcd" << '\n';
+  }
+  list.close();
+  ASSERT_EQ(run("--frames-from list.txt --stable-labels --no-check --json all.json --quiet"), 0)
+      << err();
+  const auto json = lines(contents(at("all.json")));
+  ASSERT_EQ(json.size(), frames);
+  const auto peak = [](const std::string& line) {
+    const std::string key = "\"peak_memory\": ";
+    return std::stod(line.substr(line.find(key) + key.size()));
+  };
+  EXPECT_GT(peak(json[300]), 1e6);
+  EXPECT_LT(peak(json.back()) - peak(json[300]), 512 * 1024) << "names of 3 MB were kept";
+}
+
 TEST_F(Stream, UsageErrors) {
   fs::create_directory(at("empty"));
   EXPECT_EQ(run("empty --labels out/"), 66);
