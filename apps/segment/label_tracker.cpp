@@ -2,6 +2,7 @@
 #include "ph/label_tracker.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iterator>
 #include <map>
@@ -18,15 +19,26 @@ struct Overlap {
 }  // namespace
 
 std::vector<std::uint32_t> LabelTracker::update(std::span<const std::uint32_t> labels) {
+  // Those that occur, ascending: a label may be as large as it likes.
+  std::vector<std::uint32_t> known(labels.begin(), labels.end());
+  std::ranges::sort(known);
+  const auto same = std::ranges::unique(known);
+  known.erase(same.begin(), same.end());
+  std::erase(known, 0U);
+  const auto index_of = [&](std::uint32_t label) {
+    return static_cast<std::size_t>(std::ranges::lower_bound(known, label) - known.begin());
+  };
   std::vector<Place> places;
-  std::uint32_t segments = 0;
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (labels[i] == 0) continue;
-    segments = std::max(segments, labels[i]);
-    places.push_back(
-        {{static_cast<double>(labels.size()), static_cast<double>(i), 0, 0}, labels[i] - 1});
+    places.push_back({{static_cast<double>(labels.size()), static_cast<double>(i), 0, 0},
+                      static_cast<std::uint32_t>(index_of(labels[i]))});
   }
-  return match(std::move(places), segments);
+  const std::vector<std::uint32_t> numbers = match(std::move(places), known.size());
+  std::vector<std::uint32_t> result(labels.size());
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    if (labels[i] != 0) result[i] = numbers[index_of(labels[i])];
+  return result;
 }
 
 std::vector<std::uint32_t> LabelTracker::update(const SceneTree& scene, const SceneCut& cut) {
@@ -40,13 +52,30 @@ std::vector<std::uint32_t> LabelTracker::update(const SceneTree& scene, const Sc
                         cut.labels[i] - 1});
     }
   } else {
-    for (std::size_t v = 0; v < scene.cells.size(); ++v) {
-      const auto& [x, y, z] = scene.cells[v];
-      if (cut.vertex_labels[v] != 0)
-        places.push_back({{scene.voxel, z, y, x}, cut.vertex_labels[v] - 1});
-    }
+    places = cubes(scene, cut);
   }
   return match(std::move(places), cut.segments.size());
+}
+
+/// The cubes in which a segment has more points than any other.
+std::vector<LabelTracker::Place> LabelTracker::cubes(const SceneTree& scene,
+                                                     const SceneCut& cut) const {
+  std::map<Key, std::map<std::uint32_t, Index>> points;
+  const float* p = scene.xyz.data();
+  for (std::size_t i = 0; i < cut.labels.size(); ++i) {
+    if (scene.vertex_of_point[i] == SceneTree::kNoVertex) continue;
+    if (cut.labels[i] != 0)
+      ++points[{cell_, std::floor(p[2] / cell_), std::floor(p[1] / cell_),
+                std::floor(p[0] / cell_)}][cut.labels[i] - 1];
+    p += 3;
+  }
+  std::vector<Place> places;
+  for (const auto& [key, counts] : points) {
+    const auto most = std::ranges::max_element(
+        counts, [](const auto& a, const auto& b) { return a.second < b.second; });
+    places.push_back({key, most->first});
+  }
+  return places;
 }
 
 /// @param places of segments, by key.

@@ -20,19 +20,22 @@ namespace ph::segment {
 class LabelTracker {
  public:
   /// @param patience frames for which an object that is not seen is remembered, >= 0.
-  explicit LabelTracker(int patience = 5) : patience_(patience) {}
+  /// @param cell edge of the cubes by which clouds that are not organised are compared, metres, >
+  /// 0.
+  explicit LabelTracker(int patience = 5, double cell = 0.01) : patience_(patience), cell_(cell) {}
 
   /// The next frame of a sensor with a fixed raster: places are pixels.
-  /// @param labels one a pixel: 0 none, else the number of a segment, from 1. A frame of another
-  /// size than that before shares nothing with it.
-  /// @return the number of the object that each segment is: that of label i + 1 at i.
+  /// @param labels one a pixel: 0 none, else any number of a segment. A frame of another size than
+  /// that before shares nothing with it.
+  /// @return by pixel the number of the object that its segment is; 0 where there is none.
   std::vector<std::uint32_t> update(std::span<const std::uint32_t> labels);
-  /// The same for the result of ph::segment::segment. Of an unorganised cloud places are voxels:
-  /// the sensor must stand still, and voxels of another size share nothing.
+  /// The same for the result of ph::segment::segment. Of an unorganised cloud places are cubes of
+  /// space, whatever its voxels are: the sensor must stand still.
+  /// @return the number of the object that each segment is: that of label i + 1 at i.
   std::vector<std::uint32_t> update(const SceneTree& scene, const SceneCut& cut);
 
  private:
-  using Key = std::array<double, 4>;  // size of the raster or of a voxel, then where
+  using Key = std::array<double, 4>;  // size of the raster or of a cube, then where
   struct Place {
     Key key;
     std::uint32_t number;  // of a segment (from 0), or of an object
@@ -41,9 +44,11 @@ class LabelTracker {
     std::uint32_t number;
     int unseen;  // frames
   };
+  std::vector<Place> cubes(const SceneTree& scene, const SceneCut& cut) const;
   std::vector<std::uint32_t> match(std::vector<Place> places, std::size_t segments);
 
   int patience_;
+  double cell_;
   std::uint32_t next_ = 1;
   std::vector<Place> places_;    // of the objects, by key
   std::vector<Object> objects_;  // by number
