@@ -65,6 +65,9 @@ std::string tree_json(const SceneTree& scene) {
                    {"height", integer(scene.height)},
                    {"voxel", number(scene.voxel)},
                    {"distance", paper ? number(scene.distance) : "null"},
+                   {"steps", !paper             ? "null"
+                             : scene.steps == 0 ? json_string("exact")
+                                                : integer(scene.steps)},
                    {"viewpoint", numbers(scene.viewpoint)},
                    {"plane", plane_of(scene.plane)},
                    {"cut", cut(scene.first_cut)},

@@ -10,12 +10,19 @@
 #include "ph/core/error.hpp"
 #include "ph/scene_tree.hpp"
 #include "tree_file.hpp"
+#include "voxel_grid.hpp"
 
 namespace ph::segment {
 namespace {
 
 constexpr std::int64_t kMost = std::int64_t{1} << 32;  // points, vertices: numbers of 32 bits
 constexpr std::size_t kWord = kTreeWord, kHeader = kTreeHeader, kSum = kTreeSum;
+
+/// Of a graph with so many vertices, at most 2^32 - 2 of them: fits with them into 63 bits.
+std::int64_t most_edges(std::int64_t vertices) {
+  const auto n = static_cast<std::uint64_t>(vertices);
+  return n == 0 ? 0 : static_cast<std::int64_t>(n * (n - 1) / 2);
+}
 
 /// Reads a tree and says at which byte something is wrong.
 class TreeReader {
@@ -73,16 +80,15 @@ class TreeReader {
   void read_header() {
     constexpr std::int64_t most_steps = std::numeric_limits<int>::max();
     constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
-    const double least_length = std::numeric_limits<double>::min();
     integer("version", kTreeVersion, kTreeVersion);
     scene_.method = static_cast<Method>(integer("method", 0, 2));
     scene_.width = integer("width", 0, kMost);
-    scene_.height = integer("height", 0, kMost);
+    scene_.height = integer("height", scene_.width > 0 ? 1 : 0, kMost);
     vertices_ = integer("number of vertices", 0, kMost - 2);
     merges_ = integer("number of merges", 0, std::max<std::int64_t>(vertices_ - 1, 0));
     points_ = integer("number of points with a vertex", 0, kMost);
-    scene_.edges = integer("number of edges", merges_, most);
-    scene_.voxel = number("voxel", vertices_ > 0 ? least_length : 0);
+    scene_.edges = integer("number of edges", merges_, most_edges(vertices_));
+    scene_.voxel = number("voxel", vertices_ > 0 ? kLeastVoxel : 0, kMostVoxel);
     scene_.viewpoint = finite("viewpoint");
     scene_.distance = number("distance", 0);
     scene_.steps = static_cast<int>(integer("steps", 0, most_steps));
@@ -132,8 +138,12 @@ class TreeReader {
     for (std::size_t v = 0; v < n; ++v) {
       Vec3& cell = scene_.cells[v];
       cell = finite("corner of a voxel");
-      for (const double c : cell)
+      for (const double c : cell) {
         if (c != std::floor(c)) fail("corner of a voxel", fmt::format("{}", c), "a whole number");
+        if (scene_.method != Method::paper && !(std::abs(c) <= kMostExactCell))
+          fail("corner of a voxel", fmt::format("{}", c),
+               fmt::format("at most {}", kMostExactCell));
+      }
       // z slowest
       if (v > 0 &&
           !std::ranges::lexicographical_compare(
@@ -202,7 +212,6 @@ class TreeReader {
 
   void read_points() {
     const auto n = static_cast<std::uint32_t>(vertices_);
-    std::vector<Index> found(n);
     std::int64_t with_vertex = 0;
     scene_.vertex_of_point.resize(static_cast<std::size_t>(scene_.width * scene_.height));
     for (std::uint32_t& v : scene_.vertex_of_point) {
@@ -211,21 +220,56 @@ class TreeReader {
       if (v == SceneTree::kNoVertex) continue;
       if (v >= n)
         fail("vertex of a point", fmt::format("{}", v), fmt::format("one of {} vertices", n));
-      ++found[v];
       ++with_vertex;
     }
     if (with_vertex != points_)
       fail("points with a vertex", fmt::format("{}", with_vertex), fmt::format("{}", points_));
-    for (std::uint32_t v = 0; v < n; ++v)
-      if (found[v] < scene_.counts[v])
-        fail("points of a voxel", fmt::format("{}", found[v]),
-             fmt::format("at least {}", scene_.counts[v]));
-    scene_.xyz.resize(3 * static_cast<std::size_t>(points_));
-    for (float& x : scene_.xyz) {
+    read_coordinates(n);
+  }
+
+  void read_coordinates(std::uint32_t n) {
+    std::vector<Index> inside(n);
+    scene_.xyz.reserve(3 * static_cast<std::size_t>(points_));
+    for (const std::uint32_t v : scene_.vertex_of_point) {
+      if (v == SceneTree::kNoVertex) continue;
       at_ = cursor_.offset();
-      x = cursor_.read<float>("coordinate");
-      if (!std::isfinite(x)) fail("coordinate", fmt::format("{}", x), "a finite number");
+      Vec3 point;
+      for (double& x : point) {
+        const auto coordinate = cursor_.read<float>("coordinate");
+        if (!std::isfinite(coordinate))
+          fail("coordinate", fmt::format("{}", coordinate), "a finite number");
+        scene_.xyz.push_back(coordinate);
+        x = coordinate;
+      }
+      if (is_inside(point, scene_.cells[v]))
+        ++inside[v];
+      else if (!may_be_foot(point, v))
+        fail("coordinates", fmt::format("({}, {}, {})", point[0], point[1], point[2]),
+             "a point of its voxel, or of the plane at its foot");
     }
+    for (std::uint32_t v = 0; v < n; ++v)
+      if (inside[v] < scene_.counts[v])
+        fail("points of a voxel", fmt::format("{}", inside[v]),
+             fmt::format("at least {}", scene_.counts[v]));
+  }
+  bool is_inside(const Vec3& point, const Vec3& cell) const {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (std::floor(point[k] / scene_.voxel) != cell[k]) return false;
+    return true;
+  }
+  /// Whether it may have been won back from the plane for this voxel: in the strip below it. Of the
+  /// margin, which the tree does not have, it is known only that the voxel is beyond it.
+  bool may_be_foot(const Vec3& point, std::uint32_t v) const {
+    if (!scene_.plane || scene_.method == Method::paper) return false;
+    constexpr double aside = 3, up = 4;  // voxels; as high as the voxel, roughly
+    const Vec3 c{scene_.vertices(v, 0), scene_.vertices(v, 1), scene_.vertices(v, 2)};
+    const double height = scene_.plane->signed_distance(point[0], point[1], point[2]);
+    const double of_voxel = scene_.plane->signed_distance(c[0], c[1], c[2]);
+    if (!(height > 0 && height <= up * (of_voxel + scene_.voxel))) return false;
+    double square = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      square += std::pow(point[k] - c[k] - (height - of_voxel) * scene_.plane->normal[k], 2);
+    return square <= std::pow(aside * scene_.voxel, 2);
   }
 
   const Input& input_;

@@ -123,6 +123,7 @@ TEST_P(StoredTree, AsJson) {
   const std::string json = tree_json(s);
   const auto has = [&](const std::string& text) { return json.find(text) != std::string::npos; };
   EXPECT_TRUE(has("\"format\": \"ph-segment-tree\""));
+  EXPECT_TRUE(has(GetParam() == Method::paper ? "\"steps\": 10," : "\"steps\": null,"));
   const Merge& m = s.tree.merges[7];
   EXPECT_TRUE(
       has(fmt::format("\"edge\": [{}, {}], \"elder\": {}, \"younger\": {}, \"elder_size\": {}, "
@@ -191,8 +192,19 @@ TEST(DamagedTree, HeadersThatLie) {
   }
   for (const std::size_t word : {9U, 10U, 11U, 12U, 13U, 16U, 17U, 19U, 20U, 21U})
     EXPECT_NE(refusal(with_word(bytes, word, nan)), "") << word;
-  EXPECT_NE(refusal(with_word(bytes, 9, 0.0)).find("voxel"), std::string::npos);
+  for (const double voxel : {0.0, 1e-31, 1e31, 6e307})
+    EXPECT_NE(refusal(with_word(bytes, 9, voxel)).find("voxel"), std::string::npos) << voxel;
   EXPECT_NE(refusal(with_word(bytes, 16, 0.5)).find("normal of the plane"), std::string::npos);
+}
+
+TEST(DamagedTree, SizesThatCannotBe) {
+  const Segmentation s = segment(CloudView{stack().xyz(), {}});
+  const std::string bytes = tree_bytes(s);
+  EXPECT_NE(refusal(with_word(bytes, 4, std::int64_t{0})).find("height"), std::string::npos);
+  const auto n = static_cast<std::int64_t>(s.vertices.rows());
+  for (const std::int64_t lie : {n * (n - 1) / 2 + 1, std::int64_t{1} << 33, INT64_MAX})
+    EXPECT_NE(refusal(with_word(bytes, 8, lie)).find("number of edges"), std::string::npos) << lie;
+  EXPECT_EQ(read_again(with_word(bytes, 8, n * (n - 1) / 2)).edges, n * (n - 1) / 2);
 }
 
 TEST(DamagedTree, ContentsThatCannotBe) {
@@ -207,6 +219,10 @@ TEST(DamagedTree, ContentsThatCannotBe) {
   };
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.cells[7] = t.cells[6]; }), "order of the grid"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.cells[7][0] += 0.5; }), "whole number"));
+  for (const std::size_t axis : {0U, 1U, 2U}) {
+    EXPECT_TRUE(says(damaged([&](SceneTree& t) { t.cells.back()[axis] = 0x1p53; }), "at most"));
+    EXPECT_TRUE(says(damaged([&](SceneTree& t) { t.cells.front()[axis] = -0x1p53; }), "at most"));
+  }
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.vertices(3, 1) += 1; }), "centroid"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.normals.row(3) *= 2; }), "normal"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.counts[3] += 1000; }), "points of a voxel"));
@@ -227,6 +243,20 @@ TEST(DamagedTree, ContentsThatCannotBe) {
                    }),
                    "points with a vertex"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.xyz[0] = test::kHole; }), "coordinate"));
+  // Far from the voxel: aside, high above it, behind the plane; or so few that a point is missing.
+  const Vec3 n = s.plane->normal;
+  for (const double away : {1.0, -1.0, 1e30})
+    EXPECT_TRUE(says(damaged([&](SceneTree& t) {
+                       for (std::size_t k = 0; k < 3; ++k)
+                         t.xyz[k] += static_cast<float>(away * n[k]);
+                     }),
+                     "coordinates"));
+  EXPECT_TRUE(says(damaged([](SceneTree& t) { t.xyz[0] += 0.05F; }), "coordinates"));
+  EXPECT_TRUE(says(damaged([](SceneTree& t) {
+                     for (std::uint32_t& v : t.vertex_of_point)  // all of the first voxel elsewhere
+                       if (v == 0) v = static_cast<std::uint32_t>(t.cells.size() - 1);
+                   }),
+                   "coordinates"));
 }
 
 // ---- real frames
