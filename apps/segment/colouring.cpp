@@ -24,7 +24,7 @@ void join(Neighbours& neighbours, std::size_t a, std::size_t b) {
   neighbours[b].push_back(a);
 }
 
-Neighbours neighbours_in_image(Index width, Index height, const Segmentation& s) {
+Neighbours neighbours_in_image(Index width, Index height, const SceneCut& s) {
   Neighbours neighbours(s.segments.size());
   const auto label = [&](Index x, Index y) {
     return s.labels[static_cast<std::size_t>(y * width + x)];
@@ -50,22 +50,10 @@ Neighbours neighbours_in_image(Index width, Index height, const Segmentation& s)
   return neighbours;
 }
 
-double gap(const Box& a, const Box& b) {
-  double square = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double apart = std::max({0.0, a.min[axis] - b.max[axis], b.min[axis] - a.max[axis]});
-    square += apart * apart;
-  }
-  return std::sqrt(square);
-}
-
-Neighbours neighbours_in_space(const std::vector<Segment>& segments, double reach) {
+Neighbours neighbours_that_touch(const std::vector<Segment>& segments) {
   Neighbours neighbours(segments.size());
-  for (std::size_t i = 0; i < segments.size(); ++i) {
-    for (std::size_t j = i + 1; j < segments.size(); ++j) {
-      if (gap(segments[i].box, segments[j].box) < reach) join(neighbours, i, j);
-    }
-  }
+  for (const Segment& s : segments)
+    for (const Neighbour& n : s.neighbours) neighbours[s.label - 1].push_back(n.label - 1);
   return neighbours;
 }
 
@@ -110,11 +98,9 @@ std::vector<int> brightness(const Cloud& cloud) {
 }  // namespace
 
 std::vector<std::vector<std::size_t>> neighbouring_segments(const Cloud& cloud,
-                                                            const Segmentation& segmentation,
-                                                            double reach) {
-  Neighbours neighbours = cloud.organised()
-                              ? neighbours_in_image(cloud.width, cloud.height, segmentation)
-                              : neighbours_in_space(segmentation.segments, reach);
+                                                            const SceneCut& cut) {
+  Neighbours neighbours = cloud.organised() ? neighbours_in_image(cloud.width, cloud.height, cut)
+                                            : neighbours_that_touch(cut.segments);
   for (std::vector<std::size_t>& list : neighbours) {
     std::ranges::sort(list);
     const auto same = std::ranges::unique(list);
@@ -145,10 +131,7 @@ std::vector<std::uint32_t> segment_colours(const Neighbours& neighbours) {
 }
 
 std::vector<std::uint32_t> label_colours(const SceneCut& cut) {
-  Neighbours neighbours(cut.segments.size());
-  for (const Segment& s : cut.segments)
-    for (const Neighbour& n : s.neighbours) neighbours[s.label - 1].push_back(n.label - 1);
-  return segment_colours(neighbours);
+  return segment_colours(neighbours_that_touch(cut.segments));
 }
 
 std::vector<std::uint32_t> object_colours(std::span<const std::uint32_t> numbers) {

@@ -9,12 +9,12 @@
 
 namespace ph::segment {
 
-/// Which segments are neighbours: neighbours[i] lists the segments (labels less one) beside segment
-/// i, ascending. In an organised cloud those less than five pixels apart, else those whose boxes
-/// come closer than `reach`.
+/// Which segments are beside each other for who looks at them: neighbours[i] lists the segments
+/// (labels less one) beside segment i, ascending. In an image those less than five pixels apart,
+/// though one may stand far behind the other; in a cloud without rows those that touch
+/// (Segment::neighbours).
 std::vector<std::vector<std::size_t>> neighbouring_segments(const Cloud& cloud,
-                                                            const Segmentation& segmentation,
-                                                            double reach);
+                                                            const SceneCut& cut);
 
 /// A colour a segment, 0x00RRGGBB, from a palette that people with any common kind of colour
 /// blindness can tell apart (Okabe & Ito 2008). Neighbours differ as long as no segment has more

@@ -148,8 +148,7 @@ void Outputs::require_suitable(const Cloud* cloud, Index height) const {
 std::vector<std::uint32_t> Outputs::colours(const Cloud& cloud, const Segmentation& segmentation,
                                             const RunInfo& info) const {
   if (!info.numbers.empty()) return object_colours(info.numbers);
-  const double reach = 2 * arguments_.options.distance;
-  return segment_colours(neighbouring_segments(cloud, segmentation, reach));
+  return segment_colours(neighbouring_segments(cloud, segmentation));
 }
 
 void Outputs::write_file(File& file, const Cloud* cloud, const Segmentation& s,

@@ -30,21 +30,24 @@ struct Stripes {
 
 TEST(Colouring, NeighboursInTheImage) {
   const Stripes wide(3, 10);
-  EXPECT_EQ(neighbouring_segments(wide.cloud, wide.segmentation, 0),
-            (Neighbours{{1}, {0, 2}, {1}}));
+  EXPECT_EQ(neighbouring_segments(wide.cloud, wide.segmentation), (Neighbours{{1}, {0, 2}, {1}}));
   const Stripes narrow(3, 2);  // less than five pixels apart
-  EXPECT_EQ(neighbouring_segments(narrow.cloud, narrow.segmentation, 0),
+  EXPECT_EQ(neighbouring_segments(narrow.cloud, narrow.segmentation),
             (Neighbours{{1, 2}, {0, 2}, {0, 1}}));
 }
 
-TEST(Colouring, NeighboursInSpace) {
+TEST(Colouring, NeighboursInSpaceAreThoseThatTouch) {
   Cloud cloud;  // not organised
-  Segmentation s;
-  s.segments.resize(3);
-  s.segments[0].box = {{0, 0, 0}, {1, 1, 1}};
-  s.segments[1].box = {{1.01, 0, 0}, {2, 1, 1}};
-  s.segments[2].box = {{5, 5, 5}, {6, 6, 6}};
-  EXPECT_EQ(neighbouring_segments(cloud, s, 0.05), (Neighbours{{1}, {0}, {}}));
+  SceneCut cut;
+  cut.segments.resize(3);
+  for (std::uint32_t i = 0; i < 3; ++i) cut.segments[i].label = i + 1;
+  cut.segments[0].neighbours = {{3, 0.1}, {2, 0.2}};
+  cut.segments[1].neighbours = {{1, 0.2}};
+  cut.segments[2].neighbours = {{1, 0.1}};
+  EXPECT_EQ(neighbouring_segments(cloud, cut), (Neighbours{{1, 2}, {0}, {0}}));
+  const auto colours = label_colours(cut);
+  EXPECT_NE(colours[0], colours[1]);
+  EXPECT_NE(colours[0], colours[2]);
 }
 
 TEST(Colouring, NeighboursDiffer) {
