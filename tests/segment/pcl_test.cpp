@@ -34,7 +34,10 @@ TYPED_TEST(Adapter, AgreesWithPlainArrays) {
   const TableScene scene = TableScene::two_boxes();
   const auto expected = ph::segment::segment(ph::segment::CloudView{scene.xyz(), {}});
   const auto cloud = cloud_of<TypeParam>(scene);
-  EXPECT_EQ(segment_cloud(*cloud).labels, expected.labels);
+  const auto organised = segment_cloud(*cloud);
+  EXPECT_EQ(organised.labels, expected.labels);
+  EXPECT_EQ(organised.width, scene.kWidth);
+  EXPECT_EQ(organised.height, scene.kHeight);
 
   PersistenceSegmentation<TypeParam> segmentation;
   segmentation.setInputCloud(cloud);
@@ -47,6 +50,8 @@ TYPED_TEST(Adapter, AgreesWithPlainArrays) {
       EXPECT_EQ(expected.labels[static_cast<std::size_t>(i)], k + 1);
     }
   }
+  EXPECT_EQ(segmentation.getTree().width, scene.kWidth);
+  EXPECT_EQ(segmentation.getTree().height, scene.kHeight);
   const auto labelled = segmentation.getLabeledCloud();
   EXPECT_EQ(labelled.width, cloud->width);
   EXPECT_EQ(labelled.height, cloud->height);
@@ -76,11 +81,43 @@ TEST(PclAdapter, IndicesAndOptions) {
 TEST(PclAdapter, NoCloudAndEmptyCloud) {
   PersistenceSegmentation<::pcl::PointXYZ> segmentation;
   std::vector<::pcl::PointIndices> clusters(3);
+  EXPECT_TRUE(segmentation.getLabeledCloud().empty());
+  EXPECT_TRUE(segmentation.getColoredCloud()->empty());
   segmentation.segment(clusters);
   EXPECT_TRUE(clusters.empty());
   segmentation.setInputCloud(std::make_shared<::pcl::PointCloud<::pcl::PointXYZ>>());
   segmentation.segment(clusters);
   EXPECT_TRUE(clusters.empty());
+}
+
+TEST(PclAdapter, ACloudWhoseRowsDoNotHoldItIsARow) {
+  const TableScene scene = TableScene::two_boxes();
+  const auto cloud = cloud_of<::pcl::PointXYZ>(scene);
+  cloud->points.pop_back();  // past the cloud's width and height
+  const auto s = segment_cloud(*cloud);
+  EXPECT_EQ(s.height, 1);
+  EXPECT_EQ(s.segments.size(), 2U);
+}
+
+TEST(PclAdapter, ARunContextStopsAndBoundsIt) {
+  const TableScene scene = TableScene::two_boxes();
+  PersistenceSegmentation<::pcl::PointXYZ> s;
+  s.setInputCloud(cloud_of<::pcl::PointXYZ>(scene));
+  std::vector<::pcl::PointIndices> clusters;
+  std::stop_source source;
+  RunContext context;
+  context.stop = source.get_token();
+  s.setRunContext(context);
+  s.segment(clusters);
+  EXPECT_EQ(clusters.size(), 2U);
+  EXPECT_GT(context.memory.peak(), 0U);
+  source.request_stop();
+  EXPECT_THROW(s.cut(0.1, clusters), ph::Error);
+  EXPECT_THROW(s.segment(clusters), ph::Error);
+  RunContext small;
+  small.memory.set_limit(1000);
+  s.setRunContext(small);
+  EXPECT_THROW(s.segment(clusters), ph::Error);
 }
 
 TEST(PclAdapter, TheSensorsOriginIsTheViewpoint) {
@@ -98,7 +135,8 @@ TEST(PclAdapter, EverySetterReachesItsOption) {
   s.setMaxRange(3), s.setCropBox({-1, -2, -3}, {1, 2, 3}), s.setPlaneRemoval(false);
   s.setPlaneDistance(0.02), s.setViewPoint(1, 2, 3), s.setVoxelSize(0.004);
   s.setMinClusterSize(5), s.setMinPersistence(0.25), s.setMinPartSize(6), s.setObjects(false);
-  s.setDistance(0.125), s.setSteps(7), s.setCheck(false);
+  s.setDistance(0.125), s.setSteps(7), s.setCheck(false), s.setSpacing(0.05);
+  s.setPlaneNoise(0.003);
   const ph::segment::SegmentOptions& o = s.getOptions();
   EXPECT_EQ(o.max_range, 3);
   EXPECT_EQ(o.crop, (ph::segment::Box{{-1, -2, -3}, {1, 2, 3}}));
@@ -115,8 +153,31 @@ TEST(PclAdapter, EverySetterReachesItsOption) {
   EXPECT_EQ(s.getDistance(), 0.125);
   EXPECT_EQ(s.getSteps(), 7);
   EXPECT_FALSE(s.getCheck());
+  EXPECT_EQ(s.getSpacing(), 0.05);
+  EXPECT_EQ(o.spacing, 0.05);
+  EXPECT_EQ(s.getPlaneNoise(), 0.003);
+  EXPECT_EQ(o.plane_noise, 0.003);
+  Eigen::Vector3f min, max;
+  s.getCropBox(min, max);
+  EXPECT_EQ(min, Eigen::Vector3f(-1, -2, -3));
+  EXPECT_EQ(max, Eigen::Vector3f(1, 2, 3));
+  float x = 0, y = 0, z = 0;
+  s.getViewPoint(x, y, z);
+  EXPECT_EQ(Eigen::Vector3f(x, y, z), Eigen::Vector3f(1, 2, 3));
   s.unsetCropBox(), s.useSensorOriginAsViewPoint();
   EXPECT_FALSE(o.crop || o.viewpoint);
+  s.getCropBox(min, max);
+  EXPECT_TRUE(std::isinf(min[2]) && min[2] < 0 && std::isinf(max[0]) && max[0] > 0);
+  const auto cloud = std::make_shared<::pcl::PointCloud<::pcl::PointXYZ>>();
+  cloud->sensor_origin_[1] = 4;
+  s.setInputCloud(cloud);
+  s.getViewPoint(x, y, z);
+  EXPECT_EQ(Eigen::Vector3f(x, y, z), Eigen::Vector3f(0, 4, 0));
+  s.setMethod(ph::segment::Method::supervoxels);
+  PersistenceSegmentation<::pcl::PointXYZ> fresh;
+  EXPECT_EQ(fresh.getMinPersistence(), 0.01);
+  fresh.setMethod(ph::segment::Method::supervoxels);
+  EXPECT_EQ(fresh.getMinPersistence(), 0);
 }
 
 TEST(PclAdapter, WhatIsKnownOfTheSegments) {

@@ -51,13 +51,26 @@ segment::Vec3 viewpoint(const ::pcl::PointCloud<PointT>& cloud) {
   return {double{origin[0]}, double{origin[1]}, double{origin[2]}};
 }
 
+/// What the pipeline reads of a cloud, with its rows and columns if they hold all points.
+/// @param xyz its `coordinates`, which live as long as the view.
+template <class PointT>
+segment::CloudView cloud_view(const ::pcl::PointCloud<PointT>& cloud,
+                              const std::vector<float>& xyz) {
+  segment::CloudView view{xyz, viewpoint(cloud)};
+  if (cloud.width > 0 && std::size_t{cloud.width} * cloud.height == cloud.size()) {
+    view.width = static_cast<Index>(cloud.width);
+    view.height = static_cast<Index>(cloud.height);
+  }
+  return view;
+}
+
 /// ph::segment::segment on a PCL cloud.
 template <class PointT>
 segment::Segmentation segment_cloud(const ::pcl::PointCloud<PointT>& cloud,
                                     const segment::SegmentOptions& options = {},
                                     const RunContext& context = default_context()) {
   const std::vector<float> xyz = coordinates(cloud);
-  return segment::segment(segment::CloudView{xyz, viewpoint(cloud)}, options, context);
+  return segment::segment(cloud_view(cloud, xyz), options, context);
 }
 
 /// The points of each segment, by label, as PCL's segmentations give them.
@@ -138,7 +151,7 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   void setOptions(const segment::SegmentOptions& options) { options_ = options; }
   const segment::SegmentOptions& getOptions() const { return options_; }
 
-  /// What decides which voxels belong together: surface (default) or paper.
+  /// What decides which voxels belong together: surface (default), paper or supervoxels.
   void setMethod(Method method) { options_.method = method; }
   Method getMethod() const { return options_.method; }
   /// Points farther from the viewpoint are left out; metres, may be infinite.
@@ -149,31 +162,49 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
     options_.crop = segment::Box{{min[0], min[1], min[2]}, {max[0], max[1], max[2]}};
   }
   void unsetCropBox() { options_.crop.reset(); }
+  /// Without one all of space: from -infinity to infinity.
+  void getCropBox(Eigen::Vector3f& min, Eigen::Vector3f& max) const {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    min.setConstant(-infinity), max.setConstant(infinity);
+    for (int k = 0; k < 3 && options_.crop; ++k) {
+      min[k] = static_cast<float>(options_.crop->min[static_cast<std::size_t>(k)]);
+      max[k] = static_cast<float>(options_.crop->max[static_cast<std::size_t>(k)]);
+    }
+  }
   /// Whether the supporting plane and what lies behind it is removed.
   void setPlaneRemoval(bool remove) { options_.plane = remove; }
   bool getPlaneRemoval() const { return options_.plane; }
   /// Half the thickness of the plane, metres.
   void setPlaneDistance(double metres) { options_.plane_distance = metres; }
   double getPlaneDistance() const { return options_.plane_margin(); }
+  /// Half of it at a range of one metre, at least, growing with the square of the range; metres.
+  void setPlaneNoise(double metres) { options_.plane_noise = metres; }
+  double getPlaneNoise() const { return options_.plane_noise; }
   /// Where the sensor stood; else the origin that the cloud states.
   void setViewPoint(float x, float y, float z) { options_.viewpoint = segment::Vec3{x, y, z}; }
   void useSensorOriginAsViewPoint() { options_.viewpoint.reset(); }
+  /// Where the sensor stands, if that was set, else where the input cloud states.
+  void getViewPoint(float& x, float& y, float& z) const {
+    segment::Vec3 point{};
+    if (this->input_) point = viewpoint(*this->input_);
+    if (options_.viewpoint) point = *options_.viewpoint;
+    x = static_cast<float>(point[0]), y = static_cast<float>(point[1]);
+    z = static_cast<float>(point[2]);
+  }
   /// Edge of a voxel, metres.
   void setVoxelSize(double metres) { options_.voxel = metres; }
   double getVoxelSize() const { return options_.voxel_size(); }
   /// Fewest voxels of a segment.
   void setMinClusterSize(Index voxels) { options_.min_size = voxels; }
   Index getMinClusterSize() const { return options_.cut().min_size; }
-  /// Method surface: least persistence of a part, a mean concavity (0…2).
+  /// Methods surface and supervoxels: least persistence of a part, a mean concavity (0…2) or
+  /// metres.
   void setMinPersistence(double persistence) { options_.min_persistence = persistence; }
-  double getMinPersistence() const {
-    const bool supervoxels = options_.method == ph::segment::Method::supervoxels;
-    return options_.min_persistence.value_or(supervoxels ? 0 : ph::segment::CutOptions().value);
-  }
+  double getMinPersistence() const { return options_.part_persistence(); }
   /// Method supervoxels: how far the surface is from a seed at most, metres.
   void setSpacing(double metres) { options_.spacing = metres; }
   double getSpacing() const { return options_.spacing; }
-  /// Method surface: fewest voxels of a part.
+  /// Methods surface and supervoxels: fewest voxels of a part.
   void setMinPartSize(Index voxels) { options_.min_part = voxels; }
   Index getMinPartSize() const { return options_.cut().min_part; }
   /// Method surface: whether the visible parts of an object are joined.
@@ -189,6 +220,9 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   void setCheck(bool check) { options_.check = check; }
   bool getCheck() const { return options_.check; }
 
+  /// What stops, watches and bounds `segment` and `cut`; it outlives their calls.
+  void setRunContext(const RunContext& context) { context_ = &context; }
+
   /// The points of each segment, largest first. Without an input cloud there are none.
   /// @throws ph::Error as ph::segment::segment does.
   void segment(std::vector<::pcl::PointIndices>& clusters) {
@@ -196,20 +230,20 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
     result_ = segment::Segmentation();
     if (!this->initCompute()) return;
     const std::vector<float> xyz = coordinates(*this->input_, this->indices_.get());
-    result_ = ph::segment::segment(segment::CloudView{xyz, viewpoint(*this->input_)}, options_);
+    result_ = ph::segment::segment(cloud_view(*this->input_, xyz), options_, *context_);
     clusters = point_indices(result_, this->input_->header);
     this->deinitCompute();
   }
-  /// A coarser or finer cut of what the last call of `segment` found, in milliseconds; the getters
-  /// below then tell of it. @param value see segment::CutOptions. @throws ph::Error (usage) on a
-  /// value out of its range.
+  /// A coarser or finer cut of the tree that the last call of `segment` found, in milliseconds; the
+  /// getters below then tell of it. @param value see segment::CutOptions. @throws ph::Error (usage)
+  /// on a value out of its range.
   void cut(double value, std::vector<::pcl::PointIndices>& clusters) {
     segment::CutOptions options = result_.first_cut;
     options.value = value;
     cut(options, clusters);
   }
   void cut(const segment::CutOptions& options, std::vector<::pcl::PointIndices>& clusters) {
-    static_cast<segment::SceneCut&>(result_) = ph::segment::cut(result_, options);
+    static_cast<segment::SceneCut&>(result_) = ph::segment::cut(result_, options, *context_);
     clusters = point_indices(result_, this->input_ ? this->input_->header : ::pcl::PCLHeader());
   }
 
@@ -246,17 +280,21 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
     size = vector(box.size);
     for (int k = 0; k < 3; ++k) rotation.col(k) = vector(box.axes[static_cast<std::size_t>(k)]);
   }
-  /// The label of each point of the input cloud; 0 for points outside the indices.
+  /// The label of each point of the input cloud; 0 for points outside the indices. Empty without
+  /// an input cloud.
   ::pcl::PointCloud<::pcl::PointXYZL> getLabeledCloud() const {
+    if (!this->input_) return {};
     return labelled_cloud(*this->input_, result_.labels);
   }
-  /// The input cloud in the colours of its segments, the rest in grey.
+  /// The input cloud in the colours of its segments, the rest in grey. Empty without one.
   typename ::pcl::PointCloud<::pcl::PointXYZRGB>::Ptr getColoredCloud() const {
-    return ::pcl::make_shared<::pcl::PointCloud<::pcl::PointXYZRGB>>(
-        coloured_cloud(*this->input_, result_));
+    const auto coloured = ::pcl::make_shared<::pcl::PointCloud<::pcl::PointXYZRGB>>();
+    if (this->input_) *coloured = coloured_cloud(*this->input_, result_);
+    return coloured;
   }
 
  private:
+  const RunContext* context_ = &default_context();
   segment::SegmentOptions options_;
   segment::Segmentation result_;
 };
