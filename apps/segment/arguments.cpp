@@ -20,7 +20,7 @@ using app::add_value;
 
 /// What --version --verbose adds.
 constexpr std::string_view kBuiltIn =
-    "methods     surface paper supervoxels\n"
+    "methods     {}\n"
     "reads       pcd ply xyz csv png tree\n"
     "writes      pcd ply npy csv png json svg tree\n";
 
@@ -73,8 +73,7 @@ bool parse_switch(std::string_view option, const std::string& text) {
 }
 
 Method parse_method(const std::string& text) {
-  static constexpr std::array<std::string_view, 3> choices = {"surface", "paper", "supervoxels"};
-  return static_cast<Method>(app::choose("--method", text, choices));
+  return static_cast<Method>(app::choose("--method", text, kMethodNames));
 }
 
 /// "0.005, paper: 0.01".
@@ -96,17 +95,16 @@ void add_input_options(CLI::App& app, Arguments& a) {
       "--intrinsics also a depth image; - is standard input. Several, or a folder, are a "
       "stream of frames: its outputs are folders (FOLDER/) or have a * for the frame's "
       "name, and --json gets one line a frame");
-  add_value(app, "--frames-from", "LIST",
-            "a stream of the files that LIST names, one a line; -: standard input, each as soon as "
-            "it is named",
-            [&a](const std::string& v) { a.frames_from = v; });
+  app::add_path(app, "--frames-from", "LIST",
+                "a stream of the files that LIST names, one a line; -: standard input, each as "
+                "soon as it is named",
+                a.frames_from);
   app.add_flag("--stable-labels", a.stable_labels,
                "stream: an object keeps its label from frame to frame (by overlap in the image, of "
                "unorganised clouds in voxels); labels are then not in the order of size");
-  add_value(app, "--depth", "D.png", "depth image in place of INPUT; 0 is a hole",
-            [&a](const std::string& v) { a.image.depth = v; });
-  add_value(app, "--color,--colour", "C.png", "colour image of the same size",
-            [&a](const std::string& v) { a.image.colour = v; });
+  app::add_path(app, "--depth", "D.png", "depth image in place of INPUT; 0 is a hole",
+                a.image.depth);
+  app::add_path(app, "--color,--colour", "C.png", "colour image of the same size", a.image.colour);
   add_value(app, "--intrinsics", "FX,FY,CX,CY",
             "focal lengths and principal point of the depth image, pixels",
             [&a](const std::string& v) {
@@ -127,20 +125,15 @@ double at_least_zero(std::string_view option, const std::string& text) {
   return value;
 }
 
-void add_stage_options(CLI::App& app, SegmentOptions& o) {
+/// Options that others contradict. Not asked for by name: that ends the program if there is no
+/// memory for a copy of the name.
+struct Known {
+  CLI::Option *method = nullptr, *supervoxels = nullptr, *min_persistence = nullptr;
+};
+
+/// What comes before the plane is gone.
+void add_scene_options(CLI::App& app, SegmentOptions& o) {
   const SegmentOptions d;
-  add_value(app, "--method", "NAME",
-            "surface: by the shape of the visible surface (default); paper: by distance alone, the "
-            "pipeline of the ICRA 2016 paper; supervoxels: see --supervoxels",
-            [&o](const std::string& v) { o.method = parse_method(v); });
-  add_value(app, "--supervoxels", "M",
-            fmt::format("method supervoxels, with seeds so far apart that the surface is nowhere "
-                        "more than M metres from one (default: {})",
-                        d.spacing),
-            [&o](const std::string& v) {
-              o.method = Method::supervoxels;
-              o.spacing = length("--supervoxels", v);
-            });
   add_value(app, "--max-range", "M",
             fmt::format("keep points up to M metres from the viewpoint; inf: all (default: {})",
                         d.max_range),
@@ -158,14 +151,36 @@ void add_stage_options(CLI::App& app, SegmentOptions& o) {
             fmt::format("half the thickness of the plane, metres (default: {})",
                         defaults_of(&SegmentOptions::plane_margin)),
             [&o](const std::string& v) { o.plane_distance = length("--plane-distance", v); });
+  add_value(app, "--plane-noise", "M",
+            fmt::format("surface, supervoxels: half the thickness of the plane at a range of one "
+                        "metre, metres, at least; it grows with the square of the range. A smaller "
+                        "--plane-distance goes before it; 0: no growth (default: {})",
+                        d.plane_noise),
+            [&o](const std::string& v) { o.plane_noise = length("--plane-noise", v, true); });
   add_value(app, "--viewpoint", "X,Y,Z",
             "where the sensor stood, metres (default: the file's VIEWPOINT, else 0,0,0)",
             [&o](const std::string& v) { o.viewpoint = parse_point("--viewpoint", v); });
+}
+
+Known add_method_options(CLI::App& app, SegmentOptions& o) {
+  const SegmentOptions d;
+  Known known;
+  known.method = add_value(
+      app, "--method", "NAME",
+      "surface: by the shape of the visible surface (default); paper: by distance alone, the "
+      "pipeline of the ICRA 2016 paper; supervoxels: see --supervoxels",
+      [&o](const std::string& v) { o.method = parse_method(v); });
+  known.supervoxels = add_value(
+      app, "--supervoxels", "M",
+      fmt::format("method supervoxels, with seeds so far apart that the surface is nowhere more "
+                  "than M metres from one; no less than a voxel (default: {})",
+                  d.spacing),
+      [&o](const std::string& v) { o.spacing = length("--supervoxels", v); });
   add_value(app, "--voxel", "M",
             fmt::format("edge of a voxel, metres (default: {})",
                         defaults_of(&SegmentOptions::voxel_size)),
             [&o](const std::string& v) { o.voxel = length("--voxel", v); });
-  add_value(
+  known.min_persistence = add_value(
       app, "--min-persistence", "X",
       fmt::format("least persistence of a part; one of less joins the neighbour that it meets "
                   "first. surface: a mean concavity from 0 to 2 (default: {}); supervoxels: metres "
@@ -186,15 +201,17 @@ void add_stage_options(CLI::App& app, SegmentOptions& o) {
       "--no-check", [&o] { o.check = false; },
       "skip the cross-check of union-find against boundary-matrix reduction "
       "(on by default; a difference exits 1)");
+  return known;
 }
 
-/// What a stored tree follows, too.
-void add_cut_options(CLI::App& app, CutArguments& cut) {
+/// What a stored tree follows, too. Contradictions are refused.
+void add_cut_options(CLI::App& app, CutArguments& cut, const Known& known) {
   const CutOptions d, supervoxels = SegmentOptions{.method = Method::supervoxels}.cut();
   add_value(app, "--cut", "X",
             "cut the merge tree here: the same as --min-persistence; paper: segments are "
             "the components at X metres, at most --distance (default: as the tree was cut)",
-            [&cut](const std::string& v) { cut.value = at_least_zero("--cut", v); });
+            [&cut](const std::string& v) { cut.value = at_least_zero("--cut", v); })
+      ->excludes(known.min_persistence);
   add_value(
       app, "--min-part", "N",
       fmt::format("fewest voxels of a part; a smaller one joins the neighbour that it meets first "
@@ -206,19 +223,20 @@ void add_cut_options(CLI::App& app, CutArguments& cut) {
       fmt::format("fewest voxels of a segment (default: {}; supervoxels: {})", d.min_size,
                   supervoxels.min_size),
       [&cut](const std::string& v) { cut.min_size = app::parse_integer("--min-size", v, 1); });
-  app.add_flag_callback(
+  CLI::Option* objects = app.add_flag_callback(
       "--objects", [&cut] { cut.objects = true; },
       "surface: join the visible parts of an object, over a rim or behind what hides its middle "
       "(default)");
   app.add_flag_callback(
-      "--parts", [&cut] { cut.objects = false; }, "surface: leave each visible part a segment");
+         "--parts", [&cut] { cut.objects = false; }, "surface: leave each visible part a segment")
+      ->excludes(objects);
 }
 
 void add_output_options(CLI::App& app, Arguments& a) {
   OutputPaths& files = a.files;
   const auto path = [&app](const std::string& names, const std::string& placeholder,
                            const std::string& what, std::string& target) {
-    add_value(app, names, placeholder, what, [&target](const std::string& v) { target = v; });
+    app::add_path(app, names, placeholder, what, target);
   };
   path("-o,--output", "FILE.pcd|.ply",
        "the same points in the same order with all their fields and `label` (an existing `label` "
@@ -259,11 +277,9 @@ void add_planned_options(CLI::App& app) {
 
 /// The first option that was given of those that a stored tree cannot follow.
 std::string scene_option(const CLI::App& app) {
-  constexpr std::array<std::string_view, 11> names = {
-      "method",          "max-range", "crop",        "plane",
-      "plane-distance",  "viewpoint", "supervoxels", "voxel",
-      "min-persistence", "distance",  "steps"};
-  // Not asked for by name: that ends the program if there is no memory for a copy of the name.
+  constexpr std::array<std::string_view, 12> names = {
+      "method",    "max-range",   "crop",  "plane",           "plane-distance", "plane-noise",
+      "viewpoint", "supervoxels", "voxel", "min-persistence", "distance",       "steps"};
   for (const CLI::Option* option : app.get_options()) {
     const std::vector<std::string>& known_as = option->get_lnames();
     if (option->count() > 0 && !known_as.empty() && std::ranges::count(names, known_as.front()) > 0)
@@ -318,13 +334,23 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
   CLI::App app("Segments a point cloud or a depth image by zero-dimensional persistent homology.",
                "ph-segment");
   add_input_options(app, a);
-  add_stage_options(app, a.options);
-  add_cut_options(app, a.cut);
+  add_scene_options(app, a.options);
+  const Known known = add_method_options(app, a.options);
+  add_cut_options(app, a.cut, known);
   add_output_options(app, a);
   add_planned_options(app);
   app::add_common_options(app, a.common);
-  if (auto answer = app::parse_command_line(app, a.common, argc, argv, std::string(kBuiltIn)))
+  if (auto answer = app::parse_command_line(app, a.common, argc, argv,
+                                            fmt::format(kBuiltIn, fmt::join(kMethodNames, " "))))
     return answer;
+  if (known.supervoxels->count() > 0) {
+    if (known.method->count() > 0 && a.options.method != Method::supervoxels) {
+      throw Error(ErrorKind::usage,
+                  fmt::format("--supervoxels: found --method {}, expected supervoxels or none",
+                              kMethodNames[static_cast<std::size_t>(a.options.method)]));
+    }
+    a.options.method = Method::supervoxels;
+  }
   a.scene_option = scene_option(app);
   a.options.min_part = a.cut.min_part;
   a.options.min_size = a.cut.min_size;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -18,7 +19,8 @@ struct RunInfo {
   bool from_tree = false;   ///< a stored tree was cut
   /// What each segment is called in the files; empty: by its label.
   std::vector<std::uint32_t> numbers = {};
-  std::vector<Barcode> signatures = {};  ///< of each segment; empty: not asked for
+  /// Of each segment, none of one for which there was no memory; empty: not asked for.
+  std::vector<std::optional<Barcode>> signatures = {};
 
   std::uint32_t number_of(std::uint32_t label) const {
     return label == 0 || numbers.empty() ? label : numbers[label - 1];

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <new>
 #include <optional>
 #include <span>
 
@@ -117,11 +118,37 @@ Result result_of(const Arguments& arguments, const Outputs& outputs, app::Sessio
   return result;
 }
 
+/// Of each segment. One without memory for it has none, with a note: the rest is not lost.
+std::vector<std::optional<Barcode>> signatures_of(const Segmentation& s, app::Session& session) {
+  std::vector<std::optional<Barcode>> signatures(s.segments.size());
+  for (const Segment& g : s.segments) {
+    const auto note = [&](std::string_view why) {
+      session.note(fmt::format("segment {}: no signature: {}", g.label, why));
+    };
+    try {
+      signatures[g.label - 1] = signature(s, s, std::span(&g.label, 1), session.context());
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::resource) throw;
+      note(error.what());
+    } catch (const std::bad_alloc&) {
+      note("memory ran out");
+    }
+  }
+  return signatures;
+}
+
 /// What --verbose tells of the stages.
-void explain_stages(const Segmentation& s, app::Session& session) {
+void explain_stages(const Segmentation& s, const Arguments& arguments, app::Session& session) {
   for (const Stage& stage : s.stages) {
     session.explain(
         fmt::format("{:12} {:8} points {:9.3f} ms", stage.name, stage.points, 1e3 * stage.seconds));
+  }
+  const SegmentOptions& options = arguments.options;
+  if (s.method == options.method && !options.voxel && s.voxel > options.voxel_size()) {
+    session.explain(
+        fmt::format("voxels of {:.4g} m in place of {} m: most points are too far apart "
+                    "to touch in smaller ones",
+                    s.voxel, options.voxel_size()));
   }
   if (!s.plane) return;
   const auto& [normal, offset, share] = *s.plane;
@@ -137,7 +164,7 @@ Outcome run_frame(const Arguments& arguments, app::Session& session, const OfStr
   const Result result = result_of(arguments, outputs, session);
   const Segmentation& s = result.segmentation;
   for (const std::string& text : warnings(arguments, result.cloud, s)) session.note(text);
-  explain_stages(s, session);
+  explain_stages(s, arguments, session);
 
   // Before anything is written: the labels may not be there.
   std::optional<std::string> answer;
@@ -150,9 +177,7 @@ Outcome run_frame(const Arguments& arguments, app::Session& session, const OfStr
                .read_seconds = result.read_seconds,
                .from_tree = !result.cloud};
   if (stream && stream->tracker) info.numbers = stream->tracker->update(s, s);
-  if (arguments.signatures)
-    for (const Segment& g : s.segments)
-      info.signatures.push_back(signature(s, s, std::span(&g.label, 1), session.context()));
+  if (arguments.signatures) info.signatures = signatures_of(s, session);
   outputs.write(result.cloud ? &*result.cloud : nullptr, s, info);
   if (answer) write_file("-", *answer);
   return {s.difference.empty() ? app::kOk : app::kDifference, one_line_summary(s),

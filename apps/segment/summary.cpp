@@ -29,6 +29,7 @@ std::string options_of(const SegmentOptions& o) {
                  {"crop", o.crop ? box_of(*o.crop) : "null"},
                  {"plane", boolean(o.plane)},
                  {"plane_distance", number(o.plane_margin())},
+                 {"plane_noise", number(o.plane_noise)},
                  {"viewpoint", o.viewpoint ? numbers(*o.viewpoint) : "null"},
                  {"voxel", o.voxel ? number(*o.voxel) : "null"},
                  {"distance", number(o.distance)},
@@ -71,10 +72,10 @@ std::string neighbours_of(const Segment& segment, const RunInfo& info) {
 }
 
 std::string signature_of(const Segment& segment, const RunInfo& info) {
-  if (info.signatures.empty()) return "null";
+  if (info.signatures.empty() || !info.signatures[segment.label - 1]) return "null";
   const auto bars_of = [&](int dim) {
     std::string text;
-    for (const Bar& bar : info.signatures[segment.label - 1].bars(dim)) {
+    for (const Bar& bar : info.signatures[segment.label - 1]->bars(dim)) {
       text += text.empty() ? "" : ", ";
       text += "[" + number(bar.birth) + ", " + number(bar.death) + "]";
     }

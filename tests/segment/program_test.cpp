@@ -163,6 +163,20 @@ TEST_F(Program, UsageErrors) {
                                 "scene.pcd --color c.png",
                                 "--depth d.png --intrinsics 1,2,3",
                                 "scene.pcd scene.pcd",
+                                "scene.pcd --supervoxels 0.03 --method surface",
+                                "scene.pcd --method paper --supervoxels 0.03",
+                                "scene.pcd --supervoxels 0.001",
+                                "scene.pcd --parts --objects",
+                                "scene.pcd --cut 0.1 --min-persistence 0.1",
+                                "scene.pcd --plane-noise -1",
+                                "scene.pcd --plane-noise inf",
+                                "scene.pcd --voxel 1e-17",
+                                "scene.pcd --voxel 1e308",
+                                "scene.pcd --labels ''",
+                                "scene.pcd -o ''",
+                                "scene.pcd --json=",
+                                "--depth ''",
+                                "--frames-from '' --json -",
                                 "scene.pcd --voxel"}) {
     EXPECT_EQ(run(arguments), 64) << arguments;
     const std::string message = err();
@@ -205,6 +219,41 @@ TEST_F(Program, SupervoxelsAndSignatures) {
     EXPECT_EQ(run(std::string("scene.pcd ") + bad), 64) << bad;
 }
 
+TEST_F(Program, OptionsThatSayTheSameAreNoContradiction) {
+  EXPECT_EQ(run("scene.pcd --method supervoxels --supervoxels 0.03 --labels a.npy"), 0) << err();
+  EXPECT_EQ(run("scene.pcd --supervoxels 0.03 --labels b.npy"), 0) << err();
+  EXPECT_EQ(contents(at("a.npy")), contents(at("b.npy")));
+}
+
+TEST_F(Program, ASignatureWithoutMemoryIsNullAndTheRestIsThere) {
+  // Specks in the corners of a large cube are one segment by distance, with a box far too large.
+  std::ofstream points(at("corners.xyz"));
+  for (int i = 0; i < 400; ++i)
+    points << 2.0 * (i % 2) << ' ' << 2.0 * (i / 2 % 2) << ' ' << 2.0 * (i / 4 % 2) + 1e-4 * i
+           << '\n';
+  for (int i = 0; i < 40; ++i) points << -3 << ' ' << 1e-3 * i << " 0\n";
+  points.close();
+  ASSERT_EQ(run("corners.xyz --method paper --plane off --max-range 10 --distance 2.5 --voxel 0.01 "
+                "--min-size 2 --signatures --json s.json --labels l.npy --memory-limit 100MB"),
+            0)
+      << err();
+  EXPECT_NE(err().find("segment 1: no signature: "), std::string::npos) << err();
+  const std::string json = contents(at("s.json"));
+  EXPECT_NE(json.find("\"signature\": null"), std::string::npos) << json;
+  EXPECT_NE(json.find("\"signature\": {\"h0\": "), std::string::npos) << json;
+  EXPECT_TRUE(fs::exists(at("l.npy")));
+}
+
+TEST_F(Program, SaysWhyVoxelsAreLarger) {
+  std::ofstream points(at("sparse.xyz"));
+  for (int i = 0; i < 1600; ++i) points << 0.009 * (i % 40) << ' ' << 0.009 * (i / 40) << " 0.7\n";
+  points.close();
+  EXPECT_EQ(run("sparse.xyz --plane off --verbose"), 0);
+  EXPECT_NE(err().find(" in place of 0.005 m"), std::string::npos) << err();
+  EXPECT_EQ(run("scene.pcd --verbose"), 0);
+  EXPECT_EQ(err().find(" in place of "), std::string::npos) << err();
+}
+
 TEST_F(Program, AStoredTreeIsAnInput) {
   ASSERT_EQ(run("scene.pcd --tree s.tree --labels a.npy --barcode a.csv"), 0) << err();
   ASSERT_EQ(run("s.tree --labels b.npy --barcode b.csv --json b.json"), 0) << err();
@@ -225,7 +274,8 @@ TEST_F(Program, WhatAStoredTreeCannotDo) {
   ASSERT_EQ(run("scene.pcd --tree s.tree"), 0) << err();
   for (const char* arguments :
        {"-o o.pcd", "--coloured c.pcd", "--picture p.png", "--voxel 0.01", "--method paper",
-        "--distance 0.01", "--plane off", "--min-persistence 0.1", "--cut -1", "--tree t.txt"}) {
+        "--distance 0.01", "--plane off", "--plane-noise 0.01", "--min-persistence 0.1", "--cut -1",
+        "--tree t.txt"}) {
     EXPECT_EQ(run(std::string("s.tree ") + arguments), 64) << arguments;
     EXPECT_EQ(std::ranges::count(err(), '\n'), 1) << err();
   }
@@ -269,41 +319,15 @@ TEST_F(Program, InputErrors) {
 
 TEST_F(Program, HelpAndVersion) {
   EXPECT_EQ(run("--help"), 0);
-  for (const char* option : {"--method",
-                             "--max-range",
-                             "--crop",
-                             "--plane",
-                             "--plane-distance",
-                             "--voxel",
-                             "--min-part",
-                             "--min-persistence",
-                             "--distance",
-                             "--steps",
-                             "--min-size",
-                             "--viewpoint",
-                             "--no-check",
-                             "--output",
-                             "--labels",
-                             "--barcode",
-                             "--plot",
-                             "--json",
-                             "--depth",
-                             "--color",
-                             "--intrinsics",
-                             "--depth-scale",
-                             "--coloured",
-                             "--picture",
-                             "--threads",
-                             "--memory-limit",
-                             "--progress",
-                             "--quiet",
-                             "--verbose",
-                             "--version",
-                             "--objects",
-                             "--parts",
-                             "--cut",
-                             "--tree",
-                             "--explain",
+  for (const char* option : {"--method",          "--max-range",   "--crop",         "--plane",
+                             "--plane-distance",  "--plane-noise", "--voxel",        "--min-part",
+                             "--min-persistence", "--distance",    "--steps",        "--min-size",
+                             "--viewpoint",       "--no-check",    "--output",       "--labels",
+                             "--barcode",         "--plot",        "--json",         "--depth",
+                             "--color",           "--intrinsics",  "--depth-scale",  "--coloured",
+                             "--picture",         "--threads",     "--memory-limit", "--progress",
+                             "--quiet",           "--verbose",     "--version",      "--objects",
+                             "--parts",           "--cut",         "--tree",         "--explain",
                              "--report"}) {
     EXPECT_NE(out().find(option), std::string::npos) << option;
   }
