@@ -227,6 +227,17 @@ TEST(Pipeline, PlainArraysKeepTheirRowsAndColumns) {
   }
 }
 
+TEST(Pipeline, ColumnsWithoutRowsAreATreeThatIsReadAgain) {
+  const std::pair<Index, Index> sizes[] = {{5, 0}, {0, 5}, {0, 0}};
+  for (const auto& [width, height] : sizes) {
+    const Segmentation s = segment(CloudView{{}, {}, width, height});
+    EXPECT_EQ(s.width * s.height, 0);
+    const SceneTree again = read_tree(Input::view(tree_bytes(s), "s.tree"));
+    EXPECT_EQ(again.width, s.width);
+    EXPECT_EQ(again.height, 1);
+  }
+}
+
 TEST(Pipeline, WhatIsHeldCountsInTheBudget) {
   const TableScene scene = TableScene::two_boxes();
   const std::size_t points = scene.truth().size();

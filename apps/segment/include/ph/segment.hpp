@@ -25,8 +25,9 @@ struct CloudView {
   Index width = 0;   ///< columns of an organised cloud; 0: it is not organised, all in one row
   Index height = 1;  ///< its rows; width * height is the number of points
 
-  Index columns() const { return width > 0 ? width : static_cast<Index>(xyz.size() / 3); }
-  Index rows() const { return width > 0 ? height : 1; }
+  bool organised() const { return width > 0 && height > 0; }
+  Index columns() const { return organised() ? width : static_cast<Index>(xyz.size() / 3); }
+  Index rows() const { return organised() ? height : 1; }
 };
 
 /// A default-constructed value suits a table top seen by a structured-light or time-of-flight
