@@ -14,6 +14,8 @@
 namespace ph::segment {
 namespace {
 
+using test::all_of;
+
 /// Points of z = 1 + 0.5 y with noise, seen from the origin; the first `outliers` lie elsewhere.
 std::vector<float> tilted_plane(int count, int outliers, double noise) {
   std::mt19937 random(11);
@@ -27,12 +29,6 @@ std::vector<float> tilted_plane(int count, int outliers, double noise) {
     for (const double c : {x, y, z}) xyz.push_back(static_cast<float>(c));
   }
   return xyz;
-}
-
-std::vector<Index> all_of(const std::vector<float>& xyz) {
-  std::vector<Index> points(xyz.size() / 3);
-  std::iota(points.begin(), points.end(), Index{0});
-  return points;
 }
 
 TEST(Plane, IsFoundAmongNoiseAndOutliers) {

@@ -111,4 +111,11 @@ class TableScene {
   std::vector<int> truth_;
 };
 
+/// The numbers of all points.
+inline std::vector<Index> all_of(const std::vector<float>& xyz) {
+  std::vector<Index> points(xyz.size() / 3);
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = static_cast<Index>(i);
+  return points;
+}
+
 }  // namespace ph::segment::test
