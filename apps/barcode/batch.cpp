@@ -80,8 +80,10 @@ int run_one(const Job& job, const Arguments& arguments, app::Session& session) {
 
 }  // namespace
 
-int run_all(const Arguments& arguments, app::Session& session) {
-  const BarcodeFormat format = format_of(arguments, session);
+int run_all(const Arguments& given, app::Session& session) {
+  const BarcodeFormat format = format_of(given, session);
+  Arguments arguments = given;
+  arguments.options.cells = format == BarcodeFormat::json;  // the one that shows them
   require_room(format, arguments);
   const std::vector<Job> jobs = jobs_of(arguments, format);
   if (jobs.size() == 1 && !arguments.is_batch()) return run(jobs[0], arguments, session).code;

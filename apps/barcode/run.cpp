@@ -162,7 +162,6 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   if (!planned.collapse_reason.empty()) session.explain("collapse " + collapse_text(planned));
 
   Options options = with_plan(arguments.options, planned);
-  options.cells = job.format == BarcodeFormat::json;  // the one that shows them
   // A bar that the threshold cuts is infinite, however short it would have been.
   if (built.cut) options.min_persistence = std::min(options.min_persistence, 0.0);
   const auto compute = [&] {

@@ -100,6 +100,9 @@ BLOW_UPS = (
     ("hyper.dipha",),
     ("graph.txt", "--format", "sparse"),
     ("graph.txt", "--format", "sparse", "--max-dim", "0", "--output-format", "npy"),
+    ("band.txt", "--format", "sparse", "--max-dim", "2"),
+    ("high.txt", "--max-dim", "2", "--threshold", "1"),
+    ("cloud.txt", "--threshold", "0.01", "--max-dim", "0", "--output-format", "json"),
     ("tree.txt", "--format", "simplices"),
     ("corner.txt", "--format", "simplices", "--complex", "lower-star", "--values",
      "corner.values"),
@@ -172,7 +175,7 @@ class WaysOut(ProgramTest):
             ("high.txt", 64, 3),
             ("plane.txt", 64, 3, "--max-dim", "1"),
             ("cloud.txt", 128, 2, "--threshold", "0.03"),
-            ("graph.txt", 45, 1, "--format", "sparse"),
+            ("graph.txt", 30, 1, "--format", "sparse"),
             ("band.txt", 32, 2, "--format", "sparse", "--max-dim", "2"))
 
     def setUp(self):

@@ -13,8 +13,12 @@
 namespace ph::detail {
 namespace {
 
-// A bar with its cells, vertex and edge or edge and triangle, while bars are sorted.
-constexpr double kBytesPerBar = 24 + 32 + 5 * 8 + 72;
+// A bar while bars are sorted; its cells, vertex and edge or edge and triangle, come on top.
+constexpr double kBytesPerBar = 24 + 24, kBytesPerCells = 32 + 5 * 8 + 48;
+double bytes_per_bar(const Options& options) {
+  return kBytesPerBar + (options.cells ? kBytesPerCells : 0);
+}
+
 // What small containers, the allocator and the pages of the program's own code come to.
 constexpr double kAlways = 4 << 20;
 // Cells that the engine lists in the larger part that it computes: enough to show how memory grows,
@@ -87,8 +91,8 @@ Pilot run_pilot(const Rips& part, double listed, const Options& options,
   for (std::size_t i = 0; i < barcode.size(); ++i) bars += barcode[i].dim > 0 ? 1 : 0;
   const double known =
       16 * static_cast<double>(copy.edge_count()) + structure(copy, options.engine);
-  return {listed,
-          std::max(0.0, static_cast<double>(own.memory.peak()) - known) + kBytesPerBar * bars};
+  return {listed, std::max(0.0, static_cast<double>(own.memory.peak()) - known) +
+                      bytes_per_bar(options) * bars};
 }
 
 double listed_of(const Rips& part, const Options& options, const RunContext& context) {
@@ -158,7 +162,7 @@ MemoryForecast forecast_rips(const Rips& rips, std::span<const double> cells,
   const double listed = sum(cells);
   const double edges = 16 * static_cast<double>(rips.edge_count());
   const double known = edges + structure(rips, options.engine);
-  const double most = known + kBytesPerBar * static_cast<double>(rips.size()) + kAlways;
+  const double most = known + bytes_per_bar(options) * static_cast<double>(rips.size()) + kAlways;
   // The lens sweep stops where nothing happens any more; lists are not full by then.
   const double least = options.engine == Engine::lens ? edges : known;
   if (rips.has_only_components() || rips.size() < 2) return {least, most};

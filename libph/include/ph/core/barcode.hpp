@@ -103,11 +103,11 @@ class Barcode {
                           std::span<const std::int64_t> coefficients);
   /// Brings the bars into the order stated above. @throws Error (resource, cancelled).
   void sort(const RunContext& context = default_context());
-  /// What it takes.
+  /// What it holds; room for more is not touched yet.
   std::size_t bytes() const {
-    return bars_.capacity() * sizeof(Bar) + cells_.capacity() * sizeof(Cells) +
-           chains_.capacity() * sizeof(Chain) +
-           (numbers_.capacity() + coefficients_.capacity()) * sizeof(Index);
+    return bars_.size() * sizeof(Bar) + cells_.size() * sizeof(Cells) +
+           chains_.size() * sizeof(Chain) +
+           (numbers_.size() + coefficients_.size()) * sizeof(Index);
   }
 
  private:
