@@ -2,9 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <thread>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "ph/complex/distance_image.hpp"
@@ -116,6 +121,89 @@ TEST(DistanceImage, RefusesWhatItCannotDo) {
   RunContext little;
   little.memory.set_limit(1000);
   EXPECT_EQ(kind(two, 0.01, Index{1}, little), ErrorKind::resource);
+}
+
+// ---- voxels
+
+TEST(Voxels, AreEmptyWhenTheyWereMovedFrom) {
+  Voxels from(std::vector<std::uint8_t>{1, 2, 3});
+  const Voxels to = std::move(from);
+  EXPECT_EQ(to.size(), 3U);
+  const auto expect_empty = [](const Voxels& voxels) {
+    EXPECT_EQ(voxels.size(), 0U);
+    EXPECT_EQ(voxels.bytes(), 0U);
+    EXPECT_EQ(voxels.type(), VoxelType::float64);
+    EXPECT_TRUE(voxels.empty());
+    EXPECT_TRUE(voxels.begin() == voxels.end());
+    EXPECT_TRUE(voxels.doubles().empty());
+    EXPECT_EQ(voxels.data(), nullptr);
+    EXPECT_EQ(voxels, Voxels());
+  };
+  expect_empty(from);  // NOLINT(bugprone-use-after-move)
+  expect_empty(Voxels());
+  Voxels copy = from;
+  expect_empty(copy);
+  copy.change([](auto& all) { all.resize(2); });
+  EXPECT_EQ(copy, (Voxels{0, 0}));
+  expect_empty(from);
+  from = to;
+  EXPECT_EQ(from, to);
+
+  Image image{{1, 3}, {1, 2, 3}};
+  const Image other = std::move(image);
+  EXPECT_EQ(other.values.size(), 3U);
+  EXPECT_EQ(image.dim(), 0);  // NOLINT(bugprone-use-after-move)
+  EXPECT_TRUE(image.values.empty());
+  EXPECT_TRUE(persistence(Cubical(image)).empty());
+}
+
+TEST(Voxels, AreOfFiveTypes) {
+  static_assert(std::is_convertible_v<std::vector<std::int16_t>, Voxels>);
+  static_assert(!std::is_constructible_v<Voxels, std::vector<int>>);
+  static_assert(!std::is_constructible_v<Voxels, std::vector<std::uint64_t>>);
+  EXPECT_EQ(Voxels(std::vector<std::uint8_t>(2)).type(), VoxelType::uint8);
+  EXPECT_EQ(Voxels(std::vector<std::uint16_t>(2)).type(), VoxelType::uint16);
+  EXPECT_EQ(Voxels(std::vector<std::int16_t>(2)).type(), VoxelType::int16);
+  EXPECT_EQ(Voxels(std::vector<float>(2)).type(), VoxelType::float32);
+  EXPECT_EQ(Voxels(std::vector<double>(2)).type(), VoxelType::float64);
+}
+
+TEST(Voxels, AreChangedInPlaceByTheirOnlyOwner) {
+  Voxels voxels{1, 2, 3};
+  const void* const place = voxels.data();
+  {
+    const Voxels copy = voxels;
+    EXPECT_EQ(copy.data(), place) << "copies share";
+  }
+  voxels.change([](auto& all) { all[0] = 9; });
+  EXPECT_EQ(voxels.data(), place);
+  const Voxels copy = voxels;
+  voxels.change([](auto& all) { all[0] = 5; });
+  EXPECT_NE(voxels.data(), copy.data());
+  EXPECT_EQ(copy, (Voxels{9, 2, 3}));
+  EXPECT_EQ(voxels, (Voxels{5, 2, 3}));
+}
+
+// A copy each: no thread sees what the other does. The later one is alone by then and changes its
+// numbers in place, after the other has read them; nothing but the count of owners says that it
+// has, the flag does not, and ThreadSanitizer listens.
+TEST(Voxels, AreChangedByThreadsWithACopyEach) {
+  Voxels early{1, 2, 3}, late = early;
+  const void* const place = late.data();
+  std::atomic<bool> is_alone = false;
+  std::thread first([&] {
+    early.change([](auto& all) { all[0] = 7; });
+    is_alone.store(true, std::memory_order_relaxed);
+  });
+  std::thread second([&] {
+    while (!is_alone.load(std::memory_order_relaxed)) std::this_thread::yield();
+    late.change([](auto& all) { all[0] = 9; });
+  });
+  first.join();
+  second.join();
+  EXPECT_EQ(late.data(), place);
+  EXPECT_EQ(early, (Voxels{7, 2, 3}));
+  EXPECT_EQ(late, (Voxels{9, 2, 3}));
 }
 
 }  // namespace

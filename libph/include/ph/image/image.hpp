@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <algorithm>
-#include <compare>
+#include <atomic>
+#include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <initializer_list>
 #include <iterator>
-#include <memory>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -13,45 +15,87 @@
 
 namespace ph {
 
+/// What the numbers of an image may be: the types that VoxelType names.
+template <class T>
+concept VoxelNumber = std::same_as<T, std::uint8_t> || std::same_as<T, std::uint16_t> ||
+    std::same_as<T, std::int16_t> || std::same_as<T, float> || std::same_as<T, double>;
+
 /// The numbers of an image, stored as they came: a byte stays a byte. Read as doubles. Copies share
-/// the numbers; whoever changes them gets numbers of his own.
+/// the numbers; whoever changes them gets numbers of his own. Threads may go on with a copy each as
+/// if it were not shared. What was moved from is empty.
 class Voxels {
-  using Storage = std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>,
+  using Numbers = std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>,
                                std::vector<std::int16_t>, std::vector<float>, std::vector<double>>;
+  /// What copies have in common. They are counted here because the last owner, who changes numbers
+  /// in place, must see that the others, on their threads, are done reading: an acquiring load says
+  /// so, std::shared_ptr::use_count() does not.
+  struct Shared {
+    Numbers numbers;
+    std::atomic<std::size_t> owners{1};
+  };
+
+  template <class Use>
+  decltype(auto) visit(Use&& use) const {
+    return shared_ == nullptr ? use(std::vector<double>()) : std::visit(use, shared_->numbers);
+  }
 
  public:
-  Voxels() : Voxels(std::vector<double>()) {}
-  /// Of std::uint8_t, std::uint16_t, std::int16_t, float or double.
-  template <class T>
-  Voxels(std::vector<T> numbers) : storage_(std::make_shared<Storage>(std::move(numbers))) {}
+  Voxels() = default;
+  template <VoxelNumber T>
+  Voxels(std::vector<T> numbers) : shared_(new Shared{std::move(numbers)}) {}
   Voxels(std::initializer_list<double> numbers) : Voxels(std::vector<double>(numbers)) {}
+  Voxels(const Voxels& other) noexcept : shared_(other.shared_) {
+    if (shared_ != nullptr) shared_->owners.fetch_add(1, std::memory_order_relaxed);
+  }
+  Voxels(Voxels&& other) noexcept : shared_(std::exchange(other.shared_, nullptr)) {}
+  Voxels& operator=(Voxels other) noexcept {
+    std::swap(shared_, other.shared_);
+    return *this;
+  }
+  ~Voxels() {
+    if (shared_ != nullptr && shared_->owners.fetch_sub(1, std::memory_order_acq_rel) == 1)
+      delete shared_;
+  }
 
-  VoxelType type() const { return static_cast<VoxelType>(storage_->index()); }
+  VoxelType type() const {
+    return shared_ == nullptr ? VoxelType::float64
+                              : static_cast<VoxelType>(shared_->numbers.index());
+  }
+  /// The first number, of the type that type() says; the next ones follow it. Null or not to be
+  /// read if there is none.
   const void* data() const {
-    return std::visit([](const auto& all) -> const void* { return all.data(); }, *storage_);
+    return visit([](const auto& all) -> const void* { return all.data(); });
   }
   std::size_t size() const {
-    return std::visit([](const auto& all) { return all.size(); }, *storage_);
+    return visit([](const auto& all) { return all.size(); });
   }
   bool empty() const { return size() == 0; }
   std::size_t bytes() const {
-    return std::visit([](const auto& all) { return all.size() * sizeof(all[0]); }, *storage_);
+    return visit([]<class T>(const std::vector<T>& all) { return all.size() * sizeof(T); });
   }
+  /// Precondition: i < size().
   double operator[](std::size_t i) const {
-    return std::visit([i](const auto& all) { return static_cast<double>(all[i]); }, *storage_);
+    return std::visit([i](const auto& all) { return static_cast<double>(all[i]); },
+                      shared_->numbers);
   }
+  /// A copy, 8 bytes a number.
   std::vector<double> doubles() const {
-    return std::visit([](const auto& all) { return std::vector<double>(all.begin(), all.end()); },
-                      *storage_);
+    return visit([](const auto& all) { return std::vector<double>(all.begin(), all.end()); });
   }
+  /// Precondition: !empty().
   double front() const { return (*this)[0]; }
+  /// Precondition: !empty().
   double back() const { return (*this)[size() - 1]; }
 
   /// Calls `use(std::vector<T>&)` with the numbers, for the type T that they have, to change them.
+  /// Copies them first if they are shared.
   template <class Use>
   void change(Use&& use) {
-    if (storage_.use_count() > 1) storage_ = std::make_shared<Storage>(*storage_);
-    std::visit(use, *storage_);
+    if (shared_ == nullptr)
+      *this = Voxels(std::vector<double>());
+    else if (shared_->owners.load(std::memory_order_acquire) > 1)
+      *this = visit([](const auto& all) { return Voxels(all); });
+    std::visit(use, shared_->numbers);
   }
 
   /// Gives doubles.
@@ -89,7 +133,17 @@ class Voxels {
   }
 
  private:
-  std::shared_ptr<Storage> storage_;
+  template <VoxelType named, class T>
+  static constexpr bool kStores =
+      std::same_as<std::variant_alternative_t<static_cast<std::size_t>(named), Numbers>,
+                   std::vector<T>>;
+  static_assert(kStores<VoxelType::uint8, std::uint8_t> &&
+                    kStores<VoxelType::uint16, std::uint16_t> &&
+                    kStores<VoxelType::int16, std::int16_t> && kStores<VoxelType::float32, float> &&
+                    kStores<VoxelType::float64, double>,
+                "type() is the place of the alternative");
+
+  Shared* shared_ = nullptr;  // null: no numbers
 };
 
 /// A dense array of any dimension: `extents[k]` voxels along axis k, the last axis fastest (C
