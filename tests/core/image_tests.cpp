@@ -123,6 +123,47 @@ TEST(DistanceImage, RefusesWhatItCannotDo) {
   EXPECT_EQ(kind(two, 0.01, Index{1}, little), ErrorKind::resource);
 }
 
+// An image of one line: what the line takes is as large as the image.
+TEST(DistanceImage, CountsWhatALineTakes) {
+  const Points ends = (Points(2, 1) << 0, 1000).finished();
+  const auto with_limit = [&](std::size_t bytes) {
+    RunContext context;
+    context.memory.set_limit(bytes);
+    const std::size_t voxels = distance_image(ends, 1, 0, context).image.values.size();
+    EXPECT_EQ(context.memory.peak(), bytes);
+    EXPECT_EQ(context.memory.used(), 0U);
+    return voxels;
+  };
+  const std::size_t voxels = 1001;
+  EXPECT_EQ(with_limit(voxels * (8 + 24)), voxels);
+  try {
+    with_limit(voxels * (8 + 24) - 1);
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::resource);
+  }
+}
+
+TEST(DistanceImage, IsStoppedWithinALine) {
+  const Points ends = (Points(2, 1) << 0, 9).finished();
+  std::stop_source source;
+  RunContext context;
+  context.stop = source.get_token();
+  context.on_progress = [&](const Progress& progress) {
+    if (progress.done > 0 && progress.done < progress.total)
+      source.request_stop();
+    else
+      std::this_thread::sleep_for(std::chrono::milliseconds(101));  // the next one is heard, too
+  };
+  std::this_thread::sleep_for(std::chrono::milliseconds(101));
+  try {
+    distance_image(ends, 1, 0, context);
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::cancelled);
+  }
+}
+
 // ---- voxels
 
 TEST(Voxels, AreEmptyWhenTheyWereMovedFrom) {

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory_resource>
 #include <utility>
 
 #include "ph/complex/cubical.hpp"
@@ -16,14 +18,16 @@ namespace {
 /// The lower envelope of parabolas x² + height at whole numbers, one line of the image at a time.
 class Envelope {
  public:
-  explicit Envelope(std::size_t length) : heights_(length), sites_(length), starts_(length + 1) {}
+  Envelope(std::size_t length, std::pmr::memory_resource* memory)
+      : heights_(length, memory), sites_(length, memory), starts_(length, memory) {}
 
   /// Replaces f by min over q of (p - q)² + f(q). Infinite where f is infinite everywhere.
-  void transform(double* line, std::size_t stride) {
+  void transform(double* line, std::size_t stride, Ticker& ticker) {
     const std::size_t length = heights_.size();
-    for (std::size_t q = 0; q < length; ++q) heights_[q] = line[q * stride];
     std::size_t count = 0;
     for (std::size_t q = 0; q < length; ++q) {
+      ticker.work();
+      heights_[q] = line[q * stride];
       if (heights_[q] == kInfinity) continue;
       double start = -kInfinity;
       while (count > 0) {
@@ -35,8 +39,12 @@ class Envelope {
       sites_[count] = q;
       starts_[count++] = start;
     }
-    if (count == 0) return;
+    if (count == 0) {
+      ticker.tick(length);
+      return;
+    }
     for (std::size_t p = 0, k = 0; p < length; ++p) {
+      ticker.tick();
       while (k + 1 < count && starts_[k + 1] < static_cast<double>(p)) ++k;
       const double d = static_cast<double>(p) - static_cast<double>(sites_[k]);
       line[p * stride] = d * d + heights_[sites_[k]];
@@ -50,9 +58,9 @@ class Envelope {
     return ((heights_[q] + b * b) - (heights_[p] + a * a)) / (2 * (b - a));
   }
 
-  std::vector<double> heights_;
-  std::vector<std::size_t> sites_;  // of the parabolas of the envelope, from left to right
-  std::vector<double> starts_;      // where each is the lowest one from
+  std::pmr::vector<double> heights_;
+  std::pmr::vector<std::size_t> sites_;  // of the parabolas of the envelope, from left to right
+  std::pmr::vector<double> starts_;      // where each is the lowest one from
 };
 
 void check(const Points& points, double voxel, Index margin) {
@@ -92,8 +100,17 @@ PointImage distance_image(const Points& points, double voxel, Index margin,
     strides[k - 1] = strides[k] * static_cast<std::size_t>(result.image.extents[k]);
 
   const MemoryClaim claim(context.memory, static_cast<std::size_t>(size) * sizeof(double));
-  std::vector<double> squares(static_cast<std::size_t>(size), kInfinity);
+  const auto voxels = static_cast<std::size_t>(size);
+  Ticker ticker(context, "distance", voxels * strides.size());
+  std::vector<double> squares;
+  squares.reserve(voxels);
+  constexpr std::size_t block = 1 << 12;
+  while (squares.size() < voxels) {
+    squares.insert(squares.end(), std::min(block, voxels - squares.size()), kInfinity);
+    ticker.work(block);
+  }
   for (Index i = 0; i < points.rows(); ++i) {
+    ticker.work();
     std::size_t at = 0;
     for (Index k = 0; k < points.cols(); ++k) {
       const double cell = std::floor((points(i, k) - low[k]) / voxel) + static_cast<double>(margin);
@@ -101,18 +118,17 @@ PointImage distance_image(const Points& points, double voxel, Index margin,
     }
     squares[at] = 0;
   }
-  Ticker ticker(context, "distance", squares.size() * strides.size());
   for (std::size_t k = 0; k < strides.size(); ++k) {
     const auto length = static_cast<std::size_t>(result.image.extents[k]);
-    Envelope envelope(length);
-    for (std::size_t block = 0; block < squares.size(); block += length * strides[k]) {
-      for (std::size_t line = block; line < block + strides[k]; ++line) {
-        envelope.transform(&squares[line], strides[k]);
-        ticker.tick(length);
-      }
-    }
+    Envelope envelope(length, &context.memory);
+    for (std::size_t slab = 0; slab < squares.size(); slab += length * strides[k])
+      for (std::size_t line = slab; line < slab + strides[k]; ++line)
+        envelope.transform(&squares[line], strides[k], ticker);
   }
-  for (double& value : squares) value = voxel * std::sqrt(value);
+  for (double& value : squares) {
+    ticker.work();
+    value = voxel * std::sqrt(value);
+  }
   result.image.values = std::move(squares);
   return result;
 }

@@ -24,12 +24,13 @@ struct PointImage {
 /// & Harer, Stability of persistence diagrams, 2007).
 ///
 /// O(d * voxels) (Felzenszwalb & Huttenlocher, Distance transforms of sampled functions, 2012),
-/// 8 bytes a voxel. Axis k of the image is coordinate k.
+/// 8 bytes a voxel, and while it computes 24 bytes for each voxel along the longest axis. Axis k of
+/// the image is coordinate k.
 /// @param points finite, one a row, 1 to 8 columns. @param voxel > 0, in the unit of the points.
 /// @param margin voxels around the bounding box, >= 0.
 /// @throws Error (bad_data) without points or with coordinates that are not finite; Error (usage)
 ///         on another voxel, margin or number of columns; Error (resource) if the image is too
-///         large.
+///         large, or beyond the memory limit; Error (cancelled) on a stop request.
 PointImage distance_image(const Points& points, double voxel, Index margin = 1,
                           const RunContext& context = default_context());
 
