@@ -25,6 +25,29 @@ Image image(const std::string& bytes, const ReadOptions& options = {}) {
   return read_npy_image(Input::view(bytes, "a.npy"), options);
 }
 
+TEST(ReadNpy, PointsKeepToTheBudget) {
+  constexpr std::size_t numbers = 3 * 500;
+  std::string floats, doubles;
+  for (std::size_t k = 0; k < numbers; ++k) {
+    floats += le(static_cast<float>(k));
+    doubles += le(static_cast<double>(k));
+  }
+  const auto check = [](const std::string& bytes, std::size_t needed) {
+    RunContext context;
+    const Input input = held(bytes, "a.npy", context);
+    const std::size_t before = context.memory.used();
+    context.memory.set_limit(before + needed);
+    const Points points = read_points(input, {.context = &context});
+    for (Index k = 0; k < points.size(); ++k) ASSERT_EQ(points(k / 3, k % 3), k);
+    context.memory.set_limit(before + needed - 1);
+    EXPECT_TRUE(
+        fails_with(ErrorKind::resource, [&] { read_points(input, {.context = &context}); }));
+  };
+  // The array and the points.
+  check(npy("<f4", "False", "(500, 3)", floats), numbers * (4 + 8));
+  check(npy("<f8", "False", "(500, 3)", doubles), numbers * (8 + 8));
+}
+
 TEST(ReadNpy, ReadsEveryElementType) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {"|b1", std::string("\1\0", 2)},

@@ -2,8 +2,11 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
+#include <memory_resource>
+#include <thread>
 
 #include "ph/io/cloud_io.hpp"
 #include "ph/io/formats.hpp"
@@ -144,6 +147,49 @@ TEST(ReadNifti, ScalesAndDropsTrailingAxes) {
   Nifti extended{.offset = 368};
   const std::string header = extended.header() + std::string(16, 'e');
   EXPECT_EQ(image_of(header + std::string(12, '\1'), "a.nii").values[0], 257);
+}
+
+TEST(ReadNifti, ScalingKeepsToTheBudget) {
+  constexpr std::int16_t side = 30;
+  constexpr std::size_t voxels = std::size_t{side} * side;
+  const auto check = [&]<class T>(std::int16_t code, T, std::size_t needed) {
+    Nifti n{.dim = {2, side, side}, .datatype = code, .bitpix = 8 * sizeof(T), .slope = 2};
+    const std::string bytes = n.with(std::vector<T>(voxels, T{3}));
+    for (const bool is_enough : {true, false}) {
+      RunContext context;
+      const Input input = held(bytes, "a.nii", context);
+      context.memory.set_limit(context.memory.used() + needed - (is_enough ? 0 : 1));
+      if (is_enough) {
+        const Image image = read_nifti(input, {.context = &context});
+        EXPECT_EQ(image.values, Voxels(std::vector<double>(voxels, 6)));
+      } else {
+        EXPECT_TRUE(fails_with(ErrorKind::resource, [&] {
+          read_nifti(input, {.context = &context});
+        })) << code;
+      }
+    }
+  };
+  // What is stored and what becomes of it; doubles are scaled where they are.
+  check(2, std::uint8_t{}, voxels * (1 + 8));
+  check(4, std::int16_t{}, voxels * (2 + 8));
+  check(16, float{}, voxels * (4 + 8));
+  check(64, double{}, voxels * 8);
+}
+
+TEST(ReadNifti, ScalingIsStopped) {
+  Nifti n{.dim = {2, 300, 300}, .slope = 2};
+  std::stop_source source;
+  RunContext context;
+  context.stop = source.get_token();
+  const Input input = held(n.with(std::vector<std::int16_t>(90000)), "a.nii", context);
+  context.on_progress = [&](const Progress& progress) {
+    if (progress.done == progress.total)  // all was read: what is left is to scale it
+      source.request_stop();
+    else
+      std::this_thread::sleep_for(std::chrono::milliseconds(101));  // the next one is heard, too
+  };
+  std::this_thread::sleep_for(std::chrono::milliseconds(101));
+  EXPECT_TRUE(fails_with(ErrorKind::cancelled, [&] { read_nifti(input, {.context = &context}); }));
 }
 
 TEST(ReadNifti, RefusesDamage) {

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <memory_resource>
 #include <sstream>
 #include <string>
 
@@ -80,6 +81,12 @@ class TempDir {
  private:
   std::filesystem::path path_;
 };
+
+/// Bytes in a run's budget, as a file that was opened.
+inline Input held(const std::string& bytes, const std::string& name, const RunContext& context) {
+  return Input::hold(std::pmr::vector<char>(bytes.begin(), bytes.end(), &context.memory), name,
+                     &context);
+}
 
 /// The bytes of a number, little endian.
 template <class T>

@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <concepts>
 
 #include "array.hpp"
 #include "ph/io/read.hpp"
@@ -138,9 +140,26 @@ void scale(Image& image, const Header& header, const Input& input, const ReadOpt
         kSlope,
         {"scale of the values", fmt::format("{} and {}", slope, intercept), "finite numbers", {}});
   }
-  std::vector<double> values = image.values.doubles();
-  for (double& value : values) value = value * slope + intercept + 0.0;
-  image.values = std::move(values);
+  constexpr std::size_t block = 1 << 16;  // numbers between two looks at the stop token
+  const auto scale_into = [&](const auto* from, double* to, std::size_t count) {
+    for (std::size_t k = 0; k < count;) {
+      input.poll(input.size());
+      for (const std::size_t end = std::min(count, k + block); k < end; ++k)
+        to[k] = static_cast<double>(from[k]) * slope + intercept + 0.0;
+    }
+  };
+  std::vector<double> values;
+  image.values.change([&]<class T>(std::vector<T>& stored) {
+    if constexpr (std::same_as<T, double>) {
+      scale_into(stored.data(), stored.data(), stored.size());
+    } else {
+      // Both are there for a while, and no budget counts what is stored.
+      input.require_memory(stored.size() * (sizeof(T) + sizeof(double)));
+      values.resize(stored.size());
+      scale_into(stored.data(), values.data(), stored.size());
+    }
+  });
+  if (image.values.type() != VoxelType::float64) image.values = std::move(values);
   detail::note(options,
                fmt::format("values scaled: {} times the stored ones plus {}", slope, intercept));
 }

@@ -144,9 +144,17 @@ Points read_points(const Input& input, const ReadOptions& options) {
                   "one column at least",
                   {}});
     }
-    input.require_memory(array.values.size() * sizeof(double));
-    points =
-        Eigen::Map<const Points>(array.values.doubles().data(), array.extents[0], array.extents[1]);
+    // Both are there for a while, and no budget counts the array.
+    input.require_memory(array.values.bytes() + array.values.size() * sizeof(double));
+    points.resize(array.extents[0], array.extents[1]);
+    with_voxels(array.values.type(), array.values.data(), [&](const auto* numbers) {
+      constexpr std::size_t block = 1 << 16;  // numbers between two looks at the stop token
+      for (std::size_t k = 0; k < array.values.size(); k += block) {
+        input.poll(input.size());
+        const std::size_t count = std::min(block, array.values.size() - k);
+        std::copy_n(numbers + k, count, points.data() + k);
+      }
+    });
     points = detail::without_nan_rows(std::move(points), input, options, false);
   } else if (detail::is_pcd(input) || detail::is_ply(input)) {
     points = detail::without_nan_rows(
