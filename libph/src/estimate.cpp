@@ -15,7 +15,8 @@ namespace {
 constexpr std::size_t kFewEdges = 300'000;
 
 template <Filtration F>
-std::vector<double> cells_of(const F& filtration, int top) {
+std::vector<double> cells_of(const F& filtration, int top, const RunContext& context) {
+  prepare_cells(filtration, context);
   std::vector<double> cells;
   for (int d = 0; d <= std::min(top, filtration.top_dim()); ++d) {
     double count = 0;
@@ -86,7 +87,7 @@ Estimate estimate_one(const Complex& complex, const Options& options, const RunC
           e.bytes_held,
           e.bytes_held == 0 ? 0.0 : static_cast<double>(complex.cubical_image().size()));
   } else {
-    e.cells = cells_of(complex, detail::listed_dim(e.engine, e.max_dim));
+    e.cells = cells_of(complex, detail::listed_dim(e.engine, e.max_dim), context);
     forecast = detail::forecast_cells(e.bytes_held, e.cells);
   }
   e.counted_dims = static_cast<int>(e.cells.size());

@@ -2,8 +2,11 @@
 // Memory that is counted and refused, stops that are heard, progress that is reported.
 #include "ph/core/run_context.hpp"
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <climits>
+#include <string>
 #include <thread>
 
 #include "ph/persistence.hpp"
@@ -87,6 +90,63 @@ TEST(MemoryBudgets, HoldForImages) {
     EXPECT_LE(context.memory.peak(), limit);
     EXPECT_EQ(context.memory.used(), 0U);
   }
+}
+
+/// The engines that list the cells of an image.
+constexpr Engine kListCells[] = {Engine::standard, Engine::twist, Engine::cohomology,
+                                 Engine::union_find};
+
+/// How many voxels ever enter.
+std::size_t entering(const Image& image) {
+  return static_cast<std::size_t>(std::count_if(image.values.begin(), image.values.end(),
+                                                [](double v) { return v < kInfinity; }));
+}
+
+// What a filtration makes late belongs to it and is counted with it; the run that needs it is
+// bounded all the same.
+TEST(MemoryBudgets, OfARunBoundsWhatACubicalFiltrationMakesLate) {
+  const Image image = Generator(3).image({9, 8, 7}, false);
+  for (const Engine engine : kListCells) {
+    SCOPED_TRACE(engine_name(engine));
+    const Options options{.max_dim = 0, .engine = engine};
+    RunContext home;
+    const Cubical cubical(image, {}, home);
+    const std::size_t voxels = home.memory.used();
+    const std::size_t table = 17 * 15 * 13 * 4 + entering(image) * 8;
+    {
+      RunContext run;
+      run.memory.set_limit(table - 1);
+      expect_error(ErrorKind::resource, "memory limit",
+                   [&] { persistence(cubical, options, run); });
+      EXPECT_EQ(run.memory.used(), 0U);
+      EXPECT_EQ(home.memory.used(), voxels) << "nothing was made";
+    }
+    std::vector<Bar> bars;
+    {
+      RunContext run;
+      bars = bars_of(persistence(cubical, options, run));
+      EXPECT_GE(run.memory.peak(), table);
+      EXPECT_EQ(run.memory.used(), 0U);
+      EXPECT_EQ(home.memory.used(), voxels + table);
+    }  // the filtration outlives the context of its first run
+    EXPECT_EQ(bars, bars_of(persistence(cubical, options)));
+    EXPECT_EQ(bars, bars_of(persistence(Cubical(image), options)));
+  }
+}
+
+TEST(MemoryBudgets, OfTheConstructionBoundsWhatACubicalFiltrationMakesLate) {
+  const Image image = Generator(3).image({9, 8, 7}, false);
+  RunContext home;
+  home.memory.set_limit(image.values.bytes() + 1000);
+  const Cubical cubical(image, {}, home);
+  expect_error(ErrorKind::resource, "memory limit",
+               [&] { persistence(cubical, {.engine = Engine::twist}); });
+  expect_error(ErrorKind::resource, "memory limit",
+               [&] { cubical.for_each_cell(0, [](const Cubical::Cell&) {}); });
+  home.memory.set_limit(MemoryBudget::kUnlimited);
+  std::size_t count = 0;
+  cubical.for_each_cell(0, [&](const Cubical::Cell&) { ++count; });
+  EXPECT_EQ(count, entering(image)) << "it can be tried again";
 }
 
 TEST(MemoryBudgets, HoldForExplicitComplexes) {
@@ -175,6 +235,54 @@ TEST(RunContexts, AStopRequestedBeforehandStopsEverything) {
         persistence(rips, {.max_dim = 0, .engine = engine.id}, context);
     });
   });
+}
+
+TEST(RunContexts, WhatACubicalFiltrationMakesLateIsStoppedAndReported) {
+  const Image image = Generator(3).image({90, 80}, false);
+  for (const Engine engine : kListCells) {
+    SCOPED_TRACE(engine_name(engine));
+    RunContext home;
+    const Cubical cubical(image, {}, home);
+    const std::size_t voxels = home.memory.used();
+    std::stop_source source;
+    RunContext run;
+    run.stop = source.get_token();
+    std::string stage;
+    run.on_progress = [&](const Progress& progress) {
+      stage = progress.stage;
+      source.request_stop();
+    };
+    std::this_thread::sleep_for(std::chrono::milliseconds(110));  // the next report is heard
+    expect_error(ErrorKind::cancelled, "stopped",
+                 [&] { persistence(cubical, {.max_dim = 0, .engine = engine}, run); });
+    EXPECT_EQ(stage, "cells");
+    EXPECT_EQ(home.memory.used(), voxels) << "nothing was made";
+  }
+}
+
+TEST(RunContexts, AThreadThatWaitsForACubicalFiltrationCanBeStopped) {
+  const Cubical cubical(Generator(3).image({30, 30}, false));
+  std::atomic<bool> is_making = false, may_go_on = false;
+  RunContext slow;
+  slow.on_progress = [&](const Progress&) {
+    is_making = true;
+    while (!may_go_on) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  };
+  std::this_thread::sleep_for(std::chrono::milliseconds(110));  // the next report is heard
+  std::thread maker([&] { cubical.prepare(slow); });
+  while (!is_making) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  std::stop_source source;
+  RunContext waiting;
+  waiting.stop = source.get_token();
+  std::thread stopper([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    source.request_stop();
+  });
+  expect_error(ErrorKind::cancelled, "stopped", [&] { cubical.prepare(waiting); });
+  stopper.join();
+  may_go_on = true;
+  maker.join();
+  EXPECT_NO_THROW(cubical.prepare(RunContext()));
 }
 
 TEST(RunContexts, SlowStepsAreReportedAndStopped) {

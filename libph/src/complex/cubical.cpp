@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <thread>
 
 #include "ph/core/error.hpp"
 #include "ph/core/radix_sort.hpp"
@@ -96,15 +98,24 @@ Cubical::Cubical(const Image& image, const CubicalOptions& options, const RunCon
   }
 }
 
-const Cubical::Table& Cubical::make_table() const {
-  const std::lock_guard lock(lazy_->mutex);
+void Cubical::prepare(const RunContext& context) const {
+  if (cells_ > 0 && lazy_->made.load(std::memory_order_acquire) == nullptr) make_table(context);
+}
+
+const Cubical::Table& Cubical::make_table(const RunContext& context) const {
+  std::unique_lock lock(lazy_->mutex, std::defer_lock);
+  while (!lock.try_lock()) {  // another thread makes it: this one can still be stopped
+    context.poll();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
   if (const Table* made = lazy_->made.load(std::memory_order_relaxed)) return *made;
-  const Table& made = lazy_->table.emplace(new_table());
+  const Table& made = lazy_->table.emplace(new_table(context));
   lazy_->made.store(&made, std::memory_order_release);
   return made;
 }
 
-Cubical::Table Cubical::new_table() const {
+Cubical::Table Cubical::new_table(const RunContext& context) const {
+  // It outlives the run, whose budget may be gone by then.
   Table table{std::pmr::vector<std::uint32_t>(&context_->memory),
               std::pmr::vector<double>(&context_->memory)};
   // Ranks of the voxels that enter, by (value, position).
@@ -112,17 +123,38 @@ Cubical::Table Cubical::new_table() const {
     double value;
     std::uint32_t position;
   };
-  std::pmr::vector<Voxel> order(&context_->memory);
+  std::uint64_t to_spread = 0;
+  for (int k = 0; k < dim_; ++k) {
+    const std::uint64_t length = axes_[k].length;
+    to_spread += cells_ / length * ((grid_.voxels_are_vertices ? length : length + 1) / 2);
+  }
+  Ticker ticker(context, "cells", to_spread);
+  std::pmr::vector<Voxel> order(&context.memory);
   order.reserve(voxels_.size());
-  for (std::size_t i = 0; i < voxels_.size(); ++i)
+  for (std::size_t i = 0; i < voxels_.size(); ++i) {
     if (const double value = grid_.value(i); value <= grid_.limit)
       order.push_back({value, static_cast<std::uint32_t>(i)});
-  context_->poll();
-  radix_sort_by_value(order, [](const Voxel& v) { return v.value; });
-  context_->poll();
+    ticker.work();
+  }
+  radix_sort_by_value(order, [&](const Voxel& v) {
+    ticker.work();
+    return v.value;
+  });
+  std::optional<MemoryClaim> claim;
+  if (&context != context_)
+    claim.emplace(context.memory, cells_ * sizeof(std::uint32_t) + order.size() * sizeof(double));
   table.values.reserve(order.size());
-  for (const Voxel& v : order) table.values.push_back(v.value);
-  table.keys.assign(cells_, kNever);
+  table.keys.reserve(cells_);
+  for (const Voxel& v : order) {
+    table.values.push_back(v.value);
+    ticker.work();
+  }
+  constexpr std::size_t block = 1 << 12;
+  while (table.keys.size() < cells_) {
+    const std::size_t more = std::min(block, cells_ - table.keys.size());
+    table.keys.insert(table.keys.end(), more, kNever);
+    ticker.work(more);
+  }
 
   // Voxels stand at the even coordinates (V) or the odd ones (T). A cube of V enters with the last
   // of its vertices, a face of T with the first of its cofaces: spread the keys axis by axis.
@@ -136,18 +168,18 @@ Cubical::Table Cubical::new_table() const {
     }
     return index;
   };
-  for (std::size_t rank = 0; rank < order.size(); ++rank)
+  for (std::size_t rank = 0; rank < order.size(); ++rank) {
     table.keys[grid_index(order[rank].position)] = static_cast<std::uint32_t>(rank);
-
-  for (int k = 0; k < dim_; ++k) {
-    spread_keys(table.keys, axes_[k], grid_.voxels_are_vertices);
-    context_->poll();
+    ticker.work();
   }
+  for (int k = 0; k < dim_; ++k)
+    spread_keys(table.keys, axes_[k], grid_.voxels_are_vertices, ticker);
   return table;
 }
 
 void Cubical::spread_keys(std::pmr::vector<std::uint32_t>& keys, const Axis& axis,
-                          bool voxels_are_vertices) {
+                          bool voxels_are_vertices, Ticker& ticker) {
+  constexpr std::uint64_t block = 1 << 12;
   const std::uint64_t last = axis.length - 1, slab = axis.stride * axis.length;
   for (std::uint64_t first = 0; first < keys.size(); first += slab) {
     for (std::uint64_t x = voxels_are_vertices ? 1 : 0; x <= last; x += 2) {
@@ -157,9 +189,13 @@ void Cubical::spread_keys(std::pmr::vector<std::uint32_t>& keys, const Axis& axi
       std::uint32_t* layer = keys.data() + first + x * axis.stride;
       const std::uint32_t* lower = keys.data() + first + (has_lower ? below : above) * axis.stride;
       const std::uint32_t* upper = keys.data() + first + (has_upper ? above : below) * axis.stride;
-      for (std::uint64_t i = 0; i < axis.stride; ++i) {
-        layer[i] =
-            voxels_are_vertices ? std::max(lower[i], upper[i]) : std::min(lower[i], upper[i]);
+      for (std::uint64_t i = 0; i < axis.stride;) {
+        const std::uint64_t begin = i, end = std::min(axis.stride, begin + block);
+        for (; i < end; ++i) {
+          layer[i] =
+              voxels_are_vertices ? std::max(lower[i], upper[i]) : std::min(lower[i], upper[i]);
+        }
+        ticker.tick(end - begin);
       }
     }
   }

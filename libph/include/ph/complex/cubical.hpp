@@ -38,8 +38,9 @@ struct CubicalOptions {
 /// its odd coordinates. Order: (rank of the voxel that decides the value, dimension, grid index).
 ///
 /// Holds the voxels, shared with the image. What generic engines need, 4 bytes a cell (2^d cells a
-/// voxel) and the sorted values, is made when a cell is first asked for; an engine that goes voxel
-/// by voxel does without. +infinity never enters; -infinity is born at -infinity.
+/// voxel) and the sorted values, is made once, by `prepare` or else when a cell or value is first
+/// asked for; an engine that goes voxel by voxel does without. +infinity never enters; -infinity is
+/// born at -infinity.
 class Cubical {
  public:
   struct Cell {
@@ -57,8 +58,16 @@ class Cubical {
   explicit Cubical(const Image& image, const CubicalOptions& options = {},
                    const RunContext& context = default_context());
 
+  /// Makes what cells are made of, unless it is there. It stays with the filtration, and is counted
+  /// in the budget of the context that the filtration was built with; while it is made, with 32
+  /// bytes a voxel for sorting, `context` bounds, watches and stops it. O(cells). Thread-safe.
+  /// @throws Error (resource) and (cancelled); it can be tried again.
+  void prepare(const RunContext& context) const;
+
   int top_dim() const { return dim_; }
   std::uint32_t key(const Cell& c) const { return c.key; }
+  /// @throws Error (resource) and (cancelled) if it is the first call and nobody has called
+  ///         `prepare`: it does so itself then, with the context of the construction.
   double value(const Cell& c) const { return table().values[c.key]; }
   static bool precedes(const Cell& a, const Cell& b) {
     return a.key != b.key ? a.key < b.key : a.index < b.index;
@@ -77,6 +86,7 @@ class Cubical {
   /// The place of a vertex among them in C order.
   std::size_t vertex_number(const Cell& vertex) const;
 
+  // They throw, and take O(cells) the first time, as `value`.
   template <class Visit>
   void for_each_cell(int dim, Visit&& visit) const;
   template <class Visit>
@@ -101,16 +111,16 @@ class Cubical {
     std::optional<Table> table;
     std::atomic<const Table*> made{nullptr};
   };
-  /// Made by whichever thread comes first.
   const Table& table() const {
     if (const Table* made = lazy_->made.load(std::memory_order_acquire)) return *made;
-    return make_table();
+    return make_table(*context_);
   }
-  const Table& make_table() const;
-  Table new_table() const;
+  /// Made by whichever thread comes first; the others wait.
+  const Table& make_table(const RunContext& context) const;
+  Table new_table(const RunContext& context) const;
   /// Fills the layers between (V) or around (T) the voxels along an axis.
   static void spread_keys(std::pmr::vector<std::uint32_t>& keys, const Axis& axis,
-                          bool voxels_are_vertices);
+                          bool voxels_are_vertices, Ticker& ticker);
   std::uint64_t coordinate(std::uint64_t index, const Axis& axis) const {
     return index / axis.stride % axis.length;
   }

@@ -11,6 +11,8 @@
 
 namespace ph {
 
+struct RunContext;
+
 /// A number of the input: a vertex, a grid coordinate, a row. Never negative.
 using Index = std::int64_t;
 
@@ -101,6 +103,15 @@ concept SlottedFiltration = Filtration<F> && requires(const F& f, const typename
   { f.slot(cell) } -> std::convertible_to<std::size_t>;
 };
 
+/// Capability: something is made when a cell, facet or value is first asked for, which takes time and
+/// memory. A function that has a context of its own has it made beforehand, by prepare_cells.
+template <class F>
+concept LazyFiltration = Filtration<F> && requires(const F& f, const RunContext& context) {
+  /// Makes it unless that has been done. Stopped, watched and bounded by `context`, which need not
+  /// outlive the filtration.
+  f.prepare(context);
+};
+
 /// Capability: each 1-cell has the boundary (vertex) - (other vertex), or none at all (a loop).
 /// Union-find computes H0 then. A property of the data for complexes read from files.
 template <class F>
@@ -142,5 +153,12 @@ concept FlagFiltration = Filtration<F> && requires(const F& f, std::uint32_t i) 
 };
 
 // clang-format on
+
+/// Makes what a lazy filtration needs for its cells. Whoever lists cells calls it first.
+/// @throws Error (resource) and (cancelled), of that context.
+template <Filtration F>
+void prepare_cells(const F& filtration, const RunContext& context) {
+  if constexpr (LazyFiltration<F>) filtration.prepare(context);
+}
 
 }  // namespace ph

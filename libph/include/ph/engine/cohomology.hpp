@@ -24,6 +24,7 @@ struct CohomologyEngine {
   template <Filtration F, Field K>
   static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context) {
     if constexpr (CofacetFiltration<F>) {
+      prepare_cells(f, context);
       if (bars.representatives() == Representatives::cycles) {
         find_cycles(f, field, bars, context);
         return;

@@ -26,6 +26,7 @@ struct OneSkeleton {
         age(&context.memory),
         edges(&context.memory),
         ends(&context.memory) {
+    prepare_cells(filtration, context);
     if constexpr (FlagFiltration<F>)
       take_flag_graph(filtration);
     else

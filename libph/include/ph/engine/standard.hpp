@@ -29,6 +29,7 @@ struct StandardEngine {
     using Cell = typename F::Cell;
     using Column = std::pmr::map<std::size_t, typename K::Element>;  // row -> non-zero coefficient
     std::pmr::memory_resource* const memory = &context.memory;
+    prepare_cells(f, context);
     Ticker ticker(context, "oracle");
     const auto precedes = [&](const Cell& a, const Cell& b) {
       ticker.work();

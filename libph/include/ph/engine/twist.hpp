@@ -18,6 +18,7 @@ struct TwistEngine {
 
   template <Filtration F, Field K>
   static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context) {
+    prepare_cells(f, context);
     HomologyReduction<F, K> reduction(f, field, bars, context);
     for (int dim = std::min(bars.max_dim() + 1, f.top_dim()); dim >= 0; --dim)
       reduction.reduce_dimension(dim);
