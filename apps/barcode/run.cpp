@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <new>
+#include <optional>
 
 #include "adjust.hpp"
 #include "build_complex.hpp"
@@ -69,6 +70,9 @@ struct Loaded {
 };
 
 Loaded load(const Job& job, const Arguments& arguments, app::Session& session, Stopwatch& watch) {
+  std::optional<app::BarHold> somebody_types;
+  if (app::is_typed({job.input, arguments.values, arguments.vertex_weights}))
+    somebody_types.emplace(session);
   auto [name, read, dropped] = read_input(job, arguments, session.context());
   const std::string what = fmt::format("read {}: {}", name, read.description);
   // A batch says it in its one line an input.
@@ -153,6 +157,7 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   const auto taken = static_cast<double>(session.memory_taken());
   if (arguments.dry_run) {
     const Estimate estimated = estimate(built.complex, arguments.options, session.context());
+    const app::BarHold results_are_written(session);
     write_file("-", estimate_text(estimated, built, description, taken));
     return {app::kOk, description};
   }
@@ -207,6 +212,7 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   for (const auto& [stage, seconds] : watch.laps())
     session.explain(fmt::format("{} {:.3f} s", stage, seconds));
   session.explain("memory " + app::format_size(static_cast<double>(session.memory_taken())));
+  const app::BarHold results_are_written(session);
   write_outputs(output, plots, barcode, job, arguments, info);
   return {code, fmt::format("{}: {}", description, plural(barcode.size(), "bar"))};
 }

@@ -82,10 +82,8 @@ int report_current_exception(std::string_view prefix) {
   try {
     return report_with_memory(prefix);
   } catch (...) {
-    // Not even a message fits into memory: these lines need none.
-    constexpr std::string_view kText = ": out of memory\n";
-    static_cast<void>(!write(STDERR_FILENO, prefix.data(), prefix.size()));
-    static_cast<void>(!write(STDERR_FILENO, kText.data(), kText.size()));
+    // Not even a message fits into memory: this one needs none.
+    print_without_memory(prefix, "out of memory");
     return kResource;
   }
 }

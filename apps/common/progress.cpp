@@ -9,6 +9,7 @@
 #include <string>
 #include <system_error>
 
+#include "messages.hpp"
 #include "ph/io/barcode_io.hpp"
 
 namespace ph::app {
@@ -16,10 +17,6 @@ namespace {
 
 constexpr auto kPatience = std::chrono::milliseconds(500);
 constexpr auto kLongestSilence = std::chrono::milliseconds(800);
-
-void write_text(std::string_view text) {
-  static_cast<void>(!::write(STDERR_FILENO, text.data(), text.size()));
-}
 
 ProgressMode decided(ProgressMode mode, bool quiet) {
   if (mode != ProgressMode::automatic) return mode;
@@ -40,24 +37,40 @@ ProgressReporter::ProgressReporter(ProgressMode mode, bool quiet)
 
 ProgressReporter::~ProgressReporter() {
   repeater_ = {};
-  clear();
+  if (mode_ == ProgressMode::bar) wipe_status();
 }
 
 void ProgressReporter::report(const Progress& progress) {
   const std::scoped_lock lock(mutex_);
   last_ = progress;
-  show(progress);
+  has_report_ = true;
+  show();
 }
 
-void ProgressReporter::show(const Progress& progress) {
+void ProgressReporter::hold() {
+  const std::scoped_lock lock(mutex_);
+  ++holds_;
+  has_report_ = false;
+  if (mode_ == ProgressMode::bar) wipe_status();
+}
+
+void ProgressReporter::release() {
+  const std::scoped_lock lock(mutex_);
+  --holds_;
+  has_report_ = false;
+}
+
+/// The caller holds the mutex.
+void ProgressReporter::show() {
   last_shown_ = Clock::now();
   if (mode_ == ProgressMode::json) {
     const double seconds = std::chrono::duration<double>(last_shown_ - start_).count();
-    write_text(fmt::format("{{\"stage\": {}, \"done\": {}, \"total\": {}, \"seconds\": {:.3f}}}\n",
-                           json_string(progress.stage), progress.done,
-                           progress.total == 0 ? "null" : std::to_string(progress.total), seconds));
-  } else if (mode_ == ProgressMode::bar && last_shown_ - start_ >= kPatience) {
-    draw_bar(progress);
+    print_line(fmt::format("{{\"stage\": {}, \"done\": {}, \"total\": {}, \"seconds\": {:.3f}}}",
+                           json_string(last_.stage), last_.done,
+                           last_.total == 0 ? "null" : std::to_string(last_.total), seconds));
+  } else if (mode_ == ProgressMode::bar && has_report_ && holds_ == 0 &&
+             last_shown_ - start_ >= kPatience) {
+    draw_bar();
   }
 }
 
@@ -66,32 +79,25 @@ void ProgressReporter::repeat(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     while (!stop.stop_requested()) {
       never_.wait_until(lock, stop, last_shown_ + kLongestSilence, [] { return false; });
-      if (!stop.stop_requested() && Clock::now() >= last_shown_ + kLongestSilence) show(last_);
+      if (!stop.stop_requested() && Clock::now() >= last_shown_ + kLongestSilence) show();
     }
   } catch (const std::bad_alloc&) {
     return;  // the computation will say so
   }
 }
 
-void ProgressReporter::draw_bar(const Progress& progress) {
-  constexpr int kWidth = 30;
-  std::string line = fmt::format("\r\x1b[K{} ", progress.stage);
-  if (progress.total > 0) {
+void ProgressReporter::draw_bar() {
+  constexpr int width = 30;
+  std::string line = fmt::format("{} ", last_.stage);
+  if (last_.total > 0) {
     const double part =
-        std::min(1.0, static_cast<double>(progress.done) / static_cast<double>(progress.total));
-    const int filled = static_cast<int>(part * kWidth);
-    line += fmt::format("[{:#<{}}{:.<{}}] {:3.0f} %", "", filled, "", kWidth - filled, 100 * part);
+        std::min(1.0, static_cast<double>(last_.done) / static_cast<double>(last_.total));
+    const int filled = static_cast<int>(part * width);
+    line += fmt::format("[{:#<{}}{:.<{}}] {:3.0f} %", "", filled, "", width - filled, 100 * part);
   } else {
-    line += fmt::format("{}", progress.done);
+    line += fmt::format("{}", last_.done);
   }
-  write_text(line);
-  drawn_ = true;
-}
-
-void ProgressReporter::clear() {
-  const std::scoped_lock lock(mutex_);
-  if (drawn_) write_text("\r\x1b[K");
-  drawn_ = false;
+  show_status(line);
 }
 
 }  // namespace ph::app

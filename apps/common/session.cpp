@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "memory_limit.hpp"
@@ -34,12 +36,19 @@ std::uint64_t Session::memory_taken() const { return peak_memory() - memory_at_s
 
 void Session::note(std::string_view text) {
   if (options_.quiet) return;
-  progress_.clear();
   print_line(fmt::format("{}: {}", program_, text));
 }
 
 void Session::explain(std::string_view text) {
   if (options_.verbose) note(text);
+}
+
+BarHold::BarHold(Session& session) : progress_(session.progress_) { progress_.hold(); }
+
+BarHold::~BarHold() { progress_.release(); }
+
+bool is_typed(std::initializer_list<std::string_view> paths) {
+  return std::ranges::count(paths, "-") > 0 && isatty(STDIN_FILENO);
 }
 
 Output::Output(const std::string& path)

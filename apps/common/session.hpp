@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <initializer_list>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -32,12 +33,31 @@ class Session {
   void explain(std::string_view text);
 
  private:
+  friend class BarHold;
+
   std::string program_;
   CommonOptions options_;
   ProgressReporter progress_;
   RunContext context_;
   std::uint64_t memory_at_start_;
 };
+
+/// As long as it lives no progress bar is drawn, and none after it before something is reported:
+/// while results are written, which may go to the same terminal, while input is typed, and where
+/// the next thing to come is not known.
+class BarHold {
+ public:
+  explicit BarHold(Session& session);
+  ~BarHold();
+  BarHold(const BarHold&) = delete;
+  BarHold& operator=(const BarHold&) = delete;
+
+ private:
+  ProgressReporter& progress_;
+};
+
+/// Whether one of the inputs is typed: standard input, "-", and that is a terminal.
+bool is_typed(std::initializer_list<std::string_view> paths);
 
 /// An output file whose temporary name is removed even if a signal ends the program at once. Open
 /// outputs before long computations: what cannot be created is said first.

@@ -88,6 +88,9 @@ Result result_of(const Arguments& arguments, const Outputs& outputs, app::Sessio
   const RunContext& context = session.context();
   Result result;
   const auto start = std::chrono::steady_clock::now();
+  std::optional<app::BarHold> somebody_types;
+  if (app::is_typed({arguments.input, arguments.image.depth, arguments.image.colour}))
+    somebody_types.emplace(session);
   std::optional<Input> input;
   if (arguments.is_depth_image()) {
     DepthInput image = arguments.image;
@@ -97,6 +100,7 @@ Result result_of(const Arguments& arguments, const Outputs& outputs, app::Sessio
     input.emplace(Input::open(arguments.input, &context));
     if (!is_tree(*input)) result.cloud = read_points(*input, arguments.allow_empty, session);
   }
+  somebody_types.reset();
   Segmentation& s = result.segmentation;
   const auto stop_reading = [&] {
     result.read_seconds =
@@ -157,9 +161,7 @@ void explain_stages(const Segmentation& s, const Arguments& arguments, app::Sess
       normal[0], normal[1], normal[2], offset, 100 * share));
 }
 
-}  // namespace
-
-Outcome run_frame(const Arguments& arguments, app::Session& session, const OfStream* stream) {
+Outcome outcome_of(const Arguments& arguments, app::Session& session, const OfStream* stream) {
   Outputs outputs(arguments);
   const Result result = result_of(arguments, outputs, session);
   const Segmentation& s = result.segmentation;
@@ -178,10 +180,22 @@ Outcome run_frame(const Arguments& arguments, app::Session& session, const OfStr
                .from_tree = !result.cloud};
   if (stream && stream->tracker) info.numbers = stream->tracker->update(s, s);
   if (arguments.signatures) info.signatures = signatures_of(s, session);
+  const app::BarHold results_are_written(session);
   outputs.write(result.cloud ? &*result.cloud : nullptr, s, info);
   if (answer) write_file("-", *answer);
   return {s.difference.empty() ? app::kOk : app::kDifference, one_line_summary(s),
           stream && stream->json ? json_summary(arguments, s, info) : ""};
+}
+
+}  // namespace
+
+Outcome run_frame(const Arguments& arguments, app::Session& session, const OfStream* stream) {
+  try {
+    return outcome_of(arguments, session, stream);
+  } catch (...) {
+    const app::BarHold next_frame_is_not_there_yet(session);
+    throw;
+  }
 }
 
 int run(int argc, const char* const* argv, std::stop_token stop) {

@@ -4,9 +4,11 @@ import json
 import math
 import os
 import random
+import select
 import shutil
 import struct
 import subprocess
+import time
 import unittest
 import xml.dom.minidom
 
@@ -388,6 +390,45 @@ class Options(ProgramTest):
         self.assertEqual(run.returncode, 0)
         for before, after in zip([0, *heard], heard):
             self.assertLess(after - before, 1)
+
+    def test_no_bar_while_somebody_types(self):
+        terminal, stdin = os.openpty()
+        with subprocess.Popen([program.PROGRAM, "-", "--progress", "bar", "--quiet"], stdin=stdin,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE) as run:
+            os.close(stdin)
+            os.write(terminal, b"0\n")
+            time.sleep(2)
+            os.write(terminal, b"1\n\x04")
+            stdout, stderr = run.communicate(timeout=20)
+            os.close(terminal)
+        self.assertEqual((run.returncode, stdout, stderr),
+                         (0, b"dim,birth,death\n0,0,1\n0,0,inf\n", b""))
+
+    def test_a_pipe_is_waited_for_with_a_bar(self):
+        with subprocess.Popen([program.PROGRAM, "-", "--progress", "bar", "--quiet"],
+                              stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE) as run:
+            time.sleep(1.5)
+            stderr = run.communicate(b"0\n1\n", 20)[1]
+        self.assertRegex(stderr, rb"^(\r\x1b\[Kread 0)+\r\x1b\[K$")
+
+    def test_no_bar_while_results_are_written(self):
+        """The reader of the results is in no hurry."""
+        random.seed(7)
+        self.write("picture.pgm", b"P5 1200 1200 255\n" + random.randbytes(1200 * 1200))
+        with subprocess.Popen([program.PROGRAM, "picture.pgm", "--engine", "twist", "--progress",
+                               "bar", "--quiet"], cwd=self.folder, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE) as run:
+            os.set_blocking(run.stderr.fileno(), False)
+            select.select([run.stdout], [], [], 60)  # the first page is there
+            before = run.stderr.read()
+            self.assertRegex(before, rb"\] +\d+ %")
+            self.assertTrue(before.endswith(b"\r\x1b[K"), before[-100:])
+            time.sleep(2)
+            self.assertIsNone(run.stderr.read(), "a bar among the results")
+            os.set_blocking(run.stderr.fileno(), True)
+            run.communicate(timeout=60)
+        self.assertEqual(run.returncode, 0)
 
 
 class Version(ProgramTest):

@@ -3,17 +3,22 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <clocale>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <sstream>
+#include <string>
+#include <thread>
 
 #include "choices.hpp"
 #include "exit_code.hpp"
 #include "memory_limit.hpp"
+#include "messages.hpp"
 #include "numbers.hpp"
+#include "progress.hpp"
 #include "session.hpp"
 
 namespace ph::app {
@@ -144,6 +149,103 @@ TEST(Session, PassesOptionsOn) {
   EXPECT_NO_THROW(session.context().poll());
   stop.request_stop();
   EXPECT_EQ(kind_of([&] { session.context().poll(); }), ErrorKind::cancelled);
+}
+
+// ---- the bar, and what must not meet it on its line
+
+constexpr std::string_view kWipe = "\r\x1b[K";
+constexpr auto kBarIsThere = std::chrono::milliseconds(600);       // after the start
+constexpr auto kTooLongSilence = std::chrono::milliseconds(1000);  // of a computation
+
+/// What goes to stderr while `act` runs.
+template <class Act>
+std::string stderr_of(Act&& act) {
+  testing::internal::CaptureStderr();
+  act();
+  return testing::internal::GetCapturedStderr();
+}
+
+std::size_t count_of(std::string_view part, std::string_view text) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+TEST(Progress, ABarIsHeardEverySecondOnceSomethingWasReported) {
+  std::size_t before = 0;
+  const std::string text = stderr_of([&] {
+    ProgressReporter progress(ProgressMode::bar, true);
+    std::this_thread::sleep_for(kBarIsThere + kTooLongSilence);
+    before = static_cast<std::size_t>(lseek(STDERR_FILENO, 0, SEEK_CUR));
+    progress.report({"read", 1, 4});
+    std::this_thread::sleep_for(kTooLongSilence);
+  });
+  EXPECT_EQ(before, 0U) << "nothing is drawn before the first report";
+  EXPECT_EQ(count_of("read [", text), 2U) << text;
+  EXPECT_TRUE(text.ends_with(kWipe)) << "it is gone in the end";
+}
+
+TEST(Progress, ABarIsHeldBack) {
+  std::size_t before = 0, after = 0;
+  const std::string text = stderr_of([&] {
+    ProgressReporter progress(ProgressMode::bar, true);
+    std::this_thread::sleep_for(kBarIsThere);
+    progress.report({"old", 1, 4});
+    progress.hold();
+    before = static_cast<std::size_t>(lseek(STDERR_FILENO, 0, SEEK_CUR));
+    progress.report({"held", 1, 4});
+    std::this_thread::sleep_for(kTooLongSilence);
+    progress.release();
+    std::this_thread::sleep_for(kTooLongSilence);
+    after = static_cast<std::size_t>(lseek(STDERR_FILENO, 0, SEEK_CUR));
+    progress.report({"new", 1, 4});
+  });
+  EXPECT_EQ(count_of("old [", text), 1U);
+  EXPECT_TRUE(std::string_view(text).substr(0, before).ends_with(kWipe));
+  EXPECT_EQ(after, before) << "until the next report";
+  EXPECT_EQ(count_of("held", text), 0U);
+  EXPECT_EQ(count_of("new [", text), 1U);
+}
+
+TEST(Progress, LinesOfJsonAreNeverHeldBack) {
+  const std::string text = stderr_of([&] {
+    ProgressReporter progress(ProgressMode::json, true);
+    progress.hold();
+    std::this_thread::sleep_for(kTooLongSilence);
+    progress.report({"reduce", 2, 3});
+  });
+  EXPECT_EQ(count_of("{\"stage\": \"start\"", text), 1U) << text;
+  EXPECT_EQ(count_of("{\"stage\": \"reduce\", \"done\": 2, \"total\": 3", text), 1U) << text;
+  EXPECT_EQ(count_of("\x1b", text), 0U);
+}
+
+TEST(Progress, MessagesNeverShareALineWithABar) {
+  constexpr auto long_enough = std::chrono::milliseconds(300);
+  std::size_t written = 0;
+  const std::string text = stderr_of([&] {
+    ProgressReporter progress(ProgressMode::bar, true);
+    std::this_thread::sleep_for(kBarIsThere);
+    std::jthread other([&](const std::stop_token& stop) {
+      while (!stop.stop_requested()) progress.report({"stage", 1, 2});
+    });
+    const auto end = std::chrono::steady_clock::now() + long_enough;
+    for (; std::chrono::steady_clock::now() < end; written += 2) {
+      print_line("message");
+      print_without_memory("prefix", "message");
+    }
+  });
+  std::size_t messages = 0, bars = 0;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (lines.eof()) break;  // a bar that the end wiped
+    ++messages;
+    const std::size_t wiped = line.rfind(kWipe);
+    bars += wiped != line.npos;
+    const std::string message = wiped == line.npos ? line : line.substr(wiped + kWipe.size());
+    ASSERT_TRUE(message == "message" || message == "prefix: message") << message;
+  }
+  EXPECT_EQ(messages, written);
+  EXPECT_GT(bars, 0U) << "the two never met";
 }
 
 }  // namespace
