@@ -11,7 +11,6 @@
 #include "adjust.hpp"
 #include "build_complex.hpp"
 #include "exit_code.hpp"
-#include "memory_limit.hpp"
 #include "messages.hpp"
 #include "numbers.hpp"
 #include "ph/estimate.hpp"
@@ -241,7 +240,7 @@ Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
   }
   // By now all that the run held has been given back; the heap keeps none of it.
   malloc_trim(0);
-  app::loosen_heap_bound();
+  session.loosen_heap_bound();
   const std::string peak = app::format_size(static_cast<double>(session.memory_taken()));
   if (const std::string changes = ways_out(job, arguments, session); !changes.empty())
     throw Error(ErrorKind::resource,

@@ -74,24 +74,35 @@ std::size_t machine_memory() {
   return static_cast<std::size_t>(bytes / 10 * 9);
 }
 
-void bound_heap(std::size_t bytes) {
-  if (kIsSanitized) return;
-  // Small blocks, the allocator's own and stacks of threads.
-  constexpr std::uint64_t slack = std::uint64_t{16} << 20;
+HeapBound::HeapBound() {
   rlimit data{};
-  const auto now = data_size();
-  if (!now || getrlimit(RLIMIT_DATA, &data) != 0) return;
-  std::uint64_t limit = 0;
-  if (__builtin_add_overflow(*now + slack, bytes, &limit)) return;
-  data.rlim_cur = std::min<std::uint64_t>(data.rlim_cur, limit);
-  setrlimit(RLIMIT_DATA, &data);
+  if (!kIsSanitized && getrlimit(RLIMIT_DATA, &data) == 0) at_start_ = data.rlim_cur;
 }
 
-void loosen_heap_bound() {
-  constexpr rlim_t holes = 4 << 20;
+HeapBound::~HeapBound() {
+  if (bound_) set(*at_start_);
+}
+
+void HeapBound::bound(std::size_t bytes) {
+  // Small blocks, the allocator's own and stacks of threads.
+  constexpr std::uint64_t slack = std::uint64_t{16} << 20;
+  const auto now = data_size();
+  std::uint64_t limit = 0;
+  if (!at_start_ || !now || __builtin_add_overflow(*now + slack, bytes, &limit)) return;
+  if (limit >= *at_start_) return;
+  bound_ = limit;
+  set(limit);
+}
+
+void HeapBound::loosen() {
+  constexpr std::uint64_t holes = std::uint64_t{4} << 20;
+  if (bound_) set(*bound_ + std::min(holes, *at_start_ - *bound_));
+}
+
+void HeapBound::set(std::uint64_t limit) const {
   rlimit data{};
-  if (getrlimit(RLIMIT_DATA, &data) != 0 || data.rlim_cur > data.rlim_max - holes) return;
-  data.rlim_cur += holes;
+  if (getrlimit(RLIMIT_DATA, &data) != 0) return;
+  data.rlim_cur = limit;
   setrlimit(RLIMIT_DATA, &data);
 }
 

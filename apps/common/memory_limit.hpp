@@ -17,13 +17,27 @@ std::size_t machine_memory();
 std::optional<std::uint64_t> control_group_limit(std::istream& memberships,
                                                  const std::string& root);
 
-/// Lets the kernel refuse memory beyond `bytes` more than the process has now. Behind the budget
-/// of a RunContext, which counts large containers only, this bounds all the others; an allocation
-/// then fails with std::bad_alloc.
-void bound_heap(std::size_t bytes);
+/// Lets the kernel refuse memory: behind the budget of a RunContext, which counts large containers
+/// only, this bounds all the others. An allocation then fails with std::bad_alloc. The limit that
+/// the process was started with is never passed, and comes back in the end.
+class HeapBound {
+ public:
+  HeapBound();
+  ~HeapBound();
+  HeapBound(const HeapBound&) = delete;
+  HeapBound& operator=(const HeapBound&) = delete;
 
-/// Lets go of a little of that bound: after a run that met it, addresses between blocks still in
-/// use are lost to the next one.
-void loosen_heap_bound();
+  /// Bounds what the process may have to `bytes` more than it has now.
+  void bound(std::size_t bytes);
+  /// Lets go of a little of the bound, once and for all: after a run that met it, addresses between
+  /// blocks still in use are lost to the next one.
+  void loosen();
+
+ private:
+  void set(std::uint64_t limit) const;
+
+  std::optional<std::uint64_t> at_start_;  // none: it is not known, nothing is bounded
+  std::optional<std::uint64_t> bound_;     // what was set, if it is below
+};
 
 }  // namespace ph::app

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <fstream>
 
-#include "memory_limit.hpp"
 #include "messages.hpp"
 #include "numbers.hpp"
 #include "signals.hpp"
@@ -23,7 +22,7 @@ Session::Session(std::string_view program, const CommonOptions& options, std::st
   context_.threads = options.threads;
   context_.memory.set_limit(options.memory_limit ? static_cast<std::size_t>(*options.memory_limit)
                                                  : machine_memory());
-  bound_heap(context_.memory.limit());
+  heap_.bound(context_.memory.limit());
   if (progress_.active())
     context_.on_progress = [this](const Progress& progress) { progress_.report(progress); };
   explain(

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "command_line.hpp"
+#include "memory_limit.hpp"
 #include "ph/core/run_context.hpp"
 #include "ph/io/output_file.hpp"
 #include "progress.hpp"
@@ -32,6 +33,9 @@ class Session {
   /// The same, only with --verbose.
   void explain(std::string_view text);
 
+  /// After a run that met the memory limit, see HeapBound::loosen.
+  void loosen_heap_bound() { heap_.loosen(); }
+
  private:
   friend class BarHold;
 
@@ -39,6 +43,7 @@ class Session {
   CommonOptions options_;
   ProgressReporter progress_;
   RunContext context_;
+  HeapBound heap_;
   std::uint64_t memory_at_start_;
 };
 

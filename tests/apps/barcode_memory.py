@@ -10,8 +10,10 @@ import re
 import resource
 import signal
 import struct
+import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 import program
@@ -229,6 +231,35 @@ class System(ProgramTest):
                         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS,
                                                               (mib * MIB, mib * MIB)))
             self.assertEqual(self.files(), ["many.txt", "square.txt"])
+
+    def heap_limit_after(self, failures, soft):
+        """The bound of the heap when a batch waits for its last input, after inputs that fail."""
+        inputs = [f"{i}.dipha" for i in range(failures)]
+        for name in inputs:
+            write_image(self.path(name), (40, 40, 40))
+        with subprocess.Popen(
+                [program.PROGRAM, *inputs, "-", "-o", "out/", "--engine", "twist",
+                 "--memory-limit", "8MiB"], cwd=self.folder,
+                stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_DATA, (soft, -1))) as run:
+            messages = [run.stderr.readline() for _ in inputs]
+            time.sleep(0.3)  # it goes on to the next one
+            limit = resource.prlimit(run.pid, resource.RLIMIT_DATA)[0]
+            run.communicate(b"0\n1\n", 60)
+        self.assertTrue(all(b"--memory-limit" in line for line in messages), messages)
+        self.assertEqual(run.returncode, 75)
+        for name in inputs:
+            os.remove(self.path(name))
+        return limit
+
+    def test_failures_of_a_batch_do_not_add_up(self):
+        once, often = self.heap_limit_after(1, -1), self.heap_limit_after(8, -1)
+        self.assertLess(abs(often - once), 2 * MIB)  # it depends on what was there at the start
+        self.assertLess(often, 128 * MIB)
+
+    def test_the_limit_of_the_user_stays(self):
+        soft = self.heap_limit_after(1, -1) - 6 * MIB  # below what the program would set
+        self.assertEqual(self.heap_limit_after(3, soft), soft)
 
     def test_control_group(self):
         group = f"/sys/fs/cgroup/memory/ph-test-{os.getpid()}"

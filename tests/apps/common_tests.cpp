@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <array>
@@ -246,6 +247,77 @@ TEST(Progress, MessagesNeverShareALineWithABar) {
   }
   EXPECT_EQ(messages, written);
   EXPECT_GT(bars, 0U) << "the two never met";
+}
+
+// ---- the bound of the heap
+
+std::uint64_t data_limit() {
+  rlimit data{};
+  getrlimit(RLIMIT_DATA, &data);
+  return data.rlim_cur;
+}
+
+class HeapBounds : public testing::Test {
+ protected:
+  void SetUp() override {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "sanitizers map far more than the program asks for";
+#endif
+    getrlimit(RLIMIT_DATA, &at_start_);
+  }
+  void TearDown() override { setrlimit(RLIMIT_DATA, &at_start_); }
+  void set_limit(std::uint64_t bytes) {
+    rlimit data = at_start_;
+    data.rlim_cur = bytes;
+    setrlimit(RLIMIT_DATA, &data);
+  }
+  static constexpr std::uint64_t kMiB = 1 << 20;
+  rlimit at_start_{};
+};
+
+TEST_F(HeapBounds, AreLoosenedOnce) {
+  {
+    HeapBound heap;
+    heap.loosen();
+    EXPECT_EQ(data_limit(), at_start_.rlim_cur) << "there is no bound yet";
+    heap.bound(512 * kMiB);
+    const std::uint64_t bound = data_limit();
+    ASSERT_LT(bound, at_start_.rlim_cur);
+    EXPECT_GE(bound, 512 * kMiB);
+    heap.loosen();
+    const std::uint64_t loosened = data_limit();
+    EXPECT_GT(loosened, bound);
+    EXPECT_LE(loosened, bound + 8 * kMiB);
+    for (int failure = 0; failure < 100; ++failure) heap.loosen();
+    EXPECT_EQ(data_limit(), loosened);
+  }
+  EXPECT_EQ(data_limit(), at_start_.rlim_cur);
+}
+
+TEST_F(HeapBounds, LeaveALimitOfTheUserAlone) {
+  const std::uint64_t of_the_user = 4096 * kMiB;
+  if (at_start_.rlim_cur < of_the_user) GTEST_SKIP() << "the limit here is lower";
+  set_limit(of_the_user);
+  HeapBound heap;
+  heap.bound(std::size_t{1} << 40);
+  heap.loosen();
+  EXPECT_EQ(data_limit(), of_the_user) << "no bound below it was set";
+}
+
+TEST_F(HeapBounds, AreNotLoosenedBeyondALimitOfTheUser) {
+  std::uint64_t bound = 0;
+  {
+    HeapBound heap;
+    heap.bound(512 * kMiB);
+    bound = data_limit();
+  }
+  if (at_start_.rlim_cur < bound + kMiB) GTEST_SKIP() << "the limit here is lower";
+  set_limit(bound + kMiB);
+  HeapBound heap;
+  heap.bound(512 * kMiB);
+  ASSERT_LT(data_limit(), bound + kMiB);
+  heap.loosen();
+  EXPECT_EQ(data_limit(), bound + kMiB);
 }
 
 }  // namespace
