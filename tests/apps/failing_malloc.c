@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Preloaded into a program: malloc and its relatives fail at the n-th call after main has begun
-   (PH_FAIL_AT=n), and with PH_FAIL_FROM=n from there on. PH_COUNT_FILE receives the number of calls. */
+   (PH_FAIL_AT=n), and with PH_FAIL_FROM=n from there on. PH_CALLS_FILE receives the sizes that the
+   calls asked for, one a line. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -17,38 +18,45 @@ extern void* __libc_calloc(size_t count, size_t size);
 extern void* __libc_realloc(void* old, size_t size);
 extern void* __libc_memalign(size_t alignment, size_t size);
 
+#define MOST_CALLS (1L << 20)
+
 static atomic_long calls;
+static size_t sizes[MOST_CALLS];
 static long fail_at, fail_from;
 static int armed;
 
-static int fails(void) {
+static int fails(size_t size) {
   if (!armed) return 0;
   const long call = atomic_fetch_add(&calls, 1) + 1;
+  if (call <= MOST_CALLS) sizes[call - 1] = size;
   if (call != fail_at && (fail_from == 0 || call < fail_from)) return 0;
   errno = ENOMEM;
   return 1;
 }
 
-void* malloc(size_t size) { return fails() ? NULL : __libc_malloc(size); }
-void* calloc(size_t count, size_t size) { return fails() ? NULL : __libc_calloc(count, size); }
-void* realloc(void* old, size_t size) { return fails() ? NULL : __libc_realloc(old, size); }
+void* malloc(size_t size) { return fails(size) ? NULL : __libc_malloc(size); }
+void* calloc(size_t count, size_t size) {
+  return fails(count * size) ? NULL : __libc_calloc(count, size);
+}
+void* realloc(void* old, size_t size) { return fails(size) ? NULL : __libc_realloc(old, size); }
 void* memalign(size_t alignment, size_t size) {
-  return fails() ? NULL : __libc_memalign(alignment, size);
+  return fails(size) ? NULL : __libc_memalign(alignment, size);
 }
 void* aligned_alloc(size_t alignment, size_t size) { return memalign(alignment, size); }
 int posix_memalign(void** result, size_t alignment, size_t size) {
-  if (fails()) return ENOMEM;
+  if (fails(size)) return ENOMEM;
   *result = __libc_memalign(alignment, size);
   return *result ? 0 : ENOMEM;
 }
 
-static void write_count(void) {
-  const char* path = getenv("PH_COUNT_FILE");
+static void write_calls(void) {
+  const char* path = getenv("PH_CALLS_FILE");
   if (!path) return;
   armed = 0;
-  const int file = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
-  dprintf(file, "%ld\n", atomic_load(&calls));
-  close(file);
+  FILE* file = fopen(path, "w");
+  const long count = atomic_load(&calls);
+  for (long i = 0; file && i < count && count <= MOST_CALLS; ++i) fprintf(file, "%zu\n", sizes[i]);
+  if (file) fclose(file);
 }
 
 static int (*real_main)(int, char**, char**);
@@ -58,7 +66,7 @@ static int counted_main(int argc, char** argv, char** environment) {
   const char* from = getenv("PH_FAIL_FROM");
   fail_at = at ? atol(at) : 0;
   fail_from = from ? atol(from) : 0;
-  atexit(write_count);
+  atexit(write_calls);
   armed = 1;
   const int code = real_main(argc, argv, environment);
   armed = 0;
