@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <zlib.h>
 
-#include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <limits>
-#include <memory_resource>
-#include <thread>
 
 #include "ph/io/cloud_io.hpp"
 #include "ph/io/formats.hpp"
@@ -16,17 +11,6 @@ namespace ph::test {
 namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
-
-Image image_of(const std::string& bytes, const std::string& name, const ReadOptions& options = {}) {
-  ReadResult result = read_any(Input::view(bytes, name), Format::automatic, options);
-  return std::get<Image>(std::move(result.data));
-}
-void expect_refused(const std::string& name, const std::vector<std::string>& cases) {
-  for (const std::string& bytes : cases) {
-    const std::string message = bad_data([&] { read_any(Input::view(bytes, name)); });
-    EXPECT_TRUE(contains(message, name)) << message;
-  }
-}
 
 TEST(ReadPgm, BinaryAndText) {
   const std::vector<double> expected{0, 1, 2, 10, 11, 255};
@@ -69,169 +53,6 @@ TEST(ReadPgm, RefusesDamage) {
                            "P2 1000000 1000000 255 1 2 3",
                            "P6 1 1 255 abc",
                            std::string("P5 1 1 65535 \xFF", 14)});
-}
-
-struct Nifti {
-  std::vector<std::int16_t> dim{2, 2, 3};
-  std::int16_t datatype = 4, bitpix = 16;
-  float offset = 352, slope = 0, intercept = 0;
-  std::string magic = std::string("n+1\0", 4);
-  std::int32_t size = 348;
-  bool big = false;
-
-  template <class T>
-  void put(std::string& bytes, std::size_t at, T value) const {
-    std::string raw = le(value);
-    if (big) std::reverse(raw.begin(), raw.end());
-    std::copy(raw.begin(), raw.end(), bytes.data() + at);
-  }
-  std::string header() const {
-    std::string bytes(352, '\0');
-    put(bytes, 0, size);
-    for (std::size_t i = 0; i < dim.size(); ++i) put(bytes, 40 + 2 * i, dim[i]);
-    put(bytes, 70, datatype);
-    put(bytes, 72, bitpix);
-    put(bytes, 108, offset);
-    put(bytes, 112, slope);
-    put(bytes, 116, intercept);
-    std::copy_n(magic.begin(), 4, bytes.data() + 344);
-    return bytes;
-  }
-  template <class T>
-  std::string with(const std::vector<T>& values) const {
-    std::string bytes = header();
-    for (const T value : values) {
-      bytes.resize(bytes.size() + sizeof(T));
-      put(bytes, bytes.size() - sizeof(T), value);
-    }
-    return bytes;
-  }
-};
-
-TEST(ReadNifti, EveryDatatypeInBothByteOrders) {
-  for (const bool big : {false, true}) {
-    const auto check = [&]<class T>(std::int16_t code, T) {
-      Nifti n{.datatype = code, .bitpix = 8 * sizeof(T), .big = big};
-      const Image image = image_of(n.with(std::vector<T>{0, 10, 1, 11, 2, 12}), "a.nii");
-      EXPECT_EQ(image.extents, (std::vector<Index>{2, 3})) << code;
-      EXPECT_EQ(image.values, (std::vector<double>{0, 1, 2, 10, 11, 12})) << code;
-    };
-    check(2, std::uint8_t{});
-    check(256, std::int8_t{});
-    check(4, std::int16_t{});
-    check(512, std::uint16_t{});
-    check(8, std::int32_t{});
-    check(768, std::uint32_t{});
-    check(1024, std::int64_t{});
-    check(1280, std::uint64_t{});
-    check(16, float{});
-    check(64, double{});
-  }
-}
-
-TEST(ReadNifti, ScalesAndDropsTrailingAxes) {
-  const std::vector<std::int16_t> six{0, 10, 1, 11, 2, 12};
-  Nifti n{.dim = {5, 2, 3, 1, 1, 1}, .slope = 2, .intercept = -1};
-  const Image image = image_of(n.with(six), "a.nii");
-  EXPECT_EQ(image.extents, (std::vector<Index>{2, 3}));
-  EXPECT_EQ(image.values, (std::vector<double>{-1, 1, 3, 19, 21, 23}));
-  n.slope = std::nanf("");
-  EXPECT_EQ(image_of(n.with(six), "a.nii").values[5], 12);
-  n.dim = {3, 1, 1, 1};
-  EXPECT_EQ(image_of(n.with(std::vector<std::int16_t>{7}), "a.nii").extents,
-            (std::vector<Index>{1}));
-  n = {.datatype = 16, .bitpix = 32};
-  const std::string holes = n.with(std::vector<float>{0, 1, 2, 3, 4, std::nanf("")});
-  EXPECT_TRUE(contains(bad_data([&] { image_of(holes, "a.nii"); }), "NaN"));
-  EXPECT_EQ(image_of(holes, "a.nii", {.nan = NanPolicy::drop}).values[5], kInf);
-  Nifti extended{.offset = 368};
-  const std::string header = extended.header() + std::string(16, 'e');
-  EXPECT_EQ(image_of(header + std::string(12, '\1'), "a.nii").values[0], 257);
-}
-
-TEST(ReadNifti, ScalingKeepsToTheBudget) {
-  constexpr std::int16_t side = 30;
-  constexpr std::size_t voxels = std::size_t{side} * side;
-  const auto check = [&]<class T>(std::int16_t code, T, std::size_t needed) {
-    Nifti n{.dim = {2, side, side}, .datatype = code, .bitpix = 8 * sizeof(T), .slope = 2};
-    const std::string bytes = n.with(std::vector<T>(voxels, T{3}));
-    for (const bool is_enough : {true, false}) {
-      RunContext context;
-      const Input input = held(bytes, "a.nii", context);
-      context.memory.set_limit(context.memory.used() + needed - (is_enough ? 0 : 1));
-      if (is_enough) {
-        const Image image = read_nifti(input, {.context = &context});
-        EXPECT_EQ(image.values, Voxels(std::vector<double>(voxels, 6)));
-      } else {
-        EXPECT_TRUE(fails_with(ErrorKind::resource, [&] {
-          read_nifti(input, {.context = &context});
-        })) << code;
-      }
-    }
-  };
-  // What is stored and what becomes of it; doubles are scaled where they are.
-  check(2, std::uint8_t{}, voxels * (1 + 8));
-  check(4, std::int16_t{}, voxels * (2 + 8));
-  check(16, float{}, voxels * (4 + 8));
-  check(64, double{}, voxels * 8);
-}
-
-TEST(ReadNifti, ScalingIsStopped) {
-  Nifti n{.dim = {2, 300, 300}, .slope = 2};
-  std::stop_source source;
-  RunContext context;
-  context.stop = source.get_token();
-  const Input input = held(n.with(std::vector<std::int16_t>(90000)), "a.nii", context);
-  context.on_progress = [&](const Progress& progress) {
-    if (progress.done == progress.total)  // all was read: what is left is to scale it
-      source.request_stop();
-    else
-      std::this_thread::sleep_for(std::chrono::milliseconds(101));  // the next one is heard, too
-  };
-  std::this_thread::sleep_for(std::chrono::milliseconds(101));
-  EXPECT_TRUE(fails_with(ErrorKind::cancelled, [&] { read_nifti(input, {.context = &context}); }));
-}
-
-TEST(ReadNifti, RefusesDamage) {
-  const std::vector<std::int16_t> six{0, 10, 1, 11, 2, 12};
-  const std::string whole = Nifti{}.with(six);
-  check_prefixes(
-      whole, "a.nii", [](const Input& in) { read_nifti(in); }, never());
-  const auto with = [&](auto change) {
-    Nifti n;
-    change(n);
-    return n.with(six);
-  };
-  expect_refused(
-      "a.nii",
-      {whole + "x", with([](Nifti& n) {
-         n.dim = {0, 2, 3};
-       }),
-       with([](Nifti& n) {
-         n.dim = {8, 2, 3};
-       }),
-       with([](Nifti& n) {
-         n.dim = {2, 0, 3};
-       }),
-       with([](Nifti& n) {
-         n.dim = {2, -2, -3};
-       }),
-       with([](Nifti& n) { n.dim = {7, 32767, 32767, 32767, 32767, 32767, 32767, 32767}; }),
-       with([](Nifti& n) { n.datatype = 32; }), with([](Nifti& n) { n.datatype = 1; }),
-       with([](Nifti& n) { n.datatype = 0; }), with([](Nifti& n) { n.bitpix = 8; }),
-       with([](Nifti& n) { n.offset = 0; }), with([](Nifti& n) { n.offset = -352; }),
-       with([](Nifti& n) { n.offset = 1e30f; }), with([](Nifti& n) { n.offset = 352.5f; }),
-       with([](Nifti& n) { n.offset = std::nanf(""); }), with([](Nifti& n) {
-         n.slope = 1;
-         n.intercept = std::nanf("");
-       }),
-       with([](Nifti& n) { n.slope = std::numeric_limits<float>::infinity(); }),
-       with([](Nifti& n) { n.magic = "abcd"; }), with([](Nifti& n) { n.size = 349; })});
-  EXPECT_TRUE(contains(
-      bad_data([&] { image_of(with([](Nifti& n) { n.magic = std::string("ni1\0", 4); }), "a"); }),
-      "pair"));
-  EXPECT_TRUE(contains(bad_data([&] { image_of(with([](Nifti& n) { n.size = 540; }), "a.nii"); }),
-                       "version"));
 }
 
 TEST(ReadPerseus, GridsWithTheFirstAxisFastest) {

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "ph/core/error.hpp"
+#include "ph/io/formats.hpp"
 #include "ph/io/reader.hpp"
 
 namespace ph::test {
@@ -98,6 +99,21 @@ std::string le(T value) {
 
 inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
+}
+
+/// The image that bytes hold, read as a file of that name.
+inline Image image_of(const std::string& bytes, const std::string& name,
+                      const ReadOptions& options = {}) {
+  ReadResult result = read_any(Input::view(bytes, name), Format::automatic, options);
+  return std::get<Image>(std::move(result.data));
+}
+
+/// Expects each of these to be bad data, in messages that name the file.
+inline void expect_refused(const std::string& name, const std::vector<std::string>& cases) {
+  for (const std::string& bytes : cases) {
+    const std::string message = bad_data([&] { read_any(Input::view(bytes, name)); });
+    EXPECT_TRUE(contains(message, name)) << message;
+  }
 }
 
 }  // namespace ph::test

@@ -136,10 +136,13 @@ Cubical::Table Cubical::new_table(const RunContext& context) const {
       order.push_back({value, static_cast<std::uint32_t>(i)});
     ticker.work();
   }
-  radix_sort_by_value(order, [&](const Voxel& v) {
-    ticker.work();
-    return v.value;
-  });
+  radix_sort_by_value(
+      order,
+      [&](const Voxel& v) {
+        ticker.work();
+        return v.value;
+      },
+      context);
   std::optional<MemoryClaim> claim;
   if (&context != context_)
     claim.emplace(context.memory, cells_ * sizeof(std::uint32_t) + order.size() * sizeof(double));

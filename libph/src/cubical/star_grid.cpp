@@ -49,6 +49,7 @@ StarGrid::StarGrid(const CubicalImage& grid, const RunContext& context)
       size_(static_cast<std::uint32_t>(grid.size())),
       relative_(!grid.voxels_are_vertices),
       stars_(&context.memory),
+      cube_pairs_(&context.memory),
       critical_(&context.memory) {
   int axis = 3;
   std::uint32_t stride = 1;
@@ -67,6 +68,9 @@ StarGrid::StarGrid(const CubicalImage& grid, const RunContext& context)
     else
       ++open_axes_;
   }
+  if (top_dim_ == 3)
+    for (unsigned wraps = 0; wraps < (any_periodic_ ? 8U : 1U); ++wraps)
+      cube_pairs_.emplace_back(star_tables(wraps), &context.memory);
   stars_.resize(size_);
   with_voxels(grid.type, grid.voxels, [&]<class T>(const T* voxels) {
     if (grid.superlevel != relative_)

@@ -80,6 +80,10 @@ class StarGrid {
   const StarTables& tables(std::uint32_t v) const {
     return any_periodic_ ? star_tables(wrapped(v)) : plain_tables_;
   }
+  /// Of three axes only.
+  CubePairs pair_cubes(std::uint32_t v) const {
+    return cube_pairs_[any_periodic_ ? wrapped(v) : 0].pair_cubes(stars_[v]);
+  }
 
   std::uint32_t stride(int axis) const { return axes_[axis].stride; }
 
@@ -164,6 +168,7 @@ class StarGrid {
   int top_dim_ = 0, open_axes_ = 0;
   bool relative_ = false, any_periodic_ = false, all_enter_ = true;
   RawVector<std::uint32_t> stars_;
+  std::pmr::vector<CubePairMemo> cube_pairs_;  // of three axes, as `wrapped`
   std::pmr::vector<std::uint32_t> critical_;
   mutable std::array<std::vector<Index>, 2> numbers_;  // for one thread at a time
 };

@@ -44,7 +44,6 @@ StarTables::StarTables(unsigned wrapped) {
       if ((e >> a & e >> b & 1U) != 0) squares_on_[e] |= static_cast<std::uint16_t>(1U << s);
     }
   }
-  std::uint32_t count = 0;
   for (unsigned s = 0; s < 4096; ++s) {
     for (int c = 0; c < kCubeCount; ++c) {
       const bool on = (s >> square_of_cube(c, 0) & s >> square_of_cube(c, 1) &
@@ -52,10 +51,9 @@ StarTables::StarTables(unsigned wrapped) {
       if (on) cubes_on_[s] |= static_cast<std::uint8_t>(1U << c);
     }
     pair_edges(s);
-    pairs_begin_[s] = count;
-    count += 1U << std::popcount(unsigned{cubes_on_[s]});
+    places_begin_[s] = place_count_;
+    place_count_ += 1U << std::popcount(unsigned{cubes_on_[s]});
   }
-  pairs_ = std::make_unique<std::atomic<std::uint64_t>[]>(count);
 }
 
 // Kruskal with the elder rule on the link: squares, in order, join edges of the star; of two
@@ -98,9 +96,10 @@ void StarTables::pair_edges(unsigned squares) {
 
 // The same on the dual, backwards: the eight triangles of the octahedron are nodes, those that are
 // not in the star have always been there; squares, the youngest first, join the cubes beside them.
-CubePairs StarTables::find_cube_pairs(std::uint32_t star) const {
+CubePairs StarTables::pair_cubes(std::uint32_t star) const {
   CubePairs pairs;
   const unsigned cubes = this->cubes(star), all = squares(star);
+  if (cubes == 0) return pairs;
   const auto axis_of = [](int square) { return normal_of_square(square); };
   if (std::has_single_bit(cubes)) {
     const int c = std::countr_zero(cubes);

@@ -4,7 +4,8 @@
 #include <atomic>
 #include <bit>
 #include <cstdint>
-#include <memory>
+#include <memory_resource>
+#include <vector>
 
 namespace ph::cubical {
 
@@ -185,19 +186,18 @@ class StarTables {
     const auto [a, b] = kEdgesOfSquare[square];
     return up_[squares(star)][a] == square ? a : b;
   }
-  CubePairs pair_cubes(std::uint32_t star) const {
+  CubePairs pair_cubes(std::uint32_t star) const;
+  /// Of a star among those that differ in squares or cubes: below `cube_place_count`.
+  std::uint32_t cube_place(std::uint32_t star) const {
     const unsigned c = cubes(star);
-    if (c == 0) return {};
     // Which subset of the cubes that the squares allow.
-    std::size_t place = pairs_begin_[squares(star)];
+    std::uint32_t place = places_begin_[squares(star)];
     int bit = 0;
     for (unsigned rest = cubes_on_[squares(star)]; rest != 0; rest &= rest - 1, ++bit)
-      place += std::size_t{(c & rest & (0U - rest)) != 0} << bit;
-    std::uint64_t word = pairs_[place].load(std::memory_order_relaxed);
-    if (word == 0)
-      pairs_[place].store(word = find_cube_pairs(star).word(), std::memory_order_relaxed);
-    return CubePairs(word);
+      place += std::uint32_t{(c & rest & (0U - rest)) != 0} << bit;
+    return place;
   }
+  std::uint32_t cube_place_count() const { return place_count_; }
   /// The squares not paired inside the star.
   unsigned critical_squares(std::uint32_t star, const CubePairs& pairs) const {
     return squares(star) & ~(tree_[squares(star)] | pairs.squares());
@@ -219,7 +219,6 @@ class StarTables {
   }();
 
   void pair_edges(unsigned squares);
-  CubePairs find_cube_pairs(std::uint32_t star) const;
 
   std::array<int, kEdgeCount> edge_order_{}, edge_rank_{};
   std::array<int, kSquareCount> square_order_{}, square_rank_{};
@@ -231,12 +230,30 @@ class StarTables {
   std::array<std::uint16_t, 4096> tree_{};      // by squares: those paired with an edge
   std::array<std::uint8_t, 4096> loops_{};      // by squares: how many are not
   std::array<std::array<std::int8_t, kEdgeCount>, 4096> up_{};
-  std::array<std::uint32_t, 4096> pairs_begin_{};  // by squares
-  // Found when first asked for: most are never. Never 0 once found.
-  std::unique_ptr<std::atomic<std::uint64_t>[]> pairs_;
+  std::array<std::uint32_t, 4096> places_begin_{};  // by squares
+  std::uint32_t place_count_ = 0;
 };
 
 /// Made once, when they are first asked for.
 const StarTables& star_tables(unsigned wrapped);
+
+/// `StarTables::pair_cubes`, which is slow, once for each kind of star that is met: most are never.
+/// For several threads at a time.
+class CubePairMemo {
+ public:
+  CubePairMemo(const StarTables& tables, std::pmr::memory_resource* memory)
+      : tables_(&tables), words_(tables.cube_place_count(), memory) {}
+  CubePairs pair_cubes(std::uint32_t star) const {
+    if (StarTables::cubes(star) == 0) return {};
+    std::atomic<std::uint64_t>& kept = words_[tables_->cube_place(star)];
+    std::uint64_t word = kept.load(std::memory_order_relaxed);
+    if (word == 0) kept.store(word = tables_->pair_cubes(star).word(), std::memory_order_relaxed);
+    return CubePairs(word);
+  }
+
+ private:
+  const StarTables* tables_;
+  mutable std::pmr::vector<std::atomic<std::uint64_t>> words_;  // never 0 once found
+};
 
 }  // namespace ph::cubical

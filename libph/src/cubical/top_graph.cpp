@@ -46,7 +46,7 @@ std::array<std::uint32_t, 2> TopGraph::ends(std::uint32_t v, std::uint32_t numbe
 std::uint32_t TopGraph::arrow(std::uint32_t node) const {
   const StarCell top = cell(node);
   const int number = number_of(top.direction);
-  const int axis = exit_axis(grid_.tables(top.voxel), grid_.star(top.voxel), number);
+  const int axis = exit_axis(top.voxel, number);
   return this->node(top.voxel, turned(top.direction, axis, -top.direction[axis]));
 }
 

@@ -49,10 +49,10 @@ class TopGraph {
   bool has_cubes() const { return grid_.top_dim() == 3; }
   /// The top cell in a direction from a voxel.
   std::uint32_t node(std::uint32_t v, const Direction& d) const;
-  /// The axis along which a top cell is left, by its number in its star.
-  int exit_axis(const StarTables& tables, std::uint32_t star, int number) const {
-    return has_cubes() ? tables.pair_cubes(star).exit(number)
-                       : 3 - axis_of_edge(tables.edge_of(star, number));  // the other of 1 and 2
+  /// The axis along which a top cell is left, by its number in the star of a voxel.
+  int exit_axis(std::uint32_t v, int number) const {
+    if (has_cubes()) return grid_.pair_cubes(v).exit(number);
+    return 3 - axis_of_edge(grid_.tables(v).edge_of(grid_.star(v), number));  // the other of 1, 2
   }
   /// The star that a top cell is in. Precondition: there is one.
   StarCell cell(std::uint32_t node) const;
@@ -92,9 +92,8 @@ void TopGraph::for_each_node(UseArrow&& use_arrow, UseRoot&& use_root, Ticker& t
       const std::uint32_t star = grid_.star(v);
       const unsigned all = has_cubes() ? StarTables::cubes(star) : StarTables::squares(star);
       if (all == 0) continue;
-      const StarTables& tables = grid_.tables(v);
-      const unsigned paired =
-          has_cubes() ? all & ~tables.pair_cubes(star).critical_cubes() : tables.edge_squares(star);
+      const unsigned paired = has_cubes() ? all & ~grid_.pair_cubes(v).critical_cubes()
+                                          : grid_.tables(v).edge_squares(star);
       const unsigned borders = grid_.borders(row, x);
       const auto near = [&](int n) {
         const Step& step = steps[n];
@@ -104,7 +103,7 @@ void TopGraph::for_each_node(UseArrow&& use_arrow, UseRoot&& use_root, Ticker& t
       };
       for (unsigned rest = paired; rest != 0; rest &= rest - 1) {
         const int n = std::countr_zero(rest);
-        use_arrow(near(n), near(steps[n].across[exit_axis(tables, star, n)]));
+        use_arrow(near(n), near(steps[n].across[exit_axis(v, n)]));
       }
       if (paired != all) for_each_root(v, use_root);
     }
@@ -139,7 +138,7 @@ void TopGraph::for_each_root(std::uint32_t v, Use&& use) const {
         [&](int rank) { return tables.square_at(rank); }, use_cell);
   else if (StarTables::cubes(star) == 255)
     for_each_in_order(
-        tables.pair_cubes(star).critical_cubes(), kCubeCount,
+        grid_.pair_cubes(v).critical_cubes(), kCubeCount,
         [&](int rank) { return tables.cube_at(rank); }, use_cell);
 }
 

@@ -36,7 +36,7 @@ NumberedCells critical_cells(const StarGrid& grid, int dim, const RunContext& co
           add);
     else
       for_each_in_order(
-          tables.critical_squares(star, tables.pair_cubes(star)), kSquareCount,
+          tables.critical_squares(star, grid.pair_cubes(v)), kSquareCount,
           [&](int rank) { return tables.square_at(rank); }, add);
   }
   radix_sort_by_value(
