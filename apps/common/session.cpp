@@ -59,7 +59,11 @@ Output::Output(Output&& other) noexcept
 Output::~Output() { forget_temporary(slot_); }
 
 void Output::commit() {
-  file_.commit();
+  file_.sync();  // may take long, and a signal may end it
+  {
+    const SignalsWait until_named;
+    file_.commit();
+  }
   forget_temporary(std::exchange(slot_, -1));
 }
 

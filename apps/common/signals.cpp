@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <array>
@@ -23,12 +24,18 @@ constexpr std::size_t kLongestName = 4096;
 
 std::atomic<int> first_signal{0};
 std::atomic<int> wake_descriptor{-1};
+std::atomic<bool> must_wait{false};
 std::array<std::array<char, kLongestName>, kSlots> temporary_names;
 std::array<std::atomic<int>, kSlots> slot_state;  // 0: free, 1: being filled, 2: in use
 
 static_assert(std::atomic<int>::is_always_lock_free);
 
+// Never runs on a thread that is waited for: that one has signals blocked.
 [[noreturn]] void end_at_once(int signal) {
+  while (must_wait.load()) {
+    const timespec millisecond{0, 1'000'000};
+    nanosleep(&millisecond, nullptr);
+  }
   for (std::size_t i = 0; i < kSlots; ++i)
     if (slot_state[i].load() == 2) unlink(temporary_names[i].data());
   _exit(128 + signal);
@@ -96,6 +103,19 @@ void SignalWatch::watch() {
     ready = poll(&done, 1, kGraceMilliseconds);
   } while (ready < 0 && errno == EINTR);
   if (ready == 0) end_at_once(first_signal.load());
+}
+
+SignalsWait::SignalsWait() {
+  sigset_t ours;
+  sigemptyset(&ours);
+  for (const int signal : kSignals) sigaddset(&ours, signal);
+  pthread_sigmask(SIG_BLOCK, &ours, &before_);
+  must_wait = true;
+}
+
+SignalsWait::~SignalsWait() {
+  must_wait = false;
+  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 
 int remember_temporary(const std::string& path) {

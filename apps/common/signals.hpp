@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <signal.h>
+
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -27,6 +29,19 @@ class SignalWatch {
   std::stop_source stop_;
   int pipe_[2] = {-1, -1};
   std::thread thread_;
+};
+
+/// While it lives the process does not end of a signal: for files that have a name which is not
+/// theirs. For one thread at a time.
+class SignalsWait {
+ public:
+  SignalsWait();
+  ~SignalsWait();
+  SignalsWait(const SignalsWait&) = delete;
+  SignalsWait& operator=(const SignalsWait&) = delete;
+
+ private:
+  sigset_t before_;
 };
 
 /// Has a file removed if a signal ends the process at once. @return a slot to forget it by; -1 if

@@ -180,17 +180,22 @@ void OutputFile::flush() {
   buffer_.clear();
 }
 
-void OutputFile::commit() {
+void OutputFile::sync() {
   flush();
+  if (target_.empty()) return;
+  // Some file systems cannot sync; that is no reason to refuse them.
+  if (fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EROFS)
+    fail_writing(errno);
+}
+
+void OutputFile::commit() {
+  sync();
   if (target_.empty()) {
     if (owned_ && close(std::exchange(descriptor_, -1)) != 0) fail_writing(errno);
     descriptor_ = -1;
     owned_ = false;
     return;
   }
-  // Some file systems cannot sync; that is no reason to refuse them.
-  if (fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EROFS)
-    fail_writing(errno);
   const std::string folder = folder_of(target_);
   if (temporary_.empty()) {
     // A link cannot replace a file, so it takes two steps: a temporary name, then the rename.

@@ -41,7 +41,10 @@ class OutputFile {
   /// Hands over what was written so far: whoever reads along sees it now.
   /// @throws Error (io), BrokenPipe.
   void flush();
-  /// Completes the file and gives it its name. Nothing may be written afterwards.
+  /// Waits until what was written is on the disk; where that cannot be asked for it does nothing.
+  /// @throws Error (io), BrokenPipe.
+  void sync();
+  /// Completes the file, synchronised, and gives it its name. Nothing may be written afterwards.
   /// @throws Error (io or cannot_create), BrokenPipe.
   void commit();
 
