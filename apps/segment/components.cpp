@@ -38,16 +38,18 @@ std::vector<Component> measured(const SceneTree& scene, const std::vector<Index>
     }
   }
   for (const std::uint32_t v : scene.vertex_of_point)
-    if (v != SceneTree::kNoVertex) ++by_root[static_cast<std::size_t>(component_of[v])].points;
+    ++by_root[static_cast<std::size_t>(component_of[v])].points;
   for (std::size_t v = 0; v < by_root.size(); ++v) by_root[v].root = static_cast<Index>(v);
   return by_root;
 }
 
 Box box_of(std::span<const float> xyz) {
   Box box{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
-  for (std::size_t i = 0; i < xyz.size(); ++i) {
-    box.min[i % 3] = std::min(box.min[i % 3], double{xyz[i]});
-    box.max[i % 3] = std::max(box.max[i % 3], double{xyz[i]});
+  for (std::size_t i = 0; i < xyz.size(); i += 3) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      box.min[k] = std::min(box.min[k], double{xyz[i + k]});
+      box.max[k] = std::max(box.max[k], double{xyz[i + k]});
+    }
   }
   return box;
 }
@@ -114,16 +116,12 @@ SceneCut extract_components(const SceneTree& scene, const std::vector<Index>& co
   for (const Index root : component_of)
     result.vertex_labels.push_back(label_of_root[static_cast<std::size_t>(root)]);
 
-  result.labels.resize(scene.vertex_of_point.size());
-  const float* next = scene.xyz.data();
-  for (std::size_t i = 0; i < result.labels.size(); ++i) {
-    if (scene.vertex_of_point[i] == SceneTree::kNoVertex) continue;
-    const float* p = next;
-    next += 3;
-    const std::uint32_t label = result.vertex_labels[scene.vertex_of_point[i]];
+  result.labels.resize(scene.cloud_size());
+  for (std::size_t k = 0; k < scene.points.size(); ++k) {
+    const std::uint32_t label = result.vertex_labels[scene.vertex_of_point[k]];
     if (label == 0) continue;
-    result.labels[i] = label;
-    place[label - 1] = std::copy_n(p, 3, place[label - 1]);
+    result.labels[static_cast<std::size_t>(scene.points[k])] = label;
+    place[label - 1] = std::copy_n(&scene.xyz[3 * k], 3, place[label - 1]);
   }
   measure_boxes(scene, sorted, result);
   return result;

@@ -62,11 +62,10 @@ std::vector<LabelTracker::Place> LabelTracker::cubes(const SceneTree& scene,
                                                      const SceneCut& cut) const {
   std::map<Key, std::map<std::uint32_t, Index>> points;
   const float* p = scene.xyz.data();
-  for (std::size_t i = 0; i < cut.labels.size(); ++i) {
-    if (scene.vertex_of_point[i] == SceneTree::kNoVertex) continue;
-    if (cut.labels[i] != 0)
+  for (const std::uint32_t vertex : scene.vertex_of_point) {
+    if (const std::uint32_t label = cut.vertex_labels[vertex]; label != 0)
       ++points[{cell_, std::floor(p[2] / cell_), std::floor(p[1] / cell_),
-                std::floor(p[0] / cell_)}][cut.labels[i] - 1];
+                std::floor(p[0] / cell_)}][label - 1];
     p += 3;
   }
   std::vector<Place> places;

@@ -23,25 +23,36 @@ void keep_outer(std::vector<Vector2d>& points) {
   constexpr std::size_t corners = 8, few = 64;
   if (points.size() < few) return;
   // Along x, x + y, y, y - x, and against them.
-  std::array<double, corners> most;
+  std::array<double, corners / 2> most, least;
   most.fill(-kInfinity);
+  least.fill(kInfinity);
   std::array<Vector2d, corners> farthest;
   for (const Vector2d& p : points) {
     const std::array<double, corners / 2> along{p[0], p[0] + p[1], p[1], p[1] - p[0]};
-    for (std::size_t k = 0; k < corners; ++k) {
-      const double far = k < corners / 2 ? along[k] : -along[k - corners / 2];
-      if (!(far > most[k])) continue;
-      most[k] = far;
-      farthest[k] = p;
+    for (std::size_t k = 0; k < along.size(); ++k) {
+      if (along[k] > most[k]) {
+        most[k] = along[k];
+        farthest[k] = p;
+      }
+      if (along[k] < least[k]) {
+        least[k] = along[k];
+        farthest[k + along.size()] = p;
+      }
     }
+  }
+  // On the inner side of an edge, by more than rounding may be wrong.
+  double rounding = 0;
+  for (const Vector2d& p : farthest) rounding = std::max(rounding, 1e-12 * p.norm());
+  std::array<Vector2d, corners> inwards;
+  std::array<double, corners> beyond;
+  for (std::size_t k = 0; k < corners; ++k) {
+    const Vector2d &from = farthest[k], edge = farthest[(k + 1) % corners] - from;
+    inwards[k] = {-edge[1], edge[0]};
+    beyond[k] = edge.isZero(0) ? -kInfinity : inwards[k].dot(from) + rounding * edge.norm();
   }
   std::erase_if(points, [&](const Vector2d& p) {
     bool is_inside = true;
-    for (std::size_t k = 0; k < corners; ++k) {
-      const Vector2d& a = farthest[k];
-      const Vector2d& b = farthest[(k + 1) % corners];
-      is_inside &= a == b || cross(b - a, p - a) > 0;
-    }
+    for (std::size_t k = 0; k < corners; ++k) is_inside &= inwards[k].dot(p) > beyond[k];
     return is_inside;
   });
 }

@@ -17,10 +17,10 @@ namespace ph::segment {
 namespace {
 
 /// What all stages hold of a cloud at once, at most: of each point its number in two lists of those
-/// that are left, its voxel, its vertex, its coordinates as the tree has them and sorted by
-/// segment, its label.
+/// that are left, its voxel, its number, its vertex and its coordinates as the tree has them, these
+/// sorted by segment, its label.
 std::size_t bytes_for_points(const CloudView& cloud) {
-  constexpr std::size_t bytes_per_point = 2 * 8 + 4 + 4 + 12 + 12 + 4;
+  constexpr std::size_t bytes_per_point = 3 * 8 + 4 + 4 + 12 + 12 + 4;
   return cloud.xyz.size() / 3 * bytes_per_point;
 }
 
@@ -67,6 +67,25 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
   return scene;
 }
 
+/// The points with their voxels, in the order of the cloud.
+void keep_points(const CloudView& cloud, const VoxelFiltration& filtration, SceneTree& scene) {
+  const std::vector<Index>& points = filtration.points;
+  const std::size_t size = points.size();
+  // Those beyond the plane, ascending, and behind them those that were won back, ascending.
+  const auto beyond =
+      static_cast<std::size_t>(std::ranges::is_sorted_until(points) - points.begin());
+  scene.points.resize(size);
+  scene.vertex_of_point.resize(size);
+  scene.xyz.resize(3 * size);
+  for (std::size_t k = 0, next = 0, next_foot = beyond; k < size; ++k) {
+    const bool is_foot = next == beyond || (next_foot < size && points[next_foot] < points[next]);
+    const std::size_t from = is_foot ? next_foot++ : next++;
+    scene.points[k] = points[from];
+    scene.vertex_of_point[k] = filtration.grid.voxel_of[from];
+    std::copy_n(&cloud.xyz[3 * static_cast<std::size_t>(points[from])], 3, &scene.xyz[3 * k]);
+  }
+}
+
 /// The tree and what a cut needs besides. `plane` is there already.
 void keep_scene(const CloudView& cloud, const VoxelFiltration& filtration,
                 const SegmentOptions& options, SceneTree& scene) {
@@ -80,17 +99,7 @@ void keep_scene(const CloudView& cloud, const VoxelFiltration& filtration,
   scene.width = cloud.columns();
   scene.height = cloud.rows();
   scene.first_cut = options.cut();
-  scene.vertex_of_point.assign(cloud.xyz.size() / 3, SceneTree::kNoVertex);
-  for (std::size_t k = 0; k < filtration.points.size(); ++k) {
-    scene.vertex_of_point[static_cast<std::size_t>(filtration.points[k])] =
-        filtration.grid.voxel_of[k];
-  }
-  scene.xyz.reserve(3 * filtration.points.size());
-  for (std::size_t i = 0; i < scene.vertex_of_point.size(); ++i) {
-    if (scene.vertex_of_point[i] == SceneTree::kNoVertex) continue;
-    const auto p = cloud.xyz.subspan(3 * i, 3);
-    scene.xyz.insert(scene.xyz.end(), p.begin(), p.end());
-  }
+  keep_points(cloud, filtration, scene);
   scene.cells = filtration.grid.cells;
   scene.vertices = filtration.grid.centroids;
   scene.normals = filtration.surface.normals;

@@ -41,7 +41,7 @@ std::string tree_bytes(const SceneTree& scene) {
   std::string bytes(kTreeMagic);
   const std::size_t n = scene.cells.size();
   bytes.reserve(kTreeHeader + kTreeSum + n * 11 * kTreeWord +
-                scene.tree.merges.size() * 2 * kTreeWord + scene.vertex_of_point.size() * 4 +
+                scene.tree.merges.size() * 2 * kTreeWord + scene.cloud_size() * 4 +
                 scene.xyz.size() * 4);
   const auto integer = [&](std::int64_t value) { put(bytes, value); };
   const auto number = [&](double value) { put(bytes, value); };
@@ -74,7 +74,9 @@ std::string tree_bytes(const SceneTree& scene) {
     put(bytes, static_cast<std::uint32_t>(m.u));
     put(bytes, static_cast<std::uint32_t>(m.v));
   }
-  put_all(bytes, scene.vertex_of_point);
+  for_each_point(scene, [&](std::optional<std::uint32_t> vertex) {
+    put(bytes, vertex.value_or(kTreeNoVertex));
+  });
   put_all(bytes, scene.xyz);
   put(bytes, tree_sum(bytes));
   return bytes;

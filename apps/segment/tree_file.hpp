@@ -2,7 +2,11 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
+#include <utility>
+
+#include "ph/scene_tree.hpp"
 
 namespace ph::segment {
 
@@ -13,6 +17,17 @@ inline constexpr std::string_view kTreeMagic = "ph-tree\n";
 inline constexpr std::int64_t kTreeVersion = 1;
 inline constexpr std::size_t kTreeWord = 8, kTreeHeader = 25 * kTreeWord;
 inline constexpr std::size_t kTreeSum = 4;
+inline constexpr std::uint32_t kTreeNoVertex = UINT32_MAX;  // of a point
+
+/// Calls `use(std::optional vertex)` for each point of the cloud.
+template <class Use>
+void for_each_point(const SceneTree& scene, Use&& use) {
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < scene.cloud_size(); ++i) {
+    const bool has_vertex = next < scene.points.size() && std::cmp_equal(scene.points[next], i);
+    use(has_vertex ? std::optional(scene.vertex_of_point[next++]) : std::nullopt);
+  }
+}
 
 /// CRC-32 of all that stands before it.
 std::uint32_t tree_sum(std::string_view bytes);

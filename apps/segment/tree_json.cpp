@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "json_text.hpp"
+#include "tree_file.hpp"
 
 namespace ph::segment {
 namespace {
@@ -36,14 +37,13 @@ std::string merges_of(const MergeTree& tree) {
 
 std::string vertex_of_point(const SceneTree& scene) {
   std::string text;
-  for (const std::uint32_t v : scene.vertex_of_point) {
+  for_each_point(scene, [&](std::optional<std::uint32_t> vertex) {
     if (!text.empty()) text += ", ";
-    if (v == SceneTree::kNoVertex) {
+    if (vertex)
+      fmt::format_to(std::back_inserter(text), "{}", *vertex);
+    else
       text += "-1";
-    } else {
-      fmt::format_to(std::back_inserter(text), "{}", v);
-    }
-  }
+  });
   return "[" + text + "]";
 }
 

@@ -212,15 +212,18 @@ class TreeReader {
 
   void read_points() {
     const auto n = static_cast<std::uint32_t>(vertices_);
+    scene_.points.reserve(static_cast<std::size_t>(points_));
+    scene_.vertex_of_point.reserve(static_cast<std::size_t>(points_));
     std::int64_t with_vertex = 0;
-    scene_.vertex_of_point.resize(static_cast<std::size_t>(scene_.width * scene_.height));
-    for (std::uint32_t& v : scene_.vertex_of_point) {
+    for (Index i = 0; i < scene_.width * scene_.height; ++i) {
       at_ = cursor_.offset();
-      v = cursor_.read<std::uint32_t>("vertex of a point");
-      if (v == SceneTree::kNoVertex) continue;
+      const auto v = cursor_.read<std::uint32_t>("vertex of a point");
+      if (v == kTreeNoVertex) continue;
       if (v >= n)
         fail("vertex of a point", fmt::format("{}", v), fmt::format("one of {} vertices", n));
-      ++with_vertex;
+      if (++with_vertex > points_) continue;
+      scene_.points.push_back(i);
+      scene_.vertex_of_point.push_back(v);
     }
     if (with_vertex != points_)
       fail("points with a vertex", fmt::format("{}", with_vertex), fmt::format("{}", points_));
@@ -231,7 +234,6 @@ class TreeReader {
     std::vector<Index> inside(n);
     scene_.xyz.reserve(3 * static_cast<std::size_t>(points_));
     for (const std::uint32_t v : scene_.vertex_of_point) {
-      if (v == SceneTree::kNoVertex) continue;
       at_ = cursor_.offset();
       Vec3 point;
       for (double& x : point) {

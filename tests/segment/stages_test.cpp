@@ -211,7 +211,8 @@ TEST(Components, LabelsByDecreasingNumberOfPoints) {
   SceneTree scene;
   scene.xyz.assign(xyz.begin(), xyz.end() - 3);
   scene.vertex_of_point = grid.voxel_of;
-  scene.vertex_of_point.push_back(SceneTree::kNoVertex);
+  scene.points = points;
+  scene.width = 14;
   scene.vertices = grid.centroids;
   scene.counts = grid.counts;
   const std::vector<Index> components =

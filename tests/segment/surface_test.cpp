@@ -202,7 +202,7 @@ TEST(Surface, ThePlaneIsAsThickAsItsNoiseWhereItLies) {
     EXPECT_NEAR(s.plane->offset, range * std::sqrt(0.5), 0.003) << range;
     double table = 0, left_of_table = 0, high = 0, left_of_high = 0;
     for (std::size_t i = 0; i < s.labels.size(); ++i) {
-      const bool kept = s.vertex_of_point[i] != SceneTree::kNoVertex;
+      const bool kept = std::ranges::binary_search(s.points, static_cast<Index>(i));
       const float* p = &scene.xyz()[3 * i];
       const double height = std::sqrt(0.5) * (1 - p[2] - p[1]) * range;  // without the noise
       table += scene.truth()[i] == 0;

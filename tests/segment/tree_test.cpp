@@ -239,7 +239,8 @@ TEST(DamagedTree, ContentsThatCannotBe) {
   EXPECT_TRUE(says(damaged([](SceneTree& t) { std::swap(t.tree.merges[9], t.tree.merges.back()); }),
                    "forest"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) {
-                     *std::ranges::find(t.vertex_of_point, SceneTree::kNoVertex) = 0;
+                     t.points.erase(t.points.begin());
+                     t.vertex_of_point.erase(t.vertex_of_point.begin());
                    }),
                    "points with a vertex"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.xyz[0] = test::kHole; }), "coordinate"));

@@ -104,8 +104,6 @@ struct CutOptions {
 /// (`tree`), and what is needed of the scene to make segments of a cut. A value: it refers to
 /// nothing outside.
 struct SceneTree {
-  static constexpr std::uint32_t kNoVertex = UINT32_MAX;
-
   Method method = Method::surface;
   double voxel = 0;            ///< edge of a voxel, metres
   double distance = 0;         ///< paper: maximum distance of the complex, metres
@@ -115,9 +113,12 @@ struct SceneTree {
   Index width = 0;             ///< columns of the cloud; of an unorganised one its points
   Index height = 1;            ///< rows of the cloud; 1 if it is not organised
   CutOptions first_cut;        ///< the cut that the segmentation was made with
+  std::size_t cloud_size() const { return static_cast<std::size_t>(width * height); }
 
-  std::vector<std::uint32_t> vertex_of_point;  ///< one a point of the cloud; kNoVertex: none
-  std::vector<float> xyz;                      ///< of the points that have a vertex, in their order
+  // By point that has a vertex, in the order of the cloud.
+  std::vector<Index> points;                   ///< its number in the cloud, ascending
+  std::vector<std::uint32_t> vertex_of_point;  ///< its vertex
+  std::vector<float> xyz;                      ///< its coordinates
 
   // By vertex, that is, by voxel in the order of the grid (z slowest).
   std::vector<Vec3> cells;  ///< whole numbers: the corner of the voxel / voxel
