@@ -150,7 +150,7 @@ void add_complex_options(CLI::App& app, Arguments& a) {
   const std::string group = "Complex";
   add_choice(app, "--complex", {"auto", "rips", "cubical", "alpha", "explicit", "lower-star"},
              "what is built (default auto: rips for points and distances, cubical for images, "
-             "explicit for boundary matrices and simplices)",
+             "explicit for boundary matrices and simplices; points may be cubical, too: --voxel)",
              [&a](std::size_t i) { a.complex = static_cast<ComplexKind>(i); })
       ->group(group);
   add_value(app, "--threshold,--max-scale", "T",
@@ -181,6 +181,26 @@ void add_complex_options(CLI::App& app, Arguments& a) {
   add_value(app, "--periodic", "AXES",
             "cubical: axes that close up on themselves, such as 0,2, or all (default: none)",
             [&a](const std::string& text) { take_periodic(a, text); })
+      ->group(group);
+  add_value(app, "--voxel", "X",
+            "points with --complex cubical: edge of the voxels that they lie in, in their unit",
+            [&a](const std::string& text) {
+              a.voxel = parse_number("--voxel", text);
+              if (!(*a.voxel > 0) || !std::isfinite(*a.voxel))
+                throw Error(
+                    ErrorKind::usage,
+                    fmt::format("--voxel: found '{}', expected a finite number above 0", text));
+              a.voxel_option = "--voxel";
+            })
+      ->group(group);
+  add_choice(
+      app, "--voxel-value", {"distance", "occupancy", "density"},
+      "what such a voxel is worth: the distance to the nearest voxel with a point (default); "
+      "0 with a point, else it is not there; minus the number of its points",
+      [&a](std::size_t i) {
+        a.voxel_value = static_cast<VoxelValue>(i);
+        a.voxel_option = "--voxel-value";
+      })
       ->group(group);
 }
 

@@ -7,6 +7,7 @@
 #include "command_line.hpp"
 #include "ph/complex/cubical.hpp"
 #include "ph/complex/rips.hpp"
+#include "ph/complex/voxel_image.hpp"
 #include "ph/io/barcode_io.hpp"
 #include "ph/io/formats.hpp"
 #include "ph/io/svg_plot.hpp"
@@ -41,8 +42,10 @@ struct Arguments {
   std::optional<Index> dtm;    // neighbours
   std::optional<WeightExponent> weight_exponent;
   CubicalOptions cubical;
+  std::optional<double> voxel;  // of points, in their unit
+  VoxelValue voxel_value = VoxelValue::distance;
   // Options that the user gave and that make sense for one kind of input or complex only.
-  std::optional<std::string> points_option, rips_option, cubical_option;
+  std::optional<std::string> points_option, rips_option, cubical_option, voxel_option;
 
   // What is computed.
   Options options;

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "ph/complex/lower_star.hpp"
+#include "ph/complex/voxel_image.hpp"
 #include "ph/metric/distance_to_measure.hpp"
 
 namespace ph::barcode {
@@ -31,10 +32,7 @@ class Builder {
         ids_(ids),
         dropped_(dropped) {}
 
-  BuiltComplex operator()(const Points& points) const {
-    expect("points", {ComplexKind::rips});
-    return rips(points, points.rows() == 0);
-  }
+  BuiltComplex operator()(const Points& points) const { return of_points(points, "points"); }
   BuiltComplex operator()(const DistanceMatrix& distances) const {
     expect("distances", {ComplexKind::rips});
     refuse(arguments_.points_option, "points", "distances");
@@ -47,19 +45,9 @@ class Builder {
   }
   BuiltComplex operator()(const Image& image) const {
     expect("an image", {ComplexKind::cubical});
+    refuse(arguments_.voxel_option, "points", "an image");
     refuse(arguments_.points_option, "points", "an image");
-    CubicalOptions options = arguments_.cubical;
-    options.threshold = arguments_.threshold;
-    if (options.periodic.empty()) options.periodic = periodic_;
-    const auto axes = static_cast<std::size_t>(image.dim());
-    const bool all = options.periodic.size() == static_cast<std::size_t>(Cubical::kMaxDim) &&
-                     std::ranges::all_of(options.periodic, [](bool on) { return on; });
-    if (all) options.periodic.assign(axes, true);
-    if (options.periodic.size() > axes)
-      throw Error(ErrorKind::usage, fmt::format("--periodic: found axis {}, expected 0 to {}",
-                                                options.periodic.size() - 1, axes - 1));
-    return {Cubical(image, options, context_), "cubical", arguments_.threshold,
-            image.values.empty(), std::nullopt};
+    return cubical(image);
   }
   BuiltComplex operator()(SimplicesInput&& input) const {
     const ComplexKind kind =
@@ -93,10 +81,8 @@ class Builder {
                   "explicit");
   }
   BuiltComplex operator()(const Mesh& mesh) const {
-    const bool with_values = !mesh.values.empty();
-    const ComplexKind kind = with_values ? expect("a mesh with values", {ComplexKind::lower_star})
-                                         : expect("a mesh without values", {ComplexKind::rips});
-    if (kind == ComplexKind::rips) return rips(mesh.vertices, mesh.vertices.rows() == 0);
+    if (mesh.values.empty()) return of_points(mesh.vertices, "a mesh without values");
+    expect("a mesh with values", {ComplexKind::lower_star});
     refuse(arguments_.points_option, "points", "a mesh");
     return stored(lower_star(triangles_of(mesh), mesh.values, {}, context_), "lower-star");
   }
@@ -104,20 +90,26 @@ class Builder {
  private:
   /// The complex to build: the one asked for, or the first that makes sense.
   ComplexKind expect(std::string_view data, std::initializer_list<ComplexKind> kinds) const {
-    if (*kinds.begin() != ComplexKind::cubical) refuse(arguments_.cubical_option, "images", data);
-    if (*kinds.begin() != ComplexKind::rips) {
-      if (arguments_.options.collapse == Collapse::on)
-        refuse("--collapse on", "points and distances", data);
-      refuse(arguments_.rips_option, "points and distances", data);
+    const bool is_free = arguments_.complex == ComplexKind::automatic;
+    const ComplexKind kind = is_free ? *kinds.begin() : arguments_.complex;
+    if (std::ranges::find(kinds, kind) == kinds.end()) {
+      const auto name = [](ComplexKind k) { return kComplexNames[static_cast<int>(k)]; };
+      throw Error(ErrorKind::usage, fmt::format("--complex: found {}, expected {} for {}{}",
+                                                name(kind), name(*kinds.begin()), data,
+                                                kind == ComplexKind::lower_star
+                                                    ? "; --values names the values of the vertices"
+                                                    : ""));
     }
-    if (arguments_.complex == ComplexKind::automatic) return *kinds.begin();
-    if (std::ranges::find(kinds, arguments_.complex) != kinds.end()) return arguments_.complex;
-    const auto name = [](ComplexKind kind) { return kComplexNames[static_cast<int>(kind)]; };
-    throw Error(ErrorKind::usage, fmt::format("--complex: found {}, expected {} for {}{}",
-                                              name(arguments_.complex), name(*kinds.begin()), data,
-                                              arguments_.complex == ComplexKind::lower_star
-                                                  ? "; --values names the values of the vertices"
-                                                  : ""));
+    if (kind != ComplexKind::cubical) {
+      refuse(arguments_.cubical_option, "images", data);
+      refuse(arguments_.voxel_option, "points with --complex cubical", data);
+    }
+    if (kind != ComplexKind::rips) {
+      const std::string_view meant_for = "Rips complexes of points and distances";
+      if (arguments_.options.collapse == Collapse::on) refuse("--collapse on", meant_for, data);
+      refuse(arguments_.rips_option, meant_for, data);
+    }
+    return kind;
   }
 
   /// An option that has no effect is a misunderstanding.
@@ -126,6 +118,37 @@ class Builder {
     if (option)
       throw Error(ErrorKind::usage,
                   fmt::format("{}: makes sense for {} only, found {}", *option, meant_for, found));
+  }
+
+  BuiltComplex of_points(const Points& points, std::string_view data) const {
+    if (expect(data, {ComplexKind::rips, ComplexKind::cubical}) == ComplexKind::rips)
+      return rips(points, points.rows() == 0);
+    refuse(arguments_.points_option, "points with --complex rips", "--complex cubical");
+    if (!arguments_.voxel)
+      throw Error(ErrorKind::usage,
+                  fmt::format("--complex: found cubical, which needs --voxel X for {}", data));
+    if (points.rows() == 0) return cubical(Image{{0}, {}});
+    PointImage made = voxel_image(points, *arguments_.voxel, arguments_.voxel_value, 1, context_);
+    BuiltComplex built = cubical(made.image);
+    constexpr std::string_view kValues[] = {"distance", "occupancy", "density"};
+    built.voxels = {made.voxel, std::move(made.first),
+                    kValues[static_cast<int>(arguments_.voxel_value)]};
+    return built;
+  }
+
+  BuiltComplex cubical(const Image& image) const {
+    CubicalOptions options = arguments_.cubical;
+    options.threshold = arguments_.threshold;
+    if (options.periodic.empty()) options.periodic = periodic_;
+    const auto axes = static_cast<std::size_t>(image.dim());
+    const bool all = options.periodic.size() == static_cast<std::size_t>(Cubical::kMaxDim) &&
+                     std::ranges::all_of(options.periodic, [](bool on) { return on; });
+    if (all) options.periodic.assign(axes, true);
+    if (options.periodic.size() > axes)
+      throw Error(ErrorKind::usage, fmt::format("--periodic: found axis {}, expected 0 to {}",
+                                                options.periodic.size() - 1, axes - 1));
+    return {Cubical(image, options, context_), "cubical", arguments_.threshold,
+            image.values.empty(), std::nullopt};
   }
 
   template <class Data>

@@ -16,6 +16,7 @@ struct BuiltComplex {
   std::optional<double> cut;
   std::string vertex_weights = {};  ///< as in BarcodeInfo
   std::optional<BarcodeInfo::Subsample> subsample = std::nullopt;
+  std::optional<BarcodeInfo::VoxelGrid> voxels = std::nullopt;  ///< of points
   std::optional<std::string> promise = std::nullopt;  ///< what an approximation is worth, one line
 };
 

@@ -204,6 +204,7 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   info.threshold = built.threshold;
   info.vertex_weights = built.vertex_weights;
   info.subsample = built.subsample;
+  info.voxels = built.voxels;
   info.approximation = arguments.rips.approximation;
   info.engine = engine_name(planned.engine);
   info.timings = watch.laps();

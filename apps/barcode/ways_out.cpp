@@ -64,10 +64,12 @@ class WaysOut {
 
   std::vector<std::string> find() {
     const bool is_rips =
+        !arguments_.voxel &&
         std::visit([&](const auto& data) { return sample(data); }, data_.read.data);
     if (arguments_.options.engine != Engine::automatic) change_engine();
     // What is quick to try comes first: patience ends.
     lower_dimension();
+    if (arguments_.voxel) larger_voxel();
     if (is_rips) {
       subsample();
       lower_threshold();
@@ -189,6 +191,16 @@ class WaysOut {
     }
   }
 
+  /// The smallest of a few larger voxels.
+  void larger_voxel() {
+    for (const double times : {1.5, 2.0, 4.0, 8.0, 16.0}) {
+      Arguments changed = arguments_;
+      const std::string text = fmt::format("{:.3g}", times * *arguments_.voxel);
+      changed.voxel = app::parse_number("--voxel", text);
+      if (try_out("--voxel " + text, changed)) return;
+    }
+  }
+
   void collapse() {
     Arguments changed = arguments_;
     changed.options.collapse = Collapse::on;
@@ -214,8 +226,11 @@ class WaysOut {
   }
 
   int default_max_dim() const {
-    const auto* image = std::get_if<Image>(&data_.read.data);
-    return image ? static_cast<int>(image->dim()) : 1;
+    if (const auto* image = std::get_if<Image>(&data_.read.data))
+      return static_cast<int>(image->dim());
+    if (const auto* points = std::get_if<Points>(&data_.read.data); points && arguments_.voxel)
+      return static_cast<int>(points->cols());
+    return 1;
   }
 
   const NamedData& data_;

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "ph/complex/distance_image.hpp"
+#include "ph/complex/voxel_image.hpp"
 #include "ph/core/error.hpp"
 #include "ph/persistence.hpp"
 #include "ph/segment.hpp"
@@ -29,7 +29,7 @@ Barcode signature(const SceneTree& scene, const SceneCut& cut,
     voxels.row(row++) << x, y, z;
   }
   // In voxels: the grid of the image is then that of the scene.
-  PointImage image = distance_image(voxels, 1, 1, context);
+  PointImage image = voxel_image(voxels, 1, VoxelValue::distance, 1, context);
   const CubicalOptions touching{.construction = CubicalOptions::Construction::cells};
   const Options options{.max_dim = 2, .min_persistence = 1};
   const Barcode in_voxels = persistence(Cubical(image.image, touching, context), options, context);

@@ -84,6 +84,38 @@ class Options(ProgramTest):
         self.write("points.npy", npy((2, 2), [0, 0, 3, 4]))
         self.assertEqual(self.bars("points.npy", "--complex", "rips")[0], (0, 0, 5))
 
+    def test_points_as_voxels(self):
+        # Two pairs of points; between the pairs two voxels are empty.
+        self.write("line.txt", "0.5\n0.7\n3.5\n3.6\n3.7\n")
+        cubical = ("line.txt", "--complex", "cubical", "--voxel", "1")
+        self.assertEqual(self.bars(*cubical), [(0, 0, 1), (0, 0, math.inf)])
+        self.assertEqual(self.bars(*cubical, "--voxel-value", "occupancy"),
+                         [(0, 0, math.inf)] * 2)
+        self.assertEqual(self.bars(*cubical, "--voxel-value", "density"),
+                         [(0, -3, math.inf), (0, -2, math.inf)])
+        self.assertEqual(self.bars(*cubical, "--threshold", "0.5"), [(0, 0, math.inf)] * 2)
+        self.expect(0, *cubical, "-o", "out.json")
+        result = json.loads(self.read("out.json"))
+        self.assertEqual(result["complex"], "cubical")
+        self.assertEqual(result["voxels"], {"edge": 1, "first": [0], "value": "distance"})
+        self.write("holes.xyz", "0 0 0\nnan nan nan\n2 0 0\n")
+        self.assertEqual(len(self.bars("holes.xyz", *cubical[1:], "--voxel-value", "occupancy")), 2)
+
+    def test_points_as_voxels_need_an_edge(self):
+        for arguments, what in (
+                (("square.txt", "--complex", "cubical"), "--voxel"),
+                (("square.txt", "--voxel", "1"), "--complex cubical"),
+                (("square.txt", "--voxel-value", "density"), "--complex cubical"),
+                (("square.txt", "--complex", "cubical", "--voxel", "0"), "above 0"),
+                (("square.txt", "--complex", "cubical", "--voxel", "1", "--metric", "manhattan"),
+                 "--metric"),
+                (("square.txt", "--complex", "cubical", "--voxel", "1", "--collapse", "on"),
+                 "--collapse"),
+                (("square.txt", "--superlevel"), "--superlevel")):
+            self.assertIn(what, self.expect(64, *arguments).stderr)
+        self.assertIn("voxels", self.expect(75, "square.txt", "--complex", "cubical", "--voxel",
+                                            "1e-9").stderr)
+
     def test_simplices(self):
         self.write("triangle.txt", TRIANGLE)
         want = [(0, 0, 1), (0, 0, 2), (0, 0, math.inf), (1, 3, 4)]

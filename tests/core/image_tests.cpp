@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "ph/complex/distance_image.hpp"
+#include "ph/complex/voxel_image.hpp"
 #include "ph/core/error.hpp"
 #include "ph/persistence.hpp"
 
@@ -36,13 +36,13 @@ Eigen::RowVectorXd centre(const PointImage& image, Index i) {
   return x;
 }
 
-TEST(DistanceImage, IsTheDistanceToTheNearestOccupiedVoxel) {
+TEST(VoxelImage, IsTheDistanceToTheNearestOccupiedVoxel) {
   std::mt19937 random(3);
   for (int round = 0; round < 60; ++round) {
     const Index cols = 1 + round % 4;
     const Points points = random_points(random, 1 + round % 13, cols);
     const double voxel = cols == 4 ? 0.4 : 0.15;
-    const PointImage image = distance_image(points, voxel, round % 3);
+    const PointImage image = voxel_image(points, voxel, VoxelValue::distance, round % 3);
     std::vector<Index> occupied;
     const auto size = static_cast<Index>(image.image.values.size());
     for (Index i = 0; i < size; ++i)
@@ -67,6 +67,23 @@ TEST(DistanceImage, IsTheDistanceToTheNearestOccupiedVoxel) {
   }
 }
 
+TEST(VoxelImage, CountsPointsAndTellsWhereTheyAre) {
+  // Two points in the first voxel, one in the last, none in the second of three.
+  const Points points = (Points(3, 1) << 0.1, 0.9, 2.5).finished();
+  const auto values = [&](VoxelValue value) {
+    const PointImage image = voxel_image(points, 1, value, 0);
+    EXPECT_EQ(image.image.extents, std::vector<Index>{3});
+    EXPECT_NEAR(image.first[0], 0.6, 1e-12);
+    return image.image.values;
+  };
+  EXPECT_EQ(values(VoxelValue::distance), (std::vector<double>{0, 1, 0}));
+  EXPECT_EQ(values(VoxelValue::occupancy), (std::vector<double>{0, kInfinity, 0}));
+  EXPECT_EQ(values(VoxelValue::density), (std::vector<double>{-2, kInfinity, -1}));
+  // What never enters joins nothing.
+  const PointImage density = voxel_image(points, 1, VoxelValue::density);
+  EXPECT_EQ(persistence(Cubical(density.image)).bars(0).size(), 2U);
+}
+
 /// Bars of a dimension longer than `length`.
 std::vector<Bar> long_bars(const Barcode& barcode, int dim, double length) {
   std::vector<Bar> found;
@@ -75,7 +92,7 @@ std::vector<Bar> long_bars(const Barcode& barcode, int dim, double length) {
   return found;
 }
 
-TEST(DistanceImage, HasTheHomologyOfTheShape) {
+TEST(VoxelImage, HasTheHomologyOfTheShape) {
   std::mt19937 random(4);
   std::normal_distribution<double> gauss;
   constexpr double voxel = 0.1;
@@ -90,7 +107,7 @@ TEST(DistanceImage, HasTheHomologyOfTheShape) {
   CubicalOptions cells;
   cells.construction = CubicalOptions::Construction::cells;
   for (const auto& [points, dim] : {std::pair{sphere, 2}, std::pair{circle, 1}}) {
-    const Barcode barcode = persistence(Cubical(distance_image(points, voxel).image, cells));
+    const Barcode barcode = persistence(Cubical(voxel_image(points, voxel).image, cells));
     EXPECT_EQ(long_bars(barcode, 0, 0.4).size(), 1U);
     EXPECT_EQ(long_bars(barcode, 3 - dim, 0.4).size(), 0U);
     const std::vector<Bar> hollow = long_bars(barcode, dim, 0.4);
@@ -99,11 +116,11 @@ TEST(DistanceImage, HasTheHomologyOfTheShape) {
   }
 }
 
-TEST(DistanceImage, RefusesWhatItCannotDo) {
+TEST(VoxelImage, RefusesWhatItCannotDo) {
   const Points two = (Points(2, 2) << 0, 0, 1, 1).finished();
   const auto kind = [](auto&&... arguments) {
     try {
-      distance_image(arguments...);
+      voxel_image(arguments...);
     } catch (const Error& error) {
       return error.kind();
     }
@@ -111,7 +128,7 @@ TEST(DistanceImage, RefusesWhatItCannotDo) {
   };
   for (const double voxel : {0.0, -1.0, kInfinity, std::nan("")})
     EXPECT_EQ(kind(two, voxel), ErrorKind::usage) << voxel;
-  EXPECT_EQ(kind(two, 0.1, Index{-1}), ErrorKind::usage);
+  EXPECT_EQ(kind(two, 0.1, VoxelValue::density, Index{-1}), ErrorKind::usage);
   EXPECT_EQ(kind(Points(2, 9), 0.1), ErrorKind::usage);
   EXPECT_EQ(kind(Points(0, 2), 0.1), ErrorKind::bad_data);
   EXPECT_EQ(kind(two, 1e-6), ErrorKind::resource);
@@ -120,16 +137,17 @@ TEST(DistanceImage, RefusesWhatItCannotDo) {
   EXPECT_EQ(kind(hole, 0.1), ErrorKind::bad_data);
   RunContext little;
   little.memory.set_limit(1000);
-  EXPECT_EQ(kind(two, 0.01, Index{1}, little), ErrorKind::resource);
+  EXPECT_EQ(kind(two, 0.01, VoxelValue::distance, Index{1}, little), ErrorKind::resource);
 }
 
 // An image of one line: what the line takes is as large as the image.
-TEST(DistanceImage, CountsWhatALineTakes) {
+TEST(VoxelImage, CountsWhatALineTakes) {
   const Points ends = (Points(2, 1) << 0, 1000).finished();
   const auto with_limit = [&](std::size_t bytes) {
     RunContext context;
     context.memory.set_limit(bytes);
-    const std::size_t voxels = distance_image(ends, 1, 0, context).image.values.size();
+    const std::size_t voxels =
+        voxel_image(ends, 1, VoxelValue::distance, 0, context).image.values.size();
     EXPECT_EQ(context.memory.peak(), bytes);
     EXPECT_EQ(context.memory.used(), 0U);
     return voxels;
@@ -144,7 +162,7 @@ TEST(DistanceImage, CountsWhatALineTakes) {
   }
 }
 
-TEST(DistanceImage, IsStoppedWithinALine) {
+TEST(VoxelImage, IsStoppedWithinALine) {
   const Points ends = (Points(2, 1) << 0, 9).finished();
   std::stop_source source;
   RunContext context;
@@ -157,7 +175,7 @@ TEST(DistanceImage, IsStoppedWithinALine) {
   };
   std::this_thread::sleep_for(std::chrono::milliseconds(101));
   try {
-    distance_image(ends, 1, 0, context);
+    voxel_image(ends, 1, VoxelValue::distance, 0, context);
     ADD_FAILURE() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::cancelled);

@@ -2,7 +2,7 @@
 #pragma once
 // The umbrella: complexes, engines, barcodes; and, where ph::io is linked, files.
 #include "ph/complex/cubical.hpp"
-#include "ph/complex/distance_image.hpp"
+#include "ph/complex/voxel_image.hpp"
 #include "ph/complex/explicit.hpp"
 #include "ph/complex/filtered_graph.hpp"
 #include "ph/complex/lower_star.hpp"

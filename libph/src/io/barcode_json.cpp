@@ -120,6 +120,13 @@ void write_barcode_json(OutputFile& file, const Barcode& barcode, const BarcodeI
     file.write(fmt::format(
         "  \"subsample\": {{\"points\": {}, \"of\": {}, \"covering_radius\": {}}},\n",
         info.subsample->points, info.subsample->of, json_number(info.subsample->covering_radius)));
+  if (info.voxels) {
+    std::string first;
+    for (const double x : info.voxels->first) first += (first.empty() ? "" : ", ") + json_number(x);
+    file.write(fmt::format("  \"voxels\": {{\"edge\": {}, \"first\": [{}], \"value\": {}}},\n",
+                           json_number(info.voxels->voxel), first,
+                           json_string(info.voxels->value)));
+  }
   if (info.approximation)
     file.write(fmt::format("  \"approximation\": {},\n", json_number(*info.approximation)));
   const bool with_chains = barcode.representatives() != Representatives::none;

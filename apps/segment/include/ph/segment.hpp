@@ -128,7 +128,7 @@ inline std::optional<Meeting> first_meeting(const Segmentation& s, std::uint32_t
 
 /// The shape of some segments, of which nothing but their voxels is looked at, by persistent
 /// homology in dimensions 0 to 2: pieces, loops (a handle, a rim, a hole that one can see through)
-/// and hollows. The filtration is the distance to the nearest voxel (ph::distance_image): a bar
+/// and hollows. The filtration is the distance to the nearest voxel (ph::voxel_image): a bar
 /// (b, d) in dimension 1 is a loop that closes when the voxels have grown by b metres, and is
 /// filled when they have grown by d, which is the radius of the largest ball that goes through it.
 /// Bars no longer than a voxel are left out: the grid may have made them. Cells are those of an

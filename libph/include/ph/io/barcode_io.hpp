@@ -43,6 +43,13 @@ struct BarcodeInfo {
     double covering_radius = 0;
   };
   std::optional<Subsample> subsample;
+  /// Where points were made an image of; see complex/voxel_image.hpp.
+  struct VoxelGrid {
+    double voxel = 0;           ///< edge
+    std::vector<double> first;  ///< centre of the voxel at (0, ..., 0), in the points' coordinates
+    std::string_view value;     ///< "distance", "occupancy" or "density"
+  };
+  std::optional<VoxelGrid> voxels;
   std::optional<double> approximation;  ///< epsilon of a sparse Rips filtration
   std::string engine;
   std::vector<std::pair<std::string, double>> timings;  ///< stage, seconds
