@@ -10,6 +10,7 @@
 
 #include "choices.hpp"
 #include "formats_table.hpp"
+#include "image_arguments.hpp"
 #include "numbers.hpp"
 #include "ph/core/field.hpp"
 #include "rips_arguments.hpp"
@@ -64,24 +65,6 @@ void take_metric(Arguments& a, const std::string& text) {
     a.rips.distance = kMetrics[choose("--metric", text, names)];
   }
   a.points_option = "--metric";
-}
-
-void take_periodic(Arguments& a, const std::string& text) {
-  a.cubical_option = "--periodic";
-  if (text == "all") {
-    a.cubical.periodic.assign(Cubical::kMaxDim, true);
-    return;
-  }
-  std::string_view rest = text;
-  for (;;) {
-    const std::size_t comma = rest.find(',');
-    const auto axis = static_cast<std::size_t>(
-        parse_integer("--periodic", rest.substr(0, comma), 0, Cubical::kMaxDim - 1));
-    if (a.cubical.periodic.size() <= axis) a.cubical.periodic.resize(axis + 1, false);
-    a.cubical.periodic[axis] = true;
-    if (comma == rest.npos) break;
-    rest.remove_prefix(comma + 1);
-  }
 }
 
 std::string lower_case(std::string text) {
@@ -161,46 +144,6 @@ void add_complex_options(CLI::App& app, Arguments& a) {
   add_value(app, "--metric", "euclidean|manhattan|chebyshev|cosine|minkowski:P|hamming",
             "distance of points (default euclidean)",
             [&a](const std::string& text) { take_metric(a, text); })
-      ->group(group);
-  add_choice(app, "--construction", {"vertices", "cells"},
-             "cubical: voxels are vertices (default) or top cells",
-             [&a](std::size_t i) {
-               using Construction = CubicalOptions::Construction;
-               a.cubical.construction = i == 0 ? Construction::vertices : Construction::cells;
-               a.cubical_option = "--construction";
-             })
-      ->group(group);
-  app.add_flag_callback(
-         "--superlevel",
-         [&a] {
-           a.cubical.superlevel = true;
-           a.cubical_option = "--superlevel";
-         },
-         "cubical: superlevel sets; values are those of the negated image")
-      ->group(group);
-  add_value(app, "--periodic", "AXES",
-            "cubical: axes that close up on themselves, such as 0,2, or all (default: none)",
-            [&a](const std::string& text) { take_periodic(a, text); })
-      ->group(group);
-  add_value(app, "--voxel", "X",
-            "points with --complex cubical: edge of the voxels that they lie in, in their unit",
-            [&a](const std::string& text) {
-              a.voxel = parse_number("--voxel", text);
-              if (!(*a.voxel > 0) || !std::isfinite(*a.voxel))
-                throw Error(
-                    ErrorKind::usage,
-                    fmt::format("--voxel: found '{}', expected a finite number above 0", text));
-              a.voxel_option = "--voxel";
-            })
-      ->group(group);
-  add_choice(
-      app, "--voxel-value", {"distance", "occupancy", "density"},
-      "what such a voxel is worth: the distance to the nearest voxel with a point (default); "
-      "0 with a point, else it is not there; minus the number of its points",
-      [&a](std::size_t i) {
-        a.voxel_value = static_cast<VoxelValue>(i);
-        a.voxel_option = "--voxel-value";
-      })
       ->group(group);
 }
 
@@ -336,6 +279,7 @@ void check_together(Arguments& a, const std::vector<PlotKind>& kinds) {
         "--collapse: found on, expected off or auto with --representatives cocycles: they are "
         "of all edges");
   check_rips_arguments(a);
+  check_image_arguments(a);
   // A two-dimensional array holds points if that is the only way to make sense of it.
   if (a.read.array == ArrayMeaning::image &&
       (a.complex == ComplexKind::rips || a.format == Format::points))
@@ -360,7 +304,9 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv,
       "ph-barcode");
   std::vector<PlotKind> plot_kinds;
   add_input_options(app, arguments);
+  add_raw_options(app, arguments);
   add_complex_options(app, arguments);
+  add_cubical_options(app, arguments);
   add_rips_options(app, arguments);
   add_homology_options(app, arguments);
   add_output_options(app, arguments, plot_kinds);

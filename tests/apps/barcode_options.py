@@ -84,6 +84,21 @@ class Options(ProgramTest):
         self.write("points.npy", npy((2, 2), [0, 0, 3, 4]))
         self.assertEqual(self.bars("points.npy", "--complex", "rips")[0], (0, 0, 5))
 
+    def test_raw_images(self):
+        self.write("volume.raw", b"header" + struct.pack(">6H", 1, 9, 2, 9, 9, 9))
+        shape = ("volume.raw", "--raw-shape", "2,3", "--raw-skip", "6")
+        self.assertEqual(self.bars(*shape, "--raw-type", "uint16", "--raw-big-endian"),
+                         [(0, 1, math.inf), (0, 2, 9)])
+        for arguments, code, what in (
+                (shape, 65, "trailing data"),
+                ((*shape, "--raw-type", "float64"), 65, "truncated"),
+                (("volume.raw", "--raw-skip", "6"), 64, "--raw-shape"),
+                (("volume.raw", "--format", "raw"), 64, "--raw-shape"),
+                ((*shape, "--format", "npy"), 64, "--format raw"),
+                (("volume.raw", "--raw-shape", "2,-3"), 64, "--raw-shape"),
+                (("volume.raw", "--raw-shape", "2,,3"), 64, "--raw-shape")):
+            self.assertIn(what, self.expect(code, *arguments).stderr)
+
     def test_points_as_voxels(self):
         # Two pairs of points; between the pairs two voxels are empty.
         self.write("line.txt", "0.5\n0.7\n3.5\n3.6\n3.7\n")

@@ -43,6 +43,11 @@ Barcode barcode_of(const Input& input, const ReadOptions&) {
   return read_barcode(input, format);
 }
 
+/// A layout says the size: the input has to be as long.
+Image raw(const Input& input, const ReadOptions& options) {
+  return read_raw(input, {.extents = {2, 3}, .type = "i2", .skip = 4}, options);
+}
+
 Raster png(const Input& input, const ReadOptions&) { return read_png(input); }
 
 segment::SceneTree tree(const Input& input, const ReadOptions&) {
@@ -86,6 +91,7 @@ constexpr std::array kReaders{
     reader<&of_format<Format::pgm>>("pgm", ".pgm"),
     reader<&of_format<Format::dipha>>("dipha", ".dipha"),
     reader<Reads<Image>(&read_nifti)>("nifti", ".nii"),
+    reader<&raw>("raw", ".raw"),
     reader<Reads<PerseusImage>(&read_perseus)>("perseus", ".perseus"),
     reader<Reads<SimplicesInput>(&read_simplices)>("simplices", ".simplices"),
     reader<Reads<BoundaryInput>(&read_phat)>("phat", ".phat"),

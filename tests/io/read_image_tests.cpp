@@ -202,6 +202,36 @@ TEST(ReadNpz, RefusesLiesAndBombs) {
   EXPECT_TRUE(contains(bad_data([&] { read_any(Input::view(bomb, "a.npz")); }), "expand too much"));
 }
 
+TEST(ReadRaw, NumbersBehindAHeader) {
+  const auto read = [](const std::string& bytes, const RawLayout& layout) {
+    return read_raw(Input::view(bytes, "a.raw"), layout);
+  };
+  const std::string bytes = std::string("head") + le(std::int16_t{-2}) + le(std::int16_t{258});
+  const Image image = read(bytes, {.extents = {2, 1}, .type = "i2", .skip = 4});
+  EXPECT_EQ(image.extents, (std::vector<Index>{2, 1}));
+  EXPECT_EQ(image.values, (std::vector<double>{-2, 258}));
+  EXPECT_EQ(image.values.type(), VoxelType::int16);
+  EXPECT_EQ(read(bytes, {.extents = {2}, .type = "u2", .big_endian = true, .skip = 4}).values,
+            (std::vector<double>{0xFEFF, 0x0201}));
+  EXPECT_EQ(read(bytes, {.extents = {2, 2, 2}}).values.size(), 8U);
+  ReadOptions options;
+  options.raw = {.extents = {2, 4}};
+  const ReadResult result = read_any(Input::view(bytes, "a"), Format::raw, options);
+  EXPECT_EQ(result.description, "image of 2 x 4 voxels, raw");
+  for (std::size_t length = 0; length < bytes.size(); ++length)
+    EXPECT_TRUE(contains(bad_data([&] {
+                           read(bytes.substr(0, length), {{2}, "i2", false, 4});
+                         }),
+                         "truncated"));
+  EXPECT_TRUE(contains(bad_data([&] { read(bytes + "x", {{2}, "i2", false, 4}); }), "trailing"));
+  bad_data([&] { read(bytes, {{Index{1} << 62, 4}, "f8", false, 0}); });
+  for (const RawLayout& layout :
+       {RawLayout{}, RawLayout{{8}, "b1"}, RawLayout{{8}, "c8"}, RawLayout{{-8}}})
+    EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { read(bytes, layout); }));
+  EXPECT_TRUE(
+      fails_with(ErrorKind::usage, [&] { read_any(Input::view(bytes, "a"), Format::raw); }));
+}
+
 TEST(ReadClouds, XyzAndPts) {
   ReadResult xyz = read_any(Input::view("1 2 3 255 0 0\n4 5 6 0 0 7\nnan 1 1 0 0 0\n", "a.xyzrgb"));
   EXPECT_EQ(xyz.format, Format::xyz);

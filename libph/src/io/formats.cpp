@@ -100,6 +100,11 @@ ReadResult pgm_result(const Input& input, const ReadOptions&) {
 ReadResult nifti_result(const Input& input, const ReadOptions& options) {
   return result_of(read_nifti(input, options), "NIfTI-1");
 }
+ReadResult raw_result(const Input& input, const ReadOptions& options) {
+  if (!options.raw)
+    throw Error(ErrorKind::usage, "format raw: expected the layout of the image, found none");
+  return result_of(read_raw(input, *options.raw, options), "raw");
+}
 ReadResult perseus_result(const Input& input, const ReadOptions& options) {
   PerseusImage perseus = read_perseus(input, options);
   ReadResult result = result_of(std::move(perseus.image), "Perseus");
@@ -208,6 +213,8 @@ constexpr std::array kFormats{
                "0.5 1.25 2 255 0 0", &xyz_result},
     FormatInfo{Format::pts, "pts", "the same behind a line with the number of points", "1024",
                &pts_result},
+    FormatInfo{Format::raw, "raw", "the numbers of an image: --raw-shape, --raw-type, --raw-skip",
+               "", &raw_result},
 };
 
 }  // namespace

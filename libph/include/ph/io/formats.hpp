@@ -35,6 +35,7 @@ enum class Format {
   npz,
   xyz,
   pts,
+  raw,
 };
 
 /// What was read, whatever the format.

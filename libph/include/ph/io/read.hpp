@@ -2,6 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,14 @@ enum class ArrayMeaning {
   distances,  ///< a square distance matrix
 };
 
+/// How an image lies in a file that does not say so itself.
+struct RawLayout {
+  std::vector<Index> extents = {};  ///< sizes of the axes, the last one fastest
+  std::string type = "u1";          ///< as in NumPy: u1 u2 u4 u8 i1 i2 i4 i8 f2 f4 f8
+  bool big_endian = false;          ///< the high byte comes first
+  std::size_t skip = 0;             ///< bytes before the first voxel
+};
+
 /// How input is taken. The defaults refuse whatever is doubtful, with an error that names the
 /// option.
 struct ReadOptions {
@@ -46,6 +55,7 @@ struct ReadOptions {
   bool births_on_diagonal = false;             ///< of square matrices; else it must be 0
   NanPolicy nan = NanPolicy::error;            ///< see NanPolicy
   ArrayMeaning array = ArrayMeaning::image;    ///< used by read_any for 2-D arrays
+  std::optional<RawLayout> raw = {};           ///< used by read_any for Format::raw
   const RunContext* context = nullptr;         ///< budget and stop token; may be null
   std::function<void(std::string)> note = {};  ///< told what was assumed, one line each
   std::vector<Index>* dropped = nullptr;       ///< receives the rows left out, ascending
@@ -108,6 +118,10 @@ Image read_npy_image(const Input& input, const ReadOptions& options = {});
 /// without the trailing ones of size 1; values are scaled by scl_slope and scl_inter.
 Image read_nifti(const std::filesystem::path& path, const ReadOptions& options = {});
 Image read_nifti(const Input& input, const ReadOptions& options = {});
+
+/// The numbers of an image and nothing else but what is skipped: exactly as many as there are
+/// voxels. @throws also Error (usage) on a layout without axes or of another type.
+Image read_raw(const Input& input, const RawLayout& layout, const ReadOptions& options = {});
 
 /// An image with the axes that close up on themselves.
 struct PerseusImage {

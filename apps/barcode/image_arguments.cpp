@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#include "image_arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "choices.hpp"
+#include "numbers.hpp"
+
+namespace ph::barcode {
+
+using app::add_choice;
+using app::add_value;
+using app::parse_integer;
+using app::parse_number;
+
+namespace {
+
+/// Calls `take(part)` for each part of a list with commas.
+template <class Take>
+void for_each_part(std::string_view list, Take&& take) {
+  for (;;) {
+    const std::size_t comma = list.find(',');
+    take(list.substr(0, comma));
+    if (comma == list.npos) return;
+    list.remove_prefix(comma + 1);
+  }
+}
+
+void take_periodic(Arguments& a, const std::string& text) {
+  a.cubical_option = "--periodic";
+  if (text == "all") {
+    a.cubical.periodic.assign(Cubical::kMaxDim, true);
+    return;
+  }
+  for_each_part(text, [&](std::string_view part) {
+    const auto axis =
+        static_cast<std::size_t>(parse_integer("--periodic", part, 0, Cubical::kMaxDim - 1));
+    if (a.cubical.periodic.size() <= axis) a.cubical.periodic.resize(axis + 1, false);
+    a.cubical.periodic[axis] = true;
+  });
+}
+
+RawLayout& raw(Arguments& a) { return a.read.raw ? *a.read.raw : a.read.raw.emplace(); }
+
+}  // namespace
+
+void add_cubical_options(CLI::App& app, Arguments& a) {
+  const std::string group = "Cubical";
+  add_choice(app, "--construction", {"vertices", "cells"},
+             "voxels are vertices (default) or top cells",
+             [&a](std::size_t i) {
+               using Construction = CubicalOptions::Construction;
+               a.cubical.construction = i == 0 ? Construction::vertices : Construction::cells;
+               a.cubical_option = "--construction";
+             })
+      ->group(group);
+  app.add_flag_callback(
+         "--superlevel",
+         [&a] {
+           a.cubical.superlevel = true;
+           a.cubical_option = "--superlevel";
+         },
+         "superlevel sets; values are those of the negated image")
+      ->group(group);
+  add_value(app, "--periodic", "AXES",
+            "axes that close up on themselves, such as 0,2, or all (default: none)",
+            [&a](const std::string& text) { take_periodic(a, text); })
+      ->group(group);
+  add_value(app, "--voxel", "X",
+            "of points with --complex cubical: edge of the voxels that they lie in, in their unit",
+            [&a](const std::string& text) {
+              a.voxel = parse_number("--voxel", text);
+              if (!(*a.voxel > 0) || !std::isfinite(*a.voxel))
+                throw Error(
+                    ErrorKind::usage,
+                    fmt::format("--voxel: found '{}', expected a finite number above 0", text));
+              a.voxel_option = "--voxel";
+            })
+      ->group(group);
+  add_choice(
+      app, "--voxel-value", {"distance", "occupancy", "density"},
+      "what such a voxel is worth: the distance to the nearest voxel with a point (default); "
+      "0 with a point, else it is not there; minus the number of its points",
+      [&a](std::size_t i) {
+        a.voxel_value = static_cast<VoxelValue>(i);
+        a.voxel_option = "--voxel-value";
+      })
+      ->group(group);
+}
+
+void add_raw_options(CLI::App& app, Arguments& a) {
+  const std::string group = "Raw images";
+  add_value(app, "--raw-shape", "N,M,…",
+            "sizes of the axes, the last one fastest; the input is numbers without a header that "
+            "says so (--format raw)",
+            [&a](const std::string& text) {
+              constexpr Index most = Index{1} << 32;
+              raw(a).extents.clear();
+              for_each_part(text, [&](std::string_view part) {
+                raw(a).extents.push_back(parse_integer("--raw-shape", part, 0, most));
+              });
+            })
+      ->group(group);
+  add_choice(app, "--raw-type",
+             {"uint8", "int8", "uint16", "int16", "uint32", "int32", "uint64", "int64", "float16",
+              "float32", "float64"},
+             "what they are (default uint8)",
+             [&a](std::size_t i) {
+               constexpr std::array kTypes{"u1", "i1", "u2", "i2", "u4", "i4",
+                                           "u8", "i8", "f2", "f4", "f8"};
+               raw(a).type = kTypes[i];
+             })
+      ->group(group);
+  app.add_flag_callback(
+         "--raw-big-endian", [&a] { raw(a).big_endian = true; },
+         "the high byte comes first (default: last)")
+      ->group(group);
+  add_value(app, "--raw-skip", "BYTES", "bytes before them: a header (default 0)",
+            [&a](const std::string& text) {
+              raw(a).skip = static_cast<std::size_t>(parse_integer("--raw-skip", text, 0));
+            })
+      ->group(group);
+}
+
+void check_image_arguments(Arguments& a) {
+  if (a.read.raw && a.read.raw->extents.empty())
+    throw Error(ErrorKind::usage, "--raw-type, --raw-big-endian and --raw-skip need --raw-shape");
+  if (a.read.raw && a.format == Format::automatic) a.format = Format::raw;
+  if (a.read.raw && a.format != Format::raw)
+    throw Error(ErrorKind::usage, "--raw-shape: makes sense for --format raw only");
+  if (!a.read.raw && a.format == Format::raw)
+    throw Error(ErrorKind::usage, "--format: found raw, which needs --raw-shape");
+}
+
+}  // namespace ph::barcode

@@ -1,0 +1,181 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Cubical persistence: ph-barcode beside other programs, on the same images, in one run.
+
+    compare_images.py build/release --peer 'GUDHI 3.11 = construction=cells PROGRAM {input} [--print]'
+
+A peer is NAME = COMMAND, the name with its version. Before the command stand construction=vertices or
+construction=cells, which it is compared in, and, where it takes images of so many axes only, axes=N. In the command
+{input} is a .npy file of float64 in C order and {threads} the number of threads (a command without it is measured with
+one). Words in [brackets] are used only in the run whose bars are compared, those of [A|B] are A in that run and B in
+those that are measured: there it prints `dim birth death`, a bar a line.
+Arguments may stand in a file, one a line, named as @FILE.
+
+Measured are user + system CPU seconds and peak resident memory of whole processes, reading the image included, output
+going nowhere; see docs/benchmarks.md for how. Needs numpy.
+"""
+import argparse
+import datetime
+import json
+import math
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+
+import image_rows
+import rips_table
+from compare_rips import Program, merged, processor, save, size
+from measuring import Limits, Meter
+from rips_table import OURS
+
+CONSTRUCTIONS = ("vertices", "cells")
+
+
+class Peer(Program):
+    """Words before the command say what it is compared in."""
+
+    def __init__(self, name, command):
+        self.construction, self.axes, words = None, None, []
+        for word in command.split():
+            if found := re.fullmatch("construction=(vertices|cells)", word):
+                self.construction = found[1]
+            elif found := re.fullmatch(r"axes=(\d+)", word):
+                self.axes = int(found[1])
+            else:
+                words.append(word)
+        super().__init__(name, " ".join(words).replace("{input}", "{options}"))
+
+    def takes(self, row, construction):
+        return self.construction == construction and self.axes in (None, len(row.shape))
+
+
+def peer(text):
+    name, equals, command = text.partition(" = ")
+    program = Peer(name.strip(), command)
+    if not equals or "{input}" not in command or program.construction is None:
+        raise argparse.ArgumentTypeError(f"{text!r}: expected NAME = construction=… COMMAND with {{input}} in it")
+    return program
+
+
+def bars_of(text):
+    """Bars of `dim birth death` or `dim,birth,death`, sorted; programs write infinity in several ways."""
+    bars = []
+    for line in text.splitlines():
+        words = re.split(r"[\s,]+", line.strip())
+        if len(words) < 3 or not words[0].isdigit():
+            continue
+        birth, death = float(words[1]), float(words[2])
+        bars.append((int(words[0]), birth, math.inf if death > 1e300 else death))
+    return sorted(bars)
+
+
+def difference(ours, theirs):
+    """The first bar that is not in both, or None."""
+    if ours == theirs:
+        return None
+    first = next((pair for pair in zip(ours, theirs) if pair[0] != pair[1]), ("no more bars", "or ours has none"))
+    return f"{len(ours)} bars of ours, {len(theirs)} of theirs; {first[0]} and {first[1]}"
+
+
+class Comparison:
+    def __init__(self, arguments):
+        self._arguments = arguments
+        self._meter = Meter(arguments.build / "bench/bench_run", Limits(arguments.time_limit, arguments.memory_limit),
+                            arguments.repeat)
+
+    def programs(self, row, construction):
+        ours = shlex.quote(str(self._arguments.build / "apps/barcode/ph-barcode"))
+        yield Program(OURS, f"{ours} {{options}} --quiet --threads {{threads}} --construction {construction} "
+                            "--output-format [pers|none]")
+        for program in self._arguments.peer:
+            if program.takes(row, construction):
+                yield program
+
+    def _bars(self, program, path):
+        with tempfile.TemporaryFile() as output:
+            ended = self._meter.run(program.command([str(path)], prints=True), stdout=output)
+            output.seek(0)
+            return bars_of(output.read().decode()) if ended.ok else None
+
+    def row(self, row, construction, path):
+        name = f"{row.name}, {construction}"
+        result = {"name": name, "results": [], "bars": {}}
+        ours = None
+        for program in self.programs(row, construction):
+            for threads in self._arguments.threads if program.has_threads else [1]:
+                taken = self._meter.best(program.command([str(path)], threads))
+                result["results"].append({"program": program.name, "threads": threads, "outcome": taken.outcome,
+                                          "user": taken.user, "system": taken.system, "cpu": max(taken.cpu, 1e-4),
+                                          "wall": taken.wall, "peak_mb": taken.peak})
+                print(rips_table.line(name, result["results"][-1]), file=sys.stderr, flush=True)
+            if not self._arguments.check or not taken.ok:
+                continue
+            found = self._bars(program, path)
+            if program.name == OURS:
+                ours = found
+            elif found and ours is not None:  # not every program can print its bars
+                result["bars"][program.name] = difference(ours, found) or "equal"
+                print(f"{name}: {program.name}: bars {result['bars'][program.name]}", file=sys.stderr, flush=True)
+        reading = self._meter.best(["cat", path])
+        result["limit"] = {"cpu": max(reading.cpu, 1e-4), "peak_mb": reading.peak}
+        return result
+
+
+def parse():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
+                                     fromfile_prefix_chars="@")
+    parser.add_argument("build", type=lambda path: pathlib.Path(path).resolve(),
+                        help="build folder, with ph-barcode and bench_run")
+    parser.add_argument("--peer", type=peer, action="append", default=[], help="NAME = COMMAND, repeatable")
+    parser.add_argument("--made", type=pathlib.Path, help="folder for generated inputs (default: a temporary one)")
+    parser.add_argument("--rows", type=lambda text: text.split(","), help="names, comma-separated (default: the usual)")
+    parser.add_argument("--construction", choices=CONSTRUCTIONS, action="append", help="repeatable (default: both)")
+    parser.add_argument("--threads", type=lambda text: [int(n) for n in text.split(",")], default=[1],
+                        help="numbers of threads, comma-separated (default: 1)")
+    parser.add_argument("--repeat", type=int, default=3, help="runs of which the fastest counts (default: 3)")
+    parser.add_argument("--time-limit", type=int, default=600, metavar="SECONDS", help="CPU time of a run")
+    parser.add_argument("--memory-limit", type=size, metavar="SIZE", help="private memory of a run, such as 16GiB")
+    parser.add_argument("--no-check", dest="check", action="store_false", help="do not compare the bars")
+    parser.add_argument("--json", type=pathlib.Path, help="all results; what it holds already is kept or replaced")
+    parser.add_argument("--list", action="store_true", help="print the names of the rows and end")
+    return parser.parse_args()
+
+
+def main():
+    arguments = parse()
+    if arguments.list:
+        print("\n".join(row.name for row in image_rows.ROWS))
+        return
+    rows = [row for row in image_rows.ROWS if (row.name in arguments.rows if arguments.rows else row.usual)]
+    if arguments.rows and (unknown := set(arguments.rows) - {row.name for row in rows}):
+        raise SystemExit(f"no such row: {', '.join(sorted(unknown))}; --list names them")
+    report = {"rows": []}
+    if arguments.json and arguments.json.exists():
+        report = json.loads(arguments.json.read_text())
+    version = subprocess.run([arguments.build / "apps/barcode/ph-barcode", "--version"], capture_output=True, text=True,
+                             check=True)
+    report.update(machine=processor(), date=str(datetime.date.today()), version=version.stdout.strip(),
+                  peers={**report.get("peers", {}), **{p.name: str(p) for p in arguments.peer}})
+    known = {row["name"]: row for row in report["rows"]}
+    with tempfile.TemporaryDirectory() as folder:
+        made = arguments.made or pathlib.Path(folder)
+        made.mkdir(parents=True, exist_ok=True)
+        comparison = Comparison(arguments)
+        for row in rows:
+            path = image_rows.input_file(row, made)
+            for construction in arguments.construction or CONSTRUCTIONS:
+                result = comparison.row(row, construction, path)
+                known[result["name"]] = merged(known.get(result["name"], {}), result)
+                report["rows"] = list(known.values())
+                if arguments.json:
+                    save(arguments.json, report)
+    print(rips_table.markdown(report).replace("(read + sort)", "(read once)"))
+    if any(said != "equal" for row in report["rows"] for said in row["bars"].values()):
+        raise SystemExit(1)
+
+
+if __name__ == "__main__":
+    main()
