@@ -75,8 +75,8 @@ def engines(arguments, folder):
         path = folder / f"{name}.npy"
         numpy.save(path, values)
         theirs = arguments.gudhi_python and measure_gudhi(arguments.gudhi_python, path, arguments.repeat)
-        row(f"cubical H0–H2, 64³ {name} (T), `twist`",
-            ours(path, "--engine", "twist", "--construction", "cells"), theirs, "GUDHI")
+        row(f"cubical H0–H2, 64³ {name} (T), `arrows`",
+            ours(path, "--engine", "arrows", "--construction", "cells"), theirs, "GUDHI")
 
 
 def readers(arguments):
