@@ -9,7 +9,6 @@ Needs numpy for the inputs. A peer that is not given is left out."""
 import argparse
 import json
 import pathlib
-import statistics
 import subprocess
 import tempfile
 
@@ -91,27 +90,6 @@ def readers(arguments):
         print(f"| {b['name']} | {b['cpu_time']:.1f} | {b['bytes_per_second'] / 1e6:.0f} |")
 
 
-def paper_mode(arguments, folder):
-    scenes = sorted(arguments.scenes.glob("*.pcd")) if arguments.scenes else []
-    if not scenes:
-        return
-    seconds = {}
-    for scene in scenes:
-        runs = []
-        for _ in range(arguments.repeat):
-            summary = folder / "summary.json"
-            subprocess.run([arguments.build / "apps/segment/ph-segment", scene, "--method", "paper", "--threads",
-                            "1", "--quiet", "--json", summary], check=True)
-            runs.append({s["name"]: s["seconds"] for s in json.loads(summary.read_text())["stages"]})
-        for stage in runs[0]:
-            seconds.setdefault(stage, []).append(min(run[stage] for run in runs))
-    after_plane = [sum(t[i] for name, t in seconds.items() if name not in ("range filter", "plane"))
-                   for i in range(len(scenes))]
-    print(f"\n| stage of `--method paper`, {len(scenes)} frames | median ms | worst ms |\n|---|---|---|")
-    for name, times in [*seconds.items(), ("all after the plane", after_plane)]:
-        print(f"| {name} | {1e3 * statistics.median(times):.2f} | {1e3 * max(times):.2f} |")
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("build", type=pathlib.Path)
@@ -123,7 +101,6 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         engines(arguments, pathlib.Path(folder))
         readers(arguments)
-        paper_mode(arguments, pathlib.Path(folder))
 
 
 if __name__ == "__main__":
