@@ -36,8 +36,7 @@ EngineChoice choose_engine(const F& f, Engine asked, const Task& task) {
       return {Engine::twist, "the complex numbers its cells"};
     if (CohomologyEngine::can_run(f, task))
       return {Engine::cohomology, "cells of the highest dimension are too many to list"};
-    if (TwistEngine::can_run(f, task))
-      return {Engine::twist, "the complex lists facets only"};
+    if (TwistEngine::can_run(f, task)) return {Engine::twist, "the complex lists facets only"};
     throw Error(ErrorKind::usage, "cocycles need a complex that lists cofacets");
   }
   bool can_run = false;
