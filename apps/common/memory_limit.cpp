@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "memory_limit.hpp"
 
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -88,7 +89,10 @@ void HeapBound::bound(std::size_t bytes) {
   constexpr std::uint64_t slack = std::uint64_t{16} << 20;
   const auto now = data_size();
   std::uint64_t limit = 0;
-  if (!at_start_ || !now || __builtin_add_overflow(*now + slack, bytes, &limit)) return;
+  if (!at_start_ || !now) return;
+  // The free end of the heap is there, but not taken.
+  const std::uint64_t taken = *now - std::min<std::uint64_t>(*now, mallinfo2().keepcost);
+  if (__builtin_add_overflow(taken + slack, bytes, &limit)) return;
   if (limit >= *at_start_) return;
   bound_ = limit;
   set(limit);
