@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Bundles the page into one template, build/report-template.html: script, style and their hashes
+// in the policy are fixed here, and the programs put a payload where the marker stands.
+// node build.mjs [output folder]
+import { createHash } from "node:crypto";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { build } from "esbuild";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const folder = process.argv[2] ?? join(here, "build");
+
+async function bundle(entry, options) {
+  const result = await build({
+    absWorkingDir: here,
+    entryPoints: [entry],
+    bundle: true,
+    minify: true,
+    write: false,
+    charset: "utf8",
+    logLevel: "warning",
+    ...options,
+  });
+  return result.outputFiles[0].text.trim();
+}
+
+const script = await bundle("src/main.ts", { format: "iife", target: "es2022", legalComments: "inline" });
+const style = await bundle("src/style.css", {});
+for (const [what, text, end] of [["script", script, "</script"], ["style", style, "</style"]])
+  if (text.toLowerCase().includes(end)) throw new Error(`the ${what} contains its own end tag`);
+
+const hash = (text) => `'sha256-${createHash("sha256").update(text).digest("base64")}'`;
+const policy = [
+  "default-src 'none'",
+  `script-src ${hash(script)}`,
+  `style-src ${hash(style)}`,
+  "img-src data:",
+  "base-uri 'none'",
+  "form-action 'none'",
+  "require-trusted-types-for 'script'",
+  "trusted-types 'none'",
+].join("; ");
+
+// Replacements by function: the text of a bundle may contain `$&`.
+const page = readFileSync(join(here, "src/page.html"), "utf8")
+  .replace("{{policy}}", () => policy)
+  .replace("{{style}}", () => style)
+  .replace("{{script}}", () => script);
+const marker = "<!--ph:payload-->";
+if (page.split(marker).length !== 2) throw new Error("the template needs its marker exactly once");
+mkdirSync(folder, { recursive: true });
+const path = join(folder, "report-template.html");
+writeFileSync(path, page);
+console.log(`${path}: ${(page.length / 1024).toFixed(0)} KiB`);

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Charts whose items are bars: diagram and barcode. Keyboard, table and description are the same.
+import { Chart } from "./chart";
+import { table } from "./dom";
+import { counted, exact, homology, short } from "./numbers";
+import type { Session } from "./session";
+
+const kMostRows = 500;
+
+export function intervalOf(session: Session, bar: number): string {
+  const { bars } = session.report;
+  return `[${short(bars.birth[bar]!)}, ${short(bars.death[bar]!)})`;
+}
+
+/// "H₁ [0.5, 2.25), persistence 1.75", with its barcode where there are two.
+export function nameOfBar(session: Session, bar: number): string {
+  const { bars, meta } = session.report;
+  const of = meta.barcodes.length > 1 ? `, ${meta.barcodes[bars.barcodeOf(bar)]!.name}` : "";
+  return `${homology(bars.dim[bar]!)} ${intervalOf(session, bar)}, persistence ${short(bars.persistence(bar))}${of}`;
+}
+
+export abstract class BarChart extends Chart {
+  private current = -1; // place among the shown bars, by persistence
+
+  protected shownBars(most: number): number[] {
+    const shown: number[] = [];
+    for (const bar of this.session.report.bars.byPersistence) {
+      if (shown.length >= most) break;
+      if (this.session.isShown(bar)) shown.push(bar);
+    }
+    return shown;
+  }
+  protected makeTable(): HTMLTableElement {
+    const { bars, meta } = this.session.report;
+    const two = meta.barcodes.length > 1;
+    const shown = this.shownBars(kMostRows);
+    const caption = shown.length < bars.size
+      ? `The ${counted(shown.length, "most persistent bar")} of ${counted(bars.size, "bar")}`
+      : counted(bars.size, "bar");
+    return table(
+      caption,
+      [...(two ? ["barcode"] : []), "dimension", "birth", "death", "persistence"],
+      shown.map((bar) => [
+        ...(two ? [meta.barcodes[bars.barcodeOf(bar)]!.name] : []),
+        bars.dim[bar]!, exact(bars.birth[bar]!), exact(bars.death[bar]!), exact(bars.persistence(bar)),
+      ]),
+    );
+  }
+  protected describe(): string {
+    const { bars } = this.session.report;
+    const counts = bars.dims.map((dim) => `${counted(bars.count(dim, 0), "bar")} in dimension ${dim}`);
+    return `${counts.join(", ") || "no bars"}. Arrow keys go from bar to bar, the most persistent first; Enter selects.`;
+  }
+  protected step(by: number): void {
+    const shown = this.shownBars(Math.max(1, this.current + by + 1));
+    this.current = Math.min(shown.length - 1, Math.max(0, this.current + by));
+    const bar = shown[this.current];
+    if (bar !== undefined) this.session.setFocus({ bar });
+  }
+  protected choose(how: "replace" | "toggle"): void {
+    if (this.session.focus.bar >= 0) this.session.select([this.session.focus.bar], how);
+  }
+}

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// The barcode: a line a bar, one band a dimension, two barcodes side by side. Where there are more
+// bars than rows the most persistent ones have a row and the others are a strip: darker where more
+// of them live.
+import { Axis } from "./axis";
+import { BarChart } from "./bar_chart";
+import { grouped, homology } from "./numbers";
+import { dimColour } from "./palette";
+import type { Pen } from "./pen";
+import type { Size } from "./chart";
+import type { Change, Session } from "./session";
+
+const kLeft = 34, kRight = 20, kTop = 8, kBottom = 38, kGap = 10, kStrip = 12, kLeastRow = 2.5, kMostRow = 11;
+
+interface Item {
+  bar: number;
+  x1: number;
+  x2: number;
+  y: number; // upper end of its row
+  row: number; // height
+}
+interface Band {
+  dim: number;
+  barcode: number;
+  bars: number[]; // that have a row, by birth
+  rest: number[];
+}
+
+export class Barcode extends BarChart {
+  protected redrawsOn: Change[] = ["dims"];
+  private items: Item[] = [];
+  private axes: Axis[] = [];
+
+  constructor(session: Session) {
+    super(session, "barcode", "Barcode", "");
+    this.over.addEventListener("pointermove", (event) => this.session.setFocus({ bar: this.barAt(event) }));
+    this.over.addEventListener("pointerleave", () => this.session.setFocus({}));
+    this.over.addEventListener("click", (event) => {
+      const bar = this.barAt(event), more = event.shiftKey || event.ctrlKey || event.metaKey;
+      this.session.select(bar < 0 ? [] : [bar], more ? "toggle" : "replace");
+    });
+  }
+
+  draw(pen: Pen, size: Size): void {
+    const { theme, report: { bars, meta } } = this.session;
+    this.items = [];
+    this.axes = this.makeAxes(size);
+    const two = meta.barcodes.length > 1;
+    const top = kTop + (two ? 16 : 0), bottom = size.height - kBottom;
+    const unit = [meta.value.unit, this.axes[0]!.unit].filter(Boolean).join(" ");
+    const small = { colour: theme.muted, size: 10.5, anchor: "middle" } as const;
+    this.axes.forEach((axis, i) => {
+      for (const tick of axis.ticks(Math.max(2, (axis.to - axis.from) / 75))) {
+        pen.line(tick.at, top, tick.at, bottom, theme.grid);
+        pen.text(tick.at, bottom + 14, tick.label, small);
+      }
+      pen.line(axis.from, bottom, axis.to, bottom, theme.faint);
+      if (two) pen.text((axis.from + axis.to) / 2, kTop + 5, clipped(meta.barcodes[i]!.name, (axis.to - axis.from) / 6.5), { ...small, colour: theme.ink });
+    });
+    const label = meta.value.label.toLowerCase();
+    pen.text((kLeft + size.width - kRight) / 2, size.height - 7, unit ? `${label} (${unit})` : label, small);
+    if (bars.size === 0) pen.text(size.width / 2, (top + bottom) / 2, "no bars", { ...small, size: 13 });
+    this.drawBands(pen, top, bottom);
+  }
+
+  protected drawOver(pen: Pen): void {
+    const { theme, focus, report: { bars } } = this.session;
+    for (const item of this.items) {
+      const focused = item.bar === focus.bar;
+      if (!focused && !this.session.isSelected(item.bar)) continue;
+      const colour = focused ? theme.ink : theme.accent;
+      const thick = Math.max(3, item.row), y = item.y + item.row / 2;
+      pen.rect(item.x1 - 2, y - thick / 2 - 1, item.x2 - item.x1 + 4, thick + 2, colour);
+      pen.rect(item.x1, y - thick / 2 + 0.5, Math.max(1, item.x2 - item.x1), thick - 1, dimColour(bars.dim[item.bar]!, theme));
+    }
+  }
+
+  private makeAxes(size: Size): Axis[] {
+    const { bars, meta } = this.session.report;
+    const n = meta.barcodes.length;
+    const width = (size.width - kLeft - kRight * n) / n;
+    return meta.barcodes.map((_, i) => {
+      const from = kLeft + i * (width + kRight);
+      return new Axis(bars.low, bars.high, from, from + width);
+    });
+  }
+
+  private drawBands(pen: Pen, top: number, bottom: number): void {
+    const { theme, report: { bars, meta } } = this.session;
+    const dims = bars.dims.filter((dim) => !this.session.hiddenDims.has(dim));
+    if (dims.length === 0) return;
+    const room = bottom - top - kGap * dims.length;
+    const counts = dims.map((dim) => Math.max(...meta.barcodes.map((_, i) => bars.count(dim, i))));
+    const rows = shared(counts, Math.floor((room - kStrip * dims.length) / kLeastRow));
+    const needsStrip = counts.map((count, i) => count > rows[i]!);
+    const strips = needsStrip.filter(Boolean).length * kStrip;
+    const row = Math.min(kMostRow, (room - strips) / Math.max(1, rows.reduce((a, b) => a + b, 0)));
+    let y = top + kGap / 2;
+    dims.forEach((dim, i) => {
+      const height = rows[i]! * row + (needsStrip[i] ? kStrip : 0);
+      pen.text(kLeft - 8, y + Math.min(height / 2 + 4, height), homology(dim), { colour: dimColour(dim, theme), size: 12, anchor: "end", bold: true });
+      meta.barcodes.forEach((_, barcode) => this.drawBand(pen, this.band(dim, barcode, rows[i]!), y, row));
+      y += height + kGap;
+      if (i + 1 < dims.length) pen.line(kLeft, y - kGap / 2, this.axes.at(-1)!.to, y - kGap / 2, theme.grid);
+    });
+  }
+
+  private band(dim: number, barcode: number, rows: number): Band {
+    const { bars } = this.session.report;
+    const band: Band = { dim, barcode, bars: [], rest: [] };
+    for (const bar of bars.byPersistence)
+      if (bars.dim[bar] === dim && bars.barcodeOf(bar) === barcode)
+        (band.bars.length < rows ? band.bars : band.rest).push(bar);
+    band.bars.sort((a, b) => a - b);
+    return band;
+  }
+
+  private drawBand(pen: Pen, band: Band, y: number, row: number): void {
+    const { theme, report: { bars } } = this.session;
+    const axis = this.axes[band.barcode]!, colour = dimColour(band.dim, theme);
+    const thick = row > 5 ? 0.62 * row : row > 3.2 ? row - 1.2 : row - 0.6;
+    for (const bar of band.bars) {
+      const x1 = bars.birth[bar] === -Infinity ? axis.from - 6 : axis.at(bars.birth[bar]!);
+      const infinite = bars.isInfinite(bar), x2 = infinite ? axis.to + 6 : axis.at(bars.death[bar]!);
+      pen.rect(x1, y + (row - thick) / 2, Math.max(1, x2 - x1), thick, colour);
+      if (infinite) {
+        const r = Math.min(5, Math.max(2.5, row / 2)), middle = y + row / 2;
+        pen.polygon([x2, middle - r, x2 + 1.6 * r, middle, x2, middle + r], colour);
+      }
+      this.items.push({ bar, x1, x2: x2 + (infinite ? 6 : 0), y, row });
+      y += row;
+    }
+    if (band.rest.length > 0) this.drawStrip(pen, band, axis, y);
+  }
+
+  private drawStrip(pen: Pen, band: Band, axis: Axis, y: number): void {
+    const { theme, report: { bars } } = this.session;
+    const columns = Math.ceil(axis.to - axis.from);
+    const alive = new Int32Array(columns + 2);
+    for (const bar of band.rest) {
+      ++alive[Math.floor(axis.at(bars.birth[bar]!) - axis.from)]!;
+      --alive[Math.floor(axis.at(bars.death[bar]!) - axis.from) + 1]!;
+    }
+    for (let i = 1; i < alive.length; ++i) alive[i]! += alive[i - 1]!;
+    const scale = 1 / Math.log(alive.reduce((a, b) => Math.max(a, b), 0) + 1);
+    for (let i = 0; i < columns; ++i)
+      if (alive[i]! > 0)
+        pen.rect(axis.from + i, y + 2, 1, 3, dimColour(band.dim, theme), 0.12 + 0.78 * Math.log(alive[i]! + 1) * scale);
+    pen.text(axis.to, y + 13, `+ ${grouped(band.rest.length)} shorter`, { colour: theme.muted, size: 9.5, anchor: "end" });
+  }
+
+  private barAt(event: MouseEvent): number {
+    const [x, y] = this.place(event);
+    let best = -1, nearest = 5;
+    for (const item of this.items) {
+      if (x < item.x1 - 4 || x > item.x2 + 8) continue;
+      const distance = Math.abs(y - item.y - item.row / 2);
+      if (distance < nearest) [best, nearest] = [item.bar, distance];
+    }
+    return best;
+  }
+}
+
+/// Shares rows among bands: none gets more than it needs, what is left over goes to the others.
+function shared(needs: number[], rows: number): number[] {
+  const given = needs.map(() => 0);
+  let open = needs.map((_, i) => i), left = Math.max(needs.length, rows);
+  while (open.length > 0) {
+    const share = Math.max(1, Math.floor(left / open.length));
+    const content = open.filter((i) => needs[i]! <= share);
+    if (content.length === 0) {
+      for (const i of open) given[i] = share;
+      break;
+    }
+    for (const i of content) {
+      given[i] = needs[i]!;
+      left -= needs[i]!;
+    }
+    open = open.filter((i) => needs[i]! > share);
+  }
+  return given;
+}
+
+export function clipped(text: string, most: number): string {
+  const letters = [...text];
+  if (letters.length <= most) return text;
+  const half = Math.max(1, Math.floor(most / 2) - 1);
+  return [...letters.slice(0, half), "…", ...letters.slice(-half)].join("");
+}

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// The bars of one or two barcodes as columns of numbers. Bar i of the second barcode has number
+// `first[1] + i`, so that one number names any bar.
+import type { BarcodeMeta } from "./report";
+import { PayloadError, type Numbers } from "./payload";
+
+interface Columns {
+  dim: Numbers;
+  birth: Numbers;
+  death: Numbers;
+  birthCells: Numbers | undefined;
+  deathCells: Numbers | undefined;
+}
+
+export class Bars {
+  readonly size: number;
+  readonly first: number[] = [0];
+  readonly dim: Uint8Array;
+  readonly birth: Float64Array;
+  readonly death: Float64Array;
+  readonly dims: number[]; // that occur, ascending
+  /// All bars, the most persistent first (infinite ones before all), the first among equals.
+  readonly byPersistence: Uint32Array;
+  readonly low: number; // least and largest finite value; 0 and 1 if there is none
+  readonly high: number;
+  private readonly counts: Map<number, number>[];
+  private readonly cellStart: (Float64Array | undefined)[][] = [];
+
+  constructor(
+    private readonly columns: Columns[],
+    private readonly meta: BarcodeMeta[],
+    private readonly axes: number,
+  ) {
+    for (const c of columns) {
+      if (c.birth.length !== c.dim.length || c.death.length !== c.dim.length)
+        throw new PayloadError("bars: columns of different lengths");
+      this.first.push(this.first.at(-1)! + c.dim.length);
+    }
+    this.size = this.first.at(-1)!;
+    this.dim = new Uint8Array(this.size);
+    this.birth = new Float64Array(this.size);
+    this.death = new Float64Array(this.size);
+    columns.forEach((c, i) => {
+      this.dim.set(c.dim, this.first[i]);
+      this.birth.set(c.birth, this.first[i]);
+      this.death.set(c.death, this.first[i]);
+    });
+    this.counts = columns.map((c) => {
+      const counts = new Map<number, number>();
+      for (const dim of c.dim) counts.set(dim, (counts.get(dim) ?? 0) + 1);
+      return counts;
+    });
+    this.dims = [...new Set(this.dim)].sort((a, b) => a - b);
+    [this.low, this.high] = this.finiteRange();
+    this.byPersistence = this.sorted();
+    columns.forEach((c, i) => {
+      this.cellStart.push([c.birthCells && this.starts(i, 0), c.deathCells && this.starts(i, 1)]);
+    });
+  }
+
+  persistence(bar: number): number {
+    const birth = this.birth[bar]!, death = this.death[bar]!;
+    return birth === death ? 0 : death - birth;
+  }
+  isInfinite(bar: number): boolean {
+    return this.death[bar] === Infinity;
+  }
+  /// 0 or 1: which barcode a bar is of.
+  barcodeOf(bar: number): number {
+    return bar < this.first[1]! ? 0 : 1;
+  }
+  count(dim: number, barcode: number): number {
+    return this.counts[barcode]?.get(dim) ?? 0;
+  }
+  /// How many numbers name a cell of the dimension of a bar, or of the next one.
+  arity(bar: number, above: 0 | 1): number {
+    const kind = this.meta[this.barcodeOf(bar)]?.cells ?? "vertices";
+    if (kind === "row") return 1;
+    return kind === "grid" ? this.axes : this.dim[bar]! + 1 + above;
+  }
+  /// The cell that gave birth to a bar (0) or killed it (1); empty if it is not known.
+  cell(bar: number, which: 0 | 1): number[] {
+    const barcode = this.barcodeOf(bar);
+    const starts = this.cellStart[barcode]?.[which];
+    const column = this.columns[barcode]!;
+    const cells = which === 0 ? column.birthCells : column.deathCells;
+    if (!starts || !cells) return [];
+    const i = bar - this.first[barcode]!;
+    return Array.from(cells.subarray(starts[i]!, starts[i + 1]!));
+  }
+
+  private starts(barcode: number, which: 0 | 1): Float64Array {
+    const from = this.first[barcode]!, to = this.first[barcode + 1]!;
+    const starts = new Float64Array(to - from + 1);
+    for (let i = from; i < to; ++i) {
+      const length = which === 1 && this.isInfinite(i) ? 0 : this.arity(i, which);
+      starts[i - from + 1] = starts[i - from]! + length;
+    }
+    return starts;
+  }
+  private finiteRange(): [number, number] {
+    let low = Infinity, high = -Infinity;
+    for (const values of [this.birth, this.death]) {
+      for (const v of values) {
+        if (!Number.isFinite(v)) continue;
+        if (v < low) low = v;
+        if (v > high) high = v;
+      }
+    }
+    return low > high ? [0, 1] : [low, high];
+  }
+  private sorted(): Uint32Array {
+    const length = new Float64Array(this.size);
+    for (let i = 0; i < this.size; ++i) length[i] = this.persistence(i);
+    const order = new Uint32Array(this.size).map((_, i) => i);
+    // Infinity - Infinity is no number: compare, do not subtract.
+    return order.sort((a, b) => (length[a]! > length[b]! ? -1 : length[a]! < length[b]! ? 1 : a - b));
+  }
+}

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+// The data: cloud, image or volume, coloured, with what is selected drawn on it.
+import { Colouring } from "./colouring";
+import { bettiAt, ComplexEdges, kMostEdges } from "./complex_edges";
+import { button, el, select } from "./dom";
+import { ImageSlice } from "./image_slice";
+import { Legend } from "./legend";
+import { counted, grouped, homology, short } from "./numbers";
+import { Overlay, thinLines } from "./overlay";
+import { PointCloud } from "./point_cloud";
+import { firstPose } from "./pose";
+import { shapesOf } from "./representatives";
+import { Stage } from "./stage";
+import { StaticPicture } from "./static_picture";
+import type { LineSegments } from "three";
+import type { Change, ColourMode, Session } from "./session";
+
+export class DataView {
+  readonly panel: HTMLElement;
+  readonly stage: Stage | undefined;
+  private readonly colouring: Colouring;
+  private readonly truthColouring: Colouring | undefined;
+  private readonly cloud: PointCloud | undefined;
+  private readonly slice: ImageSlice | undefined;
+  private readonly overlay = new Overlay();
+  private readonly still: StaticPicture | undefined;
+  private readonly edges: ComplexEdges;
+  private edgeLines: LineSegments | undefined;
+  private readonly head: HTMLElement;
+  private readonly body = el("div", { class: "data-body" });
+  private readonly canvasHost = el("div", { class: "stage" });
+  private readonly legend: Legend;
+  private readonly reading = el("output", { class: "reading" });
+  private pressedAt: [number, number] | undefined;
+
+  constructor(private readonly session: Session) {
+    const { report } = session;
+    this.colouring = new Colouring(session);
+    this.colouring.update();
+    this.edges = new ComplexEdges(report);
+    const pose = firstPose(report);
+    if (report.image) this.slice = new ImageSlice(report.image.shape, this.colouring.rgba);
+    else {
+      const spacing = (2 * pose.radius) / Math.sqrt(report.elements!.count);
+      this.cloud = new PointCloud(report.cloud!.positions, this.colouring.rgba, spacing / pose.radius);
+      if (report.elements!.truth) {
+        this.truthColouring = new Colouring(session);
+        this.truthColouring.update("truth");
+      }
+    }
+    this.head = el("header", {}, el("h2", {}, report.image ? "Image" : "Point cloud"));
+    this.panel = el("section", { class: "panel data", "aria-label": "Data" }, this.head, this.body);
+    try {
+      this.stage = new Stage({ ...pose });
+      this.setUpStage(this.stage);
+    } catch {
+      this.still = new StaticPicture(report, pose, this.slice);
+      this.canvasHost.append(this.still.element, el("p", { class: "note" }, "WebGL is not available here: a still picture."));
+    }
+    this.legend = new Legend(session, this.colouring);
+    this.body.append(this.canvasHost, this.legend.element);
+    this.addControls();
+    this.slice?.show(session.sliceAxis, session.slice);
+    session.onChange((changes) => this.update(changes));
+    this.update(new Set<Change>(["colour", "scale"]));
+  }
+
+  /// The picture as it is now, as a PNG.
+  picture(): string | undefined {
+    this.stage?.render();
+    return this.stage?.renderer.domElement.toDataURL("image/png");
+  }
+
+  private setUpStage(stage: Stage): void {
+    const canvas = stage.renderer.domElement;
+    canvas.tabIndex = 0;
+    canvas.setAttribute("role", "img");
+    canvas.setAttribute("aria-label", `${this.description()}. Arrow keys turn or move it, plus and minus zoom, 0 fits it.`);
+    this.canvasHost.append(canvas);
+    stage.scene.add(this.cloud?.object ?? this.slice!.object, this.overlay.group);
+    new ResizeObserver(() => {
+      const size = { width: this.canvasHost.clientWidth, height: this.canvasHost.clientHeight };
+      stage.resize(size);
+      this.cloud?.resize(size.height, stage.renderer.getPixelRatio());
+      stage.render(); // at once: a resized canvas is empty
+    }).observe(this.canvasHost);
+    stage.controls.addEventListener("end", () => this.session.changed("view"));
+    canvas.addEventListener("pointermove", (event) => event.buttons === 0 && this.hover(event));
+    canvas.addEventListener("pointerleave", () => this.session.setFocus({}));
+    canvas.addEventListener("pointerdown", (event) => (this.pressedAt = [event.clientX, event.clientY]));
+    canvas.addEventListener("click", (event) => this.click(event));
+    canvas.addEventListener("keydown", (event) => this.key(event, stage));
+  }
+
+  private description(): string {
+    const { report } = this.session;
+    if (report.image) return `Image of ${report.image.shape.filter((n, i) => n > 1 || i > 0).join(" × ")}`;
+    return `Cloud of ${counted(report.elements!.count, "point")}`;
+  }
+
+  private addControls(): void {
+    const { session } = this;
+    const { report } = session;
+    const modes = session.colourModes();
+    this.head.append(el("span", { class: "hint" }, this.description().replace("Cloud of ", "").replace("Image of ", "")));
+    this.head.append(select("colour", modes, session.colour, (value) => session.set("colour", value as ColourMode, "colour")));
+    if (this.truthColouring && this.stage) {
+      const box = el("input", { type: "checkbox" });
+      box.addEventListener("change", () => session.set("beside", box.checked, "colour"));
+      this.head.append(el("label", { class: "field" }, box, el("span", {}, "ground truth beside")));
+    }
+    if (this.stage) this.head.append(button("fit", () => this.stage!.reset(), { class: "quiet", title: "See everything (0)" }));
+    if (report.image && report.image.shape[0]! > 1) this.addSliceControls(report.image.shape);
+    if (report.bars.size > 0 && (this.edges.available || report.elements!.birth)) this.addScrubber();
+    if (report.meta.cloud?.projection) this.panel.append(el("p", { class: "note" }, report.meta.cloud.projection));
+  }
+  private addSliceControls(shape: number[]): void {
+    const { session } = this;
+    const slider = el("input", { type: "range", min: 0, step: 1, "aria-label": "slice" });
+    const number = el("output", {});
+    const show = () => {
+      slider.max = String(shape[session.sliceAxis]! - 1);
+      slider.value = String(session.slice);
+      number.textContent = String(session.slice);
+    };
+    slider.addEventListener("input", () => session.set("slice", Number(slider.value), "slice"));
+    const axes: [string, string][] = [["0", "first axis"], ["1", "second axis"], ["2", "third axis"]];
+    const choice = select("slice", axes, String(session.sliceAxis), (value) => {
+      session.set("sliceAxis", Number(value), "slice");
+      session.set("slice", Math.floor(shape[Number(value)]! / 2), "slice");
+      show();
+    });
+    session.onChange((changes) => changes.has("slice") && show());
+    this.panel.append(el("div", { class: "row" }, choice, slider, number));
+    show();
+  }
+  private addScrubber(): void {
+    const { session } = this;
+    const { bars, meta } = session.report;
+    const kSteps = 500;
+    const label = `${meta.value.label.toLowerCase()} up to`;
+    const slider = el("input", { type: "range", min: 0, max: kSteps, step: 1, "aria-label": label });
+    slider.addEventListener("input", () => {
+      const place = Number(slider.value) / kSteps;
+      session.set("scale", place === 1 ? undefined : bars.low + place * (bars.high - bars.low), "scale");
+    });
+    const show = () => {
+      const { scale } = session;
+      slider.value = String(scale === undefined ? kSteps : Math.round((kSteps * (scale - bars.low)) / (bars.high - bars.low || 1)));
+      slider.setAttribute("aria-valuetext", this.reading.textContent ?? "");
+    };
+    session.onChange((changes) => changes.has("scale") && show());
+    this.panel.append(el("div", { class: "row scrubber" }, el("span", {}, label), slider, this.reading));
+    show();
+  }
+
+  private update(changes: Set<Change>): void {
+    const any = (...these: Change[]) => these.some((change) => changes.has(change));
+    const { session } = this;
+    if (any("theme")) this.truthColouring?.update("truth");
+    if (any("focus", "selection", "cut", "colour", "scale", "theme")) {
+      this.colouring.update();
+      this.cloud?.recolour();
+      this.slice?.recolour();
+    }
+    if (any("slice")) this.slice?.show(session.sliceAxis, session.slice);
+    if (any("scale", "theme")) this.showScale();
+    if (any("colour") && this.stage) this.showBeside(this.stage);
+    const shapes = any("focus", "selection", "theme", "colour") ? shapesOf(session) : undefined;
+    if (shapes && this.stage) this.overlay.show(shapes);
+    this.still?.draw(this.colouring.rgba, shapes ?? shapesOf(session));
+    this.stage?.invalidate();
+  }
+  private showBeside(stage: Stage): void {
+    const { beside } = this.session;
+    const geometry = this.cloud?.object.geometry;
+    if (beside && this.truthColouring && geometry) {
+      const truth = this.cloud!.tint.clone();
+      truth.array.set(this.truthColouring.rgba);
+      truth.needsUpdate = true;
+      stage.besides = (side) => geometry.setAttribute("tint", side === 0 ? this.cloud!.tint : truth);
+    } else if (stage.besides) {
+      stage.besides = undefined;
+      geometry?.setAttribute("tint", this.cloud!.tint);
+    }
+    stage.resize(stage.size);
+  }
+  private showScale(): void {
+    const { scale, report, theme } = this.session;
+    if (this.edgeLines) {
+      this.stage?.scene.remove(this.edgeLines);
+      this.edgeLines.geometry.dispose();
+      this.edgeLines = undefined;
+    }
+    if (scale === undefined) {
+      this.reading.textContent = "all";
+      return;
+    }
+    const betti = bettiAt(report, scale).map((b, dim) => `β${homology(dim).slice(1)} ${grouped(b)}`).join("  ");
+    let text = `${short(scale, 3)}   ${betti}`;
+    if (this.edges.available) {
+      const edges = this.edges.upTo(scale);
+      this.edgeLines = thinLines(edges.ends, theme.ink);
+      this.stage?.scene.add(this.edgeLines);
+      text += `   ${edges.more ? `the first ${grouped(kMostEdges)} edges` : counted(edges.count, "edge")}`;
+    }
+    this.reading.textContent = text;
+  }
+
+  private elementAt(event: MouseEvent): number {
+    const box = this.canvasHost.getBoundingClientRect();
+    const x = event.clientX - box.left, y = event.clientY - box.top;
+    return this.cloud?.at(this.stage!, x, y) ?? this.slice?.at(this.stage!, x, y) ?? -1;
+  }
+  private hover(event: PointerEvent): void {
+    const element = this.elementAt(event);
+    if (element < 0) return this.session.setFocus({});
+    this.session.setFocus({ element, bar: this.session.barOf(element), segment: this.session.segmentOf(element) });
+  }
+  private click(event: MouseEvent): void {
+    const [x, y] = this.pressedAt ?? [event.clientX, event.clientY];
+    if (Math.hypot(event.clientX - x, event.clientY - y) > 4) return; // the picture was turned
+    const element = this.elementAt(event), bar = element < 0 ? -1 : this.session.barOf(element);
+    const more = event.shiftKey || event.ctrlKey || event.metaKey;
+    this.session.select(bar < 0 ? [] : [bar], more ? "toggle" : "replace");
+  }
+  private key(event: KeyboardEvent, stage: Stage): void {
+    const moves: Record<string, [number, number, number]> = {
+      ArrowLeft: [-1, 0, 1], ArrowRight: [1, 0, 1], ArrowUp: [0, -1, 1], ArrowDown: [0, 1, 1],
+      "+": [0, 0, 1.2], "=": [0, 0, 1.2], "-": [0, 0, 1 / 1.2],
+    };
+    const move = moves[event.key];
+    if (event.key === "0") stage.reset();
+    else if (move) stage.nudge(...move);
+    else return;
+    this.session.changed("view");
+    event.preventDefault();
+  }
+}

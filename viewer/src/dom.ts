@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Elements without markup: every text goes through textContent, so that no name of a file or a
+// field can become HTML.
+
+type Attributes = Record<string, string | number | boolean | undefined>;
+type Child = Node | string | undefined;
+
+function fill<E extends Element>(element: E, attributes: Attributes, children: Child[]): E {
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === undefined || value === false) continue;
+    element.setAttribute(name, value === true ? "" : String(value));
+  }
+  for (const child of children) if (child !== undefined) element.append(child);
+  return element;
+}
+
+export function el<K extends keyof HTMLElementTagNameMap>(
+  name: K,
+  attributes: Attributes = {},
+  ...children: Child[]
+): HTMLElementTagNameMap[K] {
+  return fill(document.createElement(name), attributes, children);
+}
+
+export function svg<K extends keyof SVGElementTagNameMap>(
+  name: K,
+  attributes: Attributes = {},
+  ...children: Child[]
+): SVGElementTagNameMap[K] {
+  return fill(document.createElementNS("http://www.w3.org/2000/svg", name), attributes, children);
+}
+
+export function button(text: string, action: () => void, attributes: Attributes = {}): HTMLButtonElement {
+  const element = el("button", { type: "button", ...attributes }, text);
+  element.addEventListener("click", action);
+  return element;
+}
+
+/// A labelled choice; `change` gets the value taken.
+export function select(
+  label: string,
+  options: [value: string, text: string][],
+  value: string,
+  change: (value: string) => void,
+): HTMLLabelElement {
+  const element = el("select", {}, ...options.map(([v, text]) => el("option", { value: v }, text)));
+  element.value = value;
+  element.addEventListener("change", () => change(element.value));
+  return el("label", { class: "field" }, el("span", {}, label), element);
+}
+
+/// A table that scrolls by itself; the first row of cells are headings.
+export function table(caption: string, head: string[], rows: (string | number)[][]): HTMLTableElement {
+  return el(
+    "table",
+    {},
+    el("caption", {}, caption),
+    el("thead", {}, el("tr", {}, ...head.map((text) => el("th", { scope: "col" }, text)))),
+    el("tbody", {}, ...rows.map((row) => el("tr", {}, ...row.map((cell) => el("td", {}, String(cell)))))),
+  );
+}
+
+/// Hands a file to the reader of the page.
+export function download(name: string, content: Blob): void {
+  const url = URL.createObjectURL(content);
+  el("a", { href: url, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(url), 10_000);
+}

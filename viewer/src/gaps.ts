@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Where to cut: how many branches a cut separates, and the widest gap between their persistences.
+import type { MergeTree } from "./merge_tree";
+
+/// Levels of all merges, ascending.
+export function levelsOf(tree: MergeTree): Float64Array {
+  return Float64Array.from(tree.arrays.levels).sort();
+}
+
+/// Between the two neighbouring levels that are farthest apart as a ratio, among the largest
+/// ones: what lies above is much more persistent than what lies below.
+export function suggestedCut(tree: MergeTree, from: number, to: number): number | undefined {
+  const most = 64;
+  const levels = levelsOf(tree).filter((v) => v > 0 && Number.isFinite(v)).slice(-most);
+  let best: number | undefined, widest = 1.2;
+  for (let i = 0; i + 1 < levels.length; ++i) {
+    const middle = Math.sqrt(levels[i]! * levels[i + 1]!);
+    const ratio = levels[i + 1]! / levels[i]!;
+    if (ratio <= widest || middle < from || middle > to) continue;
+    widest = ratio;
+    best = Number(middle.toPrecision(3));
+  }
+  return best;
+}
+
+/// From a slider's place (0 … 1) to a cut and back: by decades where the levels span some, and
+/// always 0 at its beginning if that is allowed.
+export class CutScale {
+  readonly from: number;
+  readonly to: number;
+  private readonly least: number; // smallest value on the logarithmic part
+
+  constructor(tree: MergeTree, from: number | undefined, to: number | undefined, cut: number) {
+    const levels = levelsOf(tree).filter((v) => v > 0 && Number.isFinite(v));
+    const largest = Math.max(levels.at(-1) ?? 0, cut, from ?? 0);
+    this.from = from ?? 0;
+    this.to = to ?? (largest > 0 ? 1.1 * largest : 1);
+    const low = Math.max(this.from, levels[Math.max(0, levels.length - 400)] ?? this.to / 100);
+    this.least = Math.max(Math.min(low, cut > 0 ? cut / 2 : low), this.to * 1e-6);
+  }
+  at(place: number): number {
+    if (place <= 0) return this.from;
+    if (place >= 1) return this.to;
+    return Number((this.least * (this.to / this.least) ** place).toPrecision(4));
+  }
+  place(cut: number): number {
+    if (cut <= this.least) return 0;
+    return Math.min(1, Math.log(cut / this.least) / Math.log(this.to / this.least));
+  }
+}

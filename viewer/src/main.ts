@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+import { addressOf, goTo } from "./address";
+import { Barcode } from "./barcode";
+import { CutChart } from "./cut_chart";
+import { DataView } from "./data_view";
+import { Diagram } from "./diagram";
+import { button, el } from "./dom";
+import { themeOf } from "./palette";
+import { readPayload } from "./payload";
+import { readingOf, selectionOf } from "./reading";
+import { reportOf } from "./report";
+import { Session } from "./session";
+import { Toolbar } from "./toolbar";
+import { TreeChart } from "./tree_chart";
+import type { Views } from "./exports";
+
+async function start(app: HTMLElement): Promise<void> {
+  const session = new Session(reportOf(await readPayload(document)));
+  const { report } = session;
+  document.title = report.meta.title;
+  followTheme(session);
+
+  const data = report.elements ? new DataView(session) : undefined;
+  const diagram = new Diagram(session), barcode = new Barcode(session);
+  const cut = report.tree && new CutChart(session), tree = report.tree && new TreeChart(session);
+  const views: Views = {
+    data,
+    charts: [["Persistence diagram", diagram], ["Barcode", barcode], ...(cut && tree ? [["Cut", cut], ["Merge tree", tree]] as Views["charts"] : [])],
+  };
+  const left = [data?.panel, cut?.panel, tree?.panel].filter((panel) => panel !== undefined);
+  const page = el("main", { class: data ? "with-data" : left.length > 0 ? "with-tree" : "bars-only" },
+    ...(left.length > 0 ? [el("div", { class: "column left" }, ...left)] : []),
+    el("div", { class: "column right" }, diagram.panel, barcode.panel));
+  app.replaceChildren(new Toolbar(session, views, page).element, page, statusLine(session));
+
+  document.addEventListener("keydown", (event) => {
+    if (event.key === "Escape" && !document.querySelector("dialog[open]")) session.select([]);
+  });
+  keepAddress(session, data);
+  app.removeAttribute("aria-busy");
+  requestAnimationFrame(() => requestAnimationFrame(() => {
+    app.dataset["firstFrame"] = performance.now().toFixed(0);
+  }));
+}
+
+function followTheme(session: Session): void {
+  const wish = matchMedia("(prefers-color-scheme: dark)");
+  const show = () => (document.documentElement.dataset["theme"] = session.theme.dark ? "dark" : "light");
+  session.theme = themeOf(wish.matches);
+  wish.addEventListener("change", () => session.set("theme", themeOf(wish.matches), "theme"));
+  session.onChange((changes) => changes.has("theme") && show());
+  show();
+}
+
+function statusLine(session: Session): HTMLElement {
+  const reading = el("output", { class: "reading", "aria-live": "polite" });
+  const selection = el("span", { class: "selection" });
+  const clear = button("clear", () => session.select([]), { class: "quiet" });
+  const show = () => {
+    reading.textContent = readingOf(session) || "Hover over a bar, a branch or a point; click selects it.";
+    selection.textContent = selectionOf(session);
+    clear.disabled = session.selection.length === 0;
+  };
+  session.onChange((changes) => (changes.has("focus") || changes.has("selection") || changes.has("cut")) && show());
+  show();
+  return el("footer", { class: "status" }, reading, selection, clear);
+}
+
+function keepAddress(session: Session, data: DataView | undefined): void {
+  goTo(location.hash, session, data);
+  let timer = 0;
+  session.onChange((changes) => {
+    if (changes.size === 1 && changes.has("focus")) return;
+    clearTimeout(timer);
+    timer = setTimeout(() => history.replaceState(null, "", `#${addressOf(session, data)}`), 150);
+  });
+  addEventListener("hashchange", () => goTo(location.hash, session, data));
+}
+
+const app = document.getElementById("app")!;
+start(app).catch((error: unknown) => {
+  const what = error instanceof Error ? error.message : String(error);
+  app.replaceChildren(el("p", { class: "failure", role: "alert" }, `This report cannot be shown: ${what}`));
+  app.removeAttribute("aria-busy");
+});

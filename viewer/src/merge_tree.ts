@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+// The merge tree of H0 and its cuts: the same arithmetic on the same doubles as ph::MergeTree, so
+// that a cut here has the segments of the program's.
+//
+// The program has contracted what no cut can separate: a leaf is a set of vertices that are
+// together in every cut. Each leaf is also a branch, the one that was born in it: it dies in the
+// merge in which its component is the younger one.
+import { PayloadError, type Numbers } from "./payload";
+
+/// When a merge is done: `persistence`: if its level (its persistence) is below the cut; `value`:
+/// if its level (its value) is at most the cut.
+export type CutRule = "persistence" | "value";
+
+export interface TreeArrays {
+  rule: CutRule;
+  minSize: number; // fewest vertices of a segment
+  births: Numbers;
+  points: Numbers;
+  vertices: Numbers;
+  firstVertex: Numbers; // the smallest vertex of each leaf
+  younger: Numbers; // leaf at the end of the edge that lies in the younger component
+  elder: Numbers;
+  values: Numbers;
+  levels: Numbers;
+  joins: Numbers | undefined; // pairs of leaves that the program joined at its own cut
+  touching: Numbers | undefined; // pairs of leaves that touch in space
+  mergeBar: Numbers | undefined;
+  leafBar: Numbers | undefined;
+  infinite: (bar: number) => boolean;
+}
+
+export interface Segment {
+  label: number;
+  points: number;
+  vertices: number;
+  oldestLeaf: number;
+}
+
+export interface Cut {
+  labelOfLeaf: Uint32Array; // 0: in no segment
+  segments: Segment[]; // segment i has label i + 1
+}
+
+const kNone = 0xffffffff;
+
+function numbered(size: number): Uint32Array {
+  const numbers = new Uint32Array(size);
+  for (let i = 0; i < size; ++i) numbers[i] = i;
+  return numbers;
+}
+
+class DisjointSets {
+  private readonly parent: Uint32Array;
+  constructor(size: number) {
+    this.parent = numbered(size);
+  }
+  find(v: number): number {
+    const p = this.parent;
+    while (p[v] !== v) v = p[v] = p[p[v]!]!;
+    return v;
+  }
+  link(child: number, root: number): void {
+    this.parent[child] = root;
+  }
+}
+
+export class MergeTree {
+  readonly leaves: number;
+  readonly merges: number;
+  /// The merge that kills each branch; kNone for one that lives for ever.
+  readonly deathOf: Uint32Array;
+  /// The branch that each branch merges into; kNone.
+  readonly parentOf: Uint32Array;
+  /// Branches so that each comes right before those that merge into it, and its place in it.
+  readonly order: Uint32Array;
+  readonly rank: Uint32Array;
+  /// One past the last place of what merges into a branch.
+  readonly end: Uint32Array;
+  /// Bar of each branch and branch of each bar; kNone and absent where not known.
+  readonly barOf: Uint32Array;
+  private readonly branchOfBar = new Map<number, number>();
+
+  constructor(readonly arrays: TreeArrays) {
+    this.leaves = arrays.births.length;
+    this.merges = arrays.younger.length;
+    this.checkSizes();
+    this.deathOf = new Uint32Array(this.leaves).fill(kNone);
+    this.parentOf = new Uint32Array(this.leaves).fill(kNone);
+    this.barOf = new Uint32Array(this.leaves).fill(kNone);
+    this.order = new Uint32Array(this.leaves);
+    this.rank = new Uint32Array(this.leaves);
+    this.end = new Uint32Array(this.leaves);
+    this.linkBranches();
+    this.orderBranches();
+    this.linkBars();
+  }
+
+  isDone(merge: number, cut: number): boolean {
+    const level = this.arrays.levels[merge]!;
+    return this.arrays.rule === "persistence" ? level < cut : level <= cut;
+  }
+  /// How long a branch stays by itself, as the cut counts it.
+  level(branch: number): number {
+    const merge = this.deathOf[branch]!;
+    return merge === kNone ? Infinity : this.arrays.levels[merge]!;
+  }
+  death(branch: number): number {
+    const merge = this.deathOf[branch]!;
+    return merge === kNone ? Infinity : this.arrays.values[merge]!;
+  }
+  /// The branch that a leaf belongs to in a cut: the first one around it that is not merged.
+  branchAt(leaf: number, cut: number): number {
+    let branch = leaf;
+    for (;;) {
+      const merge = this.deathOf[branch]!;
+      if (merge === kNone || !this.isDone(merge, cut)) return branch;
+      branch = this.parentOf[branch]!;
+    }
+  }
+  /// Marks the leaves of a branch, without those branches in it that the cut keeps apart.
+  markBranch(branch: number, cut: number, mask: Uint8Array): void {
+    for (let r = this.rank[branch]!; r < this.end[branch]!; ) {
+      const b = this.order[r]!;
+      const apart = b !== branch && cut > 0 && !this.isDone(this.deathOf[b]!, cut);
+      if (!apart) mask[b] = 1;
+      r = apart ? this.end[b]! : r + 1;
+    }
+  }
+  branchOf(bar: number): number | undefined {
+    return this.branchOfBar.get(bar);
+  }
+  /// Whether the program joined parts of objects at its own cut.
+  get hasJoins(): boolean {
+    return (this.arrays.joins?.length ?? 0) > 0;
+  }
+
+  /// The segments of a cut, as MergeTree::basins or MergeTree::components and extract_components
+  /// find them. O(leaves + merges).
+  cut(at: number, withJoins: boolean): Cut {
+    const a = this.arrays;
+    const sets = new DisjointSets(this.leaves);
+    const join = (x: number, y: number) => {
+      const u = sets.find(x), v = sets.find(y);
+      if (u !== v) sets.link(u, v);
+    };
+    for (let k = 0; k < this.merges; ++k) if (this.isDone(k, at)) join(a.younger[k]!, a.elder[k]!);
+    if (withJoins && a.joins)
+      for (let k = 0; k + 1 < a.joins.length; k += 2) join(a.joins[k]!, a.joins[k + 1]!);
+    return this.extract(sets, at);
+  }
+
+  private extract(sets: DisjointSets, at: number): Cut {
+    const a = this.arrays;
+    const points = new Float64Array(this.leaves), vertices = new Float64Array(this.leaves);
+    const first = new Float64Array(this.leaves).fill(Infinity);
+    const oldest = new Int32Array(this.leaves).fill(-1);
+    const rootOf = new Uint32Array(this.leaves).fill(kNone);
+    for (let leaf = 0; leaf < this.leaves; ++leaf) {
+      if (a.rule === "value" && a.births[leaf]! > at) continue;
+      const root = (rootOf[leaf] = sets.find(leaf));
+      points[root]! += a.points[leaf]!;
+      vertices[root]! += a.vertices[leaf]!;
+      if (a.firstVertex[leaf]! < first[root]!) first[root] = a.firstVertex[leaf]!;
+      if (oldest[root]! < 0 || a.births[leaf]! < a.births[oldest[root]!]!) oldest[root] = leaf;
+    }
+    const roots: number[] = [];
+    for (let leaf = 0; leaf < this.leaves; ++leaf)
+      if (vertices[leaf]! > 0 && vertices[leaf]! >= a.minSize) roots.push(leaf);
+    roots.sort((x, y) => points[y]! - points[x]! || vertices[y]! - vertices[x]! || first[x]! - first[y]!);
+    const labelOfRoot = new Uint32Array(this.leaves);
+    const segments = roots.map((root, i) => {
+      labelOfRoot[root] = i + 1;
+      return { label: i + 1, points: points[root]!, vertices: vertices[root]!, oldestLeaf: oldest[root]! };
+    });
+    const labelOfLeaf = new Uint32Array(this.leaves);
+    for (let leaf = 0; leaf < this.leaves; ++leaf)
+      if (rootOf[leaf] !== kNone) labelOfLeaf[leaf] = labelOfRoot[rootOf[leaf]!]!;
+    return { labelOfLeaf, segments };
+  }
+
+  private checkSizes(): void {
+    const a = this.arrays;
+    for (const column of [a.points, a.vertices, a.firstVertex])
+      if (column.length !== this.leaves) throw new PayloadError("tree: leaf columns differ in length");
+    for (const column of [a.elder, a.values, a.levels])
+      if (column.length !== this.merges) throw new PayloadError("tree: merge columns differ in length");
+    for (const column of [a.younger, a.elder, a.joins ?? [], a.touching ?? []])
+      for (const leaf of column)
+        if (leaf >= this.leaves) throw new PayloadError(`tree: there is no leaf ${leaf}`);
+  }
+  private linkBranches(): void {
+    const a = this.arrays;
+    const sets = new DisjointSets(this.leaves);
+    const branch = numbered(this.leaves); // of each root
+    for (let k = 0; k < this.merges; ++k) {
+      const younger = sets.find(a.younger[k]!), elder = sets.find(a.elder[k]!);
+      if (younger === elder) throw new PayloadError(`tree: merge ${k} joins a component with itself`);
+      this.deathOf[branch[younger]!] = k;
+      this.parentOf[branch[younger]!] = branch[elder]!;
+      sets.link(younger, elder);
+    }
+  }
+  /// Depth first; what merges first comes first, so that a drawing has no crossings.
+  private orderBranches(): void {
+    const head = new Uint32Array(this.leaves).fill(kNone), next = new Uint32Array(this.leaves).fill(kNone);
+    const branchOfMerge = new Uint32Array(this.merges);
+    for (let b = 0; b < this.leaves; ++b)
+      if (this.deathOf[b] !== kNone) branchOfMerge[this.deathOf[b]!] = b;
+    for (let k = this.merges - 1; k >= 0; --k) {
+      const b = branchOfMerge[k]!, parent = this.parentOf[b]!;
+      next[b] = head[parent]!;
+      head[parent] = b;
+    }
+    let place = 0;
+    for (let root = 0; root < this.leaves; ++root) {
+      if (this.parentOf[root] !== kNone) continue;
+      for (let b = root; ; ) {
+        this.rank[b] = place;
+        this.order[place++] = b;
+        if (head[b] !== kNone) {
+          b = head[b]!;
+          continue;
+        }
+        this.end[b] = place;
+        while (b !== root && next[b] === kNone) {
+          b = this.parentOf[b]!;
+          this.end[b] = place;
+        }
+        if (b === root) break;
+        b = next[b]!;
+      }
+    }
+  }
+  private linkBars(): void {
+    const { mergeBar, leafBar, infinite } = this.arrays;
+    const rootOf = (leaf: number) => {
+      while (this.parentOf[leaf] !== kNone) leaf = this.parentOf[leaf]!;
+      return leaf;
+    };
+    for (let b = 0; b < this.leaves; ++b) {
+      const merge = this.deathOf[b]!;
+      if (mergeBar && merge !== kNone) this.name(b, mergeBar[merge]!);
+    }
+    // Bars that no merge of the tree kills: infinite ones, and those that were contracted away.
+    if (leafBar) {
+      for (let i = 0; i + 1 < leafBar.length; i += 2) {
+        const leaf = leafBar[i]!, bar = leafBar[i + 1]!;
+        if (this.branchOfBar.has(bar) || leaf >= this.leaves) continue;
+        if (infinite(bar)) this.name(rootOf(leaf), bar);
+        else this.branchOfBar.set(bar, leaf);
+      }
+    }
+  }
+  private name(branch: number, bar: number): void {
+    if (bar === kNone) return;
+    this.barOf[branch] = bar;
+    this.branchOfBar.set(bar, branch);
+  }
+}

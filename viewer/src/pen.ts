@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// One way to draw a chart, two kinds of paper: the canvas on the screen, and SVG for export, where
+// text stays text.
+
+export interface TextStyle {
+  colour: string;
+  size?: number;
+  anchor?: "start" | "middle" | "end";
+  bold?: boolean;
+  upwards?: boolean; // turned by a quarter
+}
+
+/// Filled closed shapes or open strokes are lists of x, y.
+export interface Pen {
+  line(x1: number, y1: number, x2: number, y2: number, colour: string, width?: number, dash?: number[]): void;
+  rect(x: number, y: number, width: number, height: number, colour: string, opacity?: number): void;
+  polygon(points: number[], fill: string, opacity?: number, stroke?: string, strokeWidth?: number): void;
+  stroke(points: number[], colour: string, width: number): void;
+  circle(x: number, y: number, r: number, fill: string, opacity?: number, stroke?: string, strokeWidth?: number): void;
+  text(x: number, y: number, text: string, style: TextStyle): void;
+}
+
+export const kFont = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
+
+export class CanvasPen implements Pen {
+  constructor(private readonly context: CanvasRenderingContext2D) {}
+
+  line(x1: number, y1: number, x2: number, y2: number, colour: string, width = 1, dash: number[] = []): void {
+    const c = this.context;
+    c.strokeStyle = colour;
+    c.lineWidth = width;
+    c.setLineDash(dash);
+    c.beginPath();
+    c.moveTo(x1, y1);
+    c.lineTo(x2, y2);
+    c.stroke();
+    c.setLineDash([]);
+  }
+  rect(x: number, y: number, width: number, height: number, colour: string, opacity = 1): void {
+    this.context.globalAlpha = opacity;
+    this.context.fillStyle = colour;
+    this.context.fillRect(x, y, width, height);
+    this.context.globalAlpha = 1;
+  }
+  polygon(points: number[], fill: string, opacity = 1, stroke = "none", strokeWidth = 1): void {
+    this.trace(points);
+    this.context.closePath();
+    this.paint(fill, opacity, stroke, strokeWidth);
+  }
+  stroke(points: number[], colour: string, width: number): void {
+    this.trace(points);
+    this.paint("none", 1, colour, width);
+  }
+  circle(x: number, y: number, r: number, fill: string, opacity = 1, stroke = "none", strokeWidth = 1): void {
+    this.context.beginPath();
+    this.context.arc(x, y, r, 0, 2 * Math.PI);
+    this.paint(fill, opacity, stroke, strokeWidth);
+  }
+  text(x: number, y: number, text: string, style: TextStyle): void {
+    const c = this.context;
+    c.save();
+    c.translate(x, y);
+    if (style.upwards) c.rotate(-Math.PI / 2);
+    c.font = `${style.bold ? "600 " : ""}${style.size ?? 11}px ${kFont}`;
+    c.textAlign = style.anchor === "middle" ? "center" : (style.anchor ?? "start");
+    c.fillStyle = style.colour;
+    c.fillText(text, 0, 0);
+    c.restore();
+  }
+
+  private trace(points: number[]): void {
+    this.context.beginPath();
+    for (let i = 0; i + 1 < points.length; i += 2) this.context.lineTo(points[i]!, points[i + 1]!);
+  }
+  private paint(fill: string, opacity: number, stroke: string, strokeWidth: number): void {
+    const c = this.context;
+    c.globalAlpha = opacity;
+    if (fill !== "none") {
+      c.fillStyle = fill;
+      c.fill();
+    }
+    c.globalAlpha = 1;
+    if (stroke === "none") return;
+    c.strokeStyle = stroke;
+    c.lineWidth = strokeWidth;
+    c.stroke();
+  }
+}
+
+function escaped(text: string): string {
+  return text
+    .replace(/[\u0000-\u0008\u000b\u000c\u000e-\u001f\ufffe\uffff]/g, "\ufffd") // not in XML
+    .replace(/&/g, "&amp;")
+    .replace(/</g, "&lt;")
+    .replace(/>/g, "&gt;")
+    .replace(/"/g, "&quot;");
+}
+
+const coordinate = (value: number) => String(Number(value.toFixed(2)));
+
+export class SvgPen implements Pen {
+  private readonly elements: string[] = [];
+
+  line(x1: number, y1: number, x2: number, y2: number, colour: string, width = 1, dash: number[] = []): void {
+    this.add("line", {
+      x1, y1, x2, y2, stroke: colour, "stroke-width": width,
+      "stroke-dasharray": dash.length ? dash.join(" ") : undefined,
+    });
+  }
+  rect(x: number, y: number, width: number, height: number, colour: string, opacity = 1): void {
+    this.add("rect", { x, y, width, height, fill: colour, "fill-opacity": opacity });
+  }
+  polygon(points: number[], fill: string, opacity = 1, stroke = "none", strokeWidth = 1): void {
+    this.add("polygon", { points: this.list(points), fill, "fill-opacity": opacity, stroke, "stroke-width": strokeWidth });
+  }
+  stroke(points: number[], colour: string, width: number): void {
+    this.add("polyline", { points: this.list(points), fill: "none", stroke: colour, "stroke-width": width });
+  }
+  circle(x: number, y: number, r: number, fill: string, opacity = 1, stroke = "none", strokeWidth = 1): void {
+    this.add("circle", { cx: x, cy: y, r, fill, "fill-opacity": opacity, stroke, "stroke-width": strokeWidth });
+  }
+  text(x: number, y: number, text: string, style: TextStyle): void {
+    this.add("text", {
+      x, y, fill: style.colour, "font-size": style.size ?? 11,
+      "text-anchor": style.anchor ?? "start",
+      "font-weight": style.bold ? 600 : undefined,
+      transform: style.upwards ? `rotate(-90 ${coordinate(x)} ${coordinate(y)})` : undefined,
+    }, escaped(text));
+  }
+  image(x: number, y: number, width: number, height: number, url: string): void {
+    this.add("image", { x, y, width, height, href: url });
+  }
+  /// Everything that `draw` draws is moved.
+  at(x: number, y: number, draw: () => void): void {
+    this.elements.push(`<g transform="translate(${coordinate(x)} ${coordinate(y)})">`);
+    draw();
+    this.elements.push("</g>");
+  }
+  document(width: number, height: number, title: string, description: string): string {
+    return (
+      `<?xml version="1.0" encoding="UTF-8"?>\n<svg xmlns="http://www.w3.org/2000/svg" width="${coordinate(width)}" ` +
+      `height="${coordinate(height)}" viewBox="0 0 ${coordinate(width)} ${coordinate(height)}" role="img" ` +
+      `font-family="${kFont}">\n<title>${escaped(title)}</title>\n<desc>${escaped(description)}</desc>\n` +
+      `${this.elements.join("\n")}\n</svg>\n`
+    );
+  }
+
+  private list(points: number[]): string {
+    return points.map(coordinate).join(" ");
+  }
+  private add(name: string, attributes: Record<string, string | number | undefined>, content = ""): void {
+    const text = Object.entries(attributes)
+      .filter(([, value]) => value !== undefined)
+      .map(([key, value]) => ` ${key}="${typeof value === "number" ? coordinate(value) : value}"`)
+      .join("");
+    this.elements.push(content ? `<${name}${text}>${content}</${name}>` : `<${name}${text}/>`);
+  }
+}

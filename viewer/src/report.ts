@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+// What a report says: its metadata, checked, and its arrays under the names of docs/report-format.md.
+import { decoded, PayloadError, type Block, type Numbers, type Payload } from "./payload";
+import { Bars } from "./bars";
+import { MergeTree, type CutRule } from "./merge_tree";
+
+export type CellKind = "vertices" | "grid" | "row";
+
+export interface BarcodeMeta {
+  name: string;
+  cells?: CellKind;
+  representatives?: "cycles" | "cocycles";
+}
+
+export interface Provenance {
+  version?: string;
+  command?: string[];
+  input?: { path?: string; description?: string; sha256?: string };
+  complex?: string;
+  field?: number;
+  max_dim?: number;
+  threshold?: number | null;
+  engine?: string;
+  timings?: Record<string, number>;
+  peak_memory?: number | null;
+  warnings?: string[];
+  notes?: Record<string, string>;
+}
+
+export interface Meta {
+  format: "ph-report";
+  version: 1;
+  title: string;
+  program: string;
+  provenance: Provenance;
+  value: { label: string; unit?: string };
+  barcodes: BarcodeMeta[];
+  cloud?: {
+    unit?: string;
+    up?: number[];
+    viewpoint?: number[];
+    projection?: string;
+    width?: number;
+    height?: number;
+    metric?: string;
+  };
+  image?: { construction?: "vertices" | "cells"; superlevel?: boolean };
+  tree?: {
+    rule: CutRule;
+    label?: string;
+    unit?: string;
+    cut: number;
+    from?: number;
+    to?: number;
+    min_size?: number;
+    joined?: boolean;
+    what?: string;
+    command?: string[];
+  };
+  distances?: { dim: number; bottleneck?: number | null; wasserstein?: number | null }[];
+}
+
+/// The points or voxels that are shown.
+export interface Elements {
+  count: number;
+  rgb: Uint8Array | undefined;
+  normals: Int8Array | undefined; // octahedral, two a point
+  birth: Numbers | undefined;
+  truth: Numbers | undefined;
+  leaf: Numbers | undefined; // in the merge tree; 2^bits - 1: none
+}
+
+export interface Cloud {
+  dims: number;
+  origin: number[];
+  positions: Float32Array; // x, y, z of each from the origin, in the units of the input
+  index: Numbers | undefined; // number in the input of each; ascending
+}
+
+export interface Image {
+  shape: number[]; // planes, rows, columns
+  values: Numbers;
+  shift: number; // from a doubled coordinate to twice the place of its voxel
+}
+
+/// Representatives: chain i belongs to bar `bar[i]`, its cells are start[i] … start[i + 1] - 1.
+export interface Chains {
+  ofBar: Map<number, number>;
+  start: Numbers;
+  cells: Numbers;
+  coefficients: Numbers | undefined;
+  first: Float64Array; // place in `cells` of each chain
+}
+
+export interface Report {
+  meta: Meta;
+  bars: Bars;
+  elements: Elements | undefined;
+  cloud: Cloud | undefined;
+  image: Image | undefined;
+  tree: MergeTree | undefined;
+  chains: Chains | undefined;
+  edges: { ends: Numbers; values: Numbers } | undefined;
+  payloadBytes: number;
+}
+
+export const kNone = 0xffffffff;
+
+function fail(what: string): never {
+  throw new PayloadError(`report: ${what}`);
+}
+
+function isRecord(value: unknown): value is Record<string, unknown> {
+  return typeof value === "object" && value !== null && !Array.isArray(value);
+}
+
+function checkedMeta(value: unknown): Meta {
+  if (!isRecord(value) || value["format"] !== "ph-report") fail("found another format");
+  if (value["version"] !== 1)
+    fail(`found version ${String(value["version"])}, expected 1`);
+  for (const name of ["title", "program"])
+    if (typeof value[name] !== "string") fail(`${name} is no text`);
+  if (!isRecord(value["provenance"])) fail("provenance is missing");
+  if (!isRecord(value["value"])) fail("value is missing");
+  const barcodes = value["barcodes"];
+  if (!Array.isArray(barcodes) || barcodes.length < 1 || barcodes.length > 2)
+    fail("expected one or two barcodes");
+  if (!barcodes.every((b) => isRecord(b) && typeof b["name"] === "string"))
+    fail("a barcode has no name");
+  return value as unknown as Meta;
+}
+
+export function reportOf(payload: Payload): Report {
+  const meta = checkedMeta(payload.meta);
+  const block = (name: string) => payload.blocks.get(name);
+  const array = (name: string) => {
+    const found = block(name);
+    return found && decoded(found);
+  };
+  const need = (name: string) => array(name) ?? fail(`array ${name} is missing`);
+
+  const bars = new Bars(
+    meta.barcodes.map((_, i) => {
+      const prefix = i === 0 ? "bars" : "bars2";
+      return {
+        dim: need(`${prefix}/dim`),
+        birth: need(`${prefix}/birth`),
+        death: need(`${prefix}/death`),
+        birthCells: array(`${prefix}/birth_cells`),
+        deathCells: array(`${prefix}/death_cells`),
+      };
+    }),
+    meta.barcodes,
+    block("image/values")?.shape.length ?? 0,
+  );
+  const cloud = cloudOf(block("points/position"), array("points/index"));
+  const image = imageOf(block("image/values"), meta);
+  const count = cloud ? cloud.positions.length / 3 : (image?.values.length ?? 0);
+  const ofElement = (name: string) => {
+    const found = array(`points/${name}`);
+    if (found && found.length < count) fail(`points/${name} is too short`);
+    return found;
+  };
+  const elements = count > 0
+    ? {
+        count,
+        rgb: ofElement("rgb") as Uint8Array | undefined,
+        normals: block("points/normal")?.values as Int8Array | undefined,
+        birth: ofElement("birth") ?? image?.values,
+        truth: ofElement("truth"),
+        leaf: ofElement("leaf"),
+      }
+    : undefined;
+  const edges = block("complex/edges")
+    ? { ends: need("complex/edges"), values: need("complex/edge_values") }
+    : undefined;
+  return {
+    meta,
+    bars,
+    elements,
+    cloud,
+    image,
+    tree: meta.tree ? treeOf(meta.tree, need, array, bars) : undefined,
+    chains: chainsOf(need, array, bars, meta),
+    edges,
+    payloadBytes: payload.bytes,
+  };
+}
+
+/// Positions relative to the least coordinates: those of a map do not fit float32.
+function cloudOf(block: Block | undefined, index: Numbers | undefined): Cloud | undefined {
+  if (!block || block.values.length === 0) return undefined;
+  const dims = block.shape[1] ?? 1, { values, offset, scale } = block;
+  if (block.shape.length !== 2 || dims < 1 || dims > 3)
+    fail("points/position needs one to three columns");
+  const origin = [0, 0, 0];
+  for (let k = 0; k < dims; ++k) origin[k] = offset[k] ?? least(values, k, dims);
+  const positions = new Float32Array(3 * block.shape[0]!);
+  for (let i = 0, p = 0; i < values.length; i += dims, p += 3)
+    for (let k = 0; k < dims; ++k)
+      positions[p + k] = scale.length > 0 ? (scale[k] ?? scale[0]!) * values[i + k]! : values[i + k]! - origin[k]!;
+  return { dims, origin, positions, index };
+}
+
+function least(values: Numbers, from: number, step: number): number {
+  let low = Infinity;
+  for (let i = from; i < values.length; i += step) low = Math.min(low, values[i]!);
+  return low;
+}
+
+function imageOf(block: Block | undefined, meta: Meta): Image | undefined {
+  if (!block || block.values.length === 0) return undefined;
+  if (block.shape.length > 3) fail("image/values has more than three axes");
+  const shape = [1, 1, 1, ...block.shape].slice(-3);
+  return { shape, values: decoded(block), shift: meta.image?.construction === "cells" ? -1 : 0 };
+}
+
+function treeOf(
+  meta: NonNullable<Meta["tree"]>,
+  need: (name: string) => Numbers,
+  array: (name: string) => Numbers | undefined,
+  bars: Bars,
+): MergeTree {
+  return new MergeTree({
+    rule: meta.rule,
+    minSize: meta.min_size ?? 1,
+    births: need("tree/leaf_birth"),
+    points: need("tree/leaf_points"),
+    vertices: need("tree/leaf_vertices"),
+    firstVertex: need("tree/leaf_first"),
+    younger: need("tree/merge_younger"),
+    elder: need("tree/merge_elder"),
+    values: need("tree/merge_value"),
+    levels: need("tree/merge_level"),
+    joins: array("tree/joins"),
+    touching: array("tree/touching"),
+    mergeBar: array("tree/merge_bar"),
+    leafBar: array("tree/leaf_bar"),
+    infinite: (bar) => bars.isInfinite(bar),
+  });
+}
+
+function chainsOf(
+  need: (name: string) => Numbers,
+  array: (name: string) => Numbers | undefined,
+  bars: Bars,
+  meta: Meta,
+): Chains | undefined {
+  const bar = array("chains/bar");
+  if (!bar) return undefined;
+  const start = need("chains/start");
+  const ofBar = new Map<number, number>();
+  const first = new Float64Array(bar.length + 1);
+  for (let i = 0; i < bar.length; ++i) {
+    ofBar.set(bar[i]!, i);
+    const arity = bars.arity(bar[i]!, 0);
+    first[i + 1] = first[i]! + (start[i + 1]! - start[i]!) * arity;
+  }
+  const cells = need("chains/cells");
+  if (first[bar.length]! > cells.length) fail("chains/cells is too short");
+  if (meta.barcodes[0]?.cells === "row") return undefined;
+  return { ofBar, start, cells, coefficients: array("chains/coefficients"), first };
+}

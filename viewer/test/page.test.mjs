@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Every made-up report in headless Chromium: each view shows something, no console error, no
+// request, no dialog. Screenshots go to the folder that PICTURES names.
+import assert from "node:assert/strict";
+import test from "node:test";
+import * as odd from "./support/odd_fixtures.mjs";
+import * as plain from "./support/fixtures.mjs";
+import { canRun, coloursOf, launch, open, picture } from "./support/browser.mjs";
+
+const kCharts = [".diagram .chart", ".barcode .chart"];
+const cases = {
+  torus: [plain.torus, [...kCharts, ".stage"]],
+  clusters: [plain.clusters, [...kCharts, ".stage", ".cut .chart", ".tree .chart"]],
+  image: [plain.image, [...kCharts, ".stage", ".cut .chart", ".tree .chart"]],
+  volume: [() => plain.image([28, 36, 44]), [...kCharts, ".stage", ".cut .chart", ".tree .chart"]],
+  empty: [odd.empty, kCharts],
+  single_point: [odd.singlePoint, [...kCharts, ".stage"]],
+  hostile: [odd.hostile, kCharts],
+  two_barcodes: [odd.twoBarcodes, kCharts],
+  infinite_only: [odd.infiniteOnly, kCharts],
+  many_dims: [odd.manyDims, kCharts],
+  ties: [odd.ties, kCharts],
+};
+
+test("pages", { skip: !canRun && "no Chromium", timeout: 500_000 }, async (t) => {
+  const browser = await launch();
+  t.after(() => browser.close());
+  for (const [name, [make, views]] of Object.entries(cases))
+    for (const dark of [false, true])
+      await t.test(`${name}${dark ? ", dark" : ""}`, async (tt) => {
+        const { page, problems, firstFrame, bytes, close } = await open(browser, make(), { dark });
+        for (const view of views) assert.ok((await coloursOf(page, view)) > 2, `${view} is empty`);
+        await picture(page, `${name}${dark ? "_dark" : ""}`);
+        if (!dark) {
+          await page.setViewportSize({ width: 900, height: 800 });
+          await page.waitForTimeout(150);
+          await picture(page, `${name}_900`);
+          const wide = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
+          assert.ok(!wide, "the page is wider than the window");
+        }
+        assert.deepEqual(problems, []);
+        tt.diagnostic(`${(bytes / 2 ** 20).toFixed(2)} MiB, first frame ${firstFrame} ms`);
+        await close();
+      });
+
+  await t.test("hostile names stay text", async () => {
+    const { page, problems, close } = await open(browser, odd.hostile());
+    assert.equal(await page.locator("img").count(), 0);
+    assert.match(await page.textContent("h1"), /^<script>alert\(1\)<\/script><img/);
+    await page.click("text=About");
+    assert.match(await page.textContent("dialog[open] code"), /'it'\\''s; rm -rf \/'/);
+    assert.equal(await page.locator("dialog[open] img, dialog[open] script").count(), 0);
+    await page.keyboard.press("Escape");
+    const [file] = await Promise.all([page.waitForEvent("download"), page.click("summary").then(() => page.click("text=Picture, SVG"))]);
+    const svg = await (await file.createReadStream()).toArray().then((parts) => Buffer.concat(parts).toString());
+    assert.match(svg, /&lt;script&gt;/);
+    assert.doesNotMatch(svg, /<script/);
+    assert.deepEqual(problems, []);
+    await close();
+  });
+
+  await t.test("an inline script that is not the page's own does not run", async () => {
+    const { meta, arrays } = odd.empty();
+    const { reportHtml } = await import("./support/write_report.mjs");
+    const { template } = await import("./support/browser.mjs");
+    const html = reportHtml(template(), meta, arrays).replace("<div id=\"app\"", `<script>document.title = "owned"</script><div onclick="x()" style="color:red" id="x"></div><div id="app"`);
+    const { page, problems, close } = await open(browser, html);
+    assert.equal(await page.title(), "empty.csv");
+    assert.ok(problems.some((p) => /Content Security Policy/.test(p)));
+    await close();
+  });
+
+  await t.test("what is no report says so", async () => {
+    const { template } = await import("./support/browser.mjs");
+    const { page, close } = await open(browser, template());
+    assert.match(await page.textContent(".failure"), /holds no report/);
+    await close();
+    const { meta, arrays } = odd.ties();
+    const bad = await open(browser, { meta, arrays: { ...arrays, "bars/death": new Float64Array(3) } });
+    assert.match(await bad.page.textContent(".failure"), /different lengths/);
+    await bad.close();
+  });
+});
+
+test("without WebGL there is a still picture", { skip: !canRun && "no Chromium", timeout: 120_000 }, async (t) => {
+  const browser = await launch({ webgl: false });
+  t.after(() => browser.close());
+  for (const [name, make] of [["torus", plain.torus], ["image", plain.image]]) {
+    const { page, problems, close } = await open(browser, make());
+    assert.ok((await page.locator("svg.still > *").count()) > 1);
+    assert.ok((await coloursOf(page, ".stage")) > 4);
+    await picture(page, `${name}_no_webgl`);
+    assert.deepEqual(problems.filter((p) => !/WebGL/.test(p)), []);
+    await close();
+  }
+});
