@@ -4,13 +4,13 @@
 // of them live.
 import { Axis } from "./axis";
 import { BarChart } from "./bar_chart";
-import { grouped, homology } from "./numbers";
+import { clipped, grouped, homology } from "./numbers";
 import { dimColour } from "./palette";
 import type { Pen } from "./pen";
 import type { Size } from "./chart";
 import type { Change, Session } from "./session";
 
-const kLeft = 34, kRight = 20, kTop = 8, kBottom = 38, kGap = 10, kStrip = 12, kLeastRow = 2.5, kMostRow = 11;
+const kLeft = 34, kRight = 24, kTop = 8, kBottom = 38, kGap = 10, kStrip = 12, kLeastRow = 2.5, kMostRow = 14;
 
 interface Item {
   bar: number;
@@ -22,8 +22,8 @@ interface Item {
 interface Band {
   dim: number;
   barcode: number;
-  bars: number[]; // that have a row, by birth
-  rest: number[];
+  bars: Uint32Array; // that have a row, in the order of the barcode: by birth
+  rest: Uint32Array;
 }
 
 export class Barcode extends BarChart {
@@ -47,7 +47,7 @@ export class Barcode extends BarChart {
     this.axes = this.makeAxes(size);
     const two = meta.barcodes.length > 1;
     const top = kTop + (two ? 16 : 0), bottom = size.height - kBottom;
-    const unit = [meta.value.unit, this.axes[0]!.unit].filter(Boolean).join(" ");
+    const unit = clipped([meta.value.unit, this.axes[0]!.unit].filter(Boolean).join(" "), 24);
     const small = { colour: theme.muted, size: 10.5, anchor: "middle" } as const;
     this.axes.forEach((axis, i) => {
       for (const tick of axis.ticks(Math.max(2, (axis.to - axis.from) / 75))) {
@@ -57,7 +57,7 @@ export class Barcode extends BarChart {
       pen.line(axis.from, bottom, axis.to, bottom, theme.faint);
       if (two) pen.text((axis.from + axis.to) / 2, kTop + 5, clipped(meta.barcodes[i]!.name, (axis.to - axis.from) / 6.5), { ...small, colour: theme.ink });
     });
-    const label = meta.value.label.toLowerCase();
+    const label = clipped(meta.value.label.toLowerCase(), 40);
     pen.text((kLeft + size.width - kRight) / 2, size.height - 7, unit ? `${label} (${unit})` : label, small);
     if (bars.size === 0) pen.text(size.width / 2, (top + bottom) / 2, "no bars", { ...small, size: 13 });
     this.drawBands(pen, top, bottom);
@@ -106,13 +106,8 @@ export class Barcode extends BarChart {
   }
 
   private band(dim: number, barcode: number, rows: number): Band {
-    const { bars } = this.session.report;
-    const band: Band = { dim, barcode, bars: [], rest: [] };
-    for (const bar of bars.byPersistence)
-      if (bars.dim[bar] === dim && bars.barcodeOf(bar) === barcode)
-        (band.bars.length < rows ? band.bars : band.rest).push(bar);
-    band.bars.sort((a, b) => a - b);
-    return band;
+    const all = this.session.report.bars.of(dim, barcode);
+    return { dim, barcode, bars: all.slice(0, rows).sort(), rest: all.subarray(rows) };
   }
 
   private drawBand(pen: Pen, band: Band, y: number, row: number): void {
@@ -179,11 +174,4 @@ function shared(needs: number[], rows: number): number[] {
     open = open.filter((i) => needs[i]! > share);
   }
   return given;
-}
-
-export function clipped(text: string, most: number): string {
-  const letters = [...text];
-  if (letters.length <= most) return text;
-  const half = Math.max(1, Math.floor(most / 2) - 1);
-  return [...letters.slice(0, half), "…", ...letters.slice(-half)].join("");
 }

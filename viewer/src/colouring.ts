@@ -66,7 +66,11 @@ export class Colouring {
     if (mode === "segment" || mode === "persistence") {
       const ofLeaf = mode === "segment" ? this.segmentColours() : this.persistenceColours(range!);
       for (let i = 0; i < count; ++i) put(i, ofLeaf[leaf![i]!] ?? this.colourOfNone());
-      if (mode === "segment" && rgb) this.shadeBy(rgb);
+      if (mode === "segment" && rgb) this.shadeBy((i) => 0.299 * rgb[3 * i]! + 0.587 * rgb[3 * i + 1]! + 0.114 * rgb[3 * i + 2]!);
+      if (mode === "segment" && session.report.image) {
+        const { low, high } = this.range("birth")!;
+        this.shadeBy((i) => (255 * (elements!.birth![i]! - low)) / (high - low || 1));
+      }
     } else if (mode === "rgb") {
       for (let i = 0; i < count; ++i) put(i, [rgb![3 * i]!, rgb![3 * i + 1]!, rgb![3 * i + 2]!]);
     } else if (mode === "truth") {
@@ -86,11 +90,9 @@ export class Colouring {
   }
 
   /// A quarter of what the camera saw, so that a segment is not flat.
-  private shadeBy(rgb: Uint8Array): void {
-    for (let i = 0; i < rgb.length / 3; ++i) {
-      const grey = 0.299 * rgb[3 * i]! + 0.587 * rgb[3 * i + 1]! + 0.114 * rgb[3 * i + 2]!;
-      for (let k = 4 * i; k < 4 * i + 3; ++k) this.base[k] = 0.75 * this.base[k]! + 0.25 * grey;
-    }
+  private shadeBy(grey: (i: number) => number): void {
+    for (let i = 0; i < this.base.length / 4; ++i)
+      for (let k = 4 * i, g = grey(i); k < 4 * i + 3; ++k) this.base[k] = 0.75 * this.base[k]! + 0.25 * g;
   }
   private colourOfNone(): Rgb {
     return this.session.theme.dark ? [84, 92, 103] : kNoSegment;

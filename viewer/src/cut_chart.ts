@@ -99,8 +99,8 @@ export class CutChart extends Chart {
   private note(): string {
     const at = exact(this.session.report.meta.tree!.cut);
     return this.session.isJoined
-      ? `At ${at} the program joined the visible parts of an object across what hides its middle. Any other cut shows parts, as --parts does.`
-      : `Parts, as --parts gives them: which parts make an object was found at ${at} only.`;
+      ? `At ${at}, the program's own cut, parts of one object are joined. Other cuts show parts, as --parts does.`
+      : `Parts, as --parts gives them. What makes an object was found at ${at} only.`;
   }
   private show(): void {
     const { session } = this;

@@ -48,7 +48,7 @@ export class DataView {
         this.truthColouring.update("truth");
       }
     }
-    this.head = el("header", {}, el("h2", {}, report.image ? "Image" : "Point cloud"));
+    this.head = el("header", {}, el("h2", {}, !report.image ? "Point cloud" : report.image.shape[0]! > 1 ? "Volume" : "Image"));
     this.panel = el("section", { class: "panel data", "aria-label": "Data" }, this.head, this.body);
     try {
       this.stage = new Stage({ ...pose });
@@ -78,6 +78,7 @@ export class DataView {
     canvas.setAttribute("aria-label", `${this.description()}. Arrow keys turn or move it, plus and minus zoom, 0 fits it.`);
     this.canvasHost.append(canvas);
     stage.scene.add(this.cloud?.object ?? this.slice!.object, this.overlay.group);
+    if (this.slice) stage.scene.add(thinLines(Float32Array.from(this.slice.outline()), "#7d8794"));
     new ResizeObserver(() => {
       const size = { width: this.canvasHost.clientWidth, height: this.canvasHost.clientHeight };
       stage.resize(size);

@@ -3,13 +3,13 @@
 // many, their density and the most persistent ones. A lasso selects.
 import { Axis } from "./axis";
 import { BarChart, intervalOf } from "./bar_chart";
-import { homology, short } from "./numbers";
+import { clipped, homology, short } from "./numbers";
 import { dimColour } from "./palette";
 import type { Pen } from "./pen";
 import type { Size } from "./chart";
 import type { Change, Session } from "./session";
 
-const kLeft = 50, kRight = 14, kTop = 10, kBottom = 38, kInfinityRoom = 20;
+const kLeft = 50, kRight = 14, kTop = 10, kBottom = 38, kInfinityRoom = 20, kMinusInfinityRoom = 34;
 const kMostMarkers = 3000, kLongest = 1200, kCell = 3, kReach = 14;
 
 /// A shape of its own for each dimension: colours may be lost in print.
@@ -37,7 +37,9 @@ export class Diagram extends BarChart {
   private lasso: number[] = [];
 
   constructor(session: Session) {
-    super(session, "diagram", "Persistence diagram", "drag a lasso to select");
+    const [first, second] = session.report.meta.barcodes;
+    const hint = second ? `filled: ${first!.name}, hollow: ${second.name}` : "drag a lasso to select";
+    super(session, "diagram", "Persistence diagram", hint);
     this.x = new Float32Array(session.report.bars.size);
     this.y = new Float32Array(session.report.bars.size);
     this.over.addEventListener("pointerdown", (event) => this.begin(event));
@@ -108,7 +110,7 @@ export class Diagram extends BarChart {
     }
     const margin = 0.03 * (bars.high / 2 - bars.low / 2) * 2;
     const low = bars.low === 0 ? 0 : bars.low - margin, high = bars.high + margin;
-    const left = kLeft + (fromBelow ? kInfinityRoom : 0), top = kTop + (toAbove ? kInfinityRoom : 0);
+    const left = kLeft + (fromBelow ? kMinusInfinityRoom : 0), top = kTop + (toAbove ? kInfinityRoom : 0);
     this.births = new Axis(low, high, left, size.width - kRight);
     this.deaths = new Axis(low, high, size.height - kBottom, top);
     for (let i = 0; i < bars.size; ++i) {
@@ -120,7 +122,7 @@ export class Diagram extends BarChart {
   private drawAxes(pen: Pen, size: Size): void {
     const { theme, report: { meta } } = this.session;
     const bottom = this.deaths.from, right = this.births.to;
-    const unit = [meta.value.unit, this.births.unit].filter(Boolean).join(" ");
+    const unit = clipped([meta.value.unit, this.births.unit].filter(Boolean).join(" "), 24);
     const small = { colour: theme.muted, size: 10.5 } as const;
     for (const tick of this.births.ticks(Math.max(2, (right - kLeft) / 75))) {
       pen.line(tick.at, this.deaths.to, tick.at, bottom, theme.grid);
@@ -155,7 +157,7 @@ export class Diagram extends BarChart {
     const right = sloped ? this.births.at(high - cutValue) : this.births.to;
     const y1 = this.deaths.at(sloped ? low + cutValue : cutValue);
     pen.line(this.births.from, y1, right, sloped ? this.deaths.to : y1, theme.muted, 1.2, [5, 4]);
-    pen.text(this.births.from + 6, y1 - (sloped ? 8 : 5), `cut ${short(cutValue, 3)}`, { colour: theme.muted, size: 10.5 });
+    pen.text(right - (sloped ? 16 : 4), sloped ? this.deaths.to + 11 : y1 - 5, `cut ${short(cutValue, 3)}`, { colour: theme.muted, size: 10.5, anchor: "end" });
   }
 
   private drawDensity(pen: Pen, size: Size): void {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What can be taken along: the page as a picture, the selection as numbers.
-import { clipped } from "./barcode";
 import { commandLine } from "./command";
 import type { DataView } from "./data_view";
 import type { Chart } from "./chart";
-import { counted, exact, homology } from "./numbers";
+import { clipped, counted, exact, homology } from "./numbers";
 import { dimColour } from "./palette";
 import { SvgPen } from "./pen";
 import type { Session } from "./session";

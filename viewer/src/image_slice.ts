@@ -20,6 +20,22 @@ export class ImageSlice {
     this.object.frustumCulled = false;
   }
 
+  /// The edges of a volume; nothing of an image.
+  outline(): number[] {
+    const [planes, rows, columns] = this.shape as [number, number, number];
+    if (planes === 1) return [];
+    const lines: number[] = [];
+    const ends = [[-0.5, planes - 0.5], [-0.5, rows - 0.5], [-0.5, columns - 0.5]] as const;
+    for (let axis = 0; axis < 3; ++axis)
+      for (const a of [0, 1])
+        for (const b of [0, 1])
+          for (const end of [0, 1]) {
+            const at = [a, b];
+            at.splice(axis, 0, end);
+            lines.push(...placeInImage(ends[0][at[0]!]!, ends[1][at[1]!]!, ends[2][at[2]!]!));
+          }
+    return lines;
+  }
   show(axis: number, index: number): void {
     this.axis = axis;
     this.index = Math.min(this.shape[axis]! - 1, Math.max(0, index));

@@ -3,7 +3,7 @@
 // a selection.
 import type { Colouring } from "./colouring";
 import { el, svg } from "./dom";
-import { counted, grouped, homology, short } from "./numbers";
+import { counted, grouped, homology, inRange } from "./numbers";
 import { dimColour, hex, ramp } from "./palette";
 import { barsInView, kBirthColour, kDeathColour } from "./representatives";
 import type { Session } from "./session";
@@ -61,14 +61,15 @@ export class Legend {
     ];
   }
   private scale(low: number, high: number): HTMLElement {
-    const { colour, report: { meta, image } } = this.session;
+    const { session } = this;
+    const { colour, report: { meta } } = session;
     const unit = (colour === "depth" ? meta.cloud?.unit : meta.value.unit) ?? "";
     const bar = svg("svg", { viewBox: "0 0 14 100", preserveAspectRatio: "none", class: "ramp", "aria-hidden": "true" });
     const steps = 50;
     for (let i = 0; i < steps; ++i)
       bar.append(svg("rect", { x: 0, y: 98 - (100 * i) / steps, width: 14, height: 2.2, fill: hex(ramp(i / (steps - 1))) }));
-    const ticks = [high, (low + high) / 2, low].map((v) => el("span", {}, short(v, 3)));
-    const name = colour === "birth" && image ? "value" : colour;
+    const ticks = (high > low ? [high, (low + high) / 2, low] : [low]).map((v) => el("span", {}, inRange(v, high - low || 1)));
+    const name = session.colourModes().find(([mode]) => mode === colour)?.[1] ?? colour;
     return el("div", {}, el("h3", {}, unit ? `${name} (${unit})` : name), el("div", { class: "scale" }, bar, el("div", { class: "ticks" }, ...ticks)));
   }
   private showMarks(): void {

@@ -42,6 +42,12 @@ export function exact(value: number): string {
   return value === Infinity ? "inf" : value === -Infinity ? "-inf" : String(value);
 }
 
+/// To a thousandth of a range.
+export function inRange(value: number, range: number): string {
+  const digits = Math.ceil(Math.log10(Math.max(Math.abs(value), range) / range)) + 3;
+  return short(Math.abs(value) < range / 1000 ? 0 : value, Math.min(15, Math.max(1, digits)));
+}
+
 export function bytes(count: number): string {
   if (count >= 1 << 30) return `${(count / (1 << 30)).toFixed(2)} GiB`;
   if (count >= 1 << 20) return `${(count / (1 << 20)).toFixed(1)} MiB`;
@@ -50,4 +56,12 @@ export function bytes(count: number): string {
 
 export function seconds(value: number): string {
   return value < 1 ? `${short(1000 * value, 3)} ms` : `${short(value, 3)} s`;
+}
+
+/// The beginning and the end of a long text.
+export function clipped(text: string, most: number): string {
+  const letters = [...text];
+  if (letters.length <= most) return text;
+  const half = Math.max(1, Math.floor(most / 2) - 1);
+  return [...letters.slice(0, half), "…", ...letters.slice(-half)].join("");
 }

@@ -47,7 +47,7 @@ export class PointCloud {
     this.tint.needsUpdate = true;
   }
   resize(height: number, pixelRatio: number): void {
-    const least = this.positions.length > 60000 ? 1.5 : 5;
+    const least = this.positions.length > 60000 ? 1.5 : 4.5;
     this.material.uniforms["size"]!.value = 0.55 * this.spacing * height * pixelRatio;
     (this.material.uniforms["limits"]!.value as Vector2).set(least * pixelRatio, 14 * pixelRatio);
   }

@@ -127,7 +127,17 @@ function checkedMeta(value: unknown): Meta {
     fail("expected one or two barcodes");
   if (!barcodes.every((b) => isRecord(b) && typeof b["name"] === "string"))
     fail("a barcode has no name");
-  return value as unknown as Meta;
+  return readable(value) as Meta;
+}
+
+/// Signs that turn the direction of what follows would let a name rewrite the text around it.
+/// Command lines keep them: they must name the file.
+function readable(value: unknown, key = ""): unknown {
+  if (key === "command") return value;
+  if (typeof value === "string") return value.replace(/[\u202a-\u202e\u2066-\u2069]/g, "\ufffd");
+  if (Array.isArray(value)) return value.map((item) => readable(item));
+  if (!isRecord(value)) return value;
+  return Object.fromEntries(Object.entries(value).map(([name, item]) => [readable(name), readable(item, name)]));
 }
 
 export function reportOf(payload: Payload): Report {

@@ -6,19 +6,12 @@ import {
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { Size } from "./chart";
+import type { Pose } from "./pose";
 
 // Colours are what the screen shows; nothing is lit.
 ColorManagement.enabled = false;
 
-export interface Pose {
-  centre: Vector3;
-  radius: number;
-  towards: Vector3; // from the centre to the eye
-  up: Vector3;
-  flat: boolean; // a plane, seen from above
-}
-
-const kFieldOfView = 40;
+const kFieldOfView = 40, kMargin = 1.08;
 
 export class Stage {
   readonly scene = new Scene();
@@ -46,15 +39,19 @@ export class Stage {
     this.reset();
   }
 
+  /// Everything in view.
   reset(): void {
-    const { centre, radius, towards } = this.pose;
-    const distance = (1.06 * radius) / Math.sin((kFieldOfView * Math.PI) / 360);
-    this.camera.position.copy(centre).addScaledVector(towards.clone().normalize(), distance);
+    const { centre, radius, towards, half } = this.pose;
+    const tangent = Math.tan((kFieldOfView * Math.PI) / 360);
+    const fitting = kMargin * Math.max(half.height, half.width / this.aspect());
+    const distance = this.pose.flat ? 4 * radius : fitting / tangent + half.depth;
+    this.camera.position.copy(centre).addScaledVector(towards, distance);
     this.camera.near = distance / 500;
-    this.camera.far = distance * 20;
+    this.camera.far = distance * 20 + 10 * radius;
     this.camera.zoom = 1;
     this.controls.target.copy(centre);
-    this.resize(this.size);
+    if (this.camera instanceof OrthographicCamera) this.frame(fitting);
+    this.camera.updateProjectionMatrix();
     this.controls.update();
     this.moved = false;
     this.invalidate();
@@ -63,18 +60,15 @@ export class Stage {
     this.size = size;
     if (size.width === 0 || size.height === 0) return;
     this.renderer.setSize(size.width, size.height);
-    const aspect = this.aspect();
-    if (this.camera instanceof PerspectiveCamera) {
-      this.camera.aspect = aspect;
-      // What fits the height must fit a narrow picture, too.
-      const half = Math.tan((kFieldOfView * Math.PI) / 360);
-      this.camera.fov = (360 / Math.PI) * Math.atan(half * Math.max(1, 1 / aspect));
-    } else {
-      const half = 1.06 * this.pose.radius * Math.max(1, 1 / aspect);
-      Object.assign(this.camera, { left: -half * aspect, right: half * aspect, top: half, bottom: -half });
-    }
+    if (this.camera instanceof PerspectiveCamera) this.camera.aspect = this.aspect();
+    else this.frame(this.camera.top);
     this.camera.updateProjectionMatrix();
+    if (!this.moved) this.reset();
     this.invalidate();
+  }
+  private frame(half: number): void {
+    const aspect = this.aspect();
+    Object.assign(this.camera, { left: -half * aspect, right: half * aspect, top: half, bottom: -half });
   }
   invalidate(): void {
     if (this.scheduled) return;
@@ -139,6 +133,6 @@ export class Stage {
   }
 
   private aspect(): number {
-    return (this.besides ? this.size.width / 2 : this.size.width) / this.size.height;
+    return (this.besides ? this.size.width / 2 : this.size.width) / this.size.height || 1;
   }
 }

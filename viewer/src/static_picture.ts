@@ -5,7 +5,7 @@ import { svg } from "./dom";
 import type { ImageSlice } from "./image_slice";
 import type { Report } from "./report";
 import type { Shape } from "./representatives";
-import type { Pose } from "./stage";
+import type { Pose } from "./pose";
 
 const kMostPoints = 6000, kSide = 600;
 
@@ -13,10 +13,13 @@ export class StaticPicture {
   readonly element = svg("svg", { viewBox: `0 0 ${kSide} ${kSide}`, class: "still", role: "img" }, svg("title", {}, "The data, seen from the front"));
   private readonly camera: PerspectiveCamera | OrthographicCamera;
 
-  constructor(private readonly report: Report, { centre, radius, towards, up, flat }: Pose, private readonly slice: ImageSlice | undefined) {
-    this.camera = flat ? new OrthographicCamera(-radius, radius, radius, -radius, 0, 8 * radius) : new PerspectiveCamera(40, 1, radius / 50, 50 * radius);
+  constructor(private readonly report: Report, { centre, radius, towards, up, flat, half }: Pose, private readonly slice: ImageSlice | undefined) {
+    const fitting = 1.05 * Math.max(half.width, half.height);
+    this.camera = flat
+      ? new OrthographicCamera(-fitting, fitting, fitting, -fitting, 0, 8 * radius)
+      : new PerspectiveCamera(40, 1, radius / 50, 50 * radius);
     this.camera.up.copy(up);
-    this.camera.position.copy(centre).addScaledVector(towards.clone().normalize(), 3 * radius);
+    this.camera.position.copy(centre).addScaledVector(towards, flat ? 4 * radius : fitting / Math.tan(Math.PI / 9) + half.depth);
     this.camera.lookAt(centre);
     this.camera.updateMatrixWorld();
   }

@@ -5,7 +5,7 @@ import { Axis } from "./axis";
 import { nameOfBar } from "./bar_chart";
 import { Chart, type Size } from "./chart";
 import { table } from "./dom";
-import { counted, exact, grouped, short } from "./numbers";
+import { clipped, counted, exact, grouped, short } from "./numbers";
 import { hex } from "./palette";
 import type { Pen } from "./pen";
 import { kNone } from "./report";
@@ -50,7 +50,7 @@ export class TreeChart extends Chart {
     const { theme, report: { meta }, cutValue } = this.session;
     const { tree } = this;
     const axis = this.layOut(size);
-    const unit = [meta.value.unit, axis.unit].filter(Boolean).join(" ");
+    const unit = clipped([meta.value.unit, axis.unit].filter(Boolean).join(" "), 16);
     const small = { colour: theme.muted, size: 10.5 } as const;
     for (const tick of axis.ticks(Math.max(2, (size.height - kTop - kBottom) / 40))) {
       pen.line(kLeft, tick.at, size.width - kRight, tick.at, theme.grid);
