@@ -2,6 +2,7 @@
 // The state of the page in its address, so that a link shows the same.
 import type { DataView } from "./data_view";
 import { exact } from "./numbers";
+import { prefersDark, themeOf } from "./palette";
 import type { ColourMode, Session } from "./session";
 
 const kMostBars = 200;
@@ -14,6 +15,7 @@ export function addressOf(session: Session, data: DataView | undefined): string 
   if (hiddenDims.size > 0) parts.set("hide", [...hiddenDims].join(","));
   if (session.scale !== undefined) parts.set("scale", exact(session.scale));
   if (report.image) parts.set("slice", `${session.sliceAxis},${session.slice}`);
+  if (session.theme.dark !== prefersDark()) parts.set("theme", session.theme.dark ? "dark" : "light");
   if (selection.length > 0 && selection.length <= kMostBars) parts.set("bars", selection.join(","));
   if (data?.stage?.moved) parts.set("view", data.stage.view.join(","));
   return [...parts].map(([name, value]) => `${name}=${value}`).join("&");
@@ -37,6 +39,7 @@ export function goTo(address: string, session: Session, data: DataView | undefin
     session.set("sliceAxis", axis!, "slice");
     session.set("slice", slice, "slice");
   }
+  if (parts.has("theme")) session.set("theme", themeOf(parts.get("theme") === "dark"), "theme");
   const bars = numbers("bars").filter((bar) => Number.isInteger(bar) && bar >= 0 && bar < report.bars.size);
   if (bars.length > 0) session.select(bars);
   if (data?.stage && parts.has("view")) data.stage.view = numbers("view");

@@ -2,7 +2,7 @@
 // Charts whose items are bars: diagram and barcode. Keyboard, table and description are the same.
 import { Chart } from "./chart";
 import { table } from "./dom";
-import { counted, exact, homology, short } from "./numbers";
+import { counted, homology, short } from "./numbers";
 import type { Session } from "./session";
 
 const kMostRows = 500;
@@ -22,13 +22,11 @@ export function nameOfBar(session: Session, bar: number): string {
 export abstract class BarChart extends Chart {
   private current = -1; // place among the shown bars, by persistence
 
-  protected shownBars(most: number): number[] {
-    const shown: number[] = [];
-    for (const bar of this.session.report.bars.byPersistence) {
-      if (shown.length >= most) break;
-      if (this.session.isShown(bar)) shown.push(bar);
-    }
-    return shown;
+  /// Of the dimensions that are shown, the most persistent first.
+  protected shownBars(most: number): Uint32Array {
+    const { bars } = this.session.report, hidden = this.session.hiddenDims.size > 0;
+    const shown = hidden ? bars.byPersistence.filter((bar) => this.session.isShown(bar)) : bars.byPersistence;
+    return bars.prominent(shown, most);
   }
   protected makeTable(): HTMLTableElement {
     const { bars, meta } = this.session.report;
@@ -40,9 +38,9 @@ export abstract class BarChart extends Chart {
     return table(
       caption,
       [...(two ? ["barcode"] : []), "dimension", "birth", "death", "persistence"],
-      shown.map((bar) => [
+      Array.from(shown, (bar) => [
         ...(two ? [meta.barcodes[bars.barcodeOf(bar)]!.name] : []),
-        bars.dim[bar]!, exact(bars.birth[bar]!), exact(bars.death[bar]!), exact(bars.persistence(bar)),
+        bars.dim[bar]!, short(bars.birth[bar]!, 6), short(bars.death[bar]!, 6), short(bars.persistence(bar), 6),
       ]),
     );
   }
@@ -52,7 +50,7 @@ export abstract class BarChart extends Chart {
     return `${counts.join(", ") || "no bars"}. Arrow keys go from bar to bar, the most persistent first; Enter selects.`;
   }
   protected step(by: number): void {
-    const shown = this.shownBars(Math.max(1, this.current + by + 1));
+    const shown = this.shownBars(this.session.report.bars.size);
     this.current = Math.min(shown.length - 1, Math.max(0, this.current + by));
     const bar = shown[this.current];
     if (bar !== undefined) this.session.setFocus({ bar });

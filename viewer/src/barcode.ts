@@ -69,9 +69,9 @@ export class Barcode extends BarChart {
       const focused = item.bar === focus.bar;
       if (!focused && !this.session.isSelected(item.bar)) continue;
       const colour = focused ? theme.ink : theme.accent;
-      const thick = Math.max(3, item.row), y = item.y + item.row / 2;
-      pen.rect(item.x1 - 2, y - thick / 2 - 1, item.x2 - item.x1 + 4, thick + 2, colour);
-      pen.rect(item.x1, y - thick / 2 + 0.5, Math.max(1, item.x2 - item.x1), thick - 1, dimColour(bars.dim[item.bar]!, theme));
+      const thick = Math.max(5, 0.75 * item.row), y = item.y + item.row / 2;
+      pen.rect(item.x1 - 1.5, y - thick / 2 - 1.5, item.x2 - item.x1 + 3, thick + 3, colour);
+      pen.rect(item.x1, y - thick / 2, Math.max(1, item.x2 - item.x1), thick, dimColour(bars.dim[item.bar]!, theme));
     }
   }
 
@@ -106,8 +106,9 @@ export class Barcode extends BarChart {
   }
 
   private band(dim: number, barcode: number, rows: number): Band {
-    const all = this.session.report.bars.of(dim, barcode);
-    return { dim, barcode, bars: all.slice(0, rows).sort(), rest: all.subarray(rows) };
+    const { bars } = this.session.report, all = bars.of(dim, barcode), shown = bars.prominent(all, rows);
+    const drawn = new Set(all.length > rows ? shown : []);
+    return { dim, barcode, bars: shown.sort(), rest: drawn.size > 0 ? all.filter((bar) => !drawn.has(bar)) : all.subarray(rows) };
   }
 
   private drawBand(pen: Pen, band: Band, y: number, row: number): void {
@@ -140,8 +141,8 @@ export class Barcode extends BarChart {
     const scale = 1 / Math.log(alive.reduce((a, b) => Math.max(a, b), 0) + 1);
     for (let i = 0; i < columns; ++i)
       if (alive[i]! > 0)
-        pen.rect(axis.from + i, y + 2, 1, 3, dimColour(band.dim, theme), 0.12 + 0.78 * Math.log(alive[i]! + 1) * scale);
-    pen.text(axis.to, y + 13, `+ ${grouped(band.rest.length)} shorter`, { colour: theme.muted, size: 9.5, anchor: "end" });
+        pen.rect(axis.from + i, y + 2, 1, 3, dimColour(band.dim, theme), 0.2 + 0.75 * Math.log(alive[i]! + 1) * scale);
+    pen.text(axis.to, y + 13, `+ ${grouped(band.rest.length)} more`, { colour: theme.muted, size: 9.5, anchor: "end" });
   }
 
   private barAt(event: MouseEvent): number {

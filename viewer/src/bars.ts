@@ -72,6 +72,17 @@ export class Bars {
   of(dim: number, barcode: number): Uint32Array {
     return this.groups[barcode]?.get(dim) ?? new Uint32Array();
   }
+  /// The most persistent of bars that are in this order. Infinite ones take no more than half of the
+  /// room while there are others.
+  prominent(sorted: Uint32Array, most: number): Uint32Array {
+    let infinite = 0;
+    while (infinite < sorted.length && this.isInfinite(sorted[infinite]!)) ++infinite;
+    const kept = Math.min(infinite, Math.max(most >> 1, most - (sorted.length - infinite)));
+    const result = new Uint32Array(Math.min(sorted.length, most));
+    result.set(sorted.subarray(0, kept));
+    result.set(sorted.subarray(infinite, infinite + result.length - kept), kept);
+    return result;
+  }
   /// How many numbers name a cell of the dimension of a bar, or of the next one.
   arity(bar: number, above: 0 | 1): number {
     const kind = this.meta[this.barcodeOf(bar)]?.cells ?? "vertices";

@@ -3,7 +3,7 @@
 // persistences; the widest suggests where to cut.
 import { Chart, type Size } from "./chart";
 import { button, el, table } from "./dom";
-import { CutScale } from "./gaps";
+import { CutScale, levelsOf } from "./gaps";
 import { counted, exact, grouped, short } from "./numbers";
 import type { Pen } from "./pen";
 import type { Change, Session } from "./session";
@@ -23,7 +23,7 @@ export class CutChart extends Chart {
     super(session, "cut", "Cut", "");
     const meta = session.report.meta.tree!, tree = session.report.tree!;
     this.scale = new CutScale(tree, meta.from, meta.to, meta.cut);
-    this.counts = Array.from({ length: kSamples + 1 }, (_, i) => tree.cut(this.scale.at(i / kSamples), false).segments.length);
+    this.counts = this.countAll();
     this.suggested = session.suggestion();
     const name = [meta.label ?? "persistence", meta.unit && `(${meta.unit})`].filter(Boolean).join(" ");
     this.slider = el("input", { type: "range", min: 0, max: 2000, step: 1, "aria-label": `cut at ${name}` });
@@ -31,7 +31,7 @@ export class CutChart extends Chart {
     this.slider.addEventListener("input", () => session.setCut(this.scale.at(Number(this.slider.value) / 2000)));
     this.number.addEventListener("change", () => {
       const value = Number(this.number.value);
-      if (this.number.value !== "" && value >= this.scale.from && value <= this.scale.to) session.setCut(value);
+      if (this.number.value !== "" && value >= this.scale.from && value <= (meta.to ?? Infinity)) session.setCut(value);
       else this.show();
     });
     this.head.querySelector(".hint")!.replaceWith(
@@ -40,6 +40,7 @@ export class CutChart extends Chart {
     this.body.after(this.slider);
     if (session.report.tree!.hasJoins) this.panel.append(el("p", { class: "note" }, this.note()));
     session.onChange((changes) => changes.has("cut") && this.show());
+    session.onShown((milliseconds) => (this.outcome.title = `cut and coloured in ${milliseconds.toFixed(1)} ms`));
     this.over.addEventListener("click", (event) => session.setCut(this.scale.at(this.part(this.place(event)[0]))));
     this.show();
   }
@@ -47,16 +48,19 @@ export class CutChart extends Chart {
   draw(pen: Pen, size: Size): void {
     const { theme, cutValue } = this.session;
     const most = Math.max(1, ...this.counts), height = size.height - kTop - kBottom;
+    const few = Math.min(...this.counts), least = few > most / 4 ? 0.8 * few : 0;
     // By logarithm: what matters are the few segments at the right.
-    const y = (count: number) => kTop + height * (1 - Math.log1p(count) / Math.log1p(most));
+    const y = (count: number) => kTop + height * (1 - Math.log((count + 1) / (least + 1)) / Math.log((most + 1) / (least + 1)));
     const x = (place: number) => kThumb + place * (size.width - 2 * kThumb);
     const line: number[] = [];
     this.counts.forEach((count, i) => line.push(x(i / kSamples), y(count), x(Math.min(1, (i + 1) / kSamples)), y(count)));
-    pen.polygon([...line, x(1), y(0), x(0), y(0)], theme.dark ? "#2b6ea3" : "#0072b2", 0.18);
+    pen.polygon([...line, x(1), kTop + height, x(0), kTop + height], theme.dark ? "#2b6ea3" : "#0072b2", 0.18);
     pen.stroke(line, theme.dark ? "#4aa8e0" : "#0072b2", 1.4);
     const small = { colour: theme.muted, size: 10 } as const;
     pen.text(x(0), size.height - 4, short(this.scale.from, 3), small);
     pen.text(x(1), size.height - 4, short(this.scale.to, 3), { ...small, anchor: "end" });
+    pen.text(x(0), kTop - 5, grouped(this.counts[0]!), small);
+    pen.text(x(1), kTop - 5, grouped(this.counts.at(-1)!), { ...small, anchor: "end" });
     pen.text(x(0.5), size.height - 4, "segments left at each cut (logarithmic)", { ...small, anchor: "middle" });
     if (this.suggested !== undefined) {
       const at = x(this.scale.place(this.suggested));
@@ -85,6 +89,21 @@ export class CutChart extends Chart {
     if (this.suggested !== undefined) this.session.setCut(this.suggested);
   }
 
+  /// Most samples lie between the same levels as the one before: their cut is the same.
+  private countAll(): number[] {
+    const tree = this.session.report.tree!, levels = levelsOf(tree);
+    let settled = 0; // by rule `value`, when every leaf has entered
+    if (tree.arrays.rule === "value") for (const birth of tree.arrays.births) settled = Math.max(settled, birth);
+    const counts: number[] = [];
+    let passed = 0, before = -1;
+    for (let i = 0; i <= kSamples; ++i) {
+      const cut = this.scale.at(i / kSamples);
+      while (passed < levels.length && (tree.arrays.rule === "persistence" ? levels[passed]! < cut : levels[passed]! <= cut)) ++passed;
+      counts.push(passed === before && cut >= settled ? counts.at(-1)! : tree.cut(cut, false).segments.length);
+      before = passed;
+    }
+    return counts;
+  }
   private part(x: number): number {
     return (x - kThumb) / (this.size.width - 2 * kThumb);
   }
@@ -109,7 +128,6 @@ export class CutChart extends Chart {
     this.slider.setAttribute("aria-valuetext", `${short(session.cutValue)}: ${counted(count, what)}`);
     this.number.value = exact(session.cutValue);
     this.outcome.textContent = `${grouped(count)} ${what}${count === 1 ? "" : "s"}`;
-    this.outcome.title = `cut in ${session.cutMilliseconds.toFixed(1)} ms`;
     const note = this.panel.querySelector(".note");
     if (note) note.textContent = this.note();
   }

@@ -176,7 +176,7 @@ export class Diagram extends BarChart {
       counts.forEach((count, cell) => {
         if (count > 0)
           pen.rect((cell % columns) * kCell, Math.floor(cell / columns) * kCell, kCell, kCell, colour,
-            0.12 + 0.78 * Math.log(count + 1) * scale);
+            0.3 + 0.65 * Math.log(count + 1) * scale);
       });
     }
   }

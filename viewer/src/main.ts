@@ -5,7 +5,7 @@ import { CutChart } from "./cut_chart";
 import { DataView } from "./data_view";
 import { Diagram } from "./diagram";
 import { button, el } from "./dom";
-import { themeOf } from "./palette";
+import { prefersDark, themeOf } from "./palette";
 import { readPayload } from "./payload";
 import { readingOf, selectionOf } from "./reading";
 import { reportOf } from "./report";
@@ -44,10 +44,9 @@ async function start(app: HTMLElement): Promise<void> {
 }
 
 function followTheme(session: Session): void {
-  const wish = matchMedia("(prefers-color-scheme: dark)");
   const show = () => (document.documentElement.dataset["theme"] = session.theme.dark ? "dark" : "light");
-  session.theme = themeOf(wish.matches);
-  wish.addEventListener("change", () => session.set("theme", themeOf(wish.matches), "theme"));
+  session.theme = themeOf(prefersDark());
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (event) => session.set("theme", themeOf(event.matches), "theme"));
   session.onChange((changes) => changes.has("theme") && show());
   show();
 }

@@ -99,6 +99,12 @@ export class MergeTree {
     const level = this.arrays.levels[merge]!;
     return this.arrays.rule === "persistence" ? level < cut : level <= cut;
   }
+  /// Vertices of each branch with all that merges into it.
+  sizes(): Float64Array {
+    const before = new Float64Array(this.leaves + 1);
+    this.order.forEach((leaf, place) => (before[place + 1] = before[place]! + this.arrays.vertices[leaf]!));
+    return Float64Array.from({ length: this.leaves }, (_, b) => before[this.end[b]!]! - before[this.rank[b]!]!);
+  }
   /// How long a branch stays by itself, as the cut counts it.
   level(branch: number): number {
     const merge = this.deathOf[branch]!;

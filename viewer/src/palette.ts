@@ -19,6 +19,11 @@ export interface Theme {
   accent: string;
 }
 
+/// What the reader's system asks for.
+export function prefersDark(): boolean {
+  return matchMedia("(prefers-color-scheme: dark)").matches;
+}
+
 export function themeOf(dark: boolean): Theme {
   return dark
     ? { dark, ink: "#e6e9ee", muted: "#9aa3af", faint: "#6b7480", grid: "#2a3038", panel: "#181c22", shade: "#20252c", accent: "#ffd24a" }

@@ -14,6 +14,8 @@ export interface Pose {
   /// Half of what is seen: to the side, upwards, towards the eye.
   half: { width: number; height: number; depth: number };
   radius: number;
+  /// Where the sensor stood, from the centre: what it saw is seen, by its angle of view.
+  distance: number | undefined;
 }
 
 const kSampled = 20000;
@@ -33,11 +35,45 @@ export function firstPose(report: Report): Pose {
   if (cloud!.dims < 3) return poseOf(sample, new Vector3(0, 0, 1), new Vector3(0, 1, 0), true);
   const eye = meta.cloud?.viewpoint;
   const up = new Vector3(...((meta.cloud?.up ?? (eye ? [0, -1, 0] : [0, 0, 1])) as Triple)).normalize();
-  if (!eye) return poseOf(sample, new Vector3(0.55, -0.9, 0.6), up, false);
-  const { centre } = poseOf(sample, new Vector3(0, -1, 0), up, false);
-  const towards = new Vector3(...(eye.map((c, k) => c - cloud!.origin[k]!) as Triple)).sub(centre);
-  if (towards.lengthSq() === 0) towards.set(0, -1, 0);
-  return poseOf(sample, towards, up, false);
+  const around = poseOf(sample, new Vector3(0.55, -0.9, 0.6), up, false);
+  if (!eye) return around;
+  const sensor = new Vector3(...(eye.map((c, k) => c - cloud!.origin[k]!) as Triple));
+  const distance = sensor.distanceTo(around.centre);
+  return distance > 0.3 * around.radius ? poseOfSensor(sample, sensor, around) : around;
+}
+
+/// The sensor looks at the middle of what it saw; sizes are those at the distance of the centre.
+function poseOfSensor(coordinates: number[], sensor: Vector3, around: Pose): Pose {
+  const distance = sensor.distanceTo(around.centre);
+  const towards = sensor.clone().sub(around.centre).normalize();
+  const half: number[] = [];
+  for (const last of [false, true]) {
+    const right = new Vector3().crossVectors(around.up, towards).normalize();
+    const above = new Vector3().crossVectors(towards, right);
+    const turn = new Vector3();
+    for (const axis of [right, above]) {
+      const { low, high } = ends(coordinates, (x, y, z) => {
+        const from = new Vector3(x, y, z).sub(sensor), depth = -from.dot(towards);
+        return depth > 0 ? from.dot(axis) / depth : 0;
+      });
+      turn.addScaledVector(axis, (low + high) / 2);
+      if (last) half.push((distance * (high - low)) / 2);
+    }
+    if (!last) towards.sub(turn).normalize();
+  }
+  return {
+    ...around, centre: sensor.clone().addScaledVector(towards, -distance), towards, distance,
+    half: { width: half[0]!, height: half[1]!, depth: around.radius },
+  };
+}
+
+/// All but a few outermost ones: a speck far away must not make the rest small.
+function ends(coordinates: number[], value: (x: number, y: number, z: number) => number): { low: number; high: number } {
+  const values: number[] = [];
+  for (let i = 0; i < coordinates.length; i += 3) values.push(value(coordinates[i]!, coordinates[i + 1]!, coordinates[i + 2]!));
+  values.sort((a, b) => a - b);
+  const cut = Math.floor(values.length / 1000);
+  return { low: values[cut]!, high: values[values.length - 1 - cut]! };
 }
 
 function sampled(positions: Float32Array): number[] {
@@ -47,8 +83,7 @@ function sampled(positions: Float32Array): number[] {
   return sample;
 }
 
-/// The box along the axes of the picture of all but a few outermost points: a speck far away must
-/// not make the rest small.
+/// The box along the axes of the picture.
 function poseOf(coordinates: number[], towards: Vector3, up: Vector3, flat: boolean): Pose {
   const forward = towards.clone().normalize();
   const right = new Vector3().crossVectors(up, forward);
@@ -57,16 +92,11 @@ function poseOf(coordinates: number[], towards: Vector3, up: Vector3, flat: bool
   const above = new Vector3().crossVectors(forward, right);
   const centre = new Vector3(), half: number[] = [];
   for (const axis of [right, above, forward]) {
-    const along: number[] = [];
-    for (let i = 0; i < coordinates.length; i += 3)
-      along.push(axis.x * coordinates[i]! + axis.y * coordinates[i + 1]! + axis.z * coordinates[i + 2]!);
-    along.sort((a, b) => a - b);
-    const cut = Math.floor(along.length / 200);
-    const low = along[cut]!, high = along[along.length - 1 - cut]!;
+    const { low, high } = ends(coordinates, (x, y, z) => axis.x * x + axis.y * y + axis.z * z);
     centre.addScaledVector(axis, (low + high) / 2);
     half.push((high - low) / 2);
   }
   const radius = Math.hypot(...half) || 1;
   const [width, height, depth] = half.map((h) => Math.max(h, 0.05 * radius)) as Triple;
-  return { centre, towards: forward, up, flat, half: { width, height, depth }, radius };
+  return { centre, towards: forward, up, flat, half: { width, height, depth }, radius, distance: undefined };
 }

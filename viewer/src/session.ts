@@ -28,7 +28,6 @@ export class Session {
   theme: Theme = themeOf(false);
   cutValue: number;
   cut: Cut | undefined;
-  cutMilliseconds = 0;
   segmentColours: Rgb[] = [];
   beside = false; // ground truth beside
   scale: number | undefined; // filtration value up to which the complex is shown
@@ -38,6 +37,8 @@ export class Session {
   private leafColours: number[] = [];
   private readonly listeners: ((changes: Set<Change>) => void)[] = [];
   private pending = new Set<Change>();
+  private cutMilliseconds = 0;
+  private shown: (milliseconds: number) => void = () => {};
 
   constructor(readonly report: Report) {
     this.selected = new Uint8Array(report.bars.size);
@@ -59,10 +60,16 @@ export class Session {
     if (this.pending.size === 0) requestAnimationFrame(() => this.flush());
     for (const change of changes) this.pending.add(change);
   }
-  flush(): void {
+  private flush(): void {
     const changes = this.pending;
     this.pending = new Set();
-    if (changes.size > 0) for (const listener of this.listeners) listener(changes);
+    const start = performance.now();
+    for (const listener of this.listeners) listener(changes);
+    if (changes.has("cut")) this.shown(this.cutMilliseconds + performance.now() - start);
+  }
+  /// Hears how long a cut took until every view was told.
+  onShown(listener: (milliseconds: number) => void): void {
+    this.shown = listener;
   }
 
   setFocus(focus: Partial<Focus>): void {

@@ -21,6 +21,7 @@ export class Stage {
   moved = false; // by the reader
   /// Called before each of two pictures side by side; undefined: one picture.
   besides: ((side: 0 | 1) => void) | undefined;
+  private held = false;
   private scheduled = false;
 
   /// @throws Error without WebGL.
@@ -34,8 +35,12 @@ export class Stage {
     this.controls.enableRotate = !pose.flat;
     if (pose.flat) this.controls.mouseButtons.LEFT = 2; // pan
     this.controls.zoomToCursor = true;
-    this.controls.addEventListener("start", () => (this.moved = true));
-    this.controls.addEventListener("change", () => this.invalidate());
+    this.controls.addEventListener("start", () => (this.held = true));
+    this.controls.addEventListener("end", () => (this.held = false));
+    this.controls.addEventListener("change", () => {
+      this.moved ||= this.held;
+      this.invalidate();
+    });
     this.reset();
   }
 
@@ -44,9 +49,11 @@ export class Stage {
     const { centre, radius, towards, half } = this.pose;
     const tangent = Math.tan((kFieldOfView * Math.PI) / 360);
     const fitting = kMargin * Math.max(half.height, half.width / this.aspect());
-    const distance = this.pose.flat ? 4 * radius : fitting / tangent + half.depth;
+    const distance = this.pose.distance ?? (this.pose.flat ? 4 * radius : fitting / tangent + half.depth);
+    if (this.pose.distance && this.camera instanceof PerspectiveCamera)
+      this.camera.fov = (360 / Math.PI) * Math.atan(fitting / distance);
     this.camera.position.copy(centre).addScaledVector(towards, distance);
-    this.camera.near = distance / 500;
+    this.camera.near = distance / 200;
     this.camera.far = distance * 20 + 10 * radius;
     this.camera.zoom = 1;
     this.controls.target.copy(centre);

@@ -13,13 +13,15 @@ export class StaticPicture {
   readonly element = svg("svg", { viewBox: `0 0 ${kSide} ${kSide}`, class: "still", role: "img" }, svg("title", {}, "The data, seen from the front"));
   private readonly camera: PerspectiveCamera | OrthographicCamera;
 
-  constructor(private readonly report: Report, { centre, radius, towards, up, flat, half }: Pose, private readonly slice: ImageSlice | undefined) {
+  constructor(private readonly report: Report, pose: Pose, private readonly slice: ImageSlice | undefined) {
+    const { centre, radius, towards, up, flat, half } = pose;
     const fitting = 1.05 * Math.max(half.width, half.height);
+    const distance = pose.distance ?? (flat ? 4 * radius : 2.7 * fitting + half.depth);
     this.camera = flat
       ? new OrthographicCamera(-fitting, fitting, fitting, -fitting, 0, 8 * radius)
-      : new PerspectiveCamera(40, 1, radius / 50, 50 * radius);
+      : new PerspectiveCamera((360 / Math.PI) * Math.atan(fitting / distance), 1, distance / 200, distance + 50 * radius);
     this.camera.up.copy(up);
-    this.camera.position.copy(centre).addScaledVector(towards, flat ? 4 * radius : fitting / Math.tan(Math.PI / 9) + half.depth);
+    this.camera.position.copy(centre).addScaledVector(towards, distance);
     this.camera.lookAt(centre);
     this.camera.updateMatrixWorld();
   }

@@ -5,7 +5,7 @@ import { Axis } from "./axis";
 import { nameOfBar } from "./bar_chart";
 import { Chart, type Size } from "./chart";
 import { table } from "./dom";
-import { clipped, counted, exact, grouped, short } from "./numbers";
+import { clipped, counted, grouped, short } from "./numbers";
 import { hex } from "./palette";
 import type { Pen } from "./pen";
 import { kNone } from "./report";
@@ -34,9 +34,12 @@ export class TreeChart extends Chart {
     this.tree = session.report.tree!;
     const { tree } = this;
     const level = Float64Array.from({ length: tree.leaves }, (_, b) => tree.level(b));
-    // Of equal level, the one that dies later: a branch comes after the one it merges into.
+    const size = tree.sizes();
+    // Of equal level the larger one, or the one that dies later: a branch comes after the one that
+    // it merges into.
     this.byLevel = new Uint32Array(tree.leaves).map((_, i) => i).sort((a, b) =>
-      level[a]! > level[b]! ? -1 : level[a]! < level[b]! ? 1 : tree.deathOf[b]! - tree.deathOf[a]!);
+      level[a]! > level[b]! ? -1 : level[a]! < level[b]! ? 1
+      : level[a] === Infinity ? size[b]! - size[a]! : tree.deathOf[b]! - tree.deathOf[a]!);
     this.over.addEventListener("pointermove", (event) => this.focus(this.branchNear(event)));
     this.over.addEventListener("pointerleave", () => this.session.setFocus({}));
     this.over.addEventListener("click", (event) => {
@@ -66,8 +69,8 @@ export class TreeChart extends Chart {
       pen.line(kLeft, y, size.width - kRight, y, theme.muted, 1.2, [5, 4]);
       pen.text(size.width - kRight, y - 4, `cut ${short(cutValue, 3)}`, { ...small, anchor: "end" });
     }
-    if (this.drawn.length < tree.leaves)
-      pen.text(size.width - kRight, 11, `${grouped(this.drawn.length)} most persistent of ${counted(tree.leaves, "branch").replace("branchs", "branches")}`, { ...small, anchor: "end", size: 10 });
+    this.head.querySelector(".hint")!.textContent = this.drawn.length < tree.leaves
+      ? `the ${grouped(this.drawn.length)} most persistent of ${grouped(tree.leaves)} branches` : "";
   }
 
   protected drawOver(pen: Pen): void {
@@ -76,8 +79,9 @@ export class TreeChart extends Chart {
     for (const d of this.drawn) {
       const bar = this.barOf(d.branch);
       if (bar < 0 || !wanted.has(bar)) continue;
-      this.drawBranch(pen, d, bar === focus.bar ? theme.ink : theme.accent, 4.5);
-      pen.circle(d.x, d.y1, 3.5, this.colourOf(d.branch), 1, theme.ink, 1);
+      this.drawBranch(pen, d, bar === focus.bar ? theme.ink : theme.accent, 6);
+      this.drawBranch(pen, d, this.colourOf(d.branch), 3);
+      pen.circle(d.x, d.y1, 4, this.colourOf(d.branch), 1, theme.ink, 1.2);
     }
   }
 
@@ -88,7 +92,7 @@ export class TreeChart extends Chart {
   protected makeTable(): HTMLTableElement {
     const { tree } = this;
     const rows = Array.from(this.byLevel.subarray(0, 500), (b) => [
-      b, exact(tree.arrays.births[b]!), exact(tree.death(b)),
+      b, short(tree.arrays.births[b]!, 6), short(tree.death(b), 6),
       tree.parentOf[b] === kNone ? "" : tree.parentOf[b]!, tree.arrays.points[b]!, this.session.cut?.labelOfLeaf[b] || "",
     ]);
     return table("Branches, the most persistent first", ["branch", "birth", "merges at", "into", "points of its leaf", "segment"], rows);
@@ -105,7 +109,7 @@ export class TreeChart extends Chart {
   private layOut(size: Size): Axis {
     const { tree } = this;
     const most = Math.max(1, Math.floor((size.width - kLeft - kRight) / kPitch));
-    const shown = Array.from(this.byLevel.subarray(0, most)).sort((a, b) => tree.rank[a]! - tree.rank[b]!);
+    const shown = this.prominent(most).sort((a, b) => tree.rank[a]! - tree.rank[b]!);
     let low = Infinity, high = -Infinity, endless = false;
     for (const b of shown) {
       const death = tree.death(b);
@@ -118,15 +122,28 @@ export class TreeChart extends Chart {
     const x = new Map(shown.map((b, i) => [b, kLeft + 10 + (i * (size.width - kLeft - kRight - 20)) / Math.max(1, shown.length - 1)]));
     if (shown.length === 1) x.set(shown[0]!, (kLeft + size.width - kRight) / 2);
     this.drawn = shown.map((branch) => {
-      let parent = tree.parentOf[branch]!;
-      while (parent !== kNone && !x.has(parent)) parent = tree.parentOf[parent]!;
       const death = tree.death(branch);
       return {
         branch, x: x.get(branch)!, y1: axis.at(tree.arrays.births[branch]!),
-        y2: Number.isFinite(death) ? axis.at(death) : kTop - 6, parent: x.get(parent) ?? NaN,
+        y2: Number.isFinite(death) ? axis.at(death) : kTop - 6, parent: x.get(tree.parentOf[branch]!) ?? NaN,
       };
     });
     return axis;
+  }
+  /// The largest trees, and their most persistent branches.
+  private prominent(most: number): number[] {
+    const { tree, byLevel } = this;
+    let roots = 0;
+    while (roots < tree.leaves && tree.parentOf[byLevel[roots]!] === kNone) ++roots;
+    const shown = Array.from(byLevel.subarray(0, Math.min(roots, Math.max(most >> 1, most - (tree.leaves - roots)))));
+    const isShown = new Set(shown);
+    for (const branch of byLevel.subarray(roots)) {
+      if (shown.length >= most) break;
+      if (!isShown.has(tree.parentOf[branch]!)) continue;
+      shown.push(branch);
+      isShown.add(branch);
+    }
+    return shown;
   }
   private drawBranch(pen: Pen, d: Drawn, colour: string, width: number): void {
     pen.stroke(Number.isNaN(d.parent) ? [d.x, d.y1, d.x, d.y2] : [d.x, d.y1, d.x, d.y2, d.parent, d.y2], colour, width);

@@ -31,7 +31,7 @@ export async function open(browser, report, { width = 1280, height = 800, dark =
   const context = await browser.newContext({ viewport: { width, height }, colorScheme: dark ? "dark" : "light", reducedMotion, acceptDownloads: true });
   const page = await context.newPage();
   const problems = [];
-  page.on("console", (m) => ["error", "warning"].includes(m.type()) && !/GPU stall|software WebGL/i.test(m.text()) && problems.push(`console: ${m.text()}`));
+  page.on("console", (m) => ["error", "warning"].includes(m.type()) && !/GPU stall|software WebGL|willReadFrequently/i.test(m.text()) && problems.push(`console: ${m.text()}`));
   page.on("pageerror", (e) => problems.push(`error: ${e.message}`));
   page.on("dialog", (d) => {
     problems.push(`dialog: ${d.message()}`);
