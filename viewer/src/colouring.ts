@@ -16,6 +16,8 @@ export class Colouring {
   private readonly base: Uint8Array; // without highlights
   private readonly ranges = new Map<ColourMode, Range>();
   private baseKey = "";
+  private key = ""; // of what is brought out
+  private selection: number[] = [];
 
   constructor(private readonly session: Session) {
     const count = session.report.elements!.count;
@@ -31,8 +33,20 @@ export class Colouring {
     return range;
   }
 
-  update(mode: ColourMode = this.session.colour): void {
-    this.paintBase(mode);
+  /// @return whether any colour may have changed: a pointer moves much inside one segment.
+  update(mode: ColourMode = this.session.colour): boolean {
+    const { session } = this;
+    const painted = this.paintBase(mode);
+    const { segment, bar } = session.focus;
+    const key = [segment, segment > 0 ? -1 : bar, session.scale ?? "all"].join();
+    if (!painted && key === this.key && session.selection === this.selection) return false;
+    this.key = key;
+    this.selection = session.selection;
+    this.fade();
+    return true;
+  }
+
+  private fade(): void {
     const { session } = this;
     const { elements } = session.report;
     const leaves = session.highlightedLeaves();
@@ -48,10 +62,10 @@ export class Colouring {
     }
   }
 
-  private paintBase(mode: ColourMode): void {
+  private paintBase(mode: ColourMode): boolean {
     const { session } = this;
     const key = [mode, session.theme.dark, mode === "segment" || mode === "persistence" ? session.cutValue : 0].join();
-    if (key === this.baseKey) return;
+    if (key === this.baseKey) return false;
     this.baseKey = key;
     const { base } = this;
     const put = (i: number, c: Rgb) => {
@@ -87,6 +101,7 @@ export class Colouring {
       const span = range!.high - range!.low || 1;
       for (let i = 0; i < count; ++i) put(i, ramp((value(i) - range!.low) / span));
     }
+    return true;
   }
 
   /// A quarter of what the camera saw, so that a segment is not flat.

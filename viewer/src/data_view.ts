@@ -160,9 +160,10 @@ export class DataView {
     const { session } = this;
     if (any("theme")) this.truthColouring?.update("truth");
     if (any("focus", "selection", "cut", "colour", "scale", "theme")) {
-      this.colouring.update();
-      this.cloud?.recolour();
-      this.slice?.recolour();
+      if (this.colouring.update()) {
+        this.cloud?.recolour();
+        this.slice?.recolour();
+      }
     }
     if (any("slice")) this.slice?.show(session.sliceAxis, session.slice);
     if (any("scale", "theme")) this.showScale();

@@ -33,6 +33,7 @@ export function pictureSvg(session: Session, views: Views, page: HTMLElement): s
   if (picture) {
     const at = place(views.data!.stage!.renderer.domElement);
     pen.image(at.x, at.y, at.width, at.height, picture);
+    drawLegend(pen, views.data!.panel.querySelector(".legend")!, place, session);
   }
   for (const [title, chart] of views.charts) {
     const at = place(chart.panel.querySelector("canvas.over")!);
@@ -40,6 +41,19 @@ export function pictureSvg(session: Session, views: Views, page: HTMLElement): s
     pen.at(at.x, at.y, () => chart.drawAll(pen, chart.shape));
   }
   return pen.document(width, height, meta.title, commandLine(session));
+}
+
+/// What of the legend is in view: its swatches and its words where they stand.
+function drawLegend(
+  pen: SvgPen, legend: Element, place: (element: Element) => { x: number; y: number; width: number; height: number }, session: Session,
+): void {
+  const frame = place(legend);
+  for (const mark of legend.querySelectorAll("rect, h3, .name, .count, .ticks span")) {
+    const at = place(mark);
+    if (at.y < frame.y || at.y + at.height > frame.y + frame.height) continue;
+    if (mark instanceof SVGRectElement) pen.rect(at.x, at.y, at.width, at.height, mark.getAttribute("fill") ?? "none");
+    else pen.text(at.x, at.y + at.height - 4, mark.firstChild?.textContent ?? "", { colour: session.theme.muted, size: 12 });
+  }
 }
 
 /// The same as pixels, two a unit.

@@ -74,18 +74,18 @@ export class Legend {
   }
   private showMarks(): void {
     const { session } = this;
-    const { bars, chains, tree } = session.report;
-    const bar = session.focus.bar >= 0 ? session.focus.bar : session.selection[0];
+    const { bars, chains, tree, meta } = session.report;
+    const shown = barsInView(session).filter((bar) => bars.barcodeOf(bar) === 0);
     this.rows.forEach((row, i) => row.classList.toggle("on", session.focus.segment === i + 1));
     const rows: HTMLElement[] = [];
-    if (bar !== undefined && barsInView(session).length > 0 && bars.barcodeOf(bar) === 0) {
-      const mark = (colour: string, text: string) => rows.push(el("p", { class: "row" }, swatch(colour), el("span", { class: "name" }, text)));
-      const dim = bars.dim[bar]!;
-      if (chains?.ofBar.has(bar)) mark(dimColour(dim, session.theme), `${homology(dim)} ${session.report.meta.barcodes[0]?.representatives?.replace(/s$/, "") ?? "representative"}`);
-      if (bars.cell(bar, 0).length > 0) mark(kBirthColour, "birth cell");
-      if (bars.cell(bar, 1).length > 0) mark(kDeathColour, "death cell");
-      if (rows.length === 0 && !(dim === 0 && tree)) rows.push(el("p", { class: "note" }, "No cells of this bar are in the report: --representatives cycles adds them."));
-    }
+    const mark = (colour: string, text: string) => rows.push(el("p", { class: "row" }, swatch(colour), el("span", { class: "name" }, text)));
+    const chained = new Set(shown.filter((bar) => chains?.ofBar.has(bar)).map((bar) => bars.dim[bar]!));
+    const what = meta.barcodes[0]!.representatives?.replace(/s$/, "") ?? "representative";
+    for (const dim of [...chained].sort((a, b) => a - b)) mark(dimColour(dim, session.theme), `${homology(dim)} ${what}`);
+    if (shown.some((bar) => bars.cell(bar, 0).length > 0)) mark(kBirthColour, "birth cell");
+    if (shown.some((bar) => bars.cell(bar, 1).length > 0)) mark(kDeathColour, "death cell");
+    if (rows.length === 0 && shown.some((bar) => bars.dim[bar] !== 0 || !tree))
+      rows.push(el("p", { class: "note" }, "No cells of this bar are in the report: --representatives cycles adds them."));
     this.marks.replaceChildren(...rows);
   }
 }
