@@ -35,7 +35,8 @@ export class Axis {
   }
   value(at: number): number {
     const part = Math.min(1, Math.max(0, (at - this.from) / (this.to - this.from)));
-    return (this.low + part * (this.high - this.low)) * 10 ** this.exponent;
+    const half = Math.trunc(this.exponent / 2);
+    return (this.low + part * (this.high - this.low)) * 10 ** half * 10 ** (this.exponent - half);
   }
   /// ×10⁻⁵, or nothing.
   get unit(): string {

@@ -69,7 +69,7 @@ export abstract class Chart {
 
   private update(changes: Set<Change>): void {
     if (changes.has("theme") || this.redrawsOn.some((change) => changes.has(change))) this.refresh();
-    else if (changes.has("focus") || changes.has("selection")) this.refreshOver();
+    else if (changes.has("focus") || changes.has("selection") || changes.has("cut")) this.refreshOver();
   }
   private paint(canvas: HTMLCanvasElement, draw: (pen: Pen) => void): void {
     const context = canvas.getContext("2d");

@@ -8,12 +8,22 @@ export interface Range {
   high: number;
 }
 
-const kNoSegment: Rgb = [150, 156, 165];
+/// Red in the lowest byte, as the bytes of a texture are read.
+function packed([r, g, b]: Rgb): number {
+  return (0xff000000 | (b << 16) | (g << 8) | r) >>> 0;
+}
+
+/// `part` of 256 parts of one colour, the rest of another.
+function mixed(a: number, b: number, part: number): number {
+  const channel = (shift: number) => ((((a >>> shift) & 255) * part + ((b >>> shift) & 255) * (256 - part)) >> 8) << shift;
+  return (0xff000000 | channel(16) | channel(8) | channel(0)) >>> 0;
+}
 
 export class Colouring {
   /// Red, green, blue, 255 of each element.
   readonly rgba: Uint8Array;
-  private readonly base: Uint8Array; // without highlights
+  private readonly shown: Uint32Array; // the same numbers
+  private readonly base: Uint32Array; // without highlights
   private readonly ranges = new Map<ColourMode, Range>();
   private baseKey = "";
   private key = ""; // of what is brought out
@@ -21,8 +31,9 @@ export class Colouring {
 
   constructor(private readonly session: Session) {
     const count = session.report.elements!.count;
-    this.rgba = new Uint8Array(4 * count);
-    this.base = new Uint8Array(4 * count);
+    this.shown = new Uint32Array(count);
+    this.base = new Uint32Array(count);
+    this.rgba = new Uint8Array(this.shown.buffer);
   }
 
   /// The values that a continuous colour spans.
@@ -48,79 +59,92 @@ export class Colouring {
 
   private fade(): void {
     const { session } = this;
-    const { elements } = session.report;
-    const leaves = session.highlightedLeaves();
-    const limit = elements!.birth ? session.scale : undefined;
-    const fade = session.theme.dark ? [30, 35, 42] : [232, 235, 239];
-    this.rgba.set(this.base);
+    const { leaf, birth, count } = session.report.elements!;
+    const leaves = leaf && session.highlightedLeaves();
+    const limit = birth ? session.scale : undefined;
+    const fade = packed(session.theme.dark ? [30, 35, 42] : [232, 235, 239]);
+    this.shown.set(this.base);
     if (!leaves && limit === undefined) return;
-    const { leaf, birth, count } = elements!;
     for (let i = 0; i < count; ++i) {
-      const out = leaves && leaf && !leaves[leaf[i]!];
-      if (!out && !(limit !== undefined && birth![i]! > limit)) continue;
-      for (let k = 4 * i; k < 4 * i + 3; ++k) this.rgba[k] = 0.2 * this.rgba[k]! + 0.8 * fade[k - 4 * i]!;
+      const out = (leaves && !leaves[leaf![i]!]) || (limit !== undefined && birth![i]! > limit);
+      if (out) this.shown[i] = mixed(this.base[i]!, fade, 51);
     }
   }
 
   private paintBase(mode: ColourMode): boolean {
-    const { session } = this;
+    const { session, base } = this;
     const key = [mode, session.theme.dark, mode === "segment" || mode === "persistence" ? session.cutValue : 0].join();
     if (key === this.baseKey) return false;
     this.baseKey = key;
-    const { base } = this;
-    const put = (i: number, c: Rgb) => {
-      base[4 * i] = c[0];
-      base[4 * i + 1] = c[1];
-      base[4 * i + 2] = c[2];
-      base[4 * i + 3] = 255;
-    };
-    const { elements, cloud } = session.report;
-    const { count, rgb, normals, leaf, truth } = elements!;
-    const range = this.range(mode);
-    if (mode === "segment" || mode === "persistence") {
-      const ofLeaf = mode === "segment" ? this.segmentColours() : this.persistenceColours(range!);
-      for (let i = 0; i < count; ++i) put(i, ofLeaf[leaf![i]!] ?? this.colourOfNone());
-      if (mode === "segment" && rgb) this.shadeBy((i) => 0.299 * rgb[3 * i]! + 0.587 * rgb[3 * i + 1]! + 0.114 * rgb[3 * i + 2]!);
-      if (mode === "segment" && session.report.image) {
-        const { low, high } = this.range("birth")!;
-        this.shadeBy((i) => (255 * (elements!.birth![i]! - low)) / (high - low || 1));
-      }
-    } else if (mode === "rgb") {
-      for (let i = 0; i < count; ++i) put(i, [rgb![3 * i]!, rgb![3 * i + 1]!, rgb![3 * i + 2]!]);
-    } else if (mode === "truth") {
-      const colours = new Map<number, Rgb>([[0, this.colourOfNone()]]);
-      for (const label of [...new Set(truth!)].sort((a, b) => a - b))
-        if (label > 0) colours.set(label, segmentColour((label - 1) % 28));
-      for (let i = 0; i < count; ++i) put(i, colours.get(truth![i]!)!);
-    } else if (mode === "normal") {
-      for (let i = 0; i < count; ++i) put(i, colourOfNormal(normals![2 * i]!, normals![2 * i + 1]!));
-    } else if (mode === "plain") {
-      for (let i = 0; i < count; ++i) put(i, session.theme.dark ? [168, 178, 190] : [92, 102, 115]);
-    } else {
-      const value = mode === "depth" ? this.depths(cloud!.positions) : (i: number) => elements!.birth![i]!;
-      const span = range!.high - range!.low || 1;
-      for (let i = 0; i < count; ++i) put(i, ramp((value(i) - range!.low) / span));
-    }
+    const colourAt = this.colours(mode);
+    for (let i = 0; i < base.length; ++i) base[i] = colourAt(i);
     return true;
   }
 
-  /// A quarter of what the camera saw, so that a segment is not flat.
-  private shadeBy(grey: (i: number) => number): void {
-    for (let i = 0; i < this.base.length / 4; ++i)
-      for (let k = 4 * i, g = grey(i); k < 4 * i + 3; ++k) this.base[k] = 0.75 * this.base[k]! + 0.25 * g;
+  private colours(mode: ColourMode): (i: number) => number {
+    const { session } = this;
+    const { rgb, normals, leaf, birth } = session.report.elements!;
+    const none = packed(session.theme.dark ? [84, 92, 103] : [150, 156, 165]);
+    switch (mode) {
+      case "segment": {
+        const ofLeaf = this.segmentColours(none), grey = this.grey();
+        if (!grey) return (i) => ofLeaf[leaf![i]!] ?? none;
+        return (i) => mixed(ofLeaf[leaf![i]!] ?? none, grey[i]! * 0x010101, 192);
+      }
+      case "persistence": {
+        const ofLeaf = this.persistenceColours();
+        return (i) => ofLeaf[leaf![i]!] ?? none;
+      }
+      case "rgb":
+        return (i) => packed([rgb![3 * i]!, rgb![3 * i + 1]!, rgb![3 * i + 2]!]);
+      case "truth":
+        return this.truthColours(none);
+      case "normal":
+        return (i) => colourOfNormal(normals![2 * i]!, normals![2 * i + 1]!) ?? none;
+      case "plain": {
+        const colour = packed(session.theme.dark ? [168, 178, 190] : [92, 102, 115]);
+        return () => colour;
+      }
+      default: {
+        const value = mode === "depth" ? this.depths(session.report.cloud!.positions) : (i: number) => birth![i]!;
+        const { low, high } = this.range(mode)!, span = high - low || 1;
+        return (i) => (Number.isNaN(value(i)) ? none : packed(ramp((value(i) - low) / span)));
+      }
+    }
   }
-  private colourOfNone(): Rgb {
-    return this.session.theme.dark ? [84, 92, 103] : kNoSegment;
+
+  private shades: Uint8Array | undefined;
+  /// What the camera saw, or the image: a quarter of it, so that a segment is not flat.
+  private grey(): Uint8Array | undefined {
+    const { elements, image } = this.session.report;
+    const { rgb, birth, count } = elements!;
+    if (this.shades || !(rgb || image)) return this.shades;
+    this.shades = new Uint8Array(count);
+    const { low, high } = rgb ? { low: 0, high: 0 } : this.range("birth")!;
+    for (let i = 0; i < count; ++i)
+      this.shades[i] = rgb
+        ? 0.299 * rgb[3 * i]! + 0.587 * rgb[3 * i + 1]! + 0.114 * rgb[3 * i + 2]!
+        : 255 * Math.min(1, Math.max(0, (birth![i]! - low) / (high - low || 1)));
+    return this.shades;
   }
-  private segmentColours(): Rgb[] {
+  private segmentColours(none: number): Uint32Array {
     const { cut, segmentColours } = this.session;
-    return Array.from(cut!.labelOfLeaf, (label) => segmentColours[label - 1] ?? this.colourOfNone());
+    const ofLabel = [none, ...segmentColours.map(packed)];
+    const ofLeaf = new Uint32Array(cut!.labelOfLeaf.length);
+    for (let leaf = 0; leaf < ofLeaf.length; ++leaf) ofLeaf[leaf] = ofLabel[cut!.labelOfLeaf[leaf]!]!;
+    return ofLeaf;
   }
-  private persistenceColours(range: Range): Rgb[] {
+  private persistenceColours(): Uint32Array {
     const { report: { tree }, cutValue } = this.session;
-    const span = range.high - range.low || 1;
-    return Array.from({ length: tree!.leaves }, (_, leaf) =>
-      ramp((tree!.level(tree!.branchAt(leaf, cutValue)) - range.low) / span));
+    const { low, high } = this.range("persistence")!, span = high - low || 1;
+    return Uint32Array.from({ length: tree!.leaves }, (_, leaf) =>
+      packed(ramp((tree!.level(tree!.branchAt(leaf, cutValue)) - low) / span)));
+  }
+  private truthColours(none: number): (i: number) => number {
+    const { truth } = this.session.report.elements!;
+    const colours = new Map<number, number>([[0, none]]);
+    for (const label of new Set(truth!)) if (label > 0) colours.set(label, packed(segmentColour((label - 1) % 28)));
+    return (i) => colours.get(truth![i]!)!;
   }
   private depths(positions: Float32Array): (i: number) => number {
     const { meta, cloud } = this.session.report;
@@ -152,7 +176,7 @@ function rangeOf(count: number, value: (i: number) => number, least = Infinity):
 }
 
 /// Two numbers of an octahedron, -127 … 127; -128: no normal.
-export function normalOf(u: number, v: number): [number, number, number] | undefined {
+function normalOf(u: number, v: number): [number, number, number] | undefined {
   if (u === -128) return undefined;
   let x = u / 127, y = v / 127;
   const z = 1 - Math.abs(x) - Math.abs(y);
@@ -161,8 +185,7 @@ export function normalOf(u: number, v: number): [number, number, number] | undef
   return [x / length, y / length, z / length];
 }
 
-function colourOfNormal(u: number, v: number): Rgb {
+function colourOfNormal(u: number, v: number): number | undefined {
   const n = normalOf(u, v);
-  return n ? (n.map((c) => Math.round(127.5 * (c + 1))) as Rgb) : kNoSegment;
+  return n && packed(n.map((c) => Math.round(127.5 * (c + 1))) as Rgb);
 }
-

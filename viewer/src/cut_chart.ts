@@ -3,7 +3,7 @@
 // persistences; the widest suggests where to cut.
 import { Chart, type Size } from "./chart";
 import { button, el, table } from "./dom";
-import { CutScale, levelsOf } from "./gaps";
+import { CutScale, segmentCounts } from "./gaps";
 import { counted, exact, grouped, short } from "./numbers";
 import type { Pen } from "./pen";
 import type { Change, Session } from "./session";
@@ -23,7 +23,7 @@ export class CutChart extends Chart {
     super(session, "cut", "Cut", "");
     const meta = session.report.meta.tree!, tree = session.report.tree!;
     this.scale = new CutScale(tree, meta.from, meta.to, meta.cut);
-    this.counts = this.countAll();
+    this.counts = segmentCounts(tree, Array.from({ length: kSamples + 1 }, (_, i) => this.scale.at(i / kSamples)));
     this.suggested = session.suggestion();
     const name = [meta.label ?? "persistence", meta.unit && `(${meta.unit})`].filter(Boolean).join(" ");
     this.slider = el("input", { type: "range", min: 0, max: 2000, step: 1, "aria-label": `cut at ${name}` });
@@ -89,21 +89,6 @@ export class CutChart extends Chart {
     if (this.suggested !== undefined) this.session.setCut(this.suggested);
   }
 
-  /// Most samples lie between the same levels as the one before: their cut is the same.
-  private countAll(): number[] {
-    const tree = this.session.report.tree!, levels = levelsOf(tree);
-    let settled = 0; // by rule `value`, when every leaf has entered
-    if (tree.arrays.rule === "value") for (const birth of tree.arrays.births) settled = Math.max(settled, birth);
-    const counts: number[] = [];
-    let passed = 0, before = -1;
-    for (let i = 0; i <= kSamples; ++i) {
-      const cut = this.scale.at(i / kSamples);
-      while (passed < levels.length && (tree.arrays.rule === "persistence" ? levels[passed]! < cut : levels[passed]! <= cut)) ++passed;
-      counts.push(passed === before && cut >= settled ? counts.at(-1)! : tree.cut(cut, false).segments.length);
-      before = passed;
-    }
-    return counts;
-  }
   private part(x: number): number {
     return (x - kThumb) / (this.size.width - 2 * kThumb);
   }

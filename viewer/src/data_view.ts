@@ -143,7 +143,7 @@ export class DataView {
     const slider = el("input", { type: "range", min: 0, max: kSteps, step: 1, "aria-label": label });
     slider.addEventListener("input", () => {
       const place = Number(slider.value) / kSteps;
-      session.set("scale", place === 1 ? undefined : bars.low + place * (bars.high - bars.low), "scale");
+      session.set("scale", place === 1 ? undefined : bars.low * (1 - place) + bars.high * place, "scale");
     });
     const show = () => {
       const { scale } = session;

@@ -29,7 +29,7 @@ export function drawMarker(
 }
 
 export class Diagram extends BarChart {
-  protected redrawsOn: Change[] = ["dims", "cut"];
+  protected redrawsOn: Change[] = ["dims"];
   private x: Float32Array; // of each bar, pixels
   private y: Float32Array;
   private births = new Axis(0, 1, 0, 1);
@@ -57,7 +57,6 @@ export class Diagram extends BarChart {
     pen.polygon([left, bottom, right, bottom, right, top], theme.shade);
     this.drawAxes(pen, size);
     pen.line(left, bottom, right, top, theme.faint, 1);
-    this.drawCut(pen);
     if (bars.size === 0)
       pen.text((left + right) / 2, (top + bottom) / 2 - 40, "no bars", { colour: theme.muted, anchor: "middle", size: 13 });
     let shown = 0;
@@ -77,6 +76,7 @@ export class Diagram extends BarChart {
   protected drawOver(pen: Pen): void {
     const { session } = this;
     const { theme, report: { bars } } = session;
+    this.drawCut(pen);
     const most = session.selection.length > 5000 ? 1 : 2;
     for (const bar of session.selection.slice(0, 5000)) {
       if (!session.isShown(bar)) continue;
@@ -109,7 +109,8 @@ export class Diagram extends BarChart {
       toAbove ||= bars.isInfinite(i);
     }
     const margin = 0.03 * (bars.high / 2 - bars.low / 2) * 2;
-    const low = bars.low === 0 ? 0 : bars.low - margin, high = bars.high + margin;
+    const fits = Number.isFinite(bars.low - margin) && Number.isFinite(bars.high + margin);
+    const low = bars.low === 0 || !fits ? bars.low : bars.low - margin, high = fits ? bars.high + margin : bars.high;
     const left = kLeft + (fromBelow ? kMinusInfinityRoom : 0), top = kTop + (toAbove ? kInfinityRoom : 0);
     this.births = new Axis(low, high, left, size.width - kRight);
     this.deaths = new Axis(low, high, size.height - kBottom, top);

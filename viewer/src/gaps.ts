@@ -1,10 +1,41 @@
 // SPDX-License-Identifier: MIT
 // Where to cut: how many branches a cut separates, and the widest gap between their persistences.
+import { DisjointSets, numbered } from "./disjoint_sets";
 import type { MergeTree } from "./merge_tree";
 
 /// Levels of all merges, ascending.
 export function levelsOf(tree: MergeTree): Float64Array {
   return Float64Array.from(tree.arrays.levels).sort();
+}
+
+/// The number of segments at each of some cuts, which ascend. What a cut joins a larger one joins,
+/// too, so that one sweep is enough. O(merges log merges + leaves).
+export function segmentCounts(tree: MergeTree, cuts: number[]): number[] {
+  const { levels, vertices, births, younger, elder, rule, minSize } = tree.arrays;
+  const merges = numbered(tree.merges).sort((a, b) => levels[a]! - levels[b]!);
+  const entries = numbered(tree.leaves);
+  if (rule === "value") entries.sort((a, b) => births[a]! - births[b]!);
+  const sets = new DisjointSets(tree.leaves), size = new Float64Array(tree.leaves);
+  let segments = 0, merged = 0, entered = 0;
+  const resize = (root: number, to: number) => {
+    segments += Number(to > 0 && to >= minSize) - Number(size[root]! > 0 && size[root]! >= minSize);
+    size[root] = to;
+  };
+  return cuts.map((cut) => {
+    for (; entered < entries.length && (rule !== "value" || births[entries[entered]!]! <= cut); ++entered) {
+      const root = sets.find(entries[entered]!);
+      resize(root, size[root]! + vertices[entries[entered]!]!);
+    }
+    for (; merged < merges.length && tree.isDone(merges[merged]!, cut); ++merged) {
+      const u = sets.find(younger[merges[merged]!]!), v = sets.find(elder[merges[merged]!]!);
+      if (u === v) continue;
+      const sum = size[u]! + size[v]!;
+      resize(u, 0);
+      resize(v, 0);
+      resize(sets.join(u, v), sum);
+    }
+    return segments;
+  });
 }
 
 /// Between the two neighbouring levels that are farthest apart as a ratio, among the largest

@@ -5,6 +5,7 @@
 // The program has contracted what no cut can separate: a leaf is a set of vertices that are
 // together in every cut. Each leaf is also a branch, the one that was born in it: it dies in the
 // merge in which its component is the younger one.
+import { DisjointSets, numbered } from "./disjoint_sets";
 import { PayloadError, type Numbers } from "./payload";
 
 /// When a merge is done: `persistence`: if its level (its persistence) is below the cut; `value`:
@@ -42,27 +43,6 @@ export interface Cut {
 }
 
 const kNone = 0xffffffff;
-
-function numbered(size: number): Uint32Array {
-  const numbers = new Uint32Array(size);
-  for (let i = 0; i < size; ++i) numbers[i] = i;
-  return numbers;
-}
-
-class DisjointSets {
-  private readonly parent: Uint32Array;
-  constructor(size: number) {
-    this.parent = numbered(size);
-  }
-  find(v: number): number {
-    const p = this.parent;
-    while (p[v] !== v) v = p[v] = p[p[v]!]!;
-    return v;
-  }
-  link(child: number, root: number): void {
-    this.parent[child] = root;
-  }
-}
 
 export class MergeTree {
   readonly leaves: number;
@@ -147,7 +127,7 @@ export class MergeTree {
     const sets = new DisjointSets(this.leaves);
     const join = (x: number, y: number) => {
       const u = sets.find(x), v = sets.find(y);
-      if (u !== v) sets.link(u, v);
+      if (u !== v) sets.join(u, v);
     };
     for (let k = 0; k < this.merges; ++k) if (this.isDone(k, at)) join(a.younger[k]!, a.elder[k]!);
     if (withJoins && a.joins)
@@ -202,8 +182,8 @@ export class MergeTree {
       const younger = sets.find(a.younger[k]!), elder = sets.find(a.elder[k]!);
       if (younger === elder) throw new PayloadError(`tree: merge ${k} joins a component with itself`);
       this.deathOf[branch[younger]!] = k;
-      this.parentOf[branch[younger]!] = branch[elder]!;
-      sets.link(younger, elder);
+      const survivor = (this.parentOf[branch[younger]!] = branch[elder]!);
+      branch[sets.join(younger, elder)] = survivor;
     }
   }
   /// Depth first; what merges first comes first, so that a drawing has no crossings.

@@ -121,8 +121,9 @@ export class Session {
     this.cutMilliseconds = performance.now() - start;
   }
   private coloursOf(cut: Cut): Rgb[] {
-    const touching = cut.segments.map(() => new Set<number>());
     const pairs = this.touchingLeaves();
+    const none = new Set<number>();
+    const touching = cut.segments.map(() => (pairs.length > 0 ? new Set<number>() : none));
     for (let k = 0; k + 1 < pairs.length; k += 2) {
       const a = cut.labelOfLeaf[pairs[k]!]!, b = cut.labelOfLeaf[pairs[k + 1]!]!;
       if (a === b || a === 0 || b === 0) continue;

@@ -20,6 +20,8 @@ const cases = {
   infinite_only: [odd.infiniteOnly, kCharts],
   many_dims: [odd.manyDims, kCharts],
   ties: [odd.ties, kCharts],
+  tree_only: [odd.treeOnly, [...kCharts, ".cut .chart", ".tree .chart"]],
+  extreme: [odd.extreme, [...kCharts, ".stage"]],
 };
 
 test("pages", { skip: !canRun && "no Chromium", timeout: 500_000 }, async (t) => {

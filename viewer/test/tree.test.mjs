@@ -7,7 +7,7 @@ import { importSource } from "./support/import_source.mjs";
 import { random } from "./support/random.mjs";
 
 const { MergeTree } = await importSource("merge_tree.ts");
-const { suggestedCut, CutScale } = await importSource("gaps.ts");
+const { segmentCounts, suggestedCut, CutScale } = await importSource("gaps.ts");
 
 function pageTree(arrays, rule, minSize, more = {}) {
   return new MergeTree({
@@ -47,6 +47,15 @@ for (const rule of ["persistence", "value"])
       }
     }
   });
+
+test("one sweep counts the segments of all cuts", () => {
+  for (let seed = 0; seed < 200; ++seed) {
+    const { tree, vertexOfPoint } = scene(seed, seed % 2 === 0), rule = seed % 3 === 0 ? "value" : "persistence";
+    const page = pageTree(contracted(tree, vertexOfPoint, { rule }).arrays, rule, 1 + (seed % 4));
+    const cuts = [0, 0.1, 0.25, 0.3, 0.5, 0.75, 0.9, 1, 3];
+    assert.deepEqual(segmentCounts(page, cuts), cuts.map((cut) => page.cut(cut, false).segments.length), `seed ${seed}`);
+  }
+});
 
 test("branches nest, and no drawing crosses", () => {
   for (let seed = 0; seed < 200; ++seed) {

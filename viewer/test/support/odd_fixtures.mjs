@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reports that try a page: nothing, one point, hostile names, a million bars, ties.
-import { barArrays, metaOf } from "./fixtures.mjs";
+import { barArrays, clusters, metaOf } from "./fixtures.mjs";
+import { contracted, mergeTree } from "./reference_tree.mjs";
 import { random } from "./random.mjs";
 
 const byOrder = (a, b) => a[0] - b[0] || a[1] - b[1] || a[2] - b[2];
@@ -93,5 +94,42 @@ export function manyBars(n = 1_000_000) {
   return {
     meta: metaOf("brain.nii.gz", { value: { label: "Intensity" }, provenance: { complex: "cubical", engine: "arrows", input: { description: "image of 181 x 217 x 181 voxels, NIfTI-1" } } }),
     arrays: barArrays(bars.sort(byOrder)),
+  };
+}
+
+/// A tree of distances: no points are there.
+export function treeOnly() {
+  const { meta, arrays } = clusters(200);
+  const { cloud, ...rest } = meta;
+  delete arrays["points/position"];
+  delete arrays["points/leaf"];
+  return { meta: { ...rest, title: "matrix.csv" }, arrays };
+}
+
+/// Values at the ends of what a double can hold, an image with holes.
+export function extreme() {
+  const bars = [[0, -1.7e308, 1.7e308], [0, -Infinity, 5e-324], [0, 0, 5e-324], [1, 1e-300, 1e300], [1, 1, Infinity]];
+  return {
+    meta: metaOf("extreme.npy", { image: {} }),
+    arrays: { ...barArrays(bars), "image/values": [Float64Array.of(NaN, -Infinity, Infinity, 0, 1e300, -1e300), { shape: [2, 3], filter: "planes" }] },
+  };
+}
+
+/// Components of a few hundred thousand points: a leaf each.
+export function manyLeaves(n = 300_000) {
+  const next = random(4), side = Math.ceil(Math.sqrt(n)), xy = new Float64Array(2 * n), edges = [];
+  for (let i = 0; i < n; ++i) {
+    xy.set([(i % side) + next(), Math.floor(i / side) + next()], 2 * i);
+    for (const j of [i - 1, i - side]) if (j >= 0) edges.push([j, i, Math.hypot(xy[2 * i] - xy[2 * j], xy[2 * i + 1] - xy[2 * j + 1])]);
+  }
+  const tree = mergeTree(new Float64Array(n), edges), points = Uint32Array.from({ length: n }, (_, i) => i);
+  const number = new Map(tree.merges.map((m, i) => [m, i]));
+  const { arrays } = contracted(tree, points, { rule: "value", barOf: (m) => number.get(m) });
+  return {
+    meta: metaOf("many.csv", { cloud: { metric: "euclidean" }, tree: { rule: "value", label: "distance", cut: 0.9, what: "cluster", min_size: 2 }, provenance: { complex: "rips" } }),
+    arrays: {
+      ...barArrays([...tree.merges.map((m) => [0, 0, m.value]), [0, 0, Infinity]]), ...arrays,
+      "tree/leaf_bar": Uint32Array.of(0, n - 1), "points/position": [Float32Array.from(xy), { shape: [n, 2], filter: "planes" }],
+    },
   };
 }
