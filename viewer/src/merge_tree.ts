@@ -18,7 +18,6 @@ export interface TreeArrays {
   births: Numbers;
   points: Numbers;
   vertices: Numbers;
-  firstVertex: Numbers; // the smallest vertex of each leaf
   younger: Numbers; // leaf at the end of the edge that lies in the younger component
   elder: Numbers;
   values: Numbers;
@@ -125,10 +124,7 @@ export class MergeTree {
   cut(at: number, withJoins: boolean): Cut {
     const a = this.arrays;
     const sets = new DisjointSets(this.leaves);
-    const join = (x: number, y: number) => {
-      const u = sets.find(x), v = sets.find(y);
-      if (u !== v) sets.join(u, v);
-    };
+    const join = (x: number, y: number) => void sets.join(sets.find(x), sets.find(y));
     for (let k = 0; k < this.merges; ++k) if (this.isDone(k, at)) join(a.younger[k]!, a.elder[k]!);
     if (withJoins && a.joins)
       for (let k = 0; k + 1 < a.joins.length; k += 2) join(a.joins[k]!, a.joins[k + 1]!);
@@ -138,7 +134,6 @@ export class MergeTree {
   private extract(sets: DisjointSets, at: number): Cut {
     const a = this.arrays;
     const points = new Float64Array(this.leaves), vertices = new Float64Array(this.leaves);
-    const first = new Float64Array(this.leaves).fill(Infinity);
     const oldest = new Int32Array(this.leaves).fill(-1);
     const rootOf = new Uint32Array(this.leaves).fill(kNone);
     for (let leaf = 0; leaf < this.leaves; ++leaf) {
@@ -146,13 +141,13 @@ export class MergeTree {
       const root = (rootOf[leaf] = sets.find(leaf));
       points[root]! += a.points[leaf]!;
       vertices[root]! += a.vertices[leaf]!;
-      if (a.firstVertex[leaf]! < first[root]!) first[root] = a.firstVertex[leaf]!;
       if (oldest[root]! < 0 || a.births[leaf]! < a.births[oldest[root]!]!) oldest[root] = leaf;
     }
     const roots: number[] = [];
     for (let leaf = 0; leaf < this.leaves; ++leaf)
       if (vertices[leaf]! > 0 && vertices[leaf]! >= a.minSize) roots.push(leaf);
-    roots.sort((x, y) => points[y]! - points[x]! || vertices[y]! - vertices[x]! || first[x]! - first[y]!);
+    // Leaves are numbered by their smallest vertex, and so are roots.
+    roots.sort((x, y) => points[y]! - points[x]! || vertices[y]! - vertices[x]! || x - y);
     const labelOfRoot = new Uint32Array(this.leaves);
     const segments = roots.map((root, i) => {
       labelOfRoot[root] = i + 1;
@@ -166,7 +161,7 @@ export class MergeTree {
 
   private checkSizes(): void {
     const a = this.arrays;
-    for (const column of [a.points, a.vertices, a.firstVertex])
+    for (const column of [a.points, a.vertices])
       if (column.length !== this.leaves) throw new PayloadError("tree: leaf columns differ in length");
     for (const column of [a.elder, a.values, a.levels])
       if (column.length !== this.merges) throw new PayloadError("tree: merge columns differ in length");

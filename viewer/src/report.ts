@@ -237,7 +237,6 @@ function treeOf(
     births: need("tree/leaf_birth"),
     points: need("tree/leaf_points"),
     vertices: need("tree/leaf_vertices"),
-    firstVertex: need("tree/leaf_first"),
     younger: need("tree/merge_younger"),
     elder: need("tree/merge_elder"),
     values: need("tree/merge_value"),

@@ -20,7 +20,7 @@ export function singlePoint() {
     arrays: {
       ...barArrays([[0, 0, Infinity]]), "points/position": [Float64Array.of(1, 2, 3), { shape: [1, 3] }],
       "points/leaf": Uint16Array.of(0), "tree/leaf_birth": Float64Array.of(0), "tree/leaf_points": Uint32Array.of(1),
-      "tree/leaf_vertices": Uint32Array.of(1), "tree/leaf_first": Uint32Array.of(0), "tree/leaf_bar": Uint32Array.of(0, 0),
+      "tree/leaf_vertices": Uint32Array.of(1), "tree/leaf_bar": Uint32Array.of(0, 0),
       "tree/merge_younger": new Uint32Array(), "tree/merge_elder": new Uint32Array(),
       "tree/merge_value": new Float64Array(), "tree/merge_level": new Float64Array(),
     },

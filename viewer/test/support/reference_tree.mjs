@@ -70,12 +70,11 @@ export function contracted(tree, vertexOfPoint, { rule, minPart = 1, from = 0, b
   const stays = (m) => (rule === "value" ? m.value > from : m.least >= minPart && m.persistence >= from);
   for (const m of tree.merges) if (!stays(m)) sets.link(sets.find(m.youngerEnd), sets.find(m.elderEnd));
   const leafOfRoot = new Map(), leafOf = new Uint32Array(n);
-  const first = [], birth = [], points = [], vertices = [];
+  const birth = [], points = [], vertices = [];
   for (let v = 0; v < n; ++v) {
     const root = sets.find(v);
     if (!leafOfRoot.has(root)) {
-      leafOfRoot.set(root, first.length);
-      first.push(v);
+      leafOfRoot.set(root, birth.length);
       birth.push(Infinity);
       points.push(0);
       vertices.push(0);
@@ -86,7 +85,7 @@ export function contracted(tree, vertexOfPoint, { rule, minPart = 1, from = 0, b
   }
   for (const v of vertexOfPoint) if (v !== 0xffffffff) ++points[leafOf[v]];
   const kept = tree.merges.filter(stays);
-  const wide = first.length >= 0xffff;
+  const wide = birth.length >= 0xffff;
   const leaf = Array.from(vertexOfPoint, (v) => (v === 0xffffffff ? (wide ? 0xffffffff : 0xffff) : leafOf[v]));
   return {
     leafOf,
@@ -95,7 +94,6 @@ export function contracted(tree, vertexOfPoint, { rule, minPart = 1, from = 0, b
       "tree/leaf_birth": Float64Array.from(birth),
       "tree/leaf_points": Uint32Array.from(points),
       "tree/leaf_vertices": Uint32Array.from(vertices),
-      "tree/leaf_first": Uint32Array.from(first),
       "tree/merge_younger": Uint32Array.from(kept, (m) => leafOf[m.youngerEnd]),
       "tree/merge_elder": Uint32Array.from(kept, (m) => leafOf[m.elderEnd]),
       "tree/merge_value": Float64Array.from(kept, (m) => m.value),
