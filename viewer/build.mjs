@@ -25,9 +25,16 @@ async function bundle(entry, options) {
   return result.outputFiles[0].text.trim();
 }
 
-const script = await bundle("src/main.ts", { format: "iife", target: "es2022", legalComments: "inline" });
+const script = await bundle("src/main.ts", {
+  format: "iife",
+  target: "es2022",
+  legalComments: "inline",
+});
 const style = await bundle("src/style.css", {});
-for (const [what, text, end] of [["script", script, "</script"], ["style", style, "</style"]])
+for (const [what, text, end] of [
+  ["script", script, "</script"],
+  ["style", style, "</style"],
+])
   if (text.toLowerCase().includes(end)) throw new Error(`the ${what} contains its own end tag`);
 
 const hash = (text) => `'sha256-${createHash("sha256").update(text).digest("base64")}'`;

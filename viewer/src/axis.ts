@@ -13,7 +13,12 @@ export class Axis {
   private readonly low: number;
   private readonly high: number;
 
-  constructor(low: number, high: number, readonly from: number, readonly to: number) {
+  constructor(
+    low: number,
+    high: number,
+    readonly from: number,
+    readonly to: number,
+  ) {
     const largest = Math.max(Math.abs(low), Math.abs(high));
     if (largest > 0) {
       const power = Math.floor(Math.log10(largest));
@@ -48,7 +53,8 @@ export class Axis {
     const step = power * ([1, 2, 5].find((factor) => factor * power >= rough * 0.99) ?? 10);
     const decimals = Math.max(0, -Math.floor(Math.log10(step * 1.0001)));
     const ticks: Tick[] = [];
-    const first = Math.ceil(this.low / step - 1e-6), last = Math.floor(this.high / step + 1e-6);
+    const first = Math.ceil(this.low / step - 1e-6),
+      last = Math.floor(this.high / step + 1e-6);
     for (let i = first; i <= last && ticks.length < 100; ++i) {
       const value = i * step;
       const part = Math.min(1, Math.max(0, (value - this.low) / (this.high - this.low)));

@@ -24,29 +24,38 @@ export abstract class BarChart extends Chart {
 
   /// Of the dimensions that are shown, the most persistent first.
   protected shownBars(most: number): Uint32Array {
-    const { bars } = this.session.report, hidden = this.session.hiddenDims.size > 0;
-    const shown = hidden ? bars.byPersistence.filter((bar) => this.session.isShown(bar)) : bars.byPersistence;
+    const { bars } = this.session.report,
+      hidden = this.session.hiddenDims.size > 0;
+    const shown = hidden
+      ? bars.byPersistence.filter((bar) => this.session.isShown(bar))
+      : bars.byPersistence;
     return bars.prominent(shown, most);
   }
   protected makeTable(): HTMLTableElement {
     const { bars, meta } = this.session.report;
     const two = meta.barcodes.length > 1;
     const shown = this.shownBars(kMostRows);
-    const caption = shown.length < bars.size
-      ? `The ${counted(shown.length, "most persistent bar")} of ${counted(bars.size, "bar")}`
-      : counted(bars.size, "bar");
+    const caption =
+      shown.length < bars.size
+        ? `The ${counted(shown.length, "most persistent bar")} of ${counted(bars.size, "bar")}`
+        : counted(bars.size, "bar");
     return table(
       caption,
       [...(two ? ["barcode"] : []), "dimension", "birth", "death", "persistence"],
       Array.from(shown, (bar) => [
         ...(two ? [meta.barcodes[bars.barcodeOf(bar)]!.name] : []),
-        bars.dim[bar]!, short(bars.birth[bar]!, 6), short(bars.death[bar]!, 6), short(bars.persistence(bar), 6),
+        bars.dim[bar]!,
+        short(bars.birth[bar]!, 6),
+        short(bars.death[bar]!, 6),
+        short(bars.persistence(bar), 6),
       ]),
     );
   }
   protected describe(): string {
     const { bars } = this.session.report;
-    const counts = bars.dims.map((dim) => `${counted(bars.count(dim, 0), "bar")} in dimension ${dim}`);
+    const counts = bars.dims.map(
+      (dim) => `${counted(bars.count(dim, 0), "bar")} in dimension ${dim}`,
+    );
     return `${counts.join(", ") || "no bars"}. Arrow keys go from bar to bar, the most persistent first; Enter selects.`;
   }
   protected step(by: number): void {

@@ -10,7 +10,14 @@ import type { Pen } from "./pen";
 import type { Size } from "./chart";
 import type { Change, Session } from "./session";
 
-const kLeft = 34, kRight = 24, kTop = 8, kBottom = 38, kGap = 10, kStrip = 12, kLeastRow = 2.5, kMostRow = 14;
+const kLeft = 34,
+  kRight = 24,
+  kTop = 8,
+  kBottom = 38,
+  kGap = 10,
+  kStrip = 12,
+  kLeastRow = 2.5,
+  kMostRow = 14;
 
 interface Item {
   bar: number;
@@ -33,20 +40,27 @@ export class Barcode extends BarChart {
 
   constructor(session: Session) {
     super(session, "barcode", "Barcode", "");
-    this.over.addEventListener("pointermove", (event) => this.session.setFocus({ bar: this.barAt(event) }));
+    this.over.addEventListener("pointermove", (event) =>
+      this.session.setFocus({ bar: this.barAt(event) }),
+    );
     this.over.addEventListener("pointerleave", () => this.session.setFocus({}));
     this.over.addEventListener("click", (event) => {
-      const bar = this.barAt(event), more = event.shiftKey || event.ctrlKey || event.metaKey;
+      const bar = this.barAt(event),
+        more = event.shiftKey || event.ctrlKey || event.metaKey;
       this.session.select(bar < 0 ? [] : [bar], more ? "toggle" : "replace");
     });
   }
 
   draw(pen: Pen, size: Size): void {
-    const { theme, report: { bars, meta } } = this.session;
+    const {
+      theme,
+      report: { bars, meta },
+    } = this.session;
     this.items = [];
     this.axes = this.makeAxes(size);
     const two = meta.barcodes.length > 1;
-    const top = kTop + (two ? 16 : 0), bottom = size.height - kBottom;
+    const top = kTop + (two ? 16 : 0),
+      bottom = size.height - kBottom;
     const unit = clipped([meta.value.unit, this.axes[0]!.unit].filter(Boolean).join(" "), 24);
     const small = { colour: theme.muted, size: 10.5, anchor: "middle" } as const;
     this.axes.forEach((axis, i) => {
@@ -55,23 +69,46 @@ export class Barcode extends BarChart {
         pen.text(tick.at, bottom + 14, tick.label, small);
       }
       pen.line(axis.from, bottom, axis.to, bottom, theme.faint);
-      if (two) pen.text((axis.from + axis.to) / 2, kTop + 5, clipped(meta.barcodes[i]!.name, (axis.to - axis.from) / 6.5), { ...small, colour: theme.ink });
+      if (two)
+        pen.text(
+          (axis.from + axis.to) / 2,
+          kTop + 5,
+          clipped(meta.barcodes[i]!.name, (axis.to - axis.from) / 6.5),
+          { ...small, colour: theme.ink },
+        );
     });
     const label = clipped(meta.value.label.toLowerCase(), 40);
-    pen.text((kLeft + size.width - kRight) / 2, size.height - 7, unit ? `${label} (${unit})` : label, small);
-    if (bars.size === 0) pen.text(size.width / 2, (top + bottom) / 2, "no bars", { ...small, size: 13 });
+    pen.text(
+      (kLeft + size.width - kRight) / 2,
+      size.height - 7,
+      unit ? `${label} (${unit})` : label,
+      small,
+    );
+    if (bars.size === 0)
+      pen.text(size.width / 2, (top + bottom) / 2, "no bars", { ...small, size: 13 });
     this.drawBands(pen, top, bottom);
   }
 
   protected drawOver(pen: Pen): void {
-    const { theme, focus, report: { bars } } = this.session;
+    const {
+      theme,
+      focus,
+      report: { bars },
+    } = this.session;
     for (const item of this.items) {
       const focused = item.bar === focus.bar;
       if (!focused && !this.session.isSelected(item.bar)) continue;
       const colour = focused ? theme.ink : theme.accent;
-      const thick = Math.max(5, 0.75 * item.row), y = item.y + item.row / 2;
+      const thick = Math.max(5, 0.75 * item.row),
+        y = item.y + item.row / 2;
       pen.rect(item.x1 - 1.5, y - thick / 2 - 1.5, item.x2 - item.x1 + 3, thick + 3, colour);
-      pen.rect(item.x1, y - thick / 2, Math.max(1, item.x2 - item.x1), thick, dimColour(bars.dim[item.bar]!, theme));
+      pen.rect(
+        item.x1,
+        y - thick / 2,
+        Math.max(1, item.x2 - item.x1),
+        thick,
+        dimColour(bars.dim[item.bar]!, theme),
+      );
     }
   }
 
@@ -86,7 +123,10 @@ export class Barcode extends BarChart {
   }
 
   private drawBands(pen: Pen, top: number, bottom: number): void {
-    const { theme, report: { bars, meta } } = this.session;
+    const {
+      theme,
+      report: { bars, meta },
+    } = this.session;
     const dims = bars.dims.filter((dim) => !this.session.hiddenDims.has(dim));
     if (dims.length === 0) return;
     const room = bottom - top - kGap * dims.length;
@@ -94,33 +134,61 @@ export class Barcode extends BarChart {
     const rows = shared(counts, Math.floor((room - kStrip * dims.length) / kLeastRow));
     const needsStrip = counts.map((count, i) => count > rows[i]!);
     const strips = needsStrip.filter(Boolean).length * kStrip;
-    const row = Math.min(kMostRow, (room - strips) / Math.max(1, rows.reduce((a, b) => a + b, 0)));
+    const row = Math.min(
+      kMostRow,
+      (room - strips) /
+        Math.max(
+          1,
+          rows.reduce((a, b) => a + b, 0),
+        ),
+    );
     let y = top + kGap / 2;
     dims.forEach((dim, i) => {
       const height = rows[i]! * row + (needsStrip[i] ? kStrip : 0);
-      pen.text(kLeft - 8, y + Math.min(height / 2 + 4, height), homology(dim), { colour: dimColour(dim, theme), size: 12, anchor: "end", bold: true });
-      meta.barcodes.forEach((_, barcode) => this.drawBand(pen, this.band(dim, barcode, rows[i]!), y, row));
+      pen.text(kLeft - 8, y + Math.min(height / 2 + 4, height), homology(dim), {
+        colour: dimColour(dim, theme),
+        size: 12,
+        anchor: "end",
+        bold: true,
+      });
+      meta.barcodes.forEach((_, barcode) =>
+        this.drawBand(pen, this.band(dim, barcode, rows[i]!), y, row),
+      );
       y += height + kGap;
-      if (i + 1 < dims.length) pen.line(kLeft, y - kGap / 2, this.axes.at(-1)!.to, y - kGap / 2, theme.grid);
+      if (i + 1 < dims.length)
+        pen.line(kLeft, y - kGap / 2, this.axes.at(-1)!.to, y - kGap / 2, theme.grid);
     });
   }
 
   private band(dim: number, barcode: number, rows: number): Band {
-    const { bars } = this.session.report, all = bars.of(dim, barcode), shown = bars.prominent(all, rows);
+    const { bars } = this.session.report,
+      all = bars.of(dim, barcode),
+      shown = bars.prominent(all, rows);
     const drawn = new Set(all.length > rows ? shown : []);
-    return { dim, barcode, bars: shown.sort(), rest: drawn.size > 0 ? all.filter((bar) => !drawn.has(bar)) : all.subarray(rows) };
+    return {
+      dim,
+      barcode,
+      bars: shown.sort(),
+      rest: drawn.size > 0 ? all.filter((bar) => !drawn.has(bar)) : all.subarray(rows),
+    };
   }
 
   private drawBand(pen: Pen, band: Band, y: number, row: number): void {
-    const { theme, report: { bars } } = this.session;
-    const axis = this.axes[band.barcode]!, colour = dimColour(band.dim, theme);
+    const {
+      theme,
+      report: { bars },
+    } = this.session;
+    const axis = this.axes[band.barcode]!,
+      colour = dimColour(band.dim, theme);
     const thick = row > 5 ? 0.62 * row : row > 3.2 ? row - 1.2 : row - 0.6;
     for (const bar of band.bars) {
       const x1 = bars.birth[bar] === -Infinity ? axis.from - 6 : axis.at(bars.birth[bar]!);
-      const infinite = bars.isInfinite(bar), x2 = infinite ? axis.to + 6 : axis.at(bars.death[bar]!);
+      const infinite = bars.isInfinite(bar),
+        x2 = infinite ? axis.to + 6 : axis.at(bars.death[bar]!);
       pen.rect(x1, y + (row - thick) / 2, Math.max(1, x2 - x1), thick, colour);
       if (infinite) {
-        const r = Math.min(5, Math.max(2.5, row / 2)), middle = y + row / 2;
+        const r = Math.min(5, Math.max(2.5, row / 2)),
+          middle = y + row / 2;
         pen.polygon([x2, middle - r, x2 + 1.6 * r, middle, x2, middle + r], colour);
       }
       this.items.push({ bar, x1, x2: x2 + (infinite ? 6 : 0), y, row });
@@ -130,7 +198,10 @@ export class Barcode extends BarChart {
   }
 
   private drawStrip(pen: Pen, band: Band, axis: Axis, y: number): void {
-    const { theme, report: { bars } } = this.session;
+    const {
+      theme,
+      report: { bars },
+    } = this.session;
     const columns = Math.ceil(axis.to - axis.from);
     const alive = new Int32Array(columns + 2);
     for (const bar of band.rest) {
@@ -141,13 +212,25 @@ export class Barcode extends BarChart {
     const scale = 1 / Math.log(alive.reduce((a, b) => Math.max(a, b), 0) + 1);
     for (let i = 0; i < columns; ++i)
       if (alive[i]! > 0)
-        pen.rect(axis.from + i, y + 2, 1, 3, dimColour(band.dim, theme), 0.2 + 0.75 * Math.log(alive[i]! + 1) * scale);
-    pen.text(axis.to, y + 13, `+ ${grouped(band.rest.length)} more`, { colour: theme.muted, size: 9.5, anchor: "end" });
+        pen.rect(
+          axis.from + i,
+          y + 2,
+          1,
+          3,
+          dimColour(band.dim, theme),
+          0.2 + 0.75 * Math.log(alive[i]! + 1) * scale,
+        );
+    pen.text(axis.to, y + 13, `+ ${grouped(band.rest.length)} more`, {
+      colour: theme.muted,
+      size: 9.5,
+      anchor: "end",
+    });
   }
 
   private barAt(event: MouseEvent): number {
     const [x, y] = this.place(event);
-    let best = -1, nearest = 5;
+    let best = -1,
+      nearest = 5;
     for (const item of this.items) {
       if (x < item.x1 - 4 || x > item.x2 + 8) continue;
       const distance = Math.abs(y - item.y - item.row / 2);
@@ -160,7 +243,8 @@ export class Barcode extends BarChart {
 /// Shares rows among bands: none gets more than it needs, what is left over goes to the others.
 function shared(needs: number[], rows: number): number[] {
   const given = needs.map(() => 0);
-  let open = needs.map((_, i) => i), left = Math.max(needs.length, rows);
+  let open = needs.map((_, i) => i),
+    left = Math.max(needs.length, rows);
   while (open.length > 0) {
     const share = Math.max(1, Math.floor(left / open.length));
     const content = open.filter((i) => needs[i]! <= share);

@@ -55,7 +55,8 @@ export class Bars {
   }
 
   persistence(bar: number): number {
-    const birth = this.birth[bar]!, death = this.death[bar]!;
+    const birth = this.birth[bar]!,
+      death = this.death[bar]!;
     return birth === death ? 0 : death - birth;
   }
   isInfinite(bar: number): boolean {
@@ -101,7 +102,8 @@ export class Bars {
   }
 
   private starts(barcode: number, which: 0 | 1): Float64Array {
-    const from = this.first[barcode]!, to = this.first[barcode + 1]!;
+    const from = this.first[barcode]!,
+      to = this.first[barcode + 1]!;
     const starts = new Float64Array(to - from + 1);
     for (let i = from; i < to; ++i) {
       const length = which === 1 && this.isInfinite(i) ? 0 : this.arity(i, which);
@@ -110,7 +112,8 @@ export class Bars {
     return starts;
   }
   private finiteRange(): [number, number] {
-    let low = Infinity, high = -Infinity;
+    let low = Infinity,
+      high = -Infinity;
     for (const values of [this.birth, this.death]) {
       for (const v of values) {
         if (!Number.isFinite(v)) continue;
@@ -143,8 +146,10 @@ export class Bars {
 /// must not wait for a comparison sort: two passes of 16 bits over float32, then what these cannot
 /// tell apart.
 function decreasing(values: Float64Array): Uint32Array {
-  const n = values.length, bits = new Uint32Array(Float32Array.from(values).buffer);
-  let order = new Uint32Array(n), next = new Uint32Array(n);
+  const n = values.length,
+    bits = new Uint32Array(Float32Array.from(values).buffer);
+  let order = new Uint32Array(n),
+    next = new Uint32Array(n);
   for (let i = 0; i < n; ++i) order[i] = i;
   for (const shift of [0, 16]) {
     const start = new Uint32Array(65537);
@@ -164,7 +169,9 @@ function decreasing(values: Float64Array): Uint32Array {
 function sortRun(order: Uint32Array, from: number, to: number, values: Float64Array): void {
   if (to - from > 16) {
     // Infinity - Infinity is no number: compare, do not subtract.
-    order.subarray(from, to).sort((a, b) => (values[a]! > values[b]! ? -1 : values[a]! < values[b]! ? 1 : a - b));
+    order
+      .subarray(from, to)
+      .sort((a, b) => (values[a]! > values[b]! ? -1 : values[a]! < values[b]! ? 1 : a - b));
     return;
   }
   for (let i = from + 1; i < to; ++i) {

@@ -14,7 +14,8 @@ export const emptyGeometry = (): Geometry => ({ points: [], segments: [], triang
 export function elementOf(report: Report, vertex: number): number | undefined {
   const index = report.cloud?.index;
   if (!index) return vertex < (report.elements?.count ?? 0) ? vertex : undefined;
-  let low = 0, high = index.length;
+  let low = 0,
+    high = index.length;
   while (low < high) {
     const middle = (low + high) >> 1;
     if (index[middle]! < vertex) low = middle + 1;
@@ -52,10 +53,18 @@ export function placeInImage(plane: number, row: number, column: number): [numbe
   return [column, -row, plane];
 }
 
-function addCube(to: Geometry, numbers: ArrayLike<number>, from: number, count: number, shift: number): void {
+function addCube(
+  to: Geometry,
+  numbers: ArrayLike<number>,
+  from: number,
+  count: number,
+  shift: number,
+): void {
   const doubled = [0, 0, 0];
   for (let k = 0; k < count; ++k) doubled[3 - count + k] = numbers[from + k]! + shift;
-  const spans = [0, 1, 2].filter((k) => k >= 3 - count && (numbers[from + k - 3 + count]! & 1) === 1);
+  const spans = [0, 1, 2].filter(
+    (k) => k >= 3 - count && (numbers[from + k - 3 + count]! & 1) === 1,
+  );
   const corner = (signs: number[]) => {
     const at = doubled.map((c) => c / 2);
     spans.forEach((axis, i) => (at[axis]! += signs[i]! / 2));
@@ -63,7 +72,8 @@ function addCube(to: Geometry, numbers: ArrayLike<number>, from: number, count: 
   };
   if (spans.length === 0) to.points.push(...corner([]));
   if (spans.length === 1) to.segments.push(...corner([-1]), ...corner([1]));
-  if (spans.length === 2) addSquare(to, corner([-1, -1]), corner([1, -1]), corner([1, 1]), corner([-1, 1]));
+  if (spans.length === 2)
+    addSquare(to, corner([-1, -1]), corner([1, -1]), corner([1, 1]), corner([-1, 1]));
   if (spans.length === 3)
     for (const sign of [-1, 1])
       for (let axis = 0; axis < 3; ++axis) {

@@ -19,12 +19,19 @@ export abstract class Chart {
   protected size: Size = { width: 0, height: 0 };
   private tableShown = false;
 
-  constructor(protected readonly session: Session, id: string, title: string, hint: string) {
+  constructor(
+    protected readonly session: Session,
+    id: string,
+    title: string,
+    hint: string,
+  ) {
     this.base = el("canvas", { "aria-hidden": "true" });
     this.over = el("canvas", { class: "over", tabindex: 0, role: "img", "aria-label": title });
     this.body = el("div", { class: "chart" }, this.base, this.over);
     const toggle = button("table", () => this.toggleTable(toggle), {
-      class: "quiet", "aria-pressed": "false", title: `${title} as a table`,
+      class: "quiet",
+      "aria-pressed": "false",
+      title: `${title} as a table`,
     });
     this.head = el("header", {}, el("h2", {}, title), el("span", { class: "hint" }, hint), toggle);
     this.panel = el("section", { class: `panel ${id}`, "aria-label": title }, this.head, this.body);
@@ -60,7 +67,8 @@ export abstract class Chart {
     if (this.tableShown) this.showTable();
   }
   protected refreshOver(): void {
-    if (this.size.width >= 40 && this.size.height >= 40) this.paint(this.over, (pen) => this.drawOver(pen));
+    if (this.size.width >= 40 && this.size.height >= 40)
+      this.paint(this.over, (pen) => this.drawOver(pen));
   }
   protected place(event: PointerEvent | MouseEvent): [number, number] {
     const box = this.over.getBoundingClientRect();
@@ -68,8 +76,10 @@ export abstract class Chart {
   }
 
   private update(changes: Set<Change>): void {
-    if (changes.has("theme") || this.redrawsOn.some((change) => changes.has(change))) this.refresh();
-    else if (changes.has("focus") || changes.has("selection") || changes.has("cut")) this.refreshOver();
+    if (changes.has("theme") || this.redrawsOn.some((change) => changes.has(change)))
+      this.refresh();
+    else if (changes.has("focus") || changes.has("selection") || changes.has("cut"))
+      this.refreshOver();
   }
   private paint(canvas: HTMLCanvasElement, draw: (pen: Pen) => void): void {
     const context = canvas.getContext("2d");
@@ -80,7 +90,8 @@ export abstract class Chart {
     draw(new CanvasPen(context));
   }
   private resize(): void {
-    const width = this.body.clientWidth, height = this.body.clientHeight;
+    const width = this.body.clientWidth,
+      height = this.body.clientHeight;
     const ratio = window.devicePixelRatio || 1;
     this.size = { width, height };
     for (const canvas of [this.base, this.over]) {
@@ -90,10 +101,18 @@ export abstract class Chart {
     this.refresh();
   }
   private onKey(event: KeyboardEvent): void {
-    const steps: Record<string, number> = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1, PageDown: 10, PageUp: -10 };
+    const steps: Record<string, number> = {
+      ArrowRight: 1,
+      ArrowDown: 1,
+      ArrowLeft: -1,
+      ArrowUp: -1,
+      PageDown: 10,
+      PageUp: -10,
+    };
     const by = steps[event.key];
     if (by !== undefined) this.step(by);
-    else if (event.key === "Enter" || event.key === " ") this.choose(event.shiftKey ? "toggle" : "replace");
+    else if (event.key === "Enter" || event.key === " ")
+      this.choose(event.shiftKey ? "toggle" : "replace");
     else return;
     event.preventDefault();
   }
@@ -105,6 +124,12 @@ export abstract class Chart {
   }
   private showTable(): void {
     this.body.querySelector(".table")?.remove();
-    this.body.append(el("div", { class: "table", tabindex: 0, role: "region", "aria-label": "table" }, this.makeTable()));
+    this.body.append(
+      el(
+        "div",
+        { class: "table", tabindex: 0, role: "region", "aria-label": "table" },
+        this.makeTable(),
+      ),
+    );
   }
 }

@@ -15,7 +15,8 @@ function packed([r, g, b]: Rgb): number {
 
 /// `part` of 256 parts of one colour, the rest of another.
 function mixed(a: number, b: number, part: number): number {
-  const channel = (shift: number) => ((((a >>> shift) & 255) * part + ((b >>> shift) & 255) * (256 - part)) >> 8) << shift;
+  const channel = (shift: number) =>
+    ((((a >>> shift) & 255) * part + ((b >>> shift) & 255) * (256 - part)) >> 8) << shift;
   return (0xff000000 | channel(16) | channel(8) | channel(0)) >>> 0;
 }
 
@@ -73,7 +74,11 @@ export class Colouring {
 
   private paintBase(mode: ColourMode): boolean {
     const { session, base } = this;
-    const key = [mode, session.theme.dark, mode === "segment" || mode === "persistence" ? session.cutValue : 0].join();
+    const key = [
+      mode,
+      session.theme.dark,
+      mode === "segment" || mode === "persistence" ? session.cutValue : 0,
+    ].join();
     if (key === this.baseKey) return false;
     this.baseKey = key;
     const colourAt = this.colours(mode);
@@ -87,7 +92,8 @@ export class Colouring {
     const none = packed(session.theme.dark ? [84, 92, 103] : [150, 156, 165]);
     switch (mode) {
       case "segment": {
-        const ofLeaf = this.segmentColours(none), grey = this.grey();
+        const ofLeaf = this.segmentColours(none),
+          grey = this.grey();
         if (!grey) return (i) => ofLeaf[leaf![i]!] ?? none;
         return (i) => mixed(ofLeaf[leaf![i]!] ?? none, grey[i]! * 0x010101, 192);
       }
@@ -106,8 +112,12 @@ export class Colouring {
         return () => colour;
       }
       default: {
-        const value = mode === "depth" ? this.depths(session.report.cloud!.positions) : (i: number) => birth![i]!;
-        const { low, high } = this.range(mode)!, span = high - low || 1;
+        const value =
+          mode === "depth"
+            ? this.depths(session.report.cloud!.positions)
+            : (i: number) => birth![i]!;
+        const { low, high } = this.range(mode)!,
+          span = high - low || 1;
         return (i) => (Number.isNaN(value(i)) ? none : packed(ramp((value(i) - low) / span)));
       }
     }
@@ -131,27 +141,36 @@ export class Colouring {
     const { cut, segmentColours } = this.session;
     const ofLabel = [none, ...segmentColours.map(packed)];
     const ofLeaf = new Uint32Array(cut!.labelOfLeaf.length);
-    for (let leaf = 0; leaf < ofLeaf.length; ++leaf) ofLeaf[leaf] = ofLabel[cut!.labelOfLeaf[leaf]!]!;
+    for (let leaf = 0; leaf < ofLeaf.length; ++leaf)
+      ofLeaf[leaf] = ofLabel[cut!.labelOfLeaf[leaf]!]!;
     return ofLeaf;
   }
   private persistenceColours(): Uint32Array {
-    const { report: { tree }, cutValue } = this.session;
-    const { low, high } = this.range("persistence")!, span = high - low || 1;
+    const {
+      report: { tree },
+      cutValue,
+    } = this.session;
+    const { low, high } = this.range("persistence")!,
+      span = high - low || 1;
     return Uint32Array.from({ length: tree!.leaves }, (_, leaf) =>
-      packed(ramp((tree!.level(tree!.branchAt(leaf, cutValue)) - low) / span)));
+      packed(ramp((tree!.level(tree!.branchAt(leaf, cutValue)) - low) / span)),
+    );
   }
   private truthColours(none: number): (i: number) => number {
     const { truth } = this.session.report.elements!;
     const colours = new Map<number, number>([[0, none]]);
-    for (const label of new Set(truth!)) if (label > 0) colours.set(label, packed(segmentColour((label - 1) % 28)));
+    for (const label of new Set(truth!))
+      if (label > 0) colours.set(label, packed(segmentColour((label - 1) % 28)));
     return (i) => colours.get(truth![i]!)!;
   }
   private depths(positions: Float32Array): (i: number) => number {
     const { meta, cloud } = this.session.report;
-    const eye = meta.cloud?.viewpoint, origin = cloud!.origin;
+    const eye = meta.cloud?.viewpoint,
+      origin = cloud!.origin;
     if (!eye) return (i) => positions[3 * i + 2]! + origin[2]!;
     const [x, y, z] = eye.map((c, k) => c - origin[k]!) as Rgb;
-    return (i) => Math.hypot(positions[3 * i]! - x, positions[3 * i + 1]! - y, positions[3 * i + 2]! - z);
+    return (i) =>
+      Math.hypot(positions[3 * i]! - x, positions[3 * i + 1]! - y, positions[3 * i + 2]! - z);
   }
   private measure(mode: ColourMode): Range {
     const { elements, cloud, tree } = this.session.report;
@@ -165,7 +184,8 @@ export class Colouring {
 }
 
 function rangeOf(count: number, value: (i: number) => number, least = Infinity): Range {
-  let low = least, high = -Infinity;
+  let low = least,
+    high = -Infinity;
   for (let i = 0; i < count; ++i) {
     const v = value(i);
     if (!Number.isFinite(v)) continue;
@@ -178,7 +198,8 @@ function rangeOf(count: number, value: (i: number) => number, least = Infinity):
 /// Two numbers of an octahedron, -127 … 127; -128: no normal.
 function normalOf(u: number, v: number): [number, number, number] | undefined {
   if (u === -128) return undefined;
-  let x = u / 127, y = v / 127;
+  let x = u / 127,
+    y = v / 127;
   const z = 1 - Math.abs(x) - Math.abs(y);
   if (z < 0) [x, y] = [(1 - Math.abs(y)) * (x < 0 ? -1 : 1), (1 - Math.abs(x)) * (y < 0 ? -1 : 1)];
   const length = Math.hypot(x, y, z);

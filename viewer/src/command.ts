@@ -11,8 +11,9 @@ export function quoted(word: string): string {
 /// The run as it was, or, at another cut, the one that makes that cut.
 export function commandLine(session: Session): string {
   const { tree, provenance } = session.report.meta;
-  const words = tree?.command && session.cutValue !== tree.cut
-    ? tree.command.map((word) => word.replaceAll("{cut}", exact(session.cutValue)))
-    : (provenance.command ?? []);
+  const words =
+    tree?.command && session.cutValue !== tree.cut
+      ? tree.command.map((word) => word.replaceAll("{cut}", exact(session.cutValue)))
+      : (provenance.command ?? []);
   return words.map(quoted).join(" ");
 }

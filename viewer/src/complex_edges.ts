@@ -20,8 +20,12 @@ export class ComplexEdges {
   constructor(private readonly report: Report) {
     const { cloud, meta, edges } = report;
     this.computed =
-      !edges && !!cloud && meta.provenance.complex === "rips" && meta.cloud?.metric === "euclidean" &&
-      !meta.cloud.projection && cloud.positions.length / 3 <= kMostPoints;
+      !edges &&
+      !!cloud &&
+      meta.provenance.complex === "rips" &&
+      meta.cloud?.metric === "euclidean" &&
+      !meta.cloud.projection &&
+      cloud.positions.length / 3 <= kMostPoints;
     this.available = !!cloud && (!!edges || this.computed);
   }
   upTo(value: number): Edges {
@@ -43,7 +47,8 @@ export class ComplexEdges {
   }
   /// Neighbours are looked for in cubes of this edge and next to them.
   private pairsWithin(r: number): Edges {
-    const p = this.report.cloud!.positions, n = p.length / 3;
+    const p = this.report.cloud!.positions,
+      n = p.length / 3;
     const ends: number[] = [];
     let count = 0;
     if (!(r > 0)) return { ends: new Float32Array(), count, more: false };
@@ -51,16 +56,20 @@ export class ComplexEdges {
     const name = (x: number, y: number, z: number) => `${x},${y},${z}`;
     const cubes = new Map<string, number[]>();
     for (let i = 0; i < n && count <= kMostEdges; ++i) {
-      const x = p[3 * i]!, y = p[3 * i + 1]!, z = p[3 * i + 2]!;
+      const x = p[3 * i]!,
+        y = p[3 * i + 1]!,
+        z = p[3 * i + 2]!;
       const [cx, cy, cz] = [cell(x), cell(y), cell(z)];
       for (let a = cx - 1; a <= cx + 1; ++a)
         for (let b = cy - 1; b <= cy + 1; ++b)
           for (let c = cz - 1; c <= cz + 1; ++c)
             for (const j of cubes.get(name(a, b, c)) ?? []) {
               if (Math.hypot(p[3 * j]! - x, p[3 * j + 1]! - y, p[3 * j + 2]! - z) > r) continue;
-              if (++count <= kMostEdges) ends.push(p[3 * j]!, p[3 * j + 1]!, p[3 * j + 2]!, x, y, z);
+              if (++count <= kMostEdges)
+                ends.push(p[3 * j]!, p[3 * j + 1]!, p[3 * j + 2]!, x, y, z);
             }
-      const own = name(cx, cy, cz), list = cubes.get(own);
+      const own = name(cx, cy, cz),
+        list = cubes.get(own);
       if (list) list.push(i);
       else cubes.set(own, [i]);
     }

@@ -42,20 +42,31 @@ export class DataView {
     if (report.image) this.slice = new ImageSlice(report.image.shape, this.colouring.rgba);
     else {
       const spacing = (2 * pose.radius) / Math.sqrt(report.elements!.count);
-      this.cloud = new PointCloud(report.cloud!.positions, this.colouring.rgba, spacing / pose.radius);
+      this.cloud = new PointCloud(
+        report.cloud!.positions,
+        this.colouring.rgba,
+        spacing / pose.radius,
+      );
       if (report.elements!.truth) {
         this.truthColouring = new Colouring(session);
         this.truthColouring.update("truth");
       }
     }
-    this.head = el("header", {}, el("h2", {}, !report.image ? "Point cloud" : report.image.shape[0]! > 1 ? "Volume" : "Image"));
+    this.head = el(
+      "header",
+      {},
+      el("h2", {}, !report.image ? "Point cloud" : report.image.shape[0]! > 1 ? "Volume" : "Image"),
+    );
     this.panel = el("section", { class: "panel data", "aria-label": "Data" }, this.head, this.body);
     try {
       this.stage = new Stage({ ...pose });
       this.setUpStage(this.stage);
     } catch {
       this.still = new StaticPicture(report, pose, this.slice);
-      this.canvasHost.append(this.still.element, el("p", { class: "note" }, "WebGL is not available here: a still picture."));
+      this.canvasHost.append(
+        this.still.element,
+        el("p", { class: "note" }, "WebGL is not available here: a still picture."),
+      );
     }
     this.legend = new Legend(session, this.colouring);
     this.body.append(this.canvasHost, this.legend.element);
@@ -75,7 +86,10 @@ export class DataView {
     const canvas = stage.renderer.domElement;
     canvas.tabIndex = 0;
     canvas.setAttribute("role", "img");
-    canvas.setAttribute("aria-label", `${this.description()}. Arrow keys turn or move it, plus and minus zoom, 0 fits it.`);
+    canvas.setAttribute(
+      "aria-label",
+      `${this.description()}. Arrow keys turn or move it, plus and minus zoom, 0 fits it.`,
+    );
     this.canvasHost.append(canvas);
     stage.scene.add(this.cloud?.object ?? this.slice!.object, this.overlay.group);
     if (this.slice) stage.scene.add(thinLines(Float32Array.from(this.slice.outline()), "#7d8794"));
@@ -88,14 +102,18 @@ export class DataView {
     stage.controls.addEventListener("end", () => this.session.changed("view"));
     canvas.addEventListener("pointermove", (event) => event.buttons === 0 && this.hover(event));
     canvas.addEventListener("pointerleave", () => this.session.setFocus({}));
-    canvas.addEventListener("pointerdown", (event) => (this.pressedAt = [event.clientX, event.clientY]));
+    canvas.addEventListener(
+      "pointerdown",
+      (event) => (this.pressedAt = [event.clientX, event.clientY]),
+    );
     canvas.addEventListener("click", (event) => this.click(event));
     canvas.addEventListener("keydown", (event) => this.key(event, stage));
   }
 
   private description(): string {
     const { report } = this.session;
-    if (report.image) return `Image of ${report.image.shape.filter((n, i) => n > 1 || i > 0).join(" × ")}`;
+    if (report.image)
+      return `Image of ${report.image.shape.filter((n, i) => n > 1 || i > 0).join(" × ")}`;
     return `Cloud of ${counted(report.elements!.count, "point")}`;
   }
 
@@ -103,17 +121,32 @@ export class DataView {
     const { session } = this;
     const { report } = session;
     const modes = session.colourModes();
-    this.head.append(el("span", { class: "hint" }, this.description().replace("Cloud of ", "").replace("Image of ", "")));
-    this.head.append(select("colour", modes, session.colour, (value) => session.set("colour", value as ColourMode, "colour")));
+    this.head.append(
+      el(
+        "span",
+        { class: "hint" },
+        this.description().replace("Cloud of ", "").replace("Image of ", ""),
+      ),
+    );
+    this.head.append(
+      select("colour", modes, session.colour, (value) =>
+        session.set("colour", value as ColourMode, "colour"),
+      ),
+    );
     if (this.truthColouring && this.stage) {
       const box = el("input", { type: "checkbox" });
       box.addEventListener("change", () => session.set("beside", box.checked, "colour"));
       this.head.append(el("label", { class: "field" }, box, el("span", {}, "ground truth beside")));
     }
-    if (this.stage) this.head.append(button("fit", () => this.stage!.reset(), { class: "quiet", title: "See everything (0)" }));
+    if (this.stage)
+      this.head.append(
+        button("fit", () => this.stage!.reset(), { class: "quiet", title: "See everything (0)" }),
+      );
     if (report.image && report.image.shape[0]! > 1) this.addSliceControls(report.image.shape);
-    if (report.bars.size > 0 && (this.edges.available || report.elements!.birth)) this.addScrubber();
-    if (report.meta.cloud?.projection) this.panel.append(el("p", { class: "note" }, report.meta.cloud.projection));
+    if (report.bars.size > 0 && (this.edges.available || report.elements!.birth))
+      this.addScrubber();
+    if (report.meta.cloud?.projection)
+      this.panel.append(el("p", { class: "note" }, report.meta.cloud.projection));
   }
   private addSliceControls(shape: number[]): void {
     const { session } = this;
@@ -125,7 +158,11 @@ export class DataView {
       number.textContent = String(session.slice);
     };
     slider.addEventListener("input", () => session.set("slice", Number(slider.value), "slice"));
-    const axes: [string, string][] = [["0", "first axis"], ["1", "second axis"], ["2", "third axis"]];
+    const axes: [string, string][] = [
+      ["0", "first axis"],
+      ["1", "second axis"],
+      ["2", "third axis"],
+    ];
     const choice = select("slice", axes, String(session.sliceAxis), (value) => {
       session.set("sliceAxis", Number(value), "slice");
       session.set("slice", Math.floor(shape[Number(value)]! / 2), "slice");
@@ -140,18 +177,34 @@ export class DataView {
     const { bars, meta } = session.report;
     const kSteps = 500;
     const label = `${meta.value.label.toLowerCase()} up to`;
-    const slider = el("input", { type: "range", min: 0, max: kSteps, step: 1, "aria-label": label });
+    const slider = el("input", {
+      type: "range",
+      min: 0,
+      max: kSteps,
+      step: 1,
+      "aria-label": label,
+    });
     slider.addEventListener("input", () => {
       const place = Number(slider.value) / kSteps;
-      session.set("scale", place === 1 ? undefined : bars.low * (1 - place) + bars.high * place, "scale");
+      session.set(
+        "scale",
+        place === 1 ? undefined : bars.low * (1 - place) + bars.high * place,
+        "scale",
+      );
     });
     const show = () => {
       const { scale } = session;
-      slider.value = String(scale === undefined ? kSteps : Math.round((kSteps * (scale - bars.low)) / (bars.high - bars.low || 1)));
+      slider.value = String(
+        scale === undefined
+          ? kSteps
+          : Math.round((kSteps * (scale - bars.low)) / (bars.high - bars.low || 1)),
+      );
       slider.setAttribute("aria-valuetext", this.reading.textContent ?? "");
     };
     session.onChange((changes) => changes.has("scale") && show());
-    this.panel.append(el("div", { class: "row scrubber" }, el("span", {}, label), slider, this.reading));
+    this.panel.append(
+      el("div", { class: "row scrubber" }, el("span", {}, label), slider, this.reading),
+    );
     show();
   }
 
@@ -180,7 +233,8 @@ export class DataView {
       const truth = this.cloud!.tint.clone();
       truth.array.set(this.truthColouring.rgba);
       truth.needsUpdate = true;
-      stage.besides = (side) => geometry.setAttribute("tint", side === 0 ? this.cloud!.tint : truth);
+      stage.besides = (side) =>
+        geometry.setAttribute("tint", side === 0 ? this.cloud!.tint : truth);
     } else if (stage.besides) {
       stage.besides = undefined;
       geometry?.setAttribute("tint", this.cloud!.tint);
@@ -198,7 +252,9 @@ export class DataView {
       this.reading.textContent = "all";
       return;
     }
-    const betti = bettiAt(report, scale).map((b, dim) => `β${homology(dim).slice(1)} ${grouped(b)}`).join("  ");
+    const betti = bettiAt(report, scale)
+      .map((b, dim) => `β${homology(dim).slice(1)} ${grouped(b)}`)
+      .join("  ");
     let text = `${short(scale, 3)}   ${betti}`;
     if (this.edges.available) {
       const edges = this.edges.upTo(scale);
@@ -211,25 +267,36 @@ export class DataView {
 
   private elementAt(event: MouseEvent): number {
     const box = this.canvasHost.getBoundingClientRect();
-    const x = event.clientX - box.left, y = event.clientY - box.top;
+    const x = event.clientX - box.left,
+      y = event.clientY - box.top;
     return this.cloud?.at(this.stage!, x, y) ?? this.slice?.at(this.stage!, x, y) ?? -1;
   }
   private hover(event: PointerEvent): void {
     const element = this.elementAt(event);
     if (element < 0) return this.session.setFocus({});
-    this.session.setFocus({ element, bar: this.session.barOf(element), segment: this.session.segmentOf(element) });
+    this.session.setFocus({
+      element,
+      bar: this.session.barOf(element),
+      segment: this.session.segmentOf(element),
+    });
   }
   private click(event: MouseEvent): void {
     const [x, y] = this.pressedAt ?? [event.clientX, event.clientY];
     if (Math.hypot(event.clientX - x, event.clientY - y) > 4) return; // the picture was turned
-    const element = this.elementAt(event), bar = element < 0 ? -1 : this.session.barOf(element);
+    const element = this.elementAt(event),
+      bar = element < 0 ? -1 : this.session.barOf(element);
     const more = event.shiftKey || event.ctrlKey || event.metaKey;
     this.session.select(bar < 0 ? [] : [bar], more ? "toggle" : "replace");
   }
   private key(event: KeyboardEvent, stage: Stage): void {
     const moves: Record<string, [number, number, number]> = {
-      ArrowLeft: [-1, 0, 1], ArrowRight: [1, 0, 1], ArrowUp: [0, -1, 1], ArrowDown: [0, 1, 1],
-      "+": [0, 0, 1.2], "=": [0, 0, 1.2], "-": [0, 0, 1 / 1.2],
+      ArrowLeft: [-1, 0, 1],
+      ArrowRight: [1, 0, 1],
+      ArrowUp: [0, -1, 1],
+      ArrowDown: [0, 1, 1],
+      "+": [0, 0, 1.2],
+      "=": [0, 0, 1.2],
+      "-": [0, 0, 1 / 1.2],
     };
     const move = moves[event.key];
     if (event.key === "0") stage.reset();

@@ -9,20 +9,54 @@ import type { Pen } from "./pen";
 import type { Size } from "./chart";
 import type { Change, Session } from "./session";
 
-const kLeft = 50, kRight = 14, kTop = 10, kBottom = 38, kInfinityRoom = 20, kMinusInfinityRoom = 34;
-const kMostMarkers = 3000, kLongest = 1200, kCell = 3, kReach = 14;
+const kLeft = 50,
+  kRight = 14,
+  kTop = 10,
+  kBottom = 38,
+  kInfinityRoom = 20,
+  kMinusInfinityRoom = 34;
+const kMostMarkers = 3000,
+  kLongest = 1200,
+  kCell = 3,
+  kReach = 14;
 
 /// A shape of its own for each dimension: colours may be lost in print.
 export function drawMarker(
-  pen: Pen, dim: number, x: number, y: number, r: number, fill: string, opacity: number, stroke: string, width: number,
+  pen: Pen,
+  dim: number,
+  x: number,
+  y: number,
+  r: number,
+  fill: string,
+  opacity: number,
+  stroke: string,
+  width: number,
 ): void {
   switch (dim % 4) {
     case 1:
-      return pen.polygon([x, y - 1.25 * r, x + 1.15 * r, y + 0.8 * r, x - 1.15 * r, y + 0.8 * r], fill, opacity, stroke, width);
+      return pen.polygon(
+        [x, y - 1.25 * r, x + 1.15 * r, y + 0.8 * r, x - 1.15 * r, y + 0.8 * r],
+        fill,
+        opacity,
+        stroke,
+        width,
+      );
     case 2:
-      return pen.polygon([x - r, y - r, x + r, y - r, x + r, y + r, x - r, y + r], fill, opacity, stroke, width);
+      return pen.polygon(
+        [x - r, y - r, x + r, y - r, x + r, y + r, x - r, y + r],
+        fill,
+        opacity,
+        stroke,
+        width,
+      );
     case 3:
-      return pen.polygon([x, y - 1.35 * r, x + 1.1 * r, y, x, y + 1.35 * r, x - 1.1 * r, y], fill, opacity, stroke, width);
+      return pen.polygon(
+        [x, y - 1.35 * r, x + 1.1 * r, y, x, y + 1.35 * r, x - 1.1 * r, y],
+        fill,
+        opacity,
+        stroke,
+        width,
+      );
     default:
       return pen.circle(x, y, r, fill, opacity, stroke, width);
   }
@@ -38,7 +72,9 @@ export class Diagram extends BarChart {
 
   constructor(session: Session) {
     const [first, second] = session.report.meta.barcodes;
-    const hint = second ? `filled: ${first!.name}, hollow: ${second.name}` : "drag a lasso to select";
+    const hint = second
+      ? `filled: ${first!.name}, hollow: ${second.name}`
+      : "drag a lasso to select";
     super(session, "diagram", "Persistence diagram", hint);
     this.x = new Float32Array(session.report.bars.size);
     this.y = new Float32Array(session.report.bars.size);
@@ -52,13 +88,19 @@ export class Diagram extends BarChart {
     const { theme, report } = this.session;
     const { bars } = report;
     this.placeBars(size);
-    const left = this.births.from, right = this.births.to;
-    const bottom = this.deaths.from, top = this.deaths.to;
+    const left = this.births.from,
+      right = this.births.to;
+    const bottom = this.deaths.from,
+      top = this.deaths.to;
     pen.polygon([left, bottom, right, bottom, right, top], theme.shade);
     this.drawAxes(pen, size);
     pen.line(left, bottom, right, top, theme.faint, 1);
     if (bars.size === 0)
-      pen.text((left + right) / 2, (top + bottom) / 2 - 40, "no bars", { colour: theme.muted, anchor: "middle", size: 13 });
+      pen.text((left + right) / 2, (top + bottom) / 2 - 40, "no bars", {
+        colour: theme.muted,
+        anchor: "middle",
+        size: 13,
+      });
     let shown = 0;
     for (let i = 0; i < bars.size; ++i) if (this.session.isShown(i)) ++shown;
     const many = shown > kMostMarkers;
@@ -69,23 +111,57 @@ export class Diagram extends BarChart {
       const colour = dimColour(bars.dim[bar]!, theme);
       const hollow = bars.barcodeOf(bar) === 1;
       const edge = hollow ? colour : marked.length < 400 ? theme.panel : "none";
-      drawMarker(pen, bars.dim[bar]!, this.x[bar]!, this.y[bar]!, 3.6, hollow ? "none" : colour, 0.85, edge, hollow ? 1.4 : 0.8);
+      drawMarker(
+        pen,
+        bars.dim[bar]!,
+        this.x[bar]!,
+        this.y[bar]!,
+        3.6,
+        hollow ? "none" : colour,
+        0.85,
+        edge,
+        hollow ? 1.4 : 0.8,
+      );
     }
   }
 
   protected drawOver(pen: Pen): void {
     const { session } = this;
-    const { theme, report: { bars } } = session;
+    const {
+      theme,
+      report: { bars },
+    } = session;
     this.drawCut(pen);
     const most = session.selection.length > 5000 ? 1 : 2;
     for (const bar of session.selection.slice(0, 5000)) {
       if (!session.isShown(bar)) continue;
-      drawMarker(pen, bars.dim[bar]!, this.x[bar]!, this.y[bar]!, 3 + most, dimColour(bars.dim[bar]!, theme), 1, theme.accent, most);
+      drawMarker(
+        pen,
+        bars.dim[bar]!,
+        this.x[bar]!,
+        this.y[bar]!,
+        3 + most,
+        dimColour(bars.dim[bar]!, theme),
+        1,
+        theme.accent,
+        most,
+      );
     }
     const bar = session.focus.bar;
     if (bar >= 0 && session.isShown(bar)) {
-      const x = this.x[bar]!, y = this.y[bar]!;
-      drawMarker(pen, bars.dim[bar]!, x, y, 6.5, dimColour(bars.dim[bar]!, theme), 1, theme.ink, 1.5);
+      const x = this.x[bar]!,
+        y = this.y[bar]!;
+      drawMarker(
+        pen,
+        bars.dim[bar]!,
+        x,
+        y,
+        6.5,
+        dimColour(bars.dim[bar]!, theme),
+        1,
+        theme.ink,
+        1.5,
+      );
       this.drawLabel(pen, x, y, `${homology(bars.dim[bar]!)} ${intervalOf(session, bar)}`);
     }
     if (this.lasso.length >= 4) pen.polygon(this.lasso, theme.accent, 0.12, theme.muted, 1);
@@ -95,23 +171,33 @@ export class Diagram extends BarChart {
     const { theme } = this.session;
     const width = 6.2 * text.length + 12;
     const atLeft = x + width + 12 > this.size.width;
-    const left = Math.max(2, atLeft ? x - width - 10 : x + 10), top = Math.max(2, y - 26);
+    const left = Math.max(2, atLeft ? x - width - 10 : x + 10),
+      top = Math.max(2, y - 26);
     pen.rect(left, top, width, 20, theme.panel, 0.94);
-    pen.polygon([left, top, left + width, top, left + width, top + 20, left, top + 20], "none", 1, theme.grid, 1);
+    pen.polygon(
+      [left, top, left + width, top, left + width, top + 20, left, top + 20],
+      "none",
+      1,
+      theme.grid,
+      1,
+    );
     pen.text(left + 6, top + 14, text, { colour: theme.ink, size: 11 });
   }
 
   private placeBars(size: Size): void {
     const { bars } = this.session.report;
-    let fromBelow = false, toAbove = false;
+    let fromBelow = false,
+      toAbove = false;
     for (let i = 0; i < bars.size; ++i) {
       fromBelow ||= bars.birth[i] === -Infinity;
       toAbove ||= bars.isInfinite(i);
     }
     const margin = 0.03 * (bars.high / 2 - bars.low / 2) * 2;
     const fits = Number.isFinite(bars.low - margin) && Number.isFinite(bars.high + margin);
-    const low = bars.low === 0 || !fits ? bars.low : bars.low - margin, high = fits ? bars.high + margin : bars.high;
-    const left = kLeft + (fromBelow ? kMinusInfinityRoom : 0), top = kTop + (toAbove ? kInfinityRoom : 0);
+    const low = bars.low === 0 || !fits ? bars.low : bars.low - margin,
+      high = fits ? bars.high + margin : bars.high;
+    const left = kLeft + (fromBelow ? kMinusInfinityRoom : 0),
+      top = kTop + (toAbove ? kInfinityRoom : 0);
     this.births = new Axis(low, high, left, size.width - kRight);
     this.deaths = new Axis(low, high, size.height - kBottom, top);
     for (let i = 0; i < bars.size; ++i) {
@@ -121,8 +207,12 @@ export class Diagram extends BarChart {
   }
 
   private drawAxes(pen: Pen, size: Size): void {
-    const { theme, report: { meta } } = this.session;
-    const bottom = this.deaths.from, right = this.births.to;
+    const {
+      theme,
+      report: { meta },
+    } = this.session;
+    const bottom = this.deaths.from,
+      right = this.births.to;
     const unit = clipped([meta.value.unit, this.births.unit].filter(Boolean).join(" "), 24);
     const small = { colour: theme.muted, size: 10.5 } as const;
     for (const tick of this.births.ticks(Math.max(2, (right - kLeft) / 75))) {
@@ -135,8 +225,15 @@ export class Diagram extends BarChart {
     }
     pen.line(kLeft, kTop - 4, kLeft, bottom, theme.faint);
     pen.line(kLeft, bottom, right, bottom, theme.faint);
-    pen.text((this.births.from + right) / 2, size.height - 7, unit ? `birth (${unit})` : "birth", { ...small, anchor: "middle" });
-    pen.text(12, (this.deaths.to + bottom) / 2, unit ? `death (${unit})` : "death", { ...small, anchor: "middle", upwards: true });
+    pen.text((this.births.from + right) / 2, size.height - 7, unit ? `birth (${unit})` : "birth", {
+      ...small,
+      anchor: "middle",
+    });
+    pen.text(12, (this.deaths.to + bottom) / 2, unit ? `death (${unit})` : "death", {
+      ...small,
+      anchor: "middle",
+      upwards: true,
+    });
     if (this.deaths.to > kTop) {
       pen.line(kLeft, kTop + 4, right, kTop + 4, theme.faint, 1, [3, 3]);
       pen.text(kLeft - 6, kTop + 9, "∞", { ...small, size: 14, anchor: "end" });
@@ -149,21 +246,32 @@ export class Diagram extends BarChart {
 
   /// Bars of dimension 0 above this line stay apart.
   private drawCut(pen: Pen): void {
-    const { report: { tree, bars }, theme, cutValue } = this.session;
+    const {
+      report: { tree, bars },
+      theme,
+      cutValue,
+    } = this.session;
     if (!tree || !this.session.isShown(0) || bars.dim[0] !== 0 || cutValue <= 0) return;
-    const low = this.births.value(this.births.from), high = this.deaths.value(this.deaths.to);
+    const low = this.births.value(this.births.from),
+      high = this.deaths.value(this.deaths.to);
     if (cutValue > high) return;
     const sloped = tree.arrays.rule === "persistence";
     if (sloped && low + cutValue > high) return;
     const right = sloped ? this.births.at(high - cutValue) : this.births.to;
     const y1 = this.deaths.at(sloped ? low + cutValue : cutValue);
     pen.line(this.births.from, y1, right, sloped ? this.deaths.to : y1, theme.muted, 1.2, [5, 4]);
-    pen.text(right - (sloped ? 16 : 4), sloped ? this.deaths.to + 11 : y1 - 5, `cut ${short(cutValue, 3)}`, { colour: theme.muted, size: 10.5, anchor: "end" });
+    pen.text(
+      right - (sloped ? 16 : 4),
+      sloped ? this.deaths.to + 11 : y1 - 5,
+      `cut ${short(cutValue, 3)}`,
+      { colour: theme.muted, size: 10.5, anchor: "end" },
+    );
   }
 
   private drawDensity(pen: Pen, size: Size): void {
     const { bars } = this.session.report;
-    const columns = Math.ceil(size.width / kCell), rows = Math.ceil(size.height / kCell);
+    const columns = Math.ceil(size.width / kCell),
+      rows = Math.ceil(size.height / kCell);
     for (const dim of bars.dims) {
       if (this.session.hiddenDims.has(dim)) continue;
       const counts = new Uint32Array(columns * rows);
@@ -173,19 +281,29 @@ export class Diagram extends BarChart {
         const cell = Math.floor(this.y[i]! / kCell) * columns + Math.floor(this.x[i]! / kCell);
         most = Math.max(most, ++counts[cell]!);
       }
-      const colour = dimColour(dim, this.session.theme), scale = 1 / Math.log(most + 1);
+      const colour = dimColour(dim, this.session.theme),
+        scale = 1 / Math.log(most + 1);
       counts.forEach((count, cell) => {
         if (count > 0)
-          pen.rect((cell % columns) * kCell, Math.floor(cell / columns) * kCell, kCell, kCell, colour,
-            0.3 + 0.65 * Math.log(count + 1) * scale);
+          pen.rect(
+            (cell % columns) * kCell,
+            Math.floor(cell / columns) * kCell,
+            kCell,
+            kCell,
+            colour,
+            0.3 + 0.65 * Math.log(count + 1) * scale,
+          );
       });
     }
   }
 
   private barAt(x: number, y: number): number {
-    let best = -1, nearest = kReach * kReach;
+    let best = -1,
+      nearest = kReach * kReach;
     for (const bar of this.session.report.bars.byPersistence) {
-      const dx = this.x[bar]! - x, dy = this.y[bar]! - y, d = dx * dx + dy * dy;
+      const dx = this.x[bar]! - x,
+        dy = this.y[bar]! - y,
+        d = dx * dx + dy * dy;
       if (d >= nearest || !this.session.isShown(bar)) continue;
       nearest = d;
       best = bar;
@@ -206,7 +324,8 @@ export class Diagram extends BarChart {
     this.refreshOver();
   }
   private end(event: PointerEvent): void {
-    const lasso = this.lasso, more = event.shiftKey || event.ctrlKey || event.metaKey;
+    const lasso = this.lasso,
+      more = event.shiftKey || event.ctrlKey || event.metaKey;
     this.lasso = [];
     if (lasso.length === 0) return;
     if (lasso.length < 6) {
@@ -220,7 +339,8 @@ export class Diagram extends BarChart {
   private barsInside(lasso: number[]): number[] {
     const inside: number[] = [];
     for (let bar = 0; bar < this.x.length; ++bar)
-      if (this.session.isShown(bar) && isInside(lasso, this.x[bar]!, this.y[bar]!)) inside.push(bar);
+      if (this.session.isShown(bar) && isInside(lasso, this.x[bar]!, this.y[bar]!))
+        inside.push(bar);
     return inside;
   }
 }
@@ -229,7 +349,10 @@ export class Diagram extends BarChart {
 function isInside(polygon: number[], x: number, y: number): boolean {
   let inside = false;
   for (let i = 0, j = polygon.length - 2; i < polygon.length; j = i, i += 2) {
-    const xi = polygon[i]!, yi = polygon[i + 1]!, xj = polygon[j]!, yj = polygon[j + 1]!;
+    const xi = polygon[i]!,
+      yi = polygon[i + 1]!,
+      xj = polygon[j]!,
+      yj = polygon[j + 1]!;
     if (yi > y !== yj > y && x < ((xj - xi) * (y - yi)) / (yj - yi) + xi) inside = !inside;
   }
   return inside;

@@ -30,7 +30,11 @@ export function svg<K extends keyof SVGElementTagNameMap>(
   return fill(document.createElementNS("http://www.w3.org/2000/svg", name), attributes, children);
 }
 
-export function button(text: string, action: () => void, attributes: Attributes = {}): HTMLButtonElement {
+export function button(
+  text: string,
+  action: () => void,
+  attributes: Attributes = {},
+): HTMLButtonElement {
   const element = el("button", { type: "button", ...attributes }, text);
   element.addEventListener("click", action);
   return element;
@@ -50,13 +54,21 @@ export function select(
 }
 
 /// A table that scrolls by itself; the first row of cells are headings.
-export function table(caption: string, head: string[], rows: (string | number)[][]): HTMLTableElement {
+export function table(
+  caption: string,
+  head: string[],
+  rows: (string | number)[][],
+): HTMLTableElement {
   return el(
     "table",
     {},
     el("caption", {}, caption),
     el("thead", {}, el("tr", {}, ...head.map((text) => el("th", { scope: "col" }, text)))),
-    el("tbody", {}, ...rows.map((row) => el("tr", {}, ...row.map((cell) => el("td", {}, String(cell)))))),
+    el(
+      "tbody",
+      {},
+      ...rows.map((row) => el("tr", {}, ...row.map((cell) => el("td", {}, String(cell))))),
+    ),
   );
 }
 

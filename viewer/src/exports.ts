@@ -15,19 +15,42 @@ export interface Views {
 
 /// All views as they stand on the page, charts as lines and text, the cloud as an image.
 export function pictureSvg(session: Session, views: Views, page: HTMLElement): string {
-  const { theme, report: { meta, bars } } = session;
+  const {
+    theme,
+    report: { meta, bars },
+  } = session;
   const pen = new SvgPen();
   const origin = page.getBoundingClientRect();
-  const margin = 20, head = 36, width = origin.width + 2 * margin, height = origin.height + 2 * margin + head;
+  const margin = 20,
+    head = 36,
+    width = origin.width + 2 * margin,
+    height = origin.height + 2 * margin + head;
   pen.rect(0, 0, width, height, theme.panel);
-  pen.text(margin, margin + 12, clipped(meta.title, 100), { colour: theme.ink, size: 16, bold: true });
+  pen.text(margin, margin + 12, clipped(meta.title, 100), {
+    colour: theme.ink,
+    size: 16,
+    bold: true,
+  });
   bars.dims.forEach((dim, i) =>
-    pen.text(width - margin - 90 * (bars.dims.length - 1 - i), margin + 12, `${homology(dim)} ${counted(bars.count(dim, 0), "bar")}`, {
-      colour: dimColour(dim, theme), size: 12, anchor: "end",
-    }));
+    pen.text(
+      width - margin - 90 * (bars.dims.length - 1 - i),
+      margin + 12,
+      `${homology(dim)} ${counted(bars.count(dim, 0), "bar")}`,
+      {
+        colour: dimColour(dim, theme),
+        size: 12,
+        anchor: "end",
+      },
+    ),
+  );
   const place = (element: Element) => {
     const box = element.getBoundingClientRect();
-    return { x: box.left - origin.left + margin, y: box.top - origin.top + margin + head, width: box.width, height: box.height };
+    return {
+      x: box.left - origin.left + margin,
+      y: box.top - origin.top + margin + head,
+      width: box.width,
+      height: box.height,
+    };
   };
   const picture = views.data?.picture();
   if (picture) {
@@ -45,14 +68,22 @@ export function pictureSvg(session: Session, views: Views, page: HTMLElement): s
 
 /// What of the legend is in view: its swatches and its words where they stand.
 function drawLegend(
-  pen: SvgPen, legend: Element, place: (element: Element) => { x: number; y: number; width: number; height: number }, session: Session,
+  pen: SvgPen,
+  legend: Element,
+  place: (element: Element) => { x: number; y: number; width: number; height: number },
+  session: Session,
 ): void {
   const frame = place(legend);
   for (const mark of legend.querySelectorAll("rect, h3, .name, .count, .ticks span")) {
     const at = place(mark);
     if (at.y < frame.y || at.y + at.height > frame.y + frame.height) continue;
-    if (mark instanceof SVGRectElement) pen.rect(at.x, at.y, at.width, at.height, mark.getAttribute("fill") ?? "none");
-    else pen.text(at.x, at.y + at.height - 4, mark.firstChild?.textContent ?? "", { colour: session.theme.muted, size: 12 });
+    if (mark instanceof SVGRectElement)
+      pen.rect(at.x, at.y, at.width, at.height, mark.getAttribute("fill") ?? "none");
+    else
+      pen.text(at.x, at.y + at.height - 4, mark.firstChild?.textContent ?? "", {
+        colour: session.theme.muted,
+        size: 12,
+      });
   }
 }
 
@@ -66,7 +97,8 @@ export async function picturePng(svgText: string): Promise<Blob> {
   canvas.height = 2 * image.height;
   canvas.getContext("2d")!.drawImage(image, 0, 0, canvas.width, canvas.height);
   return new Promise((resolve, reject) =>
-    canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("no picture"))), "image/png"));
+    canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("no picture"))), "image/png"),
+  );
 }
 
 /// `dim,birth,death` as the programs write it, with the barcode before it where there are two. What
@@ -87,26 +119,51 @@ export function selectionJson(session: Session): string {
   const number = (value: number) => (Number.isFinite(value) ? value : value > 0 ? null : "-inf");
   const cell = (numbers: number[]) => (numbers.length > 0 ? numbers : null);
   const selected = selectedOrShown(session).map((bar) => {
-    const chain = chains?.ofBar.get(bar), arity = bars.arity(bar, 0);
+    const chain = chains?.ofBar.get(bar),
+      arity = bars.arity(bar, 0);
     const cells: number[][] = [];
     if (chain !== undefined && chains)
       for (let at = chains.first[chain]!; at < chains.first[chain + 1]!; at += arity)
         cells.push(Array.from(chains.cells.subarray(at, at + arity)));
     return {
-      barcode: meta.barcodes[bars.barcodeOf(bar)]!.name, dim: bars.dim[bar],
-      birth: number(bars.birth[bar]!), death: number(bars.death[bar]!),
-      birth_cell: cell(bars.cell(bar, 0)), death_cell: cell(bars.cell(bar, 1)),
+      barcode: meta.barcodes[bars.barcodeOf(bar)]!.name,
+      dim: bars.dim[bar],
+      birth: number(bars.birth[bar]!),
+      death: number(bars.death[bar]!),
+      birth_cell: cell(bars.cell(bar, 0)),
+      death_cell: cell(bars.cell(bar, 1)),
       ...(cells.length > 0 ? { representative: cells } : {}),
     };
   });
-  return JSON.stringify({
-    format: "ph-selection", version: 1, title: meta.title, program: meta.program, command: commandLine(session),
-    ...(cut ? { cut: cutValue, segments: cut.segments.map(({ label, points, vertices }) => ({ label, points, vertices })) } : {}),
-    bars: selected,
-  }, null, 1) + "\n";
+  return (
+    JSON.stringify(
+      {
+        format: "ph-selection",
+        version: 1,
+        title: meta.title,
+        program: meta.program,
+        command: commandLine(session),
+        ...(cut
+          ? {
+              cut: cutValue,
+              segments: cut.segments.map(({ label, points, vertices }) => ({
+                label,
+                points,
+                vertices,
+              })),
+            }
+          : {}),
+        bars: selected,
+      },
+      null,
+      1,
+    ) + "\n"
+  );
 }
 
 function selectedOrShown(session: Session): number[] {
   if (session.selection.length > 0) return session.selection;
-  return Array.from({ length: session.report.bars.size }, (_, i) => i).filter((bar) => session.isShown(bar));
+  return Array.from({ length: session.report.bars.size }, (_, i) => i).filter((bar) =>
+    session.isShown(bar),
+  );
 }

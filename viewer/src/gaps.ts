@@ -15,19 +15,27 @@ export function segmentCounts(tree: MergeTree, cuts: number[]): number[] {
   const merges = numbered(tree.merges).sort((a, b) => levels[a]! - levels[b]!);
   const entries = numbered(tree.leaves);
   if (rule === "value") entries.sort((a, b) => births[a]! - births[b]!);
-  const sets = new DisjointSets(tree.leaves), size = new Float64Array(tree.leaves);
-  let segments = 0, merged = 0, entered = 0;
+  const sets = new DisjointSets(tree.leaves),
+    size = new Float64Array(tree.leaves);
+  let segments = 0,
+    merged = 0,
+    entered = 0;
   const resize = (root: number, to: number) => {
     segments += Number(to > 0 && to >= minSize) - Number(size[root]! > 0 && size[root]! >= minSize);
     size[root] = to;
   };
   return cuts.map((cut) => {
-    for (; entered < entries.length && (rule !== "value" || births[entries[entered]!]! <= cut); ++entered) {
+    for (
+      ;
+      entered < entries.length && (rule !== "value" || births[entries[entered]!]! <= cut);
+      ++entered
+    ) {
       const root = sets.find(entries[entered]!);
       resize(root, size[root]! + vertices[entries[entered]!]!);
     }
     for (; merged < merges.length && tree.isDone(merges[merged]!, cut); ++merged) {
-      const u = sets.find(younger[merges[merged]!]!), v = sets.find(elder[merges[merged]!]!);
+      const u = sets.find(younger[merges[merged]!]!),
+        v = sets.find(elder[merges[merged]!]!);
       if (u === v) continue;
       const sum = size[u]! + size[v]!;
       resize(u, 0);
@@ -42,8 +50,11 @@ export function segmentCounts(tree: MergeTree, cuts: number[]): number[] {
 /// ones: what lies above is much more persistent than what lies below.
 export function suggestedCut(tree: MergeTree, from: number, to: number): number | undefined {
   const most = 64;
-  const levels = levelsOf(tree).filter((v) => v > 0 && Number.isFinite(v)).slice(-most);
-  let best: number | undefined, widest = 1.2;
+  const levels = levelsOf(tree)
+    .filter((v) => v > 0 && Number.isFinite(v))
+    .slice(-most);
+  let best: number | undefined,
+    widest = 1.2;
   for (let i = 0; i + 1 < levels.length; ++i) {
     const middle = Math.sqrt(levels[i]! * levels[i + 1]!);
     const ratio = levels[i + 1]! / levels[i]!;

@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: MIT
 // One slice of an image or a volume on the stage.
 import {
-  BufferAttribute, BufferGeometry, DataTexture, DoubleSide, Mesh, MeshBasicMaterial, NearestFilter, Raycaster, Vector2,
+  BufferAttribute,
+  BufferGeometry,
+  DataTexture,
+  DoubleSide,
+  Mesh,
+  MeshBasicMaterial,
+  NearestFilter,
+  Raycaster,
+  Vector2,
 } from "three";
 import { placeInImage } from "./cell_geometry";
 import type { Stage } from "./stage";
@@ -11,7 +19,10 @@ export class ImageSlice {
   private axis = 0;
   private index = 0;
 
-  constructor(readonly shape: number[], private readonly rgba: Uint8Array) {
+  constructor(
+    readonly shape: number[],
+    private readonly rgba: Uint8Array,
+  ) {
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(new Float32Array(12), 3));
     geometry.setAttribute("uv", new BufferAttribute(new Float32Array([0, 0, 1, 0, 1, 1, 0, 1]), 2));
@@ -25,7 +36,11 @@ export class ImageSlice {
     const [planes, rows, columns] = this.shape as [number, number, number];
     if (planes === 1) return [];
     const lines: number[] = [];
-    const ends = [[-0.5, planes - 0.5], [-0.5, rows - 0.5], [-0.5, columns - 0.5]] as const;
+    const ends = [
+      [-0.5, planes - 0.5],
+      [-0.5, rows - 0.5],
+      [-0.5, columns - 0.5],
+    ] as const;
     for (let axis = 0; axis < 3; ++axis)
       for (const a of [0, 1])
         for (const b of [0, 1])
@@ -47,9 +62,15 @@ export class ImageSlice {
       at[u] = j;
       return placeInImage(at[0]!, at[1]!, at[2]!);
     };
-    const rows = this.shape[v]! - 0.5, columns = this.shape[u]! - 0.5;
+    const rows = this.shape[v]! - 0.5,
+      columns = this.shape[u]! - 0.5;
     const position = this.object.geometry.getAttribute("position") as BufferAttribute;
-    position.set([...corner(-0.5, -0.5), ...corner(-0.5, columns), ...corner(rows, columns), ...corner(rows, -0.5)]);
+    position.set([
+      ...corner(-0.5, -0.5),
+      ...corner(-0.5, columns),
+      ...corner(rows, columns),
+      ...corner(rows, -0.5),
+    ]);
     position.needsUpdate = true;
     this.object.geometry.computeBoundingSphere();
     this.recolour();
@@ -67,7 +88,8 @@ export class ImageSlice {
   /// The colours of the slice, row by row.
   pixels(): { pixels: Uint8Array; width: number; height: number } {
     const [v, u] = this.sides();
-    const height = this.shape[v]!, width = this.shape[u]!;
+    const height = this.shape[v]!,
+      width = this.shape[u]!;
     const pixels = new Uint8Array(4 * width * height);
     for (let i = 0; i < height; ++i)
       for (let j = 0; j < width; ++j) {

@@ -16,11 +16,15 @@ export class Legend {
   private readonly marks = el("div", { class: "marks" });
   private rows: HTMLButtonElement[] = [];
 
-  constructor(private readonly session: Session, private readonly colouring: Colouring) {
+  constructor(
+    private readonly session: Session,
+    private readonly colouring: Colouring,
+  ) {
     this.element.append(this.colours, this.marks);
     session.onChange((changes) => {
       if (changes.has("cut") || changes.has("colour") || changes.has("theme")) this.showColours();
-      if (changes.has("focus") || changes.has("selection") || changes.has("theme")) this.showMarks();
+      if (changes.has("focus") || changes.has("selection") || changes.has("theme"))
+        this.showMarks();
     });
     this.showColours();
     this.showMarks();
@@ -40,15 +44,27 @@ export class Legend {
     const total = segments.reduce((sum, s) => sum + s.points, 0);
     const none = session.report.elements!.count - total;
     this.rows = segments.slice(0, kMostRows).map((segment, i) => {
-      const row = el("button", { type: "button", class: "row", "aria-label": `segment ${segment.label}, ${counted(segment.points, "point")}` },
-        swatch(hex(session.segmentColours[i]!)), el("span", { class: "name" }, String(segment.label)), el("span", { class: "count" }, grouped(segment.points)));
+      const row = el(
+        "button",
+        {
+          type: "button",
+          class: "row",
+          "aria-label": `segment ${segment.label}, ${counted(segment.points, "point")}`,
+        },
+        swatch(hex(session.segmentColours[i]!)),
+        el("span", { class: "name" }, String(segment.label)),
+        el("span", { class: "count" }, grouped(segment.points)),
+      );
       const bar = () => session.barOfSegment(segment.label);
       const focus = () => session.setFocus({ segment: segment.label, bar: bar() });
       row.addEventListener("pointerenter", focus);
       row.addEventListener("focus", focus);
       row.addEventListener("pointerleave", () => session.setFocus({}));
       row.addEventListener("blur", () => session.setFocus({}));
-      row.addEventListener("click", (event) => bar() >= 0 && session.select([bar()], event.shiftKey ? "toggle" : "replace"));
+      row.addEventListener(
+        "click",
+        (event) => bar() >= 0 && session.select([bar()], event.shiftKey ? "toggle" : "replace"),
+      );
       return row;
     });
     const rest = segments.length - this.rows.length;
@@ -57,20 +73,53 @@ export class Legend {
       el("h3", {}, "segment", el("span", { class: "count" }, what)),
       ...this.rows,
       ...(rest > 0 ? [el("p", { class: "note" }, `and ${grouped(rest)} smaller`)] : []),
-      ...(none > 0 ? [el("p", { class: "row none" }, swatch(session.theme.dark ? "#545c67" : "#969ca5"), el("span", { class: "name" }, "none"), el("span", { class: "count" }, grouped(none)))] : []),
+      ...(none > 0
+        ? [
+            el(
+              "p",
+              { class: "row none" },
+              swatch(session.theme.dark ? "#545c67" : "#969ca5"),
+              el("span", { class: "name" }, "none"),
+              el("span", { class: "count" }, grouped(none)),
+            ),
+          ]
+        : []),
     ];
   }
   private scale(low: number, high: number): HTMLElement {
     const { session } = this;
-    const { colour, report: { meta } } = session;
+    const {
+      colour,
+      report: { meta },
+    } = session;
     const unit = (colour === "depth" ? meta.cloud?.unit : meta.value.unit) ?? "";
-    const bar = svg("svg", { viewBox: "0 0 14 100", preserveAspectRatio: "none", class: "ramp", "aria-hidden": "true" });
+    const bar = svg("svg", {
+      viewBox: "0 0 14 100",
+      preserveAspectRatio: "none",
+      class: "ramp",
+      "aria-hidden": "true",
+    });
     const steps = 50;
     for (let i = 0; i < steps; ++i)
-      bar.append(svg("rect", { x: 0, y: 98 - (100 * i) / steps, width: 14, height: 2.2, fill: hex(ramp(i / (steps - 1))) }));
-    const ticks = (high > low ? [high, (low + high) / 2, low] : [low]).map((v) => el("span", {}, inRange(v, high - low || 1)));
+      bar.append(
+        svg("rect", {
+          x: 0,
+          y: 98 - (100 * i) / steps,
+          width: 14,
+          height: 2.2,
+          fill: hex(ramp(i / (steps - 1))),
+        }),
+      );
+    const ticks = (high > low ? [high, (low + high) / 2, low] : [low]).map((v) =>
+      el("span", {}, inRange(v, high - low || 1)),
+    );
     const name = session.colourModes().find(([mode]) => mode === colour)?.[1] ?? colour;
-    return el("div", {}, el("h3", {}, unit ? `${name} (${unit})` : name), el("div", { class: "scale" }, bar, el("div", { class: "ticks" }, ...ticks)));
+    return el(
+      "div",
+      {},
+      el("h3", {}, unit ? `${name} (${unit})` : name),
+      el("div", { class: "scale" }, bar, el("div", { class: "ticks" }, ...ticks)),
+    );
   }
   private showMarks(): void {
     const { session } = this;
@@ -78,18 +127,32 @@ export class Legend {
     const shown = barsInView(session).filter((bar) => bars.barcodeOf(bar) === 0);
     this.rows.forEach((row, i) => row.classList.toggle("on", session.focus.segment === i + 1));
     const rows: HTMLElement[] = [];
-    const mark = (colour: string, text: string) => rows.push(el("p", { class: "row" }, swatch(colour), el("span", { class: "name" }, text)));
-    const chained = new Set(shown.filter((bar) => chains?.ofBar.has(bar)).map((bar) => bars.dim[bar]!));
+    const mark = (colour: string, text: string) =>
+      rows.push(el("p", { class: "row" }, swatch(colour), el("span", { class: "name" }, text)));
+    const chained = new Set(
+      shown.filter((bar) => chains?.ofBar.has(bar)).map((bar) => bars.dim[bar]!),
+    );
     const what = meta.barcodes[0]!.representatives?.replace(/s$/, "") ?? "representative";
-    for (const dim of [...chained].sort((a, b) => a - b)) mark(dimColour(dim, session.theme), `${homology(dim)} ${what}`);
+    for (const dim of [...chained].sort((a, b) => a - b))
+      mark(dimColour(dim, session.theme), `${homology(dim)} ${what}`);
     if (shown.some((bar) => bars.cell(bar, 0).length > 0)) mark(kBirthColour, "birth cell");
     if (shown.some((bar) => bars.cell(bar, 1).length > 0)) mark(kDeathColour, "death cell");
     if (rows.length === 0 && shown.some((bar) => bars.dim[bar] !== 0 || !tree))
-      rows.push(el("p", { class: "note" }, "No cells of this bar are in the report: --representatives cycles adds them."));
+      rows.push(
+        el(
+          "p",
+          { class: "note" },
+          "No cells of this bar are in the report: --representatives cycles adds them.",
+        ),
+      );
     this.marks.replaceChildren(...rows);
   }
 }
 
 export function swatch(colour: string): SVGSVGElement {
-  return svg("svg", { viewBox: "0 0 12 12", class: "swatch", "aria-hidden": "true" }, svg("rect", { width: 12, height: 12, rx: 3, fill: colour }));
+  return svg(
+    "svg",
+    { viewBox: "0 0 12 12", class: "swatch", "aria-hidden": "true" },
+    svg("rect", { width: 12, height: 12, rx: 3, fill: colour }),
+  );
 }

@@ -21,16 +21,30 @@ async function start(app: HTMLElement): Promise<void> {
   followTheme(session);
 
   const data = report.elements ? new DataView(session) : undefined;
-  const diagram = new Diagram(session), barcode = new Barcode(session);
-  const cut = report.tree && new CutChart(session), tree = report.tree && new TreeChart(session);
+  const diagram = new Diagram(session),
+    barcode = new Barcode(session);
+  const cut = report.tree && new CutChart(session),
+    tree = report.tree && new TreeChart(session);
   const views: Views = {
     data,
-    charts: [["Persistence diagram", diagram], ["Barcode", barcode], ...(cut && tree ? [["Cut", cut], ["Merge tree", tree]] as Views["charts"] : [])],
+    charts: [
+      ["Persistence diagram", diagram],
+      ["Barcode", barcode],
+      ...(cut && tree
+        ? ([
+            ["Cut", cut],
+            ["Merge tree", tree],
+          ] as Views["charts"])
+        : []),
+    ],
   };
   const left = [data?.panel, cut?.panel, tree?.panel].filter((panel) => panel !== undefined);
-  const page = el("main", { class: data ? "with-data" : left.length > 0 ? "with-tree" : "bars-only" },
+  const page = el(
+    "main",
+    { class: data ? "with-data" : left.length > 0 ? "with-tree" : "bars-only" },
     ...(left.length > 0 ? [el("div", { class: "column left" }, ...left)] : []),
-    el("div", { class: "column right" }, diagram.panel, barcode.panel));
+    el("div", { class: "column right" }, diagram.panel, barcode.panel),
+  );
   app.replaceChildren(new Toolbar(session, views, page).element, page, statusLine(session));
 
   document.addEventListener("keydown", (event) => {
@@ -38,15 +52,20 @@ async function start(app: HTMLElement): Promise<void> {
   });
   keepAddress(session, data);
   app.removeAttribute("aria-busy");
-  requestAnimationFrame(() => requestAnimationFrame(() => {
-    app.dataset["firstFrame"] = performance.now().toFixed(0);
-  }));
+  requestAnimationFrame(() =>
+    requestAnimationFrame(() => {
+      app.dataset["firstFrame"] = performance.now().toFixed(0);
+    }),
+  );
 }
 
 function followTheme(session: Session): void {
-  const show = () => (document.documentElement.dataset["theme"] = session.theme.dark ? "dark" : "light");
+  const show = () =>
+    (document.documentElement.dataset["theme"] = session.theme.dark ? "dark" : "light");
   session.theme = themeOf(prefersDark());
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (event) => session.set("theme", themeOf(event.matches), "theme"));
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", (event) =>
+    session.set("theme", themeOf(event.matches), "theme"),
+  );
   session.onChange((changes) => changes.has("theme") && show());
   show();
 }
@@ -56,11 +75,14 @@ function statusLine(session: Session): HTMLElement {
   const selection = el("span", { class: "selection" });
   const clear = button("clear", () => session.select([]), { class: "quiet" });
   const show = () => {
-    reading.textContent = readingOf(session) || "Hover over a bar, a branch or a point; click selects it.";
+    reading.textContent =
+      readingOf(session) || "Hover over a bar, a branch or a point; click selects it.";
     selection.textContent = selectionOf(session);
     clear.disabled = session.selection.length === 0;
   };
-  session.onChange((changes) => (changes.has("focus") || changes.has("selection") || changes.has("cut")) && show());
+  session.onChange(
+    (changes) => (changes.has("focus") || changes.has("selection") || changes.has("cut")) && show(),
+  );
   show();
   return el("footer", { class: "status" }, reading, selection, clear);
 }
@@ -79,6 +101,8 @@ function keepAddress(session: Session, data: DataView | undefined): void {
 const app = document.getElementById("app")!;
 start(app).catch((error: unknown) => {
   const what = error instanceof Error ? error.message : String(error);
-  app.replaceChildren(el("p", { class: "failure", role: "alert" }, `This report cannot be shown: ${what}`));
+  app.replaceChildren(
+    el("p", { class: "failure", role: "alert" }, `This report cannot be shown: ${what}`),
+  );
   app.removeAttribute("aria-busy");
 });

@@ -81,8 +81,13 @@ export class MergeTree {
   /// Vertices of each branch with all that merges into it.
   sizes(): Float64Array {
     const before = new Float64Array(this.leaves + 1);
-    this.order.forEach((leaf, place) => (before[place + 1] = before[place]! + this.arrays.vertices[leaf]!));
-    return Float64Array.from({ length: this.leaves }, (_, b) => before[this.end[b]!]! - before[this.rank[b]!]!);
+    this.order.forEach(
+      (leaf, place) => (before[place + 1] = before[place]! + this.arrays.vertices[leaf]!),
+    );
+    return Float64Array.from(
+      { length: this.leaves },
+      (_, b) => before[this.end[b]!]! - before[this.rank[b]!]!,
+    );
   }
   /// How long a branch stays by itself, as the cut counts it.
   level(branch: number): number {
@@ -104,7 +109,7 @@ export class MergeTree {
   }
   /// Marks the leaves of a branch, without those branches in it that the cut keeps apart.
   markBranch(branch: number, cut: number, mask: Uint8Array): void {
-    for (let r = this.rank[branch]!; r < this.end[branch]!; ) {
+    for (let r = this.rank[branch]!; r < this.end[branch]!;) {
       const b = this.order[r]!;
       const apart = b !== branch && cut > 0 && !this.isDone(this.deathOf[b]!, cut);
       if (!apart) mask[b] = 1;
@@ -133,7 +138,8 @@ export class MergeTree {
 
   private extract(sets: DisjointSets, at: number): Cut {
     const a = this.arrays;
-    const points = new Float64Array(this.leaves), vertices = new Float64Array(this.leaves);
+    const points = new Float64Array(this.leaves),
+      vertices = new Float64Array(this.leaves);
     const oldest = new Int32Array(this.leaves).fill(-1);
     const rootOf = new Uint32Array(this.leaves).fill(kNone);
     for (let leaf = 0; leaf < this.leaves; ++leaf) {
@@ -151,7 +157,12 @@ export class MergeTree {
     const labelOfRoot = new Uint32Array(this.leaves);
     const segments = roots.map((root, i) => {
       labelOfRoot[root] = i + 1;
-      return { label: i + 1, points: points[root]!, vertices: vertices[root]!, oldestLeaf: oldest[root]! };
+      return {
+        label: i + 1,
+        points: points[root]!,
+        vertices: vertices[root]!,
+        oldestLeaf: oldest[root]!,
+      };
     });
     const labelOfLeaf = new Uint32Array(this.leaves);
     for (let leaf = 0; leaf < this.leaves; ++leaf)
@@ -162,9 +173,11 @@ export class MergeTree {
   private checkSizes(): void {
     const a = this.arrays;
     for (const column of [a.points, a.vertices])
-      if (column.length !== this.leaves) throw new PayloadError("tree: leaf columns differ in length");
+      if (column.length !== this.leaves)
+        throw new PayloadError("tree: leaf columns differ in length");
     for (const column of [a.elder, a.values, a.levels])
-      if (column.length !== this.merges) throw new PayloadError("tree: merge columns differ in length");
+      if (column.length !== this.merges)
+        throw new PayloadError("tree: merge columns differ in length");
     for (const column of [a.younger, a.elder, a.joins ?? [], a.touching ?? []])
       for (const leaf of column)
         if (leaf >= this.leaves) throw new PayloadError(`tree: there is no leaf ${leaf}`);
@@ -174,8 +187,10 @@ export class MergeTree {
     const sets = new DisjointSets(this.leaves);
     const branch = numbered(this.leaves); // of each root
     for (let k = 0; k < this.merges; ++k) {
-      const younger = sets.find(a.younger[k]!), elder = sets.find(a.elder[k]!);
-      if (younger === elder) throw new PayloadError(`tree: merge ${k} joins a component with itself`);
+      const younger = sets.find(a.younger[k]!),
+        elder = sets.find(a.elder[k]!);
+      if (younger === elder)
+        throw new PayloadError(`tree: merge ${k} joins a component with itself`);
       this.deathOf[branch[younger]!] = k;
       const survivor = (this.parentOf[branch[younger]!] = branch[elder]!);
       branch[sets.join(younger, elder)] = survivor;
@@ -183,19 +198,21 @@ export class MergeTree {
   }
   /// Depth first; what merges first comes first, so that a drawing has no crossings.
   private orderBranches(): void {
-    const head = new Uint32Array(this.leaves).fill(kNone), next = new Uint32Array(this.leaves).fill(kNone);
+    const head = new Uint32Array(this.leaves).fill(kNone),
+      next = new Uint32Array(this.leaves).fill(kNone);
     const branchOfMerge = new Uint32Array(this.merges);
     for (let b = 0; b < this.leaves; ++b)
       if (this.deathOf[b] !== kNone) branchOfMerge[this.deathOf[b]!] = b;
     for (let k = this.merges - 1; k >= 0; --k) {
-      const b = branchOfMerge[k]!, parent = this.parentOf[b]!;
+      const b = branchOfMerge[k]!,
+        parent = this.parentOf[b]!;
       next[b] = head[parent]!;
       head[parent] = b;
     }
     let place = 0;
     for (let root = 0; root < this.leaves; ++root) {
       if (this.parentOf[root] !== kNone) continue;
-      for (let b = root; ; ) {
+      for (let b = root; ;) {
         this.rank[b] = place;
         this.order[place++] = b;
         if (head[b] !== kNone) {
@@ -225,7 +242,8 @@ export class MergeTree {
     // Bars that no merge of the tree kills: infinite ones, and those that were contracted away.
     if (leafBar) {
       for (let i = 0; i + 1 < leafBar.length; i += 2) {
-        const leaf = leafBar[i]!, bar = leafBar[i + 1]!;
+        const leaf = leafBar[i]!,
+          bar = leafBar[i + 1]!;
         if (this.branchOfBar.has(bar) || leaf >= this.leaves) continue;
         if (infinite(bar)) this.name(rootOf(leaf), bar);
         else this.branchOfBar.set(bar, leaf);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Numbers as a reader wants them.
 
-const kSub = "₀₁₂₃₄₅₆₇₈₉", kSuper = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+const kSub = "₀₁₂₃₄₅₆₇₈₉",
+  kSuper = "⁰¹²³⁴⁵⁶⁷⁸⁹";
 
 function inDigits(number: number, digits: string): string {
   return [...String(Math.abs(number))].map((d) => digits[Number(d)]).join("");
@@ -31,9 +32,13 @@ export function short(value: number, digits = 4): string {
   if (value === -Infinity) return "−∞";
   if (value === 0) return "0";
   const size = Math.abs(value);
-  const text = size >= 1e6 || size < 1e-4
-    ? value.toExponential(digits - 1).replace(/\.?0+e/, "e").replace("e+", "e")
-    : String(Number(value.toPrecision(digits)));
+  const text =
+    size >= 1e6 || size < 1e-4
+      ? value
+          .toExponential(digits - 1)
+          .replace(/\.?0+e/, "e")
+          .replace("e+", "e")
+      : String(Number(value.toPrecision(digits)));
   return text.replace(/-/g, "−");
 }
 

@@ -1,7 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Shapes on the stage: wide lines, translucent triangles, dots. They are seen through the data.
 import {
-  BufferAttribute, BufferGeometry, DoubleSide, Group, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, Points, PointsMaterial,
+  BufferAttribute,
+  BufferGeometry,
+  DoubleSide,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshBasicMaterial,
+  Points,
+  PointsMaterial,
 } from "three";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
@@ -16,13 +25,29 @@ export class Overlay {
     shapes.forEach((shape, i) => {
       const { points, segments, triangles } = shape.geometry;
       const parts = [
-        triangles.length > 0 && new Mesh(flat(triangles), new MeshBasicMaterial({
-          color: shape.colour, transparent: true, opacity: shape.opacity, side: DoubleSide, depthWrite: false,
-        })),
+        triangles.length > 0 &&
+          new Mesh(
+            flat(triangles),
+            new MeshBasicMaterial({
+              color: shape.colour,
+              transparent: true,
+              opacity: shape.opacity,
+              side: DoubleSide,
+              depthWrite: false,
+            }),
+          ),
         segments.length > 0 && wideLines(segments, shape),
-        points.length > 0 && new Points(flat(points), new PointsMaterial({
-          color: shape.colour, size: 11, sizeAttenuation: false, depthTest: false, transparent: true,
-        })),
+        points.length > 0 &&
+          new Points(
+            flat(points),
+            new PointsMaterial({
+              color: shape.colour,
+              size: 11,
+              sizeAttenuation: false,
+              depthTest: false,
+              transparent: true,
+            }),
+          ),
       ];
       for (const part of parts) {
         if (!part) continue;
@@ -44,7 +69,10 @@ export class Overlay {
 
 /// The edges of the complex: many and thin.
 export function thinLines(ends: Float32Array, colour: string): LineSegments {
-  const lines = new LineSegments(flat(ends), new LineBasicMaterial({ color: colour, transparent: true, opacity: 0.35, depthWrite: false }));
+  const lines = new LineSegments(
+    flat(ends),
+    new LineBasicMaterial({ color: colour, transparent: true, opacity: 0.35, depthWrite: false }),
+  );
   lines.frustumCulled = false;
   return lines;
 }
@@ -58,6 +86,11 @@ function flat(coordinates: ArrayLike<number>): BufferGeometry {
 function wideLines(segments: number[], shape: Shape): LineSegments2 {
   const geometry = new LineSegmentsGeometry();
   geometry.setPositions(segments);
-  const material = new LineMaterial({ color: shape.colour, linewidth: shape.width, depthTest: shape.width < 2, transparent: true });
+  const material = new LineMaterial({
+    color: shape.colour,
+    linewidth: shape.width,
+    depthTest: shape.width < 2,
+    transparent: true,
+  });
   return new LineSegments2(geometry, material);
 }

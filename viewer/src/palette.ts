@@ -26,8 +26,26 @@ export function prefersDark(): boolean {
 
 export function themeOf(dark: boolean): Theme {
   return dark
-    ? { dark, ink: "#e6e9ee", muted: "#9aa3af", faint: "#6b7480", grid: "#2a3038", panel: "#181c22", shade: "#20252c", accent: "#ffd24a" }
-    : { dark, ink: "#1c2128", muted: "#5d6673", faint: "#8b939e", grid: "#e9ecf0", panel: "#ffffff", shade: "#f4f5f7", accent: "#111418" };
+    ? {
+        dark,
+        ink: "#e6e9ee",
+        muted: "#9aa3af",
+        faint: "#6b7480",
+        grid: "#2a3038",
+        panel: "#181c22",
+        shade: "#20252c",
+        accent: "#ffd24a",
+      }
+    : {
+        dark,
+        ink: "#1c2128",
+        muted: "#5d6673",
+        faint: "#8b939e",
+        grid: "#e9ecf0",
+        panel: "#ffffff",
+        shade: "#f4f5f7",
+        accent: "#111418",
+      };
 }
 
 export function dimColour(dim: number, theme: Theme): string {
@@ -63,8 +81,7 @@ export function coloursApart(touching: Iterable<number>[], wish: number[]): numb
     const taken = new Set<number>();
     for (const j of neighbours) if (choice[j] !== undefined) taken.add(choice[j]);
     let best = wish[i]! < 0 || taken.has(wish[i]!) ? -1 : wish[i]!;
-    for (let c = 0; best < 0 && c < kSegments.length; ++c)
-      if (!taken.has(c)) best = c;
+    for (let c = 0; best < 0 && c < kSegments.length; ++c) if (!taken.has(c)) best = c;
     if (wish[i]! < 0 && best >= 0)
       for (let c = 0; c < kSegments.length; ++c)
         if (!taken.has(c) && uses[c]! < uses[best]!) best = c;
@@ -77,14 +94,22 @@ export function coloursApart(touching: Iterable<number>[], wish: number[]): numb
 
 // Viridis (Stefan van der Walt and Nathaniel Smith, CC0) at nine places.
 const kViridis: Rgb[] = [
-  [68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141],
-  [39, 173, 129], [92, 200, 99], [170, 220, 50], [253, 231, 37],
+  [68, 1, 84],
+  [71, 44, 122],
+  [59, 81, 139],
+  [44, 113, 142],
+  [33, 144, 141],
+  [39, 173, 129],
+  [92, 200, 99],
+  [170, 220, 50],
+  [253, 231, 37],
 ];
 
 /// @param part 0 … 1
 export function ramp(part: number): Rgb {
   const at = Math.min(1, Math.max(0, part)) * (kViridis.length - 1);
   const i = Math.min(kViridis.length - 2, Math.floor(at));
-  const low = kViridis[i]!, high = kViridis[i + 1]!;
+  const low = kViridis[i]!,
+    high = kViridis[i + 1]!;
   return [0, 1, 2].map((k) => Math.round(low[k]! + (at - i) * (high[k]! - low[k]!))) as Rgb;
 }

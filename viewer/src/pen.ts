@@ -12,20 +12,51 @@ export interface TextStyle {
 
 /// Filled closed shapes or open strokes are lists of x, y.
 export interface Pen {
-  line(x1: number, y1: number, x2: number, y2: number, colour: string, width?: number, dash?: number[]): void;
+  line(
+    x1: number,
+    y1: number,
+    x2: number,
+    y2: number,
+    colour: string,
+    width?: number,
+    dash?: number[],
+  ): void;
   rect(x: number, y: number, width: number, height: number, colour: string, opacity?: number): void;
-  polygon(points: number[], fill: string, opacity?: number, stroke?: string, strokeWidth?: number): void;
+  polygon(
+    points: number[],
+    fill: string,
+    opacity?: number,
+    stroke?: string,
+    strokeWidth?: number,
+  ): void;
   stroke(points: number[], colour: string, width: number): void;
-  circle(x: number, y: number, r: number, fill: string, opacity?: number, stroke?: string, strokeWidth?: number): void;
+  circle(
+    x: number,
+    y: number,
+    r: number,
+    fill: string,
+    opacity?: number,
+    stroke?: string,
+    strokeWidth?: number,
+  ): void;
   text(x: number, y: number, text: string, style: TextStyle): void;
 }
 
-export const kFont = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
+export const kFont =
+  "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
 
 export class CanvasPen implements Pen {
   constructor(private readonly context: CanvasRenderingContext2D) {}
 
-  line(x1: number, y1: number, x2: number, y2: number, colour: string, width = 1, dash: number[] = []): void {
+  line(
+    x1: number,
+    y1: number,
+    x2: number,
+    y2: number,
+    colour: string,
+    width = 1,
+    dash: number[] = [],
+  ): void {
     const c = this.context;
     c.strokeStyle = colour;
     c.lineWidth = width;
@@ -51,7 +82,15 @@ export class CanvasPen implements Pen {
     this.trace(points);
     this.paint("none", 1, colour, width);
   }
-  circle(x: number, y: number, r: number, fill: string, opacity = 1, stroke = "none", strokeWidth = 1): void {
+  circle(
+    x: number,
+    y: number,
+    r: number,
+    fill: string,
+    opacity = 1,
+    stroke = "none",
+    strokeWidth = 1,
+  ): void {
     this.context.beginPath();
     this.context.arc(x, y, r, 0, 2 * Math.PI);
     this.paint(fill, opacity, stroke, strokeWidth);
@@ -101,9 +140,22 @@ const coordinate = (value: number) => String(Number(value.toFixed(2)));
 export class SvgPen implements Pen {
   private readonly elements: string[] = [];
 
-  line(x1: number, y1: number, x2: number, y2: number, colour: string, width = 1, dash: number[] = []): void {
+  line(
+    x1: number,
+    y1: number,
+    x2: number,
+    y2: number,
+    colour: string,
+    width = 1,
+    dash: number[] = [],
+  ): void {
     this.add("line", {
-      x1, y1, x2, y2, stroke: colour, "stroke-width": width,
+      x1,
+      y1,
+      x2,
+      y2,
+      stroke: colour,
+      "stroke-width": width,
       "stroke-dasharray": dash.length ? dash.join(" ") : undefined,
     });
   }
@@ -111,21 +163,55 @@ export class SvgPen implements Pen {
     this.add("rect", { x, y, width, height, fill: colour, "fill-opacity": opacity });
   }
   polygon(points: number[], fill: string, opacity = 1, stroke = "none", strokeWidth = 1): void {
-    this.add("polygon", { points: this.list(points), fill, "fill-opacity": opacity, stroke, "stroke-width": strokeWidth });
+    this.add("polygon", {
+      points: this.list(points),
+      fill,
+      "fill-opacity": opacity,
+      stroke,
+      "stroke-width": strokeWidth,
+    });
   }
   stroke(points: number[], colour: string, width: number): void {
-    this.add("polyline", { points: this.list(points), fill: "none", stroke: colour, "stroke-width": width });
+    this.add("polyline", {
+      points: this.list(points),
+      fill: "none",
+      stroke: colour,
+      "stroke-width": width,
+    });
   }
-  circle(x: number, y: number, r: number, fill: string, opacity = 1, stroke = "none", strokeWidth = 1): void {
-    this.add("circle", { cx: x, cy: y, r, fill, "fill-opacity": opacity, stroke, "stroke-width": strokeWidth });
+  circle(
+    x: number,
+    y: number,
+    r: number,
+    fill: string,
+    opacity = 1,
+    stroke = "none",
+    strokeWidth = 1,
+  ): void {
+    this.add("circle", {
+      cx: x,
+      cy: y,
+      r,
+      fill,
+      "fill-opacity": opacity,
+      stroke,
+      "stroke-width": strokeWidth,
+    });
   }
   text(x: number, y: number, text: string, style: TextStyle): void {
-    this.add("text", {
-      x, y, fill: style.colour, "font-size": style.size ?? 11,
-      "text-anchor": style.anchor ?? "start",
-      "font-weight": style.bold ? 600 : undefined,
-      transform: style.upwards ? `rotate(-90 ${coordinate(x)} ${coordinate(y)})` : undefined,
-    }, escaped(text));
+    this.add(
+      "text",
+      {
+        x,
+        y,
+        fill: style.colour,
+        "font-size": style.size ?? 11,
+        "text-anchor": style.anchor ?? "start",
+        "font-weight": style.bold ? 600 : undefined,
+        transform: style.upwards ? `rotate(-90 ${coordinate(x)} ${coordinate(y)})` : undefined,
+      },
+      escaped(text),
+    );
   }
   image(x: number, y: number, width: number, height: number, url: string): void {
     this.add("image", { x, y, width, height, href: url });
@@ -148,7 +234,11 @@ export class SvgPen implements Pen {
   private list(points: number[]): string {
     return points.map(coordinate).join(" ");
   }
-  private add(name: string, attributes: Record<string, string | number | undefined>, content = ""): void {
+  private add(
+    name: string,
+    attributes: Record<string, string | number | undefined>,
+    content = "",
+  ): void {
     const text = Object.entries(attributes)
       .filter(([, value]) => value !== undefined)
       .map(([key, value]) => ` ${key}="${typeof value === "number" ? coordinate(value) : value}"`)

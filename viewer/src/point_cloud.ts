@@ -30,13 +30,18 @@ export class PointCloud {
   private readonly material: ShaderMaterial;
 
   /// @param spacing how far a point is from the next, about.
-  constructor(readonly positions: Float32Array, rgba: Uint8Array, private readonly spacing: number) {
+  constructor(
+    readonly positions: Float32Array,
+    rgba: Uint8Array,
+    private readonly spacing: number,
+  ) {
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(positions, 3));
     this.tint = new BufferAttribute(rgba, 4, true);
     geometry.setAttribute("tint", this.tint);
     this.material = new ShaderMaterial({
-      vertexShader: kVertex, fragmentShader: kFragment,
+      vertexShader: kVertex,
+      fragmentShader: kFragment,
       uniforms: { size: { value: 1 }, limits: { value: new Vector2(1.5, 14) } },
     });
     this.object = new Points(geometry, this.material);
@@ -54,13 +59,20 @@ export class PointCloud {
   /// The nearest point to the eye among those at these pixels; -1: none.
   at(stage: Stage, x: number, y: number): number {
     const [px, py] = stage.normalised(x, y);
-    const m = new Matrix4().multiplyMatrices(stage.camera.projectionMatrix, stage.camera.matrixWorldInverse).elements as number[];
+    const m = new Matrix4().multiplyMatrices(
+      stage.camera.projectionMatrix,
+      stage.camera.matrixWorldInverse,
+    ).elements as number[];
     const width = stage.besides ? stage.size.width / 2 : stage.size.width;
-    const rx = (2 * kReach) / width, ry = (2 * kReach) / stage.size.height;
+    const rx = (2 * kReach) / width,
+      ry = (2 * kReach) / stage.size.height;
     const p = this.positions;
-    let best = -1, nearest = Infinity;
+    let best = -1,
+      nearest = Infinity;
     for (let i = 0; i < p.length; i += 3) {
-      const a = p[i]!, b = p[i + 1]!, c = p[i + 2]!;
+      const a = p[i]!,
+        b = p[i + 1]!,
+        c = p[i + 2]!;
       const w = m[3]! * a + m[7]! * b + m[11]! * c + m[15]!;
       if (w <= 0) continue;
       const dx = (m[0]! * a + m[4]! * b + m[8]! * c + m[12]!) / w - px;
@@ -68,7 +80,9 @@ export class PointCloud {
       const dy = (m[1]! * a + m[5]! * b + m[9]! * c + m[13]!) / w - py;
       if (dy > ry || dy < -ry) continue;
       // A point right under the pointer goes before one that is a little nearer to the eye.
-      const depth = (m[2]! * a + m[6]! * b + m[10]! * c + m[14]!) / w + 0.002 * ((dx / rx) ** 2 + (dy / ry) ** 2);
+      const depth =
+        (m[2]! * a + m[6]! * b + m[10]! * c + m[14]!) / w +
+        0.002 * ((dx / rx) ** 2 + (dy / ry) ** 2);
       if (depth < nearest) [best, nearest] = [i / 3, depth];
     }
     return best;

@@ -27,14 +27,22 @@ export function firstPose(report: Report): Pose {
     const corners: number[] = [];
     for (const plane of [-0.5, planes - 0.5])
       for (const row of [-0.5, rows - 0.5])
-        for (const column of [-0.5, columns - 0.5]) corners.push(...placeInImage(planes === 1 ? 0 : plane, row, column));
+        for (const column of [-0.5, columns - 0.5])
+          corners.push(...placeInImage(planes === 1 ? 0 : plane, row, column));
     const flat = planes === 1;
-    return poseOf(corners, flat ? new Vector3(0, 0, 1) : new Vector3(0.75, 0.55, 1), new Vector3(0, 1, 0), flat);
+    return poseOf(
+      corners,
+      flat ? new Vector3(0, 0, 1) : new Vector3(0.75, 0.55, 1),
+      new Vector3(0, 1, 0),
+      flat,
+    );
   }
   const sample = sampled(cloud!.positions);
   if (cloud!.dims < 3) return poseOf(sample, new Vector3(0, 0, 1), new Vector3(0, 1, 0), true);
   const eye = meta.cloud?.viewpoint;
-  const up = new Vector3(...((meta.cloud?.up ?? (eye ? [0, -1, 0] : [0, 0, 1])) as Triple)).normalize();
+  const up = new Vector3(
+    ...((meta.cloud?.up ?? (eye ? [0, -1, 0] : [0, 0, 1])) as Triple),
+  ).normalize();
   const around = poseOf(sample, new Vector3(0.55, -0.9, 0.6), up, false);
   if (!eye) return around;
   const sensor = new Vector3(...(eye.map((c, k) => c - cloud!.origin[k]!) as Triple));
@@ -53,7 +61,8 @@ function poseOfSensor(coordinates: number[], sensor: Vector3, around: Pose): Pos
     const turn = new Vector3();
     for (const axis of [right, above]) {
       const { low, high } = ends(coordinates, (x, y, z) => {
-        const from = new Vector3(x, y, z).sub(sensor), depth = -from.dot(towards);
+        const from = new Vector3(x, y, z).sub(sensor),
+          depth = -from.dot(towards);
         return depth > 0 ? from.dot(axis) / depth : 0;
       });
       turn.addScaledVector(axis, (low + high) / 2);
@@ -62,15 +71,22 @@ function poseOfSensor(coordinates: number[], sensor: Vector3, around: Pose): Pos
     if (!last) towards.sub(turn).normalize();
   }
   return {
-    ...around, centre: sensor.clone().addScaledVector(towards, -distance), towards, distance,
+    ...around,
+    centre: sensor.clone().addScaledVector(towards, -distance),
+    towards,
+    distance,
     half: { width: half[0]!, height: half[1]!, depth: around.radius },
   };
 }
 
 /// All but a few outermost ones: a speck far away must not make the rest small.
-function ends(coordinates: number[], value: (x: number, y: number, z: number) => number): { low: number; high: number } {
+function ends(
+  coordinates: number[],
+  value: (x: number, y: number, z: number) => number,
+): { low: number; high: number } {
   const values: number[] = [];
-  for (let i = 0; i < coordinates.length; i += 3) values.push(value(coordinates[i]!, coordinates[i + 1]!, coordinates[i + 2]!));
+  for (let i = 0; i < coordinates.length; i += 3)
+    values.push(value(coordinates[i]!, coordinates[i + 1]!, coordinates[i + 2]!));
   values.sort((a, b) => a - b);
   const cut = Math.floor(values.length / 1000);
   return { low: values[cut]!, high: values[values.length - 1 - cut]! };
@@ -79,7 +95,8 @@ function ends(coordinates: number[], value: (x: number, y: number, z: number) =>
 function sampled(positions: Float32Array): number[] {
   const step = Math.max(1, Math.floor(positions.length / 3 / kSampled));
   const sample: number[] = [];
-  for (let i = 0; i < positions.length; i += 3 * step) sample.push(positions[i]!, positions[i + 1]!, positions[i + 2]!);
+  for (let i = 0; i < positions.length; i += 3 * step)
+    sample.push(positions[i]!, positions[i + 1]!, positions[i + 2]!);
   return sample;
 }
 
@@ -90,7 +107,8 @@ function poseOf(coordinates: number[], towards: Vector3, up: Vector3, flat: bool
   if (right.lengthSq() < 1e-6) right.set(1, 0, 0);
   right.normalize();
   const above = new Vector3().crossVectors(forward, right);
-  const centre = new Vector3(), half: number[] = [];
+  const centre = new Vector3(),
+    half: number[] = [];
   for (const axis of [right, above, forward]) {
     const { low, high } = ends(coordinates, (x, y, z) => axis.x * x + axis.y * y + axis.z * z);
     centre.addScaledVector(axis, (low + high) / 2);
@@ -98,5 +116,13 @@ function poseOf(coordinates: number[], towards: Vector3, up: Vector3, flat: bool
   }
   const radius = Math.hypot(...half) || 1;
   const [width, height, depth] = half.map((h) => Math.max(h, 0.05 * radius)) as Triple;
-  return { centre, towards: forward, up, flat, half: { width, height, depth }, radius, distance: undefined };
+  return {
+    centre,
+    towards: forward,
+    up,
+    flat,
+    half: { width, height, depth },
+    radius,
+    distance: undefined,
+  };
 }

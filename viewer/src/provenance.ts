@@ -12,10 +12,24 @@ export function provenanceDialog(session: Session): HTMLDialogElement {
   const list = el("dl", {});
   const entry = (name: string, value: string | number | Node | null | undefined) => {
     if (value === undefined || value === null || value === "") return;
-    list.append(el("dt", {}, name), el("dd", {}, typeof value === "number" ? String(value) : value));
+    list.append(
+      el("dt", {}, name),
+      el("dd", {}, typeof value === "number" ? String(value) : value),
+    );
   };
   entry("Program", p.version ?? meta.program);
-  entry("Command", p.command && el("span", {}, command, button("copy", () => void navigator.clipboard?.writeText(command.textContent ?? ""), { class: "quiet" })));
+  entry(
+    "Command",
+    p.command &&
+      el(
+        "span",
+        {},
+        command,
+        button("copy", () => void navigator.clipboard?.writeText(command.textContent ?? ""), {
+          class: "quiet",
+        }),
+      ),
+  );
   entry("Input", p.input?.path);
   entry("Read as", p.input?.description);
   entry("SHA-256", p.input?.sha256);
@@ -24,15 +38,37 @@ export function provenanceDialog(session: Session): HTMLDialogElement {
   entry("Highest dimension", p.max_dim);
   entry("Threshold", typeof p.threshold === "number" ? exact(p.threshold) : undefined);
   entry("Engine", p.engine);
-  entry("Bars", bars.dims.map((dim) => `${grouped(bars.count(dim, 0))} in dimension ${dim}`).join(", ") || "none");
-  if (tree) entry("Merge tree", `${counted(tree.leaves, "leaf").replace("leafs", "leaves")}, ${counted(tree.merges, "merge")}`);
-  entry("Times", Object.entries(p.timings ?? {}).map(([stage, s]) => `${stage} ${seconds(s)}`).join(", "));
+  entry(
+    "Bars",
+    bars.dims.map((dim) => `${grouped(bars.count(dim, 0))} in dimension ${dim}`).join(", ") ||
+      "none",
+  );
+  if (tree)
+    entry(
+      "Merge tree",
+      `${counted(tree.leaves, "leaf").replace("leafs", "leaves")}, ${counted(tree.merges, "merge")}`,
+    );
+  entry(
+    "Times",
+    Object.entries(p.timings ?? {})
+      .map(([stage, s]) => `${stage} ${seconds(s)}`)
+      .join(", "),
+  );
   entry("Peak memory", typeof p.peak_memory === "number" ? bytes(p.peak_memory) : undefined);
   for (const [name, text] of Object.entries(p.notes ?? {})) entry(name, text);
   for (const warning of p.warnings ?? []) entry("Warning", warning);
-  if (elements) entry("In this page", `${counted(elements.count, session.report.image ? "voxel" : "point")}, ${bytes(payloadBytes)} of data`);
-  const dialog = el("dialog", { class: "about", "aria-label": "About this report" }, el("h2", {}, "About this report"), list,
-    button("close", () => dialog.close(), { class: "close" }));
+  if (elements)
+    entry(
+      "In this page",
+      `${counted(elements.count, session.report.image ? "voxel" : "point")}, ${bytes(payloadBytes)} of data`,
+    );
+  const dialog = el(
+    "dialog",
+    { class: "about", "aria-label": "About this report" },
+    el("h2", {}, "About this report"),
+    list,
+    button("close", () => dialog.close(), { class: "close" }),
+  );
   dialog.addEventListener("click", (event) => event.target === dialog && dialog.close());
   const show = () => (command.textContent = commandLine(session));
   session.onChange((changes) => changes.has("cut") && show());
@@ -50,10 +86,18 @@ export function helpDialog(): HTMLDialogElement {
     ["Tab", "go from control to control; charts can be turned into tables"],
     ["Escape", "select nothing"],
   ];
-  const dialog = el("dialog", { class: "about", "aria-label": "Help" }, el("h2", {}, "How to read and use this page"),
-    el("p", {}, "A bar [birth, death) is a hole: H₀ components, H₁ loops, H₂ voids. What is far above the diagonal, or long, is there to stay. The four views show the same bars; the address of the page keeps what you see."),
+  const dialog = el(
+    "dialog",
+    { class: "about", "aria-label": "Help" },
+    el("h2", {}, "How to read and use this page"),
+    el(
+      "p",
+      {},
+      "A bar [birth, death) is a hole: H₀ components, H₁ loops, H₂ voids. What is far above the diagonal, or long, is there to stay. The four views show the same bars; the address of the page keeps what you see.",
+    ),
     el("dl", {}, ...rows.flatMap(([key, text]) => [el("dt", {}, key), el("dd", {}, text)])),
-    button("close", () => dialog.close(), { class: "close" }));
+    button("close", () => dialog.close(), { class: "close" }),
+  );
   dialog.addEventListener("click", (event) => event.target === dialog && dialog.close());
   return dialog;
 }

@@ -18,12 +18,20 @@ function elementWords(session: Session, element: number): string[] {
   const { cloud, image, elements } = session.report;
   const words: string[] = [];
   if (cloud) {
-    const at = Array.from({ length: cloud.dims }, (_, k) => short(cloud.positions[3 * element + k]! + cloud.origin[k]!));
+    const at = Array.from({ length: cloud.dims }, (_, k) =>
+      short(cloud.positions[3 * element + k]! + cloud.origin[k]!),
+    );
     words.push(`point ${grouped(cloud.index?.[element] ?? element)} (${at.join(", ")})`);
   } else if (image) {
     const [planes, rows, columns] = image.shape as [number, number, number];
-    const at = [Math.floor(element / (rows * columns)), Math.floor(element / columns) % rows, element % columns];
-    words.push(`voxel (${at.slice(planes === 1 ? 1 : 0).join(", ")}), value ${exact(image.values[element]!)}`);
+    const at = [
+      Math.floor(element / (rows * columns)),
+      Math.floor(element / columns) % rows,
+      element % columns,
+    ];
+    words.push(
+      `voxel (${at.slice(planes === 1 ? 1 : 0).join(", ")}), value ${exact(image.values[element]!)}`,
+    );
   }
   if (elements?.truth) words.push(`ground truth ${elements.truth[element]}`);
   return words;
@@ -31,7 +39,10 @@ function elementWords(session: Session, element: number): string[] {
 
 /// The selection in a few words.
 export function selectionOf(session: Session): string {
-  const { selection, report: { bars } } = session;
+  const {
+    selection,
+    report: { bars },
+  } = session;
   if (selection.length === 0) return "nothing selected";
   if (selection.length === 1) return nameOfBar(session, selection[0]!);
   let most = selection[0]!;

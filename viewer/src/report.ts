@@ -116,8 +116,7 @@ function isRecord(value: unknown): value is Record<string, unknown> {
 
 function checkedMeta(value: unknown): Meta {
   if (!isRecord(value) || value["format"] !== "ph-report") fail("found another format");
-  if (value["version"] !== 1)
-    fail(`found version ${String(value["version"])}, expected 1`);
+  if (value["version"] !== 1) fail(`found version ${String(value["version"])}, expected 1`);
   for (const name of ["title", "program"])
     if (typeof value[name] !== "string") fail(`${name} is no text`);
   if (!isRecord(value["provenance"])) fail("provenance is missing");
@@ -137,7 +136,9 @@ function readable(value: unknown, key = ""): unknown {
   if (typeof value === "string") return value.replace(/[\u202a-\u202e\u2066-\u2069]/g, "\ufffd");
   if (Array.isArray(value)) return value.map((item) => readable(item));
   if (!isRecord(value)) return value;
-  return Object.fromEntries(Object.entries(value).map(([name, item]) => [readable(name), readable(item, name)]));
+  return Object.fromEntries(
+    Object.entries(value).map(([name, item]) => [readable(name), readable(item, name)]),
+  );
 }
 
 export function reportOf(payload: Payload): Report {
@@ -171,16 +172,17 @@ export function reportOf(payload: Payload): Report {
     if (found && found.length < count) fail(`points/${name} is too short`);
     return found;
   };
-  const elements = count > 0
-    ? {
-        count,
-        rgb: ofElement("rgb") as Uint8Array | undefined,
-        normals: block("points/normal")?.values as Int8Array | undefined,
-        birth: ofElement("birth") ?? image?.values,
-        truth: ofElement("truth"),
-        leaf: ofElement("leaf"),
-      }
-    : undefined;
+  const elements =
+    count > 0
+      ? {
+          count,
+          rgb: ofElement("rgb") as Uint8Array | undefined,
+          normals: block("points/normal")?.values as Int8Array | undefined,
+          birth: ofElement("birth") ?? image?.values,
+          truth: ofElement("truth"),
+          leaf: ofElement("leaf"),
+        }
+      : undefined;
   const edges = block("complex/edges")
     ? { ends: need("complex/edges"), values: need("complex/edge_values") }
     : undefined;
@@ -200,7 +202,8 @@ export function reportOf(payload: Payload): Report {
 /// Positions relative to the least coordinates: those of a map do not fit float32.
 function cloudOf(block: Block | undefined, index: Numbers | undefined): Cloud | undefined {
   if (!block || block.values.length === 0) return undefined;
-  const dims = block.shape[1] ?? 1, { values, offset, scale } = block;
+  const dims = block.shape[1] ?? 1,
+    { values, offset, scale } = block;
   if (block.shape.length !== 2 || dims < 1 || dims > 3)
     fail("points/position needs one to three columns");
   const origin = [0, 0, 0];
@@ -208,7 +211,8 @@ function cloudOf(block: Block | undefined, index: Numbers | undefined): Cloud | 
   const positions = new Float32Array(3 * block.shape[0]!);
   for (let i = 0, p = 0; i < values.length; i += dims, p += 3)
     for (let k = 0; k < dims; ++k)
-      positions[p + k] = scale.length > 0 ? (scale[k] ?? scale[0]!) * values[i + k]! : values[i + k]! - origin[k]!;
+      positions[p + k] =
+        scale.length > 0 ? (scale[k] ?? scale[0]!) * values[i + k]! : values[i + k]! - origin[k]!;
   return { dims, origin, positions, index };
 }
 

@@ -11,28 +11,34 @@ export interface Shape {
   opacity: number; // of its triangles
 }
 
-const kMostChains = 100, kMostCells = 400_000;
+const kMostChains = 100,
+  kMostCells = 400_000;
 
-export const kBirthColour = "#f0e442", kDeathColour = "#cc79a7";
+export const kBirthColour = "#f0e442",
+  kDeathColour = "#cc79a7";
 
 /// The bars whose cells are shown: the one under the pointer, or the most persistent selected ones.
 export function barsInView(session: Session): number[] {
   if (session.focus.bar >= 0) return [session.focus.bar];
   const { bars } = session.report;
-  return [...session.selection].sort((a, b) => (bars.persistence(a) > bars.persistence(b) ? -1 : 1)).slice(0, kMostChains);
+  return [...session.selection]
+    .sort((a, b) => (bars.persistence(a) > bars.persistence(b) ? -1 : 1))
+    .slice(0, kMostChains);
 }
 
 export function shapesOf(session: Session): Shape[] {
   const { report, theme } = session;
   const { bars, chains } = report;
   const cells = new CellGeometry(report);
-  const births = emptyGeometry(), deaths = emptyGeometry();
+  const births = emptyGeometry(),
+    deaths = emptyGeometry();
   const byDim = new Map<number, Geometry>();
   let left = kMostCells;
   for (const bar of barsInView(session)) {
     if (bars.barcodeOf(bar) !== 0) continue;
     const dim = bars.dim[bar]!;
-    const birth = bars.cell(bar, 0), death = bars.cell(bar, 1);
+    const birth = bars.cell(bar, 0),
+      death = bars.cell(bar, 1);
     if (birth.length > 0) cells.add(births, birth, 0, birth.length);
     if (death.length > 0) cells.add(deaths, death, 0, death.length);
     const chain = chains?.ofBar.get(bar);
@@ -40,11 +46,20 @@ export function shapesOf(session: Session): Shape[] {
     const arity = bars.arity(bar, 0);
     let geometry = byDim.get(dim);
     if (!geometry) byDim.set(dim, (geometry = emptyGeometry()));
-    for (let at = chains.first[chain]!; at < chains.first[chain + 1]! && left > 0; at += arity, --left)
+    for (
+      let at = chains.first[chain]!;
+      at < chains.first[chain + 1]! && left > 0;
+      at += arity, --left
+    )
       cells.add(geometry, chains.cells, at, arity);
   }
   return [
-    ...[...byDim].map(([dim, geometry]) => ({ geometry, colour: dimColour(dim, theme), width: dim >= 2 ? 1 : 3.5, opacity: 0.3 })),
+    ...[...byDim].map(([dim, geometry]) => ({
+      geometry,
+      colour: dimColour(dim, theme),
+      width: dim >= 2 ? 1 : 3.5,
+      opacity: 0.3,
+    })),
     { geometry: deaths, colour: kDeathColour, width: 2.5, opacity: 0.45 },
     { geometry: births, colour: kBirthColour, width: 5, opacity: 0.5 },
   ];

@@ -9,8 +9,9 @@ import { kNone, type Report } from "./report";
 import { touchingInImage, touchingInSpace } from "./touching";
 
 export type ColourMode =
-  | "segment" | "rgb" | "truth" | "normal" | "depth" | "birth" | "persistence" | "plain";
-export type Change = "focus" | "selection" | "cut" | "colour" | "dims" | "scale" | "slice" | "theme" | "view";
+  "segment" | "rgb" | "truth" | "normal" | "depth" | "birth" | "persistence" | "plain";
+export type Change =
+  "focus" | "selection" | "cut" | "colour" | "dims" | "scale" | "slice" | "theme" | "view";
 
 /// What the pointer or the keyboard is on.
 export interface Focus {
@@ -75,7 +76,8 @@ export class Session {
   setFocus(focus: Partial<Focus>): void {
     const next = { ...kNothing, ...focus };
     const old = this.focus;
-    if (next.bar === old.bar && next.segment === old.segment && next.element === old.element) return;
+    if (next.bar === old.bar && next.segment === old.segment && next.element === old.element)
+      return;
     this.focus = next;
     this.changed("focus");
   }
@@ -95,7 +97,9 @@ export class Session {
     this.changed("cut");
   }
   set<K extends "colour" | "scale" | "beside" | "slice" | "sliceAxis" | "theme">(
-    what: K, value: this[K], change: Change,
+    what: K,
+    value: this[K],
+    change: Change,
   ): void {
     (this as Session)[what] = value;
     this.changed(change);
@@ -125,7 +129,8 @@ export class Session {
     const none = new Set<number>();
     const touching = cut.segments.map(() => (pairs.length > 0 ? new Set<number>() : none));
     for (let k = 0; k + 1 < pairs.length; k += 2) {
-      const a = cut.labelOfLeaf[pairs[k]!]!, b = cut.labelOfLeaf[pairs[k + 1]!]!;
+      const a = cut.labelOfLeaf[pairs[k]!]!,
+        b = cut.labelOfLeaf[pairs[k + 1]!]!;
       if (a === b || a === 0 || b === 0) continue;
       touching[a - 1]!.add(b - 1);
       touching[b - 1]!.add(a - 1);
@@ -142,9 +147,11 @@ export class Session {
     if (tree!.arrays.touching) return tree!.arrays.touching;
     // Of very many leaves each is a speck, whose colour says nothing.
     const few = elements?.leaf && tree!.leaves <= 20_000;
-    this.touching ??= !few ? new Uint32Array()
-      : image ? touchingInImage(elements.leaf!, image.shape, tree!.leaves)
-      : touchingInSpace(elements.leaf!, cloud!.positions, tree!.leaves);
+    this.touching ??= !few
+      ? new Uint32Array()
+      : image
+        ? touchingInImage(elements.leaf!, image.shape, tree!.leaves)
+        : touchingInSpace(elements.leaf!, cloud!.positions, tree!.leaves);
     return this.touching;
   }
   suggestion(): number | undefined {
@@ -231,7 +238,8 @@ export class Session {
     if (tree && elements?.leaf) modes.push(["persistence", "persistence"]);
     if (!image) modes.push(["plain", "one colour"]);
     // One segment tells nothing: begin with what does.
-    if (tree && (this.cut?.segments.length ?? 0) < 2 && modes.length > 2) modes.push(modes.shift()!);
+    if (tree && (this.cut?.segments.length ?? 0) < 2 && modes.length > 2)
+      modes.push(modes.shift()!);
     return modes;
   }
 }

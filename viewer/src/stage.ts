@@ -2,7 +2,13 @@
 // The three-dimensional picture: renderer, camera and controls. Draws when something changed, not
 // all the time.
 import {
-  ColorManagement, LinearSRGBColorSpace, OrthographicCamera, PerspectiveCamera, Scene, Vector3, WebGLRenderer,
+  ColorManagement,
+  LinearSRGBColorSpace,
+  OrthographicCamera,
+  PerspectiveCamera,
+  Scene,
+  Vector3,
+  WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { Size } from "./chart";
@@ -11,7 +17,8 @@ import type { Pose } from "./pose";
 // Colours are what the screen shows; nothing is lit.
 ColorManagement.enabled = false;
 
-const kFieldOfView = 40, kMargin = 1.08;
+const kFieldOfView = 40,
+  kMargin = 1.08;
 
 export class Stage {
   readonly scene = new Scene();
@@ -25,7 +32,10 @@ export class Stage {
   private scheduled = false;
 
   /// @throws Error without WebGL.
-  constructor(private readonly pose: Pose, readonly renderer = new WebGLRenderer({ antialias: true, alpha: true })) {
+  constructor(
+    private readonly pose: Pose,
+    readonly renderer = new WebGLRenderer({ antialias: true, alpha: true }),
+  ) {
     renderer.outputColorSpace = LinearSRGBColorSpace;
     renderer.setPixelRatio(window.devicePixelRatio || 1);
     renderer.autoClear = false;
@@ -49,7 +59,8 @@ export class Stage {
     const { centre, radius, towards, half } = this.pose;
     const tangent = Math.tan((kFieldOfView * Math.PI) / 360);
     const fitting = kMargin * Math.max(half.height, half.width / this.aspect());
-    const distance = this.pose.distance ?? (this.pose.flat ? 4 * radius : fitting / tangent + half.depth);
+    const distance =
+      this.pose.distance ?? (this.pose.flat ? 4 * radius : fitting / tangent + half.depth);
     if (this.pose.distance && this.camera instanceof PerspectiveCamera)
       this.camera.fov = (360 / Math.PI) * Math.atan(fitting / distance);
     this.camera.position.copy(centre).addScaledVector(towards, distance);
@@ -75,7 +86,12 @@ export class Stage {
   }
   private frame(half: number): void {
     const aspect = this.aspect();
-    Object.assign(this.camera, { left: -half * aspect, right: half * aspect, top: half, bottom: -half });
+    Object.assign(this.camera, {
+      left: -half * aspect,
+      right: half * aspect,
+      top: half,
+      bottom: -half,
+    });
   }
   invalidate(): void {
     if (this.scheduled) return;
@@ -109,14 +125,16 @@ export class Stage {
     const offset = this.camera.position.clone().sub(this.controls.target);
     if (this.pose.flat) {
       const step = (0.15 * this.pose.radius) / this.camera.zoom;
-      for (const v of [this.camera.position, this.controls.target]) v.add(new Vector3(-dx * step, dy * step, 0));
+      for (const v of [this.camera.position, this.controls.target])
+        v.add(new Vector3(-dx * step, dy * step, 0));
       this.camera.zoom *= zoom;
       this.camera.updateProjectionMatrix();
     } else {
       const right = new Vector3().crossVectors(this.camera.up, offset).normalize();
       offset.applyAxisAngle(this.camera.up.clone().normalize(), -0.12 * dx);
       const tilted = offset.clone().applyAxisAngle(right, -0.12 * dy);
-      if (tilted.angleTo(this.camera.up) > 0.05 && tilted.angleTo(this.camera.up) < Math.PI - 0.05) offset.copy(tilted);
+      if (tilted.angleTo(this.camera.up) > 0.05 && tilted.angleTo(this.camera.up) < Math.PI - 0.05)
+        offset.copy(tilted);
       this.camera.position.copy(this.controls.target).add(offset.divideScalar(zoom));
     }
     this.controls.update();
@@ -125,8 +143,11 @@ export class Stage {
   }
   /// Where the eye is, for the address of the page.
   get view(): number[] {
-    const { position } = this.camera, { target } = this.controls;
-    return [...position.toArray(), ...target.toArray(), this.camera.zoom].map((v) => Number(v.toPrecision(5)));
+    const { position } = this.camera,
+      { target } = this.controls;
+    return [...position.toArray(), ...target.toArray(), this.camera.zoom].map((v) =>
+      Number(v.toPrecision(5)),
+    );
   }
   set view(values: number[]) {
     if (values.length !== 7 || !values.every(Number.isFinite)) return;

@@ -7,19 +7,33 @@ import type { Report } from "./report";
 import type { Shape } from "./representatives";
 import type { Pose } from "./pose";
 
-const kMostPoints = 6000, kSide = 600;
+const kMostPoints = 6000,
+  kSide = 600;
 
 export class StaticPicture {
-  readonly element = svg("svg", { viewBox: `0 0 ${kSide} ${kSide}`, class: "still", role: "img" }, svg("title", {}, "The data, seen from the front"));
+  readonly element = svg(
+    "svg",
+    { viewBox: `0 0 ${kSide} ${kSide}`, class: "still", role: "img" },
+    svg("title", {}, "The data, seen from the front"),
+  );
   private readonly camera: PerspectiveCamera | OrthographicCamera;
 
-  constructor(private readonly report: Report, pose: Pose, private readonly slice: ImageSlice | undefined) {
+  constructor(
+    private readonly report: Report,
+    pose: Pose,
+    private readonly slice: ImageSlice | undefined,
+  ) {
     const { centre, radius, towards, up, flat, half } = pose;
     const fitting = 1.05 * Math.max(half.width, half.height);
     const distance = pose.distance ?? (flat ? 4 * radius : 2.7 * fitting + half.depth);
     this.camera = flat
       ? new OrthographicCamera(-fitting, fitting, fitting, -fitting, 0, 8 * radius)
-      : new PerspectiveCamera((360 / Math.PI) * Math.atan(fitting / distance), 1, distance / 200, distance + 50 * radius);
+      : new PerspectiveCamera(
+          (360 / Math.PI) * Math.atan(fitting / distance),
+          1,
+          distance / 200,
+          distance + 50 * radius,
+        );
     this.camera.up.copy(up);
     this.camera.position.copy(centre).addScaledVector(towards, distance);
     this.camera.lookAt(centre);
@@ -28,17 +42,25 @@ export class StaticPicture {
 
   draw(rgba: Uint8Array, shapes: Shape[]): void {
     const marks = this.slice ? [this.pictureOfSlice()] : this.dots(rgba);
-    this.element.replaceChildren(this.element.firstChild!, ...marks, ...shapes.flatMap((shape) => this.lines(shape)));
+    this.element.replaceChildren(
+      this.element.firstChild!,
+      ...marks,
+      ...shapes.flatMap((shape) => this.lines(shape)),
+    );
   }
 
   private dots(rgba: Uint8Array): SVGElement[] {
-    const positions = this.report.cloud!.positions, count = positions.length / 3;
+    const positions = this.report.cloud!.positions,
+      count = positions.length / 3;
     const step = Math.max(1, Math.ceil(count / kMostPoints));
     const seen: { depth: number; dot: SVGElement }[] = [];
     for (let i = 0; i < count; i += step) {
       const at = this.project(positions, 3 * i);
       const fill = `rgb(${rgba[4 * i]} ${rgba[4 * i + 1]} ${rgba[4 * i + 2]})`;
-      seen.push({ depth: at.z, dot: svg("circle", { cx: at.x.toFixed(1), cy: at.y.toFixed(1), r: 2.4, fill }) });
+      seen.push({
+        depth: at.z,
+        dot: svg("circle", { cx: at.x.toFixed(1), cy: at.y.toFixed(1), r: 2.4, fill }),
+      });
     }
     return seen.sort((a, b) => b.depth - a.depth).map(({ dot }) => dot);
   }
@@ -46,12 +68,24 @@ export class StaticPicture {
     const { segments, points } = shape.geometry;
     const marks: SVGElement[] = [];
     for (let i = 0; i + 5 < segments.length; i += 6) {
-      const a = this.project(segments, i), b = this.project(segments, i + 3);
-      marks.push(svg("line", { x1: a.x.toFixed(1), y1: a.y.toFixed(1), x2: b.x.toFixed(1), y2: b.y.toFixed(1), stroke: shape.colour, "stroke-width": shape.width }));
+      const a = this.project(segments, i),
+        b = this.project(segments, i + 3);
+      marks.push(
+        svg("line", {
+          x1: a.x.toFixed(1),
+          y1: a.y.toFixed(1),
+          x2: b.x.toFixed(1),
+          y2: b.y.toFixed(1),
+          stroke: shape.colour,
+          "stroke-width": shape.width,
+        }),
+      );
     }
     for (let i = 0; i + 2 < points.length; i += 3) {
       const a = this.project(points, i);
-      marks.push(svg("circle", { cx: a.x.toFixed(1), cy: a.y.toFixed(1), r: 5, fill: shape.colour }));
+      marks.push(
+        svg("circle", { cx: a.x.toFixed(1), cy: a.y.toFixed(1), r: 5, fill: shape.colour }),
+      );
     }
     return marks;
   }
@@ -60,11 +94,16 @@ export class StaticPicture {
     const canvas = document.createElement("canvas");
     canvas.width = width;
     canvas.height = height;
-    canvas.getContext("2d")!.putImageData(new ImageData(new Uint8ClampedArray(pixels), width, height), 0, 0);
+    canvas
+      .getContext("2d")!
+      .putImageData(new ImageData(new Uint8ClampedArray(pixels), width, height), 0, 0);
     const scale = kSide / Math.max(width, height);
     return svg("image", {
-      href: canvas.toDataURL(), width: width * scale, height: height * scale,
-      x: (kSide - width * scale) / 2, y: (kSide - height * scale) / 2,
+      href: canvas.toDataURL(),
+      width: width * scale,
+      height: height * scale,
+      x: (kSide - width * scale) / 2,
+      y: (kSide - height * scale) / 2,
     });
   }
   private project(from: ArrayLike<number>, i: number): Vector3 {

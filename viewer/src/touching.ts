@@ -10,14 +10,21 @@ export function touchingInImage(leaf: Numbers, shape: number[], leaves: number):
   const [, rows, columns] = shape as [number, number, number];
   for (const step of [1, columns, rows * columns])
     for (let i = 0; i + step < leaf.length; ++i) {
-      const wraps = (step === 1 && (i + 1) % columns === 0) || (step === columns && Math.floor(i / columns) % rows === rows - 1);
+      const wraps =
+        (step === 1 && (i + 1) % columns === 0) ||
+        (step === columns && Math.floor(i / columns) % rows === rows - 1);
       if (!wraps) add(pairs, leaf[i]!, leaf[i + step]!, leaves);
     }
   return unpacked(pairs, leaves);
 }
 
-export function touchingInSpace(leaf: Numbers, positions: Float32Array, leaves: number): Uint32Array {
-  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+export function touchingInSpace(
+  leaf: Numbers,
+  positions: Float32Array,
+  leaves: number,
+): Uint32Array {
+  const low = [Infinity, Infinity, Infinity],
+    high = [-Infinity, -Infinity, -Infinity];
   positions.forEach((v, i) => {
     low[i % 3] = Math.min(low[i % 3]!, v);
     high[i % 3] = Math.max(high[i % 3]!, v);
@@ -30,11 +37,13 @@ export function touchingInSpace(leaf: Numbers, positions: Float32Array, leaves: 
   for (let i = 0; i < leaf.length; ++i) {
     if (leaf[i]! >= leaves) continue;
     let cube = 0;
-    for (let k = 0; k < 3; ++k) cube += strides[k]! * Math.floor((positions[3 * i + k]! - low[k]!) / edge);
+    for (let k = 0; k < 3; ++k)
+      cube += strides[k]! * Math.floor((positions[3 * i + k]! - low[k]!) / edge);
     if (inCube[cube]! < 0) inCube[cube] = leaf[i]!;
     add(pairs, inCube[cube]!, leaf[i]!, leaves);
     for (const stride of strides)
-      for (const next of [cube - stride, cube + stride]) if (inCube[next]! >= 0) add(pairs, inCube[next]!, leaf[i]!, leaves);
+      for (const next of [cube - stride, cube + stride])
+        if (inCube[next]! >= 0) add(pairs, inCube[next]!, leaf[i]!, leaves);
   }
   return unpacked(pairs, leaves);
 }

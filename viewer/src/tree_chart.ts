@@ -12,7 +12,12 @@ import { kNone } from "./report";
 import type { MergeTree } from "./merge_tree";
 import type { Change, Session } from "./session";
 
-const kLeft = 50, kRight = 12, kTop = 16, kBottom = 10, kPitch = 6, kReach = 10;
+const kLeft = 50,
+  kRight = 12,
+  kTop = 16,
+  kBottom = 10,
+  kPitch = 6,
+  kReach = 10;
 
 interface Drawn {
   branch: number;
@@ -37,9 +42,17 @@ export class TreeChart extends Chart {
     const size = tree.sizes();
     // Of equal level the larger one, or the one that dies later: a branch comes after the one that
     // it merges into.
-    this.byLevel = new Uint32Array(tree.leaves).map((_, i) => i).sort((a, b) =>
-      level[a]! > level[b]! ? -1 : level[a]! < level[b]! ? 1
-      : level[a] === Infinity ? size[b]! - size[a]! : tree.deathOf[b]! - tree.deathOf[a]!);
+    this.byLevel = new Uint32Array(tree.leaves)
+      .map((_, i) => i)
+      .sort((a, b) =>
+        level[a]! > level[b]!
+          ? -1
+          : level[a]! < level[b]!
+            ? 1
+            : level[a] === Infinity
+              ? size[b]! - size[a]!
+              : tree.deathOf[b]! - tree.deathOf[a]!,
+      );
     this.over.addEventListener("pointermove", (event) => this.focus(this.branchNear(event)));
     this.over.addEventListener("pointerleave", () => this.session.setFocus({}));
     this.over.addEventListener("click", (event) => {
@@ -50,7 +63,11 @@ export class TreeChart extends Chart {
   }
 
   draw(pen: Pen, size: Size): void {
-    const { theme, report: { meta }, cutValue } = this.session;
+    const {
+      theme,
+      report: { meta },
+      cutValue,
+    } = this.session;
     const { tree } = this;
     const axis = this.layOut(size);
     const unit = clipped([meta.value.unit, axis.unit].filter(Boolean).join(" "), 16);
@@ -59,18 +76,28 @@ export class TreeChart extends Chart {
       pen.line(kLeft, tick.at, size.width - kRight, tick.at, theme.grid);
       pen.text(kLeft - 6, tick.at + 3.5, tick.label, { ...small, anchor: "end" });
     }
-    pen.text(12, size.height / 2, unit ? `value (${unit})` : "value", { ...small, anchor: "middle", upwards: true });
+    pen.text(12, size.height / 2, unit ? `value (${unit})` : "value", {
+      ...small,
+      anchor: "middle",
+      upwards: true,
+    });
     for (const d of this.drawn) {
-      const merged = tree.deathOf[d.branch] !== kNone && tree.isDone(tree.deathOf[d.branch]!, cutValue);
+      const merged =
+        tree.deathOf[d.branch] !== kNone && tree.isDone(tree.deathOf[d.branch]!, cutValue);
       this.drawBranch(pen, d, merged ? theme.faint : this.colourOf(d.branch), merged ? 1 : 2.2);
     }
     if (tree.arrays.rule === "value" && cutValue > 0) {
       const y = axis.at(cutValue);
       pen.line(kLeft, y, size.width - kRight, y, theme.muted, 1.2, [5, 4]);
-      pen.text(size.width - kRight, y - 4, `cut ${short(cutValue, 3)}`, { ...small, anchor: "end" });
+      pen.text(size.width - kRight, y - 4, `cut ${short(cutValue, 3)}`, {
+        ...small,
+        anchor: "end",
+      });
     }
-    this.head.querySelector(".hint")!.textContent = this.drawn.length < tree.leaves
-      ? `the ${grouped(this.drawn.length)} most persistent of ${grouped(tree.leaves)} branches` : "";
+    this.head.querySelector(".hint")!.textContent =
+      this.drawn.length < tree.leaves
+        ? `the ${grouped(this.drawn.length)} most persistent of ${grouped(tree.leaves)} branches`
+        : "";
   }
 
   protected drawOver(pen: Pen): void {
@@ -92,10 +119,18 @@ export class TreeChart extends Chart {
   protected makeTable(): HTMLTableElement {
     const { tree } = this;
     const rows = Array.from(this.byLevel.subarray(0, 500), (b) => [
-      b, short(tree.arrays.births[b]!, 6), short(tree.death(b), 6),
-      tree.parentOf[b] === kNone ? "" : tree.parentOf[b]!, tree.arrays.points[b]!, this.session.cut?.labelOfLeaf[b] || "",
+      b,
+      short(tree.arrays.births[b]!, 6),
+      short(tree.death(b), 6),
+      tree.parentOf[b] === kNone ? "" : tree.parentOf[b]!,
+      tree.arrays.points[b]!,
+      this.session.cut?.labelOfLeaf[b] || "",
     ]);
-    return table("Branches, the most persistent first", ["branch", "birth", "merges at", "into", "points of its leaf", "segment"], rows);
+    return table(
+      "Branches, the most persistent first",
+      ["branch", "birth", "merges at", "into", "points of its leaf", "segment"],
+      rows,
+    );
   }
   protected step(by: number): void {
     const order = [...this.drawn].sort((a, b) => a.x - b.x);
@@ -110,7 +145,9 @@ export class TreeChart extends Chart {
     const { tree } = this;
     const most = Math.max(1, Math.floor((size.width - kLeft - kRight) / kPitch));
     const shown = this.prominent(most).sort((a, b) => tree.rank[a]! - tree.rank[b]!);
-    let low = Infinity, high = -Infinity, endless = false;
+    let low = Infinity,
+      high = -Infinity,
+      endless = false;
     for (const b of shown) {
       const death = tree.death(b);
       low = Math.min(low, tree.arrays.births[b]!);
@@ -118,14 +155,27 @@ export class TreeChart extends Chart {
       endless ||= !Number.isFinite(death);
     }
     if (!Number.isFinite(low)) low = Math.min(0, high);
-    const axis = new Axis(low, Math.max(high, low), size.height - kBottom, kTop + (endless ? 12 : 0));
-    const x = new Map(shown.map((b, i) => [b, kLeft + 10 + (i * (size.width - kLeft - kRight - 20)) / Math.max(1, shown.length - 1)]));
+    const axis = new Axis(
+      low,
+      Math.max(high, low),
+      size.height - kBottom,
+      kTop + (endless ? 12 : 0),
+    );
+    const x = new Map(
+      shown.map((b, i) => [
+        b,
+        kLeft + 10 + (i * (size.width - kLeft - kRight - 20)) / Math.max(1, shown.length - 1),
+      ]),
+    );
     if (shown.length === 1) x.set(shown[0]!, (kLeft + size.width - kRight) / 2);
     this.drawn = shown.map((branch) => {
       const death = tree.death(branch);
       return {
-        branch, x: x.get(branch)!, y1: axis.at(tree.arrays.births[branch]!),
-        y2: Number.isFinite(death) ? axis.at(death) : kTop - 6, parent: x.get(tree.parentOf[branch]!) ?? NaN,
+        branch,
+        x: x.get(branch)!,
+        y1: axis.at(tree.arrays.births[branch]!),
+        y2: Number.isFinite(death) ? axis.at(death) : kTop - 6,
+        parent: x.get(tree.parentOf[branch]!) ?? NaN,
       };
     });
     return axis;
@@ -135,7 +185,9 @@ export class TreeChart extends Chart {
     const { tree, byLevel } = this;
     let roots = 0;
     while (roots < tree.leaves && tree.parentOf[byLevel[roots]!] === kNone) ++roots;
-    const shown = Array.from(byLevel.subarray(0, Math.min(roots, Math.max(most >> 1, most - (tree.leaves - roots)))));
+    const shown = Array.from(
+      byLevel.subarray(0, Math.min(roots, Math.max(most >> 1, most - (tree.leaves - roots)))),
+    );
     const isShown = new Set(shown);
     for (const branch of byLevel.subarray(roots)) {
       if (shown.length >= most) break;
@@ -146,7 +198,11 @@ export class TreeChart extends Chart {
     return shown;
   }
   private drawBranch(pen: Pen, d: Drawn, colour: string, width: number): void {
-    pen.stroke(Number.isNaN(d.parent) ? [d.x, d.y1, d.x, d.y2] : [d.x, d.y1, d.x, d.y2, d.parent, d.y2], colour, width);
+    pen.stroke(
+      Number.isNaN(d.parent) ? [d.x, d.y1, d.x, d.y2] : [d.x, d.y1, d.x, d.y2, d.parent, d.y2],
+      colour,
+      width,
+    );
   }
   private colourOf(branch: number): string {
     const label = this.session.cut?.labelOfLeaf[branch] ?? 0;
@@ -165,7 +221,8 @@ export class TreeChart extends Chart {
   }
   private branchNear(event: MouseEvent): number {
     const [x, y] = this.place(event);
-    let best = -1, nearest = kReach;
+    let best = -1,
+      nearest = kReach;
     for (const d of this.drawn) {
       if (y > d.y1 + 6 || y < d.y2 - 6) continue;
       const distance = Math.abs(x - d.x);

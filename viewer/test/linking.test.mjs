@@ -4,7 +4,8 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import * as odd from "./support/odd_fixtures.mjs";
-import * as plain from "./support/fixtures.mjs";
+import { torus } from "./support/point_fixtures.mjs";
+import { scene } from "./support/scene_fixture.mjs";
 import { cutOf } from "./support/reference_tree.mjs";
 import { canRun, coloursOf, launch, open, picture } from "./support/browser.mjs";
 
@@ -14,29 +15,41 @@ const median = (times) => [...times].sort((a, b) => a - b)[times.length >> 1];
 const skip = !canRun && "no Chromium";
 const reading = (page) => page.textContent(".status .reading");
 const selection = (page) => page.textContent(".status .selection");
-const frame = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+const frame = (page) =>
+  page.evaluate(
+    () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))),
+  );
 
 /// Pixels of a canvas that lies over a chart that are not empty.
 const drawnOver = (page, chart) =>
   page.evaluate((name) => {
     const canvas = document.querySelector(`${name} canvas.over`);
-    const data = canvas.getContext("2d", { willReadFrequently: true }).getImageData(0, 0, canvas.width, canvas.height).data;
+    const data = canvas
+      .getContext("2d", { willReadFrequently: true })
+      .getImageData(0, 0, canvas.width, canvas.height).data;
     let drawn = 0;
     for (let i = 3; i < data.length; i += 4) if (data[i] > 0) ++drawn;
     return drawn;
   }, chart);
 
 async function setSlider(page, selector, value) {
-  await page.$eval(selector, (input, v) => {
-    input.value = v;
-    input.dispatchEvent(new Event("input", { bubbles: true }));
-  }, String(value));
+  await page.$eval(
+    selector,
+    (input, v) => {
+      input.value = v;
+      input.dispatchEvent(new Event("input", { bubbles: true }));
+    },
+    String(value),
+  );
   await frame(page);
 }
 
 async function downloaded(page, label) {
   await page.click("summary");
-  const [file] = await Promise.all([page.waitForEvent("download"), page.click(`.menu >> text=${label}`)]);
+  const [file] = await Promise.all([
+    page.waitForEvent("download"),
+    page.click(`.menu >> text=${label}`),
+  ]);
   const parts = await (await file.createReadStream()).toArray();
   return Buffer.concat(parts);
 }
@@ -44,7 +57,7 @@ async function downloaded(page, label) {
 test("linked views of points", { skip, timeout: 120_000 }, async (t) => {
   const browser = await launch();
   t.after(() => browser.close());
-  const report = plain.torus();
+  const report = torus();
   const { page, problems, close } = await open(browser, report);
 
   await t.test("the keyboard goes through the bars, all views follow", async () => {
@@ -64,29 +77,41 @@ test("linked views of points", { skip, timeout: 120_000 }, async (t) => {
     assert.equal(await selection(page), "nothing selected");
   });
 
-  await t.test("a lasso selects, and the selection is exported as the programs write it", async () => {
-    const box = await page.locator(".diagram canvas.over").boundingBox();
-    const at = (x, y) => [box.x + x * box.width, box.y + y * box.height];
-    await page.mouse.move(...at(0.13, 0.06));
-    await page.mouse.down();
-    for (const corner of [[0.45, 0.06], [0.45, 0.62], [0.13, 0.62], [0.13, 0.07]]) await page.mouse.move(...at(...corner), { steps: 4 });
-    await page.mouse.up();
-    await frame(page);
-    assert.match(await selection(page), /^3 bars selected/);
-    await picture(page, "torus_lasso");
-    const csv = (await downloaded(page, "Selected bars, CSV")).toString();
-    assert.equal(csv, "dim,birth,death\n1,0.31,1.33\n1,0.36,2.05\n2,0.52,1.36\n");
-    const json = JSON.parse((await downloaded(page, "JSON")).toString());
-    assert.equal(json.bars.length, 3);
-    assert.equal(json.bars[1].representative.length, 44);
-    assert.equal(json.command, "ph-barcode torus.csv --max-dim 2 --representatives cycles --report torus.html");
-    const svg = (await downloaded(page, "Picture, SVG")).toString();
-    assert.match(svg, />birth<\/text>/);
-    assert.match(svg, /<image [^>]*href="data:image\/png/);
-    const png = await downloaded(page, "Picture, PNG");
-    assert.equal(png.subarray(1, 4).toString(), "PNG");
-    assert.ok(png.length > 50_000);
-  });
+  await t.test(
+    "a lasso selects, and the selection is exported as the programs write it",
+    async () => {
+      const box = await page.locator(".diagram canvas.over").boundingBox();
+      const at = (x, y) => [box.x + x * box.width, box.y + y * box.height];
+      await page.mouse.move(...at(0.13, 0.06));
+      await page.mouse.down();
+      for (const corner of [
+        [0.45, 0.06],
+        [0.45, 0.62],
+        [0.13, 0.62],
+        [0.13, 0.07],
+      ])
+        await page.mouse.move(...at(...corner), { steps: 4 });
+      await page.mouse.up();
+      await frame(page);
+      assert.match(await selection(page), /^3 bars selected/);
+      await picture(page, "torus_lasso");
+      const csv = (await downloaded(page, "Selected bars, CSV")).toString();
+      assert.equal(csv, "dim,birth,death\n1,0.31,1.33\n1,0.36,2.05\n2,0.52,1.36\n");
+      const json = JSON.parse((await downloaded(page, "JSON")).toString());
+      assert.equal(json.bars.length, 3);
+      assert.equal(json.bars[1].representative.length, 44);
+      assert.equal(
+        json.command,
+        "ph-barcode torus.csv --max-dim 2 --representatives cycles --report torus.html",
+      );
+      const svg = (await downloaded(page, "Picture, SVG")).toString();
+      assert.match(svg, />birth<\/text>/);
+      assert.match(svg, /<image [^>]*href="data:image\/png/);
+      const png = await downloaded(page, "Picture, PNG");
+      assert.equal(png.subarray(1, 4).toString(), "PNG");
+      assert.ok(png.length > 50_000);
+    },
+  );
 
   await t.test("the address keeps what is seen", async () => {
     await page.waitForTimeout(300);
@@ -102,7 +127,10 @@ test("linked views of points", { skip, timeout: 120_000 }, async (t) => {
     const box = await page.locator(".stage canvas").boundingBox();
     let found = false;
     for (let k = 0; k < 80 && !found; ++k) {
-      await page.mouse.move(box.x + box.width * (0.2 + 0.6 * ((k * 0.618) % 1)), box.y + box.height * (0.3 + 0.4 * ((k * 0.377) % 1)));
+      await page.mouse.move(
+        box.x + box.width * (0.2 + 0.6 * ((k * 0.618) % 1)),
+        box.y + box.height * (0.3 + 0.4 * ((k * 0.377) % 1)),
+      );
       await frame(page);
       found = /point .* H/.test(await reading(page));
     }
@@ -133,14 +161,19 @@ test("linked views of points", { skip, timeout: 120_000 }, async (t) => {
 test("the live cut of a scene", { skip, timeout: 300_000 }, async (t) => {
   const browser = await launch();
   t.after(() => browser.close());
-  const report = plain.scene();
+  const report = scene();
   const count = report.vertexOfPoint.length;
   const { page, problems, bytes, firstFrame, wall, close } = await open(browser, report);
-  t.diagnostic(`${count} points: ${(bytes / 2 ** 20).toFixed(2)} MiB, ${(bytes / count).toFixed(1)} bytes a point, first frame ${firstFrame} ms (with the browser's work ${wall.toFixed(0)} ms)`);
+  t.diagnostic(
+    `${count} points: ${(bytes / 2 ** 20).toFixed(2)} MiB, ${(bytes / count).toFixed(1)} bytes a point, first frame ${firstFrame} ms (with the browser's work ${wall.toFixed(0)} ms)`,
+  );
   await picture(page, "scene");
 
   await t.test("first the program's own cut, with its joins", async () => {
-    const parts = cutOf(report.tree, report.vertexOfPoint, { ...report.options, cut: report.joinedAt });
+    const parts = cutOf(report.tree, report.vertexOfPoint, {
+      ...report.options,
+      cut: report.joinedAt,
+    });
     assert.equal(await page.textContent(".cut .outcome"), `${parts.segments.length - 2} segments`);
     assert.match(await page.textContent(".cut .note"), /parts of one object are joined/);
   });
@@ -152,26 +185,47 @@ test("the live cut of a scene", { skip, timeout: 300_000 }, async (t) => {
       await frame(page);
       const expected = cutOf(report.tree, report.vertexOfPoint, { ...report.options, cut });
       const text = await page.textContent(".cut .outcome");
-      assert.equal(text, `${expected.segments.length} segment${expected.segments.length === 1 ? "" : "s"}`);
-      const counts = await page.$$eval(".legend button.row .count", (rows) => rows.map((r) => Number(r.textContent.replaceAll(",", ""))));
-      assert.deepEqual(counts, expected.segments.slice(0, 200).map((s) => s.points));
+      assert.equal(
+        text,
+        `${expected.segments.length} segment${expected.segments.length === 1 ? "" : "s"}`,
+      );
+      const counts = await page.$$eval(".legend button.row .count", (rows) =>
+        rows.map((r) => Number(r.textContent.replaceAll(",", ""))),
+      );
+      assert.deepEqual(
+        counts,
+        expected.segments.slice(0, 200).map((s) => s.points),
+      );
     }
     const json = JSON.parse((await downloaded(page, "JSON")).toString());
-    assert.equal(json.command, "ph-segment desk.pcd --min-persistence 0.5 --parts --labels labels.npy");
+    assert.equal(
+      json.command,
+      "ph-segment desk.pcd --min-persistence 0.5 --parts --labels labels.npy",
+    );
   });
 
   await t.test("the slider answers at once", async (tt) => {
     const times = [];
     for (const place of [300, 900, 1200, 1500, 700]) {
-      times.push(await page.$eval(".cut input[type=range]", (input, v) => {
-        const start = performance.now();
-        input.value = v;
-        input.dispatchEvent(new Event("input", { bubbles: true }));
-        return new Promise((done) => requestAnimationFrame(() => setTimeout(() => done(performance.now() - start))));
-      }, String(place)));
+      times.push(
+        await page.$eval(
+          ".cut input[type=range]",
+          (input, v) => {
+            const start = performance.now();
+            input.value = v;
+            input.dispatchEvent(new Event("input", { bubbles: true }));
+            return new Promise((done) =>
+              requestAnimationFrame(() => setTimeout(() => done(performance.now() - start))),
+            );
+          },
+          String(place),
+        ),
+      );
     }
     const own = Number((await page.getAttribute(".cut .outcome", "title")).match(/[\d.]+/)[0]);
-    tt.diagnostic(`${count} points cut and coloured in ${own} ms; drawn by the software renderer after ${times.map((ms) => ms.toFixed(0)).join(", ")} ms`);
+    tt.diagnostic(
+      `${count} points cut and coloured in ${own} ms; drawn by the software renderer after ${times.map((ms) => ms.toFixed(0)).join(", ")} ms`,
+    );
     assert.ok(own < 50 * kPatience);
     await picture(page, "scene_cut");
   });
@@ -225,21 +279,31 @@ test("a million bars, two million points", { skip, timeout: 500_000 }, async (t)
   await t.test("bars", async (tt) => {
     const { page, problems, bytes, firstFrame, close } = await open(browser, odd.manyBars());
     const hover = await page.$eval(".diagram canvas.over", (canvas) => {
-      const box = canvas.getBoundingClientRect(), times = [];
+      const box = canvas.getBoundingClientRect(),
+        times = [];
       return new Promise((done) => {
         const next = (k) => {
           if (k === 12) return done(times);
           const start = performance.now();
-          canvas.dispatchEvent(new PointerEvent("pointermove", { clientX: box.left + 80 + 15 * k, clientY: box.top + 60 + 8 * k }));
-          requestAnimationFrame(() => setTimeout(() => {
-            times.push(performance.now() - start);
-            next(k + 1);
-          }));
+          canvas.dispatchEvent(
+            new PointerEvent("pointermove", {
+              clientX: box.left + 80 + 15 * k,
+              clientY: box.top + 60 + 8 * k,
+            }),
+          );
+          requestAnimationFrame(() =>
+            setTimeout(() => {
+              times.push(performance.now() - start);
+              next(k + 1);
+            }),
+          );
         };
         next(0);
       });
     });
-    tt.diagnostic(`${(bytes / 2 ** 20).toFixed(1)} MiB, first frame ${firstFrame} ms, hover to frame ${median(hover).toFixed(0)} ms`);
+    tt.diagnostic(
+      `${(bytes / 2 ** 20).toFixed(1)} MiB, first frame ${firstFrame} ms, hover to frame ${median(hover).toFixed(0)} ms`,
+    );
     await picture(page, "many_bars");
     assert.ok((await coloursOf(page, ".diagram .chart")) > 50);
     assert.ok(median(hover) < 100 * kPatience);
@@ -247,16 +311,26 @@ test("a million bars, two million points", { skip, timeout: 500_000 }, async (t)
     await close();
   });
   await t.test("points", async (tt) => {
-    const n = 2_000_000, xyz = new Uint16Array(3 * n), rgb = new Uint8Array(3 * n);
+    const n = 2_000_000,
+      xyz = new Uint16Array(3 * n),
+      rgb = new Uint8Array(3 * n);
     for (let i = 0; i < n; ++i) {
-      const u = i % 2000, v = Math.floor(i / 2000);
+      const u = i % 2000,
+        v = Math.floor(i / 2000);
       xyz.set([u * 32, v * 60, 30000 + 12000 * Math.sin(u / 90) * Math.cos(v / 70)], 3 * i);
       rgb.set([u / 8, v / 4, 128], 3 * i);
     }
     const { meta, arrays } = odd.ties();
     const { page, problems, bytes, firstFrame, close } = await open(browser, {
       meta: { ...meta, title: "large.ply", cloud: {} },
-      arrays: { ...arrays, "points/position": [xyz, { shape: [n, 3], filter: "delta planes", offset: [0, 0, 0], scale: [1e-4, 1e-4, 1e-4] }], "points/rgb": [rgb, { shape: [n, 3], filter: "delta" }] },
+      arrays: {
+        ...arrays,
+        "points/position": [
+          xyz,
+          { shape: [n, 3], filter: "delta planes", offset: [0, 0, 0], scale: [1e-4, 1e-4, 1e-4] },
+        ],
+        "points/rgb": [rgb, { shape: [n, 3], filter: "delta" }],
+      },
     });
     tt.diagnostic(`${(bytes / 2 ** 20).toFixed(1)} MiB, first frame ${firstFrame} ms`);
     assert.ok((await coloursOf(page, ".stage")) > 50);

@@ -4,15 +4,16 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import * as odd from "./support/odd_fixtures.mjs";
-import * as plain from "./support/fixtures.mjs";
+import { image } from "./support/image_fixture.mjs";
+import { clusters, torus } from "./support/point_fixtures.mjs";
 import { canRun, coloursOf, launch, open, picture } from "./support/browser.mjs";
 
 const kCharts = [".diagram .chart", ".barcode .chart"];
 const cases = {
-  torus: [plain.torus, [...kCharts, ".stage"]],
-  clusters: [plain.clusters, [...kCharts, ".stage", ".cut .chart", ".tree .chart"]],
-  image: [plain.image, [...kCharts, ".stage", ".cut .chart", ".tree .chart"]],
-  volume: [() => plain.image([28, 36, 44]), [...kCharts, ".stage", ".cut .chart", ".tree .chart"]],
+  torus: [torus, [...kCharts, ".stage"]],
+  clusters: [clusters, [...kCharts, ".stage", ".cut .chart", ".tree .chart"]],
+  image: [image, [...kCharts, ".stage", ".cut .chart", ".tree .chart"]],
+  volume: [() => image([28, 36, 44]), [...kCharts, ".stage", ".cut .chart", ".tree .chart"]],
   empty: [odd.empty, kCharts],
   single_point: [odd.singlePoint, [...kCharts, ".stage"]],
   hostile: [odd.hostile, kCharts],
@@ -53,8 +54,15 @@ test("pages", { skip: !canRun && "no Chromium", timeout: 500_000 }, async (t) =>
     assert.match(await page.textContent("dialog[open] code"), /'it'\\''s; rm -rf \/'/);
     assert.equal(await page.locator("dialog[open] img, dialog[open] script").count(), 0);
     await page.keyboard.press("Escape");
-    const [file] = await Promise.all([page.waitForEvent("download"), page.click("summary").then(() => page.click("text=Picture, SVG"))]);
-    const svg = await (await file.createReadStream()).toArray().then((parts) => Buffer.concat(parts).toString());
+    const [file] = await Promise.all([
+      page.waitForEvent("download"),
+      page.click("summary").then(() => page.click("text=Picture, SVG")),
+    ]);
+    const svg = await (
+      await file.createReadStream()
+    )
+      .toArray()
+      .then((parts) => Buffer.concat(parts).toString());
     assert.match(svg, /&lt;script&gt;/);
     assert.doesNotMatch(svg, /<script/);
     assert.deepEqual(problems, []);
@@ -65,7 +73,10 @@ test("pages", { skip: !canRun && "no Chromium", timeout: 500_000 }, async (t) =>
     const { meta, arrays } = odd.empty();
     const { reportHtml } = await import("./support/write_report.mjs");
     const { template } = await import("./support/browser.mjs");
-    const html = reportHtml(template(), meta, arrays).replace("<div id=\"app\"", `<script>document.title = "owned"</script><div onclick="x()" style="color:red" id="x"></div><div id="app"`);
+    const html = reportHtml(template(), meta, arrays).replace(
+      '<div id="app"',
+      `<script>document.title = "owned"</script><div onclick="x()" style="color:red" id="x"></div><div id="app"`,
+    );
     const { page, problems, close } = await open(browser, html);
     assert.equal(await page.title(), "empty.csv");
     assert.ok(problems.some((p) => /Content Security Policy/.test(p)));
@@ -78,21 +89,34 @@ test("pages", { skip: !canRun && "no Chromium", timeout: 500_000 }, async (t) =>
     assert.match(await page.textContent(".failure"), /holds no report/);
     await close();
     const { meta, arrays } = odd.ties();
-    const bad = await open(browser, { meta, arrays: { ...arrays, "bars/death": new Float64Array(3) } });
+    const bad = await open(browser, {
+      meta,
+      arrays: { ...arrays, "bars/death": new Float64Array(3) },
+    });
     assert.match(await bad.page.textContent(".failure"), /different lengths/);
     await bad.close();
   });
 });
 
-test("without WebGL there is a still picture", { skip: !canRun && "no Chromium", timeout: 120_000 }, async (t) => {
-  const browser = await launch({ webgl: false });
-  t.after(() => browser.close());
-  for (const [name, make] of [["torus", plain.torus], ["image", plain.image]]) {
-    const { page, problems, close } = await open(browser, make());
-    assert.ok((await page.locator("svg.still > *").count()) > 1);
-    assert.ok((await coloursOf(page, ".stage")) > 4);
-    await picture(page, `${name}_no_webgl`);
-    assert.deepEqual(problems.filter((p) => !/WebGL/.test(p)), []);
-    await close();
-  }
-});
+test(
+  "without WebGL there is a still picture",
+  { skip: !canRun && "no Chromium", timeout: 120_000 },
+  async (t) => {
+    const browser = await launch({ webgl: false });
+    t.after(() => browser.close());
+    for (const [name, make] of [
+      ["torus", torus],
+      ["image", image],
+    ]) {
+      const { page, problems, close } = await open(browser, make());
+      assert.ok((await page.locator("svg.still > *").count()) > 1);
+      assert.ok((await coloursOf(page, ".stage")) > 4);
+      await picture(page, `${name}_no_webgl`);
+      assert.deepEqual(
+        problems.filter((p) => !/WebGL/.test(p)),
+        [],
+      );
+      await close();
+    }
+  },
+);

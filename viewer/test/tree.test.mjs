@@ -11,21 +11,37 @@ const { segmentCounts, suggestedCut, CutScale } = await importSource("gaps.ts");
 
 function pageTree(arrays, rule, minSize, more = {}) {
   return new MergeTree({
-    rule, minSize, births: arrays["tree/leaf_birth"], points: arrays["tree/leaf_points"], vertices: arrays["tree/leaf_vertices"],
-    younger: arrays["tree/merge_younger"], elder: arrays["tree/merge_elder"],
-    values: arrays["tree/merge_value"], levels: arrays["tree/merge_level"], mergeBar: arrays["tree/merge_bar"], infinite: () => true, ...more,
+    rule,
+    minSize,
+    births: arrays["tree/leaf_birth"],
+    points: arrays["tree/leaf_points"],
+    vertices: arrays["tree/leaf_vertices"],
+    younger: arrays["tree/merge_younger"],
+    elder: arrays["tree/merge_elder"],
+    values: arrays["tree/merge_value"],
+    levels: arrays["tree/merge_level"],
+    mergeBar: arrays["tree/merge_bar"],
+    infinite: () => true,
+    ...more,
   });
 }
 
 /// A random graph on a grid, its values from few numbers if there are to be ties.
 function scene(seed, ties) {
-  const next = random(seed), width = 3 + Math.floor(9 * next()), n = width * (3 + Math.floor(9 * next()));
-  const births = Float64Array.from({ length: n }, () => (ties ? Math.floor(4 * next()) / 4 : next()));
+  const next = random(seed),
+    width = 3 + Math.floor(9 * next()),
+    n = width * (3 + Math.floor(9 * next()));
+  const births = Float64Array.from({ length: n }, () =>
+    ties ? Math.floor(4 * next()) / 4 : next(),
+  );
   const edges = [];
   for (let i = 0; i < n; ++i)
     for (const j of [i + 1, i + width])
-      if (j < n && !(j === i + 1 && j % width === 0) && next() < 0.95) edges.push([i, j, Math.max(births[i], births[j])]);
-  const vertexOfPoint = Uint32Array.from({ length: 3 * n }, () => (next() < 0.1 ? 0xffffffff : Math.floor(n * next())));
+      if (j < n && !(j === i + 1 && j % width === 0) && next() < 0.95)
+        edges.push([i, j, Math.max(births[i], births[j])]);
+  const vertexOfPoint = Uint32Array.from({ length: 3 * n }, () =>
+    next() < 0.1 ? 0xffffffff : Math.floor(n * next()),
+  );
   return { tree: mergeTree(births, edges), vertexOfPoint };
 }
 
@@ -33,13 +49,19 @@ for (const rule of ["persistence", "value"])
   test(`cuts by ${rule} have the program's labels`, () => {
     for (let seed = 0; seed < 300; ++seed) {
       const { tree, vertexOfPoint } = scene(seed, seed % 2 === 0);
-      const minPart = rule === "value" ? 1 : 1 + (seed % 7), minSize = 1 + (seed % 5), from = seed % 3 === 0 ? 0.25 : 0;
+      const minPart = rule === "value" ? 1 : 1 + (seed % 7),
+        minSize = 1 + (seed % 5),
+        from = seed % 3 === 0 ? 0.25 : 0;
       const { arrays } = contracted(tree, vertexOfPoint, { rule, minPart, from });
       const page = pageTree(arrays, rule, minSize);
       for (const cut of [from, 0.25, 0.4, 0.5, 0.75, 1, 2]) {
         const expected = cutOf(tree, vertexOfPoint, { rule, cut, minPart, minSize });
         const found = page.cut(cut, false);
-        assert.deepEqual(found.segments.map((s) => s.points), expected.segments.map((s) => s.points), `seed ${seed} cut ${cut}`);
+        assert.deepEqual(
+          found.segments.map((s) => s.points),
+          expected.segments.map((s) => s.points),
+          `seed ${seed} cut ${cut}`,
+        );
         const labels = Array.from(arrays["points/leaf"], (leaf) => found.labelOfLeaf[leaf] ?? 0);
         // Of a leaf that has entered later than the cut nothing is known inside: only from 0 up.
         if (rule === "value" && from > 0) continue;
@@ -50,18 +72,30 @@ for (const rule of ["persistence", "value"])
 
 test("one sweep counts the segments of all cuts", () => {
   for (let seed = 0; seed < 200; ++seed) {
-    const { tree, vertexOfPoint } = scene(seed, seed % 2 === 0), rule = seed % 3 === 0 ? "value" : "persistence";
+    const { tree, vertexOfPoint } = scene(seed, seed % 2 === 0),
+      rule = seed % 3 === 0 ? "value" : "persistence";
     const page = pageTree(contracted(tree, vertexOfPoint, { rule }).arrays, rule, 1 + (seed % 4));
     const cuts = [0, 0.1, 0.25, 0.3, 0.5, 0.75, 0.9, 1, 3];
-    assert.deepEqual(segmentCounts(page, cuts), cuts.map((cut) => page.cut(cut, false).segments.length), `seed ${seed}`);
+    assert.deepEqual(
+      segmentCounts(page, cuts),
+      cuts.map((cut) => page.cut(cut, false).segments.length),
+      `seed ${seed}`,
+    );
   }
 });
 
 test("branches nest, and no drawing crosses", () => {
   for (let seed = 0; seed < 200; ++seed) {
     const { tree, vertexOfPoint } = scene(seed, true);
-    const page = pageTree(contracted(tree, vertexOfPoint, { rule: "persistence" }).arrays, "persistence", 1);
-    assert.deepEqual([...page.order].sort((a, b) => a - b), [...page.order.keys()]);
+    const page = pageTree(
+      contracted(tree, vertexOfPoint, { rule: "persistence" }).arrays,
+      "persistence",
+      1,
+    );
+    assert.deepEqual(
+      [...page.order].sort((a, b) => a - b),
+      [...page.order.keys()],
+    );
     for (let branch = 0; branch < page.leaves; ++branch) {
       assert.equal(page.order[page.rank[branch]], branch);
       assert.ok(page.end[branch] > page.rank[branch]);
@@ -70,7 +104,8 @@ test("branches nest, and no drawing crosses", () => {
       assert.ok(page.rank[parent] < page.rank[branch] && page.end[branch] <= page.end[parent]);
       assert.ok(page.death(parent) >= page.death(branch));
       // What stands between a branch and the one it merges into merges no later.
-      for (let r = page.rank[parent] + 1; r < page.rank[branch]; ++r) assert.ok(page.death(page.order[r]) <= page.death(branch));
+      for (let r = page.rank[parent] + 1; r < page.rank[branch]; ++r)
+        assert.ok(page.death(page.order[r]) <= page.death(branch));
     }
   }
 });
@@ -84,10 +119,19 @@ test("joins hold where the program made them", () => {
 const page0 = (arrays) => arrays["tree/leaf_birth"].length;
 
 test("300 000 leaves are cut at once", (t) => {
-  const next = random(4), n = 300_000;
-  const edges = Array.from({ length: n - 1 }, (_, i) => [Math.floor(next() * (i + 1)), i + 1, next()]);
+  const next = random(4),
+    n = 300_000;
+  const edges = Array.from({ length: n - 1 }, (_, i) => [
+    Math.floor(next() * (i + 1)),
+    i + 1,
+    next(),
+  ]);
   const points = Uint32Array.from({ length: n }, (_, i) => i);
-  const page = pageTree(contracted(mergeTree(new Float64Array(n), edges), points, { rule: "value" }).arrays, "value", 10);
+  const page = pageTree(
+    contracted(mergeTree(new Float64Array(n), edges), points, { rule: "value" }).arrays,
+    "value",
+    10,
+  );
   page.cut(0.5, false);
   const times = [0.3, 0.5, 0.7].map((cut) => {
     const start = process.cpuUsage(); // of this process: others may keep the machine busy
@@ -95,7 +139,9 @@ test("300 000 leaves are cut at once", (t) => {
     const { user, system } = process.cpuUsage(start);
     return (user + system) / 1000;
   });
-  t.diagnostic(`CPU of cuts of 300 000 leaves: ${times.map((ms) => `${ms.toFixed(1)} ms`).join(", ")}`);
+  t.diagnostic(
+    `CPU of cuts of 300 000 leaves: ${times.map((ms) => `${ms.toFixed(1)} ms`).join(", ")}`,
+  );
   assert.ok(Math.min(...times) < 50 * Number(process.env.PATIENCE ?? 4)); // 50 on an idle machine
 });
 
@@ -112,6 +158,13 @@ test("the widest gap is between what is persistent and what is not", () => {
 test("a tree that is none is refused", () => {
   const { tree, vertexOfPoint } = scene(3, false);
   const { arrays } = contracted(tree, vertexOfPoint, { rule: "persistence" });
-  assert.throws(() => pageTree({ ...arrays, "tree/merge_elder": arrays["tree/merge_younger"] }, "persistence", 1), /itself/);
-  assert.throws(() => pageTree({ ...arrays, "tree/leaf_points": new Uint32Array(1) }, "persistence", 1), /length/);
+  assert.throws(
+    () =>
+      pageTree({ ...arrays, "tree/merge_elder": arrays["tree/merge_younger"] }, "persistence", 1),
+    /itself/,
+  );
+  assert.throws(
+    () => pageTree({ ...arrays, "tree/leaf_points": new Uint32Array(1) }, "persistence", 1),
+    /length/,
+  );
 });

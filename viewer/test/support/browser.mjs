@@ -16,7 +16,12 @@ export function template() {
 }
 
 export async function launch({ webgl = true } = {}) {
-  const args = ["--no-sandbox", ...(webgl ? ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"] : ["--disable-gpu", "--disable-3d-apis"])];
+  const args = [
+    "--no-sandbox",
+    ...(webgl
+      ? ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+      : ["--disable-gpu", "--disable-3d-apis"]),
+  ];
   return chromium.launch({ executablePath: executable, args });
 }
 
@@ -24,26 +29,56 @@ const folder = mkdtempSync(join(tmpdir(), "ph-report-"));
 let written = 0;
 
 /// Opens a report. `problems` collects console errors, page errors, and every request but the file.
-export async function open(browser, report, { width = 1280, height = 800, dark = false, hash = "", reducedMotion } = {}) {
+export async function open(
+  browser,
+  report,
+  { width = 1280, height = 800, dark = false, hash = "", reducedMotion } = {},
+) {
   const path = join(folder, `${++written}.html`);
-  const html = typeof report === "string" ? report : reportHtml(template(), report.meta, report.arrays);
+  const html =
+    typeof report === "string" ? report : reportHtml(template(), report.meta, report.arrays);
   writeFileSync(path, html);
-  const context = await browser.newContext({ viewport: { width, height }, colorScheme: dark ? "dark" : "light", reducedMotion, acceptDownloads: true });
+  const context = await browser.newContext({
+    viewport: { width, height },
+    colorScheme: dark ? "dark" : "light",
+    reducedMotion,
+    acceptDownloads: true,
+  });
   const page = await context.newPage();
   const problems = [];
-  page.on("console", (m) => ["error", "warning"].includes(m.type()) && !/GPU stall|software WebGL|willReadFrequently/i.test(m.text()) && problems.push(`console: ${m.text()}`));
+  page.on(
+    "console",
+    (m) =>
+      ["error", "warning"].includes(m.type()) &&
+      !/GPU stall|software WebGL|willReadFrequently/i.test(m.text()) &&
+      problems.push(`console: ${m.text()}`),
+  );
   page.on("pageerror", (e) => problems.push(`error: ${e.message}`));
   page.on("dialog", (d) => {
     problems.push(`dialog: ${d.message()}`);
     void d.dismiss();
   });
   const url = pathToFileURL(path).href;
-  page.on("request", (r) => r.url().split("#")[0] !== url && !r.url().startsWith("data:") && !r.url().startsWith("blob:") && problems.push(`request: ${r.url()}`));
+  page.on(
+    "request",
+    (r) =>
+      r.url().split("#")[0] !== url &&
+      !r.url().startsWith("data:") &&
+      !r.url().startsWith("blob:") &&
+      problems.push(`request: ${r.url()}`),
+  );
   const start = performance.now();
   await page.goto(url + hash);
   await page.waitForSelector("#app[data-first-frame], .failure", { timeout: 60000 });
   const firstFrame = Number(await page.getAttribute("#app", "data-first-frame"));
-  return { page, problems, bytes: html.length, firstFrame, wall: performance.now() - start, close: () => context.close() };
+  return {
+    page,
+    problems,
+    bytes: html.length,
+    firstFrame,
+    wall: performance.now() - start,
+    close: () => context.close(),
+  };
 }
 
 /// How many colours the pixels of an element have: an empty view has one.
@@ -59,7 +94,8 @@ export async function coloursOf(page, selector) {
     canvas.height = image.height;
     const c = canvas.getContext("2d");
     c.drawImage(image, 0, 0);
-    return new Set(new Uint32Array(c.getImageData(0, 0, image.width, image.height).data.buffer)).size;
+    return new Set(new Uint32Array(c.getImageData(0, 0, image.width, image.height).data.buffer))
+      .size;
   }, png.toString("base64"));
 }
 

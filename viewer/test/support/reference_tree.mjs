@@ -19,16 +19,23 @@ class DisjointSets {
 /// @param births by vertex. @param edges [u, v, value] each. Elder rule; ties by vertex.
 export function mergeTree(births, edges) {
   const sorted = edges.map((e, i) => [...e, i]).sort((a, b) => a[2] - b[2] || a[3] - b[3]);
-  const sets = new DisjointSets(births.length), size = new Uint32Array(births.length).fill(1);
+  const sets = new DisjointSets(births.length),
+    size = new Uint32Array(births.length).fill(1);
   const oldest = Uint32Array.from(births, (_, i) => i);
   const merges = [];
   for (const [u, v, value] of sorted) {
-    let a = sets.find(u), b = sets.find(v), ends = [u, v];
+    let a = sets.find(u),
+      b = sets.find(v),
+      ends = [u, v];
     if (a === b) continue;
     const before = births[oldest[a]] - births[oldest[b]] || oldest[a] - oldest[b];
     if (before < 0) [a, b, ends] = [b, a, [v, u]]; // a: the younger one
     merges.push({
-      value, younger: oldest[a], elder: oldest[b], youngerEnd: ends[0], elderEnd: ends[1],
+      value,
+      younger: oldest[a],
+      elder: oldest[b],
+      youngerEnd: ends[0],
+      elderEnd: ends[1],
       persistence: value === births[oldest[a]] ? 0 : value - births[oldest[a]],
       least: Math.min(size[a], size[b]),
     });
@@ -40,7 +47,8 @@ export function mergeTree(births, edges) {
 
 /// Points of each vertex, and a vertex of each point (0xffffffff: none).
 export function cutOf(tree, vertexOfPoint, { rule, cut, minPart = 1, minSize = 1 }) {
-  const n = tree.births.length, sets = new DisjointSets(n);
+  const n = tree.births.length,
+    sets = new DisjointSets(n);
   for (const m of tree.merges) {
     const separates = rule === "value" ? m.value > cut : m.persistence >= cut && m.least >= minPart;
     if (!separates) sets.link(sets.find(m.youngerEnd), sets.find(m.elderEnd));
@@ -52,25 +60,40 @@ export function cutOf(tree, vertexOfPoint, { rule, cut, minPart = 1, minSize = 1
     if (!components.has(root)) components.set(root, { root, first: v, points: 0, voxels: 0 });
     ++components.get(root).voxels;
   }
-  for (const v of vertexOfPoint) if (v !== 0xffffffff && components.has(sets.find(v))) ++components.get(sets.find(v)).points;
-  const kept = [...components.values()].filter((c) => c.voxels >= minSize)
+  for (const v of vertexOfPoint)
+    if (v !== 0xffffffff && components.has(sets.find(v))) ++components.get(sets.find(v)).points;
+  const kept = [...components.values()]
+    .filter((c) => c.voxels >= minSize)
     .sort((a, b) => b.points - a.points || b.voxels - a.voxels || a.first - b.first);
   const label = new Map(kept.map((c, i) => [c.root, i + 1]));
   return {
     segments: kept,
     labels: Uint32Array.from(vertexOfPoint, (v) =>
-      v === 0xffffffff || (rule === "value" && tree.births[v] > cut) ? 0 : (label.get(sets.find(v)) ?? 0)),
+      v === 0xffffffff || (rule === "value" && tree.births[v] > cut)
+        ? 0
+        : (label.get(sets.find(v)) ?? 0),
+    ),
   };
 }
 
 /// What a report holds: merges that some cut leaves undone stay, all others are contracted.
 /// @param from least cut. @param barOf the bar that a merge kills.
-export function contracted(tree, vertexOfPoint, { rule, minPart = 1, from = 0, barOf = () => 0xffffffff }) {
-  const n = tree.births.length, sets = new DisjointSets(n);
-  const stays = (m) => (rule === "value" ? m.value > from : m.least >= minPart && m.persistence >= from);
-  for (const m of tree.merges) if (!stays(m)) sets.link(sets.find(m.youngerEnd), sets.find(m.elderEnd));
-  const leafOfRoot = new Map(), leafOf = new Uint32Array(n);
-  const birth = [], points = [], vertices = [];
+export function contracted(
+  tree,
+  vertexOfPoint,
+  { rule, minPart = 1, from = 0, barOf = () => 0xffffffff },
+) {
+  const n = tree.births.length,
+    sets = new DisjointSets(n);
+  const stays = (m) =>
+    rule === "value" ? m.value > from : m.least >= minPart && m.persistence >= from;
+  for (const m of tree.merges)
+    if (!stays(m)) sets.link(sets.find(m.youngerEnd), sets.find(m.elderEnd));
+  const leafOfRoot = new Map(),
+    leafOf = new Uint32Array(n);
+  const birth = [],
+    points = [],
+    vertices = [];
   for (let v = 0; v < n; ++v) {
     const root = sets.find(v);
     if (!leafOfRoot.has(root)) {
@@ -86,7 +109,9 @@ export function contracted(tree, vertexOfPoint, { rule, minPart = 1, from = 0, b
   for (const v of vertexOfPoint) if (v !== 0xffffffff) ++points[leafOf[v]];
   const kept = tree.merges.filter(stays);
   const wide = birth.length >= 0xffff;
-  const leaf = Array.from(vertexOfPoint, (v) => (v === 0xffffffff ? (wide ? 0xffffffff : 0xffff) : leafOf[v]));
+  const leaf = Array.from(vertexOfPoint, (v) =>
+    v === 0xffffffff ? (wide ? 0xffffffff : 0xffff) : leafOf[v],
+  );
   return {
     leafOf,
     arrays: {
@@ -97,7 +122,9 @@ export function contracted(tree, vertexOfPoint, { rule, minPart = 1, from = 0, b
       "tree/merge_younger": Uint32Array.from(kept, (m) => leafOf[m.youngerEnd]),
       "tree/merge_elder": Uint32Array.from(kept, (m) => leafOf[m.elderEnd]),
       "tree/merge_value": Float64Array.from(kept, (m) => m.value),
-      "tree/merge_level": Float64Array.from(kept, (m) => (rule === "value" ? m.value : m.persistence)),
+      "tree/merge_level": Float64Array.from(kept, (m) =>
+        rule === "value" ? m.value : m.persistence,
+      ),
       "tree/merge_bar": Uint32Array.from(kept, barOf),
     },
   };

@@ -4,14 +4,20 @@ import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import * as odd from "./odd_fixtures.mjs";
-import * as plain from "./fixtures.mjs";
+import { image } from "./image_fixture.mjs";
+import { clusters, torus } from "./point_fixtures.mjs";
+import { scene } from "./scene_fixture.mjs";
 import { reportHtml } from "./write_report.mjs";
 
 const root = join(dirname(fileURLToPath(import.meta.url)), "../..");
 const folder = process.argv[2] ?? join(root, "build/fixtures");
 const template = readFileSync(join(root, "build/report-template.html"), "utf8");
 const all = {
-  torus: plain.torus, clusters: plain.clusters, image: plain.image, volume: () => plain.image([28, 36, 44]), scene: plain.scene,
+  torus,
+  clusters,
+  image,
+  volume: () => image([28, 36, 44]),
+  scene,
   ...odd,
 };
 mkdirSync(folder, { recursive: true });

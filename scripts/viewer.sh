@@ -1,0 +1,11 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Builds the page of the reports, viewer/build/report-template.html, and runs its tests in headless
+# Chromium: viewer.sh [build|test]. Installs what is missing first.
+set -euo pipefail
+cd "$(dirname "$0")/../viewer"
+
+../scripts/setup.sh viewer
+npm ci --no-audit --no-fund
+npm run --silent build
+if [ "${1:-test}" = test ]; then npm run --silent test; fi
