@@ -99,6 +99,7 @@ export class DataView {
       this.cloud?.resize(size.height, stage.renderer.getPixelRatio());
       stage.render(); // at once: a resized canvas is empty
     }).observe(this.canvasHost);
+    addEventListener("beforeprint", () => stage.render()); // what was drawn before is gone
     stage.controls.addEventListener("end", () => this.session.changed("view"));
     canvas.addEventListener("pointermove", (event) => event.buttons === 0 && this.hover(event));
     canvas.addEventListener("pointerleave", () => this.session.setFocus({}));

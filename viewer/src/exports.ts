@@ -113,52 +113,70 @@ export function selectionCsv(session: Session): string {
   return [two ? "barcode,dim,birth,death" : "dim,birth,death", ...lines, ""].join("\n");
 }
 
+/// A barcode file as ph-barcode writes it and reads it back, with what the page shows besides.
 export function selectionJson(session: Session): string {
   const { report, cut, cutValue } = session;
-  const { bars, chains, meta } = report;
-  const number = (value: number) => (Number.isFinite(value) ? value : value > 0 ? null : "-inf");
-  const cell = (numbers: number[]) => (numbers.length > 0 ? numbers : null);
-  const selected = selectedOrShown(session).map((bar) => {
-    const chain = chains?.ofBar.get(bar),
-      arity = bars.arity(bar, 0);
-    const cells: number[][] = [];
-    if (chain !== undefined && chains)
-      for (let at = chains.first[chain]!; at < chains.first[chain + 1]!; at += arity)
-        cells.push(Array.from(chains.cells.subarray(at, at + arity)));
-    return {
-      barcode: meta.barcodes[bars.barcodeOf(bar)]!.name,
-      dim: bars.dim[bar],
-      birth: number(bars.birth[bar]!),
-      death: number(bars.death[bar]!),
-      birth_cell: cell(bars.cell(bar, 0)),
-      death_cell: cell(bars.cell(bar, 1)),
-      ...(cells.length > 0 ? { representative: cells } : {}),
-    };
-  });
+  const { chains, meta } = report;
+  const { input, complex, field, engine } = meta.provenance;
+  const selected = selectedOrShown(session);
+  const allHaveChains = selected.length > 0 && selected.every((bar) => chains?.ofBar.has(bar));
   return (
     JSON.stringify(
       {
-        format: "ph-selection",
+        format: "ph-barcode",
         version: 1,
-        title: meta.title,
         program: meta.program,
         command: commandLine(session),
-        ...(cut
-          ? {
-              cut: cutValue,
-              segments: cut.segments.map(({ label, points, vertices }) => ({
-                label,
-                points,
-                vertices,
-              })),
-            }
-          : {}),
-        bars: selected,
+        input: { path: input?.path, description: input?.description },
+        complex,
+        field,
+        engine,
+        ...(allHaveChains ? { representatives: meta.barcodes[0]?.representatives } : {}),
+        bars: selected.map((bar) => barJson(session, bar)),
+        ...(cut && {
+          cut: cutValue,
+          segments: cut.segments.map(({ label, points, vertices }) => ({
+            label,
+            points,
+            vertices,
+          })),
+        }),
       },
       null,
       1,
     ) + "\n"
   );
+}
+
+function barJson(session: Session, bar: number): object {
+  const { bars, chains, meta } = session.report;
+  const kind = meta.barcodes[bars.barcodeOf(bar)]!.cells ?? "vertices";
+  const number = (value: number) => (Number.isFinite(value) ? value : value > 0 ? null : "-inf");
+  const named = (numbers: number[]) => (kind === "row" ? { row: numbers[0] } : { [kind]: numbers });
+  const cell = (numbers: number[]) => (numbers.length > 0 ? named(numbers) : null);
+  const chain = chains?.ofBar.get(bar);
+  const representative: object[] = [];
+  if (chains && chain !== undefined) {
+    const arity = bars.arity(bar, 0);
+    for (
+      let i = chains.start[chain]!, at = chains.first[chain]!;
+      i < chains.start[chain + 1]!;
+      ++i, at += arity
+    )
+      representative.push({
+        ...named(Array.from(chains.cells.subarray(at, at + arity))),
+        coefficient: chains.coefficients?.[i] ?? 1,
+      });
+  }
+  return {
+    ...(meta.barcodes.length > 1 ? { barcode: meta.barcodes[bars.barcodeOf(bar)]!.name } : {}),
+    dim: bars.dim[bar],
+    birth: number(bars.birth[bar]!),
+    death: number(bars.death[bar]!),
+    birth_cell: cell(bars.cell(bar, 0)),
+    death_cell: cell(bars.cell(bar, 1)),
+    ...(representative.length > 0 ? { representative } : {}),
+  };
 }
 
 function selectedOrShown(session: Session): number[] {

@@ -40,11 +40,9 @@ export interface Meta {
     up?: number[];
     viewpoint?: number[];
     projection?: string;
-    width?: number;
-    height?: number;
     metric?: string;
   };
-  image?: { construction?: "vertices" | "cells"; superlevel?: boolean };
+  image?: { construction?: "vertices" | "cells" };
   tree?: {
     rule: CutRule;
     label?: string;
@@ -53,7 +51,6 @@ export interface Meta {
     from?: number;
     to?: number;
     min_size?: number;
-    joined?: boolean;
     what?: string;
     command?: string[];
   };

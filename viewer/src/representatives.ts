@@ -20,10 +20,13 @@ export const kBirthColour = "#f0e442",
 /// The bars whose cells are shown: the one under the pointer, or the most persistent selected ones.
 export function barsInView(session: Session): number[] {
   if (session.focus.bar >= 0) return [session.focus.bar];
-  const { bars } = session.report;
-  return [...session.selection]
-    .sort((a, b) => (bars.persistence(a) > bars.persistence(b) ? -1 : 1))
-    .slice(0, kMostChains);
+  const found: number[] = [];
+  const most = Math.min(kMostChains, session.selection.length);
+  for (let i = 0; found.length < most; ++i) {
+    const bar = session.report.bars.byPersistence[i]!;
+    if (session.isSelected(bar)) found.push(bar);
+  }
+  return found;
 }
 
 export function shapesOf(session: Session): Shape[] {

@@ -101,11 +101,10 @@ export class TreeChart extends Chart {
   }
 
   protected drawOver(pen: Pen): void {
-    const { theme, selection, focus } = this.session;
-    const wanted = new Set(focus.bar >= 0 ? [focus.bar, ...selection] : selection);
+    const { theme, focus } = this.session;
     for (const d of this.drawn) {
       const bar = this.barOf(d.branch);
-      if (bar < 0 || !wanted.has(bar)) continue;
+      if (bar < 0 || !(bar === focus.bar || this.session.isSelected(bar))) continue;
       this.drawBranch(pen, d, bar === focus.bar ? theme.ink : theme.accent, 6);
       this.drawBranch(pen, d, this.colourOf(d.branch), 3);
       pen.circle(d.x, d.y1, 4, this.colourOf(d.branch), 1, theme.ink, 1.2);

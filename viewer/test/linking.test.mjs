@@ -99,6 +99,9 @@ test("linked views of points", { skip, timeout: 120_000 }, async (t) => {
       assert.equal(csv, "dim,birth,death\n1,0.31,1.33\n1,0.36,2.05\n2,0.52,1.36\n");
       const json = JSON.parse((await downloaded(page, "JSON")).toString());
       assert.equal(json.bars.length, 3);
+      assert.equal(json.format, "ph-barcode");
+      assert.deepEqual(Object.keys(json.bars[1].representative[0]), ["vertices", "coefficient"]);
+
       assert.equal(json.bars[1].representative.length, 44);
       assert.equal(
         json.command,

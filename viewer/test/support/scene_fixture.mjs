@@ -114,13 +114,12 @@ export function scene(width = 640, height = 536, { seeds = 26 } = {}) {
   const meta = metaOf("desk.pcd", {
     program: "ph-segment 0.1.0",
     value: { label: "Concavity" },
-    cloud: { unit: "m", viewpoint: [0, 0, 0], up: [0, -1, 0], width, height },
+    cloud: { unit: "m", viewpoint: [0, 0, 0], up: [0, -1, 0] },
     tree: {
       rule: "persistence",
       label: "least persistence",
       cut,
       min_size: 32,
-      joined: true,
       command: [
         "ph-segment",
         "desk.pcd",
