@@ -4,7 +4,7 @@ import { exact } from "./numbers";
 import type { Session } from "./session";
 
 /// A word as a POSIX shell reads it.
-export function quoted(word: string): string {
+function quoted(word: string): string {
   return /^[A-Za-z0-9_@%+=:,./-]+$/.test(word) ? word : `'${word.replace(/'/g, `'\\''`)}'`;
 }
 

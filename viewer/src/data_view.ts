@@ -8,12 +8,21 @@ import { Legend } from "./legend";
 import { counted, grouped, homology, short } from "./numbers";
 import { Overlay, thinLines } from "./overlay";
 import { PointCloud } from "./point_cloud";
-import { firstPose } from "./pose";
+import { firstPose, type Pose } from "./pose";
 import { shapesOf } from "./representatives";
 import { Stage } from "./stage";
 import { StaticPicture } from "./static_picture";
 import type { LineSegments } from "three";
 import type { Change, ColourMode, Session } from "./session";
+
+/// Nothing without WebGL.
+function stageOf(pose: Pose): Stage | undefined {
+  try {
+    return new Stage(pose);
+  } catch {
+    return undefined;
+  }
+}
 
 export class DataView {
   readonly panel: HTMLElement;
@@ -42,11 +51,7 @@ export class DataView {
     if (report.image) this.slice = new ImageSlice(report.image.shape, this.colouring.rgba);
     else {
       const spacing = (2 * pose.radius) / Math.sqrt(report.elements!.count);
-      this.cloud = new PointCloud(
-        report.cloud!.positions,
-        this.colouring.rgba,
-        spacing / pose.radius,
-      );
+      this.cloud = new PointCloud(report.cloud!.positions, this.colouring.rgba, spacing);
       if (report.elements!.truth) {
         this.truthColouring = new Colouring(session);
         this.truthColouring.update("truth");
@@ -58,15 +63,12 @@ export class DataView {
       el("h2", {}, !report.image ? "Point cloud" : report.image.shape[0]! > 1 ? "Volume" : "Image"),
     );
     this.panel = el("section", { class: "panel data", "aria-label": "Data" }, this.head, this.body);
-    try {
-      this.stage = new Stage({ ...pose });
-      this.setUpStage(this.stage);
-    } catch {
+    this.stage = stageOf(pose);
+    if (this.stage) this.setUpStage(this.stage);
+    else {
       this.still = new StaticPicture(report, pose, this.slice);
-      this.canvasHost.append(
-        this.still.element,
-        el("p", { class: "note" }, "WebGL is not available here: a still picture."),
-      );
+      const note = "WebGL is not available here: a still picture.";
+      this.canvasHost.append(this.still.element, el("p", { class: "note" }, note));
     }
     this.legend = new Legend(session, this.colouring);
     this.body.append(this.canvasHost, this.legend.element);
@@ -122,18 +124,14 @@ export class DataView {
     const { session } = this;
     const { report } = session;
     const modes = session.colourModes();
-    this.head.append(
-      el(
-        "span",
-        { class: "hint" },
-        this.description().replace("Cloud of ", "").replace("Image of ", ""),
-      ),
+    const size = this.description().replace(/^(Cloud|Image) of /, "");
+    const colour = select("colour", modes, session.colour, (value) =>
+      session.set("colour", value as ColourMode, "colour"),
     );
-    this.head.append(
-      select("colour", modes, session.colour, (value) =>
-        session.set("colour", value as ColourMode, "colour"),
-      ),
-    );
+    session.onChange((changes) => {
+      if (changes.has("colour")) colour.querySelector("select")!.value = session.colour;
+    });
+    this.head.append(el("span", { class: "hint" }, size), colour);
     if (this.truthColouring && this.stage) {
       const box = el("input", { type: "checkbox" });
       box.addEventListener("change", () => session.set("beside", box.checked, "colour"));

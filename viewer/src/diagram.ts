@@ -21,7 +21,7 @@ const kMostMarkers = 3000,
   kReach = 14;
 
 /// A shape of its own for each dimension: colours may be lost in print.
-export function drawMarker(
+function drawMarker(
   pen: Pen,
   dim: number,
   x: number,

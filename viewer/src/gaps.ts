@@ -4,7 +4,7 @@ import { DisjointSets, numbered } from "./disjoint_sets";
 import type { MergeTree } from "./merge_tree";
 
 /// Levels of all merges, ascending.
-export function levelsOf(tree: MergeTree): Float64Array {
+function levelsOf(tree: MergeTree): Float64Array {
   return Float64Array.from(tree.arrays.levels).sort();
 }
 

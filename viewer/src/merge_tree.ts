@@ -6,7 +6,7 @@
 // together in every cut. Each leaf is also a branch, the one that was born in it: it dies in the
 // merge in which its component is the younger one.
 import { DisjointSets, numbered } from "./disjoint_sets";
-import { PayloadError, type Numbers } from "./payload";
+import { kNone, PayloadError, type Numbers } from "./payload";
 
 /// When a merge is done: `persistence`: if its level (its persistence) is below the cut; `value`:
 /// if its level (its value) is at most the cut.
@@ -40,8 +40,6 @@ export interface Cut {
   labelOfLeaf: Uint32Array; // 0: in no segment
   segments: Segment[]; // segment i has label i + 1
 }
-
-const kNone = 0xffffffff;
 
 export class MergeTree {
   readonly leaves: number;

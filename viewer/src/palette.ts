@@ -53,10 +53,6 @@ export function dimColour(dim: number, theme: Theme): string {
   return colours[dim] ?? theme.muted;
 }
 
-export function css([r, g, b]: Rgb): string {
-  return `rgb(${r} ${g} ${b})`;
-}
-
 export function hex([r, g, b]: Rgb): string {
   return "#" + [r, g, b].map((c) => Math.round(c).toString(16).padStart(2, "0")).join("");
 }

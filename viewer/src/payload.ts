@@ -12,6 +12,9 @@ export type Numbers =
   | Float32Array
   | Float64Array;
 
+/// No leaf, no bar, no merge.
+export const kNone = 0xffffffff;
+
 /// A block of numbers; `shape[0]` rows. A number means offset + scale * what is stored, where the
 /// block has an offset and a scale (one for all, or one a column).
 export interface Block {

@@ -42,7 +42,7 @@ export interface Pen {
   text(x: number, y: number, text: string, style: TextStyle): void;
 }
 
-export const kFont =
+const kFont =
   "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
 
 export class CanvasPen implements Pen {

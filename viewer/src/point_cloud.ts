@@ -53,7 +53,7 @@ export class PointCloud {
   }
   resize(height: number, pixelRatio: number): void {
     const least = this.positions.length > 60000 ? 1.5 : 4.5;
-    this.material.uniforms["size"]!.value = 0.55 * this.spacing * height * pixelRatio;
+    this.material.uniforms["size"]!.value = 0.15 * this.spacing * height * pixelRatio;
     (this.material.uniforms["limits"]!.value as Vector2).set(least * pixelRatio, 14 * pixelRatio);
   }
   /// The nearest point to the eye among those at these pixels; -1: none.

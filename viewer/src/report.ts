@@ -101,8 +101,6 @@ export interface Report {
   payloadBytes: number;
 }
 
-export const kNone = 0xffffffff;
-
 function fail(what: string): never {
   throw new PayloadError(`report: ${what}`);
 }

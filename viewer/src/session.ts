@@ -4,8 +4,8 @@
 import { coloursApart, segmentColour, themeOf, type Rgb, type Theme } from "./palette";
 import { suggestedCut } from "./gaps";
 import type { Cut } from "./merge_tree";
-import type { Numbers } from "./payload";
-import { kNone, type Report } from "./report";
+import { kNone, type Numbers } from "./payload";
+import type { Report } from "./report";
 import { touchingInImage, touchingInSpace } from "./touching";
 
 export type ColourMode =
@@ -45,9 +45,7 @@ export class Session {
     this.selected = new Uint8Array(report.bars.size);
     this.cutValue = report.meta.tree?.cut ?? 0;
     this.slice = Math.floor((report.image?.shape[0] ?? 1) / 2);
-    if (report.tree) {
-      this.recut();
-    }
+    if (report.tree) this.recut();
     this.colour = this.colourModes()[0]![0];
   }
 

@@ -8,7 +8,7 @@ import { table } from "./dom";
 import { clipped, counted, grouped, short } from "./numbers";
 import { hex } from "./palette";
 import type { Pen } from "./pen";
-import { kNone } from "./report";
+import { kNone } from "./payload";
 import type { MergeTree } from "./merge_tree";
 import type { Change, Session } from "./session";
 

@@ -120,7 +120,9 @@ test("linked views of points", { skip, timeout: 120_000 }, async (t) => {
     await page.waitForTimeout(300);
     const hash = new URL(page.url()).hash;
     assert.match(hash, /bars=\d+,\d+,\d+/);
-    const again = await open(browser, report, { hash });
+    const again = await open(browser, report, { hash: `${hash}&colour=plain&theme=dark` });
+    assert.equal(await again.page.inputValue(".data select"), "plain");
+    assert.equal(await again.page.getAttribute("html", "data-theme"), "dark");
     assert.match(await selection(again.page), /^3 bars selected/);
     await again.close();
   });
