@@ -74,6 +74,7 @@ test("linked views of points", { skip, timeout: 120_000 }, async (t) => {
     assert.ok(before > 4);
     await picture(page, "torus_selected");
     await page.keyboard.press("Escape");
+    await frame(page);
     assert.equal(await selection(page), "nothing selected");
   });
 
@@ -246,6 +247,7 @@ test("the live cut of a scene", { skip, timeout: 300_000 }, async (t) => {
     const after = await page.screenshot({ clip: await page.locator(".stage").boundingBox() });
     assert.notDeepEqual(before, after);
     await page.click(".legend button.row >> nth=2");
+    await frame(page);
     await picture(page, "scene_selected");
     const bar = await selection(page);
     const box = await page.locator(".stage canvas").boundingBox();
