@@ -152,9 +152,9 @@ export class Colouring {
     } = this.session;
     const { low, high } = this.range("persistence")!,
       span = high - low || 1;
-    return Uint32Array.from({ length: tree!.leaves }, (_, leaf) =>
-      packed(ramp((tree!.level(tree!.branchAt(leaf, cutValue)) - low) / span)),
-    );
+    return tree!
+      .branchesAt(cutValue)
+      .map((branch) => packed(ramp((tree!.level(branch) - low) / span)));
   }
   private truthColours(none: number): (i: number) => number {
     const { truth } = this.session.report.elements!;

@@ -105,6 +105,16 @@ export class MergeTree {
       branch = this.parentOf[branch]!;
     }
   }
+  /// The same of every leaf at once.
+  branchesAt(cut: number): Uint32Array {
+    const branches = new Uint32Array(this.leaves);
+    for (const branch of this.order) {
+      const merge = this.deathOf[branch]!; // what it merges into comes before it
+      const isMerged = merge !== kNone && this.isDone(merge, cut);
+      branches[branch] = isMerged ? branches[this.parentOf[branch]!]! : branch;
+    }
+    return branches;
+  }
   /// Marks the leaves of a branch, without those branches in it that the cut keeps apart.
   markBranch(branch: number, cut: number, mask: Uint8Array): void {
     for (let r = this.rank[branch]!; r < this.end[branch]!;) {

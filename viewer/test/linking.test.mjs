@@ -66,12 +66,10 @@ test("linked views of points", { skip, timeout: 120_000 }, async (t) => {
     await frame(page);
     assert.match(await reading(page), /^H₁ \[0\.36, 2\.05\)|^H₁ \[0\.31, 1\.33\)|^H₂/);
     assert.ok((await drawnOver(page, ".barcode")) > 20 && (await drawnOver(page, ".diagram")) > 20);
-    const before = await coloursOf(page, ".stage");
     await page.keyboard.press("Enter");
     await frame(page);
     assert.match(await selection(page), /^H/);
-    await page.focus("h1 >> xpath=ancestor::header >> button >> nth=0");
-    assert.ok(before > 4);
+    assert.ok((await coloursOf(page, ".stage")) > 4);
     await picture(page, "torus_selected");
     await page.keyboard.press("Escape");
     await frame(page);
