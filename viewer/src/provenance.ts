@@ -2,7 +2,8 @@
 // Where the page comes from: everything needed to make it again.
 import { commandLine } from "./command";
 import { button, el } from "./dom";
-import { bytes, counted, exact, grouped, seconds } from "./numbers";
+import { bytes, counted, exact, grouped, homology, seconds, short } from "./numbers";
+import type { Meta } from "./report";
 import type { Session } from "./session";
 
 export function provenanceDialog(session: Session): HTMLDialogElement {
@@ -43,6 +44,7 @@ export function provenanceDialog(session: Session): HTMLDialogElement {
     bars.dims.map((dim) => `${grouped(bars.count(dim, 0))} in dimension ${dim}`).join(", ") ||
       "none",
   );
+  entry("Distances", distancesOf(meta).join("\n"));
   if (tree)
     entry(
       "Merge tree",
@@ -74,6 +76,17 @@ export function provenanceDialog(session: Session): HTMLDialogElement {
   session.onChange((changes) => changes.has("cut") && show());
   show();
   return dialog;
+}
+
+/// "H₁ bottleneck 0.05, Wasserstein 0.72", one a dimension.
+export function distancesOf(meta: Meta): string[] {
+  return (meta.distances ?? []).map(({ dim, bottleneck, wasserstein }) => {
+    const words = [
+      bottleneck != null && `bottleneck ${short(bottleneck)}`,
+      wasserstein != null && `Wasserstein ${short(wasserstein)}`,
+    ];
+    return `${homology(dim)} ${words.filter(Boolean).join(", ")}`;
+  });
 }
 
 export function helpDialog(): HTMLDialogElement {

@@ -3,9 +3,9 @@
 import { commandLine } from "./command";
 import { button, download, el, svg } from "./dom";
 import { pictureSvg, picturePng, selectionCsv, selectionJson, type Views } from "./exports";
-import { counted, grouped, homology, short } from "./numbers";
+import { counted, grouped, homology } from "./numbers";
 import { dimColour, themeOf } from "./palette";
-import { helpDialog, provenanceDialog } from "./provenance";
+import { distancesOf, helpDialog, provenanceDialog } from "./provenance";
 import type { Report } from "./report";
 import type { Session } from "./session";
 
@@ -143,14 +143,7 @@ function marker(dim: number, colour: string): SVGSVGElement {
 /// "1,024 points in R^3 · rips · ph-barcode 0.1.0", or the distances of two barcodes.
 function subtitle({ meta }: Report): string {
   const p = meta.provenance;
-  const distances = (meta.distances ?? []).map(({ dim, bottleneck, wasserstein }) => {
-    const words = [
-      bottleneck != null && `bottleneck ${short(bottleneck)}`,
-      wasserstein != null && `Wasserstein ${short(wasserstein)}`,
-    ];
-    return `${homology(dim)} ${words.filter(Boolean).join(", ")}`;
-  });
-  return [p.input?.description, p.complex, ...distances, meta.program]
+  return [p.input?.description, p.complex, ...distancesOf(meta), meta.program]
     .filter(Boolean)
     .join("  ·  ");
 }

@@ -96,6 +96,8 @@ test("branches nest, and no drawing crosses", () => {
       [...page.order].sort((a, b) => a - b),
       [...page.order.keys()],
     );
+    const at = page.branchesAt(0.5);
+    for (let leaf = 0; leaf < page.leaves; ++leaf) assert.equal(at[leaf], page.branchAt(leaf, 0.5));
     for (let branch = 0; branch < page.leaves; ++branch) {
       assert.equal(page.order[page.rank[branch]], branch);
       assert.ok(page.end[branch] > page.rank[branch]);
