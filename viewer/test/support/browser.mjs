@@ -9,6 +9,8 @@ import { reportHtml } from "./write_report.mjs";
 
 const root = join(dirname(fileURLToPath(import.meta.url)), "../..");
 export const executable = process.env.CHROMIUM ?? "/usr/bin/chromium";
+/// Two million points take a software renderer seconds.
+const kPatient = 120_000;
 export const canRun = existsSync(executable);
 
 export function template() {
@@ -84,7 +86,7 @@ export async function open(
 /// How many colours the pixels of an element have: an empty view has one.
 export async function coloursOf(page, selector) {
   const box = await page.locator(selector).first().boundingBox();
-  const png = await page.screenshot({ clip: box });
+  const png = await page.screenshot({ clip: box, timeout: kPatient });
   return page.evaluate(async (data) => {
     const image = new Image();
     image.src = `data:image/png;base64,${data}`;
@@ -102,5 +104,5 @@ export async function coloursOf(page, selector) {
 export async function picture(page, name) {
   if (!process.env.PICTURES) return;
   mkdirSync(process.env.PICTURES, { recursive: true });
-  await page.screenshot({ path: join(process.env.PICTURES, `${name}.png`) });
+  await page.screenshot({ path: join(process.env.PICTURES, `${name}.png`), timeout: kPatient });
 }
