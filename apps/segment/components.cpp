@@ -11,7 +11,8 @@ namespace {
 
 /// One component while it is measured.
 struct Component {
-  Index root = 0;  // the vertex that names it
+  Index root = 0;   // the vertex that names it
+  Index first = 0;  // its first vertex in the order of the grid
   Index points = 0;
   Index voxels = 0;
   Index in_grid = 0;  // points that its centroid is of
@@ -23,14 +24,14 @@ struct Component {
 bool comes_before(const Component& a, const Component& b) {
   if (a.points != b.points) return a.points > b.points;
   if (a.voxels != b.voxels) return a.voxels > b.voxels;
-  return a.root < b.root;
+  return a.first < b.first;
 }
 
 std::vector<Component> measured(const SceneTree& scene, const std::vector<Index>& component_of) {
   std::vector<Component> by_root(component_of.size());
   for (std::size_t v = 0; v < component_of.size(); ++v) {
     Component& c = by_root[static_cast<std::size_t>(component_of[v])];
-    ++c.voxels;
+    if (c.voxels++ == 0) c.first = static_cast<Index>(v);
     c.in_grid += scene.counts[v];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       c.sum[axis] += static_cast<double>(scene.counts[v]) *
