@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Cubical persistence: ph-barcode beside other programs, on the same images, in one run.
 
-    compare_images.py build/release --peer 'GUDHI 3.11 = construction=cells PROGRAM {input} [--print]'
+    compare_images.py build/release --peer 'OTHER 1.0 = construction=cells PROGRAM {input} [--print]'
 
 A peer is NAME = COMMAND, the name with its version. Before the command stand construction=vertices or
 construction=cells, which it is compared in, and, where it takes images of so many axes only, axes=N. In the command
@@ -172,7 +172,7 @@ def main():
                 report["rows"] = list(known.values())
                 if arguments.json:
                     save(arguments.json, report)
-    print(rips_table.markdown(report).replace("(read + sort)", "(read once)"))
+    print(rips_table.markdown(report, limit="read once"))
     if any(said != "equal" for row in report["rows"] for said in row["bars"].values()):
         raise SystemExit(1)
 

@@ -75,8 +75,8 @@ def summary_row(row, threads, has_choices):
     return [*cells, ratio(mine, row.get("limit"))]
 
 
-def markdown(report):
-    """Two tables: libph beside the best peer, and every program."""
+def markdown(report, limit="read + sort"):
+    """Two tables: libph beside the best peer, and every program. @param limit what a row's limit is."""
     rows = report["rows"]
     programs = list(dict.fromkeys((e["program"], e["threads"]) for row in rows for e in row["results"]))
     threads = sorted(n for name, n in programs if name == OURS and n > 1)
@@ -89,5 +89,5 @@ def markdown(report):
     names = [name if n == 1 else f"{name}, {n} threads" for name, n in programs]
     return "\n\n".join([
         f"{report['version']}; {report['machine']}; {report['date']}.",
-        table([*header, "libph / (read + sort)"], [summary_row(row, threads, has_choices) for row in rows]),
+        table([*header, f"libph / ({limit})"], [summary_row(row, threads, has_choices) for row in rows]),
         table(["input", *names], [[row["name"], *(cell(find(row, *key)) for key in programs)] for row in rows])])

@@ -16,20 +16,10 @@ namespace ph::barcode {
 using app::add_choice;
 using app::add_value;
 using app::parse_integer;
+using app::parse_integers;
 using app::parse_number;
 
 namespace {
-
-/// Calls `take(part)` for each part of a list with commas.
-template <class Take>
-void for_each_part(std::string_view list, Take&& take) {
-  for (;;) {
-    const std::size_t comma = list.find(',');
-    take(list.substr(0, comma));
-    if (comma == list.npos) return;
-    list.remove_prefix(comma + 1);
-  }
-}
 
 void take_periodic(Arguments& a, const std::string& text) {
   a.cubical_option = "--periodic";
@@ -37,12 +27,11 @@ void take_periodic(Arguments& a, const std::string& text) {
     a.cubical.periodic.assign(Cubical::kMaxDim, true);
     return;
   }
-  for_each_part(text, [&](std::string_view part) {
-    const auto axis =
-        static_cast<std::size_t>(parse_integer("--periodic", part, 0, Cubical::kMaxDim - 1));
+  for (const std::int64_t number : parse_integers("--periodic", text, 0, Cubical::kMaxDim - 1)) {
+    const auto axis = static_cast<std::size_t>(number);
     if (a.cubical.periodic.size() <= axis) a.cubical.periodic.resize(axis + 1, false);
     a.cubical.periodic[axis] = true;
-  });
+  }
 }
 
 RawLayout& raw(Arguments& a) { return a.read.raw ? *a.read.raw : a.read.raw.emplace(); }
@@ -100,10 +89,8 @@ void add_raw_options(CLI::App& app, Arguments& a) {
             "says so (--format raw)",
             [&a](const std::string& text) {
               constexpr Index most = Index{1} << 32;
-              raw(a).extents.clear();
-              for_each_part(text, [&](std::string_view part) {
-                raw(a).extents.push_back(parse_integer("--raw-shape", part, 0, most));
-              });
+              const auto extents = parse_integers("--raw-shape", text, 0, most);
+              raw(a).extents.assign(extents.begin(), extents.end());
             })
       ->group(group);
   add_choice(app, "--raw-type",

@@ -34,6 +34,17 @@ Read read_number(std::string_view text) {
 
 constexpr std::string_view kNumber = "a number";
 
+/// Calls `use(part)` for what stands between the commas of a list.
+template <class Use>
+void for_each_part(std::string_view list, Use&& use) {
+  for (;;) {
+    const std::size_t comma = list.find(',');
+    use(list.substr(0, comma));
+    if (comma == list.npos) return;
+    list.remove_prefix(comma + 1);
+  }
+}
+
 }  // namespace
 
 double parse_number(std::string_view option, std::string_view text) {
@@ -48,18 +59,23 @@ double parse_number(std::string_view option, std::string_view text) {
 std::vector<double> parse_numbers(std::string_view option, std::string_view text,
                                   std::size_t count) {
   std::vector<double> numbers;
-  for (std::string_view rest = text;;) {
-    const std::size_t comma = rest.find(',');
-    const std::string_view word = rest.substr(0, comma);
-    const Read read = read_number(word);
+  for_each_part(text, [&](std::string_view part) {
+    const Read read = read_number(part);
     if (!read.ok || !read.rest.empty() || std::isnan(read.value))
       reject(option, text, "numbers separated by commas");
     numbers.push_back(read.value == 0 ? 0.0 : read.value);
-    if (comma == rest.npos) break;
-    rest.remove_prefix(comma + 1);
-  }
+  });
   if (count != 0 && numbers.size() != count)
     reject(option, text, fmt::format("{} numbers separated by commas", count));
+  return numbers;
+}
+
+std::vector<std::int64_t> parse_integers(std::string_view option, std::string_view text,
+                                         std::int64_t least, std::int64_t most) {
+  std::vector<std::int64_t> numbers;
+  for_each_part(text, [&](std::string_view part) {
+    numbers.push_back(parse_integer(option, part, least, most));
+  });
   return numbers;
 }
 

@@ -18,6 +18,9 @@ std::vector<double> parse_numbers(std::string_view option, std::string_view text
 /// A whole number from `least` to `most`.
 std::int64_t parse_integer(std::string_view option, std::string_view text, std::int64_t least,
                            std::int64_t most = INT64_MAX);
+/// Several of them separated by commas, at least one.
+std::vector<std::int64_t> parse_integers(std::string_view option, std::string_view text,
+                                         std::int64_t least, std::int64_t most = INT64_MAX);
 /// A number of bytes: `4GiB`, `500MB`, `1e9`, `64k` (binary: Ki Mi Gi Ti; decimal: k M G T).
 std::uint64_t parse_size(std::string_view option, std::string_view text);
 /// Bytes for people: "1.5 GiB".

@@ -119,12 +119,12 @@ class RandomMoments(ProgramTest):
         """What the file holds but for the timings."""
         return self.read("out.json").partition('"timings"')[0]
 
-    def meet(self, number):
+    def meet(self, number, delay=None):
         """Sends a signal at a random moment. @return exit code, seconds until the end."""
         self.write("out.json", "old")
         run = subprocess.Popen([program.PROGRAM, *self.ARGUMENTS], cwd=self.folder,
                                stderr=subprocess.PIPE)
-        time.sleep(random.uniform(0, 1.1 * self.seconds))
+        time.sleep(random.uniform(0, 1.1 * self.seconds) if delay is None else delay)
         run.send_signal(number)
         start = time.monotonic()
         code = run.wait(10)
@@ -135,20 +135,26 @@ class RandomMoments(ProgramTest):
         self.assertTrue(found == self.complete or (code != 0 and found == "old"), found[:200])
         return code, seconds
 
+    def meet_in_time(self, number):
+        """The same; what was too slow is tried again at that moment, as a disk may be busy."""
+        delay = random.uniform(0, 1.1 * self.seconds)
+        for _ in range(TRIES):
+            code, seconds = self.meet(number, delay)
+            if seconds < PATIENCE:
+                break
+        return code, seconds
+
     def test_interrupts(self):
-        took, met = [], 0
+        slowest, met = 0, 0
         while met < self.MOMENTS:
-            code, seconds = self.meet(signal.SIGINT)
+            code, seconds = self.meet_in_time(signal.SIGINT)
             self.assertIn(code, (0, 130, -signal.SIGINT))  # the last: before main began
             self.assertEqual(self.files(), ["out.json", "picture.pgm", "square.txt"])
             met += code != 0
-            took.append(seconds)
-        took.sort()
-        # A stage that does not listen for so long is met by most runs; a busy disk by a few.
-        most = took[len(took) * 9 // 10]
-        print(f"\n{met} interrupted runs, nine of ten ended within {most * 1000:.0f} ms, the "
-              f"slowest within {took[-1] * 1000:.0f} ms", file=sys.stderr)
-        self.assertLess(most, PATIENCE)
+            slowest = max(slowest, seconds)
+        print(f"\n{met} interrupted runs, the slowest ended after {slowest * 1000:.0f} ms",
+              file=sys.stderr)
+        self.assertLess(slowest, PATIENCE)
 
     def test_kills(self):
         met, left = 0, 0
