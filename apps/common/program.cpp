@@ -35,19 +35,10 @@ void occupy_standard_descriptors() {
 }
 
 /// Keeps freed memory for the next stage. By default each large vector is mapped, faulted in page
-/// by page and given back, which costs a short run a tenth of its time. The first megabytes come in
-/// large pages, where there are any: the stages of a frame take a tenth to a quarter less.
+/// by page and given back, which costs a short run a tenth of its time.
 void keep_freed_memory() {
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 256 << 20);
-  constexpr std::size_t reserve = 16 << 20, large_page = 2 << 20;
-  void* const block = std::malloc(reserve);  // once free it is the end of the heap
-  if (block == nullptr) return;
-  void* begin = block;
-  std::size_t space = reserve;
-  if (std::align(large_page, large_page, begin, space) != nullptr)
-    madvise(begin, space, MADV_HUGEPAGE);
-  std::free(block);
 }
 
 /// What report_current_exception does while there is memory for a message.
@@ -98,6 +89,17 @@ int report_current_exception(std::string_view prefix) {
     print_without_memory(prefix, "out of memory");
     return kResource;
   }
+}
+
+void take_large_pages() {
+  constexpr std::size_t reserve = 16 << 20, large_page = 2 << 20;
+  void* const block = std::malloc(reserve);  // once free it is the end of the heap
+  if (block == nullptr) return;
+  void* begin = block;
+  std::size_t space = reserve;
+  if (std::align(large_page, large_page, begin, space) != nullptr)
+    madvise(begin, space, MADV_HUGEPAGE);
+  std::free(block);
 }
 
 int run_program(std::string_view name, const std::function<int(std::stop_token)>& body) {
