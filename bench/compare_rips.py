@@ -120,13 +120,17 @@ class Comparison:
             self._startups[command] = taken.cpu if taken.ok else 0.0
         return self._startups[command]
 
-    def measure(self, program, row, path, threads):
-        command = program.command(self.options(program, row, path), threads)
-        taken = self._meter.best(command)
-        startup = self.startup(program, row, path, threads) if taken.cpu < SHORT else 0.0
-        return {"program": program.name, "threads": threads, "outcome": taken.outcome, "user": taken.user,
-                "system": taken.system, "wall": taken.wall, "peak_mb": taken.peak, "startup": startup,
-                "cpu": max(taken.cpu - startup, 1e-4)}
+    def measure(self, row, path):
+        """What each program takes, with each number of threads; they take turns."""
+        calls = [(program, threads) for program in self.programs(row)
+                 for threads in (self.arguments.threads if program.has_threads else [1])]
+        runs = self._meter.best_in_turns([program.command(self.options(program, row, path), threads)
+                                          for program, threads in calls])
+        for (program, threads), taken in zip(calls, runs):
+            startup = self.startup(program, row, path, threads) if taken.cpu < SHORT else 0.0
+            yield program, {"program": program.name, "threads": threads, "outcome": taken.outcome, "user": taken.user,
+                            "system": taken.system, "wall": taken.wall, "peak_mb": taken.peak, "startup": startup,
+                            "cpu": max(taken.cpu - startup, 1e-4)}
 
     def limit(self, path):
         kind = "binary" if rips_rows.is_matrix(path) else "points"
@@ -154,18 +158,16 @@ class Comparison:
 
     def row(self, row, path):
         result = {"name": row.name, "max_dim": row.max_dim, "threshold": row.threshold, "results": [], "bars": {}}
-        finished = []
-        for program in self.programs(row):
-            for threads in self.arguments.threads if program.has_threads else [1]:
-                entry = self.measure(program, row, path, threads)
-                result["results"].append(entry)
-                print(rips_table.line(row.name, entry), file=sys.stderr, flush=True)
+        finished = {}
+        for program, entry in self.measure(row, path):
+            result["results"].append(entry)
+            print(rips_table.line(row.name, entry), file=sys.stderr, flush=True)
             if entry["outcome"] == "ok" and program.name != OURS:
-                finished.append(program)
+                finished[program.name] = program
         if row.limit:
             result["limit"] = self.limit(path)
         if self.arguments.check:
-            result["bars"] = self.check(row, path, finished)
+            result["bars"] = self.check(row, path, finished.values())
             for name, said in result["bars"].items():
                 if said != "equal":
                     print(f"{row.name}: {name}: {said}", file=sys.stderr, flush=True)
