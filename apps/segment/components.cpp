@@ -5,6 +5,7 @@
 #include <span>
 
 #include "oriented_box.hpp"
+#include "ph/core/raw_vector.hpp"
 
 namespace ph::segment {
 namespace {
@@ -44,17 +45,6 @@ std::vector<Component> measured(const SceneTree& scene, const std::vector<Index>
   return by_root;
 }
 
-Box box_of(std::span<const float> xyz) {
-  Box box{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
-  for (std::size_t i = 0; i < xyz.size(); i += 3) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      box.min[k] = std::min(box.min[k], double{xyz[i + k]});
-      box.max[k] = std::max(box.max[k], double{xyz[i + k]});
-    }
-  }
-  return box;
-}
-
 /// The principal axes of the voxels of each segment.
 std::vector<std::array<Vec3, 3>> axes_of(const SceneTree& scene, const SceneCut& cut) {
   std::vector<std::vector<Index>> voxels(cut.segments.size());
@@ -74,16 +64,19 @@ std::vector<std::array<Vec3, 3>> axes_of(const SceneTree& scene, const SceneCut&
   return axes;
 }
 
-/// Both boxes of each segment. @param xyz the points of segment after segment.
-void measure_boxes(const SceneTree& scene, std::span<const float> xyz, SceneCut& cut) {
+/// Both boxes of each segment. @param points those of segment after segment.
+void measure_boxes(const SceneTree& scene, const Coordinates& points, SceneCut& cut) {
   std::vector<std::array<Vec3, 3>> axes;
   if (!scene.plane) axes = axes_of(scene, cut);
+  std::size_t first = 0;
   for (Segment& s : cut.segments) {
-    const auto points = xyz.first(3 * static_cast<std::size_t>(s.points));
-    xyz = xyz.subspan(points.size());
-    s.box = box_of(points);
-    s.oriented_box = scene.plane ? box_on_plane(points, scene.plane->normal)
-                                 : box_along(points, axes[s.label - 1]);
+    const auto size = static_cast<std::size_t>(s.points);
+    const Coordinates own{points.x.subspan(first, size), points.y.subspan(first, size),
+                          points.z.subspan(first, size)};
+    first += size;
+    s.box = box_around(own);
+    s.oriented_box =
+        scene.plane ? box_on_plane(own, scene.plane->normal) : box_along(own, axes[s.label - 1]);
   }
 }
 
@@ -97,14 +90,11 @@ SceneCut extract_components(const SceneTree& scene, const std::vector<Index>& co
   std::ranges::sort(kept, comes_before);
 
   SceneCut result;
-  std::vector<float*> place;  // of the next point of each segment, when they are sorted
-  std::vector<float> sorted;
   std::size_t points = 0;
-  for (const Component& c : kept) points += static_cast<std::size_t>(c.points);
-  sorted.resize(3 * points);
+  std::vector<std::size_t> place;  // of the next point of each segment, when they are sorted
   for (const Component& c : kept) {
-    place.push_back(place.empty() ? sorted.data()
-                                  : place.back() + 3 * result.segments.back().points);
+    place.push_back(points);
+    points += static_cast<std::size_t>(c.points);
     Segment s;
     s.label = static_cast<std::uint32_t>(place.size());
     s.points = c.points;
@@ -118,13 +108,17 @@ SceneCut extract_components(const SceneTree& scene, const std::vector<Index>& co
     result.vertex_labels.push_back(label_of_root[static_cast<std::size_t>(root)]);
 
   result.labels.resize(scene.cloud_size());
+  RawVector<float> x(points), y(points), z(points);
   for (std::size_t k = 0; k < scene.points.size(); ++k) {
     const std::uint32_t label = result.vertex_labels[scene.vertex_of_point[k]];
     if (label == 0) continue;
     result.labels[static_cast<std::size_t>(scene.points[k])] = label;
-    place[label - 1] = std::copy_n(&scene.xyz[3 * k], 3, place[label - 1]);
+    const std::size_t to = place[label - 1]++;
+    x[to] = scene.xyz[3 * k];
+    y[to] = scene.xyz[3 * k + 1];
+    z[to] = scene.xyz[3 * k + 2];
   }
-  measure_boxes(scene, sorted, result);
+  measure_boxes(scene, {x, y, z}, result);
   return result;
 }
 

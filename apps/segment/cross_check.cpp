@@ -4,7 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <span>
+#include <vector>
 
+#include "ph/core/radix_sort.hpp"
 #include "ph/engine/twist.hpp"
 
 namespace ph::segment {
@@ -27,20 +31,37 @@ bool same_cells(const std::optional<InputCell>& a, const std::optional<InputCell
 }  // namespace
 
 Barcode barcode_of(const MergeTree& tree) {
-  Barcode barcode(CellKind::vertices);
+  struct Class {
+    double birth, death;
+    Index vertex;
+    const Merge* merge;  // null: it never dies
+  };
+  std::vector<Class> classes;
+  classes.reserve(tree.births.size());
   std::vector<bool> dead(tree.births.size());
   for (const Merge& m : tree.merges) {
-    const Index birth[] = {m.younger};
-    const Index death[] = {std::min(m.u, m.v), std::max(m.u, m.v)};
-    barcode.add({0, m.younger_birth, m.value}, birth, death);
+    classes.push_back({m.younger_birth, m.value, m.younger, &m});
     dead[static_cast<std::size_t>(m.younger)] = true;
   }
-  for (std::size_t v = 0; v < dead.size(); ++v) {
-    if (dead[v] || tree.births[v] == kInfinity) continue;
-    const Index birth[] = {static_cast<Index>(v)};
-    barcode.add({0, tree.births[v], kInfinity}, birth, {});
+  for (std::size_t v = 0; v < dead.size(); ++v)
+    if (!dead[v] && tree.births[v] != kInfinity)
+      classes.push_back({tree.births[v], kInfinity, static_cast<Index>(v), nullptr});
+  // The order of a barcode: three numbers decide it here, and the merges are in that of deaths.
+  radix_sort_by_value(classes, [](const Class& c) { return c.birth + 0.0; });
+  for (auto begin = classes.begin(), end = begin; begin != classes.end(); begin = end) {
+    end = std::find_if(begin, classes.end(), [&](const Class& c) {
+      return c.birth != begin->birth || c.death != begin->death;
+    });
+    std::sort(begin, end, [](const Class& a, const Class& b) { return a.vertex < b.vertex; });
   }
-  barcode.sort();
+
+  Barcode barcode(CellKind::vertices);
+  for (const auto& [birth, death, vertex, merge] : classes) {
+    std::array<Index, 2> edge{};
+    if (merge != nullptr) edge = {std::min(merge->u, merge->v), std::max(merge->u, merge->v)};
+    barcode.add({0, birth, death}, {&vertex, 1},
+                std::span<const Index>(edge).first(merge == nullptr ? 0 : 2));
+  }
   return barcode;
 }
 

@@ -17,22 +17,25 @@ namespace {
 Contacts contacts_of(const SceneTree& scene, const Surface& surface, const CutOptions& options,
                      const SceneCut& cut, const RunContext& context) {
   Contacts contacts(&context.memory);
-  const auto see = [&](std::uint32_t u, std::uint32_t v, double value) {
+  const auto are_apart = [&](std::size_t u, std::size_t v) {
     const std::uint32_t a = cut.vertex_labels[u], b = cut.vertex_labels[v];
-    if (a == b || a == 0 || b == 0) return;
-    const auto [known, is_new] = contacts.try_emplace(std::minmax(a, b), value);
+    return a != b && a != 0 && b != 0;
+  };
+  const auto meet = [&](std::size_t u, std::size_t v, double value) {
+    const auto labels = std::minmax(cut.vertex_labels[u], cut.vertex_labels[v]);
+    const auto [known, is_new] = contacts.try_emplace(labels, value);
     if (!is_new) known->second = std::min(known->second, value);
   };
   if (scene.method != Method::paper) {
     for (const VoxelPair& p : surface.pairs)
-      if (are_adjacent(p, scene.voxel))
-        see(p.u, p.v, std::max(scene.tree.births[p.u], scene.tree.births[p.v]));
+      if (are_apart(p.u, p.v) && are_adjacent(p, scene.voxel))
+        meet(p.u, p.v, std::max(scene.tree.births[p.u], scene.tree.births[p.v]));
   } else if (options.value < scene.distance) {  // else all that have an edge are one
     for_each_pair_within(
         scene.vertices, scene.distance,
         [&](Index i, Index j, double length) {
-          see(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j),
-              filtration_value(length, scene.distance, scene.steps));
+          const auto u = static_cast<std::size_t>(i), v = static_cast<std::size_t>(j);
+          if (are_apart(u, v)) meet(u, v, filtration_value(length, scene.distance, scene.steps));
         },
         context);
   }

@@ -47,6 +47,13 @@ void join_without_seam(const VoxelGrid& grid, const Surface& surface, const Part
 
 /// Finds parts whose surfaces go on behind an occluder.
 class HiddenJoins {
+  /// A voxel next to an occluder.
+  struct BorderVoxel {
+    std::uint32_t number;
+    Eigen::Vector3d place, normal;
+  };
+  using Border = std::vector<BorderVoxel>;
+
   double nearer() const { return 2 * voxel_; }
   auto kind() const {
     return [this](std::uint32_t v) { return parts_.of[v]; };
@@ -54,17 +61,15 @@ class HiddenJoins {
 
  public:
   HiddenJoins(const VoxelGrid& grid, const Surface& surface, double voxel, const Parts& parts)
-      : grid_(grid),
-        surface_(surface),
-        voxel_(voxel),
+      : voxel_(voxel),
         parts_(parts),
         view_(grid.centroids, voxel, surface.viewpoint),
         borders_(parts.count()) {
     for (std::uint32_t v = 0; v < parts.of.size(); ++v)
       if (parts.of[v] != kSmall && std::isfinite(surface.normals(v, 0)) &&
           view_.is_at_occluder(v, nearer(), kind()))
-        borders_[parts.of[v]].push_back(v);
-    for (auto& border : borders_) thin_out(border);
+        borders_[parts.of[v]].push_back({v, grid.centroids.row(v), surface.normals.row(v)});
+    for (Border& border : borders_) thin_out(border);
   }
 
   template <class Join>
@@ -87,47 +92,45 @@ class HiddenJoins {
   static constexpr double kLongestGap = 0.15;  // metres; what hides more leaves only a guess
 
   /// A bounded number, spread over all: what is told of parts is a share anyway.
-  static void thin_out(std::vector<std::uint32_t>& border) {
+  static void thin_out(Border& border) {
     constexpr std::size_t fewest = 5, most = 60;
     if (border.size() < fewest) border.clear();
     const std::size_t step = border.size() / most + 1;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < border.size(); i += step) border[kept++] = border[i];
-    border.resize(kept);
+    border.erase(border.begin() + static_cast<std::ptrdiff_t>(kept), border.end());
   }
-  Eigen::AlignedBox3d box_of(const std::vector<std::uint32_t>& voxels) const {
+  static Eigen::AlignedBox3d box_of(const Border& border) {
     Eigen::AlignedBox3d box;
-    for (const std::uint32_t v : voxels) box.extend(grid_.centroids.row(v).transpose());
+    for (const BorderVoxel& v : border) box.extend(v.place);
     return box;
   }
   double share_that_goes_on(std::uint32_t p, std::uint32_t q) const {
-    const auto count = std::ranges::count_if(borders_[p], [&](std::uint32_t a) {
-      return std::ranges::any_of(borders_[q], [&](std::uint32_t b) { return goes_on(a, b); });
+    const auto count = std::ranges::count_if(borders_[p], [&](const BorderVoxel& a) {
+      return std::ranges::any_of(borders_[q], [&](const BorderVoxel& b) { return goes_on(a, b); });
     });
     return static_cast<double>(count) / static_cast<double>(borders_[p].size());
   }
   /// Whether one smooth surface through both voxels is hidden between them.
-  bool goes_on(std::uint32_t a, std::uint32_t b) const {
+  bool goes_on(const BorderVoxel& a, const BorderVoxel& b) const {
     constexpr double cosine = 0.966;  // 15 degrees between the normals
     constexpr double slope = 0.05;
-    const auto n = surface_.normals.row(a), m = surface_.normals.row(b);
-    if (n.dot(m) < cosine) return false;
-    const auto d = (grid_.centroids.row(b) - grid_.centroids.row(a)).eval();
+    if (a.normal.dot(b.normal) < cosine) return false;
+    const Eigen::Vector3d d = b.place - a.place;
     const double gap = d.norm(), tolerance = 0.6 * voxel_ + slope * gap;
-    if (gap > kLongestGap || std::abs(n.dot(d)) > tolerance || std::abs(m.dot(d)) > tolerance)
+    if (gap > kLongestGap || std::abs(a.normal.dot(d)) > tolerance ||
+        std::abs(b.normal.dot(d)) > tolerance)
       return false;
     constexpr int fewest_cells = 2;
     constexpr double share = 0.85;
-    const View::Cover cover = view_.cover(a, b, nearer() / 2, kind());
+    const View::Cover cover = view_.cover(a.number, b.number, nearer() / 2, kind());
     return cover.hidden >= fewest_cells && cover.hidden >= share * cover.cells;
   }
 
-  const VoxelGrid& grid_;
-  const Surface& surface_;
   double voxel_;
   const Parts& parts_;
   View view_;
-  std::vector<std::vector<std::uint32_t>> borders_;  // by part: voxels next to an occluder
+  std::vector<Border> borders_;  // by part
 };
 
 }  // namespace

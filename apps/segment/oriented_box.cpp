@@ -4,7 +4,12 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <limits>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "ph/core/raw_vector.hpp"
 
 namespace ph::segment {
 namespace {
@@ -17,49 +22,120 @@ Vec3 array(const Vector3d& v) { return {v[0], v[1], v[2]}; }
 
 double cross(const Vector2d& a, const Vector2d& b) { return a[0] * b[1] - a[1] * b[0]; }
 
-/// Takes out what cannot be on the hull: points inside the octagon of those that are farthest in
-/// eight directions (Akl & Toussaint 1978). What is left is few, whatever the shape of an object.
-void keep_outer(std::vector<Vector2d>& points) {
-  constexpr std::size_t corners = 8, few = 64;
-  if (points.size() < few) return;
-  // Along x, x + y, y, y - x, and against them.
-  std::array<double, corners / 2> most, least;
-  most.fill(-kInfinity);
-  least.fill(kInfinity);
-  std::array<Vector2d, corners> farthest;
-  for (const Vector2d& p : points) {
-    const std::array<double, corners / 2> along{p[0], p[0] + p[1], p[1], p[1] - p[0]};
+/// Of each point along an axis.
+template <class T>
+RawVector<T> coordinates(const Coordinates& points, const Vector3d& axis) {
+  RawVector<T> result(points.x.size());
+  const auto a = static_cast<T>(axis[0]), b = static_cast<T>(axis[1]), c = static_cast<T>(axis[2]);
+  const float *x = points.x.data(), *y = points.y.data(), *z = points.z.data();
+  T* to = result.data();
+  for (std::size_t i = 0; i < result.size(); ++i) to[i] = a * T{x[i]} + b * T{y[i]} + c * T{z[i]};
+  return result;
+}
+
+/// The least and the largest of some numbers, many at a time.
+template <class T>
+std::pair<T, T> range_of(std::span<const T> numbers) {
+  constexpr std::size_t lanes = 16;
+  constexpr T infinite = std::numeric_limits<T>::infinity();
+  std::array<T, lanes> low, high;
+  low.fill(infinite);
+  high.fill(-infinite);
+  const auto see = [&](std::size_t lane, T x) {
+    low[lane] = x < low[lane] ? x : low[lane];
+    high[lane] = x > high[lane] ? x : high[lane];
+  };
+  std::size_t i = 0;
+  for (; i + lanes <= numbers.size(); i += lanes)
+    for (std::size_t lane = 0; lane < lanes; ++lane) see(lane, numbers[i + lane]);
+  for (; i < numbers.size(); ++i) see(0, numbers[i]);
+  return {std::ranges::min(low), std::ranges::max(high)};
+}
+
+/// Some points that are farthest along x, x + y, y, y - x, and against them: an octagon,
+/// counter-clockwise. @param step looks at one for every few points.
+template <class T>
+std::array<std::array<T, 2>, 8> octagon(std::span<const T> u, std::span<const T> v,
+                                        std::size_t step) {
+  std::array<T, 4> most, least;
+  most.fill(-std::numeric_limits<T>::infinity());
+  least.fill(std::numeric_limits<T>::infinity());
+  std::array<std::array<T, 2>, 8> corners{};
+  for (std::size_t i = 0; i < u.size(); i += step) {
+    const std::array<T, 4> along{u[i], u[i] + v[i], v[i], v[i] - u[i]};
     for (std::size_t k = 0; k < along.size(); ++k) {
       if (along[k] > most[k]) {
         most[k] = along[k];
-        farthest[k] = p;
+        corners[k] = {u[i], v[i]};
       }
       if (along[k] < least[k]) {
         least[k] = along[k];
-        farthest[k + along.size()] = p;
+        corners[k + along.size()] = {u[i], v[i]};
       }
     }
   }
+  return corners;
+}
+
+/// The numbers of the points that may be on the hull: all but those inside the octagon of some of
+/// them (after Akl & Toussaint 1978). @param height largest coordinate off the plane, which is
+/// rounded with those on it.
+template <class T>
+std::vector<std::size_t> outside_octagon(std::span<const T> u, std::span<const T> v,
+                                         std::size_t step, T height) {
+  constexpr T rounding = 64 * std::numeric_limits<T>::epsilon(), too_large = 1e18F;
+  const auto corner = octagon(u, v, step);
+  T reach = height;
+  for (const auto& [x, y] : corner) reach = std::max({reach, std::abs(x), std::abs(y)});
   // On the inner side of an edge, by more than rounding may be wrong.
-  double rounding = 0;
-  for (const Vector2d& p : farthest) rounding = std::max(rounding, 1e-12 * p.norm());
-  std::array<Vector2d, corners> inwards;
-  std::array<double, corners> beyond;
-  for (std::size_t k = 0; k < corners; ++k) {
-    const Vector2d &from = farthest[k], edge = farthest[(k + 1) % corners] - from;
-    inwards[k] = {-edge[1], edge[0]};
-    beyond[k] = edge.isZero(0) ? -kInfinity : inwards[k].dot(from) + rounding * edge.norm();
+  std::array<T, 8> a, b, c;
+  bool has_inside = reach < too_large, is_point = true;  // else squares overflow
+  for (std::size_t k = 0; k < corner.size(); ++k) {
+    const auto &from = corner[k], &to = corner[(k + 1) % corner.size()];
+    a[k] = from[1] - to[1];
+    b[k] = to[0] - from[0];
+    const T length = std::abs(a[k]) + std::abs(b[k]);
+    is_point = is_point && length == 0;
+    c[k] = length == 0 ? -std::numeric_limits<T>::infinity()
+                       : a[k] * from[0] + b[k] * from[1] + rounding * reach * length;
   }
-  std::erase_if(points, [&](const Vector2d& p) {
-    bool is_inside = true;
-    for (std::size_t k = 0; k < corners; ++k) is_inside &= inwards[k].dot(p) > beyond[k];
-    return is_inside;
-  });
+  has_inside = has_inside && !is_point;
+  RawVector<T> inside(u.size());  // how far: the sign of it
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    T nearest = std::numeric_limits<T>::infinity();
+    for (std::size_t k = 0; k < corner.size(); ++k) {
+      const T distance = a[k] * u[i] + b[k] * v[i] - c[k];
+      nearest = distance < nearest ? distance : nearest;
+    }
+    inside[i] = nearest;
+  }
+  std::vector<std::size_t> result;
+  for (std::size_t i = 0; i < inside.size(); ++i)
+    if (!has_inside || !(inside[i] > 0)) result.push_back(i);
+  return result;
+}
+
+/// The places on a plane with these axes of all points that may be on the hull. Nearly all are
+/// inside any octagon, which single precision can tell; most of the others inside the largest one.
+std::vector<Vector2d> outer_places(const Coordinates& points, const Vector3d& u, const Vector3d& v,
+                                   double height) {
+  constexpr std::size_t step = 8;
+  RawVector<double> at_u, at_v;
+  for (const std::size_t i :
+       outside_octagon<float>(coordinates<float>(points, u), coordinates<float>(points, v), step,
+                              static_cast<float>(height))) {
+    const Vector3d p(points.x[i], points.y[i], points.z[i]);
+    at_u.push_back(u.dot(p));
+    at_v.push_back(v.dot(p));
+  }
+  std::vector<Vector2d> places;
+  for (const std::size_t i : outside_octagon<double>(at_u, at_v, 1, height))
+    places.push_back({at_u[i], at_v[i]});
+  return places;
 }
 
 /// The corners of the convex hull, counter-clockwise (Andrew's monotone chain).
 std::vector<Vector2d> convex_hull(std::vector<Vector2d> points) {
-  keep_outer(points);
   const auto comes_before = [](const Vector2d& a, const Vector2d& b) {
     return a[0] != b[0] ? a[0] < b[0] : a[1] < b[1];
   };
@@ -121,31 +197,32 @@ Vector3d pointing_forward(const Vector3d& direction) {
 
 }  // namespace
 
-OrientedBox box_along(std::span<const float> xyz, const std::array<Vec3, 3>& axes) {
-  Eigen::Matrix3d rows;
-  for (std::size_t k = 0; k < 3; ++k) rows.row(static_cast<Index>(k)) = vector(axes[k]).transpose();
-  Vector3d low = Vector3d::Constant(kInfinity), high = -low;
-  for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) {
-    const Vector3d p = rows * Vector3d(xyz[i], xyz[i + 1], xyz[i + 2]);
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  return {array(rows.transpose() * (low + high) / 2), axes, array(high - low)};
+Box box_around(const Coordinates& points) {
+  Box box;
+  for (std::size_t k = 0; k < 3; ++k)
+    std::tie(box.min[k], box.max[k]) = range_of(std::array{points.x, points.y, points.z}[k]);
+  return box;
 }
 
-OrientedBox box_on_plane(std::span<const float> xyz, const Vec3& up) {
+OrientedBox box_along(const Coordinates& points, const std::array<Vec3, 3>& axes) {
+  OrientedBox box{{}, axes, {}};
+  Vector3d centre = Vector3d::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3d axis = vector(axes[k]);
+    const auto [low, high] = range_of<double>(coordinates<double>(points, axis));
+    centre += (low + high) / 2 * axis;
+    box.size[k] = high - low;
+  }
+  box.centre = array(centre);
+  return box;
+}
+
+OrientedBox box_on_plane(const Coordinates& points, const Vec3& up) {
   const Vector3d normal = vector(up);
   const Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
-  std::vector<Vector2d> footprint(xyz.size() / 3);
-  double low = kInfinity, high = -kInfinity;
-  for (std::size_t i = 0; i < footprint.size(); ++i) {
-    const Vector3d p(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
-    footprint[i] = {u.dot(p), v.dot(p)};
-    const double height = normal.dot(p);
-    low = std::min(low, height);
-    high = std::max(high, height);
-  }
-  const std::vector<Vector2d> hull = convex_hull(std::move(footprint));
+  const auto [low, high] = range_of<double>(coordinates<double>(points, normal));
+  const double height = std::max(std::abs(low), std::abs(high));
+  const std::vector<Vector2d> hull = convex_hull(outer_places(points, u, v, height));
   const auto box_with_side = [&](const Vector3d& side) {
     const Vector3d first = pointing_forward(side), second = normal.cross(first);
     const Vector2d a(u.dot(first), v.dot(first)), b(-a[1], a[0]);

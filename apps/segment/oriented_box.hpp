@@ -6,14 +6,23 @@
 
 namespace ph::segment {
 
+/// x, y and z of points, at least one; each in an array of its own, so that loops over them become
+/// vector instructions.
+struct Coordinates {
+  std::span<const float> x, y, z;
+};
+
+/// The axis-aligned box of points.
+Box box_around(const Coordinates& points);
+
 /// The box of points on a plane: the smallest rectangle around their projections onto it (one side
 /// lies along an edge of their convex hull: Freeman & Shapira 1975; found by rotating calipers,
 /// Toussaint 1983), as high as they are. O(n) and O(h log h) for the h that are near the hull.
-/// @param xyz x, y, z of each point, at least one. @param up unit normal of the plane.
-OrientedBox box_on_plane(std::span<const float> xyz, const Vec3& up);
+/// @param up unit normal of the plane.
+OrientedBox box_on_plane(const Coordinates& points, const Vec3& up);
 
 /// The box of points along given axes. @param axes unit, orthogonal.
-OrientedBox box_along(std::span<const float> xyz, const std::array<Vec3, 3>& axes);
+OrientedBox box_along(const Coordinates& points, const std::array<Vec3, 3>& axes);
 
 /// The principal axes of weighted places, those that spread most first, right-handed; the last one
 /// is turned towards the viewpoint. @param places one a row, at least one.

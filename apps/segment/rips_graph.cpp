@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "ph/metric/pairs_within.hpp"
@@ -21,15 +22,28 @@ class Levels {
     levels_.push_back(distance);
   }
   double round_up(double length) const {
-    if (levels_.empty()) return filtration_value(length, distance_, steps_);
+    return levels_.empty() ? filtration_value(length, distance_, steps_) : levels_[place(length)];
+  }
+  /// Sorts edges that have levels for values, if these are few.
+  void sort(std::pmr::vector<WeightedEdge>& edges) const {
+    if (levels_.empty()) return;
+    std::vector<std::size_t> next(levels_.size() + 1);
+    for (const WeightedEdge& e : edges) ++next[place(e.value) + 1];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    std::pmr::vector<WeightedEdge> sorted(edges.size(), edges.get_allocator());
+    for (const WeightedEdge& e : edges) sorted[next[place(e.value)]++] = e;
+    edges.swap(sorted);
+  }
+
+ private:
+  std::size_t place(double length) const {
     // Rounding may miss the level by one: look at the neighbours, too.
     std::size_t k = std::min(static_cast<std::size_t>(length * per_length_), levels_.size() - 1);
     while (k > 0 && levels_[k - 1] >= length) --k;
     while (levels_[k] < length) ++k;
-    return levels_[k];
+    return k;
   }
 
- private:
   double distance_;
   int steps_;
   double per_length_ = 0;
@@ -41,6 +55,8 @@ class Levels {
 FilteredGraph rips_graph(const Points& points, double distance, int steps,
                          const RunContext& context) {
   std::pmr::vector<WeightedEdge> edges(&context.memory);
+  constexpr std::size_t of_a_surface = 12;  // edges a voxel, where it reaches two voxels far
+  edges.reserve(of_a_surface * static_cast<std::size_t>(points.rows()));
   const Levels levels(distance, steps);
   Ticker ticker(context, "complex");
   for_each_pair_within(
@@ -50,6 +66,7 @@ FilteredGraph rips_graph(const Points& points, double distance, int steps,
         ticker.tick();
       },
       context);
+  levels.sort(edges);
   const std::vector<double> births(static_cast<std::size_t>(points.rows()), 0.0);
   return FilteredGraph(births, edges, context);
 }

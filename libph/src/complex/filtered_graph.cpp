@@ -52,8 +52,8 @@ FilteredGraph::FilteredGraph(std::span<const double> births, std::span<const Wei
     edge.value = e.value + 0.0;
     edges_.push_back(edge);
   }
-  radix_sort_by_value(
-      edges_, [](const Edge& e) { return e.value; }, context);
+  const auto value_of = [](const Edge& e) { return e.value; };
+  if (!std::ranges::is_sorted(edges_, {}, value_of)) radix_sort_by_value(edges_, value_of, context);
 }
 
 FilteredGraph FilteredGraph::lower_star(std::span<const double> vertex_values,
@@ -64,7 +64,8 @@ FilteredGraph FilteredGraph::lower_star(std::span<const double> vertex_values,
   // An edge has one of the values of the vertices: sorting these, which are fewer, sorts the edges.
   std::pmr::vector<std::uint32_t> order(births.size(), &context.memory);
   std::iota(order.begin(), order.end(), 0U);
-  std::ranges::sort(order, {}, [&](std::uint32_t v) { return births[v]; });
+  radix_sort_by_value(
+      order, [&](std::uint32_t v) { return births[v]; }, context);
   std::pmr::vector<std::uint32_t> place_of_value(births.size(), &context.memory);
   for (std::size_t i = 1; i < order.size(); ++i) {
     const std::uint32_t before = order[i - 1], v = order[i];

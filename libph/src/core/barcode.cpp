@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <tuple>
 
 #include "ph/core/error.hpp"
 #include "ph/core/polled_sort.hpp"
@@ -65,7 +66,11 @@ void Barcode::sort_values(const RunContext& context) {
 }
 
 void Barcode::sort(const RunContext& context) {
-  if (cells_.empty()) return sort_values(context);
+  // Union-find meets the deaths of vertices that are born together in this order.
+  const bool are_sorted = std::ranges::is_sorted(bars_, [](const Bar& a, const Bar& b) {
+    return std::tie(a.dim, a.birth, a.death) < std::tie(b.dim, b.birth, b.death);
+  });
+  if (cells_.empty()) return are_sorted ? void() : sort_values(context);
   // By digits: death, then birth, then dimension, each keeping what was sorted before; -0.0 is
   // +0.0.
   struct Place {
@@ -76,12 +81,14 @@ void Barcode::sort(const RunContext& context) {
                            bars_.size() * (sizeof(Place) + sizeof(Bar) + sizeof(Cells)));
   std::vector<Place> order(bars_.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = {bars_[i].death + 0.0, i};
-  const auto value_of = [](const Place& place) { return place.value; };
-  radix_sort_by_value(order, value_of, context);
-  for (Place& place : order) place.value = bars_[place.bar].birth + 0.0;
-  radix_sort_by_value(order, value_of, context);
-  for (Place& place : order) place.value = bars_[place.bar].dim;
-  radix_sort_by_value(order, value_of, context);
+  if (!are_sorted) {
+    const auto value_of = [](const Place& place) { return place.value; };
+    radix_sort_by_value(order, value_of, context);
+    for (Place& place : order) place.value = bars_[place.bar].birth + 0.0;
+    radix_sort_by_value(order, value_of, context);
+    for (Place& place : order) place.value = bars_[place.bar].dim;
+    radix_sort_by_value(order, value_of, context);
+  }
   // Stable: bars without cells keep their order when they are written and read again.
   for (std::size_t begin = 0, end; begin < order.size(); begin = end) {
     const Bar& bar = bars_[order[begin].bar];

@@ -57,10 +57,13 @@ using Visit = std::function<void(Index, Index, double)>;
 void visit_by_cubes(const SearchSpace& space, const PointMetric& metric, double radius,
                     const Visit& visit, const RunContext& context) {
   const CubeList cubes(space.points, space.radius, context);
+  // Most candidates are too far away by more than rounding: no root is needed to see it.
+  const double far = std::max(space.radius * space.radius, kSmallestPlainSquare) * (1 + 1e-12);
   cubes.for_each_candidate_pair(
       [&](const CubeList::Point& p, const CubeList::Point& q) {
         const double dx = p.x - q.x, dy = p.y - q.y, dz = p.z - q.z;
         const double square = dx * dx + dy * dy + dz * dz;
+        if (square > far) return;
         // The same sum as the metric's, unless digits were lost to underflow.
         const double d = square >= kSmallestPlainSquare && !space.is_scaled
                              ? std::sqrt(square)

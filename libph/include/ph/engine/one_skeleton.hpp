@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <memory_resource>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include "ph/core/filtration.hpp"
 #include "ph/core/polled_sort.hpp"
+#include "ph/core/radix_sort.hpp"
 #include "ph/core/run_context.hpp"
 #include "ph/engine/cell_map.hpp"
 #include "ph/engine/elder_rule.hpp"
@@ -63,14 +65,22 @@ struct OneSkeleton {
     std::pmr::vector<std::uint32_t> order(vertices.size(), &context.memory);
     std::iota(order.begin(), order.end(), 0U);
     Ticker ticker(context, "graph");
-    polled_sort(
-        order, [&](std::uint32_t a, std::uint32_t b) { return precedes(vertices[a], vertices[b]); },
-        ticker);
+    const auto value_of = [&](std::uint32_t v) { return filtration.value(vertices[v]) + 0.0; };
+    const auto comes_before = [&](std::uint32_t a, std::uint32_t b) {
+      return precedes(vertices[a], vertices[b]);
+    };
+    radix_sort_by_value(order, value_of, context);
+    for (auto begin = order.begin(), end = begin; begin != order.end(); begin = end) {
+      end =
+          std::find_if(begin, order.end(), [&](auto v) { return value_of(v) != value_of(*begin); });
+      std::span ties(begin, end);
+      if (!std::ranges::is_sorted(ties, comes_before)) polled_sort(ties, comes_before, ticker);
+    }
     age.resize(order.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) age[order[i]] = i;
 
     filtration.for_each_cell(1, [&](const Cell& e) { edges.push_back(e); });
-    polled_sort(edges, precedes, ticker);
+    if (!std::ranges::is_sorted(edges, precedes)) polled_sort(edges, precedes, ticker);
     ends.reserve(edges.size());
     for (const Cell& e : edges) {
       GraphEdge edge;
