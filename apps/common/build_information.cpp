@@ -9,6 +9,8 @@
 #include <Eigen/Core>
 #include <string_view>
 
+#include "report/page_template.hpp"
+
 namespace ph::app {
 namespace {
 
@@ -58,6 +60,7 @@ std::string build_information() {
   line("libpng", png_get_libpng_ver(nullptr));
   line("zlib", zlibVersion());
   line("PCL", fmt::format("{} (ph::pcl; the programs do without)", yes_or_no(PH_WITH_PCL)));
+  line("reports", yes_or_no(!report::page_template().empty()));
   line("CGAL", fmt::format("{} (alpha complexes)", yes_or_no(PH_WITH_CGAL)));
   return text;
 }

@@ -143,6 +143,28 @@ CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string
   });
 }
 
+std::vector<std::string> typed_command(std::string_view program, int argc,
+                                       const char* const* argv) {
+  std::vector<std::string> words{std::string(program)};
+  words.insert(words.end(), argv + 1, argv + argc);
+  return words;
+}
+
+std::vector<std::string> given_options(const CLI::App& app,
+                                       std::span<const std::string_view> without) {
+  std::vector<std::string> words;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->count() == 0 || option->get_lnames().empty() || option->get_group() == kCommon)
+      continue;
+    const std::string& name = option->get_lnames().front();
+    if (std::ranges::find(without, name) != without.end()) continue;
+    words.push_back("--" + name);
+    if (option->get_items_expected_max() > 0)  // else a flag
+      words.insert(words.end(), option->results().begin(), option->results().end());
+  }
+  return words;
+}
+
 std::string program_and_version(const std::string& program) {
   return fmt::format("{} {}", program, PH_VERSION);
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,6 +40,14 @@ CLI::Option* add_choice(CLI::App& app, const std::string& names,
 /// The same for a path, which is not empty; it is put into `path`, which outlives `app`.
 CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string& placeholder,
                       const std::string& description, std::string& path);
+
+/// The command line as it was typed, under the program's own name.
+std::vector<std::string> typed_command(std::string_view program, int argc, const char* const* argv);
+/// The options that were given, each as a long name and its values, in the order of --help: for a
+/// command line that does the same again. Without common options, without INPUT.
+/// @param without long names that are left out, without dashes.
+std::vector<std::string> given_options(const CLI::App& app,
+                                       std::span<const std::string_view> without);
 
 /// Parses the command line; prints nothing.
 /// @param built_in lines that --version --verbose adds: what this program in particular can do.

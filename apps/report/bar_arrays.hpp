@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <string_view>
+
+#include "ph/core/barcode.hpp"
+#include "report_file.hpp"
+
+namespace ph::report {
+
+/// Writes `prefix`/dim, birth, death and, where the barcode has them and `cells`, its cells.
+/// @param prefix "bars", or "bars2" for the second barcode of a comparison.
+/// @throws Error (bad_data) on a bar of dimension 256 or higher; Error (resource, cancelled, io).
+void add_bars(ReportFile& report, const Barcode& barcode, std::string_view prefix = "bars",
+              bool cells = true);
+
+/// Writes the representatives of a barcode that has them, as chains/….
+void add_chains(ReportFile& report, const Barcode& barcode);
+
+}  // namespace ph::report

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: MIT
+# cmake -DPAGE=FILE.html -DCODE=FILE.cpp -P embed_page.cmake: the template as a string of C++, empty
+# without PAGE. One raw string: compilers read it faster than numbers, and no character is special.
+set(delimiter "ph_page")
+set(text "")
+if(PAGE)
+  file(READ "${PAGE}" text)
+  foreach(unfit ")${delimiter}\"" "\r")
+    string(FIND "${text}" "${unfit}" place)
+    if(NOT place EQUAL -1)
+      message(FATAL_ERROR "${PAGE}: found '${unfit}', which the string would not hold")
+    endif()
+  endforeach()
+endif()
+file(WRITE "${CODE}" "// Made of ${PAGE}; do not change.
+#include \"page_template.hpp\"
+
+namespace ph::report {
+
+std::string_view page_template() {
+  using namespace std::string_view_literals;
+  return R\"${delimiter}(${text})${delimiter}\"sv;
+}
+
+}  // namespace ph::report
+")

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "array_block.hpp"
+#include "metadata.hpp"
+#include "ph/core/run_context.hpp"
+#include "ph/io/output_file.hpp"
+
+namespace ph::report {
+
+/// A report while it is written: the page up to the marker, the metadata, arrays in any order, the
+/// rest of the page. docs/report-format.md says what each array is. The caller commits the file.
+/// All functions throw Error (io) as OutputFile, and Error (cancelled).
+class ReportFile {
+ public:
+  /// @throws Error (not_built_in) without a page.
+  ReportFile(OutputFile& file, const Metadata& metadata, const RunContext& context);
+  template <ArrayNumber T>
+  void add(std::string_view name, std::span<const T> numbers, const ArrayForm& form = {}) {
+    write_array(file_, raw_array(name, numbers), form, context_);
+  }
+  template <ArrayNumber T>
+  void add(std::string_view name, const std::vector<T>& numbers, const ArrayForm& form = {}) {
+    add(name, std::span<const T>(numbers), form);
+  }
+  /// Writes the rest of the page.
+  void finish();
+
+  const RunContext& context() const { return context_; }
+
+ private:
+  OutputFile& file_;
+  const RunContext& context_;
+};
+
+}  // namespace ph::report

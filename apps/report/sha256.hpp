@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "ph/core/run_context.hpp"
+
+namespace ph::report {
+
+/// SHA-256 (FIPS 180-4) of some bytes, as 64 hexadecimal digits. @throws Error (cancelled).
+std::string sha256_hex(std::span<const std::byte> bytes,
+                       const RunContext& context = default_context());
+
+}  // namespace ph::report
