@@ -12,6 +12,7 @@
 #include "choices.hpp"
 #include "numbers.hpp"
 #include "ph/core/error.hpp"
+#include "report/page_template.hpp"
 
 namespace ph::segment {
 namespace {
@@ -266,13 +267,19 @@ void add_output_options(CLI::App& app, Arguments& a) {
             [&a](const std::string& v) { a.explain = parse_labels("--explain", v); });
   path("--picture", "FILE.png", "the image with its segments coloured (organised clouds)",
        files.picture);
+  path("--report", "FILE.html",
+       "one page to look at: cloud, segments, merge tree and barcode, linked, with a slider that "
+       "cuts anew; needs no network",
+       files.report);
 }
 
-/// What the contract of the program promises for later.
-void add_planned_options(CLI::App& app) {
-  add_value(app, "--report", "FILE.html", "not built in yet", [](const std::string&) {
-    throw Error(ErrorKind::not_built_in, "--report: not built in yet");
-  });
+/// What makes the scene, for a command that cuts it elsewhere.
+std::vector<std::string> scene_options(const CLI::App& app) {
+  constexpr std::array<std::string_view, 17> other = {
+      "output",          "labels",      "json",         "signatures", "tree", "barcode", "plot",
+      "coloured",        "explain",     "picture",      "report",     "cut",  "objects", "parts",
+      "min-persistence", "frames-from", "stable-labels"};
+  return app::given_options(app, other);
 }
 
 /// The first option that was given of those that a stored tree cannot follow.
@@ -338,7 +345,6 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
   const Known known = add_method_options(app, a.options);
   add_cut_options(app, a.cut, known);
   add_output_options(app, a);
-  add_planned_options(app);
   app::add_common_options(app, a.common);
   if (auto answer = app::parse_command_line(app, a.common, argc, argv,
                                             fmt::format(kBuiltIn, fmt::join(kMethodNames, " "))))
@@ -352,6 +358,11 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
     a.options.method = Method::supervoxels;
   }
   a.scene_option = scene_option(app);
+  if (!a.files.report.empty()) {
+    report::require_built_in("--report");
+    a.command = app::typed_command("ph-segment", argc, argv);
+    a.scene_options = scene_options(app);
+  }
   a.options.min_part = a.cut.min_part;
   a.options.min_size = a.cut.min_size;
   a.options.objects = a.cut.objects.value_or(a.options.objects);

@@ -31,9 +31,10 @@ struct OutputPaths {
   std::string plot;      ///< the barcode as a figure
   std::string coloured;  ///< the cloud with a colour a segment
   std::string picture;   ///< the image with a colour a segment
+  std::string report;    ///< the page to look at
 
-  std::array<const std::string*, 8> all() const {
-    return {&output, &labels, &json, &tree, &barcode, &plot, &coloured, &picture};
+  std::array<const std::string*, 9> all() const {
+    return {&output, &labels, &json, &tree, &barcode, &plot, &coloured, &picture, &report};
   }
   /// Those that a stream has for each of its frames, and that are asked for.
   std::vector<std::string> of_each_frame() const {
@@ -78,6 +79,9 @@ struct Arguments {
   bool signatures = false;  ///< the homology of each segment goes into the JSON
   std::optional<std::array<std::uint32_t, 2>> explain;  ///< two segments: where do they join?
   app::CommonOptions common;
+  // For the report: the command line as it was typed, and its options without those that say where
+  // to cut and what to write.
+  std::vector<std::string> command, scene_options;
 
   /// Whether frames go in and folders of results come out.
   bool is_stream() const;

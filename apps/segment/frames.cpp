@@ -75,7 +75,7 @@ FrameSource::FrameSource(const Arguments& a)
        {std::pair("--output", &patterns_.output), std::pair("--labels", &patterns_.labels),
         std::pair("--tree", &patterns_.tree), std::pair("--barcode", &patterns_.barcode),
         std::pair("--plot", &patterns_.plot), std::pair("--coloured", &patterns_.coloured),
-        std::pair("--picture", &patterns_.picture)})
+        std::pair("--picture", &patterns_.picture), std::pair("--report", &patterns_.report)})
     prepare(option, *path);
   for (const std::string& input : a.inputs) {
     if (!app::is_folder(input)) {
@@ -147,7 +147,8 @@ OutputPaths FrameSource::files_of(const std::string& name) const {
           .barcode = filled(p.barcode, name, ".csv"),
           .plot = filled(p.plot, name, ".svg"),
           .coloured = filled(p.coloured, name, ".pcd"),
-          .picture = filled(p.picture, name, ".png")};
+          .picture = filled(p.picture, name, ".png"),
+          .report = filled(p.report, name, ".html")};
 }
 
 }  // namespace ph::segment

@@ -11,6 +11,7 @@
 #include "ph/core/error.hpp"
 #include "ph/io/barcode_io.hpp"
 #include "ph/io/svg_plot.hpp"
+#include "report.hpp"
 #include "summary.hpp"
 
 namespace ph::segment {
@@ -80,6 +81,8 @@ std::string label_file(const std::string& path, const SceneTree& scene,
   return text;
 }
 
+}  // namespace
+
 BarcodeInfo barcode_info(const Segmentation& s, const RunInfo& info) {
   BarcodeInfo result;
   result.program = info.program;
@@ -94,8 +97,6 @@ BarcodeInfo barcode_info(const Segmentation& s, const RunInfo& info) {
   return result;
 }
 
-}  // namespace
-
 Outputs::Outputs(const Arguments& a) : arguments_(a) {
   const OutputPaths& f = a.files;
   for (const std::string& path : {f.output, f.coloured}) {
@@ -105,6 +106,7 @@ Outputs::Outputs(const Arguments& a) : arguments_(a) {
   require_extension("--tree", f.tree, {".tree", ".json"});
   require_extension("--plot", f.plot, {".svg"});
   require_extension("--picture", f.picture, {".png"});
+  require_extension("--report", f.report, {".html", ".htm"});
   if (!f.barcode.empty() && f.barcode != "-" && !barcode_format_of_path(f.barcode)) {
     require_extension("--barcode", f.barcode, {".csv", ".json", ".txt", ".pers", ".dipha", ".npy"});
   }
@@ -116,6 +118,7 @@ Outputs::Outputs(const Arguments& a) : arguments_(a) {
   open(Kind::plot, f.plot);
   open(Kind::coloured, f.coloured);
   open(Kind::picture, f.picture);
+  open(Kind::report, f.report);
 }
 
 void Outputs::open(Kind kind, const std::string& path) {
@@ -151,8 +154,8 @@ std::vector<std::uint32_t> Outputs::colours(const Cloud& cloud, const Segmentati
   return segment_colours(neighbouring_segments(cloud, segmentation));
 }
 
-void Outputs::write_file(File& file, const Cloud* cloud, const Segmentation& s,
-                         const RunInfo& info) const {
+void Outputs::write_file(File& file, const Cloud* cloud, const Segmentation& s, const RunInfo& info,
+                         const RunContext& context) const {
   const OutputPaths& f = arguments_.files;
   app::Output& out = file.output;
   switch (file.kind) {
@@ -180,11 +183,14 @@ void Outputs::write_file(File& file, const Cloud* cloud, const Segmentation& s,
       return out.write(text_of([&](std::ostream& o) {
         write_png(o, ph::segment::picture(*cloud, s.labels, colours(*cloud, s, info)));
       }));
+    case Kind::report:
+      return write_report(out.file(), cloud, s, info, arguments_, context);
   }
 }
 
-void Outputs::write(const Cloud* cloud, const Segmentation& segmentation, const RunInfo& info) {
-  for (File& file : files_) write_file(file, cloud, segmentation, info);
+void Outputs::write(const Cloud* cloud, const Segmentation& segmentation, const RunInfo& info,
+                    const RunContext& context) {
+  for (File& file : files_) write_file(file, cloud, segmentation, info, context);
   for (File& file : files_) file.output.commit();
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "arguments.hpp"
+#include "ph/io/barcode_io.hpp"
 #include "session.hpp"
 
 namespace ph::segment {
@@ -21,11 +22,17 @@ struct RunInfo {
   std::vector<std::uint32_t> numbers = {};
   /// Of each segment, none of one for which there was no memory; empty: not asked for.
   std::vector<std::optional<Barcode>> signatures = {};
+  // For the report.
+  std::string sha256 = {};                 ///< of the input
+  std::vector<std::string> warnings = {};  ///< what the user was told
 
   std::uint32_t number_of(std::uint32_t label) const {
     return label == 0 || numbers.empty() ? label : numbers[label - 1];
   }
 };
+
+/// Where the barcode of a segmentation came from.
+BarcodeInfo barcode_info(const Segmentation& segmentation, const RunInfo& info);
 
 /// The files that the command line asks for: opened before the computation, complete or absent.
 class Outputs {
@@ -38,17 +45,18 @@ class Outputs {
   void require_suitable(const Cloud* cloud, Index height) const;
   /// @param cloud null: a stored tree was cut.
   /// Writes and completes all of them.
-  void write(const Cloud* cloud, const Segmentation& segmentation, const RunInfo& info);
+  void write(const Cloud* cloud, const Segmentation& segmentation, const RunInfo& info,
+             const RunContext& context);
 
  private:
-  enum class Kind { cloud, labels, json, tree, barcode, plot, coloured, picture };
+  enum class Kind { cloud, labels, json, tree, barcode, plot, coloured, picture, report };
   struct File {
     Kind kind;
     app::Output output;
   };
   void open(Kind kind, const std::string& path);
   void write_file(File& file, const Cloud* cloud, const Segmentation& segmentation,
-                  const RunInfo& info) const;
+                  const RunInfo& info, const RunContext& context) const;
   std::vector<std::uint32_t> colours(const Cloud& cloud, const Segmentation& segmentation,
                                      const RunInfo& info) const;
 

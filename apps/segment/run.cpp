@@ -14,6 +14,7 @@
 #include "outputs.hpp"
 #include "ph/core/error.hpp"
 #include "ph/io/output_file.hpp"
+#include "report/sha256.hpp"
 #include "stream.hpp"
 #include "summary.hpp"
 #include "warnings.hpp"
@@ -23,8 +24,8 @@ namespace {
 
 constexpr std::string_view kProgram = "ph-segment";
 
-Cloud read_depth(const DepthInput& image, const RunContext& context) {
-  const Raster depth = read_png(image.depth, &context);
+Cloud read_depth(const Input& input, const DepthInput& image, const RunContext& context) {
+  const Raster depth = read_png(input);
   std::optional<Raster> colour;
   if (!image.colour.empty()) colour = read_png(image.colour, &context);
   return cloud_from_depth(depth, colour, *image.intrinsics, image.scale);
@@ -80,6 +81,7 @@ Segmentation cut_of_tree(const Input& input, const Arguments& arguments,
 /// What was read, and what became of it.
 struct Result {
   std::optional<Cloud> cloud;  ///< none: a stored tree was read
+  std::string sha256;          ///< of the input, for a report
   Segmentation segmentation;
   double read_seconds = 0;
 };
@@ -91,15 +93,14 @@ Result result_of(const Arguments& arguments, const Outputs& outputs, app::Sessio
   std::optional<app::BarHold> somebody_types;
   if (app::is_typed({arguments.input, arguments.image.depth, arguments.image.colour}))
     somebody_types.emplace(session);
-  std::optional<Input> input;
-  if (arguments.is_depth_image()) {
-    DepthInput image = arguments.image;
-    if (image.depth.empty()) image.depth = arguments.input;
-    result.cloud = read_depth(image, context);
-  } else {
-    input.emplace(Input::open(arguments.input, &context));
-    if (!is_tree(*input)) result.cloud = read_points(*input, arguments.allow_empty, session);
-  }
+  const DepthInput& image = arguments.image;
+  std::optional<Input> input(
+      Input::open(image.depth.empty() ? arguments.input : image.depth, &context));
+  if (arguments.is_depth_image())
+    result.cloud = read_depth(*input, image, context);
+  else if (!is_tree(*input))
+    result.cloud = read_points(*input, arguments.allow_empty, session);
+  if (!arguments.files.report.empty()) result.sha256 = report::sha256_hex(input->bytes(), context);
   somebody_types.reset();
   Segmentation& s = result.segmentation;
   const auto stop_reading = [&] {
@@ -165,7 +166,8 @@ Outcome outcome_of(const Arguments& arguments, app::Session& session, const OfSt
   Outputs outputs(arguments);
   const Result result = result_of(arguments, outputs, session);
   const Segmentation& s = result.segmentation;
-  for (const std::string& text : warnings(arguments, result.cloud, s)) session.note(text);
+  std::vector<std::string> warned = warnings(arguments, result.cloud, s);
+  for (const std::string& text : warned) session.note(text);
   explain_stages(s, arguments, session);
 
   // Before anything is written: the labels may not be there.
@@ -177,11 +179,13 @@ Outcome outcome_of(const Arguments& arguments, app::Session& session, const OfSt
   RunInfo info{.program = app::program_and_version(std::string(kProgram)),
                .input = arguments.input.empty() ? arguments.image.depth : arguments.input,
                .read_seconds = result.read_seconds,
-               .from_tree = !result.cloud};
+               .from_tree = !result.cloud,
+               .sha256 = result.sha256,
+               .warnings = std::move(warned)};
   if (stream && stream->tracker) info.numbers = stream->tracker->update(s, s);
   if (arguments.signatures) info.signatures = signatures_of(s, session);
   const app::BarHold results_are_written(session);
-  outputs.write(result.cloud ? &*result.cloud : nullptr, s, info);
+  outputs.write(result.cloud ? &*result.cloud : nullptr, s, info, session.context());
   if (answer) write_file("-", *answer);
   return {s.difference.empty() ? app::kOk : app::kDifference, one_line_summary(s),
           stream && stream->json ? json_summary(arguments, s, info) : ""};

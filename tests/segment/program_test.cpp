@@ -295,11 +295,6 @@ TEST_F(Program, ACutOfACloudIsThatOfItsTree) {
   EXPECT_EQ(run("scene.pcd --method paper --cut 0.03"), 64);
 }
 
-TEST_F(Program, WhatIsNotBuiltInYet) {
-  EXPECT_EQ(run("scene.pcd --report r.html"), 69);
-  EXPECT_NE(err().find("not built in yet"), std::string::npos) << err();
-}
-
 TEST_F(Program, InputErrors) {
   EXPECT_EQ(run("missing.pcd"), 66);
   EXPECT_EQ(run("."), 66);
