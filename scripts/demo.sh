@@ -14,6 +14,12 @@ barcode=build/release/apps/barcode/ph-barcode
 segment=build/release/apps/segment/ph-segment
 /usr/bin/python3 scripts/demo_data.py "$out/data"
 
+# Pages to look at, where npm could bundle them.
+report() { :; }
+if $barcode --version --verbose | grep -q '^reports *built in'; then
+  report() { printf -- '--report %s' "$out/$1.html"; }
+fi
+
 # The five longest bars of a dimension: longest DIM FILE.csv
 longest() {
   awk -F, -v dim="$1" '$1 == dim { printf "%.4g [%.4g, %.4g)\n", $3 - $2, $2, $3 }' "$2" |
@@ -23,12 +29,13 @@ longest() {
 echo
 echo "1. 5 210 points on a cat (libcgal-demo): Vietoris-Rips, H0 and H1"
 $barcode "$out/data/kitten.csv" --threshold 0.15 --quiet -o "$out/kitten.csv" \
-  --plot "$out/kitten.svg" --plot-kind diagram
+  --plot "$out/kitten.svg" --plot-kind diagram $(report kitten)
 echo "   longest loops, length [birth, death): two stand out, as on a torus"
 longest 1 "$out/kitten.csv"
 
 echo "2. CT of a skull, 64 x 64 x 64 (libcgal-demo): cubical, H0, H1, H2"
-$barcode "$out/data/skull.npy" --quiet -o "$out/skull.csv" --plot "$out/skull.svg" --plot-kind barcode
+$barcode "$out/data/skull.npy" --quiet -o "$out/skull.csv" --plot "$out/skull.svg" --plot-kind barcode \
+  $(report skull)
 echo "   longest voids, length [birth, death)"
 longest 2 "$out/skull.csv"
 
@@ -37,10 +44,14 @@ $segment --method paper --depth "$out/data/depth.png" --color "$out/data/color.p
   --intrinsics 994.978,994.978,311.193,254.877 \
   --max-range 4 --plane-distance 0.03 --voxel 0.03 --distance 0.06 \
   -o "$out/motorcycle.ply" --labels "$out/motorcycle_labels.png" --json "$out/motorcycle.json" \
-  --plot "$out/motorcycle.svg" --picture "$out/motorcycle.png" 2>&1 | sed 's/^/   /'
+  --plot "$out/motorcycle.svg" --picture "$out/motorcycle.png" $(report motorcycle) 2>&1 | sed 's/^/   /'
 
 echo
 echo "written:"
 echo "  $out/motorcycle.png         the picture with its objects coloured"
 echo "  $out/motorcycle.ply         every point with its label; motorcycle.json: the numbers"
 echo "  $out/kitten.svg, skull.svg  persistence diagram and barcode; .csv: all bars"
+if [ -n "$(report any)" ]; then
+  echo "  $out/motorcycle.html, kitten.html, skull.html   open them in a browser: cloud, barcode, diagram"
+  echo "                              and merge tree, linked; a slider cuts the motorcycle anew"
+fi

@@ -13,6 +13,7 @@
 #include "image_arguments.hpp"
 #include "numbers.hpp"
 #include "ph/core/field.hpp"
+#include "report/page_template.hpp"
 #include "rips_arguments.hpp"
 
 namespace ph::barcode {
@@ -82,6 +83,15 @@ void take_plot(Arguments& a, const std::string& path) {
     throw Error(ErrorKind::usage,
                 fmt::format("--plot: found '{}', expected a name that ends in .svg", path));
   a.plots.push_back({path, PlotKind::barcode});
+}
+
+void take_report(Arguments& a, const std::string& path) {
+  report::require_built_in("--report");
+  const std::string name = lower_case(path);
+  if (path != "-" && !name.ends_with(".html") && !name.ends_with(".htm"))
+    throw Error(ErrorKind::usage,
+                fmt::format("--report: found '{}', expected a name that ends in .html", path));
+  a.report = path;
 }
 
 void add_input_options(CLI::App& app, Arguments& a) {
@@ -230,8 +240,16 @@ void add_output_options(CLI::App& app, Arguments& a, std::vector<PlotKind>& kind
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group(group);
-  add_value(app, "--report", "FILE.html", "interactive report (not built in)",
-            [](const std::string&) { not_built_in("--report:"); })
+  add_value(app, "--report", "FILE.html",
+            "one page to look at: barcode, diagram, merge tree and data, linked; needs no network",
+            [&a](const std::string& path) { take_report(a, path); })
+      ->group(group);
+  app.add_option_function<std::vector<std::string>>(
+         "--compare", [&a](const std::vector<std::string>& paths) { a.compare = paths; },
+         "compute nothing: put two barcode files side by side in the report")
+      ->type_name("A B")
+      ->type_size(1)
+      ->expected(2)
       ->group(group);
 }
 
@@ -250,6 +268,13 @@ std::string built_in() {
 /// What no single option can see.
 void check_together(Arguments& a, const std::vector<PlotKind>& kinds) {
   const auto reject = [](const std::string& what) { throw Error(ErrorKind::usage, what); };
+  if (!a.compare.empty()) {
+    if (a.report.empty()) reject("--compare needs --report FILE.html");
+    if (!a.inputs.empty())
+      reject(fmt::format("--compare: found INPUT '{}' beside it, expected two barcode files only",
+                         a.inputs.front()));
+    return;
+  }
   if (a.inputs.empty()) reject("INPUT is missing; --help lists the options");
   for (const std::string& input : a.inputs)
     if (input.empty()) reject("INPUT: found '', expected a path");
@@ -262,6 +287,9 @@ void check_together(Arguments& a, const std::vector<PlotKind>& kinds) {
   if (a.inputs.size() > 1 && !a.is_batch() && !a.dry_run && a.output_format != BarcodeFormat::none)
     reject(fmt::format("--output: several inputs need a folder: -o FOLDER/, found '{}'", a.output));
   if (a.inputs.size() > 1 && !a.plots.empty()) reject("--plot takes one input only");
+  if (a.inputs.size() > 1 && !a.report.empty()) reject("--report takes one input only");
+  if (a.report == "-" && a.output == "-" && a.output_format != BarcodeFormat::none)
+    reject("--report: standard output has the barcode; -o FILE or --output-format none");
   if (std::count(a.inputs.begin(), a.inputs.end(), "-") > 1)
     reject("INPUT: standard input can be read once only");
   const Engine engine = a.options.engine;
@@ -317,6 +345,7 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv,
     return answer;
   if (list_formats) return formats_table();
   check_together(arguments, plot_kinds);
+  if (!arguments.report.empty()) arguments.command = app::typed_command("ph-barcode", argc, argv);
   return std::nullopt;
 }
 

@@ -56,6 +56,9 @@ struct Arguments {
   std::string output = "-";
   std::optional<BarcodeFormat> output_format;
   std::vector<Plot> plots;
+  std::string report;                // path; empty: none
+  std::vector<std::string> compare;  // two barcode files; empty: a barcode is computed
+  std::vector<std::string> command;  // as it was typed, for the report
 
   /// Whether the output is a folder with one file an input.
   bool is_batch() const;

@@ -9,6 +9,7 @@
 #include "batch_names.hpp"
 #include "exit_code.hpp"
 #include "program.hpp"
+#include "report.hpp"
 #include "run.hpp"
 
 namespace ph::barcode {
@@ -26,9 +27,10 @@ BarcodeFormat format_of(const Arguments& arguments, app::Session& session) {
   return BarcodeFormat::csv;
 }
 
-/// Only JSON has room for representatives. @throws Error (usage).
+/// Only JSON and the report have room for representatives. @throws Error (usage).
 void require_room(BarcodeFormat format, const Arguments& arguments) {
   if (arguments.options.representatives == Representatives::none || arguments.dry_run) return;
+  if (!arguments.report.empty()) return;
   if (format == BarcodeFormat::json || format == BarcodeFormat::none) return;
   throw Error(ErrorKind::usage,
               fmt::format("--representatives: found output format {}, expected json; "
@@ -81,9 +83,11 @@ int run_one(const Job& job, const Arguments& arguments, app::Session& session) {
 }  // namespace
 
 int run_all(const Arguments& given, app::Session& session) {
+  if (!given.compare.empty()) return run_comparison(given, session);
   const BarcodeFormat format = format_of(given, session);
   Arguments arguments = given;
-  arguments.options.cells = format == BarcodeFormat::json;  // the one that shows them
+  // JSON and the report show them.
+  arguments.options.cells = format == BarcodeFormat::json || !arguments.report.empty();
   require_room(format, arguments);
   const std::vector<Job> jobs = jobs_of(arguments, format);
   if (jobs.size() == 1 && !arguments.is_batch()) return run(jobs[0], arguments, session).code;

@@ -5,6 +5,7 @@
 #include <malloc.h>
 
 #include <chrono>
+#include <memory>
 #include <new>
 #include <optional>
 
@@ -14,6 +15,8 @@
 #include "messages.hpp"
 #include "numbers.hpp"
 #include "ph/estimate.hpp"
+#include "report.hpp"
+#include "report/sha256.hpp"
 #include "ways_out.hpp"
 
 namespace ph::barcode {
@@ -66,13 +69,17 @@ struct Loaded {
   BuiltComplex built;
   std::string description;
   std::vector<Index> point_ids;
+  // For a report: what is shown, counted in the budget.
+  std::optional<NamedData> data = {};
+  std::unique_ptr<MemoryClaim> claim = {};
 };
 
 Loaded load(const Job& job, const Arguments& arguments, app::Session& session, Stopwatch& watch) {
   std::optional<app::BarHold> somebody_types;
   if (app::is_typed({job.input, arguments.values, arguments.vertex_weights}))
     somebody_types.emplace(session);
-  auto [name, read, dropped] = read_input(job, arguments, session.context());
+  NamedData data = read_input(job, arguments, session.context());
+  const auto& [name, read, dropped, sha256] = data;
   const std::string what = fmt::format("read {}: {}", name, read.description);
   // A batch says it in its one line an input.
   if (arguments.format == Format::automatic && arguments.inputs.size() == 1)
@@ -81,15 +88,23 @@ Loaded load(const Job& job, const Arguments& arguments, app::Session& session, S
     session.explain(what);
   for (const std::string& note : read.notes) session.note(fmt::format("{}: {}", name, note));
   watch.lap("read");
-  const MemoryClaim claim(session.context().memory, size_of(read));
+  auto claim = std::make_unique<MemoryClaim>(session.context().memory, size_of(read));
   std::string description = read.description;
   std::vector<Index> point_ids = read.point_ids;
-  BuiltComplex built = build_complex(std::move(read), name, dropped, arguments, session.context());
+  const bool is_shown = !arguments.report.empty() && !arguments.dry_run;
+  BuiltComplex built =
+      is_shown ? build_complex(read, name, dropped, arguments, session.context())
+               : build_complex(std::move(data.read), name, dropped, arguments, session.context());
   if (built.promise) session.note(*built.promise);
   if (built.empty && !arguments.read.allow_empty)
     throw Error(ErrorKind::bad_data,
                 fmt::format("{}: no points; --allow-empty accepts that", name));
-  return {std::move(built), std::move(description), std::move(point_ids)};
+  Loaded loaded{std::move(built), std::move(description), std::move(point_ids)};
+  if (is_shown) {
+    loaded.data = std::move(data);
+    loaded.claim = std::move(claim);
+  }
+  return loaded;
 }
 
 /// Whether edges are collapsed first, and why; only said of Rips complexes.
@@ -127,32 +142,37 @@ std::string estimate_text(const Estimate& estimate, const BuiltComplex& built,
                             app::format_size(high));
 }
 
-void write_outputs(std::optional<app::Output>& output, std::vector<app::Output>& plots,
-                   const Barcode& barcode, const Job& job, const Arguments& arguments,
-                   const BarcodeInfo& info) {
-  if (output) {
-    write_barcode(output->file(), barcode, job.format, info);
-    output->commit();
+/// The files that a run writes. What cannot be created is said before anything is computed.
+struct Outputs {
+  std::optional<app::Output> barcode, report;
+  std::vector<app::Output> plots;
+
+  Outputs(const Job& job, const Arguments& arguments) {
+    if (job.format != BarcodeFormat::none) barcode.emplace(job.output);
+    for (const Plot& plot : arguments.plots) plots.emplace_back(plot.path);
+    if (!arguments.report.empty()) report.emplace(arguments.report);
   }
-  for (std::size_t i = 0; i < plots.size(); ++i) {
-    PlotOptions options;
-    options.kind = arguments.plots[i].kind;
-    plots[i].write(svg_plot(barcode, options));
-    plots[i].commit();
+  void write(const Barcode& bars, const BarcodeInfo& info, const Job& job,
+             const Arguments& arguments) {
+    if (barcode) {
+      write_barcode(barcode->file(), bars, job.format, info);
+      barcode->commit();
+    }
+    for (std::size_t i = 0; i < plots.size(); ++i) {
+      PlotOptions options;
+      options.kind = arguments.plots[i].kind;
+      plots[i].write(svg_plot(bars, options));
+      plots[i].commit();
+    }
   }
-}
+};
 
 Outcome run_once(const Job& job, const Arguments& arguments, app::Session& session) {
   Stopwatch watch;
-  // What cannot be created is said before anything is computed.
-  std::optional<app::Output> output;
-  std::vector<app::Output> plots;
-  if (!arguments.dry_run) {
-    if (job.format != BarcodeFormat::none) output.emplace(job.output);
-    for (const Plot& plot : arguments.plots) plots.emplace_back(plot.path);
-  }
+  std::optional<Outputs> outputs;
+  if (!arguments.dry_run) outputs.emplace(job, arguments);
 
-  const auto [built, description, point_ids] = load(job, arguments, session, watch);
+  const auto [built, description, point_ids, data, claim] = load(job, arguments, session, watch);
   const auto taken = static_cast<double>(session.memory_taken());
   if (arguments.dry_run) {
     const Estimate estimated = estimate(built.complex, arguments.options, session.context());
@@ -179,6 +199,8 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   watch.lap("persistence");
 
   int code = app::kOk;
+  std::vector<std::string> warnings;
+  if (data) warnings = data->read.notes;
   if (arguments.check) {
     options.engine = Engine::standard;
     options.collapse = Collapse::off;
@@ -190,6 +212,7 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
     } else {
       app::print_line(fmt::format("ph-barcode: {}: check: engine {} and the oracle differ: {}",
                                   job.input, engine_name(planned.engine), difference));
+      warnings.push_back("check: the engine and the oracle differ: " + difference);
       code = app::kDifference;
     }
   }
@@ -213,7 +236,12 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
     session.explain(fmt::format("{} {:.3f} s", stage, seconds));
   session.explain("memory " + app::format_size(static_cast<double>(session.memory_taken())));
   const app::BarHold results_are_written(session);
-  write_outputs(output, plots, barcode, job, arguments, info);
+  outputs->write(barcode, info, job, arguments);
+  if (data) {
+    const Shown shown{barcode, info, *data, built, std::move(warnings)};
+    write_report(outputs->report->file(), shown, arguments, session);
+    outputs->report->commit();
+  }
   return {code, fmt::format("{}: {}", description, plural(barcode.size(), "bar"))};
 }
 
@@ -226,7 +254,9 @@ NamedData read_input(const Job& job, const Arguments& arguments, const RunContex
   options.dropped = &dropped;
   const Input input = Input::open(job.input, &context);
   ReadResult read = read_any(input, arguments.format, options, arguments.values);
-  return {input.name(), std::move(read), dropped.size()};
+  std::string sha256;
+  if (!arguments.report.empty()) sha256 = report::sha256_hex(input.bytes(), context);
+  return {input.name(), std::move(read), dropped.size(), std::move(sha256)};
 }
 
 Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {

@@ -25,6 +25,7 @@ struct NamedData {
   std::string name;  ///< of the input, printable
   ReadResult read;
   std::size_t dropped = 0;  ///< points that were left out
+  std::string sha256 = {};  ///< of the bytes that were read; empty: nobody wants to know
 };
 /// @throws Error as the readers.
 NamedData read_input(const Job& job, const Arguments& arguments, const RunContext& context);

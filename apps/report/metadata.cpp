@@ -92,6 +92,10 @@ std::string without_tags(std::string_view json) {
 
 }  // namespace
 
+std::string title_of(const std::string& path) {
+  return path.substr(path.rfind('/') + 1);  // all of it if there is none
+}
+
 std::string metadata_json(const Metadata& m) {
   JsonObject object;
   object.text("format", "ph-report")

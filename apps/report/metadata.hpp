@@ -64,6 +64,9 @@ struct Metadata {
   Provenance provenance;
 };
 
+/// What to call the data of a file: its path without folders.
+std::string title_of(const std::string& path);
+
 /// As JSON that can stand in an element of HTML: no text in it ends the element.
 std::string metadata_json(const Metadata& metadata);
 

@@ -191,10 +191,10 @@ report::Metadata metadata_of(const Segmentation& s, const RunInfo& info, const A
                              bool organised) {
   report::Metadata meta;
   const bool surface = s.method == Method::surface;
-  meta.title = info.input;
+  meta.title = report::title_of(info.input);
   meta.value_label = surface ? "Concavity" : "Distance";
   meta.value_unit = surface ? "" : "m";
-  meta.barcodes.push_back({info.input});
+  meta.barcodes.push_back({meta.title});
   report::CloudMeta cloud{.unit = "m", .viewpoint = s.viewpoint};
   // A camera sees y downwards; what else there may be has z upwards.
   if (organised)

@@ -176,6 +176,12 @@ TEST(MetadataText, NoNameEndsTheElement) {
   EXPECT_NE(json.find("\"cells\": \"grid\", \"representatives\": \"cycles\""), std::string::npos);
 }
 
+TEST(MetadataText, ATitleHasNoFolders) {
+  EXPECT_EQ(title_of("a/b.c/d.csv"), "d.csv");
+  EXPECT_EQ(title_of("d.csv"), "d.csv");
+  EXPECT_EQ(title_of("-"), "-");
+}
+
 TEST(Page, HasItsMarkerOnce) {
   const std::string_view page = page_template();
   if (page.empty()) {

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "h0_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ph::barcode {
+namespace {
+
+// A page stays interactive with so many merges; those of the lowest levels are contracted.
+constexpr std::size_t kMostMerges = 100'000;
+constexpr std::size_t kMostVoxels = 1 << 22;  // of an image: all cells of it are listed
+
+std::optional<MergeTree> tree_of(const Rips& rips, const Shown& shown, const Arguments& arguments,
+                                 const RunContext& context) {
+  if (rips.graph().has_names() && arguments.options.min_persistence < 0) return std::nullopt;
+  if (shown.built.subsample || arguments.rips.approximation) return std::nullopt;
+  // The complex that was computed may hold all its edges and may have merged equal points; this one
+  // is a spanning forest of all points.
+  Arguments again = arguments;
+  again.options.max_dim = 0;
+  again.options.engine = Engine::automatic;
+  again.options.min_persistence = -1;
+  again.options.representatives = Representatives::none;
+  again.check = false;
+  again.threshold = shown.built.threshold;
+  const BuiltComplex forest =
+      build_complex(shown.data.read, shown.data.name, shown.data.dropped, again, context);
+  const Rips& all = std::get<Rips>(forest.complex);
+  if (all.graph().has_names()) return std::nullopt;  // some points are born beyond the threshold
+  return merge_tree(all, context);
+}
+
+std::optional<MergeTree> tree_of(const Cubical& cubical, const RunContext& context) {
+  const CubicalImage image = cubical.cubical_image();
+  if (!image.voxels_are_vertices || image.size() > kMostVoxels) return std::nullopt;
+  return merge_tree(cubical, context);
+}
+
+std::optional<MergeTree> tree_of(const ExplicitComplex& complex, const RunContext& context) {
+  if (!complex.edges_join_vertices()) return std::nullopt;
+  return merge_tree(complex, context);
+}
+
+/// The vertex of the tree that gave birth to each bar of H0, as far as it is known.
+std::vector<std::uint32_t> birth_vertices(const Barcode& barcode, const Cubical* cubical) {
+  std::vector<std::uint32_t> vertices;
+  std::vector<Index> extents;
+  if (cubical) extents = cubical->cubical_image().extents;
+  for (std::size_t i = 0; i < barcode.bars(0).size(); ++i) {
+    const InputCell cell = barcode.birth_cell(i);
+    if (cell.numbers.empty()) return {};
+    Index vertex = cubical ? 0 : cell.numbers.front();
+    for (std::size_t axis = 0; axis < extents.size(); ++axis)
+      vertex = vertex * extents[axis] + cell.numbers[axis] / 2;
+    vertices.push_back(static_cast<std::uint32_t>(vertex));
+  }
+  return vertices;
+}
+
+/// Where the levels of the largest merges have their widest gap, as a ratio: what lies above is
+/// much more persistent than what lies below. `from` if there is none that is wide.
+double cut_in_gap(const report::ContractedTree& contracted, const MergeTree& tree,
+                  report::CutRule rule, double from) {
+  constexpr std::ptrdiff_t most = 64;
+  constexpr double least_ratio = 1.2;
+  std::vector<double> levels;
+  for (const auto& kept : contracted.merges) {
+    const Merge& m = tree.merges[kept.merge];
+    const double level = rule == report::CutRule::value ? m.value : m.persistence();
+    if (level > 0 && std::isfinite(level)) levels.push_back(level);
+  }
+  std::ranges::sort(levels);
+  if (std::ssize(levels) > most) levels.erase(levels.begin(), levels.end() - most);
+  double cut = from, widest = least_ratio;
+  for (std::size_t i = 1; i < levels.size(); ++i) {
+    const double ratio = levels[i] / levels[i - 1];
+    if (ratio <= widest) continue;
+    widest = ratio;
+    cut = levels[i - 1] * std::sqrt(ratio);
+  }
+  return cut;
+}
+
+}  // namespace
+
+std::optional<ShownTree> h0_tree(const Shown& shown, const Arguments& arguments,
+                                 const RunContext& context) {
+  if (shown.built.cut || shown.built.empty) return std::nullopt;
+  struct Make {
+    const Shown& shown;
+    const Arguments& arguments;
+    const RunContext& context;
+    std::optional<MergeTree> operator()(const Rips& c) const {
+      return tree_of(c, shown, arguments, context);
+    }
+    std::optional<MergeTree> operator()(const Cubical& c) const { return tree_of(c, context); }
+    std::optional<MergeTree> operator()(const ExplicitComplex& c) const {
+      return tree_of(c, context);
+    }
+  };
+  std::optional<MergeTree> tree = std::visit(Make{shown, arguments, context}, shown.built.complex);
+  if (!tree) return std::nullopt;
+
+  const bool rips = std::holds_alternative<Rips>(shown.built.complex);
+  const auto* cubical = std::get_if<Cubical>(&shown.built.complex);
+  report::TreeMeta meta;
+  // Points enter together: clusters at a distance. Else minima lie at different depths.
+  meta.rule = rips ? report::CutRule::value : report::CutRule::persistence;
+  meta.label = rips ? "distance" : "persistence";
+  meta.what = rips ? "component" : "basin";
+  meta.from = report::least_cut(*tree, meta.rule, kMostMerges);
+  report::ContractedTree contracted =
+      report::contracted(*tree, meta.rule, meta.from, 1, {}, context);
+  meta.cut = cut_in_gap(contracted, *tree, meta.rule, meta.from);
+  report::LinkedBars bars =
+      report::linked_bars(*tree, shown.barcode, birth_vertices(shown.barcode, cubical));
+  return ShownTree{std::move(*tree), std::move(contracted), std::move(bars), std::move(meta)};
+}
+
+}  // namespace ph::barcode

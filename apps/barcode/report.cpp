@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+#include "report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <new>
+
+#include "exit_code.hpp"
+#include "h0_tree.hpp"
+#include "report/bar_arrays.hpp"
+#include "report/point_arrays.hpp"
+#include "report/report_file.hpp"
+#include "report/sha256.hpp"
+
+namespace ph::barcode {
+namespace {
+
+using report::ReportFile;
+
+constexpr Index kMostColumns = 3;  // of positions
+// Up to here positions are written as they are: the page finds the edges of a complex by them.
+constexpr Index kMostExactPoints = 50'000;
+constexpr std::size_t kMostVoxels = std::size_t{1} << 24;  // in a page
+
+/// The points that the page shows; null where there are none, or where cells are those of a grid.
+const Points* points_of(const Shown& shown) {
+  if (std::holds_alternative<Cubical>(shown.built.complex)) return nullptr;
+  if (const auto* mesh = std::get_if<Mesh>(&shown.data.read.data)) return &mesh->vertices;
+  const auto* points = std::get_if<Points>(&shown.data.read.data);
+  return points && points->rows() > 0 && points->cols() > 0 ? points : nullptr;
+}
+
+/// The image that the page shows: of two or three axes, and not too large.
+std::optional<CubicalImage> image_of(const Shown& shown) {
+  const auto* cubical = std::get_if<Cubical>(&shown.built.complex);
+  if (!cubical) return std::nullopt;
+  CubicalImage image = cubical->cubical_image();
+  const bool fits = image.extents.size() == 2 || image.extents.size() == 3;
+  if (!fits || image.size() == 0 || image.size() > kMostVoxels) return std::nullopt;
+  return image;
+}
+
+report::CloudMeta cloud_meta(const Points& points, const Arguments& arguments) {
+  report::CloudMeta meta;
+  if (arguments.rips.distance == PointDistance::euclidean && !arguments.rips.approximation &&
+      arguments.rips.births.empty() && !arguments.dtm && arguments.vertex_weights.empty())
+    meta.metric = "euclidean";
+  if (points.cols() > kMostColumns)
+    meta.projection = fmt::format("first {} of {} coordinates", kMostColumns, points.cols());
+  return meta;
+}
+
+report::Metadata metadata_of(const Shown& shown, const Arguments& arguments,
+                             const std::optional<CubicalImage>& image,
+                             const std::optional<ShownTree>& tree) {
+  const bool rips = std::holds_alternative<Rips>(shown.built.complex);
+  report::Metadata meta;
+  meta.title = report::title_of(shown.info.input);
+  meta.value_label = rips                           ? "Distance"
+                     : arguments.cubical.superlevel ? "Minus the value"
+                                                    : "Filtration value";
+  meta.barcodes.push_back({meta.title, shown.barcode.cell_kind(), shown.barcode.representatives()});
+  if (const Points* points = points_of(shown)) meta.cloud = cloud_meta(*points, arguments);
+  if (image) meta.construction = image->voxels_are_vertices ? "vertices" : "cells";
+  if (tree) meta.tree = tree->meta;
+  meta.provenance.command = arguments.command;
+  meta.provenance.sha256 = shown.data.sha256;
+  meta.provenance.run = shown.info;
+  meta.provenance.warnings = shown.warnings;
+  auto& notes = meta.provenance.notes;
+  if (!shown.info.vertex_weights.empty())
+    notes.emplace_back("Vertices enter late", shown.info.vertex_weights);
+  if (shown.built.promise) notes.emplace_back("Approximation", *shown.built.promise);
+  if (std::holds_alternative<Cubical>(shown.built.complex) && !image)
+    notes.emplace_back("Image", "not shown: too large, or not of two or three axes");
+  return meta;
+}
+
+void add_points(ReportFile& report, const Points& points, const std::vector<Index>& ids,
+                std::span<const std::uint32_t> leaf_of) {
+  const auto dims = static_cast<std::size_t>(std::min(points.cols(), kMostColumns));
+  const auto count = static_cast<std::size_t>(points.rows());
+  const double tolerance = points.rows() > kMostExactPoints ? kInfinity : 0;
+  if (points.cols() <= kMostColumns) {
+    report::add_positions(report, std::span(points.data(), count * dims), dims, tolerance);
+  } else {
+    const MemoryClaim copy(report.context().memory, count * dims * sizeof(double));
+    const Points first = points.leftCols(kMostColumns);
+    report::add_positions(report, std::span(first.data(), count * dims), dims, tolerance);
+  }
+  if (!ids.empty()) {
+    std::vector<std::uint32_t> numbers;
+    for (const Index id : ids) numbers.push_back(static_cast<std::uint32_t>(id));
+    report.add("points/index", numbers, {.delta = true});
+  }
+  if (leaf_of.size() == count) report::add_labels(report, "points/leaf", leaf_of, true);
+}
+
+void add_image(ReportFile& report, const CubicalImage& image,
+               std::span<const std::uint32_t> leaf_of) {
+  report::ArrayForm form;
+  for (const Index extent : image.extents) form.shape.push_back(static_cast<std::size_t>(extent));
+  with_voxels(image.type, image.voxels, [&]<class T>(const T* values) {
+    form.delta = std::numeric_limits<T>::is_integer;
+    report.add("image/values", std::span(values, image.size()), form);
+  });
+  if (leaf_of.size() == image.size()) report::add_labels(report, "points/leaf", leaf_of, true);
+  if (!image.superlevel) return;
+  const MemoryClaim copy(report.context().memory, image.size() * sizeof(float));
+  std::vector<float> births;
+  for (std::size_t i = 0; i < image.size(); ++i)
+    births.push_back(static_cast<float>(image.value(i)));
+  report.add("points/birth", births);
+}
+
+/// The barcode is there already: it is worth showing without its tree.
+std::optional<ShownTree> tree_if_it_fits(const Shown& shown, const Arguments& arguments,
+                                         app::Session& session) {
+  try {
+    return h0_tree(shown, arguments, session.context());
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::resource) throw;
+    session.note(fmt::format("--report: no merge tree: {}", error.what()));
+  } catch (const std::bad_alloc&) {
+    session.note("--report: no merge tree: out of memory");
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void write_report(OutputFile& file, const Shown& shown, const Arguments& arguments,
+                  app::Session& session) {
+  const std::optional<ShownTree> tree = tree_if_it_fits(shown, arguments, session);
+  const std::optional<CubicalImage> image = image_of(shown);
+  ReportFile report(file, metadata_of(shown, arguments, image, tree), session.context());
+  // Doubled coordinates mean something on an image that is there only.
+  const bool cells = shown.barcode.cell_kind() != CellKind::grid || image.has_value();
+  report::add_bars(report, shown.barcode, "bars", cells);
+  if (cells) report::add_chains(report, shown.barcode);
+  std::span<const std::uint32_t> leaf_of;
+  if (tree) {
+    report::add_tree(report, tree->tree, tree->contracted, tree->bars, tree->meta.rule);
+    leaf_of = tree->contracted.leaf_of;
+  }
+  if (image) add_image(report, *image, leaf_of);
+  // The vertices of a listed complex come in the order of its list.
+  if (std::holds_alternative<ExplicitComplex>(shown.built.complex)) leaf_of = {};
+  if (const Points* points = points_of(shown))
+    add_points(report, *points, shown.data.read.point_ids, leaf_of);
+  report.finish();
+}
+
+int run_comparison(const Arguments& arguments, app::Session& session) {
+  app::Output output(arguments.report);
+  const std::string &first = arguments.compare[0], &second = arguments.compare[1];
+  report::Metadata meta;
+  meta.title = fmt::format("{} and {}", report::title_of(first), report::title_of(second));
+  meta.value_label = "Filtration value";
+  meta.provenance.command = arguments.command;
+  meta.provenance.has_homology = false;
+  meta.provenance.run.program = app::program_and_version("ph-barcode");
+  meta.provenance.run.input = fmt::format("{}, {}", first, second);
+  std::vector<Barcode> barcodes;
+  for (const std::string& path : arguments.compare) {
+    const Input input = Input::open(path, &session.context());
+    barcodes.push_back(read_barcode(input));
+    meta.barcodes.push_back({report::title_of(path), barcodes.back().cell_kind()});
+    meta.provenance.notes.emplace_back(
+        fmt::format("SHA-256 of {}", barcodes.size() == 1 ? "the first" : "the second"),
+        report::sha256_hex(input.bytes(), session.context()));
+    session.note(fmt::format("read {}: {} bars", input.name(), barcodes.back().size()));
+  }
+  meta.provenance.run.peak_memory = app::peak_memory();
+  const app::BarHold results_are_written(session);
+  ReportFile report(output.file(), meta, session.context());
+  report::add_bars(report, barcodes[0], "bars", false);
+  report::add_bars(report, barcodes[1], "bars2", false);
+  report.finish();
+  output.commit();
+  return app::kOk;
+}
+
+}  // namespace ph::barcode

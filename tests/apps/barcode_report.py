@@ -1,0 +1,261 @@
+# SPDX-License-Identifier: MIT
+"""ph-barcode --report: what is in the page against what the other outputs say."""
+import csv
+import hashlib
+import json
+import math
+import os
+import random
+import unittest
+
+import report_reader
+from program import SQUARE_CSV, ProgramTest, main, npy
+from report_reader import NONE, Report
+
+
+def circle(n, noise=0.0, seed=1):
+    rng = random.Random(seed)
+    turn = [2 * math.pi * i / n for i in range(n)]
+    return "".join(f"{math.cos(t) + noise * rng.random()} {math.sin(t) + noise * rng.random()}\n"
+                   for t in turn)
+
+
+class Reports(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        if not report_reader.is_built_in(self):
+            run = self.expect(69, "square.txt", "--report", "r.html")
+            self.assertIn("not built in", run.stderr)
+            self.skipTest("reports are not built in")
+
+    def report(self, *arguments, name="r.html"):
+        self.expect(0, *arguments, "--report", name, "--quiet")
+        return Report(self.path(name))
+
+    def bars_of_csv(self, text):
+        return [(int(r["dim"]), float(r["birth"]), float(r["death"]))
+                for r in csv.DictReader(text.splitlines())]
+
+    def test_bars_are_those_of_the_file_in_its_order(self):
+        self.write("c.txt", circle(40, 0.2))
+        run = self.expect(0, "c.txt", "--report", "r.html", "--max-dim", "2")
+        self.assertEqual(Report(self.path("r.html")).bars(), self.bars_of_csv(run.stdout))
+
+    def test_cells_and_representatives_are_those_of_the_json(self):
+        self.write("c.txt", circle(30, 0.2))
+        for field in ("2", "3"):
+            report = self.report("c.txt", "--representatives", "cycles", "-o", "c.json",
+                                 "--field", field)
+            bars = json.loads(self.read("c.json"))["bars"]
+            self.assertEqual([(b["dim"], b["birth"], b["death"] or math.inf) for b in bars],
+                             report.bars())
+            self.assertEqual([v for b in bars for v in b["birth_cell"]["vertices"]],
+                             report["bars/birth_cells"])
+            self.assertEqual([v for b in bars if b["death_cell"]
+                              for v in b["death_cell"]["vertices"]], report["bars/death_cells"])
+            terms = [t for b in bars for t in b["representative"]]
+            self.assertEqual([v for t in terms for v in t["vertices"]], report["chains/cells"])
+            self.assertEqual(report["chains/start"][-1], len(terms))
+            self.assertEqual([b for b, _ in enumerate(bars)], report["chains/bar"])
+            if field == "3":
+                self.assertEqual([t["coefficient"] for t in terms], report["chains/coefficients"])
+            else:
+                self.assertNotIn("chains/coefficients", report)
+            self.assertEqual(report.meta["barcodes"],
+                             [{"name": "c.txt", "cells": "vertices", "representatives": "cycles"}])
+
+    def test_representatives_need_no_json(self):
+        report = self.report("square.txt", "--representatives", "cocycles")
+        self.assertEqual(report.meta["barcodes"][0]["representatives"], "cocycles")
+
+    def test_points_are_those_of_the_input(self):
+        self.write("p.csv", "x,y,z\n0,1,2\n1e6,-3,0.1\n5,5,5.25\n")
+        report = self.report("p.csv")
+        self.assertEqual(report.arrays["points/position"].rows(),
+                         [(0, 1, 2), (1e6, -3, 0.1), (5, 5, 5.25)])
+        self.assertEqual(report.meta["cloud"]["metric"], "euclidean")
+        self.assertNotIn("points/index", report)
+
+    def test_many_points_are_quantised(self):
+        rng = random.Random(2)
+        points = [(rng.random(), 5 * rng.random()) for _ in range(51_000)]
+        self.write("p.txt", "".join(f"{x} {y}\n" for x, y in points))
+        report = self.report("p.txt", "--max-dim", "0", "-o", "p.csv")
+        self.assertEqual(report.arrays["points/position"].type, "u16")
+        for (x, y), (u, v) in zip(points, report.arrays["points/position"].rows()):
+            self.assertLess(abs(x - u), 1 / 65535)
+            self.assertLess(abs(y - v), 5 / 65535)
+        self.assertLess(os.path.getsize(self.path("r.html")), 4_000_000)
+
+    def test_points_that_are_left_out_keep_the_numbers_of_the_others(self):
+        self.write("p.txt", "0 0\nnan 1\n1 0\n0 2\n")
+        report = self.report("p.txt", "--nan", "drop")
+        self.assertEqual(report["points/index"], [0, 2, 3])
+        self.assertEqual(set(report["bars/birth_cells"]), {0, 2, 3})
+
+    def test_points_in_more_dimensions_are_projected(self):
+        self.write("p.txt", "0 0 0 0\n1 2 3 4\n")
+        report = self.report("p.txt")
+        self.assertEqual(report.arrays["points/position"].rows(), [(0, 0, 0), (1, 2, 3)])
+        self.assertEqual(report.meta["cloud"]["projection"], "first 3 of 4 coordinates")
+
+    def test_components_of_the_tree_are_the_living_bars(self):
+        self.write("c.txt", circle(50, 0.3, 4) + "9 9\n9 9\n9.1 9\n")
+        report = self.report("c.txt")
+        finite = [d for dim, _, d in report.bars() if dim == 0]
+        for cut in (0.0, 0.05, 0.1, 0.2, 1.0):
+            labels = report.leaf_labels(cut)
+            self.assertEqual(max(labels), sum(d > cut for d in finite))
+        self.assertEqual(len(report["points/leaf"]), 53)
+        self.assertEqual(report["points/leaf"][50], report["points/leaf"][51])  # equal points
+
+    def test_every_merge_of_a_length_has_its_bar(self):
+        self.write("c.txt", circle(40, 0.3, 5))
+        report = self.report("c.txt")
+        bars = report.bars()
+        for bar, value in zip(report["tree/merge_bar"], report["tree/merge_value"]):
+            self.assertNotEqual(bar, NONE)
+            self.assertEqual(bars[bar][2], value)
+        (leaf, bar), = report.arrays["tree/leaf_bar"].rows()
+        self.assertEqual(bars[bar], (0, 0, math.inf))
+        self.assertEqual(sorted(report["tree/merge_bar"] + [bar]),
+                         [i for i, b in enumerate(bars) if b[0] == 0])
+
+    def test_distances_have_a_tree_and_no_points(self):
+        self.write("d.txt", "0 1 5\n1 0 4\n5 4 0\n")
+        report = self.report("d.txt", "--format", "distance")
+        self.assertEqual(report["tree/merge_value"], [1, 4])
+        self.assertNotIn("points/position", report)
+
+    def test_samples_and_approximations_have_no_tree(self):
+        self.write("c.txt", circle(40, 0.3))
+        for option in (("--subsample", "10"), ("--approximate", "0.5")):
+            report = self.report("c.txt", *option)
+            self.assertNotIn("tree", report.meta)
+            self.assertIn("Approximation", report.meta["provenance"]["notes"])
+
+    def test_an_image(self):
+        rows, columns = 9, 11
+        rng = random.Random(3)
+        values = [float(rng.randrange(40)) for _ in range(rows * columns)]
+        self.write("i.npy", npy((rows, columns), values))
+        report = self.report("i.npy", "-o", "i.json")
+        self.assertEqual(report.arrays["image/values"].shape, [rows, columns])
+        self.assertEqual(report["image/values"], values)
+        bars = json.loads(self.read("i.json"))["bars"]
+        self.assertEqual([v for b in bars for v in b["birth_cell"]["grid"]],
+                         report["bars/birth_cells"])
+        self.assertEqual(report.meta["image"], {"construction": "vertices"})
+        levels = {b["death"] - b["birth"] for b in bars if b["dim"] == 0 and b["death"]}
+        self.assertEqual(set(report["tree/merge_level"]), levels)
+        for cut in sorted(levels) + [100]:
+            self.assertEqual(max(report.leaf_labels(cut)),
+                             sum(b["death"] is None or b["death"] - b["birth"] >= cut
+                                 for b in bars if b["dim"] == 0))
+
+    def test_an_image_from_above_and_of_cells(self):
+        self.write("i.npy", npy((2, 3), [0, 1, 2, 5, 4, 3]))
+        report = self.report("i.npy", "--superlevel")
+        self.assertEqual(report["image/values"], [0, 1, 2, 5, 4, 3])
+        self.assertEqual(report["points/birth"], [0, -1, -2, -5, -4, -3])
+        report = self.report("i.npy", "--construction", "cells")
+        self.assertEqual(report.meta["image"], {"construction": "cells"})
+        self.assertNotIn("tree", report.meta)
+
+    def test_images_that_a_page_cannot_show(self):
+        for shape in ((8,), (2, 2, 2, 2)):
+            count = math.prod(shape)
+            self.write("i.npy", npy(f"({','.join(map(str, shape))},)",
+                                    [float(i * 7 % 5) for i in range(count)]))
+            report = self.report("i.npy", "--format", "npy", "--complex", "cubical")
+            self.assertNotIn("image/values", report)
+            self.assertNotIn("bars/birth_cells", report)
+            self.assertIn("Image", report.meta["provenance"]["notes"])
+
+    def test_simplices_and_meshes(self):
+        self.write("s.txt", "0 : 0\n1 : 1\n2 : 0.5\n0 1 : 2\n1 2 : 3\n")
+        report = self.report("s.txt", "--format", "simplices")
+        self.assertEqual(sorted(report["tree/merge_level"]), [1, 2.5])
+        self.write("m.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+        self.write("v.txt", "3\n1\n2\n")
+        report = self.report("m.off", "--values", "v.txt")
+        self.assertEqual(report.arrays["points/position"].shape, [3, 3])
+        self.assertNotIn("points/leaf", report)
+
+    def test_where_it_comes_from(self):
+        report = self.report("square.txt", "--threads", "1", "--field", "3", "--max-dim", "1")
+        p = report.meta["provenance"]
+        self.assertEqual(p["command"],
+                         ["ph-barcode", "square.txt", "--threads", "1", "--field", "3",
+                          "--max-dim", "1", "--report", "r.html", "--quiet"])
+        with open(self.path("square.txt"), "rb") as file:
+            self.assertEqual(p["input"]["sha256"], hashlib.sha256(file.read()).hexdigest())
+        self.assertIn("4 points in R^2", p["input"]["description"])
+        self.assertEqual((p["complex"], p["field"], p["max_dim"]), ("rips", 3, 1))
+        self.assertIn("persistence", p["timings"])
+        self.assertGreater(p["peak_memory"], 1e6)
+        self.assertTrue(report.meta["program"].startswith("ph-barcode "))
+
+    def test_a_header_is_a_warning(self):
+        self.write("p.csv", "x,y\n0,0\n1,0\n")
+        self.assertIn("header", self.report("p.csv").meta["provenance"]["warnings"][0])
+
+    def test_hostile_names_stay_text(self):
+        name = "<script>alert(1)<\u2044script>'\"&\n.txt"
+        self.write(name, "0 0\n1 0\n")
+        report = self.report(name)
+        self.assertEqual(report.meta["title"], name)
+        self.assertNotIn("<script>alert", report.text)
+        hostile = b"\xff<!--.txt"
+        with open(os.path.join(os.fsencode(self.folder), hostile), "wb") as file:
+            file.write(b"0 0\n1 0\n")
+        self.assertEqual(self.report(hostile).meta["title"], "\ufffd<!--.txt")
+
+    def test_nothing_is_left_of_a_run_that_failed(self):
+        self.write("bad.txt", "0 0\n1\n")
+        before = self.files()
+        self.expect(65, "bad.txt", "--report", "r.html")
+        self.assertEqual(self.files(), before)
+        self.expect(73, "square.txt", "--report", "no/such/r.html")
+        self.expect(64, "square.txt", "--report", "r.svg")
+        self.expect(64, "square.txt", "square.txt", "--report", "r.html", "-o", "all/")
+        self.expect(64, "square.txt", "--report", "-")
+        self.assertEqual(self.files(), before)
+
+    def test_standard_output_and_input(self):
+        run = self.expect(0, "-", "--report", "-", "--output-format", "none", "--quiet",
+                          input="0 0\n3 4\n")
+        self.write("r.html", run.stdout)
+        self.assertEqual(Report(self.path("r.html")).bars(), [(0, 0, 5), (0, 0, math.inf)])
+
+    def test_a_dry_run_writes_nothing(self):
+        self.expect(0, "square.txt", "--dry-run", "--report", "r.html")
+        self.assertNotIn("r.html", self.files())
+
+    def test_no_points(self):
+        self.write("none.txt", "")
+        self.assertEqual(self.report("none.txt", "--allow-empty").bars(), [])
+
+    def test_two_barcodes(self):
+        self.write("a.csv", SQUARE_CSV)
+        self.write("b.csv", "dim,birth,death\n0,0,inf\n1,1,3\n")
+        run = self.expect(0, "--compare", "a.csv", "b.csv", "--report", "r.html")
+        self.assertEqual(run.stdout, "")
+        report = Report(self.path("r.html"))
+        self.assertEqual(report.bars(), self.bars_of_csv(SQUARE_CSV))
+        self.assertEqual(report.bars("bars2"), [(0, 0, math.inf), (1, 1, 3)])
+        self.assertEqual([b["name"] for b in report.meta["barcodes"]], ["a.csv", "b.csv"])
+
+    def test_comparisons_that_make_no_sense(self):
+        self.write("a.csv", SQUARE_CSV)
+        self.expect(64, "--compare", "a.csv", "a.csv")
+        self.expect(64, "--compare", "a.csv", "--report", "r.html")
+        self.expect(64, "square.txt", "--compare", "a.csv", "a.csv", "--report", "r.html")
+        self.expect(66, "--compare", "a.csv", "none.csv", "--report", "r.html")
+        self.write("bad.csv", "dim,birth,death\n0,2,1\n")
+        self.expect(65, "--compare", "a.csv", "bad.csv", "--report", "r.html")
+        self.assertNotIn("r.html", self.files())
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// Reports that the programs make, in headless Chromium: node programs.test.mjs PH_BARCODE PH_SEGMENT
+// [SCENE]. Exit code 77: nothing could be tested.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import test from "node:test";
+import { spherePoints, tableScene } from "./support/program_inputs.mjs";
+
+const { canRun, coloursOf, launch, open, picture } = await import("./support/browser.mjs").catch(
+  (error) => {
+    console.log(`SKIPPED: ${error.message} (npm ci in viewer/)`);
+    process.exit(77);
+  },
+);
+const [barcode, segment, scene] = process.argv.slice(2).map((path) => resolve(path));
+if (!canRun) {
+  console.log("SKIPPED: no Chromium");
+  process.exit(77);
+}
+if (!execFileSync(barcode, ["--version", "--verbose"]).toString().match(/reports +built in/)) {
+  console.log("SKIPPED: reports are not built in");
+  process.exit(77);
+}
+
+const folder = mkdtempSync(join(tmpdir(), "ph-programs-"));
+const run = (program, ...words) =>
+  execFileSync(program, [...words, "--quiet"], { cwd: folder, stdio: ["ignore", "pipe", "pipe"] });
+const written = (name) => readFileSync(join(folder, name), "utf8");
+const kCharts = [".diagram .chart", ".barcode .chart"];
+const kTree = [".cut .chart", ".tree .chart"];
+
+/// Opens a report that a program made; each of these views must show something.
+async function look(browser, name, views, act = async () => {}) {
+  const { page, problems, close } = await open(browser, written(name));
+  for (const view of views) assert.ok((await coloursOf(page, view)) > 1, `${view} is empty`);
+  await act(page);
+  await picture(page, `program_${name.replace(".html", "")}`);
+  assert.deepEqual(problems, []);
+  await close();
+}
+
+/// The number of segments that the page states at a cut.
+async function countAt(page, cut) {
+  await page.fill(".cut input[type=number]", String(cut));
+  await page.keyboard.press("Enter");
+  await page.waitForTimeout(50);
+  return Number((await page.textContent(".cut .outcome")).replace(/\D/g, ""));
+}
+
+test("reports of the programs", { timeout: 300_000 }, async (t) => {
+  const browser = await launch();
+  t.after(async () => {
+    await browser.close();
+    rmSync(folder, { recursive: true });
+  });
+
+  await t.test("ph-barcode: points, with loops to select", async () => {
+    writeFileSync(join(folder, "sphere.csv"), spherePoints());
+    run(barcode, "sphere.csv", "--max-dim", "2", "--representatives", "cycles", "-o", "sphere.csv.json",
+      "--output-format", "json", "--report", "sphere.html");
+    const { bars } = JSON.parse(written("sphere.csv.json"));
+    await look(browser, "sphere.html", [...kCharts, ".stage", ...kTree], async (page) => {
+      assert.equal(await page.textContent("h1"), "sphere.csv");
+      for (const cut of [0.1, 0.3, 0.7]) {
+        const expected = bars.filter(({ dim, death }) => dim === 0 && !(death <= cut && death !== null));
+        assert.equal(await countAt(page, cut), expected.length);
+      }
+      await page.click("text=About");
+      assert.match(await page.textContent("dialog[open]"), /ph-barcode sphere\.csv --max-dim 2/);
+      await page.keyboard.press("Escape");
+    });
+  });
+
+  await t.test("ph-barcode: an image", async () => {
+    const rows = Array.from({ length: 24 }, (_, y) =>
+      Array.from({ length: 32 }, (_, x) => Math.round(100 + 90 * Math.sin(x / 3) * Math.cos(y / 4))).join(" "),
+    );
+    writeFileSync(join(folder, "waves.pgm"), `P2\n32 24\n255\n${rows.join("\n")}\n`);
+    run(barcode, "waves.pgm", "-o", "waves.csv", "--report", "waves.html");
+    await look(browser, "waves.html", [...kCharts, ".stage", ...kTree]);
+  });
+
+  await t.test("ph-barcode: two barcodes, a hostile name, no points", async () => {
+    const name = "<script>alert(1)<img>.csv";
+    writeFileSync(join(folder, name), "dim,birth,death\n0,0,1\n0,0,inf\n1,0.5,2\n");
+    run(barcode, "--compare", name, "waves.csv", "--report", "two.html");
+    await look(browser, "two.html", kCharts, async (page) => {
+      assert.match(await page.textContent("h1"), /^<script>alert\(1\)<img>\.csv and waves\.csv$/);
+      assert.equal(await page.locator("h1 img, h1 script").count(), 0);
+    });
+    writeFileSync(join(folder, "none.txt"), "");
+    run(barcode, "none.txt", "--allow-empty", "-o", "none.csv", "--report", "none.html");
+    await look(browser, "none.html", []);
+  });
+
+  await t.test("ph-segment: cuts of the page are those of the program", async (tt) => {
+    let input = scene;
+    if (!input || !existsSync(input)) {
+      tt.diagnostic(`NO SCENE ${scene ?? ""}: a made-up one`);
+      writeFileSync(join(folder, "table.xyz"), tableScene());
+      input = "table.xyz";
+    }
+    run(segment, input, "--report", "scene.html", "--json", "scene.json");
+    const segments = (json) => JSON.parse(written(json)).segments.length;
+    await look(browser, "scene.html", [...kCharts, ".stage", ...kTree], async (page) => {
+      const own = Number((await page.textContent(".cut .outcome")).replace(/\D/g, ""));
+      assert.equal(own, segments("scene.json"));
+      for (const cut of [0.005, 0.05, 0.2, 0.5]) {
+        run(segment, input, "--cut", String(cut), "--parts", "--json", "cut.json");
+        assert.equal(await countAt(page, cut), segments("cut.json"), `at ${cut}`);
+      }
+    });
+  });
+});
