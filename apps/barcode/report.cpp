@@ -2,6 +2,7 @@
 #include "report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>
@@ -70,6 +71,8 @@ report::Metadata metadata_of(const Shown& shown, const Arguments& arguments,
   meta.provenance.run = shown.info;
   meta.provenance.warnings = shown.warnings;
   auto& notes = meta.provenance.notes;
+  if (const auto& assumed = shown.data.read.notes; !assumed.empty())
+    notes.emplace_back("Assumed", fmt::format("{}", fmt::join(assumed, "; ")));
   if (!shown.info.vertex_weights.empty())
     notes.emplace_back("Vertices enter late", shown.info.vertex_weights);
   if (shown.built.promise) notes.emplace_back("Approximation", *shown.built.promise);

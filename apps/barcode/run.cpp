@@ -200,7 +200,6 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
 
   int code = app::kOk;
   std::vector<std::string> warnings;
-  if (data) warnings = data->read.notes;
   if (arguments.check) {
     options.engine = Engine::standard;
     options.collapse = Collapse::off;

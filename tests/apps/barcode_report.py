@@ -196,9 +196,11 @@ class Reports(ProgramTest):
         self.assertGreater(p["peak_memory"], 1e6)
         self.assertTrue(report.meta["program"].startswith("ph-barcode "))
 
-    def test_a_header_is_a_warning(self):
+    def test_what_was_assumed_is_a_note(self):
         self.write("p.csv", "x,y\n0,0\n1,0\n")
-        self.assertIn("header", self.report("p.csv").meta["provenance"]["warnings"][0])
+        provenance = self.report("p.csv").meta["provenance"]
+        self.assertIn("header", provenance["notes"]["Assumed"])
+        self.assertNotIn("warnings", provenance)
 
     def test_hostile_names_stay_text(self):
         name = "<script>alert(1)<\u2044script>'\"&\n.txt"
