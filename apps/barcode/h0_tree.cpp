@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "h0_tree.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 namespace ph::barcode {
@@ -58,8 +61,16 @@ std::vector<std::uint32_t> birth_vertices(const Barcode& barcode, const Cubical*
   return vertices;
 }
 
+/// The same to three digits.
+double rounded(double x) {
+  const std::string digits = fmt::format("{:.3g}", x);
+  std::from_chars(digits.data(), digits.data() + digits.size(), x);
+  return x;
+}
+
 /// Where the levels of the largest merges have their widest gap, as a ratio: what lies above is
-/// much more persistent than what lies below. `from` if there is none that is wide.
+/// much more persistent than what lies below. Without a wide gap the largest level, which leaves
+/// the fewest parts; `from` without merges.
 double cut_in_gap(const report::ContractedTree& contracted, const MergeTree& tree,
                   report::CutRule rule, double from) {
   constexpr std::ptrdiff_t most = 64;
@@ -72,12 +83,12 @@ double cut_in_gap(const report::ContractedTree& contracted, const MergeTree& tre
   }
   std::ranges::sort(levels);
   if (std::ssize(levels) > most) levels.erase(levels.begin(), levels.end() - most);
-  double cut = from, widest = least_ratio;
+  double cut = levels.empty() ? from : levels.back(), widest = least_ratio;
   for (std::size_t i = 1; i < levels.size(); ++i) {
     const double ratio = levels[i] / levels[i - 1];
     if (ratio <= widest) continue;
     widest = ratio;
-    cut = levels[i - 1] * std::sqrt(ratio);
+    cut = rounded(levels[i - 1] * std::sqrt(ratio));
   }
   return cut;
 }

@@ -109,6 +109,14 @@ class Reports(ProgramTest):
         self.assertEqual(len(report["points/leaf"]), 53)
         self.assertEqual(report["points/leaf"][50], report["points/leaf"][51])  # equal points
 
+    def test_the_first_cut_is_in_the_widest_gap(self):
+        self.write("c.txt", "0\n1\n2\n10\n11\n")
+        self.assertEqual(self.report("c.txt").meta["tree"]["cut"], 2.83)  # of 1 and 8
+        self.write("c.txt", "0\n1\n2.1\n3.1\n")
+        self.assertEqual(self.report("c.txt").meta["tree"]["cut"], 1.1)  # there is none
+        self.write("c.txt", "7\n")
+        self.assertEqual(self.report("c.txt").meta["tree"]["cut"], 0)
+
     def test_every_merge_of_a_length_has_its_bar(self):
         self.write("c.txt", circle(40, 0.3, 5))
         report = self.report("c.txt")
