@@ -134,12 +134,13 @@ std::string estimate_text(const Estimate& estimate, const BuiltComplex& built,
   const int listed = static_cast<int>(estimate.cells.size()) - 1;
   if (listed < estimate.max_dim + 1)
     text += fmt::format("cells    dimension {} and above: not listed\n", listed + 1);
+  // Part of what was taken are pages of code, which any input takes.
+  constexpr double code = 2 << 20;
+  const double low = std::max({0.0, taken - code, estimate.bytes_low});
   // What building gave back may not fit what comes next: at worst nothing of it is used again.
   const double high =
       std::max(taken, estimate.bytes_held) + estimate.bytes_high - estimate.bytes_held;
-  return text + fmt::format("memory   {} to {}\n",
-                            app::format_size(std::max(taken, estimate.bytes_low)),
-                            app::format_size(high));
+  return text + fmt::format("memory   {} to {}\n", app::format_size(low), app::format_size(high));
 }
 
 /// The files that a run writes. What cannot be created is said before anything is computed.
