@@ -103,16 +103,19 @@ class Comparison:
     def row(self, row, construction, path):
         name = f"{row.name}, {construction}"
         result = {"name": name, "results": [], "bars": {}}
+        calls = [(program, threads) for program in self.programs(row, construction)
+                 for threads in (self._arguments.threads if program.has_threads else [1])]
+        runs = self._meter.best_in_turns([program.command([str(path)], threads) for program, threads in calls])
+        finished = {}
+        for (program, threads), taken in zip(calls, runs):
+            result["results"].append({"program": program.name, "threads": threads, "outcome": taken.outcome,
+                                      "user": taken.user, "system": taken.system, "cpu": max(taken.cpu, 1e-4),
+                                      "wall": taken.wall, "peak_mb": taken.peak})
+            print(rips_table.line(name, result["results"][-1]), file=sys.stderr, flush=True)
+            if taken.ok:
+                finished[program.name] = program
         ours = None
-        for program in self.programs(row, construction):
-            for threads in self._arguments.threads if program.has_threads else [1]:
-                taken = self._meter.best(program.command([str(path)], threads))
-                result["results"].append({"program": program.name, "threads": threads, "outcome": taken.outcome,
-                                          "user": taken.user, "system": taken.system, "cpu": max(taken.cpu, 1e-4),
-                                          "wall": taken.wall, "peak_mb": taken.peak})
-                print(rips_table.line(name, result["results"][-1]), file=sys.stderr, flush=True)
-            if not self._arguments.check or not taken.ok:
-                continue
+        for program in finished.values() if self._arguments.check else []:
             found = self._bars(program, path)
             if program.name == OURS:
                 ours = found

@@ -81,41 +81,28 @@ double least_cut(const MergeTree& tree, CutRule rule, std::size_t most) {
 
 LinkedBars linked_bars(const MergeTree& tree, const Barcode& barcode,
                        std::span<const std::uint32_t> birth_vertices) {
-  struct Death {
+  struct Bar {
     double birth, death;
-    std::uint32_t vertex;
-    std::size_t of;  // merge; of a component that lives for ever, none
-    auto key() const { return std::tuple(birth, death, vertex); }
+    std::uint32_t vertex, number;
   };
-  constexpr std::size_t never = SIZE_MAX;
-  std::vector<Death> deaths;
-  std::vector<bool> dead(tree.births.size());
-  for (std::size_t i = 0; i < tree.merges.size(); ++i) {
-    const Merge& m = tree.merges[i];
-    deaths.push_back({m.younger_birth, m.value, static_cast<std::uint32_t>(m.younger), i});
-    dead[static_cast<std::size_t>(m.younger)] = true;
-  }
-  for (std::uint32_t v = 0; v < dead.size(); ++v)
-    if (!dead[v] && tree.births[v] < kInfinity)
-      deaths.push_back({tree.births[v], kInfinity, v, never});
-  std::vector<Death> bars;
-  for (std::size_t i = 0; i < barcode.bars(0).size(); ++i)
+  std::vector<Bar> bars;
+  for (std::uint32_t i = 0; i < barcode.bars(0).size(); ++i)
     bars.push_back({barcode[i].birth, barcode[i].death,
                     i < birth_vertices.size() ? birth_vertices[i] : kNone, i});
-  std::ranges::sort(deaths, {}, &Death::key);
-  std::ranges::sort(bars, {}, &Death::key);
+  std::ranges::sort(bars, {},
+                    [](const Bar& bar) { return std::tuple(bar.birth, bar.death, bar.vertex); });
 
   LinkedBars result{std::vector(tree.merges.size(), kNone), std::vector(tree.births.size(), kNone)};
-  auto next = deaths.begin();
-  for (const Death& bar : bars) {
-    const auto values = [](const Death& d) { return std::tuple(d.birth, d.death); };
-    while (next != deaths.end() && values(*next) < values(bar)) ++next;
-    if (next == deaths.end() || values(*next) != values(bar)) continue;
-    const auto number = static_cast<std::uint32_t>(bar.of);
-    if (next->of == never)
-      result.of_vertex[next->vertex] = number;
+  const std::vector<MergeTree::Class> classes = tree.classes();
+  auto next = classes.begin();
+  for (const Bar& bar : bars) {
+    const auto values = [](const auto& c) { return std::tuple(c.birth, c.death); };
+    while (next != classes.end() && values(*next) < values(bar)) ++next;
+    if (next == classes.end() || values(*next) != values(bar)) continue;
+    if (next->merge < 0)
+      result.of_vertex[static_cast<std::size_t>(next->vertex)] = bar.number;
     else
-      result.of_merge[next->of] = number;
+      result.of_merge[static_cast<std::size_t>(next->merge)] = bar.number;
     ++next;
   }
   return result;

@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
-#include <vector>
 
-#include "ph/core/radix_sort.hpp"
 #include "ph/engine/twist.hpp"
 
 namespace ph::segment {
@@ -31,36 +29,15 @@ bool same_cells(const std::optional<InputCell>& a, const std::optional<InputCell
 }  // namespace
 
 Barcode barcode_of(const MergeTree& tree) {
-  struct Class {
-    double birth, death;
-    Index vertex;
-    const Merge* merge;  // null: it never dies
-  };
-  std::vector<Class> classes;
-  classes.reserve(tree.births.size());
-  std::vector<bool> dead(tree.births.size());
-  for (const Merge& m : tree.merges) {
-    classes.push_back({m.younger_birth, m.value, m.younger, &m});
-    dead[static_cast<std::size_t>(m.younger)] = true;
-  }
-  for (std::size_t v = 0; v < dead.size(); ++v)
-    if (!dead[v] && tree.births[v] != kInfinity)
-      classes.push_back({tree.births[v], kInfinity, static_cast<Index>(v), nullptr});
-  // The order of a barcode: three numbers decide it here, and the merges are in that of deaths.
-  radix_sort_by_value(classes, [](const Class& c) { return c.birth + 0.0; });
-  for (auto begin = classes.begin(), end = begin; begin != classes.end(); begin = end) {
-    end = std::find_if(begin, classes.end(), [&](const Class& c) {
-      return c.birth != begin->birth || c.death != begin->death;
-    });
-    std::sort(begin, end, [](const Class& a, const Class& b) { return a.vertex < b.vertex; });
-  }
-
   Barcode barcode(CellKind::vertices);
-  for (const auto& [birth, death, vertex, merge] : classes) {
+  for (const auto& [birth, death, vertex, merge] : tree.classes()) {
     std::array<Index, 2> edge{};
-    if (merge != nullptr) edge = {std::min(merge->u, merge->v), std::max(merge->u, merge->v)};
+    if (merge >= 0) {
+      const Merge& m = tree.merges[static_cast<std::size_t>(merge)];
+      edge = {std::min(m.u, m.v), std::max(m.u, m.v)};
+    }
     barcode.add({0, birth, death}, {&vertex, 1},
-                std::span<const Index>(edge).first(merge == nullptr ? 0 : 2));
+                std::span<const Index>(edge).first(merge < 0 ? 0 : 2));
   }
   return barcode;
 }

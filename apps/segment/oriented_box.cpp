@@ -89,18 +89,18 @@ std::vector<std::size_t> outside_octagon(std::span<const T> u, std::span<const T
   for (const auto& [x, y] : corner) reach = std::max({reach, std::abs(x), std::abs(y)});
   // On the inner side of an edge, by more than rounding may be wrong.
   std::array<T, 8> a, b, c;
-  bool has_inside = reach < too_large, is_point = true;  // else squares overflow
+  bool has_edges = false;
   for (std::size_t k = 0; k < corner.size(); ++k) {
     const auto &from = corner[k], &to = corner[(k + 1) % corner.size()];
     a[k] = from[1] - to[1];
     b[k] = to[0] - from[0];
     const T length = std::abs(a[k]) + std::abs(b[k]);
-    is_point = is_point && length == 0;
+    has_edges = has_edges || length > 0;
     c[k] = length == 0 ? -std::numeric_limits<T>::infinity()
                        : a[k] * from[0] + b[k] * from[1] + rounding * reach * length;
   }
-  has_inside = has_inside && !is_point;
-  RawVector<T> inside(u.size());  // how far: the sign of it
+  const bool has_inside = has_edges && reach < too_large;  // beyond, products overflow
+  RawVector<T> inside(u.size());                           // how far: the sign of it
   for (std::size_t i = 0; i < inside.size(); ++i) {
     T nearest = std::numeric_limits<T>::infinity();
     for (std::size_t k = 0; k < corner.size(); ++k) {

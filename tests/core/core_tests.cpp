@@ -156,6 +156,20 @@ TEST(Barcodes, AreOrderedByDimensionBirthDeathAndBirthCell) {
   EXPECT_TRUE(barcode.bars(2).empty());
 }
 
+TEST(Barcodes, EqualBarsAreSortedByTheirCellsWhereValuesAreSortedAlready) {
+  Barcode barcode;
+  for (const Index vertex : {Index{3}, Index{8}, Index{5}, Index{1}}) {
+    const std::vector<Index> birth{vertex}, death{vertex, vertex + 1};
+    barcode.add({0, 0, vertex == 3 ? 1.0 : 2.0}, birth, death);
+  }
+  barcode.sort();
+  const std::vector<Index> expected{3, 1, 5, 8};
+  for (std::size_t i = 0; i < barcode.size(); ++i) {
+    EXPECT_EQ(barcode.birth_cell(i).numbers[0], expected[i]);
+    EXPECT_EQ(barcode.death_cell(i)->numbers[1], expected[i] + 1);
+  }
+}
+
 TEST(Barcodes, TheLongestBarIsTheFirstOfTheLongest) {
   Barcode barcode;
   barcode.add({0, 0, 3}, {}, {});

@@ -81,6 +81,20 @@ void check_tree(const MergeTree& tree, const std::vector<double>& births,
     if (bar.second < kInf) finite.push_back(bar);
   std::sort(bars.begin(), bars.end());
   EXPECT_EQ(bars, finite);
+  // The classes are all bars, in their order.
+  const std::vector<MergeTree::Class> classes = tree.classes();
+  ASSERT_EQ(classes.size(), oracle.bars(0).size());
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    const auto& [birth, death, vertex, merge] = classes[i];
+    EXPECT_EQ((Bar{0, birth, death}), oracle[i]);
+    EXPECT_EQ(vertex, oracle.birth_cell(i).numbers[0]);
+    if (merge < 0) {
+      EXPECT_EQ(death, kInf);
+    } else {
+      EXPECT_EQ(tree.merges[static_cast<std::size_t>(merge)].younger, vertex);
+      EXPECT_EQ(tree.merges[static_cast<std::size_t>(merge)].value, death);
+    }
+  }
 }
 
 template <class Complex>

@@ -70,7 +70,10 @@ void Barcode::sort(const RunContext& context) {
   const bool are_sorted = std::ranges::is_sorted(bars_, [](const Bar& a, const Bar& b) {
     return std::tie(a.dim, a.birth, a.death) < std::tie(b.dim, b.birth, b.death);
   });
-  if (cells_.empty()) return are_sorted ? void() : sort_values(context);
+  if (cells_.empty()) {
+    if (!are_sorted) sort_values(context);
+    return;
+  }
   // By digits: death, then birth, then dimension, each keeping what was sorted before; -0.0 is
   // +0.0.
   struct Place {

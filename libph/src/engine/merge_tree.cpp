@@ -14,6 +14,7 @@
 #include "ph/core/barcode.hpp"
 #include "ph/core/disjoint_sets.hpp"
 #include "ph/core/error.hpp"
+#include "ph/core/radix_sort.hpp"
 #include "ph/engine/one_skeleton.hpp"
 
 namespace ph {
@@ -89,6 +90,28 @@ std::vector<Index> MergeTree::basins(double min_persistence, Index min_size) con
   for (std::uint32_t v = 0; v < births.size(); ++v)
     if (births[v] < kInfinity) basins[v] = sets.find(v);
   return basins;
+}
+
+std::vector<MergeTree::Class> MergeTree::classes() const {
+  std::vector<Class> classes;
+  classes.reserve(births.size());
+  std::vector<bool> dead(births.size());
+  for (const Merge& m : merges) {
+    classes.push_back({m.younger_birth, m.value, m.younger, static_cast<Index>(classes.size())});
+    dead[static_cast<std::size_t>(m.younger)] = true;
+  }
+  for (std::size_t v = 0; v < births.size(); ++v)
+    if (!dead[v] && births[v] < kInfinity)
+      classes.push_back({births[v], kInfinity, static_cast<Index>(v), -1});
+  // The merges are in the order of deaths, which the sort by birth keeps.
+  radix_sort_by_value(classes, [](const Class& c) { return c.birth + 0.0; });
+  for (auto begin = classes.begin(), end = begin; begin != classes.end(); begin = end) {
+    end = std::find_if(begin, classes.end(), [&](const Class& c) {
+      return c.birth != begin->birth || c.death != begin->death;
+    });
+    std::sort(begin, end, [](const Class& a, const Class& b) { return a.vertex < b.vertex; });
+  }
+  return classes;
 }
 
 std::vector<LinkageRow> linkage(const MergeTree& tree) {

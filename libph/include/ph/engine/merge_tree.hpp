@@ -51,6 +51,14 @@ struct MergeTree {
   /// that a basin grows up to where it meets another one, as in ToMATo (Chazal, Guibas, Oudot &
   /// Skraba 2013). O(vertices); any cut is as quick as the first.
   std::vector<Index> basins(double min_persistence, Index min_size = 1) const;
+  /// A class of H0: what a vertex gave birth to, until it merges into something older.
+  struct Class {
+    double birth, death;
+    Index vertex;
+    Index merge;  ///< in which it dies, its place in `merges`; -1: it never dies
+  };
+  /// All classes, those of no length included, by (birth, death, vertex): the order of a barcode.
+  std::vector<Class> classes() const;
 };
 
 /// A row of a linkage matrix: two clusters become one. Clusters 0 … n-1 are the vertices, cluster
