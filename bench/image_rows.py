@@ -36,7 +36,7 @@ KINDS = {"noise": noise, "smooth": smooth, "8-bit": eight_bit}
 SIZES = {"2048²": (2048, 2048), "64³": (64, 64, 64), "128³": (128, 128, 128), "256³": (256, 256, 256),
          "512³": (512, 512, 512)}
 
-ROWS = [Row(f"{size} {kind}", shape, kind, math.prod(shape) <= 128**3 or (size, kind) == ("256³", "smooth"))
+ROWS = [Row(f"{size} {kind}", shape, kind, math.prod(shape) <= 2048**2 or (size, kind) == ("256³", "smooth"))
         for size, shape in SIZES.items() for kind in KINDS]
 
 

@@ -2,6 +2,7 @@
 #include "ph/core/barcode.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <tuple>
 
@@ -10,6 +11,21 @@
 #include "ph/core/radix_sort.hpp"
 
 namespace ph {
+namespace {
+
+/// Calls `use(run)` for the longest runs of bars that have one value.
+template <class Value, class Use>
+void for_each_run(std::span<Bar> bars, Value value, Use&& use) {
+  while (!bars.empty()) {
+    const auto end = std::ranges::find_if(
+        bars, [&](const auto& x) { return x != std::invoke(value, bars.front()); }, value);
+    const auto size = static_cast<std::size_t>(end - bars.begin());
+    use(bars.first(size));
+    bars = bars.subspan(size);
+  }
+}
+
+}  // namespace
 
 Barcode::Range Barcode::store(std::span<const Index> numbers) {
   const std::size_t begin = numbers_.size();
@@ -49,20 +65,31 @@ InputChain Barcode::representative(std::size_t i) const {
 
 // Without cells equal bars are the same: each run of one birth can be sorted by death in place.
 void Barcode::sort_values(const RunContext& context) {
-  const MemoryClaim buffer(context.memory, bars_.size() * sizeof(Bar));
-  // By digits, each keeping what was sorted before; -0.0 is +0.0.
-  radix_sort_by_value(
-      bars_, [](const Bar& bar) { return bar.birth + 0.0; }, context);
-  radix_sort_by_value(
-      bars_, [](const Bar& bar) { return bar.dim; }, context);
+  const MemoryClaim claim(context.memory, bars_.size() * sizeof(Bar));
+  std::vector<Bar> buffer;
+  const auto sort_by = [&](std::span<Bar> bars, auto&& value_of) {
+    if (std::ranges::is_sorted(bars, {}, value_of)) return;
+    // As the highest dimension of an image comes.
+    if (std::ranges::is_sorted(bars, std::ranges::greater(), value_of)) {
+      std::ranges::reverse(bars);
+      return;
+    }
+    buffer.resize(std::max(buffer.size(), bars.size()));
+    const auto sorted =
+        radix_sort_by_value(bars, std::span(buffer).first(bars.size()), value_of, context);
+    if (sorted.data() != bars.data()) std::ranges::copy(sorted, bars.begin());
+  };
   Ticker ticker(context, "bars", bars_.size());
-  const auto dies_first = [](const Bar& a, const Bar& b) { return a.death < b.death; };
-  for (auto begin = bars_.begin(), end = begin; begin != bars_.end(); begin = end) {
-    ticker.tick();
-    while (++end != bars_.end() && end->birth == begin->birth && end->dim == begin->dim) continue;
-    std::span run(begin, end);
-    if (run.size() > 1) polled_sort(run, dies_first, ticker);
-  }
+  sort_by(bars_, [](const Bar& bar) { return bar.dim; });
+  for_each_run(std::span(bars_), &Bar::dim, [&](std::span<Bar> of_dim) {
+    sort_by(of_dim, [](const Bar& bar) { return bar.birth + 0.0; });  // -0.0 is +0.0
+    for_each_run(of_dim, &Bar::birth, [&](std::span<Bar> born_together) {
+      ticker.tick();
+      if (born_together.size() > 1)
+        polled_sort(
+            born_together, [](const Bar& a, const Bar& b) { return a.death < b.death; }, ticker);
+    });
+  });
 }
 
 void Barcode::sort(const RunContext& context) {

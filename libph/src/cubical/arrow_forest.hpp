@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <atomic>
 #include <cstdint>
 #include <memory_resource>
 #include <vector>
@@ -15,43 +16,45 @@ namespace ph::cubical {
 template <class Graph>
 class ArrowForest {
  public:
-  ArrowForest(const Graph& graph, std::pmr::memory_resource* memory)
-      : graph_(graph), next_(graph.size(), kUnknown, memory) {}
+  ArrowForest(const Graph& graph, const RunContext& context)
+      : graph_(graph), context_(context), next_(graph.size(), kUnknown, &context.memory) {}
 
   /// Whether the node is a root, or its arrow has been looked up or replaced.
   bool is_known(std::uint32_t node) const { return next_[node] != kUnknown; }
   void set_root(std::uint32_t node, std::uint32_t number) { next_[node] = number | kIsRoot; }
-  std::uint32_t number_of_root(std::uint32_t root) const { return next_[root] & ~kIsRoot; }
   /// Hangs a root, or a node that never was asked for, under another node.
   void link(std::uint32_t node, std::uint32_t to) { next_[node] = to; }
 
-  /// The root that a node hangs under.
-  std::uint32_t find(std::uint32_t node, Ticker& ticker) {
+  /// The root that a node hangs under. Several threads may ask while nothing else is done: each
+  /// only makes paths shorter.
+  std::uint32_t find(std::uint32_t node) {
+    std::uint32_t steps = 0;
     for (std::uint32_t next = after(node); (next & kIsRoot) == 0; next = after(node)) {
       const std::uint32_t over = after(next);
       if ((over & kIsRoot) != 0) return next;
-      node = next_[node] = over;
-      ticker.work();
+      parent(node).store(over, std::memory_order_relaxed);
+      node = over;
+      if (++steps % 4096 == 0) context_.poll();
     }
     return node;
   }
-  /// The same or what hangs over it.
-  std::uint32_t step(std::uint32_t node) {
-    const std::uint32_t next = after(node);
-    return (next & kIsRoot) != 0 ? node : next;
-  }
-  void prefetch(std::uint32_t node) const { __builtin_prefetch(&next_[node]); }
+  std::uint32_t number_of_root(std::uint32_t root) { return after(root) & ~kIsRoot; }
 
  private:
   static constexpr std::uint32_t kIsRoot = std::uint32_t{1} << 31;
   static constexpr std::uint32_t kUnknown = UINT32_MAX;
 
+  std::atomic_ref<std::uint32_t> parent(std::uint32_t node) { return std::atomic_ref(next_[node]); }
   std::uint32_t after(std::uint32_t node) {
-    const std::uint32_t next = next_[node];
-    return next != kUnknown ? next : next_[node] = graph_.arrow(node);
+    const std::uint32_t next = parent(node).load(std::memory_order_relaxed);
+    if (next != kUnknown) return next;
+    const std::uint32_t arrow = graph_.arrow(node);
+    parent(node).store(arrow, std::memory_order_relaxed);
+    return arrow;
   }
 
   const Graph& graph_;
+  const RunContext& context_;
   std::pmr::vector<std::uint32_t> next_;  // a node, or the number of a root
 };
 

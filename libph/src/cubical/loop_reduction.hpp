@@ -20,9 +20,9 @@ namespace ph::cubical {
 template <Field K>
 class LoopReduction {
  public:
-  /// @param squares critical ones that give birth to nothing, by (value, place).
-  LoopReduction(const StarGrid& grid, const NumberedCells& squares, const K& field,
-                const RunContext& context, const PairSink& sink)
+  /// @param squares of which those in the order give birth to nothing.
+  LoopReduction(const StarGrid& grid, const CriticalCells& squares, const K& field,
+                const RunContext& context, PairSink& sink)
       : grid_(grid),
         squares_(squares),
         field_(field),
@@ -36,11 +36,11 @@ class LoopReduction {
         heap_(&context.memory) {}
 
   void run() {
-    Ticker ticker(context_, "loops", squares_.size());
+    Ticker ticker(context_, "loops", squares_.order.size());
     number_edges(ticker);
-    for (const NumberedCell& square : squares_) {
+    for (const auto& [value, cell] : squares_.order) {
       ticker.tick();
-      reduce(square, ticker);
+      reduce(squares_.cells[cell], value, ticker);
     }
     report_essential(ticker);
   }
@@ -101,7 +101,7 @@ class LoopReduction {
     const StarTables& tables = grid_.tables(v);
     // Kills v, or a component.
     if (tables.arrow(star) == edge || (star & tables.taken_mark(edge)) != 0) return;
-    append(Name{v} << 3 | static_cast<Name>(tables.edge_rank(edge)), coefficient);
+    append(Name{v} << 3 | static_cast<Name>(tables.edge_order().rank(edge)), coefficient);
   }
 
   // Appends `scale` times the boundary of a square, without the edge `skip` of its voxel if it is
@@ -167,7 +167,7 @@ class LoopReduction {
       std::push_heap(heap_.begin(), heap_.begin() + static_cast<std::ptrdiff_t>(i), precedes);
   }
 
-  void reduce(const NumberedCell& column_cell, Ticker& ticker) {
+  void reduce(const NumberedCell& column_cell, double value, Ticker& ticker) {
     const std::uint32_t v = column_cell.voxel;
     const int square = static_cast<int>(column_cell.number);
     heap_.clear();
@@ -177,7 +177,7 @@ class LoopReduction {
       ticker.work();
       const std::uint32_t u = voxel_of(pivot.cell.name);
       const StarTables& tables = grid_.tables(u);
-      const int edge = tables.edge_at(static_cast<int>(pivot.cell.name & 7));
+      const int edge = tables.edge_order().at(static_cast<int>(pivot.cell.name & 7));
       if (const int s = tables.square_of(grid_.star(u), edge); s >= 0) {
         const auto [first, second] = kEdgesOfSquare[s];
         const int incidence =
@@ -191,8 +191,7 @@ class LoopReduction {
       if (*owner == kNone) {
         *owner = static_cast<std::uint32_t>(columns_.size());
         store(pivot.coefficient());
-        if (const double birth = grid_.value(u); birth != column_cell.value)
-          sink_.pair(1, {u, kEdges[edge], birth}, {v, kSquares[square], column_cell.value});
+        sink_.pair(1, {u, kEdges[edge], grid_.value(u)}, {v, kSquares[square], value});
         return;
       }
       const Column& column = columns_[*owner];
@@ -204,7 +203,7 @@ class LoopReduction {
       });
       ticker.work(column.end - column.begin);
     }
-    sink_.essential(2, {v, kSquares[square], column_cell.value});
+    sink_.essential(2, {v, kSquares[square], value});
   }
   // Keeps what the working column has below its pivot.
   void store(Element pivot) {
@@ -234,9 +233,9 @@ class LoopReduction {
   }
 
   const StarGrid& grid_;
-  const NumberedCells& squares_;
+  const CriticalCells& squares_;
   const K& field_;
-  const PairSink& sink_;
+  PairSink& sink_;
   const RunContext& context_;
   std::pmr::vector<std::uint32_t> critical_at_;  // by voxel
   std::pmr::vector<std::uint32_t> first_owner_;  // by critical voxel

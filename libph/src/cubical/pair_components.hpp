@@ -1,158 +1,184 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory_resource>
-#include <optional>
+#include <utility>
 #include <vector>
 
-#include "arrow_forest.hpp"
-#include "ph/core/barcode.hpp"
-#include "star_grid.hpp"
+#include "basins.hpp"
+#include "critical_cells.hpp"
+#include "ph/core/parallel.hpp"
+#include "ph/core/raw_vector.hpp"
 
 namespace ph::cubical {
 
-/// A cell in the star of a voxel, with its value in the order of the stars.
-struct NumberedCell {
-  double value;
-  std::uint32_t voxel;
-  std::uint32_t number;  ///< of the direction
+/// Disjoint sets of basins that know which one is older. What has always been there is older than
+/// all else; of others the value decides, then the number.
+/// @tparam backwards whether high values and numbers are old.
+template <bool backwards>
+class ElderForest {
+ public:
+  /// @param value_of(i) of the root i of the basins.
+  template <class ValueOf>
+  ElderForest(std::uint32_t endless, std::size_t roots, ValueOf&& value_of,
+              const RunContext& context)
+      : endless_(endless), nodes_(endless + roots, &context.memory) {
+    for (std::uint32_t i = 0; i < nodes_.size(); ++i)
+      nodes_[i] = {i < endless ? 0 : value_of(i - endless), i};
+  }
+  std::uint32_t parent(std::uint32_t basin) const { return nodes_[basin].parent; }
+  std::uint32_t find(std::uint32_t basin) {
+    while (parent(basin) != basin) basin = nodes_[basin].parent = parent(parent(basin));
+    return basin;
+  }
+  bool is_root(std::uint32_t basin) const { return parent(basin) == basin; }
+  double value(std::uint32_t basin) const { return nodes_[basin].value; }
+  /// Hangs the younger one of two roots under the other. @return the younger one.
+  std::uint32_t join(std::uint32_t a, std::uint32_t b) {
+    if (is_elder(b, a)) std::swap(a, b);
+    nodes_[b].parent = a;
+    return b;
+  }
+  void prefetch(std::uint32_t basin) const { __builtin_prefetch(&nodes_[basin]); }
+
+ private:
+  struct Node {
+    double value;
+    std::uint32_t parent;  // a root's is itself
+  };
+  bool is_elder(std::uint32_t a, std::uint32_t b) const {
+    if (a < endless_ || b < endless_) return a < b;
+    const double x = value(a), y = value(b);
+    if (x != y) return backwards ? x > y : x < y;
+    return backwards ? a > b : a < b;
+  }
+
+  std::uint32_t endless_;
+  RawVector<Node> nodes_;
 };
 
-/// Persistent components of one of the two graphs of a grid: the trees that its arrows make, joined
-/// by critical cells in the order of the filtration, or backwards (Kruskal, elder rule).
+/// Persistent components of one of the two graphs of a grid: its basins, joined by critical cells
+/// in the order of the filtration, or backwards (Kruskal, elder rule).
 template <class Graph>
 class ComponentPairing {
  public:
-  ComponentPairing(const StarGrid& grid, const Graph& graph, const RunContext& context)
+  using Place = CriticalCells::Place;
+
+  /// @param bridges critical cells; those in their order will be looked at.
+  /// @param wants_cells else `root_cell` and `bridge_cell` look up the value only.
+  ComponentPairing(const StarGrid& grid, const Graph& graph, CriticalCells& bridges,
+                   bool wants_cells, const RunContext& context)
       : grid_(grid),
         graph_(graph),
+        bridges_(bridges),
+        wants_cells_(wants_cells),
         context_(context),
-        ticker_(context, "basins"),
-        forest_(graph, &context.memory),
+        ends_(bridges.cells.size(), &context.memory),
         roots_(&context.memory) {
-    for (const int part : {0, 1}) add_root(graph.outside(part), endless());
-    if (graph.has_endless()) add_endless();
-    endless_ = static_cast<std::uint32_t>(roots_.size());
-    const auto add = [&](std::uint32_t node, std::uint32_t v, std::uint32_t number) {
-      add_root(node, {grid.value(v), v, number});
-    };
-    constexpr std::uint32_t many = 16;  // of so many voxels one has a critical cell
-    if (grid.critical().size() > grid.size() / many) {
-      // Most arrows will be met: one after another is quicker.
-      graph.for_each_node([&](std::uint32_t node, std::uint32_t to) { forest_.link(node, to); },
-                          add, ticker_);
-      return;
-    }
-    for (const std::uint32_t v : grid.critical()) {
-      ticker_.work();
-      graph.for_each_root(v, add);
-    }
+    find_basins();
   }
 
-  /// @param bridges critical cells by (value, place); those that join nothing are left, in order.
+  /// No more than so many bars come of it.
+  std::size_t most_pairs() const { return std::min(bridges_.order.size(), roots_.size()) + 2; }
+  /// Takes the bridges that join something from the order.
   /// @param on_merge called with (bridge, root that dies; null if both have always been there).
   /// @param on_survivor called with each root that never dies.
   template <class OnMerge, class OnSurvivor>
-  void run(std::pmr::vector<NumberedCell>& bridges, OnMerge&& on_merge, OnSurvivor&& on_survivor) {
-    const std::size_t size = bridges.size();
+  void run(OnMerge&& on_merge, OnSurvivor&& on_survivor) {
+    ElderForest<Graph::kBackwards> forest(
+        endless_, roots_.size(), [&](std::size_t i) { return grid_.value(roots_[i].voxel); },
+        context_);
+    const auto root = [&](std::uint32_t basin) {
+      return Place{forest.value(basin), basin - endless_};
+    };
+    auto& order = bridges_.order;
+    const std::size_t size = order.size();
     const auto place = [size](std::size_t i) { return Graph::kBackwards ? size - 1 - i : i; };
+    // What is read lies anywhere: it is fetched long before, step by step.
+    constexpr std::size_t stride = 8, ring_size = 4 * stride;
+    std::array<Ends, ring_size> ring{};
+    const auto is_in = [size](std::size_t i, std::size_t late) {
+      return i >= late && i - late < size;
+    };
+    Ticker ticker(context_, "components", size);
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < size + 3 * kStride; ++i) {
-      ticker_.work();
-      // What is read lies anywhere: it is fetched long before, step by step.
-      if (i < size) {
-        const NumberedCell& bridge = bridges[place(i)];
-        ends_[i % kRing] = graph_.ends(bridge.voxel, bridge.number);
-        for (const std::uint32_t end : ends_[i % kRing]) forest_.prefetch(end);
+    for (std::size_t i = 0; i < size + 3 * stride; ++i) {
+      if (is_in(i, 0)) __builtin_prefetch(&ends_[order[place(i)].cell]);
+      if (is_in(i, stride)) {
+        Ends& ends = ring[(i - stride) % ring_size];
+        ends = ends_[order[place(i - stride)].cell];
+        for (const std::uint32_t end : ends) forest.prefetch(end);
       }
-      if (i >= kStride && i - kStride < size)
-        for (std::uint32_t& end : ends_[(i - kStride) % kRing])
-          forest_.prefetch(end = forest_.step(end));
-      if (i >= 2 * kStride && i - 2 * kStride < size)
-        for (std::uint32_t& end : ends_[(i - 2 * kStride) % kRing]) {
-          end = forest_.find(end, ticker_);
-          __builtin_prefetch(&roots_[forest_.number_of_root(end)]);
-        }
-      if (i < 3 * kStride) continue;
-      const NumberedCell bridge = bridges[place(i - 3 * kStride)];
-      if (!join(ends_[(i - 3 * kStride) % kRing], bridge, on_merge))
-        bridges[place(kept++)] = bridge;
+      if (is_in(i, 2 * stride))
+        for (std::uint32_t& end : ring[(i - 2 * stride) % ring_size])
+          forest.prefetch(end = forest.parent(end));
+      if (!is_in(i, 3 * stride)) continue;
+      ticker.tick();
+      const Place bridge = order[place(i - 3 * stride)];
+      const auto [from, to] = ring[(i - 3 * stride) % ring_size];
+      const std::uint32_t a = forest.find(from), b = forest.find(to);
+      if (a == b) {
+        order[place(kept++)] = bridge;
+        continue;
+      }
+      const std::uint32_t dies = forest.join(a, b);
+      if (dies < endless_) {
+        on_merge(bridge, nullptr);
+      } else {
+        const Place dead = root(dies);
+        on_merge(bridge, &dead);
+      }
     }
     if (Graph::kBackwards)
-      bridges.erase(bridges.begin(), bridges.end() - static_cast<std::ptrdiff_t>(kept));
+      order.erase(order.begin(), order.end() - static_cast<std::ptrdiff_t>(kept));
     else
-      bridges.resize(kept);
-    for (std::size_t i = endless_; i < roots_.size(); ++i) {
-      ticker_.work();
-      if (roots_[i].number != kDead) on_survivor(roots_[i]);
-    }
+      order.resize(kept);
+    for (std::uint32_t i = endless_; i < endless_ + roots_.size(); ++i)
+      if (forest.is_root(i)) on_survivor(root(i));
+  }
+
+  StarCell root_cell(const Place& root) const {
+    if (!wants_cells_) return {.value = root.value};
+    const auto [voxel, number] = roots_[root.cell];
+    return {voxel, graph_.root_direction(number), root.value};
+  }
+  StarCell bridge_cell(const Place& bridge) const {
+    if (!wants_cells_) return {.value = bridge.value};
+    const auto [voxel, number] = bridges_.cells[bridge.cell];
+    return {voxel, graph_.bridge_direction(number), bridge.value};
   }
 
  private:
   using Ends = std::array<std::uint32_t, 2>;
-  static constexpr std::uint32_t kDead = UINT32_MAX;
-  static constexpr std::size_t kStride = 8, kRing = 4 * kStride;
 
-  // What has always been there.
-  static NumberedCell endless() { return {Graph::kBackwards ? kInfinity : -kInfinity, 0, 0}; }
-  void add_root(std::uint32_t node, const NumberedCell& cell) {
-    forest_.set_root(node, static_cast<std::uint32_t>(roots_.size()));
-    roots_.push_back(cell);
-  }
-  // Besides the outside; joined as far as it hangs together.
-  void add_endless() {
-    Ticker ticker(context_, "holes", grid_.size());
-    for (std::uint32_t v = 0; v < grid_.size(); ++v) {
-      ticker.tick();
-      if (grid_.enters(v)) continue;
-      std::optional<std::uint32_t> root;
-      graph_.for_each_endless(v, [&](std::uint32_t node) {
-        if (!forest_.is_known(node)) return;
-        const std::uint32_t own = forest_.find(node, ticker);
-        if (root && own != *root) forest_.link(own, *root);
-        if (!root) root = own;
-      });
-      graph_.for_each_endless(v, [&](std::uint32_t node) {
-        if (forest_.is_known(node)) return;
-        if (root)
-          forest_.link(node, *root);
-        else
-          add_root(*(root = node), endless());
-      });
-    }
-  }
-  /// @return whether the ends were apart. @param ends or what hangs over them.
-  template <class OnMerge>
-  bool join(const Ends& ends, const NumberedCell& bridge, OnMerge&& on_merge) {
-    std::uint32_t elder = forest_.find(ends[0], ticker_), younger = forest_.find(ends[1], ticker_);
-    if (elder == younger) return false;
-    std::uint32_t dies = forest_.number_of_root(younger);
-    if (const std::uint32_t a = forest_.number_of_root(elder); is_elder(dies, a)) {
-      std::swap(elder, younger);
-      dies = a;
-    }
-    forest_.link(younger, elder);
-    on_merge(bridge, dies < endless_ ? nullptr : &roots_[dies]);
-    roots_[dies].number = kDead;
-    return true;
-  }
-  // Roots are numbered in the order of the grid, behind what has always been there.
-  bool is_elder(std::uint32_t a, std::uint32_t b) const {
-    if (a < endless_ || b < endless_) return a < b;
-    const double x = roots_[a].value, y = roots_[b].value;
-    if (x != y) return Graph::kBackwards ? x > y : x < y;
-    return Graph::kBackwards ? a > b : a < b;
+  // Which basins each bridge joins; in the order of the grid, where neighbours are near in memory.
+  void find_basins() {
+    Basins<Graph> basins(grid_, graph_, context_);
+    std::pmr::vector<bool> is_bridge(ends_.size(), false, &context_.memory);
+    for (const Place& place : bridges_.order) is_bridge[place.cell] = true;
+    constexpr std::size_t piece = 1 << 14;
+    for_each_piece("basins", ends_.size(), piece, context_, [&](std::size_t i, std::size_t end) {
+      for (; i < end; ++i) {
+        if (!is_bridge[i]) continue;
+        const auto [voxel, number] = bridges_.cells[i];
+        const auto [a, b] = graph_.ends(voxel, number);
+        ends_[i] = {basins.basin_of(a), basins.basin_of(b)};
+      }
+    });
+    endless_ = basins.endless();
+    roots_ = std::move(basins.roots());
   }
 
   const StarGrid& grid_;
   const Graph& graph_;
+  CriticalCells& bridges_;
+  const bool wants_cells_;
   const RunContext& context_;
-  Ticker ticker_;
-  ArrowForest<Graph> forest_;
+  RawVector<Ends> ends_;
   std::pmr::vector<NumberedCell> roots_;
-  std::array<Ends, kRing> ends_{};
-  std::uint32_t endless_ = 0;  // so many of the roots have always been there
+  std::uint32_t endless_ = 0;  // basins; the others have a root each
 };
 
 }  // namespace ph::cubical

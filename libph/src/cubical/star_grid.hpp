@@ -90,7 +90,7 @@ class StarGrid {
   /// Voxels along the last axis.
   struct Row {
     std::uint32_t z, y, first;
-    unsigned borders;  ///< at which ends of the other axes it lies, see `border_of`
+    bool is_at_border;  ///< at an end of one of the other axes
   };
   /// Calls `use(row)`; counts the voxels as work.
   template <class Use>
@@ -99,12 +99,9 @@ class StarGrid {
     for (std::uint32_t z = 0; z < extent(0); ++z)
       for (std::uint32_t y = 0; y < extent(1); ++y, first += extent(2)) {
         ticker.work(extent(2));
-        use(Row{z, y, first, borders_at(0, z) | borders_at(1, y)});
+        use(Row{z, y, first, is_at_end(0, z) || is_at_end(1, y)});
       }
   }
-  /// At which ends of the axes a voxel of a row lies.
-  unsigned borders(const Row& row, std::uint32_t x) const { return row.borders | borders_at(2, x); }
-
   static constexpr std::uint32_t kOutside = UINT32_MAX;
   /// The voxel one step away, or kOutside.
   std::uint32_t step(std::uint32_t v, int axis, int sign) const {
@@ -125,6 +122,8 @@ class StarGrid {
     return sign > 0 ? v + axes_[axis].stride : v - axes_[axis].stride;
   }
 
+  /// Whether there are periodic axes of one voxel.
+  bool has_loops() const { return !loops_.empty(); }
   /// Calls `use(numbers of a, numbers of b, shift)`, coordinates of the input's doubled grid, for
   /// the cells and what periodic axes of one voxel make of them; `shift` is what they add to the
   /// dimension. @param b may be null. @param wants_numbers else they are empty.
@@ -141,8 +140,8 @@ class StarGrid {
   struct Block {
     std::uint32_t z, y, begin, end;
   };
-  unsigned borders_at(int a, std::uint32_t x) const {
-    return (x == 0 ? 1U << (2 * a) : 0U) | (x + 1 == axes_[a].extent ? 2U << (2 * a) : 0U);
+  bool is_at_end(int a, std::uint32_t x) const {
+    return axes_[a].exists && (x == 0 || x + 1 == axes_[a].extent);
   }
   template <class T, bool descending>
   void find_stars(const T* voxels);

@@ -3,25 +3,9 @@
 
 #include <algorithm>
 #include <numeric>
-#include <span>
 
 namespace ph::cubical {
 namespace {
-
-/// Numbers of directions in the order of the grid, and the place of each.
-void order_directions(std::span<const Direction> directions, unsigned wrapped, std::span<int> order,
-                      std::span<int> rank) {
-  const auto place = [&](int i) {
-    Direction d = directions[static_cast<std::size_t>(i)];
-    for (int a = 0; a < 3; ++a)
-      if (d[a] < 0 && (wrapped >> a & 1U) != 0) d[a] = 2;  // behind all others of the axis
-    return d;
-  };
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::sort(order, [&](int a, int b) { return place(a) < place(b); });
-  for (std::size_t i = 0; i < order.size(); ++i)
-    rank[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
-}
 
 template <std::size_t size>
 int root_of(const std::array<int, size>& parent, int i) {
@@ -31,14 +15,12 @@ int root_of(const std::array<int, size>& parent, int i) {
 
 }  // namespace
 
-StarTables::StarTables(unsigned wrapped) {
-  order_directions(kEdges, wrapped, edge_order_, edge_rank_);
-  order_directions(kSquares, wrapped, square_order_, square_rank_);
-  order_directions(kCubes, wrapped, cube_order_, cube_rank_);
+StarTables::StarTables(unsigned wrapped)
+    : edge_order_(kEdges, wrapped), square_order_(kSquares, wrapped), cube_order_(kCubes, wrapped) {
   for (unsigned e = 0; e < 64; ++e) {
     for (int rank = kEdgeCount - 1; rank >= 0; --rank)
-      if ((e >> edge_order_[rank] & 1U) != 0)
-        arrow_[e] = static_cast<std::uint8_t>(edge_order_[rank]);
+      if (const int first = edge_order_.at(rank); (e >> first & 1U) != 0)
+        arrow_[e] = static_cast<std::uint8_t>(first);
     for (int s = 0; s < kSquareCount; ++s) {
       const auto [a, b] = kEdgesOfSquare[s];
       if ((e >> a & e >> b & 1U) != 0) squares_on_[e] |= static_cast<std::uint16_t>(1U << s);
@@ -63,14 +45,13 @@ void StarTables::pair_edges(unsigned squares) {
   std::array<int, kEdgeCount> parent{};
   std::iota(parent.begin(), parent.end(), 0);
   unsigned tree = 0;
-  for (const int s : square_order_) {
-    if ((squares >> s & 1U) == 0) continue;
+  square_order_.for_each(squares, [&](int s) {
     int a = root_of(parent, kEdgesOfSquare[s][0]), b = root_of(parent, kEdgesOfSquare[s][1]);
-    if (a == b) continue;
-    if (edge_rank_[b] < edge_rank_[a]) std::swap(a, b);
+    if (a == b) return;
+    if (edge_order_.rank(b) < edge_order_.rank(a)) std::swap(a, b);
     parent[b] = a;
     tree |= 1U << s;
-  }
+  });
   unsigned reached = 0;
   for (int e = 0; e < kEdgeCount; ++e)
     if (parent[e] == e) reached |= 1U << e;
@@ -105,7 +86,7 @@ CubePairs StarTables::pair_cubes(std::uint32_t star) const {
     const int c = std::countr_zero(cubes);
     int youngest = square_of_cube(c, 0);
     for (int a = 1; a < 3; ++a)
-      if (const int s = square_of_cube(c, a); square_rank_[s] > square_rank_[youngest])
+      if (const int s = square_of_cube(c, a); square_order_.rank(s) > square_order_.rank(youngest))
         youngest = s;
     pairs.set_exit(c, axis_of(youngest));
     pairs.set_squares(1U << youngest);
@@ -120,7 +101,7 @@ CubePairs StarTables::pair_cubes(std::uint32_t star) const {
   // Roots: what has always been there, then the youngest.
   const auto outlives = [&](int a, int b) {
     if (is_there(a) != is_there(b)) return !is_there(a);
-    return cube_rank_[a] > cube_rank_[b];
+    return cube_order_.rank(a) > cube_order_.rank(b);
   };
   unsigned tree = 0;
   const auto join = [&](int s, bool present) {
@@ -133,7 +114,7 @@ CubePairs StarTables::pair_cubes(std::uint32_t star) const {
   for (int s = 0; s < kSquareCount; ++s)
     if ((all >> s & 1U) == 0) join(s, false);
   for (int rank = kSquareCount - 1; rank >= 0; --rank)
-    if (const int s = square_order_[rank]; (all >> s & 1U) != 0) join(s, true);
+    if (const int s = square_order_.at(rank); (all >> s & 1U) != 0) join(s, true);
   pairs.set_squares(tree);
   unsigned reached = 255U & ~cubes;
   for (int c = 0; c < kCubeCount; ++c)

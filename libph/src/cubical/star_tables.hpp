@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <bit>
 #include <cstdint>
 #include <memory_resource>
+#include <numeric>
 #include <vector>
 
 namespace ph::cubical {
@@ -62,14 +64,6 @@ constexpr Direction turned(Direction d, int axis, int to) {
   d[axis] = to;
   return d;
 }
-/// The ends of axes that a step in a direction crosses where a voxel lies at them: bit 2a is the
-/// beginning of axis a, bit 2a + 1 its end.
-constexpr unsigned border_of(const Direction& d) {
-  unsigned bits = 0;
-  for (int a = 0; a < 3; ++a)
-    if (d[a] != 0) bits |= (d[a] > 0 ? 2U : 1U) << (2 * a);
-  return bits;
-}
 constexpr int axis_of_edge(int edge) {
   return kEdges[edge][0] != 0 ? 0 : kEdges[edge][1] != 0 ? 1 : 2;
 }
@@ -99,14 +93,40 @@ constexpr int square_of_cube(int cube, int axis) {
   return number_of(turned(kCubes[cube], axis, 0));
 }
 
-/// Calls `use(number)` for the bits of a set in the order of `at(rank)`.
-template <class At, class Use>
-void for_each_in_order(unsigned set, int count, At&& at, Use&& use) {
-  if (set == 0) return;
-  if (std::has_single_bit(set)) return use(std::countr_zero(set));
-  for (int rank = 0; rank < count; ++rank)
-    if (const int number = at(rank); (set >> number & 1U) != 0) use(number);
-}
+/// The directions of one dimension, by number, in the order of the grid.
+template <int count>
+class GridOrder {
+ public:
+  /// @param wrapped as in StarTables.
+  GridOrder(const std::array<Direction, count>& directions, unsigned wrapped) {
+    const auto place = [&](int i) {
+      Direction d = directions[i];
+      for (int a = 0; a < 3; ++a)
+        if (d[a] < 0 && (wrapped >> a & 1U) != 0) d[a] = 2;  // behind all others of the axis
+      return d;
+    };
+    std::iota(at_.begin(), at_.end(), 0);
+    std::ranges::sort(at_, {}, place);
+    for (int i = 0; i < count; ++i) rank_[at_[i]] = i;
+    is_by_number_ = std::ranges::is_sorted(at_);
+  }
+  int rank(int number) const { return rank_[number]; }
+  int at(int rank) const { return at_[rank]; }
+  /// Calls `use(number)` for the bits of a set, in order.
+  template <class Use>
+  void for_each(unsigned set, Use&& use) const {
+    if (is_by_number_ || (set & (set - 1)) == 0) {
+      for (; set != 0; set &= set - 1) use(std::countr_zero(set));
+      return;
+    }
+    for (const int number : at_)
+      if ((set >> number & 1U) != 0) use(number);
+  }
+
+ private:
+  std::array<int, count> at_{}, rank_{};
+  bool is_by_number_;
+};
 
 /// What the cubes of a star are paired with, and what is left; in one word.
 class CubePairs {
@@ -163,19 +183,18 @@ class StarTables {
   /// The edges not paired inside the star.
   unsigned critical_edges(std::uint32_t star) const {
     const unsigned e = edges(star);
-    if (e == 0) return 0;
     return e & ~(joined_[squares(star)] | 1U << arrow_[e]);
   }
   /// The critical edges that are not marked.
   unsigned free_edges(std::uint32_t star) const {
     unsigned free = critical_edges(star);
     for (unsigned rest = star >> (kTakenShift + 1) & 31U; rest != 0; rest &= rest - 1)
-      free &= ~(1U << edge_order_[std::countr_zero(rest) + 1]);
+      free &= ~(1U << edge_order_.at(std::countr_zero(rest) + 1));
     return free;
   }
   /// The mark of an edge. Precondition: it is not the arrow.
   std::uint32_t taken_mark(int edge) const {
-    return std::uint32_t{1} << (kTakenShift + edge_rank_[edge]);
+    return std::uint32_t{1} << (kTakenShift + edge_order_.rank(edge));
   }
   /// The square with which an edge is paired; -1 if there is none.
   int square_of(std::uint32_t star, int edge) const { return up_[squares(star)][edge]; }
@@ -203,11 +222,9 @@ class StarTables {
     return squares(star) & ~(tree_[squares(star)] | pairs.squares());
   }
 
-  /// By number: the place in the order of the grid, and back.
-  int edge_rank(int edge) const { return edge_rank_[edge]; }
-  int edge_at(int rank) const { return edge_order_[rank]; }
-  int square_at(int rank) const { return square_order_[rank]; }
-  int cube_at(int rank) const { return cube_order_[rank]; }
+  const GridOrder<kEdgeCount>& edge_order() const { return edge_order_; }
+  const GridOrder<kSquareCount>& square_order() const { return square_order_; }
+  const GridOrder<kCubeCount>& cube_order() const { return cube_order_; }
 
  private:
   static constexpr std::array<std::uint8_t, kEdgeCount> kLowest{1, 2, 4, 8, 16, 32};
@@ -220,9 +237,9 @@ class StarTables {
 
   void pair_edges(unsigned squares);
 
-  std::array<int, kEdgeCount> edge_order_{}, edge_rank_{};
-  std::array<int, kSquareCount> square_order_{}, square_rank_{};
-  std::array<int, kCubeCount> cube_order_{}, cube_rank_{};
+  GridOrder<kEdgeCount> edge_order_;
+  GridOrder<kSquareCount> square_order_;
+  GridOrder<kCubeCount> cube_order_;
   std::array<std::uint8_t, 64> arrow_{};
   std::array<std::uint16_t, 64> squares_on_{};  // by edges: squares that have both
   std::array<std::uint8_t, 4096> cubes_on_{};   // by squares: cubes that have all three

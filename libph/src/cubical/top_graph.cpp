@@ -8,7 +8,6 @@ TopGraph::TopGraph(const StarGrid& grid) : grid_(grid) {
     // With a border around the voxels there is one more cell than voxels along an axis.
     border_[a] = grid.relative() && grid.has_axis(a) && !grid.is_periodic(a) ? 1 : 0;
     extent_[a] = grid.extent(a) + border_[a];
-    if (border_[a] == 0) inner_borders_ |= 3U << (2 * a);
     stride_[a] = count_;
     by_extent_[a] = Divisor(extent_[a]);
     count_ *= extent_[a];

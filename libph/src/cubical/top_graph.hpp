@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <array>
+#include <bit>
 #include <cstdint>
-#include <span>
+#include <vector>
 
 #include "star_grid.hpp"
 
@@ -29,17 +30,16 @@ class TopGraph {
   /// Out of a cell by the facet that it is paired with. Precondition: the cell enters and is not
   /// critical.
   std::uint32_t arrow(std::uint32_t node) const;
-  /// Calls `use_arrow(node, node)` for all arrows and `use_root` as `for_each_root` does.
-  template <class UseArrow, class UseRoot>
-  void for_each_node(UseArrow&& use_arrow, UseRoot&& use_root, Ticker& ticker) const;
+  /// Calls `use(node, node)` for all arrows but some near the border.
+  template <class Use>
+  void for_each_inner_arrow(Use&& use, Ticker& ticker) const;
   /// Whether anything but the outside has always been there.
   bool has_endless() const { return !grid_.relative() && !grid_.all_enter(); }
   /// Calls `use(node)` for what hangs together because a voxel never enters: all top cells around
   /// it.
   template <class Use>
   void for_each_endless(std::uint32_t v, Use&& use) const;
-  /// Calls `use(node, voxel, number)` for the roots in the star of a voxel, in the order of the
-  /// grid.
+  /// Calls `use(node, number)` for the roots in the star of a voxel, in the order of the grid.
   template <class Use>
   void for_each_root(std::uint32_t v, Use&& use) const;
   /// What a facet in the star of a voxel joins.
@@ -52,62 +52,90 @@ class TopGraph {
   /// The axis along which a top cell is left, by its number in the star of a voxel.
   int exit_axis(std::uint32_t v, int number) const {
     if (has_cubes()) return grid_.pair_cubes(v).exit(number);
-    return 3 - axis_of_edge(grid_.tables(v).edge_of(grid_.star(v), number));  // the other of 1, 2
+    return exit_of_square(grid_.tables(v).edge_of(grid_.star(v), number));
+  }
+  /// That of a square, by the edge that it is paired with.
+  static int exit_of_square(int edge) { return 3 - axis_of_edge(edge); }  // the other of 1, 2
+  /// What a voxel says about the arrows of top cells in its star, see `for_each_inner_arrow`.
+  template <class ExitOf>
+  std::uint32_t arrow_word(unsigned cells, ExitOf&& exit_of) const;
+  /// Whether a top cell at a coordinate, that of its first voxel, and those beside it along the
+  /// axis lie between voxels that follow each other.
+  bool is_inner(int axis, std::uint32_t low) const {
+    const std::uint32_t n = grid_.extent(axis), first = 1 - border_[axis];
+    return low >= first && low < n && n - low > 2 - border_[axis];
   }
   /// The star that a top cell is in. Precondition: there is one.
   StarCell cell(std::uint32_t node) const;
   std::uint32_t outside_beyond(const Direction& d) const;
-
   const StarGrid& grid_;
   std::array<std::uint32_t, 3> extent_{}, stride_{}, border_{};
-  unsigned inner_borders_ = 0;  // of axes without a border around them
   std::array<Divisor, 3> by_extent_;
   std::uint32_t count_ = 1;
 };
 
-template <class UseArrow, class UseRoot>
-void TopGraph::for_each_node(UseArrow&& use_arrow, UseRoot&& use_root, Ticker& ticker) const {
-  // By number of a top cell in a star: where it lies from the one towards +, +, +, at which borders
-  // that is not so (it leaves the graph, or comes back on the other side), and what is across the
-  // facet that it is left by.
-  struct Step {
-    std::uint32_t offset = 0;
-    unsigned borders = 0;
-    std::array<int, 3> across{};  // by axis
-  };
-  std::array<Step, kSquareCount> steps;
-  const int count = has_cubes() ? kCubeCount : kSquareCount;
-  for (int n = 0; n < count; ++n) {
-    const Direction d = root_direction(static_cast<std::uint32_t>(n));
-    steps[n].borders = border_of(d) & inner_borders_;
-    for (int a = 0; a < 3; ++a) {
-      if (d[a] < 0) steps[n].offset -= stride_[a];
-      steps[n].across[a] = number_of(turned(d, a, -d[a]));
-    }
+// A voxel tells the cells around it whose star they are in where their arrows lead, in one word:
+// bit 3u + a where it is corner u of a cell that is left along axis a. Corner u of a cell lies
+// u[a] = bit a of u voxels from its first one. So the corners of a cell together say one bit or
+// none, and nothing is decided by a branch that cannot be foretold.
+template <class Use>
+void TopGraph::for_each_inner_arrow(Use&& use, Ticker& ticker) const {
+  std::array<std::uint32_t, 24> offset{};  // by bit
+  for (std::uint32_t bit = 0; bit < offset.size(); ++bit) {
+    const std::uint32_t u = bit / 3, a = bit % 3;
+    offset[bit] = (u >> a & 1U) != 0 ? stride_[a] : 0 - stride_[a];
   }
+  std::vector<std::uint32_t> word_of_squares(has_cubes() ? 0 : 1 << kSquareCount);
+  for (std::uint32_t squares = 0; squares < word_of_squares.size(); ++squares) {
+    const StarTables& tables = star_tables(0);
+    const std::uint32_t star = squares << kSquareShift;
+    word_of_squares[squares] = arrow_word(
+        tables.edge_squares(star), [&](int s) { return exit_of_square(tables.edge_of(star, s)); });
+  }
+  const auto word_of = [&](std::uint32_t v) {
+    const std::uint32_t star = grid_.star(v);
+    if (!has_cubes()) return word_of_squares[StarTables::squares(star)];
+    const CubePairs pairs = grid_.pair_cubes(v);
+    return arrow_word(StarTables::cubes(star) & ~pairs.critical_cubes(),
+                      [&](int c) { return pairs.exit(c); });
+  };
+  // The words of a row and of those before it that share cells with it.
+  const std::uint32_t width = grid_.extent(2), height = grid_.extent(1);
+  const std::uint32_t layers = has_cubes() ? 2 : 1, kept = (layers - 1) * height + 2;
+  std::vector<std::uint32_t> words(std::size_t{kept} * width);
   grid_.for_each_row(ticker, [&](const StarGrid::Row& row) {
-    std::uint32_t base = (row.z + border_[0]) * stride_[0] + (row.y + border_[1]) * stride_[1] +
-                         border_[2] * stride_[2];
-    for (std::uint32_t x = 0, v = row.first; x < grid_.extent(2); ++x, ++v, base += stride_[2]) {
-      const std::uint32_t star = grid_.star(v);
-      const unsigned all = has_cubes() ? StarTables::cubes(star) : StarTables::squares(star);
-      if (all == 0) continue;
-      const unsigned paired = has_cubes() ? all & ~grid_.pair_cubes(v).critical_cubes()
-                                          : grid_.tables(v).edge_squares(star);
-      const unsigned borders = grid_.borders(row, x);
-      const auto near = [&](int n) {
-        const Step& step = steps[n];
-        return (step.borders & borders) != 0
-                   ? node(v, root_direction(static_cast<std::uint32_t>(n)))
-                   : base + step.offset;
-      };
-      for (unsigned rest = paired; rest != 0; rest &= rest - 1) {
-        const int n = std::countr_zero(rest);
-        use_arrow(near(n), near(steps[n].across[exit_axis(v, n)]));
-      }
-      if (paired != all) for_each_root(v, use_root);
+    const std::uint32_t number = row.first / width;
+    const auto words_of = [&](std::uint32_t r) { return &words[std::size_t{r % kept} * width]; };
+    std::uint32_t* const own = words_of(number);
+    for (std::uint32_t x = 0; x < width; ++x) own[x] = word_of(row.first + x);
+    const std::uint32_t z = row.z - (layers - 1), y = row.y - 1;  // of the cells
+    if (!is_inner(1, y) || (has_cubes() && !is_inner(0, z))) return;
+    std::array<const std::uint32_t*, 4> voxels{};  // by bits 0 and 1 of u
+    for (std::uint32_t zy = 0; zy < 4; ++zy)
+      if ((zy & 1U) < layers)
+        voxels[zy] = words_of(number - (layers - 1 - (zy & 1U)) * height - (1 - (zy >> 1U)));
+    const auto said_by = [&](std::uint32_t x, std::uint32_t zy) {
+      return (voxels[zy][x] & 7U << 3 * zy) | (voxels[zy][x + 1] & 7U << 3 * (zy | 4U));
+    };
+    std::uint32_t node = (z + border_[0]) * stride_[0] + (y + border_[1]) * stride_[1] + stride_[2];
+    for (std::uint32_t x = 1 - border_[2]; is_inner(2, x); ++x, node += stride_[2]) {
+      std::uint32_t said = said_by(x, 0) | said_by(x, 2);
+      if (layers == 2) said |= said_by(x, 1) | said_by(x, 3);
+      if (said != 0) use(node, node + offset[static_cast<std::size_t>(std::countr_zero(said))]);
     }
   });
+}
+
+template <class ExitOf>
+std::uint32_t TopGraph::arrow_word(unsigned cells, ExitOf&& exit_of) const {
+  std::uint32_t word = 0;
+  for (; cells != 0; cells &= cells - 1) {
+    const int n = std::countr_zero(cells);
+    const Direction d = root_direction(static_cast<std::uint32_t>(n));
+    const unsigned u = (d[0] < 0 ? 1U : 0U) | (d[1] < 0 ? 2U : 0U) | (d[2] < 0 ? 4U : 0U);
+    word |= 1U << (3 * u + static_cast<unsigned>(exit_of(n)));
+  }
+  return word;
 }
 
 template <class Use>
@@ -130,16 +158,12 @@ void TopGraph::for_each_root(std::uint32_t v, Use&& use) const {
   const StarTables& tables = grid_.tables(v);
   const auto use_cell = [&](int number) {
     const auto n = static_cast<std::uint32_t>(number);
-    use(node(v, root_direction(n)), v, n);
+    use(node(v, root_direction(n)), n);
   };
   if (!has_cubes())
-    for_each_in_order(
-        tables.critical_squares(star, {}), kSquareCount,
-        [&](int rank) { return tables.square_at(rank); }, use_cell);
+    tables.square_order().for_each(tables.critical_squares(star, {}), use_cell);
   else if (StarTables::cubes(star) == 255)
-    for_each_in_order(
-        grid_.pair_cubes(v).critical_cubes(), kCubeCount,
-        [&](int rank) { return tables.cube_at(rank); }, use_cell);
+    tables.cube_order().for_each(grid_.pair_cubes(v).critical_cubes(), use_cell);
 }
 
 }  // namespace ph::cubical

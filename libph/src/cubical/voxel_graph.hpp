@@ -24,25 +24,21 @@ class VoxelGraph {
   std::uint32_t arrow(std::uint32_t v) const {
     return across(v, grid_.tables(v).arrow(grid_.star(v)));
   }
-  /// Calls `use_arrow(node, node)` for all arrows and `use_root` as `for_each_root` does.
-  template <class UseArrow, class UseRoot>
-  void for_each_node(UseArrow&& use_arrow, UseRoot&& use_root, Ticker& ticker) const {
-    std::array<std::uint32_t, kEdgeCount> offset{};
-    for (int e = 0; e < kEdgeCount; ++e) {
-      const std::uint32_t stride = grid_.stride(axis_of_edge(e));
-      offset[e] = kEdges[e][axis_of_edge(e)] > 0 ? stride : 0 - stride;
+  /// Calls `use(node, node)` for all arrows but those at the border; a root may point to itself.
+  template <class Use>
+  void for_each_inner_arrow(Use&& use, Ticker& ticker) const {
+    // By the edges of a star: how far its arrow leads inside the grid.
+    std::array<std::uint32_t, 1 << kEdgeCount> offset{};
+    for (std::uint32_t edges = 1; edges < offset.size(); ++edges) {
+      const int e = star_tables(0).arrow(edges), axis = axis_of_edge(e);
+      offset[edges] = kEdges[e][axis] > 0 ? grid_.stride(axis) : 0 - grid_.stride(axis);
     }
     grid_.for_each_row(ticker, [&](const StarGrid::Row& row) {
-      for (std::uint32_t x = 0, v = row.first; x < grid_.extent(2); ++x, ++v) {
-        const std::uint32_t star = grid_.star(v);
-        if (StarTables::edges(star) == 0) {
-          if (star != kAbsent) use_root(v, v, 0U);
-          continue;
-        }
-        const int e = grid_.tables(v).arrow(star);
-        const bool leaves = (grid_.borders(row, x) & border_of(kEdges[e])) != 0;
-        use_arrow(v, leaves ? across(v, e) : v + offset[e]);
-      }
+      if (row.is_at_border) return;
+      const std::uint32_t end = row.first + grid_.extent(2) - 1;
+      for (std::uint32_t v = row.first + 1; v < end; ++v)
+        if (const std::uint32_t star = grid_.star(v); star != kAbsent)
+          use(v, v + offset[StarTables::edges(star)]);
     });
   }
   /// Whether anything but the outside has always been there.
@@ -59,10 +55,10 @@ class VoxelGraph {
       if (u >= grid_.size() || !grid_.enters(u)) use(u);
     }
   }
-  /// Calls `use(node, voxel, number)` for the roots in the star of a voxel.
+  /// Calls `use(node, number)` for the roots in the star of a voxel that enters.
   template <class Use>
   void for_each_root(std::uint32_t v, Use&& use) const {
-    if (StarTables::edges(grid_.star(v)) == 0) use(v, v, 0U);
+    if (StarTables::edges(grid_.star(v)) == 0) use(v, 0U);
   }
   /// What an edge of the star of a voxel joins.
   std::array<std::uint32_t, 2> ends(std::uint32_t v, std::uint32_t number) const {

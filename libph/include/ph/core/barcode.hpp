@@ -95,9 +95,15 @@ class Barcode {
   /// @throws Error (usage) if none were asked for.
   InputChain representative(std::size_t i) const;
 
-  /// Appends a bar. No `death_cell`: the class lives for ever, or cells are not kept.
-  void add(const Bar& bar, std::span<const Index> birth_cell = {},
-           std::span<const Index> death_cell = {});
+  /// Makes room for so many more bars.
+  void reserve_more(std::size_t count) { bars_.reserve(bars_.size() + count); }
+  /// Appends a bar without cells.
+  void add(const Bar& bar) {
+    bars_.push_back(bar);
+    if (!cells_.empty()) cells_.resize(bars_.size());
+  }
+  /// Appends a bar. No `death_cell`: the class lives for ever.
+  void add(const Bar& bar, std::span<const Index> birth_cell, std::span<const Index> death_cell);
   /// Gives the bar added last its representative: the numbers of all cells, one after another.
   void set_representative(Representatives kind, std::span<const Index> numbers,
                           std::span<const std::int64_t> coefficients);
@@ -173,6 +179,8 @@ class BarcodeBuilder {
   /// Whether an engine must report pairs of equal value.
   bool wants_zero_length() const { return min_persistence_ < 0; }
 
+  /// Says that so many bars may come: a hint.
+  void expect(std::size_t count) { barcode_.reserve_more(count); }
   /// A class of H_dim born with `birth`, killed by `death` (a cell of dimension dim + 1).
   /// @return whether the bar is kept: only then is a representative wanted.
   bool add_pair(int dim, const Cell& birth, const Cell& death) {
@@ -192,11 +200,16 @@ class BarcodeBuilder {
   /// infinite.
   bool add_bar(const Bar& bar, std::span<const Index> birth_cell,
                std::span<const Index> death_cell) {
-    if (bar.dim > max_dim_) return false;
-    if (!bar.is_infinite() && !(bar.persistence() > min_persistence_)) return false;
+    if (!keeps(bar)) return false;
     barcode_.add(bar, birth_cell, death_cell);
     claim_.grow_to(barcode_.bytes());
     return true;
+  }
+  /// Several bars without cells.
+  void add_bars(std::span<const Bar> bars) {
+    for (const Bar& bar : bars)
+      if (keeps(bar)) barcode_.add(bar);
+    claim_.grow_to(barcode_.bytes());
   }
   /// Gives the bar kept last its representative: terms with `cell` and `coefficient()`.
   template <class Terms, Field K>
@@ -217,6 +230,9 @@ class BarcodeBuilder {
   }
 
  private:
+  bool keeps(const Bar& bar) const {
+    return bar.dim <= max_dim_ && (bar.is_infinite() || bar.persistence() > min_persistence_);
+  }
   void add(const Bar& bar, const Cell& birth, const Cell* death) {
     numbers_.clear();
     if (cells_) filtration_.append_input_cell(bar.dim, birth, numbers_);

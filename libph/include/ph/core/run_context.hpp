@@ -49,11 +49,13 @@ class MemoryClaim {
     budget_.add(bytes_);
   }
   ~MemoryClaim() { budget_.subtract(bytes_); }
-  /// Claims more, up to `bytes` in all. @throws Error (resource) as the constructor.
+  /// Claims more, up to `bytes` in all and a little ahead: it may be asked often.
+  /// @throws Error (resource) as the constructor.
   void grow_to(std::size_t bytes) {
     if (bytes <= bytes_) return;
-    budget_.add(bytes - bytes_);
-    bytes_ = bytes;
+    constexpr std::size_t ahead = 1 << 12;
+    budget_.add(bytes + ahead - bytes_);
+    bytes_ = bytes + ahead;
   }
   MemoryClaim(const MemoryClaim&) = delete;
   MemoryClaim& operator=(const MemoryClaim&) = delete;

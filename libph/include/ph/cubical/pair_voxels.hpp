@@ -10,9 +10,16 @@
 
 namespace ph::cubical {
 
-/// Receives a bar, with its cells in doubled grid coordinates of the input if they are wanted.
-using BarSink =
-    std::function<void(const Bar& bar, std::span<const Index> birth, std::span<const Index> death)>;
+/// Receives bars.
+struct BarSink {
+  /// One with its cells, in doubled grid coordinates of the input.
+  std::function<void(const Bar& bar, std::span<const Index> birth, std::span<const Index> death)>
+      add;
+  /// Some without: cells are not wanted.
+  std::function<void(std::span<const Bar> bars)> add_all;
+  /// Says that so many bars may come next.
+  std::function<void(std::size_t count)> expect;
+};
 
 /// Whether `pair_voxels` can: at most three axes that have more than one voxel (T: or are not
 /// periodic), fewer than about 2^31 voxels, and not none.

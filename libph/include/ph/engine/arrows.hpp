@@ -24,9 +24,14 @@ struct ArrowsEngine {
   template <Filtration F, Field K>
   static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context) {
     if constexpr (VoxelFiltration<F>) {
+      const cubical::BarSink sink{
+          [&](const Bar& bar, std::span<const Index> birth, std::span<const Index> death) {
+            bars.add_bar(bar, birth, death);
+          },
+          [&](std::span<const Bar> some) { bars.add_bars(some); },
+          [&](std::size_t count) { bars.expect(count); }};
       cubical::pair_voxels(f.cubical_image(), field, bars.max_dim(), bars.wants_cells(), context,
-                           [&](const Bar& bar, std::span<const Index> birth,
-                               std::span<const Index> death) { bars.add_bar(bar, birth, death); });
+                           sink);
     }
   }
 };

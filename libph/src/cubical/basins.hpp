@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <memory_resource>
+#include <optional>
+#include <vector>
+
+#include "arrow_forest.hpp"
+#include "critical_cells.hpp"
+
+namespace ph::cubical {
+
+/// The trees that the arrows of a graph make, by the numbers of their roots: first what has always
+/// been there, which has no cell, then critical cells in the order of the grid.
+template <class Graph>
+class Basins {
+ public:
+  Basins(const StarGrid& grid, const Graph& graph, const RunContext& context)
+      : grid_(grid),
+        graph_(graph),
+        context_(context),
+        forest_(graph, context),
+        roots_(&context.memory) {
+    constexpr std::uint32_t many = 16;  // of so many voxels one has a critical cell
+    Ticker ticker(context, "basins");
+    // Where most arrows will be met, one after another is quicker.
+    if (grid.critical().size() > grid.size() / many)
+      graph.for_each_inner_arrow(
+          [&](std::uint32_t node, std::uint32_t to) { forest_.link(node, to); }, ticker);
+    for (const int part : {0, 1}) forest_.set_root(graph.outside(part), endless_++);
+    if (graph.has_endless()) join_endless();
+    for (const std::uint32_t v : grid.critical()) {
+      ticker.work();
+      graph.for_each_root(v, [&](std::uint32_t node, std::uint32_t number) {
+        forest_.set_root(node, endless_ + static_cast<std::uint32_t>(roots_.size()));
+        roots_.push_back({v, number});
+      });
+    }
+  }
+
+  /// How many have always been there.
+  std::uint32_t endless() const { return endless_; }
+  /// The cells of the others.
+  std::pmr::vector<NumberedCell>& roots() { return roots_; }
+  /// In which one a node is. Several threads may ask.
+  std::uint32_t basin_of(std::uint32_t node) { return forest_.number_of_root(forest_.find(node)); }
+
+ private:
+  // Besides the outside; joined as far as it hangs together.
+  void join_endless() {
+    Ticker ticker(context_, "holes", grid_.size());
+    for (std::uint32_t v = 0; v < grid_.size(); ++v) {
+      ticker.tick();
+      if (grid_.enters(v)) continue;
+      std::optional<std::uint32_t> root;
+      graph_.for_each_endless(v, [&](std::uint32_t node) {
+        if (!forest_.is_known(node)) return;
+        const std::uint32_t own = forest_.find(node);
+        if (root && own != *root) forest_.link(own, *root);
+        if (!root) root = own;
+      });
+      graph_.for_each_endless(v, [&](std::uint32_t node) {
+        if (forest_.is_known(node)) return;
+        if (root)
+          forest_.link(node, *root);
+        else
+          forest_.set_root(*(root = node), endless_++);
+      });
+    }
+  }
+
+  const StarGrid& grid_;
+  const Graph& graph_;
+  const RunContext& context_;
+  ArrowForest<Graph> forest_;
+  std::pmr::vector<NumberedCell> roots_;
+  std::uint32_t endless_ = 0;
+};
+
+}  // namespace ph::cubical

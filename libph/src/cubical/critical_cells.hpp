@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "ph/core/run_context.hpp"
+#include "star_grid.hpp"
+
+namespace ph::cubical {
+
+/// A cell by the star that it is in: the number of its direction there.
+struct NumberedCell {
+  std::uint32_t voxel, number;
+};
+
+/// The cells of one dimension that are not paired inside their stars.
+struct CriticalCells {
+  struct Place {
+    double value;        ///< in the order of the stars
+    std::uint32_t cell;  ///< in `cells`
+  };
+  std::pmr::vector<NumberedCell> cells;  ///< in the order of the grid
+  std::pmr::vector<Place> order;         ///< those in no pair yet, by (value, place in the grid)
+
+  explicit CriticalCells(std::pmr::memory_resource* memory) : cells(memory), order(memory) {}
+};
+
+/// @param dim 1 or 2.
+CriticalCells critical_cells(const StarGrid& grid, int dim, const RunContext& context);
+
+}  // namespace ph::cubical
