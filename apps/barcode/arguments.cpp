@@ -74,7 +74,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-void take_plot(Arguments& a, const std::string& path) {
+void check_plot(const std::string& path) {
   const std::string name = lower_case(path);
   if (name.ends_with(".png"))
     throw Error(ErrorKind::not_built_in,
@@ -82,7 +82,6 @@ void take_plot(Arguments& a, const std::string& path) {
   if (!name.ends_with(".svg"))
     throw Error(ErrorKind::usage,
                 fmt::format("--plot: found '{}', expected a name that ends in .svg", path));
-  a.plots.push_back({path, PlotKind::barcode});
 }
 
 void take_report(Arguments& a, const std::string& path) {
@@ -202,7 +201,9 @@ void add_homology_options(CLI::App& app, Arguments& a) {
       ->group(group);
 }
 
-void add_output_options(CLI::App& app, Arguments& a, std::vector<PlotKind>& kinds) {
+constexpr std::array<std::string_view, 4> kPlotKinds{"barcode", "diagram", "betti", "tree"};
+
+void add_output_options(CLI::App& app, Arguments& a, app::PlotArguments& plots) {
   const std::string group = "Output";
   add_value(app, "-o,--output", "FILE",
             "where the barcode goes (default -: standard output); FOLDER/ for several inputs",
@@ -216,30 +217,8 @@ void add_output_options(CLI::App& app, Arguments& a, std::vector<PlotKind>& kind
   add_choice(app, "--output-format", names, "format of the barcode (default: by extension, or csv)",
              [&a](std::size_t i) { a.output_format = barcode_format_named(names[i]); })
       ->group(group);
-  app.add_option_function<std::vector<std::string>>(
-         "--plot",
-         [&a](const std::vector<std::string>& paths) {
-           for (const std::string& path : paths) take_plot(a, path);
-         },
-         "draw the barcode (repeatable)")
-      ->type_name("FILE.svg")
-      ->type_size(1)
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->group(group);
-  app.add_option_function<std::vector<std::string>>(
-         "--plot-kind",
-         [&kinds](const std::vector<std::string>& words) {
-           static constexpr std::array<std::string_view, 3> kKinds{"barcode", "diagram", "betti"};
-           for (const std::string& word : words)
-             kinds.push_back(*plot_kind_named(kKinds[choose("--plot-kind", word, kKinds)]));
-         },
-         "kind of each --plot in turn; the last one counts for the rest (default barcode)")
-      ->type_name("barcode|diagram|betti")
-      ->type_size(1)
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->group(group);
+  app::add_plot_options(app, kPlotKinds, "FILE.svg",
+                        "draw the barcode, or the merge tree of H0 (repeatable)", group, plots);
   add_value(app, "--report", "FILE.html",
             "one page to look at: barcode, diagram, merge tree and data, linked; needs no network",
             [&a](const std::string& path) { take_report(a, path); })
@@ -266,7 +245,7 @@ std::string built_in() {
 }
 
 /// What no single option can see.
-void check_together(Arguments& a, const std::vector<PlotKind>& kinds) {
+void check_together(Arguments& a) {
   const auto reject = [](const std::string& what) { throw Error(ErrorKind::usage, what); };
   if (!a.compare.empty()) {
     if (a.report.empty()) reject("--compare needs --report FILE.html");
@@ -279,11 +258,6 @@ void check_together(Arguments& a, const std::vector<PlotKind>& kinds) {
   for (const std::string& input : a.inputs)
     if (input.empty()) reject("INPUT: found '', expected a path");
   if (a.complex == ComplexKind::alpha) not_built_in("--complex alpha:");
-  if (kinds.size() > std::max<std::size_t>(a.plots.size(), a.plots.empty() ? 0 : 1))
-    reject(a.plots.empty() ? "--plot-kind needs --plot FILE.svg"
-                           : "--plot-kind was given more often than --plot");
-  for (std::size_t i = 0; i < a.plots.size() && !kinds.empty(); ++i)
-    a.plots[i].kind = kinds[std::min(i, kinds.size() - 1)];
   if (a.inputs.size() > 1 && !a.is_batch() && !a.dry_run && a.output_format != BarcodeFormat::none)
     reject(fmt::format("--output: several inputs need a folder: -o FOLDER/, found '{}'", a.output));
   if (a.inputs.size() > 1 && !a.plots.empty()) reject("--plot takes one input only");
@@ -317,6 +291,10 @@ void check_together(Arguments& a, const std::vector<PlotKind>& kinds) {
 
 }  // namespace
 
+bool Arguments::draws_tree() const {
+  return std::ranges::any_of(plots, [](const app::Plot& plot) { return plot.kind == "tree"; });
+}
+
 bool Arguments::is_batch() const {
   if (output == "-") return false;
   if (output.ends_with('/')) return true;
@@ -330,21 +308,23 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv,
       "Computes the persistent homology of points, distances, images and filtered complexes.\n"
       "Rips values are diameters: two points join at their distance.",
       "ph-barcode");
-  std::vector<PlotKind> plot_kinds;
+  app::PlotArguments plots;
   add_input_options(app, arguments);
   add_raw_options(app, arguments);
   add_complex_options(app, arguments);
   add_cubical_options(app, arguments);
   add_rips_options(app, arguments);
   add_homology_options(app, arguments);
-  add_output_options(app, arguments, plot_kinds);
+  add_output_options(app, arguments, plots);
   bool list_formats = false;
   app.add_flag("--formats", list_formats, "print the table of formats and exit")->group("Input");
   app::add_common_options(app, arguments.common);
   if (auto answer = app::parse_command_line(app, arguments.common, argc, argv, built_in()))
     return answer;
   if (list_formats) return formats_table();
-  check_together(arguments, plot_kinds);
+  for (const std::string& path : plots.paths) check_plot(path);
+  arguments.plots = plots.together(kPlotKinds.front());
+  check_together(arguments);
   if (!arguments.report.empty()) arguments.command = app::typed_command("ph-barcode", argc, argv);
   return std::nullopt;
 }

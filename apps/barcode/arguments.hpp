@@ -10,18 +10,12 @@
 #include "ph/complex/voxel_image.hpp"
 #include "ph/io/barcode_io.hpp"
 #include "ph/io/formats.hpp"
-#include "ph/io/svg_plot.hpp"
 #include "ph/persistence.hpp"
+#include "plot_arguments.hpp"
 
 namespace ph::barcode {
 
 enum class ComplexKind { automatic, rips, cubical, alpha, explicit_cells, lower_star };
-
-/// A picture to draw.
-struct Plot {
-  std::string path;
-  PlotKind kind = PlotKind::barcode;
-};
 
 /// Everything the command line says.
 struct Arguments {
@@ -55,11 +49,13 @@ struct Arguments {
   // Where it goes.
   std::string output = "-";
   std::optional<BarcodeFormat> output_format;
-  std::vector<Plot> plots;
+  std::vector<app::Plot> plots;
   std::string report;                // path; empty: none
   std::vector<std::string> compare;  // two barcode files; empty: a barcode is computed
   std::vector<std::string> command;  // as it was typed, for the report
 
+  /// Whether the merge tree is asked for by itself.
+  bool draws_tree() const;
   /// Whether the output is a folder with one file an input.
   bool is_batch() const;
 };

@@ -12,12 +12,11 @@ namespace {
 
 // A page stays interactive with so many merges; those of the lowest levels are contracted.
 constexpr std::size_t kMostMerges = 100'000;
-constexpr std::size_t kMostVoxels = 1 << 22;  // of an image: all cells of it are listed
 
-std::optional<MergeTree> tree_of(const Rips& rips, const Shown& shown, const Arguments& arguments,
-                                 const RunContext& context) {
+std::optional<MergeTree> tree_of(const Rips& rips, const BuiltComplex& built, const NamedData& data,
+                                 const Arguments& arguments, const RunContext& context) {
   if (rips.graph().has_names() && arguments.options.min_persistence < 0) return std::nullopt;
-  if (shown.built.subsample || arguments.rips.approximation) return std::nullopt;
+  if (built.subsample || arguments.rips.approximation) return std::nullopt;
   // The complex that was computed may hold all its edges and may have merged equal points; this one
   // is a spanning forest of all points.
   Arguments again = arguments;
@@ -26,9 +25,8 @@ std::optional<MergeTree> tree_of(const Rips& rips, const Shown& shown, const Arg
   again.options.min_persistence = -1;
   again.options.representatives = Representatives::none;
   again.check = false;
-  again.threshold = shown.built.threshold;
-  const BuiltComplex forest =
-      build_complex(shown.data.read, shown.data.name, shown.data.dropped, again, context);
+  again.threshold = built.threshold;
+  const BuiltComplex forest = build_complex(data.read, data.name, data.dropped, again, context);
   const Rips& all = std::get<Rips>(forest.complex);
   if (all.graph().has_names()) return std::nullopt;  // some points are born beyond the threshold
   return merge_tree(all, context);
@@ -36,7 +34,7 @@ std::optional<MergeTree> tree_of(const Rips& rips, const Shown& shown, const Arg
 
 std::optional<MergeTree> tree_of(const Cubical& cubical, const RunContext& context) {
   const CubicalImage image = cubical.cubical_image();
-  if (!image.voxels_are_vertices || image.size() > kMostVoxels) return std::nullopt;
+  if (!image.voxels_are_vertices || image.size() > kMostTreeVoxels) return std::nullopt;
   return merge_tree(cubical, context);
 }
 
@@ -95,22 +93,28 @@ double cut_in_gap(const report::ContractedTree& contracted, const MergeTree& tre
 
 }  // namespace
 
-std::optional<ShownTree> h0_tree(const Shown& shown, const Arguments& arguments,
-                                 const RunContext& context) {
-  if (shown.built.cut || shown.built.empty) return std::nullopt;
+std::optional<MergeTree> whole_tree(const BuiltComplex& built, const NamedData& data,
+                                    const Arguments& arguments, const RunContext& context) {
+  if (built.cut || built.empty) return std::nullopt;
   struct Make {
-    const Shown& shown;
+    const BuiltComplex& built;
+    const NamedData& data;
     const Arguments& arguments;
     const RunContext& context;
     std::optional<MergeTree> operator()(const Rips& c) const {
-      return tree_of(c, shown, arguments, context);
+      return tree_of(c, built, data, arguments, context);
     }
     std::optional<MergeTree> operator()(const Cubical& c) const { return tree_of(c, context); }
     std::optional<MergeTree> operator()(const ExplicitComplex& c) const {
       return tree_of(c, context);
     }
   };
-  std::optional<MergeTree> tree = std::visit(Make{shown, arguments, context}, shown.built.complex);
+  return std::visit(Make{built, data, arguments, context}, built.complex);
+}
+
+std::optional<ShownTree> h0_tree(const Shown& shown, const Arguments& arguments,
+                                 const RunContext& context) {
+  std::optional<MergeTree> tree = whole_tree(shown.built, shown.data, arguments, context);
   if (!tree) return std::nullopt;
 
   const bool rips = std::holds_alternative<Rips>(shown.built.complex);

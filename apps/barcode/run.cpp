@@ -12,9 +12,11 @@
 #include "adjust.hpp"
 #include "build_complex.hpp"
 #include "exit_code.hpp"
+#include "h0_tree.hpp"
 #include "messages.hpp"
 #include "numbers.hpp"
 #include "ph/estimate.hpp"
+#include "ph/io/svg_plot.hpp"
 #include "report.hpp"
 #include "report/sha256.hpp"
 #include "ways_out.hpp"
@@ -69,7 +71,7 @@ struct Loaded {
   BuiltComplex built;
   std::string description;
   std::vector<Index> point_ids;
-  // For a report: what is shown, counted in the budget.
+  // For a report or a tree: what is shown, counted in the budget.
   std::optional<NamedData> data = {};
   std::unique_ptr<MemoryClaim> claim = {};
 };
@@ -91,7 +93,7 @@ Loaded load(const Job& job, const Arguments& arguments, app::Session& session, S
   auto claim = std::make_unique<MemoryClaim>(session.context().memory, size_of(read));
   std::string description = read.description;
   std::vector<Index> point_ids = read.point_ids;
-  const bool is_shown = !arguments.report.empty() && !arguments.dry_run;
+  const bool is_shown = (!arguments.report.empty() || arguments.draws_tree()) && !arguments.dry_run;
   BuiltComplex built =
       is_shown ? build_complex(read, name, dropped, arguments, session.context())
                : build_complex(std::move(data.read), name, dropped, arguments, session.context());
@@ -143,6 +145,21 @@ std::string estimate_text(const Estimate& estimate, const BuiltComplex& built,
   return text + fmt::format("memory   {} to {}\n", app::format_size(low), app::format_size(high));
 }
 
+/// Before bars are computed, which may take long: there may be no tree.
+/// @throws Error (usage) if there is none.
+std::string picture_of_tree(const Loaded& loaded, const Arguments& arguments,
+                            const RunContext& context) {
+  const auto tree = whole_tree(loaded.built, *loaded.data, arguments, context);
+  if (!tree)
+    throw Error(ErrorKind::usage,
+                fmt::format("--plot-kind tree: {} has no merge tree: expected no sample, no "
+                            "approximation, --construction vertices, no --threshold on a listed "
+                            "complex, and at most {} voxels",
+                            loaded.data->name, kMostTreeVoxels));
+  const MemoryClaim claim(context.memory, tree->births.size() * sizeof(Branch));
+  return svg_plot(tree->branches());
+}
+
 /// The files that a run writes. What cannot be created is said before anything is computed.
 struct Outputs {
   std::optional<app::Output> barcode, report;
@@ -150,19 +167,20 @@ struct Outputs {
 
   Outputs(const Job& job, const Arguments& arguments) {
     if (job.format != BarcodeFormat::none) barcode.emplace(job.output);
-    for (const Plot& plot : arguments.plots) plots.emplace_back(plot.path);
+    for (const app::Plot& plot : arguments.plots) plots.emplace_back(plot.path);
     if (!arguments.report.empty()) report.emplace(arguments.report);
   }
   void write(const Barcode& bars, const BarcodeInfo& info, const Job& job,
-             const Arguments& arguments) {
+             const Arguments& arguments, const std::string& tree) {
     if (barcode) {
       write_barcode(barcode->file(), bars, job.format, info);
       barcode->commit();
     }
     for (std::size_t i = 0; i < plots.size(); ++i) {
+      const auto kind = plot_kind_named(arguments.plots[i].kind);
       PlotOptions options;
-      options.kind = arguments.plots[i].kind;
-      plots[i].write(svg_plot(bars, options));
+      options.kind = kind.value_or(options.kind);
+      plots[i].write(kind ? svg_plot(bars, options) : tree);
       plots[i].commit();
     }
   }
@@ -173,13 +191,23 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   std::optional<Outputs> outputs;
   if (!arguments.dry_run) outputs.emplace(job, arguments);
 
-  const auto [built, description, point_ids, data, claim] = load(job, arguments, session, watch);
+  Loaded loaded = load(job, arguments, session, watch);
+  auto& [built, description, point_ids, data, claim] = loaded;
   const auto taken = static_cast<double>(session.memory_taken());
   if (arguments.dry_run) {
     const Estimate estimated = estimate(built.complex, arguments.options, session.context());
     const app::BarHold results_are_written(session);
     write_file("-", estimate_text(estimated, built, description, taken));
     return {app::kOk, description};
+  }
+  std::string tree;
+  if (arguments.draws_tree()) {
+    tree = picture_of_tree(loaded, arguments, session.context());
+    watch.lap("tree");
+  }
+  if (arguments.report.empty()) {
+    data.reset();
+    claim.reset();
   }
   const RunPlan planned = plan(built.complex, arguments.options, session.context());
   watch.lap("complex");
@@ -236,7 +264,7 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
     session.explain(fmt::format("{} {:.3f} s", stage, seconds));
   session.explain("memory " + app::format_size(static_cast<double>(session.memory_taken())));
   const app::BarHold results_are_written(session);
-  outputs->write(barcode, info, job, arguments);
+  outputs->write(barcode, info, job, arguments, tree);
   if (data) {
     const Shown shown{barcode, info, *data, built, std::move(warnings)};
     write_report(outputs->report->file(), shown, arguments, session);

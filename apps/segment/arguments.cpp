@@ -233,7 +233,20 @@ void add_cut_options(CLI::App& app, CutArguments& cut, const Known& known) {
       ->excludes(objects);
 }
 
-void add_output_options(CLI::App& app, Arguments& a) {
+constexpr std::array<std::string_view, 5> kPlotKinds = {"barcode", "diagram", "betti", "tree",
+                                                        "cloud"};
+
+ViewTurn parse_turn(std::string_view option, const std::string& text) {
+  const std::vector<double> v = app::parse_numbers(option, text, 2);
+  if (!(v[0] >= -360 && v[0] <= 360 && v[1] >= -90 && v[1] <= 90))
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: found {}, expected degrees to the right from -360 to 360 and up "
+                            "from -90 to 90",
+                            option, text));
+  return {v[0], v[1]};
+}
+
+void add_output_options(CLI::App& app, Arguments& a, app::PlotArguments& plots) {
   OutputPaths& files = a.files;
   const auto path = [&app](const std::string& names, const std::string& placeholder,
                            const std::string& what, std::string& target) {
@@ -256,8 +269,15 @@ void add_output_options(CLI::App& app, Arguments& a) {
        "is for other programs",
        files.tree);
   path("--barcode", "FILE", "barcode of H0: .csv, .json, .txt, .pers, .dipha, .npy", files.barcode);
-  path("--plot", "FILE.svg", "figure of the barcode; a triangle is infinite persistence",
-       files.plot);
+  app::add_plot_options(
+      app, kPlotKinds, "FILE.svg|.png",
+      "figure of the barcode, of the merge tree (.svg), or of the cloud with a colour a segment "
+      "(.png; repeatable)",
+      "Options", plots);
+  add_value(app, "--plot-view", "RIGHT,UP",
+            "where a plot of the cloud is seen from: by how much the eye goes around the segments "
+            "from the viewpoint, degrees (default: 0,0)",
+            [&a](const std::string& v) { a.plot_view = parse_turn("--plot-view", v); });
   path("--coloured,--colored", "FILE.pcd|.ply",
        "the points with a colour a segment, safe for the colour-blind, and the rest in grey",
        files.coloured);
@@ -275,10 +295,11 @@ void add_output_options(CLI::App& app, Arguments& a) {
 
 /// What makes the scene, for a command that cuts it elsewhere.
 std::vector<std::string> scene_options(const CLI::App& app) {
-  constexpr std::array<std::string_view, 17> other = {
-      "output",          "labels",      "json",         "signatures", "tree", "barcode", "plot",
-      "coloured",        "explain",     "picture",      "report",     "cut",  "objects", "parts",
-      "min-persistence", "frames-from", "stable-labels"};
+  constexpr std::array<std::string_view, 19> other = {
+      "output",      "labels",        "json",      "signatures", "tree",
+      "barcode",     "plot",          "coloured",  "explain",    "picture",
+      "report",      "cut",           "objects",   "parts",      "min-persistence",
+      "frames-from", "stable-labels", "plot-kind", "plot-view"};
   return app::given_options(app, other);
 }
 
@@ -344,7 +365,8 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
   add_scene_options(app, a.options);
   const Known known = add_method_options(app, a.options);
   add_cut_options(app, a.cut, known);
-  add_output_options(app, a);
+  app::PlotArguments plots;
+  add_output_options(app, a, plots);
   app::add_common_options(app, a.common);
   if (auto answer = app::parse_command_line(app, a.common, argc, argv,
                                             fmt::format(kBuiltIn, fmt::join(kMethodNames, " "))))
@@ -358,6 +380,7 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
     a.options.method = Method::supervoxels;
   }
   a.scene_option = scene_option(app);
+  a.files.plots = plots.together(kPlotKinds.front());
   if (!a.files.report.empty()) {
     report::require_built_in("--report");
     a.command = app::typed_command("ph-segment", argc, argv);

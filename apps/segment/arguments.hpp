@@ -7,9 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "cloud_picture.hpp"
 #include "command_line.hpp"
 #include "ph/io/cloud_io.hpp"
 #include "ph/segment.hpp"
+#include "plot_arguments.hpp"
 
 namespace ph::segment {
 
@@ -23,18 +25,21 @@ struct DepthInput {
 
 /// The files to write. An empty path: not asked for.
 struct OutputPaths {
-  std::string output;    ///< the cloud with its labels
-  std::string labels;    ///< one label a point
-  std::string json;      ///< the summary
-  std::string tree;      ///< the merge tree
-  std::string barcode;   ///< H0
-  std::string plot;      ///< the barcode as a figure
-  std::string coloured;  ///< the cloud with a colour a segment
-  std::string picture;   ///< the image with a colour a segment
-  std::string report;    ///< the page to look at
+  std::string output;            ///< the cloud with its labels
+  std::string labels;            ///< one label a point
+  std::string json;              ///< the summary
+  std::string tree;              ///< the merge tree
+  std::string barcode;           ///< H0
+  std::string coloured;          ///< the cloud with a colour a segment
+  std::string picture;           ///< the image with a colour a segment
+  std::string report;            ///< the page to look at
+  std::vector<app::Plot> plots;  ///< figures of what is in it
 
-  std::array<const std::string*, 9> all() const {
-    return {&output, &labels, &json, &tree, &barcode, &plot, &coloured, &picture, &report};
+  std::vector<const std::string*> all() const {
+    std::vector<const std::string*> paths{&output, &labels, &json, &tree, &barcode};
+    for (const app::Plot& plot : plots) paths.push_back(&plot.path);
+    paths.insert(paths.end(), {&coloured, &picture, &report});
+    return paths;
   }
   /// Those that a stream has for each of its frames, and that are asked for.
   std::vector<std::string> of_each_frame() const {
@@ -76,6 +81,7 @@ struct Arguments {
   CutArguments cut;
   std::string scene_option;  ///< an option that was given and that a stored tree cannot follow
   OutputPaths files;
+  ViewTurn plot_view;       ///< of a plot that shows the cloud
   bool signatures = false;  ///< the homology of each segment goes into the JSON
   std::optional<std::array<std::uint32_t, 2>> explain;  ///< two segments: where do they join?
   app::CommonOptions common;

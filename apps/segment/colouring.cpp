@@ -66,7 +66,8 @@ Rgb unpack(std::uint32_t c) {
           static_cast<int>(c & 255)};
 }
 
-/// Brightness 0…255 of each point (ITU-R BT.601); without colours by depth, near is bright.
+}  // namespace
+
 std::vector<int> brightness(const Cloud& cloud) {
   std::vector<int> result(static_cast<std::size_t>(cloud.size()), 128);
   if (const auto colours = cloud.rgb()) {
@@ -94,8 +95,6 @@ std::vector<int> brightness(const Cloud& cloud) {
   }
   return result;
 }
-
-}  // namespace
 
 std::vector<std::vector<std::size_t>> neighbouring_segments(const Cloud& cloud,
                                                             const SceneCut& cut) {

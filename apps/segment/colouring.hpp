@@ -24,6 +24,9 @@ std::vector<std::uint32_t> segment_colours(const std::vector<std::vector<std::si
 /// The same palette by the number of an object, from 1: it keeps its colour in a stream.
 std::vector<std::uint32_t> object_colours(std::span<const std::uint32_t> numbers);
 
+/// Brightness 0…255 of each point (ITU-R BT.601); without colours by depth, near is bright.
+std::vector<int> brightness(const Cloud& cloud);
+
 /// The points with x, y, z, `rgba` and `label`: segments in their colours, all else in grey, as
 /// bright as it was. Same points, order and organisation.
 Cloud coloured_cloud(const Cloud& cloud, std::span<const std::uint32_t> labels,

@@ -74,9 +74,10 @@ FrameSource::FrameSource(const Arguments& a)
   for (const auto& [option, path] :
        {std::pair("--output", &patterns_.output), std::pair("--labels", &patterns_.labels),
         std::pair("--tree", &patterns_.tree), std::pair("--barcode", &patterns_.barcode),
-        std::pair("--plot", &patterns_.plot), std::pair("--coloured", &patterns_.coloured),
-        std::pair("--picture", &patterns_.picture), std::pair("--report", &patterns_.report)})
+        std::pair("--coloured", &patterns_.coloured), std::pair("--picture", &patterns_.picture),
+        std::pair("--report", &patterns_.report)})
     prepare(option, *path);
+  for (const app::Plot& plot : patterns_.plots) prepare("--plot", plot.path);
   for (const std::string& input : a.inputs) {
     if (!app::is_folder(input)) {
       inputs_.push_back(input);
@@ -140,15 +141,18 @@ std::string FrameSource::name_of(const std::string& input) {
 
 OutputPaths FrameSource::files_of(const std::string& name) const {
   const OutputPaths& p = patterns_;
+  std::vector<app::Plot> plots = p.plots;
+  for (app::Plot& plot : plots)
+    plot.path = filled(plot.path, name, plot.kind == "cloud" ? ".png" : ".svg");
   return {.output = filled(p.output, name, ".pcd"),
           .labels = filled(p.labels, name, ".npy"),
           .json = {},  // one file for all
           .tree = filled(p.tree, name, ".tree"),
           .barcode = filled(p.barcode, name, ".csv"),
-          .plot = filled(p.plot, name, ".svg"),
           .coloured = filled(p.coloured, name, ".pcd"),
           .picture = filled(p.picture, name, ".png"),
-          .report = filled(p.report, name, ".html")};
+          .report = filled(p.report, name, ".html"),
+          .plots = std::move(plots)};
 }
 
 }  // namespace ph::segment

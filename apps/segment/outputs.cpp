@@ -104,7 +104,8 @@ Outputs::Outputs(const Arguments& a) : arguments_(a) {
   }
   require_extension("--labels", f.labels, {".npy", ".csv", ".png"});
   require_extension("--tree", f.tree, {".tree", ".json"});
-  require_extension("--plot", f.plot, {".svg"});
+  for (const app::Plot& plot : f.plots)
+    require_extension("--plot", plot.path, {plot.kind == "cloud" ? ".png" : ".svg"});
   require_extension("--picture", f.picture, {".png"});
   require_extension("--report", f.report, {".html", ".htm"});
   if (!f.barcode.empty() && f.barcode != "-" && !barcode_format_of_path(f.barcode)) {
@@ -115,14 +116,14 @@ Outputs::Outputs(const Arguments& a) : arguments_(a) {
   open(Kind::json, f.json);
   open(Kind::tree, f.tree);
   open(Kind::barcode, f.barcode);
-  open(Kind::plot, f.plot);
+  for (const app::Plot& plot : f.plots) open(Kind::plot, plot.path, plot.kind);
   open(Kind::coloured, f.coloured);
   open(Kind::picture, f.picture);
   open(Kind::report, f.report);
 }
 
-void Outputs::open(Kind kind, const std::string& path) {
-  if (!path.empty()) files_.push_back({kind, app::Output(path)});
+void Outputs::open(Kind kind, const std::string& path, std::string_view plot) {
+  if (!path.empty()) files_.push_back({kind, app::Output(path), plot});
 }
 
 void Outputs::require_suitable(const Cloud* cloud, Index height) const {
@@ -148,10 +149,29 @@ void Outputs::require_suitable(const Cloud* cloud, Index height) const {
   if (!f.picture.empty()) refuse("--picture", "use --coloured");
 }
 
-std::vector<std::uint32_t> Outputs::colours(const Cloud& cloud, const Segmentation& segmentation,
+std::vector<std::uint32_t> Outputs::colours(const Cloud* cloud, const Segmentation& segmentation,
                                             const RunInfo& info) const {
   if (!info.numbers.empty()) return object_colours(info.numbers);
-  return segment_colours(neighbouring_segments(cloud, segmentation));
+  if (!cloud) return label_colours(segmentation);
+  return segment_colours(neighbouring_segments(*cloud, segmentation));
+}
+
+std::string Outputs::plot(std::string_view kind, const Cloud* cloud, const Segmentation& s,
+                          const RunInfo& info, const RunContext& context) const {
+  if (kind == "cloud") {
+    return text_of([&](std::ostream& o) {
+      write_png(o, cloud_picture(cloud, s, s.labels, colours(cloud, s, info), arguments_.plot_view,
+                                 context));
+    });
+  }
+  PlotOptions options;
+  options.value_label = s.method == Method::surface ? "Concavity" : "Distance (m)";
+  if (kind == "tree") {
+    const MemoryClaim claim(context.memory, s.tree.births.size() * sizeof(Branch));
+    return svg_plot(s.tree.branches(), options);
+  }
+  options.kind = plot_kind_named(kind).value();
+  return svg_plot(s.barcode, options);
 }
 
 void Outputs::write_file(File& file, const Cloud* cloud, const Segmentation& s, const RunInfo& info,
@@ -173,15 +193,13 @@ void Outputs::write_file(File& file, const Cloud* cloud, const Segmentation& s, 
                            barcode_format_of_path(f.barcode).value_or(BarcodeFormat::csv),
                            barcode_info(s, info));
     case Kind::plot:
-      return out.write(svg_plot(
-          s.barcode, {.title = "",
-                      .value_label = s.method == Method::surface ? "Concavity" : "Distance (m)"}));
+      return out.write(plot(file.plot, cloud, s, info, context));
     case Kind::coloured:
-      return out.write(cloud_bytes(coloured_cloud(*cloud, s.labels, colours(*cloud, s, info)),
+      return out.write(cloud_bytes(coloured_cloud(*cloud, s.labels, colours(cloud, s, info)),
                                    cloud_format_of(f.coloured)));
     case Kind::picture:
       return out.write(text_of([&](std::ostream& o) {
-        write_png(o, ph::segment::picture(*cloud, s.labels, colours(*cloud, s, info)));
+        write_png(o, ph::segment::picture(*cloud, s.labels, colours(cloud, s, info)));
       }));
     case Kind::report:
       return write_report(out.file(), cloud, s, info, arguments_, context);

@@ -53,11 +53,14 @@ class Outputs {
   struct File {
     Kind kind;
     app::Output output;
+    std::string_view plot;  ///< a kind of plot
   };
-  void open(Kind kind, const std::string& path);
+  void open(Kind kind, const std::string& path, std::string_view plot = {});
   void write_file(File& file, const Cloud* cloud, const Segmentation& segmentation,
                   const RunInfo& info, const RunContext& context) const;
-  std::vector<std::uint32_t> colours(const Cloud& cloud, const Segmentation& segmentation,
+  std::string plot(std::string_view kind, const Cloud* cloud, const Segmentation& s,
+                   const RunInfo& info, const RunContext& context) const;
+  std::vector<std::uint32_t> colours(const Cloud* cloud, const Segmentation& segmentation,
                                      const RunInfo& info) const;
 
   const Arguments& arguments_;

@@ -2,6 +2,7 @@
 """What ph-barcode writes, by format, against results made by hand."""
 import json
 import math
+import os
 import random
 import shutil
 import struct
@@ -107,6 +108,21 @@ class Formats(ProgramTest):
         self.assertEqual(self.read("OUT.CSV"), SQUARE_CSV)
         self.expect(0, "square.txt", "-o", "out.csv", "--output-format", "pers")
         self.assertTrue(self.read("out.csv").startswith("0 0 1\n"))
+
+    def test_merge_tree(self):
+        self.expect(0, "square.txt", "--plot", "t.svg", "--plot", "b.svg", "--plot-kind", "tree",
+                    "--plot-kind", "barcode")
+        self.assertIn("Merge tree: 4 classes of", self.read("t.svg"))
+        self.assertIn("Barcode: 4 bars", self.read("b.svg"))
+        self.write("ring.pgm", "P2\n3 3\n9\n0 1 2 1 9 3 2 3 0\n")
+        self.expect(0, "ring.pgm", "--plot", "r.svg", "--plot-kind", "tree")
+        self.assertIn("Merge tree: 2 classes of", self.read("r.svg"))
+
+    def test_no_merge_tree(self):
+        run = self.expect(64, "square.txt", "--subsample", "3", "-o", "s.csv", "--plot", "t.svg", "--quiet",
+                          "--plot-kind", "tree")
+        self.assertIn("square.txt has no merge tree", run.stderr)
+        self.assertFalse(os.path.exists(self.path("t.svg")) or os.path.exists(self.path("s.csv")))
 
     def test_plots(self):
         self.expect(0, "square.txt", "--plot", "a.svg", "--plot", "b.svg", "--plot-kind", "diagram",

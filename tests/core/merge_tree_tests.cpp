@@ -97,6 +97,19 @@ void check_tree(const MergeTree& tree, const std::vector<double>& births,
       EXPECT_EQ(tree.merges[static_cast<std::size_t>(merge)].value, death);
     }
   }
+  // So are the branches, each of which joins one that is no younger and dies no sooner.
+  const std::vector<Branch> branches = tree.branches();
+  std::vector<std::pair<double, double>> ends, all;
+  for (const auto& c : classes) all.emplace_back(c.birth, c.death);
+  for (const Branch& branch : branches) {
+    ends.emplace_back(branch.birth, branch.death);
+    if (branch.is_infinite()) continue;
+    const Branch& elder = branches[static_cast<std::size_t>(branch.elder)];
+    EXPECT_LE(elder.birth, branch.birth);
+    EXPECT_GE(elder.death, branch.death);
+  }
+  std::sort(ends.begin(), ends.end());
+  EXPECT_EQ(ends, all);
 }
 
 template <class Complex>

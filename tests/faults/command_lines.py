@@ -78,6 +78,7 @@ BARCODE = [
     (49, ["--plot", "x.pdf"], "--plot"),
     (49, ["--plot", "x.svg", "--plot-kind", "betty"], "did you mean 'betti'"),
     (49, ["--plot-kind", "betti"], "--plot-kind"),
+    (49, ["--plot", "x.svg", "--plot", "x.svg"], "found 'x.svg' twice"),
     (49, ["--memory-limit", "4XB"], "--memory-limit"),
     (49, ["--memory-limit", "-4GiB"], "--memory-limit"),
     (49, ["--memory-limit", "0"], "--memory-limit"),

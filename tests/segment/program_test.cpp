@@ -48,6 +48,27 @@ TEST_F(Program, WritesEverything) {
   EXPECT_EQ(picture.channels, 3);
 }
 
+TEST_F(Program, DrawsEveryKindOfPlot) {
+  ASSERT_EQ(run("scene.pcd --plot b.svg --plot t.svg --plot c.png --plot d.svg --plot-kind barcode "
+                "--plot-kind tree --plot-kind cloud --plot-kind diagram --tree s.tree"),
+            0)
+      << err();
+  EXPECT_NE(contents(at("b.svg")).find("<title>Barcode"), std::string::npos);
+  EXPECT_NE(contents(at("t.svg")).find("<title>Merge tree"), std::string::npos);
+  EXPECT_NE(contents(at("d.svg")).find("<title>Persistence diagram"), std::string::npos);
+  EXPECT_EQ(read_png(at("c.png")).channels, 3);
+  ASSERT_EQ(run("s.tree --plot s.png --plot-kind cloud"), 0) << err();
+  ASSERT_EQ(run("s.tree --plot v.png --plot-kind cloud --plot-view=-30,20"), 0) << err();
+  EXPECT_NE(contents(at("s.png")), contents(at("v.png")));
+  fs::copy(at("scene.pcd"), at("again.pcd"));
+  ASSERT_EQ(run("scene.pcd again.pcd --plot plots/ --plot 'plots/*.png' --plot-kind tree "
+                "--plot-kind cloud"),
+            0)
+      << err();
+  EXPECT_EQ(contents(at("plots/again.svg")), contents(at("t.svg")));
+  EXPECT_EQ(contents(at("plots/again.png")), contents(at("c.png")));
+}
+
 TEST_F(Program, LabelsAreTheSameInEveryFormat) {
   ASSERT_EQ(run("scene.pcd --labels l.csv"), 0) << err();
   ASSERT_EQ(run("scene.pcd --labels l.png"), 0) << err();
@@ -157,6 +178,14 @@ TEST_F(Program, UsageErrors) {
                                 "scene.pcd -o out.txt",
                                 "scene.pcd --labels l.txt",
                                 "scene.pcd --plot p.gif",
+                                "scene.pcd --plot ''",
+                                "scene.pcd --plot p.png",
+                                "scene.pcd --plot p.svg --plot-kind cloud",
+                                "scene.pcd --plot p.svg --plot-kind clouds",
+                                "scene.pcd --plot-kind tree",
+                                "scene.pcd --plot-view 1",
+                                "scene.pcd --plot-view 0,91",
+                                "scene.pcd --plot-view nan,0",
                                 "scene.pcd --barcode b.xyz",
                                 "scene.pcd --depth d.png",
                                 "--depth d.png",
@@ -314,16 +343,15 @@ TEST_F(Program, InputErrors) {
 
 TEST_F(Program, HelpAndVersion) {
   EXPECT_EQ(run("--help"), 0);
-  for (const char* option : {"--method",          "--max-range",   "--crop",         "--plane",
-                             "--plane-distance",  "--plane-noise", "--voxel",        "--min-part",
-                             "--min-persistence", "--distance",    "--steps",        "--min-size",
-                             "--viewpoint",       "--no-check",    "--output",       "--labels",
-                             "--barcode",         "--plot",        "--json",         "--depth",
-                             "--color",           "--intrinsics",  "--depth-scale",  "--coloured",
-                             "--picture",         "--threads",     "--memory-limit", "--progress",
-                             "--quiet",           "--verbose",     "--version",      "--objects",
-                             "--parts",           "--cut",         "--tree",         "--explain",
-                             "--report"}) {
+  for (const char* option :
+       {"--method",      "--max-range", "--crop",      "--plane",           "--plane-distance",
+        "--plane-noise", "--voxel",     "--min-part",  "--min-persistence", "--distance",
+        "--steps",       "--min-size",  "--viewpoint", "--no-check",        "--output",
+        "--labels",      "--barcode",   "--plot",      "--plot-kind",       "--plot-view",
+        "--json",        "--depth",     "--color",     "--intrinsics",      "--depth-scale",
+        "--coloured",    "--picture",   "--threads",   "--memory-limit",    "--progress",
+        "--quiet",       "--verbose",   "--version",   "--objects",         "--parts",
+        "--cut",         "--tree",      "--explain",   "--report"}) {
     EXPECT_NE(out().find(option), std::string::npos) << option;
   }
   EXPECT_EQ(run("--version"), 0);

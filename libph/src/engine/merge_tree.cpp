@@ -114,6 +114,23 @@ std::vector<MergeTree::Class> MergeTree::classes() const {
   return classes;
 }
 
+std::vector<Branch> MergeTree::branches() const {
+  std::vector<Branch> branches;
+  std::vector<Index> place(births.size(), -1);
+  for (std::size_t v = 0; v < births.size(); ++v) {
+    if (births[v] == kInfinity) continue;
+    place[v] = static_cast<Index>(branches.size());
+    branches.push_back({births[v], kInfinity, -1});
+  }
+  const auto place_of = [&](Index vertex) { return place[static_cast<std::size_t>(vertex)]; };
+  for (const Merge& m : merges) {
+    Branch& younger = branches[static_cast<std::size_t>(place_of(m.younger))];
+    younger.death = m.value;
+    younger.elder = place_of(m.elder);
+  }
+  return branches;
+}
+
 std::vector<LinkageRow> linkage(const MergeTree& tree) {
   std::vector<Index> cluster(tree.births.size());  // by the vertex that gave birth to it
   std::iota(cluster.begin(), cluster.end(), Index{0});

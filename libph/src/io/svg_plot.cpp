@@ -24,4 +24,8 @@ std::string svg_plot(const Barcode& barcode, const PlotOptions& options) {
   return {};
 }
 
+std::string svg_plot(std::span<const Branch> tree, const PlotOptions& options) {
+  return svg::draw_tree(tree, options);
+}
+
 }  // namespace ph

@@ -86,7 +86,9 @@ void Axis::draw_below(Canvas& canvas, double top, double bottom, const std::stri
   for (const Tick& tick : shown) {
     canvas.line(tick.position, top, tick.position, bottom, kGrid, 0.5);
     canvas.line(tick.position, bottom, tick.position, bottom + 2.5, kInk, 0.6);
-    canvas.text(tick.position, bottom + 9.5, tick.label, Anchor::middle);
+    // The last one must not leave the picture.
+    const double half = 2.0 * static_cast<double>(tick.label.size()) + 1;
+    canvas.text(std::min(tick.position, kWidth - half), bottom + 9.5, tick.label, Anchor::middle);
   }
   canvas.line(std::min(from_, to_), bottom, std::max(from_, to_), bottom, kInk, 0.6);
   const std::string with_unit = unit().empty() ? name : name + " (" + unit() + ")";

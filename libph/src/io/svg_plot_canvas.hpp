@@ -91,5 +91,6 @@ std::string description_of(const Barcode& barcode);
 std::string draw_barcode(const Barcode& barcode, const PlotOptions& options);
 std::string draw_diagram(const Barcode& barcode, const PlotOptions& options);
 std::string draw_betti(const Barcode& barcode, const PlotOptions& options);
+std::string draw_tree(std::span<const Branch> tree, const PlotOptions& options);
 
 }  // namespace ph::svg

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "ph/core/branch.hpp"
 #include "ph/core/filtration.hpp"
 #include "ph/core/run_context.hpp"
 
@@ -59,6 +60,8 @@ struct MergeTree {
   };
   /// All classes, those of no length included, by (birth, death, vertex): the order of a barcode.
   std::vector<Class> classes() const;
+  /// The same classes as branches, by the vertex that gave birth to each.
+  std::vector<Branch> branches() const;
 };
 
 /// A row of a linkage matrix: two clusters become one. Clusters 0 … n-1 are the vertices, cluster

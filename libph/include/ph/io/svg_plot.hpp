@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include "ph/core/barcode.hpp"
+#include "ph/core/branch.hpp"
 
 namespace ph {
 
@@ -27,5 +29,10 @@ struct PlotOptions {
 /// Text stays text. However many bars there are, the file stays below 1 MB: what cannot be told
 /// apart is drawn once.
 std::string svg_plot(const Barcode& barcode, const PlotOptions& options = {});
+
+/// The same of a merge tree (MergeTree::branches): one line a class over the filtration value, and
+/// where it dies a line to the class that it joins. Those of little persistence are a density.
+/// `options.kind` has no say.
+std::string svg_plot(std::span<const Branch> tree, const PlotOptions& options = {});
 
 }  // namespace ph
