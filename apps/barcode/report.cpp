@@ -138,7 +138,9 @@ void write_report(OutputFile& file, const Shown& shown, const Arguments& argumen
                   app::Session& session) {
   const std::optional<ShownTree> tree = tree_if_it_fits(shown, arguments, session);
   const std::optional<CubicalImage> image = image_of(shown);
-  ReportFile report(file, metadata_of(shown, arguments, image, tree), session.context());
+  const report::Metadata meta = metadata_of(shown, arguments, image, tree);
+  ReportFile report(file, meta, session.context());
+  report::add_pictures(report, std::span(&shown.barcode, 1), meta);
   // Doubled coordinates mean something on an image that is there only.
   const bool cells = shown.barcode.cell_kind() != CellKind::grid || image.has_value();
   report::add_bars(report, shown.barcode, "bars", cells);
@@ -179,6 +181,7 @@ int run_comparison(const Arguments& arguments, app::Session& session) {
   meta.provenance.run.peak_memory = app::peak_memory();
   const app::BarHold results_are_written(session);
   ReportFile report(output.file(), meta, session.context());
+  report::add_pictures(report, barcodes, meta);
   report::add_bars(report, barcodes[0], "bars", false);
   report::add_bars(report, barcodes[1], "bars2", false);
   report.finish();

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "ph/core/error.hpp"
+#include "ph/io/svg_plot.hpp"
 
 namespace ph::report {
 namespace {
@@ -63,6 +64,21 @@ void add_bars(ReportFile& report, const Barcode& barcode, std::string_view prefi
   report.add(fmt::format("{}/birth", prefix), births);
   report.add(fmt::format("{}/death", prefix), deaths);
   if (cells) add_cells(report, barcode, prefix);
+}
+
+void add_pictures(ReportFile& report, std::span<const Barcode> barcodes, const Metadata& meta) {
+  PlotOptions options;
+  options.value_label = meta.value_unit.empty()
+                            ? meta.value_label
+                            : fmt::format("{} ({})", meta.value_label, meta.value_unit);
+  std::vector<std::string> pictures;
+  for (std::size_t i = 0; i < barcodes.size(); ++i) {
+    // It finds the longest bars.
+    const MemoryClaim places(report.context().memory, 2 * barcodes[i].size() * sizeof(std::size_t));
+    options.title = meta.barcodes[i].name;
+    pictures.push_back(svg_plot(barcodes[i], options));
+  }
+  report.add_pictures(pictures);
 }
 
 void add_chains(ReportFile& report, const Barcode& barcode) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <span>
 #include <string_view>
 
 #include "ph/core/barcode.hpp"
@@ -12,6 +13,9 @@ namespace ph::report {
 /// @throws Error (bad_data) on a bar of dimension 256 or higher; Error (resource, cancelled, io).
 void add_bars(ReportFile& report, const Barcode& barcode, std::string_view prefix = "bars",
               bool cells = true);
+
+/// Writes pictures for readers without scripts. @param barcodes as many as `meta` names.
+void add_pictures(ReportFile& report, std::span<const Barcode> barcodes, const Metadata& meta);
 
 /// Writes the representatives of a barcode that has them, as chains/….
 void add_chains(ReportFile& report, const Barcode& barcode);

@@ -15,6 +15,14 @@ ReportFile::ReportFile(OutputFile& file, const Metadata& metadata, const RunCont
   file_.write("</script>\n");
 }
 
+void ReportFile::add_pictures(std::span<const std::string> pictures) {
+  file_.write("<noscript>\n<p>Without JavaScript this page is a picture of its barcode.</p>\n");
+  // HTML has no XML declaration. Texts in an SVG are escaped: none ends the element.
+  for (const std::string& svg : pictures)
+    file_.write(std::string_view(svg).substr(svg.find("<svg")));
+  file_.write("</noscript>\n");
+}
+
 void ReportFile::finish() {
   const std::string_view page = page_template();
   file_.write(page.substr(page.find(kPayloadMarker) + kPayloadMarker.size()));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -26,6 +27,8 @@ class ReportFile {
   void add(std::string_view name, const std::vector<T>& numbers, const ArrayForm& form = {}) {
     add(name, std::span<const T>(numbers), form);
   }
+  /// Writes what is seen where scripts do not run. @param pictures SVG documents.
+  void add_pictures(std::span<const std::string> pictures);
   /// Writes the rest of the page.
   void finish();
 

@@ -239,6 +239,7 @@ void write_report(OutputFile& file, const Cloud* cloud, const Segmentation& s, c
       report::contracted(s.tree, rule, meta.tree->from, min_part, points_of_vertex, context);
   const Barcode bars = bars_of(s);
   ReportFile report(file, meta, context);
+  report::add_pictures(report, std::span(&bars, 1), meta);
   report::add_bars(report, bars);
   report::add_tree(report, s.tree, contracted,
                    report::linked_bars(s.tree, bars, birth_vertices(s.barcode)), rule);

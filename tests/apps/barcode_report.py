@@ -7,6 +7,7 @@ import math
 import os
 import random
 import unittest
+import xml.dom.minidom
 
 import report_reader
 from program import SQUARE_CSV, ProgramTest, main, npy
@@ -40,6 +41,15 @@ class Reports(ProgramTest):
         self.write("c.txt", circle(40, 0.2))
         run = self.expect(0, "c.txt", "--report", "r.html", "--max-dim", "2")
         self.assertEqual(Report(self.path("r.html")).bars(), self.bars_of_csv(run.stdout))
+
+    def test_without_scripts_there_is_a_picture(self):
+        self.write("<b>&.txt", circle(20))
+        text = self.report("<b>&.txt").text
+        self.assertEqual(text.count("<noscript>"), 1)
+        picture = text[text.index("<noscript>"):text.index("</noscript>")]
+        svg = xml.dom.minidom.parseString(picture[picture.index("<svg"):])
+        self.assertEqual(svg.getElementsByTagName("title")[0].firstChild.data, "<b>&.txt")
+        self.assertFalse(any(e.hasAttribute("style") for e in svg.getElementsByTagName("*")))
 
     def test_cells_and_representatives_are_those_of_the_json(self):
         self.write("c.txt", circle(30, 0.2))

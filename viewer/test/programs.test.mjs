@@ -94,6 +94,15 @@ test("reports of the programs", { timeout: 300_000 }, async (t) => {
       assert.match(await page.textContent("h1"), /^<script>alert\(1\)<img>\.csv and waves\.csv$/);
       assert.equal(await page.locator("h1 img, h1 script").count(), 0);
     });
+    const { page, problems, close } = await open(browser, written("two.html"), { scripts: false });
+    assert.equal(await page.locator("noscript svg").count(), 2);
+    assert.ok(await page.locator("noscript svg").last().isVisible());
+    assert.match(await page.textContent("noscript svg text[font-weight=bold]"), /^<script>alert/);
+    assert.equal(await page.locator("noscript img, noscript script").count(), 0);
+    assert.ok(!(await page.locator("#app").isVisible()));
+    await picture(page, "program_without_scripts");
+    assert.deepEqual(problems, []);
+    await close();
     writeFileSync(join(folder, "none.txt"), "");
     run(barcode, "none.txt", "--allow-empty", "-o", "none.csv", "--report", "none.html");
     await look(browser, "none.html", []);

@@ -34,7 +34,7 @@ let written = 0;
 export async function open(
   browser,
   report,
-  { width = 1280, height = 800, dark = false, hash = "", reducedMotion } = {},
+  { width = 1280, height = 800, dark = false, hash = "", reducedMotion, scripts = true } = {},
 ) {
   const path = join(folder, `${++written}.html`);
   const html =
@@ -44,6 +44,7 @@ export async function open(
     viewport: { width, height },
     colorScheme: dark ? "dark" : "light",
     reducedMotion,
+    javaScriptEnabled: scripts,
     acceptDownloads: true,
   });
   const page = await context.newPage();
@@ -71,6 +72,7 @@ export async function open(
   );
   const start = performance.now();
   await page.goto(url + hash);
+  if (!scripts) return { page, problems, close: () => context.close() };
   await page.waitForSelector("#app[data-first-frame], .failure", { timeout: 60000 });
   const firstFrame = Number(await page.getAttribute("#app", "data-first-frame"));
   return {
