@@ -152,6 +152,7 @@ export class DataView {
     const slider = el("input", { type: "range", min: 0, step: 1, "aria-label": "slice" });
     const number = el("output", {});
     const show = () => {
+      choice.querySelector("select")!.value = String(session.sliceAxis);
       slider.max = String(shape[session.sliceAxis]! - 1);
       slider.value = String(session.slice);
       number.textContent = String(session.slice);
@@ -165,7 +166,6 @@ export class DataView {
     const choice = select("slice", axes, String(session.sliceAxis), (value) => {
       session.set("sliceAxis", Number(value), "slice");
       session.set("slice", Math.floor(shape[Number(value)]! / 2), "slice");
-      show();
     });
     session.onChange((changes) => changes.has("slice") && show());
     this.panel.append(el("div", { class: "row" }, choice, slider, number));

@@ -83,6 +83,17 @@ test("pages", { skip: !canRun && "no Chromium", timeout: 500_000 }, async (t) =>
     await close();
   });
 
+  await t.test("an address names a slice", async () => {
+    const { page, problems, close } = await open(browser, image([8, 10, 12]), { hash: "#slice=2,5" });
+    const row = page.locator(".row", { has: page.getByLabel("slice", { exact: true }) }).first();
+    assert.equal(await row.locator("select").inputValue(), "2");
+    assert.equal(await row.locator("output").textContent(), "5");
+    await row.locator("select").selectOption("1");
+    await page.waitForFunction(() => location.hash.includes("slice=1,5"));
+    assert.deepEqual(problems, []);
+    await close();
+  });
+
   await t.test("what is no report says so", async () => {
     const { template } = await import("./support/browser.mjs");
     const { page, close } = await open(browser, template());
