@@ -105,7 +105,9 @@ class Camera {
     if (forward_.cross(up).norm() < 1e-6) up = forward_.unitOrthogonal();
     right_ = forward_.cross(up).normalized();
     constexpr double degree = std::numbers::pi / 180;
-    const Eigen::AngleAxisd around(turn.right * degree, up.normalized());
+    // What stands on a plane goes on standing upright.
+    const Vector3d upright = scene.plane ? vector(scene.plane->normal) : up;
+    const Eigen::AngleAxisd around(turn.right * degree, upright.normalized());
     right_ = around * right_;
     forward_ = Eigen::AngleAxisd(-turn.up * degree, right_) * (around * forward_);
     down_ = forward_.cross(right_);

@@ -11,7 +11,7 @@
 namespace ph::segment {
 
 /// Where to look from: the eye goes around the middle of the segments, from where the sensor stood,
-/// to the right and then up. Degrees.
+/// to the right (about the normal of the plane, where one was removed) and then up. Degrees.
 struct ViewTurn {
   double right = 0;
   double up = 0;
