@@ -51,6 +51,23 @@ class Reports(ProgramTest):
         self.assertEqual(svg.getElementsByTagName("title")[0].firstChild.data, "<b>&.txt")
         self.assertFalse(any(e.hasAttribute("style") for e in svg.getElementsByTagName("*")))
 
+    def test_a_report_is_complete_or_absent(self):
+        run = self.expect(73, "square.txt", "--report", "missing/r.html", "--quiet")
+        self.assertIn("missing/r.html", run.stderr)
+        self.write("bad.txt", "0 0\n1\n")
+        self.write("r.html", "of yesterday")
+        self.expect(65, "bad.txt", "--report", "r.html")
+        self.assertEqual(self.read("r.html"), "of yesterday")
+        self.expect(0, "square.txt", "--report", "r.html")
+        self.assertTrue(self.read("r.html").endswith("</html>\n"))
+
+    @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full")
+    def test_a_full_disk(self):
+        with open("/dev/full", "w") as full:
+            run = self.expect(74, "square.txt", "--output-format", "none", "--report", "-",
+                              stdout=full)
+        self.assertIn("No space", run.stderr)
+
     def test_cells_and_representatives_are_those_of_the_json(self):
         self.write("c.txt", circle(30, 0.2))
         for field in ("2", "3"):
