@@ -14,6 +14,7 @@
 #include <new>
 #include <sstream>
 
+#include "ph/engine/merge_tree.hpp"
 #include "ph/io/barcode_io.hpp"
 #include "ph/io/cloud_io.hpp"
 #include "ph/io/formats.hpp"
@@ -267,6 +268,8 @@ TEST_F(Allocation, Plots) {
     options.kind = kind;
     check([&] { write_file(out("plot.svg"), svg_plot(bars, options)); });
   }
+  const MergeTree tree = merge_tree(Rips(read_points(in("square.csv"))));
+  check([&] { write_file(out("plot.svg"), svg_plot(tree.branches())); });
 }
 
 /// A table with a box on it, 12 x 12 points.

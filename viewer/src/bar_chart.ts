@@ -56,13 +56,17 @@ export abstract class BarChart extends Chart {
     const counts = bars.dims.map(
       (dim) => `${counted(bars.count(dim, 0), "bar")} in dimension ${dim}`,
     );
-    return `${counts.join(", ") || "no bars"}. Arrow keys go from bar to bar, the most persistent first; Enter selects.`;
+    return `${counts.join(", ") || "no bars"}. Arrow keys go from bar to bar, the most persistent first; Enter selects, with Shift arrow keys select what they pass.`;
   }
-  protected step(by: number): void {
+  protected step(by: number, extend: boolean): void {
     const shown = this.shownBars(this.session.report.bars.size);
+    const from = Math.max(0, this.current);
     this.current = Math.min(shown.length - 1, Math.max(0, this.current + by));
     const bar = shown[this.current];
-    if (bar !== undefined) this.session.setFocus({ bar });
+    if (bar === undefined) return;
+    const [first, last] = [Math.min(from, this.current), Math.max(from, this.current)];
+    if (extend) this.session.select(shown.subarray(first, last + 1), "add");
+    this.session.setFocus({ bar });
   }
   protected choose(how: "replace" | "toggle"): void {
     if (this.session.focus.bar >= 0) this.session.select([this.session.focus.bar], how);

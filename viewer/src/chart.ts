@@ -46,8 +46,8 @@ export abstract class Chart {
   protected abstract redrawsOn: Change[];
   protected abstract makeTable(): HTMLTableElement;
   protected abstract describe(): string;
-  /// Moves the focus by one item.
-  protected abstract step(by: number): void;
+  /// Moves the focus by some items; `extend`: selects what it passes, too.
+  protected abstract step(by: number, extend: boolean): void;
   protected abstract choose(how: "replace" | "toggle"): void;
 
   /// Selected and focused items too: for pictures.
@@ -110,7 +110,7 @@ export abstract class Chart {
       PageUp: -10,
     };
     const by = steps[event.key];
-    if (by !== undefined) this.step(by);
+    if (by !== undefined) this.step(by, event.shiftKey);
     else if (event.key === "Enter" || event.key === " ")
       this.choose(event.shiftKey ? "toggle" : "replace");
     else return;

@@ -94,6 +94,7 @@ export function helpDialog(): HTMLDialogElement {
     ["hover, or arrow keys", "bring out a bar, a branch, a segment or a point in every view"],
     ["click, or Enter", "select it; with Shift, add it or take it away"],
     ["drag in the diagram", "select all bars inside the lasso"],
+    ["Shift + arrow keys there", "select bar after bar, the most persistent first"],
     ["drag, wheel", "turn and zoom the cloud; with the right button, move it"],
     ["arrows, + − 0", "the same where the cloud has the focus; 0 shows everything"],
     ["Tab", "go from control to control; charts can be turned into tables"],

@@ -74,6 +74,14 @@ test("linked views of points", { skip, timeout: 120_000 }, async (t) => {
     await page.keyboard.press("Escape");
     await frame(page);
     assert.equal(await selection(page), "nothing selected");
+    for (let i = 0; i < 2; ++i) await page.keyboard.press("Shift+ArrowRight");
+    await frame(page);
+    assert.match(await selection(page), /^3 bars selected/);
+    await page.keyboard.press("Shift+PageUp");
+    await frame(page);
+    assert.match(await selection(page), /^5 bars selected/);
+    await page.keyboard.press("Escape");
+    await frame(page);
   });
 
   await t.test(
