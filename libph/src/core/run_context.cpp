@@ -109,7 +109,7 @@ void Ticker::poll() {
     interval_ = std::min(kMostSteps, 2 * interval_);
   else if (since > milliseconds(5))
     interval_ = std::max<std::uint64_t>(1, interval_ / 4);
-  context_.report(progress_);
+  if (!progress_.stage.empty()) context_.report(progress_);
 }
 
 }  // namespace ph

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
-#include <memory_resource>
-#include <vector>
 
+#include "ph/core/parallel.hpp"
+#include "ph/core/raw_vector.hpp"
 #include "ph/core/run_context.hpp"
 
 namespace ph::cubical {
@@ -17,7 +18,12 @@ template <class Graph>
 class ArrowForest {
  public:
   ArrowForest(const Graph& graph, const RunContext& context)
-      : graph_(graph), context_(context), next_(graph.size(), kUnknown, &context.memory) {}
+      : graph_(graph), context_(context), next_(graph.size(), &context.memory) {
+    constexpr std::size_t piece = 1 << 18;
+    for_each_piece("basins", next_.size(), piece, context, [&](std::size_t i, std::size_t end) {
+      std::fill_n(next_.begin() + static_cast<std::ptrdiff_t>(i), end - i, kUnknown);
+    });
+  }
 
   /// Whether the node is a root, or its arrow has been looked up or replaced.
   bool is_known(std::uint32_t node) const { return next_[node] != kUnknown; }
@@ -55,7 +61,7 @@ class ArrowForest {
 
   const Graph& graph_;
   const RunContext& context_;
-  std::pmr::vector<std::uint32_t> next_;  // a node, or the number of a root
+  RawVector<std::uint32_t> next_;  // a node, or the number of a root
 };
 
 }  // namespace ph::cubical

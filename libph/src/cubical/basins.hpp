@@ -7,6 +7,7 @@
 
 #include "arrow_forest.hpp"
 #include "critical_cells.hpp"
+#include "ph/core/parallel.hpp"
 
 namespace ph::cubical {
 
@@ -21,14 +22,12 @@ class Basins {
         context_(context),
         forest_(graph, context),
         roots_(&context.memory) {
-    constexpr std::uint32_t many = 16;  // of so many voxels one has a critical cell
-    Ticker ticker(context, "basins");
-    // Where most arrows will be met, one after another is quicker.
-    if (grid.critical().size() > grid.size() / many)
-      graph.for_each_inner_arrow(
-          [&](std::uint32_t node, std::uint32_t to) { forest_.link(node, to); }, ticker);
+    // Where many arrows will be met, all of them one after another are quicker.
+    constexpr std::uint32_t many = 256;  // of so many voxels one has a critical cell
+    if (grid.critical().size() > grid.size() / many) follow_inner_arrows();
     for (const int part : {0, 1}) forest_.set_root(graph.outside(part), endless_++);
     if (graph.has_endless()) join_endless();
+    Ticker ticker(context, "roots");
     for (const std::uint32_t v : grid.critical()) {
       ticker.work();
       graph.for_each_root(v, [&](std::uint32_t node, std::uint32_t number) {
@@ -46,6 +45,16 @@ class Basins {
   std::uint32_t basin_of(std::uint32_t node) { return forest_.number_of_root(forest_.find(node)); }
 
  private:
+  void follow_inner_arrows() {
+    // Rows that share cells with those before them are looked at twice where a piece begins.
+    const std::uint32_t piece = 16 * (grid_.has_axis(0) ? grid_.extent(1) : 1);
+    for_each_piece("arrows", grid_.row_count(), piece, context_,
+                   [&](std::size_t begin, std::size_t end) {
+                     graph_.for_each_inner_arrow(
+                         static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end),
+                         [&](std::uint32_t node, std::uint32_t to) { forest_.link(node, to); });
+                   });
+  }
   // Besides the outside; joined as far as it hangs together.
   void join_endless() {
     Ticker ticker(context_, "holes", grid_.size());

@@ -8,9 +8,9 @@ namespace ph::cubical {
 CriticalCells critical_cells(const StarGrid& grid, int dim, const RunContext& context) {
   CriticalCells critical(&context.memory);
   critical.cells.reserve(grid.critical().size());  // one each, about
-  Ticker ticker(context, "critical cells", grid.critical().size());
+  Ticker ticker(context, {});
   for (const std::uint32_t v : grid.critical()) {
-    ticker.tick();
+    ticker.work();
     const StarTables& tables = grid.tables(v);
     const auto add = [&](int number) {
       critical.cells.push_back({v, static_cast<std::uint32_t>(number)});
@@ -27,6 +27,16 @@ CriticalCells critical_cells(const StarGrid& grid, int dim, const RunContext& co
   radix_sort_by_value(
       critical.order, [](const CriticalCells::Place& place) { return place.value; }, context);
   return critical;
+}
+
+void mark_paired(StarGrid& grid, const CriticalCells& edges) {
+  std::pmr::vector<bool> is_left(edges.cells.size(), false, edges.cells.get_allocator());
+  for (const CriticalCells::Place& place : edges.order) is_left[place.cell] = true;
+  for (std::size_t i = 0; i < is_left.size(); ++i) {
+    if (is_left[i]) continue;
+    const auto [v, number] = edges.cells[i];
+    grid.mark(v, grid.tables(v).taken_mark(static_cast<int>(number)));
+  }
 }
 
 }  // namespace ph::cubical

@@ -28,5 +28,7 @@ struct CriticalCells {
 
 /// @param dim 1 or 2.
 CriticalCells critical_cells(const StarGrid& grid, int dim, const RunContext& context);
+/// Marks in the stars of three axes the edges that are no longer in the order.
+void mark_paired(StarGrid& grid, const CriticalCells& edges);
 
 }  // namespace ph::cubical

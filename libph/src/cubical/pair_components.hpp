@@ -102,7 +102,7 @@ class ComponentPairing {
     const auto is_in = [size](std::size_t i, std::size_t late) {
       return i >= late && i - late < size;
     };
-    Ticker ticker(context_, "components", size);
+    Ticker ticker(context_, {});
     std::size_t kept = 0;
     for (std::size_t i = 0; i < size + 3 * stride; ++i) {
       if (is_in(i, 0)) __builtin_prefetch(&ends_[order[place(i)].cell]);
@@ -115,7 +115,7 @@ class ComponentPairing {
         for (std::uint32_t& end : ring[(i - 2 * stride) % ring_size])
           forest.prefetch(end = forest.parent(end));
       if (!is_in(i, 3 * stride)) continue;
-      ticker.tick();
+      ticker.work();
       const Place bridge = order[place(i - 3 * stride)];
       const auto [from, to] = ring[(i - 3 * stride) % ring_size];
       const std::uint32_t a = forest.find(from), b = forest.find(to);

@@ -92,15 +92,10 @@ class StarGrid {
     std::uint32_t z, y, first;
     bool is_at_border;  ///< at an end of one of the other axes
   };
-  /// Calls `use(row)`; counts the voxels as work.
-  template <class Use>
-  void for_each_row(Ticker& ticker, Use&& use) const {
-    std::uint32_t first = 0;
-    for (std::uint32_t z = 0; z < extent(0); ++z)
-      for (std::uint32_t y = 0; y < extent(1); ++y, first += extent(2)) {
-        ticker.work(extent(2));
-        use(Row{z, y, first, is_at_end(0, z) || is_at_end(1, y)});
-      }
+  std::uint32_t row_count() const { return size_ / extent(2); }
+  Row row(std::uint32_t number) const {
+    const std::uint32_t z = number / extent(1), y = number % extent(1);
+    return {z, y, number * extent(2), is_at_end(0, z) || is_at_end(1, y)};
   }
   static constexpr std::uint32_t kOutside = UINT32_MAX;
   /// The voxel one step away, or kOutside.
@@ -169,13 +164,12 @@ class StarGrid {
   RawVector<std::uint32_t> stars_;
   std::pmr::vector<CubePairMemo> cube_pairs_;  // of three axes, as `wrapped`
   std::pmr::vector<std::uint32_t> critical_;
-  mutable std::array<std::vector<Index>, 2> numbers_;  // for one thread at a time
 };
 
 template <class Use>
 void StarGrid::for_each_copy(const StarCell& a, const StarCell* b, bool wants_numbers,
                              Use&& use) const {
-  std::vector<Index>&first = numbers_[0], &second = numbers_[1];
+  std::vector<Index> first, second;
   for (unsigned loops = 0; loops < 1U << loops_.size(); ++loops) {
     first.clear();
     second.clear();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -30,9 +31,10 @@ class TopGraph {
   /// Out of a cell by the facet that it is paired with. Precondition: the cell enters and is not
   /// critical.
   std::uint32_t arrow(std::uint32_t node) const;
-  /// Calls `use(node, node)` for all arrows but some near the border.
+  /// Calls `use(node, node)` for the arrows from the top cells that lie before some rows of voxels,
+  /// but for some at the border.
   template <class Use>
-  void for_each_inner_arrow(Use&& use, Ticker& ticker) const;
+  void for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_row, Use&& use) const;
   /// Whether anything but the outside has always been there.
   bool has_endless() const { return !grid_.relative() && !grid_.all_enter(); }
   /// Calls `use(node)` for what hangs together because a voxel never enters: all top cells around
@@ -79,7 +81,8 @@ class TopGraph {
 // u[a] = bit a of u voxels from its first one. So the corners of a cell together say one bit or
 // none, and nothing is decided by a branch that cannot be foretold.
 template <class Use>
-void TopGraph::for_each_inner_arrow(Use&& use, Ticker& ticker) const {
+void TopGraph::for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_row,
+                                    Use&& use) const {
   std::array<std::uint32_t, 24> offset{};  // by bit
   for (std::uint32_t bit = 0; bit < offset.size(); ++bit) {
     const std::uint32_t u = bit / 3, a = bit % 3;
@@ -103,13 +106,15 @@ void TopGraph::for_each_inner_arrow(Use&& use, Ticker& ticker) const {
   const std::uint32_t width = grid_.extent(2), height = grid_.extent(1);
   const std::uint32_t layers = has_cubes() ? 2 : 1, kept = (layers - 1) * height + 2;
   std::vector<std::uint32_t> words(std::size_t{kept} * width);
-  grid_.for_each_row(ticker, [&](const StarGrid::Row& row) {
-    const std::uint32_t number = row.first / width;
-    const auto words_of = [&](std::uint32_t r) { return &words[std::size_t{r % kept} * width]; };
+  const auto words_of = [&](std::uint32_t r) { return &words[std::size_t{r % kept} * width]; };
+  for (std::uint32_t number = first_row - std::min(first_row, kept - 1); number < end_row;
+       ++number) {
+    const StarGrid::Row row = grid_.row(number);
     std::uint32_t* const own = words_of(number);
     for (std::uint32_t x = 0; x < width; ++x) own[x] = word_of(row.first + x);
+    if (number < first_row) continue;
     const std::uint32_t z = row.z - (layers - 1), y = row.y - 1;  // of the cells
-    if (!is_inner(1, y) || (has_cubes() && !is_inner(0, z))) return;
+    if (!is_inner(1, y) || (has_cubes() && !is_inner(0, z))) continue;
     std::array<const std::uint32_t*, 4> voxels{};  // by bits 0 and 1 of u
     for (std::uint32_t zy = 0; zy < 4; ++zy)
       if ((zy & 1U) < layers)
@@ -123,7 +128,7 @@ void TopGraph::for_each_inner_arrow(Use&& use, Ticker& ticker) const {
       if (layers == 2) said |= said_by(x, 1) | said_by(x, 3);
       if (said != 0) use(node, node + offset[static_cast<std::size_t>(std::countr_zero(said))]);
     }
-  });
+  }
 }
 
 template <class ExitOf>

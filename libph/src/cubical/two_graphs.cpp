@@ -2,46 +2,82 @@
 #include "two_graphs.hpp"
 
 #include "pair_components.hpp"
+#include "ph/core/parallel.hpp"
 #include "top_graph.hpp"
 #include "voxel_graph.hpp"
 
 namespace ph::cubical {
+namespace {
 
-void pair_vertices_with_edges(StarGrid& grid, CriticalCells& edges, const RunContext& context,
+using Place = CriticalCells::Place;
+
+class VertexPairing {
+ public:
+  VertexPairing(const StarGrid& grid, CriticalCells& edges, bool wants_cells,
+                const RunContext& context)
+      : graph_(grid), pairing_(grid, graph_, edges, wants_cells, context) {}
+
+  void run(PairSink& sink) {
+    sink.expect(pairing_.most_pairs());
+    pairing_.run(
+        [&](const Place& edge, const Place* dies) {
+          if (dies == nullptr)
+            sink.essential(1, pairing_.bridge_cell(edge));
+          else
+            sink.pair(0, pairing_.root_cell(*dies), pairing_.bridge_cell(edge));
+        },
+        [&](const Place& root) { sink.essential(0, pairing_.root_cell(root)); });
+  }
+
+ private:
+  VoxelGraph graph_;
+  ComponentPairing<VoxelGraph> pairing_;
+};
+
+class TopCellPairing {
+ public:
+  TopCellPairing(const StarGrid& grid, CriticalCells& facets, bool wants_cells,
+                 const RunContext& context)
+      : top_(grid.top_dim()), graph_(grid), pairing_(grid, graph_, facets, wants_cells, context) {}
+
+  void run(PairSink& sink) {
+    sink.expect(pairing_.most_pairs());
+    pairing_.run(
+        [&](const Place& facet, const Place* dies) {
+          if (dies == nullptr)
+            sink.essential(top_ - 1, pairing_.bridge_cell(facet));
+          else
+            sink.pair(top_ - 1, pairing_.bridge_cell(facet), pairing_.root_cell(*dies));
+        },
+        [&](const Place& root) { sink.essential(top_, pairing_.root_cell(root)); });
+  }
+
+ private:
+  int top_;
+  TopGraph graph_;
+  ComponentPairing<TopGraph> pairing_;
+};
+
+}  // namespace
+
+void pair_vertices_with_edges(const StarGrid& grid, CriticalCells& edges, const RunContext& context,
                               PairSink& sink) {
-  using Place = CriticalCells::Place;
-  const VoxelGraph graph(grid);
-  ComponentPairing pairing(grid, graph, edges, sink.wants_cells(), context);
-  sink.expect(pairing.most_pairs());
-  pairing.run(
-      [&](const Place& edge, const Place* dies) {
-        if (grid.top_dim() == 3) {
-          const auto [v, number] = edges.cells[edge.cell];
-          grid.mark(v, grid.tables(v).taken_mark(static_cast<int>(number)));
-        }
-        if (dies == nullptr)
-          sink.essential(1, pairing.bridge_cell(edge));
-        else
-          sink.pair(0, pairing.root_cell(*dies), pairing.bridge_cell(edge));
-      },
-      [&](const Place& root) { sink.essential(0, pairing.root_cell(root)); });
+  VertexPairing(grid, edges, sink.wants_cells(), context).run(sink);
 }
 
 void pair_facets_with_top_cells(const StarGrid& grid, CriticalCells& facets,
                                 const RunContext& context, PairSink& sink) {
-  using Place = CriticalCells::Place;
-  const int top = grid.top_dim();
-  const TopGraph graph(grid);
-  ComponentPairing pairing(grid, graph, facets, sink.wants_cells(), context);
-  sink.expect(pairing.most_pairs());
-  pairing.run(
-      [&](const Place& facet, const Place* dies) {
-        if (dies == nullptr)
-          sink.essential(top - 1, pairing.bridge_cell(facet));
-        else
-          sink.pair(top - 1, pairing.bridge_cell(facet), pairing.root_cell(*dies));
-      },
-      [&](const Place& root) { sink.essential(top, pairing.root_cell(root)); });
+  TopCellPairing(grid, facets, sink.wants_cells(), context).run(sink);
+}
+
+void pair_in_both_graphs(const StarGrid& grid, CriticalCells& edges, CriticalCells& squares,
+                         const RunContext& context, PairSink& sink, PairSink& top_sink) {
+  // Their basins one after the other: each takes all threads, and four bytes a voxel for a while.
+  VertexPairing vertices(grid, edges, sink.wants_cells(), context);
+  TopCellPairing top_cells(grid, squares, sink.wants_cells(), context);
+  for_each_piece("components", 2, 1, context, [&](std::size_t i, std::size_t end) {
+    for (; i < end; ++i) i == 0 ? vertices.run(sink) : top_cells.run(top_sink);
+  });
 }
 
 }  // namespace ph::cubical

@@ -7,9 +7,8 @@
 namespace ph::cubical {
 
 /// Components of the sublevel sets: voxels joined by edges, in the order of the stars. Takes the
-/// edges that kill from the order of `edges`, all critical ones; of three axes it marks them in the
-/// grid.
-void pair_vertices_with_edges(StarGrid& grid, CriticalCells& edges, const RunContext& context,
+/// edges that kill from the order of `edges`, all critical ones.
+void pair_vertices_with_edges(const StarGrid& grid, CriticalCells& edges, const RunContext& context,
                               PairSink& sink);
 
 /// The same on the dual, backwards: cells of the highest dimension joined by their facets, the
@@ -18,5 +17,9 @@ void pair_vertices_with_edges(StarGrid& grid, CriticalCells& edges, const RunCon
 /// grid.top_dim() >= 2.
 void pair_facets_with_top_cells(const StarGrid& grid, CriticalCells& facets,
                                 const RunContext& context, PairSink& sink);
+
+/// Both, of three axes, side by side if there are threads. @param top_sink receives the second.
+void pair_in_both_graphs(const StarGrid& grid, CriticalCells& edges, CriticalCells& squares,
+                         const RunContext& context, PairSink& sink, PairSink& top_sink);
 
 }  // namespace ph::cubical

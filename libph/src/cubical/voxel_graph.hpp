@@ -24,22 +24,24 @@ class VoxelGraph {
   std::uint32_t arrow(std::uint32_t v) const {
     return across(v, grid_.tables(v).arrow(grid_.star(v)));
   }
-  /// Calls `use(node, node)` for all arrows but those at the border; a root may point to itself.
+  /// Calls `use(node, node)` for the arrows from some rows of voxels but those at the border; a
+  /// root may point to itself.
   template <class Use>
-  void for_each_inner_arrow(Use&& use, Ticker& ticker) const {
+  void for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_row, Use&& use) const {
     // By the edges of a star: how far its arrow leads inside the grid.
     std::array<std::uint32_t, 1 << kEdgeCount> offset{};
     for (std::uint32_t edges = 1; edges < offset.size(); ++edges) {
       const int e = star_tables(0).arrow(edges), axis = axis_of_edge(e);
       offset[edges] = kEdges[e][axis] > 0 ? grid_.stride(axis) : 0 - grid_.stride(axis);
     }
-    grid_.for_each_row(ticker, [&](const StarGrid::Row& row) {
-      if (row.is_at_border) return;
+    for (std::uint32_t number = first_row; number < end_row; ++number) {
+      const StarGrid::Row row = grid_.row(number);
+      if (row.is_at_border) continue;
       const std::uint32_t end = row.first + grid_.extent(2) - 1;
       for (std::uint32_t v = row.first + 1; v < end; ++v)
         if (const std::uint32_t star = grid_.star(v); star != kAbsent)
           use(v, v + offset[StarTables::edges(star)]);
-    });
+    }
   }
   /// Whether anything but the outside has always been there.
   bool has_endless() const { return grid_.relative() && !grid_.all_enter(); }

@@ -84,21 +84,25 @@ template <class T>
 std::vector<T> load_as(const Input& input, const ArrayLayout& layout,
                        const std::vector<Index>& extents, std::size_t count) {
   input.require_memory(count * sizeof(T));
-  std::vector<T> values(count);
+  std::vector<T> values;
   const std::byte* bytes = input.bytes().data() + layout.offset;
   const bool in_order = !layout.first_axis_fastest || extents.size() < 2;
   const bool as_it_is =
       layout.type.is_native && (layout.order == std::endian::native || sizeof(T) == 1);
   if (in_order && as_it_is) {
-    for (std::size_t k = 0; k < count; k += kPollMask + 1) {
+    constexpr std::size_t block = 1 << 14;  // stays in the cache between the steps
+    values.reserve(count);
+    for (std::size_t k = 0; k < count; k += block) {
       input.poll();
-      std::memcpy(values.data() + k, bytes + k * sizeof(T),
-                  std::min(count - k, kPollMask + 1) * sizeof(T));
+      const std::size_t size = std::min(count - k, block);
+      values.resize(k + size);
+      std::memcpy(values.data() + k, bytes + k * sizeof(T), size * sizeof(T));
+      if constexpr (std::is_floating_point_v<T>)
+        for (std::size_t i = k; i < k + size; ++i) values[i] += 0;  // -0.0 becomes +0.0
     }
-    if constexpr (std::is_floating_point_v<T>)
-      for (T& value : values) value += 0;  // -0.0 becomes +0.0
     return values;
   }
+  values.resize(count);
   const auto element_at = [&](std::size_t k) {
     if ((k & kPollMask) == 0) input.poll();
     const std::size_t at = k * layout.type.size;

@@ -92,7 +92,7 @@ struct RunContext {
 /// No limits, no progress, no stop: what functions use that were given no context.
 const RunContext& default_context();
 
-/// Counts steps of one stage, polls and reports now and then. Cheap enough for inner loops.
+/// Counts steps of a stage, polls and reports now and then; one without a name suits any thread.
 class Ticker {
  public:
   Ticker(const RunContext& context, std::string_view stage, std::uint64_t total = 0);
