@@ -134,6 +134,8 @@ def parse():
                         help="build folder, with ph-barcode and bench_run")
     parser.add_argument("--peer", type=peer, action="append", default=[], help="NAME = COMMAND, repeatable")
     parser.add_argument("--made", type=pathlib.Path, help="folder for generated inputs (default: a temporary one)")
+    parser.add_argument("--scans", type=pathlib.Path, default=pathlib.Path(),
+                        help="folder of the scans that --rows names: skull_2.9.inr, ch2.nii.gz")
     parser.add_argument("--rows", type=lambda text: text.split(","), help="names, comma-separated (default: the usual)")
     parser.add_argument("--construction", choices=CONSTRUCTIONS, action="append", help="repeatable (default: both)")
     parser.add_argument("--threads", type=lambda text: [int(n) for n in text.split(",")], default=[1],
@@ -168,7 +170,7 @@ def main():
         made.mkdir(parents=True, exist_ok=True)
         comparison = Comparison(arguments)
         for row in rows:
-            path = image_rows.input_file(row, made)
+            path = image_rows.input_file(row, made, arguments.scans)
             for construction in arguments.construction or CONSTRUCTIONS:
                 result = comparison.row(row, construction, path)
                 known[result["name"]] = merged(known.get(result["name"], {}), result)

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""The inputs of compare_images.py: seeded pictures and volumes. Needs numpy."""
+"""The inputs of compare_images.py: seeded pictures and volumes, and scans. Needs numpy."""
+import gzip
 import math
+import re
+import struct
 from dataclasses import dataclass
 
 import numpy
@@ -40,11 +43,44 @@ ROWS = [Row(f"{size} {kind}", shape, kind, math.prod(shape) <= 2048**2 or (size,
         for size, shape in SIZES.items() for kind in KINDS]
 
 
-def input_file(row, made):
-    """The path of a row's input, written now if it is not there."""
+
+def inrimage(content):
+    """A volume of float32 in Inrimage-4, as CGAL's examples have: a text header of 256 bytes, x fastest."""
+    header = dict(re.findall(r"^(\w+)=(\S+)", content[:256].decode("ascii"), re.MULTILINE))
+    if (header["TYPE"], header["VDIM"]) != ("float", "1"):
+        raise ValueError(f"Inrimage: found TYPE={header['TYPE']}, VDIM={header['VDIM']}, expected float, 1")
+    shape = [int(header[axis + "DIM"]) for axis in "ZYX"]
+    return numpy.frombuffer(content, numpy.float32, math.prod(shape), 256).reshape(shape)
+
+
+def nifti(content):
+    """A volume of bytes in NIfTI-1, little-endian, x fastest."""
+    kind, = struct.unpack_from("<h", content, 70)
+    if kind != 2:
+        raise ValueError(f"NIfTI: found type {kind}, expected 2, unsigned bytes")
+    shape = struct.unpack_from("<3h", content, 42)[::-1]
+    begin, = struct.unpack_from("<f", content, 108)
+    return numpy.frombuffer(content, numpy.uint8, math.prod(shape), int(begin)).reshape(shape)
+
+
+# What Debian packages have: libcgal-demo (in data.tar.gz) and mricron-data.
+SCANS = {"CT skull": ((64, 64, 64), "skull_2.9.inr", inrimage), "MRI head": ((181, 217, 181), "ch2.nii.gz", nifti)}
+ROWS += [Row(name, shape, "scan", False) for name, (shape, _, _) in SCANS.items()]
+
+
+def values_of(row, scans):
+    if row.kind != "scan":
+        return KINDS[row.kind](row.shape, numpy.random.default_rng(SEED))
+    _, name, read = SCANS[row.name]
+    content = (scans / name).read_bytes()
+    return read(gzip.decompress(content) if name.endswith(".gz") else content).astype(float)
+
+
+def input_file(row, made, scans):
+    """The path of a row's input, written now if it is not there. `scans` is the folder of the scans."""
     path = made / (row.name.replace(" ", "_") + ".npy")
     if not path.exists():
         part = path.with_suffix(".part.npy")
-        numpy.save(part, KINDS[row.kind](row.shape, numpy.random.default_rng(SEED)))
+        numpy.save(part, values_of(row, scans))
         part.rename(path)
     return path
