@@ -85,7 +85,10 @@ void Barcode::sort_values(const RunContext& context) {
     sort_by(of_dim, [](const Bar& bar) { return bar.birth + 0.0; });  // -0.0 is +0.0
     for_each_run(of_dim, &Bar::birth, [&](std::span<Bar> born_together) {
       ticker.tick();
-      if (born_together.size() > 1)
+      constexpr std::size_t many = 1024;
+      if (born_together.size() > many)
+        sort_by(born_together, [](const Bar& bar) { return bar.death + 0.0; });
+      else if (born_together.size() > 1)
         polled_sort(
             born_together, [](const Bar& a, const Bar& b) { return a.death < b.death; }, ticker);
     });

@@ -7,9 +7,11 @@
 #endif
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "ph/core/error.hpp"
+#include "ph/core/huge_pages.hpp"
 
 namespace ph {
 namespace {
@@ -32,14 +34,17 @@ constexpr std::size_t kLeastHuge = 4 * kHugePage;
 std::size_t alignment_of(std::size_t bytes, std::size_t alignment) {
   return bytes < kLeastHuge ? alignment : std::max(alignment, kHugePage);
 }
-void advise(void* block, std::size_t bytes) {
-#if defined(MADV_HUGEPAGE)
-  // A hint: what comes of it is the system's business.
-  if (bytes >= kLeastHuge) madvise(block, bytes / kHugePage * kHugePage, MADV_HUGEPAGE);
-#endif
-}
 
 }  // namespace
+
+void prefer_huge_pages(void* block, std::size_t bytes) {
+#if defined(MADV_HUGEPAGE)
+  void* begin = block;
+  std::size_t space = bytes;
+  if (bytes >= kLeastHuge && std::align(kHugePage, kHugePage, begin, space) != nullptr)
+    madvise(begin, space / kHugePage * kHugePage, MADV_HUGEPAGE);
+#endif
+}
 
 void MemoryBudget::require(std::size_t bytes) const {
   const std::size_t now = used();
@@ -63,7 +68,7 @@ void* MemoryBudget::do_allocate(std::size_t bytes, std::size_t alignment) {
   try {
     void* const block =
         std::pmr::new_delete_resource()->allocate(bytes, alignment_of(bytes, alignment));
-    advise(block, bytes);
+    prefer_huge_pages(block, bytes);
     return block;
   } catch (...) {
     subtract(bytes);

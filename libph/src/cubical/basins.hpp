@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <memory_resource>
 #include <optional>
@@ -47,7 +48,8 @@ class Basins {
  private:
   void follow_inner_arrows() {
     // Rows that share cells with those before them are looked at twice where a piece begins.
-    const std::uint32_t piece = 16 * (grid_.has_axis(0) ? grid_.extent(1) : 1);
+    const std::uint32_t layer = grid_.has_axis(0) ? grid_.extent(1) : 1;
+    const std::uint32_t piece = std::max(16 * layer, (1U << 18) / grid_.extent(2));
     for_each_piece("arrows", grid_.row_count(), piece, context_,
                    [&](std::size_t begin, std::size_t end) {
                      graph_.for_each_inner_arrow(

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "ph/core/huge_pages.hpp"
+
 namespace ph::detail {
 namespace {
 
@@ -92,6 +94,7 @@ std::vector<T> load_as(const Input& input, const ArrayLayout& layout,
   if (in_order && as_it_is) {
     constexpr std::size_t block = 1 << 14;  // stays in the cache between the steps
     values.reserve(count);
+    prefer_huge_pages(values.data(), count * sizeof(T));
     for (std::size_t k = 0; k < count; k += block) {
       input.poll();
       const std::size_t size = std::min(count - k, block);
