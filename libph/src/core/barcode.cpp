@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory_resource>
 #include <string>
 #include <tuple>
 
@@ -65,8 +66,7 @@ InputChain Barcode::representative(std::size_t i) const {
 
 // Without cells equal bars are the same: each run of one birth can be sorted by death in place.
 void Barcode::sort_values(const RunContext& context) {
-  const MemoryClaim claim(context.memory, bars_.size() * sizeof(Bar));
-  std::vector<Bar> buffer;
+  std::pmr::vector<Bar> buffer(&context.memory);  // if it is needed
   const auto sort_by = [&](std::span<Bar> bars, auto&& value_of) {
     if (std::ranges::is_sorted(bars, {}, value_of)) return;
     // As the highest dimension of an image comes.

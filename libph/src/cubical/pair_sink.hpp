@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "ph/cubical/pair_voxels.hpp"
 #include "star_grid.hpp"
@@ -43,18 +45,19 @@ class PairSink {
     return (grid_.relative() ? -cell.value : cell.value) + 0.0;
   }
   void add(const Bar& bar, const StarCell& birth, const StarCell* death) {
-    if (!wants_cells_ && !grid_.has_loops()) return hold(bar);
-    grid_.for_each_copy(birth, death, wants_cells_, [&](const auto& a, const auto& b, int shift) {
-      const Bar copy{bar.dim + shift, bar.birth, bar.death};
-      if (wants_cells_)
-        bars_.add(copy, a, b);
-      else
-        hold(copy);
-    });
-  }
-  void hold(const Bar& bar) {
-    block_[held_++] = bar;
-    if (held_ == block_.size()) finish();
+    for (unsigned loops = 0; loops < 1U << grid_.loop_count(); ++loops) {
+      const Bar copy{bar.dim + std::popcount(loops), bar.birth, bar.death};
+      if (!wants_cells_) {
+        block_[held_++] = copy;
+        if (held_ == block_.size()) finish();
+        continue;
+      }
+      birth_numbers_.clear();
+      death_numbers_.clear();
+      grid_.append_numbers(birth, loops, birth_numbers_);
+      if (death != nullptr) grid_.append_numbers(*death, loops, death_numbers_);
+      bars_.add(copy, birth_numbers_, death_numbers_);
+    }
   }
 
   const StarGrid& grid_;
@@ -62,6 +65,7 @@ class PairSink {
   const BarSink& bars_;
   std::array<Bar, 256> block_;  // without cells, not yet handed over
   std::size_t held_ = 0;
+  std::vector<Index> birth_numbers_, death_numbers_;
 };
 
 }  // namespace ph::cubical

@@ -36,7 +36,7 @@ class Divisor {
 };
 
 /// The lower stars of a grid of at most three axes. Axes of one voxel are left out; what a periodic
-/// one of them adds is put back by `for_each_copy`.
+/// one of them adds is put back by `PairSink`.
 ///
 /// Both constructions are seen as one. The T-construction of f is the V-construction of -f turned
 /// around: reversed in value, with all axes running backwards, a border of voxels that have always
@@ -117,13 +117,12 @@ class StarGrid {
     return sign > 0 ? v + axes_[axis].stride : v - axes_[axis].stride;
   }
 
-  /// Whether there are periodic axes of one voxel.
-  bool has_loops() const { return !loops_.empty(); }
-  /// Calls `use(numbers of a, numbers of b, shift)`, coordinates of the input's doubled grid, for
-  /// the cells and what periodic axes of one voxel make of them; `shift` is what they add to the
-  /// dimension. @param b may be null. @param wants_numbers else they are empty.
-  template <class Use>
-  void for_each_copy(const StarCell& a, const StarCell* b, bool wants_numbers, Use&& use) const;
+  /// How many periodic axes of one voxel there are: each makes a copy of every cell, one dimension
+  /// up.
+  std::size_t loop_count() const { return loops_.size(); }
+  /// Appends the coordinates of a cell in the input's doubled grid. @param loops which of the axes
+  /// of one voxel the copy goes around, as bits.
+  void append_numbers(const StarCell& cell, unsigned loops, std::vector<Index>& numbers) const;
 
  private:
   struct Axis {
@@ -150,7 +149,6 @@ class StarGrid {
       if (axes_[a].periodic && coordinate(v, a) == 0) result |= 1U << a;
     return result;
   }
-  void append_numbers(const StarCell& cell, unsigned loops, std::vector<Index>& numbers) const;
 
   CubicalImage grid_;
   const RunContext& context_;
@@ -165,18 +163,5 @@ class StarGrid {
   std::pmr::vector<CubePairMemo> cube_pairs_;  // of three axes, as `wrapped`
   std::pmr::vector<std::uint32_t> critical_;
 };
-
-template <class Use>
-void StarGrid::for_each_copy(const StarCell& a, const StarCell* b, bool wants_numbers,
-                             Use&& use) const {
-  std::vector<Index> first, second;
-  for (unsigned loops = 0; loops < 1U << loops_.size(); ++loops) {
-    first.clear();
-    second.clear();
-    if (wants_numbers) append_numbers(a, loops, first);
-    if (wants_numbers && b != nullptr) append_numbers(*b, loops, second);
-    use(first, second, std::popcount(loops));
-  }
-}
 
 }  // namespace ph::cubical

@@ -17,8 +17,8 @@ class VertexPairing {
                 const RunContext& context)
       : graph_(grid), pairing_(grid, graph_, edges, wants_cells, context) {}
 
+  std::size_t most_pairs() const { return pairing_.most_pairs(); }
   void run(PairSink& sink) {
-    sink.expect(pairing_.most_pairs());
     pairing_.run(
         [&](const Place& edge, const Place* dies) {
           if (dies == nullptr)
@@ -40,8 +40,8 @@ class TopCellPairing {
                  const RunContext& context)
       : top_(grid.top_dim()), graph_(grid), pairing_(grid, graph_, facets, wants_cells, context) {}
 
+  std::size_t most_pairs() const { return pairing_.most_pairs(); }
   void run(PairSink& sink) {
-    sink.expect(pairing_.most_pairs());
     pairing_.run(
         [&](const Place& facet, const Place* dies) {
           if (dies == nullptr)
@@ -62,12 +62,16 @@ class TopCellPairing {
 
 void pair_vertices_with_edges(const StarGrid& grid, CriticalCells& edges, const RunContext& context,
                               PairSink& sink) {
-  VertexPairing(grid, edges, sink.wants_cells(), context).run(sink);
+  VertexPairing pairing(grid, edges, sink.wants_cells(), context);
+  sink.expect(pairing.most_pairs());
+  pairing.run(sink);
 }
 
 void pair_facets_with_top_cells(const StarGrid& grid, CriticalCells& facets,
                                 const RunContext& context, PairSink& sink) {
-  TopCellPairing(grid, facets, sink.wants_cells(), context).run(sink);
+  TopCellPairing pairing(grid, facets, sink.wants_cells(), context);
+  sink.expect(pairing.most_pairs());
+  pairing.run(sink);
 }
 
 void pair_in_both_graphs(const StarGrid& grid, CriticalCells& edges, CriticalCells& squares,
@@ -75,6 +79,7 @@ void pair_in_both_graphs(const StarGrid& grid, CriticalCells& edges, CriticalCel
   // Their basins one after the other: each takes all threads, and four bytes a voxel for a while.
   VertexPairing vertices(grid, edges, sink.wants_cells(), context);
   TopCellPairing top_cells(grid, squares, sink.wants_cells(), context);
+  sink.expect(vertices.most_pairs() + top_cells.most_pairs());
   for_each_piece("components", 2, 1, context, [&](std::size_t i, std::size_t end) {
     for (; i < end; ++i) i == 0 ? vertices.run(sink) : top_cells.run(top_sink);
   });

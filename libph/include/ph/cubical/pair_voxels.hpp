@@ -10,7 +10,7 @@
 
 namespace ph::cubical {
 
-/// Receives bars.
+/// Receives bars: from one thread at a time, not always the same.
 struct BarSink {
   /// One with its cells, in doubled grid coordinates of the input.
   std::function<void(const Bar& bar, std::span<const Index> birth, std::span<const Index> death)>
