@@ -29,13 +29,14 @@ struct LoopEdge {
 /// replaced by the rest of the boundary of its square when it comes up, so a chain is followed only
 /// as far down as its pivot; edges that kill a component are left out (no column has its pivot
 /// there). One for each thread.
-template <Field K>
+/// @tparam Stars StarGrid, or StarPages.
+template <Field K, class Stars>
 class LoopColumn {
  public:
   using Element = typename K::Element;
   using Term = Entry<LoopEdge, K>;
 
-  LoopColumn(const StarGrid& grid, const K& field, const RunContext& context)
+  LoopColumn(Stars& grid, const K& field, const RunContext& context)
       : grid_(grid), field_(field), context_(context), heap_(&context.memory) {}
 
   /// Begins anew with the boundary of a square.
@@ -168,7 +169,7 @@ class LoopColumn {
       std::push_heap(heap_.begin(), heap_.begin() + static_cast<std::ptrdiff_t>(i), precedes);
   }
 
-  const StarGrid& grid_;
+  Stars& grid_;
   const K& field_;
   const RunContext& context_;
   std::pmr::vector<Term> heap_;

@@ -9,10 +9,12 @@
 #include <numeric>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "critical_cells.hpp"
+#include "free_edges.hpp"
 #include "loop_column.hpp"
 #include "pair_sink.hpp"
 #include "ph/core/parallel.hpp"
@@ -23,29 +25,31 @@ namespace ph::cubical {
 /// that are left by adding older ones only. Several threads reduce columns at a time; who has an
 /// older column's pivot takes it, and the younger column is reduced further in the next round
 /// (Morozov & Nigmetov, Towards lockfree persistent homology, 2020). The pairs do not depend on who
-/// comes first, and one thread never has to take one away.
-template <Field K>
+/// comes first. One thread that goes from old to young never has to take one away; where stars are
+/// in memory by slabs only, it goes through the grid instead.
+/// @tparam Stars StarGrid, whose stars have their marks, or StarPages.
+template <Field K, class Stars>
 class LoopReduction {
  public:
   /// @param squares of which those in the order give birth to nothing.
-  LoopReduction(const StarGrid& grid, const CriticalCells& squares, const K& field,
+  LoopReduction(Stars& grid, const FreeEdges& free, const CriticalCells& squares, const K& field,
                 const RunContext& context, PairSink& sink)
       : grid_(grid),
+        free_(free),
         squares_(squares),
         field_(field),
         sink_(sink),
         context_(context),
-        critical_at_(grid.size(), kNone, &context.memory),
-        first_owner_(&context.memory),
-        owners_(&context.memory),
+        owners_(free.count(), kNone, &context.memory),
         columns_(squares.order.size(), &context.memory) {}
 
   void run() {
-    number_edges();
     std::pmr::vector<std::uint32_t> round(columns_.size(), &context_.memory);
     std::iota(round.begin(), round.end(), 0U);
     while (!round.empty()) {
-      for_each_piece("loops", round.size(), kPiece, context_,
+      if (kByPlace)
+        std::ranges::sort(round, {}, [&](std::uint32_t i) { return squares_.order[i].cell; });
+      for_each_piece("loops", round.size(), kByPlace ? round.size() : kPiece, context_,
                      [&](std::size_t begin, std::size_t end) {
                        Worker& worker = take_worker();
                        for (std::size_t i = begin; i < end; ++i) reduce(round[i], worker);
@@ -65,7 +69,9 @@ class LoopReduction {
  private:
   static constexpr std::uint32_t kNone = UINT32_MAX;
   static constexpr std::size_t kPiece = 64;  // columns that a thread takes at a time
-  using Term = typename LoopColumn<K>::Term;
+  static constexpr bool kByPlace = !std::is_const_v<Stars>;
+  using Chain = LoopColumn<K, Stars>;
+  using Term = typename Chain::Term;
   // The boundary of a square and what was added to it, as far as it was followed.
   struct Column {
     std::optional<Term> pivot;  // nothing: it is zero, or was never looked at
@@ -73,7 +79,7 @@ class LoopReduction {
   };
   // What a thread has to itself. Terms stay where they are: others read them.
   struct Worker {
-    LoopColumn<K> column;
+    Chain column;
     std::vector<std::pmr::vector<Term>> kept;
     std::vector<std::uint32_t> again;  // lost their pivots
 
@@ -89,7 +95,7 @@ class LoopReduction {
   Worker& take_worker() {
     const std::lock_guard lock(mutex_);
     if (idle_.empty()) {
-      workers_.emplace_back(new Worker{LoopColumn<K>(grid_, field_, context_), {}, {}});
+      workers_.emplace_back(new Worker{Chain(grid_, field_, context_), {}, {}});
       return *workers_.back();
     }
     Worker& worker = *idle_.back();
@@ -97,36 +103,16 @@ class LoopReduction {
     return worker;
   }
 
-  // The edges of the stars that may be pivots, by critical voxel.
-  unsigned free_edges(std::size_t i) const {
-    const std::uint32_t v = grid_.critical()[i];
-    return grid_.tables(v).free_edges(grid_.star(v));
-  }
-  void number_edges() {
-    const auto critical = grid_.critical();
-    Ticker ticker(context_, "free edges", critical.size());
-    first_owner_.reserve(critical.size());
-    std::uint32_t count = 0;
-    for (std::size_t i = 0; i < critical.size(); ++i) {
-      ticker.tick();
-      critical_at_[critical[i]] = static_cast<std::uint32_t>(i);
-      first_owner_.push_back(count);
-      count += static_cast<std::uint32_t>(std::popcount(free_edges(i)));
-    }
-    owners_.assign(count, kNone);
-  }
   int edge_of(const LoopEdge& edge) const {
     return grid_.tables(edge.voxel()).edge_order().at(edge.rank());
   }
   // Where the column is noted that has its pivot at a free edge.
   std::uint32_t& owner_of(const LoopEdge& edge) {
-    const std::uint32_t i = critical_at_[edge.voxel()];
-    const auto before = std::popcount(free_edges(i) & ((1U << edge_of(edge)) - 1));
-    return owners_[first_owner_[i] + static_cast<std::uint32_t>(before)];
+    return owners_[free_.number(edge.voxel(), edge_of(edge))];
   }
 
   void reduce(std::uint32_t i, Worker& worker) {
-    LoopColumn<K>& column = worker.column;
+    Chain& column = worker.column;
     Column& own = columns_[i];
     std::optional<Term> pivot = own.pivot;
     if (pivot) {
@@ -171,26 +157,24 @@ class LoopReduction {
       }
     }
     // Free edges that nobody has: loops that never die.
-    for (std::size_t i = 0; i < grid_.critical().size(); ++i) {
+    auto owner = owners_.begin();
+    free_.for_each(0, grid_.size(), [&](std::uint32_t v, unsigned edges) {
       ticker.work();
-      const std::uint32_t v = grid_.critical()[i];
-      auto place = first_owner_[i];
-      for (unsigned rest = free_edges(i); rest != 0; rest &= rest - 1, ++place)
-        if (owners_[place] == kNone)
-          sink_.essential(1, {v, kEdges[std::countr_zero(rest)], grid_.value(v)});
-    }
+      for (; edges != 0; edges &= edges - 1, ++owner)
+        if (*owner == kNone)
+          sink_.essential(1, {v, kEdges[std::countr_zero(edges)], grid_.value(v)});
+    });
   }
 
-  const StarGrid& grid_;
+  Stars& grid_;
+  const FreeEdges& free_;
   const CriticalCells& squares_;
   const K& field_;
   PairSink& sink_;
   const RunContext& context_;
-  std::pmr::vector<std::uint32_t> critical_at_;  // by voxel
-  std::pmr::vector<std::uint32_t> first_owner_;  // by critical voxel
-  std::pmr::vector<std::uint32_t> owners_;       // of free edges: a column
-  std::pmr::vector<Column> columns_;             // in the order of the squares
-  std::mutex mutex_;                             // for what follows
+  std::pmr::vector<std::uint32_t> owners_;  // of free edges: a column
+  std::pmr::vector<Column> columns_;        // in the order of the squares
+  std::mutex mutex_;                        // for what follows
   std::vector<std::unique_ptr<Worker>> workers_;
   std::vector<Worker*> idle_;
 };

@@ -6,15 +6,15 @@
 #include <span>
 #include <vector>
 
+#include "grid_frame.hpp"
 #include "ph/cubical/pair_voxels.hpp"
-#include "star_grid.hpp"
 
 namespace ph::cubical {
 
 /// Turns pairs of the stars' grid into bars of the input.
 class PairSink {
  public:
-  PairSink(const StarGrid& grid, bool wants_cells, const BarSink& bars)
+  PairSink(const GridFrame& grid, bool wants_cells, const BarSink& bars)
       : grid_(grid), wants_cells_(wants_cells), bars_(bars) {}
 
   /// Else cells need a value only.
@@ -60,7 +60,7 @@ class PairSink {
     }
   }
 
-  const StarGrid& grid_;
+  const GridFrame& grid_;
   bool wants_cells_;
   const BarSink& bars_;
   std::array<Bar, 256> block_;  // without cells, not yet handed over

@@ -1,17 +1,30 @@
 // SPDX-License-Identifier: MIT
 #include "ph/cubical/pair_voxels.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <mutex>
+#include <optional>
 
 #include "loop_reduction.hpp"
+#include "pair_in_slabs.hpp"
 #include "ph/core/parallel.hpp"
 #include "two_graphs.hpp"
 
 namespace ph::cubical {
 
-bool can_pair_voxels(const CubicalImage& grid) { return StarGrid::can_hold(grid); }
+bool can_pair_voxels(const CubicalImage& grid) { return GridFrame::can_hold(grid); }
 
 namespace {
+
+// Of the stars whose other edges are marked.
+FreeEdges free_edges(const StarGrid& grid, const RunContext& context) {
+  FreeEdges free(grid, context);
+  for (const std::uint32_t v : grid.critical())
+    free.add(v, grid.tables(v).free_edges(grid.star(v)));
+  free.finish();
+  return free;
+}
 
 template <Field K>
 void pair_all_of_three_axes(StarGrid& grid, const K& field, const RunContext& context,
@@ -26,7 +39,61 @@ void pair_all_of_three_axes(StarGrid& grid, const K& field, const RunContext& co
   pair_in_both_graphs(grid, edges, squares, context, pairs, top_pairs);
   top_pairs.finish();
   mark_paired(grid, edges);
-  LoopReduction<K>(grid, squares, field, context, pairs).run();
+  const FreeEdges free = free_edges(grid, context);
+  LoopReduction<K, const StarGrid>(grid, free, squares, field, context, pairs).run();
+}
+
+// Bars of all but the loops of three axes.
+void pair_by_components(const StarGrid& grid, bool only_components, const RunContext& context,
+                        PairSink& pairs) {
+  const int top = grid.top_dim();
+  const bool turned_around = grid.relative();
+  if (top == 3) {
+    // Components come from one graph, the highest dimension from the other; turned around they have
+    // changed places.
+    CriticalCells cells = critical_cells(grid, turned_around ? 2 : 1, context);
+    if (turned_around)
+      pair_facets_with_top_cells(grid, cells, context, pairs);
+    else
+      pair_vertices_with_edges(grid, cells, context, pairs);
+  } else {
+    CriticalCells edges = critical_cells(grid, 1, context);
+    if (top < 2 || !turned_around || !only_components)
+      pair_vertices_with_edges(grid, edges, context, pairs);
+    if (top == 2 && (turned_around || !only_components))
+      pair_facets_with_top_cells(grid, edges, context, pairs);
+    // What neither graph takes lives for ever: loops around periodic axes.
+    if (top < 2 || !only_components)
+      for (const auto& [value, cell] : edges.order)
+        pairs.essential(1, {edges.cells[cell].voxel, kEdges[edges.cells[cell].number], value});
+  }
+}
+
+// By what is known before: stars, and a node of a graph for each voxel.
+bool fits_at_best(const GridFrame& frame, const RunContext& context) {
+  constexpr double bytes = 8;
+  return bytes * frame.size() < static_cast<double>(context.memory.left());
+}
+// By the number of critical cells.
+bool fits(const StarGrid& grid, const RunContext& context) {
+  constexpr double bytes = 64, most_cells = 2.5;  // a voxel: seen in noise
+  const auto left = static_cast<double>(context.memory.left());
+  if ((4 + most_cells * bytes) * grid.size() < left) return true;
+  double cells = 0;
+  for (const std::uint32_t v : grid.critical()) {
+    const std::uint32_t star = grid.star(v);
+    cells += std::popcount(grid.tables(v).critical_edges(star));
+    if (grid.top_dim() == 3)
+      cells += std::popcount(grid.tables(v).critical_squares(star, grid.pair_cubes(v)));
+  }
+  return 4.0 * grid.size() + bytes * cells < left;
+}
+// So many that a quarter of the memory holds a slab whatever is in it.
+std::uint32_t layers_that_fit(const GridFrame& frame, const RunContext& context) {
+  constexpr double bytes = 128;  // a voxel
+  const double layers =
+      static_cast<double>(context.memory.left()) / 4 / (bytes * frame.layer_size());
+  return static_cast<std::uint32_t>(std::clamp(layers, 1.0, static_cast<double>(frame.size())));
 }
 
 }  // namespace
@@ -49,31 +116,24 @@ void pair_voxels(const CubicalImage& voxels, const K& field, int max_dim, bool w
         const std::lock_guard lock(mutex);
         bars.expect(count);
       }};
-  StarGrid grid(voxels, context);
-  const int top = grid.top_dim();
-  const bool turned_around = grid.relative(), only_components = max_dim == 0;
-  PairSink pairs(grid, wants_cells, sink);
-  if (top == 3 && !only_components) {
-    pair_all_of_three_axes(grid, field, context, sink, pairs);
-  } else if (top == 3) {
-    // Components come from one graph, the highest dimension from the other; turned around they have
-    // changed places.
-    CriticalCells cells = critical_cells(grid, turned_around ? 2 : 1, context);
-    if (turned_around)
-      pair_facets_with_top_cells(grid, cells, context, pairs);
-    else
-      pair_vertices_with_edges(grid, cells, context, pairs);
-  } else {
-    CriticalCells edges = critical_cells(grid, 1, context);
-    if (top < 2 || !turned_around || !only_components)
-      pair_vertices_with_edges(grid, edges, context, pairs);
-    if (top == 2 && (turned_around || !only_components))
-      pair_facets_with_top_cells(grid, edges, context, pairs);
-    // What neither graph takes lives for ever: loops around periodic axes.
-    if (top < 2 || !only_components)
-      for (const auto& [value, cell] : edges.order)
-        pairs.essential(1, {edges.cells[cell].voxel, kEdges[edges.cells[cell].number], value});
+  const GridFrame frame(voxels);
+  PairSink pairs(frame, wants_cells, sink);
+  const bool may_cut = Slabs::can_cut(frame);
+  std::optional<StarGrid> grid;
+  if (!may_cut || (context.slab_layers == 0 && fits_at_best(frame, context))) {
+    grid.emplace(voxels, context);
+    if (may_cut && !fits(*grid, context)) grid.reset();
   }
+  if (!grid) {
+    const auto layers = context.slab_layers > 0 ? static_cast<std::uint32_t>(context.slab_layers)
+                                                : layers_that_fit(frame, context);
+    pair_in_slabs(Slabs(frame, layers, context), field, max_dim, context, pairs);
+    return;
+  }
+  if (grid->top_dim() == 3 && max_dim > 0)
+    pair_all_of_three_axes(*grid, field, context, sink, pairs);
+  else
+    pair_by_components(*grid, max_dim == 0, context, pairs);
   pairs.finish();
 }
 

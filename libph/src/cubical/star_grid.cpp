@@ -13,12 +13,6 @@ namespace {
 constexpr std::uint32_t kBlock = 4096;     // voxels of a row that are looked at together
 constexpr std::uint32_t kPiece = 1 << 16;  // voxels that a thread takes at a time, about
 
-constexpr double kMostNodes = 2'147'000'000;  // ids of nodes and labels have 31 bits
-
-bool keeps_axis(const CubicalImage& grid, std::size_t k) {
-  return grid.extents[k] > 1 || (!grid.voxels_are_vertices && !grid.periodic[k]);
-}
-
 // Whether u is older than v: with and without equality, which the places decide.
 template <bool descending, class T>
 bool is_older(T u, T v) {
@@ -31,46 +25,14 @@ bool is_not_younger(T u, T v) {
 
 }  // namespace
 
-bool StarGrid::can_hold(const CubicalImage& grid) {
-  int axes = 0;
-  double nodes = 1;  // of the larger one of the two graphs, but for the outside
-  for (std::size_t k = 0; k < grid.extents.size(); ++k) {
-    if (!keeps_axis(grid, k)) continue;
-    ++axes;
-    nodes *= static_cast<double>(grid.extents[k]) + (grid.voxels_are_vertices ? 0 : 1);
-  }
-  // Labels are those of the outside, of what never enters and of the roots, fewer than nodes.
-  return axes <= 3 && grid.size() > 0 && nodes < kMostNodes;
-}
-
-StarGrid::StarGrid(const CubicalImage& grid, const RunContext& context)
-    : grid_(grid),
+StarGrid::StarGrid(const CubicalImage& grid, const RunContext& context, const SlabEnds& ends)
+    : GridFrame(grid),
       context_(context),
-      size_(static_cast<std::uint32_t>(grid.size())),
-      relative_(!grid.voxels_are_vertices),
+      ends_(ends),
       stars_(&context.memory),
-      cube_pairs_(&context.memory),
+      cube_pairs_(ends.cube_pairs),
       critical_(&context.memory) {
-  int axis = 3;
-  std::uint32_t stride = 1;
-  for (std::size_t k = grid.extents.size(); k-- > 0;) {
-    if (!keeps_axis(grid, k)) {
-      if (grid.periodic[k]) loops_.push_back(k);
-      continue;
-    }
-    const auto extent = static_cast<std::uint32_t>(grid.extents[k]);
-    axes_[--axis] = {extent, stride, true, grid.periodic[k], Divisor(extent), Divisor(stride)};
-    input_axis_[axis] = static_cast<int>(k);
-    stride *= extent;
-    ++top_dim_;
-    if (grid.periodic[k])
-      any_periodic_ = true;
-    else
-      ++open_axes_;
-  }
-  if (top_dim_ == 3)
-    for (unsigned wraps = 0; wraps < (any_periodic_ ? 8U : 1U); ++wraps)
-      cube_pairs_.emplace_back(star_tables(wraps), &context.memory);
+  if (cube_pairs_ == nullptr) cube_pairs_ = cube_pair_memos(*this, context);
   stars_.resize(size_);
   with_voxels(grid.type, grid.voxels, [&]<class T>(const T* voxels) {
     if (grid.superlevel != relative_)
@@ -78,6 +40,14 @@ StarGrid::StarGrid(const CubicalImage& grid, const RunContext& context)
     else
       find_stars<T, false>(voxels);
   });
+}
+
+CubePairMemos cube_pair_memos(const GridFrame& frame, const RunContext& context) {
+  auto memos = std::make_shared<std::pmr::vector<CubePairMemo>>(&context.memory);
+  if (frame.top_dim() == 3)
+    for (unsigned wraps = 0; wraps < (frame.any_periodic() ? 8U : 1U); ++wraps)
+      memos->emplace_back(star_tables(wraps), &context.memory);
+  return memos;
 }
 
 template <class T, bool descending>
@@ -202,7 +172,11 @@ void StarGrid::find_stars(const T* voxels) {
           const Block block{row / high, row % high, x, std::min(n, x + kBlock)};
           const std::uint32_t first = row * n + block.begin, count = block.end - block.begin;
           std::uint32_t* stars = stars_.data() + first;
-          find_block<T, descending>(voxels, block, stars);
+          const bool is_ghost = this->is_ghost(first);
+          if (is_ghost)
+            std::fill_n(stars, count, 0U);
+          else
+            find_block<T, descending>(voxels, block, stars);
           if (some_may_not) {
             const T* there = relative_ ? voxels + (size_ - first - count) : voxels + first;
             bool block_enters = true;
@@ -212,6 +186,7 @@ void StarGrid::find_stars(const T* voxels) {
                 if (!enters(there[k])) stars[relative_ ? count - 1 - k : k] = kAbsent;
             all = all && block_enters;
           }
+          if (is_ghost) continue;
           // Written first, counted afterwards: which voxels are critical cannot be foretold.
           std::size_t next = found.size();
           found.resize(next + count);
@@ -237,21 +212,6 @@ void StarGrid::find_stars(const T* voxels) {
     critical_.insert(critical_.end(), piece.found.begin(), piece.found.end());
     piece.found = std::pmr::vector<std::uint32_t>(&context_.memory);
   }
-}
-
-void StarGrid::append_numbers(const StarCell& cell, unsigned loops,
-                              std::vector<Index>& numbers) const {
-  const std::size_t base = numbers.size();
-  numbers.resize(base + grid_.extents.size(), 0);
-  for (int a = 0; a < 3; ++a) {
-    if (!axes_[a].exists) continue;
-    const Index n = axes_[a].extent;
-    Index x = 2 * Index{coordinate(cell.voxel, a)} + cell.direction[a];
-    if (x < 0 && axes_[a].periodic) x = 2 * n - 1;
-    numbers[base + static_cast<std::size_t>(input_axis_[a])] = relative_ ? 2 * n - 1 - x : x;
-  }
-  for (std::size_t i = 0; i < loops_.size(); ++i)
-    numbers[base + loops_[i]] = static_cast<Index>(loops >> i & 1U);
 }
 
 }  // namespace ph::cubical

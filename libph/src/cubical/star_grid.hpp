@@ -1,166 +1,67 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <array>
 #include <cstdint>
+#include <memory>
 #include <memory_resource>
 #include <span>
 #include <vector>
 
-#include "ph/core/cubical_image.hpp"
+#include "grid_frame.hpp"
 #include "ph/core/raw_vector.hpp"
 #include "ph/core/run_context.hpp"
-#include "star_tables.hpp"
 
 namespace ph::cubical {
 
-/// A cell as the star that it is in sees it, with its value in the order of the stars.
-struct StarCell {
-  std::uint32_t voxel = 0;
-  Direction direction{};
-  double value = 0;
+/// One for each kind of wrapped voxel; none unless there are three axes.
+using CubePairMemos = std::shared_ptr<std::pmr::vector<CubePairMemo>>;
+CubePairMemos cube_pair_memos(const GridFrame& frame, const RunContext& context);
+
+/// Which layers of an image are there only for those beside them: ghosts. They have no cells.
+struct SlabEnds {
+  bool ghost_before = false, ghost_after = false;
+  CubePairMemos cube_pairs = nullptr;  ///< null: of its own
 };
 
-/// Divides by a number that is known beforehand (Lemire, Kaser, Kurz, Faster remainder by direct
-/// computation, 2019).
-class Divisor {
+/// The lower stars of a grid, or of some of its layers.
+class StarGrid : public GridFrame {
  public:
-  Divisor() = default;
-  explicit Divisor(std::uint32_t by) : factor_(by > 1 ? UINT64_MAX / by + 1 : 0) {}
-  std::uint32_t divide(std::uint32_t a) const {
-    __extension__ using Wide = unsigned __int128;
-    return factor_ == 0 ? a : static_cast<std::uint32_t>((Wide{factor_} * a) >> 64);
-  }
-
- private:
-  std::uint64_t factor_ = 0;
-};
-
-/// The lower stars of a grid of at most three axes. Axes of one voxel are left out; what a periodic
-/// one of them adds is put back by `PairSink`.
-///
-/// Both constructions are seen as one. The T-construction of f is the V-construction of -f turned
-/// around: reversed in value, with all axes running backwards, a border of voxels that have always
-/// been there around it, and dimension k in place of top - k. Its stars are those; what has always
-/// been there is no cell ("relative").
-class StarGrid {
- public:
-  /// Three axes at most that have more than one voxel (V) or are not closed up at one (T), and no
-  /// more than about 2^31 voxels.
-  static bool can_hold(const CubicalImage& grid);
   /// Precondition: can_hold(grid).
-  StarGrid(const CubicalImage& grid, const RunContext& context);
+  StarGrid(const CubicalImage& grid, const RunContext& context, const SlabEnds& ends = {});
 
-  int top_dim() const { return top_dim_; }      ///< of the stars' grid
-  bool relative() const { return relative_; }   ///< T-construction
-  std::uint32_t size() const { return size_; }  ///< voxels
   std::uint32_t star(std::uint32_t v) const { return stars_[v]; }
   bool enters(std::uint32_t v) const { return stars_[v] != kAbsent; }
+  bool is_ghost(std::uint32_t v) const {
+    return (ends_.ghost_before && v < layer_size()) ||
+           (ends_.ghost_after && v >= size() - layer_size());
+  }
+  bool has_ghost_after() const { return ends_.ghost_after; }
   /// Marks edges of a star: they kill a component. Of three axes only.
   void mark(std::uint32_t v, std::uint32_t bits) { stars_[v] |= bits; }
   bool all_enter() const { return all_enter_; }
   /// The voxels with a critical cell in their stars, ascending.
   std::span<const std::uint32_t> critical() const { return critical_; }
-  bool has_axis(int axis) const { return axes_[axis].exists; }
-  bool is_periodic(int axis) const { return axes_[axis].periodic; }
-  std::uint32_t extent(int axis) const { return axes_[axis].extent; }
-  /// How many axes have two ends.
-  int open_axes() const { return open_axes_; }
-
-  /// The value in the order of the stars.
-  double value(std::uint32_t v) const {
-    return relative_ ? -grid_.value(size_ - 1 - v) : grid_.value(v);
-  }
-
-  std::uint32_t coordinate(std::uint32_t v, int axis) const {
-    const Axis& a = axes_[axis];
-    const std::uint32_t layer = a.by_stride.divide(v);
-    return layer - a.by_extent.divide(layer) * a.extent;
-  }
-  /// The tables for a voxel's star.
-  const StarTables& tables(std::uint32_t v) const {
-    return any_periodic_ ? star_tables(wrapped(v)) : plain_tables_;
-  }
   /// Of three axes only.
   CubePairs pair_cubes(std::uint32_t v) const {
-    return cube_pairs_[any_periodic_ ? wrapped(v) : 0].pair_cubes(stars_[v]);
+    return (*cube_pairs_)[any_periodic_ ? wrapped(v) : 0].pair_cubes(stars_[v]);
   }
-
-  std::uint32_t stride(int axis) const { return axes_[axis].stride; }
-
-  /// Voxels along the last axis.
-  struct Row {
-    std::uint32_t z, y, first;
-    bool is_at_border;  ///< at an end of one of the other axes
-  };
-  std::uint32_t row_count() const { return size_ / extent(2); }
-  Row row(std::uint32_t number) const {
-    const std::uint32_t z = number / extent(1), y = number % extent(1);
-    return {z, y, number * extent(2), is_at_end(0, z) || is_at_end(1, y)};
-  }
-  static constexpr std::uint32_t kOutside = UINT32_MAX;
-  /// The voxel one step away, or kOutside.
-  std::uint32_t step(std::uint32_t v, int axis, int sign) const {
-    const Axis& a = axes_[axis];
-    const std::uint32_t x = coordinate(v, axis);
-    if (sign > 0) {
-      if (x + 1 < a.extent) return v + a.stride;
-      return a.periodic ? v - x * a.stride : kOutside;
-    }
-    if (x > 0) return v - a.stride;
-    return a.periodic ? v + (a.extent - 1) * a.stride : kOutside;
-  }
-  /// The same for a step along an edge of the star of v: without looking where v lies, if no step
-  /// in such a direction leaves the grid.
-  std::uint32_t step_in_star(std::uint32_t v, int edge) const {
-    const int axis = axis_of_edge(edge), sign = kEdges[edge][axis];
-    if (relative_ || any_periodic_) return step(v, axis, sign);
-    return sign > 0 ? v + axes_[axis].stride : v - axes_[axis].stride;
-  }
-
-  /// How many periodic axes of one voxel there are: each makes a copy of every cell, one dimension
-  /// up.
-  std::size_t loop_count() const { return loops_.size(); }
-  /// Appends the coordinates of a cell in the input's doubled grid. @param loops which of the axes
-  /// of one voxel the copy goes around, as bits.
-  void append_numbers(const StarCell& cell, unsigned loops, std::vector<Index>& numbers) const;
 
  private:
-  struct Axis {
-    std::uint32_t extent = 1, stride = 1;
-    bool exists = false, periodic = false;
-    Divisor by_extent, by_stride;
-  };
   /// A part of a row.
   struct Block {
     std::uint32_t z, y, begin, end;
   };
-  bool is_at_end(int a, std::uint32_t x) const {
-    return axes_[a].exists && (x == 0 || x + 1 == axes_[a].extent);
-  }
   template <class T, bool descending>
   void find_stars(const T* voxels);
   template <class T, bool descending>
   void find_block(const T* voxels, const Block& block, std::uint32_t* stars) const;
   template <class T, bool descending>
   std::uint32_t find_one(const T* voxels, std::uint32_t v) const;
-  unsigned wrapped(std::uint32_t v) const {
-    unsigned result = 0;
-    for (int a = 0; a < 3; ++a)
-      if (axes_[a].periodic && coordinate(v, a) == 0) result |= 1U << a;
-    return result;
-  }
 
-  CubicalImage grid_;
   const RunContext& context_;
-  const StarTables& plain_tables_ = star_tables(0);
-  std::array<Axis, 3> axes_;         // the last one is the fastest
-  std::array<int, 3> input_axis_{};  // the axis of the input
-  std::vector<std::size_t> loops_;   // periodic axes of the input with one voxel
-  std::uint32_t size_ = 0;
-  int top_dim_ = 0, open_axes_ = 0;
-  bool relative_ = false, any_periodic_ = false, all_enter_ = true;
+  SlabEnds ends_;
+  bool all_enter_ = true;
   RawVector<std::uint32_t> stars_;
-  std::pmr::vector<CubePairMemo> cube_pairs_;  // of three axes, as `wrapped`
+  CubePairMemos cube_pairs_;
   std::pmr::vector<std::uint32_t> critical_;
 };
 

@@ -49,7 +49,8 @@ std::uint32_t TopGraph::arrow(std::uint32_t node) const {
   return this->node(top.voxel, turned(top.direction, axis, -top.direction[axis]));
 }
 
-StarCell TopGraph::cell(std::uint32_t node) const {
+template <class Use>
+void TopGraph::for_each_corner(std::uint32_t node, Use&& use) const {
   std::array<std::uint32_t, 3> low{};
   for (int a = 2; a >= 0; --a) {
     const std::uint32_t rest = by_extent_[a].divide(node);
@@ -76,11 +77,36 @@ StarCell TopGraph::cell(std::uint32_t node) const {
       }
       v = v * n + x;
     }
-    if (!is_there) continue;
-    if (const std::uint32_t star = grid_.star(v); star != kAbsent && (star & star_bit(d)) != 0)
-      return {v, d};
+    if (is_there && use(v, d)) return;
   }
-  return {};
+}
+
+StarCell TopGraph::cell(std::uint32_t node) const {
+  StarCell found;
+  for_each_corner(node, [&](std::uint32_t v, const Direction& d) {
+    const std::uint32_t star = grid_.star(v);
+    if (star == kAbsent || (star & star_bit(d)) == 0) return false;
+    found = {v, d};
+    return true;
+  });
+  return found;
+}
+
+std::array<std::uint32_t, 2> TopGraph::seam(bool after) const {
+  const int axis = grid_.layer_axis();
+  const std::uint32_t layer = border_[axis] + (after ? grid_.extent(axis) - 2 : 0);
+  return {layer * stride_[axis], stride_[axis]};
+}
+
+std::optional<double> TopGraph::seam_value(std::uint32_t node) const {
+  std::optional<double> youngest;
+  for_each_corner(node, [&](std::uint32_t v, const Direction&) {
+    // In the T-construction what never enters has always been there.
+    if (grid_.enters(v) || !grid_.relative())
+      youngest = std::max(youngest.value_or(grid_.value(v)), grid_.value(v));
+    return false;
+  });
+  return youngest;
 }
 
 std::uint32_t TopGraph::outside_beyond(const Direction& d) const {

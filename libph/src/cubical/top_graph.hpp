@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "star_grid.hpp"
@@ -44,6 +45,10 @@ class TopGraph {
   /// Calls `use(node, number)` for the roots in the star of a voxel, in the order of the grid.
   template <class Use>
   void for_each_root(std::uint32_t v, Use&& use) const;
+  /// As in VoxelGraph: the top cells between the ghost layer and the one beside it.
+  std::array<std::uint32_t, 2> seam(bool after) const;
+  std::optional<double> seam_value(std::uint32_t node) const;
+  bool is_known_here(std::uint32_t node) const { return cell(node).direction != Direction{}; }
   /// What a facet in the star of a voxel joins.
   std::array<std::uint32_t, 2> ends(std::uint32_t v, std::uint32_t number) const;
 
@@ -67,8 +72,11 @@ class TopGraph {
     const std::uint32_t n = grid_.extent(axis), first = 1 - border_[axis];
     return low >= first && low < n && n - low > 2 - border_[axis];
   }
-  /// The star that a top cell is in. Precondition: there is one.
+  /// The star that a top cell is in; without a direction if there is none.
   StarCell cell(std::uint32_t node) const;
+  /// Calls `use(voxel, direction from it)` for the corners of a top cell until it returns true.
+  template <class Use>
+  void for_each_corner(std::uint32_t node, Use&& use) const;
   std::uint32_t outside_beyond(const Direction& d) const;
   const StarGrid& grid_;
   std::array<std::uint32_t, 3> extent_{}, stride_{}, border_{};

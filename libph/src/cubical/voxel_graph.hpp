@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "star_grid.hpp"
 
@@ -62,6 +63,19 @@ class VoxelGraph {
   void for_each_root(std::uint32_t v, Use&& use) const {
     if (StarTables::edges(grid_.star(v)) == 0) use(v, 0U);
   }
+  /// The nodes that a slab shares with the one before it or after it: those of the ghost layer
+  /// and of the one beside it. @return the first one, and how many.
+  std::array<std::uint32_t, 2> seam(bool after) const {
+    const std::uint32_t count = 2 * grid_.layer_size();
+    return {after ? grid_.size() - count : 0, count};
+  }
+  /// The value of a node of a seam, in the order of the stars; nothing if it never counts.
+  std::optional<double> seam_value(std::uint32_t v) const {
+    if (!grid_.enters(v) && !grid_.relative()) return std::nullopt;
+    return grid_.value(v);
+  }
+  /// Whether the slab knows where a node of a seam leads.
+  bool is_known_here(std::uint32_t v) const { return !grid_.is_ghost(v); }
   /// What an edge of the star of a voxel joins.
   std::array<std::uint32_t, 2> ends(std::uint32_t v, std::uint32_t number) const {
     return {v, across(v, static_cast<int>(number))};

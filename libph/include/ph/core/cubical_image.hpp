@@ -29,6 +29,11 @@ decltype(auto) with_voxels(VoxelType type, const void* data, Use&& use) {
   }
 }
 
+/// Bytes of a number of a type.
+inline std::size_t bytes_of(VoxelType type) {
+  return with_voxels(type, nullptr, []<class T>(const T*) { return sizeof(T); });
+}
+
 /// The cubical filtration of an image as the image itself: what an engine needs that goes voxel by
 /// voxel and never lists cells. Points to voxels that outlive it. No value is NaN.
 struct CubicalImage {
@@ -36,6 +41,7 @@ struct CubicalImage {
   std::vector<bool> periodic;  ///< as many as extents
   VoxelType type = VoxelType::float64;
   const void* voxels = nullptr;     ///< null: there are none
+  bool is_in_file = false;          ///< see core/file_pages.hpp
   bool voxels_are_vertices = true;  ///< V-construction; else the voxels are top cubes (T)
   bool superlevel = false;          ///< values are those of -f
   /// Values above it never enter; finite.

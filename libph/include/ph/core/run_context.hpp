@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -23,6 +24,8 @@ class MemoryBudget final : public std::pmr::memory_resource {
   std::size_t limit() const { return limit_; }
   void set_limit(std::size_t bytes) { limit_ = bytes; }
   std::size_t used() const { return used_.load(std::memory_order_relaxed); }
+  /// What may still be taken.
+  std::size_t left() const { return limit_ - std::min(limit_, used()); }
   std::size_t peak() const { return peak_.load(std::memory_order_relaxed); }
 
   /// @throws Error (resource) if `bytes` more would exceed the limit. Allocates nothing.
@@ -79,6 +82,9 @@ struct RunContext {
   std::function<void(const Progress&)> on_progress;  ///< called at most ten times a second
   mutable MemoryBudget memory;                       ///< unlimited unless `set_limit` is called
   int threads = 0;                                   ///< threads to use; 0: one for each core
+  /// Images: layers along the first axis that are looked at together. 0: all where the memory limit
+  /// allows it, else as many as do. What is computed does not depend on it.
+  int slab_layers = 0;
 
   /// @throws Error (cancelled) once a stop was requested.
   void poll() const;

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "grid_frame.hpp"
+#include "ph/core/run_context.hpp"
+
+namespace ph::cubical {
+
+/// The critical edges of three axes that kill no component: what gives birth to loops. They have
+/// numbers, in the order of (voxel, edge).
+class FreeEdges {
+ public:
+  FreeEdges(const GridFrame& frame, const RunContext& context)
+      : row_length_(Divisor(frame.extent(2))),
+        voxels_(&context.memory),
+        edges_(&context.memory),
+        first_(&context.memory),
+        row_(&context.memory) {
+    row_.reserve(frame.row_count() + std::size_t{1});
+  }
+
+  /// Those of one voxel, as bits. Voxels come in ascending order.
+  void add(std::uint32_t voxel, unsigned edges) {
+    if (edges == 0) return;
+    begin_rows(row_length_.divide(voxel));
+    voxels_.push_back(voxel);
+    edges_.push_back(static_cast<std::uint8_t>(edges));
+    first_.push_back(count_);
+    count_ += static_cast<std::uint32_t>(std::popcount(edges));
+  }
+  /// When all have come.
+  void finish() { begin_rows(row_.capacity() - 1); }
+
+  std::uint32_t count() const { return count_; }
+  std::uint32_t number(std::uint32_t voxel, int edge) const {
+    const std::uint32_t row = row_length_.divide(voxel);
+    const auto begin = voxels_.begin();
+    const auto at = std::lower_bound(begin + row_[row], begin + row_[row + 1], voxel) - begin;
+    const unsigned before = edges_[static_cast<std::size_t>(at)] & ((1U << edge) - 1);
+    return first_[static_cast<std::size_t>(at)] + static_cast<std::uint32_t>(std::popcount(before));
+  }
+  /// Calls `use(voxel, edges)` for the voxels in a range.
+  template <class Use>
+  void for_each(std::uint32_t begin, std::uint32_t end, Use&& use) const {
+    for (auto i =
+             static_cast<std::size_t>(std::ranges::lower_bound(voxels_, begin) - voxels_.begin());
+         i < voxels_.size() && voxels_[i] < end; ++i)
+      use(voxels_[i], unsigned{edges_[i]});
+  }
+
+ private:
+  void begin_rows(std::size_t last) {
+    while (row_.size() <= last) row_.push_back(static_cast<std::uint32_t>(voxels_.size()));
+  }
+
+  Divisor row_length_;
+  std::pmr::vector<std::uint32_t> voxels_;
+  std::pmr::vector<std::uint8_t> edges_;   // by voxel
+  std::pmr::vector<std::uint32_t> first_;  // by voxel: the number of the first one
+  std::pmr::vector<std::uint32_t> row_;    // by row: the first voxel
+  std::uint32_t count_ = 0;
+};
+
+}  // namespace ph::cubical

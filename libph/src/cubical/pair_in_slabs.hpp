@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "pair_sink.hpp"
+#include "slabs.hpp"
+
+namespace ph::cubical {
+
+/// As pair_voxels, of a grid of which a slab is seen at a time. Memory: eight bytes a voxel of a
+/// slab and what its critical cells take, 16 to 40 bytes a voxel of a layer, and for loops of three
+/// axes what the critical squares and edges take that pair with no cube and no voxel.
+/// @throws Error (resource) if these do not fit, after all other bars were handed over.
+template <Field K>
+void pair_in_slabs(const Slabs& slabs, const K& field, int max_dim, const RunContext& context,
+                   PairSink& pairs);
+
+extern template void pair_in_slabs(const Slabs&, const Z2&, int, const RunContext&, PairSink&);
+extern template void pair_in_slabs(const Slabs&, const Zp&, int, const RunContext&, PairSink&);
+
+}  // namespace ph::cubical
