@@ -60,6 +60,16 @@ void add_cubical_options(CLI::App& app, Arguments& a) {
             "axes that close up on themselves, such as 0,2, or all (default: none)",
             [&a](const std::string& text) { take_periodic(a, text); })
       ->group(group);
+  add_value(app, "--slab-layers", "N",
+            "layers along the first axis that are looked at together; the bars are the same "
+            "(default: all if the memory limit allows it, else as many as it does)",
+            [&a](const std::string& text) {
+              constexpr Index most = Index{1} << 30;
+              a.common.slab_layers =
+                  static_cast<int>(parse_integer("--slab-layers", text, 1, most));
+              a.cubical_option = "--slab-layers";
+            })
+      ->group(group);
   add_value(app, "--voxel", "X",
             "of points with --complex cubical: edge of the voxels that they lie in, in their unit",
             [&a](const std::string& text) {

@@ -280,7 +280,7 @@ NamedData read_input(const Job& job, const Arguments& arguments, const RunContex
   ReadOptions options = arguments.read;
   options.context = &context;
   options.dropped = &dropped;
-  const Input input = Input::open(job.input, &context);
+  const Input input = Input::open(job.input, &context, Input::Excess::stays_in_file);
   ReadResult read = read_any(input, arguments.format, options, arguments.values);
   std::string sha256;
   if (!arguments.report.empty()) sha256 = report::sha256_hex(input.bytes(), context);

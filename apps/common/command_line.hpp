@@ -17,6 +17,7 @@ enum class ProgressMode { automatic, bar, json, none };
 struct CommonOptions {
   int threads = 0;                            ///< 0: one for each core
   std::optional<std::uint64_t> memory_limit;  ///< bytes; default: what the machine has
+  int slab_layers = 0;                        ///< of images, as RunContext has it
   ProgressMode progress = ProgressMode::automatic;
   bool quiet = false;
   bool verbose = false;

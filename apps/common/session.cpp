@@ -20,6 +20,7 @@ Session::Session(std::string_view program, const CommonOptions& options, std::st
       memory_at_start_(peak_memory()) {
   context_.stop = std::move(stop);
   context_.threads = options.threads;
+  context_.slab_layers = options.slab_layers;
   context_.memory.set_limit(options.memory_limit ? static_cast<std::size_t>(*options.memory_limit)
                                                  : machine_memory());
   heap_.bound(context_.memory.limit());

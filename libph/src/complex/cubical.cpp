@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "ph/core/error.hpp"
+#include "ph/core/file_pages.hpp"
 #include "ph/core/radix_sort.hpp"
 
 namespace ph {
@@ -53,6 +54,8 @@ void refuse_nan(const CubicalImage& grid, const RunContext& context) {
       const std::size_t count = grid.size();
       for (std::size_t begin = 0; begin < count; begin += block) {
         context.poll();
+        if (grid.is_in_file && begin > 0)
+          forget_file_pages(voxels + (begin - block), block * sizeof(T));
         const std::size_t end = std::min(count, begin + block);
         bool any = false;  // without a branch: several at a time
         for (std::size_t i = begin; i < end; ++i) any |= voxels[i] != voxels[i];
@@ -83,6 +86,7 @@ Cubical::Cubical(const Image& image, const CubicalOptions& options, const RunCon
   grid_.periodic.resize(image.extents.size(), false);
   grid_.type = voxels_.type();
   grid_.voxels = voxels_.data();
+  grid_.is_in_file = voxels_.is_in_file();
   grid_.voxels_are_vertices = options.construction == CubicalOptions::Construction::vertices;
   grid_.superlevel = options.superlevel;
   refuse_nan(grid_, context);

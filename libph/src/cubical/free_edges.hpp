@@ -4,7 +4,7 @@
 #include <bit>
 #include <cstdint>
 #include <memory_resource>
-#include <span>
+#include <optional>
 #include <vector>
 
 #include "grid_frame.hpp"
@@ -39,22 +39,28 @@ class FreeEdges {
 
   std::uint32_t count() const { return count_; }
   std::uint32_t number(std::uint32_t voxel, int edge) const {
-    const std::uint32_t row = row_length_.divide(voxel);
-    const auto begin = voxels_.begin();
-    const auto at = std::lower_bound(begin + row_[row], begin + row_[row + 1], voxel) - begin;
-    const unsigned before = edges_[static_cast<std::size_t>(at)] & ((1U << edge) - 1);
-    return first_[static_cast<std::size_t>(at)] + static_cast<std::uint32_t>(std::popcount(before));
+    const std::size_t i = *place_of(voxel);
+    return first_[i] + static_cast<std::uint32_t>(std::popcount(edges_[i] & ((1U << edge) - 1)));
   }
-  /// Calls `use(voxel, edges)` for the voxels in a range.
+  /// Those of one voxel, as bits.
+  unsigned edges(std::uint32_t voxel) const {
+    const auto i = place_of(voxel);
+    return i ? edges_[*i] : 0;
+  }
+  /// Calls `use(voxel, edges)` for all voxels that have some.
   template <class Use>
-  void for_each(std::uint32_t begin, std::uint32_t end, Use&& use) const {
-    for (auto i =
-             static_cast<std::size_t>(std::ranges::lower_bound(voxels_, begin) - voxels_.begin());
-         i < voxels_.size() && voxels_[i] < end; ++i)
-      use(voxels_[i], unsigned{edges_[i]});
+  void for_each(Use&& use) const {
+    for (std::size_t i = 0; i < voxels_.size(); ++i) use(voxels_[i], unsigned{edges_[i]});
   }
 
  private:
+  std::optional<std::size_t> place_of(std::uint32_t voxel) const {
+    const std::uint32_t row = row_length_.divide(voxel);
+    const auto end = voxels_.begin() + row_[row + 1];
+    const auto at = std::lower_bound(voxels_.begin() + row_[row], end, voxel);
+    if (at == end || *at != voxel) return std::nullopt;
+    return static_cast<std::size_t>(at - voxels_.begin());
+  }
   void begin_rows(std::size_t last) {
     while (row_.size() <= last) row_.push_back(static_cast<std::uint32_t>(voxels_.size()));
   }

@@ -62,14 +62,22 @@ void GridFrame::append_numbers(const StarCell& cell, unsigned loops,
     numbers[base + loops_[i]] = static_cast<Index>(loops >> i & 1U);
 }
 
+CubicalImage GridFrame::with_extents(const std::array<std::uint32_t, 3>& extents,
+                                     const void* voxels) const {
+  CubicalImage image = grid_;
+  for (int a = 0; a < 3; ++a)
+    if (axes_[a].exists) image.extents[static_cast<std::size_t>(input_axis_[a])] = extents[a];
+  image.voxels = voxels;
+  return image;
+}
+
 CubicalImage GridFrame::layers(std::uint32_t begin, std::uint32_t end) const {
-  CubicalImage part = grid_;
-  const std::uint32_t first = relative_ ? extent(layer_axis()) - end : begin;
-  part.extents[static_cast<std::size_t>(input_axis_[layer_axis()])] = end - begin;
-  with_voxels(grid_.type, grid_.voxels, [&](const auto* voxels) {
-    part.voxels = voxels + std::size_t{first} * layer_size();
-  });
-  return part;
+  const int axis = layer_axis();
+  const std::size_t first = relative_ ? extent(axis) - end : begin;
+  std::array<std::uint32_t, 3> extents{extent(0), extent(1), extent(2)};
+  extents[axis] = end - begin;
+  return with_extents(extents, static_cast<const std::byte*>(grid_.voxels) +
+                                   first * layer_size() * bytes_of(grid_.type));
 }
 
 }  // namespace ph::cubical

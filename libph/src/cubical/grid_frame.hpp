@@ -121,6 +121,8 @@ class GridFrame {
     bool exists = false, periodic = false;
     Divisor by_extent, by_stride;
   };
+  /// The image of other voxels of the same kind that lie along the same axes.
+  CubicalImage with_extents(const std::array<std::uint32_t, 3>& extents, const void* voxels) const;
   bool is_at_end(int a, std::uint32_t x) const {
     return axes_[a].exists && (x == 0 || x + 1 == axes_[a].extent);
   }

@@ -21,6 +21,7 @@ struct LoopEdge {
   std::uint64_t name;  ///< (the voxel, the rank of the direction in its star)
 
   std::uint32_t voxel() const { return static_cast<std::uint32_t>(name >> 3); }
+  double value() const { return from_ordered_bits(key); }
   int rank() const { return static_cast<int>(name & 7); }
   friend bool operator==(const LoopEdge& a, const LoopEdge& b) { return a.name == b.name; }
 };
@@ -29,7 +30,7 @@ struct LoopEdge {
 /// replaced by the rest of the boundary of its square when it comes up, so a chain is followed only
 /// as far down as its pivot; edges that kill a component are left out (no column has its pivot
 /// there). One for each thread.
-/// @tparam Stars StarGrid, or StarPages.
+/// @tparam Stars StarGrid, or StarBricks.
 template <Field K, class Stars>
 class LoopColumn {
  public:

@@ -26,8 +26,8 @@ namespace ph::cubical {
 /// older column's pivot takes it, and the younger column is reduced further in the next round
 /// (Morozov & Nigmetov, Towards lockfree persistent homology, 2020). The pairs do not depend on who
 /// comes first. One thread that goes from old to young never has to take one away; where stars are
-/// in memory by slabs only, it goes through the grid instead.
-/// @tparam Stars StarGrid, whose stars have their marks, or StarPages.
+/// in memory by bricks only, it goes from brick to brick instead.
+/// @tparam Stars StarGrid, whose stars have their marks, or StarBricks.
 template <Field K, class Stars>
 class LoopReduction {
  public:
@@ -47,15 +47,7 @@ class LoopReduction {
     std::pmr::vector<std::uint32_t> round(columns_.size(), &context_.memory);
     std::iota(round.begin(), round.end(), 0U);
     while (!round.empty()) {
-      if (kByPlace)
-        std::ranges::sort(round, {}, [&](std::uint32_t i) { return squares_.order[i].cell; });
-      for_each_piece("loops", round.size(), kByPlace ? round.size() : kPiece, context_,
-                     [&](std::size_t begin, std::size_t end) {
-                       Worker& worker = take_worker();
-                       for (std::size_t i = begin; i < end; ++i) reduce(round[i], worker);
-                       const std::lock_guard lock(mutex_);
-                       idle_.push_back(&worker);
-                     });
+      reduce_all(round);
       round.clear();
       for (const auto& worker : workers_) {
         round.insert(round.end(), worker->again.begin(), worker->again.end());
@@ -72,6 +64,31 @@ class LoopReduction {
   static constexpr bool kByPlace = !std::is_const_v<Stars>;
   using Chain = LoopColumn<K, Stars>;
   using Term = typename Chain::Term;
+
+  void reduce_all(std::pmr::vector<std::uint32_t>& round) {
+    if constexpr (kByPlace) {
+      std::ranges::sort(round, {}, [&](std::uint32_t i) {
+        const std::uint32_t cell = squares_.order[i].cell;
+        return std::pair(grid_.brick_of(squares_.cells[cell].voxel), cell);
+      });
+      Ticker ticker(context_, "loops", round.size());
+      Worker& worker = take_worker();
+      for (const std::uint32_t i : round) {
+        ticker.tick();
+        reduce(i, worker);
+      }
+      idle_.push_back(&worker);
+    } else {
+      for_each_piece("loops", round.size(), kPiece, context_,
+                     [&](std::size_t begin, std::size_t end) {
+                       Worker& worker = take_worker();
+                       for (std::size_t i = begin; i < end; ++i) reduce(round[i], worker);
+                       const std::lock_guard lock(mutex_);
+                       idle_.push_back(&worker);
+                     });
+    }
+  }
+
   // The boundary of a square and what was added to it, as far as it was followed.
   struct Column {
     std::optional<Term> pivot;  // nothing: it is zero, or was never looked at
@@ -151,14 +168,14 @@ class LoopReduction {
                             value};
       if (const auto& pivot = columns_[i].pivot) {
         const std::uint32_t v = pivot->cell.voxel();
-        sink_.pair(1, {v, kEdges[edge_of(pivot->cell)], grid_.value(v)}, square);
+        sink_.pair(1, {v, kEdges[edge_of(pivot->cell)], pivot->cell.value()}, square);
       } else {
         sink_.essential(2, square);
       }
     }
     // Free edges that nobody has: loops that never die.
     auto owner = owners_.begin();
-    free_.for_each(0, grid_.size(), [&](std::uint32_t v, unsigned edges) {
+    free_.for_each([&](std::uint32_t v, unsigned edges) {
       ticker.work();
       for (; edges != 0; edges &= edges - 1, ++owner)
         if (*owner == kNone)

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pair_in_slabs.hpp"
 
-#include <fmt/format.h>
-
+#include <new>
 #include <optional>
 #include <tuple>
 
@@ -10,7 +9,7 @@
 #include "ph/core/error.hpp"
 #include "ph/core/radix_sort.hpp"
 #include "slab_components.hpp"
-#include "star_pages.hpp"
+#include "star_bricks.hpp"
 #include "top_graph.hpp"
 #include "voxel_graph.hpp"
 
@@ -68,16 +67,28 @@ class LoopCells {
   std::pmr::vector<Square> squares_;
 };
 
+[[noreturn]] void refuse_loops() {
+  throw Error(ErrorKind::resource,
+              "bars of dimension 1: what their critical cells take exceeds the memory limit; all "
+              "other dimensions fit");
+}
+
 template <Field K>
-void pair_loops(const Slabs& slabs, LoopCells& cells, const K& field, const RunContext& context,
+void pair_loops(const GridFrame& frame, LoopCells& cells, const K& field, const RunContext& context,
                 PairSink& pairs) {
-  const FreeEdges free = cells.free_edges(slabs.frame());
-  const CriticalCells squares = cells.squares(slabs.frame());
-  // A quarter of what is left holds stars; the rest is for columns.
-  const auto fit = static_cast<double>(context.memory.left()) / 4 / slabs.bytes_of_stars();
-  const auto most = static_cast<std::size_t>(std::clamp(fit, 3.0, slabs.count() + 3.0));
-  StarPages pages(slabs, free, most);
-  LoopReduction<K, StarPages>(pages, free, squares, field, context, pairs).run();
+  try {
+    const FreeEdges free = cells.free_edges(frame);
+    const CriticalCells squares = cells.squares(frame);
+    // The rest of what is left is for columns.
+    const double bytes_of_bricks = static_cast<double>(context.memory.left()) / 3;
+    StarBricks stars(frame, free, bytes_of_bricks, context);
+    LoopReduction<K, StarBricks>(stars, free, squares, field, context, pairs).run();
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::resource) throw;
+    refuse_loops();
+  } catch (const std::bad_alloc&) {
+    refuse_loops();
+  }
 }
 
 }  // namespace
@@ -158,12 +169,9 @@ void pair_in_slabs(const Slabs& slabs, const K& field, int max_dim, const RunCon
       too_many_loops = true;
     }
   }
-  if (loops) pair_loops(slabs, *loops, field, context, pairs);
+  if (loops) pair_loops(frame, *loops, field, context, pairs);
   pairs.finish();
-  if (too_many_loops)
-    throw Error(ErrorKind::resource,
-                "bars of dimension 1: their critical cells exceed the memory limit; all others "
-                "fit");
+  if (too_many_loops) refuse_loops();
 }
 
 template void pair_in_slabs(const Slabs&, const Z2&, int, const RunContext&, PairSink&);

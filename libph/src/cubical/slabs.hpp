@@ -19,13 +19,11 @@ class Slabs {
   Slabs(const GridFrame& frame, std::uint32_t layers, const RunContext& context)
       : frame_(frame),
         layers_(std::min(layers, depth())),
-        by_slab_(layers_ * frame.layer_size()),
         cube_pairs_(cube_pair_memos(frame, context)),
         context_(context) {}
 
   const GridFrame& frame() const { return frame_; }
   std::uint32_t count() const { return (depth() - 1) / layers_ + 1; }
-  std::uint32_t slab_of(std::uint32_t v) const { return by_slab_.divide(v); }
   /// The first voxel of the grid of a slab, ghosts included.
   std::uint32_t first_voxel(std::uint32_t slab) const { return begin(slab) * frame_.layer_size(); }
   /// The stars of a slab, with the layers beside it as ghosts.
@@ -34,8 +32,6 @@ class Slabs {
             context_,
             {slab > 0, slab + 1 < count(), cube_pairs_}};
   }
-  /// Bytes that the stars of a slab take.
-  double bytes_of_stars() const { return 4.0 * (layers_ + 2.0) * frame_.layer_size(); }
   /// What was read of the image for a slab may leave the memory.
   void forget(std::uint32_t slab) const {
     const CubicalImage part = frame_.layers(begin(slab), end(slab));
@@ -53,7 +49,6 @@ class Slabs {
 
   const GridFrame& frame_;
   std::uint32_t layers_;
-  Divisor by_slab_;
   CubePairMemos cube_pairs_;
   const RunContext& context_;
 };

@@ -82,32 +82,61 @@ std::size_t count_elements(const Input& input, const ArrayLayout& layout,
 
 namespace {
 
+// How far numbers are read and written, where both may be files: what lies behind leaves the
+// memory now and then. Elsewhere it only looks at the stop token.
 template <class T>
-std::vector<T> load_as(const Input& input, const ArrayLayout& layout,
-                       const std::vector<Index>& extents, std::size_t count) {
-  input.require_memory(count * sizeof(T));
+class Trail {
+ public:
+  Trail(const Input& input, const ArrayLayout& layout, std::span<const T> to, bool in_file)
+      : input_(input), layout_(layout), to_(to), in_file_(in_file) {}
+
+  void passed(std::size_t elements) {
+    if ((elements & kPollMask) != 0) return;
+    input_.poll();
+    if (!in_file_) return;
+    input_.done_with(0, layout_.offset + elements * layout_.type.size);
+    forget_file_pages(to_.data(), to_.size_bytes());
+  }
+
+ private:
+  const Input& input_;
+  const ArrayLayout& layout_;
+  std::span<const T> to_;
+  bool in_file_;
+};
+
+// Whether the numbers lie as the memory of an image does.
+template <class T>
+bool is_as_in_memory(const ArrayLayout& layout, const std::vector<Index>& extents) {
+  return layout.type.is_native && (layout.order == std::endian::native || sizeof(T) == 1) &&
+         (!layout.first_axis_fastest || extents.size() < 2);
+}
+
+template <class T>
+std::vector<T> copy_array(const Input& input, std::size_t offset, std::size_t count) {
+  constexpr std::size_t block = 1 << 14;  // stays in the cache between the steps
+  const std::byte* bytes = input.bytes().data() + offset;
   std::vector<T> values;
+  values.reserve(count);
+  prefer_huge_pages(values.data(), count * sizeof(T));
+  for (std::size_t k = 0; k < count; k += block) {
+    input.poll();
+    const std::size_t size = std::min(count - k, block);
+    values.resize(k + size);
+    std::memcpy(values.data() + k, bytes + k * sizeof(T), size * sizeof(T));
+    if constexpr (std::is_floating_point_v<T>)
+      for (std::size_t i = k; i < k + size; ++i) values[i] += 0;  // -0.0 becomes +0.0
+  }
+  return values;
+}
+
+template <class T>
+void convert_array(const Input& input, const ArrayLayout& layout, const std::vector<Index>& extents,
+                   std::span<T> values, bool in_file) {
   const std::byte* bytes = input.bytes().data() + layout.offset;
-  const bool in_order = !layout.first_axis_fastest || extents.size() < 2;
   const bool as_it_is =
       layout.type.is_native && (layout.order == std::endian::native || sizeof(T) == 1);
-  if (in_order && as_it_is) {
-    constexpr std::size_t block = 1 << 14;  // stays in the cache between the steps
-    values.reserve(count);
-    prefer_huge_pages(values.data(), count * sizeof(T));
-    for (std::size_t k = 0; k < count; k += block) {
-      input.poll();
-      const std::size_t size = std::min(count - k, block);
-      values.resize(k + size);
-      std::memcpy(values.data() + k, bytes + k * sizeof(T), size * sizeof(T));
-      if constexpr (std::is_floating_point_v<T>)
-        for (std::size_t i = k; i < k + size; ++i) values[i] += 0;  // -0.0 becomes +0.0
-    }
-    return values;
-  }
-  values.resize(count);
   const auto element_at = [&](std::size_t k) {
-    if ((k & kPollMask) == 0) input.poll();
     const std::size_t at = k * layout.type.size;
     if (as_it_is) {
       T value;
@@ -123,37 +152,72 @@ std::vector<T> load_as(const Input& input, const ArrayLayout& layout,
     }
     return static_cast<T>(value);
   };
-  if (in_order) {
-    for (std::size_t k = 0; k < count; ++k) values[k] = element_at(k);
-    return values;
+  Trail<T> trail(input, layout, values, in_file);
+  if (!layout.first_axis_fastest || extents.size() < 2) {
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      values[k] = element_at(k);
+      trail.passed(k);
+    }
+    return;
   }
   // The first and the last axis change places in tiles that a few cache lines hold; the axes
   // between them run in the file's order.
   constexpr std::size_t kTile = 8;
   const auto first = static_cast<std::size_t>(extents.front());
   const auto last = static_cast<std::size_t>(extents.back());
-  const std::size_t between = count == 0 ? 0 : count / first / last;
+  const std::size_t between = values.empty() ? 0 : values.size() / first / last;
   FirstAxisFastest middle({extents.begin() + 1, extents.end() - 1});
+  std::size_t done = 0;
   for (std::size_t m = 0; m < between; ++m, middle.next()) {
     for (std::size_t z0 = 0; z0 < last; z0 += kTile) {
       for (std::size_t x0 = 0; x0 < first; x0 += kTile) {
         for (std::size_t x = x0; x < std::min(x0 + kTile, first); ++x) {
           T* to = values.data() + (x * between + middle.place()) * last;
-          for (std::size_t z = z0; z < std::min(z0 + kTile, last); ++z)
+          for (std::size_t z = z0; z < std::min(z0 + kTile, last); ++z, trail.passed(++done))
             to[z] = element_at(x + first * (m + between * z));
         }
       }
     }
   }
+}
+
+template <class T>
+Voxels load_as(const Input& input, const ArrayLayout& layout, const std::vector<Index>& extents,
+               std::size_t count, bool is_large) {
+  const bool as_in_memory = is_as_in_memory<T>(layout, extents);
+  if (is_large && as_in_memory) {
+    const std::byte* const first = input.bytes().data() + layout.offset;
+    const bool is_aligned = reinterpret_cast<std::uintptr_t>(first) % alignof(T) == 0;
+    if (auto file = is_aligned ? input.keep_in_file() : nullptr)
+      return Voxels(VoxelsInFile{layout.type.stored, std::move(file), first, count});
+  }
+  if (is_large) {
+    return voxels_in_file<T>(layout.type.stored, count, [&](std::span<T> values) {
+      convert_array<T>(input, layout, extents, values, true);
+    });
+  }
+  input.require_memory(count * sizeof(T));
+  if (as_in_memory) return copy_array<T>(input, layout.offset, count);
+  std::vector<T> values(count);
+  convert_array<T>(input, layout, extents, values, false);
   return values;
 }
 
 }  // namespace
 
-Image load_array(const Input& input, const ArrayLayout& layout, std::vector<Index> extents) {
+bool stays_in_file(const Input& input, std::size_t bytes) {
+  constexpr std::size_t few = std::size_t{1} << 20;
+  if (input.stays_in_file()) return true;
+  return input.context() != nullptr && bytes > few && bytes > input.context()->memory.left() / 2;
+}
+
+Image load_array(const Input& input, const ArrayLayout& layout, std::vector<Index> extents,
+                 Input::Excess excess) {
   const std::size_t count = count_elements(input, layout, extents);
   return with_voxels(layout.type.stored, nullptr, [&]<class T>(const T*) {
-    auto values = load_as<T>(input, layout, extents, count);
+    const bool is_large =
+        excess == Input::Excess::stays_in_file && stays_in_file(input, count * sizeof(T));
+    Voxels values = load_as<T>(input, layout, extents, count, is_large);
     return Image{std::move(extents), std::move(values)};
   });
 }

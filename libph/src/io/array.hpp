@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
+#include "ph/core/file_pages.hpp"
 #include "ph/image/image.hpp"
 #include "ph/io/reader.hpp"
 
@@ -29,14 +32,32 @@ struct ArrayLayout {
   std::size_t offset = 0;           ///< of the first element
 };
 
+/// Whether so many bytes that are made of an input are better left in a file: more than half of the
+/// memory that is left, or of an input that stays in one itself.
+bool stays_in_file(const Input& input, std::size_t bytes);
+
 /// The number of elements of an array that must reach from its offset to the end of the input.
 /// @throws Error (bad_data) "truncated" or "trailing data".
 std::size_t count_elements(const Input& input, const ArrayLayout& layout,
                            const std::vector<Index>& extents);
 
 /// Reads an array whose elements are there (see count_elements); the result is in C order.
-/// @throws Error (bad_data) at an integer that double cannot hold; Error (resource).
-Image load_array(const Input& input, const ArrayLayout& layout, std::vector<Index> extents);
+/// @param excess if so, the voxels of an input that stays in its file, and those that would take
+/// half
+///        of the memory that is left, stay in that file, or in a temporary one if they are stored
+///        in another way.
+/// @throws Error (bad_data) at an integer that double cannot hold; Error (resource); Error (io).
+Image load_array(const Input& input, const ArrayLayout& layout, std::vector<Index> extents,
+                 Input::Excess excess = Input::Excess::refused);
+
+/// Numbers in a temporary file, zero at first: `fill(std::span<T>)` writes them.
+template <VoxelNumber T, class Fill>
+Voxels voxels_in_file(VoxelType type, std::size_t count, Fill&& fill) {
+  auto file = std::make_shared<ScratchFile>(count * sizeof(T));
+  fill(std::span<T>(reinterpret_cast<T*>(file->data()), count));
+  forget_file_pages(file->data(), file->size());
+  return Voxels(VoxelsInFile{type, file, file->data(), count});
+}
 
 /// Places in C order of the elements of an array, visited with the first axis fastest.
 class FirstAxisFastest {

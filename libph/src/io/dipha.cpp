@@ -159,7 +159,8 @@ Image read_dipha_image(const Input& input, const ReadOptions& options) {
                   {}});
   }
   const ArrayLayout layout{*element_type("f8"), std::endian::little, true, cursor.offset()};
-  return without_nan_pixels(load_array(input, layout, std::move(extents)), input, options);
+  return without_nan_pixels(
+      load_array(input, layout, std::move(extents), Input::Excess::stays_in_file), input, options);
 }
 
 DistanceMatrix read_dipha_distances(const Input& input, const ReadOptions& options) {

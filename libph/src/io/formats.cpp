@@ -233,6 +233,25 @@ std::optional<Format> format_from_name(std::string_view name) {
   return std::nullopt;
 }
 
+namespace {
+
+// Whether it is an image that need not be in memory as a whole.
+bool goes_by_blocks(const Input& input, Format format, const ReadOptions& options) {
+  switch (format) {
+    case Format::nifti:
+    case Format::raw:
+      return true;
+    case Format::npy:
+      return options.array == ArrayMeaning::image;
+    case Format::dipha:
+      return detail::dipha_type(input) == detail::DiphaType::image;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
 ReadResult read_any(const Input& input, Format format, const ReadOptions& options,
                     const std::filesystem::path& values_path) {
   const bool automatic = format == Format::automatic;
@@ -242,6 +261,8 @@ ReadResult read_any(const Input& input, Format format, const ReadOptions& option
     throw Error(ErrorKind::not_built_in,
                 fmt::format("{}: format {} is not built in", input.name(), info.name));
   }
+  if (input.stays_in_file() && !goes_by_blocks(input, format, options))
+    input.require_memory(input.size());
   std::vector<std::string> notes;
   std::vector<Index> dropped;
   ReadOptions inner = options;
@@ -297,7 +318,8 @@ ReadResult read_any(const Input& input, Format format, const ReadOptions& option
 
 ReadResult read_any(const std::filesystem::path& path, Format format, const ReadOptions& options,
                     const std::filesystem::path& values_path) {
-  return read_any(Input::open(path, options.context), format, options, values_path);
+  return read_any(Input::open(path, options.context, Input::Excess::stays_in_file), format, options,
+                  values_path);
 }
 
 }  // namespace ph

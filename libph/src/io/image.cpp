@@ -5,6 +5,9 @@
 namespace ph {
 
 Image read_image(const Input& input, const ReadOptions& options) {
+  const bool is_picture = detail::is_png(input) || detail::is_pgm(input);
+  if (input.stays_in_file() && (is_picture || detail::is_npz(input)))
+    input.require_memory(input.size());
   if (detail::is_png(input)) return detail::read_png_image(input);
   if (detail::is_pgm(input)) return detail::read_pgm_image(input);
   if (detail::is_dipha(input)) return detail::read_dipha_image(input, options);
@@ -13,7 +16,7 @@ Image read_image(const Input& input, const ReadOptions& options) {
 }
 
 Image read_image(const std::filesystem::path& path, const ReadOptions& options) {
-  return read_image(Input::open(path, options.context), options);
+  return read_image(Input::open(path, options.context, Input::Excess::stays_in_file), options);
 }
 
 }  // namespace ph

@@ -127,11 +127,13 @@ std::string printable(std::string_view bytes, std::size_t max_bytes) {
   return result;
 }
 
-// The bytes behind an Input: a buffer of the run's memory resource, a mapped file, or a vector.
+// The bytes behind an Input: a buffer of the run's memory resource, a mapped file, a vector or a
+// temporary file.
 struct Input::Storage {
   explicit Storage(std::pmr::memory_resource* resource) : memory(resource) {}
   explicit Storage(std::pmr::vector<char> bytes)
       : memory(bytes.get_allocator().resource()), held(std::move(bytes)) {}
+  explicit Storage(ScratchFile file) : memory(nullptr), scratch(std::move(file)), exceeds(true) {}
   Storage(const Storage&) = delete;
   Storage& operator=(const Storage&) = delete;
   ~Storage() {
@@ -154,11 +156,13 @@ struct Input::Storage {
 
   std::pmr::memory_resource* memory;
   std::pmr::vector<char> held;
+  std::optional<ScratchFile> scratch;
   char* data = nullptr;
   std::size_t capacity = 0;
   std::size_t used = 0;
   bool mapped = false;
   std::optional<MemoryClaim> claim;  // if mapped
+  bool exceeds = false;              // the budget: stays in a file, not counted
 };
 
 Input::Input() = default;
@@ -176,13 +180,22 @@ Input Input::view(std::string_view bytes, std::string name) {
 
 Input Input::hold(std::pmr::vector<char> bytes, std::string name, const RunContext* context) {
   Input input = view({}, std::move(name));
-  input.storage_ = std::make_unique<Storage>(std::move(bytes));
+  input.storage_ = std::make_shared<Storage>(std::move(bytes));
   input.text_ = std::string_view(input.storage_->held.data(), input.storage_->held.size());
   input.context_ = context;
   return input;
 }
 
-Input Input::open(const std::filesystem::path& whole_path, const RunContext* context) {
+Input Input::hold(ScratchFile bytes, std::string name, const RunContext* context) {
+  Input input = view({}, std::move(name));
+  input.storage_ = std::make_shared<Storage>(std::move(bytes));
+  input.text_ = std::string_view(input.storage_->scratch->data(), input.storage_->scratch->size());
+  input.context_ = context;
+  return input;
+}
+
+Input Input::open(const std::filesystem::path& whole_path, const RunContext* context,
+                  Excess excess) {
   Input input;
   std::filesystem::path path;
   std::tie(path, input.member_) = split_member(whole_path);
@@ -204,7 +217,7 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
     throw Error(ErrorKind::no_input, input.name_ + ": cannot read: it is a directory");
   }
 
-  auto storage = std::make_unique<Storage>(
+  auto storage = std::make_shared<Storage>(
       context != nullptr ? static_cast<std::pmr::memory_resource*>(&context->memory)
                          : std::pmr::new_delete_resource());
   const bool sized = S_ISREG(status.st_mode) && status.st_size > 0 &&
@@ -212,7 +225,9 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
   const auto file_size = sized ? static_cast<std::size_t>(status.st_size) : 0;
   if (file_size > kMapFrom) {
     // Its pages are taken from memory while they are read.
-    if (context != nullptr) storage->claim.emplace(context->memory, file_size);
+    storage->exceeds = excess == Excess::stays_in_file && context != nullptr &&
+                       file_size > context->memory.left() / 2;
+    if (context != nullptr && !storage->exceeds) storage->claim.emplace(context->memory, file_size);
     void* address = ::mmap(nullptr, file_size, PROT_READ, MAP_PRIVATE, file.get(), 0);
     if (address != MAP_FAILED) {
       ::madvise(address, file_size, MADV_SEQUENTIAL);
@@ -221,6 +236,7 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
       storage->mapped = true;
     } else {
       storage->claim.reset();
+      storage->exceeds = false;
     }
   }
   const std::size_t limit =
@@ -269,11 +285,27 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
   const std::size_t most = context != nullptr && context->memory.limit() != MemoryBudget::kUnlimited
                                ? context->memory.limit()
                                : half_of_memory();
-  Input unpacked = hold(detail::gunzip(input, most), {}, context);
+  const bool is_large = excess == Excess::stays_in_file && context != nullptr &&
+                        detail::stated_size(input.text()) > context->memory.left() / 2;
+  Input unpacked = is_large ? hold(detail::gunzip_to_file(input), {}, context)
+                            : hold(detail::gunzip(input, most), {}, context);
   unpacked.name_ = input.name_;
   unpacked.member_ = input.member_;
   unpacked.extension_ = input.extension_ == ".gz" ? lower_extension(path.stem()) : input.extension_;
   return unpacked;
+}
+
+bool Input::stays_in_file() const { return storage_ != nullptr && storage_->exceeds; }
+
+void Input::done_with(std::size_t offset, std::size_t size) const {
+  if (stays_in_file()) forget_file_pages(text_.data() + offset, size);
+}
+
+std::shared_ptr<const void> Input::keep_in_file() const {
+  if (storage_ == nullptr || !(storage_->mapped || storage_->scratch)) return nullptr;
+  storage_->claim.reset();
+  storage_->exceeds = true;
+  return storage_;
 }
 
 void Input::require_memory(std::size_t bytes) const {

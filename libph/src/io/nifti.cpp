@@ -140,26 +140,31 @@ void scale(Image& image, const Header& header, const Input& input, const ReadOpt
         kSlope,
         {"scale of the values", fmt::format("{} and {}", slope, intercept), "finite numbers", {}});
   }
-  constexpr std::size_t block = 1 << 16;  // numbers between two looks at the stop token
-  const auto scale_into = [&](const auto* from, double* to, std::size_t count) {
+  const Voxels stored = std::move(image.values);
+  const std::size_t count = stored.size();
+  const bool in_file = detail::stays_in_file(input, count * sizeof(double));
+  constexpr std::size_t block = 1 << 20;  // numbers between two looks at the stop token
+  const auto scale_into = [&](const auto* from, double* to) {
     for (std::size_t k = 0; k < count;) {
       input.poll(input.size());
+      const std::size_t begin = k;
       for (const std::size_t end = std::min(count, k + block); k < end; ++k)
         to[k] = static_cast<double>(from[k]) * slope + intercept + 0.0;
+      if (stored.is_in_file()) forget_file_pages(from + begin, (k - begin) * sizeof(*from));
+      if (in_file) forget_file_pages(to + begin, (k - begin) * sizeof(double));
     }
   };
-  std::vector<double> values;
-  image.values.change([&]<class T>(std::vector<T>& stored) {
-    if constexpr (std::same_as<T, double>) {
-      scale_into(stored.data(), stored.data(), stored.size());
-    } else {
-      // Both are there for a while, and no budget counts what is stored.
-      input.require_memory(stored.size() * (sizeof(T) + sizeof(double)));
-      values.resize(stored.size());
-      scale_into(stored.data(), values.data(), stored.size());
+  image.values = with_voxels(stored.type(), stored.data(), [&]<class T>(const T* from) {
+    if (in_file) {
+      return detail::voxels_in_file<double>(
+          VoxelType::float64, count, [&](std::span<double> to) { scale_into(from, to.data()); });
     }
+    // Both are there for a while, and no budget counts what is stored.
+    input.require_memory(count * (sizeof(T) + sizeof(double)));
+    std::vector<double> scaled(count);
+    scale_into(from, scaled.data());
+    return Voxels(std::move(scaled));
   });
-  if (image.values.type() != VoxelType::float64) image.values = std::move(values);
   detail::note(options,
                fmt::format("values scaled: {} times the stored ones plus {}", slope, intercept));
 }
@@ -179,13 +184,13 @@ bool is_nifti(const Input& input) {
 Image read_nifti(const Input& input, const ReadOptions& options) {
   const Header header(input);
   const detail::ArrayLayout layout{header.type(), header.order(), true, header.first_voxel()};
-  Image image = detail::load_array(input, layout, header.extents());
+  Image image = detail::load_array(input, layout, header.extents(), Input::Excess::stays_in_file);
   scale(image, header, input, options);
   return detail::without_nan_pixels(std::move(image), input, options);
 }
 
 Image read_nifti(const std::filesystem::path& path, const ReadOptions& options) {
-  return read_nifti(Input::open(path, options.context), options);
+  return read_nifti(Input::open(path, options.context, Input::Excess::stays_in_file), options);
 }
 
 }  // namespace ph

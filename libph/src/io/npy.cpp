@@ -159,7 +159,7 @@ namespace detail {
 
 bool is_npy(const Input& input) { return input.text().starts_with(kMagic); }
 
-Image read_npy_array(const Input& input) {
+Image read_npy_array(const Input& input, Input::Excess excess) {
   if (is_npz(input)) return read_npy_array(read_npz_member(input));
   Header header = read_header(input);
   const char mark = header.descr.empty() ? '\0' : header.descr[0];
@@ -182,27 +182,73 @@ Image read_npy_array(const Input& input) {
                          {"not a boolean", fmt::format("{}", value), "0 or 1", {}});
     }
   }
-  return load_array(input, layout, std::move(header.shape));
+  return load_array(input, layout, std::move(header.shape), excess);
 }
 
+namespace {
+
+std::string place_of(std::size_t voxel, const std::vector<Index>& extents) {
+  std::vector<Index> place(extents.size());
+  auto rest = static_cast<Index>(voxel);
+  for (std::size_t axis = place.size(); axis-- > 0;) {
+    place[axis] = rest % extents[axis];
+    rest /= extents[axis];
+  }
+  return fmt::format("{}", fmt::join(place, ", "));
+}
+
+// Calls `use(begin, end)` for blocks of the numbers; what lies behind may leave the memory.
+template <class T, class Use>
+void for_each_block(std::span<const T> all, bool in_file, const Input& input, Use&& use) {
+  constexpr std::size_t block = 1 << 20;
+  for (std::size_t begin = 0; begin < all.size(); begin += block) {
+    input.poll();
+    const std::span<const T> part = all.subspan(begin, std::min(all.size() - begin, block));
+    use(begin, begin + part.size());
+    if (in_file) forget_file_pages(part.data(), part.size_bytes());
+  }
+}
+
+template <class T>
+std::size_t count_nan(std::span<const T> all, bool in_file, const Input& input) {
+  std::size_t count = 0;
+  for_each_block(all, in_file, input, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) count += all[k] != all[k] ? 1 : 0;
+  });
+  return count;
+}
+
+}  // namespace
+
 Image without_nan_pixels(Image image, const Input& input, const ReadOptions& options) {
+  Voxels& values = image.values;
+  const bool in_file = values.is_in_file();
   std::size_t masked = 0;
-  image.values.change([&]<class T>(std::vector<T>& values) {
+  with_voxels(values.type(), values.data(), [&]<class T>(const T* first) {
     if constexpr (std::is_floating_point_v<T>) {
-      for (std::size_t k = 0; k < values.size(); ++k) {
-        if (!std::isnan(values[k])) continue;
-        if (options.nan == NanPolicy::error) {
-          std::vector<Index> place(image.extents.size());
-          auto rest = static_cast<Index>(k);
-          for (std::size_t axis = place.size(); axis-- > 0;) {
-            place[axis] = rest % image.extents[axis];
-            rest /= image.extents[axis];
-          }
-          input.fail({fmt::format("value at [{}]", fmt::join(place, ", ")), "NaN", "a number",
-                      "--nan drop masks such voxels"});
-        }
-        values[k] = std::numeric_limits<T>::infinity();
-        ++masked;
+      const std::span<const T> all(first, values.size());
+      masked = count_nan(all, in_file, input);
+      if (masked == 0) return;
+      const auto is_nan = [](T value) { return std::isnan(value); };
+      if (options.nan == NanPolicy::error) {
+        const auto at = static_cast<std::size_t>(std::ranges::find_if(all, is_nan) - all.begin());
+        input.fail({fmt::format("value at [{}]", place_of(at, image.extents)), "NaN", "a number",
+                    "--nan drop masks such voxels"});
+      }
+      constexpr T never = std::numeric_limits<T>::infinity();
+      if (in_file) {
+        values = voxels_in_file<T>(values.type(), all.size(), [&](std::span<T> to) {
+          for_each_block(all, true, input, [&](std::size_t begin, std::size_t end) {
+            std::ranges::replace_copy_if(all.subspan(begin, end - begin), to.data() + begin, is_nan,
+                                         never);
+            forget_file_pages(to.data() + begin, (end - begin) * sizeof(T));
+          });
+        });
+      } else {
+        values.change([&](auto& stored) {
+          if constexpr (std::is_same_v<T, typename std::decay_t<decltype(stored)>::value_type>)
+            std::ranges::replace_if(stored, is_nan, never);
+        });
       }
     }
   });
@@ -217,7 +263,7 @@ Image without_nan_pixels(Image image, const Input& input, const ReadOptions& opt
 }  // namespace detail
 
 Image read_npy_image(const Input& input, const ReadOptions& options) {
-  Image image = detail::read_npy_array(input);
+  Image image = detail::read_npy_array(input, Input::Excess::stays_in_file);
   if (image.extents.empty()) image.extents.push_back(1);  // a single number
   return detail::without_nan_pixels(std::move(image), input, options);
 }

@@ -25,8 +25,9 @@ Image read_raw(const Input& input, const RawLayout& layout, const ReadOptions& o
   }
   const detail::ArrayLayout array{*type, layout.big_endian ? std::endian::big : std::endian::little,
                                   false, layout.skip};
-  return detail::without_nan_pixels(detail::load_array(input, array, layout.extents), input,
-                                    options);
+  return detail::without_nan_pixels(
+      detail::load_array(input, array, layout.extents, Input::Excess::stays_in_file), input,
+      options);
 }
 
 }  // namespace ph

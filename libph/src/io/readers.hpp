@@ -52,7 +52,7 @@ bool is_dipha(const Input& input);
 bool is_counted(const Input& input);
 
 /// NPY as it is, or the array of an NPZ: NaN and all.
-Image read_npy_array(const Input& input);
+Image read_npy_array(const Input& input, Input::Excess excess = Input::Excess::refused);
 /// The one array of an NPZ, or the one that input.member() names, unpacked.
 Input read_npz_member(const Input& input);
 

@@ -68,12 +68,31 @@ class Inflater {
   z_stream stream_{};
 };
 
-// A gzip file ends in the size of its last member modulo 2^32, or so it says.
-std::size_t stated_size(std::string_view packed) {
-  if (packed.size() < 18) return 0;
-  const auto* trailer = reinterpret_cast<const std::byte*>(packed.data() + packed.size() - 4);
-  return load<std::uint32_t>(trailer, std::endian::little);
-}
+// A buffer that is a temporary file; pages that were written leave the memory.
+class FileBuffer {
+ public:
+  explicit FileBuffer(std::size_t bytes) : file_(bytes) {}
+  char* data() { return file_.data(); }
+  std::size_t size() const { return size_; }
+  std::size_t capacity() const { return file_.size(); }
+  void resize(std::size_t bytes) {
+    if (bytes > capacity()) file_.resize(std::max(bytes, capacity() + capacity() / 2));
+    constexpr std::size_t many = std::size_t{1} << 24;
+    if (bytes >= written_ + many) {
+      forget_file_pages(file_.data() + written_, size_ - written_);
+      written_ = size_;
+    }
+    size_ = bytes;
+  }
+  ScratchFile take() {
+    file_.resize(size_);
+    return std::move(file_);
+  }
+
+ private:
+  ScratchFile file_;
+  std::size_t size_ = 0, written_ = 0;
+};
 
 }  // namespace
 
@@ -83,15 +102,21 @@ std::pmr::memory_resource* memory_of(const Input& input) {
   return input.context() != nullptr ? &input.context()->memory : std::pmr::new_delete_resource();
 }
 
-std::pmr::vector<char> gunzip(const Input& input, std::size_t most) {
+std::size_t stated_size(std::string_view packed) {
+  if (packed.size() < 18) return 0;
+  const auto* trailer = reinterpret_cast<const std::byte*>(packed.data() + packed.size() - 4);
+  return load<std::uint32_t>(trailer, std::endian::little);
+}
+
+namespace {
+
+template <class Buffer>
+void gunzip_into(Buffer& bytes, const Input& input, std::size_t most) {
   const std::string_view packed = input.text();
   const std::size_t reasonable =
       std::max(kMostFree, checked_product(packed.size(), kMostExpansion).value_or(SIZE_MAX));
   const std::size_t stated = stated_size(packed);
   Inflater inflater(packed, 15 + 16);
-  std::pmr::vector<char> bytes(memory_of(input));
-  // A lie costs at most what deflate could give.
-  bytes.reserve(std::min(std::clamp(stated, kStep, std::max(4 * packed.size(), kStep)) + 1, most));
   for (;;) {
     input.poll();
     const std::size_t before = bytes.size();
@@ -126,7 +151,7 @@ std::pmr::vector<char> gunzip(const Input& input, std::size_t most) {
                                          {}});
     }
     const std::string_view rest = packed.substr(inflater.used());
-    if (rest.empty()) return bytes;
+    if (rest.empty()) return;
     if (!is_gzip(rest)) {
       input.fail_at_byte(inflater.used(), {"trailing data after gzip data",
                                            fmt::format("{} bytes more", rest.size()),
@@ -135,6 +160,26 @@ std::pmr::vector<char> gunzip(const Input& input, std::size_t most) {
     }
     inflater.restart();
   }
+}
+
+// What to begin with: a lie costs at most what deflate could give.
+std::size_t likely_size(std::string_view packed) {
+  return std::clamp(stated_size(packed), kStep, std::max(4 * packed.size(), kStep)) + 1;
+}
+
+}  // namespace
+
+std::pmr::vector<char> gunzip(const Input& input, std::size_t most) {
+  std::pmr::vector<char> bytes(memory_of(input));
+  bytes.reserve(std::min(likely_size(input.text()), most));
+  gunzip_into(bytes, input, most);
+  return bytes;
+}
+
+ScratchFile gunzip_to_file(const Input& input) {
+  FileBuffer bytes(likely_size(input.text()));
+  gunzip_into(bytes, input, SIZE_MAX);
+  return bytes.take();
 }
 
 std::pmr::vector<char> inflate_raw(const Input& input, std::size_t offset, std::size_t packed_size,

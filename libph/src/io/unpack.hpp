@@ -16,11 +16,17 @@ constexpr std::size_t kMostExpansion = 256;                ///< times the packed
 /// Whether the bytes start as a gzip file does.
 bool is_gzip(std::string_view bytes);
 
+/// What a gzip file says that its last member unpacks to, modulo 2^32.
+std::size_t stated_size(std::string_view packed);
+
 /// All members of a gzip file, one after another.
 /// @param most bytes that it may unpack to, however small the file.
 /// @throws Error (bad_data) if it is damaged, truncated, has trailing data or expands beyond
 ///         reason; Error (resource) beyond `most`.
 std::pmr::vector<char> gunzip(const Input& packed, std::size_t most);
+
+/// The same into a temporary file, of any size within reason. @throws as gunzip; Error (io).
+ScratchFile gunzip_to_file(const Input& packed);
 
 /// A raw deflate stream that must end with its bytes and give exactly `size` bytes.
 /// @param offset where `packed` begins in the input, for messages.

@@ -9,4 +9,26 @@ namespace ph {
 /// A hint. Precondition: all of it is a file that is mapped, shared or never written to.
 void forget_file_pages(const void* begin, std::size_t bytes);
 
+/// Memory that is a file without a name, in the folder for temporary files (TMPDIR): what is not in
+/// use can leave the process's memory, see `forget_file_pages`. Zero at first. Move only.
+class ScratchFile {
+ public:
+  /// @throws Error (io) if there is no such folder, or no room in it.
+  explicit ScratchFile(std::size_t bytes = 0);
+  ScratchFile(ScratchFile&& other) noexcept;
+  ScratchFile& operator=(ScratchFile&& other) noexcept;
+  ~ScratchFile();
+
+  char* data() { return data_; }
+  const char* data() const { return data_; }
+  std::size_t size() const { return size_; }
+  /// Keeps what is there; addresses change. @throws as the constructor.
+  void resize(std::size_t bytes);
+
+ private:
+  int file_ = -1;
+  char* data_ = nullptr;
+  std::size_t size_ = 0;
+};
+
 }  // namespace ph

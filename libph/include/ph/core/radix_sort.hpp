@@ -19,6 +19,11 @@ inline std::uint64_t ordered_bits(double value) {
   return bits >> 63 ? ~bits : bits | std::uint64_t{1} << 63;
 }
 
+/// The number that `ordered_bits` made so.
+inline double from_ordered_bits(std::uint64_t bits) {
+  return std::bit_cast<double>(bits >> 63 ? bits & ~(std::uint64_t{1} << 63) : ~bits);
+}
+
 namespace detail {
 
 /// Stable; for a handful, as a rule.

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "ph/core/error.hpp"
+#include "ph/core/file_pages.hpp"
 #include "ph/core/run_context.hpp"
 
 namespace ph {
@@ -39,6 +40,12 @@ struct Fault {
 /// was unpacked. Move only.
 class Input {
  public:
+  /// What becomes of a regular file that exceeds the memory budget of the run, or unpacks to more.
+  enum class Excess {
+    refused,
+    stays_in_file,  ///< mapped, what was unpacked from a temporary file, and not counted
+  };
+
   /// @param path a file, a FIFO, or "-" for standard input. "FILE.npz:NAME" asks for one array of
   /// an
   ///        archive, see `member`, unless a file has this name.
@@ -48,12 +55,16 @@ class Input {
   ///         breaks off; Error (resource) if a stream or what was unpacked is longer than the
   ///         budget; Error (bad_data) if compressed data are damaged or expand beyond reason, or if
   ///         a stream begins with 1 MiB of NUL bytes, as /dev/zero does.
-  static Input open(const std::filesystem::path& path, const RunContext* context = nullptr);
+  static Input open(const std::filesystem::path& path, const RunContext* context = nullptr,
+                    Excess excess = Excess::refused);
   /// A view of bytes that outlive the input.
   static Input view(std::string_view bytes, std::string name);
   /// An input that owns its bytes: what was unpacked from another one.
   static Input hold(std::pmr::vector<char> bytes, std::string name,
                     const RunContext* context = nullptr);
+
+  /// The same of bytes that stay in a file.
+  static Input hold(ScratchFile bytes, std::string name, const RunContext* context = nullptr);
 
   Input(Input&& other) noexcept;
   Input& operator=(Input&& other) noexcept;
@@ -67,6 +78,13 @@ class Input {
   /// The part of an archive that was asked for; empty: none.
   const std::string& member() const { return member_; }
   const RunContext* context() const { return context_; }
+  /// Whether it exceeds the memory budget: to be read block by block, see `done_with`.
+  bool stays_in_file() const;
+  /// Says that these bytes are not needed for now.
+  void done_with(std::size_t offset, std::size_t size) const;
+  /// Keeps the bytes where they are though the input is gone; from now on they are not counted.
+  /// Nothing if they are in no file.
+  std::shared_ptr<const void> keep_in_file() const;
 
   /// @throws Error (resource) if the run's budget does not allow `bytes` more. Allocates nothing.
   void require_memory(std::size_t bytes) const;
@@ -85,7 +103,7 @@ class Input {
   struct Storage;
   Input();
 
-  std::unique_ptr<Storage> storage_;  // null for a view
+  std::shared_ptr<Storage> storage_;  // null for a view
   std::string_view text_;
   std::string name_;
   std::string extension_;
