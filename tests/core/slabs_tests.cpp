@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Images of which a slab is seen at a time, against the same images seen whole: slabs of any height,
-// all types of voxels, both constructions, holes, axes that close up.
+// Images of which a slab is seen at a time, against the same images seen whole: slabs of any
+// height, all types of voxels, both constructions, holes, axes that close up.
 #include <gtest/gtest.h>
 
 #include "support/conformance.hpp"

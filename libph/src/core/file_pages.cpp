@@ -6,7 +6,10 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -99,6 +102,27 @@ void ScratchFile::resize(std::size_t bytes) {
     refuse(temporary_folder(), bytes, errno);
   }
   data_ = static_cast<char*>(address);
+}
+
+ResidentFiles::ResidentFiles() : file_(::open("/proc/self/statm", O_RDONLY | O_CLOEXEC)) {}
+
+ResidentFiles::~ResidentFiles() {
+  if (file_ >= 0) ::close(file_);
+}
+
+std::size_t ResidentFiles::bytes() const {
+  // Pages: all, in memory, of these those of files and shared ones, …
+  std::array<char, 128> text{};
+  const ssize_t got = ::pread(file_, text.data(), text.size() - 1, 0);
+  std::size_t pages = 0;
+  const char* at = text.data();
+  const char* const end = at + std::max(got, ssize_t{0});
+  for (int column = 0; column < 3; ++column) {
+    const auto [next, error] = std::from_chars(at, end, pages);
+    if (error != std::errc{}) return 0;
+    at = std::find_if(next, end, [](char c) { return c != ' '; });
+  }
+  return pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
 }
 
 }  // namespace ph

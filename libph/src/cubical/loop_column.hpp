@@ -30,14 +30,14 @@ struct LoopEdge {
 /// replaced by the rest of the boundary of its square when it comes up, so a chain is followed only
 /// as far down as its pivot; edges that kill a component are left out (no column has its pivot
 /// there). One for each thread.
-/// @tparam Stars StarGrid, or StarBricks.
+/// @tparam Stars StarGrid, or StoredStars.
 template <Field K, class Stars>
 class LoopColumn {
  public:
   using Element = typename K::Element;
   using Term = Entry<LoopEdge, K>;
 
-  LoopColumn(Stars& grid, const K& field, const RunContext& context)
+  LoopColumn(const Stars& grid, const K& field, const RunContext& context)
       : grid_(grid), field_(field), context_(context), heap_(&context.memory) {}
 
   /// Begins anew with the boundary of a square.
@@ -95,10 +95,11 @@ class LoopColumn {
     return a.cell.key != b.cell.key ? a.cell.key < b.cell.key : a.cell.name < b.cell.name;
   }
   void count(std::size_t steps) {
-    constexpr std::size_t many = 4096;
+    constexpr std::size_t many = 64;
     if ((steps_ += steps) < many) return;
     steps_ = 0;
     context_.poll();
+    grid_.tidy();
   }
   Element times(Element scale, int sign) const { return sign > 0 ? scale : field_.negate(scale); }
 
@@ -170,7 +171,7 @@ class LoopColumn {
       std::push_heap(heap_.begin(), heap_.begin() + static_cast<std::ptrdiff_t>(i), precedes);
   }
 
-  Stars& grid_;
+  const Stars& grid_;
   const K& field_;
   const RunContext& context_;
   std::pmr::vector<Term> heap_;

@@ -2,6 +2,7 @@
 #pragma once
 #include <atomic>
 #include <bit>
+#include <concepts>
 #include <cstdint>
 #include <memory>
 #include <memory_resource>
@@ -9,7 +10,6 @@
 #include <numeric>
 #include <optional>
 #include <span>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -25,15 +25,15 @@ namespace ph::cubical {
 /// that are left by adding older ones only. Several threads reduce columns at a time; who has an
 /// older column's pivot takes it, and the younger column is reduced further in the next round
 /// (Morozov & Nigmetov, Towards lockfree persistent homology, 2020). The pairs do not depend on who
-/// comes first. One thread that goes from old to young never has to take one away; where stars are
-/// in memory by bricks only, it goes from brick to brick instead.
-/// @tparam Stars StarGrid, whose stars have their marks, or StarBricks.
+/// comes first. One thread that goes from old to young never has to take one away; where stars lie
+/// in a file, it goes along the grid instead.
+/// @tparam Stars StarGrid, whose stars have their marks, or StoredStars.
 template <Field K, class Stars>
 class LoopReduction {
  public:
   /// @param squares of which those in the order give birth to nothing.
-  LoopReduction(Stars& grid, const FreeEdges& free, const CriticalCells& squares, const K& field,
-                const RunContext& context, PairSink& sink)
+  LoopReduction(const Stars& grid, const FreeEdges& free, const CriticalCells& squares,
+                const K& field, const RunContext& context, PairSink& sink)
       : grid_(grid),
         free_(free),
         squares_(squares),
@@ -47,7 +47,14 @@ class LoopReduction {
     std::pmr::vector<std::uint32_t> round(columns_.size(), &context_.memory);
     std::iota(round.begin(), round.end(), 0U);
     while (!round.empty()) {
-      reduce_all(round);
+      if (kInFile) std::ranges::sort(round, {}, [&](auto i) { return squares_.order[i].cell; });
+      for_each_piece("loops", round.size(), kPiece, context_,
+                     [&](std::size_t begin, std::size_t end) {
+                       Worker& worker = take_worker();
+                       for (std::size_t i = begin; i < end; ++i) reduce(round[i], worker);
+                       const std::lock_guard lock(mutex_);
+                       idle_.push_back(&worker);
+                     });
       round.clear();
       for (const auto& worker : workers_) {
         round.insert(round.end(), worker->again.begin(), worker->again.end());
@@ -61,34 +68,9 @@ class LoopReduction {
  private:
   static constexpr std::uint32_t kNone = UINT32_MAX;
   static constexpr std::size_t kPiece = 64;  // columns that a thread takes at a time
-  static constexpr bool kByPlace = !std::is_const_v<Stars>;
+  static constexpr bool kInFile = !std::same_as<Stars, StarGrid>;
   using Chain = LoopColumn<K, Stars>;
   using Term = typename Chain::Term;
-
-  void reduce_all(std::pmr::vector<std::uint32_t>& round) {
-    if constexpr (kByPlace) {
-      std::ranges::sort(round, {}, [&](std::uint32_t i) {
-        const std::uint32_t cell = squares_.order[i].cell;
-        return std::pair(grid_.brick_of(squares_.cells[cell].voxel), cell);
-      });
-      Ticker ticker(context_, "loops", round.size());
-      Worker& worker = take_worker();
-      for (const std::uint32_t i : round) {
-        ticker.tick();
-        reduce(i, worker);
-      }
-      idle_.push_back(&worker);
-    } else {
-      for_each_piece("loops", round.size(), kPiece, context_,
-                     [&](std::size_t begin, std::size_t end) {
-                       Worker& worker = take_worker();
-                       for (std::size_t i = begin; i < end; ++i) reduce(round[i], worker);
-                       const std::lock_guard lock(mutex_);
-                       idle_.push_back(&worker);
-                     });
-    }
-  }
-
   // The boundary of a square and what was added to it, as far as it was followed.
   struct Column {
     std::optional<Term> pivot;  // nothing: it is zero, or was never looked at
@@ -183,7 +165,7 @@ class LoopReduction {
     });
   }
 
-  Stars& grid_;
+  const Stars& grid_;
   const FreeEdges& free_;
   const CriticalCells& squares_;
   const K& field_;

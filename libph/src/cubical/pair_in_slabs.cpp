@@ -3,69 +3,15 @@
 
 #include <new>
 #include <optional>
-#include <tuple>
 
-#include "loop_reduction.hpp"
 #include "ph/core/error.hpp"
-#include "ph/core/radix_sort.hpp"
 #include "slab_components.hpp"
-#include "star_bricks.hpp"
+#include "slab_loops.hpp"
 #include "top_graph.hpp"
 #include "voxel_graph.hpp"
 
 namespace ph::cubical {
 namespace {
-
-/// The critical edges and squares of three axes that neither graph takes, as they come.
-class LoopCells {
- public:
-  explicit LoopCells(const RunContext& context)
-      : context_(context), edges_(&context.memory), squares_(&context.memory) {}
-
-  void add_edge(const NumberedCell& edge) { edges_.push_back(edge); }
-  void add_square(double value, const NumberedCell& square) { squares_.push_back({value, square}); }
-  std::size_t count() const { return edges_.size() + squares_.size(); }
-
-  FreeEdges free_edges(const GridFrame& frame) {
-    std::ranges::sort(edges_, {}, &NumberedCell::voxel);
-    FreeEdges free(frame, context_);
-    for (std::size_t i = 0; i < edges_.size();) {
-      const std::uint32_t v = edges_[i].voxel;
-      unsigned numbers = 0;
-      for (; i < edges_.size() && edges_[i].voxel == v; ++i) numbers |= 1U << edges_[i].number;
-      free.add(v, numbers);
-    }
-    free.finish();
-    edges_ = decltype(edges_)(&context_.memory);
-    return free;
-  }
-  CriticalCells squares(const GridFrame& frame) {
-    std::ranges::sort(squares_, {}, [&](const Square& square) {
-      const auto [voxel, number] = square.cell;
-      return std::tuple(voxel, frame.tables(voxel).square_order().rank(static_cast<int>(number)));
-    });
-    CriticalCells result(&context_.memory);
-    result.cells.reserve(squares_.size());
-    result.order.reserve(squares_.size());
-    for (const auto& [value, cell] : squares_) {
-      result.order.push_back({value, static_cast<std::uint32_t>(result.cells.size())});
-      result.cells.push_back(cell);
-    }
-    squares_ = decltype(squares_)(&context_.memory);
-    radix_sort_by_value(
-        result.order, [](const CriticalCells::Place& place) { return place.value; }, context_);
-    return result;
-  }
-
- private:
-  struct Square {
-    double value;
-    NumberedCell cell;
-  };
-  const RunContext& context_;
-  std::pmr::vector<NumberedCell> edges_;
-  std::pmr::vector<Square> squares_;
-};
 
 [[noreturn]] void refuse_loops() {
   throw Error(ErrorKind::resource,
@@ -74,15 +20,9 @@ class LoopCells {
 }
 
 template <Field K>
-void pair_loops(const GridFrame& frame, LoopCells& cells, const K& field, const RunContext& context,
-                PairSink& pairs) {
+void pair_loops(SlabLoops& loops, const K& field, PairSink& pairs) {
   try {
-    const FreeEdges free = cells.free_edges(frame);
-    const CriticalCells squares = cells.squares(frame);
-    // The rest of what is left is for columns.
-    const double bytes_of_bricks = static_cast<double>(context.memory.left()) / 3;
-    StarBricks stars(frame, free, bytes_of_bricks, context);
-    LoopReduction<K, StarBricks>(stars, free, squares, field, context, pairs).run();
+    loops.pair(field, pairs);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::resource) throw;
     refuse_loops();
@@ -102,8 +42,8 @@ void pair_in_slabs(const Slabs& slabs, const K& field, int max_dim, const RunCon
   const bool wants_vertices = all || !frame.relative(), wants_tops = all || frame.relative();
   SlabComponents<VoxelGraph> vertices(context);
   SlabComponents<TopGraph> tops(context);
-  std::optional<LoopCells> loops;
-  if (all && top == 3) loops.emplace(context);
+  std::optional<SlabLoops> loops;
+  if (all && top == 3) loops.emplace(frame, context);
   // Loops give way before there is no memory for the slabs.
   const std::size_t reserve = context.memory.left() / 4;
   bool too_many_loops = false;
@@ -163,13 +103,14 @@ void pair_in_slabs(const Slabs& slabs, const K& field, int max_dim, const RunCon
           },
           [&](const SlabRoot& root) { pairs.essential(top, top_cell(root)); });
     }
+    if (loops) loops->add_stars(grid, first);
     slabs.forget(slab);
     if (loops && context.memory.left() < reserve) {
       loops.reset();
       too_many_loops = true;
     }
   }
-  if (loops) pair_loops(frame, *loops, field, context, pairs);
+  if (loops) pair_loops(*loops, field, pairs);
   pairs.finish();
   if (too_many_loops) refuse_loops();
 }

@@ -40,7 +40,7 @@ void pair_all_of_three_axes(StarGrid& grid, const K& field, const RunContext& co
   top_pairs.finish();
   mark_paired(grid, edges);
   const FreeEdges free = free_edges(grid, context);
-  LoopReduction<K, const StarGrid>(grid, free, squares, field, context, pairs).run();
+  LoopReduction<K, StarGrid>(grid, free, squares, field, context, pairs).run();
 }
 
 // Bars of all but the loops of three axes.

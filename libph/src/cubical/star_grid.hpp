@@ -29,6 +29,9 @@ class StarGrid : public GridFrame {
   StarGrid(const CubicalImage& grid, const RunContext& context, const SlabEnds& ends = {});
 
   std::uint32_t star(std::uint32_t v) const { return stars_[v]; }
+  std::span<const std::uint32_t> stars() const { return stars_; }
+  /// As StoredStars has it: all are in memory anyway.
+  static void tidy() {}
   bool enters(std::uint32_t v) const { return stars_[v] != kAbsent; }
   bool is_ghost(std::uint32_t v) const {
     return (ends_.ghost_before && v < layer_size()) ||

@@ -223,11 +223,12 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
   const bool sized = S_ISREG(status.st_mode) && status.st_size > 0 &&
                      (!standard_input || ::lseek(file.get(), 0, SEEK_CUR) == 0);
   const auto file_size = sized ? static_cast<std::size_t>(status.st_size) : 0;
-  if (file_size > kMapFrom) {
+  const bool exceeds = excess == Excess::stays_in_file && context != nullptr &&
+                       file_size > kFirstChunk && file_size > context->memory.left() / 2;
+  if (file_size > kMapFrom || exceeds) {
+    storage->exceeds = exceeds;
     // Its pages are taken from memory while they are read.
-    storage->exceeds = excess == Excess::stays_in_file && context != nullptr &&
-                       file_size > context->memory.left() / 2;
-    if (context != nullptr && !storage->exceeds) storage->claim.emplace(context->memory, file_size);
+    if (context != nullptr && !exceeds) storage->claim.emplace(context->memory, file_size);
     void* address = ::mmap(nullptr, file_size, PROT_READ, MAP_PRIVATE, file.get(), 0);
     if (address != MAP_FAILED) {
       ::madvise(address, file_size, MADV_SEQUENTIAL);

@@ -31,4 +31,18 @@ class ScratchFile {
   std::size_t size_ = 0;
 };
 
+/// Tells how much of mapped files is in the memory of the process.
+class ResidentFiles {
+ public:
+  ResidentFiles();
+  ResidentFiles(const ResidentFiles&) = delete;
+  ResidentFiles& operator=(const ResidentFiles&) = delete;
+  ~ResidentFiles();
+  /// 0 where the system does not say. Quick; for several threads.
+  std::size_t bytes() const;
+
+ private:
+  int file_;
+};
+
 }  // namespace ph

@@ -60,6 +60,7 @@ class MemoryClaim {
     budget_.add(bytes + ahead - bytes_);
     bytes_ = bytes + ahead;
   }
+  std::size_t bytes() const { return bytes_; }
   MemoryClaim(const MemoryClaim&) = delete;
   MemoryClaim& operator=(const MemoryClaim&) = delete;
 
