@@ -7,13 +7,16 @@
 #include <optional>
 
 #include "loop_reduction.hpp"
+#include "pair_cells.hpp"
 #include "pair_in_slabs.hpp"
 #include "ph/core/parallel.hpp"
 #include "two_graphs.hpp"
 
 namespace ph::cubical {
 
-bool can_pair_voxels(const CubicalImage& grid) { return GridFrame::can_hold(grid); }
+bool can_pair_voxels(const CubicalImage& grid) {
+  return GridFrame::can_hold(grid) || can_pair_cells(grid);
+}
 
 namespace {
 
@@ -116,6 +119,10 @@ void pair_voxels(const CubicalImage& voxels, const K& field, int max_dim, bool w
         const std::lock_guard lock(mutex);
         bars.expect(count);
       }};
+  if (!GridFrame::can_hold(voxels)) {
+    pair_cells(voxels, field, max_dim, wants_cells, context, bars);
+    return;
+  }
   const GridFrame frame(voxels);
   PairSink pairs(frame, wants_cells, sink);
   const bool may_cut = Slabs::can_cut(frame);

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "cell_grid.hpp"
+
+#include <algorithm>
+
+#include "ph/core/radix_sort.hpp"
+
+namespace ph::cubical {
+namespace {
+
+// A vertex alone, or a circle.
+bool keeps_axis(const CubicalImage& grid, std::size_t k) {
+  return grid.extents[k] > 1 || (!grid.voxels_are_vertices && !grid.periodic[k]);
+}
+
+std::uint32_t doubled(const CubicalImage& grid, std::size_t k) {
+  const auto n = static_cast<std::uint32_t>(grid.extents[k]);
+  return grid.periodic[k] ? 2 * n : grid.voxels_are_vertices ? 2 * n - 1 : 2 * n + 1;
+}
+
+}  // namespace
+
+bool CellGrid::can_hold(const CubicalImage& grid) {
+  int axes = 0;
+  double cells = 1;
+  for (std::size_t k = 0; k < grid.extents.size(); ++k) {
+    if (!keeps_axis(grid, k)) continue;
+    ++axes;
+    cells *= 2 * static_cast<double>(grid.extents[k]) + 1;  // no more
+  }
+  return axes <= kMostAxes && grid.size() > 0 && cells < static_cast<double>(kNone);
+}
+
+CellGrid::CellGrid(const CubicalImage& grid, const RunContext& context)
+    : grid_(grid), ranks_(&context.memory), order_(&context.memory), marks_(&context.memory) {
+  for (std::size_t k = 0; k < grid.extents.size(); ++k) {
+    if (!keeps_axis(grid, k)) {
+      if (grid.periodic[k]) loops_.push_back(k);
+      continue;
+    }
+    const auto i = static_cast<std::size_t>(dim_++);
+    axes_[i] = {static_cast<std::uint32_t>(grid.extents[k]), doubled(grid, k), 1, grid.periodic[k],
+                Divisor(doubled(grid, k))};
+    input_axis_[i] = k;
+  }
+  std::uint32_t cells = 1;
+  for (auto k = static_cast<std::size_t>(dim_); k-- > 0;) {
+    axes_[k].stride = cells;
+    cells *= axes_[k].length;
+  }
+  rank_voxels(context);
+  marks_.resize(cells);
+}
+
+void CellGrid::rank_voxels(const RunContext& context) {
+  struct Voxel {
+    double value;
+    std::uint32_t place;
+  };
+  const std::size_t size = grid_.size();
+  Ticker ticker(context, "voxels", size);
+  std::pmr::vector<Voxel> voxels(&context.memory);
+  voxels.reserve(size);
+  for (std::size_t v = 0; v < size; ++v) {
+    if (const double value = grid_.value(v); value <= grid_.limit)
+      voxels.push_back({value, static_cast<std::uint32_t>(v)});
+    ticker.tick();
+  }
+  radix_sort_by_value(
+      voxels, [](const Voxel& v) { return v.value; }, context);
+  ranks_.resize(size, kNone);
+  order_.reserve(voxels.size());
+  for (const Voxel& v : voxels) {
+    ranks_[v.place] = static_cast<std::uint32_t>(order_.size());
+    order_.push_back(v.place);
+    ticker.work();
+  }
+}
+
+void CellGrid::append_numbers(std::uint32_t cell, unsigned loops,
+                              std::vector<Index>& numbers) const {
+  const std::size_t base = numbers.size();
+  numbers.resize(base + grid_.extents.size(), 0);
+  const Coordinates x = coordinates(cell);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(dim_); ++k)
+    numbers[base + input_axis_[k]] = Index{x[k]};
+  for (std::size_t i = 0; i < loops_.size(); ++i) {
+    // The voxel stands at 0 (V) or 1 (T) of the circle; the copy that goes around has the edge.
+    numbers[base + loops_[i]] = static_cast<Index>(loops >> i & 1U);
+  }
+}
+
+}  // namespace ph::cubical
