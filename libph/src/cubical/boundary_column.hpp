@@ -39,7 +39,9 @@ class BoundaryColumn {
     std::make_heap(heap_.begin(), heap_.end(), precedes);
   }
   void add(Element scale, std::span<const Term> chain) {
-    for (const Term& term : chain) push(term.cell, field_.multiply(scale, term.coefficient()));
+    const std::size_t before = heap_.size();
+    for (const Term& term : chain) append(term.cell, field_.multiply(scale, term.coefficient()));
+    push_from(before);
   }
   /// Takes out the youngest cell that is in no pair inside its star; nothing if none is left.
   std::optional<Term> take_pivot() {
@@ -77,19 +79,28 @@ class BoundaryColumn {
  private:
   static bool precedes(const Term& a, const Term& b) { return a.cell < b.cell; }
 
-  void push(CellGrid::Name name, Element a) {
-    heap_.emplace_back(name, a);
-    std::push_heap(heap_.begin(), heap_.end(), precedes);
-    constexpr unsigned many = 4096;
-    if (++steps_ % many == 0) context_.poll();
+  void append(CellGrid::Name name, Element a) { heap_.emplace_back(name, a); }
+  // Puts what was appended where it belongs.
+  void push_from(std::size_t before) {
+    const std::size_t added = heap_.size() - before;
+    constexpr std::size_t many = 4096;
+    if ((steps_ += added + 1) >= many) {
+      steps_ = 0;
+      context_.poll();
+    }
+    if (added > before) return std::make_heap(heap_.begin(), heap_.end(), precedes);
+    for (std::size_t i = before + 1; i <= heap_.size(); ++i)
+      std::push_heap(heap_.begin(), heap_.begin() + static_cast<std::ptrdiff_t>(i), precedes);
   }
   // Adds `scale` times the boundary of a cell but for the facet `skip`.
   void add_boundary(std::uint32_t cell, std::uint32_t skip, Element scale) {
-    grid_.for_each_facet(cell,
-                         [&](std::uint32_t facet, const CellGrid::Coordinates& x, int incidence) {
-                           if (facet == skip || grid_.mark(facet).kills()) return;
-                           push(grid_.name(facet, x), incidence > 0 ? scale : field_.negate(scale));
-                         });
+    const std::size_t before = heap_.size();
+    grid_.for_each_facet(
+        cell, [&](std::uint32_t facet, const CellGrid::Coordinates& x, int incidence) {
+          if (facet == skip || grid_.mark(facet).kills()) return;
+          append(grid_.name(facet, x), incidence > 0 ? scale : field_.negate(scale));
+        });
+    push_from(before);
   }
   Term pop() {
     std::pop_heap(heap_.begin(), heap_.end(), precedes);
@@ -111,7 +122,7 @@ class BoundaryColumn {
   const CellGrid& grid_;
   const K& field_;
   const RunContext& context_;
-  unsigned steps_ = 0;
+  std::size_t steps_ = 0;  // since the last look at the stop token
   std::pmr::vector<Term> heap_;
 };
 

@@ -5,6 +5,7 @@
 #include <bit>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 #include "ph/core/parallel.hpp"
 #include "ph/core/polled_sort.hpp"
@@ -44,26 +45,28 @@ StarMatcher::StarMatcher(CellGrid& grid, const StarShapes& shapes, const RunCont
     : grid_(grid),
       shapes_(shapes),
       cells_(&context.memory),
-      place_(shapes.shapes.size(), &context.memory),
+      place_(shapes.shapes.size(), kNone, &context.memory),
+      rest_(&context.memory),
+      reached_(&context.memory),
+      stack_(&context.memory),
       critical_(no_names(&context.memory)) {}
 
 void StarMatcher::mark_star(std::uint32_t voxel, const CellGrid::Coordinates& at) {
   find_steps(at);
   find_cells(voxel, at);
-  pair_cells();
-  const CellGrid::Name rank = CellGrid::Name{grid_.rank(voxel)} << 32U;
-  const auto dim = static_cast<std::size_t>(grid_.dim());
-  for (const StarCell& c : cells_) {
-    place_[c.code] = 0;
-    if (c.is_paired) continue;
-    const StarShapes::Shape& shape = shapes_.shapes[c.code];
-    grid_.set_mark(c.cell, CellMark::critical(shape.down));
-    critical_[grid_.voxels_are_vertices() ? shape.steps : dim - shape.steps].push_back(rank |
-                                                                                       c.cell);
-  }
+  pair_apparent_cells();
+  pair_rest();
+  mark_cells(voxel);
 }
 
 void StarMatcher::find_steps(const CellGrid::Coordinates& at) {
+  std::uint32_t border = 0;
+  for (int k = 0; k < grid_.dim(); ++k) {
+    const std::uint32_t x = at[static_cast<std::size_t>(k)];
+    border = border << 2U | (x == 0 ? 1U : 0U) | (x + 1 == grid_.axis(k).extent ? 2U : 0U);
+  }
+  if (border == border_) return;  // as most of the time along a row
+  border_ = border;
   step_count_ = 0;
   const bool is_t = !grid_.voxels_are_vertices();
   std::uint32_t voxels = 1;
@@ -100,8 +103,8 @@ void StarMatcher::find_cells(std::uint32_t voxel, const CellGrid::Coordinates& a
   for (int k = 0; k < grid_.dim(); ++k)
     cell += (2 * at[static_cast<std::size_t>(k)] + centre) * grid_.axis(k).stride;
   cells_.clear();
-  cells_.push_back({cell, voxel, 0, 0, false});
-  place_[0] = 1;
+  cells_.push_back({cell, voxel, 0, 0});
+  place_[0] = 0;
   for (std::size_t r = 0; r < step_count_; ++r) {
     const Step& step = steps_[r];
     const std::size_t before = cells_.size();
@@ -114,34 +117,119 @@ void StarMatcher::find_cells(std::uint32_t voxel, const CellGrid::Coordinates& a
       const auto code = static_cast<std::uint16_t>(from.code + step.code);
       const StarShapes::Shape& shape = shapes_.shapes[code];
       bool is_in = true;
-      for (std::size_t j = 0; j < shape.steps; ++j) is_in = is_in && place_[shape.without[j]] != 0;
+      for (std::size_t j = 0; j < shape.steps; ++j)
+        is_in = is_in && place_[shape.without[j]] != kNone;
       if (!is_in) continue;
-      cells_.push_back({from.cell + static_cast<std::uint32_t>(step.places), far,
-                        from.steps | 1U << r, code, false});
-      place_[code] = static_cast<std::uint16_t>(cells_.size());
+      cells_.push_back(
+          {from.cell + static_cast<std::uint32_t>(step.places), far, from.steps | 1U << r, code});
+      place_[code] = static_cast<Place>(cells_.size() - 1);
     }
   }
 }
 
-void StarMatcher::pair_cells() {
-  const bool is_v = grid_.voxels_are_vertices();
-  for (StarCell& a : cells_) {
+void StarMatcher::pair_apparent_cells() {
+  for (Place i = 0; i < cells_.size(); ++i) {
+    StarCell& a = cells_[i];
     const auto first = static_cast<std::size_t>(std::countr_zero(a.steps));
     for (std::size_t r = 0; r < std::min(first, step_count_); ++r) {
-      const Step& step = steps_[r];
-      if ((a.steps & step.steps_back) != 0) continue;
-      const std::uint16_t place = place_[a.code + step.code];
-      if (place == 0) continue;
-      StarCell& b = cells_[place - 1U];
-      a.is_paired = b.is_paired = true;
-      const unsigned down_a = shapes_.shapes[a.code].down, down_b = shapes_.shapes[b.code].down;
-      const int there = step.direction, back = there ^ 1;
-      grid_.set_mark(
-          a.cell, is_v ? CellMark::killed_by(there, down_a) : CellMark::killer_of(there, down_a));
-      grid_.set_mark(b.cell,
-                     is_v ? CellMark::killer_of(back, down_b) : CellMark::killed_by(back, down_b));
+      if ((a.steps & steps_[r].steps_back) != 0) continue;
+      const Place b = place_[a.code + steps_[r].code];
+      if (b == kNone) continue;
+      a.partner = b;
+      cells_[b].partner = i;
       break;
     }
+  }
+}
+
+void StarMatcher::pair_rest() {
+  rest_.clear();
+  for (Place i = 0; i < cells_.size(); ++i)
+    if (cells_[i].partner == kNone) rest_.push_back(i);
+  if (rest_.size() < 2) return;
+  const auto level = [&](Place i) { return std::popcount(cells_[i].steps); };
+  std::ranges::sort(rest_, [&](Place a, Place b) {
+    return level(a) != level(b) ? level(a) < level(b) : is_younger(b, a);
+  });
+  int undecided = -1;  // pairs of its level would depend on a cell before
+  for (const Place i : rest_)
+    if (level(i) != undecided && !pair_along_path(i)) undecided = level(i);
+}
+
+template <class Visit>
+void StarMatcher::for_each_next(Place cell, Visit&& visit) {
+  const StarShapes::Shape& shape = shapes_.shapes[cells_[cell].code];
+  for (std::size_t j = 0; j < shape.steps; ++j) {
+    const Place below = place_[shape.without[j]];
+    if (below != cells_[cell].partner && !is_upper(cells_[below])) visit(below);
+  }
+}
+
+void StarMatcher::count_paths(Place cell) {
+  reached_.clear();
+  stack_.assign(1, cell);
+  while (!stack_.empty()) {
+    const Place from = stack_.back();
+    stack_.pop_back();
+    for_each_next(from, [&](Place to) {
+      StarCell& c = cells_[to];
+      if (++c.paths_in > 1) return;
+      c.paths = 0;
+      reached_.push_back(to);
+      if (c.partner != kNone) stack_.push_back(c.partner);
+    });
+  }
+  // A cell passes on what it has once all that lead to it have done so.
+  cells_[cell].paths = 1;
+  stack_.assign(1, cell);
+  while (!stack_.empty()) {
+    const Place from = stack_.back();
+    stack_.pop_back();
+    for_each_next(from, [&](Place to) {
+      StarCell& c = cells_[to];
+      c.paths = std::min<Place>(2, static_cast<Place>(c.paths + cells_[from].paths));
+      c.from = from;
+      if (--c.paths_in > 0 || c.partner == kNone) return;
+      cells_[c.partner].paths = c.paths;
+      stack_.push_back(c.partner);
+    });
+  }
+}
+
+bool StarMatcher::pair_along_path(Place cell) {
+  count_paths(cell);
+  Place youngest = kNone;
+  for (const Place i : reached_)
+    if (cells_[i].partner == kNone && (youngest == kNone || is_younger(i, youngest))) youngest = i;
+  if (youngest == kNone) return true;
+  if (cells_[youngest].paths > 1) return false;
+  for (Place lower = youngest;;) {
+    const Place upper = cells_[lower].from;
+    const Place next = std::exchange(cells_[upper].partner, lower);
+    cells_[lower].partner = upper;
+    if (upper == cell) return true;
+    lower = next;
+  }
+}
+
+void StarMatcher::mark_cells(std::uint32_t voxel) {
+  const CellGrid::Name rank = CellGrid::Name{grid_.rank(voxel)} << 32U;
+  const bool is_v = grid_.voxels_are_vertices();
+  const auto dim = static_cast<std::size_t>(grid_.dim());
+  for (const StarCell& c : cells_) {
+    place_[c.code] = kNone;
+    const StarShapes::Shape& shape = shapes_.shapes[c.code];
+    if (c.partner == kNone) {
+      grid_.set_mark(c.cell, CellMark::critical(shape.down));
+      critical_[is_v ? shape.steps : dim - shape.steps].push_back(rank | c.cell);
+      continue;
+    }
+    const bool upper = is_upper(c);
+    const Step& step =
+        steps_[static_cast<std::size_t>(std::countr_zero(c.steps ^ cells_[c.partner].steps))];
+    const int to_partner = upper ? step.direction ^ 1 : int{step.direction};
+    grid_.set_mark(c.cell, upper == is_v ? CellMark::killer_of(to_partner, shape.down)
+                                         : CellMark::killed_by(to_partner, shape.down));
   }
 }
 
