@@ -2,6 +2,7 @@
 #include "cell_grid.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "ph/core/radix_sort.hpp"
 
@@ -53,26 +54,26 @@ CellGrid::CellGrid(const CubicalImage& grid, const RunContext& context)
 }
 
 void CellGrid::rank_voxels(const RunContext& context) {
-  struct Voxel {
-    double value;
-    std::uint32_t place;
-  };
   const std::size_t size = grid_.size();
   Ticker ticker(context, "voxels", size);
-  std::pmr::vector<Voxel> voxels(&context.memory);
-  voxels.reserve(size);
+  order_.reserve(size);
   for (std::size_t v = 0; v < size; ++v) {
-    if (const double value = grid_.value(v); value <= grid_.limit)
-      voxels.push_back({value, static_cast<std::uint32_t>(v)});
+    if (grid_.value(v) <= grid_.limit) order_.push_back(static_cast<std::uint32_t>(v));
     ticker.tick();
   }
-  radix_sort_by_value(
-      voxels, [](const Voxel& v) { return v.value; }, context);
-  ranks_.resize(size, kNone);
-  order_.reserve(voxels.size());
-  for (const Voxel& v : voxels) {
-    ranks_[v.place] = static_cast<std::uint32_t>(order_.size());
-    order_.push_back(v.place);
+  // Their values are looked up in the image: the two arrays that stay are all that is needed.
+  ranks_.resize(size);
+  const std::span<std::uint32_t> sorted = radix_sort_by_value(
+      std::span(order_), std::span(ranks_).first(order_.size()),
+      [&](std::uint32_t v) {
+        ticker.work();
+        return grid_.value(v);
+      },
+      context);
+  if (sorted.data() == ranks_.data()) std::ranges::copy(sorted, order_.begin());
+  std::ranges::fill(ranks_, kNone);
+  for (std::uint32_t rank = 0; rank < order_.size(); ++rank) {
+    ranks_[order_[rank]] = rank;
     ticker.work();
   }
 }

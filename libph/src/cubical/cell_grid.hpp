@@ -74,7 +74,7 @@ class CellGrid {
   /// At most 8 axes and fewer than 2^32 cells, and some.
   static bool can_hold(const CubicalImage& grid);
   /// All marks are those of cells that never enter. Precondition: can_hold(grid).
-  /// Time: O(voxels log voxels). Memory: 8 bytes a voxel (40 meanwhile) and 2 a cell.
+  /// Time: O(voxels log voxels). Memory: 8 bytes a voxel and 2 a cell.
   CellGrid(const CubicalImage& grid, const RunContext& context);
 
   int dim() const { return dim_; }
