@@ -31,7 +31,7 @@ class BoundaryColumn {
   /// Begins anew with the boundary of a cell.
   void assign_boundary(std::uint32_t cell) {
     heap_.clear();
-    add_boundary(cell, CellGrid::kNone, field_.from_int(1));
+    add_boundary(cell, grid_.coordinates(cell), CellGrid::kNone, field_.from_int(1));
   }
   /// Begins anew with a chain.
   void assign(std::span<const Term> chain) {
@@ -49,15 +49,16 @@ class BoundaryColumn {
       const std::uint32_t cell = CellGrid::cell(youngest->cell);
       const CellMark mark = grid_.mark(cell);
       if (!mark.is_killed()) return youngest;
-      const CellGrid::Coordinates x = grid_.coordinates(cell);
-      const int direction = mark.direction(), axis = direction / 2;
-      const std::uint32_t killer = grid_.beside(cell, x[static_cast<std::size_t>(axis)], direction);
+      CellGrid::Coordinates x = grid_.coordinates(cell);
+      const int direction = mark.direction();
+      const auto axis = static_cast<std::size_t>(direction / 2);
       // The incidence of the cell in its killer, of which it is the lower end if that lies above.
       bool is_negative = direction % 2 != 0;
-      for (std::size_t k = 0; k < static_cast<std::size_t>(axis); ++k)
-        is_negative = is_negative != (x[k] % 2 != 0);
+      for (std::size_t k = 0; k < axis; ++k) is_negative = is_negative != (x[k] % 2 != 0);
+      const std::uint32_t killer = grid_.beside(cell, x[axis], direction);
+      x[axis] = grid_.next(x[axis], direction);
       const Element a = youngest->coefficient();
-      add_boundary(killer, cell, is_negative ? a : field_.negate(a));
+      add_boundary(killer, x, cell, is_negative ? a : field_.negate(a));
     }
     return std::nullopt;
   }
@@ -92,11 +93,12 @@ class BoundaryColumn {
     for (std::size_t i = before + 1; i <= heap_.size(); ++i)
       std::push_heap(heap_.begin(), heap_.begin() + static_cast<std::ptrdiff_t>(i), precedes);
   }
-  // Adds `scale` times the boundary of a cell but for the facet `skip`.
-  void add_boundary(std::uint32_t cell, std::uint32_t skip, Element scale) {
+  // Adds `scale` times the boundary of a cell, but for the facet `skip`. @param at where it is.
+  void add_boundary(std::uint32_t cell, const CellGrid::Coordinates& at, std::uint32_t skip,
+                    Element scale) {
     const std::size_t before = heap_.size();
     grid_.for_each_facet(
-        cell, [&](std::uint32_t facet, const CellGrid::Coordinates& x, int incidence) {
+        cell, at, [&](std::uint32_t facet, const CellGrid::Coordinates& x, int incidence) {
           if (facet == skip || grid_.mark(facet).kills()) return;
           append(grid_.name(facet, x), incidence > 0 ? scale : field_.negate(scale));
         });

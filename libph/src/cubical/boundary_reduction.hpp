@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cstdint>
 #include <memory>
 #include <memory_resource>
@@ -15,7 +16,6 @@
 #include "boundary_column.hpp"
 #include "cell_sink.hpp"
 #include "ph/core/parallel.hpp"
-#include "ph/core/polled_sort.hpp"
 
 namespace ph::cubical {
 
@@ -37,11 +37,9 @@ class BoundaryReduction {
         names_(columns),
         field_(field),
         context_(context),
-        rows_(&context.memory),
-        first_row_(&context.memory),
-        owners_(rows.size(), kNone, &context.memory),
+        rows_(std::bit_ceil(2 * rows.size() + 1), Row{}, &context.memory),
         columns_(columns.size(), &context.memory) {
-    number_rows(rows);
+    enter_rows(rows);
   }
 
   /// @param on_pair called with (column, row), or (column, nothing) if the column is zero.
@@ -70,13 +68,16 @@ class BoundaryReduction {
     }
   }
   /// Whether a row is a pivot. Precondition: it has run.
-  bool is_pivot(Name row) const { return owners_[number(row)] != kNone; }
+  bool is_pivot(Name row) { return owner_of(row) != kNone; }
 
  private:
   static constexpr std::uint32_t kNone = UINT32_MAX;
   static constexpr std::size_t kPiece = 64;  // columns that a thread takes at a time
-  static constexpr unsigned kBlockBits = 6;  // places of the grid whose rows are found together
   using Term = typename BoundaryColumn<K>::Term;
+  struct Row {
+    std::uint32_t cell = kNone;
+    std::uint32_t owner = kNone;  // a column
+  };
   // The boundary of a cell and what was added to it, as far as it was followed.
   struct Column {
     std::optional<Term> pivot;  // nothing: it is zero, or was never looked at
@@ -109,23 +110,27 @@ class BoundaryReduction {
     return worker;
   }
 
-  // Rows by their place in the grid, and where those of a block begin.
-  void number_rows(std::span<const Name> rows) {
-    rows_.reserve(rows.size());
-    for (const Name row : rows) rows_.push_back(CellGrid::cell(row));
-    Ticker ticker(context_, "rows");
-    polled_sort(rows_, std::less<>(), ticker);
-    const std::size_t blocks = rows_.empty() ? 0 : (rows_.back() >> kBlockBits) + 1;
-    first_row_.reserve(blocks + 1);
-    for (std::uint32_t i = 0; i < rows_.size(); ++i)
-      while (first_row_.size() <= rows_[i] >> kBlockBits) first_row_.push_back(i);
-    first_row_.push_back(static_cast<std::uint32_t>(rows_.size()));
+  void enter_rows(std::span<const Name> rows) {
+    Ticker ticker(context_, "rows", rows.size());
+    for (const Name name : rows) {
+      Row* row = &rows_[start(CellGrid::cell(name))];
+      while (row->cell != kNone) row = after(row);
+      row->cell = CellGrid::cell(name);
+      ticker.tick();
+    }
   }
-  std::uint32_t number(Name row) const {
-    const std::uint32_t cell = CellGrid::cell(row), block = cell >> kBlockBits;
-    const auto found = std::lower_bound(rows_.begin() + first_row_[block],
-                                        rows_.begin() + first_row_[block + 1], cell);
-    return static_cast<std::uint32_t>(found - rows_.begin());
+  std::size_t start(std::uint32_t cell) const {
+    return (cell * 0x9E3779B97F4A7C15U >> 20) & (rows_.size() - 1);
+  }
+  template <class Pointer>
+  Pointer after(Pointer row) const {
+    return row == &rows_.back() ? row - (rows_.size() - 1) : row + 1;
+  }
+  // Where the column is noted that has its pivot there. Precondition: `row` is one.
+  std::uint32_t& owner_of(Name row) {
+    Row* found = &rows_[start(CellGrid::cell(row))];
+    while (found->cell != CellGrid::cell(row)) found = after(found);
+    return found->owner;
   }
 
   void reduce(std::uint32_t i, Worker& worker) {
@@ -139,7 +144,7 @@ class BoundaryReduction {
       pivot = column.take_pivot();
     }
     for (; pivot; pivot = column.take_pivot()) {
-      const std::atomic_ref owner(owners_[number(pivot->cell)]);
+      const std::atomic_ref owner(owner_of(pivot->cell));
       std::uint32_t other = owner.load(std::memory_order_acquire);
       if (other > i) {
         own = {pivot, worker.keep(column.consolidate(), &context_.memory)};
@@ -162,9 +167,7 @@ class BoundaryReduction {
   std::span<const Name> names_;  // of the columns
   const K& field_;
   const RunContext& context_;
-  std::pmr::vector<std::uint32_t> rows_;       // ascending
-  std::pmr::vector<std::uint32_t> first_row_;  // by block of the grid
-  std::pmr::vector<std::uint32_t> owners_;     // by row: a column
+  std::pmr::vector<Row> rows_;  // a hash table, at most half full
   std::pmr::vector<Column> columns_;
   std::mutex mutex_;  // for what follows
   std::vector<std::unique_ptr<Worker>> workers_;

@@ -55,11 +55,7 @@ std::uint32_t CellComponents::beyond(std::uint32_t cell, const CellGrid::Coordin
     cell = grid_.beside(cell, to[k], direction);
     if (cell == CellGrid::kNone)
       return count_ + static_cast<std::uint32_t>(open_axes_ == 1 ? direction % 2 : 0);
-    const std::uint32_t last = grid_.axis(direction / 2).length - 1;
-    if (direction % 2 != 0)
-      to[k] = to[k] == last ? 0 : to[k] + 1;
-    else
-      to[k] = to[k] == 0 ? last : to[k] - 1;
+    to[k] = grid_.next(to[k], direction);
   }
   return number(to);
 }

@@ -109,6 +109,12 @@ class CellGrid {
     if (x > 0) return cell - a.stride;
     return a.periodic ? cell + (a.length - 1) * a.stride : kNone;
   }
+  /// The coordinate there. Precondition: it is not outside.
+  std::uint32_t next(std::uint32_t x, int direction) const {
+    const std::uint32_t last = axes_[static_cast<std::size_t>(direction) / 2].length - 1;
+    if (direction % 2 != 0) return x == last ? 0 : x + 1;
+    return x == 0 ? last : x - 1;
+  }
   /// Precondition: the cell enters. @param x its coordinates.
   Name name(std::uint32_t cell, const Coordinates& x) const {
     return Name{ranks_[deciding_voxel(cell, x)]} << 32U | cell;
@@ -116,9 +122,9 @@ class CellGrid {
   Name name(std::uint32_t cell) const { return name(cell, coordinates(cell)); }
 
   /// Calls `visit(facet, its coordinates, incidence)`, incidences as in complex/cubical_cells.ipp.
+  /// @param x the coordinates of the cell.
   template <class Visit>
-  void for_each_facet(std::uint32_t cell, Visit&& visit) const {
-    Coordinates x = coordinates(cell);
+  void for_each_facet(std::uint32_t cell, Coordinates x, Visit&& visit) const {
     int sign = 1;
     for (std::size_t k = 0; k < static_cast<std::size_t>(dim_); ++k) {
       const std::uint32_t own = x[k];
