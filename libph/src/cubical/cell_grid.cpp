@@ -21,15 +21,17 @@ std::uint32_t doubled(const CubicalImage& grid, std::size_t k) {
 
 }  // namespace
 
+double CellGrid::count_cells(const CubicalImage& grid) {
+  double cells = 1;
+  for (std::size_t k = 0; k < grid.extents.size(); ++k)
+    if (keeps_axis(grid, k)) cells *= static_cast<double>(doubled(grid, k));
+  return cells;
+}
+
 bool CellGrid::can_hold(const CubicalImage& grid) {
   int axes = 0;
-  double cells = 1;
-  for (std::size_t k = 0; k < grid.extents.size(); ++k) {
-    if (!keeps_axis(grid, k)) continue;
-    ++axes;
-    cells *= 2 * static_cast<double>(grid.extents[k]) + 1;  // no more
-  }
-  return axes <= kMostAxes && grid.size() > 0 && cells < static_cast<double>(kNone);
+  for (std::size_t k = 0; k < grid.extents.size(); ++k) axes += keeps_axis(grid, k) ? 1 : 0;
+  return axes <= kMostAxes && grid.size() > 0 && count_cells(grid) < static_cast<double>(kNone);
 }
 
 CellGrid::CellGrid(const CubicalImage& grid, const RunContext& context)

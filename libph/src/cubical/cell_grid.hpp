@@ -7,7 +7,7 @@
 
 #include "ph/core/cubical_image.hpp"
 #include "ph/core/run_context.hpp"
-#include "star_grid.hpp"
+#include "grid_frame.hpp"
 
 namespace ph::cubical {
 
@@ -71,6 +71,8 @@ class CellGrid {
     Divisor by_length;
   };
 
+  /// How many places its doubled grid has, those of axes that are left out not counted.
+  static double count_cells(const CubicalImage& grid);
   /// At most 8 axes and fewer than 2^32 cells, and some.
   static bool can_hold(const CubicalImage& grid);
   /// All marks are those of cells that never enter. Precondition: can_hold(grid).

@@ -72,6 +72,10 @@ class CellPairing {
 
 bool can_pair_cells(const CubicalImage& grid) { return CellGrid::can_hold(grid); }
 
+double bytes_of_cells(const CubicalImage& grid) {
+  return sizeof(CellMark) * CellGrid::count_cells(grid);
+}
+
 template <Field K>
 void pair_cells(const CubicalImage& image, const K& field, int max_dim, bool wants_cells,
                 const RunContext& context, const BarSink& bars) {
@@ -80,10 +84,10 @@ void pair_cells(const CubicalImage& image, const K& field, int max_dim, bool wan
   CellPairing pairing(grid, sink, context);
   pairing.pair_vertices();
   if (max_dim > 0) {
-    // From above, so that cells that are born with a class make no columns.
-    const int top = grid.dim();
-    if (top > 1 && max_dim >= top - 2) pairing.pair_top_cells();
-    for (int dim = std::min(max_dim, top - 2); dim > 0; --dim) pairing.pair_between(dim, field);
+    // From above, also where less is asked for: cells that are born with a class make no columns,
+    // which would be reduced to zero in the end and are the longest.
+    if (grid.dim() > 1) pairing.pair_top_cells();
+    for (int dim = grid.dim() - 2; dim > 0; --dim) pairing.pair_between(dim, field);
     pairing.add_loops();
   }
   sink.finish();

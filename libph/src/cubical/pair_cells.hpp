@@ -7,6 +7,8 @@ namespace ph::cubical {
 
 /// Whether `pair_cells` can: fewer than 2^32 cells, and some.
 bool can_pair_cells(const CubicalImage& grid);
+/// What it keeps of all cells.
+double bytes_of_cells(const CubicalImage& grid);
 
 /// As `pair_voxels`, for any number of axes: components from both ends, a reduction of critical
 /// cells between them. Memory: 8 bytes a voxel, 2 a cell (2^d a voxel), and what critical cells

@@ -18,6 +18,12 @@ bool can_pair_voxels(const CubicalImage& grid) {
   return GridFrame::can_hold(grid) || can_pair_cells(grid);
 }
 
+double bytes_to_pair_voxels(const CubicalImage& grid) {
+  // Stars, and the nodes of a graph; or ranks.
+  const double of_voxels = 8 * static_cast<double>(grid.size());
+  return GridFrame::can_hold(grid) ? of_voxels : of_voxels + bytes_of_cells(grid);
+}
+
 namespace {
 
 // Of the stars whose other edges are marked.

@@ -194,10 +194,11 @@ MemoryForecast forecast_rips(const Rips& rips, std::span<const double> cells,
   return {least, most + kMargin * large.extra * std::pow(factor, power)};
 }
 
-MemoryForecast forecast_voxels(double stored, double voxels) {
-  // A star and a node of a graph; critical cells with their columns, and bars.
-  constexpr double least = 8, most = 8 + 160;
-  return {stored + least * voxels, stored + most * voxels + kAlways};
+MemoryForecast forecast_voxels(double stored, double voxels, double cells) {
+  // Measured: critical cells with their columns, and bars, of noise.
+  constexpr double bytes_per_cell = 20, least_cells_per_voxel = 8;
+  return {stored,
+          stored + bytes_per_cell * std::max(least_cells_per_voxel * voxels, cells) + kAlways};
 }
 
 MemoryForecast forecast_cells(double stored, std::span<const double> cells) {

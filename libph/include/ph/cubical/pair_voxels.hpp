@@ -21,16 +21,20 @@ struct BarSink {
   std::function<void(std::size_t count)> expect;
 };
 
-/// Whether `pair_voxels` can: at most three axes that have more than one voxel (T: or are not
-/// periodic), fewer than about 2^31 voxels, and not none.
+/// Whether `pair_voxels` can: some voxels, and fewer than about 2^31 where at most three axes have
+/// more than one voxel (T: or are not periodic), else fewer than 2^32 cells (2^d a voxel).
 bool can_pair_voxels(const CubicalImage& grid);
+/// The bytes that it takes beside the image, but for what critical cells and bars take.
+/// Precondition: it can.
+double bytes_to_pair_voxels(const CubicalImage& grid);
 
 /// The pairs of positive length of the cubical filtration of an image up to a dimension, at least.
 /// Values of bars are those of the filtration. Cells are those of the pairs in the order of
 /// VoxelFiltration.
 /// @param wants_cells else bars have none.
-/// Time: near-linear for H0 and the highest dimension, plus a reduction of critical cells for H1 of
-/// three axes. Memory: 8 bytes a voxel, and what critical cells take.
+/// Time: near-linear for H0 and the highest dimension but one, plus a reduction of critical cells
+/// for those between them. Memory: 8 bytes a voxel, of more than three axes 2 a cell besides, and
+/// what critical cells take.
 template <Field K>
 void pair_voxels(const CubicalImage& grid, const K& field, int max_dim, bool wants_cells,
                  const RunContext& context, const BarSink& sink);

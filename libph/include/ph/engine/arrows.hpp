@@ -6,9 +6,9 @@
 
 namespace ph {
 
-/// Images of up to three axes (axes of one voxel not counted) and fewer than 2^31 voxels, all
-/// dimensions, no zero-length pairs: cells are paired voxel by voxel, what is left by union-find
-/// and, for H1 of three axes, by reduction. See docs/algorithms.md.
+/// Images of fewer than 2^31 voxels (three axes) or 2^32 cells (more; axes of one voxel do not
+/// count), all dimensions, no zero-length pairs: cells are paired voxel by voxel, what is left by
+/// union-find from both ends and by reduction between them. See docs/algorithms.md.
 struct ArrowsEngine {
   static constexpr Engine id = Engine::arrows;
   static constexpr const char* name = "arrows";

@@ -12,7 +12,7 @@ enum class Engine {
   cohomology,  ///< coboundary matrix with clearing and shortcuts
   union_find,  ///< H0 only
   lens,        ///< Rips, H0 to H2: edge by edge
-  arrows,      ///< images of up to three axes: voxel by voxel
+  arrows,      ///< images: voxel by voxel
 };
 
 /// What an engine is asked for.
