@@ -37,7 +37,7 @@ def smooth(shape, generator):
 
 KINDS = {"noise": noise, "smooth": smooth, "8-bit": eight_bit}
 SIZES = {"2048²": (2048, 2048), "64³": (64, 64, 64), "128³": (128, 128, 128), "256³": (256, 256, 256),
-         "512³": (512, 512, 512)}
+         "512³": (512, 512, 512), "24⁴": (24, 24, 24, 24), "32⁴": (32, 32, 32, 32)}
 
 ROWS = [Row(f"{size} {kind}", shape, kind, math.prod(shape) <= 2048**2 or (size, kind) == ("256³", "smooth"))
         for size, shape in SIZES.items() for kind in KINDS]
