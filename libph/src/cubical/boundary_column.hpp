@@ -85,7 +85,8 @@ class BoundaryColumn {
   void push_from(std::size_t before) {
     const std::size_t added = heap_.size() - before;
     constexpr std::size_t many = 4096;
-    if ((steps_ += added + 1) >= many) {
+    steps_ += added + 1;
+    if (steps_ >= many) {
       steps_ = 0;
       context_.poll();
     }

@@ -5,9 +5,9 @@
 #include <memory_resource>
 #include <vector>
 
+#include "grid_frame.hpp"
 #include "ph/core/cubical_image.hpp"
 #include "ph/core/run_context.hpp"
-#include "grid_frame.hpp"
 
 namespace ph::cubical {
 

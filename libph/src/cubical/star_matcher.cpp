@@ -128,7 +128,7 @@ void StarMatcher::find_cells(std::uint32_t voxel, const CellGrid::Coordinates& a
 }
 
 void StarMatcher::pair_apparent_cells() {
-  for (Place i = 0; i < cells_.size(); ++i) {
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
     StarCell& a = cells_[i];
     const auto first = static_cast<std::size_t>(std::countr_zero(a.steps));
     for (std::size_t r = 0; r < std::min(first, step_count_); ++r) {
@@ -136,7 +136,7 @@ void StarMatcher::pair_apparent_cells() {
       const Place b = place_[a.code + steps_[r].code];
       if (b == kNone) continue;
       a.partner = b;
-      cells_[b].partner = i;
+      cells_[b].partner = static_cast<Place>(i);
       break;
     }
   }
@@ -144,8 +144,8 @@ void StarMatcher::pair_apparent_cells() {
 
 void StarMatcher::pair_rest() {
   rest_.clear();
-  for (Place i = 0; i < cells_.size(); ++i)
-    if (cells_[i].partner == kNone) rest_.push_back(i);
+  for (std::size_t i = 0; i < cells_.size(); ++i)
+    if (cells_[i].partner == kNone) rest_.push_back(static_cast<Place>(i));
   if (rest_.size() < 2) return;
   const auto level = [&](Place i) { return std::popcount(cells_[i].steps); };
   std::ranges::sort(rest_, [&](Place a, Place b) {
