@@ -164,6 +164,13 @@ void add_homology_options(CLI::App& app, Arguments& a) {
                   static_cast<int>(parse_integer("--max-dim", text, 0, kMostDimensions));
             })
       ->group(group);
+  add_value(app, "--min-dim", "D",
+            "lowest dimension reported (default 0); of volumes 2 saves the work for loops",
+            [&a](const std::string& text) {
+              a.options.min_dim =
+                  static_cast<int>(parse_integer("--min-dim", text, 0, kMostDimensions));
+            })
+      ->group(group);
   add_value(app, "--field,--modulus", "P", "coefficients modulo the prime P (default 2)",
             [&a](const std::string& text) {
               a.options.field = parse_integer("--field", text, 2);
@@ -266,6 +273,9 @@ void check_together(Arguments& a) {
     reject("--report: standard output has the barcode; -o FILE or --output-format none");
   if (std::count(a.inputs.begin(), a.inputs.end(), "-") > 1)
     reject("INPUT: standard input can be read once only");
+  if (a.options.max_dim && a.options.min_dim > *a.options.max_dim)
+    reject(fmt::format("--min-dim: found {}, expected at most --max-dim, {}", a.options.min_dim,
+                       *a.options.max_dim));
   const Engine engine = a.options.engine;
   if (a.options.representatives != Representatives::none && engine == Engine::standard)
     reject(

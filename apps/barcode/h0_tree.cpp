@@ -20,7 +20,7 @@ std::optional<MergeTree> tree_of(const Rips& rips, const BuiltComplex& built, co
   // The complex that was computed may hold all its edges and may have merged equal points; this one
   // is a spanning forest of all points.
   Arguments again = arguments;
-  again.options.max_dim = 0;
+  again.options.min_dim = again.options.max_dim.emplace(0);
   again.options.engine = Engine::automatic;
   again.options.min_persistence = -1;
   again.options.representatives = Representatives::none;

@@ -184,7 +184,7 @@ class WaysOut {
   /// The highest of the lower dimensions.
   void lower_dimension() {
     const int highest = arguments_.options.max_dim.value_or(default_max_dim());
-    for (int dim = highest - 1; dim >= 0; --dim) {
+    for (int dim = highest - 1; dim >= arguments_.options.min_dim; --dim) {
       Arguments changed = arguments_;
       changed.options.max_dim = dim;
       if (try_out(fmt::format("--max-dim {}", dim), changed)) return;

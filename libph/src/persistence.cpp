@@ -16,17 +16,15 @@ std::string describe(const Bar& bar) {
 
 }  // namespace
 
-int detail::checked_max_dim(int max_dim) {
-  if (max_dim < 0) {
-    throw Error(ErrorKind::usage,
-                fmt::format("highest dimension: found {}, expected >= 0", max_dim));
-  }
-  return max_dim;
+int detail::checked_dim(std::string_view name, int dim) {
+  if (dim < 0) throw Error(ErrorKind::usage, fmt::format("{}: found {}, expected >= 0", name, dim));
+  return dim;
 }
 
 int detail::rips_max_dim(const Rips& rips, const Options& options) {
   const bool only_components = rips.has_only_components();
-  const int max_dim = checked_max_dim(options.max_dim.value_or(only_components ? 0 : 1));
+  const int max_dim =
+      checked_dim("highest dimension", options.max_dim.value_or(only_components ? 0 : 1));
   if (only_components && max_dim > 0) {
     throw Error(ErrorKind::usage,
                 fmt::format("highest dimension: found {}, expected 0: of this Rips filtration only "

@@ -43,11 +43,14 @@ TEST(Slabs, AgreeWithTheOracleCellByCell) {
                             : random.image(extents, random.coin());
     if (random.integer(0, 3) == 0) options.threshold = random.integer(-2, 200);
     const Cubical cubical(image, options);
-    const Options wanted{.max_dim = random.integer(0, axes), .field = random.coin() ? 2 : 3};
+    const Options wanted{.max_dim = random.integer(0, axes),
+                         .min_dim = random.coin() ? 0 : random.integer(0, axes),
+                         .field = random.coin() ? 2 : 3};
     Options oracle = wanted;
     oracle.engine = Engine::standard;
     const auto expected = pairs_of(persistence(cubical, oracle));
-    for (int layers = 1; layers <= extents[0]; ++layers)
+    // 0: not in slabs.
+    for (int layers = 0; layers <= extents[0]; ++layers)
       ASSERT_EQ(bars_in_slabs(cubical, wanted, layers), expected) << layers;
     longer += expected.size();
   }
@@ -101,7 +104,7 @@ TEST(Slabs, SayWhenLoopsDoNotFit) {
   Generator random(4);
   const Image image = random_image<std::uint16_t>(random, {150, 60, 60}, 60000);
   RunContext context;
-  context.memory.set_limit(image.values.bytes() + 8'000'000);
+  context.memory.set_limit(image.values.bytes() + 10'000'000);
   const Cubical cubical(image, {}, context);
   try {
     persistence(cubical, {.cells = false}, context);
@@ -109,6 +112,12 @@ TEST(Slabs, SayWhenLoopsDoNotFit) {
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::resource);
     EXPECT_NE(std::string(error.what()).find("dimension 1"), std::string::npos) << error.what();
+  }
+  for (const Options& others :
+       {Options{.max_dim = 0, .cells = false}, Options{.min_dim = 2, .cells = false}}) {
+    RunContext roomy;
+    EXPECT_EQ(persistence(cubical, others, context).size(),
+              persistence(Cubical(image, {}, roomy), others, roomy).size());
   }
 }
 

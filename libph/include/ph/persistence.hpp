@@ -27,6 +27,7 @@ enum class Collapse {
 struct Options {
   /// Highest homology dimension reported; default: 1 for Rips, all dimensions otherwise.
   std::optional<int> max_dim = std::nullopt;
+  int min_dim = 0;  ///< lowest one reported: where that saves work, lower ones are not computed
   std::int64_t field = 2;             ///< characteristic of the coefficients: a prime < 2^31
   Engine engine = Engine::automatic;  ///< which engine; see registry.hpp
   /// Rips only. With it, birth and death cells have the values of their bar, but among the many of
@@ -38,7 +39,7 @@ struct Options {
 };
 
 /// The barcode of a filtered complex.
-/// @throws Error (usage) on a field that is not one, a negative max_dim, an engine that cannot do
+/// @throws Error (usage) on a field that is not one, a negative dimension, an engine that cannot do
 ///         the task or a collapse that would spoil it; Error (resource) beyond the memory limit;
 ///         Error (cancelled) on a stop request.
 Barcode persistence(const Rips& rips, const Options& options = {},

@@ -8,6 +8,7 @@
 #include "slab_components.hpp"
 #include "slab_loops.hpp"
 #include "top_graph.hpp"
+#include "two_graphs.hpp"
 #include "voxel_graph.hpp"
 
 namespace ph::cubical {
@@ -16,7 +17,7 @@ namespace {
 [[noreturn]] void refuse_loops() {
   throw Error(ErrorKind::resource,
               "bars of dimension 1: what their critical cells take exceeds the memory limit; all "
-              "other dimensions fit");
+              "other dimensions fit (max_dim 0, or min_dim 2)");
 }
 
 template <Field K>
@@ -34,16 +35,16 @@ void pair_loops(SlabLoops& loops, const K& field, PairSink& pairs) {
 }  // namespace
 
 template <Field K>
-void pair_in_slabs(const Slabs& slabs, const K& field, int max_dim, const RunContext& context,
-                   PairSink& pairs) {
+void pair_in_slabs(const Slabs& slabs, const K& field, const WantedBars& wanted,
+                   const RunContext& context, PairSink& pairs) {
   const GridFrame& frame = slabs.frame();
   const int top = frame.top_dim();
-  const bool all = max_dim > 0;
-  const bool wants_vertices = all || !frame.relative(), wants_tops = all || frame.relative();
+  std::optional<SlabLoops> loops;
+  if (wants_loops(frame, wanted)) loops.emplace(frame, context);
+  const bool has_vertices = loops || wants_vertices(frame, wanted);
+  const bool has_tops = loops || wants_top_cells(frame, wanted);
   SlabComponents<VoxelGraph> vertices(context);
   SlabComponents<TopGraph> tops(context);
-  std::optional<SlabLoops> loops;
-  if (all && top == 3) loops.emplace(frame, context);
   // Loops give way before there is no memory for the slabs.
   const std::size_t reserve = context.memory.left() / 4;
   bool too_many_loops = false;
@@ -57,7 +58,7 @@ void pair_in_slabs(const Slabs& slabs, const K& field, int max_dim, const RunCon
       if (!edges) edges.emplace(critical_cells(grid, 1, context));
       return *edges;
     };
-    if (wants_vertices) {
+    if (has_vertices) {
       using Place = SlabComponents<VoxelGraph>::Place;
       const auto cell = [](const Place& edge) {
         return StarCell{edge.cell.voxel, kEdges[edge.cell.number], edge.value};
@@ -78,7 +79,7 @@ void pair_in_slabs(const Slabs& slabs, const K& field, int max_dim, const RunCon
           },
           [&](const SlabRoot& root) { pairs.essential(0, voxel(root)); });
     }
-    if (wants_tops) {
+    if (has_tops) {
       using Place = SlabComponents<TopGraph>::Place;
       const TopGraph graph(grid);
       const auto cell = [&](const Place& facet) {
@@ -115,7 +116,9 @@ void pair_in_slabs(const Slabs& slabs, const K& field, int max_dim, const RunCon
   if (too_many_loops) refuse_loops();
 }
 
-template void pair_in_slabs(const Slabs&, const Z2&, int, const RunContext&, PairSink&);
-template void pair_in_slabs(const Slabs&, const Zp&, int, const RunContext&, PairSink&);
+template void pair_in_slabs(const Slabs&, const Z2&, const WantedBars&, const RunContext&,
+                            PairSink&);
+template void pair_in_slabs(const Slabs&, const Zp&, const WantedBars&, const RunContext&,
+                            PairSink&);
 
 }  // namespace ph::cubical

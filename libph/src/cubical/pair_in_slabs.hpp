@@ -10,10 +10,12 @@ namespace ph::cubical {
 /// axes what the critical squares and edges take that pair with no cube and no voxel.
 /// @throws Error (resource) if these do not fit, after all other bars were handed over.
 template <Field K>
-void pair_in_slabs(const Slabs& slabs, const K& field, int max_dim, const RunContext& context,
-                   PairSink& pairs);
+void pair_in_slabs(const Slabs& slabs, const K& field, const WantedBars& wanted,
+                   const RunContext& context, PairSink& pairs);
 
-extern template void pair_in_slabs(const Slabs&, const Z2&, int, const RunContext&, PairSink&);
-extern template void pair_in_slabs(const Slabs&, const Zp&, int, const RunContext&, PairSink&);
+extern template void pair_in_slabs(const Slabs&, const Z2&, const WantedBars&, const RunContext&,
+                                   PairSink&);
+extern template void pair_in_slabs(const Slabs&, const Zp&, const WantedBars&, const RunContext&,
+                                   PairSink&);
 
 }  // namespace ph::cubical

@@ -53,29 +53,28 @@ void pair_all_of_three_axes(StarGrid& grid, const K& field, const RunContext& co
 }
 
 // Bars of all but the loops of three axes.
-void pair_by_components(const StarGrid& grid, bool only_components, const RunContext& context,
+void pair_by_components(const StarGrid& grid, const WantedBars& wanted, const RunContext& context,
                         PairSink& pairs) {
-  const int top = grid.top_dim();
-  const bool turned_around = grid.relative();
-  if (top == 3) {
-    // Components come from one graph, the highest dimension from the other; turned around they have
-    // changed places.
-    CriticalCells cells = critical_cells(grid, turned_around ? 2 : 1, context);
-    if (turned_around)
-      pair_facets_with_top_cells(grid, cells, context, pairs);
-    else
-      pair_vertices_with_edges(grid, cells, context, pairs);
-  } else {
-    CriticalCells edges = critical_cells(grid, 1, context);
-    if (top < 2 || !turned_around || !only_components)
+  if (grid.top_dim() == 3) {
+    if (wants_vertices(grid, wanted)) {
+      CriticalCells edges = critical_cells(grid, 1, context);
       pair_vertices_with_edges(grid, edges, context, pairs);
-    if (top == 2 && (turned_around || !only_components))
-      pair_facets_with_top_cells(grid, edges, context, pairs);
-    // What neither graph takes lives for ever: loops around periodic axes.
-    if (top < 2 || !only_components)
-      for (const auto& [value, cell] : edges.order)
-        pairs.essential(1, {edges.cells[cell].voxel, kEdges[edges.cells[cell].number], value});
+    }
+    if (wants_top_cells(grid, wanted)) {
+      CriticalCells squares = critical_cells(grid, 2, context);
+      pair_facets_with_top_cells(grid, squares, context, pairs);
+    }
+    return;
   }
+  CriticalCells edges = critical_cells(grid, 1, context);
+  if (grid.top_dim() < 2 || wants_vertices(grid, wanted))
+    pair_vertices_with_edges(grid, edges, context, pairs);
+  if (grid.top_dim() == 2 && wants_top_cells(grid, wanted))
+    pair_facets_with_top_cells(grid, edges, context, pairs);
+  // What neither graph takes lives for ever: loops around periodic axes.
+  if (grid.top_dim() < 2 || wanted.max_dim > 0)
+    for (const auto& [value, cell] : edges.order)
+      pairs.essential(1, {edges.cells[cell].voxel, kEdges[edges.cells[cell].number], value});
 }
 
 // By what is known before: stars, and a node of a graph for each voxel.
@@ -108,7 +107,7 @@ std::uint32_t layers_that_fit(const GridFrame& frame, const RunContext& context)
 }  // namespace
 
 template <Field K>
-void pair_voxels(const CubicalImage& voxels, const K& field, int max_dim, bool wants_cells,
+void pair_voxels(const CubicalImage& voxels, const K& field, const WantedBars& wanted,
                  const RunContext& context, const BarSink& bars) {
   // Two threads may have some at a time.
   std::mutex mutex;
@@ -126,11 +125,11 @@ void pair_voxels(const CubicalImage& voxels, const K& field, int max_dim, bool w
         bars.expect(count);
       }};
   if (!GridFrame::can_hold(voxels)) {
-    pair_cells(voxels, field, max_dim, wants_cells, context, bars);
+    pair_cells(voxels, field, wanted.max_dim, wanted.cells, context, bars);
     return;
   }
   const GridFrame frame(voxels);
-  PairSink pairs(frame, wants_cells, sink);
+  PairSink pairs(frame, wanted.cells, sink);
   const bool may_cut = Slabs::can_cut(frame);
   std::optional<StarGrid> grid;
   if (!may_cut || (context.slab_layers == 0 && fits_at_best(frame, context))) {
@@ -140,19 +139,19 @@ void pair_voxels(const CubicalImage& voxels, const K& field, int max_dim, bool w
   if (!grid) {
     const auto layers = context.slab_layers > 0 ? static_cast<std::uint32_t>(context.slab_layers)
                                                 : layers_that_fit(frame, context);
-    pair_in_slabs(Slabs(frame, layers, context), field, max_dim, context, pairs);
+    pair_in_slabs(Slabs(frame, layers, context), field, wanted, context, pairs);
     return;
   }
-  if (grid->top_dim() == 3 && max_dim > 0)
+  if (wants_loops(frame, wanted))
     pair_all_of_three_axes(*grid, field, context, sink, pairs);
   else
-    pair_by_components(*grid, max_dim == 0, context, pairs);
+    pair_by_components(*grid, wanted, context, pairs);
   pairs.finish();
 }
 
-template void pair_voxels(const CubicalImage&, const Z2&, int, bool, const RunContext&,
+template void pair_voxels(const CubicalImage&, const Z2&, const WantedBars&, const RunContext&,
                           const BarSink&);
-template void pair_voxels(const CubicalImage&, const Zp&, int, bool, const RunContext&,
+template void pair_voxels(const CubicalImage&, const Zp&, const WantedBars&, const RunContext&,
                           const BarSink&);
 
 }  // namespace ph::cubical

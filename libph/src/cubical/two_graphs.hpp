@@ -2,9 +2,25 @@
 #pragma once
 #include "critical_cells.hpp"
 #include "pair_sink.hpp"
+#include "ph/cubical/pair_voxels.hpp"
 #include "star_grid.hpp"
 
 namespace ph::cubical {
+
+/// Of three axes: whether bars are wanted that come from neither graph.
+inline bool wants_loops(const GridFrame& frame, const WantedBars& wanted) {
+  // Around periodic axes classes of all dimensions may live for ever.
+  return frame.top_dim() == 3 && wanted.max_dim > 0 &&
+         (wanted.min_dim <= 1 || frame.any_periodic());
+}
+/// Whether bars are wanted that come from the graph of voxels: H0; turned around the highest ones.
+inline bool wants_vertices(const GridFrame& frame, const WantedBars& wanted) {
+  return frame.relative() ? wanted.max_dim > 0 : wanted.min_dim <= 0 || frame.top_dim() < 3;
+}
+/// The same for the graph of top cells.
+inline bool wants_top_cells(const GridFrame& frame, const WantedBars& wanted) {
+  return frame.relative() ? wanted.min_dim <= 0 || frame.top_dim() < 3 : wanted.max_dim > 0;
+}
 
 /// Components of the sublevel sets: voxels joined by edges, in the order of the stars. Takes the
 /// edges that kill from the order of `edges`, all critical ones.

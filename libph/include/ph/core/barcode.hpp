@@ -172,6 +172,9 @@ class BarcodeBuilder {
         barcode_(filtration.cell_kind()) {}
 
   int max_dim() const { return max_dim_; }
+  /// Bars of lower dimensions are dropped, too; an engine may save itself the work.
+  int min_dim() const { return min_dim_; }
+  void set_min_dim(int dim) { min_dim_ = dim; }
   /// What an engine must hand over with each bar.
   Representatives representatives() const { return representatives_; }
   /// Whether bars keep their cells.
@@ -184,7 +187,7 @@ class BarcodeBuilder {
   /// A class of H_dim born with `birth`, killed by `death` (a cell of dimension dim + 1).
   /// @return whether the bar is kept: only then is a representative wanted.
   bool add_pair(int dim, const Cell& birth, const Cell& death) {
-    if (dim > max_dim_) return false;
+    if (!wants(dim)) return false;
     const Bar bar{dim, filtration_.value(birth), filtration_.value(death)};
     if (!(bar.persistence() > min_persistence_)) return false;
     add(bar, birth, &death);
@@ -192,7 +195,7 @@ class BarcodeBuilder {
   }
   /// A class of H_dim that never dies.
   bool add_essential(int dim, const Cell& birth) {
-    if (dim > max_dim_) return false;
+    if (!wants(dim)) return false;
     add(Bar{dim, filtration_.value(birth), kInfinity}, birth, nullptr);
     return true;
   }
@@ -230,8 +233,9 @@ class BarcodeBuilder {
   }
 
  private:
+  bool wants(int dim) const { return min_dim_ <= dim && dim <= max_dim_; }
   bool keeps(const Bar& bar) const {
-    return bar.dim <= max_dim_ && (bar.is_infinite() || bar.persistence() > min_persistence_);
+    return wants(bar.dim) && (bar.is_infinite() || bar.persistence() > min_persistence_);
   }
   void add(const Bar& bar, const Cell& birth, const Cell* death) {
     numbers_.clear();
@@ -244,7 +248,7 @@ class BarcodeBuilder {
   }
 
   const F& filtration_;
-  int max_dim_;
+  int max_dim_, min_dim_ = 0;
   double min_persistence_;
   Representatives representatives_;
   bool cells_;

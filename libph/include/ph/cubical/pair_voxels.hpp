@@ -21,6 +21,12 @@ struct BarSink {
   std::function<void(std::size_t count)> expect;
 };
 
+/// Which bars are wanted, at least.
+struct WantedBars {
+  int min_dim = 0, max_dim = 0;
+  bool cells = true;  ///< else bars have none
+};
+
 /// Whether `pair_voxels` can: some voxels, and fewer than about 2^31 where at most three axes have
 /// more than one voxel (T: or are not periodic), else fewer than 2^32 cells (2^d a voxel).
 bool can_pair_voxels(const CubicalImage& grid);
@@ -28,20 +34,19 @@ bool can_pair_voxels(const CubicalImage& grid);
 /// Precondition: it can.
 double bytes_to_pair_voxels(const CubicalImage& grid);
 
-/// The pairs of positive length of the cubical filtration of an image up to a dimension, at least.
+/// The pairs of positive length of the cubical filtration of an image.
 /// Values of bars are those of the filtration. Cells are those of the pairs in the order of
 /// VoxelFiltration.
-/// @param wants_cells else bars have none.
 /// Time: near-linear for H0 and the highest dimension but one, plus a reduction of critical cells
 /// for those between them. Memory: 8 bytes a voxel, of more than three axes 2 a cell besides, and
 /// what critical cells take.
 template <Field K>
-void pair_voxels(const CubicalImage& grid, const K& field, int max_dim, bool wants_cells,
+void pair_voxels(const CubicalImage& grid, const K& field, const WantedBars& wanted,
                  const RunContext& context, const BarSink& sink);
 
-extern template void pair_voxels(const CubicalImage&, const Z2&, int, bool, const RunContext&,
-                                 const BarSink&);
-extern template void pair_voxels(const CubicalImage&, const Zp&, int, bool, const RunContext&,
-                                 const BarSink&);
+extern template void pair_voxels(const CubicalImage&, const Z2&, const WantedBars&,
+                                 const RunContext&, const BarSink&);
+extern template void pair_voxels(const CubicalImage&, const Zp&, const WantedBars&,
+                                 const RunContext&, const BarSink&);
 
 }  // namespace ph::cubical

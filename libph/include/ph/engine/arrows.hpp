@@ -30,8 +30,8 @@ struct ArrowsEngine {
           },
           [&](std::span<const Bar> some) { bars.add_bars(some); },
           [&](std::size_t count) { bars.expect(count); }};
-      cubical::pair_voxels(f.cubical_image(), field, bars.max_dim(), bars.wants_cells(), context,
-                           sink);
+      const cubical::WantedBars wanted{bars.min_dim(), bars.max_dim(), bars.wants_cells()};
+      cubical::pair_voxels(f.cubical_image(), field, wanted, context, sink);
     }
   }
 };

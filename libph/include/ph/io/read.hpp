@@ -64,7 +64,7 @@ struct ReadOptions {
 // Every reader takes a path ("-" is standard input) or an open Input. All throw
 //   Error (bad_data)   "name:line:column (or byte): what, found X, expected Y; hint"
 //   Error (no_input)   the file is missing, unreadable or a directory
-//   Error (io)         reading broke off
+//   Error (io)         reading broke off, or there is no room for a temporary file
 //   Error (resource)   the budget of options.context would be exceeded
 // They need linear time, and never allocate more than in proportion to the bytes that are there.
 
@@ -106,7 +106,10 @@ SparseDistances read_sparse(const Input& input, const ReadOptions& options = {})
 
 /// An array of any dimension from NPY, NPZ, PNG (grey), PGM, DIPHA or NIfTI, by content. The axes
 /// are those of the file, in C order: a picture has (y, x), DIPHA and NIfTI have (x, y, z).
-/// +-infinity is legal; NaN is an error or, with NanPolicy::drop, +infinity.
+/// +-infinity is legal; NaN is an error or, with NanPolicy::drop, +infinity. An array (but one of an
+/// archive) that would take more than half of the memory left in the budget stays in its file, or in
+/// a temporary one where it is stored in another way than in memory; the file must not change
+/// meanwhile.
 Image read_image(const std::filesystem::path& path, const ReadOptions& options = {});
 Image read_image(const Input& input, const ReadOptions& options = {});
 /// NumPy's .npy: booleans, integers, floats (16, 32, 64 bits), both byte orders and both storage
