@@ -45,8 +45,9 @@ void pair_in_slabs(const Slabs& slabs, const K& field, const WantedBars& wanted,
   const bool has_tops = loops || wants_top_cells(frame, wanted);
   SlabComponents<VoxelGraph> vertices(context);
   SlabComponents<TopGraph> tops(context);
-  // Loops give way before there is no memory for the slabs.
-  const std::size_t reserve = context.memory.left() / 4;
+  // Loops give way before there is no memory for the slabs and the other bars; their columns would
+  // take more than they do.
+  const std::size_t reserve = context.memory.left() / 2;
   bool too_many_loops = false;
 
   for (std::uint32_t slab = 0; slab < slabs.count(); ++slab) {

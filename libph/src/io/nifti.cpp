@@ -140,7 +140,7 @@ void scale(Image& image, const Header& header, const Input& input, const ReadOpt
         kSlope,
         {"scale of the values", fmt::format("{} and {}", slope, intercept), "finite numbers", {}});
   }
-  const Voxels stored = std::move(image.values);
+  Voxels stored = std::move(image.values);
   const std::size_t count = stored.size();
   const bool in_file = detail::stays_in_file(input, count * sizeof(double));
   constexpr std::size_t block = 1 << 20;  // numbers between two looks at the stop token
@@ -158,6 +158,13 @@ void scale(Image& image, const Header& header, const Input& input, const ReadOpt
     if (in_file) {
       return detail::voxels_in_file<double>(
           VoxelType::float64, count, [&](std::span<double> to) { scale_into(from, to.data()); });
+    }
+    if constexpr (std::same_as<T, double>) {
+      stored.change([&](auto& numbers) {
+        if constexpr (std::same_as<decltype(numbers), std::vector<double>&>)
+          scale_into(numbers.data(), numbers.data());
+      });
+      return stored;
     }
     // Both are there for a while, and no budget counts what is stored.
     input.require_memory(count * (sizeof(T) + sizeof(double)));
