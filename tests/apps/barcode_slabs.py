@@ -52,7 +52,7 @@ class Slabs(ProgramTest):
             expected, _ = self.bars("waves.raw", "--construction", construction)
             self.assertGreater(expected.count("\n"), 100)
             for options in (("--slab-layers", "1"), ("--slab-layers", "7", "--threads", "1"), ("--slab-layers", "80"),
-                            ("--memory-limit", "24MiB"), ("--memory-limit", "18MiB", "--threads", "2")):
+                            ("--memory-limit", "24MiB"), ("--memory-limit", "32MiB", "--threads", "2")):
                 with self.subTest(construction=construction, options=options):
                     for name in ("waves.raw", "waves.raw.gz"):
                         found, peak = self.bars(name, "--construction", construction, *options)
