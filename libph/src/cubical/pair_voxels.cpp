@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <mutex>
-#include <optional>
 
 #include "loop_reduction.hpp"
 #include "pair_cells.hpp"
@@ -77,24 +76,28 @@ void pair_by_components(const StarGrid& grid, const WantedBars& wanted, const Ru
       pairs.essential(1, {edges.cells[cell].voxel, kEdges[edges.cells[cell].number], value});
 }
 
-// By what is known before: stars, and a node of a graph for each voxel.
-bool fits_at_best(const GridFrame& frame, const RunContext& context) {
-  constexpr double bytes = 8;
-  return bytes * frame.size() < static_cast<double>(context.memory.left());
-}
-// By the number of critical cells.
-bool fits(const StarGrid& grid, const RunContext& context) {
-  constexpr double bytes = 64, most_cells = 2.5;  // a voxel: seen in noise
+// Whether all fits into memory at a time: by what some layers take if that is not clear.
+bool fits(const GridFrame& frame, const RunContext& context) {
+  constexpr double least = 8, most = 168, per_cell = 64;  // bytes a voxel, and a critical cell
   const auto left = static_cast<double>(context.memory.left());
-  if ((4 + most_cells * bytes) * grid.size() < left) return true;
-  double cells = 0;
-  for (const std::uint32_t v : grid.critical()) {
-    const std::uint32_t star = grid.star(v);
-    cells += std::popcount(grid.tables(v).critical_edges(star));
-    if (grid.top_dim() == 3)
-      cells += std::popcount(grid.tables(v).critical_squares(star, grid.pair_cubes(v)));
+  if (most * frame.size() < left) return true;
+  if (least * frame.size() > left) return false;
+  const Slabs layers(frame, 1, context);
+  constexpr std::uint32_t samples = 8;
+  const std::uint32_t step = std::max(layers.count() / samples, 1U);
+  double cells = 0, voxels = 0;
+  for (std::uint32_t layer = step / 2; layer < layers.count(); layer += step) {
+    const StarGrid grid = layers.stars(layer);
+    for (const std::uint32_t v : grid.critical()) {
+      const std::uint32_t star = grid.star(v);
+      cells += 1 + std::popcount(grid.tables(v).critical_edges(star));
+      if (frame.top_dim() == 3)
+        cells += std::popcount(grid.tables(v).critical_squares(star, grid.pair_cubes(v)));
+    }
+    voxels += frame.layer_size();
   }
-  return 4.0 * grid.size() + bytes * cells < left;
+  constexpr double margin = 1.3;  // other layers may have more
+  return margin * frame.size() * (least + per_cell * cells / voxels) < left;
 }
 // So many that a quarter of the memory holds a slab whatever is in it.
 std::uint32_t layers_that_fit(const GridFrame& frame, const RunContext& context) {
@@ -130,22 +133,17 @@ void pair_voxels(const CubicalImage& voxels, const K& field, const WantedBars& w
   }
   const GridFrame frame(voxels);
   PairSink pairs(frame, wanted.cells, sink);
-  const bool may_cut = Slabs::can_cut(frame);
-  std::optional<StarGrid> grid;
-  if (!may_cut || (context.slab_layers == 0 && fits_at_best(frame, context))) {
-    grid.emplace(voxels, context);
-    if (may_cut && !fits(*grid, context)) grid.reset();
-  }
-  if (!grid) {
+  if (Slabs::can_cut(frame) && (context.slab_layers > 0 || !fits(frame, context))) {
     const auto layers = context.slab_layers > 0 ? static_cast<std::uint32_t>(context.slab_layers)
                                                 : layers_that_fit(frame, context);
     pair_in_slabs(Slabs(frame, layers, context), field, wanted, context, pairs);
     return;
   }
+  StarGrid grid(voxels, context);
   if (wants_loops(frame, wanted))
-    pair_all_of_three_axes(*grid, field, context, sink, pairs);
+    pair_all_of_three_axes(grid, field, context, sink, pairs);
   else
-    pair_by_components(*grid, wanted, context, pairs);
+    pair_by_components(grid, wanted, context, pairs);
   pairs.finish();
 }
 
