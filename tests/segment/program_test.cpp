@@ -263,7 +263,7 @@ TEST_F(Program, ASignatureWithoutMemoryIsNullAndTheRestIsThere) {
   for (int i = 0; i < 40; ++i) points << -3 << ' ' << 1e-3 * i << " 0\n";
   points.close();
   ASSERT_EQ(run("corners.xyz --method paper --plane off --max-range 10 --distance 2.5 --voxel 0.01 "
-                "--min-size 2 --signatures --json s.json --labels l.npy --memory-limit 100MB"),
+                "--min-size 2 --signatures --json s.json --labels l.npy --memory-limit 60MB"),
             0)
       << err();
   EXPECT_NE(err().find("segment 1: no signature: "), std::string::npos) << err();

@@ -77,15 +77,17 @@ void pair_by_components(const StarGrid& grid, const WantedBars& wanted, const Ru
 }
 
 // Whether all fits into memory at a time: by what some layers take if that is not clear.
-bool fits(const GridFrame& frame, const RunContext& context) {
+bool fits(const CubicalImage& voxels, const GridFrame& frame, const RunContext& context) {
   constexpr double least = 8, most = 168, per_cell = 64;  // bytes a voxel, and a critical cell
-  const auto left = static_cast<double>(context.memory.left());
+  // What is read of a file is in memory, too.
+  const double in_file = voxels.is_in_file ? static_cast<double>(bytes_of(voxels.type)) : 0;
+  const double left = static_cast<double>(context.memory.left()) - in_file * frame.size();
   if (most * frame.size() < left) return true;
   if (least * frame.size() > left) return false;
   const Slabs layers(frame, 1, context);
   constexpr std::uint32_t samples = 8;
   const std::uint32_t step = std::max(layers.count() / samples, 1U);
-  double cells = 0, voxels = 0;
+  double cells = 0, seen = 0;
   for (std::uint32_t layer = step / 2; layer < layers.count(); layer += step) {
     const StarGrid grid = layers.stars(layer);
     for (const std::uint32_t v : grid.critical()) {
@@ -94,10 +96,10 @@ bool fits(const GridFrame& frame, const RunContext& context) {
       if (frame.top_dim() == 3)
         cells += std::popcount(grid.tables(v).critical_squares(star, grid.pair_cubes(v)));
     }
-    voxels += frame.layer_size();
+    seen += frame.layer_size();
   }
   constexpr double margin = 1.3;  // other layers may have more
-  return margin * frame.size() * (least + per_cell * cells / voxels) < left;
+  return margin * frame.size() * (least + per_cell * cells / seen) < left;
 }
 // So many that a quarter of the memory holds a slab whatever is in it.
 std::uint32_t layers_that_fit(const GridFrame& frame, const RunContext& context) {
@@ -133,7 +135,7 @@ void pair_voxels(const CubicalImage& voxels, const K& field, const WantedBars& w
   }
   const GridFrame frame(voxels);
   PairSink pairs(frame, wanted.cells, sink);
-  if (Slabs::can_cut(frame) && (context.slab_layers > 0 || !fits(frame, context))) {
+  if (Slabs::can_cut(frame) && (context.slab_layers > 0 || !fits(voxels, frame, context))) {
     const auto layers = context.slab_layers > 0 ? static_cast<std::uint32_t>(context.slab_layers)
                                                 : layers_that_fit(frame, context);
     pair_in_slabs(Slabs(frame, layers, context), field, wanted, context, pairs);

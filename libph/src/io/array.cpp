@@ -208,7 +208,7 @@ Voxels load_as(const Input& input, const ArrayLayout& layout, const std::vector<
 bool stays_in_file(const Input& input, std::size_t bytes) {
   constexpr std::size_t few = std::size_t{1} << 20;
   if (input.stays_in_file()) return true;
-  return input.context() != nullptr && bytes > few && bytes > input.context()->memory.left() / 2;
+  return input.context() != nullptr && bytes > few && bytes > input.context()->memory.left() / 3;
 }
 
 Image load_array(const Input& input, const ArrayLayout& layout, std::vector<Index> extents,

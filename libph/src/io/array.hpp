@@ -32,8 +32,8 @@ struct ArrayLayout {
   std::size_t offset = 0;           ///< of the first element
 };
 
-/// Whether so many bytes that are made of an input are better left in a file: more than half of the
-/// memory that is left, or of an input that stays in one itself.
+/// Whether so many bytes that are made of an input are better left in a file: more than a third of
+/// the memory that is left, or of an input that stays in one itself.
 bool stays_in_file(const Input& input, std::size_t bytes);
 
 /// The number of elements of an array that must reach from its offset to the end of the input.
@@ -43,7 +43,7 @@ std::size_t count_elements(const Input& input, const ArrayLayout& layout,
 
 /// Reads an array whose elements are there (see count_elements); the result is in C order.
 /// @param excess if so, the voxels of an input that stays in its file, and those that would take
-/// half
+/// a third
 ///        of the memory that is left, stay in that file, or in a temporary one if they are stored
 ///        in another way.
 /// @throws Error (bad_data) at an integer that double cannot hold; Error (resource); Error (io).

@@ -224,7 +224,7 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
                      (!standard_input || ::lseek(file.get(), 0, SEEK_CUR) == 0);
   const auto file_size = sized ? static_cast<std::size_t>(status.st_size) : 0;
   const bool exceeds = excess == Excess::stays_in_file && context != nullptr &&
-                       file_size > kFirstChunk && file_size > context->memory.left() / 2;
+                       file_size > kFirstChunk && file_size > context->memory.left() / 3;
   if (file_size > kMapFrom || exceeds) {
     storage->exceeds = exceeds;
     // Its pages are taken from memory while they are read.
@@ -287,7 +287,7 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
                                ? context->memory.limit()
                                : half_of_memory();
   const bool is_large = excess == Excess::stays_in_file && context != nullptr &&
-                        detail::stated_size(input.text()) > context->memory.left() / 2;
+                        detail::stated_size(input.text()) > context->memory.left() / 3;
   Input unpacked = is_large ? hold(detail::gunzip_to_file(input), {}, context)
                             : hold(detail::gunzip(input, most), {}, context);
   unpacked.name_ = input.name_;
