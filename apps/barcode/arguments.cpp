@@ -193,12 +193,13 @@ void add_homology_options(CLI::App& app, Arguments& a) {
               a.options.min_persistence = parse_number("--min-persistence", text);
             })
       ->group(group);
-  add_choice(app, "--representatives", {"none", "cycles", "cocycles"},
+  add_choice(app, "--representatives", {"none", "cycles", "cocycles", "voxels"},
              "with each bar, in JSON: a cycle, or a cocycle, as cells of the input with "
-             "coefficients (default none)",
+             "coefficients; of images also voxels: components and hollows as sets of voxels, all "
+             "else as cycles (default none)",
              [&a](std::size_t i) {
                constexpr std::array kKinds{Representatives::none, Representatives::cycles,
-                                           Representatives::cocycles};
+                                           Representatives::cocycles, Representatives::voxels};
                a.options.representatives = kKinds[i];
              })
       ->group(group);

@@ -43,12 +43,13 @@ double stored_bytes(const ExplicitComplex& complex, Engine) {
   return 44 * static_cast<double>(complex.size()) + 16 * entries;
 }
 
-detail::MemoryForecast forecast_voxels(const Cubical& cubical, double held) {
-  if (cubical.slot_count() == 0) return detail::forecast_voxels(held, 0, 0);
+detail::MemoryForecast forecast_voxels(const Cubical& cubical, double held,
+                                       bool with_representatives) {
+  if (cubical.slot_count() == 0) return detail::forecast_voxels(held, 0, 0, with_representatives);
   const CubicalImage grid = cubical.cubical_image();
   return detail::forecast_voxels(held + cubical::bytes_to_pair_voxels(grid),
                                  static_cast<double>(grid.size()),
-                                 static_cast<double>(cubical.slot_count()));
+                                 static_cast<double>(cubical.slot_count()), with_representatives);
 }
 
 RunPlan plan_of(const detail::Plan& plan) {
@@ -90,7 +91,9 @@ Estimate estimate_one(const Complex& complex, const Options& options, const RunC
   e.bytes_held = stored_bytes(complex, e.engine);
   detail::MemoryForecast forecast;
   if (e.engine == Engine::arrows) {
-    if constexpr (std::same_as<Complex, Cubical>) forecast = forecast_voxels(complex, e.bytes_held);
+    if constexpr (std::same_as<Complex, Cubical>)
+      forecast =
+          forecast_voxels(complex, e.bytes_held, options.representatives != Representatives::none);
   } else {
     e.cells = cells_of(complex, detail::listed_dim(e.engine, e.max_dim), context);
     forecast = detail::forecast_cells(e.bytes_held, e.cells);

@@ -110,6 +110,27 @@ class Representatives(ProgramTest):
                         self.compare(f"{case}_{kind}.json", [self.normal(bar, field) for bar in bars
                                                              if bar["dim"] == dim])
 
+    def test_voxels(self):
+        rows = [[9, 9, 9, 9, 9, 9], [9, 1, 1, 1, 9, 3], [9, 1, 7, 1, 9, 3], [9, 1, 1, 1, 9, 9]]
+        text = "P2\n6 4\n9\n" + "\n".join(" ".join(map(str, row)) for row in rows) + "\n"
+        bars = self.bars(self.write("pit.pgm", text), "--representatives", "voxels")
+        found = {(bar["dim"], bar["birth"], bar["death"]): bar for bar in bars}
+        self.assertEqual(found[0, 1, None]["voxels"], [[0, 24]])
+        self.assertEqual(found[0, 3, 9]["voxels"], [[11, 1], [17, 1]])
+        self.assertEqual(found[0, 3, 9]["birth_voxel"], [1, 5])
+        self.assertEqual(found[1, 1, 7]["voxels"], [[14, 1]])
+        self.assertEqual(found[1, 1, 7]["death_voxel"], [2, 2])
+        # A bar that has no set has a cycle: H1 of a volume.
+        volume = npy((3, 3, 3), [1.0 if (y, x) != (1, 1) else 2.0 for z in range(3)
+                                 for y in range(3) for x in range(3)])
+        for construction in ("vertices", "cells"):
+            bars = self.bars(self.write("pipe.npy", volume), "--representatives", "voxels",
+                             "--construction", construction, "--periodic", "0")
+            for bar in bars:
+                self.assertNotEqual("voxels" in bar, "representative" in bar)
+                self.assertEqual("voxels" in bar, bar["dim"] in (0, 2))
+            self.assertEqual({bar["dim"] for bar in bars}, {0, 1, 2})
+
     def normal(self, bar, field):
         """The bar with its terms in order, the birth cell with coefficient 1."""
         chain = {name(term): (term, term["coefficient"]) for term in bar["representative"]}

@@ -205,7 +205,9 @@ TEST(Arrows, AreTakenWhereTheyCan) {
   const Image thin{{2, 1, 2, 1, 2}, std::vector<double>(8, 0.0)};
   EXPECT_EQ(detail::plan(Cubical(thin), {}).choice.engine, Engine::arrows);
   const Options cycles{.representatives = Representatives::cycles};
-  EXPECT_EQ(detail::plan(Cubical(flat), cycles).choice.engine, Engine::twist);
+  EXPECT_EQ(detail::plan(Cubical(flat), cycles).choice.engine, Engine::arrows);
+  const Options cocycles{.representatives = Representatives::cocycles};
+  EXPECT_EQ(detail::plan(Cubical(flat), cocycles).choice.engine, Engine::cohomology);
 }
 
 TEST(Arrows, ThreadsDoNotMatter) {

@@ -48,6 +48,7 @@ BARCODE = [
     (49, ["--min-persistence", "nan"], "--min-persistence"),
     (49, ["--representatives", "cycle"], "did you mean 'cycles'"),
     (49, ["--representatives", "cycles"], "--output-format json"),
+    (49, ["--representatives", "voxels", "--output-format", "json"], "sets of voxels need an image"),
     (49, ["--representatives", "cocycles", "-o", "x.csv"], "found output format csv"),
     *((49, ["--representatives", "cycles", "--output-format", name], "found output format " + name)
       for name in ("csv", "ripser", "pers", "dipha", "npy")),

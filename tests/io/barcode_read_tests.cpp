@@ -88,6 +88,29 @@ TEST(ReadBarcode, JsonBringsCellsAndRepresentativesBack) {
   EXPECT_EQ(read.representative(0).coefficient(1), -1);
 }
 
+TEST(ReadBarcode, JsonTellsOfVoxelsByRuns) {
+  Barcode barcode(CellKind::grid);
+  const std::array<std::uint32_t, 5> places{7, 3, 2, 4, 9};
+  const std::size_t begin = barcode.store_voxels(places);
+  const std::array<Index, 2> birth{0, 4}, death{1, 4};
+  barcode.add({0, 1, 2}, birth, death);
+  barcode.set_representative(Representatives::voxels, {}, {});
+  barcode.set_voxels({begin, begin + 5}, std::array<Index, 2>{0, 2}, std::array<Index, 2>{1, 2});
+  barcode.add({1, 1, kInfinity}, death, {});
+  barcode.set_representative(Representatives::voxels, death, std::array<std::int64_t, 1>{1});
+  barcode.set_voxels({}, std::array<Index, 2>{1, 2}, {});
+  const std::string text = text_of(barcode, BarcodeFormat::json);
+  EXPECT_TRUE(contains(text, R"("representatives": "voxels")"));
+  EXPECT_TRUE(contains(text, R"("birth_voxel": [0, 2], "death_voxel": [1, 2], )"
+                             R"("voxels": [[2, 3], [7, 1], [9, 1]]})"));
+  EXPECT_TRUE(
+      contains(text, R"("birth_voxel": [1, 2], "death_voxel": null, "representative": [{)"));
+  // Of these only the cells come back.
+  const Barcode read = back(text);
+  EXPECT_EQ(read.representatives(), Representatives::none);
+  EXPECT_EQ(numbers(read.birth_cell(0)), (std::vector<Index>{0, 4}));
+}
+
 TEST(ReadBarcode, JsonSkipsWhatItDoesNotKnow) {
   const Barcode read = back(
       R"({"format": "ph-barcode", "x": {"a": [1, true, null, "\u00e9\ud83d\ude00\n"]}, "version": 1,

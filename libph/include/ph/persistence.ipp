@@ -37,6 +37,10 @@ EngineChoice choose_engine(const F& f, Engine asked, const Task& task) {
     if (CohomologyEngine::can_run(f, task))
       return {Engine::cohomology, "cells of the highest dimension are too many to list"};
     if (TwistEngine::can_run(f, task)) return {Engine::twist, "the complex lists facets only"};
+    if (!task.wants_no_sets())
+      throw Error(ErrorKind::usage,
+                  "sets of voxels need an image of at most three axes that have more than one "
+                  "voxel, and bars of positive length");
     throw Error(ErrorKind::usage, "cocycles need a complex that lists cofacets");
   }
   bool can_run = false;
@@ -50,6 +54,7 @@ EngineChoice choose_engine(const F& f, Engine asked, const Task& task) {
                                       std::to_string(task.max_dim) + " of this complex" +
                                       (wanted == Representatives::none     ? ""
                                        : wanted == Representatives::cycles ? " with cycles"
+                                       : wanted == Representatives::voxels ? " with sets of voxels"
                                                                            : " with cocycles") +
                                       (task.zero_length ? ", zero-length bars included" : ""));
   }

@@ -55,11 +55,36 @@ void Barcode::set_representative(Representatives kind, std::span<const Index> nu
   chains_.push_back({cells, {begin, coefficients_.size()}});
 }
 
+std::size_t Barcode::store_voxels(std::span<const std::uint32_t> places) {
+  const std::size_t begin = voxels_.size();
+  voxels_.insert(voxels_.end(), places.begin(), places.end());
+  return begin;
+}
+
+void Barcode::set_voxels(VoxelRange voxels, std::span<const Index> birth_voxel,
+                         std::span<const Index> death_voxel) {
+  const Range birth = store(birth_voxel), death = store(death_voxel);
+  sets_.resize(chains_.size());
+  sets_.back() = {voxels, birth, death};
+}
+
+std::span<const std::uint32_t> Barcode::voxels(std::size_t i) const {
+  const auto [begin, end] = part_of(i, sets_).voxels;
+  return std::span(voxels_).subspan(begin, end - begin);
+}
+
+std::span<const Index> Barcode::birth_voxel(std::size_t i) const {
+  return numbers_of(part_of(i, sets_).birth);
+}
+
+std::span<const Index> Barcode::death_voxel(std::size_t i) const {
+  return numbers_of(part_of(i, sets_).death);
+}
+
 InputChain Barcode::representative(std::size_t i) const {
   if (representatives_ == Representatives::none)
     throw Error(ErrorKind::usage, "the barcode was computed without representatives");
-  const std::size_t place = cells_.empty() ? kNone : cells_[i].chain;
-  const Chain chain = place == kNone ? Chain{} : chains_[place];
+  const Chain chain = part_of(i, chains_);
   const auto [begin, end] = chain.coefficients;
   return {kind_, numbers_of(chain.numbers), std::span(coefficients_).subspan(begin, end - begin)};
 }

@@ -67,8 +67,12 @@ class Basins {
       graph_.for_each_endless(v, [&](std::uint32_t node) {
         if (!forest_.is_known(node)) return;
         const std::uint32_t own = forest_.find(node);
-        if (root && own != *root) forest_.link(own, *root);
         if (!root) root = own;
+        if (own == *root) return;
+        // The outside comes first, whatever it is joined to.
+        const bool is_first = forest_.number_of_root(own) < forest_.number_of_root(*root);
+        forest_.link(is_first ? *root : own, is_first ? own : *root);
+        if (is_first) root = own;
       });
       graph_.for_each_endless(v, [&](std::uint32_t node) {
         if (forest_.is_known(node)) return;

@@ -39,4 +39,12 @@ void mark_paired(StarGrid& grid, const CriticalCells& edges) {
   }
 }
 
+FreeEdges free_edges(const StarGrid& grid, const RunContext& context) {
+  FreeEdges free(grid, context);
+  for (const std::uint32_t v : grid.critical())
+    free.add(v, grid.tables(v).free_edges(grid.star(v)));
+  free.finish();
+  return free;
+}
+
 }  // namespace ph::cubical

@@ -4,6 +4,7 @@
 #include <memory_resource>
 #include <vector>
 
+#include "free_edges.hpp"
 #include "ph/core/run_context.hpp"
 #include "star_grid.hpp"
 
@@ -30,5 +31,7 @@ struct CriticalCells {
 CriticalCells critical_cells(const StarGrid& grid, int dim, const RunContext& context);
 /// Marks in the stars of three axes the edges that are no longer in the order.
 void mark_paired(StarGrid& grid, const CriticalCells& edges);
+/// Those of the stars whose other edges are marked.
+FreeEdges free_edges(const StarGrid& grid, const RunContext& context);
 
 }  // namespace ph::cubical

@@ -64,6 +64,8 @@ class GridFrame {
   double value(std::uint32_t v) const {
     return relative_ ? -grid_.value(size_ - 1 - v) : grid_.value(v);
   }
+  /// Where a voxel is in the input.
+  std::uint32_t place(std::uint32_t v) const { return relative_ ? size_ - 1 - v : v; }
   std::uint32_t coordinate(std::uint32_t v, int axis) const {
     const Axis& a = axes_[axis];
     const std::uint32_t layer = a.by_stride.divide(v);
@@ -107,6 +109,8 @@ class GridFrame {
   /// How many periodic axes of one voxel there are: each makes a copy of every cell, one dimension
   /// up.
   std::size_t loop_count() const { return loops_.size(); }
+  /// One of them as an axis of the input; descending.
+  std::size_t loop_axis(std::size_t i) const { return loops_[i]; }
   /// Appends the coordinates of a cell in the input's doubled grid. @param loops which of the axes
   /// of one voxel the copy goes around, as bits.
   void append_numbers(const StarCell& cell, unsigned loops, std::vector<Index>& numbers) const;

@@ -33,22 +33,50 @@ class LoopReduction {
  public:
   /// @param squares of which those in the order give birth to nothing.
   LoopReduction(const Stars& grid, const FreeEdges& free, const CriticalCells& squares,
-                const K& field, const RunContext& context, PairSink& sink)
+                const K& field, const RunContext& context)
       : grid_(grid),
         free_(free),
         squares_(squares),
         field_(field),
-        sink_(sink),
         context_(context),
         owners_(free.count(), kNone, &context.memory),
         columns_(squares.order.size(), &context.memory) {}
 
-  void run() {
+  using Chain = LoopColumn<K, Stars>;
+  using Term = typename Chain::Term;
+  /// The boundary of a square and what was added to it, as far as it was followed.
+  struct Column {
+    std::optional<Term> pivot;  ///< nothing: it is zero, or was never looked at
+    std::span<const Term> below{};
+  };
+
+  void run(PairSink& sink) {
+    reduce_all(kPiece);
+    for_each_class([&](const StarCell& edge, const StarCell& square,
+                       const Column&) { sink.pair(1, edge, square); },
+                   [&](const StarCell& square) { sink.essential(2, square); },
+                   [&](const StarCell& edge) { sink.essential(1, edge); });
+  }
+
+  /// Reduces by one thread, so that what columns hold does not depend on who came first.
+  void reduce_in_order() { reduce_all(std::max<std::size_t>(1, columns_.size())); }
+  /// Calls `on_pair(edge, square, column)` for each loop that dies, `on_surface(square)` for each
+  /// column that is zero, `on_loop(edge)` for each loop that never dies.
+  template <class OnPair, class OnSurface, class OnLoop>
+  void for_each_class(OnPair&& on_pair, OnSurface&& on_surface, OnLoop&& on_loop);
+
+ private:
+  static constexpr std::uint32_t kNone = UINT32_MAX;
+  static constexpr std::size_t kPiece = 64;  // columns that a thread takes at a time
+  static constexpr bool kInFile = !std::same_as<Stars, StarGrid>;
+
+  // @param piece columns that a thread takes at a time.
+  void reduce_all(std::size_t piece) {
     std::pmr::vector<std::uint32_t> round(columns_.size(), &context_.memory);
     std::iota(round.begin(), round.end(), 0U);
     while (!round.empty()) {
       if (kInFile) std::ranges::sort(round, {}, [&](auto i) { return squares_.order[i].cell; });
-      for_each_piece("loops", round.size(), kPiece, context_,
+      for_each_piece("loops", round.size(), piece, context_,
                      [&](std::size_t begin, std::size_t end) {
                        Worker& worker = take_worker();
                        for (std::size_t i = begin; i < end; ++i) reduce(round[i], worker);
@@ -62,20 +90,8 @@ class LoopReduction {
       }
       std::ranges::sort(round);
     }
-    report();
   }
 
- private:
-  static constexpr std::uint32_t kNone = UINT32_MAX;
-  static constexpr std::size_t kPiece = 64;  // columns that a thread takes at a time
-  static constexpr bool kInFile = !std::same_as<Stars, StarGrid>;
-  using Chain = LoopColumn<K, Stars>;
-  using Term = typename Chain::Term;
-  // The boundary of a square and what was added to it, as far as it was followed.
-  struct Column {
-    std::optional<Term> pivot;  // nothing: it is zero, or was never looked at
-    std::span<const Term> below{};
-  };
   // What a thread has to itself. Terms stay where they are: others read them.
   struct Worker {
     Chain column;
@@ -141,35 +157,10 @@ class LoopReduction {
     own = {};
   }
 
-  void report() {
-    Ticker ticker(context_, "bars of loops", columns_.size());
-    for (std::size_t i = 0; i < columns_.size(); ++i) {
-      ticker.tick();
-      const auto [value, cell] = squares_.order[i];
-      const StarCell square{squares_.cells[cell].voxel, kSquares[squares_.cells[cell].number],
-                            value};
-      if (const auto& pivot = columns_[i].pivot) {
-        const std::uint32_t v = pivot->cell.voxel();
-        sink_.pair(1, {v, kEdges[edge_of(pivot->cell)], pivot->cell.value()}, square);
-      } else {
-        sink_.essential(2, square);
-      }
-    }
-    // Free edges that nobody has: loops that never die.
-    auto owner = owners_.begin();
-    free_.for_each([&](std::uint32_t v, unsigned edges) {
-      ticker.work();
-      for (; edges != 0; edges &= edges - 1, ++owner)
-        if (*owner == kNone)
-          sink_.essential(1, {v, kEdges[std::countr_zero(edges)], grid_.value(v)});
-    });
-  }
-
   const Stars& grid_;
   const FreeEdges& free_;
   const CriticalCells& squares_;
   const K& field_;
-  PairSink& sink_;
   const RunContext& context_;
   std::pmr::vector<std::uint32_t> owners_;  // of free edges: a column
   std::pmr::vector<Column> columns_;        // in the order of the squares
@@ -177,5 +168,30 @@ class LoopReduction {
   std::vector<std::unique_ptr<Worker>> workers_;
   std::vector<Worker*> idle_;
 };
+
+template <Field K, class Stars>
+template <class OnPair, class OnSurface, class OnLoop>
+void LoopReduction<K, Stars>::for_each_class(OnPair&& on_pair, OnSurface&& on_surface,
+                                             OnLoop&& on_loop) {
+  Ticker ticker(context_, "bars of loops", columns_.size());
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    ticker.tick();
+    const auto [value, cell] = squares_.order[i];
+    const StarCell square{squares_.cells[cell].voxel, kSquares[squares_.cells[cell].number], value};
+    if (const auto& pivot = columns_[i].pivot) {
+      const std::uint32_t v = pivot->cell.voxel();
+      on_pair(StarCell{v, kEdges[edge_of(pivot->cell)], pivot->cell.value()}, square, columns_[i]);
+    } else {
+      on_surface(square);
+    }
+  }
+  // Free edges that nobody has: loops that never die.
+  auto owner = owners_.begin();
+  free_.for_each([&](std::uint32_t v, unsigned edges) {
+    ticker.work();
+    for (; edges != 0; edges &= edges - 1, ++owner)
+      if (*owner == kNone) on_loop(StarCell{v, kEdges[std::countr_zero(edges)], grid_.value(v)});
+  });
+}
 
 }  // namespace ph::cubical

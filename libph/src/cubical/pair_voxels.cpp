@@ -25,15 +25,6 @@ double bytes_to_pair_voxels(const CubicalImage& grid) {
 
 namespace {
 
-// Of the stars whose other edges are marked.
-FreeEdges free_edges(const StarGrid& grid, const RunContext& context) {
-  FreeEdges free(grid, context);
-  for (const std::uint32_t v : grid.critical())
-    free.add(v, grid.tables(v).free_edges(grid.star(v)));
-  free.finish();
-  return free;
-}
-
 template <Field K>
 void pair_all_of_three_axes(StarGrid& grid, const K& field, const RunContext& context,
                             const BarSink& sink, PairSink& pairs) {
@@ -48,7 +39,7 @@ void pair_all_of_three_axes(StarGrid& grid, const K& field, const RunContext& co
   top_pairs.finish();
   mark_paired(grid, edges);
   const FreeEdges free = free_edges(grid, context);
-  LoopReduction<K, StarGrid>(grid, free, squares, field, context, pairs).run();
+  LoopReduction<K, StarGrid>(grid, free, squares, field, context).run(pairs);
 }
 
 // Bars of all but the loops of three axes.

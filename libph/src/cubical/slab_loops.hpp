@@ -31,7 +31,7 @@ class SlabLoops {
     // A third of what is left for stars and voxels, the rest for columns.
     const MemoryClaim pages(context_.memory, context_.memory.left() / 3);
     stars_.let_stay(pages.bytes());
-    LoopReduction<K, StoredStars>(stars_, free, squares, field, context_, pairs).run();
+    LoopReduction<K, StoredStars>(stars_, free, squares, field, context_).run(pairs);
   }
 
  private:

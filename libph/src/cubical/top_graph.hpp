@@ -51,11 +51,22 @@ class TopGraph {
   bool is_known_here(std::uint32_t node) const { return cell(node).direction != Direction{}; }
   /// What a facet in the star of a voxel joins.
   std::array<std::uint32_t, 2> ends(std::uint32_t v, std::uint32_t number) const;
+  /// The top cell in a direction from a voxel.
+  std::uint32_t node(std::uint32_t v, const Direction& d) const;
+  /// The star that a top cell is in; one of no direction if it is in none.
+  StarCell cell(std::uint32_t node) const;
+  /// The axis along which a top cell is left; nothing if it is critical.
+  std::optional<int> exit_of(const StarCell& top) const {
+    const int number = number_of(top.direction);
+    const unsigned critical =
+        has_cubes() ? grid_.pair_cubes(top.voxel).critical_cubes()
+                    : grid_.tables(top.voxel).critical_squares(grid_.star(top.voxel), {});
+    if ((critical >> number & 1U) != 0) return std::nullopt;
+    return exit_axis(top.voxel, number);
+  }
 
  private:
   bool has_cubes() const { return grid_.top_dim() == 3; }
-  /// The top cell in a direction from a voxel.
-  std::uint32_t node(std::uint32_t v, const Direction& d) const;
   /// The axis along which a top cell is left, by its number in the star of a voxel.
   int exit_axis(std::uint32_t v, int number) const {
     if (has_cubes()) return grid_.pair_cubes(v).exit(number);
@@ -72,8 +83,6 @@ class TopGraph {
     const std::uint32_t n = grid_.extent(axis), first = 1 - border_[axis];
     return low >= first && low < n && n - low > 2 - border_[axis];
   }
-  /// The star that a top cell is in; without a direction if there is none.
-  StarCell cell(std::uint32_t node) const;
   /// Calls `use(voxel, direction from it)` for the corners of a top cell until it returns true.
   template <class Use>
   void for_each_corner(std::uint32_t node, Use&& use) const;

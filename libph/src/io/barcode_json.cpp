@@ -2,7 +2,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include "barcode_formats.hpp"
 
@@ -59,6 +63,8 @@ std::string_view representatives_name(Representatives kind) {
       return "cycles";
     case Representatives::cocycles:
       return "cocycles";
+    case Representatives::voxels:
+      return "voxels";
   }
   return "";
 }
@@ -69,6 +75,52 @@ void write_chain(OutputFile& file, const InputChain& chain) {
   for (std::size_t i = 0; i < chain.size(); ++i)
     file.write(fmt::format("{}{{{}, \"coefficient\": {}}}", i == 0 ? "" : ", ",
                            json_cell_member(chain.cell(i)), chain.coefficient(i)));
+  file.write("]");
+}
+
+/// Calls `use(first, count)` for the runs of a set of places, ascending.
+template <class Use>
+void for_each_run(std::span<const std::uint32_t> places, Use&& use) {
+  if (places.empty()) return;
+  const auto [low, high] = std::ranges::minmax(places);
+  std::uint64_t first = low, end = low;  // of the run so far
+  const auto meet = [&](std::uint64_t place) {
+    if (place != end) {
+      use(first, end - first);
+      first = place;
+    }
+    end = place + 1;
+  };
+  if (std::uint64_t{high} - low < 64 * std::uint64_t{places.size()}) {
+    std::vector<bool> is_in(std::size_t{high} - low + 1);
+    for (const std::uint32_t place : places) is_in[place - low] = true;
+    for (std::size_t i = 0; i < is_in.size(); ++i)
+      if (is_in[i]) meet(std::uint64_t{low} + i);
+  } else {
+    std::vector<std::uint32_t> sorted(places.begin(), places.end());
+    std::ranges::sort(sorted);
+    for (const std::uint32_t place : sorted) meet(place);
+  }
+  use(first, end - first);
+}
+
+/// The voxels of a bar, and a cycle where there are none.
+void write_voxels(OutputFile& file, const Barcode& barcode, std::size_t i) {
+  file.write(fmt::format(", \"birth_voxel\": [{}]", fmt::join(barcode.birth_voxel(i), ", ")));
+  const auto death = barcode.death_voxel(i);
+  file.write(death.empty() ? ", \"death_voxel\": null"
+                           : fmt::format(", \"death_voxel\": [{}]", fmt::join(death, ", ")));
+  const InputChain cycle = barcode.representative(i);
+  if (cycle.size() > 0) {
+    file.write(", \"representative\": ");
+    return write_chain(file, cycle);
+  }
+  file.write(", \"voxels\": [");
+  std::string_view between;
+  for_each_run(barcode.voxels(i), [&](std::uint64_t first, std::uint64_t count) {
+    file.write(fmt::format("{}[{}, {}]", between, first, count));
+    between = ", ";
+  });
   file.write("]");
 }
 
@@ -142,7 +194,9 @@ void write_barcode_json(OutputFile& file, const Barcode& barcode, const BarcodeI
                            json_number(bar.birth), json_number(bar.death)));
     file.write(fmt::format("\"birth_cell\": {}, \"death_cell\": {}",
                            json_cell(barcode.birth_cell(i)), json_cell(barcode.death_cell(i))));
-    if (with_chains) {
+    if (barcode.representatives() == Representatives::voxels) {
+      write_voxels(file, barcode, i);
+    } else if (with_chains) {
       file.write(", \"representative\": ");
       write_chain(file, barcode.representative(i));
     }

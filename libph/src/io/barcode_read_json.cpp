@@ -54,8 +54,10 @@ class Reader {
     const std::string value = json_.string();
     if (value == "cycles") return Representatives::cycles;
     if (value == "cocycles") return Representatives::cocycles;
-    if (value != "none") {
-      json_.fail(place, {"representatives", printable(value, 40), "cycles, cocycles or none", {}});
+    // Sets of voxels are for programs that segment: a few numbers may stand for all of an image.
+    if (value != "none" && value != "voxels") {
+      json_.fail(place,
+                 {"representatives", printable(value, 40), "cycles, cocycles, voxels or none", {}});
     }
     return Representatives::none;
   }

@@ -194,9 +194,11 @@ MemoryForecast forecast_rips(const Rips& rips, std::span<const double> cells,
   return {least, most + kMargin * large.extra * std::pow(factor, power)};
 }
 
-MemoryForecast forecast_voxels(double stored, double voxels, double cells) {
-  // Measured: critical cells with their columns, and bars, of noise.
-  constexpr double bytes_per_cell = 20, least_cells_per_voxel = 8;
+MemoryForecast forecast_voxels(double stored, double voxels, double cells,
+                               bool with_representatives) {
+  // Measured: critical cells with their columns, and bars, of noise; these with long chains.
+  const double bytes_per_cell = with_representatives ? 90 : 20;
+  constexpr double least_cells_per_voxel = 8;
   return {stored,
           stored + bytes_per_cell * std::max(least_cells_per_voxel * voxels, cells) + kAlways};
 }

@@ -23,7 +23,8 @@ MemoryForecast forecast_rips(const Rips& rips, std::span<const double> cells,
 
 /// The same for an image that is paired voxel by voxel: between a smooth one, with next to no
 /// critical cells, and noise. @param stored with what is kept of each voxel.
-MemoryForecast forecast_voxels(double stored, double voxels, double cells);
+MemoryForecast forecast_voxels(double stored, double voxels, double cells,
+                               bool with_representatives);
 
 /// The same for a complex that numbers or stores its cells, from the size of its parts alone.
 MemoryForecast forecast_cells(double stored, std::span<const double> cells);

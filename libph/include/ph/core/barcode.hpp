@@ -54,11 +54,20 @@ class InputChain {
   std::span<const std::int64_t> coefficients_;
 };
 
-/// Which chains come with the bars.
+/// What comes with the bars to show where they are.
 enum class Representatives {
   none,
   cycles,    ///< a cycle born with the bar that is a boundary from its death on
   cocycles,  ///< a cochain, zero before the birth, whose coboundary is first non-zero at the death
+  /// Images only: with bars of H0 the voxels of the component that dies, just before it does; with
+  /// those of the highest dimension less one the voxels of the hollow, just after the birth; with
+  /// all others a cycle.
+  voxels,
+};
+
+/// A part of the voxels that a barcode keeps.
+struct VoxelRange {
+  std::size_t begin = 0, end = 0;
 };
 
 /// The result of persistent homology: bars ordered by dimension, birth, death (an infinite death
@@ -95,6 +104,15 @@ class Barcode {
   /// The cycle or cocycle of bar i, the birth cell among its cells.
   /// @throws Error (usage) if none were asked for.
   InputChain representative(std::size_t i) const;
+  /// The voxels of bar i as places in the image in C order (the last axis is the fastest), each
+  /// once, in no order that means anything: sets lie in each other as components do, and share
+  /// memory. None for a bar that has a cycle in their place, or if they were not asked for.
+  std::span<const std::uint32_t> voxels(std::size_t i) const;
+  /// The coordinates of the voxel whose value is the birth of bar i, by axis of the input; none if
+  /// voxels were not asked for.
+  std::span<const Index> birth_voxel(std::size_t i) const;
+  /// The same for its death; none for an infinite bar.
+  std::span<const Index> death_voxel(std::size_t i) const;
 
   /// Makes room for so many more bars.
   void reserve_more(std::size_t count) {
@@ -112,13 +130,20 @@ class Barcode {
   /// Gives the bar added last its representative: the numbers of all cells, one after another.
   void set_representative(Representatives kind, std::span<const Index> numbers,
                           std::span<const std::int64_t> coefficients);
+  /// Keeps places of voxels. @return where they begin among all that are kept.
+  std::size_t store_voxels(std::span<const std::uint32_t> places);
+  /// Gives the bar added last, which has a representative, some of the voxels that are kept, and
+  /// the voxels of its birth and death.
+  void set_voxels(VoxelRange voxels, std::span<const Index> birth_voxel,
+                  std::span<const Index> death_voxel);
   /// Brings the bars into the order stated above. @throws Error (resource, cancelled).
   void sort(const RunContext& context = default_context());
   /// What it holds; room for more is not touched yet.
   std::size_t bytes() const {
     return bars_.size() * sizeof(Bar) + cells_.size() * sizeof(Cells) +
            chains_.size() * sizeof(Chain) +
-           (numbers_.size() + coefficients_.size()) * sizeof(Index);
+           (numbers_.size() + coefficients_.size()) * sizeof(Index) +
+           sets_.size() * sizeof(VoxelSet) + voxels_.size() * sizeof(std::uint32_t);
   }
 
  private:
@@ -132,6 +157,10 @@ class Barcode {
   struct Chain {
     Range numbers, coefficients;
   };
+  struct VoxelSet {
+    VoxelRange voxels;
+    Range birth, death;  // coordinates in the numbers
+  };
   static constexpr std::size_t kNone = SIZE_MAX;
   std::span<const Index> birth_numbers(std::size_t i) const {
     return cells_.empty() ? std::span<const Index>()
@@ -139,6 +168,12 @@ class Barcode {
   }
   std::span<const Index> death_numbers(std::size_t i) const {
     return cells_.empty() ? std::span<const Index>() : numbers_of({cells_[i].death, cells_[i].end});
+  }
+  // Of bar i; nothing if it has none.
+  template <class T>
+  T part_of(std::size_t i, const std::vector<T>& parts) const {
+    const std::size_t place = cells_.empty() ? kNone : cells_[i].chain;
+    return place < parts.size() ? parts[place] : T();
   }
   Range store(std::span<const Index> numbers);
   void sort_values(const RunContext& context);
@@ -153,6 +188,8 @@ class Barcode {
   Representatives representatives_ = Representatives::none;
   std::vector<Chain> chains_;
   std::vector<std::int64_t> coefficients_;
+  std::vector<VoxelSet> sets_;         // parallel to chains_, or empty
+  std::vector<std::uint32_t> voxels_;  // all sets, which may overlap
 };
 
 /// Where an engine puts its pairs: turns cells into bars and drops what the user does not want.
@@ -230,6 +267,24 @@ class BarcodeBuilder {
       coefficients_.push_back(field.to_int(term.coefficient()));
     }
     barcode_.set_representative(representatives_, numbers_, coefficients_);
+    claim_.grow_to(barcode_.bytes());
+  }
+
+  /// The same in terms of the input.
+  void add_representative(std::span<const Index> numbers,
+                          std::span<const std::int64_t> coefficients) {
+    barcode_.set_representative(representatives_, numbers, coefficients);
+    claim_.grow_to(barcode_.bytes());
+  }
+  /// @return where the places begin among all that are kept.
+  std::size_t store_voxels(std::span<const std::uint32_t> places) {
+    claim_.grow_to(barcode_.bytes() + places.size_bytes());
+    return barcode_.store_voxels(places);
+  }
+  /// Gives the bar kept last, which has a representative, its voxels.
+  void add_voxels(VoxelRange voxels, std::span<const Index> birth_voxel,
+                  std::span<const Index> death_voxel) {
+    barcode_.set_voxels(voxels, birth_voxel, death_voxel);
     claim_.grow_to(barcode_.bytes());
   }
 

@@ -17,8 +17,8 @@ struct CohomologyEngine {
   static constexpr Engine id = Engine::cohomology;
   static constexpr const char* name = "cohomology";
   template <Filtration F>
-  static bool can_run(const F&, const Task&) {
-    return CofacetFiltration<F>;
+  static bool can_run(const F&, const Task& task) {
+    return CofacetFiltration<F> && task.wants_no_sets();
   }
 
   template <Filtration F, Field K>

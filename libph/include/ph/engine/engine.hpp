@@ -20,6 +20,8 @@ struct Task {
   int max_dim = 0;  ///< highest dimension of homology
   Representatives representatives = Representatives::none;
   bool zero_length = false;  ///< pairs of one value, too
+  /// Whether chains are all that must come with the bars, if anything.
+  bool wants_no_sets() const { return representatives != Representatives::voxels; }
 };
 
 }  // namespace ph

@@ -20,9 +20,10 @@ struct LensEngine {
   template <Filtration F>
   static bool can_run(const F& f, const Task& task) {
     if constexpr (FlagFiltration<F>)
-      return task.max_dim < 2 ||
-             (task.max_dim == 2 && task.representatives != Representatives::cycles &&
-              f.vertex_count() <= kMostVerticesOfSurfaces);
+      return task.wants_no_sets() &&
+             (task.max_dim < 2 ||
+              (task.max_dim == 2 && task.representatives != Representatives::cycles &&
+               f.vertex_count() <= kMostVerticesOfSurfaces));
     else
       return false;
   }

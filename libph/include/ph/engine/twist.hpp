@@ -13,7 +13,7 @@ struct TwistEngine {
   static constexpr const char* name = "twist";
   template <Filtration F>
   static bool can_run(const F&, const Task& task) {
-    return task.representatives != Representatives::cocycles;
+    return task.representatives != Representatives::cocycles && task.wants_no_sets();
   }
 
   template <Filtration F, Field K>

@@ -50,7 +50,7 @@ struct UnionFindEngine {
   static constexpr const char* name = "union_find";
   template <Filtration F>
   static bool can_run(const F& f, const Task& task) {
-    return task.max_dim == 0 && is_graph_like(f);
+    return task.max_dim == 0 && is_graph_like(f) && task.wants_no_sets();
   }
 
   template <Filtration F, Field K>

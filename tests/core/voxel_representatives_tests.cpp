@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// What represents the bars of images, voxel by voxel: cycles from their definition, sets of voxels
+// by flood fill.
+#include <array>
+#include <set>
+
+#include "support/for_each_seed.hpp"
+#include "support/random_images.hpp"
+#include "support/voxel_sets.hpp"
+
+namespace ph::test {
+namespace {
+
+TEST(VoxelRepresentatives, CyclesFromTheDefinition) {
+  for_each_seed(700, [](Generator& random, bool ties, std::int64_t field) {
+    check_random_cycles(random, ties, field);
+  });
+}
+
+TEST(VoxelRepresentatives, SetsByFloodFill) {
+  for_each_seed(2000, [](Generator& random, bool ties, std::int64_t field) {
+    check_random_sets(random, ties, field);
+  });
+}
+
+// Columns that are added to each other, long ways through the forest: what each number of threads
+// finds is the same, closed, and born when it should be.
+TEST(VoxelRepresentatives, CyclesOfLargerVolumes) {
+  for_each_seed(8, [](Generator& random, bool ties, std::int64_t field) {
+    const std::vector<Index> extents{12, 9, 11};
+    const Image image = random.image(extents, ties);
+    const CubicalOptions cubical_options = random.cubical_options(3);
+    std::vector<std::vector<PositionChain>> found;
+    for (const int threads : {1, 3}) {
+      RunContext context;
+      context.threads = threads;
+      const Cubical cubical(image, cubical_options, context);
+      const OrderedCells<Cubical> cells(cubical, 3, field);
+      const Barcode bars = persistence(
+          cubical, {.field = field, .representatives = Representatives::cycles}, context);
+      EXPECT_GT(bars.bars(1).size(), 30U);
+      auto& chains = found.emplace_back();
+      for (std::size_t i = 0; i < bars.size(); ++i) {
+        SCOPED_TRACE("bar " + std::to_string(i));
+        chains.push_back(closed_cycle(cells, bars, i));
+        ASSERT_FALSE(chains.back().empty());
+        EXPECT_EQ(chains.back().rbegin()->first, cells.position(bars[i].dim, bars.birth_cell(i)));
+      }
+    }
+    EXPECT_EQ(found[0], found[1]);
+  });
+}
+
+TEST(VoxelRepresentatives, APitAndARing) {
+  const Image image{{5, 6}, {9, 9, 9, 9, 9, 9,  //
+                             9, 1, 1, 1, 9, 3,  //
+                             9, 1, 7, 1, 9, 3,  //
+                             9, 1, 1, 1, 9, 9,  //
+                             9, 9, 9, 9, 9, 9}};
+  const Barcode bars = persistence(Cubical(image), {.representatives = Representatives::voxels});
+  ASSERT_EQ(bars.size(), 3U);  // the ring for ever, the pit, the hole of the ring
+  EXPECT_EQ(bars.voxels(0).size(), 30U);
+  const auto pit = bars.voxels(1);
+  EXPECT_EQ(std::set<std::uint32_t>(pit.begin(), pit.end()), (std::set<std::uint32_t>{11, 17}));
+  ASSERT_EQ(bars.voxels(2).size(), 1U);
+  EXPECT_EQ(bars.voxels(2)[0], 14U);
+  EXPECT_TRUE(std::ranges::equal(bars.birth_voxel(1), std::array<Index, 2>{1, 5}));
+  EXPECT_TRUE(std::ranges::equal(bars.death_voxel(2), std::array<Index, 2>{2, 2}));
+  EXPECT_TRUE(bars.death_voxel(0).empty());
+}
+
+TEST(VoxelRepresentatives, OnlyOfImagesWithPositiveLength) {
+  const Options voxels{.representatives = Representatives::voxels};
+  EXPECT_THROW(persistence(Rips(Points::Random(4, 2)), voxels), Error);
+  const Image deep{{2, 2, 2, 2}, std::vector<double>(16, 0.0)};
+  EXPECT_THROW(persistence(Cubical(deep), voxels), Error);
+  const Image flat{{2, 2}, {1, 2, 3, 4}};
+  Options zero_length = voxels;
+  zero_length.min_persistence = -1;
+  EXPECT_THROW(persistence(Cubical(flat), zero_length), Error);
+  // Without cells there are sets all the same.
+  Options bare = voxels;
+  bare.cells = false;
+  EXPECT_EQ(persistence(Cubical(flat), bare).voxels(0).size(), 4U);
+}
+
+TEST(VoxelRepresentatives, CountInTheBudgetAndStop) {
+  Generator random(3);
+  const Image image = random.image({40, 40, 40}, false);
+  RunContext context;
+  const Cubical cubical(image, {}, context);
+  for (const auto wanted : {Representatives::cycles, Representatives::voxels}) {
+    context.memory.set_limit(context.memory.used() + 3'000'000);
+    EXPECT_THROW(persistence(cubical, {.representatives = wanted}, context), Error);
+    context.memory.set_limit(MemoryBudget::kUnlimited);
+    const std::size_t before = context.memory.used();
+    persistence(cubical, {.representatives = wanted}, context);
+    EXPECT_EQ(context.memory.used(), before);
+  }
+  std::stop_source source;
+  source.request_stop();
+  context.stop = source.get_token();
+  EXPECT_THROW(persistence(cubical, {.representatives = Representatives::voxels}, context), Error);
+}
+
+}  // namespace
+}  // namespace ph::test

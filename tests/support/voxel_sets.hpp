@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+// Sets of voxels that represent bars of images, by flood fill from their definition.
+#include <cstdlib>
+#include <set>
+
+#include "support/representatives.hpp"
+
+namespace ph::test {
+
+using Place = std::size_t;
+using PlaceSet = std::set<Place>;
+
+/// An image as a graph of voxels, and of the outside: two nodes more if one axis alone has ends,
+/// else one.
+class VoxelNeighbours {
+ public:
+  VoxelNeighbours(const std::vector<Index>& extents, std::vector<bool> periodic,
+                  CubicalOptions::Construction construction)
+      : extents_(extents),
+        periodic_(std::move(periodic)),
+        is_vertices_(construction == CubicalOptions::Construction::vertices) {
+    periodic_.resize(extents_.size());
+    for (const Index n : extents_) size_ *= static_cast<Place>(n);
+    for (std::size_t k = 0; k < extents_.size(); ++k)
+      if (has_axis(k) && !periodic_[k]) ++open_axes_;
+  }
+  Place size() const { return size_; }
+  Place outside(bool upper) const { return size_ + (open_axes_ == 1 && upper ? 1 : 0); }
+  /// Axes along which there is more than one cell.
+  bool has_axis(std::size_t k) const { return extents_[k] > 1 || (!is_vertices_ && !periodic_[k]); }
+  int axes() const {
+    int count = 0;
+    for (std::size_t k = 0; k < extents_.size(); ++k) count += has_axis(k) ? 1 : 0;
+    return count;
+  }
+  Place place(std::span<const Index> voxel) const {
+    Place result = 0;
+    for (std::size_t k = 0; k < voxel.size(); ++k)
+      result = result * static_cast<Place>(extents_[k]) + static_cast<Place>(voxel[k]);
+    return result;
+  }
+
+  /// What can be reached from a node, it included, by steps to nodes that are `open`.
+  /// @param wide whether voxels that share a corner are neighbours, else by facets.
+  template <class IsOpen>
+  PlaceSet flood(Place from, bool wide, IsOpen&& open) const {
+    PlaceSet met;
+    std::vector<Place> queue;
+    const auto meet = [&](Place p) {
+      if (open(p) && met.insert(p).second) queue.push_back(p);
+    };
+    meet(from);
+    while (!queue.empty()) {
+      const Place p = queue.back();
+      queue.pop_back();
+      if (p < size_) {
+        for_each_neighbour(p, wide, meet);
+        continue;
+      }
+      for (Place v = 0; v < size_; ++v)
+        for_each_neighbour(v, false, [&](Place u) {
+          if (u == p) meet(v);
+        });
+    }
+    return met;
+  }
+
+ private:
+  template <class Use>
+  void for_each_neighbour(Place p, bool wide, Use&& use) const {
+    std::vector<Index> at(extents_.size());
+    for (std::size_t k = extents_.size(), rest = p; k-- > 0;) {
+      at[k] = static_cast<Index>(rest % static_cast<Place>(extents_[k]));
+      rest /= static_cast<Place>(extents_[k]);
+    }
+    std::vector<int> step(extents_.size(), -1);
+    for (bool more = true; more;) {
+      int axes = 0;
+      for (const int s : step) axes += std::abs(s);
+      if (axes == 1 || (wide && axes > 1)) use(moved(at, step));
+      std::size_t k = step.size();
+      while (k > 0 && ++step[k - 1] == 2) step[--k] = -1;
+      more = k > 0;
+    }
+  }
+  Place moved(const std::vector<Index>& at, const std::vector<int>& step) const {
+    std::vector<Index> to = at;
+    for (std::size_t k = 0; k < to.size(); ++k) {
+      if (step[k] == 0) continue;
+      to[k] += step[k];
+      if (periodic_[k]) to[k] = (to[k] + extents_[k]) % extents_[k];
+      // In the V-construction an axis of one voxel has no room beside it.
+      if (!has_axis(k)) return place(at);
+      if (to[k] < 0) return outside(false);
+      if (to[k] == extents_[k]) return outside(true);
+    }
+    return place(to);
+  }
+
+  std::vector<Index> extents_;
+  std::vector<bool> periodic_;
+  bool is_vertices_;
+  Place size_ = 1;
+  int open_axes_ = 0;
+};
+
+/// The sets of all bars of an image without axes of one voxel that close up.
+inline void check_voxel_sets(const Image& image, const CubicalOptions& options,
+                             const Barcode& bars) {
+  const VoxelNeighbours grid(image.extents, options.periodic, options.construction);
+  const bool is_vertices = options.construction == CubicalOptions::Construction::vertices;
+  const double sign = options.superlevel ? -1 : 1;
+  const auto value = [&](Place p) { return sign * image.values[p] + 0.0; };
+  const auto enters = [&](Place p) {
+    return value(p) < kInfinity && (!options.threshold || value(p) <= *options.threshold);
+  };
+  for (std::size_t i = 0; i < bars.size(); ++i) {
+    SCOPED_TRACE("bar " + std::to_string(i));
+    const Bar& bar = bars[i];
+    ASSERT_EQ(bars.birth_voxel(i).size(), image.extents.size());
+    EXPECT_EQ(value(grid.place(bars.birth_voxel(i))), bar.birth);
+    ASSERT_EQ(bars.death_voxel(i).empty(), bar.is_infinite());
+    if (!bar.is_infinite()) {
+      EXPECT_EQ(value(grid.place(bars.death_voxel(i))), bar.death);
+    }
+    const auto span = bars.voxels(i);
+    const PlaceSet found(span.begin(), span.end());
+    ASSERT_EQ(found.size(), span.size()) << "a voxel occurs twice";
+    const bool has_chain = bars.representative(i).size() > 0;
+    if (bar.dim == 0) {
+      EXPECT_FALSE(has_chain);
+      EXPECT_EQ(found, grid.flood(grid.place(bars.birth_voxel(i)), !is_vertices, [&](Place p) {
+        return p < grid.size() && enters(p) && value(p) < bar.death;
+      }));
+      continue;
+    }
+    if (bar.dim != grid.axes() - 1 || has_chain) {
+      EXPECT_TRUE(has_chain);
+      EXPECT_TRUE(found.empty());
+      continue;
+    }
+    const auto is_open = [&](Place p) {
+      return p >= grid.size() || !enters(p) || value(p) > bar.birth;
+    };
+    // A hollow that is never filled has something in it that has always been there: voxels that
+    // never enter, or what lies beyond one end of an axis; not what lies beyond the other.
+    const Place beyond = grid.outside(is_vertices), other = grid.outside(!is_vertices);
+    const Place inside = !bar.is_infinite() ? grid.place(bars.death_voxel(i))
+                         : found.empty()    ? beyond
+                                            : *found.begin();
+    PlaceSet filled = grid.flood(inside, is_vertices, is_open);
+    if (bar.is_infinite() && beyond != other) filled.erase(beyond);
+    EXPECT_EQ(found, filled);
+  }
+}
+
+}  // namespace ph::test
