@@ -24,8 +24,8 @@ constexpr bool kIsDual = std::is_same_v<Graph, TopGraph>;
 /// The components of a line as V has them, by voxels; in one dimension they are those of T.
 class LineComponents {
  public:
-  LineComponents(CubicalImage image, const RunContext& context)
-      : grid_(with_vertices(std::move(image)), context),
+  LineComponents(const CubicalImage& image, const RunContext& context)
+      : grid_(with_vertices(image), context),
         graph_(grid_),
         edges_(critical_cells(grid_, 1, context)),
         tree_(grid_, graph_, edges_, context),

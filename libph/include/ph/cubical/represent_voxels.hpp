@@ -37,8 +37,8 @@ bool can_represent_voxels(const CubicalImage& grid);
 /// The bars that `pair_voxels` gives, each with a cycle or, if `kind` is voxels, those of H0 and of
 /// the highest dimension less one with a set of voxels. Precondition: it can, and kind is
 /// cycles or voxels.
-/// Time: twice that of `pair_voxels`, and what is put out. Memory: 20 bytes a voxel, and what
-/// critical cells take.
+/// Time: three to five times that of `pair_voxels`. Memory: 20 bytes a voxel, what critical cells
+/// take, and what is put out. Not in slabs: the image must fit.
 template <Field K>
 void represent_voxels(const CubicalImage& grid, const K& field, int max_dim, Representatives kind,
                       const RunContext& context, const RepresentativeSink& sink);
