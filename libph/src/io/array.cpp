@@ -82,26 +82,26 @@ std::size_t count_elements(const Input& input, const ArrayLayout& layout,
 
 namespace {
 
-// How far numbers are read and written, where both may be files: what lies behind leaves the
-// memory now and then. Elsewhere it only looks at the stop token.
-template <class T>
-class Trail {
+// Looks at the stop token now and then; where numbers are read from one file and written to
+// another, what of them has come into memory leaves it: in another order of axes it may lie
+// anywhere.
+class Watch {
  public:
-  Trail(const Input& input, const ArrayLayout& layout, std::span<const T> to, bool in_file)
-      : input_(input), layout_(layout), to_(to), in_file_(in_file) {}
+  Watch(const Input& input, std::span<const std::byte> to, bool in_file)
+      : input_(input), to_(to), in_file_(in_file) {}
 
   void passed(std::size_t elements) {
-    if ((elements & kPollMask) != 0) return;
+    constexpr std::size_t some = 0x1FFFF;
+    if ((elements & (in_file_ ? some : kPollMask)) != 0) return;
     input_.poll();
     if (!in_file_) return;
-    input_.done_with(0, layout_.offset + elements * layout_.type.size);
-    forget_file_pages(to_.data(), to_.size_bytes());
+    input_.done_with(0, input_.size());
+    forget_file_pages(to_.data(), to_.size());
   }
 
  private:
   const Input& input_;
-  const ArrayLayout& layout_;
-  std::span<const T> to_;
+  std::span<const std::byte> to_;
   bool in_file_;
 };
 
@@ -152,11 +152,11 @@ void convert_array(const Input& input, const ArrayLayout& layout, const std::vec
     }
     return static_cast<T>(value);
   };
-  Trail<T> trail(input, layout, values, in_file);
+  Watch watch(input, std::as_bytes(values), in_file);
   if (!layout.first_axis_fastest || extents.size() < 2) {
     for (std::size_t k = 0; k < values.size(); ++k) {
       values[k] = element_at(k);
-      trail.passed(k);
+      watch.passed(k);
     }
     return;
   }
@@ -173,7 +173,7 @@ void convert_array(const Input& input, const ArrayLayout& layout, const std::vec
       for (std::size_t x0 = 0; x0 < first; x0 += kTile) {
         for (std::size_t x = x0; x < std::min(x0 + kTile, first); ++x) {
           T* to = values.data() + (x * between + middle.place()) * last;
-          for (std::size_t z = z0; z < std::min(z0 + kTile, last); ++z, trail.passed(++done))
+          for (std::size_t z = z0; z < std::min(z0 + kTile, last); ++z, watch.passed(++done))
             to[z] = element_at(x + first * (m + between * z));
         }
       }
