@@ -107,7 +107,7 @@ class Batch(ProgramTest):
     def test_a_signal_leaves_complete_files_only(self):
         random.seed(3)
         self.write("many.txt", "".join(" ".join(f"{random.random():.6f}" for _ in range(6)) + "\n"
-                                       for _ in range(1500)))
+                                       for _ in range(4000)))
         self.write("last.txt", SQUARE)
         run = subprocess.Popen([program.PROGRAM, "square.txt", "many.txt", "last.txt", "--quiet",
                                 "--max-dim", "2", "-o", "out/"], cwd=self.folder,

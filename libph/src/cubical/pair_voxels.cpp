@@ -70,6 +70,8 @@ void pair_by_components(const StarGrid& grid, const WantedBars& wanted, const Ru
 // Whether all fits into memory at a time: by what some layers take if that is not clear.
 bool fits(const CubicalImage& voxels, const GridFrame& frame, const RunContext& context) {
   constexpr double least = 8, most = 168, per_cell = 64;  // bytes a voxel, and a critical cell
+  constexpr std::uint32_t few = 1 << 18;  // voxels whose slabs would take as much as they do
+  if (frame.size() < few) return true;
   // What is read of a file is in memory, too.
   const double in_file = voxels.is_in_file ? static_cast<double>(bytes_of(voxels.type)) : 0;
   const double left = static_cast<double>(context.memory.left()) - in_file * frame.size();
