@@ -65,7 +65,7 @@ class Signals(ProgramTest):
 
     def test_interrupts_of_the_lens_sweep(self):
         with open(self.path("many.txt"), "w", encoding="ascii") as file:  # one large cocycle
-            for _ in range(1600):
+            for _ in range(2600):
                 x = [random.gauss(0, 1) for _ in range(3)]
                 file.write(" ".join(f"{c / math.hypot(*x):.6f}" for c in x) + "\n")
         for delay in (0.1, 0.4, 0.8, 1.2):
