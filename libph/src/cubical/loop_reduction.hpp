@@ -51,7 +51,9 @@ class LoopReduction {
   };
 
   void run(PairSink& sink) {
-    reduce_all(kPiece);
+    // Threads that come and go would take longer than a few columns do.
+    constexpr std::size_t few = 1024;
+    reduce_all(columns_.size() < few ? few : kPiece);
     for_each_class([&](const StarCell& edge, const StarCell& square,
                        const Column&) { sink.pair(1, edge, square); },
                    [&](const StarCell& square) { sink.essential(2, square); },

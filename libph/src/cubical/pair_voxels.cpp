@@ -29,11 +29,12 @@ template <Field K>
 void pair_all_of_three_axes(StarGrid& grid, const K& field, const RunContext& context,
                             const BarSink& sink, PairSink& pairs) {
   CriticalCells edges(&context.memory), squares(&context.memory);
-  for_each_piece("critical cells", 2, 1, context, [&](std::size_t i, std::size_t end) {
-    for (; i < end; ++i)
-      i == 0 ? edges = critical_cells(grid, 1, context)
-             : squares = critical_cells(grid, 2, context);
-  });
+  for_each_piece("critical cells", 2, tasks_at_a_time(grid), context,
+                 [&](std::size_t i, std::size_t end) {
+                   for (; i < end; ++i)
+                     i == 0 ? edges = critical_cells(grid, 1, context)
+                            : squares = critical_cells(grid, 2, context);
+                 });
   PairSink top_pairs(grid, pairs.wants_cells(), sink);
   pair_in_both_graphs(grid, edges, squares, context, pairs, top_pairs);
   top_pairs.finish();

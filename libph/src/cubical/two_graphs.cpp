@@ -80,9 +80,10 @@ void pair_in_both_graphs(const StarGrid& grid, CriticalCells& edges, CriticalCel
   VertexPairing vertices(grid, edges, sink.wants_cells(), context);
   TopCellPairing top_cells(grid, squares, sink.wants_cells(), context);
   sink.expect(vertices.most_pairs() + top_cells.most_pairs());
-  for_each_piece("components", 2, 1, context, [&](std::size_t i, std::size_t end) {
-    for (; i < end; ++i) i == 0 ? vertices.run(sink) : top_cells.run(top_sink);
-  });
+  for_each_piece("components", 2, tasks_at_a_time(grid), context,
+                 [&](std::size_t i, std::size_t end) {
+                   for (; i < end; ++i) i == 0 ? vertices.run(sink) : top_cells.run(top_sink);
+                 });
 }
 
 }  // namespace ph::cubical

@@ -7,7 +7,7 @@
 
 namespace ph::cubical {
 
-/// Of three axes: whether bars are wanted that come from neither graph.
+/// Whether bars of three axes are wanted that come from neither graph.
 inline bool wants_loops(const GridFrame& frame, const WantedBars& wanted) {
   // Around periodic axes classes of all dimensions may live for ever.
   return frame.top_dim() == 3 && wanted.max_dim > 0 &&
@@ -20,6 +20,12 @@ inline bool wants_vertices(const GridFrame& frame, const WantedBars& wanted) {
 /// The same for the graph of top cells.
 inline bool wants_top_cells(const GridFrame& frame, const WantedBars& wanted) {
   return frame.relative() ? wanted.min_dim <= 0 || frame.top_dim() < 3 : wanted.max_dim > 0;
+}
+
+/// How many of two tasks a thread takes: both where a thread would cost more than it saves.
+inline std::size_t tasks_at_a_time(const GridFrame& frame) {
+  constexpr std::uint32_t few = 1 << 16;  // voxels
+  return frame.size() < few ? 2 : 1;
 }
 
 /// Components of the sublevel sets: voxels joined by edges, in the order of the stars. Takes the
