@@ -91,7 +91,7 @@ class Watch {
       : input_(input), to_(to), in_file_(in_file) {}
 
   void passed(std::size_t elements) {
-    constexpr std::size_t some = 0x1FFFF;
+    constexpr std::size_t some = 0x7FFF;  // a page each may have come, and those around it
     if ((elements & (in_file_ ? some : kPollMask)) != 0) return;
     input_.poll();
     if (!in_file_) return;
