@@ -12,6 +12,24 @@
 
 namespace ph::cubical {
 
+/// Links nodes as their arrows say, but for some at the border, where many arrows will be met: all
+/// of them one after another are quicker then.
+template <class Graph>
+void follow_inner_arrows(const StarGrid& grid, const Graph& graph, ArrowForest<Graph>& forest,
+                         const RunContext& context) {
+  constexpr std::uint32_t many = 256;  // of so many voxels one has a critical cell
+  if (grid.critical().size() <= grid.size() / many) return;
+  // Rows that share cells with those before them are looked at twice where a piece begins.
+  const std::uint32_t layer = grid.has_axis(0) ? grid.extent(1) : 1;
+  const std::uint32_t piece = std::max(16 * layer, (1U << 18) / grid.extent(2));
+  for_each_piece("arrows", grid.row_count(), piece, context,
+                 [&](std::size_t begin, std::size_t end) {
+                   graph.for_each_inner_arrow(
+                       static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end),
+                       [&](std::uint32_t node, std::uint32_t to) { forest.link(node, to); });
+                 });
+}
+
 /// The trees that the arrows of a graph make, by the numbers of their roots: first what has always
 /// been there, which has no cell, then critical cells in the order of the grid.
 template <class Graph>
@@ -23,9 +41,7 @@ class Basins {
         context_(context),
         forest_(graph, context),
         roots_(&context.memory) {
-    // Where many arrows will be met, all of them one after another are quicker.
-    constexpr std::uint32_t many = 256;  // of so many voxels one has a critical cell
-    if (grid.critical().size() > grid.size() / many) follow_inner_arrows();
+    follow_inner_arrows(grid, graph, forest_, context);
     for (const int part : {0, 1}) forest_.set_root(graph.outside(part), endless_++);
     if (graph.has_endless()) join_endless();
     Ticker ticker(context, "roots");
@@ -46,17 +62,6 @@ class Basins {
   std::uint32_t basin_of(std::uint32_t node) { return forest_.number_of_root(forest_.find(node)); }
 
  private:
-  void follow_inner_arrows() {
-    // Rows that share cells with those before them are looked at twice where a piece begins.
-    const std::uint32_t layer = grid_.has_axis(0) ? grid_.extent(1) : 1;
-    const std::uint32_t piece = std::max(16 * layer, (1U << 18) / grid_.extent(2));
-    for_each_piece("arrows", grid_.row_count(), piece, context_,
-                   [&](std::size_t begin, std::size_t end) {
-                     graph_.for_each_inner_arrow(
-                         static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end),
-                         [&](std::uint32_t node, std::uint32_t to) { forest_.link(node, to); });
-                   });
-  }
   // Besides the outside; joined as far as it hangs together.
   void join_endless() {
     Ticker ticker(context_, "holes", grid_.size());

@@ -9,9 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "arrow_forest.hpp"
-#include "critical_cells.hpp"
-#include "ph/core/parallel.hpp"
+#include "basins.hpp"
 
 namespace ph::cubical {
 
@@ -52,8 +50,7 @@ class SlabBasins {
         forest_(graph, context),
         same_(roots.size(), &context.memory) {
     std::iota(same_.begin(), same_.end(), 0U);
-    constexpr std::uint32_t many = 256;  // as in Basins
-    if (grid.critical().size() > grid.size() / many) follow_inner_arrows();
+    follow_inner_arrows(grid, graph, forest_, context);
     for (const int part : {0, 1})
       forest_.set_root(graph.outside(part), outside[static_cast<std::size_t>(part)]);
     const std::uint32_t before = seam.empty() ? 0 : graph.seam(false)[0];
@@ -83,16 +80,6 @@ class SlabBasins {
   }
 
  private:
-  void follow_inner_arrows() {
-    const std::uint32_t layer = grid_.has_axis(0) ? grid_.extent(1) : 1;
-    const std::uint32_t piece = std::max(16 * layer, (1U << 18) / grid_.extent(2));
-    for_each_piece("arrows", grid_.row_count(), piece, context_,
-                   [&](std::size_t begin, std::size_t end) {
-                     graph_.for_each_inner_arrow(
-                         static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end),
-                         [&](std::uint32_t node, std::uint32_t to) { forest_.link(node, to); });
-                   });
-  }
   std::uint32_t add(const SlabRoot& root) {
     roots_.push_back(root);
     same_.push_back(static_cast<std::uint32_t>(same_.size()));
