@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "ph/io/formats.hpp"
 #include "ph/io/read.hpp"
 #include "read_support.hpp"
 
@@ -143,6 +144,26 @@ TEST(ImagesInFiles, OtherInputsDoNot) {
       EXPECT_EQ(error.kind(), ErrorKind::resource) << error.what();
     }
   }
+}
+
+// Between a third of what is left and all of it they are read, and counted.
+TEST(ImagesInFiles, OtherInputsAreCounted) {
+  std::string text;
+  while (text.size() < 600'000) text += "0.25 0.5 0.75\n";
+  const TempDir dir;
+  const std::filesystem::path path = dir.write("points.txt", text);
+  RunContext context;
+  context.memory.set_limit(1'000'000);
+  const Input input = Input::open(path, &context, Excess::stays_in_file);
+  EXPECT_TRUE(input.stays_in_file());
+  EXPECT_LT(context.memory.used(), text.size());
+  try {
+    read_any(input, Format::points, {.context = &context});
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::resource) << error.what();
+  }
+  EXPECT_FALSE(input.stays_in_file());
+  EXPECT_GE(context.memory.used(), text.size());
 }
 
 }  // namespace

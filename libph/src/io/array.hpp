@@ -42,10 +42,8 @@ std::size_t count_elements(const Input& input, const ArrayLayout& layout,
                            const std::vector<Index>& extents);
 
 /// Reads an array whose elements are there (see count_elements); the result is in C order.
-/// @param excess if so, the voxels of an input that stays in its file, and those that would take
-/// a third
-///        of the memory that is left, stay in that file, or in a temporary one if they are stored
-///        in another way.
+/// @param excess stays_in_file: voxels that `stays_in_file` stay in the input's file, or in a
+///        temporary one if they are stored in another way.
 /// @throws Error (bad_data) at an integer that double cannot hold; Error (resource); Error (io).
 Image load_array(const Input& input, const ArrayLayout& layout, std::vector<Index> extents,
                  Input::Excess excess = Input::Excess::refused);

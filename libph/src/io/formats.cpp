@@ -261,8 +261,7 @@ ReadResult read_any(const Input& input, Format format, const ReadOptions& option
     throw Error(ErrorKind::not_built_in,
                 fmt::format("{}: format {} is not built in", input.name(), info.name));
   }
-  if (input.stays_in_file() && !goes_by_blocks(input, format, options))
-    input.require_memory(input.size());
+  if (!goes_by_blocks(input, format, options)) input.take_memory();
   std::vector<std::string> notes;
   std::vector<Index> dropped;
   ReadOptions inner = options;

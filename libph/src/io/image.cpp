@@ -5,9 +5,7 @@
 namespace ph {
 
 Image read_image(const Input& input, const ReadOptions& options) {
-  const bool is_picture = detail::is_png(input) || detail::is_pgm(input);
-  if (input.stays_in_file() && (is_picture || detail::is_npz(input)))
-    input.require_memory(input.size());
+  if (detail::is_png(input) || detail::is_pgm(input) || detail::is_npz(input)) input.take_memory();
   if (detail::is_png(input)) return detail::read_png_image(input);
   if (detail::is_pgm(input)) return detail::read_pgm_image(input);
   if (detail::is_dipha(input)) return detail::read_dipha_image(input, options);

@@ -298,6 +298,12 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
 
 bool Input::stays_in_file() const { return storage_ != nullptr && storage_->exceeds; }
 
+void Input::take_memory() const {
+  if (!stays_in_file()) return;
+  if (context_ != nullptr) storage_->claim.emplace(context_->memory, size());
+  storage_->exceeds = false;
+}
+
 void Input::done_with(std::size_t offset, std::size_t size) const {
   if (stays_in_file()) forget_file_pages(text_.data() + offset, size);
 }

@@ -80,6 +80,9 @@ class Input {
   const RunContext* context() const { return context_; }
   /// Whether it exceeds the memory budget: to be read block by block, see `done_with`.
   bool stays_in_file() const;
+  /// For readers that take it as a whole: from now on it is counted, as if it had not exceeded.
+  /// @throws Error (resource) if it does not fit.
+  void take_memory() const;
   /// Says that these bytes are not needed for now.
   void done_with(std::size_t offset, std::size_t size) const;
   /// Keeps the bytes where they are though the input is gone; from now on they are not counted.
