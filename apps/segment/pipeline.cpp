@@ -70,20 +70,27 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
 /// The points with their voxels, in the order of the cloud.
 void keep_points(const CloudView& cloud, const VoxelFiltration& filtration, SceneTree& scene) {
   const std::vector<Index>& points = filtration.points;
-  const std::size_t size = points.size();
+  const std::vector<std::uint32_t>& voxel_of = filtration.grid.voxel_of;
   // Those beyond the plane, ascending, and behind them those that were won back, ascending.
   const auto beyond =
       static_cast<std::size_t>(std::ranges::is_sorted_until(points) - points.begin());
-  scene.points.resize(size);
-  scene.vertex_of_point.resize(size);
-  scene.xyz.resize(3 * size);
-  for (std::size_t k = 0, next = 0, next_foot = beyond; k < size; ++k) {
-    const bool is_foot = next == beyond || (next_foot < size && points[next_foot] < points[next]);
-    const std::size_t from = is_foot ? next_foot++ : next++;
-    scene.points[k] = points[from];
-    scene.vertex_of_point[k] = filtration.grid.voxel_of[from];
-    std::copy_n(&cloud.xyz[3 * static_cast<std::size_t>(points[from])], 3, &scene.xyz[3 * k]);
+  if (beyond == points.size()) {
+    scene.points = points;
+    scene.vertex_of_point = voxel_of;
+  } else {
+    scene.points.reserve(points.size());
+    scene.vertex_of_point.reserve(points.size());
+    for (std::size_t next = 0, next_foot = beyond; scene.points.size() < points.size();) {
+      const bool is_foot =
+          next == beyond || (next_foot < points.size() && points[next_foot] < points[next]);
+      const std::size_t from = is_foot ? next_foot++ : next++;
+      scene.points.push_back(points[from]);
+      scene.vertex_of_point.push_back(voxel_of[from]);
+    }
   }
+  scene.xyz.resize(3 * points.size());
+  for (std::size_t k = 0; k < points.size(); ++k)
+    std::copy_n(&cloud.xyz[3 * static_cast<std::size_t>(scene.points[k])], 3, &scene.xyz[3 * k]);
 }
 
 /// The tree and what a cut needs besides. `plane` is there already.

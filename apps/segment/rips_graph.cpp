@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <vector>
 
@@ -11,62 +12,79 @@
 namespace ph::segment {
 namespace {
 
-/// filtration_value for many lengths: the levels are computed once.
+/// The values that `filtration_value` has for lengths up to `distance`, if they are few.
 class Levels {
  public:
-  Levels(double distance, int steps) : distance_(distance), steps_(steps) {
+  Levels(double distance, int steps) {
     constexpr int most = 4096;
     if (steps < 1 || steps > most || !(distance > 0)) return;
     per_length_ = steps / distance;
-    for (int k = 0; k < steps; ++k) levels_.push_back(k * distance / steps);
-    levels_.push_back(distance);
+    for (int k = 0; k < steps; ++k) values_.push_back(k * distance / steps);
+    values_.push_back(distance);
   }
-  double round_up(double length) const {
-    return levels_.empty() ? filtration_value(length, distance_, steps_) : levels_[place(length)];
-  }
-  /// Sorts edges that have levels for values, if these are few.
-  void sort(std::pmr::vector<WeightedEdge>& edges) const {
-    if (levels_.empty()) return;
-    std::vector<std::size_t> next(levels_.size() + 1);
-    for (const WeightedEdge& e : edges) ++next[place(e.value) + 1];
-    std::partial_sum(next.begin(), next.end(), next.begin());
-    std::pmr::vector<WeightedEdge> sorted(edges.size(), edges.get_allocator());
-    for (const WeightedEdge& e : edges) sorted[next[place(e.value)]++] = e;
-    edges.swap(sorted);
+  std::size_t size() const { return values_.size(); }  // 0: too many, or exact lengths
+  double operator[](std::size_t k) const { return values_[k]; }
+  /// The first level that is not below a length.
+  std::uint32_t above(double length) const {
+    // Rounding may miss the level by one: look at the neighbours, too.
+    auto k = std::min(static_cast<std::size_t>(length * per_length_), values_.size() - 1);
+    while (k > 0 && values_[k - 1] >= length) --k;
+    while (values_[k] < length) ++k;
+    return static_cast<std::uint32_t>(k);
   }
 
  private:
-  std::size_t place(double length) const {
-    // Rounding may miss the level by one: look at the neighbours, too.
-    std::size_t k = std::min(static_cast<std::size_t>(length * per_length_), levels_.size() - 1);
-    while (k > 0 && levels_[k - 1] >= length) --k;
-    while (levels_[k] < length) ++k;
-    return k;
-  }
-
-  double distance_;
-  int steps_;
   double per_length_ = 0;
-  std::vector<double> levels_;  // empty: too many to keep, or exact lengths
+  std::vector<double> values_;
 };
+
+using Edges = std::pmr::vector<WeightedEdge>;
+
+constexpr std::size_t kEdgesOfAVoxel = 12;  // on a surface, where they reach two voxels far
+
+Edges edges_with_values(const Points& points, double distance, int steps,
+                        const RunContext& context) {
+  Edges edges(&context.memory);
+  edges.reserve(kEdgesOfAVoxel * static_cast<std::size_t>(points.rows()));
+  for_each_pair_within(
+      points, distance,
+      [&](Index i, Index j, double length) {
+        edges.push_back({i, j, filtration_value(length, distance, steps)});
+      },
+      context);
+  return edges;
+}
+
+/// The same sorted by value, which takes no comparison.
+Edges edges_by_level(const Points& points, double distance, const Levels& levels,
+                     const RunContext& context) {
+  struct Edge {
+    std::uint32_t u, v, level;
+  };
+  std::pmr::vector<Edge> edges(&context.memory);
+  edges.reserve(kEdgesOfAVoxel * static_cast<std::size_t>(points.rows()));
+  std::vector<std::size_t> next(levels.size() + 1);  // by level: the place of its next edge
+  for_each_pair_within(
+      points, distance,
+      [&](Index i, Index j, double length) {
+        const std::uint32_t level = levels.above(length);
+        edges.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), level});
+        ++next[level + 1];
+      },
+      context);
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  Edges sorted(edges.size(), &context.memory);
+  for (const auto& [u, v, level] : edges) sorted[next[level]++] = {u, v, levels[level]};
+  return sorted;
+}
 
 }  // namespace
 
 FilteredGraph rips_graph(const Points& points, double distance, int steps,
                          const RunContext& context) {
-  std::pmr::vector<WeightedEdge> edges(&context.memory);
-  constexpr std::size_t of_a_surface = 12;  // edges a voxel, where it reaches two voxels far
-  edges.reserve(of_a_surface * static_cast<std::size_t>(points.rows()));
   const Levels levels(distance, steps);
-  Ticker ticker(context, "complex");
-  for_each_pair_within(
-      points, distance,
-      [&](Index i, Index j, double length) {
-        edges.push_back({i, j, levels.round_up(length)});
-        ticker.tick();
-      },
-      context);
-  levels.sort(edges);
+  const Edges edges = levels.size() > 0 ? edges_by_level(points, distance, levels, context)
+                                        : edges_with_values(points, distance, steps, context);
   const std::vector<double> births(static_cast<std::size_t>(points.rows()), 0.0);
   return FilteredGraph(births, edges, context);
 }

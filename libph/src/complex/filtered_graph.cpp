@@ -30,7 +30,7 @@ FilteredGraph::FilteredGraph(std::span<const double> births, std::size_t edge_co
 }
 
 FilteredGraph::Edge FilteredGraph::edge_between(const WeightedEdge& e) const {
-  const auto [u, v] = std::minmax(e.u, e.v);
+  const Index u = std::min(e.u, e.v), v = std::max(e.u, e.v);
   if (u < 0 || v >= size()) {
     throw Error(ErrorKind::bad_data,
                 fmt::format("edge ({}, {}): expected vertices below {}", e.u, e.v, size()));
