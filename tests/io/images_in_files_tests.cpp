@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Images that exceed the memory limit stay in their file, or in a temporary one: with the same
 // numbers as in memory.
+#include <fmt/format.h>
 #include <zlib.h>
 
+#include <array>
 #include <limits>
+#include <optional>
+#include <random>
 
+#include "nifti_file.hpp"
 #include "ph/io/formats.hpp"
 #include "ph/io/read.hpp"
 #include "read_support.hpp"
@@ -26,10 +31,11 @@ std::vector<T> numbers() {
 }
 
 template <class T>
-std::string npy(const std::string& type, const std::vector<T>& values, bool fortran = false) {
+std::string npy(const std::string& type, const std::vector<T>& values, bool fortran = false,
+                const std::string& shape = "80, 250, 260") {
   std::string header = "{'descr': '" + type +
-                       "', 'fortran_order': " + (fortran ? "True" : "False") +
-                       ", 'shape': (80, 250, 260), }";
+                       "', 'fortran_order': " + (fortran ? "True" : "False") + ", 'shape': (" +
+                       shape + "), }";
   header.resize(117, ' ');
   header += '\n';
   std::string bytes = std::string("\x93NUMPY\x01\x00", 8) + le(std::uint16_t{118}) + header;
@@ -127,6 +133,145 @@ TEST(ImagesInFiles, ChangeInMemory) {
   EXPECT_FALSE(changed.is_in_file());
   EXPECT_EQ(changed[7], 99);
   EXPECT_EQ(image.values[7], before);
+}
+
+/// Files of some megabytes, of which every second one is broken somewhere.
+class RandomFiles {
+ public:
+  struct File {
+    std::string name, bytes;
+    NanPolicy nan;
+  };
+  File next() {
+    const bool is_nifti = coin(), is_packed = below(4) == 0;
+    std::string bytes = is_nifti ? nifti() : array();
+    const std::size_t header = is_nifti ? 352 : 128;
+    switch (below(8)) {
+      case 0:
+        bytes.resize(bytes.size() - 1 - below(100));
+        break;
+      case 1:
+        bytes += 'x';
+        break;
+      case 2:
+        bytes[below(header)] ^= static_cast<char>(1 << below(8));
+        break;
+    }
+    if (is_packed) {
+      bytes = gzipped(bytes);
+      if (below(3) == 0) bytes[below(bytes.size())] ^= 1;
+    }
+    return {std::string(is_nifti ? "a.nii" : "a.npy") + (is_packed ? ".gz" : ""), std::move(bytes),
+            coin() ? NanPolicy::error : NanPolicy::drop};
+  }
+
+ private:
+  std::size_t below(std::size_t n) {
+    return std::uniform_int_distribution<std::size_t>(0, n - 1)(random_);
+  }
+  bool coin() { return below(2) == 0; }
+  /// Up to four extents whose product is about a million.
+  std::vector<std::size_t> extents() {
+    std::vector<std::size_t> result;
+    std::size_t left = 1'100'000 + below(500'000);
+    for (std::size_t axes = 1 + below(4); axes > 1; --axes) {
+      result.push_back(1 + below(60));
+      left /= result.back();
+    }
+    result.insert(result.begin() + static_cast<std::ptrdiff_t>(below(result.size() + 1)), left + 1);
+    return result;
+  }
+  /// Elements of any bits, or of whole numbers that any type can hold.
+  std::string elements(std::size_t count, std::size_t size, bool any_bits) {
+    std::string bytes(count * size, '\0');
+    const std::size_t step = any_bits ? 1 : size;
+    for (std::size_t at = 0; at < bytes.size(); at += step)
+      bytes[at] = static_cast<char>(random_() & 0x7F);
+    return bytes;
+  }
+  std::string array() {
+    constexpr std::array<const char*, 12> types{"|b1", "|u1", "<u2", ">u2", "<u4", ">i4",
+                                                "|i1", "<i2", "<i8", "<f2", "<f4", ">f8"};
+    const std::string type = types[below(types.size())];
+    std::string shape;
+    std::size_t count = 1;
+    for (const std::size_t n : extents()) {
+      shape += std::to_string(n) + ", ";
+      count *= n;
+    }
+    const std::string raw = elements(count, static_cast<std::size_t>(type[2] - '0'), below(4) == 0);
+    return npy(type, std::vector<char>(raw.begin(), raw.end()), coin(), shape);
+  }
+  std::string nifti() {
+    constexpr std::array<std::array<std::int16_t, 2>, 8> types{
+        {{2, 8}, {4, 16}, {8, 32}, {16, 32}, {64, 64}, {256, 8}, {512, 16}, {768, 32}}};
+    const auto [code, bits] = types[below(types.size())];
+    Nifti file{.dim = {}, .datatype = code, .bitpix = bits, .big = coin()};
+    std::size_t count = 1;
+    for (const std::size_t n : extents()) {
+      const std::size_t fits = std::min<std::size_t>(n, 32'000);
+      file.dim.push_back(static_cast<std::int16_t>(fits));
+      count *= fits;
+    }
+    if (const std::size_t more = (1'100'000 + count - 1) / count; more > 1) {
+      file.dim.push_back(static_cast<std::int16_t>(more));
+      count *= more;
+    }
+    file.dim.insert(file.dim.begin(), static_cast<std::int16_t>(file.dim.size()));
+    if (coin()) file.slope = coin() ? 0.5F : -3;
+    if (coin()) file.intercept = 7;
+    return file.header() + elements(count, static_cast<std::size_t>(bits / 8), below(4) == 0);
+  }
+
+  std::mt19937 random_{3};
+};
+
+// Whatever is in a file: the same numbers, or the same words, with little memory as with much.
+TEST(ImagesInFiles, RandomFilesAndFaults) {
+  struct Outcome {
+    std::optional<Image> image;
+    std::string message;
+    bool is_refused = false;
+  };
+  const TempDir dir;
+  const auto outcome = [](const std::filesystem::path& path, ReadOptions options) {
+    Outcome result;
+    try {
+      result.image = read_image(path, options);
+    } catch (const Error& error) {
+      result.message = error.what();
+      result.is_refused = error.kind() == ErrorKind::resource;
+    }
+    return result;
+  };
+  RandomFiles files;
+  int in_file = 0, faults = 0, refused = 0;
+  for (int round = 0; round < 100; ++round) {
+    const auto [name, bytes, nan] = files.next();
+    SCOPED_TRACE(fmt::format("round {}, {}", round, name));
+    const std::filesystem::path path = dir.write(name, bytes);
+    const Outcome expected = outcome(path, {.nan = nan});
+    RunContext context;
+    context.memory.set_limit(3'000'000);
+    const Outcome found = outcome(path, {.nan = nan, .context = &context});
+    ASSERT_LE(context.memory.peak(), context.memory.limit());
+    if (found.is_refused) {
+      ++refused;
+      continue;
+    }
+    ASSERT_EQ(found.message, expected.message);
+    ASSERT_EQ(found.image.has_value(), expected.image.has_value());
+    if (!found.image) {
+      ++faults;
+      continue;
+    }
+    in_file += found.image->values.is_in_file() ? 1 : 0;
+    ASSERT_EQ(found.image->extents, expected.image->extents);
+    ASSERT_TRUE(found.image->values == expected.image->values);
+  }
+  EXPECT_GT(in_file, 30);
+  EXPECT_GT(faults, 15);
+  EXPECT_LT(refused, 10);
 }
 
 // What must be in memory as a whole is refused as before.
