@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "ph/core/barcode.hpp"
+#include "ph/cubical/pair_voxels.hpp"
+
+namespace ph::cubical {
+
+/// Hands bars to a sink: many at a time, or one by one where their cells are wanted. Each comes
+/// with its copies around the periodic axes of one voxel.
+class BarBlocks {
+ public:
+  /// @param loop_count periodic axes of one voxel.
+  BarBlocks(std::size_t loop_count, bool wants_cells, const BarSink& bars)
+      : loop_count_(loop_count), wants_cells_(wants_cells), bars_(bars) {}
+
+  bool wants_cells() const { return wants_cells_; }
+  /// @param append_cells called, if they are wanted, with (which of the axes the copy goes around,
+  ///        as bits; coordinates of the birth cell; of the death cell): appends to both.
+  template <class AppendCells>
+  void add(const Bar& bar, AppendCells&& append_cells) {
+    for (unsigned loops = 0; loops < 1U << loop_count_; ++loops) {
+      const Bar copy{bar.dim + std::popcount(loops), bar.birth, bar.death};
+      if (!wants_cells_) {
+        block_[held_++] = copy;
+        if (held_ == block_.size()) finish();
+        continue;
+      }
+      birth_.clear();
+      death_.clear();
+      append_cells(loops, birth_, death_);
+      bars_.add(copy, birth_, death_);
+    }
+  }
+  /// Hands over what it still holds.
+  void finish() {
+    bars_.add_all(std::span(block_).first(held_));
+    held_ = 0;
+  }
+
+ private:
+  std::size_t loop_count_;
+  bool wants_cells_;
+  const BarSink& bars_;
+  std::array<Bar, 256> block_;  // without cells, not yet handed over
+  std::size_t held_ = 0;
+  std::vector<Index> birth_, death_;
+};
+
+}  // namespace ph::cubical
