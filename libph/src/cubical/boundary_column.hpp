@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
@@ -9,13 +8,14 @@
 #include <vector>
 
 #include "cell_grid.hpp"
+#include "chain_heap.hpp"
 #include "ph/core/chain.hpp"
 #include "ph/core/field.hpp"
 #include "ph/core/run_context.hpp"
 
 namespace ph::cubical {
 
-/// A chain of cells that is being reduced: a heap. A cell that is killed inside its star is
+/// A chain of cells that is being reduced. A cell that is killed inside its star is
 /// replaced by the rest of the boundary of its killer when it comes up, so a chain is followed only
 /// as far down as its pivot; cells that kill are left out (no cycle has its youngest cell there).
 /// One for each thread.
@@ -26,7 +26,7 @@ class BoundaryColumn {
   using Term = Entry<CellGrid::Name, K>;
 
   BoundaryColumn(const CellGrid& grid, const K& field, const RunContext& context)
-      : grid_(grid), field_(field), context_(context), heap_(&context.memory) {}
+      : grid_(grid), field_(field), context_(context), heap_(field, &context.memory) {}
 
   /// Begins anew with the boundary of a cell.
   void assign_boundary(std::uint32_t cell) {
@@ -34,18 +34,17 @@ class BoundaryColumn {
     add_boundary(cell, grid_.coordinates(cell), CellGrid::kNone, field_.from_int(1));
   }
   /// Begins anew with a chain.
-  void assign(std::span<const Term> chain) {
-    heap_.assign(chain.begin(), chain.end());
-    std::make_heap(heap_.begin(), heap_.end(), precedes);
-  }
+  void assign(std::span<const Term> chain) { heap_.assign(chain); }
   void add(Element scale, std::span<const Term> chain) {
-    const std::size_t before = heap_.size();
-    for (const Term& term : chain) append(term.cell, field_.multiply(scale, term.coefficient()));
-    push_from(before);
+    count(chain.size());
+    heap_.add([&](Terms& terms) {
+      for (const Term& term : chain)
+        terms.emplace_back(term.cell, field_.multiply(scale, term.coefficient()));
+    });
   }
   /// Takes out the youngest cell that is in no pair inside its star; nothing if none is left.
   std::optional<Term> take_pivot() {
-    while (const std::optional<Term> youngest = take_youngest()) {
+    while (const std::optional<Term> youngest = heap_.take()) {
       const std::uint32_t cell = CellGrid::cell(youngest->cell);
       const CellMark mark = grid_.mark(cell);
       if (!mark.is_killed()) return youngest;
@@ -63,70 +62,36 @@ class BoundaryColumn {
     return std::nullopt;
   }
   /// What it holds, each cell once; to be assigned before it is used again.
-  std::span<const Term> consolidate() {
-    std::sort(heap_.begin(), heap_.end(), precedes);
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < heap_.size();) {
-      const CellGrid::Name name = heap_[i].cell;
-      Element sum = heap_[i].coefficient();
-      for (++i; i < heap_.size() && heap_[i].cell == name; ++i)
-        sum = field_.add(sum, heap_[i].coefficient());
-      if (!field_.is_zero(sum)) heap_[kept++] = Term(name, sum);
-    }
-    heap_.resize(kept);
-    return heap_;
-  }
+  std::span<const Term> consolidate() { return heap_.consolidate(); }
 
  private:
-  static bool precedes(const Term& a, const Term& b) { return a.cell < b.cell; }
+  using Terms = std::pmr::vector<Term>;
 
-  void append(CellGrid::Name name, Element a) { heap_.emplace_back(name, a); }
-  // Puts what was appended where it belongs.
-  void push_from(std::size_t before) {
-    const std::size_t added = heap_.size() - before;
+  static bool precedes(CellGrid::Name a, CellGrid::Name b) { return a < b; }
+  void count(std::size_t steps) {
     constexpr std::size_t many = 4096;
-    steps_ += added + 1;
-    if (steps_ >= many) {
-      steps_ = 0;
-      context_.poll();
-    }
-    if (added > before) return std::make_heap(heap_.begin(), heap_.end(), precedes);
-    for (std::size_t i = before + 1; i <= heap_.size(); ++i)
-      std::push_heap(heap_.begin(), heap_.begin() + static_cast<std::ptrdiff_t>(i), precedes);
+    if ((steps_ += steps + 1) < many) return;
+    steps_ = 0;
+    context_.poll();
   }
   // Adds `scale` times the boundary of a cell, but for the facet `skip`. @param at where it is.
   void add_boundary(std::uint32_t cell, const CellGrid::Coordinates& at, std::uint32_t skip,
                     Element scale) {
-    const std::size_t before = heap_.size();
-    grid_.for_each_facet(
-        cell, at, [&](std::uint32_t facet, const CellGrid::Coordinates& x, int incidence) {
-          if (facet == skip || grid_.mark(facet).kills()) return;
-          append(grid_.name(facet, x), incidence > 0 ? scale : field_.negate(scale));
-        });
-    push_from(before);
-  }
-  Term pop() {
-    std::pop_heap(heap_.begin(), heap_.end(), precedes);
-    const Term term = heap_.back();
-    heap_.pop_back();
-    return term;
-  }
-  std::optional<Term> take_youngest() {
-    while (!heap_.empty()) {
-      const Term first = pop();
-      Element sum = first.coefficient();
-      while (!heap_.empty() && heap_.front().cell == first.cell)
-        sum = field_.add(sum, pop().coefficient());
-      if (!field_.is_zero(sum)) return Term(first.cell, sum);
-    }
-    return std::nullopt;
+    count(1);
+    heap_.add([&](Terms& terms) {
+      grid_.for_each_facet(
+          cell, at, [&](std::uint32_t facet, const CellGrid::Coordinates& x, int incidence) {
+            if (facet == skip || grid_.mark(facet).kills()) return;
+            terms.emplace_back(grid_.name(facet, x), incidence > 0 ? scale : field_.negate(scale));
+          });
+    });
   }
 
   const CellGrid& grid_;
   const K& field_;
   const RunContext& context_;
   std::size_t steps_ = 0;  // since the last look at the stop token
-  std::pmr::vector<Term> heap_;
+  ChainHeap<K, Term, &BoundaryColumn::precedes> heap_;
 };
 
 }  // namespace ph::cubical

@@ -18,6 +18,7 @@ template <Field K>
 class BoundaryReduction {
   using Chain = BoundaryColumn<K>;
   using Reduction = ParallelReduction<K, Chain>;
+  using Column = typename Reduction::Column;
 
  public:
   using Name = CellGrid::Name;
@@ -42,21 +43,22 @@ class BoundaryReduction {
     reduction_.run(
         "boundaries", piece, [&] { return Chain(grid_, field_, context_); },
         [&](Chain& column, std::uint32_t i) { column.assign_boundary(CellGrid::cell(names_[i])); },
-        [&](Name pivot) -> std::uint32_t& { return owner_of(pivot); },
+        [&](Name pivot) -> const Column*& { return owner_of(pivot); },
+        [&](Name pivot) { __builtin_prefetch(&rows_[start(CellGrid::cell(pivot))]); },
         [](std::span<std::uint32_t>) {});
     for (std::size_t i = 0; i < names_.size(); ++i) {
-      const auto& pivot = reduction_.columns()[i].pivot;
-      on_pair(names_[i], pivot ? std::optional<Name>(pivot->cell) : std::nullopt);
+      const Column* const column = reduction_.columns()[i];
+      on_pair(names_[i], column ? std::optional<Name>(column->pivot().cell) : std::nullopt);
     }
   }
   /// Whether a row is a pivot. Precondition: it has run.
-  bool is_pivot(Name row) { return owner_of(row) != Reduction::kNone; }
+  bool is_pivot(Name row) { return owner_of(row) != nullptr; }
 
  private:
   static constexpr std::uint32_t kNone = UINT32_MAX;
   struct Row {
     std::uint32_t cell = kNone;
-    std::uint32_t owner = Reduction::kNone;  // a column
+    const Column* owner = nullptr;
   };
 
   void enter_rows(std::span<const Name> rows) {
@@ -76,7 +78,7 @@ class BoundaryReduction {
     return row == &rows_.back() ? row - (rows_.size() - 1) : row + 1;
   }
   // Where the column is noted that has its pivot there. Precondition: `row` is one.
-  std::uint32_t& owner_of(Name row) {
+  const Column*& owner_of(Name row) {
     Row* found = &rows_[start(CellGrid::cell(row))];
     while (found->cell != CellGrid::cell(row)) found = after(found);
     return found->owner;

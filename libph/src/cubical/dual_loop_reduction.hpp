@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <memory_resource>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "chain_heap.hpp"
 #include "critical_cells.hpp"
 #include "facet_search.hpp"
 #include "ph/core/chain.hpp"
@@ -28,6 +30,10 @@ class DualLoopReduction {
     std::uint32_t voxel() const { return static_cast<std::uint32_t>(name >> 4); }
     int rank() const { return static_cast<int>(name & 15); }
     friend bool operator==(const Square& a, const Square& b) { return a.name == b.name; }
+    /// The youngest edge of T is the oldest square.
+    static bool is_later(const Square& a, const Square& b) {
+      return a.key != b.key ? a.key > b.key : a.name > b.name;
+    }
   };
   using Term = Entry<Square, K>;
   struct Column {
@@ -46,7 +52,7 @@ class DualLoopReduction {
         is_free_(squares.cells.size(), false, &context.memory),
         owners_(squares.cells.size(), kNone, &context.memory),
         columns_(&context.memory),
-        heap_(&context.memory) {
+        heap_(field, &context.memory) {
     for (const auto& place : squares.order) is_free_[place.cell] = true;
   }
 
@@ -57,35 +63,39 @@ class DualLoopReduction {
       ticker.tick();
       const auto [v, edge] = edges_.cells[edges_.order[i].cell];
       heap_.clear();
-      append_coboundary(v, static_cast<int>(edge), field_.from_int(1), -1);
+      add_coboundary(v, static_cast<int>(edge), field_.from_int(1), -1);
       Column& own = columns_.emplace_back(std::nullopt, std::pmr::vector<Term>(&context_.memory));
       std::uint32_t index = 0;
       while (const std::optional<Term> pivot = take_pivot(index, ticker)) {
         if (owners_[index] == kNone) {
           owners_[index] = static_cast<std::uint32_t>(columns_.size() - 1);
           own.pivot = pivot;
-          keep(own.below);
+          const auto below = heap_.consolidate();
+          own.below.assign(below.begin(), below.end());
           break;
         }
         const Column& older = columns_[owners_[index]];
         const Element scale = field_.negate(
             field_.multiply(pivot->coefficient(), field_.inverse(older.pivot->coefficient())));
         ticker.work(older.below.size());
-        for (const Term& term : older.below)
-          push({term.cell, field_.multiply(scale, term.coefficient())});
+        heap_.add([&](Terms& terms) {
+          for (const Term& term : older.below)
+            terms.emplace_back(term.cell, field_.multiply(scale, term.coefficient()));
+        });
       }
     }
   }
 
-  /// Calls `on_pair(edge, square, column)` for each loop of T that dies, `on_surface(edge)` for
-  /// each column that is zero, `on_loop(square)` for each loop that never dies.
+  /// Calls `on_pair(edge, square, pivot, rest of the cycle)` for each loop of T that dies,
+  /// `on_surface(edge)` for each column that is zero, `on_loop(square)` for each loop that never
+  /// dies.
   template <class OnPair, class OnSurface, class OnLoop>
   void for_each_class(OnPair&& on_pair, OnSurface&& on_surface, OnLoop&& on_loop) const {
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       const auto [value, cell] = edges_.order[edges_.order.size() - 1 - i];
       const StarCell edge{edges_.cells[cell].voxel, kEdges[edges_.cells[cell].number], value};
-      if (columns_[i].pivot)
-        on_pair(edge, this->cell(columns_[i].pivot->cell), columns_[i]);
+      if (const auto& [pivot, below] = columns_[i]; pivot)
+        on_pair(edge, this->cell(pivot->cell), *pivot, std::span<const Term>(below));
       else
         on_surface(edge);
     }
@@ -100,32 +110,8 @@ class DualLoopReduction {
 
  private:
   static constexpr std::uint32_t kNone = UINT32_MAX;
-  // The youngest edge of T is the oldest square.
-  static bool is_later(const Term& a, const Term& b) {
-    return a.cell.key != b.cell.key ? a.cell.key > b.cell.key : a.cell.name > b.cell.name;
-  }
+  using Terms = std::pmr::vector<Term>;
 
-  void push(const Term& term) {
-    heap_.push_back(term);
-    std::push_heap(heap_.begin(), heap_.end(), is_later);
-  }
-  Term pop() {
-    std::pop_heap(heap_.begin(), heap_.end(), is_later);
-    const Term term = heap_.back();
-    heap_.pop_back();
-    return term;
-  }
-  // What comes first in the heap, each square once; nothing if the heap is empty.
-  std::optional<Term> take() {
-    while (!heap_.empty()) {
-      const Term top = pop();
-      Element sum = top.coefficient();
-      while (!heap_.empty() && heap_.front().cell == top.cell)
-        sum = field_.add(sum, pop().coefficient());
-      if (!field_.is_zero(sum)) return Term(top.cell, sum);
-    }
-    return std::nullopt;
-  }
   // The boundary of an edge is known but for its sign by where a square lies beside it.
   static int incidence(int edge, int square) {
     const int along = axis_of_edge(edge);
@@ -137,7 +123,10 @@ class DualLoopReduction {
   }
   // Appends `scale` times the squares around an edge of the star of v, without the square `skip` of
   // that star if it is not negative.
-  void append_coboundary(std::uint32_t v, int edge, Element scale, int skip) {
+  void add_coboundary(std::uint32_t v, int edge, Element scale, int skip) {
+    heap_.add([&](Terms& terms) { append_coboundary(v, edge, scale, skip, terms); });
+  }
+  void append_coboundary(std::uint32_t v, int edge, Element scale, int skip, Terms& terms) {
     const int along = axis_of_edge(edge);
     for (int a = 0; a < 3; ++a) {
       if (a == along) continue;
@@ -146,21 +135,22 @@ class DualLoopReduction {
         const int seen = number_of(d);
         const auto square = in_its_star(grid_, v, d);
         if (!square || (square->voxel == v && number_of(square->direction) == skip)) continue;
-        append(*square, incidence(edge, seen) > 0 ? scale : field_.negate(scale));
+        append(*square, incidence(edge, seen) > 0 ? scale : field_.negate(scale), terms);
       }
     }
   }
   // Unless the square is an edge of T that joins components inside its star.
-  void append(const StarCell& square, Element coefficient) {
+  void append(const StarCell& square, Element coefficient, Terms& terms) {
     const std::uint32_t v = square.voxel;
     const int number = number_of(square.direction);
     if ((grid_.pair_cubes(v).squares() >> number & 1U) != 0) return;
     const auto rank = static_cast<std::uint64_t>(grid_.tables(v).square_order().rank(number));
-    push({Square{ordered_bits(square.value + 0.0), std::uint64_t{v} << 4 | rank}, coefficient});
+    terms.emplace_back(Square{ordered_bits(square.value + 0.0), std::uint64_t{v} << 4 | rank},
+                       coefficient);
   }
   // @param index of it among the critical squares.
   std::optional<Term> take_pivot(std::uint32_t& index, Ticker& ticker) {
-    while (const std::optional<Term> term = take()) {
+    while (const std::optional<Term> term = heap_.take()) {
       ticker.work();
       const std::uint32_t v = term->cell.voxel();
       const std::uint32_t star = grid_.star(v);
@@ -169,7 +159,7 @@ class DualLoopReduction {
       if ((tables.edge_squares(star) >> square & 1U) != 0) {
         const int edge = tables.edge_of(star, square);
         const Element a = term->coefficient();
-        append_coboundary(v, edge, incidence(edge, square) > 0 ? field_.negate(a) : a, square);
+        add_coboundary(v, edge, incidence(edge, square) > 0 ? field_.negate(a) : a, square);
         continue;
       }
       index = index_of(v, square);
@@ -182,12 +172,6 @@ class DualLoopReduction {
     while (at->number != static_cast<std::uint32_t>(square)) ++at;
     return static_cast<std::uint32_t>(at - squares_.cells.begin());
   }
-  // What is left in the heap, each square once.
-  void keep(std::pmr::vector<Term>& below) {
-    while (const std::optional<Term> term = take()) below.push_back(*term);
-    below.shrink_to_fit();
-  }
-
   const StarGrid& grid_;
   const CriticalCells &edges_, &squares_;
   const K& field_;
@@ -195,7 +179,7 @@ class DualLoopReduction {
   std::pmr::vector<bool> is_free_;          // by critical square
   std::pmr::vector<std::uint32_t> owners_;  // by critical square: a column
   std::pmr::vector<Column> columns_;        // in the order of T
-  std::pmr::vector<Term> heap_;
+  ChainHeap<K, Term, &Square::is_later> heap_;
 };
 
 }  // namespace ph::cubical

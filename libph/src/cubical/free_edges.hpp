@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <memory_resource>
-#include <optional>
 #include <vector>
 
 #include "grid_frame.hpp"
@@ -17,59 +15,65 @@ namespace ph::cubical {
 class FreeEdges {
  public:
   FreeEdges(const GridFrame& frame, const RunContext& context)
-      : row_length_(Divisor(frame.extent(2))),
-        voxels_(&context.memory),
-        edges_(&context.memory),
-        first_(&context.memory),
-        row_(&context.memory) {
-    row_.reserve(frame.row_count() + std::size_t{1});
-  }
+      : has_some_(frame.size() / kWord + std::size_t{1}, 0, &context.memory),
+        voxels_before_(&context.memory),
+        at_(&context.memory) {}
 
   /// Those of one voxel, as bits. Voxels come in ascending order.
   void add(std::uint32_t voxel, unsigned edges) {
     if (edges == 0) return;
-    begin_rows(row_length_.divide(voxel));
-    voxels_.push_back(voxel);
-    edges_.push_back(static_cast<std::uint8_t>(edges));
-    first_.push_back(count_);
+    has_some_[voxel / kWord] |= std::uint64_t{1} << (voxel % kWord);
+    at_.push_back({count_, static_cast<std::uint8_t>(edges)});
     count_ += static_cast<std::uint32_t>(std::popcount(edges));
   }
   /// When all have come.
-  void finish() { begin_rows(row_.capacity() - 1); }
+  void finish() {
+    voxels_before_.reserve(has_some_.size());
+    std::uint32_t voxels = 0;
+    for (const std::uint64_t word : has_some_) {
+      voxels_before_.push_back(voxels);
+      voxels += static_cast<std::uint32_t>(std::popcount(word));
+    }
+  }
 
   std::uint32_t count() const { return count_; }
+  /// Precondition: it is one.
   std::uint32_t number(std::uint32_t voxel, int edge) const {
-    const std::size_t i = *place_of(voxel);
-    return first_[i] + static_cast<std::uint32_t>(std::popcount(edges_[i] & ((1U << edge) - 1)));
+    const auto& [first, edges] = at_[place(voxel)];
+    return first + static_cast<std::uint32_t>(std::popcount(edges & ((1U << edge) - 1)));
   }
+  /// Asks for what `number` will read.
+  void prefetch(std::uint32_t voxel) const { __builtin_prefetch(&at_[place(voxel)]); }
   /// Those of one voxel, as bits.
   unsigned edges(std::uint32_t voxel) const {
-    const auto i = place_of(voxel);
-    return i ? edges_[*i] : 0;
+    return has_some_[voxel / kWord] >> (voxel % kWord) & 1 ? at_[place(voxel)].edges : 0;
   }
   /// Calls `use(voxel, edges)` for all voxels that have some.
   template <class Use>
   void for_each(Use&& use) const {
-    for (std::size_t i = 0; i < voxels_.size(); ++i) use(voxels_[i], unsigned{edges_[i]});
+    auto at = at_.begin();
+    for (std::size_t k = 0; k < has_some_.size(); ++k)
+      for (std::uint64_t rest = has_some_[k]; rest != 0; rest &= rest - 1, ++at)
+        use(static_cast<std::uint32_t>(k * kWord) +
+                static_cast<std::uint32_t>(std::countr_zero(rest)),
+            unsigned{at->edges});
   }
 
  private:
-  std::optional<std::size_t> place_of(std::uint32_t voxel) const {
-    const std::uint32_t row = row_length_.divide(voxel);
-    const auto end = voxels_.begin() + row_[row + 1];
-    const auto at = std::lower_bound(voxels_.begin() + row_[row], end, voxel);
-    if (at == end || *at != voxel) return std::nullopt;
-    return static_cast<std::size_t>(at - voxels_.begin());
-  }
-  void begin_rows(std::size_t last) {
-    while (row_.size() <= last) row_.push_back(static_cast<std::uint32_t>(voxels_.size()));
+  static constexpr std::uint32_t kWord = 64;
+  struct AtVoxel {
+    std::uint32_t first;  // number
+    std::uint8_t edges;   // as bits
+  };
+  std::size_t place(std::uint32_t voxel) const {
+    const std::uint64_t before = (std::uint64_t{1} << (voxel % kWord)) - 1;
+    return voxels_before_[voxel / kWord] +
+           static_cast<std::size_t>(std::popcount(has_some_[voxel / kWord] & before));
   }
 
-  Divisor row_length_;
-  std::pmr::vector<std::uint32_t> voxels_;
-  std::pmr::vector<std::uint8_t> edges_;   // by voxel
-  std::pmr::vector<std::uint32_t> first_;  // by voxel: the number of the first one
-  std::pmr::vector<std::uint32_t> row_;    // by row: the first voxel
+  std::pmr::vector<std::uint64_t> has_some_;       // by voxel, as bits
+  std::pmr::vector<std::uint32_t> voxels_before_;  // by word: voxels that have some before it
+  std::pmr::vector<AtVoxel> at_;                   // of these voxels
   std::uint32_t count_ = 0;
 };
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <algorithm>
 #include <cstdint>
 #include <memory_resource>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "chain_heap.hpp"
 #include "ph/core/chain.hpp"
 #include "ph/core/field.hpp"
 #include "ph/core/radix_sort.hpp"
@@ -24,9 +24,13 @@ struct LoopEdge {
   double value() const { return from_ordered_bits(key); }
   int rank() const { return static_cast<int>(name & 7); }
   friend bool operator==(const LoopEdge& a, const LoopEdge& b) { return a.name == b.name; }
+  static bool precedes(const LoopEdge& a, const LoopEdge& b) {
+    __extension__ using Wide = unsigned __int128;
+    return (Wide{a.key} << 64 | a.name) < (Wide{b.key} << 64 | b.name);
+  }
 };
 
-/// A chain of edges that is being reduced: a heap. An edge that is paired inside its star is
+/// A chain of edges that is being reduced. An edge that is paired inside its star is
 /// replaced by the rest of the boundary of its square when it comes up, so a chain is followed only
 /// as far down as its pivot; edges that kill a component are left out (no column has its pivot
 /// there). One for each thread.
@@ -38,29 +42,28 @@ class LoopColumn {
   using Term = Entry<LoopEdge, K>;
 
   LoopColumn(const Stars& grid, const K& field, const RunContext& context)
-      : grid_(grid), field_(field), context_(context), heap_(&context.memory) {}
+      : grid_(grid), field_(field), context_(context), heap_(field, &context.memory) {}
 
   /// Begins anew with the boundary of a square.
   void assign_boundary(std::uint32_t v, int square) {
     heap_.clear();
-    push([&] { append_boundary(v, square, field_.from_int(1), -1); });
+    heap_.add([&](Terms& terms) { append_boundary(v, square, field_.from_int(1), -1, terms); });
   }
   /// Begins anew with a chain.
-  void assign(std::span<const Term> chain) {
-    heap_.assign(chain.begin(), chain.end());
-    std::make_heap(heap_.begin(), heap_.end(), precedes);
-  }
+  void assign(std::span<const Term> chain) { heap_.assign(chain); }
   void add(Element scale, std::span<const Term> chain) {
     count(chain.size());
-    push([&] {
+    for (const Term& term : chain) grid_.expect_star(term.cell.voxel());
+    heap_.add([&](Terms& terms) {
       for (const Term& term : chain)
-        heap_.emplace_back(term.cell, field_.multiply(scale, term.coefficient()));
+        terms.emplace_back(term.cell, field_.multiply(scale, term.coefficient()));
     });
   }
   /// Takes out the youngest edge that is in no pair inside its star; nothing if none is left.
   std::optional<Term> take_pivot() {
-    while (const std::optional<Term> youngest = take_youngest()) {
+    while (const std::optional<Term> youngest = heap_.take()) {
       count(1);
+      if (const Term* const next = heap_.next()) grid_.expect_star(next->cell.voxel());
       const std::uint32_t u = youngest->cell.voxel();
       const StarTables& tables = grid_.tables(u);
       const int edge = tables.edge_order().at(youngest->cell.rank());
@@ -70,30 +73,16 @@ class LoopColumn {
       const int incidence =
           edge == second ? -kSquares[s][axis_of_edge(first)] : kSquares[s][axis_of_edge(second)];
       const Element scale = field_.negate(times(youngest->coefficient(), incidence));
-      push([&] { append_boundary(u, s, scale, edge); });
+      heap_.add([&](Terms& terms) { append_boundary(u, s, scale, edge, terms); });
     }
     return std::nullopt;
   }
   /// What it holds, each edge once; to be assigned before it is used again.
-  std::span<const Term> consolidate() {
-    std::sort(heap_.begin(), heap_.end(),
-              [](const Term& a, const Term& b) { return a.cell.name < b.cell.name; });
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < heap_.size();) {
-      const LoopEdge edge = heap_[i].cell;
-      Element sum = heap_[i].coefficient();
-      for (++i; i < heap_.size() && heap_[i].cell == edge; ++i)
-        sum = field_.add(sum, heap_[i].coefficient());
-      if (!field_.is_zero(sum)) heap_[kept++] = Term(edge, sum);
-    }
-    heap_.resize(kept);
-    return heap_;
-  }
+  std::span<const Term> consolidate() { return heap_.consolidate(); }
 
  private:
-  static bool precedes(const Term& a, const Term& b) {
-    return a.cell.key != b.cell.key ? a.cell.key < b.cell.key : a.cell.name < b.cell.name;
-  }
+  using Terms = std::pmr::vector<Term>;
+
   void count(std::size_t steps) {
     constexpr std::size_t many = 64;
     if ((steps_ += steps) < many) return;
@@ -104,77 +93,54 @@ class LoopColumn {
   Element times(Element scale, int sign) const { return sign > 0 ? scale : field_.negate(scale); }
 
   // Appends an edge of a star unless it kills the voxel or a component.
-  void append_in_star(std::uint32_t v, int edge, Element coefficient) {
+  void append_in_star(std::uint32_t v, int edge, Element coefficient, Terms& terms) {
     const std::uint32_t star = grid_.star(v);
     const StarTables& tables = grid_.tables(v);
     if (tables.arrow(star) == edge || (star & tables.taken_mark(edge)) != 0) return;
     const std::uint64_t name =
         std::uint64_t{v} << 3 | static_cast<std::uint64_t>(tables.edge_order().rank(edge));
-    heap_.emplace_back(LoopEdge{ordered_bits(grid_.value(v) + 0.0), name}, coefficient);
+    terms.emplace_back(LoopEdge{ordered_bits(grid_.value(v) + 0.0), name}, coefficient);
   }
   // Appends `scale` times the boundary of a square, without the edge `skip` of its voxel if it is
   // not negative. Incidences as in complex/cubical_cells.ipp.
-  void append_boundary(std::uint32_t v, int square, Element scale, int skip) {
+  void append_boundary(std::uint32_t v, int square, Element scale, int skip, Terms& terms) {
     const auto [first, second] = kEdgesOfSquare[square];
     const int a = axis_of_edge(first), b = axis_of_edge(second);
     const int at = kSquares[square][a], bt = kSquares[square][b];  // where the square lies
-    if (second != skip) append_in_star(v, second, times(scale, -at));
-    if (first != skip) append_in_star(v, first, times(scale, bt));
+    if (second != skip) append_in_star(v, second, times(scale, -at), terms);
+    if (first != skip) append_in_star(v, first, times(scale, bt), terms);
     const std::uint32_t over_a = grid_.step(v, a, at), over_b = grid_.step(v, b, bt);
-    append_far(over_a, over_b, a, at, b, bt, times(scale, at), times(scale, -bt));
+    append_far(over_a, over_b, a, at, b, bt, times(scale, at), times(scale, -bt), terms);
   }
   // The two edges of a square that do not touch its voxel.
   void append_far(std::uint32_t over_a, std::uint32_t over_b, int a, int at, int b, int bt,
-                  Element along_b, Element along_a) {
+                  Element along_b, Element along_a, Terms& terms) {
     std::uint32_t corner = StarGrid::kOutside;
     if (over_a != StarGrid::kOutside)
       corner = grid_.step(over_a, b, bt);
     else if (over_b != StarGrid::kOutside)
       corner = grid_.step(over_b, a, at);
-    append_between(over_a, corner, b, bt, along_b);
-    append_between(over_b, corner, a, at, along_a);
+    append_between(over_a, corner, b, bt, along_b, terms);
+    append_between(over_b, corner, a, at, along_a, terms);
   }
   // The edge from u to w, one step along an axis; either may be no voxel.
-  void append_between(std::uint32_t u, std::uint32_t w, int axis, int sign, Element coefficient) {
+  void append_between(std::uint32_t u, std::uint32_t w, int axis, int sign, Element coefficient,
+                      Terms& terms) {
     Direction d{};
     d[axis] = sign;
     if (u != StarGrid::kOutside && grid_.enters(u) && (grid_.star(u) & star_bit(d)) != 0) {
-      append_in_star(u, number_of(d), coefficient);
+      append_in_star(u, number_of(d), coefficient, terms);
       return;
     }
     d[axis] = -sign;
-    if (w != StarGrid::kOutside && grid_.enters(w)) append_in_star(w, number_of(d), coefficient);
-  }
-
-  std::optional<Term> take_youngest() {
-    while (!heap_.empty()) {
-      const Term top = take();
-      Element sum = top.coefficient();
-      while (!heap_.empty() && heap_.front().cell == top.cell)
-        sum = field_.add(sum, take().coefficient());
-      if (!field_.is_zero(sum)) return Term(top.cell, sum);
-    }
-    return std::nullopt;
-  }
-  Term take() {
-    std::pop_heap(heap_.begin(), heap_.end(), precedes);
-    const Term term = heap_.back();
-    heap_.pop_back();
-    return term;
-  }
-  template <class Append>
-  void push(Append&& append_terms) {
-    const std::size_t before = heap_.size();
-    append_terms();
-    if (heap_.size() - before > before) return std::make_heap(heap_.begin(), heap_.end(), precedes);
-    for (std::size_t i = before + 1; i <= heap_.size(); ++i)
-      std::push_heap(heap_.begin(), heap_.begin() + static_cast<std::ptrdiff_t>(i), precedes);
+    if (w != StarGrid::kOutside && grid_.enters(w))
+      append_in_star(w, number_of(d), coefficient, terms);
   }
 
   const Stars& grid_;
   const K& field_;
   const RunContext& context_;
-  std::pmr::vector<Term> heap_;
+  ChainHeap<K, Term, &LoopEdge::precedes> heap_;
   std::size_t steps_ = 0;  // since the last look at the stop token
 };
 

@@ -37,23 +37,24 @@ class LoopReduction {
         squares_(squares),
         field_(field),
         context_(context),
-        owners_(free.count(), Reduction::kNone, &context.memory),
+        owners_(free.count(), nullptr, &context.memory),
         reduction_(squares.order.size(), field, context) {}
 
   void run(PairSink& sink) {
     // Threads that come and go would take longer than a few columns do.
     constexpr std::size_t few = 1024, piece = 64;
     reduce_all(squares_.order.size() < few ? few : piece);
-    for_each_class([&](const StarCell& edge, const StarCell& square,
-                       const Column&) { sink.pair(1, edge, square); },
+    for_each_class([&](const StarCell& edge, const StarCell& square, const Term&,
+                       std::span<const Term>) { sink.pair(1, edge, square); },
                    [&](const StarCell& square) { sink.essential(2, square); },
                    [&](const StarCell& edge) { sink.essential(1, edge); });
   }
 
   /// Reduces by one thread, so that what columns hold does not depend on who came first.
   void reduce_in_order() { reduce_all(std::max<std::size_t>(1, squares_.order.size())); }
-  /// Calls `on_pair(edge, square, column)` for each loop that dies, `on_surface(square)` for each
-  /// column that is zero, `on_loop(edge)` for each loop that never dies.
+  /// Calls `on_pair(edge, square, pivot, rest of the cycle)` for each loop that dies,
+  /// `on_surface(square)` for each column that is zero, `on_loop(edge)` for each loop that never
+  /// dies.
   template <class OnPair, class OnSurface, class OnLoop>
   void for_each_class(OnPair&& on_pair, OnSurface&& on_surface, OnLoop&& on_loop);
 
@@ -68,9 +69,10 @@ class LoopReduction {
           const auto [v, square] = squares_.cells[squares_.order[i].cell];
           column.assign_boundary(v, static_cast<int>(square));
         },
-        [&](const LoopEdge& pivot) -> std::uint32_t& {
+        [&](const LoopEdge& pivot) -> const Column*& {
           return owners_[free_.number(pivot.voxel(), edge_of(pivot))];
         },
+        [&](const LoopEdge& pivot) { free_.prefetch(pivot.voxel()); },
         [&](std::span<std::uint32_t> round) {
           if (kInFile) std::ranges::sort(round, {}, [&](auto i) { return squares_.order[i].cell; });
         });
@@ -84,7 +86,7 @@ class LoopReduction {
   const CriticalCells& squares_;
   const K& field_;
   const RunContext& context_;
-  std::pmr::vector<std::uint32_t> owners_;  // of free edges: a column
+  std::pmr::vector<const Column*> owners_;  // by free edge that is a pivot
   Reduction reduction_;                     // columns in the order of the squares
 };
 
@@ -98,9 +100,10 @@ void LoopReduction<K, Stars>::for_each_class(OnPair&& on_pair, OnSurface&& on_su
     ticker.tick();
     const auto [value, cell] = squares_.order[i];
     const StarCell square{squares_.cells[cell].voxel, kSquares[squares_.cells[cell].number], value};
-    if (const auto& pivot = columns[i].pivot) {
-      const std::uint32_t v = pivot->cell.voxel();
-      on_pair(StarCell{v, kEdges[edge_of(pivot->cell)], pivot->cell.value()}, square, columns[i]);
+    if (const Column* const column = columns[i]) {
+      const LoopEdge& edge = column->pivot().cell;
+      on_pair(StarCell{edge.voxel(), kEdges[edge_of(edge)], edge.value()}, square, column->pivot(),
+              column->below());
     } else {
       on_surface(square);
     }
@@ -110,8 +113,7 @@ void LoopReduction<K, Stars>::for_each_class(OnPair&& on_pair, OnSurface&& on_su
   free_.for_each([&](std::uint32_t v, unsigned edges) {
     ticker.work();
     for (; edges != 0; edges &= edges - 1, ++owner)
-      if (*owner == Reduction::kNone)
-        on_loop(StarCell{v, kEdges[std::countr_zero(edges)], grid_.value(v)});
+      if (*owner == nullptr) on_loop(StarCell{v, kEdges[std::countr_zero(edges)], grid_.value(v)});
   });
 }
 

@@ -294,10 +294,10 @@ class Representing {
     ForestClosing<Graph, K> closing(tree, field_, context_);
     const TorusSurfaces<K> surfaces(grid_, field_, context_);
     reduction.for_each_class(
-        [&](const StarCell& edge, const StarCell& square, const auto& column) {
+        [&](const StarCell& edge, const StarCell& square, const auto& pivot, auto below) {
           pairs_.pair(1, edge, square, [&](Rep& rep) {
-            rep.chain.emplace_back(cell_of(*column.pivot), column.pivot->coefficient());
-            for (const auto& term : column.below)
+            rep.chain.emplace_back(cell_of(pivot), pivot.coefficient());
+            for (const auto& term : below)
               rep.chain.emplace_back(cell_of(term), term.coefficient());
             closing.close(rep.chain);
           });

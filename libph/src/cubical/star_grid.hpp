@@ -30,6 +30,8 @@ class StarGrid : public GridFrame {
 
   std::uint32_t star(std::uint32_t v) const { return stars_[v]; }
   std::span<const std::uint32_t> stars() const { return stars_; }
+  /// Asks for a star some time before it is looked at.
+  void expect_star(std::uint32_t v) const { __builtin_prefetch(&stars_[v]); }
   /// As StoredStars has it: all are in memory anyway.
   static void tidy() {}
   bool enters(std::uint32_t v) const { return stars_[v] != kAbsent; }

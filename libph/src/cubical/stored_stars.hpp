@@ -44,6 +44,7 @@ class StoredStars : public GridFrame {
   void let_stay(std::size_t bytes) { most_ = resident_.bytes() + bytes; }
 
   std::uint32_t star(std::uint32_t v) const { return stars()[v]; }
+  void expect_star(std::uint32_t v) const { __builtin_prefetch(stars() + v); }
   bool enters(std::uint32_t v) const { return star(v) != kAbsent; }
   /// To be called now and then, by any thread: what has come into memory may have to leave.
   void tidy() const {
