@@ -129,6 +129,10 @@ bool write_pixels(Writer& writer, std::ostream& out, const Raster& raster, png_b
   png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(raster.width),
                static_cast<png_uint_32>(raster.height), raster.bits, kColours[raster.channels],
                PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  if (raster.dots_per_inch > 0) {
+    const auto dots_a_metre = static_cast<png_uint_32>(raster.dots_per_inch / 0.0254 + 0.5);
+    png_set_pHYs(writer.png, writer.info, dots_a_metre, dots_a_metre, PNG_RESOLUTION_METER);
+  }
   png_write_info(writer.png, writer.info);
   if constexpr (std::endian::native == std::endian::little) {
     if (raster.bits == 16) png_set_swap(writer.png);

@@ -1,9 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include "ph/io/svg_plot.hpp"
 
-#include "svg_plot_canvas.hpp"
+#include "ph/core/error.hpp"
+#include "plot_canvas.hpp"
 
 namespace ph {
+namespace plot {
+
+Drawing draw(const Barcode& barcode, const PlotOptions& options) {
+  switch (options.kind) {
+    case PlotKind::barcode:
+      return draw_barcode(barcode, options);
+    case PlotKind::diagram:
+      return draw_diagram(barcode, options);
+    case PlotKind::betti:
+      return draw_betti(barcode, options);
+  }
+  throw Error(ErrorKind::internal, "an unknown kind of plot");
+}
+
+}  // namespace plot
 
 std::optional<PlotKind> plot_kind_named(std::string_view name) {
   if (name == "barcode") return PlotKind::barcode;
@@ -13,19 +29,15 @@ std::optional<PlotKind> plot_kind_named(std::string_view name) {
 }
 
 std::string svg_plot(const Barcode& barcode, const PlotOptions& options) {
-  switch (options.kind) {
-    case PlotKind::barcode:
-      return svg::draw_barcode(barcode, options);
-    case PlotKind::diagram:
-      return svg::draw_diagram(barcode, options);
-    case PlotKind::betti:
-      return svg::draw_betti(barcode, options);
-  }
-  return {};
+  return to_svg(plot::draw(barcode, options));
 }
 
 std::string svg_plot(std::span<const Branch> tree, const PlotOptions& options) {
-  return svg::draw_tree(tree, options);
+  return to_svg(plot::draw_tree(tree, options));
+}
+
+std::string svg_plot(const ColouredPicture& picture, const PlotOptions& options) {
+  return to_svg(plot::draw_coloured(picture, options));
 }
 
 }  // namespace ph

@@ -20,6 +20,7 @@ struct Raster {
   int bits = 8;                        ///< 8 or 16; images with fewer bits are expanded to 8
   std::vector<std::uint16_t> samples;  ///< width * height * channels
   std::string name = "image";          ///< of the file, printable, for messages
+  double dots_per_inch = 0;            ///< how large it is on paper, when written; 0: not said
 
   std::uint16_t at(Index x, Index y, int channel = 0) const {
     return samples[static_cast<std::size_t>((y * width + x) * channels + channel)];

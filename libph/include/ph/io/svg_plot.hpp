@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "ph/core/barcode.hpp"
 #include "ph/core/branch.hpp"
+#include "ph/io/png.hpp"
 
 namespace ph {
 
@@ -34,5 +37,28 @@ std::string svg_plot(const Barcode& barcode, const PlotOptions& options = {});
 /// where it dies a line to the class that it joins. Those of little persistence are a density.
 /// `options.kind` has no say.
 std::string svg_plot(std::span<const Branch> tree, const PlotOptions& options = {});
+
+/// A picture made of points or pixels whose colours have names.
+struct ColouredPicture {
+  struct Entry {
+    std::optional<std::uint32_t> colour;  ///< 0x00RRGGBB; none: text alone
+    std::string name, value;
+  };
+  /// A word on the picture, with white around it.
+  struct Mark {
+    double x, y;  ///< of its middle, pixels of the raster
+    std::string text;
+  };
+  Raster raster;  ///< at most 1040 pixels wide fill the column, without scaling in a PNG
+  std::vector<Mark> marks;
+  std::string heading;        ///< says what the names and the values are
+  std::vector<Entry> legend;  ///< in columns below the picture; empty: nothing is below it
+  std::string description;    ///< for those who cannot see it
+};
+
+/// The raster as it is, embedded, with the legend as text.
+/// `options.title` is above it, `options.kind` and `options.value_label` have no say.
+/// @throws Error (bad_data) if the sizes of the raster disagree.
+std::string svg_plot(const ColouredPicture& picture, const PlotOptions& options = {});
 
 }  // namespace ph

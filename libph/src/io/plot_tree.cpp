@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "svg_plot_intervals.hpp"
+#include "plot_intervals.hpp"
 
-namespace ph::svg {
+namespace ph::plot {
 namespace {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
@@ -84,7 +84,7 @@ Range finite_range(std::span<const Branch> tree, const std::vector<std::size_t>&
 
 }  // namespace
 
-std::string draw_tree(std::span<const Branch> tree, const PlotOptions& options) {
+Drawing draw_tree(std::span<const Branch> tree, const PlotOptions& options) {
   Canvas canvas;
   // One of no length is no bar either.
   std::vector<std::size_t> classes;
@@ -99,14 +99,14 @@ std::string draw_tree(std::span<const Branch> tree, const PlotOptions& options) 
   const double pitch = pitch_of(rows);
   const auto [low, high] = finite_range(tree, classes);
   const Axis axis(low, high, kFirstValue, kLastValue);
-  const std::string_view colour = colour_of_dim(0);
+  const Colour colour = colour_of_dim(0);
 
   const double top = options.title.empty() ? 8 : 20;
   const double height = std::max(pitch * static_cast<double>(rows), 22.0);
   const double bottom = top + height + (places.rest.empty() ? 0 : kDensityHeight) + 5;
   if (!options.title.empty()) canvas.title(options.title);
   axis.draw_below(canvas, top, bottom, options.value_label);
-  canvas.text(6, top + 8, with_subscript("H", 0), Anchor::start, 9, colour, "font-weight=\"bold\"");
+  canvas.text(6, top + 8, with_subscript("H", 0), Anchor::start, 9, colour, Look::bold);
   canvas.text(6, top + 15.5, grouped(classes.size()), Anchor::start, 6, kGrey);
 
   const double first = top + (height - pitch * static_cast<double>(rows)) / 2 + 0.5 * pitch;
@@ -114,16 +114,15 @@ std::string draw_tree(std::span<const Branch> tree, const PlotOptions& options) 
     return first + pitch * static_cast<double>(layout.row(k));
   };
   Lines lines(axis, pitch);
-  std::string joints;
+  Outline joints;
   for (std::size_t k = 0; k < rows; ++k) {
     const Branch& branch = tree[places.crisp[k]];
     lines.add(branch.birth, branch.death, y_of(k));
     if (const std::size_t elder = layout.elder(k); elder != kNone)
-      joints += fmt::format(
-          "M{} {}V{}", coordinate(std::max(axis.at(branch.death), lines.start(branch.birth) + 0.5)),
-          coordinate(y_of(k)), coordinate(y_of(elder)));
+      joints.move_to(std::max(axis.at(branch.death), lines.start(branch.birth) + 0.5), y_of(k))
+          .vertical_to(y_of(elder));
   }
-  canvas.path(joints, fmt::format("stroke=\"{}\" stroke-width=\"0.6\" fill=\"none\"", colour));
+  canvas.shape(std::move(joints), {.stroke = colour, .stroke_width = 0.6});
   lines.draw(canvas, colour);
   if (!places.rest.empty()) {
     Density density(axis);
@@ -138,4 +137,4 @@ std::string draw_tree(std::span<const Branch> tree, const PlotOptions& options) 
                   with_subscript("H", 0), grouped(infinite)));
 }
 
-}  // namespace ph::svg
+}  // namespace ph::plot

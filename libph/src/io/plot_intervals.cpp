@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "svg_plot_intervals.hpp"
+#include "plot_intervals.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-namespace ph::svg {
+namespace ph::plot {
 namespace {
 
 constexpr double kStrip = 7;     // height of a density
@@ -29,16 +29,15 @@ void Lines::add(double birth, double death, double y) {
   const double x = start(birth);
   const double end =
       infinite ? kLastValue + kTriangle - 1.7 * half_ : std::max(axis_.at(death), x + 0.5);
-  lines_ += fmt::format("M{} {}H{}", coordinate(x), coordinate(y), coordinate(end));
+  lines_.move_to(x, y).horizontal_to(end);
   if (infinite)
-    triangles_ += fmt::format("M{} {}v{}l{} {}z", coordinate(end), coordinate(y - half_),
-                              coordinate(2 * half_), coordinate(1.7 * half_), coordinate(-half_));
+    triangles_.move_to(end, y - half_).vertical_by(2 * half_).line_by(1.7 * half_, -half_).close();
 }
 
-void Lines::draw(Canvas& canvas, std::string_view colour) const {
-  canvas.path(lines_, fmt::format("stroke=\"{}\" stroke-width=\"{}\" fill=\"none\"", colour,
-                                  coordinate(std::clamp(0.6 * pitch_, 0.7, 2.2))));
-  canvas.path(triangles_, fmt::format("fill=\"{}\"", colour));
+void Lines::draw(Canvas& canvas, Colour colour) {
+  canvas.shape(std::move(lines_),
+               {.stroke = colour, .stroke_width = std::clamp(0.6 * pitch_, 0.7, 2.2)});
+  canvas.shape(std::move(triangles_), {.fill = colour});
 }
 
 Density::Density(const Axis& axis)
@@ -56,7 +55,7 @@ void Density::add(double birth, double death) {
   change_[death == kInfinity ? change_.size() - 1 : column_of(death) + 1] -= 1;
 }
 
-void Density::draw(Canvas& canvas, double top, std::string_view colour) const {
+void Density::draw(Canvas& canvas, double top, Colour colour) const {
   constexpr int shades = 24;
   canvas.text(kFirstValue, top + 6.5,
               fmt::format("and {} shorter ones, as a density:", grouped(all_)), Anchor::start, 5.5,
@@ -83,9 +82,10 @@ void Density::draw(Canvas& canvas, double top, std::string_view colour) const {
 
 void explain_triangles(Canvas& canvas, double bottom) {
   const double x = kLastValue + kTriangle, line = bottom + 20;
-  canvas.path(fmt::format("M{} {}v4.4l3.8 -2.2z", coordinate(x - 3.8), coordinate(line - 4.6)),
-              fmt::format("fill=\"{}\"", kGrey));
+  Outline triangle;
+  triangle.move_to(x - 3.8, line - 4.6).vertical_by(4.4).line_by(3.8, -2.2).close();
+  canvas.shape(std::move(triangle), {.fill = kGrey});
   canvas.text(x - 5.5, line, "never dies", Anchor::end, 6, kGrey);
 }
 
-}  // namespace ph::svg
+}  // namespace ph::plot

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "svg_plot_intervals.hpp"
+#include "plot_intervals.hpp"
 
-namespace ph::svg {
+namespace ph::plot {
 namespace {
 
 constexpr double kGap = 7;  // between dimensions
@@ -47,7 +47,7 @@ std::vector<Panel> panels_of(const Barcode& barcode) {
 
 }  // namespace
 
-std::string draw_barcode(const Barcode& barcode, const PlotOptions& options) {
+Drawing draw_barcode(const Barcode& barcode, const PlotOptions& options) {
   Canvas canvas;
   const std::vector<Panel> panels = panels_of(barcode);
   const auto [low, high] = finite_range(barcode);
@@ -74,10 +74,9 @@ std::string draw_barcode(const Barcode& barcode, const PlotOptions& options) {
   bool any_infinite = false;
   for (const Panel& panel : panels) {
     if (y > top) canvas.line(6, y - kGap / 2, kLastValue + kTriangle, y - kGap / 2, kGrid, 0.5);
-    const std::string_view colour = colour_of_dim(panel.dim);
+    const Colour colour = colour_of_dim(panel.dim);
     const double height = std::max(lines_height(panel), 14.0);
-    canvas.text(6, y + 8, with_subscript("H", panel.dim), Anchor::start, 9, colour,
-                "font-weight=\"bold\"");
+    canvas.text(6, y + 8, with_subscript("H", panel.dim), Anchor::start, 9, colour, Look::bold);
     canvas.text(6, y + 15.5, grouped(panel.bars.size()), Anchor::start, 6, kGrey);
     Lines lines(axis, pitch);
     double row = y + (height - lines_height(panel)) / 2 + 0.5 * pitch;
@@ -102,4 +101,4 @@ std::string draw_barcode(const Barcode& barcode, const PlotOptions& options) {
                        "Barcode: " + description_of(barcode));
 }
 
-}  // namespace ph::svg
+}  // namespace ph::plot

@@ -2,15 +2,13 @@
 #pragma once
 #include <algorithm>
 #include <numeric>
-#include <string>
-#include <string_view>
 #include <vector>
 
-#include "svg_plot_canvas.hpp"
+#include "plot_canvas.hpp"
 
 // What the pictures of barcodes and of merge trees have in common: classes as lines over the
 // filtration value, the longest crisp, the others as a density.
-namespace ph::svg {
+namespace ph::plot {
 
 inline constexpr double kFirstValue = 30, kLastValue = 242;  // where the axis begins and ends
 inline constexpr double kTriangle = 4.5;                     // room behind it
@@ -47,14 +45,15 @@ class Lines {
  public:
   Lines(const Axis& axis, double pitch);
   void add(double birth, double death, double y);
-  void draw(Canvas& canvas, std::string_view colour) const;
+  /// @pre it has not been drawn yet.
+  void draw(Canvas& canvas, Colour colour);
   /// Where a line begins.
   double start(double birth) const;
 
  private:
   const Axis& axis_;
   double pitch_, half_;  // of a triangle
-  std::string lines_, triangles_;
+  Outline lines_, triangles_;
 };
 
 /// How many of the other classes live at each value, as the darkness of a strip.
@@ -63,7 +62,7 @@ class Density {
   explicit Density(const Axis& axis);
   void add(double birth, double death);
   /// With its caption, kDensityHeight high.
-  void draw(Canvas& canvas, double top, std::string_view colour) const;
+  void draw(Canvas& canvas, double top, Colour colour) const;
 
  private:
   std::size_t column_of(double value) const;
@@ -76,4 +75,4 @@ class Density {
 /// What a triangle means, at the right, beside the name of the axis.
 void explain_triangles(Canvas& canvas, double bottom);
 
-}  // namespace ph::svg
+}  // namespace ph::plot

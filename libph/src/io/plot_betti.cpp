@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "svg_plot_canvas.hpp"
+#include "plot_canvas.hpp"
 
-namespace ph::svg {
+namespace ph::plot {
 namespace {
 
 constexpr double kLeft = 38, kRight = 242;
@@ -90,33 +90,32 @@ void draw_curve(Canvas& canvas, std::span<const Bar> bars, int dim, const Axis& 
   }
   canvas.line(kLeft, top, kLeft, bottom, kInk, 0.6);
 
-  std::string curve;
+  Outline curve;
   double from = kRight;
   for (const Step& step : steps) {
     if (curve.empty()) {
       from = step.x;
-      curve = fmt::format("M{} {}", coordinate(step.x), coordinate(bottom));
+      curve.move_to(step.x, bottom);
     } else {
-      curve += fmt::format("H{}", coordinate(step.x));
+      curve.horizontal_to(step.x);
     }
-    curve += fmt::format("V{}", coordinate(height_of(step.living)));
+    curve.vertical_to(height_of(step.living));
   }
   if (!steps.empty()) {
-    if (steps.back().living > 0) curve += fmt::format("H{}", coordinate(kRight));
-    const std::string closed = curve + fmt::format("V{}H{}z", coordinate(bottom), coordinate(from));
-    canvas.path(closed, fmt::format("fill=\"{}\" fill-opacity=\"0.15\"", colour_of_dim(dim)));
-    canvas.path(curve, fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"0.9\" "
-                                   "stroke-linejoin=\"round\"",
-                                   colour_of_dim(dim)));
+    if (steps.back().living > 0) curve.horizontal_to(kRight);
+    Outline closed = curve;
+    closed.vertical_to(bottom).horizontal_to(from).close();
+    canvas.shape(std::move(closed), {.fill = colour_of_dim(dim), .fill_opacity = 0.15});
+    canvas.shape(std::move(curve), {.stroke = colour_of_dim(dim), .stroke_width = 0.9});
   }
   canvas.line(kLeft, bottom, kRight, bottom, kInk, 0.6);
   canvas.text(4, top + 8, with_subscript("β", dim), Anchor::start, 9, colour_of_dim(dim),
-              "font-weight=\"bold\"");
+              Look::bold);
 }
 
 }  // namespace
 
-std::string draw_betti(const Barcode& barcode, const PlotOptions& options) {
+Drawing draw_betti(const Barcode& barcode, const PlotOptions& options) {
   Canvas canvas;
   const std::vector<int> dims = dims_of(barcode);
   const auto [low, high] = finite_range(barcode);
@@ -138,4 +137,4 @@ std::string draw_betti(const Barcode& barcode, const PlotOptions& options) {
                        "Betti curves: " + description_of(barcode));
 }
 
-}  // namespace ph::svg
+}  // namespace ph::plot

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "svg_plot_canvas.hpp"
+#include "plot_canvas.hpp"
 
-namespace ph::svg {
+namespace ph::plot {
 namespace {
 
 /// Floor of the decimal logarithm of a positive number.
@@ -124,4 +124,4 @@ std::string description_of(const Barcode& barcode) {
   return text.empty() ? "no bars" : text;
 }
 
-}  // namespace ph::svg
+}  // namespace ph::plot

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace ph::plot {
+
+/// A place in pixels, y downwards.
+struct Place {
+  double x = 0, y = 0;
+};
+
+/// How much of each pixel an area covers. Areas are added by their edges; those that go around in
+/// the same direction and overlap are one area.
+class Coverage {
+ public:
+  Coverage(std::size_t width, std::size_t height);
+
+  /// An edge of an area, which may lie beyond the picture; the edges of an area go all around it.
+  void add(Place from, Place to);
+  /// A polygon, which closes itself.
+  void add(const std::vector<Place>& corners);
+  /// The same, turned around if it goes the other way: polygons that overlap are one area.
+  void add_turned(std::vector<Place> corners);
+
+  /// Calls visit(pixel, part), the number of a pixel row by row and 0 < part <= 1, and forgets
+  /// what was added.
+  template <class Visit>
+  void take(Visit&& visit);
+
+ private:
+  void add_within_row(std::size_t row, Place from, Place to);
+  void add_within_pixel(std::size_t row, Place from, Place to);
+
+  std::size_t width_, height_;
+  // Row by row, with a column more: by how much the coverage changes from the pixel on the left.
+  std::vector<float> change_;
+  std::size_t first_row_, end_row_;  // those that were touched
+};
+
+/// The area of a polygon, positive if it goes around clockwise (y downwards).
+double signed_area(const std::vector<Place>& corners);
+
+template <class Visit>
+void Coverage::take(Visit&& visit) {
+  constexpr float least = 1.0F / 512;
+  for (std::size_t row = first_row_; row < end_row_; ++row) {
+    float* const change = change_.data() + row * (width_ + 1);
+    float sum = 0;
+    for (std::size_t x = 0; x < width_; ++x) {
+      sum += change[x];
+      const float part = std::min(std::abs(sum), 1.0F);
+      if (part > least) visit(row * width_ + x, static_cast<double>(part));
+    }
+    std::fill_n(change, width_ + 1, 0.0F);
+  }
+  first_row_ = height_;
+  end_row_ = 0;
+}
+
+}  // namespace ph::plot

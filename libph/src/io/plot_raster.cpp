@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+#include "plot_raster.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "plot_coverage.hpp"
+#include "plot_font.hpp"
+
+namespace ph::plot {
+namespace {
+
+constexpr double kScale = static_cast<double>(kPixels) / kWidth;  // pixels a point
+constexpr double kBold = 0.045;                                   // of the size: what bold adds
+
+/// The corners of a circle, of a radius in pixels, around its middle.
+std::vector<Place> circle_of(Place middle, double radius) {
+  const int count = std::clamp(static_cast<int>(6 + 4 * std::sqrt(radius)), 8, 128);
+  std::vector<Place> corners;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * i / count;
+    corners.push_back({middle.x + radius * std::cos(angle), middle.y + radius * std::sin(angle)});
+  }
+  return corners;
+}
+
+/// A connected part of an outline, in pixels.
+struct Piece {
+  std::vector<Place> corners;
+  bool closed = false;
+};
+
+std::vector<Piece> pieces_of(const Outline& outline) {
+  using Verb = Outline::Verb;
+  std::vector<Piece> pieces;
+  Place at;
+  const auto go = [&](Place to) { pieces.back().corners.push_back(at = to); };
+  for (const auto& [verb, x_points, y_points] : outline.steps()) {
+    const double x = kScale * x_points, y = kScale * y_points;
+    switch (verb) {
+      case Verb::move_to:
+        pieces.emplace_back();
+        go({x, y});
+        break;
+      case Verb::line_to:
+        go({x, y});
+        break;
+      case Verb::line_by:
+        go({at.x + x, at.y + y});
+        break;
+      case Verb::horizontal_to:
+        go({x, at.y});
+        break;
+      case Verb::horizontal_by:
+        go({at.x + x, at.y});
+        break;
+      case Verb::vertical_to:
+        go({at.x, y});
+        break;
+      case Verb::vertical_by:
+        go({at.x, at.y + y});
+        break;
+      case Verb::circle_by:
+        pieces.back() = {circle_of({at.x + x / 2, at.y}, x / 2), true};
+        break;
+      case Verb::close:
+        pieces.back().closed = true;
+    }
+  }
+  return pieces;
+}
+
+class Painter {
+ public:
+  explicit Painter(double height)
+      : raster_{kPixels, std::max<Index>(1, std::lround(kScale * height)), 3, 8, {}},
+        coverage_(static_cast<std::size_t>(raster_.width),
+                  static_cast<std::size_t>(raster_.height)) {
+    raster_.samples.assign(static_cast<std::size_t>(raster_.width * raster_.height * 3), 255);
+    raster_.dots_per_inch = kDotsPerInch;
+  }
+
+  void operator()(const Line& line) {
+    const Place from{kScale * line.x1, kScale * line.y1}, to{kScale * line.x2, kScale * line.y2};
+    const double width = kScale * line.width;
+    if (line.stroke == Stroke::solid) {
+      add_stroke(from, to, width);
+    } else {
+      const double length = std::hypot(to.x - from.x, to.y - from.y);
+      const auto at = [&](double part) {
+        const double t = std::min(part / length, 1.0);
+        return Place{from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)};
+      };
+      for (double dash = 0; dash < length; dash += 5 * kScale)
+        add_stroke(at(dash), at(dash + 3 * kScale), width);
+    }
+    paint(line.colour, 1);
+  }
+
+  /// On whole pixels: what is side by side has no seam.
+  void operator()(const Rectangle& rect) {
+    const auto whole = [](double points) { return std::round(kScale * points); };
+    const double left = whole(rect.x), right = whole(rect.x + rect.width);
+    const double top = whole(rect.y), bottom = whole(rect.y + rect.height);
+    coverage_.add({{left, top}, {right, top}, {right, bottom}, {left, bottom}});
+    paint(rect.colour, rect.opacity);
+  }
+
+  void operator()(const Shape& shape) {
+    const std::vector<Piece> pieces = pieces_of(shape.outline);
+    if (shape.style.fill) {
+      for (const Piece& piece : pieces) coverage_.add_turned(piece.corners);
+      paint(*shape.style.fill, shape.style.fill_opacity);
+    }
+    if (shape.style.stroke) {
+      for (const Piece& piece : pieces) add_stroke(piece, kScale * shape.style.stroke_width);
+      paint(*shape.style.stroke, 1);
+    }
+  }
+
+  void operator()(const Text& text) {
+    if (text.look == Look::haloed) {
+      add_text(text, kScale * kHalo);
+      paint(kWhite, 1);
+    }
+    add_text(text, 0);
+    paint(text.colour, 1);
+  }
+
+  /// The nearest pixel of the picture for each of ours.
+  void operator()(const Picture& picture) {
+    const Raster& from = *picture.raster;
+    const auto whole = [](double points) { return std::lround(kScale * points); };
+    const Index left = whole(picture.x), width = whole(picture.width);
+    const Index top = whole(picture.y), height = whole(picture.height);
+    for (Index y = std::max<Index>(0, -top); y < std::min(height, raster_.height - top); ++y)
+      for (Index x = std::max<Index>(0, -left); x < std::min(width, raster_.width - left); ++x)
+        for (int c = 0; c < 3; ++c)
+          raster_
+              .samples[static_cast<std::size_t>(((top + y) * raster_.width + left + x) * 3 + c)] =
+              sample(from, x * from.width / width, y * from.height / height, c);
+  }
+
+  Raster take() { return std::move(raster_); }
+
+ private:
+  /// Of grey or RGB, 8 or 16 bits.
+  static std::uint16_t sample(const Raster& raster, Index x, Index y, int channel) {
+    const std::uint16_t value = raster.at(x, y, raster.channels < 3 ? 0 : channel);
+    return raster.bits == 16 ? static_cast<std::uint16_t>(value >> 8) : value;
+  }
+
+  /// @param halo width of a line along the outlines, pixels.
+  void add_text(const Text& text, double halo) {
+    const std::vector<std::string> characters = characters_of(text.content);
+    const double size = kScale * text.size;
+    const bool is_bold = text.look == Look::bold || text.look == Look::haloed;
+    const double bold = is_bold ? kBold * size : 0;
+    double length = 0;
+    for (const std::string& c : characters) length += size * font_.glyph(c).advance + bold;
+    double along = text.anchor == Anchor::start    ? 0
+                   : text.anchor == Anchor::middle ? -length / 2
+                                                   : -length;
+    const Place origin{kScale * text.x, kScale * text.y};
+    for (const std::string& c : characters) {
+      const Font::Glyph& glyph = font_.glyph(c);
+      for (const std::vector<Place>& outline : glyph.outlines) {
+        Piece piece{{}, true};
+        for (const Place& p : outline) {
+          const double x = along + bold / 2 + size * p.x, y = size * p.y;
+          piece.corners.push_back(text.look == Look::upwards ? Place{origin.x + y, origin.y - x}
+                                                             : Place{origin.x + x, origin.y + y});
+        }
+        coverage_.add(piece.corners);
+        if (bold + halo > 0) add_stroke(piece, bold + halo);
+      }
+      along += size * glyph.advance + bold;
+    }
+  }
+
+  void add_stroke(Place from, Place to, double width) {
+    const double length = std::hypot(to.x - from.x, to.y - from.y);
+    if (!(length > 0)) return;
+    const double x = -(to.y - from.y) / length * width / 2,
+                 y = (to.x - from.x) / length * width / 2;
+    coverage_.add_turned({{from.x + x, from.y + y},
+                          {from.x - x, from.y - y},
+                          {to.x - x, to.y - y},
+                          {to.x + x, to.y + y}});
+  }
+
+  /// Round where two lines meet.
+  void add_stroke(const Piece& piece, double width) {
+    const std::vector<Place>& corners = piece.corners;
+    for (std::size_t i = 1; i < corners.size(); ++i) add_stroke(corners[i - 1], corners[i], width);
+    if (piece.closed && !corners.empty()) add_stroke(corners.back(), corners.front(), width);
+    const std::size_t open = piece.closed ? 0 : 1;
+    for (std::size_t i = open; i + open < corners.size(); ++i)
+      coverage_.add(circle_of(corners[i], width / 2));
+  }
+
+  /// What has been added, in a colour.
+  void paint(Colour colour, double opacity) {
+    coverage_.take([&](std::size_t pixel, double part) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        std::uint16_t& sample = raster_.samples[3 * pixel + c];
+        const auto wanted = static_cast<double>(colour >> (16 - 8 * c) & 255U);
+        const double mixed = sample + (wanted - sample) * part * opacity;
+        sample = static_cast<std::uint16_t>(std::lround(mixed));
+      }
+    });
+  }
+
+  Raster raster_;
+  Coverage coverage_;
+  Font font_;
+};
+
+}  // namespace
+
+std::size_t raster_bytes(const Drawing& drawing) {
+  constexpr std::size_t a_pixel = 3 * (sizeof(std::uint16_t) + 1) + sizeof(float);
+  constexpr std::size_t font_and_deflate = 1 << 20;
+  const auto rows = static_cast<std::size_t>(std::max(1.0, kScale * drawing.height)) + 1;
+  return rows * static_cast<std::size_t>(kPixels) * a_pixel + font_and_deflate;
+}
+
+Raster to_raster(const Drawing& drawing) {
+  Painter painter(drawing.height);
+  for (const Element& element : drawing.elements) std::visit(painter, element);
+  return painter.take();
+}
+
+}  // namespace ph::plot
