@@ -74,16 +74,6 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-void check_plot(const std::string& path) {
-  const std::string name = lower_case(path);
-  if (name.ends_with(".png"))
-    throw Error(ErrorKind::not_built_in,
-                fmt::format("--plot {}: PNG plots are not built in; use .svg", path));
-  if (!name.ends_with(".svg"))
-    throw Error(ErrorKind::usage,
-                fmt::format("--plot: found '{}', expected a name that ends in .svg", path));
-}
-
 void take_report(Arguments& a, const std::string& path) {
   report::require_built_in("--report");
   const std::string name = lower_case(path);
@@ -225,8 +215,8 @@ void add_output_options(CLI::App& app, Arguments& a, app::PlotArguments& plots) 
   add_choice(app, "--output-format", names, "format of the barcode (default: by extension, or csv)",
              [&a](std::size_t i) { a.output_format = barcode_format_named(names[i]); })
       ->group(group);
-  app::add_plot_options(app, kPlotKinds, "FILE.svg",
-                        "draw the barcode, or the merge tree of H0 (repeatable)", group, plots);
+  app::add_plot_options(app, kPlotKinds, "draw the barcode, or the merge tree of H0 (repeatable)",
+                        group, plots);
   add_value(app, "--report", "FILE.html",
             "one page to look at: barcode, diagram, merge tree and data, linked; needs no network",
             [&a](const std::string& path) { take_report(a, path); })
@@ -333,8 +323,8 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv,
   if (auto answer = app::parse_command_line(app, arguments.common, argc, argv, built_in()))
     return answer;
   if (list_formats) return formats_table();
-  for (const std::string& path : plots.paths) check_plot(path);
   arguments.plots = plots.together(kPlotKinds.front());
+  for (const app::Plot& plot : arguments.plots) app::require_known_format(plot);
   check_together(arguments);
   if (!arguments.report.empty()) arguments.command = app::typed_command("ph-barcode", argc, argv);
   return std::nullopt;

@@ -16,7 +16,6 @@
 #include "messages.hpp"
 #include "numbers.hpp"
 #include "ph/estimate.hpp"
-#include "ph/io/svg_plot.hpp"
 #include "report.hpp"
 #include "report/sha256.hpp"
 #include "ways_out.hpp"
@@ -145,10 +144,10 @@ std::string estimate_text(const Estimate& estimate, const BuiltComplex& built,
   return text + fmt::format("memory   {} to {}\n", app::format_size(low), app::format_size(high));
 }
 
-/// Before bars are computed, which may take long: there may be no tree.
-/// @throws Error (usage) if there is none.
-std::string picture_of_tree(const Loaded& loaded, const Arguments& arguments,
-                            const RunContext& context) {
+/// The files of the plots of the merge tree, in their order, before bars are computed, which may
+/// take long: there may be no tree. @throws Error (usage) if there is none.
+std::vector<std::string> pictures_of_tree(const Loaded& loaded, const Arguments& arguments,
+                                          const RunContext& context) {
   const auto tree = whole_tree(loaded.built, *loaded.data, arguments, context);
   if (!tree)
     throw Error(ErrorKind::usage,
@@ -157,7 +156,11 @@ std::string picture_of_tree(const Loaded& loaded, const Arguments& arguments,
                             "complex, and at most {} voxels",
                             loaded.data->name, kMostTreeVoxels));
   const MemoryClaim claim(context.memory, tree->births.size() * sizeof(Branch));
-  return svg_plot(tree->branches());
+  const std::vector<Branch> branches = tree->branches();
+  std::vector<std::string> pictures;
+  for (const app::Plot& plot : arguments.plots)
+    if (plot.kind == "tree") pictures.push_back(app::drawn(plot, std::span(branches), {}, context));
+  return pictures;
 }
 
 /// The files that a run writes. What cannot be created is said before anything is computed.
@@ -171,16 +174,19 @@ struct Outputs {
     if (!arguments.report.empty()) report.emplace(arguments.report);
   }
   void write(const Barcode& bars, const BarcodeInfo& info, const Job& job,
-             const Arguments& arguments, const std::string& tree) {
+             const Arguments& arguments, std::span<const std::string> trees,
+             const RunContext& context) {
     if (barcode) {
       write_barcode(barcode->file(), bars, job.format, info);
       barcode->commit();
     }
+    auto tree = trees.begin();
     for (std::size_t i = 0; i < plots.size(); ++i) {
-      const auto kind = plot_kind_named(arguments.plots[i].kind);
+      const app::Plot& plot = arguments.plots[i];
+      const auto kind = plot_kind_named(plot.kind);
       PlotOptions options;
       options.kind = kind.value_or(options.kind);
-      plots[i].write(kind ? svg_plot(bars, options) : tree);
+      plots[i].write(kind ? app::drawn(plot, bars, options, context) : *tree++);
       plots[i].commit();
     }
   }
@@ -200,9 +206,9 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
     write_file("-", estimate_text(estimated, built, description, taken));
     return {app::kOk, description};
   }
-  std::string tree;
+  std::vector<std::string> trees;
   if (arguments.draws_tree()) {
-    tree = picture_of_tree(loaded, arguments, session.context());
+    trees = pictures_of_tree(loaded, arguments, session.context());
     watch.lap("tree");
   }
   if (arguments.report.empty()) {
@@ -264,7 +270,7 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
     session.explain(fmt::format("{} {:.3f} s", stage, seconds));
   session.explain("memory " + app::format_size(static_cast<double>(session.memory_taken())));
   const app::BarHold results_are_written(session);
-  outputs->write(barcode, info, job, arguments, tree);
+  outputs->write(barcode, info, job, arguments, trees, session.context());
   if (data) {
     const Shown shown{barcode, info, *data, built, std::move(warnings)};
     write_report(outputs->report->file(), shown, arguments, session);

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <string_view>
 
+#include "ph/io/png_plot.hpp"
 #include "report/page_template.hpp"
 
 namespace ph::app {
@@ -58,6 +59,7 @@ std::string build_information() {
   line("CLI11", CLI11_VERSION);
   // Of the shared libraries that were found at the start, which may be younger than their headers.
   line("libpng", png_get_libpng_ver(nullptr));
+  line("PNG plots", png_plot_support().empty() ? "no" : png_plot_support());
   line("zlib", zlibVersion());
   line("PCL", fmt::format("{} (ph::pcl; the programs do without)", yes_or_no(PH_WITH_PCL)));
   line("reports", yes_or_no(!report::page_template().empty()));

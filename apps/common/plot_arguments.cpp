@@ -10,6 +10,29 @@
 #include "ph/core/error.hpp"
 
 namespace ph::app {
+namespace {
+
+bool ends_in(std::string_view path, std::string_view extension) {
+  const auto equal = [](char a, char b) {
+    return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
+  };
+  return path.size() >= extension.size() &&
+         std::ranges::equal(path.substr(path.size() - extension.size()), extension, equal);
+}
+
+}  // namespace
+
+bool Plot::is_png() const { return ends_in(path, ".png"); }
+
+void require_known_format(const Plot& plot) {
+  if (plot.is_png() && png_plot_support().empty())
+    throw Error(ErrorKind::not_built_in,
+                fmt::format("--plot {}: PNG plots are not built in; use .svg", plot.path));
+  if (!plot.is_png() && !ends_in(plot.path, ".svg"))
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("--plot: found '{}', expected a name that ends in .svg or .png", plot.path));
+}
 
 std::vector<Plot> PlotArguments::together(std::string_view usual) const {
   if (kinds.size() > paths.size())
@@ -29,8 +52,7 @@ std::vector<Plot> PlotArguments::together(std::string_view usual) const {
 }
 
 void add_plot_options(CLI::App& app, std::span<const std::string_view> kinds,
-                      const std::string& files, const std::string& description,
-                      const std::string& group, PlotArguments& to) {
+                      const std::string& description, const std::string& group, PlotArguments& to) {
   const auto add = [&](const std::string& name, const std::string& placeholder,
                        const std::string& what, auto take) {
     app.add_option_function<std::vector<std::string>>(name, take, what)
@@ -40,7 +62,7 @@ void add_plot_options(CLI::App& app, std::span<const std::string_view> kinds,
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->group(group);
   };
-  add("--plot", files, description,
+  add("--plot", "FILE.svg|.png", description,
       [&to](const std::vector<std::string>& paths) { to.paths = paths; });
   add("--plot-kind", fmt::format("{}", fmt::join(kinds, "|")),
       fmt::format("kind of each --plot in turn; the last one counts for the rest (default: {})",

@@ -6,13 +6,29 @@
 #include <string_view>
 #include <vector>
 
+#include "ph/io/png_plot.hpp"
+
 namespace ph::app {
 
 /// A static picture to draw.
 struct Plot {
   std::string path;
   std::string kind;  ///< a word of --plot-kind
+
+  /// Whether its name ends in .png; what ends in nothing known is SVG.
+  bool is_png() const;
 };
+
+/// @throws Error (usage) unless the name ends in .svg or .png; Error (not_built_in) on a PNG that
+/// this build cannot draw.
+void require_known_format(const Plot& plot);
+
+/// The file of a plot. @param what a barcode, a merge tree or a coloured picture.
+template <class What>
+std::string drawn(const Plot& plot, const What& what, const PlotOptions& options,
+                  const RunContext& context) {
+  return plot.is_png() ? png_plot(what, options, context) : svg_plot(what, options);
+}
 
 /// --plot and --plot-kind as they were typed.
 struct PlotArguments {
@@ -24,9 +40,8 @@ struct PlotArguments {
   std::vector<Plot> together(std::string_view usual) const;
 };
 
-/// Registers both. @param kinds outlives `app`, as `to` does. @param files "FILE.svg".
+/// Registers both. @param kinds outlives `app`, as `to` does.
 void add_plot_options(CLI::App& app, std::span<const std::string_view> kinds,
-                      const std::string& files, const std::string& description,
-                      const std::string& group, PlotArguments& to);
+                      const std::string& description, const std::string& group, PlotArguments& to);
 
 }  // namespace ph::app

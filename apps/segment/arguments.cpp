@@ -270,9 +270,9 @@ void add_output_options(CLI::App& app, Arguments& a, app::PlotArguments& plots) 
        files.tree);
   path("--barcode", "FILE", "barcode of H0: .csv, .json, .txt, .pers, .dipha, .npy", files.barcode);
   app::add_plot_options(
-      app, kPlotKinds, "FILE.svg|.png",
-      "figure of the barcode, of the merge tree (.svg), or of the cloud with a colour a segment "
-      "(.png; repeatable)",
+      app, kPlotKinds,
+      "figure of the barcode, of the merge tree, or of the cloud with a colour a segment "
+      "(repeatable)",
       "Options", plots);
   add_value(app, "--plot-view", "RIGHT,UP",
             "where a plot of the cloud is seen from: by how much the eye goes around the segments "

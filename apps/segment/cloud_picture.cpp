@@ -22,6 +22,7 @@ using Eigen::Vector3d;
 constexpr double kSide = 1040;  // pixels
 constexpr int kFiner = 2;       // the picture is drawn so much larger, then averaged
 constexpr double kMargin = 0.12;
+constexpr int kUsual = 190;        // brightness of what has neither colour nor normal
 constexpr double kNearest = 0.02;  // of the distance of the eye: what is nearer is behind it
 
 Vector3d vector(const Vec3& v) { return {v[0], v[1], v[2]}; }
@@ -29,7 +30,7 @@ Vector3d vector(const Vec3& v) { return {v[0], v[1], v[2]}; }
 /// What is drawn: all points but holes.
 struct Shown {
   std::vector<Vector3d> points;
-  std::vector<std::uint32_t> colours;
+  std::vector<std::uint32_t> colours, labels;
   std::vector<std::uint32_t> segments;  ///< places of the points in one
 };
 
@@ -43,11 +44,16 @@ std::uint32_t shaded(std::uint32_t colour, int grey) {
   return result;
 }
 
+std::uint32_t light_grey(int grey) {
+  const auto light = static_cast<std::uint32_t>(255 - (255 - grey) * 2 / 5);
+  return light << 16 | light << 8 | light;
+}
+
 /// How bright a surface of these normals is that is lit from where the sensor stood.
 std::vector<int> lit(const SceneTree& scene) {
-  constexpr int dark = 40, usual = 190;
+  constexpr int dark = 40;
   const Vector3d eye = vector(scene.viewpoint);
-  std::vector<int> grey(scene.cells.size(), usual);
+  std::vector<int> grey(scene.cells.size(), kUsual);
   for (Index v = 0; v < scene.normals.rows(); ++v) {
     const Vector3d normal = scene.normals.row(v), ray = scene.vertices.row(v).transpose() - eye;
     const double facing = std::abs(normal.dot(ray)) / ray.norm();
@@ -59,7 +65,6 @@ std::vector<int> lit(const SceneTree& scene) {
 
 Shown shown(const Cloud* cloud, const SceneTree& scene, std::span<const std::uint32_t> labels,
             std::span<const std::uint32_t> colours) {
-  constexpr int usual = 190;  // brightness of what has neither colour nor normal
   const std::vector<float> xyz = cloud ? cloud->xyz() : scene.xyz;
   const bool coloured = cloud && cloud->rgb();
   const std::vector<int> grey = coloured ? brightness(*cloud) : lit(scene);
@@ -71,11 +76,10 @@ Shown shown(const Cloud* cloud, const SceneTree& scene, std::span<const std::uin
     const std::size_t vertex = has_vertex ? scene.vertex_of_point[next++] : 0;
     const Vector3d point(xyz[3 * k], xyz[3 * k + 1], xyz[3 * k + 2]);
     if (!point.allFinite()) continue;
-    const int g = coloured ? grey[i] : has_vertex ? grey[vertex] : usual;
-    const auto light = static_cast<std::uint32_t>(255 - (255 - g) * 2 / 5);
+    const int g = coloured ? grey[i] : has_vertex ? grey[vertex] : kUsual;
     if (labels[i] != 0) shown.segments.push_back(static_cast<std::uint32_t>(shown.points.size()));
-    shown.colours.push_back(labels[i] != 0 ? shaded(colours[labels[i] - 1], g)
-                                           : light << 16 | light << 8 | light);
+    shown.colours.push_back(labels[i] != 0 ? shaded(colours[labels[i] - 1], g) : light_grey(g));
+    shown.labels.push_back(labels[i]);
     shown.points.push_back(point);
   }
   return shown;
@@ -186,9 +190,11 @@ class Spacing {
   double mean_ = 0, mean_range_ = 1;
 };
 
+constexpr std::uint32_t kNoPoint = std::numeric_limits<std::uint32_t>::max();
+
 struct Pixel {
   float depth = std::numeric_limits<float>::infinity();
-  std::uint32_t colour = 0xFFFFFF;
+  std::uint32_t point = kNoPoint;
 };
 
 /// Each point as a square that is about as large as the surface it stands for.
@@ -214,7 +220,7 @@ std::vector<Pixel> draw(const Shown& shown, const Camera& camera, const Spacing&
         Pixel& pixel =
             pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width()) +
                    static_cast<std::size_t>(x)];
-        if (z < pixel.depth) pixel = {z, shown.colours[i]};
+        if (z < pixel.depth) pixel = {z, static_cast<std::uint32_t>(i)};
       }
   }
   return pixels;
@@ -240,7 +246,7 @@ double light_at(const std::vector<Pixel>& pixels, int width, int height, int x, 
   return std::max(darkest, std::exp(-strength * hidden));
 }
 
-Raster averaged(const std::vector<Pixel>& pixels, int width, int height) {
+Raster averaged(const Shown& shown, const std::vector<Pixel>& pixels, int width, int height) {
   Raster raster{width / kFiner, height / kFiner, 3, 8, {}};
   raster.samples.reserve(static_cast<std::size_t>(raster.width * raster.height * 3));
   for (int y = 0; y < height; y += kFiner) {
@@ -252,8 +258,10 @@ Raster averaged(const std::vector<Pixel>& pixels, int width, int height) {
               pixels[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
                      static_cast<std::size_t>(u)];
           const double light = std::isinf(pixel.depth) ? 1 : light_at(pixels, width, height, u, v);
+          const std::uint32_t colour =
+              pixel.point == kNoPoint ? 0xFFFFFF : shown.colours[pixel.point];
           for (std::size_t c = 0; c < 3; ++c)
-            sum[c] += light * static_cast<double>(pixel.colour >> (16 - 8 * c) & 255U);
+            sum[c] += light * static_cast<double>(colour >> (16 - 8 * c) & 255U);
         }
       for (const double channel : sum)
         raster.samples.push_back(
@@ -263,17 +271,87 @@ Raster averaged(const std::vector<Pixel>& pixels, int width, int height) {
   return raster;
 }
 
+/// Where a number may stand on what is seen of each segment: among the pixels with the most of it
+/// around them, the nearest to its middle.
+std::vector<std::optional<std::array<double, 2>>> middles_of(const Shown& shown,
+                                                             const std::vector<Pixel>& pixels,
+                                                             int width, int height,
+                                                             std::size_t segments) {
+  constexpr std::size_t fewest = 80;  // pixels of the picture in which a number can be read
+  const auto label_at = [&](int x, int y) -> std::uint32_t {
+    if (x < 0 || y < 0 || x >= width || y >= height) return 0;
+    const std::size_t place =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+    const std::uint32_t point = pixels[place].point;
+    return point == kNoPoint ? 0 : shown.labels[point];
+  };
+  const auto for_each_seen = [&](auto&& visit) {
+    for (int y = 0; y < height; y += kFiner)
+      for (int x = 0; x < width; x += kFiner)
+        if (const std::uint32_t label = label_at(x, y); label != 0) visit(label - 1, x, y);
+  };
+  struct Seen {
+    std::size_t count = 0;
+    double x = 0, y = 0;  // sums
+    int room = -1;
+    double away = 0;
+    std::array<double, 2> place{};
+  };
+  std::vector<Seen> seen(segments);
+  for_each_seen([&](std::uint32_t i, int x, int y) {
+    ++seen[i].count;
+    seen[i].x += x;
+    seen[i].y += y;
+  });
+  /// How many of these distances one can go to each side and still be on the segment.
+  const auto room_at = [&](int x, int y) {
+    const std::uint32_t label = label_at(x, y);
+    int room = 0;
+    for (const int far : {10, 20, 30, 45}) {
+      for (const auto& [dx, dy] : {std::pair(-far, 0), {far, 0}, {0, -far}, {0, far}})
+        if (label_at(x + dx, y + dy) != label) return room;
+      ++room;
+    }
+    return room;
+  };
+  for_each_seen([&](std::uint32_t i, int x, int y) {
+    Seen& s = seen[i];
+    const auto count = static_cast<double>(s.count);
+    const int room = room_at(x, y);
+    const double away = std::hypot(x - s.x / count, y - s.y / count);
+    if (room < s.room || (room == s.room && away >= s.away)) return;
+    s.room = room;
+    s.away = away;
+    s.place = {static_cast<double>(x) / kFiner, static_cast<double>(y) / kFiner};
+  });
+  std::vector<std::optional<std::array<double, 2>>> middles(segments);
+  for (std::size_t i = 0; i < segments; ++i)
+    if (seen[i].count >= fewest) middles[i] = seen[i].place;
+  return middles;
+}
+
 }  // namespace
 
-Raster cloud_picture(const Cloud* cloud, const SceneTree& scene,
-                     std::span<const std::uint32_t> labels, std::span<const std::uint32_t> colours,
-                     const ViewTurn& turn, const RunContext& context) {
-  constexpr std::size_t a_point = sizeof(Vector3d) + 4 * sizeof(std::uint32_t);
+std::uint32_t colour_in_picture(std::optional<std::uint32_t> colour) {
+  return colour ? shaded(*colour, kUsual) : light_grey(kUsual);
+}
+
+CloudPicture cloud_picture(const Cloud* cloud, const SceneTree& scene,
+                           std::span<const std::uint32_t> labels,
+                           std::span<const std::uint32_t> colours, const ViewTurn& turn,
+                           const RunContext& context) {
+  constexpr std::size_t a_point = sizeof(Vector3d) + 5 * sizeof(std::uint32_t);
   constexpr auto side = static_cast<std::size_t>(kSide) * kFiner;
   const MemoryClaim claim(context.memory, labels.size() * a_point + side * side * sizeof(Pixel));
   const Shown points = shown(cloud, scene, labels, colours);
   const Camera camera(points, scene, turn);
-  return averaged(draw(points, camera, Spacing(scene)), camera.width(), camera.height());
+  const std::vector<Pixel> pixels = draw(points, camera, Spacing(scene));
+  CloudPicture picture;
+  picture.raster = averaged(points, pixels, camera.width(), camera.height());
+  picture.points.assign(colours.size() + 1, 0);
+  for (const std::uint32_t label : points.labels) ++picture.points[label];
+  picture.middles = middles_of(points, pixels, camera.width(), camera.height(), colours.size());
+  return picture;
 }
 
 }  // namespace ph::segment

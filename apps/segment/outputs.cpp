@@ -7,10 +7,10 @@
 #include <sstream>
 
 #include "cloud_files.hpp"
+#include "cloud_legend.hpp"
 #include "colouring.hpp"
 #include "ph/core/error.hpp"
 #include "ph/io/barcode_io.hpp"
-#include "ph/io/svg_plot.hpp"
 #include "report.hpp"
 #include "summary.hpp"
 
@@ -105,7 +105,7 @@ Outputs::Outputs(const Arguments& a) : arguments_(a) {
   require_extension("--labels", f.labels, {".npy", ".csv", ".png"});
   require_extension("--tree", f.tree, {".tree", ".json"});
   for (const app::Plot& plot : f.plots)
-    require_extension("--plot", plot.path, {plot.kind == "cloud" ? ".png" : ".svg"});
+    if (plot.path != "-") app::require_known_format(plot);
   require_extension("--picture", f.picture, {".png"});
   require_extension("--report", f.report, {".html", ".htm"});
   if (!f.barcode.empty() && f.barcode != "-" && !barcode_format_of_path(f.barcode)) {
@@ -116,13 +116,13 @@ Outputs::Outputs(const Arguments& a) : arguments_(a) {
   open(Kind::json, f.json);
   open(Kind::tree, f.tree);
   open(Kind::barcode, f.barcode);
-  for (const app::Plot& plot : f.plots) open(Kind::plot, plot.path, plot.kind);
+  for (const app::Plot& plot : f.plots) open(Kind::plot, plot.path, &plot);
   open(Kind::coloured, f.coloured);
   open(Kind::picture, f.picture);
   open(Kind::report, f.report);
 }
 
-void Outputs::open(Kind kind, const std::string& path, std::string_view plot) {
+void Outputs::open(Kind kind, const std::string& path, const app::Plot* plot) {
   if (!path.empty()) files_.push_back({kind, app::Output(path), plot});
 }
 
@@ -156,22 +156,22 @@ std::vector<std::uint32_t> Outputs::colours(const Cloud* cloud, const Segmentati
   return segment_colours(neighbouring_segments(*cloud, segmentation));
 }
 
-std::string Outputs::plot(std::string_view kind, const Cloud* cloud, const Segmentation& s,
+std::string Outputs::plot(const app::Plot& plot, const Cloud* cloud, const Segmentation& s,
                           const RunInfo& info, const RunContext& context) const {
-  if (kind == "cloud") {
-    return text_of([&](std::ostream& o) {
-      write_png(o, cloud_picture(cloud, s, s.labels, colours(cloud, s, info), arguments_.plot_view,
-                                 context));
-    });
-  }
   PlotOptions options;
-  options.value_label = s.method == Method::surface ? "Concavity" : "Distance (m)";
-  if (kind == "tree") {
-    const MemoryClaim claim(context.memory, s.tree.births.size() * sizeof(Branch));
-    return svg_plot(s.tree.branches(), options);
+  if (plot.kind == "cloud") {
+    const std::vector<std::uint32_t> palette = colours(cloud, s, info);
+    CloudPicture seen = cloud_picture(cloud, s, s.labels, palette, arguments_.plot_view, context);
+    return app::drawn(plot, with_legend(std::move(seen), palette, info.numbers), options, context);
   }
-  options.kind = plot_kind_named(kind).value();
-  return svg_plot(s.barcode, options);
+  options.value_label = s.method == Method::surface ? "Concavity" : "Distance (m)";
+  if (plot.kind == "tree") {
+    const MemoryClaim claim(context.memory, s.tree.births.size() * sizeof(Branch));
+    const std::vector<Branch> branches = s.tree.branches();
+    return app::drawn(plot, std::span(branches), options, context);
+  }
+  options.kind = plot_kind_named(plot.kind).value();
+  return app::drawn(plot, s.barcode, options, context);
 }
 
 void Outputs::write_file(File& file, const Cloud* cloud, const Segmentation& s, const RunInfo& info,
@@ -193,7 +193,7 @@ void Outputs::write_file(File& file, const Cloud* cloud, const Segmentation& s, 
                            barcode_format_of_path(f.barcode).value_or(BarcodeFormat::csv),
                            barcode_info(s, info));
     case Kind::plot:
-      return out.write(plot(file.plot, cloud, s, info, context));
+      return out.write(plot(*file.plot, cloud, s, info, context));
     case Kind::coloured:
       return out.write(cloud_bytes(coloured_cloud(*cloud, s.labels, colours(cloud, s, info)),
                                    cloud_format_of(f.coloured)));

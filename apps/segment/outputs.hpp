@@ -53,12 +53,12 @@ class Outputs {
   struct File {
     Kind kind;
     app::Output output;
-    std::string_view plot;  ///< a kind of plot
+    const app::Plot* plot;  ///< what a plot shows
   };
-  void open(Kind kind, const std::string& path, std::string_view plot = {});
+  void open(Kind kind, const std::string& path, const app::Plot* plot = nullptr);
   void write_file(File& file, const Cloud* cloud, const Segmentation& segmentation,
                   const RunInfo& info, const RunContext& context) const;
-  std::string plot(std::string_view kind, const Cloud* cloud, const Segmentation& s,
+  std::string plot(const app::Plot& plot, const Cloud* cloud, const Segmentation& s,
                    const RunInfo& info, const RunContext& context) const;
   std::vector<std::uint32_t> colours(const Cloud* cloud, const Segmentation& segmentation,
                                      const RunInfo& info) const;
