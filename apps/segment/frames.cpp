@@ -142,8 +142,9 @@ std::string FrameSource::name_of(const std::string& input) {
 OutputPaths FrameSource::files_of(const std::string& name) const {
   const OutputPaths& p = patterns_;
   std::vector<app::Plot> plots = p.plots;
+  const std::string_view of_cloud = png_plot_support().empty() ? ".svg" : ".png";
   for (app::Plot& plot : plots)
-    plot.path = filled(plot.path, name, plot.kind == "cloud" ? ".png" : ".svg");
+    plot.path = filled(plot.path, name, plot.kind == "cloud" ? of_cloud : ".svg");
   return {.output = filled(p.output, name, ".pcd"),
           .labels = filled(p.labels, name, ".npy"),
           .json = {},  // one file for all

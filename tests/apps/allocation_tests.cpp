@@ -18,6 +18,7 @@
 #include "ph/io/barcode_io.hpp"
 #include "ph/io/cloud_io.hpp"
 #include "ph/io/formats.hpp"
+#include "ph/io/png_plot.hpp"
 #include "ph/io/svg_plot.hpp"
 #include "ph/persistence.hpp"
 #include "ph/segment.hpp"
@@ -268,6 +269,7 @@ TEST_F(Allocation, Plots) {
     options.kind = kind;
     check([&] { write_file(out("plot.svg"), svg_plot(bars, options)); });
   }
+  if (!png_plot_support().empty()) check([&] { write_file(out("plot.png"), png_plot(bars)); });
   const MergeTree tree = merge_tree(Rips(read_points(in("square.csv"))));
   check([&] { write_file(out("plot.svg"), svg_plot(tree.branches())); });
 }

@@ -98,6 +98,7 @@ BLOW_UPS = (
     ("volume.dipha", "--engine", "cohomology"),
     ("volume.dipha", "--output-format", "json", "--representatives", "cocycles"),
     ("picture.dipha", "--plot", "out.svg"),
+    ("picture.dipha", "--plot", "out.png", "--plot-kind", "diagram"),
     ("picture.dipha", "--construction", "cells", "--output-format", "json"),
     ("hyper.dipha",),
     ("graph.txt", "--format", "sparse"),
@@ -162,7 +163,7 @@ class Limits(ProgramTest):
                         self.assertIn("--memory-limit", message)
                         self.assertRegex(message, "--(threshold|max-dim|subsample|engine)|the number of points")
                         self.assertEqual(self.files(), ["square.txt"])
-                    self.forget("out", "out.svg")
+                    self.forget("out", "out.svg", "out.png")
         print(f"\n{sum(ends.values())} runs under a limit: {ends[75]} stopped by it, {ends[0]} "
               f"done, {ends[None]} still running after {SECONDS} s of CPU", file=sys.stderr)
         self.assertGreaterEqual(ends[75], 100)

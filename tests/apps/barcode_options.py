@@ -349,7 +349,7 @@ class Version(ProgramTest):
         for order in (("--version", "--verbose"), ("--verbose", "--version")):
             text = self.expect(0, *order).stdout
             for word in ("compiler", "build type", "assertions", "Eigen", "fmt", "CLI11", "libpng",
-                         "zlib", "PCL", "CGAL", "engines", "reads", "writes"):
+                         "PNG plots", "zlib", "PCL", "CGAL", "engines", "reads", "writes"):
                 self.assertRegex(text, rf"(?m)^{word} +\S")
         text = self.expect(0, "--help").stdout
         for option in ("--max-dim", "--threshold", "--max-scale", "--memory-limit", "default"):

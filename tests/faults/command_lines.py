@@ -128,8 +128,6 @@ WEIGHTS = [
 ]
 
 NOT_BUILT_IN = [
-    (["--plot", "x.png"], "PNG plots are not built in; use .svg"),
-    (["--plot", "x.PNG"], "use .svg"),
     (["--complex", "alpha"], "alpha"),
 ]
 

@@ -14,9 +14,9 @@ namespace ph::segment {
 namespace {
 
 /// A small square one metre before the sensor and a large one behind it, twice as far away.
-class CloudPicture : public testing::Test {
+class CloudPictures : public testing::Test {
  protected:
-  CloudPicture() {
+  CloudPictures() {
     std::vector<float> xyz;
     for (const auto& [half, z] : {std::pair(0.1F, 1.0F), std::pair(0.4F, 2.0F)})
       for (int i = 0; i <= 80; ++i)
@@ -36,7 +36,7 @@ class CloudPicture : public testing::Test {
     scene_.vertices = Points::Constant(1600, 3, 1.0);
   }
   Raster picture(const ViewTurn& turn = {}) const {
-    return cloud_picture(&cloud_, scene_, labels_, kColours, turn, default_context());
+    return cloud_picture(&cloud_, scene_, labels_, kColours, turn, default_context()).raster;
   }
   /// 1, 2: the segment that is seen there; 0: none.
   static int seen(const Raster& raster, double x, double y) {
@@ -52,7 +52,7 @@ class CloudPicture : public testing::Test {
   std::vector<std::uint32_t> labels_;
 };
 
-TEST_F(CloudPicture, WhatIsNearerHidesWhatIsBehind) {
+TEST_F(CloudPictures, WhatIsNearerHidesWhatIsBehind) {
   const Raster raster = picture();
   EXPECT_EQ(raster.channels, 3);
   EXPECT_LE(std::max(raster.width, raster.height), 1040);
@@ -62,13 +62,13 @@ TEST_F(CloudPicture, WhatIsNearerHidesWhatIsBehind) {
   EXPECT_EQ(raster.at(0, 0), 255) << "white";
 }
 
-TEST_F(CloudPicture, FromBehind) {
+TEST_F(CloudPictures, FromBehind) {
   const Raster raster = picture({.right = 180});
   EXPECT_EQ(seen(raster, 0.5, 0.5), 2);
   for (double x = 0.01; x < 1; x += 0.01) EXPECT_NE(seen(raster, x, 0.5), 1) << x;
 }
 
-TEST_F(CloudPicture, TheEyeGoesToTheRightAndUp) {
+TEST_F(CloudPictures, TheEyeGoesToTheRightAndUp) {
   scene_.height = 1;
   scene_.plane = Plane{{0, -1, 0}, 0, 0.5};  // y is down
   // Seen from the right the near one moves to the left before the far one, from above down.
@@ -77,20 +77,40 @@ TEST_F(CloudPicture, TheEyeGoesToTheRightAndUp) {
   EXPECT_EQ(seen(picture({.right = -35}), 0.9, 0.5), 1);
 }
 
-TEST_F(CloudPicture, NoSegmentsNoPoints) {
+TEST_F(CloudPictures, NoSegmentsNoPoints) {
   std::ranges::fill(labels_, 0);
   const Raster grey = picture();
   EXPECT_EQ(seen(grey, 0.5, 0.5), 0);
   EXPECT_LT(grey.at(grey.width / 2, grey.height / 2), 255);
   const Cloud empty = test::cloud_of({}, 0, 1);
-  const Raster nothing = cloud_picture(&empty, SceneTree(), {}, {}, {}, default_context());
+  const Raster nothing = cloud_picture(&empty, SceneTree(), {}, {}, {}, default_context()).raster;
   EXPECT_EQ(nothing.samples, (std::vector<std::uint16_t>{255, 255, 255}));
 }
 
-TEST_F(CloudPicture, OnePoint) {
+TEST_F(CloudPictures, NumbersStandWhereTheSegmentIsSeen) {
+  const auto of = [&](const ViewTurn& turn) {
+    return cloud_picture(&cloud_, scene_, labels_, kColours, turn, default_context());
+  };
+  const CloudPicture front = of({});
+  EXPECT_EQ(front.points, (std::vector<std::size_t>{0, 81 * 81, 81 * 81}))
+      << "holes are not counted";
+  ASSERT_EQ(front.middles.size(), 2U);
+  for (const std::size_t i : {0U, 1U}) {
+    ASSERT_TRUE(front.middles[i]);
+    const auto [x, y] = *front.middles[i];
+    EXPECT_EQ(seen(front.raster, x / static_cast<double>(front.raster.width),
+                   y / static_cast<double>(front.raster.height)),
+              static_cast<int>(i) + 1);
+  }
+  EXPECT_NEAR((*front.middles[0])[0], static_cast<double>(front.raster.width) / 2, 8);
+  EXPECT_FALSE(of({.right = 180}).middles[0]) << "it is hidden";
+}
+
+TEST_F(CloudPictures, OnePoint) {
   const Cloud one = test::cloud_of({1, 2, 3}, 1, 1);
   const Raster raster = cloud_picture(&one, SceneTree(), std::vector<std::uint32_t>{1}, kColours,
-                                      {.right = 10, .up = 90}, default_context());
+                                      {.right = 10, .up = 90}, default_context())
+                            .raster;
   EXPECT_EQ(raster.width, raster.height);
   EXPECT_EQ(seen(raster, 0.5, 0.5), 1);
 }

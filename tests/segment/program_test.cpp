@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // ph-segment as a user runs it: exit codes, files, messages.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 
 #include "ph/io/png.hpp"
+#include "ph/io/png_plot.hpp"
 #include "program_fixture.hpp"
 
 namespace ph::segment {
@@ -49,6 +52,7 @@ TEST_F(Program, WritesEverything) {
 }
 
 TEST_F(Program, DrawsEveryKindOfPlot) {
+  if (png_plot_support().empty()) GTEST_SKIP() << "PNG plots are not built in";
   ASSERT_EQ(run("scene.pcd --plot b.svg --plot t.svg --plot c.png --plot d.svg --plot-kind barcode "
                 "--plot-kind tree --plot-kind cloud --plot-kind diagram --tree s.tree"),
             0)
@@ -67,6 +71,50 @@ TEST_F(Program, DrawsEveryKindOfPlot) {
       << err();
   EXPECT_EQ(contents(at("plots/again.svg")), contents(at("t.svg")));
   EXPECT_EQ(contents(at("plots/again.png")), contents(at("c.png")));
+}
+
+TEST_F(Program, DrawsEveryKindOfPlotAsPng) {
+  if (png_plot_support().empty()) {
+    EXPECT_EQ(run("missing.pcd --plot p.png"), 69);
+    EXPECT_NE(err().find("PNG plots are not built in; use .svg"), std::string::npos) << err();
+    GTEST_SKIP() << "PNG plots are not built in, and refused";
+  }
+  std::vector<std::string> files;
+  for (const char* kind : {"barcode", "diagram", "betti", "tree", "cloud"}) {
+    ASSERT_EQ(run(fmt::format("scene.pcd --plot p.png --plot q.PNG --plot-kind {}", kind)), 0)
+        << err();
+    EXPECT_EQ(contents(at("p.png")), contents(at("q.PNG"))) << kind;
+    const Raster raster = read_png(at("p.png"));
+    EXPECT_EQ(raster.width, 1040) << kind;
+    EXPECT_EQ(raster.channels, 3) << kind;
+    const auto [dark, light] = std::ranges::minmax(raster.samples);
+    EXPECT_EQ(light, 255) << kind;
+    EXPECT_LE(dark, 0x22) << kind;
+    EXPECT_EQ(std::ranges::count(files, contents(at("p.png"))), 0) << kind;
+    files.push_back(contents(at("p.png")));
+  }
+  EXPECT_EQ(run("scene.pcd --plot missing/p.png"), 73);
+}
+
+TEST_F(Program, ACloudHasALegend) {
+  ASSERT_EQ(run("scene.pcd --plot c.svg --plot-kind cloud --labels l.csv"), 0) << err();
+  std::string svg = contents(at("c.svg"));
+  EXPECT_NE(svg.find("href=\"data:image/png;base64,"), std::string::npos);
+  EXPECT_LT(svg.size(), 1'000'000U);
+  std::istringstream labels(contents(at("l.csv")));
+  std::map<int, int> points;
+  for (int label = 0; labels >> label;) ++points[label];
+  ASSERT_EQ(points.size(), 3U);
+  // Once on the picture, once below it.
+  for (const char* number : {">1</text>", ">2</text>"}) {
+    const std::size_t first = svg.find(number);
+    ASSERT_NE(first, std::string::npos) << number;
+    EXPECT_NE(svg.find(number, first + 1), std::string::npos) << number;
+  }
+  EXPECT_NE(svg.find(">none</text>"), std::string::npos);
+  std::erase(svg, ',');
+  for (const int label : {1, 2})
+    EXPECT_NE(svg.find(fmt::format(">{}</text>", points[label])), std::string::npos);
 }
 
 TEST_F(Program, LabelsAreTheSameInEveryFormat) {
@@ -179,8 +227,6 @@ TEST_F(Program, UsageErrors) {
                                 "scene.pcd --labels l.txt",
                                 "scene.pcd --plot p.gif",
                                 "scene.pcd --plot ''",
-                                "scene.pcd --plot p.png",
-                                "scene.pcd --plot p.svg --plot-kind cloud",
                                 "scene.pcd --plot p.svg --plot-kind clouds",
                                 "scene.pcd --plot-kind tree",
                                 "scene.pcd --plot-view 1",

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "plot_coverage.hpp"
 
-#include <utility>
-
 namespace ph::plot {
 namespace {
 
@@ -74,17 +72,18 @@ void Coverage::add_within_pixel(std::size_t row, Place from, Place to) {
   change[1] += static_cast<float>(height * middle);
 }
 
-void Coverage::add(const std::vector<Place>& corners) {
+void Coverage::add(std::span<const Place> corners) {
   for (std::size_t i = 0; i < corners.size(); ++i)
     add(corners[i], corners[i + 1 < corners.size() ? i + 1 : 0]);
 }
 
-void Coverage::add_turned(std::vector<Place> corners) {
-  if (signed_area(corners) < 0) std::reverse(corners.begin(), corners.end());
-  add(corners);
+void Coverage::add_turned(std::span<const Place> corners) {
+  if (signed_area(corners) >= 0) return add(corners);
+  for (std::size_t i = corners.size(); i > 0; --i)
+    add(corners[i - 1], corners[i > 1 ? i - 2 : corners.size() - 1]);
 }
 
-double signed_area(const std::vector<Place>& corners) {
+double signed_area(std::span<const Place> corners) {
   double twice = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Place &a = corners[i], &b = corners[i + 1 < corners.size() ? i + 1 : 0];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace ph::plot {
@@ -21,9 +22,9 @@ class Coverage {
   /// An edge of an area, which may lie beyond the picture; the edges of an area go all around it.
   void add(Place from, Place to);
   /// A polygon, which closes itself.
-  void add(const std::vector<Place>& corners);
+  void add(std::span<const Place> corners);
   /// The same, turned around if it goes the other way: polygons that overlap are one area.
-  void add_turned(std::vector<Place> corners);
+  void add_turned(std::span<const Place> corners);
 
   /// Calls visit(pixel, part), the number of a pixel row by row and 0 < part <= 1, and forgets
   /// what was added.
@@ -41,7 +42,7 @@ class Coverage {
 };
 
 /// The area of a polygon, positive if it goes around clockwise (y downwards).
-double signed_area(const std::vector<Place>& corners);
+double signed_area(std::span<const Place> corners);
 
 template <class Visit>
 void Coverage::take(Visit&& visit) {

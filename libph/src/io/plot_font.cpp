@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <ft2build.h>
 #include FT_FREETYPE_H
+#include FT_MODULE_H
 
+#include <cstdlib>
 #include <new>
 #include <span>
 
@@ -32,10 +34,20 @@ namespace {
 constexpr double kNarrow = 0.9;  // as wide as Helvetica, for which the pictures are laid out
 constexpr int kPieces = 5;       // of a curve
 
-void require(FT_Error error) {
-  if (error == FT_Err_Out_Of_Memory) throw std::bad_alloc();
-  if (error != 0)
-    throw Error(ErrorKind::internal, fmt::format("plot: FreeType error {} in the font", error));
+// What FreeType allocates by. Where that fails it reports whatever it could not do then, a missing
+// module for one: `user` points to whether it has failed.
+extern "C" {
+static void* allocate(FT_Memory memory, long size) {
+  void* const block = std::malloc(static_cast<std::size_t>(size));
+  if (block == nullptr) *static_cast<bool*>(memory->user) = true;
+  return block;
+}
+static void release(FT_Memory, void* block) { std::free(block); }
+static void* reallocate(FT_Memory memory, long, long size, void* old) {
+  void* const block = std::realloc(old, static_cast<std::size_t>(size));
+  if (block == nullptr) *static_cast<bool*>(memory->user) = true;
+  return block;
+}
 }
 
 char32_t code_point(const std::string& character) {
@@ -83,18 +95,28 @@ std::vector<Place> flattened(std::span<const FT_Vector> points, std::span<const 
 }  // namespace
 
 struct Font::Face {
+  bool out_of_memory = false;
+  FT_MemoryRec_ memory{&out_of_memory, &allocate, &release, &reallocate};
   FT_Library library = nullptr;
   FT_Face face = nullptr;
+
   ~Face() {
-    if (library != nullptr) FT_Done_FreeType(library);  // and its faces
+    if (library != nullptr) FT_Done_Library(library);  // and its faces
+  }
+  /// @throws std::bad_alloc; Error (internal).
+  void require(FT_Error error) const {
+    if (out_of_memory) throw std::bad_alloc();
+    if (error != 0)
+      throw Error(ErrorKind::internal, fmt::format("plot: FreeType error {} in the font", error));
   }
 };
 
 Font::Font() : face_(std::make_unique<Face>()) {
-  require(FT_Init_FreeType(&face_->library));
-  require(FT_New_Memory_Face(face_->library, ph_plot_font_begin,
-                             static_cast<FT_Long>(ph_plot_font_end - ph_plot_font_begin), 0,
-                             &face_->face));
+  face_->require(FT_New_Library(&face_->memory, &face_->library));
+  FT_Add_Default_Modules(face_->library);
+  face_->require(FT_New_Memory_Face(face_->library, ph_plot_font_begin,
+                                    static_cast<FT_Long>(ph_plot_font_end - ph_plot_font_begin), 0,
+                                    &face_->face));
 }
 
 Font::~Font() = default;
@@ -104,7 +126,8 @@ const Font::Glyph& Font::glyph(const std::string& character) {
   if (found != glyphs_.end()) return found->second;
   FT_Face face = face_->face;
   // In units of the font: hinting would depend on the version of FreeType.
-  require(FT_Load_Glyph(face, FT_Get_Char_Index(face, code_point(character)), FT_LOAD_NO_SCALE));
+  face_->require(
+      FT_Load_Glyph(face, FT_Get_Char_Index(face, code_point(character)), FT_LOAD_NO_SCALE));
   const double unit = 1.0 / face->units_per_EM;
   const FT_Outline& outline = face->glyph->outline;
   Glyph glyph;

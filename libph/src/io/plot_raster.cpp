@@ -2,6 +2,7 @@
 #include "plot_raster.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -14,15 +15,14 @@ namespace {
 constexpr double kScale = static_cast<double>(kPixels) / kWidth;  // pixels a point
 constexpr double kBold = 0.045;                                   // of the size: what bold adds
 
-/// The corners of a circle, of a radius in pixels, around its middle.
-std::vector<Place> circle_of(Place middle, double radius) {
+/// Fills `corners` with those of a circle, of a radius in pixels, around its middle.
+void make_circle(std::vector<Place>& corners, Place middle, double radius) {
   const int count = std::clamp(static_cast<int>(6 + 4 * std::sqrt(radius)), 8, 128);
-  std::vector<Place> corners;
+  corners.clear();
   for (int i = 0; i < count; ++i) {
     const double angle = 2 * std::numbers::pi * i / count;
     corners.push_back({middle.x + radius * std::cos(angle), middle.y + radius * std::sin(angle)});
   }
-  return corners;
 }
 
 /// A connected part of an outline, in pixels.
@@ -31,16 +31,23 @@ struct Piece {
   bool closed = false;
 };
 
-std::vector<Piece> pieces_of(const Outline& outline) {
+/// Calls visit(piece) for each part of an outline; they share their memory, `piece`.
+template <class Visit>
+void for_each_piece(const Outline& outline, Piece& piece, Visit&& visit) {
   using Verb = Outline::Verb;
-  std::vector<Piece> pieces;
   Place at;
-  const auto go = [&](Place to) { pieces.back().corners.push_back(at = to); };
+  const auto go = [&](Place to) { piece.corners.push_back(at = to); };
+  const auto finish = [&] {
+    if (!piece.corners.empty()) visit(piece);
+    piece.corners.clear();
+    piece.closed = false;
+  };
+  piece.corners.clear();
   for (const auto& [verb, x_points, y_points] : outline.steps()) {
     const double x = kScale * x_points, y = kScale * y_points;
     switch (verb) {
       case Verb::move_to:
-        pieces.emplace_back();
+        finish();
         go({x, y});
         break;
       case Verb::line_to:
@@ -62,13 +69,14 @@ std::vector<Piece> pieces_of(const Outline& outline) {
         go({at.x, at.y + y});
         break;
       case Verb::circle_by:
-        pieces.back() = {circle_of({at.x + x / 2, at.y}, x / 2), true};
+        make_circle(piece.corners, {at.x + x / 2, at.y}, x / 2);
+        piece.closed = true;
         break;
       case Verb::close:
-        pieces.back().closed = true;
+        piece.closed = true;
     }
   }
-  return pieces;
+  finish();
 }
 
 class Painter {
@@ -103,19 +111,22 @@ class Painter {
     const auto whole = [](double points) { return std::round(kScale * points); };
     const double left = whole(rect.x), right = whole(rect.x + rect.width);
     const double top = whole(rect.y), bottom = whole(rect.y + rect.height);
-    coverage_.add({{left, top}, {right, top}, {right, bottom}, {left, bottom}});
+    coverage_.add(
+        std::array<Place, 4>{{{left, top}, {right, top}, {right, bottom}, {left, bottom}}});
     paint(rect.colour, rect.opacity);
   }
 
   void operator()(const Shape& shape) {
-    const std::vector<Piece> pieces = pieces_of(shape.outline);
-    if (shape.style.fill) {
-      for (const Piece& piece : pieces) coverage_.add_turned(piece.corners);
-      paint(*shape.style.fill, shape.style.fill_opacity);
+    const Style& style = shape.style;
+    if (style.fill) {
+      for_each_piece(shape.outline, piece_,
+                     [&](const Piece& piece) { coverage_.add_turned(piece.corners); });
+      paint(*style.fill, style.fill_opacity);
     }
-    if (shape.style.stroke) {
-      for (const Piece& piece : pieces) add_stroke(piece, kScale * shape.style.stroke_width);
-      paint(*shape.style.stroke, 1);
+    if (style.stroke) {
+      for_each_piece(shape.outline, piece_,
+                     [&](const Piece& piece) { add_stroke(piece, kScale * style.stroke_width); });
+      paint(*style.stroke, 1);
     }
   }
 
@@ -166,14 +177,15 @@ class Painter {
     for (const std::string& c : characters) {
       const Font::Glyph& glyph = font_.glyph(c);
       for (const std::vector<Place>& outline : glyph.outlines) {
-        Piece piece{{}, true};
+        piece_.corners.clear();
+        piece_.closed = true;
         for (const Place& p : outline) {
           const double x = along + bold / 2 + size * p.x, y = size * p.y;
-          piece.corners.push_back(text.look == Look::upwards ? Place{origin.x + y, origin.y - x}
-                                                             : Place{origin.x + x, origin.y + y});
+          piece_.corners.push_back(text.look == Look::upwards ? Place{origin.x + y, origin.y - x}
+                                                              : Place{origin.x + x, origin.y + y});
         }
-        coverage_.add(piece.corners);
-        if (bold + halo > 0) add_stroke(piece, bold + halo);
+        coverage_.add(piece_.corners);
+        if (bold + halo > 0) add_stroke(piece_, bold + halo);
       }
       along += size * glyph.advance + bold;
     }
@@ -184,10 +196,10 @@ class Painter {
     if (!(length > 0)) return;
     const double x = -(to.y - from.y) / length * width / 2,
                  y = (to.x - from.x) / length * width / 2;
-    coverage_.add_turned({{from.x + x, from.y + y},
-                          {from.x - x, from.y - y},
-                          {to.x - x, to.y - y},
-                          {to.x + x, to.y + y}});
+    coverage_.add_turned(std::array<Place, 4>{{{from.x + x, from.y + y},
+                                               {from.x - x, from.y - y},
+                                               {to.x - x, to.y - y},
+                                               {to.x + x, to.y + y}}});
   }
 
   /// Round where two lines meet.
@@ -196,8 +208,10 @@ class Painter {
     for (std::size_t i = 1; i < corners.size(); ++i) add_stroke(corners[i - 1], corners[i], width);
     if (piece.closed && !corners.empty()) add_stroke(corners.back(), corners.front(), width);
     const std::size_t open = piece.closed ? 0 : 1;
-    for (std::size_t i = open; i + open < corners.size(); ++i)
-      coverage_.add(circle_of(corners[i], width / 2));
+    for (std::size_t i = open; i + open < corners.size(); ++i) {
+      make_circle(circle_, corners[i], width / 2);
+      coverage_.add(circle_);
+    }
   }
 
   /// What has been added, in a colour.
@@ -214,6 +228,8 @@ class Painter {
 
   Raster raster_;
   Coverage coverage_;
+  Piece piece_;                // what is being added
+  std::vector<Place> circle_;  // a joint of it
   Font font_;
 };
 
