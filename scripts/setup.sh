@@ -4,7 +4,7 @@
 set -euo pipefail
 
 build=(build-essential cmake ninja-build pkg-config ccache libeigen3-dev libfmt-dev libnanoflann-dev
-       zlib1g-dev libpng-dev libcli11-dev)
+       zlib1g-dev libpng-dev libfreetype-dev fonts-dejavu-core libcli11-dev)
 demo=(python3-numpy python3-skimage libcgal-demo)
 # Peers and tools that tests compare with or look through.
 test=(libgtest-dev libbenchmark-dev libpcl-dev ripser python3-gudhi python3-numpy librsvg2-bin git

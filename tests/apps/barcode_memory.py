@@ -151,7 +151,10 @@ class Limits(ProgramTest):
         os.chdir(self.folder)
         self.addCleanup(os.chdir, "/")
         ends = {0: 0, 75: 0, None: 0}
+        version = self.expect(0, "--version", "--verbose").stdout
         for arguments in BLOW_UPS:
+            if "out.png" in arguments and "PNG plots   no" in version:
+                continue
             for limit in LIMITS:
                 with self.subTest(arguments=arguments, limit=limit):
                     code, peak, message = self.run_within(limit, arguments)

@@ -186,7 +186,7 @@ def outputs():
                   message=".", named="missing/out.svg")
     for option, path in (("-o", "missing/out.pcd"), ("--labels", "missing/out.npy"),
                          ("--json", "missing/out.json"), ("--barcode", "missing/out.csv"),
-                         ("--plot", "missing/out.svg"), ("--plot", "missing/out.png"), ("--coloured", "missing/out.ply")):
+                         ("--plot", "missing/out.svg"), ("--coloured", "missing/out.ply")):
         yield refused(55, f"ph-segment {option}", "cloud.xyz", option, path, code=73, message=".",
                       named=path, program=SEGMENT, files={"cloud.xyz": b"0 0 1\n1 0 1\n"})
     yield refused(56, "a folder without write permission", "square.txt", "-o", "closed/out.csv",
