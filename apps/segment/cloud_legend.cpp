@@ -45,8 +45,8 @@ ColouredPicture with_legend(CloudPicture picture, std::span<const std::uint32_t>
   for (std::size_t k = 0; k < listed; ++k) {
     const std::size_t i = order[k];
     std::string name = std::to_string(numbers.empty() ? i + 1 : numbers[i]);
-    if (picture.middles[i]) {
-      const auto [x, y] = *picture.middles[i];
+    if (const auto& middle = picture.middles[i]) {
+      const auto [x, y] = *middle;
       ColouredPicture::Mark mark{x, y, name};
       const auto is_near = [&](const auto& other) { return collide(mark, other); };
       if (std::ranges::none_of(result.marks, is_near)) result.marks.push_back(std::move(mark));

@@ -237,7 +237,7 @@ TEST_F(PngPlot, PixelsOfAPictureAreKept) {
   EXPECT_EQ(decoded(png_plot(picture)).height, 20);
   // A raster wider than the column is made smaller.
   ColouredPicture wide;
-  wide.raster = {2080, 2, 1, 16, std::vector<std::uint16_t>(2080 * 2, 0x8000)};
+  wide.raster = {2080, 2, 1, 16, std::vector<std::uint16_t>(4160, 0x8000)};
   const Raster narrow = decoded(png_plot(wide));
   EXPECT_EQ(narrow.width, 1040);
   EXPECT_EQ(colour_at(narrow, 1039, 0), (Colour{128, 128, 128}));

@@ -25,7 +25,8 @@ double draw_legend(Canvas& canvas, const ColouredPicture& picture, double top) {
   const std::size_t rows = (picture.legend.size() + kColumns - 1) / kColumns;
   for (std::size_t i = 0; i < picture.legend.size(); ++i) {
     const auto& [colour, name, value] = picture.legend[i];
-    const double x = kLeft + static_cast<double>(i / rows) * (width + kGap);
+    const std::size_t column = i / rows;
+    const double x = kLeft + static_cast<double>(column) * (width + kGap);
     const double y = top + kRow * static_cast<double>(i % rows);
     if (colour) canvas.rect(x, y + 0.5, kSquare, kSquare, *colour);
     canvas.text(colour ? x + kSquare + 3 : x, y + 6, name);

@@ -14,7 +14,8 @@
 
 // The font, DejaVu Sans, as CMake found it: where a program runs there may be none, or another one.
 extern "C" {
-extern const unsigned char ph_plot_font_begin[], ph_plot_font_end[];
+extern const unsigned char kFontBegin[] __asm__("ph_plot_font_begin");
+extern const unsigned char kFontEnd[] __asm__("ph_plot_font_end");
 }
 __asm__(
     ".pushsection .rodata\n"
@@ -114,9 +115,8 @@ struct Font::Face {
 Font::Font() : face_(std::make_unique<Face>()) {
   face_->require(FT_New_Library(&face_->memory, &face_->library));
   FT_Add_Default_Modules(face_->library);
-  face_->require(FT_New_Memory_Face(face_->library, ph_plot_font_begin,
-                                    static_cast<FT_Long>(ph_plot_font_end - ph_plot_font_begin), 0,
-                                    &face_->face));
+  face_->require(FT_New_Memory_Face(face_->library, kFontBegin,
+                                    static_cast<FT_Long>(kFontEnd - kFontBegin), 0, &face_->face));
 }
 
 Font::~Font() = default;

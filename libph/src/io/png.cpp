@@ -130,7 +130,7 @@ bool write_pixels(Writer& writer, std::ostream& out, const Raster& raster, png_b
                static_cast<png_uint_32>(raster.height), raster.bits, kColours[raster.channels],
                PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   if (raster.dots_per_inch > 0) {
-    const auto dots_a_metre = static_cast<png_uint_32>(raster.dots_per_inch / 0.0254 + 0.5);
+    const auto dots_a_metre = static_cast<png_uint_32>(std::lround(raster.dots_per_inch / 0.0254));
     png_set_pHYs(writer.png, writer.info, dots_a_metre, dots_a_metre, PNG_RESOLUTION_METER);
   }
   png_write_info(writer.png, writer.info);
