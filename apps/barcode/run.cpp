@@ -176,10 +176,6 @@ struct Outputs {
   void write(const Barcode& bars, const BarcodeInfo& info, const Job& job,
              const Arguments& arguments, std::span<const std::string> trees,
              const RunContext& context) {
-    if (barcode) {
-      write_barcode(barcode->file(), bars, job.format, info);
-      barcode->commit();
-    }
     auto tree = trees.begin();
     for (std::size_t i = 0; i < plots.size(); ++i) {
       const app::Plot& plot = arguments.plots[i];
@@ -187,8 +183,13 @@ struct Outputs {
       PlotOptions options;
       options.kind = kind.value_or(options.kind);
       plots[i].write(kind ? app::drawn(plot, bars, options, context) : *tree++);
-      plots[i].commit();
     }
+    // Pixels may exceed the memory: nothing is complete before all is drawn.
+    if (barcode) {
+      write_barcode(barcode->file(), bars, job.format, info);
+      barcode->commit();
+    }
+    for (app::Output& plot : plots) plot.commit();
   }
 };
 

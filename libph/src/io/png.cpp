@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <png.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <new>
 #include <ostream>
