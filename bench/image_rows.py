@@ -35,7 +35,14 @@ def smooth(shape, generator):
     return waves + 0.01 * generator.random(shape)
 
 
-KINDS = {"noise": noise, "smooth": smooth, "8-bit": eight_bit}
+def smooth_8_bit(shape, generator):
+    """What a camera or a scanner makes of it: 256 values, most neighbours equal, a little noise between two of them."""
+    values = smooth(shape, generator)
+    values -= values.min()
+    return numpy.floor(values * (255.99 / values.max()))
+
+
+KINDS = {"noise": noise, "smooth": smooth, "8-bit": eight_bit, "smooth 8-bit": smooth_8_bit}
 SIZES = {"2048²": (2048, 2048), "64³": (64, 64, 64), "128³": (128, 128, 128), "256³": (256, 256, 256),
          "512³": (512, 512, 512), "24⁴": (24, 24, 24, 24), "32⁴": (32, 32, 32, 32)}
 
