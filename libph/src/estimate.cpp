@@ -44,12 +44,17 @@ double stored_bytes(const ExplicitComplex& complex, Engine) {
 }
 
 detail::MemoryForecast forecast_voxels(const Cubical& cubical, double held,
-                                       bool with_representatives) {
+                                       bool with_representatives, const RunContext& context) {
   if (cubical.slot_count() == 0) return detail::forecast_voxels(held, 0, 0, with_representatives);
   const CubicalImage grid = cubical.cubical_image();
-  return detail::forecast_voxels(held + cubical::bytes_to_pair_voxels(grid),
-                                 static_cast<double>(grid.size()),
-                                 static_cast<double>(cubical.slot_count()), with_representatives);
+  detail::MemoryForecast forecast = detail::forecast_voxels(
+      held + cubical::bytes_to_pair_voxels(grid), static_cast<double>(grid.size()),
+      static_cast<double>(cubical.slot_count()), with_representatives);
+  const bool is_short =
+      forecast.high - held > static_cast<double>(context.memory.left()) || context.slab_layers > 0;
+  if (is_short && !with_representatives)
+    forecast.low = held + cubical::least_bytes_to_pair_voxels(grid);
+  return forecast;
 }
 
 RunPlan plan_of(const detail::Plan& plan) {
@@ -92,8 +97,8 @@ Estimate estimate_one(const Complex& complex, const Options& options, const RunC
   detail::MemoryForecast forecast;
   if (e.engine == Engine::arrows) {
     if constexpr (std::same_as<Complex, Cubical>)
-      forecast =
-          forecast_voxels(complex, e.bytes_held, options.representatives != Representatives::none);
+      forecast = forecast_voxels(complex, e.bytes_held,
+                                 options.representatives != Representatives::none, context);
   } else {
     e.cells = cells_of(complex, detail::listed_dim(e.engine, e.max_dim), context);
     forecast = detail::forecast_cells(e.bytes_held, e.cells);

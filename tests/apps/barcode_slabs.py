@@ -5,13 +5,14 @@ import gzip
 import math
 import os
 import random
+import re
 import subprocess
 
 import program
 from program import ProgramTest, main
 
 EXTENTS = (160, 150, 144)
-MIB = 1 << 20
+UNITS = {"KiB": 1 / 1024, "MiB": 1, "GiB": 1024}  # MiB
 BESIDE = 32  # MiB that code, libraries and small things may take beside the limit
 
 
@@ -60,6 +61,15 @@ class Slabs(ProgramTest):
                         if options[0] == "--memory-limit":
                             self.assertLess(peak, int(options[1][:-3]) + BESIDE)
         self.assertEqual(self.files(), ["out.csv", "square.txt", "waves.raw", "waves.raw.gz"])
+
+    def test_what_they_take_is_foreseen(self):
+        os.chdir(self.folder)
+        self.addCleanup(os.chdir, "/")
+        for options in (("--memory-limit", "24MiB"), ("--slab-layers", "4"), ()):
+            _, peak = self.bars("waves.raw", *options)
+            said = self.expect(0, "waves.raw", *self.raw, *options, "--dry-run").stdout
+            least, unit = re.search(r"^memory +([\d.]+) (\wiB) to ", said, re.MULTILINE).groups()
+            self.assertLess(float(least) * UNITS[unit], peak, said)
 
     def test_loops_that_do_not_fit(self):
         random.seed(3)

@@ -17,10 +17,27 @@ bool can_pair_voxels(const CubicalImage& grid) {
   return GridFrame::can_hold(grid) || can_pair_cells(grid);
 }
 
+namespace {
+
+constexpr double kBytesOfVoxel = 8;  // a star, and a node of a graph; or ranks
+
+/// Slabs of small images would take as much as they do.
+bool may_be_cut(const GridFrame& frame) {
+  constexpr std::uint32_t few = 1 << 18;  // voxels
+  return Slabs::can_cut(frame) && frame.size() >= few;
+}
+
+}  // namespace
+
 double bytes_to_pair_voxels(const CubicalImage& grid) {
-  // Stars, and the nodes of a graph; or ranks.
-  const double of_voxels = 8 * static_cast<double>(grid.size());
+  const double of_voxels = kBytesOfVoxel * static_cast<double>(grid.size());
   return GridFrame::can_hold(grid) ? of_voxels : of_voxels + bytes_of_cells(grid);
+}
+
+double least_bytes_to_pair_voxels(const CubicalImage& grid) {
+  if (!GridFrame::can_hold(grid)) return bytes_to_pair_voxels(grid);
+  const GridFrame frame(grid);
+  return may_be_cut(frame) ? kBytesOfVoxel * frame.layer_size() : bytes_to_pair_voxels(grid);
 }
 
 namespace {
@@ -70,9 +87,7 @@ void pair_by_components(const StarGrid& grid, const WantedBars& wanted, const Ru
 
 // Whether all fits into memory at a time: by what some layers take if that is not clear.
 bool fits(const CubicalImage& voxels, const GridFrame& frame, const RunContext& context) {
-  constexpr double least = 8, most = 168, per_cell = 64;  // bytes a voxel, and a critical cell
-  constexpr std::uint32_t few = 1 << 18;  // voxels whose slabs would take as much as they do
-  if (frame.size() < few) return true;
+  constexpr double least = kBytesOfVoxel, most = 168, per_cell = 64;  // a voxel, a critical cell
   // What is read of a file is in memory, too.
   const double in_file = voxels.is_in_file ? static_cast<double>(bytes_of(voxels.type)) : 0;
   const double left = static_cast<double>(context.memory.left()) - in_file * frame.size();
@@ -129,7 +144,8 @@ void pair_voxels(const CubicalImage& voxels, const K& field, const WantedBars& w
   }
   const GridFrame frame(voxels);
   PairSink pairs(frame, wanted.cells, sink);
-  if (Slabs::can_cut(frame) && (context.slab_layers > 0 || !fits(voxels, frame, context))) {
+  if (context.slab_layers > 0 ? Slabs::can_cut(frame)
+                              : may_be_cut(frame) && !fits(voxels, frame, context)) {
     const auto layers = context.slab_layers > 0 ? static_cast<std::uint32_t>(context.slab_layers)
                                                 : layers_that_fit(frame, context);
     pair_in_slabs(Slabs(frame, layers, context), field, wanted, context, pairs);

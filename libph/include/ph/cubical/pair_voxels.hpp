@@ -33,6 +33,9 @@ bool can_pair_voxels(const CubicalImage& grid);
 /// The bytes that it takes beside the image, but for what critical cells and bars take.
 /// Precondition: it can.
 double bytes_to_pair_voxels(const CubicalImage& grid);
+/// The same where memory is so short that it sees the image some layers at a time; more, if it does
+/// not do so. Precondition: it can.
+double least_bytes_to_pair_voxels(const CubicalImage& grid);
 
 /// The pairs of positive length of the cubical filtration of an image.
 /// Values of bars are those of the filtration. Cells are those of the pairs in the order of
