@@ -14,6 +14,7 @@
 #include "report/point_arrays.hpp"
 #include "report/report_file.hpp"
 #include "report/sha256.hpp"
+#include "report/voxel_arrays.hpp"
 
 namespace ph::barcode {
 namespace {
@@ -138,13 +139,18 @@ void write_report(OutputFile& file, const Shown& shown, const Arguments& argumen
                   app::Session& session) {
   const std::optional<ShownTree> tree = tree_if_it_fits(shown, arguments, session);
   const std::optional<CubicalImage> image = image_of(shown);
-  const report::Metadata meta = metadata_of(shown, arguments, image, tree);
+  report::Metadata meta = metadata_of(shown, arguments, image, tree);
+  const report::VoxelSets sets =
+      image ? report::voxel_sets(shown.barcode, session.context()) : report::VoxelSets();
+  if (const std::string note = sets.note(); !note.empty())
+    meta.provenance.notes.emplace_back("Sets of voxels", note);
   ReportFile report(file, meta, session.context());
   report::add_pictures(report, std::span(&shown.barcode, 1), meta);
   // Doubled coordinates mean something on an image that is there only.
   const bool cells = shown.barcode.cell_kind() != CellKind::grid || image.has_value();
   report::add_bars(report, shown.barcode, "bars", cells);
   if (cells) report::add_chains(report, shown.barcode);
+  report::add_voxel_sets(report, sets);
   std::span<const std::uint32_t> leaf_of;
   if (tree) {
     report::add_tree(report, tree->tree, tree->contracted, tree->bars, tree->meta.rule);

@@ -18,7 +18,7 @@ std::string numbers(const std::optional<std::array<double, 3>>& values) {
 
 std::string barcode(const BarcodeMeta& meta) {
   constexpr std::string_view kinds[] = {"vertices", "grid", "row"};
-  constexpr std::string_view chains[] = {"", "cycles", "cocycles", "cycles"};
+  constexpr std::string_view chains[] = {"", "cycles", "cocycles", "voxels"};
   return JsonObject()
       .text("name", meta.name)
       .text("cells", kinds[static_cast<int>(meta.cells)])

@@ -197,6 +197,39 @@ class Reports(ProgramTest):
         self.assertEqual(report.meta["image"], {"construction": "cells"})
         self.assertNotIn("tree", report.meta)
 
+    def test_sets_of_voxels_are_those_of_the_json(self):
+        rng = random.Random(8)
+        for shape in ((9, 11), (5, 6, 7)):
+            count = math.prod(shape)
+            self.write("i.npy", npy(shape, [float(rng.randrange(60)) for _ in range(count)]))
+            for construction in ("vertices", "cells"):
+                report = self.report("i.npy", "--representatives", "voxels", "-o", "i.json",
+                                     "--construction", construction)
+                self.assertEqual(report.meta["barcodes"][0]["representatives"], "voxels")
+                bars = json.loads(self.read("i.json"))["bars"]
+                runs, start = report.arrays["voxels/runs"].rows(), report["voxels/start"]
+                sets = {bar: runs[start[i]:start[i + 1]]
+                        for i, bar in enumerate(report["voxels/bar"])}
+                self.assertEqual(sets, {i: [tuple(run) for run in bar["voxels"]]
+                                        for i, bar in enumerate(bars) if "voxels" in bar})
+                self.assertEqual({bars[i]["dim"] for i in sets}, {0, len(shape) - 1})
+                self.assertEqual(report["chains/bar"],
+                                 [i for i, bar in enumerate(bars) if "representative" in bar])
+                self.assertNotIn("Sets of voxels", report.meta["provenance"].get("notes", {}))
+
+    def test_sets_that_are_too_large_are_left_out_with_a_note(self):
+        # A comb: each tooth is a voxel in every row, and goes to the next one with those before it.
+        rows, columns = 400, 400
+        values = [float(columns - x if x % 2 == 0 else 9999 if y else columns + x)
+                  for y in range(rows) for x in range(columns)]
+        self.write("i.npy", npy((rows, columns), values))
+        report = self.report("i.npy", "--representatives", "voxels", "--max-dim", "0")
+        note = report.meta["provenance"]["notes"]["Sets of voxels"]
+        self.assertRegex(note, r"^sets of \d+ of \d+ bars")
+        runs = len(report.arrays["voxels/runs"].rows())
+        self.assertTrue(300_000 < runs <= 400_000, runs)
+        self.assertLess(os.path.getsize(self.path("r.html")), 12_000_000)
+
     def test_images_that_a_page_cannot_show(self):
         for shape in ((8,), (2, 2, 2, 2)):
             count = math.prod(shape)

@@ -22,6 +22,7 @@
 #include "report/report_file.hpp"
 #include "report/sha256.hpp"
 #include "report/tree_arrays.hpp"
+#include "report/voxel_arrays.hpp"
 
 namespace ph::report {
 namespace {
@@ -348,6 +349,50 @@ TEST(Trees, TheLeastCutKeepsNoMoreThanAskedFor) {
     }
   EXPECT_EQ(least_cut(tree, CutRule::persistence, 100), 6);
   EXPECT_EQ(least_cut({}, CutRule::value, 1), 0);
+}
+
+/// Bars of H0 by birth: (birth, voxels of its set).
+Barcode with_sets(const std::vector<std::pair<double, std::vector<std::uint32_t>>>& bars) {
+  Barcode barcode(CellKind::grid);
+  for (const auto& [birth, places] : bars) {
+    const Index cell[] = {0, 0};
+    barcode.add({0, birth, 10}, cell, cell);
+    barcode.set_representative(Representatives::voxels, {}, {});
+    const std::size_t begin = barcode.store_voxels(places);
+    barcode.set_voxels({begin, begin + places.size()}, cell, cell);
+  }
+  return barcode;
+}
+
+using Places = std::vector<std::uint32_t>;
+
+TEST(VoxelSets, AreRunsTheMostPersistentFirst) {
+  const VoxelSets sets =
+      voxel_sets(with_sets({{5, {9, 7, 8, 3}}, {1, {0}}, {2, {}}, {3, {70'000, 2, 1}}}), {});
+  EXPECT_EQ(sets.bars, (Places{1, 3, 0}));
+  EXPECT_EQ(sets.start, (Places{0, 1, 3, 5}));
+  EXPECT_EQ(sets.runs, (Places{0, 1, 1, 2, 70'000, 1, 3, 1, 7, 3}));
+  EXPECT_EQ(sets.note(), "");
+}
+
+TEST(VoxelSets, ThatExceedTheBudgetAreLeftOutAndCounted) {
+  const Barcode barcode = with_sets({{1, {0, 2, 4, 6}}, {2, {1, 2, 3}}, {3, {0, 2}}, {4, {5}}});
+  const VoxelSets few_runs = voxel_sets(barcode, {}, {.runs = 3});
+  EXPECT_EQ(few_runs.bars, (Places{1, 2}));
+  EXPECT_EQ(few_runs.start, (Places{0, 1, 3}));
+  EXPECT_EQ(few_runs.runs, (Places{1, 3, 0, 1, 2, 1}));
+  EXPECT_EQ(few_runs.left_out, 2U);
+  EXPECT_NE(few_runs.note().find("2 of 4 bars"), std::string::npos);
+  const VoxelSets few_voxels = voxel_sets(barcode, {}, {.voxels = 6});
+  EXPECT_EQ(few_voxels.bars, (Places{0, 2}));
+  EXPECT_EQ(few_voxels.left_out, 2U);
+}
+
+TEST(VoxelSets, AreThoseOfABarcodeThatHasThem) {
+  Barcode cycles;
+  const Index cell[] = {0};
+  cycles.add({0, 0, 1}, cell, cell);
+  EXPECT_TRUE(voxel_sets(cycles, {}).bars.empty());
 }
 
 }  // namespace

@@ -42,9 +42,12 @@ export class CellGeometry {
       corners.push([...this.report.cloud!.positions.subarray(3 * element, 3 * element + 3)]);
     }
     if (corners.length === 1) to.points.push(...corners[0]!);
-    if (corners.length === 3) to.triangles.push(...corners.flat());
     for (let i = 0; i < corners.length; ++i)
-      for (let j = 0; j < i; ++j) to.segments.push(...corners[j]!, ...corners[i]!);
+      for (let j = 0; j < i; ++j) {
+        to.segments.push(...corners[j]!, ...corners[i]!);
+        for (let k = 0; k < j; ++k)
+          to.triangles.push(...corners[k]!, ...corners[j]!, ...corners[i]!);
+      }
   }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A colour for each point or voxel, by what the reader asked for. What is not brought out fades.
-import { ramp, segmentColour, type Rgb } from "./palette";
+import { dimColour, ramp, segmentColour, type Rgb } from "./palette";
+import { barsInView } from "./representatives";
+import { runsOf } from "./voxel_sets";
 import type { ColourMode, Session } from "./session";
 
 export interface Range {
@@ -11,6 +13,10 @@ export interface Range {
 /// Red in the lowest byte, as the bytes of a texture are read.
 function packed([r, g, b]: Rgb): number {
   return (0xff000000 | (b << 16) | (g << 8) | r) >>> 0;
+}
+
+function rgbOf(hex: string): Rgb {
+  return [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16)) as Rgb;
 }
 
 /// `part` of 256 parts of one colour, the rest of another.
@@ -50,11 +56,14 @@ export class Colouring {
     const { session } = this;
     const painted = this.paintBase(mode);
     const { segment, bar } = session.focus;
-    const key = [segment, segment > 0 ? -1 : bar, session.scale ?? "all"].join();
+    // Where bars have sets of voxels those are seen, whichever segment is brought out.
+    const anyBar = segment > 0 && !session.report.voxels;
+    const key = [segment, anyBar ? -1 : bar, session.scale ?? "all"].join();
     if (!painted && key === this.key && session.selection === this.selection) return false;
     this.key = key;
     this.selection = session.selection;
     this.fade();
+    this.tintSets();
     return true;
   }
 
@@ -69,6 +78,20 @@ export class Colouring {
     for (let i = 0; i < count; ++i) {
       const out = (leaves && !leaves[leaf![i]!]) || (limit !== undefined && birth![i]! > limit);
       if (out) this.shown[i] = mixed(this.base[i]!, fade, 51);
+    }
+  }
+
+  /// The voxels of the bars in view, those of less persistent bars over the others.
+  private tintSets(): void {
+    const { session } = this;
+    const { voxels, bars } = session.report;
+    if (!voxels) return;
+    for (const bar of barsInView(session)) {
+      const runs = runsOf(voxels, bar);
+      const colour = packed(rgbOf(dimColour(bars.dim[bar]!, session.theme)));
+      for (let k = 0; k + 1 < runs.length; k += 2)
+        for (let i = runs[k]!, end = i + runs[k + 1]!; i < end; ++i)
+          this.shown[i] = mixed(colour, this.base[i]!, 176);
     }
   }
 

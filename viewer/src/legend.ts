@@ -123,7 +123,7 @@ export class Legend {
   }
   private showMarks(): void {
     const { session } = this;
-    const { bars, chains, tree, meta } = session.report;
+    const { bars, chains, voxels, tree, meta } = session.report;
     const shown = barsInView(session).filter((bar) => bars.barcodeOf(bar) === 0);
     this.rows.forEach((row, i) => row.classList.toggle("on", session.focus.segment === i + 1));
     const rows: HTMLElement[] = [];
@@ -132,9 +132,15 @@ export class Legend {
     const chained = new Set(
       shown.filter((bar) => chains?.ofBar.has(bar)).map((bar) => bars.dim[bar]!),
     );
-    const what = meta.barcodes[0]!.representatives?.replace(/s$/, "") ?? "representative";
+    const kind = meta.barcodes[0]!.representatives?.replace(/s$/, "") ?? "representative";
+    const what = kind === "voxel" ? "cycle" : kind;
     for (const dim of [...chained].sort((a, b) => a - b))
       mark(dimColour(dim, session.theme), `${homology(dim)} ${what}`);
+    const filled = new Set(
+      shown.filter((bar) => voxels?.ofBar.has(bar)).map((bar) => bars.dim[bar]!),
+    );
+    for (const dim of [...filled].sort((a, b) => a - b))
+      mark(dimColour(dim, session.theme), `${homology(dim)} ${dim === 0 ? "component" : "hollow"}`);
     if (shown.some((bar) => bars.cell(bar, 0).length > 0)) mark(kBirthColour, "birth cell");
     if (shown.some((bar) => bars.cell(bar, 1).length > 0)) mark(kDeathColour, "death cell");
     if (rows.length === 0 && shown.some((bar) => bars.dim[bar] !== 0 || !tree))

@@ -9,8 +9,11 @@ import {
   LineSegments,
   Mesh,
   MeshBasicMaterial,
+  type Object3D,
   Points,
   PointsMaterial,
+  ShaderMaterial,
+  Color,
 } from "three";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
@@ -25,17 +28,7 @@ export class Overlay {
     shapes.forEach((shape, i) => {
       const { points, segments, triangles } = shape.geometry;
       const parts = [
-        triangles.length > 0 &&
-          new Mesh(
-            flat(triangles),
-            new MeshBasicMaterial({
-              color: shape.colour,
-              transparent: true,
-              opacity: shape.opacity,
-              side: DoubleSide,
-              depthWrite: false,
-            }),
-          ),
+        ...(triangles.length > 0 ? (shape.surface ? shaded : filled)(flat(triangles), shape) : []),
         segments.length > 0 && wideLines(segments, shape),
         points.length > 0 &&
           new Points(
@@ -51,7 +44,7 @@ export class Overlay {
       ];
       for (const part of parts) {
         if (!part) continue;
-        part.renderOrder = 10 + i;
+        part.renderOrder = 10 * (i + 1) + part.renderOrder;
         part.frustumCulled = false;
         this.group.add(part);
       }
@@ -83,14 +76,64 @@ function flat(coordinates: ArrayLike<number>): BufferGeometry {
   return geometry;
 }
 
-function wideLines(segments: number[], shape: Shape): LineSegments2 {
+/// Marks: seen through everything.
+function filled(geometry: BufferGeometry, { colour, opacity }: Shape): Object3D[] {
+  const look = { color: colour, transparent: true, opacity, side: DoubleSide };
+  return [new Mesh(geometry, new MeshBasicMaterial({ ...look, depthTest: false }))];
+}
+
+const kVertex = `
+varying vec3 place;
+void main() {
+  place = (modelViewMatrix * vec4(position, 1.0)).xyz;
+  gl_Position = projectionMatrix * vec4(place, 1.0);
+}`;
+// Triangles of a cycle have no common side: the light falls on the side that is seen.
+const kFragment = `
+uniform vec3 colour;
+uniform float opacity;
+varying vec3 place;
+void main() {
+  vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
+  if (normal.z < 0.0) normal = -normal;
+  float light = 0.3 + 0.75 * max(0.0, dot(normal, normalize(vec3(0.4, 0.6, 0.9))));
+  gl_FragColor = vec4(min(colour * light, 1.0), opacity);
+}`;
+
+/// A surface: all of it faintly, also behind the data, then what is seen of it, shaded. For that its
+/// depth is drawn before its colours.
+function shaded(geometry: BufferGeometry, { colour, opacity }: Shape): Object3D[] {
+  const layer = (order: number, part: number, depthWrite: boolean) => {
+    const material = new ShaderMaterial({
+      vertexShader: kVertex,
+      fragmentShader: kFragment,
+      uniforms: { colour: { value: new Color(colour) }, opacity: { value: part } },
+      side: DoubleSide,
+      transparent: true,
+      depthWrite,
+      depthTest: order > 0,
+      colorWrite: part > 0,
+      polygonOffset: true, // its edges lie before it
+      polygonOffsetFactor: 1,
+      polygonOffsetUnits: 1,
+    });
+    const mesh = new Mesh(geometry, material);
+    mesh.renderOrder = order;
+    return mesh;
+  };
+  return [layer(0, 0.35 * opacity, false), layer(1, 0, true), layer(2, opacity, false)];
+}
+
+function wideLines(segments: ArrayLike<number>, shape: Shape): LineSegments2 {
   const geometry = new LineSegmentsGeometry();
-  geometry.setPositions(segments);
+  geometry.setPositions(Float32Array.from(segments));
   const material = new LineMaterial({
     color: shape.colour,
     linewidth: shape.width,
     depthTest: shape.width < 2,
     transparent: true,
   });
-  return new LineSegments2(geometry, material);
+  const lines = new LineSegments2(geometry, material);
+  lines.renderOrder = 3;
+  return lines;
 }

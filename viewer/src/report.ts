@@ -3,13 +3,14 @@
 import { decoded, PayloadError, type Block, type Numbers, type Payload } from "./payload";
 import { Bars } from "./bars";
 import { MergeTree, type CutRule } from "./merge_tree";
+import type { VoxelSets } from "./voxel_sets";
 
 export type CellKind = "vertices" | "grid" | "row";
 
 export interface BarcodeMeta {
   name: string;
   cells?: CellKind;
-  representatives?: "cycles" | "cocycles";
+  representatives?: "cycles" | "cocycles" | "voxels";
 }
 
 export interface Provenance {
@@ -97,6 +98,7 @@ export interface Report {
   image: Image | undefined;
   tree: MergeTree | undefined;
   chains: Chains | undefined;
+  voxels: VoxelSets | undefined;
   edges: { ends: Numbers; values: Numbers } | undefined;
   payloadBytes: number;
 }
@@ -189,6 +191,7 @@ export function reportOf(payload: Payload): Report {
     image,
     tree: meta.tree ? treeOf(meta.tree, need, array, bars) : undefined,
     chains: chainsOf(need, array, bars, meta),
+    voxels: image && voxelsOf(need, array, image),
     edges,
     payloadBytes: payload.bytes,
   };
@@ -268,4 +271,19 @@ function chainsOf(
   if (first[bar.length]! > cells.length) fail("chains/cells is too short");
   if (meta.barcodes[0]?.cells === "row") return undefined;
   return { ofBar, start, cells, coefficients: array("chains/coefficients"), first };
+}
+
+function voxelsOf(
+  need: (name: string) => Numbers,
+  array: (name: string) => Numbers | undefined,
+  image: Image,
+): VoxelSets | undefined {
+  const bar = array("voxels/bar");
+  if (!bar) return undefined;
+  const start = need("voxels/start"),
+    runs = need("voxels/runs");
+  if (2 * (start[bar.length] ?? Infinity) > runs.length) fail("voxels/runs is too short");
+  for (let i = 0; i + 1 < runs.length; i += 2)
+    if (runs[i]! + runs[i + 1]! > image.values.length) fail("voxels/runs leaves the image");
+  return { ofBar: new Map(Array.from(bar, (b, i) => [b, i])), start, runs, surfaces: new Map() };
 }

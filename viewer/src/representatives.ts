@@ -3,16 +3,20 @@
 import { CellGeometry, emptyGeometry, type Geometry } from "./cell_geometry";
 import { dimColour } from "./palette";
 import type { Session } from "./session";
+import { surfaceOfBar } from "./voxel_sets";
 
 export interface Shape {
-  geometry: Geometry;
+  geometry: { [kind in keyof Geometry]: ArrayLike<number> };
   colour: string;
   width: number; // of its segments, pixels
   opacity: number; // of its triangles
+  surface: boolean; // its triangles are shaded by how they lie, and what is behind them is hidden
 }
 
 const kMostChains = 100,
-  kMostCells = 400_000;
+  kMostCells = 400_000,
+  kMostCorners = 1_200_000, // of the surfaces around voxels
+  kMostOutlined = 4000; // cells of a surface: the edges of more are a tangle
 
 export const kBirthColour = "#f0e442",
   kDeathColour = "#cc79a7";
@@ -31,12 +35,14 @@ export function barsInView(session: Session): number[] {
 
 export function shapesOf(session: Session): Shape[] {
   const { report, theme } = session;
-  const { bars, chains } = report;
+  const { bars, chains, voxels, image } = report;
   const cells = new CellGeometry(report);
   const births = emptyGeometry(),
     deaths = emptyGeometry();
   const byDim = new Map<number, Geometry>();
-  let left = kMostCells;
+  const hulls: Shape[] = [];
+  let left = kMostCells,
+    cornersLeft = kMostCorners;
   for (const bar of barsInView(session)) {
     if (bars.barcodeOf(bar) !== 0) continue;
     const dim = bars.dim[bar]!;
@@ -44,6 +50,11 @@ export function shapesOf(session: Session): Shape[] {
       death = bars.cell(bar, 1);
     if (birth.length > 0) cells.add(births, birth, 0, birth.length);
     if (death.length > 0) cells.add(deaths, death, 0, death.length);
+    if (voxels?.ofBar.has(bar) && image!.shape[0]! > 1 && cornersLeft > 0) {
+      const triangles = surfaceOfBar(voxels, bar, image!.shape);
+      cornersLeft -= triangles.length / 3;
+      hulls.push(surfaceShape({ ...emptyGeometry(), triangles }, dimColour(dim, theme)));
+    }
     const chain = chains?.ofBar.get(bar);
     if (chain === undefined || !chains) continue;
     const arity = bars.arity(bar, 0);
@@ -57,13 +68,19 @@ export function shapesOf(session: Session): Shape[] {
       cells.add(geometry, chains.cells, at, arity);
   }
   return [
-    ...[...byDim].map(([dim, geometry]) => ({
-      geometry,
-      colour: dimColour(dim, theme),
-      width: dim >= 2 ? 1 : 3.5,
-      opacity: 0.3,
-    })),
-    { geometry: deaths, colour: kDeathColour, width: 2.5, opacity: 0.45 },
-    { geometry: births, colour: kBirthColour, width: 5, opacity: 0.5 },
+    ...hulls,
+    ...[...byDim].map(([dim, geometry]) =>
+      dim >= 2
+        ? surfaceShape(geometry, dimColour(dim, theme))
+        : { geometry, colour: dimColour(dim, theme), width: 3.5, opacity: 0.3, surface: false },
+    ),
+    { geometry: deaths, colour: kDeathColour, width: 2.5, opacity: 0.45, surface: false },
+    { geometry: births, colour: kBirthColour, width: 5, opacity: 0.5, surface: false },
   ];
+}
+
+function surfaceShape(geometry: Shape["geometry"], colour: string): Shape {
+  const many = geometry.triangles.length > 9 * kMostOutlined;
+  const shown = many ? { ...geometry, segments: [] } : geometry;
+  return { geometry: shown, colour, width: 1, opacity: 0.5, surface: true };
 }

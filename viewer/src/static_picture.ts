@@ -8,7 +8,10 @@ import type { Shape } from "./representatives";
 import type { Pose } from "./pose";
 
 const kMostPoints = 6000,
+  kMostTriangles = 4000,
   kSide = 600;
+
+type Triple = [Vector3, Vector3, Vector3];
 
 export class StaticPicture {
   readonly element = svg(
@@ -45,7 +48,7 @@ export class StaticPicture {
     this.element.replaceChildren(
       this.element.firstChild!,
       ...marks,
-      ...shapes.flatMap((shape) => this.lines(shape)),
+      ...shapes.flatMap((shape) => [...this.triangles(shape), ...this.lines(shape)]),
     );
   }
 
@@ -63,6 +66,20 @@ export class StaticPicture {
       });
     }
     return seen.sort((a, b) => b.depth - a.depth).map(({ dot }) => dot);
+  }
+  /// The farthest first. Of very many every so many are drawn: the shape is seen by them.
+  private triangles(shape: Shape): SVGElement[] {
+    const { triangles } = shape.geometry;
+    const step = 9 * Math.max(1, Math.ceil(triangles.length / 9 / kMostTriangles));
+    const seen: { depth: number; mark: SVGElement }[] = [];
+    for (let i = 0; i + 8 < triangles.length; i += step) {
+      const [a, b, c] = [0, 3, 6].map((k) => this.project(triangles, i + k)) as Triple;
+      const points = [a, b, c].map((p) => `${p.x.toFixed(1)},${p.y.toFixed(1)}`).join(" ");
+      const opacity = shape.surface ? 0.4 * shape.opacity : shape.opacity;
+      const mark = svg("polygon", { points, fill: shape.colour, "fill-opacity": opacity });
+      seen.push({ depth: a.z + b.z + c.z, mark });
+    }
+    return seen.sort((a, b) => b.depth - a.depth).map(({ mark }) => mark);
   }
   private lines(shape: Shape): SVGElement[] {
     const { segments, points } = shape.geometry;

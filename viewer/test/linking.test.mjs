@@ -7,7 +7,7 @@ import * as odd from "./support/odd_fixtures.mjs";
 import { torus } from "./support/point_fixtures.mjs";
 import { scene } from "./support/scene_fixture.mjs";
 import { cutOf } from "./support/reference_tree.mjs";
-import { canRun, coloursOf, launch, open, picture } from "./support/browser.mjs";
+import { canRun, coloursOf, launch, open, picture, tintedPixels } from "./support/browser.mjs";
 
 // Limits are for an idle machine.
 const kPatience = Number(process.env.PATIENCE ?? 4);
@@ -152,6 +152,26 @@ test("linked views of points", { skip, timeout: 120_000 }, async (t) => {
     await frame(page);
     assert.match(await selection(page), /^H[₁₂]/);
     assert.ok((await drawnOver(page, ".diagram")) > 20);
+  });
+
+  await t.test("a surface is filled, also where there is no WebGL", async (tt) => {
+    const green = [0, 158, 115];
+    const bar = report.arrays["bars/dim"].indexOf(2);
+    const still = await launch({ webgl: false });
+    tt.after(() => still.close());
+    for (const [there, view] of [
+      [browser, ".stage"],
+      [still, ".stage svg"],
+    ]) {
+      const none = await open(there, report, { hash: "#colour=plain" });
+      const before = await tintedPixels(none.page, view, green);
+      await none.close();
+      const one = await open(there, report, { hash: `#colour=plain&bars=${bar}` });
+      const after = await tintedPixels(one.page, view, green);
+      assert.ok(before < 500 && after > 15_000, `${view}: ${before} and ${after} green pixels`);
+      assert.match(await one.page.textContent(".legend .marks"), /H₂ cycle.*birth cell.*death cell/);
+      await one.close();
+    }
   });
 
   await t.test("the filtration grows edges", async () => {

@@ -7,9 +7,9 @@ import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "no
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import test from "node:test";
-import { spherePoints, tableScene } from "./support/program_inputs.mjs";
+import { npy, spherePoints, tableScene } from "./support/program_inputs.mjs";
 
-const { canRun, coloursOf, launch, open, picture } = await import("./support/browser.mjs").catch(
+const { canRun, coloursOf, launch, open, picture, tintedPixels } = await import("./support/browser.mjs").catch(
   (error) => {
     console.log(`SKIPPED: ${error.message} (npm ci in viewer/)`);
     process.exit(77);
@@ -42,14 +42,17 @@ async function look(browser, name, views, act = async () => {}) {
   await close();
 }
 
+/// Input waits for the next frame.
+const frames = (page) =>
+  page.evaluate(
+    () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))),
+  );
+
 /// The number of segments that the page states at a cut.
 async function countAt(page, cut) {
   await page.fill(".cut input[type=number]", String(cut));
   await page.keyboard.press("Enter");
-  // Input waits for the next frame.
-  await page.evaluate(
-    () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))),
-  );
+  await frames(page);
   return Number((await page.textContent(".cut .outcome")).replace(/\D/g, ""));
 }
 
@@ -84,6 +87,43 @@ test("reports of the programs", { timeout: 300_000 }, async (t) => {
     writeFileSync(join(folder, "waves.pgm"), `P2\n32 24\n255\n${rows.join("\n")}\n`);
     run(barcode, "waves.pgm", "-o", "waves.csv", "--report", "waves.html");
     await look(browser, "waves.html", [...kCharts, ".stage", ...kTree]);
+  });
+
+  await t.test("ph-barcode: sets of voxels are coloured in a picture, surfaces in a volume", async () => {
+    const kGreen = [0, 158, 115],
+      kOrange = [213, 94, 0];
+    const grid = (size, value) => Array.from({ length: size }, (_, i) => value(i));
+    // A ring, and a ball with a hollow.
+    const ring = grid(40 * 40, (i) => Math.hypot((i % 40) - 20, Math.floor(i / 40) - 20));
+    const ball = grid(24 ** 3, (i) =>
+      Math.hypot((i % 24) - 12, (Math.floor(i / 24) % 24) - 12, Math.floor(i / 576) - 12),
+    );
+    const write = (name, shape, distances, radius) =>
+      writeFileSync(
+        join(folder, name),
+        npy(shape, distances.map((d) => Math.abs(d - radius))),
+      );
+    write("ring.npy", [40, 40], ring, 12);
+    write("ball.npy", [24, 24, 24], ball, 8);
+    for (const [name, dim, colour, least] of [
+      ["ring", 1, kOrange, 3000],
+      ["ball", 2, kGreen, 3000],
+    ]) {
+      run(barcode, `${name}.npy`, "--representatives", "voxels", "-o", `${name}.csv`,
+        "--report", `${name}.html`);
+      const rows = written(`${name}.csv`).trim().split("\n").slice(1).map((r) => r.split(",").map(Number));
+      const length = ([d, birth, death]) => (d === dim ? death - birth : -1);
+      const bar = rows.indexOf([...rows].sort((a, b) => length(b) - length(a))[0]);
+      await look(browser, `${name}.html`, [...kCharts, ".stage"], async (page) => {
+        await page.selectOption(".data select", "birth");
+        const before = await tintedPixels(page, ".stage", colour);
+        await page.evaluate((b) => (location.hash = `colour=birth&bars=${b}`), bar);
+        await frames(page);
+        const after = await tintedPixels(page, ".stage", colour);
+        assert.ok(after - before > least, `${name}: ${before} and ${after} pixels`);
+        assert.match(await page.textContent(".legend .marks"), /hollow.*birth cell.*death cell/);
+      });
+    }
   });
 
   await t.test("ph-barcode: two barcodes, a hostile name, no points", async () => {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "barcode_formats.hpp"
+#include "ph/core/place_runs.hpp"
 
 namespace ph {
 namespace {
@@ -76,32 +77,6 @@ void write_chain(OutputFile& file, const InputChain& chain) {
     file.write(fmt::format("{}{{{}, \"coefficient\": {}}}", i == 0 ? "" : ", ",
                            json_cell_member(chain.cell(i)), chain.coefficient(i)));
   file.write("]");
-}
-
-/// Calls `use(first, count)` for the runs of a set of places, ascending.
-template <class Use>
-void for_each_run(std::span<const std::uint32_t> places, Use&& use) {
-  if (places.empty()) return;
-  const auto [low, high] = std::ranges::minmax(places);
-  std::uint64_t first = low, end = low;  // of the run so far
-  const auto meet = [&](std::uint64_t place) {
-    if (place != end) {
-      use(first, end - first);
-      first = place;
-    }
-    end = place + 1;
-  };
-  if (std::uint64_t{high} - low < 64 * std::uint64_t{places.size()}) {
-    std::vector<bool> is_in(std::size_t{high} - low + 1);
-    for (const std::uint32_t place : places) is_in[place - low] = true;
-    for (std::size_t i = 0; i < is_in.size(); ++i)
-      if (is_in[i]) meet(std::uint64_t{low} + i);
-  } else {
-    std::vector<std::uint32_t> sorted(places.begin(), places.end());
-    std::ranges::sort(sorted);
-    for (const std::uint32_t place : sorted) meet(place);
-  }
-  use(first, end - first);
 }
 
 /// The voxels of a bar, and a cycle where there are none.

@@ -85,11 +85,11 @@ export async function open(
   };
 }
 
-/// How many colours the pixels of an element have: an empty view has one.
-export async function coloursOf(page, selector) {
+/// The pixels of an element: four bytes each.
+async function pixelsOf(page, selector) {
   const box = await page.locator(selector).first().boundingBox();
   const png = await page.screenshot({ clip: box, timeout: kPatient });
-  return page.evaluate(async (data) => {
+  const bytes = await page.evaluate(async (data) => {
     const image = new Image();
     image.src = `data:image/png;base64,${data}`;
     await image.decode();
@@ -98,9 +98,36 @@ export async function coloursOf(page, selector) {
     canvas.height = image.height;
     const c = canvas.getContext("2d");
     c.drawImage(image, 0, 0);
-    return new Set(new Uint32Array(c.getImageData(0, 0, image.width, image.height).data.buffer))
-      .size;
+    const pixels = c.getImageData(0, 0, image.width, image.height).data;
+    let text = "";
+    for (let i = 0; i < pixels.length; i += 8192)
+      text += String.fromCharCode(...pixels.subarray(i, i + 8192));
+    return btoa(text);
   }, png.toString("base64"));
+  return new Uint8Array(Buffer.from(bytes, "base64"));
+}
+
+/// How many colours the pixels of an element have: an empty view has one.
+export async function coloursOf(page, selector) {
+  const pixels = await pixelsOf(page, selector);
+  return new Set(new Uint32Array(pixels.buffer)).size;
+}
+
+const hueOf = (r, g, b) =>
+  (Math.atan2(Math.sqrt(3) * (g - b), 2 * r - g - b) * (180 / Math.PI) + 360) % 360;
+
+/// How many pixels of an element have the hue of a colour, whatever the light on it.
+export async function tintedPixels(page, selector, [r, g, b]) {
+  const pixels = await pixelsOf(page, selector),
+    wanted = hueOf(r, g, b);
+  let count = 0;
+  for (let i = 0; i < pixels.length; i += 4) {
+    const rgb = pixels.subarray(i, i + 3);
+    const vivid = Math.max(...rgb) - Math.min(...rgb) > 40;
+    const away = Math.abs(hueOf(...rgb) - wanted);
+    if (vivid && Math.min(away, 360 - away) < 12) ++count;
+  }
+  return count;
 }
 
 export async function picture(page, name) {

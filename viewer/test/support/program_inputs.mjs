@@ -29,3 +29,14 @@ export function tableScene() {
     }
   return lines.join("\n");
 }
+
+/// An array of float32 as NPY.
+export function npy(shape, values) {
+  const words = `{'descr': '<f4', 'fortran_order': False, 'shape': (${shape.join(", ")}), }`;
+  const head = Buffer.alloc(128, " ");
+  head.write("\x93NUMPY\x01\x00", "latin1");
+  head.writeUInt16LE(118, 8);
+  head.write(words, 10);
+  head.write("\n", 127);
+  return Buffer.concat([head, Buffer.from(Float32Array.from(values).buffer)]);
+}

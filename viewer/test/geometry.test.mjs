@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// What is drawn in space, held to slow ways to find the same.
+import assert from "node:assert/strict";
+import test from "node:test";
+import { importSource } from "./support/import_source.mjs";
+import { random } from "./support/random.mjs";
+
+const { surfaceOf } = await importSource("voxel_sets.ts");
+
+function runsOfMask(mask) {
+  const runs = [];
+  for (let i = 0; i < mask.length; ++i)
+    if (mask[i] && !(i > 0 && mask[i - 1])) runs.push(i, 1);
+    else if (mask[i]) ++runs[runs.length - 1];
+  return Uint32Array.from(runs);
+}
+
+/// The unit squares that triangles of rectangles along the axes cover, by name.
+function squaresOf(corners) {
+  const squares = new Set();
+  for (let i = 0; i < corners.length; i += 18) {
+    const xs = [0, 1, 2].map((k) => Array.from({ length: 6 }, (_, j) => corners[i + 3 * j + k]));
+    const low = xs.map((x) => Math.min(...x)),
+      high = xs.map((x) => Math.max(...x));
+    const flat = [0, 1, 2].filter((k) => low[k] === high[k]);
+    assert.equal(flat.length, 1);
+    const [u, v] = [0, 1, 2].filter((k) => k !== flat[0]);
+    for (let a = low[u]; a < high[u]; ++a)
+      for (let b = low[v]; b < high[v]; ++b) {
+        const at = [0, 0, 0];
+        at[flat[0]] = low[flat[0]];
+        at[u] = a;
+        at[v] = b;
+        const name = `${flat[0]}:${at}`;
+        assert.ok(!squares.has(name), "no square twice");
+        squares.add(name);
+      }
+  }
+  return squares;
+}
+
+test("the surface of a set of voxels is the squares between it and the rest", () => {
+  const next = random(5);
+  for (const shape of [
+    [1, 1, 1],
+    [3, 4, 5],
+    [5, 1, 7],
+    [6, 6, 6],
+  ])
+    for (const share of [0.1, 0.5, 0.95, 1]) {
+      const [planes, rows, columns] = shape;
+      const mask = Array.from({ length: planes * rows * columns }, () => next() < share);
+      mask[Math.floor(next() * mask.length)] = true;
+      const isIn = (p, r, c) =>
+        p >= 0 && r >= 0 && c >= 0 && p < planes && r < rows && c < columns &&
+        mask[(p * rows + r) * columns + c];
+      const expected = new Set();
+      for (let p = 0; p <= planes; ++p)
+        for (let r = 0; r <= rows; ++r)
+          for (let c = 0; c <= columns; ++c)
+            // Columns to the right, rows down, planes towards the reader.
+            [
+              [0, isIn(p, r, c - 1), [c - 0.5, -r - 0.5, p - 0.5]],
+              [1, isIn(p, r - 1, c), [c - 0.5, -r + 0.5, p - 0.5]],
+              [2, isIn(p - 1, r, c), [c - 0.5, -r - 0.5, p - 0.5]],
+            ].forEach(([axis, before, at]) => {
+              if (Boolean(before) !== Boolean(isIn(p, r, c))) expected.add(`${axis}:${at}`);
+            });
+      assert.deepEqual([...squaresOf(surfaceOf(runsOfMask(mask), shape))].sort(), [...expected].sort());
+    }
+});
+
+test("a set that is too large to draw is drawn in larger cubes, at its place", () => {
+  const shape = [200, 200, 200],
+    next = random(6);
+  const runs = [];
+  for (let at = 60; at + 10 < 200 ** 3; at += 40) runs.push(at, 1 + Math.floor(next() * 10));
+  const corners = surfaceOf(Uint32Array.from(runs), shape);
+  assert.ok(corners.length > 0 && corners.length <= 18 * 150_000, `${corners.length / 18} faces`);
+  for (let k = 0; k < 3; ++k) {
+    let low = Infinity,
+      high = -Infinity;
+    for (let i = k; i < corners.length; i += 3)
+      [low, high] = [Math.min(low, corners[i]), Math.max(high, corners[i])];
+    assert.ok(Math.abs(high - low - 200) < 32, `${k}: ${low} … ${high}`);
+  }
+});
