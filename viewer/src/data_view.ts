@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 // The data: cloud, image or volume, coloured, with what is selected drawn on it.
 import { Colouring } from "./colouring";
-import { bettiAt, ComplexEdges, kMostEdges } from "./complex_edges";
 import { button, el, select } from "./dom";
 import { ImageSlice } from "./image_slice";
 import { Legend } from "./legend";
 import { counted, grouped, homology, short } from "./numbers";
-import { Overlay, thinLines } from "./overlay";
+import { Overlay, thinLines, veil } from "./overlay";
 import { PointCloud } from "./point_cloud";
 import { firstPose, type Pose } from "./pose";
-import { shapesOf } from "./representatives";
+import { shapesOf, type Shape } from "./representatives";
+import { bettiAt, ShownComplex, type ShownPart } from "./shown_complex";
 import { Stage } from "./stage";
 import { StaticPicture } from "./static_picture";
-import type { LineSegments } from "three";
+import { Group, type LineSegments, type Mesh } from "three";
 import type { Change, ColourMode, Session } from "./session";
 
 /// Nothing without WebGL.
@@ -33,8 +33,9 @@ export class DataView {
   private readonly slice: ImageSlice | undefined;
   private readonly overlay = new Overlay();
   private readonly still: StaticPicture | undefined;
-  private readonly edges: ComplexEdges;
-  private edgeLines: LineSegments | undefined;
+  private readonly complex: ShownComplex;
+  private readonly complexGroup = new Group();
+  private complexShape: Shape | undefined; // of the still picture
   private readonly head: HTMLElement;
   private readonly body = el("div", { class: "data-body" });
   private readonly canvasHost = el("div", { class: "stage" });
@@ -46,7 +47,7 @@ export class DataView {
     const { report } = session;
     this.colouring = new Colouring(session);
     this.colouring.update();
-    this.edges = new ComplexEdges(report);
+    this.complex = new ShownComplex(report);
     const pose = firstPose(report);
     if (report.image) this.slice = new ImageSlice(report.image.shape, this.colouring.rgba);
     else {
@@ -93,7 +94,8 @@ export class DataView {
       `${this.description()}. Arrow keys turn or move it, plus and minus zoom, 0 fits it.`,
     );
     this.canvasHost.append(canvas);
-    stage.scene.add(this.cloud?.object ?? this.slice!.object, this.overlay.group);
+    stage.scene.add(this.cloud?.object ?? this.slice!.object, this.complexGroup);
+    stage.scene.add(this.overlay.group);
     if (this.slice) stage.scene.add(thinLines(Float32Array.from(this.slice.outline()), "#7d8794"));
     new ResizeObserver(() => {
       const size = { width: this.canvasHost.clientWidth, height: this.canvasHost.clientHeight };
@@ -142,7 +144,7 @@ export class DataView {
         button("fit", () => this.stage!.reset(), { class: "quiet", title: "See everything (0)" }),
       );
     if (report.image && report.image.shape[0]! > 1) this.addSliceControls(report.image.shape);
-    if (report.bars.size > 0 && (this.edges.available || report.elements!.birth))
+    if (report.bars.size > 0 && (this.complex.available || report.elements!.birth))
       this.addScrubber();
     if (report.meta.cloud?.projection)
       this.panel.append(el("p", { class: "note" }, report.meta.cloud.projection));
@@ -222,7 +224,8 @@ export class DataView {
     if (any("colour") && this.stage) this.showBeside(this.stage);
     const shapes = any("focus", "selection", "theme", "colour") ? shapesOf(session) : undefined;
     if (shapes && this.stage) this.overlay.show(shapes);
-    this.still?.draw(this.colouring.rgba, shapes ?? shapesOf(session));
+    const complex = this.complexShape ? [this.complexShape] : [];
+    this.still?.draw(this.colouring.rgba, [...complex, ...(shapes ?? shapesOf(session))]);
     this.stage?.invalidate();
   }
   private showBeside(stage: Stage): void {
@@ -242,11 +245,11 @@ export class DataView {
   }
   private showScale(): void {
     const { scale, report, theme } = this.session;
-    if (this.edgeLines) {
-      this.stage?.scene.remove(this.edgeLines);
-      this.edgeLines.geometry.dispose();
-      this.edgeLines = undefined;
+    for (const child of [...this.complexGroup.children] as (LineSegments | Mesh)[]) {
+      child.geometry.dispose();
+      this.complexGroup.remove(child);
     }
+    this.complexShape = undefined;
     if (scale === undefined) {
       this.reading.textContent = "all";
       return;
@@ -255,11 +258,12 @@ export class DataView {
       .map((b, dim) => `β${homology(dim).slice(1)} ${grouped(b)}`)
       .join("  ");
     let text = `${short(scale, 3)}   ${betti}`;
-    if (this.edges.available) {
-      const edges = this.edges.upTo(scale);
-      this.edgeLines = thinLines(edges.ends, theme.ink);
-      this.stage?.scene.add(this.edgeLines);
-      text += `   ${edges.more ? `the first ${grouped(kMostEdges)} edges` : counted(edges.count, "edge")}`;
+    if (this.complex.available) {
+      const part = this.complex.upTo(scale);
+      this.complexGroup.add(thinLines(part.ends, theme.ink), veil(part.corners, theme.ink));
+      const geometry = { points: [], segments: part.ends, triangles: part.corners };
+      this.complexShape = { geometry, colour: theme.muted, width: 0.5, opacity: 0.05, surface: false };
+      text += `   ${partInWords(part)}`;
     }
     this.reading.textContent = text;
   }
@@ -304,4 +308,10 @@ export class DataView {
     this.session.changed("view");
     event.preventDefault();
   }
+}
+
+function partInWords({ edges, triangles, more }: ShownPart): string {
+  const first = more ? `the first ${grouped(edges)} edges` : counted(edges, "edge");
+  if (triangles === undefined) return `${first}, more triangles than can be drawn`;
+  return triangles > 0 ? `${first}, ${counted(triangles, "triangle")}` : first;
 }

@@ -60,14 +60,38 @@ export class Overlay {
   }
 }
 
-/// The edges of the complex: many and thin.
+/// Many make no solid black: as much ink as `some` of them have.
+function faintest(opacity: number, count: number, some: number): number {
+  return Math.max(0.015, opacity * Math.min(1, (some / count) ** 0.75));
+}
+
+/// Edges of the complex, or an outline: many and thin.
 export function thinLines(ends: Float32Array, colour: string): LineSegments {
   const lines = new LineSegments(
     flat(ends),
-    new LineBasicMaterial({ color: colour, transparent: true, opacity: 0.35, depthWrite: false }),
+    new LineBasicMaterial({
+      color: colour,
+      transparent: true,
+      opacity: faintest(0.35, ends.length / 6, 3000),
+      depthWrite: false,
+    }),
   );
   lines.frustumCulled = false;
   return lines;
+}
+
+/// The triangles of the complex.
+export function veil(corners: Float32Array, colour: string): Mesh {
+  const material = new MeshBasicMaterial({
+    color: colour,
+    transparent: true,
+    opacity: faintest(0.16, corners.length / 9, 1000),
+    side: DoubleSide,
+    depthWrite: false,
+  });
+  const mesh = new Mesh(flat(corners), material);
+  mesh.frustumCulled = false;
+  return mesh;
 }
 
 function flat(coordinates: ArrayLike<number>): BufferGeometry {

@@ -42,6 +42,7 @@ export interface Meta {
     viewpoint?: number[];
     projection?: string;
     metric?: string;
+    edges_up_to?: number;
   };
   image?: { construction?: "vertices" | "cells" };
   tree?: {

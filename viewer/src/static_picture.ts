@@ -8,7 +8,7 @@ import type { Shape } from "./representatives";
 import type { Pose } from "./pose";
 
 const kMostPoints = 6000,
-  kMostTriangles = 4000,
+  kMostMarks = 4000, // of one kind
   kSide = 600;
 
 type Triple = [Vector3, Vector3, Vector3];
@@ -67,10 +67,12 @@ export class StaticPicture {
     }
     return seen.sort((a, b) => b.depth - a.depth).map(({ dot }) => dot);
   }
-  /// The farthest first. Of very many every so many are drawn: the shape is seen by them.
+  // Of very many triangles or lines every so many are drawn: the shape is seen by them.
+
+  /// The farthest first.
   private triangles(shape: Shape): SVGElement[] {
     const { triangles } = shape.geometry;
-    const step = 9 * Math.max(1, Math.ceil(triangles.length / 9 / kMostTriangles));
+    const step = 9 * Math.max(1, Math.ceil(triangles.length / 9 / kMostMarks));
     const seen: { depth: number; mark: SVGElement }[] = [];
     for (let i = 0; i + 8 < triangles.length; i += step) {
       const [a, b, c] = [0, 3, 6].map((k) => this.project(triangles, i + k)) as Triple;
@@ -84,7 +86,8 @@ export class StaticPicture {
   private lines(shape: Shape): SVGElement[] {
     const { segments, points } = shape.geometry;
     const marks: SVGElement[] = [];
-    for (let i = 0; i + 5 < segments.length; i += 6) {
+    const step = 6 * Math.max(1, Math.ceil(segments.length / 6 / kMostMarks));
+    for (let i = 0; i + 5 < segments.length; i += step) {
       const a = this.project(segments, i),
         b = this.project(segments, i + 3);
       marks.push(

@@ -6,6 +6,7 @@ import { importSource } from "./support/import_source.mjs";
 import { random } from "./support/random.mjs";
 
 const { surfaceOf } = await importSource("voxel_sets.ts");
+const { shortestPairs, trianglesOf } = await importSource("pairs_within.ts");
 
 function runsOfMask(mask) {
   const runs = [];
@@ -83,5 +84,73 @@ test("a set that is too large to draw is drawn in larger cubes, at its place", (
     for (let i = k; i < corners.length; i += 3)
       [low, high] = [Math.min(low, corners[i]), Math.max(high, corners[i])];
     assert.ok(Math.abs(high - low - 200) < 32, `${k}: ${low} … ${high}`);
+  }
+});
+
+/// All pairs and all triangles within a distance, by trying each.
+function allWithin(p, r) {
+  const n = p.length / 3,
+    near = (i, j) =>
+      Math.hypot(p[3 * i] - p[3 * j], p[3 * i + 1] - p[3 * j + 1], p[3 * i + 2] - p[3 * j + 2]) <= r;
+  const pairs = [],
+    triangles = [];
+  for (let i = 0; i < n; ++i)
+    for (let j = i + 1; j < n; ++j) {
+      if (!near(i, j)) continue;
+      pairs.push(`${i},${j}`);
+      for (let k = j + 1; k < n; ++k) if (near(i, k) && near(j, k)) triangles.push(`${i},${j},${k}`);
+    }
+  return { pairs: pairs.sort(), triangles: triangles.sort() };
+}
+
+const grouped = (numbers, size) =>
+  Array.from({ length: numbers.length / size }, (_, i) =>
+    [...numbers.subarray(size * i, size * (i + 1))].join(),
+  ).sort();
+
+test("edges and triangles of points are all pairs and triples that are near", () => {
+  const next = random(8);
+  for (const [n, spread] of [
+    [1, [1, 1, 1]],
+    [60, [1, 1, 1]],
+    [60, [5, 5, 0]],
+    [60, [1, 0, 0]],
+    [40, [1000, 1e-3, 1]],
+  ]) {
+    const p = Float32Array.from({ length: 3 * n }, (_, i) => 7 + spread[i % 3] * (next() - 0.5));
+    if (n > 10) p.copyWithin(0, 3, 9); // points that are equal
+    for (const r of [0.05, 0.4, 3]) {
+      const { ends, values, reach } = shortestPairs(p, r, 1e6);
+      assert.equal(reach, r);
+      const expected = allWithin(p, r);
+      assert.deepEqual(grouped(ends, 2), expected.pairs);
+      assert.ok(values.every((v, i) => i === 0 || values[i - 1] <= v));
+      assert.deepEqual(grouped(trianglesOf(ends, 1e6), 3), expected.triangles);
+      if (expected.triangles.length > 1)
+        assert.equal(trianglesOf(ends, expected.triangles.length - 1), undefined);
+    }
+  }
+});
+
+test("of too many pairs the shortest are found, none of them missing", () => {
+  const next = random(9);
+  const p = Float32Array.from({ length: 3 * 800 }, () => next());
+  const { ends, values, reach } = shortestPairs(p, 2, 4000);
+  assert.ok(values.length > 1500 && values.length <= 4000, `${values.length}`);
+  assert.ok(reach < 2);
+  assert.deepEqual(grouped(ends, 2), allWithin(p, reach).pairs);
+  const one = shortestPairs(new Float32Array(3 * 1000), 1, 100);
+  assert.deepEqual([one.values.length, one.reach], [0, 0]);
+});
+
+test("fifty thousand points are no trouble", (t) => {
+  const next = random(10);
+  for (const dims of [1, 2, 3]) {
+    const p = Float32Array.from({ length: 150_000 }, (_, i) => (i % 3 < dims ? next() : 0));
+    const start = performance.now();
+    const { values } = shortestPairs(p, 1, 40_000);
+    const took = performance.now() - start;
+    t.diagnostic(`${dims} axes: ${values.length} edges in ${took.toFixed(0)} ms`);
+    assert.ok(values.length > 10_000 && took < 8000);
   }
 });

@@ -166,6 +166,9 @@ test("linked views of points", { skip, timeout: 120_000 }, async (t) => {
       const none = await open(there, report, { hash: "#colour=plain" });
       const before = await tintedPixels(none.page, view, green);
       await none.close();
+      const grown = await open(there, report, { hash: "#colour=plain&scale=0.4" });
+      assert.ok((await coloursOf(grown.page, view)) > 100, "edges are seen");
+      await grown.close();
       const one = await open(there, report, { hash: `#colour=plain&bars=${bar}` });
       const after = await tintedPixels(one.page, view, green);
       assert.ok(before < 500 && after > 15_000, `${view}: ${before} and ${after} green pixels`);
@@ -174,10 +177,27 @@ test("linked views of points", { skip, timeout: 120_000 }, async (t) => {
     }
   });
 
-  await t.test("the filtration grows edges", async () => {
-    await setSlider(page, ".scrubber input", 100);
-    assert.match(await page.textContent(".scrubber output"), /β₀ \d+.* edges$/);
-    await picture(page, "torus_scale");
+  await t.test("the filtration grows edges, then triangles", async () => {
+    const dark = await page.evaluate(() => document.documentElement.dataset.theme === "dark");
+    assert.ok(!dark);
+    const inks = [],
+      counts = [];
+    for (const place of [0, 60, 100, 125]) {
+      await setSlider(page, ".scrubber input", place);
+      const words = await page.textContent(".scrubber output");
+      assert.match(words, /β₀ \d+ /);
+      const [, edges, triangles] = words.match(/([\d,]+) edges?(?:, ([\d,]+) triangles?)?$/);
+      counts.push([edges, triangles ?? "0"].map((n) => Number(n.replaceAll(",", ""))));
+      inks.push((await coloursOf(page, ".stage")));
+      await picture(page, `torus_scale_${place}`);
+    }
+    assert.deepEqual(counts[0], [0, 0]);
+    for (let i = 1; i < counts.length; ++i)
+      for (const k of [0, 1]) assert.ok(counts[i][k] >= counts[i - 1][k], `${counts}`);
+    assert.ok(counts.at(-1)[1] > counts.at(-1)[0] / 2, `${counts}`);
+    assert.ok(inks.at(-1) > 2 * inks[0], `${inks}`);
+    await setSlider(page, ".scrubber input", 480);
+    assert.match(await page.textContent(".scrubber output"), /first .* more triangles than can/);
   });
 
   await t.test("charts are tables, too", async () => {

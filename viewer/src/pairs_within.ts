@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Pairs of points that are near each other, and the triangles that edges make.
+
+/// Pairs i < j of points, x, y, z of each, at a distance of `r` or less, one after another, unless
+/// there are more than `most`.
+function pairsWithin(p: Float32Array, r: number, most: number): number[] | undefined {
+  const cubes = cubesOf(p, r);
+  const pairs: number[] = [];
+  const meet = (i: number, j: number) => {
+    if (distance(p, i, j) <= r) pairs.push(Math.min(i, j), Math.max(i, j));
+  };
+  for (const { points, next } of cubes.values()) {
+    for (let a = 0; a < points.length; ++a) {
+      for (let b = 0; b < a; ++b) meet(points[b]!, points[a]!);
+      for (const key of next) for (const j of cubes.get(key)?.points ?? []) meet(points[a]!, j);
+      if (pairs.length > 2 * most) return undefined;
+    }
+  }
+  return pairs;
+}
+
+interface Cube {
+  points: number[];
+  next: number[]; // names of the cubes around it that come after it
+}
+
+function cubesOf(p: Float32Array, r: number): Map<number, Cube> {
+  const low = [Infinity, Infinity, Infinity];
+  let extent = 0;
+  for (let i = 0; i < p.length; ++i) low[i % 3] = Math.min(low[i % 3]!, p[i]!);
+  for (let i = 0; i < p.length; ++i) extent = Math.max(extent, p[i]! - low[i % 3]!);
+  // Names of cubes must stay exact numbers.
+  const side = Math.max(r, extent / 2 ** 16) || 1;
+  const kStride = 2 ** 17;
+  const cubes = new Map<number, Cube>();
+  for (let i = 0; 3 * i < p.length; ++i) {
+    let key = 0;
+    for (let k = 0; k < 3; ++k)
+      key = key * kStride + Math.floor((p[3 * i + k]! - low[k]!) / side) + 1;
+    const cube = cubes.get(key);
+    if (cube) cube.points.push(i);
+    else {
+      const next: number[] = [];
+      for (let step = 14; step < 27; ++step)
+        next.push(
+          key + (Math.floor(step / 9) - 1) * kStride ** 2 +
+            ((Math.floor(step / 3) % 3) - 1) * kStride + ((step % 3) - 1),
+        );
+      cubes.set(key, { points: [i], next });
+    }
+  }
+  return cubes;
+}
+
+function distance(p: Float32Array, i: number, j: number): number {
+  return Math.hypot(
+    p[3 * i]! - p[3 * j]!,
+    p[3 * i + 1]! - p[3 * j + 1]!,
+    p[3 * i + 2]! - p[3 * j + 2]!,
+  );
+}
+
+export interface SortedPairs {
+  ends: Uint32Array; // two a pair
+  values: Float32Array | Float64Array; // ascending
+  reach: number; // no pair up to this distance is missing
+}
+
+/// The shortest pairs, up to a distance of `limit`, no more than `most`, and as many as a few
+/// guesses at the reach find.
+export function shortestPairs(p: Float32Array, limit: number, most: number): SortedPairs {
+  let best: number[] = [],
+    reach = 0,
+    over = Infinity;
+  // Guess, double, halve the gap.
+  let guess = limit / 64;
+  for (let round = 0; round < 24 && reach < limit; ++round) {
+    const pairs = pairsWithin(p, guess, most);
+    if (pairs) [best, reach] = [pairs, guess];
+    else over = guess;
+    if (best.length > 1.6 * most) break; // nine tenths of the budget would be luck
+    if (over === Infinity) guess = Math.min(limit, 2 * reach);
+    else guess = reach > 0 ? (reach + over) / 2 : over / 8;
+  }
+  const length = (at: number) => distance(p, best[2 * at]!, best[2 * at + 1]!);
+  const lengths = Float32Array.from({ length: best.length / 2 }, (_, at) => length(at));
+  const order = Uint32Array.from(lengths, (_, at) => at).sort((a, b) => lengths[a]! - lengths[b]!);
+  const ends = new Uint32Array(best.length);
+  order.forEach((from, to) => ends.set([best[2 * from]!, best[2 * from + 1]!], 2 * to));
+  return { ends, values: Float32Array.from(order, (at) => lengths[at]!), reach };
+}
+
+/// The triples of points all of whose pairs are edges; nothing if there are more than `most`.
+/// @param ends pairs i < j, each once.
+export function trianglesOf(ends: Uint32Array, most: number): Uint32Array | undefined {
+  const above = new Map<number, Set<number>>();
+  for (let e = 0; e < ends.length; e += 2) {
+    const set = above.get(ends[e]!);
+    if (set) set.add(ends[e + 1]!);
+    else above.set(ends[e]!, new Set([ends[e + 1]!]));
+  }
+  const triangles: number[] = [];
+  for (let e = 0; e < ends.length; e += 2) {
+    const [i, j] = [ends[e]!, ends[e + 1]!];
+    const far = above.get(i)!;
+    for (const k of above.get(j) ?? []) if (far.has(k)) triangles.push(i, j, k);
+    if (triangles.length > 3 * most) return undefined;
+  }
+  return Uint32Array.from(triangles);
+}
