@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Builds everything, warnings as errors, and runs all tests. Installs what is missing first.
+# Builds everything, warnings as errors, and runs all tests, those of the reports in a browser, too.
+# Installs what is missing first.
 # Prints the counts last.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=$(nproc)
 
-scripts/setup.sh build test
+scripts/setup.sh build test viewer
 cmake --preset release -DPH_WITH_PCL=ON -DPH_BUILD_TESTS=ON -DPH_BUILD_EXAMPLES=ON
 cmake --build --preset release -j "$jobs"
 

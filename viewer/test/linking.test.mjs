@@ -7,12 +7,11 @@ import * as odd from "./support/odd_fixtures.mjs";
 import { torus } from "./support/point_fixtures.mjs";
 import { scene } from "./support/scene_fixture.mjs";
 import { cutOf } from "./support/reference_tree.mjs";
-import { canRun, coloursOf, launch, open, picture, tintedPixels } from "./support/browser.mjs";
+import { coloursOf, launch, open, picture, tintedPixels } from "./support/browser.mjs";
 
 // Limits are for an idle machine.
 const kPatience = Number(process.env.PATIENCE ?? 4);
 const median = (times) => [...times].sort((a, b) => a - b)[times.length >> 1];
-const skip = !canRun && "no Chromium";
 const reading = (page) => page.textContent(".status .reading");
 const selection = (page) => page.textContent(".status .selection");
 const frame = (page) =>
@@ -54,7 +53,7 @@ async function downloaded(page, label) {
   return Buffer.concat(parts);
 }
 
-test("linked views of points", { skip, timeout: 120_000 }, async (t) => {
+test("linked views of points", { timeout: 120_000 }, async (t) => {
   const browser = await launch();
   t.after(() => browser.close());
   const report = torus();
@@ -210,7 +209,7 @@ test("linked views of points", { skip, timeout: 120_000 }, async (t) => {
   await close();
 });
 
-test("the live cut of a scene", { skip, timeout: 300_000 }, async (t) => {
+test("the live cut of a scene", { timeout: 300_000 }, async (t) => {
   const browser = await launch();
   t.after(() => browser.close());
   const report = scene();
@@ -326,7 +325,7 @@ test("the live cut of a scene", { skip, timeout: 300_000 }, async (t) => {
   await close();
 });
 
-test("a million bars, two million points", { skip, timeout: 500_000 }, async (t) => {
+test("a million bars, two million points", { timeout: 500_000 }, async (t) => {
   const browser = await launch();
   t.after(() => browser.close());
   await t.test("bars", async (tt) => {

@@ -7,19 +7,10 @@ import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "no
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import test from "node:test";
+import { coloursOf, launch, open, picture, tintedPixels } from "./support/browser.mjs";
 import { npy, spherePoints, tableScene } from "./support/program_inputs.mjs";
 
-const { canRun, coloursOf, launch, open, picture, tintedPixels } = await import("./support/browser.mjs").catch(
-  (error) => {
-    console.log(`SKIPPED: ${error.message} (npm ci in viewer/)`);
-    process.exit(77);
-  },
-);
 const [barcode, segment, scene] = process.argv.slice(2).map((path) => resolve(path));
-if (!canRun) {
-  console.log("SKIPPED: no Chromium");
-  process.exit(77);
-}
 if (!execFileSync(barcode, ["--version", "--verbose"]).toString().match(/reports +built in/)) {
   console.log("SKIPPED: reports are not built in");
   process.exit(77);

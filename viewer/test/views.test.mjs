@@ -6,7 +6,7 @@ import test from "node:test";
 import * as odd from "./support/odd_fixtures.mjs";
 import { image } from "./support/image_fixture.mjs";
 import { clusters, torus } from "./support/point_fixtures.mjs";
-import { canRun, coloursOf, launch, open, picture } from "./support/browser.mjs";
+import { coloursOf, launch, open, picture } from "./support/browser.mjs";
 
 const kCharts = [".diagram .chart", ".barcode .chart"];
 const cases = {
@@ -25,7 +25,7 @@ const cases = {
   extreme: [odd.extreme, [...kCharts, ".stage"]],
 };
 
-test("pages", { skip: !canRun && "no Chromium", timeout: 500_000 }, async (t) => {
+test("pages", { timeout: 500_000 }, async (t) => {
   const browser = await launch();
   t.after(() => browser.close());
   for (const [name, [make, views]] of Object.entries(cases))
@@ -111,7 +111,7 @@ test("pages", { skip: !canRun && "no Chromium", timeout: 500_000 }, async (t) =>
 
 test(
   "without WebGL there is a still picture",
-  { skip: !canRun && "no Chromium", timeout: 120_000 },
+  { timeout: 120_000 },
   async (t) => {
     const browser = await launch({ webgl: false });
     t.after(() => browser.close());
