@@ -223,7 +223,7 @@ void add_output_options(CLI::App& app, Arguments& a, app::PlotArguments& plots) 
       ->group(group);
   app.add_option_function<std::vector<std::string>>(
          "--compare", [&a](const std::vector<std::string>& paths) { a.compare = paths; },
-         "compute nothing: put two barcode files side by side in the report")
+         "compute nothing but distances: put two barcode files side by side in the report")
       ->type_name("A B")
       ->type_size(1)
       ->expected(2)

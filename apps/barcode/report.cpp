@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <limits>
 #include <new>
+#include <set>
 
 #include "exit_code.hpp"
 #include "h0_tree.hpp"
+#include "ph/diagram/bottleneck.hpp"
 #include "report/bar_arrays.hpp"
 #include "report/point_arrays.hpp"
 #include "report/report_file.hpp"
@@ -25,6 +27,8 @@ constexpr Index kMostColumns = 3;  // of positions
 // Up to here positions are written as they are: the page finds the edges of a complex by them.
 constexpr Index kMostExactPoints = 50'000;
 constexpr std::size_t kMostVoxels = std::size_t{1} << 24;  // in a page
+// Bars of a dimension in both barcodes: their distance takes seconds at most.
+constexpr std::size_t kMostComparedBars = 40'000;
 
 /// The points that the page shows; null where there are none, or where cells are those of a grid.
 const Points* points_of(const Shown& shown) {
@@ -133,6 +137,31 @@ std::optional<ShownTree> tree_if_it_fits(const Shown& shown, const Arguments& ar
   return std::nullopt;
 }
 
+/// The distances of two barcodes, one a dimension that either has. Where they would take long a
+/// note says so.
+void add_distances(report::Metadata& meta, const Barcode& a, const Barcode& b,
+                   app::Session& session) {
+  std::set<int> dims;
+  for (const Barcode* barcode : {&a, &b})
+    for (const Bar& bar : *barcode) dims.insert(bar.dim);
+  std::vector<std::string> left_out;
+  for (const int dim : dims) {
+    const std::span<const Bar> bars[] = {a.bars(dim), b.bars(dim)};
+    const std::size_t count = bars[0].size() + bars[1].size();
+    if (count > kMostComparedBars) {
+      left_out.push_back(fmt::format("H{}: {} bars", dim, count));
+      continue;
+    }
+    const double distance = bottleneck_distance(bars[0], bars[1], session.context());
+    meta.distances.push_back({dim, distance});
+    session.note(fmt::format("H{}: bottleneck distance {}", dim, distance));
+  }
+  if (!left_out.empty())
+    meta.provenance.notes.emplace_back(
+        "Distances left out",
+        fmt::format("{}; at most {} are compared", fmt::join(left_out, ", "), kMostComparedBars));
+}
+
 }  // namespace
 
 void write_report(OutputFile& file, const Shown& shown, const Arguments& arguments,
@@ -184,6 +213,7 @@ int run_comparison(const Arguments& arguments, app::Session& session) {
         report::sha256_hex(input.bytes(), session.context()));
     session.note(fmt::format("read {}: {} bars", input.name(), barcodes.back().size()));
   }
+  add_distances(meta, barcodes[0], barcodes[1], session);
   meta.provenance.run.peak_memory = app::peak_memory();
   const app::BarHold results_are_written(session);
   ReportFile report(output.file(), meta, session.context());

@@ -50,6 +50,13 @@ std::string tree(const TreeMeta& meta) {
       .str();
 }
 
+std::string distance(const Distance& d) {
+  return JsonObject()
+      .add("dim", fmt::format("{}", d.dim))
+      .add("bottleneck", json_number(d.bottleneck))
+      .str();
+}
+
 std::string provenance(const Provenance& p) {
   JsonObject timings, notes;
   for (const auto& [stage, seconds] : p.run.timings)
@@ -109,6 +116,7 @@ std::string metadata_json(const Metadata& m) {
   if (!m.construction.empty())
     object.add("image", JsonObject().text("construction", m.construction).str());
   if (m.tree) object.add("tree", tree(*m.tree));
+  object.add("distances", json_array(m.distances, distance));
   object.add("provenance", provenance(m.provenance));
   return without_tags(object.str());
 }

@@ -45,6 +45,12 @@ struct TreeMeta {
   std::vector<std::string> command;  ///< of another cut, "{cut}" standing for its value
 };
 
+/// Of the bars of one dimension in the two barcodes of a comparison.
+struct Distance {
+  int dim = 0;
+  double bottleneck = 0;  ///< may be infinite
+};
+
 struct Provenance {
   std::vector<std::string> command;
   std::string sha256;        ///< of the input
@@ -61,6 +67,7 @@ struct Metadata {
   std::optional<CloudMeta> cloud = {};
   std::string construction = {};  ///< of an image: "vertices" or "cells"
   std::optional<TreeMeta> tree = {};
+  std::vector<Distance> distances = {};  ///< of a comparison
   Provenance provenance;
 };
 

@@ -316,6 +316,20 @@ class Reports(ProgramTest):
         self.assertEqual(report.bars("bars2"), [(0, 0, math.inf), (1, 1, 3)])
         self.assertEqual([b["name"] for b in report.meta["barcodes"]], ["a.csv", "b.csv"])
 
+    def test_distances_of_two_barcodes(self):
+        self.write("a.csv", "dim,birth,death\n1,0,5\n0,0,inf\n2,1,2\n0,0,1\n0,0,0.5\n")
+        self.write("b.csv", "dim,birth,death\n0,0.25,inf\n0,0,1.125\n1,0,5\n1,2,inf\n")
+        report = self.report("--compare", "a.csv", "b.csv")
+        self.assertEqual(report.meta["distances"], [
+            {"dim": 0, "bottleneck": 0.25}, {"dim": 1, "bottleneck": None},
+            {"dim": 2, "bottleneck": 0.5}])
+        self.assertNotIn("Distances left out", report.meta["provenance"]["notes"])
+        self.write("many.csv", "dim,birth,death\n0,0,1\n" + "1,0,1\n" * 40_001)
+        report = self.report("--compare", "a.csv", "many.csv")
+        self.assertEqual([d["dim"] for d in report.meta["distances"]], [0, 2])
+        self.assertEqual(report.meta["provenance"]["notes"]["Distances left out"],
+                         "H1: 40002 bars; at most 40000 are compared")
+
     def test_comparisons_that_make_no_sense(self):
         self.write("a.csv", SQUARE_CSV)
         self.expect(64, "--compare", "a.csv", "a.csv")

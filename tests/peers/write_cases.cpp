@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Writes random small inputs, each with the barcode that libph computes for it, one JSON object a
-// line, for compare.py to hold against other programs.
+// Writes random small inputs, each with the barcode that libph computes for it, and pairs of
+// diagrams with their distance, one JSON object a line, for compare.py to hold against other
+// programs.
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
 
 #include <fmt/format.h>
 
+#include "ph/diagram/bottleneck.hpp"
 #include "ph/persistence.hpp"
 #include "support/generators.hpp"
 #include "support/known_spaces.hpp"
@@ -130,6 +132,31 @@ SimplexList random_heights(Generator& random, const Simplices& space) {
   return filtered;
 }
 
+void write_distance(std::ostream& out, Generator& random) {
+  const bool ties = random.coin();
+  const auto diagram = [&](std::vector<Bar> bars, int count) {
+    for (int i = 0; i < count; ++i) {
+      const auto [low, high] = std::minmax({distance(random, ties), distance(random, ties)});
+      bars.push_back({0, low, random.integer(0, 19) == 0 ? kInfinity : high});
+    }
+    return bars;
+  };
+  const std::vector<Bar> first = diagram({}, random.integer(0, 40));
+  // Often most bars are in both.
+  const std::vector<Bar> second =
+      diagram(random.coin() ? first : std::vector<Bar>(), random.integer(0, 12));
+  const auto pairs = [](const std::vector<Bar>& bars) {
+    std::string text;
+    for (const Bar& bar : bars)
+      text +=
+          fmt::format("{}[{},{}]", text.empty() ? "" : ",", number(bar.birth), number(bar.death));
+    return text;
+  };
+  out << fmt::format(R"({{"kind":"distance","first":[{}],"second":[{}],"bottleneck":{}}})",
+                     pairs(first), pairs(second), number(bottleneck_distance(first, second)));
+  out << '\n';
+}
+
 void write_all(std::ostream& out, int count) {
   const Simplices spaces[] = {klein_bottle(), projective_plane(), torus_of_seven_vertices(),
                               suspension(projective_plane()), cross_polytope(3)};
@@ -141,6 +168,7 @@ void write_all(std::ostream& out, int count) {
     if (seed % 4 == 0) {
       write_simplices(out, random.simplices(8, 3, 10, random.coin()), kFields[seed / 4 % 4]);
     }
+    if (seed % 4 == 1) write_distance(out, random);
     if (seed % 40 == 0) {
       for (const Simplices& space : spaces)
         write_simplices(out, random_heights(random, space), kFields[seed / 40 % 4]);

@@ -78,15 +78,11 @@ export function provenanceDialog(session: Session): HTMLDialogElement {
   return dialog;
 }
 
-/// "H₁ bottleneck 0.05, Wasserstein 0.72", one a dimension.
+/// "H₁ bottleneck 0.05", one a dimension.
 export function distancesOf(meta: Meta): string[] {
-  return (meta.distances ?? []).map(({ dim, bottleneck, wasserstein }) => {
-    const words = [
-      bottleneck != null && `bottleneck ${short(bottleneck)}`,
-      wasserstein != null && `Wasserstein ${short(wasserstein)}`,
-    ];
-    return `${homology(dim)} ${words.filter(Boolean).join(", ")}`;
-  });
+  return (meta.distances ?? []).map(
+    ({ dim, bottleneck }) => `${homology(dim)} bottleneck ${short(bottleneck ?? Infinity)}`,
+  );
 }
 
 export function helpDialog(): HTMLDialogElement {

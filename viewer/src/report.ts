@@ -56,7 +56,7 @@ export interface Meta {
     what?: string;
     command?: string[];
   };
-  distances?: { dim: number; bottleneck?: number | null; wasserstein?: number | null }[];
+  distances?: { dim: number; bottleneck: number | null }[]; // null: infinite
 }
 
 /// The points or voxels that are shown.

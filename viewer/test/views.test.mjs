@@ -83,6 +83,15 @@ test("pages", { timeout: 500_000 }, async (t) => {
     await close();
   });
 
+  await t.test("two barcodes: how far they are apart", async () => {
+    const { page, close } = await open(browser, odd.twoBarcodes());
+    const words = /H₀ bottleneck 0\.0123.*H₁ bottleneck ∞/s;
+    assert.match(await page.textContent(".title p"), words);
+    await page.click("text=About");
+    assert.match(await page.textContent("dialog[open]"), words);
+    await close();
+  });
+
   await t.test("an address names a slice", async () => {
     const { page, problems, close } = await open(browser, image([8, 10, 12]), { hash: "#slice=2,5" });
     const row = page.locator(".row", { has: page.getByLabel("slice", { exact: true }) }).first();

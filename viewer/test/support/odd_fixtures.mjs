@@ -78,8 +78,8 @@ export function twoBarcodes() {
         { name: "tuesday.csv", cells: "vertices" },
       ],
       distances: [
-        { dim: 0, bottleneck: 0.0123, wasserstein: 0.341 },
-        { dim: 1, bottleneck: 0.05, wasserstein: 0.72 },
+        { dim: 0, bottleneck: 0.0123 },
+        { dim: 1, bottleneck: null },
       ],
       provenance: {
         command: ["ph-barcode", "--compare", "monday.csv", "tuesday.csv", "--report", "week.html"],

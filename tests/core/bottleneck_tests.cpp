@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+// The bottleneck distance, held to all matchings of small diagrams and to a slow algorithm for
+// larger ones.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+#include <stop_token>
+#include <vector>
+
+#include "ph/core/error.hpp"
+#include "ph/diagram/bottleneck.hpp"
+
+namespace ph {
+namespace {
+
+using Bars = std::vector<Bar>;
+
+double apart(const Bar& a, const Bar& b) {
+  return std::max(std::abs(a.birth - b.birth), std::abs(a.death - b.death));
+}
+
+/// The least worst cost over all ways to pair bars of `a`, from the i-th on, with unused ones of
+/// `b`.
+double best_of_all(const Bars& a, const Bars& b, std::vector<bool>& used, std::size_t i) {
+  if (i == a.size()) {
+    double worst = 0;
+    for (std::size_t j = 0; j < b.size(); ++j)
+      if (!used[j]) worst = std::max(worst, b[j].persistence() / 2);
+    return worst;
+  }
+  double best = std::max(a[i].persistence() / 2, best_of_all(a, b, used, i + 1));
+  for (std::size_t j = 0; j < b.size(); ++j) {
+    if (used[j]) continue;
+    used[j] = true;
+    best = std::min(best, std::max(apart(a[i], b[j]), best_of_all(a, b, used, i + 1)));
+    used[j] = false;
+  }
+  return best;
+}
+
+double by_all_matchings(const Bars& a, const Bars& b) {
+  std::vector<bool> used(b.size());
+  return best_of_all(a, b, used, 0);
+}
+
+/// With copies on the diagonal, all differences in a list, and matchings that grow one by one.
+double by_growing_matchings(const Bars& a, const Bars& b) {
+  const std::size_t n = a.size() + b.size();
+  std::vector<double> costs(n * n, 0.0), values{0};
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) {
+      double& cost = costs[i * n + j];
+      if (i < a.size() && j < b.size()) cost = apart(a[i], b[j]);
+      if (i < a.size() && j >= b.size()) cost = a[i].persistence() / 2;
+      if (i >= a.size() && j < b.size()) cost = b[j].persistence() / 2;
+      values.push_back(cost);
+    }
+  std::ranges::sort(values);
+  const auto is_possible = [&](double value) {
+    std::vector<std::size_t> mate(n, n);
+    std::vector<bool> seen;
+    const std::function<bool(std::size_t)> place = [&](std::size_t i) {
+      for (std::size_t j = 0; j < n; ++j) {
+        if (seen[j] || costs[i * n + j] > value) continue;
+        seen[j] = true;
+        if (mate[j] < n && !place(mate[j])) continue;
+        mate[j] = i;
+        return true;
+      }
+      return false;
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+      seen.assign(n, false);
+      if (!place(i)) return false;
+    }
+    return true;
+  };
+  return *std::ranges::partition_point(values, [&](double v) { return !is_possible(v); });
+}
+
+/// Bars with ends on a grid of `steps` values, or anywhere for 0.
+Bars random_bars(std::mt19937& random, std::size_t count, int steps) {
+  const auto number = [&] {
+    if (steps > 0) return static_cast<double>(std::uniform_int_distribution<>(0, steps)(random));
+    return std::uniform_real_distribution<>(-1, 1)(random);
+  };
+  Bars bars;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto [low, high] = std::minmax({number(), number()});
+    bars.push_back({1, low, high});
+  }
+  return bars;
+}
+
+TEST(Bottleneck, IsTheBestOfAllMatchings) {
+  std::mt19937 random(1);
+  for (int round = 0; round < 600; ++round) {
+    const int steps = round % 3 == 0 ? 0 : round % 3 == 1 ? 4 : 12;
+    const Bars a = random_bars(random, random() % 6, steps);
+    const Bars b = random_bars(random, random() % 6, steps);
+    ASSERT_EQ(bottleneck_distance(a, b), by_all_matchings(a, b)) << round;
+  }
+}
+
+TEST(Bottleneck, IsThatOfGrowingMatchings) {
+  std::mt19937 random(2);
+  for (int round = 0; round < 40; ++round) {
+    const int steps = round % 2 == 0 ? 0 : 20;
+    const Bars a = random_bars(random, 10 + random() % 40, steps);
+    Bars b = a;  // near the first in one half of the rounds: then most bars have a partner
+    if (round % 4 < 2)
+      b = random_bars(random, 10 + random() % 40, steps);
+    else
+      for (Bar& bar : b) bar.death += 0.05 * std::uniform_real_distribution<>()(random);
+    std::ranges::shuffle(b, random);
+    const double expected = by_growing_matchings(a, b);
+    ASSERT_EQ(bottleneck_distance(a, b), expected) << round;
+    ASSERT_EQ(bottleneck_distance(b, a), expected) << round;
+  }
+}
+
+TEST(Bottleneck, OfDiagramsThatAreKnown) {
+  const Bars none, one = {{0, 1, 5}}, two = {{0, 1, 5}, {0, 2, 2.5}};
+  EXPECT_EQ(bottleneck_distance(none, none), 0);
+  EXPECT_EQ(bottleneck_distance(one, none), 2);
+  EXPECT_EQ(bottleneck_distance(one, one), 0);
+  EXPECT_EQ(bottleneck_distance(one, two), 0.25);
+  EXPECT_EQ(bottleneck_distance(Bars{{0, 1, 5}, {0, 1, 5}}, one), 2);  // each copy counts
+  EXPECT_EQ(bottleneck_distance(Bars{{0, 3, 3}, {0, 1, 5}}, one), 0);  // no length, no bar
+  EXPECT_EQ(bottleneck_distance(Bars{{0, 0, 10}}, Bars{{0, 1, 8}}), 2);
+}
+
+TEST(Bottleneck, BarsWithoutEndAreForEachOther) {
+  const Bars a = {{0, 0, kInfinity}, {0, 3, kInfinity}, {0, 0, 1}};
+  EXPECT_EQ(bottleneck_distance(a, Bars{{0, 3.5, kInfinity}, {0, 0.25, kInfinity}}), 0.5);
+  EXPECT_EQ(bottleneck_distance(a, Bars{{0, 0, kInfinity}}), kInfinity);
+  const Bars always = {{0, -kInfinity, 2}, {0, -kInfinity, kInfinity}};
+  EXPECT_EQ(bottleneck_distance(always, Bars{{0, -kInfinity, kInfinity}, {0, -kInfinity, 5}}), 3);
+  EXPECT_EQ(bottleneck_distance(always, Bars{{0, -kInfinity, 2}, {0, 2, kInfinity}}), kInfinity);
+  EXPECT_EQ(bottleneck_distance(Bars{{0, kInfinity, kInfinity}}, {}), 0);
+}
+
+TEST(Bottleneck, IsStableAndSymmetricForManyBars) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<> noise(-0.01, 0.01);
+  const Bars a = random_bars(random, 4000, 0);
+  Bars b = a;
+  double moved = 0;
+  for (Bar& bar : b) {
+    const Bar old = bar;
+    bar.birth += noise(random);
+    bar.death = std::max(bar.birth, bar.death + noise(random));
+    moved = std::max(moved, apart(old, bar));
+  }
+  std::ranges::shuffle(b, random);
+  const double distance = bottleneck_distance(a, b);
+  EXPECT_GT(distance, 0);
+  EXPECT_LE(distance, moved);
+  EXPECT_EQ(bottleneck_distance(b, a), distance);
+}
+
+TEST(Bottleneck, OfValuesAtTheEndsOfADouble) {
+  const double most = std::numeric_limits<double>::max(), least = 5e-324;
+  EXPECT_EQ(bottleneck_distance(Bars{{0, -most, most}}, {}), most);
+  EXPECT_EQ(bottleneck_distance(Bars{{0, 0, 2 * least}}, {}), least);
+  EXPECT_EQ(bottleneck_distance(Bars{{0, 0, most}}, Bars{{0, 0, most / 2}}), most / 2);
+}
+
+TEST(Bottleneck, RefusesWhatIsNoBar) {
+  for (const Bar& bar : {Bar{0, 2, 1}, Bar{0, std::nan(""), 1}, Bar{0, 0, std::nan("")}}) {
+    EXPECT_THROW(bottleneck_distance(Bars{bar}, {}), Error);
+    EXPECT_THROW(bottleneck_distance({}, Bars{bar}), Error);
+  }
+}
+
+TEST(Bottleneck, StopsWhenAsked) {
+  std::mt19937 random(4);
+  const Bars a = random_bars(random, 3000, 0), b = random_bars(random, 3000, 0);
+  RunContext context;
+  std::stop_source source;
+  context.stop = source.get_token();
+  source.request_stop();
+  EXPECT_THROW(bottleneck_distance(a, b, context), Error);
+  RunContext small;
+  small.memory.set_limit(1000);
+  EXPECT_THROW(bottleneck_distance(a, b, small), Error);
+}
+
+}  // namespace
+}  // namespace ph
