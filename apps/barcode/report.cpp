@@ -9,6 +9,7 @@
 #include <new>
 #include <set>
 
+#include "complex_arrays.hpp"
 #include "exit_code.hpp"
 #include "h0_tree.hpp"
 #include "ph/diagram/bottleneck.hpp"
@@ -48,11 +49,28 @@ std::optional<CubicalImage> image_of(const Shown& shown) {
   return image;
 }
 
-report::CloudMeta cloud_meta(const Points& points, const Arguments& arguments) {
+/// Whether pairs within a distance are the edges: all points are vertices, all enter at once.
+bool is_euclidean(const Shown& shown, const Arguments& arguments) {
+  return std::holds_alternative<Rips>(shown.built.complex) && !shown.built.subsample &&
+         arguments.rips.distance == PointDistance::euclidean && !arguments.rips.approximation &&
+         arguments.rips.births.empty() && !arguments.dtm && arguments.vertex_weights.empty();
+}
+
+/// What the page cannot find out for itself.
+ComplexArrays complex_of(const Shown& shown, const Arguments& arguments,
+                         const RunContext& context) {
+  const Points* points = points_of(shown);
+  if (!points) return {};
+  if (is_euclidean(shown, arguments) && points->cols() <= kMostColumns &&
+      points->rows() <= kMostExactPoints)
+    return {};
+  return complex_arrays(shown.built.complex, static_cast<std::size_t>(points->rows()),
+                        shown.data.read.point_ids, context);
+}
+
+report::CloudMeta cloud_meta(const Points& points, const Shown& shown, const Arguments& arguments) {
   report::CloudMeta meta;
-  if (arguments.rips.distance == PointDistance::euclidean && !arguments.rips.approximation &&
-      arguments.rips.births.empty() && !arguments.dtm && arguments.vertex_weights.empty())
-    meta.metric = "euclidean";
+  if (is_euclidean(shown, arguments)) meta.metric = "euclidean";
   if (points.cols() > kMostColumns)
     meta.projection = fmt::format("first {} of {} coordinates", kMostColumns, points.cols());
   return meta;
@@ -68,7 +86,7 @@ report::Metadata metadata_of(const Shown& shown, const Arguments& arguments,
                      : arguments.cubical.superlevel ? "Minus the value"
                                                     : "Filtration value";
   meta.barcodes.push_back({meta.title, shown.barcode.cell_kind(), shown.barcode.representatives()});
-  if (const Points* points = points_of(shown)) meta.cloud = cloud_meta(*points, arguments);
+  if (const Points* points = points_of(shown)) meta.cloud = cloud_meta(*points, shown, arguments);
   if (image) meta.construction = image->voxels_are_vertices ? "vertices" : "cells";
   if (tree) meta.tree = tree->meta;
   meta.provenance.command = arguments.command;
@@ -100,6 +118,7 @@ void add_points(ReportFile& report, const Points& points, const std::vector<Inde
   }
   if (!ids.empty()) {
     std::vector<std::uint32_t> numbers;
+    numbers.reserve(ids.size());
     for (const Index id : ids) numbers.push_back(static_cast<std::uint32_t>(id));
     report.add("points/index", numbers, {.delta = true});
   }
@@ -118,6 +137,7 @@ void add_image(ReportFile& report, const CubicalImage& image,
   if (!image.superlevel) return;
   const MemoryClaim copy(report.context().memory, image.size() * sizeof(float));
   std::vector<float> births;
+  births.reserve(image.size());
   for (std::size_t i = 0; i < image.size(); ++i)
     births.push_back(static_cast<float>(image.value(i)));
   report.add("points/birth", births);
@@ -171,6 +191,8 @@ void write_report(OutputFile& file, const Shown& shown, const Arguments& argumen
   report::Metadata meta = metadata_of(shown, arguments, image, tree);
   const report::VoxelSets sets =
       image ? report::voxel_sets(shown.barcode, session.context()) : report::VoxelSets();
+  const ComplexArrays cells_shown = complex_of(shown, arguments, session.context());
+  if (meta.cloud) meta.cloud->edges_below = cells_shown.missing_from;
   if (const std::string note = sets.note(); !note.empty())
     meta.provenance.notes.emplace_back("Sets of voxels", note);
   ReportFile report(file, meta, session.context());
@@ -190,6 +212,7 @@ void write_report(OutputFile& file, const Shown& shown, const Arguments& argumen
   if (std::holds_alternative<ExplicitComplex>(shown.built.complex)) leaf_of = {};
   if (const Points* points = points_of(shown))
     add_points(report, *points, shown.data.read.point_ids, leaf_of);
+  add_complex(report, cells_shown);
   report.finish();
 }
 

@@ -32,6 +32,7 @@ std::string cloud(const CloudMeta& meta) {
       .add("viewpoint", numbers(meta.viewpoint))
       .add("up", numbers(meta.up))
       .text("metric", meta.metric)
+      .add("edges_below", meta.edges_below ? json_number(*meta.edges_below) : "")
       .text("projection", meta.projection)
       .str();
 }

@@ -11,6 +11,7 @@
 #include "report/bar_arrays.hpp"
 #include "report/point_arrays.hpp"
 #include "report/report_file.hpp"
+#include "report/touching_leaves.hpp"
 #include "report/tree_arrays.hpp"
 
 namespace ph::segment {
@@ -86,12 +87,10 @@ std::vector<std::uint32_t> truth_of(const Cloud& cloud, const ShownPoints& point
 }
 
 void add_points(ReportFile& report, const Cloud* cloud, const Segmentation& s,
-                const ShownPoints& points, const std::vector<std::uint32_t>& leaf_of) {
+                const ShownPoints& points, std::span<const std::uint32_t> leaves) {
   report::add_positions(report, std::span<const float>(points.xyz), 3, s.voxel / kStepsAVoxel);
   if (points.index.size() != s.cloud_size())
     report.add("points/index", points.index, {.delta = true});
-  std::vector<std::uint32_t> leaves;
-  for (const std::uint32_t v : points.vertex) leaves.push_back(v == kNone ? kNone : leaf_of[v]);
   report::add_labels(report, "points/leaf", leaves, true);
   if (s.normals.rows() > 0) {
     std::vector<std::int8_t> normals;
@@ -245,7 +244,15 @@ void write_report(OutputFile& file, const Cloud* cloud, const Segmentation& s, c
                    report::linked_bars(s.tree, bars, birth_vertices(s.barcode)), rule);
   const std::vector<std::uint32_t> joins = joins_of(s, contracted);
   report.add("tree/joins", joins, {.shape = {joins.size() / 2, 2}});
-  add_points(report, cloud, s, points, contracted.leaf_of);
+  std::vector<std::uint32_t> leaves;
+  leaves.reserve(points.vertex.size());
+  for (const std::uint32_t v : points.vertex)
+    leaves.push_back(v == kNone ? kNone : contracted.leaf_of[v]);
+  if (s.height > 1) {
+    const auto touching = report::touching_in_picture(points.index, leaves, s.width);
+    report.add("tree/touching", touching, {.shape = {touching.size() / 2, 2}, .delta = true});
+  }
+  add_points(report, cloud, s, points, leaves);
   report.finish();
 }
 

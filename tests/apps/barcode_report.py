@@ -250,6 +250,71 @@ class Reports(ProgramTest):
         self.assertEqual(report.arrays["points/position"].shape, [3, 3])
         self.assertNotIn("points/leaf", report)
 
+    def edges_of(self, report):
+        """(value, one end, other end), as written: values never decrease."""
+        values = report["complex/edge_values"]
+        self.assertEqual(values, sorted(values))
+        return [(v, *sorted(ends)) for v, ends in zip(values, report.arrays["complex/edges"].rows())]
+
+    def test_edges_are_written_where_the_page_cannot_find_them(self):
+        rng = random.Random(11)
+        points = [[rng.randrange(50) / 4 for _ in range(4)] for _ in range(30)]
+        points[7][2] = math.nan
+        def lines(columns):
+            return "".join(" ".join(map(str, p[:columns])) + "\n" for p in points)
+        self.write("flat.txt", lines(2))
+        self.write("deep.txt", lines(4))
+        kept = [i for i in range(30) if i != 7]
+        metrics = {"manhattan": lambda a, b: sum(abs(x - y) for x, y in zip(a, b)),
+                   "chebyshev": lambda a, b: max(abs(x - y) for x, y in zip(a, b)),
+                   "euclidean": math.dist}
+        for file, columns, metric in (("flat.txt", 2, "manhattan"), ("flat.txt", 2, "chebyshev"),
+                                      ("deep.txt", 4, "euclidean")):
+            report = self.report(file, "--nan", "drop", "--metric", metric, "--threshold", "6",
+                                 "--min-persistence", "-1")
+            ids = kept if columns == 4 else range(30)
+            distance = metrics[metric]
+            expected = [(d, i, j) for i in ids for j in ids if i < j
+                        and (d := distance(points[i][:columns], points[j][:columns])) <= 6]
+            found = self.edges_of(report)
+            self.assertEqual(sorted(e[1:] for e in found), sorted(e[1:] for e in expected))
+            for (value, *_), (other, *_) in zip(found, sorted(expected)):
+                self.assertAlmostEqual(value, other, 5)
+            self.assertNotIn("edges_below", report.meta["cloud"])
+        for options in (("--nan", "drop"), ("--metric", "manhattan", "--max-dim", "0")):
+            self.assertNotIn("complex/edges", self.report("flat.txt", *options))
+
+    def test_samples_and_weights_show_their_own_edges(self):
+        self.write("p.txt", "0 0\n1 0\n0 1\n9 9\n")
+        report = self.report("p.txt", "--subsample", "2")
+        self.assertNotIn("metric", report.meta["cloud"])
+        self.assertEqual(report.arrays["complex/edges"].rows(), [(0, 3)])
+        self.write("w.txt", "0\n3\n0\n1\n")
+        report = self.report("p.txt", "--vertex-weights", "w.txt", "--threshold", "5")
+        self.assertEqual(report["points/birth"], [0, 3, 0, 1])
+        self.assertTrue(all(value >= max(report["points/birth"][v] for v in ends)
+                            for value, *ends in self.edges_of(report)))
+
+    def test_of_too_many_edges_the_first_are_there(self):
+        rng = random.Random(12)
+        self.write("p.txt", "".join(f"{rng.random()} {rng.random()}\n" for _ in range(400)))
+        report = self.report("p.txt", "--metric", "manhattan", "--threshold", "3")
+        edges = self.edges_of(report)
+        self.assertEqual(len(edges), 40_000)
+        self.assertAlmostEqual(report.meta["cloud"]["edges_below"], edges[-1][0], 3)
+        self.assertGreaterEqual(report.meta["cloud"]["edges_below"] + 1e-6, edges[-1][0])
+
+    def test_a_mesh_has_its_values_edges_and_triangles(self):
+        self.write("m.off", "OFF\n5 2 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n5 5 5\n3 0 1 2\n3 1 2 3\n")
+        self.write("v.txt", "3\n1\n2\n0.5\n-4\n")
+        report = self.report("m.off", "--values", "v.txt")
+        self.assertEqual(report["points/birth"], [3, 1, 2, 0.5, -4])
+        self.assertEqual(self.edges_of(report), [(1, 1, 3), (2, 1, 2), (2, 2, 3), (3, 0, 1),
+                                                 (3, 0, 2)])
+        self.assertEqual([sorted(t) for t in report.arrays["complex/triangles"].rows()],
+                         [[1, 2, 3], [0, 1, 2]])
+        self.assertEqual(report["complex/triangle_values"], [2, 3])
+
     def test_where_it_comes_from(self):
         report = self.report("square.txt", "--threads", "1", "--field", "3", "--max-dim", "1")
         p = report.meta["provenance"]

@@ -21,6 +21,7 @@
 #include "report/point_arrays.hpp"
 #include "report/report_file.hpp"
 #include "report/sha256.hpp"
+#include "report/touching_leaves.hpp"
 #include "report/tree_arrays.hpp"
 #include "report/voxel_arrays.hpp"
 
@@ -349,6 +350,24 @@ TEST(Trees, TheLeastCutKeepsNoMoreThanAskedFor) {
     }
   EXPECT_EQ(least_cut(tree, CutRule::persistence, 100), 6);
   EXPECT_EQ(least_cut({}, CutRule::value, 1), 0);
+}
+
+TEST(TouchingLeaves, AreBesideEachOtherInThePicture) {
+  constexpr std::uint32_t none = kNone;
+  // Two rows of twelve pixels, the second without its first one.
+  const std::vector<std::uint32_t> index = {0,  1,  2,  3,  11, 13, 14, 15,
+                                            16, 17, 18, 19, 20, 21, 22, 23};
+  const std::vector<std::uint32_t> leaf = {5,    5,    none, 1,    2,    5,    none, none,
+                                           none, none, none, none, none, none, 7,    2};
+  // 1 and 2 are eight columns apart, 5 and 7 nine; 2 and 7 touch; 1 has nobody below.
+  EXPECT_EQ(touching_in_picture(index, leaf, 12), (std::vector<std::uint32_t>{1, 2, 1, 5, 2, 7}));
+  // The end of a row is not beside the begin of the next one.
+  const std::vector<std::uint32_t> ends = {11, 12}, two = {0, 1};
+  EXPECT_TRUE(touching_in_picture(ends, two, 12).empty());
+  const std::vector<std::uint32_t> rows = {0, 24, 25};
+  EXPECT_EQ(touching_in_picture(rows, std::vector<std::uint32_t>{3, 4, none}, 3),
+            (std::vector<std::uint32_t>{3, 4}));
+  EXPECT_TRUE(touching_in_picture(rows, std::vector<std::uint32_t>{3, 4, none}, 2).empty());
 }
 
 /// Bars of H0 by birth: (birth, voxels of its set).

@@ -13,6 +13,7 @@ import { bettiAt, ShownComplex, type ShownPart } from "./shown_complex";
 import { Stage } from "./stage";
 import { StaticPicture } from "./static_picture";
 import { Group, type LineSegments, type Mesh } from "three";
+import type { Report } from "./report";
 import type { Change, ColourMode, Session } from "./session";
 
 /// Nothing without WebGL.
@@ -61,7 +62,7 @@ export class DataView {
     this.head = el(
       "header",
       {},
-      el("h2", {}, !report.image ? "Point cloud" : report.image.shape[0]! > 1 ? "Volume" : "Image"),
+      el("h2", {}, kindOf(report)),
     );
     this.panel = el("section", { class: "panel data", "aria-label": "Data" }, this.head, this.body);
     this.stage = stageOf(pose);
@@ -250,16 +251,11 @@ export class DataView {
       this.complexGroup.remove(child);
     }
     this.complexShape = undefined;
-    if (scale === undefined) {
-      this.reading.textContent = "all";
-      return;
-    }
-    const betti = bettiAt(report, scale)
-      .map((b, dim) => `β${homology(dim).slice(1)} ${grouped(b)}`)
-      .join("  ");
-    let text = `${short(scale, 3)}   ${betti}`;
-    if (this.complex.available) {
-      const part = this.complex.upTo(scale);
+    // A mesh is seen as one; of a Rips complex all edges would hide everything.
+    const shown = scale ?? (report.triangles ? Infinity : undefined);
+    let text = scale === undefined ? "all" : `${short(scale, 3)}   ${bettiInWords(report, scale)}`;
+    if (this.complex.available && shown !== undefined) {
+      const part = this.complex.upTo(shown);
       this.complexGroup.add(thinLines(part.ends, theme.ink), veil(part.corners, theme.ink));
       const geometry = { points: [], segments: part.ends, triangles: part.corners };
       this.complexShape = { geometry, colour: theme.muted, width: 0.5, opacity: 0.05, surface: false };
@@ -308,6 +304,17 @@ export class DataView {
     this.session.changed("view");
     event.preventDefault();
   }
+}
+
+function kindOf({ image, triangles }: Report): string {
+  if (image) return image.shape[0]! > 1 ? "Volume" : "Image";
+  return triangles ? "Mesh" : "Point cloud";
+}
+
+function bettiInWords(report: Report, value: number): string {
+  return bettiAt(report, value)
+    .map((b, dim) => `β${homology(dim).slice(1)} ${grouped(b)}`)
+    .join("  ");
 }
 
 function partInWords({ edges, triangles, more }: ShownPart): string {

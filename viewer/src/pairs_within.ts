@@ -63,7 +63,7 @@ function distance(p: Float32Array, i: number, j: number): number {
 export interface SortedPairs {
   ends: Uint32Array; // two a pair
   values: Float32Array | Float64Array; // ascending
-  reach: number; // no pair up to this distance is missing
+  missingFrom: number; // pairs of this value and more may be missing
 }
 
 /// The shortest pairs, up to a distance of `limit`, no more than `most`, and as many as a few
@@ -87,7 +87,8 @@ export function shortestPairs(p: Float32Array, limit: number, most: number): Sor
   const order = Uint32Array.from(lengths, (_, at) => at).sort((a, b) => lengths[a]! - lengths[b]!);
   const ends = new Uint32Array(best.length);
   order.forEach((from, to) => ends.set([best[2 * from]!, best[2 * from + 1]!], 2 * to));
-  return { ends, values: Float32Array.from(order, (at) => lengths[at]!), reach };
+  const missingFrom = reach < limit ? reach : Infinity;
+  return { ends, values: Float32Array.from(order, (at) => lengths[at]!), missingFrom };
 }
 
 /// The triples of points all of whose pairs are edges; nothing if there are more than `most`.

@@ -42,7 +42,7 @@ export interface Meta {
     viewpoint?: number[];
     projection?: string;
     metric?: string;
-    edges_up_to?: number;
+    edges_below?: number;
   };
   image?: { construction?: "vertices" | "cells" };
   tree?: {
@@ -101,6 +101,7 @@ export interface Report {
   chains: Chains | undefined;
   voxels: VoxelSets | undefined;
   edges: { ends: Numbers; values: Numbers } | undefined;
+  triangles: { corners: Numbers; values: Numbers } | undefined;
   payloadBytes: number;
 }
 
@@ -194,6 +195,9 @@ export function reportOf(payload: Payload): Report {
     chains: chainsOf(need, array, bars, meta),
     voxels: image && voxelsOf(need, array, image),
     edges,
+    triangles: block("complex/triangles")
+      ? { corners: need("complex/triangles"), values: need("complex/triangle_values") }
+      : undefined,
     payloadBytes: payload.bytes,
   };
 }

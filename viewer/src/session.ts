@@ -225,14 +225,15 @@ export class Session {
 
   /// The ways to colour that this report has, the default first.
   colourModes(): [ColourMode, string][] {
-    const { elements, tree, cloud, image, meta } = this.report;
+    const { elements, tree, cloud, image, triangles, meta } = this.report;
     const modes: [ColourMode, string][] = [];
+    if (triangles && elements?.birth) modes.push(["birth", "value"]); // of a mesh
     if (tree && elements?.leaf) modes.push(["segment", "segment"]);
     if (elements?.rgb) modes.push(["rgb", "input colour"]);
     if (elements?.truth) modes.push(["truth", "ground truth"]);
     if (elements?.normals) modes.push(["normal", "normal"]);
     if (cloud?.dims === 3) modes.push(["depth", meta.cloud?.viewpoint ? "depth" : "z"]);
-    if (elements?.birth) modes.push(["birth", image ? "value" : "birth"]);
+    if (!triangles && elements?.birth) modes.push(["birth", image ? "value" : "birth"]);
     if (tree && elements?.leaf) modes.push(["persistence", "persistence"]);
     if (!image) modes.push(["plain", "one colour"]);
     // One segment tells nothing: begin with what does.

@@ -3,6 +3,7 @@
 // complex of points that are all here, the pairs within that distance; and its triangles.
 import { elementOf } from "./cell_geometry";
 import { shortestPairs, trianglesOf, type SortedPairs } from "./pairs_within";
+import type { Numbers } from "./payload";
 import type { Report } from "./report";
 
 const kMostEdges = 40_000,
@@ -35,45 +36,48 @@ export class ShownComplex {
   }
   upTo(value: number): ShownPart {
     this.pairs ??= this.computed ? this.nearest() : this.written();
-    const { ends, values, reach } = this.pairs;
-    const limit = value * (1 + 1e-6); // positions are float32
-    let low = 0,
-      high = values.length;
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if (values[middle]! <= limit) low = middle + 1;
-      else high = middle;
-    }
-    const shown = ends.subarray(0, 2 * low);
-    const triangles = this.isFlag() ? trianglesOf(shown, kMostTriangles) : new Uint32Array();
+    const { ends, values, missingFrom } = this.pairs;
+    const shown = ends.subarray(0, 2 * countUpTo(values, value));
+    const triangles = this.trianglesUpTo(value, shown);
     return {
       ends: this.places(shown),
       corners: this.places(triangles ?? []),
-      edges: low,
+      edges: shown.length / 2,
       triangles: triangles && triangles.length / 3,
-      more: value > reach,
+      more: missingFrom < Infinity && value >= missingFrom,
     };
   }
 
-  /// Whether a triangle is there as soon as its edges are.
-  private isFlag(): boolean {
-    return this.report.meta.provenance.complex === "rips";
+  /// Those that the program wrote, or, of a flag complex, those whose edges are there.
+  private trianglesUpTo(value: number, edges: Uint32Array): Uint32Array | undefined {
+    const { triangles, meta } = this.report;
+    if (triangles) {
+      const count = countUpTo(triangles.values, value);
+      return this.elementsOf(triangles.corners, 3).subarray(0, 3 * count);
+    }
+    const isFlag = meta.provenance.complex === "rips";
+    return isFlag ? trianglesOf(edges, kMostTriangles) : new Uint32Array();
   }
   private nearest(): SortedPairs {
     return shortestPairs(this.report.cloud!.positions, this.report.bars.high, kMostEdges);
   }
   private written(): SortedPairs {
-    const { ends, values } = this.report.edges!;
-    const kept: number[] = [],
-      keptValues: number[] = [];
-    for (let e = 0; e < values.length; ++e) {
-      const pair = [0, 1].map((side) => elementOf(this.report, ends[2 * e + side]!) ?? -1);
-      if (Math.min(...pair) < 0) continue;
-      kept.push(Math.min(...pair), Math.max(...pair));
-      keptValues.push(values[e]!);
-    }
-    const complete = this.report.meta.cloud?.edges_up_to ?? Infinity;
-    return { ends: Uint32Array.from(kept), values: Float64Array.from(keptValues), reach: complete };
+    const { edges, meta } = this.report;
+    return {
+      ends: this.elementsOf(edges!.ends, 2),
+      values: Float64Array.from(edges!.values),
+      missingFrom: meta.cloud?.edges_below ?? Infinity,
+    };
+  }
+  private readonly found = new Map<Numbers, Uint32Array>();
+  /// Vertices of cells as places in the picture, ascending within a cell.
+  private elementsOf(vertices: Numbers, arity: number): Uint32Array {
+    let elements = this.found.get(vertices);
+    if (elements) return elements;
+    elements = Uint32Array.from(vertices, (v) => elementOf(this.report, v) ?? 0);
+    for (let i = 0; i < elements.length; i += arity) elements.subarray(i, i + arity).sort();
+    this.found.set(vertices, elements);
+    return elements;
   }
   private places(elements: ArrayLike<number>): Float32Array {
     const to = new Float32Array(3 * elements.length);
@@ -83,6 +87,20 @@ export class ShownComplex {
     return to;
   }
 }
+
+/// How many of ascending values lie up to another one. Values and positions are float32.
+function countUpTo(values: ArrayLike<number>, value: number): number {
+  const limit = value + 1e-6 * Math.abs(value);
+  let low = 0,
+    high = values.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (values[middle]! <= limit) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
+
 /// How many bars of each dimension live at a value.
 export function bettiAt(report: Report, value: number): number[] {
   const { bars } = report;

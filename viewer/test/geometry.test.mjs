@@ -120,8 +120,8 @@ test("edges and triangles of points are all pairs and triples that are near", ()
     const p = Float32Array.from({ length: 3 * n }, (_, i) => 7 + spread[i % 3] * (next() - 0.5));
     if (n > 10) p.copyWithin(0, 3, 9); // points that are equal
     for (const r of [0.05, 0.4, 3]) {
-      const { ends, values, reach } = shortestPairs(p, r, 1e6);
-      assert.equal(reach, r);
+      const { ends, values, missingFrom } = shortestPairs(p, r, 1e6);
+      assert.equal(missingFrom, Infinity);
       const expected = allWithin(p, r);
       assert.deepEqual(grouped(ends, 2), expected.pairs);
       assert.ok(values.every((v, i) => i === 0 || values[i - 1] <= v));
@@ -135,12 +135,12 @@ test("edges and triangles of points are all pairs and triples that are near", ()
 test("of too many pairs the shortest are found, none of them missing", () => {
   const next = random(9);
   const p = Float32Array.from({ length: 3 * 800 }, () => next());
-  const { ends, values, reach } = shortestPairs(p, 2, 4000);
+  const { ends, values, missingFrom } = shortestPairs(p, 2, 4000);
   assert.ok(values.length > 1500 && values.length <= 4000, `${values.length}`);
-  assert.ok(reach < 2);
-  assert.deepEqual(grouped(ends, 2), allWithin(p, reach).pairs);
+  assert.ok(missingFrom < 2);
+  assert.deepEqual(grouped(ends, 2), allWithin(p, missingFrom).pairs);
   const one = shortestPairs(new Float32Array(3 * 1000), 1, 100);
-  assert.deepEqual([one.values.length, one.reach], [0, 0]);
+  assert.deepEqual([one.values.length, one.missingFrom], [0, 0]);
 });
 
 test("fifty thousand points are no trouble", (t) => {

@@ -117,6 +117,38 @@ test("reports of the programs", { timeout: 300_000 }, async (t) => {
     }
   });
 
+  await t.test("ph-barcode: a mesh is seen as one, and grows with its values", async () => {
+    const side = 10,
+      rows = Array.from({ length: side * side }, (_, i) => [i % side, Math.floor(i / side)]);
+    const faces = rows.flatMap(([x, y], i) =>
+      x + 1 < side && y + 1 < side
+        ? [`3 ${i} ${i + 1} ${i + side}`, `3 ${i + 1} ${i + side} ${i + side + 1}`]
+        : [],
+    );
+    const vertices = rows.map(([x, y]) => `${x} ${y} ${Math.sin(x)}`);
+    writeFileSync(
+      join(folder, "sheet.off"),
+      `OFF\n${rows.length} ${faces.length} 0\n${[...vertices, ...faces].join("\n")}\n`,
+    );
+    writeFileSync(join(folder, "x.txt"), rows.map(([x]) => x).join("\n"));
+    run(barcode, "sheet.off", "--values", "x.txt", "--min-persistence", "-1", "-o", "sheet.csv",
+      "--report", "sheet.html");
+    await look(browser, "sheet.html", [...kCharts, ".stage"], async (page) => {
+      const words = () => page.textContent(".scrubber output");
+      assert.equal(await words(), "all   261 edges, 162 triangles");
+      assert.equal(await page.textContent(".data h2"), "Mesh");
+      await page.evaluate(() => (location.hash = "scale=4"));
+      await frames(page);
+      assert.match(await words(), /β₀ 1 .* 121 edges, 72 triangles$/);
+    });
+    run(barcode, "sphere.csv", "--metric", "manhattan", "-o", "far.csv", "--report", "far.html");
+    await look(browser, "far.html", [".stage"], async (page) => {
+      await page.evaluate(() => (location.hash = "scale=1.2"));
+      await frames(page);
+      assert.match(await page.textContent(".scrubber output"), /[\d,]+ edges, [\d,]+ triangles$/);
+    });
+  });
+
   await t.test("ph-barcode: two barcodes, a hostile name, no points", async () => {
     const name = "<script>alert(1)<img>.csv";
     writeFileSync(join(folder, name), "dim,birth,death\n0,0,1\n0,0,inf\n1,0.5,2\n");
