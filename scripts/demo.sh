@@ -16,8 +16,10 @@ segment=build/release/apps/segment/ph-segment
 
 # Pages to look at, where npm could bundle them.
 report() { :; }
+with_cells() { :; }
 if $barcode --version --verbose | grep -q '^reports *built in'; then
   report() { printf -- '--report %s' "$out/$1.html"; }
+  with_cells() { printf -- '--representatives %s' "$1"; }  # to be drawn on the data
 fi
 
 # The five longest bars of a dimension: longest DIM FILE.csv
@@ -29,13 +31,13 @@ longest() {
 echo
 echo "1. 5 210 points on a cat (libcgal-demo): Vietoris-Rips, H0 and H1"
 $barcode "$out/data/kitten.csv" --threshold 0.15 --quiet -o "$out/kitten.csv" \
-  --plot "$out/kitten.svg" --plot-kind diagram $(report kitten)
+  --plot "$out/kitten.svg" --plot-kind diagram $(report kitten) $(with_cells cycles)
 echo "   longest loops, length [birth, death): two stand out, as on a torus"
 longest 1 "$out/kitten.csv"
 
 echo "2. CT of a skull, 64 x 64 x 64 (libcgal-demo): cubical, H0, H1, H2"
 $barcode "$out/data/skull.npy" --quiet -o "$out/skull.csv" --plot "$out/skull.svg" --plot-kind barcode \
-  $(report skull)
+  $(report skull) $(with_cells voxels)
 echo "   longest voids, length [birth, death)"
 longest 2 "$out/skull.csv"
 

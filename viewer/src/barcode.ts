@@ -17,7 +17,8 @@ const kLeft = 34,
   kGap = 10,
   kStrip = 12,
   kLeastRow = 2.5,
-  kMostRow = 14;
+  kMostRow = 14,
+  kMostRedrawn = 50_000; // bars; more are not drawn anew at each cut
 
 interface Item {
   bar: number;
@@ -34,8 +35,9 @@ interface Band {
 }
 
 export class Barcode extends BarChart {
-  protected redrawsOn: Change[] = ["dims"];
+  protected redrawsOn: Change[] = ["dims", "colour"];
   private items: Item[] = [];
+  private rowsFor: Map<number, string> | undefined; // bars that had to have a row
   private axes: Axis[] = [];
 
   constructor(session: Session) {
@@ -57,6 +59,7 @@ export class Barcode extends BarChart {
       report: { bars, meta },
     } = this.session;
     this.items = [];
+    this.rowsFor = this.session.tintedBars();
     this.axes = this.makeAxes(size);
     const two = meta.barcodes.length > 1;
     const top = kTop + (two ? 16 : 0),
@@ -93,8 +96,11 @@ export class Barcode extends BarChart {
     const {
       theme,
       focus,
-      report: { bars },
     } = this.session;
+    const { bars } = this.session.report;
+    const isQuick = bars.size <= kMostRedrawn;
+    if (isQuick && this.rowsFor !== this.session.tintedBars()) return this.refresh();
+    this.drawTinted(pen);
     for (const item of this.items) {
       const focused = item.bar === focus.bar;
       if (!focused && !this.session.isSelected(item.bar)) continue;
@@ -107,8 +113,16 @@ export class Barcode extends BarChart {
         y - thick / 2,
         Math.max(1, item.x2 - item.x1),
         thick,
-        dimColour(bars.dim[item.bar]!, theme),
+        this.session.colourOfBar(item.bar),
       );
+    }
+  }
+  private drawTinted(pen: Pen): void {
+    const tints = this.session.tintedBars();
+    if (tints.size === 0) return;
+    for (const { bar, x1, x2, y, row } of this.items) {
+      const colour = tints.get(bar);
+      if (colour) pen.rect(x1, y, Math.max(1, x2 - x1), Math.max(1.5, row), colour);
     }
   }
 
@@ -163,7 +177,7 @@ export class Barcode extends BarChart {
   private band(dim: number, barcode: number, rows: number): Band {
     const { bars } = this.session.report,
       all = bars.of(dim, barcode),
-      shown = bars.prominent(all, rows);
+      shown = withRows(bars.prominent(all, rows), this.wanted(dim, barcode), rows >> 1);
     const drawn = new Set(all.length > rows ? shown : []);
     return {
       dim,
@@ -173,13 +187,15 @@ export class Barcode extends BarChart {
     };
   }
 
+  /// Bars of segments: they have a row, however many others are as long.
+  private wanted(dim: number, barcode: number): number[] {
+    return dim === 0 && barcode === 0 ? [...this.session.tintedBars().keys()] : [];
+  }
+
   private drawBand(pen: Pen, band: Band, y: number, row: number): void {
-    const {
-      theme,
-      report: { bars },
-    } = this.session;
+    const { bars } = this.session.report;
     const axis = this.axes[band.barcode]!,
-      colour = dimColour(band.dim, theme);
+      colour = this.session.colourOfDim(band.dim);
     const thick = row > 5 ? 0.62 * row : row > 3.2 ? row - 1.2 : row - 0.6;
     for (const bar of band.bars) {
       const x1 = bars.birth[bar] === -Infinity ? axis.from - 6 : axis.at(bars.birth[bar]!);
@@ -217,7 +233,7 @@ export class Barcode extends BarChart {
           y + 2,
           1,
           3,
-          dimColour(band.dim, theme),
+          this.session.colourOfDim(band.dim),
           0.2 + 0.75 * Math.log(alive[i]! + 1) * scale,
         );
     pen.text(axis.to, y + 13, `+ ${grouped(band.rest.length)} more`, {
@@ -238,6 +254,17 @@ export class Barcode extends BarChart {
     }
     return best;
   }
+}
+
+/// Bars with a row, the last of them replaced by `most` of those that want one at most.
+function withRows(bars: Uint32Array, wanted: number[], most: number): Uint32Array {
+  const present = new Set(bars),
+    wants = new Set(wanted);
+  const missing = wanted.filter((bar) => !present.has(bar)).slice(0, most);
+  const result = bars.slice();
+  for (let i = result.length - 1; i >= 0 && missing.length > 0; --i)
+    if (!wants.has(result[i]!)) result[i] = missing.pop()!;
+  return result;
 }
 
 /// Shares rows among bands: none gets more than it needs, what is left over goes to the others.

@@ -4,7 +4,6 @@
 import { Axis } from "./axis";
 import { BarChart, intervalOf } from "./bar_chart";
 import { clipped, homology, short } from "./numbers";
-import { dimColour } from "./palette";
 import type { Pen } from "./pen";
 import type { Size } from "./chart";
 import type { Change, Session } from "./session";
@@ -63,7 +62,7 @@ function drawMarker(
 }
 
 export class Diagram extends BarChart {
-  protected redrawsOn: Change[] = ["dims"];
+  protected redrawsOn: Change[] = ["dims", "colour"];
   private x: Float32Array; // of each bar, pixels
   private y: Float32Array;
   private births = new Axis(0, 1, 0, 1);
@@ -108,7 +107,7 @@ export class Diagram extends BarChart {
     const marked = this.shownBars(many ? kLongest : kMostMarkers);
     for (let i = marked.length - 1; i >= 0; --i) {
       const bar = marked[i]!;
-      const colour = dimColour(bars.dim[bar]!, theme);
+      const colour = this.session.colourOfDim(bars.dim[bar]!);
       const hollow = bars.barcodeOf(bar) === 1;
       const edge = hollow ? colour : marked.length < 400 ? theme.panel : "none";
       drawMarker(
@@ -132,6 +131,9 @@ export class Diagram extends BarChart {
       report: { bars },
     } = session;
     this.drawCut(pen);
+    for (const [tinted, colour] of session.tintedBars())
+      if (session.isShown(tinted))
+        drawMarker(pen, 0, this.x[tinted]!, this.y[tinted]!, 4.2, colour, 1, theme.panel, 0.8);
     const most = session.selection.length > 5000 ? 1 : 2;
     for (const bar of session.selection.slice(0, 5000)) {
       if (!session.isShown(bar)) continue;
@@ -141,7 +143,7 @@ export class Diagram extends BarChart {
         this.x[bar]!,
         this.y[bar]!,
         3 + most,
-        dimColour(bars.dim[bar]!, theme),
+        session.colourOfBar(bar),
         1,
         theme.accent,
         most,
@@ -157,7 +159,7 @@ export class Diagram extends BarChart {
         x,
         y,
         6.5,
-        dimColour(bars.dim[bar]!, theme),
+        session.colourOfBar(bar),
         1,
         theme.ink,
         1.5,
@@ -281,7 +283,7 @@ export class Diagram extends BarChart {
         const cell = Math.floor(this.y[i]! / kCell) * columns + Math.floor(this.x[i]! / kCell);
         most = Math.max(most, ++counts[cell]!);
       }
-      const colour = dimColour(dim, this.session.theme),
+      const colour = this.session.colourOfDim(dim),
         scale = 1 / Math.log(most + 1);
       counts.forEach((count, cell) => {
         if (count > 0)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the reader is looking at: one state for all views. A view changes it through the methods
 // here and draws again when it hears of a change; no view knows another one.
-import { coloursApart, segmentColour, themeOf, type Rgb, type Theme } from "./palette";
+import { coloursApart, dimColour, hex, segmentColour, themeOf, type Rgb, type Theme } from "./palette";
 import { suggestedCut } from "./gaps";
 import type { Cut } from "./merge_tree";
 import { kNone, type Numbers } from "./payload";
@@ -19,6 +19,8 @@ export interface Focus {
   segment: number; // 0: none
   element: number; // -1: none
 }
+const kNoTints = new Map<number, string>();
+const kMostTinted = 200; // segments whose bars have their colours
 const kNothing: Focus = { bar: -1, segment: 0, element: -1 };
 
 export class Session {
@@ -120,6 +122,7 @@ export class Session {
     this.cut = tree.cut(this.cutValue, this.isJoined);
     if (this.focus.segment > this.cut.segments.length) this.focus = kNothing;
     this.segmentColours = this.coloursOf(this.cut);
+    this.tints = undefined;
     this.cutMilliseconds = performance.now() - start;
   }
   private coloursOf(cut: Cut): Rgb[] {
@@ -203,6 +206,29 @@ export class Session {
       any = true;
     }
     return any ? mask : undefined;
+  }
+  private tints: Map<number, string> | undefined;
+  /// The bars of the largest segments with the colours that these have in the data, if they have
+  /// them there; else none.
+  tintedBars(): Map<number, string> {
+    if (this.colour !== "segment" || !this.cut) return kNoTints;
+    this.tints ??= new Map(
+      this.cut.segments
+        .slice(0, kMostTinted)
+        .map((s) => [this.barOfSegment(s.label), hex(this.segmentColours[s.label - 1]!)] as const)
+        .filter(([bar]) => bar >= 0),
+    );
+    return this.tints;
+  }
+  /// What a bar is drawn with.
+  colourOfBar(bar: number): string {
+    return this.tintedBars().get(bar) ?? this.colourOfDim(this.report.bars.dim[bar]!);
+  }
+  /// What bars are drawn with that have no colour of their own: where segments have some those of H0
+  /// are grey, as in the tree.
+  colourOfDim(dim: number): string {
+    const grey = dim === 0 && this.colour === "segment";
+    return grey ? this.theme.faint : dimColour(dim, this.theme);
   }
   isShown(bar: number): boolean {
     return !this.hiddenDims.has(this.report.bars.dim[bar]!);

@@ -285,10 +285,13 @@ test("the live cut of a scene", { timeout: 300_000 }, async (t) => {
     await page.click(".cut >> text=program's cut");
     await frame(page);
     const before = await page.screenshot({ clip: await page.locator(".stage").boundingBox() });
+    const drawn = async () => [await drawnOver(page, ".tree"), await drawnOver(page, ".barcode")];
+    const [tree, barcode] = await drawn();
     await page.hover(".legend button.row >> nth=2");
     await frame(page);
     assert.match(await reading(page), /^segment 3, .* H₀/);
-    assert.ok((await drawnOver(page, ".tree")) > 20 && (await drawnOver(page, ".barcode")) > 5);
+    const [treeThen, barcodeThen] = await drawn();
+    assert.ok(treeThen > tree + 20 && barcodeThen > barcode + 5);
     const after = await page.screenshot({ clip: await page.locator(".stage").boundingBox() });
     assert.notDeepEqual(before, after);
     await page.click(".legend button.row >> nth=2");
@@ -301,6 +304,24 @@ test("the live cut of a scene", { timeout: 300_000 }, async (t) => {
     await frame(page);
     assert.match(await selection(page), /^H₀/);
     assert.ok(bar.startsWith("H₀"));
+  });
+
+  await t.test("bars have the colours of their segments", async () => {
+    await page.keyboard.press("Escape");
+    await page.mouse.move(2, 2);
+    const pink = [204, 121, 167];
+    const inCharts = async () => [
+      await tintedPixels(page, ".barcode .chart", pink),
+      await tintedPixels(page, ".diagram .chart", pink),
+    ];
+    await frame(page);
+    const coloured = await inCharts();
+    await page.selectOption(".data select", "depth");
+    await frame(page);
+    const plain = await inCharts();
+    await page.selectOption(".data select", "segment");
+    assert.ok(coloured[0] > 50 && coloured[1] > 10, `${coloured}`);
+    assert.deepEqual(plain, [0, 0]);
   });
 
   await t.test("other colours, ground truth beside, and 900 pixels", async () => {
