@@ -218,6 +218,8 @@ test("the live cut of a scene", { timeout: 300_000 }, async (t) => {
   t.diagnostic(
     `${count} points: ${(bytes / 2 ** 20).toFixed(2)} MiB, ${(bytes / count).toFixed(1)} bytes a point, first frame ${firstFrame} ms (with the browser's work ${wall.toFixed(0)} ms)`,
   );
+  assert.ok(bytes <= 12 * count && bytes <= 5 * 2 ** 20, "the page is too large");
+  assert.ok(firstFrame < 1500 * kPatience, "the page is too slow");
   await picture(page, "scene");
 
   await t.test("first the program's own cut, with its joins", async () => {
@@ -380,6 +382,22 @@ test("a million bars, two million points", { timeout: 500_000 }, async (t) => {
     await picture(page, "many_bars");
     assert.ok((await coloursOf(page, ".diagram .chart")) > 50);
     assert.ok(median(hover) < 100 * kPatience);
+    assert.deepEqual(problems, []);
+    await close();
+  });
+  await t.test("components of 300 000 points, each a leaf", async (tt) => {
+    const { page, problems, bytes, firstFrame, close } = await open(browser, odd.manyLeaves());
+    const times = [];
+    for (const place of [300, 700, 1100, 500]) {
+      await setSlider(page, ".cut input[type=range]", place);
+      const title = await page.getAttribute(".cut .outcome", "title");
+      times.push(Number(title.match(/[\d.]+/)[0]));
+    }
+    const list = times.map((ms) => ms.toFixed(0)).join(", ");
+    tt.diagnostic(
+      `${(bytes / 2 ** 20).toFixed(1)} MiB, first frame ${firstFrame} ms, cuts in ${list} ms`,
+    );
+    assert.ok(median(times) < 50 * kPatience);
     assert.deepEqual(problems, []);
     await close();
   });

@@ -83,6 +83,53 @@ test("pages", { timeout: 500_000 }, async (t) => {
     await close();
   });
 
+  await t.test("every control has a name, and the keyboard reaches it", async () => {
+    for (const make of [torus, image, odd.twoBarcodes]) {
+      const { page, close } = await open(browser, make());
+      const nameless = await page.$$eval(
+        "button, input, select, summary, canvas[role=img], section, svg:not([aria-hidden])",
+        (all) =>
+          all
+            .filter((e) => !e.closest("dialog:not([open])") && !e.closest("details:not([open]) .items"))
+            .filter((e) => {
+              const label = e.closest("label")?.textContent;
+              return !(e.getAttribute("aria-label") || label || e.textContent).trim();
+            })
+            .map((e) => e.outerHTML.slice(0, 80)),
+      );
+      assert.deepEqual(nameless, []);
+      const wanted = await page.$$eval("button, input, select, summary, canvas[role=img]", (all) =>
+        all.filter((e) => !e.disabled && e.checkVisibility() && e.tabIndex >= 0).length,
+      );
+      await page.evaluate(() => (window.reached = new Set()));
+      for (let i = 0; i < 2 * wanted; ++i) {
+        await page.keyboard.press("Tab");
+        await page.evaluate(() => window.reached.add(document.activeElement));
+      }
+      const reached = await page.evaluate(() => window.reached.size);
+      assert.ok(wanted > 5 && reached >= wanted, `${reached} of ${wanted}`);
+      assert.equal(await page.getAttribute(".status .reading", "aria-live"), "polite");
+      await close();
+    }
+  });
+
+  await t.test("on paper there are no controls; what moves, stands still if asked to", async () => {
+    const { page, close } = await open(browser, torus(), { reducedMotion: "reduce" });
+    const duration = () =>
+      page.$eval(".top button", (e) => getComputedStyle(e).transitionDuration);
+    assert.equal(await duration(), "0s");
+    await page.emulateMedia({ reducedMotion: "no-preference" });
+    assert.notEqual(await duration(), "0s");
+    assert.ok(await page.locator(".top button").first().isVisible());
+    await page.emulateMedia({ media: "print" });
+    const controls = page.locator("button:not(.chip):visible, select:visible, input:visible");
+    assert.equal(await controls.count(), 0); // chips name the dimensions
+    assert.ok(await page.locator(".diagram canvas").first().isVisible());
+    await close();
+    const policy = await (await import("./support/browser.mjs")).template();
+    assert.match(policy, /http-equiv="Content-Security-Policy" content="default-src 'none'; /);
+  });
+
   await t.test("two barcodes: how far they are apart", async () => {
     const { page, close } = await open(browser, odd.twoBarcodes());
     const words = /H₀ bottleneck 0\.0123.*H₁ bottleneck ∞/s;
