@@ -10,35 +10,33 @@ export interface TextStyle {
   upwards?: boolean; // turned by a quarter
 }
 
+type Line = [
+  x1: number,
+  y1: number,
+  x2: number,
+  y2: number,
+  colour: string,
+  width?: number,
+  dash?: number[],
+];
+type Rect = [
+  x: number,
+  y: number,
+  width: number,
+  height: number,
+  colour: string,
+  opacity?: number,
+];
+type Paint = [fill: string, opacity?: number, stroke?: string, strokeWidth?: number];
+type Circle = [x: number, y: number, r: number, ...paint: Paint];
+
 /// Filled closed shapes or open strokes are lists of x, y.
 export interface Pen {
-  line(
-    x1: number,
-    y1: number,
-    x2: number,
-    y2: number,
-    colour: string,
-    width?: number,
-    dash?: number[],
-  ): void;
-  rect(x: number, y: number, width: number, height: number, colour: string, opacity?: number): void;
-  polygon(
-    points: number[],
-    fill: string,
-    opacity?: number,
-    stroke?: string,
-    strokeWidth?: number,
-  ): void;
+  line(...line: Line): void;
+  rect(...rect: Rect): void;
+  polygon(points: number[], ...paint: Paint): void;
   stroke(points: number[], colour: string, width: number): void;
-  circle(
-    x: number,
-    y: number,
-    r: number,
-    fill: string,
-    opacity?: number,
-    stroke?: string,
-    strokeWidth?: number,
-  ): void;
+  circle(...circle: Circle): void;
   text(x: number, y: number, text: string, style: TextStyle): void;
 }
 
@@ -48,15 +46,7 @@ const kFont =
 export class CanvasPen implements Pen {
   constructor(private readonly context: CanvasRenderingContext2D) {}
 
-  line(
-    x1: number,
-    y1: number,
-    x2: number,
-    y2: number,
-    colour: string,
-    width = 1,
-    dash: number[] = [],
-  ): void {
+  line(...[x1, y1, x2, y2, colour, width = 1, dash = []]: Line): void {
     const c = this.context;
     c.strokeStyle = colour;
     c.lineWidth = width;
@@ -67,33 +57,25 @@ export class CanvasPen implements Pen {
     c.stroke();
     c.setLineDash([]);
   }
-  rect(x: number, y: number, width: number, height: number, colour: string, opacity = 1): void {
+  rect(...[x, y, width, height, colour, opacity = 1]: Rect): void {
     this.context.globalAlpha = opacity;
     this.context.fillStyle = colour;
     this.context.fillRect(x, y, width, height);
     this.context.globalAlpha = 1;
   }
-  polygon(points: number[], fill: string, opacity = 1, stroke = "none", strokeWidth = 1): void {
+  polygon(points: number[], ...paint: Paint): void {
     this.trace(points);
     this.context.closePath();
-    this.paint(fill, opacity, stroke, strokeWidth);
+    this.paint(...paint);
   }
   stroke(points: number[], colour: string, width: number): void {
     this.trace(points);
     this.paint("none", 1, colour, width);
   }
-  circle(
-    x: number,
-    y: number,
-    r: number,
-    fill: string,
-    opacity = 1,
-    stroke = "none",
-    strokeWidth = 1,
-  ): void {
+  circle(...[x, y, r, ...paint]: Circle): void {
     this.context.beginPath();
     this.context.arc(x, y, r, 0, 2 * Math.PI);
-    this.paint(fill, opacity, stroke, strokeWidth);
+    this.paint(...paint);
   }
   text(x: number, y: number, text: string, style: TextStyle): void {
     const c = this.context;
@@ -111,7 +93,7 @@ export class CanvasPen implements Pen {
     this.context.beginPath();
     for (let i = 0; i + 1 < points.length; i += 2) this.context.lineTo(points[i]!, points[i + 1]!);
   }
-  private paint(fill: string, opacity: number, stroke: string, strokeWidth: number): void {
+  private paint(...[fill, opacity = 1, stroke = "none", strokeWidth = 1]: Paint): void {
     const c = this.context;
     c.globalAlpha = opacity;
     if (fill !== "none") {
@@ -135,20 +117,16 @@ function escaped(text: string): string {
     .replace(/"/g, "&quot;");
 }
 
+function painted(...[fill, opacity = 1, stroke = "none", strokeWidth = 1]: Paint) {
+  return { fill, "fill-opacity": opacity, stroke, "stroke-width": strokeWidth };
+}
+
 const coordinate = (value: number) => String(Number(value.toFixed(2)));
 
 export class SvgPen implements Pen {
   private readonly elements: string[] = [];
 
-  line(
-    x1: number,
-    y1: number,
-    x2: number,
-    y2: number,
-    colour: string,
-    width = 1,
-    dash: number[] = [],
-  ): void {
+  line(...[x1, y1, x2, y2, colour, width = 1, dash = []]: Line): void {
     this.add("line", {
       x1,
       y1,
@@ -159,17 +137,11 @@ export class SvgPen implements Pen {
       "stroke-dasharray": dash.length ? dash.join(" ") : undefined,
     });
   }
-  rect(x: number, y: number, width: number, height: number, colour: string, opacity = 1): void {
+  rect(...[x, y, width, height, colour, opacity = 1]: Rect): void {
     this.add("rect", { x, y, width, height, fill: colour, "fill-opacity": opacity });
   }
-  polygon(points: number[], fill: string, opacity = 1, stroke = "none", strokeWidth = 1): void {
-    this.add("polygon", {
-      points: this.list(points),
-      fill,
-      "fill-opacity": opacity,
-      stroke,
-      "stroke-width": strokeWidth,
-    });
+  polygon(points: number[], ...paint: Paint): void {
+    this.add("polygon", { points: this.list(points), ...painted(...paint) });
   }
   stroke(points: number[], colour: string, width: number): void {
     this.add("polyline", {
@@ -179,24 +151,8 @@ export class SvgPen implements Pen {
       "stroke-width": width,
     });
   }
-  circle(
-    x: number,
-    y: number,
-    r: number,
-    fill: string,
-    opacity = 1,
-    stroke = "none",
-    strokeWidth = 1,
-  ): void {
-    this.add("circle", {
-      cx: x,
-      cy: y,
-      r,
-      fill,
-      "fill-opacity": opacity,
-      stroke,
-      "stroke-width": strokeWidth,
-    });
+  circle(...[x, y, r, ...paint]: Circle): void {
+    this.add("circle", { cx: x, cy: y, r, ...painted(...paint) });
   }
   text(x: number, y: number, text: string, style: TextStyle): void {
     this.add(
