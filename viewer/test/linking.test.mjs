@@ -3,22 +3,22 @@
 // what is exported is what was selected; sizes and times.
 import assert from "node:assert/strict";
 import test from "node:test";
-import * as odd from "./support/odd_fixtures.mjs";
 import { torus } from "./support/point_fixtures.mjs";
 import { scene } from "./support/scene_fixture.mjs";
 import { cutOf } from "./support/reference_tree.mjs";
-import { coloursOf, launch, open, picture, tintedPixels } from "./support/browser.mjs";
+import {
+  coloursOf,
+  frame,
+  kPatience,
+  launch,
+  open,
+  picture,
+  setSlider,
+  tintedPixels,
+} from "./support/browser.mjs";
 
-// Limits are for an idle machine.
-const kPatience = Number(process.env.PATIENCE ?? 4);
-const median = (times) => [...times].sort((a, b) => a - b)[times.length >> 1];
 const reading = (page) => page.textContent(".status .reading");
 const selection = (page) => page.textContent(".status .selection");
-const frame = (page) =>
-  page.evaluate(
-    () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))),
-  );
-
 /// Pixels of a canvas that lies over a chart that are not empty.
 const drawnOver = (page, chart) =>
   page.evaluate((name) => {
@@ -30,18 +30,6 @@ const drawnOver = (page, chart) =>
     for (let i = 3; i < data.length; i += 4) if (data[i] > 0) ++drawn;
     return drawn;
   }, chart);
-
-async function setSlider(page, selector, value) {
-  await page.$eval(
-    selector,
-    (input, v) => {
-      input.value = v;
-      input.dispatchEvent(new Event("input", { bubbles: true }));
-    },
-    String(value),
-  );
-  await frame(page);
-}
 
 async function downloaded(page, label) {
   await page.click("summary");
@@ -346,87 +334,4 @@ test("the live cut of a scene", { timeout: 300_000 }, async (t) => {
   });
   assert.deepEqual(problems, []);
   await close();
-});
-
-test("a million bars, two million points", { timeout: 500_000 }, async (t) => {
-  const browser = await launch();
-  t.after(() => browser.close());
-  await t.test("bars", async (tt) => {
-    const { page, problems, bytes, firstFrame, close } = await open(browser, odd.manyBars());
-    const hover = await page.$eval(".diagram canvas.over", (canvas) => {
-      const box = canvas.getBoundingClientRect(),
-        times = [];
-      return new Promise((done) => {
-        const next = (k) => {
-          if (k === 12) return done(times);
-          const start = performance.now();
-          canvas.dispatchEvent(
-            new PointerEvent("pointermove", {
-              clientX: box.left + 80 + 15 * k,
-              clientY: box.top + 60 + 8 * k,
-            }),
-          );
-          requestAnimationFrame(() =>
-            setTimeout(() => {
-              times.push(performance.now() - start);
-              next(k + 1);
-            }),
-          );
-        };
-        next(0);
-      });
-    });
-    tt.diagnostic(
-      `${(bytes / 2 ** 20).toFixed(1)} MiB, first frame ${firstFrame} ms, hover to frame ${median(hover).toFixed(0)} ms`,
-    );
-    await picture(page, "many_bars");
-    assert.ok((await coloursOf(page, ".diagram .chart")) > 50);
-    assert.ok(median(hover) < 100 * kPatience);
-    assert.deepEqual(problems, []);
-    await close();
-  });
-  await t.test("components of 300 000 points, each a leaf", async (tt) => {
-    const { page, problems, bytes, firstFrame, close } = await open(browser, odd.manyLeaves());
-    const times = [];
-    for (const place of [300, 700, 1100, 500]) {
-      await setSlider(page, ".cut input[type=range]", place);
-      const title = await page.getAttribute(".cut .outcome", "title");
-      times.push(Number(title.match(/[\d.]+/)[0]));
-    }
-    const list = times.map((ms) => ms.toFixed(0)).join(", ");
-    tt.diagnostic(
-      `${(bytes / 2 ** 20).toFixed(1)} MiB, first frame ${firstFrame} ms, cuts in ${list} ms`,
-    );
-    assert.ok(median(times) < 50 * kPatience);
-    assert.deepEqual(problems, []);
-    await close();
-  });
-  await t.test("points", async (tt) => {
-    const n = 2_000_000,
-      xyz = new Uint16Array(3 * n),
-      rgb = new Uint8Array(3 * n);
-    for (let i = 0; i < n; ++i) {
-      const u = i % 2000,
-        v = Math.floor(i / 2000);
-      xyz.set([u * 32, v * 60, 30000 + 12000 * Math.sin(u / 90) * Math.cos(v / 70)], 3 * i);
-      rgb.set([u / 8, v / 4, 128], 3 * i);
-    }
-    const { meta, arrays } = odd.ties();
-    const { page, problems, bytes, firstFrame, close } = await open(browser, {
-      meta: { ...meta, title: "large.ply", cloud: {} },
-      arrays: {
-        ...arrays,
-        "points/position": [
-          xyz,
-          { shape: [n, 3], filter: "delta planes", offset: [0, 0, 0], scale: [1e-4, 1e-4, 1e-4] },
-        ],
-        "points/rgb": [rgb, { shape: [n, 3], filter: "delta" }],
-      },
-    });
-    tt.diagnostic(`${(bytes / 2 ** 20).toFixed(1)} MiB, first frame ${firstFrame} ms`);
-    assert.ok((await coloursOf(page, ".stage")) > 50);
-    await picture(page, "two_million_points");
-    assert.deepEqual(problems, []);
-    await close();
-  });
 });

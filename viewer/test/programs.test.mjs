@@ -7,7 +7,7 @@ import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "no
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import test from "node:test";
-import { coloursOf, launch, open, picture, tintedPixels } from "./support/browser.mjs";
+import { coloursOf, frame, launch, open, picture, tintedPixels } from "./support/browser.mjs";
 import { npy, spherePoints, tableScene } from "./support/program_inputs.mjs";
 
 const [barcode, segment, scene] = process.argv.slice(2).map((path) => resolve(path));
@@ -33,17 +33,11 @@ async function look(browser, name, views, act = async () => {}) {
   await close();
 }
 
-/// Input waits for the next frame.
-const frames = (page) =>
-  page.evaluate(
-    () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))),
-  );
-
 /// The number of segments that the page states at a cut.
 async function countAt(page, cut) {
   await page.fill(".cut input[type=number]", String(cut));
   await page.keyboard.press("Enter");
-  await frames(page);
+  await frame(page);
   return Number((await page.textContent(".cut .outcome")).replace(/\D/g, ""));
 }
 
@@ -109,7 +103,7 @@ test("reports of the programs", { timeout: 300_000 }, async (t) => {
         await page.selectOption(".data select", "birth");
         const before = await tintedPixels(page, ".stage", colour);
         await page.evaluate((b) => (location.hash = `colour=birth&bars=${b}`), bar);
-        await frames(page);
+        await frame(page);
         const after = await tintedPixels(page, ".stage", colour);
         assert.ok(after - before > least, `${name}: ${before} and ${after} pixels`);
         assert.match(await page.textContent(".legend .marks"), /hollow.*birth cell.*death cell/);
@@ -138,13 +132,13 @@ test("reports of the programs", { timeout: 300_000 }, async (t) => {
       assert.equal(await words(), "all   261 edges, 162 triangles");
       assert.equal(await page.textContent(".data h2"), "Mesh");
       await page.evaluate(() => (location.hash = "scale=4"));
-      await frames(page);
+      await frame(page);
       assert.match(await words(), /β₀ 1 .* 121 edges, 72 triangles$/);
     });
     run(barcode, "sphere.csv", "--metric", "manhattan", "-o", "far.csv", "--report", "far.html");
     await look(browser, "far.html", [".stage"], async (page) => {
       await page.evaluate(() => (location.hash = "scale=1.2"));
-      await frames(page);
+      await frame(page);
       assert.match(await page.textContent(".scrubber output"), /[\d,]+ edges, [\d,]+ triangles$/);
     });
   });

@@ -135,3 +135,25 @@ export async function picture(page, name) {
   mkdirSync(process.env.PICTURES, { recursive: true });
   await page.screenshot({ path: join(process.env.PICTURES, `${name}.png`), timeout: kPatient });
 }
+
+/// Limits are for an idle machine.
+export const kPatience = Number(process.env.PATIENCE ?? 4);
+export const median = (times) => [...times].sort((a, b) => a - b)[times.length >> 1];
+
+/// Input waits for the next frame.
+export const frame = (page) =>
+  page.evaluate(
+    () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))),
+  );
+
+export async function setSlider(page, selector, value) {
+  await page.$eval(
+    selector,
+    (input, v) => {
+      input.value = v;
+      input.dispatchEvent(new Event("input", { bubbles: true }));
+    },
+    String(value),
+  );
+  await frame(page);
+}

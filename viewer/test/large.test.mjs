@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// What is large stays usable: bars, leaves, points. Sizes and times.
+import assert from "node:assert/strict";
+import test from "node:test";
+import * as odd from "./support/odd_fixtures.mjs";
+import { coloursOf, kPatience, launch, median, open, picture, setSlider } from "./support/browser.mjs";
+
+test("a million bars, two million points", { timeout: 500_000 }, async (t) => {
+  const browser = await launch();
+  t.after(() => browser.close());
+  await t.test("bars", async (tt) => {
+    const { page, problems, bytes, firstFrame, close } = await open(browser, odd.manyBars());
+    const hover = await page.$eval(".diagram canvas.over", (canvas) => {
+      const box = canvas.getBoundingClientRect(),
+        times = [];
+      return new Promise((done) => {
+        const next = (k) => {
+          if (k === 12) return done(times);
+          const start = performance.now();
+          canvas.dispatchEvent(
+            new PointerEvent("pointermove", {
+              clientX: box.left + 80 + 15 * k,
+              clientY: box.top + 60 + 8 * k,
+            }),
+          );
+          requestAnimationFrame(() =>
+            setTimeout(() => {
+              times.push(performance.now() - start);
+              next(k + 1);
+            }),
+          );
+        };
+        next(0);
+      });
+    });
+    tt.diagnostic(
+      `${(bytes / 2 ** 20).toFixed(1)} MiB, first frame ${firstFrame} ms, hover to frame ${median(hover).toFixed(0)} ms`,
+    );
+    await picture(page, "many_bars");
+    assert.ok((await coloursOf(page, ".diagram .chart")) > 50);
+    assert.ok(median(hover) < 100 * kPatience);
+    assert.deepEqual(problems, []);
+    await close();
+  });
+  await t.test("components of 300 000 points, each a leaf", async (tt) => {
+    const { page, problems, bytes, firstFrame, close } = await open(browser, odd.manyLeaves());
+    const times = [];
+    for (const place of [300, 700, 1100, 500]) {
+      await setSlider(page, ".cut input[type=range]", place);
+      const title = await page.getAttribute(".cut .outcome", "title");
+      times.push(Number(title.match(/[\d.]+/)[0]));
+    }
+    const list = times.map((ms) => ms.toFixed(0)).join(", ");
+    tt.diagnostic(
+      `${(bytes / 2 ** 20).toFixed(1)} MiB, first frame ${firstFrame} ms, cuts in ${list} ms`,
+    );
+    assert.ok(median(times) < 50 * kPatience);
+    assert.deepEqual(problems, []);
+    await close();
+  });
+  await t.test("points", async (tt) => {
+    const n = 2_000_000,
+      xyz = new Uint16Array(3 * n),
+      rgb = new Uint8Array(3 * n);
+    for (let i = 0; i < n; ++i) {
+      const u = i % 2000,
+        v = Math.floor(i / 2000);
+      xyz.set([u * 32, v * 60, 30000 + 12000 * Math.sin(u / 90) * Math.cos(v / 70)], 3 * i);
+      rgb.set([u / 8, v / 4, 128], 3 * i);
+    }
+    const { meta, arrays } = odd.ties();
+    const { page, problems, bytes, firstFrame, close } = await open(browser, {
+      meta: { ...meta, title: "large.ply", cloud: {} },
+      arrays: {
+        ...arrays,
+        "points/position": [
+          xyz,
+          { shape: [n, 3], filter: "delta planes", offset: [0, 0, 0], scale: [1e-4, 1e-4, 1e-4] },
+        ],
+        "points/rgb": [rgb, { shape: [n, 3], filter: "delta" }],
+      },
+    });
+    tt.diagnostic(`${(bytes / 2 ** 20).toFixed(1)} MiB, first frame ${firstFrame} ms`);
+    assert.ok((await coloursOf(page, ".stage")) > 50);
+    await picture(page, "two_million_points");
+    assert.deepEqual(problems, []);
+    await close();
+  });
+});
