@@ -92,7 +92,8 @@ int report_current_exception(std::string_view prefix) {
 }
 
 void take_large_pages() {
-  constexpr std::size_t reserve = 16 << 20, large_page = 2 << 20;
+  constexpr std::size_t large_page = 2 << 20;
+  constexpr std::size_t reserve = 30 << 20;  // below the size from which on blocks are mapped
   void* const block = std::malloc(reserve);  // once free it is the end of the heap
   if (block == nullptr) return;
   void* begin = block;

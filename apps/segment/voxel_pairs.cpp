@@ -52,21 +52,40 @@ std::vector<Offset> offsets_within(double radius) {
 
 bool comes_before(const Row& row, double y, double z) { return row.z != z ? row.z < z : row.y < y; }
 
-/// Pairs of a voxel of `row` and one of `other`, which is not behind it.
-void add_pairs(const VoxelGrid& grid, const Row& row, const Row& other, double reach,
-               double square_of_radius, VoxelPairs& pairs) {
-  const auto x_of = [&](std::uint32_t v) { return grid.cells[v][0]; };
+/// What the search reads of a voxel, without what lies between in the grid.
+struct Place {
+  double x, y, z;  // centroid
+  double cell;     // along x
+};
+
+std::vector<Place> places_of(const VoxelGrid& grid) {
+  std::vector<Place> places;
+  places.reserve(grid.cells.size());
+  for (Index v = 0; v < grid.centroids.rows(); ++v)
+    places.push_back({grid.centroids(v, 0), grid.centroids(v, 1), grid.centroids(v, 2),
+                      grid.cells[static_cast<std::size_t>(v)][0]});
+  return places;
+}
+
+/// Pairs of a voxel of `row` and one of `other`, which is not behind it, written to `to`.
+/// Precondition: there is room for all that are within reach, and one more. @return their end.
+VoxelPair* write_pairs(const std::vector<Place>& places, const Row& row, const Row& other,
+                       double reach, double square_of_radius, VoxelPair* to) {
   std::uint32_t first = other.begin;
   for (std::uint32_t v = row.begin; v < row.end; ++v) {
-    while (first < other.end && x_of(first) < x_of(v) - reach) ++first;
-    const double* p = &grid.centroids(v, 0);
-    for (std::uint32_t u = first; u < std::min(other.end, v) && x_of(u) <= x_of(v) + reach; ++u) {
-      const double* q = &grid.centroids(u, 0);
-      const double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
+    const Place p = places[v];
+    while (first < other.end && places[first].cell < p.cell - reach) ++first;
+    const std::uint32_t end = std::min(other.end, v);
+    for (std::uint32_t u = first; u < end && places[u].cell <= p.cell + reach; ++u) {
+      const Place& q = places[u];
+      const double x = p.x - q.x, y = p.y - q.y, z = p.z - q.z;
       const double square = x * x + y * y + z * z;
-      if (square < square_of_radius) pairs.push_back({u, v, std::sqrt(static_cast<float>(square))});
+      // Written first: whether it is near is anyone's guess.
+      *to = {u, v, std::sqrt(static_cast<float>(square))};
+      to += square < square_of_radius ? 1 : 0;
     }
   }
+  return to;
 }
 
 }  // namespace
@@ -76,12 +95,17 @@ VoxelPairs close_voxels(const VoxelGrid& grid, double voxel, double reach,
   // Beyond, the row behind another one may be the same number: the search would not come to an end.
   require_exact_cells(grid, voxel);
   const std::vector<Row> rows = rows_of(grid);
+  const std::vector<Place> places = places_of(grid);
   std::vector<Offset> offsets = offsets_within(reach);
   const double square_of_radius = std::pow(reach * voxel, 2);
   VoxelPairs pairs(memory);
   // Those of a flat surface, half of the disk around each voxel: growing would copy them all.
   const double disk = std::numbers::pi * reach * reach;
   pairs.reserve(static_cast<std::size_t>(disk / 2 * static_cast<double>(grid.cells.size())));
+  std::uint32_t longest = 0;
+  for (const Row& row : rows) longest = std::max(longest, row.end - row.begin);
+  const auto most_of_voxel = static_cast<std::size_t>(2 * std::ceil(reach) + 1);
+  std::vector<VoxelPair> near(most_of_voxel * longest + 1);
   for (const Row& row : rows) {
     for (Offset& offset : offsets) {
       const double y = row.y + offset.y, z = row.z + offset.z;
@@ -89,7 +113,8 @@ VoxelPairs close_voxels(const VoxelGrid& grid, double voxel, double reach,
       if (offset.next == rows.size()) continue;
       const Row& other = rows[offset.next];
       if (other.y == y && other.z == z)
-        add_pairs(grid, row, other, offset.reach, square_of_radius, pairs);
+        pairs.insert(pairs.end(), near.data(),
+                     write_pairs(places, row, other, offset.reach, square_of_radius, near.data()));
     }
   }
   return pairs;
