@@ -20,9 +20,9 @@ ph::Points random_points(ph::Index n, ph::Index d) {
 ph::Image random_volume(ph::Index n) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> uniform;
-  ph::Image image{{n, n, n}, std::vector<double>(static_cast<std::size_t>(n * n * n))};
-  for (double& v : image.values) v = uniform(random);
-  return image;
+  std::vector<double> values(static_cast<std::size_t>(n * n * n));
+  for (double& v : values) v = uniform(random);
+  return {{n, n, n}, std::move(values)};
 }
 
 template <class Complex>
