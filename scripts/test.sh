@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 jobs=$(nproc)
 
 scripts/setup.sh build test viewer
-cmake --preset release -DPH_WITH_PCL=ON -DPH_BUILD_TESTS=ON -DPH_BUILD_EXAMPLES=ON
+cmake --preset release -DPH_WITH_PCL=ON -DPH_BUILD_TESTS=ON -DPH_BUILD_EXAMPLES=ON -DPH_BUILD_BENCHMARKS=ON
 cmake --build --preset release -j "$jobs"
 
 # ph::core and ph::io alone, as on a machine without PCL and CGAL.
