@@ -7,20 +7,10 @@
 #include <regex>
 
 #include "ph/io/svg_plot.hpp"
+#include "plot_support.hpp"
 
 namespace ph {
 namespace {
-
-constexpr std::array kKinds{PlotKind::barcode, PlotKind::diagram, PlotKind::betti};
-
-Barcode barcode_of(const std::vector<Bar>& bars) {
-  Barcode barcode;
-  const std::array<Index, 1> cell{0};
-  for (const Bar& bar : bars)
-    barcode.add(bar, cell, bar.is_infinite() ? std::span<const Index>() : std::span(cell));
-  barcode.sort();
-  return barcode;
-}
 
 std::size_t count(const std::string& text, const std::string& word) {
   std::size_t found = 0;
@@ -39,25 +29,11 @@ void check(const std::string& svg) {
 }
 
 TEST(Plot, AnyValues) {
-  const double tiny = std::numeric_limits<double>::denorm_min();
-  const double huge = std::numeric_limits<double>::max();
-  const std::vector<std::vector<Bar>> cases{
-      {},
-      {{0, 0, kInfinity}},
-      {{0, 5, kInfinity}},
-      {{0, -kInfinity, kInfinity}, {0, -kInfinity, 3}, {1, -2, kInfinity}},
-      {{0, -huge, huge}, {0, 0, kInfinity}},
-      {{0, 0, tiny}, {1, tiny, kInfinity}},
-      {{0, 1, 1 + 1e-15}},
-      {{0, 1e6, 1e6 + 1e-6}},
-      {{60, -3, -2}},
-      {{0, 0, 0}},
-  };
-  for (const auto& bars : cases)
-    for (const PlotKind kind : kKinds) {
+  for (const auto& bars : test::odd_barcodes())
+    for (const PlotKind kind : test::kPlotKinds) {
       PlotOptions options;
       options.kind = kind;
-      check(svg_plot(barcode_of(bars), options));
+      check(svg_plot(test::barcode_of(bars), options));
     }
 }
 
@@ -69,10 +45,10 @@ TEST(Plot, ManyBarsStaySmall) {
     const double birth = number(random);
     bars.push_back({i % 4, birth, i % 10 == 0 ? kInfinity : birth + number(random)});
   }
-  for (const PlotKind kind : kKinds) {
+  for (const PlotKind kind : test::kPlotKinds) {
     PlotOptions options;
     options.kind = kind;
-    check(svg_plot(barcode_of(bars), options));
+    check(svg_plot(test::barcode_of(bars), options));
   }
 }
 
@@ -80,9 +56,9 @@ TEST(Plot, TextIsEscaped) {
   PlotOptions options;
   options.title = "<script>alert(\"&\")</script>\x01\xff" + std::string(500, 'x');
   options.value_label = "a < b";
-  for (const PlotKind kind : kKinds) {
+  for (const PlotKind kind : test::kPlotKinds) {
     options.kind = kind;
-    const std::string svg = svg_plot(barcode_of({{0, 0, 1}}), options);
+    const std::string svg = svg_plot(test::barcode_of({{0, 0, 1}}), options);
     check(svg);
     EXPECT_EQ(svg.find("<script"), svg.npos);
     EXPECT_NE(svg.find("&lt;script&gt;"), svg.npos);
@@ -93,8 +69,8 @@ TEST(Plot, TextIsEscaped) {
 }
 
 TEST(Plot, InfiniteBarsEndInATriangle) {
-  const std::string finite = svg_plot(barcode_of({{0, 0, 1}}));
-  const std::string infinite = svg_plot(barcode_of({{0, 0, 1}, {0, 0, kInfinity}}));
+  const std::string finite = svg_plot(test::barcode_of({{0, 0, 1}}));
+  const std::string infinite = svg_plot(test::barcode_of({{0, 0, 1}, {0, 0, kInfinity}}));
   EXPECT_EQ(finite.find("never dies"), finite.npos);
   EXPECT_NE(infinite.find("never dies"), infinite.npos);
 }
@@ -102,7 +78,7 @@ TEST(Plot, InfiniteBarsEndInATriangle) {
 TEST(Plot, DiagramCountsEqualBars) {
   PlotOptions options;
   options.kind = PlotKind::diagram;
-  const std::string svg = svg_plot(barcode_of({{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}), options);
+  const std::string svg = svg_plot(test::barcode_of({{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}), options);
   EXPECT_NE(svg.find("×3"), svg.npos);
 }
 

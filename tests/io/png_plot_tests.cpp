@@ -4,26 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <limits>
 #include <random>
 #include <set>
 
 #include "ph/io/png.hpp"
+#include "plot_support.hpp"
 #include "support/expect_error.hpp"
 
 namespace ph {
 namespace {
-
-constexpr std::array kKinds{PlotKind::barcode, PlotKind::diagram, PlotKind::betti};
-
-Barcode barcode_of(const std::vector<Bar>& bars) {
-  Barcode barcode;
-  const std::array<Index, 1> cell{0};
-  for (const Bar& bar : bars)
-    barcode.add(bar, cell, bar.is_infinite() ? std::span<const Index>() : std::span(cell));
-  barcode.sort();
-  return barcode;
-}
 
 Raster decoded(const std::string& png) { return read_png(Input::view(png, "plot.png")); }
 
@@ -59,11 +48,11 @@ class PngPlot : public testing::Test {
 };
 
 TEST_F(PngPlot, IsAColumnWideAt300DotsAnInch) {
-  for (const PlotKind kind : kKinds) {
+  for (const PlotKind kind : test::kPlotKinds) {
     PlotOptions options;
     options.kind = kind;
     const std::string png =
-        png_plot(barcode_of({{0, 0, 1}, {0, 0, kInfinity}, {1, 1, 2}}), options);
+        png_plot(test::barcode_of({{0, 0, 1}, {0, 0, kInfinity}, {1, 1, 2}}), options);
     const Raster raster = decoded(png);
     EXPECT_EQ(raster.width, 1040);
     EXPECT_EQ(raster.channels, 3);
@@ -74,27 +63,16 @@ TEST_F(PngPlot, IsAColumnWideAt300DotsAnInch) {
               static_cast<std::size_t>(raster.width * raster.height) / 3);
     EXPECT_GT(pixels_of(raster, kH0), 50u);
     EXPECT_GT(pixels_of(raster, kH1), 50u);
-    EXPECT_EQ(png, png_plot(barcode_of({{0, 0, 1}, {0, 0, kInfinity}, {1, 1, 2}}), options));
+    EXPECT_EQ(png, png_plot(test::barcode_of({{0, 0, 1}, {0, 0, kInfinity}, {1, 1, 2}}), options));
   }
 }
 
 TEST_F(PngPlot, AnyValues) {
-  const double tiny = std::numeric_limits<double>::denorm_min();
-  const double huge = std::numeric_limits<double>::max();
-  const std::vector<std::vector<Bar>> cases{
-      {},
-      {{0, 0, kInfinity}},
-      {{0, -kInfinity, kInfinity}, {0, -kInfinity, 3}, {1, -2, kInfinity}},
-      {{0, -huge, huge}, {0, 0, kInfinity}},
-      {{0, 0, tiny}, {1, tiny, kInfinity}},
-      {{60, -3, -2}},
-      {{0, 0, 0}},
-  };
-  for (const auto& bars : cases)
-    for (const PlotKind kind : kKinds) {
+  for (const auto& bars : test::odd_barcodes())
+    for (const PlotKind kind : test::kPlotKinds) {
       PlotOptions options;
       options.kind = kind;
-      const Raster raster = decoded(png_plot(barcode_of(bars), options));
+      const Raster raster = decoded(png_plot(test::barcode_of(bars), options));
       EXPECT_EQ(raster.width, 1040);
       EXPECT_GT(pixels_of(raster, {0x22, 0x22, 0x22}), 1000u) << "an axis";
     }
@@ -102,8 +80,8 @@ TEST_F(PngPlot, AnyValues) {
 
 /// Half as long a bar takes half as many pixels, and begins where it is born.
 TEST_F(PngPlot, BarsAreAsLongAsTheyLive) {
-  const Raster whole = decoded(png_plot(barcode_of({{1, 0, 8}})));
-  const Raster half = decoded(png_plot(barcode_of({{0, 0, 8}, {1, 4, 8}})));
+  const Raster whole = decoded(png_plot(test::barcode_of({{1, 0, 8}})));
+  const Raster half = decoded(png_plot(test::barcode_of({{0, 0, 8}, {1, 4, 8}})));
   // The letter H has the colour too, on the left of x = 125.
   const auto bar = [](const Raster& raster) {
     Raster right = raster;
@@ -126,7 +104,7 @@ TEST_F(PngPlot, TextIsDrawn) {
   const auto drawn = [](const std::string& title) {
     PlotOptions options;
     options.title = title;
-    return decoded(png_plot(barcode_of({{0, 0, 1}}), options));
+    return decoded(png_plot(test::barcode_of({{0, 0, 1}}), options));
   };
   const Raster none = drawn(" "), narrow = drawn("i"), wide = drawn("W W W");
   constexpr Colour ink{0x22, 0x22, 0x22};
@@ -151,10 +129,10 @@ TEST_F(PngPlot, ManyBarsStaySmallAndAreADensity) {
     const double birth = number(random);
     bars.push_back({i % 4, birth, birth + number(random) * number(random)});
   }
-  for (const PlotKind kind : kKinds) {
+  for (const PlotKind kind : test::kPlotKinds) {
     PlotOptions options;
     options.kind = kind;
-    const std::string png = png_plot(barcode_of(bars), options);
+    const std::string png = png_plot(test::barcode_of(bars), options);
     EXPECT_LT(png.size(), 1'000'000u);
     std::set<Colour> colours;
     const Raster raster = decoded(png);
@@ -164,9 +142,9 @@ TEST_F(PngPlot, ManyBarsStaySmallAndAreADensity) {
   }
   PlotOptions diagram;
   diagram.kind = PlotKind::diagram;
-  EXPECT_NE(svg_plot(barcode_of(bars), diagram).find("shaded: 99,"), std::string::npos);
+  EXPECT_NE(svg_plot(test::barcode_of(bars), diagram).find("shaded: 99,"), std::string::npos);
   bars.resize(1000);
-  EXPECT_EQ(svg_plot(barcode_of(bars), diagram).find("shaded"), std::string::npos);
+  EXPECT_EQ(svg_plot(test::barcode_of(bars), diagram).find("shaded"), std::string::npos);
 }
 
 TEST_F(PngPlot, Trees) {
@@ -178,7 +156,7 @@ TEST_F(PngPlot, Trees) {
 }
 
 TEST_F(PngPlot, PixelsCountInMemory) {
-  const Barcode bars = barcode_of({{0, 0, 1}});
+  const Barcode bars = test::barcode_of({{0, 0, 1}});
   RunContext context;
   context.memory.set_limit(4 << 20);
   test::expect_error(ErrorKind::resource, "memory", [&] { png_plot(bars, {}, context); });
@@ -245,7 +223,7 @@ TEST_F(PngPlot, PixelsOfAPictureAreKept) {
 
 TEST(PngPlotWithout, IsRefused) {
   if (!png_plot_support().empty()) GTEST_SKIP() << "PNG plots are built in";
-  test::expect_error(ErrorKind::not_built_in, "use SVG", [&] { png_plot(barcode_of({})); });
+  test::expect_error(ErrorKind::not_built_in, "use SVG", [&] { png_plot(test::barcode_of({})); });
   test::expect_error(ErrorKind::not_built_in, "use SVG", [&] { png_plot(red_and_blue()); });
 }
 

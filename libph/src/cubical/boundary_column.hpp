@@ -18,7 +18,7 @@ namespace ph::cubical {
 /// A chain of cells that is being reduced. A cell that is killed inside its star is
 /// replaced by the rest of the boundary of its killer when it comes up, so a chain is followed only
 /// as far down as its pivot; cells that kill are left out (no cycle has its youngest cell there).
-/// One for each thread.
+/// Not for several threads at once.
 template <Field K>
 class BoundaryColumn {
  public:

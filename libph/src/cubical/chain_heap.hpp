@@ -12,8 +12,8 @@
 namespace ph::cubical {
 
 /// A chain as a heap, the youngest cell first; a cell may be in it several times.
-/// @tparam Term an Entry. @tparam precedes whether a cell is older than another one, by preference
-///         without a branch: which is, is anyone's guess.
+/// @tparam Term an Entry. @tparam precedes whether a cell is older than another one; best without a
+///         branch, which no processor could foretell.
 template <Field K, class Term, auto precedes>
 class ChainHeap {
  public:

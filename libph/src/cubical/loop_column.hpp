@@ -30,10 +30,10 @@ struct LoopEdge {
   }
 };
 
-/// A chain of edges that is being reduced. An edge that is paired inside its star is
-/// replaced by the rest of the boundary of its square when it comes up, so a chain is followed only
-/// as far down as its pivot; edges that kill a component are left out (no column has its pivot
-/// there). One for each thread.
+/// A chain of edges that is being reduced. An edge that is paired inside its star is replaced by
+/// the rest of the boundary of its square when it comes up, so a chain is followed only as far down
+/// as its pivot; edges that kill a component are left out (no column has its pivot there). Not for
+/// several threads at once.
 /// @tparam Stars StarGrid, or StoredStars.
 template <Field K, class Stars>
 class LoopColumn {
