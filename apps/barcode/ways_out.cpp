@@ -67,8 +67,9 @@ class WaysOut {
         !arguments_.voxel &&
         std::visit([&](const auto& data) { return sample(data); }, data_.read.data);
     if (arguments_.options.engine != Engine::automatic) change_engine();
+    if (arguments_.options.representatives != Representatives::none) drop_representatives();
     // What is quick to try comes first: patience ends.
-    lower_dimension();
+    lower_dimension(arguments_);
     if (arguments_.voxel) larger_voxel();
     if (is_rips) {
       subsample();
@@ -151,6 +152,14 @@ class WaysOut {
     try_out("--engine auto", changed);
   }
 
+  /// If that is not enough, in lower dimensions.
+  void drop_representatives() {
+    Arguments changed = arguments_;
+    changed.options.representatives = Representatives::none;
+    const std::string text = "--representatives none";
+    if (!try_out(text, changed)) lower_dimension(changed, text + " ");
+  }
+
   /// Keeps a threshold that fits. @return whether it does.
   bool try_threshold(double threshold) {
     Arguments changed = arguments_;
@@ -181,13 +190,12 @@ class WaysOut {
     }
   }
 
-  /// The highest of the lower dimensions.
-  void lower_dimension() {
+  /// The highest of the lower dimensions. @param others what else is changed.
+  void lower_dimension(Arguments changed, std::string_view others = "") {
     const int highest = arguments_.options.max_dim.value_or(default_max_dim());
     for (int dim = highest - 1; dim >= arguments_.options.min_dim; --dim) {
-      Arguments changed = arguments_;
       changed.options.max_dim = dim;
-      if (try_out(fmt::format("--max-dim {}", dim), changed)) return;
+      if (try_out(fmt::format("{}--max-dim {}", others, dim), changed)) return;
     }
   }
 

@@ -44,16 +44,22 @@ double stored_bytes(const ExplicitComplex& complex, Engine) {
 }
 
 detail::MemoryForecast forecast_voxels(const Cubical& cubical, double held,
+                                       const cubical::WantedBars& wanted,
                                        bool with_representatives, const RunContext& context) {
   if (cubical.slot_count() == 0) return detail::forecast_voxels(held, 0, 0, with_representatives);
   const CubicalImage grid = cubical.cubical_image();
   detail::MemoryForecast forecast = detail::forecast_voxels(
       held + cubical::bytes_to_pair_voxels(grid), static_cast<double>(grid.size()),
       static_cast<double>(cubical.slot_count()), with_representatives);
-  const bool is_short =
-      forecast.high - held > static_cast<double>(context.memory.left()) || context.slab_layers > 0;
-  if (is_short && !with_representatives)
-    forecast.low = held + cubical::least_bytes_to_pair_voxels(grid);
+  const double left = static_cast<double>(context.memory.left());
+  const bool is_short = forecast.high - held > left || context.slab_layers > 0;
+  if (!is_short || with_representatives) return forecast;
+  forecast.low = held + cubical::least_bytes_to_pair_voxels(grid);
+  constexpr double bytes_of_bars = 8;  // a voxel, of noise
+  if (cubical::can_pair_by_layers(grid, wanted))
+    forecast.high =
+        std::max(std::min(forecast.high, held + left),
+                 forecast.low + bytes_of_bars * static_cast<double>(grid.size()));
   return forecast;
 }
 
@@ -97,7 +103,7 @@ Estimate estimate_one(const Complex& complex, const Options& options, const RunC
   detail::MemoryForecast forecast;
   if (e.engine == Engine::arrows) {
     if constexpr (std::same_as<Complex, Cubical>)
-      forecast = forecast_voxels(complex, e.bytes_held,
+      forecast = forecast_voxels(complex, e.bytes_held, {options.min_dim, e.max_dim},
                                  options.representatives != Representatives::none, context);
   } else {
     e.cells = cells_of(complex, detail::listed_dim(e.engine, e.max_dim), context);

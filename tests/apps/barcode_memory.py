@@ -164,7 +164,7 @@ class Limits(ProgramTest):
                     if code == 75:
                         self.assertEqual(message.count("\n"), 1, message)
                         self.assertIn("--memory-limit", message)
-                        self.assertRegex(message, "--(threshold|max-dim|subsample|engine)|the number of points")
+                        self.assertRegex(message, "--(threshold|max-dim|subsample|engine|representatives)|the number of points")
                         self.assertEqual(self.files(), ["square.txt"])
                     self.forget("out", "out.svg", "out.png")
         print(f"\n{sum(ends.values())} runs under a limit: {ends[75]} stopped by it, {ends[0]} "

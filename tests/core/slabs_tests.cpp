@@ -38,6 +38,7 @@ TEST(Slabs, AgreeWithTheOracleCellByCell) {
     std::vector<Index> extents;
     for (int k = 0; k < axes; ++k) extents.push_back(random.integer(1, most));
     CubicalOptions options = random.cubical_options(axes);
+    if (random.coin()) options.periodic[0] = true;
     const Image image = random.coin()
                             ? random_image<std::uint8_t>(random, extents, random.coin() ? 255 : 3)
                             : random.image(extents, random.coin());
@@ -66,8 +67,7 @@ TEST(Slabs, HeightAndThreadsDoNotMatter) {
         flat ? std::vector<Index>{60, 70} : std::vector<Index>{21, 14, 17};
     const Image image = random.coin() ? random_image<std::uint8_t>(random, extents, 40)
                                       : random_image<float>(random, extents, 30000);
-    CubicalOptions options = random.cubical_options(static_cast<int>(extents.size()));
-    options.periodic.clear();
+    const CubicalOptions options = random.cubical_options(static_cast<int>(extents.size()));
     const Cubical cubical(image, options);
     const auto expected = bars_in_slabs(cubical, {}, 0);
     for (const int layers : {1, 2, 3, 5, 11, 20, 60})
@@ -86,14 +86,17 @@ TEST(Slabs, AreTakenWhereMemoryIsShort) {
                              std::sin(0.17 * static_cast<double>(y)) +
                          std::cos(0.13 * static_cast<double>(z)));
   const Image image{{120, 100, 100}, std::move(values)};
-  for (const Construction construction : {Construction::vertices, Construction::cells}) {
+  for (const CubicalOptions& options :
+       {CubicalOptions{.construction = Construction::vertices},
+        CubicalOptions{.construction = Construction::cells},
+        CubicalOptions{.construction = Construction::vertices, .periodic = {true, false, false}}}) {
     RunContext context, tight;
-    const Cubical whole(image, {.construction = construction}, context);
+    const Cubical whole(image, options, context);
     const auto expected = pairs_of(persistence(whole, {}, context));
     const std::size_t taken = context.memory.peak();
     tight.memory.set_limit(image.values.bytes() + 5'000'000);
     EXPECT_LT(tight.memory.limit(), taken);
-    const Cubical same(image, {.construction = construction}, tight);
+    const Cubical same(image, options, tight);
     EXPECT_EQ(pairs_of(persistence(same, {}, tight)), expected);
     EXPECT_LE(tight.memory.peak(), tight.memory.limit());
   }

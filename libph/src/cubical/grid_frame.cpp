@@ -40,11 +40,17 @@ GridFrame::GridFrame(const CubicalImage& grid)
     input_axis_[axis] = static_cast<int>(k);
     stride *= extent;
     ++top_dim_;
-    if (grid.periodic[k])
-      any_periodic_ = true;
-    else
-      ++open_axes_;
+    axes_[axis].has_ends = !grid.periodic[k];
+    if (!grid.periodic[k]) continue;
+    any_periodic_ = true;
+    axes_[axis].wrapped = 0;
   }
+}
+
+void GridFrame::be_part_of_ring(std::uint32_t wrapped) {
+  any_periodic_ = true;
+  axes_[layer_axis()].wrapped = wrapped;
+  axes_[layer_axis()].has_ends = false;
 }
 
 void GridFrame::append_numbers(const StarCell& cell, unsigned loops,
@@ -62,22 +68,20 @@ void GridFrame::append_numbers(const StarCell& cell, unsigned loops,
     numbers[base + loops_[i]] = static_cast<Index>(loops >> i & 1U);
 }
 
-CubicalImage GridFrame::with_extents(const std::array<std::uint32_t, 3>& extents,
-                                     const void* voxels) const {
-  CubicalImage image = grid_;
-  for (int a = 0; a < 3; ++a)
-    if (axes_[a].exists) image.extents[static_cast<std::size_t>(input_axis_[a])] = extents[a];
-  image.voxels = voxels;
-  return image;
+CubicalImage GridFrame::layers(std::uint32_t begin, std::uint32_t end) const {
+  const std::size_t first = relative_ ? extent(layer_axis()) - end : begin;
+  return layers_of(static_cast<const std::byte*>(grid_.voxels) +
+                       first * layer_size() * bytes_of(grid_.type),
+                   end - begin);
 }
 
-CubicalImage GridFrame::layers(std::uint32_t begin, std::uint32_t end) const {
-  const int axis = layer_axis();
-  const std::size_t first = relative_ ? extent(axis) - end : begin;
-  std::array<std::uint32_t, 3> extents{extent(0), extent(1), extent(2)};
-  extents[axis] = end - begin;
-  return with_extents(extents, static_cast<const std::byte*>(grid_.voxels) +
-                                   first * layer_size() * bytes_of(grid_.type));
+CubicalImage GridFrame::layers_of(const void* voxels, std::uint32_t count) const {
+  const auto axis = static_cast<std::size_t>(input_axis_[layer_axis()]);
+  CubicalImage image = grid_;
+  image.extents[axis] = count;
+  image.periodic[axis] = false;
+  image.voxels = voxels;
+  return image;
 }
 
 }  // namespace ph::cubical

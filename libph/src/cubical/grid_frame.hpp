@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -52,10 +53,16 @@ class GridFrame {
   bool has_axis(int axis) const { return axes_[axis].exists; }
   bool is_periodic(int axis) const { return axes_[axis].periodic; }
   bool any_periodic() const { return any_periodic_; }
+  /// Whether the voxels at a coordinate are the first ones of a periodic axis.
+  bool is_wrapped(int axis, std::uint32_t x) const { return x == axes_[axis].wrapped; }
   std::uint32_t extent(int axis) const { return axes_[axis].extent; }
   std::uint32_t stride(int axis) const { return axes_[axis].stride; }
-  /// How many axes have two ends.
-  int open_axes() const { return open_axes_; }
+  /// Whether an axis has two ends.
+  bool has_ends(int axis) const { return axes_[axis].has_ends; }
+  /// How many do.
+  int open_axes() const {
+    return static_cast<int>(std::ranges::count(axes_, true, &Axis::has_ends));
+  }
   /// The slowest axis. A layer is what lies at one place of it.
   int layer_axis() const { return 3 - top_dim_; }
   std::uint32_t layer_size() const { return stride(layer_axis()); }
@@ -116,27 +123,35 @@ class GridFrame {
   void append_numbers(const StarCell& cell, unsigned loops, std::vector<Index>& numbers) const;
 
   /// The image of some layers, as these count them: the T-construction counts from the other end.
-  /// Precondition: the slowest axis is not periodic.
+  /// Its slowest axis is not periodic.
   CubicalImage layers(std::uint32_t begin, std::uint32_t end) const;
+  /// The same of voxels that lie elsewhere, in the order of the image.
+  CubicalImage layers_of(const void* voxels, std::uint32_t count) const;
 
  protected:
   struct Axis {
     std::uint32_t extent = 1, stride = 1;
     bool exists = false, periodic = false;
     Divisor by_extent, by_stride;
+    /// Whether the whole grid ends there.
+    bool has_ends = false;
+    /// Where the voxels are whose cells before them come last: the first ones of a periodic axis.
+    std::uint32_t wrapped = UINT32_MAX;
   };
-  /// The image of other voxels of the same kind that lie along the same axes.
-  CubicalImage with_extents(const std::array<std::uint32_t, 3>& extents, const void* voxels) const;
+  /// Whether cells of a voxel at a coordinate are not as they are inside the grid.
   bool is_at_end(int a, std::uint32_t x) const {
-    return axes_[a].exists && (x == 0 || x + 1 == axes_[a].extent);
+    return axes_[a].exists && (x == 0 || x + 1 == axes_[a].extent || is_wrapped(a, x));
   }
   /// Of which periodic axes it is the first voxel, as bits.
   unsigned wrapped(std::uint32_t v) const {
     unsigned result = 0;
     for (int a = 0; a < 3; ++a)
-      if (axes_[a].periodic && coordinate(v, a) == 0) result |= 1U << a;
+      if (is_wrapped(a, coordinate(v, a))) result |= 1U << a;
     return result;
   }
+  /// Takes note that this is a slab of a grid whose slowest axis is periodic. @param wrapped where
+  /// the first layer of that grid is, if it is here.
+  void be_part_of_ring(std::uint32_t wrapped);
 
   CubicalImage grid_;
   std::array<Axis, 3> axes_;  // the last one is the fastest
@@ -147,7 +162,7 @@ class GridFrame {
   const StarTables& plain_tables_ = star_tables(0);
   std::array<int, 3> input_axis_{};  // the axis of the input
   std::vector<std::size_t> loops_;   // periodic axes of the input with one voxel
-  int top_dim_ = 0, open_axes_ = 0;
+  int top_dim_ = 0;
 };
 
 }  // namespace ph::cubical

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "pair_in_slabs.hpp"
 
+#include <cstdint>
+#include <map>
+#include <memory_resource>
 #include <new>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "ph/core/error.hpp"
 #include "slab_components.hpp"
@@ -14,29 +19,50 @@
 namespace ph::cubical {
 namespace {
 
-[[noreturn]] void refuse_loops() {
+[[noreturn]] void refuse_loops(const GridFrame& frame) {
   throw Error(ErrorKind::resource,
-              "bars of dimension 1: what their critical cells take exceeds the memory limit; all "
-              "other dimensions fit (max_dim 0, or min_dim 2)");
+              std::string("bars of dimension 1: what their critical cells take exceeds the memory "
+                          "limit; ") +
+                  (frame.any_periodic() ? "bars of dimension 0 fit (max_dim 0)"
+                                        : "all other dimensions fit (max_dim 0, or min_dim 2)"));
 }
 
 template <Field K>
-void pair_loops(SlabLoops& loops, const K& field, PairSink& pairs) {
+void pair_loops(SlabLoops& loops, const GridFrame& frame, const K& field, PairSink& pairs) {
   try {
     loops.pair(field, pairs);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::resource) throw;
-    refuse_loops();
+    refuse_loops(frame);
   } catch (const std::bad_alloc&) {
-    refuse_loops();
+    refuse_loops(frame);
   }
 }
+
+/// The edges of two axes that neither graph takes: around a torus two classes live for ever. Each
+/// edge that is handed over by the graph of voxels as one that joins nothing is met by the graph of
+/// top cells sooner or later, as one that joins something if it is in a pair.
+class EdgesInNeither {
+ public:
+  explicit EdgesInNeither(std::pmr::memory_resource* memory) : met_once_(memory) {}
+  void meet(double value, const NumberedCell& edge) {
+    const auto [at, is_new] = met_once_.try_emplace({edge.voxel, edge.number}, value);
+    if (!is_new) met_once_.erase(at);
+  }
+  void pair(PairSink& pairs) const {
+    for (const auto& [edge, value] : met_once_)
+      pairs.essential(1, {edge.first, kEdges[edge.second], value});
+  }
+
+ private:
+  std::pmr::map<std::pair<std::uint32_t, std::uint32_t>, double> met_once_;
+};
 
 }  // namespace
 
 template <Field K>
-void pair_in_slabs(const Slabs& slabs, const K& field, const WantedBars& wanted,
-                   const RunContext& context, PairSink& pairs) {
+void pair_in_slabs(Slabs& slabs, const K& field, const WantedBars& wanted, const RunContext& context,
+                   PairSink& pairs) {
   const GridFrame& frame = slabs.frame();
   const int top = frame.top_dim();
   std::optional<SlabLoops> loops;
@@ -48,6 +74,8 @@ void pair_in_slabs(const Slabs& slabs, const K& field, const WantedBars& wanted,
   // Loops give way before there is no memory for the slabs and the other bars; their columns would
   // take more than they do.
   const std::size_t reserve = context.memory.left() / 2;
+  std::optional<EdgesInNeither> around;
+  if (top == 2 && frame.open_axes() == 0 && wanted.max_dim > 0) around.emplace(&context.memory);
   bool too_many_loops = false;
 
   for (std::uint32_t slab = 0; slab < slabs.count(); ++slab) {
@@ -77,6 +105,7 @@ void pair_in_slabs(const Slabs& slabs, const K& field, const WantedBars& wanted,
           },
           [&](const Place& edge) {
             if (loops) loops->add_edge(edge.cell);
+            if (around) around->meet(edge.value, edge.cell);
           },
           [&](const SlabRoot& root) { pairs.essential(0, voxel(root)); });
     }
@@ -95,6 +124,7 @@ void pair_in_slabs(const Slabs& slabs, const K& field, const WantedBars& wanted,
       tops.add(
           grid, graph, first, top == 3 ? squares : edges_of_slab(),
           [&](const Place& facet, const SlabRoot* dies) {
+            if (around) around->meet(facet.value, facet.cell);
             if (dies == nullptr)
               pairs.essential(top - 1, cell(facet));
             else
@@ -112,14 +142,13 @@ void pair_in_slabs(const Slabs& slabs, const K& field, const WantedBars& wanted,
       too_many_loops = true;
     }
   }
-  if (loops) pair_loops(*loops, field, pairs);
+  if (around) around->pair(pairs);
+  if (loops) pair_loops(*loops, frame, field, pairs);
   pairs.finish();
-  if (too_many_loops) refuse_loops();
+  if (too_many_loops) refuse_loops(frame);
 }
 
-template void pair_in_slabs(const Slabs&, const Z2&, const WantedBars&, const RunContext&,
-                            PairSink&);
-template void pair_in_slabs(const Slabs&, const Zp&, const WantedBars&, const RunContext&,
-                            PairSink&);
+template void pair_in_slabs(Slabs&, const Z2&, const WantedBars&, const RunContext&, PairSink&);
+template void pair_in_slabs(Slabs&, const Zp&, const WantedBars&, const RunContext&, PairSink&);
 
 }  // namespace ph::cubical

@@ -40,6 +40,12 @@ double least_bytes_to_pair_voxels(const CubicalImage& grid) {
   return may_be_cut(frame) ? kBytesOfVoxel * frame.layer_size() : bytes_to_pair_voxels(grid);
 }
 
+bool can_pair_by_layers(const CubicalImage& grid, const WantedBars& wanted) {
+  if (!GridFrame::can_hold(grid)) return false;
+  const GridFrame frame(grid);
+  return may_be_cut(frame) && !wants_loops(frame, wanted);
+}
+
 namespace {
 
 template <Field K>
@@ -93,7 +99,7 @@ bool fits(const CubicalImage& voxels, const GridFrame& frame, const RunContext& 
   const double left = static_cast<double>(context.memory.left()) - in_file * frame.size();
   if (most * frame.size() < left) return true;
   if (least * frame.size() > left) return false;
-  const Slabs layers(frame, 1, context);
+  Slabs layers(frame, 1, context);
   constexpr std::uint32_t samples = 8;
   const std::uint32_t step = std::max(layers.count() / samples, 1U);
   double cells = 0, seen = 0;
@@ -148,7 +154,8 @@ void pair_voxels(const CubicalImage& voxels, const K& field, const WantedBars& w
                               : may_be_cut(frame) && !fits(voxels, frame, context)) {
     const auto layers = context.slab_layers > 0 ? static_cast<std::uint32_t>(context.slab_layers)
                                                 : layers_that_fit(frame, context);
-    pair_in_slabs(Slabs(frame, layers, context), field, wanted, context, pairs);
+    Slabs slabs(frame, layers, context);
+    pair_in_slabs(slabs, field, wanted, context, pairs);
     return;
   }
   StarGrid grid(voxels, context);

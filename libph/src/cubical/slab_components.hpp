@@ -32,6 +32,8 @@ class SlabComponents {
       : context_(context),
         roots_(outside_.size(), {0, {}, SlabRoot::Kind::endless}, &context.memory),
         seam_(&context.memory),
+        around_(&context.memory),
+        around_values_(&context.memory),
         kept_(&context.memory) {}
 
   /// One more slab: what lies before it has been seen.
@@ -44,7 +46,7 @@ class SlabComponents {
   void add(const StarGrid& grid, const Graph& graph, std::uint32_t first,
            const CriticalCells& cells, OnMerge&& on_merge, OnCycle&& on_cycle,
            OnSurvivor&& on_survivor) {
-    const bool is_last = !grid.has_ghost_after();
+    const bool is_last = grid.slab().is_last;
     std::pmr::vector<Bridge> bridges = find_bridges(grid, graph, first, cells);
     const std::uint32_t endless = number_in_age_order(bridges);
     ElderForest<Graph::kBackwards> forest(
@@ -96,8 +98,7 @@ class SlabComponents {
       bridge.from = merged_into(bridge.from);
       bridge.to = merged_into(bridge.to);
     }
-    for (std::uint32_t& root : seam_)
-      if (root != kNone) root = merged_into(root);
+    for_each_in_seams([&](std::uint32_t& root) { root = merged_into(root); });
     forget_closed();
   }
 
@@ -123,7 +124,9 @@ class SlabComponents {
   // Those kept and those of the slab, in the order of the filtration.
   std::pmr::vector<Bridge> find_bridges(const StarGrid& grid, const Graph& graph,
                                         std::uint32_t first, const CriticalCells& cells) {
-    SlabBasins<Graph> basins(grid, graph, first, roots_, outside_, seam_, context_);
+    const SlabPlace& slab = grid.slab();
+    const SlabSeams seams{seam_, slab.is_last ? around_ : std::span<const std::uint32_t>()};
+    SlabBasins<Graph> basins(grid, graph, first, roots_, outside_, seams, context_);
     std::pmr::vector<Bridge> all(&context_.memory), own(cells.order.size(), &context_.memory);
     constexpr std::size_t piece = 1 << 14;
     for_each_piece("basins", own.size(), piece, context_, [&](std::size_t i, std::size_t end) {
@@ -140,29 +143,40 @@ class SlabComponents {
       bridge.from = basins.same(bridge.from);
       bridge.to = basins.same(bridge.to);
     }
-    seam_ = grid.has_ghost_after() ? basins.seam_after()
-                                   : std::pmr::vector<std::uint32_t>(&context_.memory);
+    if (!slab.is_last) {
+      for (std::uint32_t& root : around_)
+        if (root != kNone) root = basins.same(root);
+      seam_ = basins.seam(true);
+      if (slab.is_first && slab.is_in_ring) {
+        around_ = basins.seam(false);
+        around_values_ = values_of_seam(graph, false);
+      }
+    } else {
+      seam_.clear();
+      around_.clear();
+    }
     for (std::uint32_t& part : outside_) part = basins.same(part);
     stands_for_itself_.assign(roots_.size(), false);
     for (std::uint32_t i = 0; i < roots_.size(); ++i) stands_for_itself_[i] = basins.same(i) == i;
     return all;
   }
-  // Leaves out roots that turned out to be others; what has always been there comes first.
-  // @return how many these are.
+  // Leaves out roots that turned out to be others. What has always been there comes first, what is
+  // open last: nothing is taken for younger than that on account of their numbers.
+  // @return how many have always been there.
   std::uint32_t number_in_age_order(std::span<Bridge> bridges) {
-    const auto is_endless = [&](std::uint32_t i) {
-      return roots_[i].kind == SlabRoot::Kind::endless;
-    };
     std::uint32_t endless = 0;
     std::pmr::vector<std::uint32_t> number(roots_.size(), kNone, &context_.memory);
     std::pmr::vector<SlabRoot> left(&context_.memory);
-    for (const bool wanted : {true, false})
+    using Kind = SlabRoot::Kind;
+    for (const Kind kind :
+         {Kind::endless, Kind::critical, Kind::open_to_around, Kind::open_to_next}) {
       for (std::uint32_t i = 0; i < roots_.size(); ++i) {
-        if (!stands_for_itself_[i] || is_endless(i) != wanted) continue;
+        if (!stands_for_itself_[i] || roots_[i].kind != kind) continue;
         number[i] = static_cast<std::uint32_t>(left.size());
         left.push_back(roots_[i]);
-        endless += wanted ? 1 : 0;
       }
+      if (kind == Kind::endless) endless = static_cast<std::uint32_t>(left.size());
+    }
     roots_ = std::move(left);
     renumber(number, bridges);
     return endless;
@@ -172,32 +186,48 @@ class SlabComponents {
       bridge.from = number[bridge.from];
       bridge.to = number[bridge.to];
     }
-    for (std::uint32_t& root : seam_)
-      if (root != kNone) root = number[root];
+    for_each_in_seams([&](std::uint32_t& root) { root = number[root]; });
     for (std::uint32_t& part : outside_) part = number[part];
   }
-  // By root: the value from which on it hangs together with a node of the seam after the slab.
+  // By place: when a node of a seam enters; of those that never do anything.
+  std::pmr::vector<double> values_of_seam(const Graph& graph, bool after) const {
+    const auto [begin, count] = graph.seam(after);
+    std::pmr::vector<double> values(count, 0, &context_.memory);
+    for (std::uint32_t k = 0; k < count; ++k)
+      values[k] = graph.seam_value(begin + k).value_or(0);
+    return values;
+  }
+  // By root: the value from which on it hangs together with a node that later slabs share.
   std::pmr::vector<double> when_reached(const Graph& graph) const {
     std::pmr::vector<double> reached(roots_.size(), kNever, &context_.memory);
     if (seam_.empty()) return reached;
-    const std::uint32_t begin = graph.seam(true)[0];
-    for (std::uint32_t k = 0; k < seam_.size(); ++k) {
-      const std::uint32_t root = seam_[k];
-      if (root == kNone) continue;
-      const bool always = roots_[root].kind == SlabRoot::Kind::endless;
-      reached[root] =
-          earlier(reached[root], always ? -kNever : finite(*graph.seam_value(begin + k)));
-    }
+    const auto add_seam = [&](std::span<const std::uint32_t> seam,
+                              std::span<const double> values) {
+      for (std::size_t k = 0; k < seam.size(); ++k) {
+        const std::uint32_t root = seam[k];
+        if (root == kNone) continue;
+        const bool always = roots_[root].kind == SlabRoot::Kind::endless;
+        reached[root] = earlier(reached[root], always ? -kNever : finite(values[k]));
+      }
+    };
+    add_seam(seam_, values_of_seam(graph, true));
+    add_seam(around_, around_values_);
     for (const std::uint32_t part : outside_) reached[part] = -kNever;
     return reached;
   }
-  // Keeps what the seam or a kept bridge names, and the outside.
+  // Calls `use(root)` for the roots of the nodes that later slabs share.
+  template <class Use>
+  void for_each_in_seams(Use&& use) {
+    for (auto* const seam : {&seam_, &around_})
+      for (std::uint32_t& root : *seam)
+        if (root != kNone) use(root);
+  }
+  // Keeps what a seam or a kept bridge names, and the outside.
   void forget_closed() {
     std::pmr::vector<std::uint32_t> number(roots_.size(), kNone, &context_.memory);
     for (const std::uint32_t part : outside_) number[part] = 0;
     for (const Bridge& bridge : kept_) number[bridge.from] = number[bridge.to] = 0;
-    for (const std::uint32_t root : seam_)
-      if (root != kNone) number[root] = 0;
+    for_each_in_seams([&](std::uint32_t root) { number[root] = 0; });
     std::uint32_t count = 0;
     for (std::uint32_t i = 0; i < roots_.size(); ++i) {
       if (number[i] == kNone) continue;
@@ -212,7 +242,10 @@ class SlabComponents {
   const RunContext& context_;
   std::array<std::uint32_t, 2> outside_{0, 1};
   std::pmr::vector<SlabRoot> roots_;      // by age, but for what is open
-  std::pmr::vector<std::uint32_t> seam_;  // roots of the nodes shared with the next slab
+  // Roots of the nodes shared with the next slab; of a ring those that the first slab shares with
+  // the last one, and their values.
+  std::pmr::vector<std::uint32_t> seam_, around_;
+  std::pmr::vector<double> around_values_;
   std::pmr::vector<Bridge> kept_;         // that join what may change, in their order
   std::vector<bool> stands_for_itself_;   // while a slab is added
 };

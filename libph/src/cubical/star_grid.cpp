@@ -25,13 +25,14 @@ bool is_not_younger(T u, T v) {
 
 }  // namespace
 
-StarGrid::StarGrid(const CubicalImage& grid, const RunContext& context, const SlabEnds& ends)
+StarGrid::StarGrid(const CubicalImage& grid, const RunContext& context, const SlabPlace& slab)
     : GridFrame(grid),
       context_(context),
-      ends_(ends),
+      slab_(slab),
       stars_(&context.memory),
-      cube_pairs_(ends.cube_pairs),
+      cube_pairs_(slab.cube_pairs),
       critical_(&context.memory) {
+  if (slab.is_in_ring) be_part_of_ring(slab.is_first ? 1 : UINT32_MAX);
   if (cube_pairs_ == nullptr) cube_pairs_ = cube_pair_memos(*this, context);
   stars_.resize(size_);
   with_voxels(grid.type, grid.voxels, [&]<class T>(const T* voxels) {
@@ -62,9 +63,9 @@ std::uint32_t StarGrid::find_one(const T* voxels, std::uint32_t v) const {
       if (!axes_[a].exists) return;
       if (u != kOutside) u = step(u, a, d[a]);
     }
-    const bool older = u == kOutside ? relative_
-                       : u < v       ? is_not_younger<descending>(at(u), value)
-                                     : is_older<descending>(at(u), value);
+    const bool older = u == kOutside       ? relative_
+                       : comes_before(u, v) ? is_not_younger<descending>(at(u), value)
+                                            : is_older<descending>(at(u), value);
     if (older) star |= star_bit(d);
   };
   for (const Direction& d : kEdges) look(d);
@@ -127,14 +128,10 @@ void StarGrid::find_block(const T* voxels, const Block& block, std::uint32_t* st
       // Voxels that come before v are older if they are equal.
       const auto older = [](T u, T v) { return is_older<descending>(u, v); };
       const auto not_younger = [](T u, T v) { return is_not_younger<descending>(u, v); };
-      if (row < first) {
-        compare(not_younger, not_younger);
-      } else if (row > first) {
-        compare(older, older);
-      } else if (relative_) {
-        compare(older, not_younger);
+      if (row == first) {
+        relative_ ? compare(older, not_younger) : compare(not_younger, older);
       } else {
-        compare(not_younger, older);
+        comes_before(row, first) ? compare(not_younger, not_younger) : compare(older, older);
       }
     }
   }

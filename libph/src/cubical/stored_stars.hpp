@@ -20,7 +20,7 @@ class StoredStars : public GridFrame {
     std::uint32_t begin = 0, end = slab.size();
     while (begin < end && slab.is_ghost(begin)) begin += layer_size();
     while (begin < end && slab.is_ghost(end - 1)) end -= layer_size();
-    std::uint32_t* const to = stars() + first + begin;
+    std::uint32_t* const to = stars() + (first + begin);  // modulo 2^32
     std::memcpy(to, slab.stars().data() + begin, std::size_t{end - begin} * sizeof(*to));
     forget_file_pages(to, std::size_t{end - begin} * sizeof(*to));
   }

@@ -112,7 +112,7 @@ std::optional<double> TopGraph::seam_value(std::uint32_t node) const {
 std::uint32_t TopGraph::outside_beyond(const Direction& d) const {
   if (grid_.open_axes() == 1)
     for (int a = 0; a < 3; ++a)
-      if (grid_.has_axis(a) && !grid_.is_periodic(a) && d[a] > 0) return outside(1);
+      if (grid_.has_ends(a) && d[a] > 0) return outside(1);
   return outside(0);
 }
 

@@ -36,6 +36,9 @@ double bytes_to_pair_voxels(const CubicalImage& grid);
 /// The same where memory is so short that it sees the image some layers at a time; more, if it does
 /// not do so. Precondition: it can.
 double least_bytes_to_pair_voxels(const CubicalImage& grid);
+/// Whether that is enough but for the bars: none are wanted for which all layers are needed at
+/// once. Precondition: it can.
+bool can_pair_by_layers(const CubicalImage& grid, const WantedBars& wanted);
 
 /// The pairs of positive length of the cubical filtration of an image.
 /// Values of bars are those of the filtration. Cells are those of the pairs in the order of
