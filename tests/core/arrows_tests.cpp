@@ -176,6 +176,32 @@ TEST(Arrows, ConstructionsAreDual) {
   }
 }
 
+// A periodic axis of one voxel is a circle: it makes a bar of each dimension one of the next, too.
+TEST(Arrows, CirclesRaiseDimensions) {
+  std::size_t raised = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(seed);
+    Generator random(seed);
+    std::vector<Index> extents{3, 4, 3};
+    CubicalOptions options = random.cubical_options(3);
+    for (int circles = random.integer(1, 2); circles > 0; --circles) {
+      const int at = random.integer(0, static_cast<int>(extents.size()));
+      extents.insert(extents.begin() + at, 1);
+      options.periodic.insert(options.periodic.begin() + at, true);
+    }
+    const Cubical cubical(random.image(extents, random.coin()), options);
+    for (int min_dim = 0; min_dim <= 4; ++min_dim) {
+      const auto bars = [&](Engine engine) {
+        return pairs_of(persistence(cubical, {.max_dim = 4, .min_dim = min_dim, .engine = engine}));
+      };
+      const auto found = bars(Engine::arrows);
+      ASSERT_EQ(found, bars(Engine::standard)) << min_dim;
+      raised += min_dim == 2 ? found.size() : 0;
+    }
+  }
+  EXPECT_GT(raised, 1000U);
+}
+
 TEST(Arrows, SolidAndHollowTori) {
   const auto distance_to_circle = [](Index x, Index y, Index z) {
     const double from_axis = std::hypot(static_cast<double>(x) - 16, static_cast<double>(y) - 16);
