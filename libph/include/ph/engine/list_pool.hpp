@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
@@ -28,6 +29,14 @@ class ListPool {
     if (lists_[id].capacity() > kept) std::pmr::vector<T>(lists_.get_allocator()).swap(lists_[id]);
     lists_[id].clear();
     free_.push_back(id);
+  }
+  /// Asks for a list some time before it is used: first for where it lies, then for what it holds.
+  void prefetch(Id id) const { __builtin_prefetch(&lists_[id]); }
+  void prefetch_terms(Id id) const {
+    constexpr std::size_t line = 64, most = 512;  // bytes; the rest of a long one comes by itself
+    const auto* const begin = reinterpret_cast<const char*>(lists_[id].data());
+    const std::size_t bytes = std::min(lists_[id].size() * sizeof(T), most);
+    for (std::size_t at = 0; at <= bytes; at += line) __builtin_prefetch(begin + at, 1);
   }
   std::pmr::vector<T>& operator[](Id id) { return lists_[id]; }
   const std::pmr::vector<T>& operator[](Id id) const { return lists_[id]; }

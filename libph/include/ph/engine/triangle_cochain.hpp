@@ -50,13 +50,15 @@ class TriangleCochain {
           rows(blocks, memory),
           lists(memory),
           merged(memory),
-          star(memory) {}
+          star(memory),
+          own(memory) {}
     const K& field;
     std::size_t blocks;
     std::size_t most_terms;  // in lists; more become rows, later where these are wider than bits
     RowPool<K> rows;
     ListPool<Term> lists;
     std::pmr::vector<Term> merged, star;
+    std::pmr::vector<ListId> own;
   };
 
   explicit TriangleCochain(std::pmr::memory_resource* memory) : lists_(memory), at_(memory) {}
@@ -126,6 +128,10 @@ class TriangleCochain {
     Row::add_at(made_row(a, b, shared), c, a < b ? value : shared.field.negate(value),
                 shared.field);
   }
+  /// += scale * other, both in lists.
+  template <class OnEnter, class OnLeave>
+  void add_lists(const TriangleCochain& other, Element scale, Shared& shared, OnEnter&& on_enter,
+                 OnLeave&& on_leave);
   /// phi(a,.,.) += scale * terms.
   template <class OnEnter, class OnLeave>
   void add_terms(Vertex a, Terms terms, Element scale, Shared& shared, OnEnter&& on_enter,
@@ -263,15 +269,48 @@ void TriangleCochain<K>::add_to_list(std::pmr::vector<Term>& list, Terms terms, 
 
 template <Field K>
 template <class OnEnter, class OnLeave>
+void TriangleCochain<K>::add_lists(const TriangleCochain& other, Element scale, Shared& shared,
+                                   OnEnter&& on_enter, OnLeave&& on_leave) {
+  // Lists are anywhere in memory: all are asked for before the first is waited for.
+  auto& lists = shared.lists;
+  auto& own = shared.own;
+  own.clear();
+  auto at = lists_.begin();
+  for (const auto& [a, list] : other.lists_) {
+    at = std::ranges::lower_bound(at, lists_.end(), a, {}, &ListAt::vertex);
+    if (at == lists_.end() || at->vertex != a) {
+      at = lists_.insert(at, {a, lists.take()});
+      on_enter(a, at->list);
+    }
+    own.push_back(at->list);
+    for (const ListId id : {list, at->list}) lists.prefetch(id);
+  }
+  for (std::size_t i = 0; i < own.size(); ++i)
+    for (const ListId id : {other.lists_[i].list, own[i]}) lists.prefetch_terms(id);
+  bool is_any_zero = false;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    auto& list = lists[own[i]];
+    term_count_ -= list.size();
+    add_to_list(list, lists[other.lists_[i].list], scale, shared);
+    term_count_ += list.size();
+    is_any_zero |= list.empty();
+  }
+  if (!is_any_zero) return;
+  std::erase_if(lists_, [&](const ListAt& mine) {
+    if (!lists[mine.list].empty()) return false;
+    lists.give(mine.list);
+    on_leave(mine.vertex);
+    return true;
+  });
+}
+
+template <Field K>
+template <class OnEnter, class OnLeave>
 void TriangleCochain<K>::add(const TriangleCochain& other, Element scale, Shared& shared,
                              OnEnter&& on_enter, OnLeave&& on_leave) {
   adapt(shared);
   if (!is_dense() && other.is_dense()) make_dense(shared);
-  if (!is_dense()) {
-    for (const auto& [a, list] : other.lists_)
-      add_terms(a, shared.lists[list], scale, shared, on_enter, on_leave);
-    return;
-  }
+  if (!is_dense()) return add_lists(other, scale, shared, on_enter, on_leave);
   other.for_each_vertex([&](Vertex a) { enter(a, shared, on_enter); });
   for (const auto& [a, list] : other.lists_) {
     for (const Term& t : shared.lists[list])
