@@ -4,11 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
-#include <compare>
+#include <numeric>
+#include <tuple>
 
 #include "ph/core/error.hpp"
+#include "ph/core/radix_sort.hpp"
 
 namespace ph::segment {
 namespace {
@@ -80,6 +83,40 @@ double cell_of(double units) {
   return (whole > units ? whole - 1 : whole) + 0.0;
 }
 
+bool comes_before(const Voxel& a, const Voxel& b) {
+  return std::tie(a.z, a.y, a.x) < std::tie(b.z, b.y, b.x);
+}
+
+/// The numbers of the voxels in the order of the grid.
+std::vector<std::uint32_t> in_order_of_grid(const std::vector<Voxel>& voxels) {
+  std::vector<std::uint32_t> order(voxels.size());
+  std::iota(order.begin(), order.end(), 0U);
+  if (voxels.empty()) return order;
+  std::array<double, 3> low, size;
+  std::size_t axis = 0;
+  for (const auto member : {&Voxel::x, &Voxel::y, &Voxel::z}) {
+    const auto [least, most] = std::ranges::minmax(voxels, {}, member);
+    low[axis] = least.*member;
+    size[axis++] = most.*member - least.*member + 1;
+  }
+  // A cell of the box around all has a whole number; counted from 2^52 on, its bits are those of
+  // the double, as the radix sort likes them.
+  constexpr double whole = 1ULL << 52;
+  if (size[0] * size[1] * size[2] < whole) {
+    std::vector<double> place;
+    place.reserve(voxels.size());
+    for (const Voxel& v : voxels)
+      place.push_back(
+          ((v.z - low[2]) * size[1] + (v.y - low[1])) * size[0] + (v.x - low[0]) + whole);
+    radix_sort_by_value(order, [&](std::uint32_t i) { return place[i]; });
+  } else {
+    std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+      return comes_before(voxels[a], voxels[b]);
+    });
+  }
+  return order;
+}
+
 /// An offset inside a voxel, 0 <= units <= 1, as a whole number; what is below a unit is dropped.
 std::int64_t fixed_point(double units) { return static_cast<std::int64_t>(units * kUnits); }
 
@@ -111,29 +148,20 @@ VoxelGrid voxel_grid(const CloudView& cloud, const std::vector<Index>& points, d
   }
 
   const std::vector<Voxel>& voxels = table.voxels();
-  struct Placed {
-    double z, y, x;
-    std::uint32_t number;
-    auto operator<=>(const Placed&) const = default;
-  };
-  std::vector<Placed> order;
-  order.reserve(voxels.size());
-  for (std::uint32_t i = 0; i < voxels.size(); ++i)
-    order.push_back({voxels[i].z, voxels[i].y, voxels[i].x, i});
-  std::ranges::sort(order);
+  const std::vector<std::uint32_t> order = in_order_of_grid(voxels);
   grid.centroids.resize(static_cast<Index>(voxels.size()), 3);
   grid.cells.resize(voxels.size());
   grid.counts.resize(voxels.size());
   std::vector<std::uint32_t> rank(voxels.size());
   for (std::uint32_t r = 0; r < order.size(); ++r) {
-    const Voxel& v = voxels[order[r].number];
+    const Voxel& v = voxels[order[r]];
     const double n = static_cast<double>(v.count) * kUnits;
     grid.centroids.row(r) << (v.x + static_cast<double>(v.sum_x) / n) * voxel,
         (v.y + static_cast<double>(v.sum_y) / n) * voxel,
         (v.z + static_cast<double>(v.sum_z) / n) * voxel;
     grid.cells[r] = {v.x, v.y, v.z};
     grid.counts[r] = v.count;
-    rank[order[r].number] = r;
+    rank[order[r]] = r;
   }
   for (std::uint32_t& v : grid.voxel_of) v = rank[v];
   return grid;
