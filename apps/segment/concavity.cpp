@@ -3,7 +3,9 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace ph::segment {
@@ -32,31 +34,46 @@ struct Moments {
   }
 };
 
-/// The smallest eigenvalue of a positive semi-definite matrix of trace one. On the left of its
+/// Scatters of some voxels, next to each other so that the compiler can vectorise over them.
+constexpr std::size_t kLanes = 8;
+using Lanes = std::array<double, kLanes>;
+
+/// The smallest eigenvalues of positive semi-definite matrices of trace one, given by the sum of
+/// their principal minors and the determinant. On the left of its
 /// smallest root the characteristic polynomial is concave: Newton's method goes up to that root
 /// from zero and never beyond.
-double smallest_eigenvalue(const Eigen::Matrix3d& a) {
-  const double minors = a(0, 0) * a(1, 1) - a(0, 1) * a(0, 1) + a(0, 0) * a(2, 2) -
-                        a(0, 2) * a(0, 2) + a(1, 1) * a(2, 2) - a(1, 2) * a(1, 2);
-  const double determinant = a.determinant();
+Lanes smallest_eigenvalues(const Lanes& minors, const Lanes& determinants) {
   constexpr int most_steps = 20;  // of a double root it takes many, and is then exact enough
-  double x = 0;
+  constexpr double least_step = 1e-15;
+  Lanes x{};
+  std::array<std::int64_t, kLanes> goes_on;  // as wide as what it is about
+  goes_on.fill(1);
   for (int step = 0; step < most_steps; ++step) {
-    const double value = ((x - 1) * x + minors) * x - determinant;
-    const double slope = (3 * x - 2) * x + minors;
-    if (!(value < 0) || !(slope > 0)) break;
-    const double next = x - value / slope;
-    if (next - x < 1e-15) break;
-    x = next;
+    std::int64_t any = 0;
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const double value = ((x[k] - 1) * x[k] + minors[k]) * x[k] - determinants[k];
+      const double slope = (3 * x[k] - 2) * x[k] + minors[k];
+      const double next = x[k] - value / slope;
+      goes_on[k] &= static_cast<std::int64_t>((value < 0) & (slope > 0) & !(next - x[k] < least_step));
+      x[k] = goes_on[k] != 0 ? next : x[k];
+      any |= goes_on[k];
+    }
+    if (any == 0) break;
   }
   return x;
 }
 
+/// The sum of the principal minors of two rows.
+double principal_minors(const Eigen::Matrix3d& a) {
+  return a(0, 0) * a(1, 1) - a(0, 1) * a(0, 1) + a(0, 0) * a(2, 2) - a(0, 2) * a(0, 2) +
+         a(1, 1) * a(2, 2) - a(1, 2) * a(1, 2);
+}
+
 /// The direction in which vectors with this scatter spread least, unit length; any of these
 /// directions if they all lie on a line.
-Eigen::Vector3d direction_of_least_spread(const Eigen::Matrix3d& scatter) {
-  const Eigen::Matrix3d a = scatter / scatter.trace();
-  const Eigen::Matrix3d rest = a - smallest_eigenvalue(a) * Eigen::Matrix3d::Identity();
+/// @param a the scatter, of trace one. @param eigenvalue the smallest one.
+Eigen::Vector3d direction_of_least_spread(const Eigen::Matrix3d& a, double eigenvalue) {
+  const Eigen::Matrix3d rest = a - eigenvalue * Eigen::Matrix3d::Identity();
   // Orthogonal to all rows: the longest of the products is the one with the least rounding.
   Eigen::Vector3d best = rest.col(0).cross(rest.col(1));
   for (const Eigen::Vector3d& other : {Eigen::Vector3d(rest.col(0).cross(rest.col(2))),
@@ -75,18 +92,32 @@ Eigen::Vector3d row(const Points& points, std::uint32_t i) { return points.row(i
 Points surface_normals(const Points& centroids, std::span<const VoxelPair> pairs, double radius,
                        const Vec3& viewpoint) {
   std::vector<Moments> moments(static_cast<std::size_t>(centroids.rows()));
-  for (const VoxelPair& p : pairs) {
-    if (p.distance >= radius) continue;
+  for_each_within(pairs, radius, [&](const VoxelPair& p) {
     const Eigen::Vector3d d = row(centroids, p.v) - row(centroids, p.u);
     moments[p.u].add(d.x(), d.y(), d.z());
     moments[p.v].add(-d.x(), -d.y(), -d.z());
-  }
+  });
   Points normals = Points::Constant(centroids.rows(), 3, std::numeric_limits<double>::quiet_NaN());
   const Eigen::Vector3d eye(viewpoint[0], viewpoint[1], viewpoint[2]);
-  for (std::uint32_t v = 0; v < moments.size(); ++v) {
-    if (moments[v].count < 3) continue;
-    const Eigen::Vector3d n = direction_of_least_spread(moments[v].scatter());
-    normals.row(v) = (n.dot(eye - row(centroids, v)) < 0 ? -n : n).transpose();
+  std::array<Eigen::Matrix3d, kLanes> scatters;
+  for (std::size_t first = 0; first < moments.size(); first += kLanes) {
+    const std::size_t count = std::min(kLanes, moments.size() - first);
+    Lanes minors{}, determinants{};
+    for (std::size_t k = 0; k < count; ++k) {
+      const Eigen::Matrix3d scatter = moments[first + k].scatter();
+      scatters[k] = scatter / scatter.trace();
+      minors[k] = principal_minors(scatters[k]);
+      determinants[k] = scatters[k].determinant();
+    }
+    const Lanes eigenvalues = smallest_eigenvalues(minors, determinants);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t v = first + k;
+      if (moments[v].count < 3) continue;
+      const Eigen::Vector3d n = direction_of_least_spread(scatters[k], eigenvalues[k]);
+      const auto at = static_cast<Index>(v);
+      const Eigen::Vector3d to_eye = eye - centroids.row(at).transpose();
+      normals.row(at) = (n.dot(to_eye) < 0 ? -n : n).transpose();
+    }
   }
   return normals;
 }
@@ -124,13 +155,12 @@ std::vector<double> smoothed(const std::vector<double>& values, std::span<const 
                              double radius) {
   std::vector<double> sums = values;
   std::vector<int> counts(values.size(), 1);
-  for (const VoxelPair& p : pairs) {
-    if (p.distance >= radius) continue;
+  for_each_within(pairs, radius, [&](const VoxelPair& p) {
     sums[p.u] += values[p.v];
     sums[p.v] += values[p.u];
     ++counts[p.u];
     ++counts[p.v];
-  }
+  });
   for (std::size_t v = 0; v < sums.size(); ++v) sums[v] /= counts[v];
   return sums;
 }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <memory_resource>
+#include <span>
 #include <vector>
 
 #include "voxel_grid.hpp"
@@ -22,5 +25,22 @@ using VoxelPairs = std::pmr::vector<VoxelPair>;
 /// counted through. @throws Error (usage) as require_exact_cells.
 VoxelPairs close_voxels(const VoxelGrid& grid, double voxel, double reach,
                         std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+
+/// Calls `use` for the pairs with distance < `radius`, in their order. They are picked some at a
+/// time: whether a pair is as near is anyone's guess, and a branch for each would be the wrong one
+/// every third time.
+template <class Use>
+void for_each_within(std::span<const VoxelPair> pairs, double radius, Use&& use) {
+  constexpr std::size_t some = 256;
+  std::array<VoxelPair, some> near;
+  for (; !pairs.empty(); pairs = pairs.subspan(std::min(some, pairs.size()))) {
+    std::size_t count = 0;
+    for (const VoxelPair& p : pairs.first(std::min(some, pairs.size()))) {
+      near[count] = p;
+      count += p.distance < radius ? 1 : 0;
+    }
+    for (const VoxelPair& p : std::span(near).first(count)) use(p);
+  }
+}
 
 }  // namespace ph::segment
