@@ -54,7 +54,8 @@ Lanes smallest_eigenvalues(const Lanes& minors, const Lanes& determinants) {
       const double value = ((x[k] - 1) * x[k] + minors[k]) * x[k] - determinants[k];
       const double slope = (3 * x[k] - 2) * x[k] + minors[k];
       const double next = x[k] - value / slope;
-      goes_on[k] &= static_cast<std::int64_t>((value < 0) & (slope > 0) & !(next - x[k] < least_step));
+      goes_on[k] &=
+          static_cast<std::int64_t>((value < 0) & (slope > 0) & !(next - x[k] < least_step));
       x[k] = goes_on[k] != 0 ? next : x[k];
       any |= goes_on[k];
     }

@@ -82,8 +82,9 @@ VoxelFiltration surface_filtration(const Scene& scene, const SegmentOptions& opt
       smoothed(concavity(grid.centroids, normals, pairs), pairs, kAdjacent * voxel);
   std::vector<WeightedEdge> edges;
   edges.reserve(pairs.size() / 2);
-  for_each_within(pairs, kAdjacent * voxel,
-                  [&](const VoxelPair& p) { edges.push_back({p.v, p.u, p.distance}); });
+  for_each_within(pairs, kAdjacent * voxel, [&](const VoxelPair& p) {
+    edges.push_back({p.v, p.u, p.distance});
+  });
   if (options.method == Method::supervoxels)
     values = distance_to_seeds(grid.centroids, edges, values, options.spacing, context);
   FilteredGraph graph = FilteredGraph::lower_star(values, edges, context);

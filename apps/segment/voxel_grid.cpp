@@ -113,8 +113,8 @@ std::vector<std::uint32_t> in_order_of_grid(const std::vector<Voxel>& voxels) {
     std::vector<double> place;
     place.reserve(voxels.size());
     for (const Voxel& v : voxels)
-      place.push_back(
-          ((v.z - low[2]) * size[1] + (v.y - low[1])) * size[0] + (v.x - low[0]) + whole);
+      place.push_back(((v.z - low[2]) * size[1] + (v.y - low[1])) * size[0] + (v.x - low[0]) +
+                      whole);
     radix_sort_by_value(order, [&](std::uint32_t i) { return place[i]; });
   } else {
     std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {

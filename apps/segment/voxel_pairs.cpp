@@ -75,6 +75,7 @@ VoxelPair* write_pairs(const std::vector<Place>& places, const Row& row, const R
   for (std::uint32_t v = row.begin; v < row.end; ++v) {
     const Place p = places[v];
     while (first < other.end && places[first].cell < p.cell - reach) ++first;
+    if (first == other.end) break;
     const std::uint32_t end = std::min(other.end, v);
     for (std::uint32_t u = first; u < end && places[u].cell <= p.cell + reach; ++u) {
       const Place& q = places[u];
@@ -99,22 +100,23 @@ VoxelPairs close_voxels(const VoxelGrid& grid, double voxel, double reach,
   std::vector<Offset> offsets = offsets_within(reach);
   const double square_of_radius = std::pow(reach * voxel, 2);
   VoxelPairs pairs(memory);
-  // Those of a flat surface, half of the disk around each voxel: growing would copy them all.
-  const double disk = std::numbers::pi * reach * reach;
+  // Those of a surface that bends, half of the disk around each voxel and a third more: growing
+  // would copy them all, and touch three times the memory.
+  const double disk = 4.0 / 3 * std::numbers::pi * reach * reach;
   pairs.reserve(static_cast<std::size_t>(disk / 2 * static_cast<double>(grid.cells.size())));
-  std::uint32_t longest = 0;
-  for (const Row& row : rows) longest = std::max(longest, row.end - row.begin);
   const auto most_of_voxel = static_cast<std::size_t>(2 * std::ceil(reach) + 1);
-  std::vector<VoxelPair> near(most_of_voxel * longest + 1);
   for (const Row& row : rows) {
     for (Offset& offset : offsets) {
       const double y = row.y + offset.y, z = row.z + offset.z;
       while (offset.next < rows.size() && comes_before(rows[offset.next], y, z)) ++offset.next;
       if (offset.next == rows.size()) continue;
       const Row& other = rows[offset.next];
-      if (other.y == y && other.z == z)
-        pairs.insert(pairs.end(), near.data(),
-                     write_pairs(places, row, other, offset.reach, square_of_radius, near.data()));
+      if (other.y != y || other.z != z) continue;
+      const std::size_t size = pairs.size();
+      pairs.resize(size + most_of_voxel * (row.end - row.begin) + 1);
+      const VoxelPair* const end =
+          write_pairs(places, row, other, offset.reach, square_of_radius, pairs.data() + size);
+      pairs.resize(static_cast<std::size_t>(end - pairs.data()));
     }
   }
   return pairs;

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "ph/core/raw_vector.hpp"
 #include "voxel_grid.hpp"
 
 namespace ph::segment {
@@ -17,7 +18,7 @@ struct VoxelPair {
   float distance;      ///< of their centroids, metres
 };
 
-using VoxelPairs = std::pmr::vector<VoxelPair>;
+using VoxelPairs = RawVector<VoxelPair>;
 
 /// All pairs of voxels whose centroids are closer than a number of voxels, in an order that depends
 /// on the voxels alone. O(rows * reach^2 + pairs): no tree, no hash.
