@@ -63,17 +63,19 @@ constexpr std::size_t kFewestOfEach = 9;
 
 /// The sectors of the circle in which a rim has points; nothing if it is not on the circle.
 std::optional<Sectors> arc(const Circle& circle, const Rim& rim, double tolerance) {
-  Sectors sectors;
   double squares = 0;
+  for (const auto& point : rim.points)
+    squares += std::pow((point - circle.centre).norm() - circle.radius, 2);
+  // Not "larger than": a circle through points on a line is not a number.
+  if (!(squares <= tolerance * tolerance * static_cast<double>(rim.points.size())))
+    return std::nullopt;
+  Sectors sectors;
   for (const auto& point : rim.points) {
     const Eigen::Vector2d p = point - circle.centre;
-    squares += std::pow(p.norm() - circle.radius, 2);
     const double turn = std::atan2(p.y(), p.x()) / (2 * std::numbers::pi) + 0.5;
     sectors.set(static_cast<std::size_t>(turn * kSectors) % kSectors);
   }
-  // Not "larger than": a circle through points on a line is not a number.
-  if (squares <= tolerance * tolerance * static_cast<double>(rim.points.size())) return sectors;
-  return std::nullopt;
+  return sectors;
 }
 
 bool share_a_rim(const Rim& a, const Rim& b, double voxel) {

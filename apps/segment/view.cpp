@@ -64,19 +64,18 @@ View::View(const Points& centroids, double voxel, const Vec3& viewpoint)
 }
 
 void View::find_least_ranges() {
-  constexpr auto reach = static_cast<std::size_t>(kReach);
+  range_.reserve(nearest_.size());
+  for (const Voxel v : nearest_) range_.push_back(v == kNone ? kInfinity : ranges_[v]);
   const auto least_along = [&](std::size_t at, std::size_t size, auto&& value) {
     double least = kInfinity;
-    const std::size_t end = std::min(size, at + reach + 1);
-    for (std::size_t k = at - std::min(at, reach); k < end; ++k) least = std::min(least, value(k));
+    const Window near = window(at, size);
+    for (std::size_t k = near.begin; k < near.end; ++k) least = std::min(least, value(k));
     return least;
   };
   std::vector<double> in_row(nearest_.size());
   for (std::size_t i = 0; i < nearest_.size(); ++i) {
-    in_row[i] = least_along(i % width_, width_, [&](std::size_t x) {
-      const Voxel v = nearest_[i / width_ * width_ + x];
-      return v == kNone ? kInfinity : ranges_[v];
-    });
+    in_row[i] = least_along(i % width_, width_,
+                            [&](std::size_t x) { return range_[i / width_ * width_ + x]; });
   }
   least_range_.resize(nearest_.size());
   for (std::size_t i = 0; i < nearest_.size(); ++i)

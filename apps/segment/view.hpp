@@ -42,12 +42,21 @@ class View {
     return static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x);
   }
   Voxel nearest(double x, double y) const { return nearest_[cell(x, y)]; }
+  /// Cells within kReach of one, in a row or a column.
+  struct Window {
+    std::size_t begin, end;
+  };
+  static Window window(std::size_t at, std::size_t size) {
+    constexpr auto reach = static_cast<std::size_t>(kReach);
+    return {at - std::min(at, reach), std::min(size, at + reach + 1)};
+  }
   void find_least_ranges();
 
   std::vector<double> ranges_;  // from the viewpoint, metres
   std::vector<Place> places_;   // negative: left out
   std::size_t width_ = 0, height_ = 0;
   std::vector<Voxel> nearest_;
+  std::vector<double> range_;        // of the nearest voxel, kInfinity without one
   std::vector<double> least_range_;  // of all voxels within kReach cells
 };
 
@@ -56,16 +65,11 @@ bool View::is_at_occluder(Voxel v, double nearer, KindOf&& kind_of) const {
   if (!has(v)) return false;
   const Place& p = places_[v];
   if (!(least_range_[cell(p.x, p.y)] + nearer < ranges_[v])) return false;
-  for (int dy = -kReach; dy <= kReach; ++dy) {
-    for (int dx = -kReach; dx <= kReach; ++dx) {
-      const double x = p.x + dx, y = p.y + dy;
-      if (x < 0 || y < 0 || x >= static_cast<double>(width_) || y >= static_cast<double>(height_))
-        continue;
-      const Voxel other = nearest(x, y);
-      if (other != kNone && kind_of(other) != kind_of(v) && ranges_[other] + nearer < ranges_[v])
-        return true;
-    }
-  }
+  const Window columns = window(static_cast<std::size_t>(p.x), width_);
+  const Window rows = window(static_cast<std::size_t>(p.y), height_);
+  for (std::size_t y = rows.begin; y < rows.end; ++y)
+    for (std::size_t i = y * width_ + columns.begin; i < y * width_ + columns.end; ++i)
+      if (range_[i] + nearer < ranges_[v] && kind_of(nearest_[i]) != kind_of(v)) return true;
   return false;
 }
 
