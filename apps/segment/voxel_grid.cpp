@@ -35,7 +35,8 @@ struct Voxel {
   }
 };
 
-/// Open addressing with linear probing; the load stays below one half.
+/// Open addressing with linear probing; the load stays below a quarter, for every second look at a
+/// slot is a guess.
 class VoxelTable {
  public:
   VoxelTable() : slots_(kFirstCapacity, kEmpty) {}
@@ -50,7 +51,7 @@ class VoxelTable {
     const auto number = static_cast<std::uint32_t>(voxels_.size());
     voxels_.push_back({x, y, z});
     slots_[slot] = number;
-    if (2 * voxels_.size() > slots_.size()) grow();
+    if (4 * voxels_.size() > slots_.size()) grow();
     return number;
   }
   Voxel& operator[](std::uint32_t number) { return voxels_[number]; }
@@ -58,7 +59,7 @@ class VoxelTable {
 
  private:
   static constexpr std::uint32_t kEmpty = UINT32_MAX;
-  static constexpr std::size_t kFirstCapacity = 16384;
+  static constexpr std::size_t kFirstCapacity = 1 << 16;
 
   std::size_t next(std::size_t slot) const { return (slot + 1) & (slots_.size() - 1); }
   std::size_t slot_of(double x, double y, double z) const {
@@ -127,6 +128,18 @@ std::vector<std::uint32_t> in_order_of_grid(const std::vector<Voxel>& voxels) {
 /// An offset inside a voxel, 0 <= units <= 1, as a whole number; what is below a unit is dropped.
 std::int64_t fixed_point(double units) { return static_cast<std::int64_t>(units * kUnits); }
 
+/// Where a point is: its cell, and how far inside.
+struct Located {
+  double cx, cy, cz;
+  double x, y, z;  // 0 to 1
+};
+
+Located locate(const float* p, double voxel) {
+  const double x = p[0] / voxel, y = p[1] / voxel, z = p[2] / voxel;
+  const double cx = cell_of(x), cy = cell_of(y), cz = cell_of(z);
+  return {cx, cy, cz, x - cx, y - cy, z - cz};
+}
+
 }  // namespace
 
 VoxelGrid voxel_grid(const CloudView& cloud, const std::vector<Index>& points, double voxel) {
@@ -134,24 +147,31 @@ VoxelGrid voxel_grid(const CloudView& cloud, const std::vector<Index>& points, d
   grid.voxel_of.resize(points.size());
   VoxelTable table;
   std::uint32_t number = 0;  // neighbours in the list are often neighbours in space
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const float* p = &cloud.xyz[3 * static_cast<std::size_t>(points[k])];
-    const double x = p[0] / voxel, y = p[1] / voxel, z = p[2] / voxel;
-    const double cx = cell_of(x), cy = cell_of(y), cz = cell_of(z);
-    if (k == 0 || !table[number].is_at(cx, cy, cz)) {
-      if (!std::isfinite(cx + cy + cz)) {
-        throw Error(ErrorKind::usage,
-                    fmt::format("a voxel of {} is too small for point {} at ({}, {}, {})", voxel,
-                                points[k], p[0], p[1], p[2]));
+  // Some at a time: the cells of the next ones are known before it is clear where the last one
+  // goes, which is anyone's guess.
+  std::array<Located, 64> located;
+  for (std::size_t first = 0; first < points.size(); first += located.size()) {
+    const std::size_t count = std::min(located.size(), points.size() - first);
+    for (std::size_t k = 0; k < count; ++k)
+      located[k] = locate(&cloud.xyz[3 * static_cast<std::size_t>(points[first + k])], voxel);
+    for (std::size_t k = 0; k < count; ++k) {
+      const Located& p = located[k];
+      if (first + k == 0 || !table[number].is_at(p.cx, p.cy, p.cz)) {
+        if (!std::isfinite(p.cx + p.cy + p.cz)) {
+          const float* const at = &cloud.xyz[3 * static_cast<std::size_t>(points[first + k])];
+          throw Error(ErrorKind::usage,
+                      fmt::format("a voxel of {} is too small for point {} at ({}, {}, {})", voxel,
+                                  points[first + k], at[0], at[1], at[2]));
+        }
+        number = table.at(p.cx, p.cy, p.cz);
       }
-      number = table.at(cx, cy, cz);
+      Voxel& v = table[number];
+      v.sum_x += fixed_point(p.x);
+      v.sum_y += fixed_point(p.y);
+      v.sum_z += fixed_point(p.z);
+      ++v.count;
+      grid.voxel_of[first + k] = number;
     }
-    Voxel& v = table[number];
-    v.sum_x += fixed_point(x - cx);
-    v.sum_y += fixed_point(y - cy);
-    v.sum_z += fixed_point(z - cz);
-    ++v.count;
-    grid.voxel_of[k] = number;
   }
 
   const std::vector<Voxel>& voxels = table.voxels();
