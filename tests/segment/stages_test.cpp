@@ -2,6 +2,7 @@
 // Each stage alone, on data with known answers.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
@@ -97,6 +98,21 @@ TEST(VoxelGrid, EqualsASlowOneWithManyVoxels) {
                   entry.first[k] / static_cast<double>(entry.second), 1e-9);
     }
     ++v;
+  }
+}
+
+TEST(VoxelGrid, InOrderHoweverFarApart) {
+  const Points points = random_points(3000, 5);
+  for (const float size : {1e-2F, 1.0F, 1e9F}) {  // the box around all: up to 2^120 voxels
+    std::vector<float> xyz;
+    for (Index i = 0; i < points.rows(); ++i)
+      for (Index k = 0; k < 3; ++k) xyz.push_back(size * static_cast<float>(points(i, k) - 0.5));
+    const VoxelGrid grid = voxel_grid({xyz, {}}, all_of(points.rows()), 1e-3);
+    const auto from_last = [](const Vec3& c) { return Vec3{c[2], c[1], c[0]}; };
+    EXPECT_TRUE(std::ranges::is_sorted(grid.cells, std::ranges::less(), from_last)) << size;
+    for (std::size_t i = 0; i < grid.voxel_of.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_EQ(grid.cells[grid.voxel_of[i]][k], std::floor(double{xyz[3 * i + k]} / 1e-3));
   }
 }
 

@@ -23,6 +23,19 @@ namespace {
 
 using test::all_of;
 
+TEST(VoxelPairs, ThoseWithinARadiusInTheirOrder) {
+  for (const std::uint32_t size : {0U, 1U, 255U, 256U, 257U, 1000U}) {
+    VoxelPairs pairs;
+    for (std::uint32_t i = 0; i < size; ++i)
+      pairs.push_back({i, i + 1, static_cast<float>(i * 7 % 10)});
+    std::vector<std::uint32_t> expected, found;
+    for (const VoxelPair& p : pairs)
+      if (p.distance < 5) expected.push_back(p.u);
+    for_each_within(pairs, 5, [&](const VoxelPair& p) { found.push_back(p.u); });
+    EXPECT_EQ(found, expected);
+  }
+}
+
 TEST(VoxelPairs, AreAllThatAreClose) {
   std::mt19937 random(11);
   std::uniform_real_distribution<float> coordinate(-0.04F, 0.05F);
