@@ -15,7 +15,7 @@ void LensComponents::find(const FlagEdge& e) {
   const std::size_t words = graph_.words();
   roots_.clear();
   sets_.clear();
-  apex_ = kNone;
+  apex_ = hub_ = kNone;
   Vertex start = kNone;
   for (const Vertex last : {last_apex_[e.u], last_apex_[e.v]}) {
     const Vertex guess = last == kNone ? kNone : graph_.local(last);
@@ -40,6 +40,16 @@ void LensComponents::find(const FlagEdge& e) {
     set_apex(e, start);
   else if (count() > 1)
     sort_components();
+}
+
+void LensComponents::find(const FlagEdge& e, const LensHint& hint) {
+  if (hint.kind == LensHint::Kind::unknown) return find(e);
+  const Vertex vertex = graph_.local(hint.vertex);
+  sets_.clear();
+  roots_.assign(1, vertex);
+  apex_ = hub_ = kNone;
+  if (hint.kind == LensHint::Kind::cone) set_apex(e, vertex);
+  if (hint.kind == LensHint::Kind::hub) hub_ = vertex;
 }
 
 bits::Word* LensComponents::take_component(Vertex first) {
@@ -84,6 +94,7 @@ void LensComponents::sort_components() {
 }
 
 bool LensComponents::find_apex(const FlagEdge& e) {
+  if (hub_ != kNone) return false;
   // An apex sees every vertex, so also one that a candidate misses.
   const std::size_t words = graph_.words();
   const auto has = [&](std::size_t w) { return (rest_[w / 64] >> (w % 64) & 1) != 0; };

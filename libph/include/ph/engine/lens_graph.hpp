@@ -40,6 +40,7 @@ class LensGraph {
   static double bytes(std::size_t vertices, std::size_t edges);
 
   std::size_t vertex_count() const { return active_.vertex_count(); }
+  LensLayout layout() const { return layout_; }
   void add(const FlagEdge& e);
   /// Adds many edges, on several threads.
   void add_all(std::span<const FlagEdge> edges, const RunContext& context);

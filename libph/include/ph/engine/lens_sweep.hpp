@@ -10,12 +10,14 @@
 #include "ph/core/binned_edges.hpp"
 #include "ph/core/field.hpp"
 #include "ph/core/filtration.hpp"
+#include "ph/core/parallel.hpp"
 #include "ph/core/run_context.hpp"
 #include "ph/engine/annotations.hpp"
 #include "ph/engine/elder_rule.hpp"
 #include "ph/engine/lens_components.hpp"
 #include "ph/engine/lens_cycles.hpp"
 #include "ph/engine/lens_graph.hpp"
+#include "ph/engine/lens_helper.hpp"
 #include "ph/engine/lens_observer.hpp"
 #include "ph/engine/lens_surfaces.hpp"
 
@@ -113,10 +115,14 @@ class LensSweep {
   std::optional<LensCycles<K>> cycles_;
   std::pmr::vector<typename Observer::EdgeValue> representative_;
   std::optional<LensSurfaces<K>> surfaces_;
+  std::optional<LensHelper<K>> helper_;  // while it runs
 };
 
 template <Field K>
 void LensSweep<K>::run() {
+  constexpr std::size_t few = 1 << 14;  // edges: a thread costs more
+  if (surfaces_ && thread_count(context_) > 1 && edges_.size() > few)
+    helper_.emplace(surfaces_->stars(), graph_.vertex_count(), graph_.layout(), edges_, context_);
   Ticker ticker(context_, "edges", edges_.size());
   for (std::size_t bin = 0; bin < edges_.bin_count(); ++bin) {
     const std::size_t begin = edges_.bin_begin(bin), end = edges_.bin_begin(bin + 1);
@@ -126,7 +132,7 @@ void LensSweep<K>::run() {
     }
     add_bins_until(bin);
     edges_.sorted_bins(bin + 1);
-    if (!can_bins_be_idle()) edges_.sort_ahead(bin + 1);
+    if (!can_bins_be_idle() && !helper_) edges_.sort_ahead(bin + 1);
     for (std::size_t position = begin; position < end; ++position) {
       add_edge(static_cast<Position>(position));
       ticker.tick();
@@ -138,6 +144,7 @@ void LensSweep<K>::run() {
     find_representative(g, g);
     observer_.on_essential(births_[g], representative_);
   }
+  helper_.reset();
   if (surfaces_) surfaces_->finish();
 }
 
@@ -165,12 +172,13 @@ template <Field K>
 void LensSweep<K>::add_edge(Position position) {
   const FlagEdge& e = edges_[position];
   const bool wants_graph = surfaces_ || wanted_.zero_length;
+  const LensHint hint = helper_ ? helper_->scout().hint(position) : LensHint();
   const LensGraph::Lens lens = graph_.find_lens(e, wants_graph);
   if (lens.is_empty) {
     join_or_give_birth(position, e);
   } else {
     if (wanted_.zero_length) report_zero_length(position, e);
-    if (lens.touches_active || surfaces_) components_.find(e);
+    if (lens.touches_active || surfaces_) components_.find(e, hint);
     born_.clear();
     if (lens.touches_active)
       annotate(position, e);
@@ -181,6 +189,7 @@ void LensSweep<K>::add_edge(Position position) {
       for (const std::size_t i : born_)
         surfaces_->give_birth({position, graph_.global(components_.root(i))}, e,
                               components_.vertices(i));
+      if (helper_) helper_->scout().expect_classes(surfaces_->has_living());
     }
   }
   graph_.add(e);
