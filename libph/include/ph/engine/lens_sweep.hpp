@@ -120,8 +120,7 @@ class LensSweep {
 
 template <Field K>
 void LensSweep<K>::run() {
-  constexpr std::size_t few = 1 << 14;  // edges: a thread costs more
-  if (surfaces_ && thread_count(context_) > 1 && edges_.size() > few)
+  if (surfaces_ && thread_count(context_) > 1 && edges_.size() >= wanted_.tuning.edges_for_helper)
     helper_.emplace(surfaces_->stars(), graph_.vertex_count(), graph_.layout(), edges_, context_);
   Ticker ticker(context_, "edges", edges_.size());
   for (std::size_t bin = 0; bin < edges_.bin_count(); ++bin) {
