@@ -3,11 +3,10 @@
 
 namespace ph {
 
-LensScout::LensScout(std::size_t vertices, LensLayout layout, const BinnedEdges& edges,
-                     const RunContext& context)
+LensScout::LensScout(std::size_t vertices, const BinnedEdges& edges, const RunContext& context)
     : edges_(edges),
       no_edges_(vertices, &context.memory),
-      graph_(no_edges_, layout, &context.memory),
+      graph_(no_edges_, LensLayout::rows, &context.memory),
       components_(graph_, &context.memory),
       cover_(graph_, &context.memory) {}
 

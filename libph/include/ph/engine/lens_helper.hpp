@@ -19,9 +19,9 @@ template <Field K>
 class LensHelper {
  public:
   /// @param stars outlive this.
-  LensHelper(StarWriter<K>& stars, std::size_t vertices, LensLayout layout,
-             const BinnedEdges& edges, const RunContext& context)
-      : scout_(vertices, layout, edges, context) {
+  LensHelper(StarWriter<K>& stars, std::size_t vertices, const BinnedEdges& edges,
+             const RunContext& context)
+      : scout_(vertices, edges, context) {
     try {
       thread_ = std::jthread([this, &stars](const std::stop_token& stop) { run(stars, stop); });
     } catch (const std::system_error&) {

@@ -22,8 +22,7 @@ class LensScout {
   using Position = std::uint32_t;
 
   /// @param edges, context outlive this.
-  LensScout(std::size_t vertices, LensLayout layout, const BinnedEdges& edges,
-            const RunContext& context);
+  LensScout(std::size_t vertices, const BinnedEdges& edges, const RunContext& context);
 
   /// What is known of an edge's lens. By the sweep, which asks in order.
   LensHint hint(Position position) {

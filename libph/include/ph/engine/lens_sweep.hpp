@@ -120,8 +120,10 @@ class LensSweep {
 
 template <Field K>
 void LensSweep<K>::run() {
-  if (surfaces_ && thread_count(context_) > 1 && edges_.size() >= wanted_.tuning.edges_for_helper)
-    helper_.emplace(surfaces_->stars(), graph_.vertex_count(), graph_.layout(), edges_, context_);
+  // Lists of neighbours make lenses cheap but for their numbering, which cannot be handed over.
+  if (surfaces_ && graph_.layout() == LensLayout::rows && thread_count(context_) > 1 &&
+      edges_.size() >= wanted_.tuning.edges_for_helper)
+    helper_.emplace(surfaces_->stars(), graph_.vertex_count(), edges_, context_);
   Ticker ticker(context_, "edges", edges_.size());
   for (std::size_t bin = 0; bin < edges_.bin_count(); ++bin) {
     const std::size_t begin = edges_.bin_begin(bin), end = edges_.bin_begin(bin + 1);

@@ -57,6 +57,7 @@ class TriangleCochain {
     const K& field;
     std::size_t blocks;
     std::size_t most_terms;  // in lists; more become rows, later where these are wider than bits
+    std::size_t living = 0;  // cochains in use
     RowPool<K> rows;
     StarWriter<K> stars;
     ListPool<Term> lists;
@@ -144,7 +145,10 @@ class TriangleCochain {
   static void add_to_list(std::pmr::vector<Term>& list, Terms terms, Element scale, Shared& shared);
   /// Makes it dense if it is large.
   void adapt(Shared& shared) {
-    if (!is_dense() && term_count_ > shared.most_terms) make_dense(shared);
+    // Rows of many cochains push each other out of the caches.
+    constexpr std::size_t many = 16;
+    const std::size_t most = shared.living < many ? shared.most_terms : 2 * shared.most_terms;
+    if (!is_dense() && term_count_ > most) make_dense(shared);
   }
   void make_dense(Shared& shared);
   template <class OnEnter>

@@ -38,6 +38,7 @@ class TriangleCocycles {
 
   Generator add_generator() {
     cochains_.emplace_back(&context_.memory);
+    ++shared_.living;
     return static_cast<Generator>(cochains_.size() - 1);
   }
   void erase(Generator g);
@@ -73,6 +74,7 @@ class TriangleCocycles {
 template <Field K>
 void TriangleCocycles<K>::erase(Generator g) {
   cochains_[g].clear(shared_, [&](Vertex a) { leave(g, a); });
+  --shared_.living;
 }
 
 template <Field K>
