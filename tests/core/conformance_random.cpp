@@ -157,7 +157,7 @@ TEST(RandomConformance, LensSurfaces) {
         const LensTuning both{.layout = layout, .most_terms = 1};
         EXPECT_EQ(pairs_of_lens(f, 2, field, rows, -1), oracle);
         EXPECT_EQ(pairs_of_lens(f, 2, field, both, 0), of_positive_length(oracle));
-        const LensTuning helped{.layout = layout, .most_terms = 0, .edges_for_helper = 0};
+        const LensTuning helped{.layout = layout, .most_terms = 0, .stars_for_helper = 0};
         EXPECT_EQ(pairs_of_lens(f, 2, field, helped, -1, 2), oracle);
       }
       for (const Pair& p : oracle) {
@@ -184,7 +184,7 @@ TEST(RandomConformance, LensSurfacesWithHelper) {
         const auto alone = pairs_of_lens(f, 2, field, {.most_terms = most_terms}, -1);
         for (const LensLayout layout : {LensLayout::rows, LensLayout::lists}) {
           const LensTuning helped{
-              .layout = layout, .most_terms = most_terms, .edges_for_helper = 0};
+              .layout = layout, .most_terms = most_terms, .stars_for_helper = 0};
           EXPECT_EQ(pairs_of_lens(f, 2, field, helped, -1, 2), alone);
         }
       }

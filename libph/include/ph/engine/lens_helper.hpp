@@ -22,12 +22,12 @@ class LensHelper {
   LensHelper(StarWriter<K>& stars, std::size_t vertices, const BinnedEdges& edges,
              const RunContext& context)
       : scout_(vertices, edges, context) {
+    stars.write_later();
     try {
       thread_ = std::jthread([this, &stars](const std::stop_token& stop) { run(stars, stop); });
     } catch (const std::system_error&) {
-      return;
+      return;  // the sweep writes them when it waits for them
     }
-    stars.write_later();
   }
 
   LensScout& scout() { return scout_; }

@@ -64,6 +64,7 @@ class LensSurfaces {
   void finish();
   bool has_living() const { return living_ > 0; }
   StarWriter<K>& stars() { return cocycles_.stars(); }
+  const StarWriter<K>& stars() const { return cocycles_.shared().stars; }
 
  private:
   using Cocycles = TriangleCocycles<K>;

@@ -82,6 +82,15 @@ class LensSweep {
   }
   /// Whether nothing happens at the edges of a bin. They are not added, see first_unadded_bin_.
   bool is_bin_idle(std::size_t bin);
+  /// Whether there is enough to do for another thread, and room for its graph. Lists of neighbours
+  /// make lenses cheap but for their numbering, which cannot be handed over.
+  bool wants_helper() const {
+    constexpr double share = 0.25;  // of what memory is left
+    return surfaces_ && graph_.layout() == LensLayout::rows && thread_count(context_) > 1 &&
+           surfaces_->stars().count() >= wanted_.tuning.stars_for_helper &&
+           LensGraph::bytes(graph_.vertex_count(), edges_.size()) <=
+               share * static_cast<double>(context_.memory.left());
+  }
   /// Adds the edges of idle bins.
   void add_bins_until(std::size_t bin);
   void add_edge(Position position);
@@ -120,10 +129,6 @@ class LensSweep {
 
 template <Field K>
 void LensSweep<K>::run() {
-  // Lists of neighbours make lenses cheap but for their numbering, which cannot be handed over.
-  if (surfaces_ && graph_.layout() == LensLayout::rows && thread_count(context_) > 1 &&
-      edges_.size() >= wanted_.tuning.edges_for_helper)
-    helper_.emplace(surfaces_->stars(), graph_.vertex_count(), edges_, context_);
   Ticker ticker(context_, "edges", edges_.size());
   for (std::size_t bin = 0; bin < edges_.bin_count(); ++bin) {
     const std::size_t begin = edges_.bin_begin(bin), end = edges_.bin_begin(bin + 1);
@@ -132,6 +137,8 @@ void LensSweep<K>::run() {
       continue;
     }
     add_bins_until(bin);
+    if (!helper_ && wants_helper())
+      helper_.emplace(surfaces_->stars(), graph_.vertex_count(), edges_, context_);
     edges_.sorted_bins(bin + 1);
     if (!can_bins_be_idle() && !helper_) edges_.sort_ahead(bin + 1);
     for (std::size_t position = begin; position < end; ++position) {

@@ -40,6 +40,8 @@ class StarWriter {
   void write_later() {
     units_.resize(kMostWaiting * units_of_star());
     is_later_ = true;
+    ready_ = begun_;
+    done_ = begun_;
   }
   /// By the owner. Neither the rows' numbers nor the rows may be moved until `finish`.
   void write(const Star& star, const Unit* values);
@@ -51,6 +53,8 @@ class StarWriter {
   void finish() const {
     if (is_later_) wait_until(begun_);
   }
+  /// How many have been handed over.
+  std::uint64_t count() const { return begun_; }
   /// Writes one star, if any waits and no other thread is about it. @return whether it did.
   bool write_next() const;
 
@@ -82,7 +86,10 @@ class StarWriter {
 
 template <Field K>
 void StarWriter<K>::write(const Star& star, const Unit* values) {
-  if (!is_later_) return write_now(star, values);
+  if (!is_later_) {
+    ++begun_;
+    return write_now(star, values);
+  }
   if (begun_ >= kMostWaiting) wait_until(begun_ - kMostWaiting + 1);
   const std::size_t place = begun_ % kMostWaiting;
   stars_[place] = star;
