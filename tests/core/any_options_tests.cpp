@@ -39,8 +39,8 @@ void forget_cells(std::vector<Pair>& pairs) {
 template <class Complex>
 std::size_t agree(Generator& random, const Complex& complex, const std::vector<Engine>& engines,
                   int top_dim) {
-  constexpr std::array kRepresentatives{Representatives::none, Representatives::cycles,
-                                        Representatives::cocycles, Representatives::voxels};
+  constexpr std::array all_representatives{Representatives::none, Representatives::cycles,
+                                           Representatives::cocycles, Representatives::voxels};
   Options options;
   options.max_dim = random.integer(0, top_dim);
   options.min_dim = random.coin() ? 0 : random.integer(0, *options.max_dim);
@@ -51,7 +51,7 @@ std::size_t agree(Generator& random, const Complex& complex, const std::vector<E
   options.collapse = std::array{Collapse::automatic, Collapse::on,
                                 Collapse::off}[static_cast<std::size_t>(random.integer(0, 2))];
   if (random.integer(0, 3) == 0)
-    options.representatives = kRepresentatives[static_cast<std::size_t>(random.integer(0, 3))];
+    options.representatives = all_representatives[static_cast<std::size_t>(random.integer(0, 3))];
   options.cells = options.representatives != Representatives::none || random.coin();
   RunContext context;
   context.threads = random.integer(1, 3);
@@ -106,11 +106,11 @@ Rips random_rips(Generator& random) {
 }
 
 Cubical random_cubical(Generator& random) {
-  constexpr std::array kMost{12, 7, 4, 3};
+  constexpr std::array most{12, 7, 4, 3};
   const int axes = random.integer(1, 4);
   std::vector<Index> extents;
   for (int k = 0; k < axes; ++k)
-    extents.push_back(random.integer(1, kMost[static_cast<std::size_t>(axes - 1)]));
+    extents.push_back(random.integer(1, most[static_cast<std::size_t>(axes - 1)]));
   return Cubical(random.image(extents, random.coin()), random.cubical_options(axes));
 }
 

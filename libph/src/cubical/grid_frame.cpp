@@ -70,9 +70,9 @@ void GridFrame::append_numbers(const StarCell& cell, unsigned loops,
 
 CubicalImage GridFrame::layers(std::uint32_t begin, std::uint32_t end) const {
   const std::size_t first = relative_ ? extent(layer_axis()) - end : begin;
-  return layers_of(static_cast<const std::byte*>(grid_.voxels) +
-                       first * layer_size() * bytes_of(grid_.type),
-                   end - begin);
+  return layers_of(
+      static_cast<const std::byte*>(grid_.voxels) + first * layer_size() * bytes_of(grid_.type),
+      end - begin);
 }
 
 CubicalImage GridFrame::layers_of(const void* voxels, std::uint32_t count) const {

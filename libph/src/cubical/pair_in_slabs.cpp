@@ -61,8 +61,8 @@ class EdgesInNeither {
 }  // namespace
 
 template <Field K>
-void pair_in_slabs(Slabs& slabs, const K& field, const WantedBars& wanted, const RunContext& context,
-                   PairSink& pairs) {
+void pair_in_slabs(Slabs& slabs, const K& field, const WantedBars& wanted,
+                   const RunContext& context, PairSink& pairs) {
   const GridFrame& frame = slabs.frame();
   const int top = frame.top_dim();
   std::optional<SlabLoops> loops;

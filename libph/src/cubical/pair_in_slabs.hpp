@@ -12,8 +12,8 @@ namespace ph::cubical {
 /// @throws Error (resource) if loops do not fit, after all other bars were handed over; Error (io)
 ///         without room for the file.
 template <Field K>
-void pair_in_slabs(Slabs& slabs, const K& field, const WantedBars& wanted, const RunContext& context,
-                   PairSink& pairs);
+void pair_in_slabs(Slabs& slabs, const K& field, const WantedBars& wanted,
+                   const RunContext& context, PairSink& pairs);
 
 extern template void pair_in_slabs(Slabs&, const Z2&, const WantedBars&, const RunContext&,
                                    PairSink&);

@@ -103,8 +103,7 @@ class SlabBasins {
   void take_roots(std::span<const std::uint32_t> seam, bool after) {
     const std::uint32_t begin = seam.empty() ? 0 : graph_.seam(after)[0];
     for (std::uint32_t k = 0; k < seam.size(); ++k)
-      if (seam[k] != kNone && !is_open_at(seam[k], k, after))
-        forest_.set_root(begin + k, seam[k]);
+      if (seam[k] != kNone && !is_open_at(seam[k], k, after)) forest_.set_root(begin + k, seam[k]);
   }
   void close_open(std::span<const std::uint32_t> seam, bool after) {
     const std::uint32_t begin = seam.empty() ? 0 : graph_.seam(after)[0];

@@ -193,16 +193,14 @@ class SlabComponents {
   std::pmr::vector<double> values_of_seam(const Graph& graph, bool after) const {
     const auto [begin, count] = graph.seam(after);
     std::pmr::vector<double> values(count, 0, &context_.memory);
-    for (std::uint32_t k = 0; k < count; ++k)
-      values[k] = graph.seam_value(begin + k).value_or(0);
+    for (std::uint32_t k = 0; k < count; ++k) values[k] = graph.seam_value(begin + k).value_or(0);
     return values;
   }
   // By root: the value from which on it hangs together with a node that later slabs share.
   std::pmr::vector<double> when_reached(const Graph& graph) const {
     std::pmr::vector<double> reached(roots_.size(), kNever, &context_.memory);
     if (seam_.empty()) return reached;
-    const auto add_seam = [&](std::span<const std::uint32_t> seam,
-                              std::span<const double> values) {
+    const auto add_seam = [&](std::span<const std::uint32_t> seam, std::span<const double> values) {
       for (std::size_t k = 0; k < seam.size(); ++k) {
         const std::uint32_t root = seam[k];
         if (root == kNone) continue;
@@ -241,13 +239,13 @@ class SlabComponents {
 
   const RunContext& context_;
   std::array<std::uint32_t, 2> outside_{0, 1};
-  std::pmr::vector<SlabRoot> roots_;      // by age, but for what is open
+  std::pmr::vector<SlabRoot> roots_;  // by age, but for what is open
   // Roots of the nodes shared with the next slab; of a ring those that the first slab shares with
   // the last one, and their values.
   std::pmr::vector<std::uint32_t> seam_, around_;
   std::pmr::vector<double> around_values_;
-  std::pmr::vector<Bridge> kept_;         // that join what may change, in their order
-  std::vector<bool> stands_for_itself_;   // while a slab is added
+  std::pmr::vector<Bridge> kept_;        // that join what may change, in their order
+  std::vector<bool> stands_for_itself_;  // while a slab is added
 };
 
 }  // namespace ph::cubical

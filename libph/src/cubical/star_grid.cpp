@@ -63,7 +63,7 @@ std::uint32_t StarGrid::find_one(const T* voxels, std::uint32_t v) const {
       if (!axes_[a].exists) return;
       if (u != kOutside) u = step(u, a, d[a]);
     }
-    const bool older = u == kOutside       ? relative_
+    const bool older = u == kOutside        ? relative_
                        : comes_before(u, v) ? is_not_younger<descending>(at(u), value)
                                             : is_older<descending>(at(u), value);
     if (older) star |= star_bit(d);

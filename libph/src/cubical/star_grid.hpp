@@ -69,8 +69,8 @@ class StarGrid : public GridFrame {
   /// Whether u comes before v in the whole grid. Precondition: v is no ghost.
   bool comes_before(std::uint32_t u, std::uint32_t v) const {
     const bool is_from_other_end =
-        slab_.is_in_ring && ((slab_.is_first && u < layer_size()) ||
-                             (slab_.is_last && u >= size() - layer_size()));
+        slab_.is_in_ring &&
+        ((slab_.is_first && u < layer_size()) || (slab_.is_last && u >= size() - layer_size()));
     return (u < v) != is_from_other_end;
   }
 

@@ -81,8 +81,8 @@ class TopGraph {
   /// axis lie between voxels that follow each other.
   bool is_inner(int axis, std::uint32_t low) const {
     const std::uint32_t n = grid_.extent(axis), first = 1 - border_[axis];
-    return low >= first && low < n && n - low > 2 - border_[axis] &&
-           !grid_.is_wrapped(axis, low) && !grid_.is_wrapped(axis, low + 1);
+    return low >= first && low < n && n - low > 2 - border_[axis] && !grid_.is_wrapped(axis, low) &&
+           !grid_.is_wrapped(axis, low + 1);
   }
   /// Calls `use(voxel, direction from it)` for the corners of a top cell until it returns true.
   template <class Use>

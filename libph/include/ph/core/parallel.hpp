@@ -8,6 +8,9 @@
 
 namespace ph {
 
+/// Bytes that threads take from each other when one of them writes.
+inline constexpr std::size_t kCacheLine = 64;
+
 /// How many threads a context allows.
 std::size_t thread_count(const RunContext& context);
 

@@ -7,6 +7,7 @@
 #include <memory_resource>
 
 #include "ph/core/binned_edges.hpp"
+#include "ph/core/parallel.hpp"
 #include "ph/core/run_context.hpp"
 #include "ph/engine/active_edges.hpp"
 #include "ph/engine/lens_components.hpp"
@@ -41,7 +42,6 @@ class LensScout {
  private:
   static constexpr Position kAhead = 1 << 12;  // a power of two
   static constexpr Position kReportEvery = 32;
-  static constexpr std::size_t kCacheLine = 64;
 
   LensHint look(const FlagEdge& e);
   static std::uint64_t packed(Position position, const LensHint& hint) {

@@ -84,10 +84,10 @@ class LensSweep {
   bool is_bin_idle(std::size_t bin);
   /// Whether there is enough to do for another thread, and room for its graph. Lists of neighbours
   /// make lenses cheap but for their numbering, which cannot be handed over.
-  bool wants_helper() const {
+  bool wants_helper(const LensSurfaces<K>& surfaces) const {
     constexpr double share = 0.25;  // of what memory is left
-    return surfaces_ && graph_.layout() == LensLayout::rows && thread_count(context_) > 1 &&
-           surfaces_->stars().count() >= wanted_.tuning.stars_for_helper &&
+    return graph_.layout() == LensLayout::rows && thread_count(context_) > 1 &&
+           surfaces.stars().count() >= wanted_.tuning.stars_for_helper &&
            LensGraph::bytes(graph_.vertex_count(), edges_.size()) <=
                share * static_cast<double>(context_.memory.left());
   }
@@ -137,7 +137,7 @@ void LensSweep<K>::run() {
       continue;
     }
     add_bins_until(bin);
-    if (!helper_ && wants_helper())
+    if (!helper_ && surfaces_ && wants_helper(*surfaces_))
       helper_.emplace(surfaces_->stars(), graph_.vertex_count(), edges_, context_);
     edges_.sorted_bins(bin + 1);
     if (!can_bins_be_idle() && !helper_) edges_.sort_ahead(bin + 1);

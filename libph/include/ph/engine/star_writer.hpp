@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "ph/core/parallel.hpp"
 #include "ph/engine/field_rows.hpp"
 
 namespace ph {
@@ -72,15 +73,14 @@ class StarWriter {
   const K& field_;
   const std::size_t blocks_;
   bool is_later_ = false;
-  std::pmr::vector<std::uint64_t>
-      last_;  // by vertex: how many stars until the last one with that end
+  std::pmr::vector<std::uint64_t> last_;  // by vertex: stars until the last with that end
   // Stars that wait, the k-th at k modulo their number.
   std::pmr::vector<Unit> units_;
   std::array<Star, kMostWaiting> stars_;
   std::uint64_t begun_ = 0;  // as the owner knows
   // Each on a line of its own: both threads look at them all the time.
-  alignas(64) std::atomic<std::uint64_t> ready_{0};
-  alignas(64) mutable std::atomic<std::uint64_t> done_{0};
+  alignas(kCacheLine) std::atomic<std::uint64_t> ready_{0};
+  alignas(kCacheLine) mutable std::atomic<std::uint64_t> done_{0};
   mutable std::atomic_flag is_writing_;
 };
 
