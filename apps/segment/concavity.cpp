@@ -39,9 +39,8 @@ constexpr std::size_t kLanes = 8;
 using Lanes = std::array<double, kLanes>;
 
 /// The smallest eigenvalues of positive semi-definite matrices of trace one, given by the sum of
-/// their principal minors and the determinant. On the left of its
-/// smallest root the characteristic polynomial is concave: Newton's method goes up to that root
-/// from zero and never beyond.
+/// their principal minors and the determinant. On the left of its smallest root the characteristic
+/// polynomial is concave: Newton's method goes up to that root from zero and never beyond.
 Lanes smallest_eigenvalues(const Lanes& minors, const Lanes& determinants) {
   constexpr int most_steps = 20;  // of a double root it takes many, and is then exact enough
   constexpr double least_step = 1e-15;

@@ -64,8 +64,8 @@ View::View(const Points& centroids, double voxel, const Vec3& viewpoint)
 }
 
 void View::find_least_ranges() {
-  range_.reserve(nearest_.size());
-  for (const Voxel v : nearest_) range_.push_back(v == kNone ? kInfinity : ranges_[v]);
+  nearest_range_.reserve(nearest_.size());
+  for (const Voxel v : nearest_) nearest_range_.push_back(v == kNone ? kInfinity : ranges_[v]);
   const auto least_along = [&](std::size_t at, std::size_t size, auto&& value) {
     double least = kInfinity;
     const Window near = window(at, size);
@@ -75,7 +75,7 @@ void View::find_least_ranges() {
   std::vector<double> in_row(nearest_.size());
   for (std::size_t i = 0; i < nearest_.size(); ++i) {
     in_row[i] = least_along(i % width_, width_,
-                            [&](std::size_t x) { return range_[i / width_ * width_ + x]; });
+                            [&](std::size_t x) { return nearest_range_[i / width_ * width_ + x]; });
   }
   least_range_.resize(nearest_.size());
   for (std::size_t i = 0; i < nearest_.size(); ++i)

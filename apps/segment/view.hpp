@@ -56,8 +56,8 @@ class View {
   std::vector<Place> places_;   // negative: left out
   std::size_t width_ = 0, height_ = 0;
   std::vector<Voxel> nearest_;
-  std::vector<double> range_;        // of the nearest voxel, kInfinity without one
-  std::vector<double> least_range_;  // of all voxels within kReach cells
+  std::vector<double> nearest_range_;  // of the nearest voxel, kInfinity without one
+  std::vector<double> least_range_;    // of all voxels within kReach cells
 };
 
 template <class KindOf>
@@ -69,7 +69,8 @@ bool View::is_at_occluder(Voxel v, double nearer, KindOf&& kind_of) const {
   const Window rows = window(static_cast<std::size_t>(p.y), height_);
   for (std::size_t y = rows.begin; y < rows.end; ++y)
     for (std::size_t i = y * width_ + columns.begin; i < y * width_ + columns.end; ++i)
-      if (range_[i] + nearer < ranges_[v] && kind_of(nearest_[i]) != kind_of(v)) return true;
+      if (nearest_range_[i] + nearer < ranges_[v] && kind_of(nearest_[i]) != kind_of(v))
+        return true;
   return false;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every engine against the oracle on random small filtrations, half of them with heavy ties.
 #include <cmath>
+#include <numbers>
 
 #include "ph/complex/filtered_graph.hpp"
 #include "support/conformance.hpp"
@@ -168,17 +169,20 @@ TEST(RandomConformance, LensSurfaces) {
   EXPECT_GT(finite, 1000U);  // the test is about something
 }
 
+Points random_sphere(Generator& random, Index n) {
+  Points sphere(n, 3);
+  for (Index i = 0; i < n; ++i) {
+    const double z = 2 * random.real() - 1, angle = 2 * std::numbers::pi * random.real();
+    const double r = std::sqrt(1 - z * z);
+    sphere.row(i) << r * std::cos(angle), r * std::sin(angle), z;
+  }
+  return sphere;
+}
+
 // One cocycle with many triangles: its stars wait to be written, the scout gets ahead.
 TEST(RandomConformance, LensSurfacesWithHelper) {
   for_each_seed(12, [](Generator& random, bool, std::int64_t field) {
-    const Index n = 120;
-    Points sphere(n, 3);
-    for (Index i = 0; i < n; ++i) {
-      const double z = 2 * random.real() - 1, angle = 6.283185307 * random.real();
-      const double r = std::sqrt(1 - z * z);
-      sphere.row(i) << r * std::cos(angle), r * std::sin(angle), z;
-    }
-    const Rips rips(sphere);
+    const Rips rips(random_sphere(random, 120));
     rips.with_filtration(2, [&](const auto& f) {
       for (const std::size_t most_terms : {0, 64}) {
         const auto alone = pairs_of_lens(f, 2, field, {.most_terms = most_terms}, -1);

@@ -23,8 +23,9 @@ namespace {
   throw Error(ErrorKind::resource,
               std::string("bars of dimension 1: what their critical cells take exceeds the memory "
                           "limit; ") +
-                  (frame.any_periodic() ? "bars of dimension 0 fit (max_dim 0)"
-                                        : "all other dimensions fit (max_dim 0, or min_dim 2)"));
+                  (wants_loops(frame, {.min_dim = 2, .max_dim = 2})
+                       ? "bars of dimension 0 fit (max_dim 0)"
+                       : "all other dimensions fit (max_dim 0, or min_dim 2)"));
 }
 
 template <Field K>

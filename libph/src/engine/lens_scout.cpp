@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "ph/engine/lens_scout.hpp"
 
+#include <algorithm>
+
 namespace ph {
 
 LensScout::LensScout(std::size_t vertices, const BinnedEdges& edges, const RunContext& context)
@@ -12,7 +14,7 @@ LensScout::LensScout(std::size_t vertices, const BinnedEdges& edges, const RunCo
 
 bool LensScout::step() {
   const std::size_t swept = swept_.load(std::memory_order_relaxed);
-  if (next_ == edges_.size() || next_ >= swept + kAhead) return false;
+  if (next_ >= std::min(end_.load(std::memory_order_acquire), swept + kAhead)) return false;
   const FlagEdge& e = edges_[next_];
   if (next_ > swept) {
     const auto position = static_cast<Position>(next_);

@@ -31,6 +31,9 @@ class LensScout {
     const std::uint64_t slot = slots_[position % kAhead].load(std::memory_order_relaxed);
     return slot >> 32 == position ? unpacked(slot) : LensHint();
   }
+  /// By the sweep: edges before this one are sorted. Others are not looked at: to sort them would
+  /// report progress, which comes from one thread.
+  void go_until(std::size_t end) { end_.store(end, std::memory_order_release); }
   /// By the sweep: whether a class is there that may have to be extended.
   void expect_classes(bool any) {
     if (any != has_classes_.load(std::memory_order_relaxed))
@@ -61,6 +64,7 @@ class LensScout {
   std::size_t next_ = 0;
   // Each on a line of its own: both threads look at them all the time.
   alignas(kCacheLine) std::atomic<Position> swept_{0};
+  std::atomic<std::size_t> end_{0};
   alignas(kCacheLine) std::atomic<bool> has_classes_{false};
   alignas(kCacheLine) std::array<std::atomic<std::uint64_t>, kAhead> slots_{};
 };

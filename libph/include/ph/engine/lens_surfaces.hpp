@@ -62,7 +62,7 @@ class LensSurfaces {
   void give_birth(Triangle birth, const FlagEdge& e, const Word* component);
   /// Reports what never dies.
   void finish();
-  bool has_living() const { return living_ > 0; }
+  bool has_living() const { return cocycles_.shared().living > 0; }
   StarWriter<K>& stars() { return cocycles_.stars(); }
   const StarWriter<K>& stars() const { return cocycles_.shared().stars; }
 
@@ -101,7 +101,6 @@ class LensSurfaces {
   Observer& observer_;
   Cocycles cocycles_;
   std::pmr::vector<Triangle> births_;  // by generator; edge = kDead once it died
-  std::size_t living_ = 0;
   // While an edge is added.
   LensCover cover_;
   LensForest forest_;
@@ -116,7 +115,6 @@ template <Field K>
 void LensSurfaces<K>::give_birth(Triangle birth, const FlagEdge& e, const Word* component) {
   const Generator h = cocycles_.add_generator();
   births_.push_back(birth);
-  ++living_;
   std::fill_n(star_.begin(), graph_.words() * Row::kUnitsPerBlock, Unit{});
   Row::shift(star_.data(), component, field_.from_int(1), field_, graph_.words());
   add_star(h, e, star_.data());
@@ -202,7 +200,6 @@ void LensSurfaces<K>::kill_mismatched(Position position, const FlagEdge& e, Vert
     if (wanted_.cocycles) add_star_to_cocycle(e, extensions_.potential(*dying), words);
     observer_.on_death(births_[h], {position, graph_.global(y), graph_.global(w)}, cocycle_);
     births_[h].edge = kDead;
-    --living_;
     correct_others(static_cast<std::size_t>(dying - all.begin()), w, words);
     cocycles_.erase(h);
     extensions_.remove(&*dying);

@@ -140,7 +140,9 @@ void LensSweep<K>::run() {
     if (!helper_ && surfaces_ && wants_helper(*surfaces_))
       helper_.emplace(surfaces_->stars(), graph_.vertex_count(), edges_, context_);
     edges_.sorted_bins(bin + 1);
-    if (!can_bins_be_idle() && !helper_) edges_.sort_ahead(bin + 1);
+    if (helper_) helper_->scout().go_until(end);
+    const std::size_t busy = helper_ ? 2 : 1;  // threads
+    if (!can_bins_be_idle() && thread_count(context_) > busy) edges_.sort_ahead(bin + 1);
     for (std::size_t position = begin; position < end; ++position) {
       add_edge(static_cast<Position>(position));
       ticker.tick();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <algorithm>
-#include <concepts>
 #include <cstdint>
 #include <memory_resource>
 #include <span>
@@ -13,6 +12,7 @@
 #include "ph/engine/field_rows.hpp"
 #include "ph/engine/lens_graph.hpp"
 #include "ph/engine/list_pool.hpp"
+#include "ph/engine/sorted_terms.hpp"
 #include "ph/engine/star_writer.hpp"
 
 namespace ph {
@@ -62,7 +62,7 @@ class TriangleCochain {
     StarWriter<K> stars;
     ListPool<Term> lists;
     std::pmr::vector<Term> merged, star;
-    std::pmr::vector<ListId> own;
+    std::pmr::vector<ListId> own;  // lists that others are about to be added to
   };
 
   explicit TriangleCochain(std::pmr::memory_resource* memory) : lists_(memory), at_(memory) {}
@@ -142,7 +142,6 @@ class TriangleCochain {
   template <class OnEnter, class OnLeave>
   void add_terms(Vertex a, Terms terms, Element scale, Shared& shared, OnEnter&& on_enter,
                  OnLeave&& on_leave);
-  static void add_to_list(std::pmr::vector<Term>& list, Terms terms, Element scale, Shared& shared);
   /// Makes it dense if it is large.
   void adapt(Shared& shared) {
     // Rows of many cochains push each other out of the caches.
@@ -221,60 +220,12 @@ void TriangleCochain<K>::add_terms(Vertex a, Terms terms, Element scale, Shared&
   }
   auto& list = shared.lists[at->list];
   term_count_ -= list.size();
-  add_to_list(list, terms, scale, shared);
+  add_sorted_terms<K>(list, terms, scale, shared.field, shared.merged);
   term_count_ += list.size();
   if (!list.empty()) return;
   shared.lists.give(at->list);
   lists_.erase(at);
   on_leave(a);
-}
-
-template <Field K>
-void TriangleCochain<K>::add_to_list(std::pmr::vector<Term>& list, Terms terms, Element scale,
-                                     Shared& shared) {
-  const K& field = shared.field;
-  if (8 * terms.size() < list.size()) {  // most of it stays where it is
-    auto at = list.begin();
-    for (const Term& t : terms) {
-      at = std::lower_bound(at, list.end(), t.cell,
-                            [](const Term& a, std::uint32_t cell) { return a.cell < cell; });
-      Element value = field.multiply(scale, t.coefficient());
-      if (at == list.end() || at->cell != t.cell) {
-        at = list.insert(at, Term(t.cell, value));
-        continue;
-      }
-      value = field.add(value, at->coefficient());
-      if (field.is_zero(value))
-        at = list.erase(at);
-      else
-        *at = Term(t.cell, value);
-    }
-    return;
-  }
-  auto& merged = shared.merged;
-  merged.resize(list.size() + terms.size());
-  const Term *i = list.data(), *const end = i + list.size();
-  const Term *j = terms.data(), *const last = j + terms.size();
-  Term* out = merged.data();
-  while (i != end && j != last) {
-    if constexpr (std::same_as<K, Z2>) {  // which comes first is anyone's guess: no branches
-      const std::uint32_t a = i->cell, b = j->cell;
-      *out = a < b ? *i : *j;
-      out += a != b ? 1 : 0;
-      i += a <= b ? 1 : 0;
-      j += b <= a ? 1 : 0;
-    } else if (i->cell < j->cell) {
-      *out++ = *i++;
-    } else {
-      Element value = field.multiply(scale, j->coefficient());
-      if (i->cell == j->cell) value = field.add(value, (i++)->coefficient());
-      if (!field.is_zero(value)) *out++ = Term(j->cell, value);
-      ++j;
-    }
-  }
-  out = std::copy(i, end, out);
-  for (; j != last; ++j) *out++ = Term(j->cell, field.multiply(scale, j->coefficient()));
-  list.assign(merged.data(), out);
 }
 
 template <Field K>
@@ -301,7 +252,8 @@ void TriangleCochain<K>::add_lists(const TriangleCochain& other, Element scale, 
   for (std::size_t i = 0; i < own.size(); ++i) {
     auto& list = lists[own[i]];
     term_count_ -= list.size();
-    add_to_list(list, lists[other.lists_[i].list], scale, shared);
+    add_sorted_terms<K>(list, Terms(lists[other.lists_[i].list]), scale, shared.field,
+                        shared.merged);
     term_count_ += list.size();
     is_any_zero |= list.empty();
   }
