@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ph/core/binned_edges.hpp"
 
-#include <array>
+#include <bit>
 #include <limits>
 #include <system_error>
 #include <utility>
@@ -14,39 +14,71 @@ namespace {
 // Not the function itself: a call through a pointer is not inlined.
 constexpr auto kInOrder = [](const FlagEdge& a, const FlagEdge& b) { return precedes(a, b); };
 
-constexpr int kDigitBits = 11;
-using Begins = std::array<std::size_t, (1U << kDigitBits) + 1>;
+constexpr std::size_t kFew = 32;  // edges that are sorted by insertion
 
-// Moves edges whose values share the bits from `shift` on into bins by the next bits.
-// @return where each bin begins.
-Begins split(std::span<FlagEdge> edges, int shift, FlagEdges& buffer) {
-  const auto digit = [&](const FlagEdge& e) {
-    return std::bit_cast<std::uint64_t>(e.value) >> (shift - kDigitBits) & ((1U << kDigitBits) - 1);
+// Edges by the value of a digit.
+struct Split {
+  std::pmr::vector<std::size_t> ends;  // of the edges with each value
+  int shift;                           // of the digit
+};
+
+// Moves edges whose values share the bits from `shift` on into parts by the next bits, about as
+// many parts as edges.
+Split split(std::span<FlagEdge> edges, int shift, FlagEdges& buffer) {
+  constexpr int most_bits = 12;  // counts stay in the cache
+  const int bits = std::min({most_bits, shift, static_cast<int>(std::bit_width(edges.size()))});
+  const std::size_t parts = std::size_t{1} << bits;
+  Split result{{parts, 0, buffer.get_allocator().resource()}, shift - bits};
+  const auto digit = [parts, shift = result.shift](const FlagEdge& e) {
+    return std::bit_cast<std::uint64_t>(e.value) >> shift & (parts - 1);
   };
-  Begins begin{};
-  for (const FlagEdge& e : edges) ++begin[digit(e) + 1];
-  for (std::size_t d = 0; d + 1 < begin.size(); ++d) begin[d + 1] += begin[d];
+  auto& next = result.ends;  // where the next edge of a part goes
+  for (const FlagEdge& e : edges) ++next[digit(e)];
+  std::size_t sum = 0;
+  for (std::size_t& count : next) sum += std::exchange(count, sum);
   buffer.assign(edges.begin(), edges.end());
-  Begins next = begin;
   for (const FlagEdge& e : buffer) edges[next[digit(e)]++] = e;
-  return begin;
+  return result;
+}
+
+// For edges that are few places away from theirs.
+void sort_by_insertion(std::span<FlagEdge> edges) {
+  for (std::size_t i = 1; i < edges.size(); ++i) {
+    const FlagEdge e = edges[i];
+    std::size_t k = i;
+    for (; k > 0 && precedes(e, edges[k - 1]); --k) edges[k] = edges[k - 1];
+    if (k != i) edges[k] = e;
+  }
 }
 
 bool is_sorted_at_once(std::span<FlagEdge> edges, int shift) {
-  constexpr std::size_t few = 64;
+  if (edges.size() <= kFew) {
+    sort_by_insertion(edges);
+    return true;
+  }
   // Ties arrive in order from a matrix: integers are sorted when they come.
-  if (edges.size() > few && shift >= kDigitBits &&
-      !std::is_sorted(edges.begin(), edges.end(), kInOrder))
-    return false;
+  if (shift > 0 && !std::is_sorted(edges.begin(), edges.end(), kInOrder)) return false;
   std::sort(edges.begin(), edges.end(), kInOrder);
   return true;
 }
 
+void sort_edges(std::span<FlagEdge> edges, int shift, FlagEdges& buffer);
+
+// Sorts edges that were split, from one of the parts on.
+void sort_parts(std::span<FlagEdge> edges, std::size_t begin, std::span<const std::size_t> ends,
+                int shift, FlagEdges& buffer) {
+  const std::size_t first = begin;
+  for (const std::size_t end : ends) {
+    if (end - begin > kFew) sort_edges(edges.subspan(begin, end - begin), shift, buffer);
+    begin = end;
+  }
+  sort_by_insertion(edges.subspan(first, begin - first));  // the small ones, all at once
+}
+
 void sort_edges(std::span<FlagEdge> edges, int shift, FlagEdges& buffer) {
   if (is_sorted_at_once(edges, shift)) return;
-  const Begins begin = split(edges, shift, buffer);
-  for (std::size_t d = 0; d + 1 < begin.size(); ++d)
-    sort_edges(edges.subspan(begin[d], begin[d + 1] - begin[d]), shift - kDigitBits, buffer);
+  const Split parts = split(edges, shift, buffer);
+  sort_parts(edges, 0, parts.ends, parts.shift, buffer);
 }
 
 }  // namespace
@@ -89,15 +121,14 @@ void BinnedEdges::sort_bin(std::size_t bin) const {
   const std::span<FlagEdge> edges = edges_of(bin);
   if (is_sorted_at_once(edges, shared_bits_)) return;
   FlagEdges buffer(&context_->memory);
-  const Begins begin = split(edges, shared_bits_, buffer);
+  const Split parts = split(edges, shared_bits_, buffer);
   buffer = FlagEdges(&context_->memory);
-  constexpr std::size_t digits_a_piece = 64;
-  for_each_piece("sort edges", begin.size() - 1, digits_a_piece, *context_,
+  constexpr std::size_t parts_a_piece = 64;
+  for_each_piece("sort edges", parts.ends.size(), parts_a_piece, *context_,
                  [&](std::size_t first, std::size_t last) {
                    FlagEdges own(&context_->memory);
-                   for (std::size_t d = first; d < last; ++d)
-                     sort_edges(edges.subspan(begin[d], begin[d + 1] - begin[d]),
-                                shared_bits_ - kDigitBits, own);
+                   sort_parts(edges, first == 0 ? 0 : parts.ends[first - 1],
+                              std::span(parts.ends).subspan(first, last - first), parts.shift, own);
                  });
 }
 

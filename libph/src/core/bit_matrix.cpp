@@ -21,6 +21,20 @@ std::size_t first_common(const Word* a, const Word* b, std::size_t words) {
 }
 
 PH_FOR_EACH_TARGET
+bool any_common(const Word* a, const Word* b, std::size_t words) {
+  constexpr std::size_t block = 8;
+  const auto any = [&](std::size_t first, std::size_t last) {
+    Word common = 0;
+    for (std::size_t k = first; k < last; ++k) common |= a[k] & b[k];
+    return common != 0;
+  };
+  if (words < block) return any(0, words);
+  for (std::size_t k = 0; k + block < words; k += block)
+    if (any(k, k + block)) return true;
+  return any(words - block, words);  // some of them again
+}
+
+PH_FOR_EACH_TARGET
 std::size_t first_outside(const Word* a, const Word* b, std::size_t first, std::size_t words) {
   constexpr std::size_t block = 8;
   std::size_t k = first;

@@ -28,10 +28,11 @@ namespace {
                        : "all other dimensions fit (max_dim 0, or min_dim 2)"));
 }
 
-template <Field K>
-void pair_loops(SlabLoops& loops, const GridFrame& frame, const K& field, PairSink& pairs) {
+/// What is done while the critical cells of loops are there: without them it would fit.
+template <class Run>
+void with_loops(const GridFrame& frame, Run&& run) {
   try {
-    loops.pair(field, pairs);
+    run();
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::resource) throw;
     refuse_loops(frame);
@@ -79,8 +80,7 @@ void pair_in_slabs(Slabs& slabs, const K& field, const WantedBars& wanted,
   if (top == 2 && frame.open_axes() == 0 && wanted.max_dim > 0) around.emplace(&context.memory);
   bool too_many_loops = false;
 
-  for (std::uint32_t slab = 0; slab < slabs.count(); ++slab) {
-    context.report({"slabs", slab, slabs.count()});
+  const auto add_slab = [&](std::uint32_t slab) {
     const StarGrid grid = slabs.stars(slab);
     const std::uint32_t first = slabs.first_voxel(slab);
     std::optional<CriticalCells> edges;
@@ -138,13 +138,20 @@ void pair_in_slabs(Slabs& slabs, const K& field, const WantedBars& wanted,
     }
     if (loops) loops->add_stars(grid, first);
     slabs.forget(slab);
+  };
+  for (std::uint32_t slab = 0; slab < slabs.count(); ++slab) {
+    context.report({"slabs", slab, slabs.count()});
+    if (loops)
+      with_loops(frame, [&] { add_slab(slab); });
+    else
+      add_slab(slab);
     if (loops && context.memory.left() < reserve) {
       loops.reset();
       too_many_loops = true;
     }
   }
   if (around) around->pair(pairs);
-  if (loops) pair_loops(*loops, frame, field, pairs);
+  if (loops) with_loops(frame, [&] { loops->pair(field, pairs); });
   pairs.finish();
   if (too_many_loops) refuse_loops(frame);
 }

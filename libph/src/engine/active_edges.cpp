@@ -1,28 +1,30 @@
 // SPDX-License-Identifier: MIT
 #include "ph/engine/active_edges.hpp"
 
+#include <algorithm>
+
 #include "../core/for_each_target.hpp"
 
 namespace ph {
 namespace {
 
-// Where a number is; `count` if it is absent.
+// Where a number is, which occurs at most once; `count` if it is absent.
 PH_FOR_EACH_TARGET
 std::size_t position_of(std::uint32_t number, const std::uint32_t* numbers, std::size_t count) {
-  constexpr std::size_t block = 32;  // looked at without branches
-  std::size_t k = 0;
-  for (; k + block <= count; k += block) {
-    std::uint32_t any = 0;
-    for (std::size_t i = 0; i < block; ++i) any |= numbers[k + i] == number ? 1U : 0U;
-    if (any != 0) break;
+  constexpr std::size_t block = 64;  // looked at without branches
+  for (std::size_t begin = 0; begin < count; begin += block) {
+    const std::size_t size = std::min(block, count - begin);
+    std::uint32_t place = 0;  // counted from one
+    for (std::uint32_t i = 0; i < size; ++i) place |= numbers[begin + i] == number ? i + 1 : 0;
+    if (place != 0) return begin + place - 1;
   }
-  while (k < count && numbers[k] != number) ++k;
-  return k;
+  return count;
 }
 
 }  // namespace
 
 ActiveEdges::Label* ActiveEdges::find(Vertex u, Vertex v) {
+  if (has_rows() && !rows_.test(u, v)) return nullptr;
   Ends& ends = at_[u];
   const std::size_t k = position_of(v, ends.neighbours.data(), ends.neighbours.size());
   return k == ends.labels.size() ? nullptr : &ends.labels[k];
@@ -33,6 +35,11 @@ void ActiveEdges::insert(Vertex u, Vertex v, Label at_u, Label at_v) {
   at_[u].labels.push_back(at_u);
   at_[v].neighbours.push_back(u);
   at_[v].labels.push_back(at_v);
+  ++degrees_[u];
+  ++degrees_[v];
+  if (!has_rows()) return;
+  rows_.set(u, v);
+  rows_.set(v, u);
 }
 
 void ActiveEdges::erase(Vertex u, Vertex v) {
@@ -47,6 +54,8 @@ void ActiveEdges::erase_at(Vertex u, Vertex v) {
   ends.neighbours.pop_back();
   ends.labels[k] = ends.labels.back();
   ends.labels.pop_back();
+  --degrees_[u];
+  if (has_rows()) rows_.clear(u, v);
 }
 
 }  // namespace ph

@@ -69,7 +69,7 @@ bits::Word* LensComponents::take_component(Vertex first) {
             static_cast<Vertex>(k * 64 + static_cast<std::size_t>(std::countr_zero(rest)));
         rest &= rest - 1;
         const Word* row = graph_.row(w);
-        if (bits::first_common(row, component, words) == bits::kNone) continue;
+        if (!bits::any_common(row, component, words)) continue;
         clear(rest_.data(), w);
         set(component, w);
         if (!bits::split(rest_.data(), row, component, k, words) && !is_left) return component;

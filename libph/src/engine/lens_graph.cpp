@@ -31,6 +31,8 @@ LensGraph::LensGraph(const ActiveEdges& active, LensLayout layout,
       layout_(layout),
       joined_(layout == LensLayout::rows ? active.vertex_count() : 0, active.vertex_count(),
               memory),
+      landmark_(memory),
+      landmarks_at_(memory),
       lists_(memory),
       marks_(memory),
       words_(layout == LensLayout::rows ? joined_.words() : 0),
@@ -39,7 +41,13 @@ LensGraph::LensGraph(const ActiveEdges& active, LensLayout layout,
       local_(memory),
       local_rows_(memory),
       is_row_made_(memory) {
-  if (layout != LensLayout::lists) return;
+  if (layout == LensLayout::rows) {
+    landmark_.resize(vertex_count(), 0);
+    landmarks_at_.resize(vertex_count(), 0);
+    const std::size_t step = (vertex_count() + 63) / 64;
+    for (std::size_t k = 0; k * step < vertex_count(); ++k) landmark_[k * step] = Word{1} << k;
+    return;
+  }
   lists_.resize(vertex_count());
   marks_.resize(vertex_count(), 0);
   local_.resize(vertex_count(), kNone);
@@ -61,8 +69,8 @@ double LensGraph::bytes(std::size_t vertices, std::size_t edges) {
 
 void LensGraph::add(const FlagEdge& e) {
   if (layout_ == LensLayout::rows) {
-    joined_.set(e.u, e.v);
-    joined_.set(e.v, e.u);
+    add_to_row(e.u, e.v);
+    add_to_row(e.v, e.u);
   } else {
     List &of_u = lists_[e.u], &of_v = lists_[e.v];
     of_u.insert(std::ranges::lower_bound(of_u, e.v), e.v);
@@ -79,15 +87,14 @@ void LensGraph::add_all(std::span<const FlagEdge> edges, const RunContext& conte
   // Each thread has rows of its own to write to.
   for_each_piece("edges", threads, 1, context, [&](std::size_t own, std::size_t) {
     for (const FlagEdge& e : edges) {
-      if (e.u % threads == own) joined_.set(e.u, e.v);
-      if (e.v % threads == own) joined_.set(e.v, e.u);
+      if (e.u % threads == own) add_to_row(e.u, e.v);
+      if (e.v % threads == own) add_to_row(e.v, e.u);
     }
   });
 }
 
-bool LensGraph::has_lens(Vertex u, Vertex v) const {
-  if (layout_ == LensLayout::rows)
-    return bits::first_common(joined_.row(u), joined_.row(v), words_) != bits::kNone;
+bool LensGraph::has_lens_anywhere(Vertex u, Vertex v) const {
+  if (layout_ == LensLayout::rows) return bits::any_common(joined_.row(u), joined_.row(v), words_);
   auto i = lists_[u].begin(), j = lists_[v].begin();
   while (i != lists_[u].end() && j != lists_[v].end()) {
     if (*i == *j) return true;
@@ -118,8 +125,18 @@ bool LensGraph::touches_active(const FlagEdge& e, InLens&& in_lens) const {
          std::ranges::any_of(active_.neighbours(e.v), [&](Vertex w) { return in_lens(e.u, w); });
 }
 
+bool LensGraph::touches_active_in_rows(const FlagEdge& e) const {
+  if (active_.degree(e.u) + active_.degree(e.v) == 0) return false;
+  if (!active_.has_rows())
+    return touches_active(e, [&](Vertex v, Vertex w) { return joined_.test(v, w); });
+  const auto sees = [&](Vertex u, Vertex v) {
+    return active_.degree(u) != 0 && bits::any_common(active_.row(u), joined_.row(v), words_);
+  };
+  return sees(e.u, e.v) || sees(e.v, e.u);
+}
+
 LensGraph::Lens LensGraph::find_lens_in_rows(const FlagEdge& e, bool wants_graph) {
-  const bool touches = touches_active(e, [&](Vertex v, Vertex w) { return joined_.test(v, w); });
+  const bool touches = touches_active_in_rows(e);
   // One common neighbour says enough where nothing can happen.
   if (!touches && !wants_graph) return {!has_lens(e.u, e.v), false};
   return {!bits::intersect(joined_.row(e.u), joined_.row(e.v), lens_.data(), words_), touches};

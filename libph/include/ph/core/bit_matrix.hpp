@@ -37,6 +37,9 @@ inline constexpr std::size_t kNone = SIZE_MAX;
 /// The first bit that `a` and `b` share; kNone if there is none.
 std::size_t first_common(const Word* a, const Word* b, std::size_t words);
 
+/// Whether `a` and `b` share a bit.
+bool any_common(const Word* a, const Word* b, std::size_t words);
+
 /// The first word from `first` on with a bit of `a` that `b` has not; `words` if there is none.
 std::size_t first_outside(const Word* a, const Word* b, std::size_t first, std::size_t words);
 

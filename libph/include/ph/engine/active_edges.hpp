@@ -5,23 +5,32 @@
 #include <span>
 #include <vector>
 
+#include "ph/core/bit_matrix.hpp"
+
 namespace ph {
 
 /// Some edges of a graph, at each of their ends in no particular order, and a label for each end:
-/// what is known of the edge from there. For graphs with few such edges at a vertex, or searches
-/// that end early: a vertex is found by looking at all.
+/// what is known of the edge from there. Where there are not too many vertices, also as rows of
+/// bits. A label is found by looking at all at one end.
 class ActiveEdges {
  public:
   using Vertex = std::uint32_t;
   using Label = std::uint32_t;
 
-  ActiveEdges(std::size_t vertices, std::pmr::memory_resource* memory) : at_(memory) {
+  ActiveEdges(std::size_t vertices, std::pmr::memory_resource* memory)
+      : at_(memory),
+        degrees_(vertices, 0, memory),
+        rows_(vertices <= kMostRows ? vertices : 0, vertices, memory) {
     at_.resize(vertices);
   }
 
   std::size_t vertex_count() const { return at_.size(); }
   /// The other ends of the edges at a vertex.
   std::span<const Vertex> neighbours(Vertex v) const { return at_[v].neighbours; }
+  std::size_t degree(Vertex v) const { return degrees_[v]; }
+  bool has_rows() const { return rows_.rows() != 0; }
+  /// The same as bits. Needs has_rows().
+  const bits::Word* row(Vertex v) const { return rows_.row(v); }
   /// The label that the edge has at u; null if the edge is absent. Valid until the next change.
   Label* find(Vertex u, Vertex v);
   /// Adds an edge that is absent. @param at_u, at_v its labels.
@@ -30,6 +39,8 @@ class ActiveEdges {
   void erase(Vertex u, Vertex v);
 
  private:
+  static constexpr std::size_t kMostRows = 2048;  // half a MiB
+
   struct Ends {
     using allocator_type = std::pmr::polymorphic_allocator<>;
     explicit Ends(allocator_type allocator) : neighbours(allocator), labels(allocator) {}
@@ -43,6 +54,9 @@ class ActiveEdges {
   void erase_at(Vertex u, Vertex v);
 
   std::pmr::vector<Ends> at_;  // by vertex
+  // By vertex: most have none, and that is asked for more often than anything else.
+  std::pmr::vector<std::uint32_t> degrees_;
+  BitMatrix rows_;
 };
 
 }  // namespace ph

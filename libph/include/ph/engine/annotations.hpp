@@ -77,6 +77,7 @@ class Annotations {
 
   /// a(u,v).
   Class of(std::uint32_t u, std::uint32_t v) {
+    if (edges_.degree(u) > edges_.degree(v)) return -of(v, u);
     ActiveEdges::Label* label = edges_.find(u, v);
     if (label == nullptr) return {};
     const Class a = resolve({*label / 2, *label % 2 != 0});

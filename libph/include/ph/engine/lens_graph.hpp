@@ -60,7 +60,10 @@ class LensGraph {
         visit(static_cast<Vertex>(k * 64 + static_cast<std::size_t>(std::countr_zero(rest))));
   }
   /// Whether two vertices have a common neighbour.
-  bool has_lens(Vertex u, Vertex v) const;
+  bool has_lens(Vertex u, Vertex v) const {
+    return (layout_ == LensLayout::rows && (landmarks_at_[u] & landmarks_at_[v]) != 0) ||
+           has_lens_anywhere(u, v);
+  }
   /// Whether the ends of each edge have one; on several threads.
   bool have_lenses(std::span<const FlagEdge> edges, const RunContext& context) const;
   struct Lens {
@@ -95,17 +98,27 @@ class LensGraph {
  private:
   using List = std::pmr::vector<Vertex>;
 
+  void add_to_row(Vertex u, Vertex v) {
+    joined_.set(u, v);
+    landmarks_at_[u] |= landmark_[v];
+  }
+  bool has_lens_anywhere(Vertex u, Vertex v) const;
   Lens find_lens_in_rows(const FlagEdge& e, bool wants_graph);
   Lens find_lens_in_lists(const FlagEdge& e, bool wants_graph);
   /// Whether `in_lens(v, w)` for an active edge from u to w, or the other way round.
   template <class InLens>
   bool touches_active(const FlagEdge& e, InLens&& in_lens) const;
+  bool touches_active_in_rows(const FlagEdge& e) const;
   void number_lens();
   void make_row(Vertex v);
 
   const ActiveEdges& active_;
   LensLayout layout_;
-  BitMatrix joined_;  // rows
+  // rows
+  BitMatrix joined_;
+  // Of up to 64 vertices here and there, by vertex: its bit if it is one, those of its neighbours.
+  // Most pairs that have a lens have one of them in it.
+  std::pmr::vector<Word> landmark_, landmarks_at_;
   // lists, ascending
   std::pmr::vector<List> lists_;
   std::pmr::vector<std::uint8_t> marks_;  // by vertex; zero between uses
