@@ -54,7 +54,7 @@ TEST(IdSet, IsASet) {
 TEST(ActiveEdges, AreAMap) {
   for_each_seed(100, [](Generator& random, bool, std::int64_t) {
     const int n = random.integer(2, 90);  // so that lists are searched in blocks
-    ActiveEdges edges(static_cast<std::size_t>(n), std::pmr::get_default_resource());
+    ActiveEdges edges(static_cast<std::size_t>(n), random.coin(), std::pmr::get_default_resource());
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> labels;
     for (std::uint32_t step = 0; step < 2000; ++step) {
       const auto u = static_cast<std::uint32_t>(random.integer(1, n - 1));
@@ -74,7 +74,15 @@ TEST(ActiveEdges, AreAMap) {
       }
     }
     std::size_t ends = 0;
-    for (std::uint32_t v = 0; v < edges.vertex_count(); ++v) ends += edges.neighbours(v).size();
+    for (std::uint32_t v = 0; v < edges.vertex_count(); ++v) {
+      const auto neighbours = edges.neighbours(v);
+      EXPECT_EQ(edges.degree(v), neighbours.size());
+      ends += neighbours.size();
+      if (!edges.has_rows()) continue;
+      std::set<std::size_t> in_row;
+      bits::for_each(edges.row(v), 0, edges.words(), [&](std::size_t w) { in_row.insert(w); });
+      EXPECT_EQ(in_row, std::set<std::size_t>(neighbours.begin(), neighbours.end()));
+    }
     EXPECT_EQ(ends, labels.size());
   });
 }

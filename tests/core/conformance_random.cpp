@@ -135,6 +135,23 @@ TEST(RandomConformance, LensOfWideClasses) {
   });
 }
 
+// More vertices than fit a word: rows have several, and not all vertices are landmarks.
+TEST(RandomConformance, LensOfManyVertices) {
+  for_each_seed(60, [](Generator& random, bool ties, std::int64_t field) {
+    const Index n = random.integer(65, 200);
+    const Rips rips = random.coin() ? Rips(random.points(n, random.integer(2, 4), ties))
+                                    : Rips(random.sparse(n, ties, 6 * random.real() / 20));
+    rips.with_filtration(1, [&](const auto& f) {
+      const auto expected = pairs_of(f, 1, field, Engine::cohomology);
+      for (const LensLayout layout : {LensLayout::rows, LensLayout::lists})
+        for (const std::size_t active_rows : {0, 500})
+          EXPECT_EQ(pairs_of_lens(f, 1, field,
+                                  {.layout = layout, .vertices_of_active_rows = active_rows}, -1),
+                    expected);
+    });
+  });
+}
+
 // Enough points for many classes of H2 to live at once; cocycles are rows at once, later or never.
 TEST(RandomConformance, LensSurfaces) {
   std::size_t finite = 0;
@@ -155,7 +172,7 @@ TEST(RandomConformance, LensSurfaces) {
       EXPECT_EQ(pairs_of(f, 2, field, Engine::lens), oracle);
       for (const LensLayout layout : {LensLayout::rows, LensLayout::lists}) {
         const LensTuning rows{.layout = layout, .most_terms = 0};
-        const LensTuning both{.layout = layout, .most_terms = 1};
+        const LensTuning both{.layout = layout, .most_terms = 1, .vertices_of_active_rows = 0};
         EXPECT_EQ(pairs_of_lens(f, 2, field, rows, -1), oracle);
         EXPECT_EQ(pairs_of_lens(f, 2, field, both, 0), of_positive_length(oracle));
         const LensTuning helped{.layout = layout, .most_terms = 0, .stars_for_helper = 0};

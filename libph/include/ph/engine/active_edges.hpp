@@ -10,17 +10,18 @@
 namespace ph {
 
 /// Some edges of a graph, at each of their ends in no particular order, and a label for each end:
-/// what is known of the edge from there. Where there are not too many vertices, also as rows of
-/// bits. A label is found by looking at all at one end.
+/// what is known of the edge from there. Few at a vertex: a label is found by looking at all of
+/// them.
 class ActiveEdges {
  public:
   using Vertex = std::uint32_t;
   using Label = std::uint32_t;
 
-  ActiveEdges(std::size_t vertices, std::pmr::memory_resource* memory)
+  /// @param has_rows whether to keep them as rows of bits, too: a bit for each pair of vertices.
+  ActiveEdges(std::size_t vertices, bool has_rows, std::pmr::memory_resource* memory)
       : at_(memory),
         degrees_(vertices, 0, memory),
-        rows_(vertices <= kMostRows ? vertices : 0, vertices, memory) {
+        rows_(has_rows ? vertices : 0, vertices, memory) {
     at_.resize(vertices);
   }
 
@@ -31,6 +32,7 @@ class ActiveEdges {
   bool has_rows() const { return rows_.rows() != 0; }
   /// The same as bits. Needs has_rows().
   const bits::Word* row(Vertex v) const { return rows_.row(v); }
+  std::size_t words() const { return rows_.words(); }  ///< of a row
   /// The label that the edge has at u; null if the edge is absent. Valid until the next change.
   Label* find(Vertex u, Vertex v);
   /// Adds an edge that is absent. @param at_u, at_v its labels.
@@ -39,8 +41,6 @@ class ActiveEdges {
   void erase(Vertex u, Vertex v);
 
  private:
-  static constexpr std::size_t kMostRows = 2048;  // half a MiB
-
   struct Ends {
     using allocator_type = std::pmr::polymorphic_allocator<>;
     explicit Ends(allocator_type allocator) : neighbours(allocator), labels(allocator) {}

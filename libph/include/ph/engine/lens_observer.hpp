@@ -14,6 +14,7 @@ namespace ph {
 struct LensTuning {
   LensLayout layout = LensLayout::automatic;
   std::size_t most_terms = 64;  ///< of a cocycle at a vertex, on average: more become rows
+  std::size_t vertices_of_active_rows = 1 << 11;  ///< at most: for more, lists of active edges do
   std::size_t stars_for_helper = 1 << 12;  ///< in rows, at least; for fewer a thread costs more
 };
 

@@ -50,7 +50,7 @@ class LensSweep {
         wanted_(wanted),
         observer_(observer),
         context_(context),
-        active_(vertices, &context.memory),
+        active_(vertices, vertices <= wanted.tuning.vertices_of_active_rows, &context.memory),
         graph_(active_,
                wanted.tuning.layout == LensLayout::automatic
                    ? LensGraph::choose_layout(vertices, edges.size())
