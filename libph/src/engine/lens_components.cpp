@@ -27,19 +27,21 @@ void LensComponents::find(const FlagEdge& e) {
     }
     start = guess;
   }
+  const bool is_guess = start != kNone;  // and no apex
+  if (!is_guess) start = graph_.first();
   rest_.assign(graph_.lens(), graph_.lens() + words);
-  if (start == kNone) start = graph_.first();
-  for (;;) {
-    const Word* component = take_component(start);
-    roots_.push_back(static_cast<Vertex>(bits::first_common(component, component, words)));
-    const std::size_t next = bits::first_common(rest_.data(), rest_.data(), words);
-    if (next == bits::kNone) break;
-    start = static_cast<Vertex>(next);
+  if (!take_component(start)) {
+    roots_.push_back(start);
+    if (!is_guess && is_apex(start)) set_apex(e, start);
+    return;
   }
-  if (count() == 1 && is_apex(start))
-    set_apex(e, start);
-  else if (count() > 1)
-    sort_components();
+  for (bool is_left = true;; is_left = take_component(start)) {
+    const Word* component = sets_.data() + sets_.size() - words;
+    roots_.push_back(static_cast<Vertex>(bits::first_common(component, component, words)));
+    if (!is_left) break;
+    start = static_cast<Vertex>(bits::first_common(rest_.data(), rest_.data(), words));
+  }
+  sort_components();
 }
 
 void LensComponents::find(const FlagEdge& e, const LensHint& hint) {
@@ -52,7 +54,7 @@ void LensComponents::find(const FlagEdge& e, const LensHint& hint) {
   if (hint.kind == LensHint::Kind::hub) hub_ = vertex;
 }
 
-bits::Word* LensComponents::take_component(Vertex first) {
+bool LensComponents::take_component(Vertex first) {
   const std::size_t words = graph_.words();
   sets_.resize(sets_.size() + words);
   Word* component = sets_.data() + sets_.size() - words;
@@ -72,14 +74,14 @@ bits::Word* LensComponents::take_component(Vertex first) {
         if (!bits::any_common(row, component, words)) continue;
         clear(rest_.data(), w);
         set(component, w);
-        if (!bits::split(rest_.data(), row, component, k, words) && !is_left) return component;
+        if (!bits::split(rest_.data(), row, component, k, words) && !is_left) return false;
         rest &= rest_[k];
         grew = true;
       }
       is_left |= rest_[k] != 0;
     }
   }
-  return component;
+  return is_left;
 }
 
 void LensComponents::sort_components() {

@@ -64,8 +64,8 @@ class LensComponents {
     apex_ = apex;
     last_apex_[e.u] = last_apex_[e.v] = graph_.global(apex);
   }
-  /// Moves the component of a vertex out of rest_. @return its set.
-  Word* take_component(Vertex first);
+  /// Moves the component of a vertex from rest_ to the end of sets_. @return whether rest_ has more.
+  bool take_component(Vertex first);
   void sort_components();
 
   LensGraph& graph_;
