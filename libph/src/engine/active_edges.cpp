@@ -49,13 +49,25 @@ void ActiveEdges::erase(Vertex u, Vertex v) {
 
 void ActiveEdges::erase_at(Vertex u, Vertex v) {
   Ends& ends = at_[u];
-  const std::size_t k = position_of(v, ends.neighbours.data(), ends.neighbours.size());
-  ends.neighbours[k] = ends.neighbours.back();
-  ends.neighbours.pop_back();
-  ends.labels[k] = ends.labels.back();
-  ends.labels.pop_back();
-  --degrees_[u];
-  if (has_rows()) rows_.clear(u, v);
+  const std::size_t degree = --degrees_[u];
+  std::size_t kept = 0;
+  const auto keep = [&](std::size_t k) {
+    ends.neighbours[kept] = ends.neighbours[k];
+    ends.labels[kept++] = ends.labels[k];
+  };
+  if (has_rows()) {
+    constexpr std::size_t few = 16;
+    rows_.clear(u, v);
+    if (ends.neighbours.size() <= 2 * degree + few) return;
+    for (std::size_t k = 0; k < ends.neighbours.size(); ++k)
+      if (rows_.test(u, ends.neighbours[k])) keep(k);
+  } else {
+    kept = position_of(v, ends.neighbours.data(), ends.neighbours.size());
+    keep(degree);
+    kept = degree;
+  }
+  ends.neighbours.resize(kept);
+  ends.labels.resize(kept);
 }
 
 }  // namespace ph

@@ -26,7 +26,7 @@ class ActiveEdges {
   }
 
   std::size_t vertex_count() const { return at_.size(); }
-  /// The other ends of the edges at a vertex.
+  /// The other ends of the edges at a vertex. Needs !has_rows().
   std::span<const Vertex> neighbours(Vertex v) const { return at_[v].neighbours; }
   std::size_t degree(Vertex v) const { return degrees_[v]; }
   bool has_rows() const { return rows_.rows() != 0; }
@@ -35,7 +35,7 @@ class ActiveEdges {
   std::size_t words() const { return rows_.words(); }  ///< of a row
   /// The label that the edge has at u; null if the edge is absent. Valid until the next change.
   Label* find(Vertex u, Vertex v);
-  /// Adds an edge that is absent. @param at_u, at_v its labels.
+  /// Adds an edge that never was there. @param at_u, at_v its labels.
   void insert(Vertex u, Vertex v, Label at_u, Label at_v);
   /// Takes an edge out that is there.
   void erase(Vertex u, Vertex v);
@@ -53,7 +53,9 @@ class ActiveEdges {
   };
   void erase_at(Vertex u, Vertex v);
 
-  std::pmr::vector<Ends> at_;  // by vertex
+  // By vertex. Where there are rows some of the ends may be those of edges that are gone: to look
+  // for each of them would take longer than to drop half of a list now and then.
+  std::pmr::vector<Ends> at_;
   // By vertex: most have none, and that is asked for more often than anything else.
   std::pmr::vector<std::uint32_t> degrees_;
   BitMatrix rows_;
