@@ -112,7 +112,7 @@ TEST(RipsGraphs, ManyEdgesAreSorted) {
 // Whoever asks bin by bin gets what those get who ask for all; the others' edges stay unsorted.
 TEST(RipsGraphs, BinsAreSortedWhenTheyAreNeeded) {
   Generator random(3);
-  const Points points = random.points(600, 3, false);
+  const Points points = random.points(1000, 8, false);  // of nearly one distance: large bins
   RunContext one, three;
   one.threads = 1;
   three.threads = 3;
@@ -133,6 +133,22 @@ TEST(RipsGraphs, BinsAreSortedWhenTheyAreNeeded) {
     const FlagEdge& e = expected.graph().edges()[i];
     ASSERT_TRUE(all[i].value == e.value && all[i].u == e.u && all[i].v == e.v) << i;
   }
+}
+
+// Enough edges for threads to share their sorting and their lenses.
+TEST(RipsGraphs, ThreadsAgreeOnManyEdges) {
+  Generator random(5);
+  const Points points = random.points(1400, 8, false);
+  std::vector<Pair> alone;
+  for (const int threads : {1, 2, 3, 8}) {
+    RunContext context;
+    context.threads = threads;
+    const Rips rips(points, {}, context);
+    const auto found = pairs_of(persistence(rips, {.max_dim = 1}, context));
+    if (threads == 1) alone = found;
+    EXPECT_EQ(found, alone) << threads << " threads";
+  }
+  EXPECT_GT(alone.size(), 1400U);
 }
 
 TEST(RipsGraphs, ZeroHasOneSign) {

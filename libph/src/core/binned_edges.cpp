@@ -57,7 +57,8 @@ bool is_sorted_at_once(std::span<FlagEdge> edges, int shift) {
     return true;
   }
   // Ties arrive in order from a matrix: integers are sorted when they come.
-  if (shift > 0 && !std::is_sorted(edges.begin(), edges.end(), kInOrder)) return false;
+  if (std::is_sorted(edges.begin(), edges.end(), kInOrder)) return true;
+  if (shift > 0) return false;
   std::sort(edges.begin(), edges.end(), kInOrder);
   return true;
 }
@@ -123,9 +124,10 @@ void BinnedEdges::sort_bin(std::size_t bin) const {
   FlagEdges buffer(&context_->memory);
   const Split parts = split(edges, shared_bits_, buffer);
   buffer = FlagEdges(&context_->memory);
-  constexpr std::size_t parts_a_piece = 64;
-  for_each_piece("sort edges", parts.ends.size(), parts_a_piece, *context_,
-                 [&](std::size_t first, std::size_t last) {
+  constexpr std::size_t edges_a_piece = 1 << 14;  // fewer are sorted before a thread has started
+  const std::size_t pieces = edges.size() / edges_a_piece + 1;
+  for_each_piece("sort edges", parts.ends.size(), (parts.ends.size() + pieces - 1) / pieces,
+                 *context_, [&](std::size_t first, std::size_t last) {
                    FlagEdges own(&context_->memory);
                    sort_parts(edges, first == 0 ? 0 : parts.ends[first - 1],
                               std::span(parts.ends).subspan(first, last - first), parts.shift, own);

@@ -10,7 +10,8 @@
 namespace ph {
 namespace {
 
-constexpr std::size_t kPiece = 1 << 14;  // edges a thread takes at a time
+// Edges a thread takes at a time: to start one takes as long as some ten thousand edges.
+constexpr std::size_t kPiece = 1 << 17;
 
 // The neighbours in a lens of at most 64 vertices.
 PH_FOR_EACH_TARGET
@@ -80,7 +81,7 @@ void LensGraph::add(const FlagEdge& e) {
 
 void LensGraph::add_all(std::span<const FlagEdge> edges, const RunContext& context) {
   const std::size_t threads = thread_count(context);
-  if (layout_ == LensLayout::lists || threads == 1 || edges.size() < kPiece) {
+  if (layout_ == LensLayout::lists || threads == 1 || edges.size() <= kPiece) {
     for (const FlagEdge& e : edges) add(e);
     return;
   }
