@@ -64,7 +64,7 @@ class LensComponents {
     apex_ = apex;
     last_apex_[e.u] = last_apex_[e.v] = graph_.global(apex);
   }
-  /// Moves the component of a vertex from rest_ to the end of sets_. @return whether rest_ has more.
+  /// Moves a vertex's component from rest_ to the end of sets_. @return whether more is left.
   bool take_component(Vertex first);
   void sort_components();
 
