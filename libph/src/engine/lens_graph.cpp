@@ -10,7 +10,7 @@
 namespace ph {
 namespace {
 
-// Edges a thread takes at a time: to start one takes as long as some ten thousand edges.
+// Edges a thread takes at a time; for fewer it is not worth starting.
 constexpr std::size_t kPiece = 1 << 17;
 
 // The neighbours in a lens of at most 64 vertices.

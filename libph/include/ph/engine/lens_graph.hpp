@@ -31,7 +31,8 @@ class LensGraph {
   using Word = bits::Word;
   static constexpr Vertex kNone = UINT32_MAX;
 
-  /// @param active edges that are there; outlives this. @param layout rows or lists.
+  /// @param active edges that are there; outlives this. With lists it has no rows. @param layout
+  /// rows or lists.
   LensGraph(const ActiveEdges& active, LensLayout layout, std::pmr::memory_resource* memory);
 
   /// What is faster among what is affordable.
@@ -40,7 +41,6 @@ class LensGraph {
   static double bytes(std::size_t vertices, std::size_t edges);
 
   std::size_t vertex_count() const { return active_.vertex_count(); }
-  LensLayout layout() const { return layout_; }
   void add(const FlagEdge& e);
   /// Adds many edges, on several threads.
   void add_all(std::span<const FlagEdge> edges, const RunContext& context);
@@ -116,8 +116,8 @@ class LensGraph {
   LensLayout layout_;
   // rows
   BitMatrix joined_;
-  // Of up to 64 vertices here and there, by vertex: its bit if it is one, those of its neighbours.
-  // Most pairs that have a lens have one of them in it.
+  // Landmarks are up to 64 vertices here and there: most lenses have one of them. By vertex: its
+  // bit if it is one, and the bits of those that are its neighbours.
   std::pmr::vector<Word> landmark_, landmarks_at_;
   // lists, ascending
   std::pmr::vector<List> lists_;

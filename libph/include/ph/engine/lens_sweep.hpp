@@ -50,12 +50,13 @@ class LensSweep {
         wanted_(wanted),
         observer_(observer),
         context_(context),
-        active_(vertices, vertices <= wanted.tuning.vertices_of_active_rows, &context.memory),
-        graph_(active_,
-               wanted.tuning.layout == LensLayout::automatic
-                   ? LensGraph::choose_layout(vertices, edges.size())
-                   : wanted.tuning.layout,
-               &context.memory),
+        layout_(wanted.tuning.layout == LensLayout::automatic
+                    ? LensGraph::choose_layout(vertices, edges.size())
+                    : wanted.tuning.layout),
+        active_(vertices,
+                layout_ == LensLayout::rows && vertices <= wanted.tuning.vertices_of_active_rows,
+                &context.memory),
+        graph_(active_, layout_, &context.memory),
         components_(graph_, &context.memory),
         born_(&context.memory),
         components_left_(vertices),
@@ -86,7 +87,7 @@ class LensSweep {
   /// make lenses cheap but for their numbering, which cannot be handed over.
   bool wants_helper(const LensSurfaces<K>& surfaces) const {
     constexpr double share = 0.25;  // of what memory is left
-    return graph_.layout() == LensLayout::rows && thread_count(context_) > 1 &&
+    return layout_ == LensLayout::rows && thread_count(context_) > 1 &&
            surfaces.stars().count() >= wanted_.tuning.stars_for_helper &&
            LensGraph::bytes(graph_.vertex_count(), edges_.size()) <=
                share * static_cast<double>(context_.memory.left());
@@ -110,6 +111,7 @@ class LensSweep {
   LensWanted wanted_;
   Observer& observer_;
   const RunContext& context_;
+  const LensLayout layout_;
   ActiveEdges active_;         // of non-zero annotation
   LensGraph graph_;            // edges so far, but for the idle bins from first_unadded_bin_ on
   LensComponents components_;  // of the graph's lens
