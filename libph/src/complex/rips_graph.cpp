@@ -42,7 +42,7 @@ void RipsGraph::name_vertices(std::span<const std::uint32_t> points, const RunCo
 RipsGraph RipsGraph::of_points_within(const Points& points, double threshold,
                                       const RunContext& context, const VertexWeights& weights) {
   check_arguments(points.rows(), threshold);
-  FlagEdges edges(&context.memory);
+  EdgeCollector edges(context);
   Ticker ticker(context, "edges");
   for_each_pair_within(
       points, threshold,
@@ -50,10 +50,10 @@ RipsGraph RipsGraph::of_points_within(const Points& points, double threshold,
         ticker.tick();
         const double value = weights.edge_value(i, j, d);
         if (value > threshold) return;
-        edges.push_back({value, static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(i)});
+        edges.add({value, static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(i)});
       },
       context);
-  return RipsGraph(points.rows(), threshold, bin_edges(std::move(edges), context), context,
+  return RipsGraph(points.rows(), threshold, bin_edges(edges.finish(), context), context,
                    weights.births());
 }
 
@@ -62,15 +62,20 @@ RipsGraph RipsGraph::of_edges(Index size, std::span<const WeightedEdge> edges,
                               const VertexWeights& weights) {
   check_arguments(size, threshold);
   const double limit = threshold.value_or(kNoLimit);
-  FlagEdges within(&context.memory);
-  within.reserve(edges.size());
+  const double last = std::min(limit, std::numeric_limits<double>::max());  // infinite: no edge
+  const auto value_of = [&](const WeightedEdge& e) {
+    return weights.edge_value(e.u, e.v, e.value);
+  };
+  EdgeBinner binner(edges.size(), 1, context);
+  for (const WeightedEdge& e : edges) binner.count(value_of(e));
+  binner.allocate(last);
   for (const WeightedEdge& e : edges) {
-    const double value = weights.edge_value(e.u, e.v, e.value);
-    if (value > limit || value == kNoLimit) continue;
+    const double value = value_of(e);
+    if (value > last) continue;
     const auto [small, large] = std::minmax(e.u, e.v);
-    within.push_back({value, static_cast<std::uint32_t>(large), static_cast<std::uint32_t>(small)});
+    binner.add({value, static_cast<std::uint32_t>(large), static_cast<std::uint32_t>(small)});
   }
-  return RipsGraph(size, limit, bin_edges(std::move(within), context), context, weights.births());
+  return RipsGraph(size, limit, binner.finish(), context, weights.births());
 }
 
 RipsGraph RipsGraph::with_edges(const RipsGraph& graph, FlagEdges&& edges,

@@ -2,10 +2,12 @@
 #include "ph/core/binned_edges.hpp"
 
 #include <bit>
-#include <limits>
+#include <iterator>
+#include <numeric>
 #include <system_error>
 #include <utility>
 
+#include "ph/core/pages.hpp"
 #include "ph/core/parallel.hpp"
 
 namespace ph {
@@ -80,6 +82,15 @@ void sort_edges(std::span<FlagEdge> edges, int shift, FlagEdges& buffer) {
   if (is_sorted_at_once(edges, shift)) return;
   const Split parts = split(edges, shift, buffer);
   sort_parts(edges, 0, parts.ends, parts.shift, buffer);
+}
+
+// @param ends of bins, ascending. @return those of the bins that are not empty.
+std::pmr::vector<std::size_t> without_empty(std::span<const std::size_t> ends,
+                                            const RunContext& context) {
+  std::pmr::vector<std::size_t> result(&context.memory);
+  std::ranges::unique_copy(ends, std::back_inserter(result));
+  if (!result.empty() && result.front() == 0) result.erase(result.begin());
+  return result;
 }
 
 }  // namespace
@@ -168,41 +179,64 @@ void BinnedEdges::finish_ahead() const {
 void EdgeBinner::allocate(double limit) {
   limit_ = limit;
   std::size_t sum = 0;
-  for (std::size_t bin = 0; bin <= bin_of(limit_); ++bin)
-    for (std::size_t w = 0; w < workers(); ++w)
+  for (std::size_t bin = 0; bin <= bin_of_(limit_); ++bin)
+    for (std::size_t w = 0; w < workers_; ++w)
       sum += std::exchange(counts_[begin_of(w) + bin], sum);
-  for (std::size_t w = 0; w < workers(); ++w)
-    last_parts_.push_back(counts_[begin_of(w) + bin_of(limit_)]);
+  for (std::size_t w = 0; w < workers_; ++w)
+    last_parts_.push_back(counts_[begin_of(w) + bin_of_(limit_)]);
   edges_.resize(sum);
 }
 
 BinnedEdges EdgeBinner::finish() {
-  std::pmr::vector<std::size_t> ends(&context_.memory);
-  const std::size_t last = bin_of(limit_);
-  std::size_t end = 0;
-  const auto close_bin = [&](std::size_t at) {
-    if (at > end) ends.push_back(at);
-    end = at;
-  };
-  for (std::size_t bin = 0; bin < last; ++bin) close_bin(counts_[begin_of(workers() - 1) + bin]);
+  const std::size_t last = bin_of_(limit_);
+  const auto ends = std::span(counts_).subspan(begin_of(workers_ - 1), last + 1);
   // In the last bin not all were within the limit: the workers' parts move together.
-  auto to = edges_.begin() + static_cast<std::ptrdiff_t>(end);
-  for (std::size_t w = 0; w < workers(); ++w)
+  auto to = edges_.begin() + static_cast<std::ptrdiff_t>(last == 0 ? 0 : ends[last - 1]);
+  for (std::size_t w = 0; w < workers_; ++w)
     to = std::copy(edges_.begin() + static_cast<std::ptrdiff_t>(last_parts_[w]),
                    edges_.begin() + static_cast<std::ptrdiff_t>(counts_[begin_of(w) + last]), to);
   edges_.erase(to, edges_.end());
-  close_bin(edges_.size());
-  return BinnedEdges(std::move(edges_), std::move(ends), shift_, context_);
+  ends[last] = edges_.size();
+  return BinnedEdges(std::move(edges_), without_empty(ends, context_), bin_of_.shared_bits(),
+                     context_);
+}
+
+void EdgeCollector::add_block() {
+  constexpr std::size_t least = 1 << 10, most = 1 << 17;
+  if (!blocks_.empty()) size_ += blocks_.back().size();
+  FlagEdges block(blocks_.get_allocator().resource());
+  block.reserve(std::clamp(size_, least, most));
+  blocks_.push_back(std::move(block));
+}
+
+FlagEdges EdgeCollector::finish() {
+  if (blocks_.size() == 1) return std::move(blocks_.front());
+  FlagEdges edges(blocks_.get_allocator().resource());
+  edges.reserve(blocks_.empty() ? 0 : size_ + blocks_.back().size());
+  for (FlagEdges& block : blocks_) {
+    edges.insert(edges.end(), block.begin(), block.end());
+    drop_pages(block.data(), block.capacity() * sizeof(FlagEdge));
+    block = FlagEdges(block.get_allocator());
+  }
+  return edges;
 }
 
 BinnedEdges bin_edges(FlagEdges&& edges, const RunContext& context) {
   context.poll();
-  EdgeBinner binner(edges.size(), 1, context);
-  for (const FlagEdge& e : edges) binner.count(e.value);
-  binner.allocate(std::numeric_limits<double>::max());
-  for (const FlagEdge& e : edges) binner.add(e);
-  edges = FlagEdges(edges.get_allocator());
-  return binner.finish();
+  const ValueBins bin_of(edges.size());
+  std::pmr::vector<std::size_t> next(bin_of.count(), 0, &context.memory), ends(next);
+  for (const FlagEdge& e : edges) ++next[bin_of(e.value)];
+  std::inclusive_scan(next.begin(), next.end(), ends.begin());
+  for (std::size_t bin = 0; bin < next.size(); ++bin) next[bin] = ends[bin] - next[bin];
+  // The "American flag" of McIlroy, Bostic and McIlroy, Engineering radix sort (1993): an edge goes
+  // to the next place of its bin, whoever was there goes on, until one comes that belongs here.
+  for (std::size_t bin = 0; bin < next.size(); ++bin)
+    for (; next[bin] < ends[bin]; ++next[bin]) {
+      FlagEdge& here = edges[next[bin]];
+      for (std::size_t b = bin_of(here.value); b != bin; b = bin_of(here.value))
+        std::swap(here, edges[next[b]++]);
+    }
+  return BinnedEdges(std::move(edges), without_empty(ends, context), bin_of.shared_bits(), context);
 }
 
 }  // namespace ph

@@ -10,7 +10,6 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
-#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -18,6 +17,7 @@
 #include <utility>
 
 #include "ph/core/error.hpp"
+#include "ph/core/pages.hpp"
 
 namespace ph {
 namespace {
@@ -53,10 +53,7 @@ int open_nameless(const std::string& folder) {
 }  // namespace
 
 void forget_file_pages(const void* begin, std::size_t bytes) {
-  const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
-  const auto first = reinterpret_cast<std::uintptr_t>(begin);
-  const std::uintptr_t from = (first + page - 1) / page * page, to = (first + bytes) / page * page;
-  if (from < to) ::madvise(reinterpret_cast<void*>(from), to - from, MADV_DONTNEED);
+  drop_pages(const_cast<void*>(begin), bytes);
 }
 
 ScratchFile::ScratchFile(std::size_t bytes) : file_(open_nameless(temporary_folder())) {

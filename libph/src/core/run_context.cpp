@@ -2,16 +2,12 @@
 #include "ph/core/run_context.hpp"
 
 #include <fmt/format.h>
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
 
 #include <algorithm>
-#include <memory>
 #include <utility>
 
 #include "ph/core/error.hpp"
-#include "ph/core/huge_pages.hpp"
+#include "ph/core/pages.hpp"
 
 namespace ph {
 namespace {
@@ -26,26 +22,15 @@ constexpr double kMiB = 1024.0 * 1024.0;
                           static_cast<double>(bytes) / kMiB));
 }
 
-// Large blocks lie on pages of 2 MiB where the system has them for those who ask: a few faults in
-// place of thousands, and what is read in no order misses the table of pages less often. The
-// largest are aligned; others would leave too much room between them where memory is short.
-constexpr std::size_t kHugePage = std::size_t{2} << 20;
-constexpr std::size_t kLeastHuge = 2 * kHugePage, kLeastAligned = 4 * kHugePage;
+// The largest blocks begin where a huge page does; smaller ones would leave too much room between
+// them where memory is short.
+constexpr std::size_t kHugePage = std::size_t{2} << 20, kLeastAligned = 4 * kHugePage;
 
 std::size_t alignment_of(std::size_t bytes, std::size_t alignment) {
   return bytes < kLeastAligned ? alignment : std::max(alignment, kHugePage);
 }
 
 }  // namespace
-
-void prefer_huge_pages(void* block, std::size_t bytes) {
-#if defined(MADV_HUGEPAGE)
-  void* begin = block;
-  std::size_t space = bytes;
-  if (bytes >= kLeastHuge && std::align(kHugePage, kHugePage, begin, space) != nullptr)
-    madvise(begin, space / kHugePage * kHugePage, MADV_HUGEPAGE);
-#endif
-}
 
 void MemoryBudget::require(std::size_t bytes) const {
   const std::size_t now = used();

@@ -14,19 +14,34 @@ namespace {
 constexpr std::size_t kPiece = 1 << 17;
 
 // The neighbours in a lens of at most 64 vertices.
-PH_FOR_EACH_TARGET
-bits::Word word_of(const std::uint32_t* neighbours, std::size_t count, const std::uint32_t* local) {
+template <class Neighbour>
+[[gnu::always_inline]] inline bits::Word find_word(std::span<const Neighbour> neighbours,
+                                                   const std::uint32_t* local) {
   bits::Word word = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t x = local[neighbours[i]];
+  for (const Neighbour w : neighbours) {
+    const std::uint32_t x = local[w];
     word |= bits::Word{x < 64} << (x % 64);
   }
   return word;
 }
+PH_FOR_EACH_TARGET
+bits::Word word_of(std::span<const std::uint16_t> neighbours, const std::uint32_t* local) {
+  return find_word(neighbours, local);
+}
+PH_FOR_EACH_TARGET
+bits::Word word_of(std::span<const std::uint32_t> neighbours, const std::uint32_t* local) {
+  return find_word(neighbours, local);
+}
+
+template <class Vertex>
+NeighbourLists<Vertex> lists_if(bool wanted, std::size_t vertices, const BinnedEdges& edges,
+                                std::pmr::memory_resource* memory) {
+  return wanted ? NeighbourLists<Vertex>(vertices, edges, memory) : NeighbourLists<Vertex>(memory);
+}
 
 }  // namespace
 
-LensGraph::LensGraph(const ActiveEdges& active, LensLayout layout,
+LensGraph::LensGraph(const ActiveEdges& active, const BinnedEdges& edges, LensLayout layout,
                      std::pmr::memory_resource* memory)
     : active_(active),
       layout_(layout),
@@ -34,7 +49,11 @@ LensGraph::LensGraph(const ActiveEdges& active, LensLayout layout,
               memory),
       landmark_(memory),
       landmarks_at_(memory),
-      lists_(memory),
+      short_lists_(lists_if<std::uint16_t>(
+          layout == LensLayout::lists && active.vertex_count() <= kMostShort, active.vertex_count(),
+          edges, memory)),
+      lists_(lists_if<Vertex>(layout == LensLayout::lists && active.vertex_count() > kMostShort,
+                              active.vertex_count(), edges, memory)),
       marks_(memory),
       words_(layout == LensLayout::rows ? joined_.words() : 0),
       lens_(words_, 0, memory),
@@ -49,7 +68,6 @@ LensGraph::LensGraph(const ActiveEdges& active, LensLayout layout,
     for (std::size_t k = 0; k * step < vertex_count(); ++k) landmark_[k * step] = Word{1} << k;
     return;
   }
-  lists_.resize(vertex_count());
   marks_.resize(vertex_count(), 0);
   local_.resize(vertex_count(), kNone);
 }
@@ -64,18 +82,18 @@ LensLayout LensGraph::choose_layout(std::size_t vertices, std::size_t edges) {
 double LensGraph::bytes(std::size_t vertices, std::size_t edges) {
   const auto n = static_cast<double>(vertices), m = static_cast<double>(edges);
   if (choose_layout(vertices, edges) == LensLayout::rows) return n * n / 8;
-  constexpr double growth = 1.5;  // of vectors, on average
-  return 2 * growth * sizeof(Vertex) * m + (sizeof(List) + 2 * sizeof(Vertex)) * n;
+  const double number = vertices <= kMostShort ? sizeof(std::uint16_t) : sizeof(Vertex);
+  return 2 * number * m + (sizeof(std::size_t) + 3 * sizeof(Vertex)) * n;
 }
 
 void LensGraph::add(const FlagEdge& e) {
   if (layout_ == LensLayout::rows) {
     add_to_row(e.u, e.v);
     add_to_row(e.v, e.u);
+  } else if (vertex_count() <= kMostShort) {
+    short_lists_.add(e);
   } else {
-    List &of_u = lists_[e.u], &of_v = lists_[e.v];
-    of_u.insert(std::ranges::lower_bound(of_u, e.v), e.v);
-    of_v.insert(std::ranges::lower_bound(of_v, e.u), e.u);
+    lists_.add(e);
   }
 }
 
@@ -96,12 +114,15 @@ void LensGraph::add_all(std::span<const FlagEdge> edges, const RunContext& conte
 
 bool LensGraph::has_lens_anywhere(Vertex u, Vertex v) const {
   if (layout_ == LensLayout::rows) return bits::any_common(joined_.row(u), joined_.row(v), words_);
-  auto i = lists_[u].begin(), j = lists_[v].begin();
-  while (i != lists_[u].end() && j != lists_[v].end()) {
-    if (*i == *j) return true;
-    *i < *j ? ++i : ++j;
-  }
-  return false;
+  return with_lists([&](const auto& lists) {
+    const auto a = lists[u], b = lists[v];
+    auto i = a.begin(), j = b.begin();
+    while (i != a.end() && j != b.end()) {
+      if (*i == *j) return true;
+      *i < *j ? ++i : ++j;
+    }
+    return false;
+  });
 }
 
 bool LensGraph::have_lenses(std::span<const FlagEdge> edges, const RunContext& context) const {
@@ -144,20 +165,23 @@ LensGraph::Lens LensGraph::find_lens_in_rows(const FlagEdge& e, bool wants_graph
 }
 
 LensGraph::Lens LensGraph::find_lens_in_lists(const FlagEdge& e, bool wants_graph) {
-  const List &a = lists_[e.u], &b = lists_[e.v];
   for (const Vertex v : vertices_) local_[v] = kNone;
-  vertices_.resize(b.size() + 1);
   // Marks take three passes and no branch; which of two sorted lists comes first is anyone's guess.
   constexpr std::uint8_t of_one = 1, of_both = 2;
-  for (const Vertex w : a) marks_[w] = of_one;
   std::size_t count = 0;
-  for (const Vertex w : b) {
-    vertices_[count] = w;
-    count += marks_[w];
-    marks_[w] *= of_both;
-  }
-  const bool touches = touches_active(e, [&](Vertex, Vertex w) { return marks_[w] == of_both; });
-  for (const Vertex w : a) marks_[w] = 0;
+  const bool touches = with_lists([&](const auto& lists) {
+    const auto a = lists[e.u], b = lists[e.v];
+    vertices_.resize(b.size() + 1);
+    for (const Vertex w : a) marks_[w] = of_one;
+    for (const Vertex w : b) {
+      vertices_[count] = w;
+      count += marks_[w];
+      marks_[w] *= of_both;
+    }
+    const bool found = touches_active(e, [&](Vertex, Vertex w) { return marks_[w] == of_both; });
+    for (const Vertex w : a) marks_[w] = 0;
+    return found;
+  });
   vertices_.resize(count);
   if (touches || wants_graph) number_lens();
   return {count == 0, touches};
@@ -177,12 +201,14 @@ void LensGraph::make_row(Vertex v) {
   is_row_made_[v] = 1;
   Word* row = local_rows_.data() + v * words_;
   std::fill_n(row, words_, Word{0});
-  const List& list = lists_[vertices_[v]];
-  if (words_ == 1)
-    *row = word_of(list.data(), list.size(), local_.data());
-  else
-    for (const Vertex w : list)
-      if (const Vertex x = local_[w]; x != kNone) row[x / 64] |= Word{1} << (x % 64);
+  with_lists([&](const auto& lists) {
+    const auto list = lists[vertices_[v]];
+    if (words_ == 1)
+      *row = word_of(list, local_.data());
+    else
+      for (const Vertex w : list)
+        if (const Vertex x = local_[w]; x != kNone) row[x / 64] |= Word{1} << (x % 64);
+  });
 }
 
 }  // namespace ph

@@ -8,7 +8,7 @@ namespace ph {
 LensScout::LensScout(std::size_t vertices, const BinnedEdges& edges, const RunContext& context)
     : edges_(edges),
       no_edges_(vertices, false, &context.memory),
-      graph_(no_edges_, LensLayout::rows, &context.memory),
+      graph_(no_edges_, edges, LensLayout::rows, &context.memory),
       components_(graph_, &context.memory),
       cover_(graph_, &context.memory) {}
 

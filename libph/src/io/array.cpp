@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "ph/core/huge_pages.hpp"
+#include "ph/core/pages.hpp"
 
 namespace ph::detail {
 namespace {

@@ -80,46 +80,83 @@ class BinnedEdges {
   std::unique_ptr<Lazy> lazy_ = std::make_unique<Lazy>();
 };
 
-/// Collects edges into bins with little more memory than they take: a first pass over the values
-/// counts how many fall into each bin, a second one puts each edge where its bin is. Several
-/// workers may share a pass: each has its own part of every bin, in the order of the workers.
+/// Bins of nearly equal values: those with the same first bits, as many bits as there are values,
+/// up to the exponent and four of the mantissa. (The order of non-negative doubles is that of their
+/// bits.)
+class ValueBins {
+ public:
+  /// @param values how many there are, more or less.
+  explicit ValueBins(std::size_t values)
+      : shift_(kBits - std::clamp(static_cast<int>(std::bit_width(values)), 1, kMostBinBits)) {}
+  std::size_t count() const { return std::size_t{1} << (kBits - shift_); }
+  /// @param value >= 0, not NaN.
+  std::size_t operator()(double value) const {
+    return std::bit_cast<std::uint64_t>(value) >> shift_;
+  }
+  /// Bits of a value that say nothing about its bin.
+  int shared_bits() const { return shift_; }
+
+ private:
+  static constexpr int kBits = 63, kMostBinBits = 15;
+  int shift_;
+};
+
+/// Puts edges that can be listed twice into bins, with little more memory than they take: a first
+/// pass over the values counts how many fall into each bin, a second one puts each edge where its
+/// bin is, in the order of the pass. Several workers may share a pass: each has its own part of
+/// every bin, in the order of the workers.
 class EdgeBinner {
  public:
   /// @param values how many will be counted, more or less.
   EdgeBinner(std::size_t values, std::size_t workers, const RunContext& context)
       : context_(context),
-        shift_(kBits - std::clamp(static_cast<int>(std::bit_width(values)), 1, kMostBinBits)),
-        counts_(workers << (kBits - shift_), 0, &context.memory),
+        bin_of_(values),
+        workers_(workers),
+        counts_(workers * bin_of_.count(), 0, &context.memory),
         last_parts_(&context.memory),
         edges_(&context.memory) {}
 
   /// First pass. @param value >= 0, not NaN.
-  void count(double value, std::size_t worker = 0) { ++counts_[begin_of(worker) + bin_of(value)]; }
+  void count(double value, std::size_t worker = 0) { ++counts_[begin_of(worker) + bin_of_(value)]; }
   /// Between the passes: makes room for the values counted up to `limit`.
   void allocate(double limit);
   /// Second pass: an edge that the worker counted, of value <= limit.
   void add(const FlagEdge& edge, std::size_t worker = 0) {
-    edges_[counts_[begin_of(worker) + bin_of(edge.value)]++] = edge;
+    edges_[counts_[begin_of(worker) + bin_of_(edge.value)]++] = edge;
   }
   BinnedEdges finish();
 
  private:
-  // The order of non-negative doubles is that of their bits: a bin is their first ones, as many as
-  // there are values, up to the exponent and four bits of the mantissa.
-  static constexpr int kBits = 63, kMostBinBits = 15;
-  std::size_t bin_of(double value) const { return std::bit_cast<std::uint64_t>(value) >> shift_; }
-  std::size_t begin_of(std::size_t worker) const { return worker << (kBits - shift_); }
-  std::size_t workers() const { return counts_.size() >> (kBits - shift_); }
+  std::size_t begin_of(std::size_t worker) const { return worker * bin_of_.count(); }
 
   const RunContext& context_;
-  int shift_;
+  ValueBins bin_of_;
+  std::size_t workers_;
   double limit_ = 0;
   std::pmr::vector<std::size_t> counts_;      // from allocate on: where the next edge of a bin goes
   std::pmr::vector<std::size_t> last_parts_;  // by worker: where its part of the last bin begins
   FlagEdges edges_;
 };
 
-/// Edges in no order.
+/// Takes edges that can be listed only once, nobody knows how many. Blocks take little more than
+/// the edges; a vector that doubles takes up to three times as much.
+class EdgeCollector {
+ public:
+  explicit EdgeCollector(const RunContext& context) : blocks_(&context.memory) {}
+  void add(const FlagEdge& edge) {
+    if (blocks_.empty() || blocks_.back().size() == blocks_.back().capacity()) add_block();
+    blocks_.back().push_back(edge);
+  }
+  /// In the order in which they were added.
+  FlagEdges finish();
+
+ private:
+  void add_block();
+  std::size_t size_ = 0;  // of the blocks that are full
+  std::pmr::vector<FlagEdges> blocks_;
+};
+
+/// Edges in no order, moved into bins where they are.
 BinnedEdges bin_edges(FlagEdges&& edges, const RunContext& context);
 
 }  // namespace ph

@@ -7,10 +7,12 @@
 #include <span>
 #include <vector>
 
+#include "ph/core/binned_edges.hpp"
 #include "ph/core/bit_matrix.hpp"
 #include "ph/core/filtration.hpp"
 #include "ph/core/run_context.hpp"
 #include "ph/engine/active_edges.hpp"
+#include "ph/engine/neighbour_lists.hpp"
 
 namespace ph {
 
@@ -18,7 +20,7 @@ namespace ph {
 enum class LensLayout {
   automatic,  ///< whichever is faster and affordable
   rows,       ///< two bits for each pair of vertices, one for each order
-  lists,      ///< the neighbours of each vertex: four bytes for each end of an edge
+  lists,      ///< the neighbours of each vertex: two or four bytes for each end of an edge
 };
 
 /// The edges so far of a flag filtration, and the lens of a new edge: the common neighbours of its
@@ -31,9 +33,10 @@ class LensGraph {
   using Word = bits::Word;
   static constexpr Vertex kNone = UINT32_MAX;
 
-  /// @param active edges that are there; outlives this. With lists it has no rows. @param layout
-  /// rows or lists.
-  LensGraph(const ActiveEdges& active, LensLayout layout, std::pmr::memory_resource* memory);
+  /// @param active edges that are there; outlives this. With lists it has no rows. @param edges
+  /// that may be added. @param layout rows or lists.
+  LensGraph(const ActiveEdges& active, const BinnedEdges& edges, LensLayout layout,
+            std::pmr::memory_resource* memory);
 
   /// What is faster among what is affordable.
   static LensLayout choose_layout(std::size_t vertices, std::size_t edges);
@@ -50,8 +53,10 @@ class LensGraph {
   template <class Visit>
   void for_each_neighbour(Vertex v, const Word* set, Visit&& visit) const {
     if (layout_ == LensLayout::lists) {
-      for (const Vertex w : lists_[v])
-        if ((set[w / 64] >> (w % 64) & 1) != 0) visit(w);
+      with_lists([&](const auto& lists) {
+        for (const Vertex w : lists[v])
+          if ((set[w / 64] >> (w % 64) & 1) != 0) visit(w);
+      });
       return;
     }
     const Word* row = joined_.row(v);
@@ -96,8 +101,11 @@ class LensGraph {
   Vertex first() const { return static_cast<Vertex>(bits::first_common(lens(), lens(), words_)); }
 
  private:
-  using List = std::pmr::vector<Vertex>;
-
+  static constexpr std::size_t kMostShort = std::size_t{UINT16_MAX} + 1;  // vertices
+  template <class Use>
+  decltype(auto) with_lists(Use&& use) const {
+    return vertex_count() <= kMostShort ? use(short_lists_) : use(lists_);
+  }
   void add_to_row(Vertex u, Vertex v) {
     joined_.set(u, v);
     landmarks_at_[u] |= landmark_[v];
@@ -119,8 +127,9 @@ class LensGraph {
   // Landmarks are up to 64 vertices here and there: most lenses have one of them. By vertex: its
   // bit if it is one, and the bits of those that are its neighbours.
   std::pmr::vector<Word> landmark_, landmarks_at_;
-  // lists, ascending
-  std::pmr::vector<List> lists_;
+  // lists: short numbers where they suffice
+  NeighbourLists<std::uint16_t> short_lists_;
+  NeighbourLists<Vertex> lists_;
   std::pmr::vector<std::uint8_t> marks_;  // by vertex; zero between uses
   // The lens.
   std::size_t words_;

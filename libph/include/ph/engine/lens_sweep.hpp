@@ -56,7 +56,7 @@ class LensSweep {
         active_(vertices,
                 layout_ == LensLayout::rows && vertices <= wanted.tuning.vertices_of_active_rows,
                 &context.memory),
-        graph_(active_, layout_, &context.memory),
+        graph_(active_, edges, layout_, &context.memory),
         components_(graph_, &context.memory),
         born_(&context.memory),
         components_left_(vertices),

@@ -9,4 +9,8 @@ namespace ph {
 /// system's business.
 void prefer_huge_pages(void* block, std::size_t bytes);
 
+/// Gives the memory under a block back to the system, as far as it is whole pages. The block stays
+/// allocated; what was in it is lost.
+void drop_pages(void* block, std::size_t bytes);
+
 }  // namespace ph
