@@ -13,7 +13,9 @@
 #include "ph/core/field.hpp"
 #include "ph/core/flat_map.hpp"
 #include "ph/engine/active_edges.hpp"
+#include "ph/engine/dead_generators.hpp"
 #include "ph/engine/id_set.hpp"
+#include "ph/engine/sorted_terms.hpp"
 
 namespace ph {
 
@@ -21,12 +23,15 @@ namespace ph {
 /// annotation of an edge (Busaryev, Cabello, Chen, Dey, Wang, Annotating simplices with a homology
 /// basis) is the vector of their values on it. Edges of one class share one vector; an edge that
 /// was never annotated has the zero vector. a(u,v) = -a(v,u).
+///
+/// A class learns what generators died when it is next asked for. Two classes that became equal may
+/// be two until then, and edges of a class that became zero still be active.
 template <Field K>
 class Annotations {
  public:
-  using Generator = std::uint32_t;  ///< numbered by birth: the youngest has the largest number
-  using Term = Entry<Generator, K>;
-  using Vector = std::pmr::vector<Term>;  ///< ascending generators, no zeros
+  using Generator = typename DeadGenerators<K>::Generator;
+  using Term = typename DeadGenerators<K>::Term;
+  using Vector = typename DeadGenerators<K>::Vector;
 
   /// A class up to sign; of two vectors +-a one is stored. 0 is the zero class.
   struct Class {
@@ -37,24 +42,29 @@ class Annotations {
     friend bool operator==(const Class&, const Class&) = default;
   };
 
-  /// @param edges outlives this: those of non-zero class, none in the beginning.
-  Annotations(const K& field, ActiveEdges& edges, std::pmr::memory_resource* memory)
+  /// @param edges outlives this: those of non-zero class, none in the beginning. @param
+  /// keeps_values whether for_each_value will be asked for.
+  Annotations(const K& field, ActiveEdges& edges, bool keeps_values,
+              std::pmr::memory_resource* memory)
       : field_(field),
         edges_(edges),
+        keeps_values_(keeps_values),
         vectors_(memory),
         hashes_(memory),
         members_(memory),
         links_(memory),
+        seen_(memory),
+        dead_(field, memory),
         holders_(memory),
         sums_(memory),
         known_(16, Hash{this}, Equal{this}, memory),
         scratch_(memory),
-        arrived_(memory),
-        departed_(memory) {
+        merged_(memory) {
     vectors_.emplace_back();  // the zero class
     hashes_.push_back(0);
     members_.emplace_back();
     links_.push_back({});
+    seen_.push_back(0);
   }
   Annotations(const Annotations&) = delete;
   Annotations& operator=(const Annotations&) = delete;
@@ -67,8 +77,8 @@ class Annotations {
 
   /// A generator whose value on a new edge is one and zero on all others.
   Generator add_generator(const Edge& edge) {
-    const auto g = static_cast<Generator>(holders_.size());
-    holders_.emplace_back();
+    const Generator g = generators_++;
+    if (keeps_values_) holders_.emplace_back();
     scratch_.clear();
     scratch_.emplace_back(g, field_.from_int(1));
     assign(edge, intern());
@@ -81,7 +91,7 @@ class Annotations {
     ActiveEdges::Label* label = edges_.find(u, v);
     if (label == nullptr) return {};
     const Class a = resolve({*label / 2, *label % 2 != 0});
-    *label = label_of(a);
+    if (!a.is_zero()) *label = label_of(a);  // else the edge is active no more
     return a;
   }
   /// Annotates an edge for the first time: a(u,v), which is not zero.
@@ -90,6 +100,7 @@ class Annotations {
     edges_.insert(edge.u, edge.v, label_of(a), label_of(-a));
   }
 
+  /// Needs classes, here and below, that came from here after the last call of `kill`.
   Class sum(Class a, Class b);
   /// The value of a generator in a class.
   typename K::Element value(Class a, Generator g) const {
@@ -105,10 +116,10 @@ class Annotations {
   }
   Generator youngest(Class a) const { return vectors_[a.id].back().cell; }
 
-  /// Makes a class zero: its youngest generator becomes a combination of the others, everywhere.
+  /// Makes a class zero: its youngest generator becomes a combination of the others.
   void kill(Class relation);
 
-  /// The edges on which a generator is not zero, with its values: a cocycle. Calls
+  /// The edges on which a living generator is not zero, with its values: a cocycle. Calls
   /// `visit(edge, value)`.
   template <class Visit>
   void for_each_value(Generator g, Visit&& visit);
@@ -136,8 +147,18 @@ class Annotations {
   bool are_opposite(std::uint32_t a, std::uint32_t b) const {
     return vectors_[a].back().coefficient() != vectors_[b].back().coefficient();
   }
-  /// Follows the links of classes that became equal to others.
+  /// What a class is by now.
   Class resolve(Class a);
+  /// Follows the links of classes that became equal to others.
+  Class follow(Class a);
+  /// Lets a class learn of all deaths.
+  void update(std::uint32_t id);
+  /// The class has become zero.
+  void erase(std::uint32_t id);
+  /// The class has become equal to another one, up to sign.
+  void join(std::uint32_t id, std::uint32_t other);
+  /// The class had these terms.
+  void change_holders(std::uint32_t id, const Vector& before);
   /// The class of scratch_.
   Class intern();
   /// The hash of a vector is the sum of those of its terms as vectors over Z/2, the same for +-a.
@@ -151,11 +172,6 @@ class Annotations {
     for (const Term& t : v) sum ^= hash(t);
     return sum;
   }
-  /// scratch_ = a + scale * b; over Z/p also arrived_ and departed_, the generators that it has and
-  /// a has not, and the other way round.
-  void combine(const Vector& a, const Vector& b, typename K::Element scale);
-  /// The same over Z/2.
-  void add(const Vector& a, const Vector& b);
   template <class T>
   static void release(T& vector) {
     T(vector.get_allocator()).swap(vector);
@@ -168,19 +184,30 @@ class Annotations {
 
   const K& field_;
   ActiveEdges& edges_;
+  const bool keeps_values_;
+  Generator generators_ = 0;
   std::pmr::vector<Vector> vectors_;                  // by class
   std::pmr::vector<std::size_t> hashes_;              // by class
   std::pmr::vector<std::pmr::vector<Edge>> members_;  // by class
-  std::pmr::vector<Class> links_;    // by class: what it became; itself while it is one
-  std::pmr::vector<IdSet> holders_;  // by generator: classes it occurs in
+  std::pmr::vector<Class> links_;         // by class: what it became; itself while it is one
+  std::pmr::vector<std::uint32_t> seen_;  // by class: how many deaths it has learnt of
+  DeadGenerators<K> dead_;
+  std::pmr::vector<IdSet> holders_;  // by generator: classes it occurs in, if values are kept
   FlatMap<Class> sums_;              // of two classes, until the next kill
   std::pmr::unordered_set<std::uint32_t, Hash, Equal> known_;
-  Vector scratch_;
-  std::pmr::vector<Generator> arrived_, departed_;
+  Vector scratch_, merged_;
 };
 
 template <Field K>
 auto Annotations<K>::resolve(Class a) -> Class {
+  a = follow(a);
+  if (seen_[a.id] == dead_.count() || a.is_zero()) return a;
+  update(a.id);
+  return follow(a);
+}
+
+template <Field K>
+auto Annotations<K>::follow(Class a) -> Class {
   while (links_[a.id].id != a.id) {
     const Class up = links_[a.id];
     const Class further = links_[up.id];
@@ -208,49 +235,65 @@ auto Annotations<K>::intern() -> Class {
   }
   members_.emplace_back();
   links_.push_back({fresh, false});
-  for (const Term& t : scratch_) holders_[t.cell].insert(fresh);
+  seen_.push_back(dead_.count());
+  change_holders(fresh, {});
   return {fresh, false};
 }
 
 template <Field K>
-void Annotations<K>::combine(const Vector& a, const Vector& b, typename K::Element scale) {
-  if constexpr (std::same_as<K, Z2>) return add(a, b);
-  scratch_.clear();
-  arrived_.clear();
-  departed_.clear();
-  auto x = a.begin();
-  for (const Term& y : b) {
-    for (; x != a.end() && x->cell < y.cell; ++x) scratch_.push_back(*x);
-    auto value = field_.multiply(scale, y.coefficient());
-    if (x != a.end() && x->cell == y.cell)
-      value = field_.add(value, (x++)->coefficient());
-    else
-      arrived_.push_back(y.cell);
-    if (field_.is_zero(value))
-      departed_.push_back(y.cell);
-    else
-      scratch_.emplace_back(y.cell, value);
+void Annotations<K>::update(std::uint32_t id) {
+  seen_[id] = dead_.count();
+  Vector& vector = vectors_[id];
+  if (!dead_.occur_in(vector)) return;
+  auto node = known_.extract(id);
+  if constexpr (std::same_as<K, Z2>) {
+    dead_.eliminate_from(vector);  // kill changes all holders at once
+  } else {
+    if (keeps_values_) scratch_.assign(vector.begin(), vector.end());
+    dead_.eliminate_from(vector);
+    change_holders(id, scratch_);
   }
-  scratch_.insert(scratch_.end(), x, a.end());
+  hashes_[id] = hash(vector);
+  if (vector.empty())
+    erase(id);
+  else if (const auto met = known_.insert(std::move(node)); !met.inserted)
+    join(id, *met.position);
 }
 
 template <Field K>
-void Annotations<K>::add(const Vector& a, const Vector& b) {
-  // No branches: which vector has the next generator is anyone's guess.
-  scratch_.resize(a.size() + b.size());
-  const Term *x = a.data(), *y = b.data(), *const a_end = x + a.size(), *const b_end = y + b.size();
-  Term* out = scratch_.data();
-  while (x != a_end && y != b_end) {
-    const Generator g = x->cell, h = y->cell;
-    out->cell = std::min(g, h);
-    const std::size_t x_goes = g <= h, y_goes = h <= g;
-    out += (x_goes & y_goes) ^ 1;
-    x += x_goes;
-    y += y_goes;
-  }
-  out = std::copy(x, a_end, out);
-  out = std::copy(y, b_end, out);
-  scratch_.resize(static_cast<std::size_t>(out - scratch_.data()));
+void Annotations<K>::erase(std::uint32_t id) {
+  links_[id] = {};
+  for (const Edge& edge : members_[id]) edges_.erase(edge.u, edge.v);
+  release(members_[id]);
+}
+
+template <Field K>
+void Annotations<K>::join(std::uint32_t id, std::uint32_t other) {
+  links_[id] = {other, are_opposite(id, other)};
+  auto &from = members_[id], &to = members_[other];
+  if (to.size() < from.size()) to.swap(from);
+  to.insert(to.end(), from.begin(), from.end());
+  release(from);
+  scratch_.assign(vectors_[id].begin(), vectors_[id].end());
+  release(vectors_[id]);
+  change_holders(id, scratch_);
+}
+
+template <Field K>
+void Annotations<K>::change_holders(std::uint32_t id, const Vector& before) {
+  if (!keeps_values_) return;
+  const Vector& now = vectors_[id];
+  const auto differ = [](const Vector& a, const Vector& b, auto&& use) {
+    auto y = b.begin();
+    for (const Term& x : a) {
+      while (y != b.end() && y->cell < x.cell) ++y;
+      if (y == b.end() || y->cell != x.cell) use(x.cell);
+    }
+  };
+  differ(now, before, [&](Generator g) { holders_[g].insert(id); });
+  differ(before, now, [&](Generator g) {
+    if (!dead_.contains(g)) holders_[g].erase(id);
+  });
 }
 
 template <Field K>
@@ -267,7 +310,9 @@ auto Annotations<K>::sum(Class a, Class b) -> Class {
   const std::uint64_t pair = std::uint64_t{a.id} << 32 | label_of(b);
   const auto [sum, is_new] = sums_.try_emplace(pair);
   if (is_new) {
-    combine(vectors_[a.id], vectors_[b.id], field_.from_int(b.negated ? -1 : 1));
+    scratch_.assign(vectors_[a.id].begin(), vectors_[a.id].end());
+    add_sorted_terms<K>(scratch_, vectors_[b.id], field_.from_int(b.negated ? -1 : 1), field_,
+                        merged_);
     *sum = intern();
   }
   return flipped ? -*sum : *sum;
@@ -275,39 +320,24 @@ auto Annotations<K>::sum(Class a, Class b) -> Class {
 
 template <Field K>
 void Annotations<K>::kill(Class relation) {
-  const Vector zero = vectors_[relation.id];
-  const Generator g = zero.back().cell;
-  const std::size_t hash_of_zero = hashes_[relation.id];
-  const auto unit = field_.inverse(zero.back().coefficient());
+  const std::uint32_t id = relation.id;
+  const Generator g = youngest(relation);
   sums_.clear();
+  known_.erase(id);
+  erase(id);
+  scratch_.assign(vectors_[id].begin(), vectors_[id].end());
+  dead_.add(std::move(vectors_[id]));
+  release(vectors_[id]);
+  if (!keeps_values_) return;
   const IdSet holders = std::move(holders_[g]);
-  if constexpr (std::same_as<K, Z2>)
-    for (const Term& t : zero)
+  if constexpr (std::same_as<K, Z2>) {
+    for (const Term& t : scratch_)
       if (t.cell != g) holders_[t.cell].add(holders);
-  holders.for_each([&](std::uint32_t id) {
-    Vector& vector = vectors_[id];
-    const Term* term = find(vector, g);
-    auto node = known_.extract(id);
-    combine(vector, zero, field_.negate(field_.multiply(term->coefficient(), unit)));
-    vector.assign(scratch_.begin(), scratch_.end());
-    for (const Generator h : arrived_) holders_[h].insert(id);
-    for (const Generator h : departed_)
-      if (h != g) holders_[h].erase(id);
-    hashes_[id] = std::same_as<K, Z2> ? hashes_[id] ^ hash_of_zero : hash(vector);
-    if (vector.empty()) {
-      links_[id] = {};
-      for (const Edge& edge : members_[id]) edges_.erase(edge.u, edge.v);
-      release(members_[id]);
-    } else if (const auto met = known_.insert(std::move(node)); !met.inserted) {
-      const std::uint32_t other = *met.position;
-      links_[id] = {other, are_opposite(id, other)};
-      auto &from = members_[id], &to = members_[other];
-      if (to.size() < from.size()) to.swap(from);
-      to.insert(to.end(), from.begin(), from.end());
-      release(from);
-      for (const Term& t : vector) holders_[t.cell].erase(id);
-      release(vector);
-    }
+  } else {
+    change_holders(id, scratch_);
+  }
+  holders.for_each([&](std::uint32_t holder) {
+    if (holder != id) update(holder);
   });
 }
 

@@ -62,7 +62,7 @@ class LensSweep {
         components_left_(vertices),
         age_(vertex_ages(vertices, births, &context.memory)),
         sets_(vertices, &context.memory),
-        annotations_(field, active_, &context.memory),
+        annotations_(field, active_, wanted.cocycles, &context.memory),
         births_(&context.memory),
         representative_(&context.memory) {
     if (wanted.cycles) cycles_.emplace(graph_, annotations_, field, &context.memory);
