@@ -181,7 +181,7 @@ class WaysOut(ProgramTest):
             ("high.txt", 64, 3),
             ("plane.txt", 64, 3, "--max-dim", "1"),
             ("cloud.txt", 128, 2, "--threshold", "0.03"),
-            ("graph.txt", 30, 1, "--format", "sparse"),
+            ("graph.txt", 22, 1, "--format", "sparse"),
             ("band.txt", 32, 2, "--format", "sparse", "--max-dim", "2"))
 
     def setUp(self):
