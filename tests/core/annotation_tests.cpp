@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 // What the classes of edges of the lens sweep are kept in.
 #include <array>
+#include <initializer_list>
 #include <map>
 #include <memory_resource>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "ph/engine/active_edges.hpp"
+#include "ph/engine/dead_generators.hpp"
 #include "ph/engine/id_set.hpp"
 #include "support/for_each_seed.hpp"
 
@@ -90,6 +93,71 @@ TEST(ActiveEdges, AreAMap) {
       ends += neighbours.size();
     }
     EXPECT_EQ(ends, labels.size());
+  });
+}
+
+// Against vectors that all learn of each death at once. Some of them are looked at in between.
+template <Field K>
+void check_dead_generators(const K& field, Generator& random) {
+  using Vector = typename DeadGenerators<K>::Vector;
+  using Coefficients = std::vector<typename K::Element>;  // by generator
+  const auto count = static_cast<std::size_t>(random.integer(2, 200));
+  std::pmr::memory_resource* memory = std::pmr::get_default_resource();
+  DeadGenerators<K> dead(field, memory);
+  const auto is_dead = [&](std::size_t g) { return dead.contains(static_cast<std::uint32_t>(g)); };
+  const auto random_vector = [&](bool of_the_living) {
+    Coefficients v(count, field.from_int(0));
+    for (int k = random.integer(1, 8); k-- > 0;)
+      v[static_cast<std::size_t>(random.integer(0, static_cast<int>(count) - 1))] =
+          field.from_int(random.integer(-9, 9));
+    for (std::size_t g = 0; g < count; ++g)
+      if (of_the_living && is_dead(g)) v[g] = field.from_int(0);
+    return v;
+  };
+  const auto terms_of = [&](const Coefficients& v) {
+    Vector terms(memory);
+    for (std::size_t g = 0; g < count; ++g)
+      if (!field.is_zero(v[g])) terms.emplace_back(static_cast<std::uint32_t>(g), v[g]);
+    return terms;
+  };
+  const auto coefficients_of = [&](const Vector& terms) {
+    Coefficients v(count, field.from_int(0));
+    for (const auto& t : terms) v[t.cell] = t.coefficient();
+    return v;
+  };
+  std::vector<std::pair<Vector, Coefficients>> vectors;  // as they are, as they should become
+  for (int k = 0; k < 20; ++k) {
+    const Coefficients v = random_vector(false);
+    vectors.emplace_back(terms_of(v), v);
+  }
+  for (std::size_t step = 0; step < 2 * count; ++step) {
+    const Coefficients relation = random_vector(true);
+    Vector terms = terms_of(relation);
+    if (terms.empty()) continue;
+    const std::size_t g = terms.back().cell;
+    const auto unit = field.inverse(relation[g]);
+    for (auto& [lazy, eager] : vectors) {
+      const auto scale = field.negate(field.multiply(eager[g], unit));
+      for (std::size_t k = 0; k < count; ++k)
+        eager[k] = field.add(eager[k], field.multiply(scale, relation[k]));
+    }
+    dead.add(std::move(terms));
+    EXPECT_TRUE(is_dead(g));
+    auto& [lazy, eager] = vectors[random.integer(0, static_cast<int>(vectors.size()) - 1)];
+    dead.eliminate_from(lazy);
+    EXPECT_EQ(coefficients_of(lazy), eager);
+    EXPECT_FALSE(dead.occur_in(lazy));
+  }
+  for (auto& [lazy, eager] : vectors) {
+    dead.eliminate_from(lazy);
+    EXPECT_EQ(coefficients_of(lazy), eager);
+  }
+}
+
+TEST(DeadGenerators, AreEliminatedWhenLookedAt) {
+  for_each_seed(100, [](Generator& random, bool, std::int64_t) {
+    check_dead_generators(Z2{}, random);
+    for (const std::uint32_t p : {3U, 5U, 32003U}) check_dead_generators(Zp(p), random);
   });
 }
 
