@@ -162,18 +162,18 @@ void convert_array(const Input& input, const ArrayLayout& layout, const std::vec
   }
   // The first and the last axis change places in tiles that a few cache lines hold; the axes
   // between them run in the file's order.
-  constexpr std::size_t kTile = 8;
+  constexpr std::size_t tile = 8;
   const auto first = static_cast<std::size_t>(extents.front());
   const auto last = static_cast<std::size_t>(extents.back());
   const std::size_t between = values.empty() ? 0 : values.size() / first / last;
   FirstAxisFastest middle({extents.begin() + 1, extents.end() - 1});
   std::size_t done = 0;
   for (std::size_t m = 0; m < between; ++m, middle.next()) {
-    for (std::size_t z0 = 0; z0 < last; z0 += kTile) {
-      for (std::size_t x0 = 0; x0 < first; x0 += kTile) {
-        for (std::size_t x = x0; x < std::min(x0 + kTile, first); ++x) {
+    for (std::size_t z0 = 0; z0 < last; z0 += tile) {
+      for (std::size_t x0 = 0; x0 < first; x0 += tile) {
+        for (std::size_t x = x0; x < std::min(x0 + tile, first); ++x) {
           T* to = values.data() + (x * between + middle.place()) * last;
-          for (std::size_t z = z0; z < std::min(z0 + kTile, last); ++z, watch.passed(++done))
+          for (std::size_t z = z0; z < std::min(z0 + tile, last); ++z, watch.passed(++done))
             to[z] = element_at(x + first * (m + between * z));
         }
       }
