@@ -44,8 +44,8 @@ double stored_bytes(const ExplicitComplex& complex, Engine) {
 }
 
 detail::MemoryForecast forecast_voxels(const Cubical& cubical, double held,
-                                       const cubical::WantedBars& wanted,
-                                       bool with_representatives, const RunContext& context) {
+                                       const cubical::WantedBars& wanted, bool with_representatives,
+                                       const RunContext& context) {
   if (cubical.slot_count() == 0) return detail::forecast_voxels(held, 0, 0, with_representatives);
   const CubicalImage grid = cubical.cubical_image();
   detail::MemoryForecast forecast = detail::forecast_voxels(
@@ -57,9 +57,8 @@ detail::MemoryForecast forecast_voxels(const Cubical& cubical, double held,
   forecast.low = held + cubical::least_bytes_to_pair_voxels(grid);
   constexpr double bytes_of_bars = 8;  // a voxel, of noise
   if (cubical::can_pair_by_layers(grid, wanted))
-    forecast.high =
-        std::max(std::min(forecast.high, held + left),
-                 forecast.low + bytes_of_bars * static_cast<double>(grid.size()));
+    forecast.high = std::max(std::min(forecast.high, held + left),
+                             forecast.low + bytes_of_bars * static_cast<double>(grid.size()));
   return forecast;
 }
 

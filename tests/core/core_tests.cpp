@@ -2,6 +2,8 @@
 // Fields, sorting, barcodes.
 #include <array>
 #include <climits>
+#include <tuple>
+#include <vector>
 
 #include "ph/core/barcode.hpp"
 #include "ph/core/field.hpp"
@@ -154,6 +156,29 @@ TEST(Barcodes, AreOrderedByDimensionBirthDeathAndBirthCell) {
   EXPECT_EQ(barcode.bars(1).size(), 1U);
   EXPECT_TRUE(barcode.bars(-1).empty());
   EXPECT_TRUE(barcode.bars(2).empty());
+}
+
+// In the order of random numbers, and turned round; many bars of one birth are sorted in another
+// way.
+TEST(Barcodes, WithoutCellsAreOrderedByValues) {
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    Generator random(seed);
+    const int values = random.coin() ? 3 : 1000;
+    std::vector<Bar> bars;
+    for (int k = random.integer(0, 5000); k-- > 0;) {
+      const double birth = random.integer(-values, values) / 8.0;
+      bars.push_back({random.integer(0, 2), random.integer(0, 99) == 0 ? -kInfinity : birth,
+                      random.coin() ? kInfinity : birth + random.integer(0, values)});
+    }
+    const auto key = [](const Bar& x) { return std::tie(x.dim, x.birth, x.death); };
+    std::vector<Bar> expected = bars;
+    std::ranges::sort(expected, {}, key);
+    if (random.coin()) bars.assign(expected.rbegin(), expected.rend());
+    Barcode barcode;
+    for (const Bar& bar : bars) barcode.add(bar);
+    barcode.sort();
+    EXPECT_EQ(bars_of(barcode), expected) << "seed " << seed;
+  }
 }
 
 TEST(Barcodes, EqualBarsAreSortedByTheirCellsWhereValuesAreSortedAlready) {

@@ -59,7 +59,6 @@ class LensSweep {
         graph_(active_, edges, layout_, &context.memory),
         components_(graph_, &context.memory),
         born_(&context.memory),
-        components_left_(vertices),
         age_(vertex_ages(vertices, births, &context.memory)),
         sets_(vertices, &context.memory),
         annotations_(field, active_, wanted.cocycles, &context.memory),
@@ -78,9 +77,7 @@ class LensSweep {
   static constexpr Position kDead = UINT32_MAX;
 
   /// Whether an edge does something only if its lens is empty.
-  bool can_bins_be_idle() const {
-    return !surfaces_ && !wanted_.zero_length && living_ == 0 && components_left_ == 1;
-  }
+  bool can_bins_be_idle() const { return !surfaces_ && !wanted_.zero_length && living_ == 0; }
   /// Whether nothing happens at the edges of a bin. They are not added, see first_unadded_bin_.
   bool is_bin_idle(std::size_t bin);
   /// Whether there is enough to do for another thread, and room for its graph. Lists of neighbours
@@ -117,8 +114,7 @@ class LensSweep {
   LensComponents components_;  // of the graph's lens
   std::pmr::vector<std::size_t> born_;  // components with which a class of H2 is born
   std::size_t first_unadded_bin_ = 0;
-  std::size_t living_ = 0;  // classes of H1
-  std::size_t components_left_;
+  std::size_t living_ = 0;               // classes of H1
   std::pmr::vector<std::uint32_t> age_;  // by vertex
   DisjointSets sets_;                    // each root is the oldest vertex of its component
   Annotations<K> annotations_;
@@ -162,7 +158,7 @@ void LensSweep<K>::run() {
 
 template <Field K>
 bool LensSweep<K>::is_bin_idle(std::size_t bin) {
-  // A lens that is not empty stays so.
+  // A lens that is not empty stays so, and its edge joins no components.
   if (!can_bins_be_idle()) return false;
   const auto have_lenses = [&](std::span<const FlagEdge> edges) {
     return graph_.have_lenses(edges, context_);
@@ -225,7 +221,6 @@ void LensSweep<K>::join_or_give_birth(Position position, const FlagEdge& e) {
   if (elder != younger) {
     if (age_[younger] < age_[elder]) std::swap(elder, younger);
     sets_.link(younger, elder);
-    --components_left_;
     observer_.on_join(elder, younger, position);
     return;
   }
