@@ -57,7 +57,7 @@ MUTANTS = [
     ("cubical: superlevel sets forget the sign", CUBICAL,
      "grid_.superlevel = options.superlevel;", "grid_.superlevel = false;", ["known_images"]),
     ("cubical: threshold exclusive", CUBICAL,
-     "value <= grid_.limit)", "value < grid_.limit)", ["representatives_random"]),
+     "value <= grid_.limit)", "value < grid_.limit)", ["arrows_tests"]),
     ("cubical, by stars: threshold exclusive", "libph/src/cubical/star_grid.cpp",
      ": static_cast<double>(x)) <= limit;", ": static_cast<double>(x)) < limit;", ["known_images"]),
     ("rips: facets all with one sign", RIPS,
