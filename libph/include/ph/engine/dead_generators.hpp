@@ -107,7 +107,7 @@ class DeadGenerators {
   std::uint32_t count_ = 0;
   std::pmr::vector<Combination> combinations_;  // by generator; of those that live none
   std::pmr::vector<Word> dead_;                 // a bit for each generator
-  Row for_vectors_, for_combinations_;
+  Row for_vectors_, for_combinations_;          // a combination is updated while a vector is
 };
 
 template <Field K>
