@@ -158,8 +158,7 @@ TEST(Barcodes, AreOrderedByDimensionBirthDeathAndBirthCell) {
   EXPECT_TRUE(barcode.bars(2).empty());
 }
 
-// In the order of random numbers, and turned round; many bars of one birth are sorted in another
-// way.
+// In any order and turned round; few and many bars of one birth are sorted differently.
 TEST(Barcodes, WithoutCellsAreOrderedByValues) {
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     Generator random(seed);
