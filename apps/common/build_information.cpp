@@ -57,7 +57,8 @@ std::string build_information() {
   line("Eigen", eigen_version());
   line("fmt", fmt_version());
   line("CLI11", CLI11_VERSION);
-  // Of the shared libraries that were found at the start, which may be younger than their headers.
+  line("linked", PH_IS_STATIC ? "statically" : "dynamically");
+  // Of the library that is there, which may be younger than its headers if it is a shared one.
   line("libpng", png_get_libpng_ver(nullptr));
   line("PNG plots", png_plot_support().empty() ? "no" : png_plot_support());
   line("zlib", zlibVersion());

@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT
+// All functions of fmt that its users call, compiled once: FMT_HEADER_ONLY defines them inline, and
+// -fkeep-inline-functions keeps those that nothing here calls.
+#include <fmt/format.h>
+
+namespace {
+[[maybe_unused, gnu::used]] std::string (*const vformat)(fmt::string_view, fmt::format_args) =
+    fmt::vformat;
+}

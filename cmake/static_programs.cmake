@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: MIT
+# Programs that need no shared library: docs/adr/0018-static-programs.md. Sets PH_IS_STATIC, and
+# PH_FMT, what to link for fmt; makes ZLIB, PNG and FreeType be found as archives.
+set(PH_STATIC_PROGRAMS AUTO CACHE STRING
+    "Link ph-barcode and ph-segment statically: ON, OFF, or AUTO: if all archives are there")
+set_property(CACHE PH_STATIC_PROGRAMS PROPERTY STRINGS AUTO ON OFF)
+set(PH_IS_STATIC FALSE)
+set(PH_FMT fmt::fmt)
+
+# For each of our programs.
+function(ph_link_program program)
+  if(NOT PH_IS_STATIC)
+    return()
+  endif()
+  target_link_options(${program} PRIVATE -static -Wl,--gc-sections)
+  if(PH_LINKS_IN_ORDER)
+    target_link_options(${program} PRIVATE -Wl,-T,${PH_ORDER})
+    set_property(TARGET ${program} APPEND PROPERTY LINK_DEPENDS ${PH_ORDER})
+  endif()
+endfunction()
+
+if(NOT PH_STATIC_PROGRAMS OR NOT PH_BUILD_APPS)
+  return()
+endif()
+
+find_library(PH_ARCHIVE_ZLIB libz.a)
+find_library(PH_ARCHIVE_PNG libpng.a)
+find_library(PH_ARCHIVE_FREETYPE libfreetype.a)
+find_library(PH_ARCHIVE_BROTLIDEC libbrotlidec.a)
+find_library(PH_ARCHIVE_BROTLICOMMON libbrotlicommon.a)
+mark_as_advanced(PH_ARCHIVE_ZLIB PH_ARCHIVE_PNG PH_ARCHIVE_FREETYPE PH_ARCHIVE_BROTLIDEC
+                 PH_ARCHIVE_BROTLICOMMON)
+set(PH_ARCHIVES ${PH_ARCHIVE_FREETYPE} ${PH_ARCHIVE_PNG} ${PH_ARCHIVE_BROTLIDEC}
+                ${PH_ARCHIVE_BROTLICOMMON} ${PH_ARCHIVE_ZLIB})
+if(NOT PH_ARCHIVES MATCHES NOTFOUND)
+  # Sanitizers, for one, cannot be linked statically.
+  include(CheckCXXSourceCompiles)
+  set(CMAKE_REQUIRED_LINK_OPTIONS -static)
+  set(CMAKE_REQUIRED_LIBRARIES ${PH_ARCHIVES})
+  check_cxx_source_compiles("
+    #include <iostream>
+    #include <thread>
+    extern \"C\" int FT_Init_FreeType(void**);
+    extern \"C\" unsigned png_access_version_number();
+    int main() {
+      void* library;
+      std::jthread([&] { std::cout << FT_Init_FreeType(&library) << png_access_version_number(); });
+    }" PH_LINKS_STATICALLY)
+  unset(CMAKE_REQUIRED_LINK_OPTIONS)
+  unset(CMAKE_REQUIRED_LIBRARIES)
+endif()
+if(PH_LINKS_STATICALLY)
+  message(STATUS "Programs: linked statically")
+elseif(PH_STATIC_PROGRAMS STREQUAL "AUTO")
+  message(STATUS "Programs: linked dynamically")
+  return()
+else()
+  message(FATAL_ERROR "PH_STATIC_PROGRAMS: cannot link statically with ${PH_ARCHIVES}")
+endif()
+
+set(PH_IS_STATIC TRUE)
+set(PH_ORDER ${CMAKE_CURRENT_LIST_DIR}/functions.ld)
+set(CMAKE_REQUIRED_LINK_OPTIONS -static -Wl,-T,${PH_ORDER})
+check_cxx_source_compiles("#include <iostream>\nint main() { std::cout << 1; }" PH_LINKS_IN_ORDER)
+unset(CMAKE_REQUIRED_LINK_OPTIONS)
+
+target_compile_options(ph_options INTERFACE -ffunction-sections)
+# What find_package() takes, whatever it found when the programs were linked dynamically.
+foreach(library ZLIB PNG FREETYPE)
+  set(${library}_LIBRARY ${PH_ARCHIVE_${library}})
+  set(${library}_LIBRARY_RELEASE ${PH_ARCHIVE_${library}})
+endforeach()
+
+# Debian has fmt as a shared library and as headers only.
+find_package(fmt 9 REQUIRED)
+add_library(ph_fmt STATIC ${CMAKE_CURRENT_LIST_DIR}/fmt/functions.cpp)
+target_compile_options(ph_fmt PRIVATE -w -ffunction-sections -fkeep-inline-functions)
+target_link_libraries(ph_fmt PRIVATE fmt::fmt-header-only)
+set(PH_FMT $<BUILD_INTERFACE:ph_fmt> $<INSTALL_INTERFACE:fmt::fmt>)
