@@ -88,6 +88,11 @@ std::size_t count_common(const Word* a, const Word* b, std::size_t words) {
 }
 
 PH_FOR_EACH_TARGET
+void add(Word* row, const Word* other, std::size_t words) {
+  for (std::size_t k = 0; k < words; ++k) row[k] ^= other[k];
+}
+
+PH_FOR_EACH_TARGET
 bool difference(Word* out, const Word* a, const Word* b, Word constant, const Word* mask,
                 std::size_t words) {
   Word any = 0;

@@ -55,6 +55,9 @@ std::size_t first_missing(const Word* set, const Word* row, std::size_t except, 
 
 std::size_t count_common(const Word* a, const Word* b, std::size_t words);
 
+/// row ^= other.
+void add(Word* row, const Word* other, std::size_t words);
+
 /// out = a ^ b ^ constant on the mask, unchanged elsewhere. @return whether that is not zero.
 bool difference(Word* out, const Word* a, const Word* b, Word constant, const Word* mask,
                 std::size_t words);

@@ -54,17 +54,16 @@ class Annotations {
         members_(memory),
         links_(memory),
         seen_(memory),
+        fresh_(memory),
+        unused_(memory),
         dead_(field, memory),
         holders_(memory),
         sums_(memory),
         known_(16, Hash{this}, Equal{this}, memory),
         scratch_(memory),
         merged_(memory) {
-    vectors_.emplace_back();  // the zero class
-    hashes_.push_back(0);
-    members_.emplace_back();
-    links_.push_back({});
-    seen_.push_back(0);
+    add_class();  // the zero class
+    unused_.clear();
   }
   Annotations(const Annotations&) = delete;
   Annotations& operator=(const Annotations&) = delete;
@@ -161,6 +160,10 @@ class Annotations {
   void change_holders(std::uint32_t id, const Vector& before);
   /// The class of scratch_.
   Class intern();
+  /// Room for another one.
+  void add_class();
+  /// Forgets the sums since the last call that no edge has got.
+  void forget_fresh();
   /// The hash of a vector is the sum of those of its terms as vectors over Z/2, the same for +-a.
   std::size_t hash(const Term& t) const {
     const auto size = static_cast<std::uint64_t>(std::abs(field_.to_int(t.coefficient())));
@@ -189,8 +192,10 @@ class Annotations {
   std::pmr::vector<Vector> vectors_;                  // by class
   std::pmr::vector<std::size_t> hashes_;              // by class
   std::pmr::vector<std::pmr::vector<Edge>> members_;  // by class
-  std::pmr::vector<Class> links_;         // by class: what it became; itself while it is one
-  std::pmr::vector<std::uint32_t> seen_;  // by class: how many deaths it has learnt of
+  std::pmr::vector<Class> links_;           // by class: what it became; itself while it is one
+  std::pmr::vector<std::uint32_t> seen_;    // by class: how many deaths it has learnt of
+  std::pmr::vector<std::uint32_t> fresh_;   // classes made since the last kill
+  std::pmr::vector<std::uint32_t> unused_;  // numbers of classes that may be given again
   DeadGenerators<K> dead_;
   std::pmr::vector<IdSet> holders_;  // by generator: classes it occurs in, if values are kept
   FlatMap<Class> sums_;              // of two classes, until the next kill
@@ -221,23 +226,43 @@ auto Annotations<K>::follow(Class a) -> Class {
 template <Field K>
 auto Annotations<K>::intern() -> Class {
   if (scratch_.empty()) return {};
-  if (vectors_.size() > kMostClasses)
-    throw Error(ErrorKind::resource, "too many classes of edges are alive; lower the threshold");
-  const auto fresh = static_cast<std::uint32_t>(vectors_.size());
-  vectors_.emplace_back(scratch_.begin(), scratch_.end());
-  hashes_.push_back(hash(scratch_));
+  if (unused_.empty()) add_class();
+  const std::uint32_t fresh = unused_.back();
+  vectors_[fresh].assign(scratch_.begin(), scratch_.end());
+  hashes_[fresh] = hash(scratch_);
   const auto [it, is_new] = known_.insert(fresh);
-  if (!is_new) {
-    const Class found{*it, are_opposite(fresh, *it)};
-    vectors_.pop_back();
-    hashes_.pop_back();
-    return found;
-  }
-  members_.emplace_back();
-  links_.push_back({fresh, false});
-  seen_.push_back(dead_.count());
+  if (!is_new) return {*it, are_opposite(fresh, *it)};
+  unused_.pop_back();
+  links_[fresh] = {fresh, false};
+  seen_[fresh] = dead_.count();
+  fresh_.push_back(fresh);
   change_holders(fresh, {});
   return {fresh, false};
+}
+
+template <Field K>
+void Annotations<K>::add_class() {
+  if (vectors_.size() > kMostClasses)
+    throw Error(ErrorKind::resource, "too many classes of edges are alive; lower the threshold");
+  unused_.push_back(static_cast<std::uint32_t>(vectors_.size()));
+  vectors_.emplace_back();
+  hashes_.push_back(0);
+  members_.emplace_back();
+  links_.push_back({});
+  seen_.push_back(0);
+}
+
+template <Field K>
+void Annotations<K>::forget_fresh() {
+  for (const std::uint32_t id : fresh_) {
+    if (links_[id].id != id || !members_[id].empty()) continue;
+    known_.erase(id);
+    scratch_.assign(vectors_[id].begin(), vectors_[id].end());
+    vectors_[id].clear();
+    change_holders(id, scratch_);
+    unused_.push_back(id);
+  }
+  fresh_.clear();
 }
 
 template <Field K>
@@ -324,9 +349,11 @@ void Annotations<K>::kill(Class relation) {
   const Generator g = youngest(relation);
   sums_.clear();
   known_.erase(id);
+  if (members_[id].empty()) unused_.push_back(id);
   erase(id);
+  forget_fresh();
   scratch_.assign(vectors_[id].begin(), vectors_[id].end());
-  dead_.add(std::move(vectors_[id]));
+  dead_.add(scratch_);
   release(vectors_[id]);
   if (!keeps_values_) return;
   const IdSet holders = std::move(holders_[g]);
