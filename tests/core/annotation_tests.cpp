@@ -101,15 +101,16 @@ template <Field K>
 void check_dead_generators(const K& field, Generator& random) {
   using Vector = typename DeadGenerators<K>::Vector;
   using Coefficients = std::vector<typename K::Element>;  // by generator
-  const auto count = static_cast<std::size_t>(random.integer(2, 200));
+  const auto count = static_cast<std::size_t>(random.integer(2, 300));
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
   DeadGenerators<K> dead(field, memory);
   const auto is_dead = [&](std::size_t g) { return dead.contains(static_cast<std::uint32_t>(g)); };
   const int most = random.coin() ? 8 : 100;  // terms: relations are lists, or rows of bits over Z/2
   const auto random_vector = [&](bool of_the_living) {
     Coefficients v(count, field.from_int(0));
+    const int last = static_cast<int>(count) - 1, first = random.coin() ? 0 : last / 2;
     for (int k = random.integer(1, most); k-- > 0;)
-      v[static_cast<std::size_t>(random.integer(0, static_cast<int>(count) - 1))] =
+      v[static_cast<std::size_t>(random.integer(first, last))] =
           field.from_int(random.integer(-9, 9));
     for (std::size_t g = 0; g < count; ++g)
       if (of_the_living && is_dead(g)) v[g] = field.from_int(0);
