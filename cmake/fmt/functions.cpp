@@ -4,6 +4,6 @@
 #include <fmt/format.h>
 
 namespace {
-[[maybe_unused, gnu::used]] std::string (*const vformat)(fmt::string_view,
-                                                         fmt::format_args) = fmt::vformat;
+[[maybe_unused, gnu::used]] std::string (*const kVformat)(fmt::string_view,
+                                                          fmt::format_args) = fmt::vformat;
 }
