@@ -32,7 +32,8 @@ mark_as_advanced(PH_ARCHIVE_ZLIB PH_ARCHIVE_PNG PH_ARCHIVE_FREETYPE PH_ARCHIVE_B
                  PH_ARCHIVE_BROTLICOMMON)
 set(PH_ARCHIVES ${PH_ARCHIVE_FREETYPE} ${PH_ARCHIVE_PNG} ${PH_ARCHIVE_BROTLIDEC}
                 ${PH_ARCHIVE_BROTLICOMMON} ${PH_ARCHIVE_ZLIB})
-if(NOT PH_ARCHIVES MATCHES NOTFOUND)
+# Clang lacks -fkeep-inline-functions, see below.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT PH_ARCHIVES MATCHES NOTFOUND)
   # Sanitizers, for one, cannot be linked statically.
   include(CheckCXXSourceCompiles)
   set(CMAKE_REQUIRED_LINK_OPTIONS -static)
@@ -55,11 +56,12 @@ elseif(PH_STATIC_PROGRAMS STREQUAL "AUTO")
   message(STATUS "Programs: linked dynamically")
   return()
 else()
-  message(FATAL_ERROR "PH_STATIC_PROGRAMS: cannot link statically with ${PH_ARCHIVES}")
+  message(FATAL_ERROR "PH_STATIC_PROGRAMS: ${CMAKE_CXX_COMPILER_ID} cannot link statically with "
+                      "${PH_ARCHIVES}; needs GCC and these archives")
 endif()
 
 set(PH_IS_STATIC TRUE)
-set(PH_ORDER ${CMAKE_CURRENT_LIST_DIR}/functions.ld)
+set(PH_ORDER ${CMAKE_CURRENT_LIST_DIR}/function_order.ld)
 set(CMAKE_REQUIRED_LINK_OPTIONS -static -Wl,-T,${PH_ORDER})
 check_cxx_source_compiles("#include <iostream>\nint main() { std::cout << 1; }" PH_LINKS_IN_ORDER)
 unset(CMAKE_REQUIRED_LINK_OPTIONS)
@@ -73,7 +75,7 @@ endforeach()
 
 # Debian has fmt as a shared library and as headers only.
 find_package(fmt 9 REQUIRED)
-add_library(ph_fmt STATIC ${CMAKE_CURRENT_LIST_DIR}/fmt/functions.cpp)
+add_library(ph_fmt STATIC ${CMAKE_CURRENT_LIST_DIR}/fmt_functions.cpp)
 target_compile_options(ph_fmt PRIVATE -w -ffunction-sections -fkeep-inline-functions)
 target_link_libraries(ph_fmt PRIVATE fmt::fmt-header-only)
 set(PH_FMT $<BUILD_INTERFACE:ph_fmt> $<INSTALL_INTERFACE:fmt::fmt>)

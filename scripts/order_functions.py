@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes cmake/functions.ld, which puts side by side what most runs of the programs go through:
+"""Writes cmake/function_order.ld, which puts side by side what most runs of the programs go through:
 order_functions.py BUILD (a folder with statically linked programs). Needs valgrind, nm and NumPy.
 What has another name by now is linked elsewhere: order_functions.py --check BUILD fails when that
 is so for more than a tenth of it."""
+import argparse
 import os
 import re
 import subprocess
@@ -13,9 +14,8 @@ from bisect import bisect_left, bisect_right
 from os.path import commonprefix
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-RESULT = os.path.join(HERE, "..", "cmake", "functions.ld")
+RESULT = os.path.join(HERE, "..", "cmake", "function_order.ld")
 UNUSED = 2000  # bytes of unused functions that are taken along for one pattern less
-
 MOST_STALE = 0.1  # of the patterns
 
 HEADER = """/* SPDX-License-Identifier: MIT
@@ -64,12 +64,12 @@ def executed(trace):
     result, address = set(), 0
     with open(trace) as file:
         for line in file:
-            if found := re.match(r"(0x[0-9a-f]+|\+\d+|\*) ", line):
+            if found := re.match(r"(0x[0-9a-f]+|[+-]\d+|\*) ", line):
                 word = found[1]
                 if word[0] == "0":
                     address = int(word, 16)
-                elif word[0] == "+":
-                    address += int(word[1:])
+                elif word != "*":  # as before
+                    address += int(word)
                 result.add(address)
     return result
 
@@ -130,16 +130,20 @@ def check(programs):
 
 
 def main():
-    sys.setrecursionlimit(10_000)
-    programs = {name: os.path.abspath(f"{sys.argv[-1]}/apps/{name}/ph-{name}")
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("build")
+    parser.add_argument("--check", action="store_true")
+    arguments = parser.parse_args()
+    programs = {name: os.path.abspath(f"{arguments.build}/apps/{name}/ph-{name}")
                 for name in ("barcode", "segment")}
-    if sys.argv[1] == "--check":
+    if arguments.check:
         return check(programs)
+    sys.setrecursionlimit(10_000)
     used, sizes = set(), {}
     with tempfile.TemporaryDirectory() as folder:
         inputs(folder)
-        for name, *arguments in RUNS:
-            used |= {section(f) for f in used_functions(programs[name], arguments, folder)}
+        for name, *options in RUNS:
+            used |= {section(f) for f in used_functions(programs[name], options, folder)}
     for program in programs.values():
         sizes.update((section(name), size) for _, size, name in functions(program)
                      if name.startswith("_Z"))  # those of C lie where their archives have them
