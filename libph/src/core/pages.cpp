@@ -9,9 +9,9 @@
 namespace ph {
 namespace {
 
-// Large blocks lie on pages of 2 MiB where the system has them for those who ask: a few faults in
+// Blocks lie on pages of 2 MiB where the system has them for those who ask: a few faults in
 // place of thousands, and what is read in no order misses the table of pages less often.
-constexpr std::size_t kHugePage = std::size_t{2} << 20, kLeastHuge = 2 * kHugePage;
+constexpr std::size_t kHugePage = std::size_t{2} << 20;
 
 // Says what the whole pages of a block are for.
 void advise(void* block, std::size_t bytes, std::size_t page, int advice) {
@@ -22,7 +22,7 @@ void advise(void* block, std::size_t bytes, std::size_t page, int advice) {
 
 void prefer_huge_pages(void* block, std::size_t bytes) {
 #if defined(MADV_HUGEPAGE)
-  if (bytes >= kLeastHuge) advise(block, bytes, kHugePage, MADV_HUGEPAGE);
+  advise(block, bytes, kHugePage, MADV_HUGEPAGE);
 #endif
 }
 

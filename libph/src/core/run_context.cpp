@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 #include "ph/core/error.hpp"
@@ -22,12 +23,18 @@ constexpr double kMiB = 1024.0 * 1024.0;
                           static_cast<double>(bytes) / kMiB));
 }
 
-// The largest blocks begin where a huge page does; smaller ones would leave too much room between
-// them where memory is short.
-constexpr std::size_t kHugePage = std::size_t{2} << 20, kLeastAligned = 4 * kHugePage;
+constexpr std::size_t kHugePage = std::size_t{2} << 20;
 
-std::size_t alignment_of(std::size_t bytes, std::size_t alignment) {
-  return bytes < kLeastAligned ? alignment : std::max(alignment, kHugePage);
+// What is asked of the system for a block. One that fills huge pages, or nearly, begins and ends
+// where they do; others would leave too much room where memory is short.
+struct Request {
+  std::size_t bytes, alignment;
+};
+Request request_for(std::size_t bytes, std::size_t alignment) {
+  constexpr std::size_t nearly = 5;  // at most a fifth of a block is left over
+  const std::size_t rest = (kHugePage - bytes % kHugePage) % kHugePage;
+  if (rest > bytes / nearly || bytes > SIZE_MAX - rest) return {bytes, alignment};
+  return {bytes + rest, std::max(alignment, kHugePage)};
 }
 
 }  // namespace
@@ -50,21 +57,22 @@ void MemoryBudget::add(std::size_t bytes) {
 }
 
 void* MemoryBudget::do_allocate(std::size_t bytes, std::size_t alignment) {
-  add(bytes);
+  const Request request = request_for(bytes, alignment);
+  add(request.bytes);
   try {
-    void* const block =
-        std::pmr::new_delete_resource()->allocate(bytes, alignment_of(bytes, alignment));
-    prefer_huge_pages(block, bytes);
+    void* const block = std::pmr::new_delete_resource()->allocate(request.bytes, request.alignment);
+    prefer_huge_pages(block, request.bytes);
     return block;
   } catch (...) {
-    subtract(bytes);
+    subtract(request.bytes);
     throw;
   }
 }
 
 void MemoryBudget::do_deallocate(void* p, std::size_t bytes, std::size_t alignment) {
-  std::pmr::new_delete_resource()->deallocate(p, bytes, alignment_of(bytes, alignment));
-  subtract(bytes);
+  const Request request = request_for(bytes, alignment);
+  std::pmr::new_delete_resource()->deallocate(p, request.bytes, request.alignment);
+  subtract(request.bytes);
 }
 
 void RunContext::poll() const {
