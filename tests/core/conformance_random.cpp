@@ -152,6 +152,46 @@ TEST(RandomConformance, LensOfManyVertices) {
   });
 }
 
+// Many classes of H1, which a few are here: formal from the first on, and solved at once or later.
+TEST(RandomConformance, LensFormally) {
+  std::size_t finite = 0;
+  for_each_seed(20000, [&](Generator& random, bool ties, std::int64_t) {
+    const Index n = random.integer(4, random.integer(0, 9) == 0 ? 24 : 12);
+    const Rips rips = random.coin() ? Rips(random.distances(n, ties))
+                                    : Rips(random.sparse(n, ties, random.real()));
+    rips.with_filtration(1, [&](const auto& f) {
+      const auto oracle = pairs_of(f, 1, 2, Engine::standard);
+      for (const std::size_t classes : {1, 4})
+        for (const std::size_t relations : {1, 5}) {
+          const LensTuning formal{.layout = LensLayout::rows,
+                                  .classes_for_formal = classes,
+                                  .relations_for_formal = relations};
+          EXPECT_EQ(pairs_of_lens(f, 1, 2, formal, -1), oracle);
+        }
+      for (const Pair& p : oracle)
+        finite += p.bar.dim == 1 && p.bar.persistence() > 0 && !p.death_cell.empty() ? 1 : 0;
+    });
+  });
+  EXPECT_GT(finite, 1000U);  // the test is about something
+}
+
+// The same where classes of edges are many: lists become rows, and more than once.
+TEST(RandomConformance, LensFormallyOfManyPoints) {
+  for_each_seed(100, [](Generator& random, bool ties, std::int64_t) {
+    const Rips rips(random.distances(random.integer(60, 150), ties));
+    rips.with_filtration(1, [&](const auto& f) {
+      const LensTuning plain{.layout = LensLayout::rows, .classes_for_formal = SIZE_MAX};
+      const auto expected = pairs_of_lens(f, 1, 2, plain, -1);
+      for (const std::size_t relations : {1, 50, 1000}) {
+        const LensTuning formal{.layout = LensLayout::rows,
+                                .classes_for_formal = 20,
+                                .relations_for_formal = relations};
+        EXPECT_EQ(pairs_of_lens(f, 1, 2, formal, -1), expected);
+      }
+    });
+  });
+}
+
 // Enough points for many classes of H2 to live at once; cocycles are rows at once, later or never.
 TEST(RandomConformance, LensSurfaces) {
   std::size_t finite = 0;

@@ -42,6 +42,16 @@ void ActiveEdges::insert(Vertex u, Vertex v, Label at_u, Label at_v) {
   rows_.set(v, u);
 }
 
+void ActiveEdges::clear() {
+  for (Vertex u = 0; u < vertex_count(); ++u) {
+    if (has_rows())
+      for (const Vertex v : at_[u].neighbours) rows_.clear(u, v);
+    at_[u].neighbours.clear();
+    at_[u].labels.clear();
+    degrees_[u] = 0;
+  }
+}
+
 void ActiveEdges::erase(Vertex u, Vertex v) {
   erase_at(u, v);
   erase_at(v, u);

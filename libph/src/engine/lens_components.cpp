@@ -2,6 +2,8 @@
 #include "ph/engine/lens_components.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 
 namespace ph {
 namespace {
@@ -52,6 +54,34 @@ void LensComponents::find(const FlagEdge& e, const LensHint& hint) {
   apex_ = hub_ = kNone;
   if (hint.kind == LensHint::Kind::cone) set_apex(e, vertex);
   if (hint.kind == LensHint::Kind::hub) hub_ = vertex;
+}
+
+void LensComponents::find_roots(const FlagEdge& e) {
+  constexpr std::size_t few = 16;
+  std::array<Vertex, few> vertices;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < graph_.words(); ++k)
+    for (Word rest = graph_.lens()[k]; rest != 0; rest &= rest - 1) {
+      if (count == few) return find(e);
+      vertices[count++] =
+          static_cast<Vertex>(k * 64 + static_cast<std::size_t>(std::countr_zero(rest)));
+    }
+  roots_.clear();
+  sets_.clear();
+  apex_ = hub_ = kNone;
+  // Bits say which of them have been met, and which of these have yet to look around.
+  for (std::uint32_t met = 0, left = 0, i = 0; i < count; ++i) {
+    if ((met >> i & 1) != 0) continue;
+    roots_.push_back(vertices[i]);
+    for (left = 1U << i; left != 0;) {
+      const Word* row = graph_.row(vertices[static_cast<std::size_t>(std::countr_zero(left))]);
+      met |= left;
+      left &= left - 1;
+      for (std::size_t k = i + 1; k < count; ++k)
+        left |=
+            static_cast<std::uint32_t>(row[vertices[k] / 64] >> (vertices[k] % 64) & 1) << k & ~met;
+    }
+  }
 }
 
 bool LensComponents::take_component(Vertex first) {

@@ -37,6 +37,8 @@ class ActiveEdges {
   Label* find(Vertex u, Vertex v);
   /// Adds an edge that never was there. @param at_u, at_v its labels.
   void insert(Vertex u, Vertex v, Label at_u, Label at_v);
+  /// Takes all out.
+  void clear();
   /// Takes an edge out that is there.
   void erase(Vertex u, Vertex v);
 

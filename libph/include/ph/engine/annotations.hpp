@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <memory_resource>
+#include <span>
 #include <unordered_set>
 #include <vector>
 
@@ -83,6 +84,18 @@ class Annotations {
     assign(edge, intern());
     return g;
   }
+
+  /// Generators of the next numbers that no edge has yet.
+  void add_generators(std::size_t count);
+  /// A sum of generators.
+  Class class_of(std::span<const Term> sum) {
+    scratch_.assign(sum.begin(), sum.end());
+    dead_.eliminate_from(scratch_);
+    return intern();
+  }
+  /// Calls `visit(edge, terms)` for edges of non-zero class.
+  template <class Visit>
+  void for_each_edge(Visit&& visit);
 
   /// a(u,v).
   Class of(std::uint32_t u, std::uint32_t v) {
@@ -202,6 +215,22 @@ class Annotations {
   std::pmr::unordered_set<std::uint32_t, Hash, Equal> known_;
   Vector scratch_, merged_;
 };
+
+template <Field K>
+void Annotations<K>::add_generators(std::size_t count) {
+  generators_ += static_cast<Generator>(count);
+  if (keeps_values_) holders_.resize(generators_);
+}
+
+template <Field K>
+template <class Visit>
+void Annotations<K>::for_each_edge(Visit&& visit) {
+  for (std::uint32_t id = 1; id < vectors_.size(); ++id) {
+    if (links_[id].id == id) resolve({id});  // may join classes
+  }
+  for (std::uint32_t id = 1; id < vectors_.size(); ++id)
+    for (const Edge& edge : members_[id]) visit(edge, std::span<const Term>(vectors_[id]));
+}
 
 template <Field K>
 auto Annotations<K>::resolve(Class a) -> Class {

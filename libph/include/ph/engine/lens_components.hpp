@@ -42,6 +42,8 @@ class LensComponents {
   void find(const FlagEdge& e);
   /// The same with what is known of it.
   void find(const FlagEdge& e, const LensHint& hint);
+  /// Roots alone, of any lens: soon if it has few vertices.
+  void find_roots(const FlagEdge& e);
   /// Looks for an apex where `find` has met none. @return whether there is one.
   bool find_apex(const FlagEdge& e);
 

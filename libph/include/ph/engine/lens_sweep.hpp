@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <memory_resource>
 #include <optional>
 #include <span>
@@ -14,6 +15,7 @@
 #include "ph/core/run_context.hpp"
 #include "ph/engine/annotations.hpp"
 #include "ph/engine/elder_rule.hpp"
+#include "ph/engine/formal_annotations.hpp"
 #include "ph/engine/lens_components.hpp"
 #include "ph/engine/lens_cycles.hpp"
 #include "ph/engine/lens_graph.hpp"
@@ -61,10 +63,12 @@ class LensSweep {
         born_(&context.memory),
         age_(vertex_ages(vertices, births, &context.memory)),
         sets_(vertices, &context.memory),
-        annotations_(field, active_, wanted.cocycles, &context.memory),
         births_(&context.memory),
+        living_for_formal_(wanted.tuning.classes_for_formal),
         representative_(&context.memory) {
-    if (wanted.cycles) cycles_.emplace(graph_, annotations_, field, &context.memory);
+    annotations_ =
+        std::make_unique<Annotations<K>>(field, active_, wanted.cocycles, &context.memory);
+    if (wanted.cycles) cycles_.emplace(graph_, *annotations_, field, &context.memory);
     if (wanted.surfaces) surfaces_.emplace(graph_, field, wanted, observer, context);
   }
 
@@ -96,6 +100,30 @@ class LensSweep {
   void report_zero_length(Position position, const FlagEdge& e);
   /// Gives the edge its class, and each further component of its lens what it causes.
   void annotate(Position position, const FlagEdge& e);
+  /// The same where many classes live.
+  void annotate_formally(Position position, const FlagEdge& e);
+  /// Whether there are many, and no more is wanted than when they die.
+  bool wants_formal() const {
+    return std::same_as<K, Z2> && living_ >= living_for_formal_ && layout_ == LensLayout::rows &&
+           !surfaces_ && !wanted_.cycles && !wanted_.cocycles &&
+           graph_.vertex_count() <= wanted_.tuning.vertices_of_active_rows &&
+           FormalAnnotations::bytes(graph_.vertex_count()) <= most_bytes_for_formal();
+  }
+  double most_bytes_for_formal() const {
+    constexpr double most = 1 << 29, share = 0.25;  // of what memory is left
+    return std::min(most, share * static_cast<double>(context_.memory.left()));
+  }
+  void begin_formal();
+  auto report_death() {
+    return [this](Position birth, const FormalAnnotations::Triangle& death) {
+      observer_.on_death(birth, Triangle{death.edge, death.apex}, {});
+      --living_;
+    };
+  }
+  void solve_relations();
+  void end_formal();
+  /// births_ = those of the living.
+  void take_births();
   /// @param of_edge the annotation that the last edge is about to get.
   void kill(Class relation, Triangle death, Class of_edge);
   /// representative_ = what a generator is on the edges before this one, if cocycles are wanted,
@@ -117,8 +145,10 @@ class LensSweep {
   std::size_t living_ = 0;               // classes of H1
   std::pmr::vector<std::uint32_t> age_;  // by vertex
   DisjointSets sets_;                    // each root is the oldest vertex of its component
-  Annotations<K> annotations_;
-  std::pmr::vector<Position> births_;  // by generator; kDead once it died
+  std::unique_ptr<Annotations<K>> annotations_;
+  std::pmr::vector<Position> births_;          // by generator; kDead once it died
+  std::unique_ptr<FormalAnnotations> formal_;  // has both instead, while there are many
+  std::size_t living_for_formal_;
   std::optional<LensCycles<K>> cycles_;
   std::pmr::vector<typename Observer::EdgeValue> representative_;
   std::optional<LensSurfaces<K>> surfaces_;
@@ -146,6 +176,10 @@ void LensSweep<K>::run() {
       ticker.tick();
     }
     first_unadded_bin_ = bin + 1;
+  }
+  if (formal_) {
+    if (formal_->has_rows()) formal_->solve(report_death());
+    take_births();
   }
   for (std::uint32_t g = 0; g < births_.size(); ++g) {
     if (births_[g] == kDead) continue;
@@ -181,14 +215,16 @@ void LensSweep<K>::add_edge(Position position) {
   const FlagEdge& e = edges_[position];
   const bool wants_graph = surfaces_ || wanted_.zero_length;
   const LensHint hint = helper_ ? helper_->scout().hint(position) : LensHint();
-  const LensGraph::Lens lens = graph_.find_lens(e, wants_graph);
+  const LensGraph::Lens lens = graph_.find_lens(e, wants_graph || formal_);
   if (lens.is_empty) {
     join_or_give_birth(position, e);
   } else {
     if (wanted_.zero_length) report_zero_length(position, e);
-    if (lens.touches_active || surfaces_) components_.find(e, hint);
+    if ((lens.touches_active || surfaces_) && !formal_) components_.find(e, hint);
     born_.clear();
-    if (lens.touches_active)
+    if (formal_)
+      annotate_formally(position, e);
+    else if (lens.touches_active)
       annotate(position, e);
     else if (surfaces_)
       for (std::size_t i = 1; i < components_.count(); ++i) born_.push_back(i);
@@ -224,22 +260,24 @@ void LensSweep<K>::join_or_give_birth(Position position, const FlagEdge& e) {
     observer_.on_join(elder, younger, position);
     return;
   }
-  if (cycles_) cycles_->add(e.u, e.v);
-  annotations_.add_generator({e.u, e.v, position});
-  births_.push_back(position);
   ++living_;
+  if (formal_) return formal_->give_birth({e.u, e.v, position});
+  if (cycles_) cycles_->add(e.u, e.v);
+  annotations_->add_generator({e.u, e.v, position});
+  births_.push_back(position);
+  if (wants_formal()) begin_formal();
 }
 
 template <Field K>
 void LensSweep<K>::annotate(Position position, const FlagEdge& e) {
   const auto around = [&](Vertex w) {
-    return annotations_.sum(annotations_.of(e.u, w), annotations_.of(w, e.v));
+    return annotations_->sum(annotations_->of(e.u, w), annotations_->of(w, e.v));
   };
   const Vertex first = graph_.global(components_.root(0));
   Class value = around(first);
   for (std::size_t i = 1; i < components_.count(); ++i) {
     const Vertex root = graph_.global(components_.root(i));
-    const Class difference = annotations_.sum(around(root), -value);
+    const Class difference = annotations_->sum(around(root), -value);
     if (difference.is_zero()) {
       born_.push_back(i);
       continue;
@@ -247,22 +285,89 @@ void LensSweep<K>::annotate(Position position, const FlagEdge& e) {
     kill(difference, {position, root}, value);
     value = around(first);
   }
-  if (!value.is_zero()) annotations_.assign({e.u, e.v, position}, value);
+  if (!value.is_zero()) annotations_->assign({e.u, e.v, position}, value);
+}
+
+template <Field K>
+void LensSweep<K>::annotate_formally(Position position, const FlagEdge& e) {
+  bits::for_each(graph_.lens(), 0, graph_.words(),
+                 [&](std::size_t w) { formal_->prefetch_path(e.u, static_cast<Vertex>(w), e.v); });
+  components_.find_roots(e);
+  const auto around = [&](std::size_t i) {
+    return formal_->path(e.u, graph_.global(components_.root(i)), e.v);
+  };
+  for (std::size_t i = 0; i < components_.count(); ++i) formal_->prefetch(around(i));
+  for (std::size_t i = 1; i < components_.count(); ++i)
+    formal_->relate(around(i), around(0), {position, graph_.global(components_.root(i))},
+                    report_death());
+  formal_->assign({e.u, e.v, position}, formal_->sum(around(0)));
+  if (formal_->is_due()) solve_relations();
+}
+
+template <Field K>
+void LensSweep<K>::begin_formal() {
+  if constexpr (std::same_as<K, Z2>) {
+    std::pmr::vector<FormalAnnotations::Generator> numbers(births_.size(), 0, &context_.memory),
+        sum(&context_.memory);
+    formal_ = std::make_unique<FormalAnnotations>(
+        graph_.vertex_count(), wanted_.tuning.relations_for_formal, &context_.memory);
+    for (std::size_t g = 0; g < births_.size(); ++g)
+      if (births_[g] != kDead) numbers[g] = formal_->add_generator(births_[g]);
+    annotations_->for_each_edge([&](const auto& edge, const auto& terms) {
+      sum.clear();
+      for (const auto& t : terms) sum.push_back(numbers[t.cell]);
+      formal_->assign({edge.u, edge.v, edge.position}, formal_->class_of(sum));
+    });
+    annotations_.reset();
+    active_.clear();
+  }
+}
+
+template <Field K>
+void LensSweep<K>::solve_relations() {
+  if (!formal_->has_rows() && formal_->bytes_to_solve() > most_bytes_for_formal()) return;
+  const bool is_useful = formal_->solve(report_death());
+  if (!is_useful || 2 * living_ <= wanted_.tuning.classes_for_formal) end_formal();
+}
+
+template <Field K>
+void LensSweep<K>::end_formal() {
+  if constexpr (std::same_as<K, Z2>) {
+    formal_->make_rows();
+    take_births();
+    annotations_ =
+        std::make_unique<Annotations<K>>(field_, active_, wanted_.cocycles, &context_.memory);
+    annotations_->add_generators(births_.size());
+    std::pmr::vector<typename Annotations<K>::Term> terms(&context_.memory);
+    formal_->for_each_edge([&](const auto& edge, const auto& sum) {
+      terms.clear();
+      for (const auto g : sum) terms.emplace_back(g, field_.from_int(1));
+      annotations_->assign({edge.u, edge.v, edge.position}, annotations_->class_of(terms));
+    });
+    formal_.reset();
+    living_for_formal_ = std::max(living_for_formal_, 2 * living_);
+  }
+}
+
+template <Field K>
+void LensSweep<K>::take_births() {
+  births_.clear();
+  formal_->for_each_birth([&](Position birth) { births_.push_back(birth); });
 }
 
 template <Field K>
 void LensSweep<K>::kill(Class relation, Triangle death, Class of_edge) {
-  const auto g = annotations_.youngest(relation);
+  const auto g = annotations_->youngest(relation);
   find_representative(g, relation);
   if (wanted_.cocycles) {
-    const auto value = annotations_.value(of_edge, g);
+    const auto value = annotations_->value(of_edge, g);
     if (!field_.is_zero(value)) representative_.push_back({death.edge, value});
   }
   observer_.on_death(births_[g], death, representative_);
   if (cycles_) cycles_->erase(g);
   births_[g] = kDead;
   --living_;
-  annotations_.kill(relation);
+  annotations_->kill(relation);
 }
 
 template <Field K>
@@ -270,7 +375,7 @@ template <class Values>
 void LensSweep<K>::find_representative(typename Annotations<K>::Generator g, Values of_cycle) {
   representative_.clear();
   if (wanted_.cocycles)
-    annotations_.for_each_value(g, [&](const auto& edge, typename K::Element a) {
+    annotations_->for_each_value(g, [&](const auto& edge, typename K::Element a) {
       representative_.push_back({edge.position, a});
     });
   if (cycles_)

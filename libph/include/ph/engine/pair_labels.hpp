@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+namespace ph {
+
+/// Numbers of pairs of vertices, as a matrix: 16 bits each while they suffice.
+class PairLabels {
+ public:
+  using Vertex = std::uint32_t;
+  using Label = std::uint32_t;
+
+  PairLabels(std::size_t vertices, std::pmr::memory_resource* memory)
+      : vertices_(vertices), short_(vertices * vertices, 0, memory), long_(memory) {}
+  /// 0 if it was never set.
+  Label operator()(Vertex u, Vertex v) const {
+    const std::size_t i = u * vertices_ + v;
+    return long_.empty() ? short_[i] : long_[i];
+  }
+  void set(Vertex u, Vertex v, Label label) {
+    if (label > UINT16_MAX && long_.empty()) long_.assign(short_.begin(), short_.end());
+    for (const std::size_t i : {u * vertices_ + v, v * vertices_ + u})
+      if (long_.empty())
+        short_[i] = static_cast<std::uint16_t>(label);
+      else
+        long_[i] = label;
+  }
+  /// Asks for a label that will be needed soon.
+  void prefetch(Vertex u, Vertex v) const {
+    const std::size_t i = u * vertices_ + v;
+    if (long_.empty())
+      __builtin_prefetch(&short_[i]);
+    else
+      __builtin_prefetch(&long_[i]);
+  }
+
+ private:
+  std::size_t vertices_;
+  std::pmr::vector<std::uint16_t> short_;
+  std::pmr::vector<Label> long_;  // of all pairs, once there is one that is not short
+};
+
+}  // namespace ph
