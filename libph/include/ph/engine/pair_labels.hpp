@@ -21,7 +21,10 @@ class PairLabels {
     return long_.empty() ? short_[i] : long_[i];
   }
   void set(Vertex u, Vertex v, Label label) {
-    if (label > UINT16_MAX && long_.empty()) long_.assign(short_.begin(), short_.end());
+    if (label > UINT16_MAX && long_.empty()) {
+      long_.assign(short_.begin(), short_.end());
+      short_ = std::pmr::vector<std::uint16_t>(short_.get_allocator());
+    }
     for (const std::size_t i : {u * vertices_ + v, v * vertices_ + u})
       if (long_.empty())
         short_[i] = static_cast<std::uint16_t>(label);
