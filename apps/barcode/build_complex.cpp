@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ph/complex/listed_cubes.hpp"
 #include "ph/complex/lower_star.hpp"
 #include "ph/complex/voxel_image.hpp"
 #include "ph/metric/distance_to_measure.hpp"
@@ -147,8 +148,13 @@ class Builder {
     if (options.periodic.size() > axes)
       throw Error(ErrorKind::usage, fmt::format("--periodic: found axis {}, expected 0 to {}",
                                                 options.periodic.size() - 1, axes - 1));
-    return {Cubical(image, options, context_), "cubical", arguments_.threshold,
-            image.values.empty(), std::nullopt};
+    BuiltComplex built{Cubical(image, options, context_), "cubical", arguments_.threshold,
+                       image.values.empty(), std::nullopt};
+    if (arguments_.check)
+      built.by_definition = [image, options](const RunContext& context) {
+        return listed_cubes(image, options, context);
+      };
+    return built;
   }
 
   template <class Data>

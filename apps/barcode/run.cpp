@@ -224,14 +224,13 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   Options options = with_plan(arguments.options, planned);
   // A bar that the threshold cuts is infinite, however short it would have been.
   if (built.cut) options.min_persistence = std::min(options.min_persistence, 0.0);
-  const auto compute = [&] {
-    Barcode bars = persistence(built.complex, options, session.context());
-    if (built.cut)
-      bars = cut_at(bars, built.complex, *built.cut, arguments.options.min_persistence);
+  const auto compute = [&](const AnyComplex& complex) {
+    Barcode bars = persistence(complex, options, session.context());
+    if (built.cut) bars = cut_at(bars, complex, *built.cut, arguments.options.min_persistence);
     if (!point_ids.empty()) bars = with_input_ids(bars, point_ids);
     return bars;
   };
-  const Barcode barcode = compute();
+  const Barcode barcode = compute(built.complex);
   watch.lap("persistence");
 
   int code = app::kOk;
@@ -240,7 +239,9 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
     options.engine = Engine::standard;
     options.collapse = Collapse::off;
     options.representatives = Representatives::none;
-    const std::string difference = first_difference(barcode, compute());
+    const std::string difference = first_difference(
+        barcode, built.by_definition ? compute(built.by_definition(session.context()))
+                                     : compute(built.complex));
     watch.lap("check");
     if (difference.empty()) {
       session.explain("check: the oracle agrees");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 // Checks of what represents the bars of one random image.
+#include <limits>
+
 #include "support/generators.hpp"
 #include "support/voxel_sets.hpp"
 
@@ -21,7 +23,10 @@ struct RandomImage {
     if (random.integer(0, 3) == 0)
       options.threshold =
           (options.superlevel ? -1 : 1) * (ties ? random.integer(0, 3) : random.real());
-    const double never = options.superlevel ? -kInfinity : kInfinity;
+    image.masked = random.coin();
+    const double never = image.masked         ? std::numeric_limits<double>::quiet_NaN()
+                         : options.superlevel ? -kInfinity
+                                              : kInfinity;
     if (random.integer(0, 2) == 0)
       for (int i = random.integer(1, 4); i-- > 0;) {
         const auto hole =

@@ -62,7 +62,9 @@ void refuse_nan(const CubicalImage& grid, const RunContext& context) {
         for (std::size_t i = begin; any && i < end; ++i)
           if (std::isnan(voxels[i]))
             throw Error(ErrorKind::bad_data,
-                        fmt::format("voxel {}: found nan, expected a number", i));
+                        fmt::format("voxel {}: found nan, expected a number in an image without "
+                                    "a mask",
+                                    i));
       }
     }
   });
@@ -89,7 +91,7 @@ Cubical::Cubical(const Image& image, const CubicalOptions& options, const RunCon
   grid_.is_in_file = voxels_.is_in_file();
   grid_.voxels_are_vertices = options.construction == CubicalOptions::Construction::vertices;
   grid_.superlevel = options.superlevel;
-  refuse_nan(grid_, context);
+  if (!image.masked) refuse_nan(grid_, context);
 
   cells_ = 1;
   for (int k = dim_ - 1; k >= 0; --k) {

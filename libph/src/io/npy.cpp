@@ -235,24 +235,10 @@ Image without_nan_pixels(Image image, const Input& input, const ReadOptions& opt
         input.fail({fmt::format("value at [{}]", place_of(at, image.extents)), "NaN", "a number",
                     "--nan drop masks such voxels"});
       }
-      constexpr T never = std::numeric_limits<T>::infinity();
-      if (in_file) {
-        values = voxels_in_file<T>(values.type(), all.size(), [&](std::span<T> to) {
-          for_each_block(all, true, input, [&](std::size_t begin, std::size_t end) {
-            std::ranges::replace_copy_if(all.subspan(begin, end - begin), to.data() + begin, is_nan,
-                                         never);
-            forget_file_pages(to.data() + begin, (end - begin) * sizeof(T));
-          });
-        });
-      } else {
-        values.change([&](auto& stored) {
-          if constexpr (std::is_same_v<T, typename std::decay_t<decltype(stored)>::value_type>)
-            std::ranges::replace_if(stored, is_nan, never);
-        });
-      }
     }
   });
-  if (masked > 0) note(options, fmt::format("{} voxels are NaN: masked", masked));
+  image.masked = masked > 0;
+  if (image.masked) note(options, fmt::format("{} voxels are NaN: masked", masked));
   if (image.values.empty() && !options.allow_empty) {
     input.fail({"no voxels", fmt::format("shape ({})", fmt::join(image.extents, ", ")),
                 "at least one", "--allow-empty accepts an empty image"});

@@ -77,8 +77,8 @@ DistanceMatrix read_dipha_distances(const Input& input, const ReadOptions& optio
 SparseDistances read_dipha_sparse(const Input& input, const ReadOptions& options);
 BoundaryInput read_dipha_boundary(const Input& input, const ReadOptions& options);
 
-/// Masks NaN (+infinity) or throws, as options.nan says; an image without voxels is an error unless
-/// options.allow_empty.
+/// Takes NaN as the mark of absent voxels or throws, as options.nan says; an image without voxels
+/// is an error unless options.allow_empty.
 Image without_nan_pixels(Image image, const Input& input, const ReadOptions& options);
 
 /// Brings the little-endian numbers of a record to this machine's byte order.

@@ -28,7 +28,7 @@ enum class Symmetrise {
 enum class NanPolicy {
   error,  ///< bad data; only a hole of a point cloud is accepted
   drop,   ///< points: the row is left out; distances: the pair is never joined (+infinity);
-          ///< images: the voxel never enters (+infinity)
+          ///< images: the voxel is absent, see Image::masked
 };
 
 /// What a two-dimensional array (NPY) holds.
@@ -106,10 +106,10 @@ SparseDistances read_sparse(const Input& input, const ReadOptions& options = {})
 
 /// An array of any dimension from NPY, NPZ, PNG (grey), PGM, DIPHA or NIfTI, by content. The axes
 /// are those of the file, in C order: a picture has (y, x), DIPHA and NIfTI have (x, y, z).
-/// +-infinity is legal; NaN is an error or, with NanPolicy::drop, +infinity. An array (but one of
-/// an archive) that would take more than a third of the memory left in the budget stays in its
-/// file, or in a temporary one where it is stored in another way than in memory; the file must not
-/// change meanwhile.
+/// +-infinity is legal; NaN is an error or, with NanPolicy::drop, an absent voxel. An array (but
+/// one of an archive) that would take more than a third of the memory left in the budget stays in
+/// its file, or in a temporary one where it is stored in another way than in memory; the file must
+/// not change meanwhile.
 Image read_image(const std::filesystem::path& path, const ReadOptions& options = {});
 Image read_image(const Input& input, const ReadOptions& options = {});
 /// NumPy's .npy: booleans, integers, floats (16, 32, 64 bits), both byte orders and both storage
