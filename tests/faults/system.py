@@ -109,6 +109,13 @@ def with_standard_input_file(_folder, content):
 
 
 @around
+def with_proc(_folder):
+    if not os.path.exists("/proc/self"):
+        raise Unavailable("no /proc")
+    yield {}
+
+
+@around
 def to_nobody(_folder):
     reader, writer = os.pipe()
     os.close(reader)
@@ -213,8 +220,9 @@ def inputs():
 
 
 def outputs():
-    for path in ("missing/out.csv", "square.txt/out.csv", ".", "/proc/out.csv", "x" * 300,
-                 "/dev/null/out.csv"):
+    yield refused(55, "-o /proc/out.csv", "square.txt", "-o", "/proc/out.csv", code=73, message=".",
+                  named="/proc/out.csv", around=with_proc())
+    for path in ("missing/out.csv", "square.txt/out.csv", ".", "x" * 300, "/dev/null/out.csv"):
         yield refused(55, f"-o {path[:20]}", "square.txt", "-o", path, code=73, message=".",
                       named=path[:200])
     yield refused(55, "--plot missing/out.svg", "square.txt", "--plot", "missing/out.svg", code=73,

@@ -249,7 +249,7 @@ TEST(ReadNpyCloud, TakesPointsAndOrganisedPoints) {
   const auto cloud = [](const std::string& bytes) {
     return read_cloud(Input::view(bytes, "c.npy"));
   };
-  const std::vector<float> six{1, 2, 3, kNan, 5, 6};
+  const std::vector<float> six{1, 2, 3, std::nanf(""), 5, 6};
   const Cloud points = cloud(npy("<f4", "(2, 3)", six));
   EXPECT_EQ(points.width, 2);
   EXPECT_FALSE(points.organised());
@@ -286,7 +286,7 @@ TEST(ReadDepth, KnowsWhichUnitIsUsual) {
   const auto depth = [](const std::string& bytes, const std::string& name = "d.npy") {
     return read_depth(Input::view(bytes, name));
   };
-  const DepthImage metres = depth(npy<float>("<f4", "(1, 3)", {0.5F, kNan, 2}));
+  const DepthImage metres = depth(npy<float>("<f4", "(1, 3)", {0.5F, std::nanf(""), 2}));
   EXPECT_EQ(metres.scale, 1);
   EXPECT_EQ(metres.depth.extents, (std::vector<Index>{1, 3}));
   const Cloud cloud = cloud_from_depth(metres.depth, {}, {{1, 1, 0, 0}}, metres.scale);
