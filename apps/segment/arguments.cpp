@@ -175,7 +175,8 @@ void add_scene_options(CLI::App& app, SegmentOptions& o) {
                         d.plane_noise),
             [&o](const std::string& v) { o.plane_noise = length("--plane-noise", v, true); });
   add_value(app, "--viewpoint", "X,Y,Z",
-            "where the sensor stood, metres (default: the file's VIEWPOINT, else 0,0,0)",
+            "where the sensor stood, metres (default: the file's VIEWPOINT, else 0,0,0; of an "
+            "organised cloud whose pixels' rays meet elsewhere that place, with a note)",
             [&o](const std::string& v) { o.viewpoint = parse_point("--viewpoint", v); });
 }
 

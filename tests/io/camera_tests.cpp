@@ -116,6 +116,7 @@ TEST(Camera, FaultsNameTheirPlace) {
       {"- 1\n", "c.yaml:1:1: list, found \"- 1\", expected a key before it"},
       {"", "c.yaml: no image_width"},
       {std::string("a\0b", 3), "not plain text"},
+      {std::string(2 << 20, ' '), "found 2097152 bytes, expected at most 1048576"},
       {"{\"width\": 640}", "not a camera of Open3D"},
       {"{\"width\": 640, \"height\": 480, \"intrinsic_matrix\": [1, 0, 3, 0, 1, 3, 0, 0, 1]}",
        "c.yaml:1:49: intrinsic_matrix, found [1, 0, 3"},

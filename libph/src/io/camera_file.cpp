@@ -229,6 +229,11 @@ Camera read_json(const Input& input) {
 
 Camera read_camera(const Input& input) {
   const std::string_view text = input.text();
+  constexpr std::size_t most = 1 << 20;
+  if (text.size() > most) {
+    input.fail({"not a camera", fmt::format("{} bytes", text.size()),
+                fmt::format("at most {}", most), std::string(kWhatItIs)});
+  }
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first != text.npos && text[first] == '{') return read_json(input);
   return CameraYaml(input).camera();
