@@ -78,8 +78,8 @@ TEST_F(Notes, AnotherFrame) {
   const std::string sensor = "0.093,0.000,1.457";
   write_cloud(at("base.pcd"), test::cloud_of(moved, scene_.kWidth, scene_.kHeight));
   ASSERT_EQ(run("base.pcd --json base.json"), 0) << err();
-  EXPECT_TRUE(notes("the rays of the pixels do not meet at the viewpoint of the input but at " +
-                    sensor))
+  EXPECT_TRUE(
+      notes("the rays of the pixels do not meet at the viewpoint of the input but at " + sensor))
       << err();
   EXPECT_TRUE(notes("2 segments")) << err();
   EXPECT_NE(contents(at("base.json")).find("\"viewpoint\": [0.0928"), std::string::npos)
@@ -87,8 +87,8 @@ TEST_F(Notes, AnotherFrame) {
   ASSERT_EQ(run("base.pcd --viewpoint " + sensor), 0) << err();
   EXPECT_EQ(std::ranges::count(err(), '\n'), 1) << err();
   ASSERT_EQ(run("base.pcd --viewpoint 0,0,0"), 0) << err();
-  EXPECT_TRUE(notes("--viewpoint: found 0.000,0.000,0.000, but the rays of the pixels meet at " +
-                    sensor))
+  EXPECT_TRUE(
+      notes("--viewpoint: found 0.000,0.000,0.000, but the rays of the pixels meet at " + sensor))
       << err();
 
   const auto points = static_cast<Index>(dense.size() / 3);
