@@ -89,11 +89,18 @@ int parse_steps(const std::string& text) {
   return static_cast<int>(app::parse_integer("--steps", text, 1, std::numeric_limits<int>::max()));
 }
 
+std::vector<std::string_view> names_of_presets() {
+  std::vector<std::string_view> names;
+  for (const CameraPreset& preset : camera_presets()) names.push_back(preset.name);
+  return names;
+}
+
 void add_input_options(CLI::App& app, Arguments& a) {
   app.add_option(
       "INPUT", a.inputs,
-      "point cloud: .pcd, .ply, .xyz or .csv; a stored merge tree (see --tree); with "
-      "--intrinsics also a depth image; - is standard input. Several, or a folder, are a "
+      "point cloud: .pcd, .ply, .xyz, .csv or .npy; a stored merge tree (see --tree); with "
+      "--camera or --intrinsics a depth image: .png, .pgm or .npy; - is standard input. Several, "
+      "or a folder, are a "
       "stream of frames: its outputs are folders (FOLDER/) or have a * for the frame's "
       "name, and --json gets one line a frame");
   app::add_path(app, "--frames-from", "LIST",
@@ -103,16 +110,25 @@ void add_input_options(CLI::App& app, Arguments& a) {
   app.add_flag("--stable-labels", a.stable_labels,
                "stream: an object keeps its label from frame to frame (by overlap in the image, of "
                "unorganised clouds in voxels); labels are then not in the order of size");
-  app::add_path(app, "--depth", "D.png", "depth image in place of INPUT; 0 is a hole",
+  app::add_path(app, "--depth", "D.png",
+                "depth image in place of INPUT: .png, .pgm or .npy; 0 and NaN are holes",
                 a.image.depth);
   app::add_path(app, "--color,--colour", "C.png", "colour image of the same size", a.image.colour);
-  add_value(app, "--intrinsics", "FX,FY,CX,CY",
-            "focal lengths and principal point of the depth image, pixels",
-            [&a](const std::string& v) {
-              const auto k = app::parse_numbers("--intrinsics", v, 4);
-              a.image.intrinsics = Intrinsics{k[0], k[1], k[2], k[3]};
-            });
-  add_value(app, "--depth-scale", "S", "depth units a metre (default: 1000, millimetres)",
+  CLI::Option* intrinsics = add_value(
+      app, "--intrinsics", "FX,FY,CX,CY",
+      "focal lengths and principal point of the depth image, pixels", [&a](const std::string& v) {
+        const auto k = app::parse_numbers("--intrinsics", v, 4);
+        a.image.camera = Camera{{k[0], k[1], k[2], k[3]}};
+      });
+  app::add_path(app, "--camera", "FILE|NAME",
+                fmt::format("the camera of the depth image in place of --intrinsics: a camera_info "
+                            "YAML of ROS, with its lens, an intrinsic JSON of Open3D, or the "
+                            "nominal values of {}",
+                            fmt::join(names_of_presets(), ", ")),
+                a.image.calibration)
+      ->excludes(intrinsics);
+  add_value(app, "--depth-scale", "S",
+            "depth units a metre (default: 1000, millimetres; floats: 1, metres)",
             [&a](const std::string& v) { a.image.scale = length("--depth-scale", v); });
   app.add_flag("--allow-empty", a.allow_empty,
                "a cloud without points is an empty result (default: an error)");
@@ -159,7 +175,8 @@ void add_scene_options(CLI::App& app, SegmentOptions& o) {
                         d.plane_noise),
             [&o](const std::string& v) { o.plane_noise = length("--plane-noise", v, true); });
   add_value(app, "--viewpoint", "X,Y,Z",
-            "where the sensor stood, metres (default: the file's VIEWPOINT, else 0,0,0)",
+            "where the sensor stood, metres (default: the file's VIEWPOINT, else 0,0,0; of an "
+            "organised cloud whose pixels' rays meet elsewhere that place, with a note)",
             [&o](const std::string& v) { o.viewpoint = parse_point("--viewpoint", v); });
 }
 
@@ -316,7 +333,16 @@ std::string scene_option(const CLI::App& app) {
   return {};
 }
 
-bool is_png(const std::string& path) { return path.ends_with(".png") || path.ends_with(".PNG"); }
+/// Whether an input is a depth image, by its name, where a camera is given.
+bool may_be_image(const std::string& path) {
+  constexpr std::array<std::string_view, 6> extensions = {".png", ".PNG", ".pgm",
+                                                          ".PGM", ".npy", ".NPY"};
+  return std::ranges::any_of(extensions, [&](auto e) { return path.ends_with(e); });
+}
+/// Without one, an array of NumPy is a cloud.
+bool must_be_image(const std::string& path) {
+  return may_be_image(path) && !path.ends_with(".npy") && !path.ends_with(".NPY");
+}
 
 void require_inputs(const Arguments& a) {
   const bool depth = !a.image.depth.empty(), several = a.is_stream();
@@ -327,8 +353,8 @@ void require_inputs(const Arguments& a) {
     reject("found both INPUT and --depth, expected one of them");
   for (const std::string& input : a.inputs) {
     if (input.empty()) reject("INPUT: found '', expected a path");
-    if (is_png(input) && !a.image.intrinsics)
-      reject(fmt::format("{}: expected --intrinsics FX,FY,CX,CY with a depth image",
+    if (must_be_image(input) && !a.image.has_camera())
+      reject(fmt::format("{}: expected --camera or --intrinsics FX,FY,CX,CY with a depth image",
                          printable(input)));
   }
   if (std::ranges::count(a.inputs, "-") + (a.frames_from == "-") > 1)
@@ -342,8 +368,8 @@ void require_inputs(const Arguments& a) {
 void require_consistent(const Arguments& a) {
   require_inputs(a);
   const bool depth = !a.image.depth.empty();
-  if (depth && !a.image.intrinsics) {
-    throw Error(ErrorKind::usage, "--depth: expected --intrinsics FX,FY,CX,CY with it");
+  if (depth && !a.image.has_camera()) {
+    throw Error(ErrorKind::usage, "--depth: expected --camera or --intrinsics FX,FY,CX,CY with it");
   }
   if (a.explain && a.files.to_standard_output()) {
     throw Error(ErrorKind::usage, "--explain and a result that goes to standard output, too");
@@ -351,8 +377,10 @@ void require_consistent(const Arguments& a) {
   if (!depth && !a.image.colour.empty()) {
     throw Error(ErrorKind::usage, "--color: expected --depth with it");
   }
-  if (a.image.intrinsics && !depth && !a.is_stream() && !is_png(a.inputs.front())) {
-    throw Error(ErrorKind::usage, "--intrinsics: expected a depth image, found a cloud");
+  if (!depth && !a.is_stream() && !may_be_image(a.inputs.front())) {
+    if (a.image.has_camera())
+      throw Error(ErrorKind::usage, fmt::format("{}: expected a depth image, found a cloud",
+                                                a.image.camera ? "--intrinsics" : "--camera"));
   }
 }
 
@@ -408,7 +436,7 @@ bool Arguments::is_stream() const {
 }
 
 bool Arguments::is_depth_image() const {
-  return !image.depth.empty() || (image.intrinsics && is_png(input));
+  return !image.depth.empty() || (image.has_camera() && may_be_image(input));
 }
 
 }  // namespace ph::segment

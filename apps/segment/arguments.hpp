@@ -18,9 +18,12 @@ namespace ph::segment {
 /// A depth image with what is needed to make a cloud of it.
 struct DepthInput {
   std::string depth;
-  std::string colour;                    ///< empty: none
-  std::optional<Intrinsics> intrinsics;  ///< pixels
-  double scale = 1000;                   ///< depth units a metre
+  std::string colour;            ///< empty: none
+  std::string calibration;       ///< --camera: a file, or a name; empty: none
+  std::optional<Camera> camera;  ///< of --intrinsics, or what `calibration` holds
+  std::optional<double> scale;   ///< depth units a metre; none: as the image suggests
+
+  bool has_camera() const { return camera || !calibration.empty(); }
 };
 
 /// The files to write. An empty path: not asked for.

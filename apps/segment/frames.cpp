@@ -18,10 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 8> kExtensions = {".pcd", ".ply", ".xyz",  ".xyzrgb",
-                                                         ".csv", ".pts", ".tree", ".png"};
+constexpr std::array<std::string_view, 9> kExtensions = {".pcd", ".ply",  ".xyz", ".xyzrgb", ".csv",
+                                                         ".pts", ".tree", ".png", ".pgm"};
 
-/// The files of a folder that may be frames, by name.
+/// The files of a folder that may be frames, by name. Arrays of NumPy may be labels of an earlier
+/// run, and are none.
 std::vector<std::string> frames_in(const std::string& folder, bool depth_images) {
   std::vector<std::string> frames;
   std::error_code error;
@@ -30,7 +31,8 @@ std::vector<std::string> frames_in(const std::string& folder, bool depth_images)
     std::ranges::transform(extension, extension.begin(),
                            [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; });
     const bool known = std::ranges::find(kExtensions, extension) != kExtensions.end();
-    if (known && (depth_images || extension != ".png")) frames.push_back(entry.path().string());
+    if (known && (depth_images || (extension != ".png" && extension != ".pgm")))
+      frames.push_back(entry.path().string());
   }
   if (error || frames.empty()) {
     throw Error(
@@ -83,7 +85,7 @@ FrameSource::FrameSource(const Arguments& a)
       inputs_.push_back(input);
       continue;
     }
-    for (std::string& frame : frames_in(input, a.image.intrinsics.has_value()))
+    for (std::string& frame : frames_in(input, a.image.has_camera()))
       inputs_.push_back(std::move(frame));
   }
   if (has_files_) take_names();

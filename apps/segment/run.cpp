@@ -10,6 +10,7 @@
 
 #include "arguments.hpp"
 #include "cross_check.hpp"
+#include "depth_camera.hpp"
 #include "exit_code.hpp"
 #include "outputs.hpp"
 #include "ph/core/error.hpp"
@@ -24,11 +25,23 @@ namespace {
 
 constexpr std::string_view kProgram = "ph-segment";
 
-Cloud read_depth(const Input& input, const DepthInput& image, const RunContext& context) {
-  const Raster depth = read_png(input);
+Cloud read_depth_image(const Input& input, const DepthInput& image, app::Session& session) {
+  const RunContext& context = session.context();
+  const DepthImage depth = read_depth(input, {.context = &context});
+  const Index rows = depth.depth.extents[0], columns = depth.depth.extents[1];
   std::optional<Raster> colour;
   if (!image.colour.empty()) colour = read_png(image.colour, &context);
-  return cloud_from_depth(depth, colour, *image.intrinsics, image.scale);
+  const Camera camera = camera_for(image, columns, rows, session);
+  DepthCounts counts;
+  Cloud cloud =
+      cloud_from_depth(depth.depth, colour, camera, image.scale.value_or(depth.scale), &counts);
+  if (counts.negative > 0)
+    session.note(fmt::format("{} pixels of a depth below 0: taken as holes", counts.negative));
+  if (counts.unseen > 0) {
+    session.note(
+        fmt::format("{} pixels are where the camera's lens shows no ray: holes", counts.unseen));
+  }
+  return cloud;
 }
 
 Cloud read_points(const Input& input, bool allow_empty, app::Session& session) {
@@ -97,7 +110,7 @@ Result result_of(const Arguments& arguments, const Outputs& outputs, app::Sessio
   std::optional<Input> input(
       Input::open(image.depth.empty() ? arguments.input : image.depth, &context));
   if (arguments.is_depth_image())
-    result.cloud = read_depth(*input, image, context);
+    result.cloud = read_depth_image(*input, image, session);
   else if (!is_tree(*input))
     result.cloud = read_points(*input, arguments.allow_empty, session);
   if (!arguments.files.report.empty()) result.sha256 = report::sha256_hex(input->bytes(), context);
@@ -207,6 +220,7 @@ int run(int argc, const char* const* argv, std::stop_token stop) {
   if (const auto answer = parse_arguments(argc, argv, arguments))
     return app::answer_command_line(*answer);
   app::Session session(kProgram, arguments.common, std::move(stop));
+  load_camera(arguments.image, session);
   if (arguments.is_stream()) return run_stream(arguments, session);
   const Outcome outcome = run_frame(arguments, session, nullptr);
   session.note(outcome.summary);

@@ -136,6 +136,7 @@ std::string json_summary(const Arguments& arguments, const Segmentation& s, cons
                    {"options", info.from_tree ? "null" : options_of(arguments.options)},
                    {"cut", cut(s.first_cut)},
                    {"stages", stages_of(s)},
+                   {"viewpoint", numbers(s.viewpoint)},
                    {"plane", plane_of(s)},
                    {"voxel", number(s.voxel)},
                    {"complex", object({{"vertices", integer(vertices)},

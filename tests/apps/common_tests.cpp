@@ -71,13 +71,16 @@ TEST(Numbers, Sizes) {
 
 TEST(Numbers, DoNotDependOnTheLocale) {
   const std::string before = std::setlocale(LC_ALL, nullptr);
+  int tried = 0;
   for (const char* name : {"de_DE.UTF-8", "tr_TR.UTF-8"}) {
     if (std::setlocale(LC_ALL, name) == nullptr) continue;
+    ++tried;
     EXPECT_EQ(parse_number("--x", "1.5"), 1.5);
     EXPECT_EQ(parse_size("--m", "1MIB"), 1u << 20);
     EXPECT_EQ(format_size(1536), "1.5 KiB");
   }
   std::setlocale(LC_ALL, before.c_str());
+  if (tried == 0) GTEST_SKIP() << "no locale de_DE.UTF-8 or tr_TR.UTF-8";
 }
 
 TEST(Choices, SuggestWhatIsNear) {

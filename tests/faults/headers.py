@@ -211,7 +211,7 @@ def depth_images():
                 colour=b"0 0 0\n")
     yield entry(38, "depth in colours", png(1, 1, 8, RGB, [b"\1\2\3"]), "found 3 channels, expected 1",
                 named="d.png")
-    yield entry(38, "a cloud", sample("pcd", "ascii.pcd"), "not a PNG")
+    yield entry(38, "a cloud", sample("pcd", "ascii.pcd"), "not a depth image")
     yield entry(31, "pixels", with_size(grey, 65535, 65535), "does not fit|PNG")
 
 

@@ -6,8 +6,10 @@ file or the option, nothing on stdout, nothing written, no temporary file, withi
 import collections
 import os
 import re
+import shutil
 import subprocess
 import sys
+import tempfile
 import time
 
 import corpus
@@ -27,23 +29,29 @@ class Runner:
         self.peak = os.path.abspath(peak)
         with open(barcode, "rb") as file:
             self.sanitized = b"__asan_init" in file.read()  # its own memory and time count too
-        self.nobody = os.geteuid() != 0 or self.runs_for_nobody()
+        self.obstacle = self.let_nobody_in() if os.geteuid() == 0 else None
 
-    def runs_for_nobody(self):
-        """Whether another user may start what is tested: it may lie in a folder of root's."""
+    def let_nobody_in(self):
+        """What is tested may lie in a folder of root's: copies are where another user may start
+        them. @return why he may not; nothing if he may."""
+        self.copies = tempfile.TemporaryDirectory()  # as long as the runner
+        os.chmod(self.copies.name, 0o755)
+        self.programs = {name: shutil.copy(path, self.copies.name)
+                         for name, path in self.programs.items()}
+        self.peak = shutil.copy(self.peak, self.copies.name)
         try:
-            return all(subprocess.run([program, "--version"], user=NOBODY, group=NOBODY,
-                                      extra_groups=[], capture_output=True, timeout=60,
-                                      check=False).returncode == 0
-                       for program in self.programs.values())
-        except OSError:
-            return False
+            for path in self.programs.values():
+                subprocess.run([path, "--version"], user=NOBODY, group=NOBODY, extra_groups=[],
+                               cwd="/", capture_output=True, timeout=60, check=True)
+        except (OSError, subprocess.SubprocessError) as error:
+            return f"no other user may start the programs: {error}"
+        return None
 
     def faults(self, entry):
         """@return what the program did that it must not; nothing if all is well.
         @throws Unavailable if it cannot be tried here."""
-        if entry.unprivileged and not self.nobody:
-            raise Unavailable("no other user may start the programs")
+        if entry.unprivileged and self.obstacle:
+            raise Unavailable(self.obstacle)
         for _ in range(TRIES):
             fault, of_time = self.try_once(entry)
             if not of_time:

@@ -159,6 +159,11 @@ namespace detail {
 
 bool is_npy(const Input& input) { return input.text().starts_with(kMagic); }
 
+bool is_npy_of_floats(const Input& input) {
+  const std::string descr = read_header(input).descr;
+  return descr.size() > 1 && descr[1] == 'f';
+}
+
 Image read_npy_array(const Input& input, Input::Excess excess) {
   if (is_npz(input)) return read_npy_array(read_npz_member(input));
   Header header = read_header(input);

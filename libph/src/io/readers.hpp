@@ -53,6 +53,8 @@ bool is_counted(const Input& input);
 
 /// NPY as it is, or the array of an NPZ: NaN and all.
 Image read_npy_array(const Input& input, Input::Excess excess = Input::Excess::refused);
+/// Whether an NPY has floats; precondition: it is one.
+bool is_npy_of_floats(const Input& input);
 /// The one array of an NPZ, or the one that input.member() names, unpacked.
 Input read_npz_member(const Input& input);
 
