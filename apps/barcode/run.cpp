@@ -16,6 +16,7 @@
 #include "messages.hpp"
 #include "numbers.hpp"
 #include "ph/estimate.hpp"
+#include "ph/loops.hpp"
 #include "report.hpp"
 #include "report/sha256.hpp"
 #include "ways_out.hpp"
@@ -193,7 +194,22 @@ struct Outputs {
   }
 };
 
+/// Whether bars of H1 get loops. @throws Error (usage) if they are asked for in vain.
+bool writes_loops(const Job& job, const Arguments& arguments) {
+  if (job.format == BarcodeFormat::json) {
+    const Representatives kind = arguments.options.representatives;
+    return arguments.loops != LoopChoice::none &&
+           (kind == Representatives::cycles || kind == Representatives::voxels);
+  }
+  if (arguments.loops && !arguments.dry_run)
+    throw Error(ErrorKind::usage,
+                fmt::format("--loops: found output as {}, expected json, which alone has loops",
+                            barcode_format_name(job.format)));
+  return false;
+}
+
 Outcome run_once(const Job& job, const Arguments& arguments, app::Session& session) {
+  const bool with_loops = writes_loops(job, arguments);
   Stopwatch watch;
   std::optional<Outputs> outputs;
   if (!arguments.dry_run) outputs.emplace(job, arguments);
@@ -228,11 +244,22 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
     Barcode bars = persistence(built.complex, options, session.context());
     if (built.cut)
       bars = cut_at(bars, built.complex, *built.cut, arguments.options.min_persistence);
-    if (!point_ids.empty()) bars = with_input_ids(bars, point_ids);
     return bars;
   };
-  const Barcode barcode = compute();
+  Barcode barcode = compute();
   watch.lap("persistence");
+  std::vector<BarLoops> loops_of_bars;
+  if (with_loops) {
+    loops_of_bars =
+        loops(built.complex, barcode, options,
+              arguments.loops.value_or(LoopChoice::tight) == LoopChoice::tight, session.context());
+    watch.lap("loops");
+  }
+  const MemoryClaim claim_of_loops(session.context().memory, bytes_of(loops_of_bars));
+  if (!point_ids.empty()) {
+    barcode = with_input_ids(barcode, point_ids);
+    name_points(loops_of_bars, point_ids);
+  }
 
   int code = app::kOk;
   std::vector<std::string> warnings;
@@ -264,6 +291,7 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   info.subsample = built.subsample;
   info.voxels = built.voxels;
   info.approximation = arguments.rips.approximation;
+  info.loops = loops_of_bars;
   info.engine = engine_name(planned.engine);
   info.timings = watch.laps();
   info.peak_memory = app::peak_memory();
