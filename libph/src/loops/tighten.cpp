@@ -33,6 +33,7 @@ class EdgeSum {
   explicit EdgeSum(std::int64_t field) : p_(field) {}
   /// A closed walk of vertices, whose names ascend as they do.
   void add(const EarlyGraph& graph, const Walk& walk, std::int64_t coefficient) {
+    if (walk.size() < 2) return;  // it came back
     for (std::size_t i = 0; i < walk.size(); ++i) {
       const std::uint32_t u = walk[i], v = walk[(i + 1) % walk.size()];
       terms_.push_back({graph.name(std::min(u, v)), graph.name(std::max(u, v)),
@@ -256,15 +257,21 @@ class Tightener {
       if (key_of(chain.cell(i)) > around.limit)
         throw Error(ErrorKind::usage, "loops: found a cycle with edges younger than its birth");
 
-    EdgeSum sum(options_.field);
-    for (const Loop& loop : out.loops) {
-      Walk walk = vertices_of(loop);
-      const bool is_born = turn_to(walk, low, high);
-      shortcuts.shorten(walk, is_born, around, budget);
-      sum.add(graph_, walk, loop.coefficient);
+    for (bool goes_on = true; goes_on;) {
+      EdgeSum sum(options_.field);
+      for (const Loop& loop : out.loops) {
+        Walk walk = vertices_of(loop);
+        const bool is_born = turn_to(walk, low, high);
+        shortcuts.shorten(walk, is_born, around, budget);
+        sum.add(graph_, walk, loop.coefficient);
+      }
+      // What has come together is taken apart anew, which may open the way for more.
+      std::vector<Loop> shorter = sum.loops(context_);
+      measure(shorter);
+      goes_on = shorter != out.loops;
+      out.loops = std::move(shorter);
     }
-    out.loops = sum.loops(context_);
-    measure(out.loops);
+    if (budget.of_one == 0) return;
     out.tightness = Tightness::locally;
     if (!is_decided) return;
 

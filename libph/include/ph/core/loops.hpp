@@ -26,8 +26,8 @@ struct Loop {
 
 /// How much is known of the length of loops.
 enum class Tightness {
-  none,      ///< nothing: they are the chain as it was found
-  locally,   ///< no single step over a few triangles shortens them
+  none,      ///< nothing
+  locally,   ///< no step over one or two triangles shortens one of them
   shortest,  ///< no closed walk that could stand in their place is shorter, see ph/loops.hpp
 };
 
