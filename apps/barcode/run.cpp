@@ -194,22 +194,14 @@ struct Outputs {
   }
 };
 
-/// Whether bars of H1 get loops. @throws Error (usage) if they are asked for in vain.
+/// Whether bars of H1 get loops: only JSON has room for them.
 bool writes_loops(const Job& job, const Arguments& arguments) {
-  if (job.format == BarcodeFormat::json) {
-    const Representatives kind = arguments.options.representatives;
-    return arguments.loops != LoopChoice::none &&
-           (kind == Representatives::cycles || kind == Representatives::voxels);
-  }
-  if (arguments.loops && !arguments.dry_run)
-    throw Error(ErrorKind::usage,
-                fmt::format("--loops: found output as {}, expected json, which alone has loops",
-                            barcode_format_name(job.format)));
-  return false;
+  const Representatives kind = arguments.options.representatives;
+  return job.format == BarcodeFormat::json && arguments.loops != LoopChoice::none &&
+         (kind == Representatives::cycles || kind == Representatives::voxels);
 }
 
 Outcome run_once(const Job& job, const Arguments& arguments, app::Session& session) {
-  const bool with_loops = writes_loops(job, arguments);
   Stopwatch watch;
   std::optional<Outputs> outputs;
   if (!arguments.dry_run) outputs.emplace(job, arguments);
@@ -249,7 +241,7 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   Barcode barcode = compute();
   watch.lap("persistence");
   std::vector<BarLoops> loops_of_bars;
-  if (with_loops) {
+  if (writes_loops(job, arguments)) {
     loops_of_bars =
         loops(built.complex, barcode, options,
               arguments.loops.value_or(LoopChoice::tight) == LoopChoice::tight, session.context());

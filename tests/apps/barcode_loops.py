@@ -50,12 +50,15 @@ class Loops(ProgramTest):
         for arguments in ([], ["--representatives", "cocycles"]):
             run = self.expect(64, "square.txt", "--loops", "plain", *arguments, "-o", "x.json")
             self.assertIn("--representatives cycles", run.stderr)
-        run = self.expect(64, "square.txt", "--loops", "tight", "--representatives", "cycles")
-        self.assertIn("expected json", run.stderr)
+        for output in (["-o", "x.csv"], ["--output-format", "none"],
+                       ["-o", "x.npy", "--report", "x.html"]):
+            run = self.expect(64, "square.txt", "--loops", "tight", "--representatives", "cycles",
+                              *output)
+            self.assertIn("expected json", run.stderr)
         run = self.expect(64, "square.txt", "--loops", "short", "--representatives", "cycles")
         self.assertIn("tight", run.stderr)
         # Nothing is said where nobody asked.
-        self.expect(0, "square.txt", "--representatives", "cycles")
+        self.expect(0, "square.txt", "--representatives", "cycles", "--output-format", "none")
 
     def test_numbers_are_those_of_the_input(self):
         lines = text(ring(12)).splitlines()
