@@ -282,6 +282,8 @@ void check_together(Arguments& a) {
                           a.options.representatives == Representatives::voxels;
   if (a.loops && !has_cycles)
     reject("--loops: found without --representatives cycles or voxels, of which loops are made");
+  if (a.loops && (a.options.max_dim == 0 || a.options.min_dim > 1))
+    reject("--loops: found without dimension 1, the only one of which there are loops");
   if (a.options.collapse == Collapse::on && a.options.min_persistence < 0)
     reject(
         "--collapse: found on, which loses bars of length 0; a negative --min-persistence keeps "

@@ -201,6 +201,20 @@ bool writes_loops(const Job& job, const Arguments& arguments) {
          (kind == Representatives::cycles || kind == Representatives::voxels);
 }
 
+/// Before anything is computed. @throws Error (usage) if loops are asked for that cannot be had.
+void require_loops(const BuiltComplex& built, const Arguments& arguments) {
+  if (!arguments.loops || *arguments.loops == LoopChoice::none) return;
+  const auto* listed = std::get_if<ExplicitComplex>(&built.complex);
+  if (listed && listed->cell_kind() == CellKind::row)
+    throw Error(ErrorKind::usage,
+                "--loops: found a boundary matrix, expected cells with vertices to walk along");
+  if (*arguments.loops == LoopChoice::tight && !std::holds_alternative<Rips>(built.complex))
+    throw Error(ErrorKind::usage,
+                fmt::format("--loops tight: found complex {}, expected rips; --loops plain gives "
+                            "loops as they are found",
+                            built.name));
+}
+
 Outcome run_once(const Job& job, const Arguments& arguments, app::Session& session) {
   Stopwatch watch;
   std::optional<Outputs> outputs;
@@ -208,6 +222,7 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
 
   Loaded loaded = load(job, arguments, session, watch);
   auto& [built, description, point_ids, data, claim] = loaded;
+  require_loops(built, arguments);
   const auto taken = static_cast<double>(session.memory_taken());
   if (arguments.dry_run) {
     const Estimate estimated = estimate(built.complex, arguments.options, session.context());

@@ -57,6 +57,20 @@ class Loops(ProgramTest):
             self.assertIn("expected json", run.stderr)
         run = self.expect(64, "square.txt", "--loops", "short", "--representatives", "cycles")
         self.assertIn("tight", run.stderr)
+        for dimensions in (["--max-dim", "0"], ["--min-dim", "2", "--max-dim", "2"]):
+            run = self.expect(64, "square.txt", "--loops", "plain", "--representatives", "cycles",
+                              "-o", "x.json", *dimensions)
+            self.assertIn("without dimension 1", run.stderr)
+        asked = ["--representatives", "cycles", "-o", "x.json", "--loops"]
+        self.write("hole.npy", npy((3, 3), [1.0] * 4 + [5.0] + [1.0] * 4))
+        run = self.expect(64, "hole.npy", *asked, "tight")
+        self.assertIn("expected rips", run.stderr)
+        self.expect(0, "hole.npy", *asked, "plain")
+        self.write("ring.phat", "0\n0\n0\n1 0 1\n1 1 2\n1 0 2\n")
+        for choice in ("tight", "plain"):
+            run = self.expect(64, "ring.phat", "--format", "phat", *asked, choice)
+            self.assertIn("vertices to walk along", run.stderr)
+        self.expect(0, "ring.phat", "--format", "phat", *asked, "none")
         # Nothing is said where nobody asked.
         self.expect(0, "square.txt", "--representatives", "cycles", "--output-format", "none")
 
