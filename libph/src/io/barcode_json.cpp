@@ -100,9 +100,9 @@ void write_loops(OutputFile& file, const BarLoops& of_bar, const InputCell& edge
     const std::span<const Index> numbers = loop.numbers;
     file.write(fmt::format("{}{{\"{}\": [", between, is_grid ? "grid" : "vertices"));
     for (std::size_t i = 0; i < numbers.size(); i += arity) {
-      const auto vertex = fmt::join(numbers.subspan(i, arity), ", ");
+      const std::string text = fmt::format("{}", fmt::join(numbers.subspan(i, arity), ", "));
       file.write(i == 0 ? "" : ", ");
-      file.write(is_grid ? fmt::format("[{}]", vertex) : fmt::format("{}", vertex));
+      file.write(is_grid ? "[" + text + "]" : text);
     }
     file.write(fmt::format("], \"coefficient\": {}", loop.coefficient));
     if (loop.length) file.write(fmt::format(", \"length\": {}", json_number(*loop.length)));
