@@ -17,11 +17,16 @@ std::vector<BarLoops> plain_loops(const Barcode& cycles, const Options& options,
   if (cycles.representatives() != Representatives::cycles &&
       cycles.representatives() != Representatives::voxels)
     throw Error(ErrorKind::usage, "loops: found a barcode without cycles, expected one with them");
+  std::size_t bytes = cycles.size() * sizeof(BarLoops);
+  MemoryClaim claim(context.memory, bytes);
   std::vector<BarLoops> loops(cycles.size());
   Ticker ticker(context, "loops", cycles.size());
-  for (std::size_t i = 0; i < cycles.size(); ++i, ticker.tick())
-    if (has_walks(cycles, i))
-      loops[i].loops = closed_walks(cycles.representative(i), options.field, periods, context);
+  for (std::size_t i = 0; i < cycles.size(); ++i, ticker.tick()) {
+    if (!has_walks(cycles, i)) continue;
+    loops[i].loops = closed_walks(cycles.representative(i), options.field, periods, context);
+    bytes += bytes_of(std::span(loops).subspan(i, 1));
+    claim.grow_to(bytes);
+  }
   return loops;
 }
 
@@ -30,6 +35,7 @@ std::vector<BarLoops> plain_loops(const Barcode& cycles, const Options& options,
 std::vector<BarLoops> loops(const Rips& rips, const Barcode& cycles, const Options& options,
                             bool tighten, const RunContext& context) {
   std::vector<BarLoops> found = plain_loops(cycles, options, {}, context);
+  const MemoryClaim claim(context.memory, bytes_of(found));
   detail::measure_and_tighten(rips, cycles, options, tighten, found, context);
   return found;
 }

@@ -25,7 +25,7 @@ namespace ph {
 /// are there. Decided by counting steps, never by time: the result is a function of the input.
 ///
 /// O(edges up to the last birth) memory, and a few times 10^8 steps at most. If the memory limit
-/// does not allow it, loops stay as they are.
+/// does not allow it, loops stay as they are, without lengths if need be.
 ///
 /// @param cycles the bars of that complex with Representatives::cycles (or ::voxels: bars with a
 ///        cycle get loops). @param options with which they were computed; with Collapse::off less

@@ -361,9 +361,14 @@ void measure_and_tighten(const Rips& rips, const Barcode& cycles, const Options&
                          bool tighten, std::vector<BarLoops>& loops, const RunContext& context) {
   const std::optional<double> last = last_birth(cycles, loops);
   if (!last) return;
-  Tightener tightener(rips, cycles, *last, options, context);
-  for (BarLoops& of_bar : loops) tightener.measure(of_bar.loops);
-  if (tighten) tightener.tighten(loops);
+  try {
+    Tightener tightener(rips, cycles, *last, options, context);
+    for (BarLoops& of_bar : loops) tightener.measure(of_bar.loops);
+    if (tighten) tightener.tighten(loops);
+  } catch (const Error& error) {  // each bar's loops are old or new, and right
+    if (error.kind() != ErrorKind::resource) throw;
+  } catch (const std::bad_alloc&) {
+  }
 }
 
 }  // namespace ph::detail
