@@ -275,7 +275,7 @@ class Tightener {
     out.tightness = Tightness::locally;
     if (!is_decided) return;
 
-    const std::int64_t coefficient = set_target(c.lifetime, chain, cocycles, search);
+    const std::int64_t coefficient = set_target(c, chain, cocycles, search);
     const bool is_one = out.loops.size() == 1;
     const double bound =
         is_one ? (*out.loops[0].length - graph_.value(birth)) * (1 - kRounding) : kInfinity;
@@ -308,13 +308,14 @@ class Tightener {
 
   /// Which values the cocycles that count have on a path that closes the birth edge.
   /// @return the coefficient of that edge in the chain.
-  std::int64_t set_target(const Lifetime& lifetime, const InputChain& chain,
-                          const EdgeCocycles& cocycles, CoverSearch& search) const {
+  std::int64_t set_target(const Candidate& c, const InputChain& chain, const EdgeCocycles& cocycles,
+                          CoverSearch& search) const {
     const std::int64_t p = options_.field;
     std::vector<std::uint32_t> counted;
     std::vector<std::int64_t> slot(cocycles.lifetimes().size(), -1);
     for (std::uint32_t k = 0; k < slot.size(); ++k) {
-      if (!elders_.is_elder(cocycles.lifetimes()[k], lifetime)) continue;
+      // Deaths are known as far as cocycles were asked for.
+      if (!c.needs_cocycles || !elders_.is_elder(cocycles.lifetimes()[k], c.lifetime)) continue;
       slot[k] = static_cast<std::int64_t>(counted.size());
       counted.push_back(k);
     }
@@ -329,10 +330,10 @@ class Tightener {
     };
     for (std::size_t i = 0; i < chain.size(); ++i) {
       const Key key = key_of(chain.cell(i));
-      if (key == lifetime.birth_key) coefficient = chain.coefficient(i);
+      if (key == c.lifetime.birth_key) coefficient = chain.coefficient(i);
       add(on_chain, key, chain.coefficient(i));
     }
-    add(on_birth, lifetime.birth_key, 1);
+    add(on_birth, c.lifetime.birth_key, 1);
     const std::int64_t inverse = inverse_of(coefficient);
     std::vector<std::uint32_t> target;
     for (std::size_t i = 0; i < counted.size(); ++i)
