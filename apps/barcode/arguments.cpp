@@ -193,6 +193,11 @@ void add_homology_options(CLI::App& app, Arguments& a) {
                a.options.representatives = kKinds[i];
              })
       ->group(group);
+  add_choice(app, "--loops", {"tight", "plain", "none"},
+             "with each cycle of edges, in JSON: the closed walks that it consists of, of rips as "
+             "short as is cheap (tight, default) or as found (plain)",
+             [&a](std::size_t i) { a.loops = static_cast<LoopChoice>(i); })
+      ->group(group);
   app.add_flag("--dry-run", a.dry_run,
                "read the input, print the estimate of cells and memory and the engine; compute "
                "nothing")
@@ -273,6 +278,12 @@ void check_together(Arguments& a) {
         fmt::format("--engine: found {}, which gives no representatives; expected auto, twist or "
                     "cohomology",
                     engine_name(engine)));
+  const bool has_cycles = a.options.representatives == Representatives::cycles ||
+                          a.options.representatives == Representatives::voxels;
+  if (a.loops && !has_cycles)
+    reject("--loops: found without --representatives cycles or voxels, of which loops are made");
+  if (a.loops && (a.options.max_dim == 0 || a.options.min_dim > 1))
+    reject("--loops: found without dimension 1, the only one of which there are loops");
   if (a.options.collapse == Collapse::on && a.options.min_persistence < 0)
     reject(
         "--collapse: found on, which loses bars of length 0; a negative --min-persistence keeps "

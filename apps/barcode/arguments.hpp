@@ -17,6 +17,9 @@ namespace ph::barcode {
 
 enum class ComplexKind { automatic, rips, cubical, alpha, explicit_cells, lower_star };
 
+/// Whether bars of H1 that come with cycles come with loops, too.
+enum class LoopChoice { tight, plain, none };
+
 /// Everything the command line says.
 struct Arguments {
   app::CommonOptions common;
@@ -43,6 +46,7 @@ struct Arguments {
 
   // What is computed.
   Options options;
+  std::optional<LoopChoice> loops;  // empty: not said, which is tight
   bool check = false;
   bool dry_run = false;
 

@@ -27,9 +27,16 @@ BarcodeFormat format_of(const Arguments& arguments, app::Session& session) {
   return BarcodeFormat::csv;
 }
 
-/// Only JSON and the report have room for representatives. @throws Error (usage).
+/// Only JSON and the report have room for representatives, and only JSON for loops.
+/// @throws Error (usage).
 void require_room(BarcodeFormat format, const Arguments& arguments) {
   if (arguments.options.representatives == Representatives::none || arguments.dry_run) return;
+  if (arguments.loops && format != BarcodeFormat::json)
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("--loops: found output format {}, expected json; --output-format json or "
+                    "-o FILE.json holds them",
+                    barcode_format_name(format)));
   if (!arguments.report.empty()) return;
   if (format == BarcodeFormat::json || format == BarcodeFormat::none) return;
   throw Error(ErrorKind::usage,

@@ -16,6 +16,7 @@
 #include "messages.hpp"
 #include "numbers.hpp"
 #include "ph/estimate.hpp"
+#include "ph/loops.hpp"
 #include "report.hpp"
 #include "report/sha256.hpp"
 #include "ways_out.hpp"
@@ -193,6 +194,27 @@ struct Outputs {
   }
 };
 
+/// Whether bars of H1 get loops: only JSON has room for them.
+bool writes_loops(const Job& job, const Arguments& arguments) {
+  const Representatives kind = arguments.options.representatives;
+  return job.format == BarcodeFormat::json && arguments.loops != LoopChoice::none &&
+         (kind == Representatives::cycles || kind == Representatives::voxels);
+}
+
+/// Before anything is computed. @throws Error (usage) if loops are asked for that cannot be had.
+void require_loops(const BuiltComplex& built, const Arguments& arguments) {
+  if (!arguments.loops || *arguments.loops == LoopChoice::none) return;
+  const auto* listed = std::get_if<ExplicitComplex>(&built.complex);
+  if (listed && listed->cell_kind() == CellKind::row)
+    throw Error(ErrorKind::usage,
+                "--loops: found a boundary matrix, expected cells with vertices to walk along");
+  if (*arguments.loops == LoopChoice::tight && !std::holds_alternative<Rips>(built.complex))
+    throw Error(ErrorKind::usage,
+                fmt::format("--loops tight: found complex {}, expected rips; --loops plain gives "
+                            "loops as they are found",
+                            built.name));
+}
+
 Outcome run_once(const Job& job, const Arguments& arguments, app::Session& session) {
   Stopwatch watch;
   std::optional<Outputs> outputs;
@@ -200,6 +222,7 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
 
   Loaded loaded = load(job, arguments, session, watch);
   auto& [built, description, point_ids, data, claim] = loaded;
+  require_loops(built, arguments);
   const auto taken = static_cast<double>(session.memory_taken());
   if (arguments.dry_run) {
     const Estimate estimated = estimate(built.complex, arguments.options, session.context());
@@ -227,11 +250,22 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   const auto compute = [&](const AnyComplex& complex) {
     Barcode bars = persistence(complex, options, session.context());
     if (built.cut) bars = cut_at(bars, complex, *built.cut, arguments.options.min_persistence);
-    if (!point_ids.empty()) bars = with_input_ids(bars, point_ids);
     return bars;
   };
-  const Barcode barcode = compute(built.complex);
+  Barcode barcode = compute(built.complex);
   watch.lap("persistence");
+  std::vector<BarLoops> loops_of_bars;
+  if (writes_loops(job, arguments)) {
+    loops_of_bars =
+        loops(built.complex, barcode, options,
+              arguments.loops.value_or(LoopChoice::tight) == LoopChoice::tight, session.context());
+    watch.lap("loops");
+  }
+  const MemoryClaim claim_of_loops(session.context().memory, bytes_of(loops_of_bars));
+  if (!point_ids.empty()) {
+    barcode = with_input_ids(barcode, point_ids);
+    name_points(loops_of_bars, point_ids);
+  }
 
   int code = app::kOk;
   std::vector<std::string> warnings;
@@ -265,6 +299,7 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   info.subsample = built.subsample;
   info.voxels = built.voxels;
   info.approximation = arguments.rips.approximation;
+  info.loops = loops_of_bars;
   info.engine = engine_name(planned.engine);
   info.timings = watch.laps();
   info.peak_memory = app::peak_memory();

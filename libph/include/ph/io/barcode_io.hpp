@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ph/core/barcode.hpp"
+#include "ph/core/loops.hpp"
 #include "ph/io/output_file.hpp"
 #include "ph/io/reader.hpp"
 
@@ -51,6 +52,9 @@ struct BarcodeInfo {
   };
   std::optional<VoxelGrid> voxels;
   std::optional<double> approximation;  ///< epsilon of a sparse Rips filtration
+  /// By bar of the barcode that is written, as ph::loops gives them: they stand beside the cycles.
+  /// Empty: there are none.
+  std::span<const BarLoops> loops;
   std::string engine;
   std::vector<std::pair<std::string, double>> timings;  ///< stage, seconds
   std::uint64_t peak_memory = 0;                        ///< bytes; 0: unknown
