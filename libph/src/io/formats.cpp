@@ -274,7 +274,17 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
   const detail::TextGuess guess = detail::guess_text(input, options);
   const bool is_table = guess.format == Format::points || guess.format == Format::distance;
   if (!is_table) return guess.format;
-  if (!detail::matrix_option(options).empty()) return Format::distance;
+  if (const std::string_view option = detail::matrix_option(options); !option.empty()) {
+    if (guess.rows != 0 && guess.rows != guess.columns) {
+      input.fail({"not a square matrix",
+                  guess.rows > guess.columns
+                      ? fmt::format("rows of {} cells, and more of them", guess.columns)
+                      : fmt::format("{} rows of {} cells", guess.rows, guess.columns),
+                  fmt::format("as many rows as columns, for {}", option),
+                  "is the file truncated, or a set of points?"});
+    }
+    return Format::distance;
+  }
   if (options.array == ArrayMeaning::points) return Format::points;
   using detail::SquareKind;
   const std::string size = fmt::format("{} x {} numbers", guess.rows, guess.columns);

@@ -91,12 +91,14 @@ TextGuess guess_text(const Input& input, const ReadOptions& options) {
   }
   const TableLayout layout = table_layout(input, options);
   const std::size_t n = layout.columns.size();
-  if (n < 2) return guess;
+  if (n == 0) return guess;
   const std::size_t side = std::min(n, kMostLookedAt);
   std::vector<double> block(side * side, kUnknown);
   bool same_names = false;
-  if (count_rows(input, layout, n, block, same_names) != n) return guess;
-  guess.rows = guess.columns = n;
+  const auto rows = count_rows(input, layout, n, block, same_names);
+  guess.rows = rows.value_or(0);
+  guess.columns = n;
+  if (n < 2 || guess.rows != n) return guess;
   guess.same_names = same_names;
   guess.square = kind_of_square(block, side);
   // Two rows say too little: two points of the plane may well be symmetric.

@@ -79,7 +79,8 @@ std::optional<Format> format_by_content(const Input& input);
 struct TextGuess {
   Format format = Format::points;
   SquareKind square = SquareKind::nothing;  ///< of a square table
-  std::size_t rows = 0, columns = 0;        ///< of a square table
+  /// Of a table; rows are counted up to one more than columns, and 0 if they differ in length.
+  std::size_t rows = 0, columns = 0;
   bool same_names = false;                  ///< its rows have the names of its columns
 };
 TextGuess guess_text(const Input& input, const ReadOptions& options);
