@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "ph/io/formats.hpp"
+#include "ph/io/png.hpp"
 #include "read_support.hpp"
 
 namespace ph::test {
@@ -90,6 +91,26 @@ TEST(ReadTable, MatricesAreKnownByTheirDiagonal) {
   }
   EXPECT_TRUE(contains(bad_data([] { any("1,2\n3,4\n5,6\n", {.from_correlation = true}); }),
                        "--from-correlation"));
+}
+
+TEST(ReadTable, RowsHaveTheOrderOfTheColumns) {
+  EXPECT_EQ(any(",a,b,c\na,0,1,2\nb,1,0,3\nc,2,3,0\n").format, Format::distance);
+  EXPECT_TRUE(contains(bad_data([] { any(",a,b,c\nb,0,1,2\na,1,0,3\nc,2,3,0\n"); }), "order"));
+}
+
+TEST(ReadPicture, TakesOneChannel) {
+  const Raster raster{2, 1, 3, 8, {250, 10, 30, 7, 200, 90}};
+  std::ostringstream out;
+  write_png(out, raster);
+  const auto values = [&](Channel channel) {
+    const Image image = image_of(out.str(), "a.png", {.channel = channel});
+    return std::vector<double>{image.values[0], image.values[1]};
+  };
+  EXPECT_EQ(values(Channel::red), (std::vector<double>{250, 7}));
+  EXPECT_EQ(values(Channel::blue), (std::vector<double>{30, 90}));
+  EXPECT_EQ(values(Channel::grey), (std::vector<double>{84, 130}));  // 84.04, 129.753
+  EXPECT_TRUE(contains(bad_data([&] { values(Channel::automatic); }), "--channel"));
+  bad_data([&] { values(Channel::alpha); });
 }
 
 TEST(ReadTable, ArraysAreKnownByShapeAndDiagonal) {

@@ -269,7 +269,9 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
   if (options.array == ArrayMeaning::image) {
     // Two to four numbers a row are coordinates as a rule, hardly ever a picture.
     const std::size_t width = detail::table_layout(input, options).columns.size();
-    return width >= 2 && width <= 4 ? Format::points : Format::grid;
+    if (width >= 2 && width <= 4) return Format::points;
+    if (width > 4) detail::note(options, "read as an image; --voxel X reads points");
+    return Format::grid;
   }
   const detail::TextGuess guess = detail::guess_text(input, options);
   const bool is_table = guess.format == Format::points || guess.format == Format::distance;
@@ -287,6 +289,8 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
   }
   if (options.array == ArrayMeaning::points) return Format::points;
   using detail::SquareKind;
+  if (guess.columns == 1 && guess.rows > 1 && options.array == ArrayMeaning::automatic)
+    detail::note(options, "a number a line: points of a line; --complex cubical reads a signal");
   const std::string size = fmt::format("{} x {} numbers", guess.rows, guess.columns);
   const char* const choices =
       "--format distance reads distances, --from-correlation correlations, --format points a point "
@@ -295,14 +299,14 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
     detail::note(options,
                  "square with a zero diagonal: read as distances; --format points reads points");
   } else if (guess.rows > 2 && guess.square == SquareKind::correlations) {
-    input.fail({"a correlation matrix, or what else?",
+    input.fail({"correlations or points",
                 fmt::format("{}, symmetric, from -1 to 1 with ones on the diagonal", size),
-                "what it means",
+                "an option that says which",
                 "--from-correlation takes distances 1 - r, --format points a point a row"});
   } else if (guess.square == SquareKind::symmetric && guess.same_names) {
-    input.fail({"a symmetric matrix, of what?",
+    input.fail({"distances, correlations or points",
                 fmt::format("{}, rows and columns of the same names, no zero diagonal", size),
-                "what it means", choices});
+                "an option that says which", choices});
   } else if (guess.square != SquareKind::nothing && guess.square != SquareKind::zeros) {
     detail::note(options, fmt::format("{}, symmetric: read as points; {}", size, choices));
   }
@@ -372,18 +376,18 @@ ReadResult read_any(const Input& input, Format format, const ReadOptions& option
   }
   if (values_path.empty()) return result;
 
-  const auto values_for = [&](std::size_t count) {
-    return read_values(Input::open(values_path, options.context), count, options);
+  const auto values_for = [&](std::size_t count, std::string_view owner) {
+    return read_values(Input::open(values_path, options.context), count, options, owner);
   };
   if (auto* boundary = std::get_if<BoundaryInput>(&result.data)) {
-    boundary->matrix.values = values_for(boundary->matrix.size());
+    boundary->matrix.values = values_for(boundary->matrix.size(), "cell");
   } else if (auto* mesh = std::get_if<Mesh>(&result.data)) {
-    mesh->values = values_for(static_cast<std::size_t>(mesh->vertices.rows()));
+    mesh->values = values_for(static_cast<std::size_t>(mesh->vertices.rows()), "vertex");
   } else if (auto* simplices = std::get_if<SimplicesInput>(&result.data)) {
     const auto& vertices = simplices->simplices.vertices;
     const Index largest =
         vertices.empty() ? -1 : *std::max_element(vertices.begin(), vertices.end());
-    simplices->vertex_values = values_for(static_cast<std::size_t>(largest + 1));
+    simplices->vertex_values = values_for(static_cast<std::size_t>(largest + 1), "vertex");
   } else {
     throw Error(ErrorKind::usage,
                 fmt::format("--values: format {} takes no separate values", info.name));

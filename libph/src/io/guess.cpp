@@ -165,9 +165,9 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
           fmt::format("{}, symmetric with a zero diagonal: read as distances; {}", shape, instead)};
     }
     if (kind == SquareKind::correlations) {
-      input.fail({"a correlation matrix, or what else?",
+      input.fail({"correlations, points or an image",
                   fmt::format("a symmetric {} from -1 to 1 with ones on its diagonal", shape),
-                  "what it means",
+                  "an option that says which",
                   "--from-correlation takes distances 1 - r; --complex cubical reads an image, "
                   "--format points a point a row"});
     }
