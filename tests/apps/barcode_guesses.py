@@ -180,7 +180,8 @@ class Matrices(Guesses):
         self.write("p.npy", npy((9, 2), flat(points)))
         for option in (["--from-correlation"], ["--symmetrise", "max"], ["--diagonal", "births"]):
             for name in ("p.csv", "p.npy"):
-                self.refused(65, [option[0]], name, *option)
+                is_usage = name == "p.csv" and option[0] == "--diagonal"
+                self.refused(64 if is_usage else 65, [option[0]], name, *option)
         square = [[self.rng.random() for _ in range(6)] for _ in range(6)]
         self.write("square.csv", csv(square))
         self.check(distances_of(square), "square.csv", silent=["symmetric", "--format"])

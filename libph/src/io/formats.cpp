@@ -277,7 +277,11 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
   const bool is_table = guess.format == Format::points || guess.format == Format::distance;
   if (!is_table) return guess.format;
   if (const std::string_view option = detail::matrix_option(options); !option.empty()) {
-    if (guess.rows != 0 && guess.rows != guess.columns) {
+    const bool is_square = guess.rows == guess.columns;
+    // Points have no diagonal: --diagonal zero asks for nothing, births are refused with the
+    // points.
+    if (!is_square && option.starts_with("--diagonal")) return Format::points;
+    if (guess.rows != 0 && !is_square) {
       input.fail({"not a square matrix",
                   guess.rows > guess.columns
                       ? fmt::format("rows of {} cells, and more of them", guess.columns)
