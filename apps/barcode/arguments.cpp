@@ -15,6 +15,7 @@
 #include "ph/core/field.hpp"
 #include "report/page_template.hpp"
 #include "rips_arguments.hpp"
+#include "table_arguments.hpp"
 
 namespace ph::barcode {
 namespace {
@@ -93,7 +94,7 @@ void add_input_options(CLI::App& app, Arguments& a) {
       ->group(group);
   add_path(app, "--values", "FILE",
            "values of the cells of a boundary matrix (default: their order), or of the vertices of "
-           "a mesh",
+           "a mesh: text, NPY, or a property of a mesh, FILE.ply:NAME",
            a.values)
       ->group(group);
   app.add_flag("--allow-empty", a.read.allow_empty, "an input without points is no error")
@@ -294,11 +295,7 @@ void check_together(Arguments& a) {
         "of all edges");
   check_rips_arguments(a);
   check_image_arguments(a);
-  // A two-dimensional array holds points if that is the only way to make sense of it.
-  if (a.read.array == ArrayMeaning::image &&
-      (a.complex == ComplexKind::rips || a.format == Format::points))
-    a.read.array = ArrayMeaning::points;
-  if (a.format == Format::distance) a.read.array = ArrayMeaning::distances;
+  check_table_arguments(a);
 }
 
 }  // namespace
@@ -322,6 +319,7 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv,
       "ph-barcode");
   app::PlotArguments plots;
   add_input_options(app, arguments);
+  add_table_options(app, arguments);
   add_raw_options(app, arguments);
   add_complex_options(app, arguments);
   add_cubical_options(app, arguments);

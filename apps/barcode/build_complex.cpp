@@ -127,7 +127,8 @@ class Builder {
     refuse(arguments_.points_option, "points with --complex rips", "--complex cubical");
     if (!arguments_.voxel)
       throw Error(ErrorKind::usage,
-                  fmt::format("--complex: found cubical, which needs --voxel X for {}", data));
+                  fmt::format("--complex: found cubical, which needs --voxel X for {}{}", data,
+                              data == "points" ? "; --format grid reads them as an image" : ""));
     if (points.rows() == 0) return cubical(Image{{0}, {}});
     PointImage made = voxel_image(points, *arguments_.voxel, arguments_.voxel_value, 1, context_);
     BuiltComplex built = cubical(made.image);

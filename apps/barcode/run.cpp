@@ -19,6 +19,7 @@
 #include "ph/loops.hpp"
 #include "report.hpp"
 #include "report/sha256.hpp"
+#include "table_arguments.hpp"
 #include "ways_out.hpp"
 
 namespace ph::barcode {
@@ -325,6 +326,8 @@ NamedData read_input(const Job& job, const Arguments& arguments, const RunContex
   options.dropped = &dropped;
   const Input input = Input::open(job.input, &context, Input::Excess::stays_in_file);
   ReadResult read = read_any(input, arguments.format, options, arguments.values);
+  if (std::string note = note_on_mesh(read, arguments); !note.empty())
+    read.notes.push_back(std::move(note));
   std::string sha256;
   if (!arguments.report.empty()) sha256 = report::sha256_hex(input.bytes(), context);
   return {input.name(), std::move(read), dropped.size(), std::move(sha256)};

@@ -281,7 +281,8 @@ def unknown():
     yield refused(38, "dipha", "a dualised matrix", dipha(0, 1, 0, 0, 0), "dualised")
     for magic in ("P1", "P3", "P4", "P6", "P7", "p2"):
         yield refused(38, "pgm", magic, f"{magic} 1 1 9\n0\n", "not a PGM file")
-    yield refused(38, "png", "colours", png(1, 1, 8, 2, [b"\0\0\0"]), "grey|colour")
+    yield refused(38, "png", "colours", png(1, 1, 8, 2, [b"\0\1\0"]),
+                  "grey.*--channel")
     yield refused(38, "png", "signature of text mode", with_bytes(sample("image", "grey.png"), 4,
                                                                   b"\n\n"), "not a PNG")
     yield refused(38, "off", "first word", "OFFSET\n1 0 0\n0 0 0\n", "not an OFF file")

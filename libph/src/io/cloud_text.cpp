@@ -188,6 +188,9 @@ Cloud read_npy_cloud(const Input& input, const ReadOptions& options) {
 }
 
 Cloud read_cloud(const Input& input, const ReadOptions& options) {
+  if (!input.member().empty()) {
+    input.fail({"a part of a file", printable(input.member(), 40), "the file itself", {}});
+  }
   const auto read = [&] {
     if (detail::is_pcd(input) || input.extension() == ".pcd") return read_pcd(input, options);
     if (detail::is_ply(input) || input.extension() == ".ply") return read_ply(input, options);

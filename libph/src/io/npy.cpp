@@ -164,8 +164,7 @@ bool is_npy_of_floats(const Input& input) {
   return descr.size() > 1 && descr[1] == 'f';
 }
 
-Image read_npy_array(const Input& input, Input::Excess excess) {
-  if (is_npz(input)) return read_npy_array(read_npz_member(input));
+NpyLayout npy_layout(const Input& input) {
   Header header = read_header(input);
   const char mark = header.descr.empty() ? '\0' : header.descr[0];
   const auto type = mark == '<' || mark == '>' || mark == '|' || mark == '='
@@ -177,17 +176,25 @@ Image read_npy_array(const Input& input, Input::Excess excess) {
                 "booleans, integers or floats of at most 8 bytes",
                 {}});
   }
-  const ArrayLayout layout{*type, mark == '>' ? std::endian::big : std::endian::little,
-                           header.fortran_order, header.offset};
-  const std::size_t count = count_elements(input, layout, header.shape);
-  for (std::size_t k = 0; header.descr[1] == 'b' && k < count; ++k) {
-    const auto value = std::to_integer<int>(input.bytes()[header.offset + k]);
+  NpyLayout npy{{*type, mark == '>' ? std::endian::big : std::endian::little, header.fortran_order,
+                 header.offset},
+                std::move(header.shape),
+                header.descr[1]};
+  npy.count = count_elements(input, npy.array, npy.shape);
+  return npy;
+}
+
+Image read_npy_array(const Input& input, Input::Excess excess) {
+  if (is_npz(input)) return read_npy_array(read_npz_member(input));
+  NpyLayout npy = npy_layout(input);
+  for (std::size_t k = 0; npy.kind == 'b' && k < npy.count; ++k) {
+    const auto value = std::to_integer<int>(input.bytes()[npy.array.offset + k]);
     if (value > 1) {
-      input.fail_at_byte(header.offset + k,
+      input.fail_at_byte(npy.array.offset + k,
                          {"not a boolean", fmt::format("{}", value), "0 or 1", {}});
     }
   }
-  return load_array(input, layout, std::move(header.shape), excess);
+  return load_array(input, npy.array, std::move(npy.shape), excess);
 }
 
 namespace {

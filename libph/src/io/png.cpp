@@ -10,6 +10,7 @@
 #include <ostream>
 
 #include "readers.hpp"
+#include "table.hpp"
 
 namespace ph {
 namespace {
@@ -153,7 +154,10 @@ bool is_png(const Input& input) { return input.text().starts_with("\x89PNG\r\n\x
 
 Raster read_png(const Input& input) {
   if (!detail::is_png(input)) {
-    input.fail_at_byte(0, {"not a PNG file", "another signature", "\\x89PNG", {}});
+    const auto foreign = detail::foreign_kind(input.text());
+    input.fail_at_byte(
+        0, {"not a PNG file", foreign ? std::string(foreign->name) : "another signature",
+            "\\x89PNG", foreign ? std::string(foreign->advice) : ""});
   }
   require_chunks(input);
   Report report;
@@ -247,23 +251,5 @@ void write_png(std::ostream& out, const Raster& raster) {
     throw Error(ErrorKind::io, "PNG: " + report.message);
   }
 }
-
-namespace detail {
-
-Image read_png_image(const Input& input) {
-  Raster raster = read_png(input);
-  if (raster.channels != 1) {
-    input.fail({"not a grey image", fmt::format("{} channels", raster.channels), "1", {}});
-  }
-  const std::vector<Index> extents{raster.height, raster.width};
-  if (raster.bits > 8) return {extents, std::move(raster.samples)};
-  input.require_memory(raster.samples.size());
-  std::vector<std::uint8_t> bytes(raster.samples.size());
-  std::transform(raster.samples.begin(), raster.samples.end(), bytes.begin(),
-                 [](std::uint16_t sample) { return static_cast<std::uint8_t>(sample); });
-  return {extents, std::move(bytes)};
-}
-
-}  // namespace detail
 
 }  // namespace ph

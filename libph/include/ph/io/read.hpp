@@ -31,11 +31,25 @@ enum class NanPolicy {
           ///< images: the voxel is absent, see Image::masked
 };
 
-/// What a two-dimensional array (NPY) holds.
+/// What a two-dimensional array (NPY), or a text of numbers, holds.
 enum class ArrayMeaning {
+  automatic,  ///< what its shape, its type and its diagonal say, with a note; else an image (NPY)
+              ///< or points (text)
+  rips,       ///< points or distances, as its diagonal says
   image,      ///< values of pixels
   points,     ///< a point a row
   distances,  ///< a square distance matrix
+};
+
+/// Which number of a pixel is its value.
+enum class Channel {
+  automatic,  ///< the only one there is, or the one that all are equal to
+  grey,       ///< of colours: their luma by ITU-R BT.601, 0.299 R + 0.587 G + 0.114 B, to the
+              ///< nearest integer
+  red,
+  green,
+  blue,
+  alpha,  ///< opacity
 };
 
 /// How an image lies in a file that does not say so itself.
@@ -49,16 +63,18 @@ struct RawLayout {
 /// How input is taken. The defaults refuse whatever is doubtful, with an error that names the
 /// option.
 struct ReadOptions {
-  bool allow_empty = false;                    ///< an input without data is an empty result
-  Symmetrise symmetrise = Symmetrise::none;    ///< of square matrices
-  bool from_correlation = false;               ///< d = 1 - r; the diagonal must be 1
-  bool births_on_diagonal = false;             ///< of square matrices; else it must be 0
-  NanPolicy nan = NanPolicy::error;            ///< see NanPolicy
-  ArrayMeaning array = ArrayMeaning::image;    ///< used by read_any for 2-D arrays
-  std::optional<RawLayout> raw = {};           ///< used by read_any for Format::raw
-  const RunContext* context = nullptr;         ///< budget and stop token; may be null
-  std::function<void(std::string)> note = {};  ///< told what was assumed, one line each
-  std::vector<Index>* dropped = nullptr;       ///< receives the rows left out, ascending
+  bool allow_empty = false;                      ///< an input without data is an empty result
+  Symmetrise symmetrise = Symmetrise::none;      ///< of square matrices
+  bool from_correlation = false;                 ///< d = 1 - r; the diagonal must be 1
+  bool births_on_diagonal = false;               ///< of square matrices; else it must be 0
+  NanPolicy nan = NanPolicy::error;              ///< see NanPolicy
+  ArrayMeaning array = ArrayMeaning::automatic;  ///< used by read_any
+  std::vector<std::string> columns = {};         ///< of tables: names, "3", "2-5"; empty: all
+  Channel channel = Channel::automatic;          ///< of pictures
+  std::optional<RawLayout> raw = {};             ///< used by read_any for Format::raw
+  const RunContext* context = nullptr;           ///< budget and stop token; may be null
+  std::function<void(std::string)> note = {};    ///< told what was assumed, one line each
+  std::vector<Index>* dropped = nullptr;         ///< receives the rows left out, ascending
 };
 
 // Every reader takes a path ("-" is standard input) or an open Input. All throw
