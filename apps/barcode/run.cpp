@@ -290,7 +290,7 @@ NamedData read_input(const Job& job, const Arguments& arguments, const RunContex
   const Input input = Input::open(job.input, &context, Input::Excess::stays_in_file);
   ReadResult read = read_any(input, arguments.format, options, arguments.values);
   std::string sha256;
-  if (!arguments.report.empty()) sha256 = report::sha256_hex(input.bytes(), context);
+  if (!arguments.report.empty() && !arguments.dry_run) sha256 = report::sha256_hex(input, context);
   return {input.name(), std::move(read), dropped.size(), std::move(sha256)};
 }
 

@@ -10,6 +10,7 @@
 #include "forest_closing.hpp"
 #include "loop_reduction.hpp"
 #include "nested_sets.hpp"
+#include "ph/core/voxels_in_use.hpp"
 #include "represented_pairs.hpp"
 #include "separating_cycles.hpp"
 #include "torus_surfaces.hpp"
@@ -329,6 +330,7 @@ bool can_represent_voxels(const CubicalImage& grid) { return GridFrame::can_hold
 template <Field K>
 void represent_voxels(const CubicalImage& grid, const K& field, int max_dim, Representatives kind,
                       const RunContext& context, const RepresentativeSink& sink) {
+  const VoxelsInUse voxels_are_read(grid, context);
   Representing<K>(grid, field, max_dim, kind, context, sink).run();
 }
 
