@@ -8,7 +8,6 @@
 #include "ph/io/cloud_io.hpp"
 
 namespace ph {
-
 Cloud cloud_from_depth(const Raster& depth, const std::optional<Raster>& colour,
                        const Intrinsics& intrinsics, double depth_scale) {
   const auto& [fx, fy, cx, cy] = intrinsics;
@@ -19,6 +18,8 @@ Cloud cloud_from_depth(const Raster& depth, const std::optional<Raster>& colour,
                             "expected finite numbers, lengths and scale above 0",
                             fx, fy, cx, cy, depth_scale));
   }
+  depth.check();
+  if (colour) colour->check();
   if (depth.channels != 1) {
     throw Error(ErrorKind::bad_data,
                 fmt::format("{}: depth image: found {} channels, expected 1 (grey)", depth.name,
