@@ -219,7 +219,7 @@ void write_report(OutputFile& file, const Shown& shown, const Arguments& argumen
   report.finish();
 }
 
-int run_comparison(const Arguments& arguments, app::Session& session) {
+int run_comparison(const Arguments& arguments, app::Session& session) try {
   app::Output output(arguments.report);
   const std::string &first = arguments.compare[0], &second = arguments.compare[1];
   report::Metadata meta;
@@ -249,6 +249,12 @@ int run_comparison(const Arguments& arguments, app::Session& session) {
   report.finish();
   output.commit();
   return app::kOk;
+} catch (const Error& error) {
+  if (error.kind() != ErrorKind::resource) throw;
+  throw Error(ErrorKind::resource,
+              fmt::format("{}; compare fewer bars, or raise --memory-limit", error.what()));
+} catch (const std::bad_alloc&) {
+  throw Error(ErrorKind::resource, "out of memory; compare fewer bars, or raise --memory-limit");
 }
 
 }  // namespace ph::barcode
