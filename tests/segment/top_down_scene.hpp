@@ -35,6 +35,10 @@ class TopDownScene {
       for (int u = 0; u < width; ++u)
         cast(random, (u + 0.5 - width / 2.0) * spacing_ / height,
              (v + 0.5 - rows / 2.0) * spacing_ / height);
+    // Many points where the coordinates of the squares change their signs.
+    for (int i = 0; i < 100; ++i)
+      cast(random, (foot_[0] + 0.01 * (random.real() - 0.5)) / foot_[2],
+           (foot_[1] + 0.01 * (random.real() - 0.5)) / foot_[2]);
   }
 
   const std::vector<float>& xyz() const { return xyz_; }
@@ -111,7 +115,10 @@ class TopDownScene {
         hit = k + 1;
       }
     }
-    const double depth = nearest + 0.001 * (random.real() - 0.5);
+    // Of a sum of uniform numbers, 0.8 mm: a tenth of the table lies in the strip that feet are won
+    // back from.
+    const double noise = random.real() + random.real() + random.real() - 1.5;
+    const double depth = nearest + 0.0016 * noise;
     truth_.push_back(hit);
     for (const double c : {px, py, 1.0}) xyz_.push_back(static_cast<float>(c * depth));
   }
@@ -156,8 +163,10 @@ inline void expect_right(const TopDownScene& scene, Method method) {
       points += count;
       if (label == 0) without += count;
     }
-    if (points >= 200)  // not cut off by the border of the picture
-      EXPECT_LT(5 * without, points) << "box " << box << " without a label";
+    // What is low on its sides may pass for the plane; what the border cuts off may be too little.
+    if (points >= 800) {
+      EXPECT_LT(2 * without, points) << "box " << box << " without a label";
+    }
   }
   expect_read_back(s);
 }
