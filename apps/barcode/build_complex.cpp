@@ -215,6 +215,11 @@ class Builder {
     return built;
   }
 
+  /// 1 + x, with all digits of x where they would be lost in the sum.
+  static std::string one_and(double x) {
+    constexpr double least = 1e-6;
+    return x < least ? "1 + " + shortest(x) : shortest(1 + x);
+  }
   /// What an approximation is worth, if there is one.
   /// @param may_be_no_metric whether the triangle inequality is not certain.
   std::optional<std::string> promise_of(const Rips& complex,
@@ -232,7 +237,7 @@ class Builder {
       const double n = static_cast<double>(complex.size());
       text += fmt::format("{}{} of {:.0f} edges: births and deaths are at most {} times too late",
                           text.empty() ? "" : "; ", complex.edge_count(), n * (n - 1) / 2,
-                          shortest(1 + *arguments_.rips.approximation));
+                          one_and(*arguments_.rips.approximation));
     }
     if (text.empty()) return std::nullopt;
     return name_ + ": " + text +

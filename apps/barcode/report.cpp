@@ -12,6 +12,7 @@
 #include "complex_arrays.hpp"
 #include "exit_code.hpp"
 #include "h0_tree.hpp"
+#include "ph/core/file_pages.hpp"
 #include "ph/diagram/bottleneck.hpp"
 #include "report/bar_arrays.hpp"
 #include "report/point_arrays.hpp"
@@ -127,19 +128,21 @@ void add_points(ReportFile& report, const Points& points, const std::vector<Inde
 
 void add_image(ReportFile& report, const CubicalImage& image,
                std::span<const std::uint32_t> leaf_of) {
-  report::ArrayForm form;
-  for (const Index extent : image.extents) form.shape.push_back(static_cast<std::size_t>(extent));
-  with_voxels(image.type, image.voxels, [&]<class T>(const T* values) {
-    form.delta = std::numeric_limits<T>::is_integer;
-    report.add("image/values", std::span(values, image.size()), form);
-  });
+  report.add_voxels("image/values", image);
   if (leaf_of.size() == image.size()) report::add_labels(report, "points/leaf", leaf_of, true);
   if (!image.superlevel) return;
   const MemoryClaim copy(report.context().memory, image.size() * sizeof(float));
   std::vector<float> births;
   births.reserve(image.size());
-  for (std::size_t i = 0; i < image.size(); ++i)
-    births.push_back(static_cast<float>(image.value(i)));
+  constexpr std::size_t block = 1 << 17;
+  const std::size_t width = bytes_of(image.type);
+  while (births.size() < image.size()) {
+    const std::size_t begin = births.size(), end = std::min(image.size(), begin + block);
+    for (std::size_t i = begin; i < end; ++i) births.push_back(static_cast<float>(image.value(i)));
+    if (image.is_in_file)
+      forget_file_pages(static_cast<const std::byte*>(image.voxels) + begin * width,
+                        (end - begin) * width);
+  }
   report.add("points/birth", births);
 }
 
@@ -216,7 +219,7 @@ void write_report(OutputFile& file, const Shown& shown, const Arguments& argumen
   report.finish();
 }
 
-int run_comparison(const Arguments& arguments, app::Session& session) {
+int run_comparison(const Arguments& arguments, app::Session& session) try {
   app::Output output(arguments.report);
   const std::string &first = arguments.compare[0], &second = arguments.compare[1];
   report::Metadata meta;
@@ -233,7 +236,7 @@ int run_comparison(const Arguments& arguments, app::Session& session) {
     meta.barcodes.push_back({report::title_of(path), barcodes.back().cell_kind()});
     meta.provenance.notes.emplace_back(
         fmt::format("SHA-256 of {}", barcodes.size() == 1 ? "the first" : "the second"),
-        report::sha256_hex(input.bytes(), session.context()));
+        report::sha256_hex(input, session.context()));
     session.note(fmt::format("read {}: {} bars", input.name(), barcodes.back().size()));
   }
   add_distances(meta, barcodes[0], barcodes[1], session);
@@ -246,6 +249,12 @@ int run_comparison(const Arguments& arguments, app::Session& session) {
   report.finish();
   output.commit();
   return app::kOk;
+} catch (const Error& error) {
+  if (error.kind() != ErrorKind::resource) throw;
+  throw Error(ErrorKind::resource,
+              fmt::format("{}; compare fewer bars, or raise --memory-limit", error.what()));
+} catch (const std::bad_alloc&) {
+  throw Error(ErrorKind::resource, "out of memory; compare fewer bars, or raise --memory-limit");
 }
 
 }  // namespace ph::barcode

@@ -329,7 +329,7 @@ NamedData read_input(const Job& job, const Arguments& arguments, const RunContex
   if (std::string note = note_on_mesh(read, arguments); !note.empty())
     read.notes.push_back(std::move(note));
   std::string sha256;
-  if (!arguments.report.empty()) sha256 = report::sha256_hex(input.bytes(), context);
+  if (!arguments.report.empty() && !arguments.dry_run) sha256 = report::sha256_hex(input, context);
   return {input.name(), std::move(read), dropped.size(), std::move(sha256)};
 }
 

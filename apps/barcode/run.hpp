@@ -3,9 +3,15 @@
 #include <string>
 
 #include "arguments.hpp"
+#include "program.hpp"
 #include "session.hpp"
 
 namespace ph::barcode {
+
+inline constexpr app::Program kProgram{
+    "ph-barcode",
+    "lower the threshold, the dimension (--max-dim) or the number of points, or raise "
+    "--memory-limit"};
 
 /// One input and where its barcode goes.
 struct Job {

@@ -113,7 +113,7 @@ Result result_of(const Arguments& arguments, const Outputs& outputs, app::Sessio
     result.cloud = read_depth_image(*input, image, session);
   else if (!is_tree(*input))
     result.cloud = read_points(*input, arguments.allow_empty, session);
-  if (!arguments.files.report.empty()) result.sha256 = report::sha256_hex(input->bytes(), context);
+  if (!arguments.files.report.empty()) result.sha256 = report::sha256_hex(*input, context);
   somebody_types.reset();
   Segmentation& s = result.segmentation;
   const auto stop_reading = [&] {

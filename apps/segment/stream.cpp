@@ -86,11 +86,10 @@ class Stream {
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::cancelled) throw;
       const bool named = std::string_view(error.what()).find(one.input) != std::string_view::npos;
-      code = app::report_current_exception(named ? "ph-segment"
-                                                 : "ph-segment: " + printable(one.input));
+      code = app::report_current_exception(kProgram, named ? "" : printable(one.input));
       line = failure_line(one.input, code);
     } catch (...) {
-      code = app::report_current_exception("ph-segment: " + printable(one.input));
+      code = app::report_current_exception(kProgram, printable(one.input));
       line = failure_line(one.input, code);
     }
     if (json_) {

@@ -22,11 +22,22 @@ NOBODY = 65534
 OUTPUT = {"ph-barcode": "out.csv", "ph-segment": "out.pcd"}
 
 
+def named_options(text):
+    return re.findall(r"(?<![\w!-])--[a-z][a-z0-9-]*[a-z0-9]", text)
+
+
+def options_of(program):
+    """The options that the help of a program lists."""
+    return set(named_options(subprocess.run([program, "--help"], capture_output=True, text=True,
+                                            timeout=60, check=True).stdout))
+
+
 class Runner:
     def __init__(self, barcode, segment, peak):
         self.programs = {"ph-barcode": os.path.abspath(barcode),
                          "ph-segment": os.path.abspath(segment)}
         self.peak = os.path.abspath(peak)
+        self.options = {name: options_of(program) for name, program in self.programs.items()}
         with open(barcode, "rb") as file:
             self.sanitized = b"__asan_init" in file.read()  # its own memory and time count too
         self.obstacle = self.let_nobody_in() if os.geteuid() == 0 else None
@@ -92,6 +103,7 @@ class Runner:
                 return "it hangs", False
         seconds = time.monotonic() - start
         wrong = self.result_faults(entry, run.returncode, out or b"", err or b"")
+        wrong += self.unknown_options(entry, (err or b"").decode("utf-8", "replace"))
         after = sorted(os.listdir(os.fsencode(folder)))
         expected = sorted({*before, *map(os.fsencode, entry.creates)})
         if after != expected:
@@ -103,6 +115,14 @@ class Runner:
         with open(report, encoding="ascii") as file:
             kib, microseconds = map(int, file.read().split())
         return self.cost_fault(entry, seconds, kib, microseconds)
+
+    def unknown_options(self, entry, message):
+        """Options that a message sends the user to and that the program has not; what the user
+        wrote himself may be anything."""
+        written = " ".join(map(os.fsdecode, entry.arguments))
+        return [f"it names {option}, which {entry.program} has not: {message!r}"
+                for option in sorted(set(named_options(message)) - self.options[entry.program])
+                if option not in written]
 
     @staticmethod
     def result_faults(entry, code, out, err):

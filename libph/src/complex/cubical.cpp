@@ -13,6 +13,7 @@
 #include "ph/core/error.hpp"
 #include "ph/core/file_pages.hpp"
 #include "ph/core/radix_sort.hpp"
+#include "ph/core/voxels_in_use.hpp"
 
 namespace ph {
 namespace {
@@ -135,6 +136,7 @@ Cubical::Table Cubical::new_table(const RunContext& context) const {
     to_spread += cells_ / length * ((grid_.voxels_are_vertices ? length : length + 1) / 2);
   }
   Ticker ticker(context, "cells", to_spread);
+  const VoxelsInUse voxels_are_read(grid_, context);
   std::pmr::vector<Voxel> order(&context.memory);
   order.reserve(voxels_.size());
   for (std::size_t i = 0; i < voxels_.size(); ++i) {

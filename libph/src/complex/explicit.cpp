@@ -48,21 +48,34 @@ void check_size(std::size_t cells) {
 // Tables are made with a row a dimension: a wrong number in a file must not make them huge.
 constexpr int kLargestDimension = 65535;
 
+[[noreturn]] void refuse(std::string_view what, const std::string& fault) {
+  throw Error(ErrorKind::bad_data, fmt::format("{}: {}", what, fault));
+}
+
+// Compressed rows: those of row i are offsets[i] .. offsets[i+1] of `items`.
+void check_offsets(std::string_view what, const std::vector<std::size_t>& offsets,
+                   std::size_t items) {
+  if (!offsets.empty() && offsets.front() == 0 && offsets.back() == items &&
+      std::ranges::is_sorted(offsets))
+    return;
+  refuse(what, fmt::format("found {}, expected offsets that ascend from 0 to {}",
+                           offsets.empty() ? "no offsets"
+                                           : fmt::format("{} offsets from {} to {}", offsets.size(),
+                                                         offsets.front(), offsets.back()),
+                           items));
+}
+
 void check_layout(const BoundaryMatrix& matrix) {
   const std::size_t n = matrix.size();
-  const auto refuse = [](const std::string& what) {
-    throw Error(ErrorKind::bad_data, "boundary matrix: " + what);
-  };
+  constexpr std::string_view what = "boundary matrix";
   if (matrix.offsets.size() != n + 1)
-    refuse(fmt::format("found {} offsets, expected {}", matrix.offsets.size(), n + 1));
+    refuse(what, fmt::format("found {} offsets, expected {}", matrix.offsets.size(), n + 1));
   if (!matrix.values.empty() && matrix.values.size() != n)
-    refuse(fmt::format("found {} values, expected {}", matrix.values.size(), n));
-  if (matrix.offsets.front() != 0 || matrix.offsets.back() != matrix.rows.size() ||
-      !std::ranges::is_sorted(matrix.offsets))
-    refuse(fmt::format("expected offsets that ascend from 0 to {}", matrix.rows.size()));
+    refuse(what, fmt::format("found {} values, expected {}", matrix.values.size(), n));
+  check_offsets(what, matrix.offsets, matrix.rows.size());
   if (!matrix.incidences.empty() && matrix.incidences.size() != matrix.rows.size())
-    refuse(fmt::format("found {} incidence numbers, expected {}", matrix.incidences.size(),
-                       matrix.rows.size()));
+    refuse(what, fmt::format("found {} incidence numbers, expected {}", matrix.incidences.size(),
+                             matrix.rows.size()));
 }
 
 // The boundary matrix of a set of simplices whose vertices are ascending.
@@ -101,9 +114,17 @@ BoundaryMatrix boundary_of(const SimplexList& simplices, const CellNamer& name,
 
 }  // namespace
 
+void SimplexList::check_layout() const {
+  check_offsets("list of simplices", offsets, vertices.size());
+}
+
 ExplicitComplex ExplicitComplex::from_simplices(SimplexList simplices, const CellNamer& name,
                                                 const RunContext& context) {
+  simplices.check_layout();
   check_size(simplices.size());
+  if (simplices.values.size() != simplices.size())
+    refuse("list of simplices",
+           fmt::format("found {} values, expected {}", simplices.values.size(), simplices.size()));
   for (std::size_t i = 0; i < simplices.size(); ++i) {
     const auto vertex = [&](std::size_t k) {
       return simplices.vertices.begin() + static_cast<std::ptrdiff_t>(k);
@@ -281,7 +302,7 @@ void ExplicitComplex::check(const std::vector<int>& dims, const CellNamer& name)
     }
     if (dims[i] == 1) {
       const bool joins = end - begin == 2 && (!has_incidences_ || sum == 0) &&
-                         std::abs(facets_.incidences[begin]) == 1;
+                         (facets_.incidences[begin] == 1 || facets_.incidences[begin] == -1);
       edges_join_vertices_ = edges_join_vertices_ && (begin == end || joins);
     }
   }

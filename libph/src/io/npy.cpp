@@ -268,7 +268,9 @@ Image read_npy_image(const Input& input, const ReadOptions& options) {
 
 void write_npy(std::ostream& out, std::span<const std::uint32_t> labels, Index width,
                Index height) {
-  if (width < 0 || height < 0 || static_cast<std::size_t>(width * height) != labels.size()) {
+  const bool is_size = width >= 0 && height >= 0;
+  if (!is_size || checked_product(static_cast<std::size_t>(width),
+                                  static_cast<std::size_t>(height)) != labels.size()) {
     throw Error(ErrorKind::bad_data,
                 fmt::format("labels: found {}, expected {} x {}", labels.size(), width, height));
   }

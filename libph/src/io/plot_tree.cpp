@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
+#include "ph/core/error.hpp"
 #include "plot_intervals.hpp"
 
 namespace ph::plot {
@@ -71,6 +74,31 @@ class Layout {
   std::size_t next_ = 0;
 };
 
+/// @throws Error (bad_data) on NaN, or unless each branch comes to an end at one that never dies.
+void check(std::span<const Branch> tree) {
+  const auto refuse = [](std::size_t i, const std::string& found, const std::string& expected) {
+    throw Error(ErrorKind::bad_data,
+                fmt::format("branch {}: found {}, expected {}", i, found, expected));
+  };
+  std::vector<std::size_t> seen_from(tree.size(), kNone);
+  for (std::size_t i = 0; i < tree.size(); ++i) {
+    if (std::isnan(tree[i].birth) || std::isnan(tree[i].death))
+      refuse(i, fmt::format("[{}, {})", tree[i].birth, tree[i].death), "two numbers");
+    if (std::cmp_greater_equal(tree[i].elder, tree.size()))
+      refuse(i, fmt::format("an elder branch {}", tree[i].elder),
+             fmt::format("one below {}", tree.size()));
+  }
+  for (std::size_t i = 0; i < tree.size(); ++i) {
+    for (std::size_t at = i; seen_from[at] == kNone;
+         at = static_cast<std::size_t>(tree[at].elder)) {
+      seen_from[at] = i;
+      if (tree[at].is_infinite()) break;
+      if (seen_from[static_cast<std::size_t>(tree[at].elder)] == i)
+        refuse(i, "elder branches that go round in a circle", "an end");
+    }
+  }
+}
+
 Range finite_range(std::span<const Branch> tree, const std::vector<std::size_t>& classes) {
   Range range{kInfinity, -kInfinity};
   for (const std::size_t i : classes)
@@ -85,6 +113,7 @@ Range finite_range(std::span<const Branch> tree, const std::vector<std::size_t>&
 }  // namespace
 
 Drawing draw_tree(std::span<const Branch> tree, const PlotOptions& options) {
+  check(tree);
   Canvas canvas;
   // One of no length is no bar either.
   std::vector<std::size_t> classes;

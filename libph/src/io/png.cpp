@@ -215,20 +215,24 @@ Raster read_png(const std::filesystem::path& path, const RunContext* context) {
   return read_png(Input::open(path, context));
 }
 
+void Raster::check() const {
+  std::optional<std::size_t> count;
+  if (width >= 0 && height >= 0 && channels >= 1 && channels <= 4)
+    count = checked_product(static_cast<std::size_t>(width), static_cast<std::size_t>(height));
+  if (count) count = checked_product(*count, static_cast<std::size_t>(channels));
+  if (count == samples.size() && (bits == 8 || bits == 16)) return;
+  throw Error(ErrorKind::bad_data,
+              fmt::format("{}: found {} samples of {} bits for {} x {} pixels of {} channels, "
+                          "expected as many as pixels and channels say, 8 or 16 bits",
+                          name, samples.size(), bits, width, height, channels));
+}
+
 void write_png(std::ostream& out, const Raster& raster) {
-  const bool sizes = raster.width > 0 && raster.height > 0 && raster.width <= kMaxSide &&
-                     raster.height <= kMaxSide && raster.channels >= 1 && raster.channels <= 4 &&
-                     (raster.bits == 8 || raster.bits == 16);
-  if (!sizes || raster.samples.size() !=
-                    static_cast<std::size_t>(raster.width * raster.height * raster.channels)) {
-    throw Error(
-        ErrorKind::bad_data,
-        fmt::format("picture: found {} samples of {} bits for {} x {} pixels of {} channels, "
-                    "expected as many as pixels and channels say, 8 or 16 bits, at most "
-                    "{} pixels a side",
-                    raster.samples.size(), raster.bits, raster.width, raster.height,
-                    raster.channels, kMaxSide));
-  }
+  raster.check();
+  if (raster.width < 1 || raster.height < 1 || raster.width > kMaxSide || raster.height > kMaxSide)
+    throw Error(ErrorKind::bad_data,
+                fmt::format("{}: found {} x {} pixels, expected 1 to {} a side", raster.name,
+                            raster.width, raster.height, kMaxSide));
   std::vector<png_byte> bytes(raster.samples.size() * static_cast<std::size_t>(raster.bits / 8));
   if (raster.bits == 16) {
     std::memcpy(bytes.data(), raster.samples.data(), bytes.size());

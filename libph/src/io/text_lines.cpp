@@ -109,7 +109,8 @@ TextLines::TextLines(const Input& input) : TextLines(input, 0, 0) {
   const std::string_view probe = input.text().substr(0, kProbe);
   const std::string_view mark = probe.substr(0, 2);
   const std::size_t nul = probe.find('\0');
-  const std::string hint = "save it as UTF-8, or say what it is with --format";
+  // Which formats there are the caller knows: programs that read clouds alone have no --format.
+  const std::string hint = "save it as UTF-8";
   if (const auto foreign = detail::foreign_kind(probe)) {
     input.fail_at_byte(
         0, {"not plain text", std::string(foreign->name), "UTF-8", std::string(foreign->advice)});
@@ -123,7 +124,7 @@ TextLines::TextLines(const Input& input) : TextLines(input, 0, 0) {
                        std::all_of(probe.begin(), probe.end(),
                                    [](char c) { return static_cast<unsigned char>(c) < 0x80; });
     input.fail_at_byte(nul, {"not plain text", utf16 ? "NUL bytes as in UTF-16" : "a NUL byte",
-                             "UTF-8", utf16 ? hint : "is this a binary file? see --format"});
+                             "UTF-8", utf16 ? hint : "is this a binary file of another format?"});
   }
   if (probe.substr(0, 3) == "\xEF\xBB\xBF") position_ += 3;
 }

@@ -18,7 +18,9 @@ struct SimplexList {
   std::vector<std::size_t> offsets{0};
   std::vector<double> values;
 
-  std::size_t size() const { return offsets.size() - 1; }
+  std::size_t size() const { return offsets.empty() ? 0 : offsets.size() - 1; }
+  /// @throws Error (bad_data) unless the offsets ascend from 0 to the number of vertices.
+  void check_layout() const;
   std::span<const Index> simplex(std::size_t i) const {
     return std::span(vertices).subspan(offsets[i], offsets[i + 1] - offsets[i]);
   }
@@ -56,7 +58,7 @@ class ExplicitComplex {
   static constexpr bool first_equal_cofacet_is_oldest = true;
 
   /// @throws Error (bad_data) if a simplex occurs twice, repeats a vertex, lacks a facet, is
-  ///         older than a facet of its own, or has a NaN value.
+  ///         older than a facet of its own, or has a NaN value; if sizes disagree.
   static ExplicitComplex from_simplices(SimplexList simplices, const CellNamer& name = {},
                                         const RunContext& context = default_context());
   /// @throws Error (bad_data) if a facet is out of range, is not of one dimension less or is

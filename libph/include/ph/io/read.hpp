@@ -205,7 +205,7 @@ struct Mesh {
   std::vector<std::size_t> offsets{0};
   std::vector<double> values;  ///< one a vertex, or empty
 
-  std::size_t faces() const { return offsets.size() - 1; }
+  std::size_t faces() const { return offsets.empty() ? 0 : offsets.size() - 1; }
 };
 
 /// OFF (Geomview), text. @throws Error (bad_data) also on a face that names a missing vertex.

@@ -35,7 +35,7 @@ std::string svg_plot(const Barcode& barcode, const PlotOptions& options = {});
 
 /// The same of a merge tree (MergeTree::branches): one line a class over the filtration value, and
 /// where it dies a line to the class that it joins. Those of little persistence are a density.
-/// `options.kind` has no say.
+/// `options.kind` has no say. @throws Error (bad_data) on NaN, or an elder branch that is not there.
 std::string svg_plot(std::span<const Branch> tree, const PlotOptions& options = {});
 
 /// A picture made of points or pixels whose colours have names.
