@@ -84,11 +84,7 @@ Job job_of(const std::string& input, const std::string& name, const Arguments& a
     job.output =
         app::filled(arguments.output, name, fmt::format(".{}", barcode_format_name(format)));
   job.plots = arguments.plots;
-  for (app::Plot& plot : job.plots) {
-    std::size_t same = 0;  // in one folder a kind has one picture
-    for (const app::Plot& other : arguments.plots) same += other.path == plot.path ? 1 : 0;
-    plot.path = app::filled(plot.path, name, same > 1 ? "." + plot.kind + ".svg" : ".svg");
-  }
+  for (app::Plot& plot : job.plots) plot.path = app::filled(plot.path, name, ".svg");
   job.report = app::filled(arguments.report, name, ".html");
   return job;
 }
@@ -128,7 +124,14 @@ void prepare_folders(const Arguments& arguments, BarcodeFormat format) {
 }
 
 /// No output replaces an input, or another output. @throws Error (usage).
-void require_separate(const std::vector<Job>& jobs, const Arguments& arguments) {
+void require_separate(const app::InputFiles& inputs, const std::vector<app::Written>& outputs,
+                      const Arguments& arguments, app::Session& session) {
+  const bool replaces = app::require_separate(inputs, outputs, arguments.common.force);
+  if (arguments.common.force && !replaces)
+    session.explain("--force: not needed, no output is an input");
+}
+void require_separate(const std::vector<Job>& jobs, const Arguments& arguments,
+                      app::Session& session) {
   app::InputFiles inputs;
   std::vector<app::Written> outputs;
   for (const Job& job : jobs) {
@@ -139,7 +142,7 @@ void require_separate(const std::vector<Job>& jobs, const Arguments& arguments) 
   }
   inputs.add(arguments.values);
   inputs.add(arguments.vertex_weights);
-  app::require_separate(inputs, outputs, arguments.common.force);
+  require_separate(inputs, outputs, arguments, session);
 }
 
 /// Outputs that are asked for and do not come.
@@ -186,7 +189,7 @@ int run_all(const Arguments& given, app::Session& session) {
     std::vector<app::Written> outputs;
     if (given.output != "-") outputs.push_back({"--output", given.output});
     if (!given.report.empty()) outputs.push_back({"--report", given.report});
-    app::require_separate(inputs, outputs, given.common.force);
+    require_separate(inputs, outputs, given, session);
     return run_comparison(given, session);
   }
   const BarcodeFormat format = format_of(given, session);
@@ -196,7 +199,7 @@ int run_all(const Arguments& given, app::Session& session) {
   require_room(format, arguments);
   const std::vector<std::string> inputs = with_files_of_folders(arguments);
   const std::vector<Job> jobs = jobs_of(arguments, inputs, format);
-  if (!arguments.dry_run) require_separate(jobs, arguments);
+  if (!arguments.dry_run) require_separate(jobs, arguments, session);
   explain_unwritten(arguments, format, session);
   if (!arguments.is_batch()) return run(jobs[0], arguments, session).code;
   if (!arguments.dry_run) prepare_folders(arguments, format);

@@ -37,15 +37,20 @@ void InputFiles::add(const std::string& path) {
     paths_.emplace(std::move(*file), path);
 }
 
-void InputFiles::require_other(const Written& output) const {
-  const auto file = identity_of(output.path, STDOUT_FILENO);
-  if (!file) return;
+const std::string* InputFiles::replaced_by(const std::string& output) const {
+  const auto file = identity_of(output, STDOUT_FILENO);
+  if (!file) return nullptr;
   const auto input = paths_.find(*file);
-  if (input == paths_.end()) return;
+  return input == paths_.end() ? nullptr : &input->second;
+}
+
+void InputFiles::require_other(const Written& output) const {
+  const std::string* input = replaced_by(output.path);
+  if (!input) return;
   const auto named = [](const std::string& path, std::string_view standard) {
     return path == "-" ? std::string(standard) : printable(path);
   };
-  const std::string in = named(input->second, "standard input"),
+  const std::string in = named(*input, "standard input"),
                     out = named(output.path, "standard output");
   throw Error(
       ErrorKind::usage,
@@ -75,10 +80,14 @@ void require_distinct(std::span<const Written> outputs) {
   }
 }
 
-void require_separate(const InputFiles& inputs, std::span<const Written> outputs, bool force) {
+bool require_separate(const InputFiles& inputs, std::span<const Written> outputs, bool force) {
   require_distinct(outputs);
-  if (force) return;
-  for (const Written& output : outputs) inputs.require_other(output);
+  bool replaces = false;
+  for (const Written& output : outputs) {
+    if (!force) inputs.require_other(output);
+    replaces = replaces || inputs.replaced_by(output.path) != nullptr;
+  }
+  return replaces;
 }
 
 }  // namespace ph::app

@@ -32,6 +32,8 @@ class InputFiles {
   void add(const std::string& path);
   /// @throws Error (usage) "--output: a.csv is the input ./a.csv; …".
   void require_other(const Written& output) const;
+  /// The input that an output would replace; null: none.
+  const std::string* replaced_by(const std::string& output) const;
 
  private:
   std::map<FileIdentity, std::string> paths_;
@@ -41,7 +43,7 @@ class InputFiles {
 void require_distinct(std::span<const Written> outputs);
 
 /// Both: each output is a file of its own, and none of the inputs.
-/// @param force outputs may replace inputs.
-void require_separate(const InputFiles& inputs, std::span<const Written> outputs, bool force);
+/// @param force outputs may replace inputs. @return whether one does.
+bool require_separate(const InputFiles& inputs, std::span<const Written> outputs, bool force);
 
 }  // namespace ph::app

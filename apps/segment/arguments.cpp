@@ -11,6 +11,7 @@
 #include "batch_names.hpp"
 #include "choices.hpp"
 #include "numbers.hpp"
+#include "option_scopes.hpp"
 #include "ph/core/error.hpp"
 #include "report/page_template.hpp"
 
@@ -129,7 +130,8 @@ double at_least_zero(std::string_view option, const std::string& text) {
 /// Options that others contradict. Not asked for by name: that ends the program if there is no
 /// memory for a copy of the name.
 struct Known {
-  CLI::Option *method = nullptr, *supervoxels = nullptr, *min_persistence = nullptr;
+  CLI::Option *method = nullptr, *supervoxels = nullptr, *min_persistence = nullptr,
+              *plot_view = nullptr;
 };
 
 /// What comes before the plane is gone.
@@ -246,7 +248,7 @@ ViewTurn parse_turn(std::string_view option, const std::string& text) {
   return {v[0], v[1]};
 }
 
-void add_output_options(CLI::App& app, Arguments& a, app::PlotArguments& plots) {
+void add_output_options(CLI::App& app, Arguments& a, app::PlotArguments& plots, Known& known) {
   OutputPaths& files = a.files;
   const auto path = [&app](const std::string& names, const std::string& placeholder,
                            const std::string& what, std::string& target) {
@@ -273,11 +275,12 @@ void add_output_options(CLI::App& app, Arguments& a, app::PlotArguments& plots) 
       app, kPlotKinds,
       "figure of the barcode, of the merge tree, or of the cloud with a colour a segment "
       "(repeatable)",
-      "Options", plots);
-  add_value(app, "--plot-view", "RIGHT,UP",
-            "where a plot of the cloud is seen from: by how much the eye goes around the segments "
-            "from the viewpoint, degrees (default: 0,0)",
-            [&a](const std::string& v) { a.plot_view = parse_turn("--plot-view", v); });
+      "Options", false, plots);
+  known.plot_view = add_value(
+      app, "--plot-view", "RIGHT,UP",
+      "where a plot of the cloud is seen from: by how much the eye goes around the segments "
+      "from the viewpoint, degrees (default: 0,0)",
+      [&a](const std::string& v) { a.plot_view = parse_turn("--plot-view", v); });
   path("--coloured,--colored", "FILE.pcd|.ply",
        "the points with a colour a segment, safe for the colour-blind, and the rest in grey",
        files.coloured);
@@ -295,25 +298,13 @@ void add_output_options(CLI::App& app, Arguments& a, app::PlotArguments& plots) 
 
 /// What makes the scene, for a command that cuts it elsewhere.
 std::vector<std::string> scene_options(const CLI::App& app) {
-  constexpr std::array<std::string_view, 19> other = {
+  constexpr std::array<std::string_view, 22> other = {
       "output",      "labels",        "json",      "signatures", "tree",
       "barcode",     "plot",          "coloured",  "explain",    "picture",
       "report",      "cut",           "objects",   "parts",      "min-persistence",
-      "frames-from", "stable-labels", "plot-kind", "plot-view"};
+      "frames-from", "stable-labels", "plot-kind", "plot-view",  "title",
+      "size",        "axis"};
   return app::given_options(app, other);
-}
-
-/// The first option that was given of those that a stored tree cannot follow.
-std::string scene_option(const CLI::App& app) {
-  constexpr std::array<std::string_view, 12> names = {
-      "method",    "max-range",   "crop",  "plane",           "plane-distance", "plane-noise",
-      "viewpoint", "supervoxels", "voxel", "min-persistence", "distance",       "steps"};
-  for (const CLI::Option* option : app.get_options()) {
-    const std::vector<std::string>& known_as = option->get_lnames();
-    if (option->count() > 0 && !known_as.empty() && std::ranges::count(names, known_as.front()) > 0)
-      return "--" + known_as.front();
-  }
-  return {};
 }
 
 bool is_png(const std::string& path) { return path.ends_with(".png") || path.ends_with(".PNG"); }
@@ -351,9 +342,6 @@ void require_consistent(const Arguments& a) {
   if (!depth && !a.image.colour.empty()) {
     throw Error(ErrorKind::usage, "--color: expected --depth with it");
   }
-  if (a.image.intrinsics && !depth && !a.is_stream() && !is_png(a.inputs.front())) {
-    throw Error(ErrorKind::usage, "--intrinsics: expected a depth image, found a cloud");
-  }
 }
 
 }  // namespace
@@ -363,10 +351,10 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
                "ph-segment");
   add_input_options(app, a);
   add_scene_options(app, a.options);
-  const Known known = add_method_options(app, a.options);
+  Known known = add_method_options(app, a.options);
   add_cut_options(app, a.cut, known);
   app::PlotArguments plots;
-  add_output_options(app, a, plots);
+  add_output_options(app, a, plots, known);
   app::add_common_options(app, a.common);
   if (auto answer = app::parse_command_line(app, a.common, argc, argv,
                                             fmt::format(kBuiltIn, fmt::join(kMethodNames, " "))))
@@ -379,8 +367,13 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
     }
     a.options.method = Method::supervoxels;
   }
-  a.scene_option = scene_option(app);
+  a.given = app::given_scopes(app, option_scopes());
+  require_plane(a.given, a.options.plane);
   a.files.plots = plots.together(kPlotKinds.front());
+  a.files.look = plots.look;
+  const bool shows_cloud = std::ranges::count(a.files.plots, "cloud", &app::Plot::kind) > 0;
+  if (known.plot_view->count() > 0 && !shows_cloud)
+    throw Error(ErrorKind::usage, "--plot-view needs --plot FILE --plot-kind cloud");
   if (!a.files.report.empty()) {
     report::require_built_in("--report");
     a.command = app::typed_command("ph-segment", argc, argv);

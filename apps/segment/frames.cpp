@@ -112,7 +112,8 @@ OutputPaths FrameSource::files_of(const std::string& name) const {
           .coloured = app::filled(p.coloured, name, ".pcd"),
           .picture = app::filled(p.picture, name, ".png"),
           .report = app::filled(p.report, name, ".html"),
-          .plots = std::move(plots)};
+          .plots = std::move(plots),
+          .look = p.look};
 }
 
 }  // namespace ph::segment
