@@ -78,14 +78,12 @@ bool is_given(const Arguments& arguments, std::string_view option) {
                              [&](const auto* scope) { return scope->option == option; });
 }
 
-/// Options that make sense for images do nothing for some of them.
-void explain_unused(const Image& image, const std::string& name, const Arguments& arguments,
-                    app::Session& session) {
+/// An option that makes sense for images does nothing for some of them.
+void explain_nan(const Image& image, const std::string& name, const Arguments& arguments,
+                 app::Session& session) {
   const VoxelType type = image.values.type();
   if (is_given(arguments, "nan") && type != VoxelType::float32 && type != VoxelType::float64)
     session.note(fmt::format("{}: --nan does nothing: no whole number is NaN", name));
-  if (arguments.common.slab_layers > 0 && image.dim() < 2)
-    session.note(fmt::format("{}: --slab-layers does nothing: the image has one axis", name));
 }
 
 Loaded load(const Job& job, std::optional<Input>& input, const Arguments& arguments,
@@ -110,7 +108,7 @@ Loaded load(const Job& job, std::optional<Input>& input, const Arguments& argume
   std::string description = read.description;
   std::vector<Index> point_ids = read.point_ids;
   if (const auto* image = std::get_if<Image>(&read.data))
-    explain_unused(*image, name, arguments, session);
+    explain_nan(*image, name, arguments, session);
   const bool is_shown = (!job.report.empty() || arguments.draws_tree()) && !arguments.dry_run;
   BuiltComplex built =
       is_shown ? build_complex(read, name, dropped, arguments, session.context())
@@ -127,6 +125,27 @@ Loaded load(const Job& job, std::optional<Input>& input, const Arguments& argume
     loaded.claim = std::move(claim);
   }
   return loaded;
+}
+
+/// Layers that were asked for, or why they are not looked at one by one.
+void explain_slabs(const BuiltComplex& built, const RunPlan& plan, const Arguments& arguments,
+                   app::Session& session) {
+  const int layers = arguments.common.slab_layers;
+  const auto* cubical = std::get_if<Cubical>(&built.complex);
+  if (layers == 0 || !cubical) return;
+  const auto does_nothing = [&](std::string_view why) {
+    session.note(fmt::format("--slab-layers does nothing: {}", why));
+  };
+  if (plan.engine != Engine::arrows)
+    does_nothing(fmt::format("engine {} takes all of them at once", engine_name(plan.engine)));
+  else if (arguments.options.representatives != Representatives::none)
+    does_nothing("representatives need all of them at once");
+  else if (const std::size_t axes = cubical->cubical_image().extents.size(); axes < 2 || axes > 3)
+    does_nothing(fmt::format("the image has {}, expected two or three",
+                             axes == 1 ? "one axis" : "more axes"));
+  else
+    session.explain(
+        fmt::format("slabs of {}", count_of(static_cast<std::size_t>(layers), "layer")));
 }
 
 /// Whether edges are collapsed first, and why; only said of Rips complexes.
@@ -229,6 +248,8 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   watch.lap("complex");
   session.explain(fmt::format("engine {}: {}", engine_name(planned.engine), planned.reason));
   if (!planned.collapse_reason.empty()) session.explain("collapse " + collapse_text(planned));
+
+  explain_slabs(built, planned, arguments, session);
 
   Options options = with_plan(arguments.options, planned);
   // A bar that the threshold cuts is infinite, however short it would have been.

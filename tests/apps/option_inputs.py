@@ -130,7 +130,7 @@ def classify(program, option, row, kind):
     names = given.stderr.replace("-o,", "--output")
     if given.code not in (0, 1, 64, 65, 66, 69, 75):
         return SILENT, f"exit {given.code}: {given.stderr}"
-    if given.code == 64 and plain.code != 64:
+    if given.code == 64 and given.stderr != plain.stderr:
         return (REFUSED, "") if option in names else (SILENT, "refused, but not by name: " + names)
     if given.code in (65, 66) and plain.code == 0 and not row.bad_data:
         return SILENT, "bad data: " + given.stderr

@@ -13,13 +13,16 @@ RIPS = ("points", "points.gz", "NPY points", "OFF mesh", "PCD", "XYZ", "matrix",
         "DIPHA sparse distances")
 
 
+LISTED = ("lower star", "PHAT", "DIPHA boundaries", "OFF mesh with values", "PLY mesh with values")
+
+
 def rows(Row):
     plot = ["--plot", "x.svg"]
     return {
         "--format": Row("--format", "phat", bad_data=True),
         "--values": Row("--values", "values.txt", bad_data=True),
         "--allow-empty": Row("--allow-empty", variant="empty", sign="--allow-empty: not needed"),
-        "--symmetrise": Row("--symmetrise", "max", variant="asymmetric"),
+        "--symmetrise": Row("--symmetrise", "max", variant="asymmetric", bad_data=True),
         "--from-correlation": Row("--from-correlation", variant="correlation", bad_data=True),
         "--diagonal": Row("--diagonal", "births", variant="births", bad_data=True),
         "--nan": Row("--nan", "drop", variant="nan"),
@@ -33,7 +36,7 @@ def rows(Row):
         "--construction": Row("--construction", "cells"),
         "--superlevel": Row("--superlevel"),
         "--periodic": Row("--periodic", "all"),
-        "--slab-layers": Row("--slab-layers", "1", sign="slab"),
+        "--slab-layers": Row("--slab-layers", "1", sign="slabs of 1 layer"),
         "--voxel": Row("--voxel", "0.4"),
         "--voxel-value": Row("--voxel-value", "density"),
         "--collapse": Row("--collapse", "on", sign=r"collapse on \(asked for\)"),
@@ -63,9 +66,9 @@ def rows(Row):
         "--compare": Row("--compare", "bars.csv", "bars.csv"),
         "--formats": Row("--formats"),
         "--threads": Row("--threads", "1", sign="threads 1"),
-        "--memory-limit": Row("--memory-limit", "300MiB", sign="memory limit 300.0 MiB"),
-        "--progress": Row("--progress", "json", sign='"stage"'),
-        "--quiet": Row("--quiet", "--verbose"),
+        "--memory-limit": Row("--memory-limit", "300MiB", sign="memory limit 300 MiB"),
+        "--progress": Row("--progress", "json", sign="progress json"),
+        "--quiet": Row("--quiet", lost="ph-barcode: "),
         "--verbose": Row("--verbose", sign="memory limit"),
         "--force": Row("--force", beside=["-o", "@input", "--output-format", "csv"]),
         "--version": Row("--version"),
@@ -151,7 +154,6 @@ def inputs(Input, program):
     floats = [value + 0.25 for value in grey]
     one_nan = [math.nan, *floats[1:]]
     volume = [random.randrange(10) + 0.5 for _ in range(27)]
-    images = {"--threshold": 4}
 
     weights = "\n".join(["0.25"] * size).encode()
     beside = {"weights.txt": weights, "values.txt": b"1\n2\n", "bars.csv": b"dim,birth,death\n0,0,1\n"}
@@ -162,6 +164,8 @@ def inputs(Input, program):
         row = rows_of()
         if threshold is not None:
             given["--threshold"] = row("--threshold", str(threshold))
+        if threshold is not None and name not in LISTED:  # an image
+            given["--complex"] = row("--complex", "rips")
         if name in RIPS:
             given["--weight-exponent"] = row("--weight-exponent", "2",
                                              beside=["--vertex-weights", "weights.txt"])
@@ -189,7 +193,7 @@ def inputs(Input, program):
     add("NPY points", ["p.npy", "--complex", "rips"], {"p.npy": npy((size, 2), flat)},
         rows={"--complex": (("--complex", "cubical"), {})},
         nan=npy((size, 2), [math.nan, *flat[1:]]), empty=npy((0, 2), []))
-    add("voxels", ["p.csv", "--complex", "cubical", "--voxel", "0.5"], {"p.csv": text(points)},
+    add("voxels", ["p.csv", "--complex", "cubical", "--voxel", "0.25"], {"p.csv": text(points)},
         rows={"--complex": (("--complex", "explicit"), {}),
               "--threshold": (("--threshold", "0.1"), {})}, nan=text(with_nan))
     for name, arguments, make in (
@@ -223,14 +227,20 @@ def inputs(Input, program):
     add("NPY whole numbers", ["i.npy"], {"i.npy": npy((5, 6), grey, "|u1")}, 4)
     add("NPY volume", ["v.npy"], {"v.npy": npy((3, 3, 3), volume)}, 4,
         nan=npy((3, 3, 3), [math.nan, *volume[1:]]))
-    add("NPY series", ["s.npy"], {"s.npy": npy((30,), floats)}, 4, nan=npy((30,), one_nan))
+    # Of one axis both constructions have the same bars, and none but periodic ones a loop.
+    add("NPY series", ["s.npy"], {"s.npy": npy((30,), floats)}, 4, nan=npy((30,), one_nan),
+        rows={"--construction": (("--construction", "cells"), {"beside": ["--output-format", "json"]}),
+              "--max-dim": (("--max-dim", "0"), {"beside": ["--periodic", "all"]}),
+              "--min-dim": (("--min-dim", "1"), {"beside": ["--periodic", "all"]})})
     add("NPZ image", ["i.npz"], {"i.npz": npz(npy((5, 6), floats))}, 4, nan=npz(npy((5, 6), one_nan)))
     add("PNG", ["i.png"], {"i.png": png(6, grey)}, 4)
     add("PGM", ["i.pgm"], {"i.pgm": b"P2\n6 5\n255\n" + " ".join(map(str, grey)).encode()}, 4)
     add("NIfTI", ["v.nii"], {"v.nii": nifti((3, 3, 3), volume)}, 4,
         nan=nifti((3, 3, 3), [math.nan, *volume[1:]]))
     words = struct.pack("<20H", *(random.randrange(60000) for _ in range(20)))
-    add("raw", ["i.raw", "--raw-shape", "4,5", "--raw-type", "uint16"], {"i.raw": words}, 30000)
+    add("raw", ["i.raw", "--raw-shape", "4,5", "--raw-type", "uint16"], {"i.raw": words}, 30000,
+        rows={"--quiet": (("--quiet",), {"beside": ["-o", "x.csv", "--output-format", "none"],
+                                         "lost": "ph-barcode: "})})
     add("Perseus", ["i.perseus"],
         {"i.perseus": ("2\n6\n5\n" + "\n".join(map(str, floats)) + "\n").encode()}, 4,
         nan=("2\n6\n5\nnan\n" + "\n".join(map(str, floats[1:])) + "\n").encode(),

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The options and the kinds of input of ph-segment, for option_inputs.py."""
+import math
 import os
 import random
 import struct
@@ -60,8 +61,8 @@ def rows(Row):
         "--picture": row("--picture", "p-*.png"),
         "--report": row("--report", "r-*.html"),
         "--threads": row("--threads", "1", sign="threads 1"),
-        "--memory-limit": row("--memory-limit", "300MiB", sign="memory limit 300.0 MiB"),
-        "--progress": row("--progress", "json", sign='"stage"'),
+        "--memory-limit": row("--memory-limit", "300MiB", sign="memory limit 300 MiB"),
+        "--progress": row("--progress", "json", sign="progress json"),
         "--quiet": row("--quiet", lost="segment"),
         "--verbose": row("--verbose", sign="memory limit"),
         "--force": row("--force", beside=["--json", "@input"]),
@@ -81,7 +82,7 @@ def png(width, lines, bits, colour):
 
 
 def depths(second):
-    """Millimetres: a table at 1 m, a box 10 cm high, another one `second` pixels wide, and a rod
+    """Millimetres: a table at 1 m, a wavy box 10 cm high, a flat thing, another box `second` pixels wide, and a rod
     above it that hides its middle."""
     random.seed(7)
     image = []
@@ -90,7 +91,9 @@ def depths(second):
         for x in range(WIDTH):
             depth = 1000
             if 10 <= x < 34 and 14 <= y < 52:
-                depth = 900
+                depth = round(900 + 20 * math.cos(2 * math.pi * (x - 10) / 12))
+            if 2 <= x < 8 and 56 <= y < 68:
+                depth = 985
             if 52 <= x < 52 + second and 10 <= y < 60:
                 depth = 860
             if 33 <= y < 37 and x > 44:
@@ -150,14 +153,14 @@ def inputs(Input, program):
     shape = {"--cut": Row("--cut", "1.5", beside=RESULTS)}
     apart = {"--objects": Row("--objects", beside=RESULTS),
              "--parts": Row("--parts", default=True, beside=RESULTS), **shape}
-    paper = {"--method": Row("--method", "surface", beside=RESULTS)}
+    paper = {"--method": Row("--method", "supervoxels", beside=RESULTS)}
     kinds = [
         ("organised PCD", ["s.pcd"], {"s.pcd": organised}, shape, pcd([], 0, 1)),
         ("organised PCD, paper", ["s.pcd", "--method", "paper"], {"s.pcd": organised}, paper, None),
         ("organised PCD, supervoxels", ["s.pcd", "--method", "supervoxels"], {"s.pcd": organised},
          supervoxels, None),
         ("PCD without a plane", ["s.pcd", "--plane", "off", "--max-range", "0.95"],
-         {"s.pcd": organised}, {**shape, "--plane": Row("--plane", "on", beside=RESULTS)}, None),
+         {"s.pcd": organised}, {**shape, "--plane": Row("--plane", "on", default=True, beside=RESULTS)}, None),
         ("unorganised PCD", ["s.pcd"], {"s.pcd": pcd(points, len(points), 1)}, shape, None),
         ("PLY", ["s.ply"], {"s.ply": ply(points)}, shape, ply([])),
         ("XYZ", ["s.xyz"], {"s.xyz": text_of(points)}, shape, b"# none\n"),
