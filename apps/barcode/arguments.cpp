@@ -266,6 +266,8 @@ void take_word(Arguments& a, app::PlotArguments& plots) {
   if (a.inputs.size() == 1 && std::filesystem::exists("plot")) return;
   a.stored = true;
   a.inputs.erase(a.inputs.begin());
+  if (a.inputs.empty())
+    throw Error(ErrorKind::usage, "plot: INPUT is missing, expected barcode files");
   // What is named like a barcode is one, converted.
   if (a.output != "-" && !a.output_format && !barcode_format_of_path(a.output)) {
     plots.paths.insert(plots.paths.begin(), a.output);
@@ -285,9 +287,7 @@ void check_together(Arguments& a) {
                          a.inputs.front()));
     return;
   }
-  if (a.inputs.empty())
-    reject(a.stored ? "plot: INPUT is missing, expected barcode files"
-                    : "INPUT is missing; --help lists the options");
+  if (a.inputs.empty()) reject("INPUT is missing; --help lists the options");
   for (const std::string& input : a.inputs)
     if (input.empty()) reject("INPUT: found '', expected a path");
   if (a.report == "-" && a.output == "-" && a.output_format != BarcodeFormat::none)

@@ -78,12 +78,14 @@ bool is_given(const Arguments& arguments, std::string_view option) {
                              [&](const auto* scope) { return scope->option == option; });
 }
 
-/// An option that makes sense for images does nothing for some of them.
-void explain_nan(const Image& image, const std::string& name, const Arguments& arguments,
-                 app::Session& session) {
-  const VoxelType type = image.values.type();
-  if (is_given(arguments, "nan") && type != VoxelType::float32 && type != VoxelType::float64)
-    session.note(fmt::format("{}: --nan does nothing: no whole number is NaN", name));
+/// Why there can be no NaN in what was read; empty: there may be some.
+std::string_view why_no_nan(const ReadResult& read) {
+  if (read.format == Format::perseus) return "a Perseus file has none";
+  if (std::holds_alternative<Mesh>(read.data)) return "a mesh has none";
+  const auto* image = std::get_if<Image>(&read.data);
+  if (!image) return {};
+  const VoxelType type = image->values.type();
+  return type == VoxelType::float32 || type == VoxelType::float64 ? "" : "no whole number is NaN";
 }
 
 Loaded load(const Job& job, std::optional<Input>& input, const Arguments& arguments,
@@ -107,8 +109,8 @@ Loaded load(const Job& job, std::optional<Input>& input, const Arguments& argume
   auto claim = std::make_unique<MemoryClaim>(session.context().memory, size_of(read));
   std::string description = read.description;
   std::vector<Index> point_ids = read.point_ids;
-  if (const auto* image = std::get_if<Image>(&read.data))
-    explain_nan(*image, name, arguments, session);
+  if (const std::string_view why = why_no_nan(read); is_given(arguments, "nan") && !why.empty())
+    session.note(fmt::format("{}: --nan does nothing: {}", name, why));
   const bool is_shown = (!job.report.empty() || arguments.draws_tree()) && !arguments.dry_run;
   BuiltComplex built =
       is_shown ? build_complex(read, name, dropped, arguments, session.context())

@@ -165,7 +165,10 @@ def inputs(Input, program):
         if threshold is not None:
             given["--threshold"] = row("--threshold", str(threshold))
         if threshold is not None and name not in LISTED:  # an image
-            given["--complex"] = row("--complex", "rips")
+            given["--complex"] = row("--complex", "rips", bad_data=True)
+        if {"--format", "--raw-shape"} & set(arguments):  # what is read is not said then
+            given["--quiet"] = row("--quiet", lost="ph-barcode: ",
+                                   beside=["-o", "x.csv", "--output-format", "none"])
         if name in RIPS:
             given["--weight-exponent"] = row("--weight-exponent", "2",
                                              beside=["--vertex-weights", "weights.txt"])
@@ -191,7 +194,7 @@ def inputs(Input, program):
         rows={"--nan": (("--nan", "error"), {"variant": "nan", "bad_data": True})},
         nan=pcd + text([(math.nan, 0.0, 0.0), *((*p, 0.0) for p in points[1:])]))
     add("NPY points", ["p.npy", "--complex", "rips"], {"p.npy": npy((size, 2), flat)},
-        rows={"--complex": (("--complex", "cubical"), {})},
+        rows={"--complex": (("--complex", "rips"), {})},
         nan=npy((size, 2), [math.nan, *flat[1:]]), empty=npy((0, 2), []))
     add("voxels", ["p.csv", "--complex", "cubical", "--voxel", "0.25"], {"p.csv": text(points)},
         rows={"--complex": (("--complex", "explicit"), {}),
@@ -217,19 +220,22 @@ def inputs(Input, program):
         nan=packed(holes))
     add("sparse", ["m.sparse"], {"m.sparse": text(pairs)},
         nan=text([(1, 0, math.nan), *pairs[1:]]))
-    add("DIPHA sparse distances", ["s.dipha"],
-        {"s.dipha": struct.pack("<qqq", 8067171840, 8, size)
-         + struct.pack(f"<{size}q", *[size - 1] * size)
-         + b"".join(struct.pack(f"<{size - 1}q", *(j for j in range(size) if j != i)) for i in range(size))
-         + b"".join(struct.pack(f"<{size - 1}d", *(length(i, j) for j in range(size) if j != i))
-                    for i in range(size))})
+    def connections(distance):
+        others = [[j for j in range(size) if j != i] for i in range(size)]
+        return (struct.pack("<qqq", 8067171840, 8, size)
+                + struct.pack(f"<{size}q", *map(len, others))
+                + b"".join(struct.pack(f"<{size - 1}q", *row) for row in others)
+                + b"".join(struct.pack(f"<{size - 1}d", *(distance(i, j) for j in row))
+                           for i, row in enumerate(others)))
+    add("DIPHA sparse distances", ["s.dipha"], {"s.dipha": connections(length)},
+        nan=connections(lambda i, j: math.nan if {i, j} == {0, 1} else length(i, j)))
     add("NPY image", ["i.npy"], {"i.npy": npy((5, 6), floats)}, 4, nan=npy((5, 6), one_nan))
     add("NPY whole numbers", ["i.npy"], {"i.npy": npy((5, 6), grey, "|u1")}, 4)
     add("NPY volume", ["v.npy"], {"v.npy": npy((3, 3, 3), volume)}, 4,
         nan=npy((3, 3, 3), [math.nan, *volume[1:]]))
     # Of one axis both constructions have the same bars, and none but periodic ones a loop.
     add("NPY series", ["s.npy"], {"s.npy": npy((30,), floats)}, 4, nan=npy((30,), one_nan),
-        rows={"--construction": (("--construction", "cells"), {"beside": ["--output-format", "json"]}),
+        rows={"--construction": (("--construction", "cells"), {"default": True}),
               "--max-dim": (("--max-dim", "0"), {"beside": ["--periodic", "all"]}),
               "--min-dim": (("--min-dim", "1"), {"beside": ["--periodic", "all"]})})
     add("NPZ image", ["i.npz"], {"i.npz": npz(npy((5, 6), floats))}, 4, nan=npz(npy((5, 6), one_nan)))
@@ -238,21 +244,19 @@ def inputs(Input, program):
     add("NIfTI", ["v.nii"], {"v.nii": nifti((3, 3, 3), volume)}, 4,
         nan=nifti((3, 3, 3), [math.nan, *volume[1:]]))
     words = struct.pack("<20H", *(random.randrange(60000) for _ in range(20)))
-    add("raw", ["i.raw", "--raw-shape", "4,5", "--raw-type", "uint16"], {"i.raw": words}, 30000,
-        rows={"--quiet": (("--quiet",), {"beside": ["-o", "x.csv", "--output-format", "none"],
-                                         "lost": "ph-barcode: "})})
+    add("raw", ["i.raw", "--raw-shape", "4,5", "--raw-type", "uint16"], {"i.raw": words}, 30000)
     add("Perseus", ["i.perseus"],
         {"i.perseus": ("2\n6\n5\n" + "\n".join(map(str, floats)) + "\n").encode()}, 4,
-        nan=("2\n6\n5\nnan\n" + "\n".join(map(str, floats[1:])) + "\n").encode(),
         rows={"--construction": (("--construction", "cells"), {})})
     add("DIPHA image", ["i.dipha"], {"i.dipha": dipha(1, [30, 2, 6, 5], floats)}, 4,
         nan=dipha(1, [30, 2, 6, 5], one_nan))
-    # A hollow triangle that is filled late, and an edge beside it.
-    simplices = b"0 : 0\n1 : 0.25\n2 : 0\n0 1 : 1\n1 2 : 2\n0 2 : 3\n0 1 2 : 4\n3 : 0\n2 3 : 2\n"
-    add("simplices", ["t.simplices"], {"t.simplices": simplices}, values=[1, 2, 3, 4],
+    # A triangle that is filled late, and a hollow one beside it.
+    simplices = (b"0 : 0\n1 : 0.25\n2 : 0\n0 1 : 1\n1 2 : 2\n0 2 : 3\n0 1 2 : 4\n3 : 0\n2 3 : 2\n4 : 0\n"
+                 b"3 4 : 2.5\n2 4 : 2.75\n")
+    add("simplices", ["t.simplices"], {"t.simplices": simplices}, values=[3, 1, 4, 2, 5],
         rows={"--complex": (("--complex", "lower-star"), {})})
-    add("lower star", ["t.simplices", "--complex", "lower-star"], {"t.simplices": simplices}, 0.1,
-        values=[1, 2, 3, 4], rows={"--complex": (("--complex", "rips"), {}),
+    add("lower star", ["t.simplices", "--complex", "lower-star"], {"t.simplices": simplices}, 3.5,
+        values=[3, 1, 4, 2, 5], rows={"--complex": (("--complex", "rips"), {}),
                                    "--min-dim": (("--min-dim", "1"), {})})
     phat = b"0\n0\n0\n1 0 1\n1 1 2\n1 0 2\n2 3 4 5\n"
     add("PHAT", ["b.phat"], {"b.phat": phat}, 5.5, values=[0, 0, 0, 1, 2, 3, 5],
@@ -264,17 +268,19 @@ def inputs(Input, program):
          + struct.pack("<7d", 0, 0, 0, 1, 2, 3, 5)
          + struct.pack("<8q", 0, 0, 0, 0, 2, 4, 6, 9)
          + struct.pack("<9q", 0, 1, 1, 2, 0, 2, 3, 4, 5)}, 2.5, values=[0, 0, 0, 1, 2, 3, 6],
-        rows={"--complex": (("--complex", "rips"), {})})
+        rows={"--format": (("--format", "simplices"), {"bad_data": True}),
+              "--complex": (("--complex", "rips"), {})})
     corners = [*((x, y, 0.0) for x, y in points)]
-    off = (f"OFF\n{size} 2 0\n".encode() + text(corners) + b"3 0 1 2\n3 4 5 6\n")
+    faces = "".join(f"3 {k} {(k + 1) % size} {(k + 2) % size}\n" for k in range(size)).encode()
+    off = f"OFF\n{size} {size} 0\n".encode() + text(corners) + faces
     heights = [random.randrange(9) for _ in range(size)]
     add("OFF mesh", ["m.off"], {"m.off": off}, values=heights)
     add("OFF mesh with values", ["m.off", "--values", "values.txt"], {"m.off": off}, 4, values=heights,
         rows={"--complex": (("--complex", "rips"), {})})
     ply = (f"ply\nformat ascii 1.0\nelement vertex {size}\nproperty float x\nproperty float y\n"
-           "property float z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n")
+           f"property float z\nelement face {size}\nproperty list uchar int vertex_indices\nend_header\n")
     add("PLY mesh with values", ["m.ply", "--values", "values.txt"],
-        {"m.ply": ply.encode() + text(corners) + b"3 0 1 2\n3 4 5 6\n"}, 4, values=heights,
+        {"m.ply": ply.encode() + text(corners) + faces}, 4, values=heights,
         rows={"--complex": (("--complex", "rips"), {})})
     bars = b"dim,birth,death\n0,0,1\n0,0,inf\n1,0.3,0.75\n"
     add("a barcode", ["b.csv"], {"b.csv": bars})
@@ -286,10 +292,14 @@ def inputs(Input, program):
               "--title": (("--title", "Loops"), {}), "--size": (("--size", "300x200"), {}),
               "--axis": (("--axis", "0.25,0.5"), {})})
     add("two barcodes", ["--compare", "b.csv", "bars.csv"], {"b.csv": bars},
-        rows={"--compare": (("--compare", "bars.csv", "bars.csv"), {})})
+        rows={"--compare": (("--compare", "bars.csv", "bars.csv"), {}),
+              "--plot-kind": (("--plot-kind", "betti"), {}), "--dims": (("--dims", "9"), {}),
+              "--title": (("--title", "Loops"), {}), "--size": (("--size", "300x200"), {}),
+              "--axis": (("--axis", "0.25,0.5"), {})})
     add("a folder", ["in", "-o", "out/"], {"in/a.csv": text(points), "in/b.csv": text(points)},
         nan=text(with_nan),
-        rows={"--output": (("--output", "new/"), {}), "--plot": (("--plot", "p/"), {}),
+        rows={"--force": (("--force",), {"sign": "--force: not needed"}),
+              "--output": (("--output", "new/"), {}), "--plot": (("--plot", "p/"), {}),
               "--report": (("--report", "r/"), {}),
               "--output-format": (("--output-format", "json"), {}),
               **{option: ((option, value), {"beside": ["--plot", "p/"]}) for option, value in (
