@@ -100,7 +100,7 @@ Loaded load(const Job& job, std::optional<Input>& input, const Arguments& argume
                             count_of(dropped, "point")));
   const std::string what = fmt::format("read {}: {}", name, read.description);
   // A batch says it in its one line an input.
-  if (arguments.format == Format::automatic && !arguments.is_batch())
+  if (arguments.format == Format::automatic && arguments.inputs == std::vector{job.input})
     session.note(what);
   else
     session.explain(what);
