@@ -328,9 +328,19 @@ bool Arguments::draws_tree() const {
 
 bool Arguments::is_batch() const {
   const auto is_place = [](const std::string& path) { return path.ends_with('/'); };
-  return inputs.size() > 1 || is_place(output) || is_place(report) ||
-         std::ranges::any_of(plots, is_place, &app::Plot::path) ||
-         std::ranges::any_of(inputs, app::is_folder);
+  if (inputs.size() > 1 || is_place(output) || is_place(report) ||
+      std::ranges::any_of(plots, is_place, &app::Plot::path))
+    return true;
+  // A folder is a batch only if its results have a place; else it is an input that cannot be read.
+  const auto takes_several = [](const std::string& path) {
+    return path.empty() || path.find('*') != path.npos || app::is_folder(path);
+  };
+  const bool has_others = !plots.empty() || !report.empty();
+  const bool has_place = dry_run || output_format == BarcodeFormat::none ||
+                         (output == "-" && has_others) || (output != "-" && takes_several(output));
+  return has_place && takes_several(report) &&
+         std::ranges::all_of(plots, takes_several, &app::Plot::path) && !inputs.empty() &&
+         app::is_folder(inputs.front());
 }
 
 std::optional<std::string> parse_arguments(int argc, const char* const* argv,

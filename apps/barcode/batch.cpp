@@ -197,7 +197,8 @@ int run_all(const Arguments& given, app::Session& session) {
   // JSON and the report show them.
   arguments.options.cells = format == BarcodeFormat::json || !arguments.report.empty();
   require_room(format, arguments);
-  const std::vector<std::string> inputs = with_files_of_folders(arguments);
+  const std::vector<std::string> inputs =
+      arguments.is_batch() ? with_files_of_folders(arguments) : arguments.inputs;
   const std::vector<Job> jobs = jobs_of(arguments, inputs, format);
   if (!arguments.dry_run) require_separate(jobs, arguments, session);
   explain_unwritten(arguments, format, session);

@@ -16,7 +16,7 @@ constexpr app::Situations kAllPairs = kPoints | kMatrix | kTriangle, kRips = kAl
 
 constexpr std::string_view kOfRips = "Rips complexes of points and distances";
 constexpr std::string_view kOfAllPairs = "points and distance matrices";
-constexpr std::string_view kOfMatrices = "full distance matrices";
+constexpr std::string_view kOfMatrices = "full distance matrices (--format distance)";
 constexpr std::string_view kOfInputs = "what a barcode is computed of";
 
 constexpr std::array kScopes{

@@ -108,7 +108,7 @@ class Stored(ProgramTest):
         self.assertEqual(sorted(os.listdir(self.path("out"))), ["a.csv", "b.csv", "c.csv"])
         os.mkdir(self.path("empty"))
         self.assertIn("a folder without", self.expect(66, "empty", "-o", "out/").stderr)
-        self.assertIn("-o FOLDER/", self.expect(64, "in").stderr)
+        self.assertIn("it is a directory", self.expect(66, "in").stderr)
 
     def test_compare(self):
         self.write("a.csv", "dim,birth,death\n0,0,1\n0,0,inf\n1,1,2\n")

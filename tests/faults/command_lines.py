@@ -112,7 +112,7 @@ BARCODE_FILES = [
     (49, "lower.txt", b"1\n3 2\n", ["--format", "lower-distance", "--metric", "manhattan"],
      "--metric"),
     (49, "edge.phat", b"0\n0\n1 0 1\n", ["--collapse", "on"], "--collapse"),
-    *((49, "image.pgm", b"P2\n2 1\n9\n1 2\n", options, "points and distances")
+    *((49, "image.pgm", b"P2\n2 1\n9\n1 2\n", options, "points and distance")
       for options in (["--collapse", "on"], ["--subsample", "2"], ["--approximate", "1"],
                       ["--dtm", "2"], ["--vertex-weights", "image.pgm"])),
     *((49, "image.pgm", b"P2\n2 1\n9\n1 2\n", options, "found an image")
