@@ -125,6 +125,8 @@ Result result_of(const Arguments& arguments, const Outputs& outputs, app::Sessio
   }
   input.reset();
   stop_reading();
+  if (arguments.allow_empty && result.cloud->size() > 0)
+    session.explain("--allow-empty: not needed, the cloud has points");
   outputs.require_suitable(result.cloud->height);
   s = segment_within_limits(*result.cloud, arguments.options, context);
   const CutOptions asked = arguments.cut.over(s.first_cut);

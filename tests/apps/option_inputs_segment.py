@@ -25,7 +25,7 @@ def rows(Row):
         "--color": row("--color", "colour.png", beside=["-o", "o-*.pcd"]),
         "--intrinsics": row("--intrinsics", "100,100,48,36"),
         "--depth-scale": row("--depth-scale", "900"),
-        "--allow-empty": row("--allow-empty", variant="empty"),
+        "--allow-empty": row("--allow-empty", variant="empty", sign="--allow-empty: not needed"),
         "--max-range": row("--max-range", "0.93"),
         "--crop": row("--crop", "-0.1,0.1,-1,1,0,2"),
         "--plane": row("--plane", "off"),
@@ -40,7 +40,7 @@ def rows(Row):
         "--steps": row("--steps", "3"),
         "--no-check": row("--no-check", lost=", checked"),
         "--cut": row("--cut", "0.011"),
-        "--min-part": row("--min-part", "400"),
+        "--min-part": row("--min-part", "600"),
         "--min-size": row("--min-size", "500"),
         "--objects": row("--objects", default=True),
         "--parts": row("--parts"),
@@ -91,7 +91,7 @@ def depths(second):
         for x in range(WIDTH):
             depth = 1000
             if 10 <= x < 34 and 14 <= y < 52:
-                depth = round(900 + 20 * math.cos(2 * math.pi * (x - 10) / 12))
+                depth = round(900 + 8 * math.cos(2 * math.pi * (x - 10) / 12))
             if 2 <= x < 8 and 56 <= y < 68:
                 depth = 985
             if 52 <= x < 52 + second and 10 <= y < 60:
@@ -143,7 +143,7 @@ def inputs(Input, program):
     organised = pcd(points, WIDTH, HEIGHT)
     sixteen = png(WIDTH, [struct.pack(f">{WIDTH}H", *row) for row in image], 16, 0)
     beside = {
-        "list.txt": b"next.pcd\n", "next.pcd": organised, "other.png":
+        "list.txt": b"next.pcd\n", "images.txt": b"other.png\n", "next.pcd": organised, "other.png":
         png(WIDTH, [struct.pack(f">{WIDTH}H", *row) for row in other], 16, 0),
         "colour.png": png(WIDTH, [bytes([90, 160, 30]) * WIDTH] * HEIGHT, 8, 2)}
     streams = {"--explain": Row("--explain", "1,2", beside=RESULTS),
@@ -153,7 +153,9 @@ def inputs(Input, program):
     shape = {"--cut": Row("--cut", "1.5", beside=RESULTS)}
     apart = {"--objects": Row("--objects", beside=RESULTS),
              "--parts": Row("--parts", default=True, beside=RESULTS), **shape}
-    paper = {"--method": Row("--method", "supervoxels", beside=RESULTS)}
+    paper = {"--viewpoint": Row("--viewpoint", "0.5,0.5,0.2",
+                                beside=[*RESULTS, "--max-range", "0.95"]),
+             "--method": Row("--method", "supervoxels", beside=RESULTS)}
     kinds = [
         ("organised PCD", ["s.pcd"], {"s.pcd": organised}, shape, pcd([], 0, 1)),
         ("organised PCD, paper", ["s.pcd", "--method", "paper"], {"s.pcd": organised}, paper, None),
@@ -165,7 +167,8 @@ def inputs(Input, program):
         ("PLY", ["s.ply"], {"s.ply": ply(points)}, shape, ply([])),
         ("XYZ", ["s.xyz"], {"s.xyz": text_of(points)}, shape, b"# none\n"),
         ("depth image", ["--depth", "d.png", "--intrinsics", CAMERA], {"d.png": sixteen}, shape, None),
-        ("depth INPUT", ["d.png", "--intrinsics", CAMERA], {"d.png": sixteen}, shape, None),
+        ("depth INPUT", ["d.png", "--intrinsics", CAMERA], {"d.png": sixteen},
+         {**shape, "--frames-from": Row("--frames-from", "images.txt", beside=RESULTS)}, None),
         ("tree", ["t.tree"], {"t.tree": tree(program, organised, ["--parts"])}, apart, None),
         ("tree, paper", ["t.tree"], {"t.tree": tree(program, organised, ["--method", "paper"])}, {},
          None),
