@@ -81,8 +81,9 @@ def png(width, lines, bits, colour):
             + chunk(b"IEND", b""))
 
 
-def depths(second):
-    """Millimetres: a table at 1 m, a wavy box 10 cm high, a flat thing, another box `second` pixels wide, and a rod
+def depths(second, first=24):
+    """Millimetres: a table at 1 m, a box 10 cm high, `first`
+    pixels wide, whose top has waves, a flat thing, another box `second` pixels wide, and a rod
     above it that hides its middle."""
     random.seed(7)
     image = []
@@ -90,7 +91,7 @@ def depths(second):
         row = []
         for x in range(WIDTH):
             depth = 1000
-            if 10 <= x < 34 and 14 <= y < 52:
+            if 10 <= x < 10 + first and 14 <= y < 52:
                 depth = round(900 + 8 * math.cos(2 * math.pi * (x - 10) / 12))
             if 2 <= x < 8 and 56 <= y < 68:
                 depth = 985
@@ -138,7 +139,7 @@ def tree(program, cloud, arguments):
 def inputs(Input, program):
     import option_inputs
     Row = option_inputs.Row
-    image, other = depths(36), depths(12)
+    image, other = depths(36), depths(36, 12)
     points = list(points_of(image))
     organised = pcd(points, WIDTH, HEIGHT)
     sixteen = png(WIDTH, [struct.pack(f">{WIDTH}H", *row) for row in image], 16, 0)
@@ -148,14 +149,14 @@ def inputs(Input, program):
         "colour.png": png(WIDTH, [bytes([90, 160, 30]) * WIDTH] * HEIGHT, 8, 2)}
     streams = {"--explain": Row("--explain", "1,2", beside=RESULTS),
                "--force": Row("--force", beside=["--json", "@input"])}
-    supervoxels = {"--min-persistence": Row("--min-persistence", "0.05", beside=RESULTS),
+    moved = {"--viewpoint": Row("--viewpoint", "0.3,0,0", beside=[*RESULTS, "--plane", "off",
+                                                              "--max-range", "1.02"])}
+    supervoxels = {**moved, "--min-persistence": Row("--min-persistence", "0.05", beside=RESULTS),
                    "--cut": Row("--cut", "0.05", beside=RESULTS)}
     shape = {"--cut": Row("--cut", "1.5", beside=RESULTS)}
     apart = {"--objects": Row("--objects", beside=RESULTS),
              "--parts": Row("--parts", default=True, beside=RESULTS), **shape}
-    paper = {"--viewpoint": Row("--viewpoint", "0.5,0.5,0.2",
-                                beside=[*RESULTS, "--max-range", "0.95"]),
-             "--method": Row("--method", "supervoxels", beside=RESULTS)}
+    paper = {**moved, "--method": Row("--method", "supervoxels", beside=RESULTS)}
     kinds = [
         ("organised PCD", ["s.pcd"], {"s.pcd": organised}, shape, pcd([], 0, 1)),
         ("organised PCD, paper", ["s.pcd", "--method", "paper"], {"s.pcd": organised}, paper, None),
