@@ -255,7 +255,7 @@ def inputs(Input, program):
                  b"3 4 : 2.5\n2 4 : 2.75\n")
     add("simplices", ["t.simplices"], {"t.simplices": simplices}, values=[3, 1, 4, 2, 5],
         rows={"--complex": (("--complex", "lower-star"), {})})
-    add("lower star", ["t.simplices", "--complex", "lower-star"], {"t.simplices": simplices}, 3.5,
+    add("lower star", ["t.simplices", "--complex", "lower-star", "--values", "values.txt"], {"t.simplices": simplices}, 3.5,
         values=[3, 1, 4, 2, 5], rows={"--complex": (("--complex", "rips"), {}),
                                    "--min-dim": (("--min-dim", "1"), {})})
     phat = b"0\n0\n0\n1 0 1\n1 1 2\n1 0 2\n2 3 4 5\n"
