@@ -72,6 +72,7 @@ Segmentation cut_of_tree(const Input& input, const Arguments& arguments,
                          const RunContext& context) {
   Segmentation s;
   static_cast<SceneTree&>(s) = read_tree(input);
+  require_input(arguments.given, kStoredTree);
   require_method(arguments.given, s.method);
   if (!s.plane) s.plane_note = "the tree was made without one";
   s.barcode = barcode_of(s.tree);
@@ -101,9 +102,7 @@ Result result_of(const Arguments& arguments, const Outputs& outputs, app::Sessio
   std::optional<Input> input(
       Input::open(image.depth.empty() ? arguments.input : image.depth, &context));
   const bool is_scene = arguments.is_depth_image() || !is_tree(*input);
-  require_input(arguments.given, arguments.is_depth_image() ? kDepthImage
-                                 : is_scene                 ? kCloud
-                                                            : kStoredTree);
+  if (is_scene) require_input(arguments.given, arguments.is_depth_image() ? kDepthImage : kCloud);
   if (is_scene) require_method(arguments.given, arguments.options.method);
   if (arguments.is_depth_image())
     result.cloud = read_depth(*input, image, context);
