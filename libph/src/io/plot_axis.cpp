@@ -154,7 +154,7 @@ Range finite_range(const Barcode& barcode, bool logarithmic) {
   Range range{kInfinity, -kInfinity};
   for (const Bar& bar : barcode)
     for (const double value : {bar.birth, bar.death}) widen(range, value, logarithmic);
-  if (range.low > range.high) return {};
+  if (range.low > range.high) return logarithmic ? Range{1, 10} : Range{};
   return range;
 }
 

@@ -149,7 +149,7 @@ class Canvas {
   std::vector<Element> elements_;
 };
 
-/// The least and the largest finite value; 0 and 1 if there is none.
+/// The least and the largest finite value; 0 and 1 if there is none, 1 and 10 of logarithms.
 struct Range {
   double low = 0;
   double high = 1;

@@ -76,7 +76,8 @@ Range finite_range(std::span<const Branch> tree, const std::vector<std::size_t>&
   Range range{kInfinity, -kInfinity};
   for (const std::size_t i : classes)
     for (const double value : {tree[i].birth, tree[i].death}) widen(range, value, logarithmic);
-  return range.low > range.high ? Range() : range;
+  if (range.low <= range.high) return range;
+  return logarithmic ? Range{1, 10} : Range{};
 }
 
 }  // namespace

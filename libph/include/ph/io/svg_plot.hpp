@@ -49,7 +49,7 @@ struct PlotOptions {
 /// A picture of a barcode as a complete SVG document, sized for a column of a paper (88 mm).
 /// Text stays text. However many bars there are, the file stays below 1 MB: what cannot be told
 /// apart is drawn once.
-/// @throws Error (usage) on an axis without room: low >= high, or logarithmic and nothing above 0.
+/// @throws Error (usage) on an axis without room: low >= high, or logarithmic from at most 0.
 std::string svg_plot(const Barcode& barcode, const PlotOptions& options = {});
 
 /// The same of a merge tree (MergeTree::branches): one line a class over the filtration value, and
