@@ -12,6 +12,7 @@
 #include "complex_arrays.hpp"
 #include "exit_code.hpp"
 #include "h0_tree.hpp"
+#include "option_scopes.hpp"
 #include "ph/core/file_pages.hpp"
 #include "ph/diagram/bottleneck.hpp"
 #include "report/bar_arrays.hpp"
@@ -19,6 +20,7 @@
 #include "report/report_file.hpp"
 #include "report/sha256.hpp"
 #include "report/voxel_arrays.hpp"
+#include "stored.hpp"
 
 namespace ph::barcode {
 namespace {
@@ -160,10 +162,10 @@ std::optional<ShownTree> tree_if_it_fits(const Shown& shown, const Arguments& ar
   return std::nullopt;
 }
 
-/// The distances of two barcodes, one a dimension that either has. Where they would take long a
-/// note says so.
-void add_distances(report::Metadata& meta, const Barcode& a, const Barcode& b,
-                   app::Session& session) {
+/// The distances of two barcodes, one a dimension that either has.
+/// @return where they would take long: "H1: 50000 bars".
+std::vector<std::string> add_distances(report::Metadata& meta, const Barcode& a, const Barcode& b,
+                                       app::Session& session) {
   std::set<int> dims;
   for (const Barcode* barcode : {&a, &b})
     for (const Bar& bar : *barcode) dims.insert(bar.dim);
@@ -177,12 +179,12 @@ void add_distances(report::Metadata& meta, const Barcode& a, const Barcode& b,
     }
     const double distance = bottleneck_distance(bars[0], bars[1], session.context());
     meta.distances.push_back({dim, distance});
-    session.note(fmt::format("H{}: bottleneck distance {}", dim, distance));
   }
   if (!left_out.empty())
     meta.provenance.notes.emplace_back(
         "Distances left out",
         fmt::format("{}; at most {} are compared", fmt::join(left_out, ", "), kMostComparedBars));
+  return left_out;
 }
 
 }  // namespace
@@ -220,7 +222,13 @@ void write_report(OutputFile& file, const Shown& shown, const Arguments& argumen
 }
 
 int run_comparison(const Arguments& arguments, app::Session& session) try {
-  app::Output output(arguments.report);
+  app::require_in_scope(arguments.given, kComparison, name_of(kComparison));
+  const DistanceFormat format = distance_format(arguments);
+  std::optional<app::Output> distances, output;
+  const bool is_taken = arguments.report == "-" && arguments.output == "-";
+  if (arguments.output_format != BarcodeFormat::none && !is_taken)
+    distances.emplace(arguments.output);
+  if (!arguments.report.empty()) output.emplace(arguments.report);
   const std::string &first = arguments.compare[0], &second = arguments.compare[1];
   report::Metadata meta;
   meta.title = fmt::format("{} and {}", report::title_of(first), report::title_of(second));
@@ -239,15 +247,20 @@ int run_comparison(const Arguments& arguments, app::Session& session) try {
         report::sha256_hex(input, session.context()));
     session.note(fmt::format("read {}: {} bars", input.name(), barcodes.back().size()));
   }
-  add_distances(meta, barcodes[0], barcodes[1], session);
+  const auto left_out = add_distances(meta, barcodes[0], barcodes[1], session);
   meta.provenance.run.peak_memory = app::peak_memory();
   const app::BarHold results_are_written(session);
-  ReportFile report(output.file(), meta, session.context());
+  if (distances) {
+    distances->write(distances_file(meta.distances, left_out, arguments, format));
+    distances->commit();
+  }
+  if (!output) return app::kOk;
+  ReportFile report(output->file(), meta, session.context());
   report::add_pictures(report, barcodes, meta);
   report::add_bars(report, barcodes[0], "bars", false);
   report::add_bars(report, barcodes[1], "bars2", false);
   report.finish();
-  output.commit();
+  output->commit();
   return app::kOk;
 } catch (const Error& error) {
   if (error.kind() != ErrorKind::resource) throw;

@@ -11,6 +11,7 @@
 #include "batch_names.hpp"
 #include "choices.hpp"
 #include "numbers.hpp"
+#include "option_scopes.hpp"
 #include "ph/core/error.hpp"
 #include "report/page_template.hpp"
 
@@ -145,7 +146,8 @@ double at_least_zero(std::string_view option, const std::string& text) {
 /// Options that others contradict. Not asked for by name: that ends the program if there is no
 /// memory for a copy of the name.
 struct Known {
-  CLI::Option *method = nullptr, *supervoxels = nullptr, *min_persistence = nullptr;
+  CLI::Option *method = nullptr, *supervoxels = nullptr, *min_persistence = nullptr,
+              *plot_view = nullptr;
 };
 
 /// What comes before the plane is gone.
@@ -263,7 +265,7 @@ ViewTurn parse_turn(std::string_view option, const std::string& text) {
   return {v[0], v[1]};
 }
 
-void add_output_options(CLI::App& app, Arguments& a, app::PlotArguments& plots) {
+void add_output_options(CLI::App& app, Arguments& a, app::PlotArguments& plots, Known& known) {
   OutputPaths& files = a.files;
   const auto path = [&app](const std::string& names, const std::string& placeholder,
                            const std::string& what, std::string& target) {
@@ -290,11 +292,12 @@ void add_output_options(CLI::App& app, Arguments& a, app::PlotArguments& plots) 
       app, kPlotKinds,
       "figure of the barcode, of the merge tree, or of the cloud with a colour a segment "
       "(repeatable)",
-      "Options", plots);
-  add_value(app, "--plot-view", "RIGHT,UP",
-            "where a plot of the cloud is seen from: by how much the eye goes around the segments "
-            "from the viewpoint, degrees (default: 0,0)",
-            [&a](const std::string& v) { a.plot_view = parse_turn("--plot-view", v); });
+      "Options", false, plots);
+  known.plot_view = add_value(
+      app, "--plot-view", "RIGHT,UP",
+      "where a plot of the cloud is seen from: by how much the eye goes around the segments "
+      "from the viewpoint, degrees (default: 0,0)",
+      [&a](const std::string& v) { a.plot_view = parse_turn("--plot-view", v); });
   path("--coloured,--colored", "FILE.pcd|.ply",
        "the points with a colour a segment, safe for the colour-blind, and the rest in grey",
        files.coloured);
@@ -312,25 +315,13 @@ void add_output_options(CLI::App& app, Arguments& a, app::PlotArguments& plots) 
 
 /// What makes the scene, for a command that cuts it elsewhere.
 std::vector<std::string> scene_options(const CLI::App& app) {
-  constexpr std::array<std::string_view, 19> other = {
+  constexpr std::array<std::string_view, 22> other = {
       "output",      "labels",        "json",      "signatures", "tree",
       "barcode",     "plot",          "coloured",  "explain",    "picture",
       "report",      "cut",           "objects",   "parts",      "min-persistence",
-      "frames-from", "stable-labels", "plot-kind", "plot-view"};
+      "frames-from", "stable-labels", "plot-kind", "plot-view",  "title",
+      "size",        "axis"};
   return app::given_options(app, other);
-}
-
-/// The first option that was given of those that a stored tree cannot follow.
-std::string scene_option(const CLI::App& app) {
-  constexpr std::array<std::string_view, 12> names = {
-      "method",    "max-range",   "crop",  "plane",           "plane-distance", "plane-noise",
-      "viewpoint", "supervoxels", "voxel", "min-persistence", "distance",       "steps"};
-  for (const CLI::Option* option : app.get_options()) {
-    const std::vector<std::string>& known_as = option->get_lnames();
-    if (option->count() > 0 && !known_as.empty() && std::ranges::count(names, known_as.front()) > 0)
-      return "--" + known_as.front();
-  }
-  return {};
 }
 
 /// Whether an input is a depth image, by its name, where a camera is given.
@@ -349,7 +340,8 @@ void require_inputs(const Arguments& a) {
   const auto reject = [](const std::string& what) { throw Error(ErrorKind::usage, what); };
   if (a.inputs.empty() && a.frames_from.empty() && !depth)
     reject("expected INPUT or --depth; see --help");
-  if ((!a.inputs.empty() || !a.frames_from.empty()) && depth)
+  if (!a.frames_from.empty() && depth) reject("--frames-from: found --depth beside it");
+  if (!a.inputs.empty() && depth)
     reject("found both INPUT and --depth, expected one of them");
   for (const std::string& input : a.inputs) {
     if (input.empty()) reject("INPUT: found '', expected a path");
@@ -391,10 +383,10 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
                "ph-segment");
   add_input_options(app, a);
   add_scene_options(app, a.options);
-  const Known known = add_method_options(app, a.options);
+  Known known = add_method_options(app, a.options);
   add_cut_options(app, a.cut, known);
   app::PlotArguments plots;
-  add_output_options(app, a, plots);
+  add_output_options(app, a, plots, known);
   app::add_common_options(app, a.common);
   if (auto answer = app::parse_command_line(app, a.common, argc, argv,
                                             fmt::format(kBuiltIn, fmt::join(kMethodNames, " "))))
@@ -407,8 +399,13 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
     }
     a.options.method = Method::supervoxels;
   }
-  a.scene_option = scene_option(app);
+  a.given = app::given_scopes(app, option_scopes());
+  require_plane(a.given, a.options.plane);
   a.files.plots = plots.together(kPlotKinds.front());
+  a.files.look = plots.look;
+  const bool shows_cloud = std::ranges::count(a.files.plots, "cloud", &app::Plot::kind) > 0;
+  if (known.plot_view->count() > 0 && !shows_cloud)
+    throw Error(ErrorKind::usage, "--plot-view needs --plot FILE --plot-kind cloud");
   if (!a.files.report.empty()) {
     report::require_built_in("--report");
     a.command = app::typed_command("ph-segment", argc, argv);

@@ -12,6 +12,7 @@
 #include "cross_check.hpp"
 #include "depth_camera.hpp"
 #include "exit_code.hpp"
+#include "option_scopes.hpp"
 #include "outputs.hpp"
 #include "ph/core/error.hpp"
 #include "ph/io/output_file.hpp"
@@ -52,6 +53,14 @@ Cloud read_points(const Input& input, bool allow_empty, app::Session& session) {
   return ph::read_cloud(input, options);
 }
 
+/// No output replaces an input. @throws Error (usage).
+void require_separate(const Arguments& a, app::Session& session) {
+  app::InputFiles inputs;
+  for (const std::string& path : {a.input, a.image.depth, a.image.colour}) inputs.add(path);
+  if (!app::require_separate(inputs, a.files.written(), a.common.force) && a.common.force)
+    session.explain("--force: not needed, no output is an input");
+}
+
 /// The library knows what is missing, the program which of its options help.
 Segmentation segment_within_limits(const Cloud& cloud, const SegmentOptions& options,
                                    const RunContext& context) {
@@ -74,14 +83,10 @@ void cut_again(Segmentation& s, const CutOptions& options, const RunContext& con
 
 Segmentation cut_of_tree(const Input& input, const Arguments& arguments,
                          const RunContext& context) {
-  if (!arguments.scene_option.empty()) {
-    throw Error(ErrorKind::usage,
-                fmt::format("{}: found a stored tree, which was made with what it was made with; "
-                            "--cut, --min-part, --min-size, --objects and --parts cut it anew",
-                            arguments.scene_option));
-  }
   Segmentation s;
   static_cast<SceneTree&>(s) = read_tree(input);
+  require_input(arguments.given, kStoredTree);
+  require_method(arguments.given, s.method);
   if (!s.plane) s.plane_note = "the tree was made without one";
   s.barcode = barcode_of(s.tree);
   const auto start = std::chrono::steady_clock::now();
@@ -109,9 +114,12 @@ Result result_of(const Arguments& arguments, const Outputs& outputs, app::Sessio
   const DepthInput& image = arguments.image;
   std::optional<Input> input(
       Input::open(image.depth.empty() ? arguments.input : image.depth, &context));
+  const bool is_scene = arguments.is_depth_image() || !is_tree(*input);
+  if (is_scene) require_input(arguments.given, arguments.is_depth_image() ? kDepthImage : kCloud);
+  if (is_scene) require_method(arguments.given, arguments.options.method);
   if (arguments.is_depth_image())
     result.cloud = read_depth_image(*input, image, session);
-  else if (!is_tree(*input))
+  else if (is_scene)
     result.cloud = read_points(*input, arguments.allow_empty, session);
   if (!arguments.files.report.empty()) result.sha256 = report::sha256_hex(*input, context);
   somebody_types.reset();
@@ -124,12 +132,14 @@ Result result_of(const Arguments& arguments, const Outputs& outputs, app::Sessio
     s = cut_of_tree(*input, arguments, context);
     stop_reading();
     result.read_seconds -= s.stages.front().seconds;
-    outputs.require_suitable(nullptr, s.height);
+    outputs.require_suitable(s.height);
     return result;
   }
   input.reset();
   stop_reading();
-  outputs.require_suitable(&*result.cloud, result.cloud->height);
+  if (arguments.allow_empty && result.cloud->size() > 0)
+    session.explain("--allow-empty: not needed, the cloud has points");
+  outputs.require_suitable(result.cloud->height);
   s = segment_within_limits(*result.cloud, arguments.options, context);
   const CutOptions asked = arguments.cut.over(s.first_cut);
   if (asked != s.first_cut) cut_again(s, asked, context);
@@ -176,6 +186,7 @@ void explain_stages(const Segmentation& s, const Arguments& arguments, app::Sess
 }
 
 Outcome outcome_of(const Arguments& arguments, app::Session& session, const OfStream* stream) {
+  if (!stream) require_separate(arguments, session);
   Outputs outputs(arguments);
   const Result result = result_of(arguments, outputs, session);
   const Segmentation& s = result.segmentation;

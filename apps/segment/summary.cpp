@@ -156,7 +156,7 @@ std::string json_summary(const Arguments& arguments, const Segmentation& s, cons
 
 std::string text_summary(const Segmentation& s) {
   std::string text =
-      "label   points  voxels        x        y        z   size x   size y   size z\n";
+      "label   points  voxels      x/m      y/m      z/m size x/m size y/m size z/m\n";
   for (const Segment& g : s.segments) {
     fmt::format_to(std::back_inserter(text), "{:5} {:8} {:7}", g.label, g.points, g.voxels);
     for (const double c : g.centroid) fmt::format_to(std::back_inserter(text), " {:8.4f}", c);

@@ -275,7 +275,7 @@ def unknown():
                       with_bytes(nifti(2, "u1"), 70, struct.pack("<h", code)), f"datatype, found {code}")
     yield refused(38, "nifti", "a pair of files", with_bytes(nifti(2, "u1"), 344, b"ni1\0"), "pair")
     yield refused(38, "nifti", "ANALYZE", with_bytes(nifti(2, "u1"), 344, bytes(4)), "NIfTI magic")
-    for kind in (2, 3, 9, -1):
+    for kind in (3, 9, -1):
         yield refused(38, "dipha", f"type {kind}", dipha(kind, 0), "DIPHA|diagram")
     yield refused(38, "dipha", "magic number", words("<", MAGIC + 1, 1), "not a DIPHA file")
     yield refused(38, "dipha", "a dualised matrix", dipha(0, 1, 0, 0, 0), "dualised")

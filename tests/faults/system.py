@@ -240,12 +240,17 @@ def outputs():
                   program=SEGMENT, files={"cloud.xyz": b"0 0 1\n1 0 1\n"}, unprivileged=True,
                   around=with_folder("closed", 0o555))
     done = SQUARE_BARS.encode()
-    yield squares(57, "the input", "square.txt", "-o", "square.txt", "--output-format", "csv",
-                  output="", after=holds("square.txt", done))
-    yield squares(57, "a link to the input", "square.txt", "-o", "link.csv", output="",
-                  around=with_link("square.txt", "link.csv"), after=holds("square.txt", done))
+    square = holds("square.txt", SQUARE.encode())
+    yield refused(57, "the input", "square.txt", "-o", "square.txt", "--output-format", "csv",
+                  code=64, message="--force", named="--output", after=square)
+    yield refused(57, "a link to the input", "square.txt", "-o", "link.csv", code=64,
+                  message="is the input square.txt", named="--output",
+                  around=with_link("square.txt", "link.csv"), after=square)
+    yield squares(57, "the input, by force", "square.txt", "-o", "square.txt", "--output-format", "csv",
+                  "--force", output="", after=holds("square.txt", done))
     faulty = b"0 0\n1 0\n1\n"
-    yield refused(57, "a faulty input", "bad.txt", "-o", "bad.txt", "--output-format", "csv", code=65,
+    yield refused(57, "a faulty input", "bad.txt", "-o", "bad.txt", "--output-format", "csv",
+                  "--force", code=65,
                   message="ragged row", named="bad.txt", files={"bad.txt": faulty},
                   after=holds("bad.txt", faulty))
     yield refused(58, "standard output", "square.txt", "-o", "-", code=74, message="No space",

@@ -94,6 +94,10 @@ Barcode read_barcode(const std::filesystem::path& path,
                      const RunContext* context = nullptr);
 Barcode read_barcode(const Input& input, std::optional<BarcodeFormat> format = std::nullopt);
 
+/// Whether a file is a barcode for certain: a header `dim,birth,death`, JSON, text of Ripser,
+/// DIPHA's diagram, or a name in .pers. Rows of numbers alone, in text or NPY, may be anything.
+bool is_barcode(const Input& input);
+
 /// The shortest text that reads back to the same double; `inf`, `-inf`, `nan`; -0 as 0.
 std::string shortest(double value);
 /// A JSON string with its quotes. Bytes that are not UTF-8 become U+FFFD.
