@@ -3,7 +3,11 @@
 // many, their density and the most persistent ones. A lasso selects.
 import { Axis } from "./axis";
 import { BarChart, intervalOf } from "./bar_chart";
-import { clipped, homology, short } from "./numbers";
+import { fanOut, type Crowd } from "./fan";
+import { isInside } from "./lasso";
+import { drawMarker } from "./marker";
+import { clipped, grouped, homology, short } from "./numbers";
+import { Spots } from "./spots";
 import type { Pen } from "./pen";
 import type { Size } from "./chart";
 import type { Change, Session } from "./session";
@@ -16,50 +20,9 @@ const kLeft = 50,
   kMinusInfinityRoom = 34;
 const kMostMarkers = 3000,
   kLongest = 1200,
+  kLeastFanned = 0.1, // of the range of values
   kCell = 3,
   kReach = 14;
-
-/// A shape of its own for each dimension: colours may be lost in print.
-function drawMarker(
-  pen: Pen,
-  dim: number,
-  x: number,
-  y: number,
-  r: number,
-  fill: string,
-  opacity: number,
-  stroke: string,
-  width: number,
-): void {
-  switch (dim % 4) {
-    case 1:
-      return pen.polygon(
-        [x, y - 1.25 * r, x + 1.15 * r, y + 0.8 * r, x - 1.15 * r, y + 0.8 * r],
-        fill,
-        opacity,
-        stroke,
-        width,
-      );
-    case 2:
-      return pen.polygon(
-        [x - r, y - r, x + r, y - r, x + r, y + r, x - r, y + r],
-        fill,
-        opacity,
-        stroke,
-        width,
-      );
-    case 3:
-      return pen.polygon(
-        [x, y - 1.35 * r, x + 1.1 * r, y, x, y + 1.35 * r, x - 1.1 * r, y],
-        fill,
-        opacity,
-        stroke,
-        width,
-      );
-    default:
-      return pen.circle(x, y, r, fill, opacity, stroke, width);
-  }
-}
 
 export class Diagram extends BarChart {
   protected redrawsOn: Change[] = ["dims", "colour"];
@@ -94,6 +57,7 @@ export class Diagram extends BarChart {
     pen.polygon([left, bottom, right, bottom, right, top], theme.shade);
     this.drawAxes(pen, size);
     pen.line(left, bottom, right, top, theme.faint, 1);
+    this.drawMatching(pen);
     if (bars.size === 0)
       pen.text((left + right) / 2, (top + bottom) / 2 - 40, "no bars", {
         colour: theme.muted,
@@ -103,6 +67,7 @@ export class Diagram extends BarChart {
     let shown = 0;
     for (let i = 0; i < bars.size; ++i) if (this.session.isShown(i)) ++shown;
     const many = shown > kMostMarkers;
+    const crowds = many ? [] : this.fan();
     if (many) this.drawDensity(pen, size);
     const marked = this.shownBars(many ? kLongest : kMostMarkers);
     for (let i = marked.length - 1; i >= 0; --i) {
@@ -122,6 +87,47 @@ export class Diagram extends BarChart {
         hollow ? 1.4 : 0.8,
       );
     }
+    for (const { x, y, count } of crowds)
+      pen.text(x + 7, y + 13, `${grouped(count)} here`, { colour: theme.muted, size: 10 });
+  }
+
+  /// Equal bars side by side, those of segments in the order of their numbers. Near the diagonal,
+  /// where nobody looks for one of them, they lie on each other.
+  private fan(): Crowd[] {
+    const { session } = this;
+    const { bars } = session.report;
+    const numbers = session.numbers();
+    const place = (bar: number) => numbers.get(bar) ?? Infinity;
+    const groups = new Map<string, number[]>();
+    for (const bar of this.shownBars(kMostMarkers)) {
+      if (bars.persistence(bar) < kLeastFanned * (bars.high - bars.low)) continue;
+      const key = [bars.birth[bar], bars.death[bar], bars.barcodeOf(bar)].join();
+      const group = groups.get(key);
+      if (group) group.push(bar);
+      else groups.set(key, [bar]);
+    }
+    const several = [...groups.values()].filter((group) => group.length > 1);
+    for (const group of several) group.sort((a, b) => (place(a) < place(b) ? -1 : 1));
+    return fanOut(several, this.x, this.y, (bar) => bars.isInfinite(bar), this.births.to);
+  }
+
+  /// Which bar became which one: lines between pairs, to the diagonal where there is none.
+  private drawMatching(pen: Pen): void {
+    const { theme, report } = this.session;
+    const { matching, bars } = report;
+    if (!matching || bars.size > kMostMarkers) return;
+    for (let bar = 0; bar < bars.size; ++bar) {
+      const partner = matching.partnerOf(bar);
+      if (!this.session.isShown(bar) || (partner !== undefined && partner < bar)) continue;
+      const x = this.x[bar]!,
+        y = this.y[bar]!;
+      if (partner !== undefined)
+        pen.line(x, y, this.x[partner]!, this.y[partner]!, theme.muted, 1.2);
+      else if (!bars.isInfinite(bar)) {
+        const middle = (bars.birth[bar]! + bars.death[bar]!) / 2;
+        pen.line(x, y, this.births.at(middle), this.deaths.at(middle), theme.faint, 0.8, [2, 3]);
+      }
+    }
   }
 
   protected drawOver(pen: Pen): void {
@@ -134,6 +140,14 @@ export class Diagram extends BarChart {
     for (const [tinted, colour] of session.tintedBars())
       if (session.isShown(tinted))
         drawMarker(pen, 0, this.x[tinted]!, this.y[tinted]!, 4.2, colour, 1, theme.panel, 0.8);
+    const spots = new Spots();
+    for (const [bar, number] of session.numbers())
+      if (session.isShown(bar) && spots.take(this.x[bar]!, this.y[bar]! + 12, String(number)))
+        pen.text(this.x[bar]!, this.y[bar]! + 15, String(number), {
+          colour: theme.muted,
+          size: 9.5,
+          anchor: "middle",
+        });
     const most = session.selection.length > 5000 ? 1 : 2;
     for (const bar of session.selection.slice(0, 5000)) {
       if (!session.isShown(bar)) continue;
@@ -200,8 +214,9 @@ export class Diagram extends BarChart {
       high = fits ? bars.high + margin : bars.high;
     const left = kLeft + (fromBelow ? kMinusInfinityRoom : 0),
       top = kTop + (toAbove ? kInfinityRoom : 0);
-    this.births = new Axis(low, high, left, size.width - kRight);
-    this.deaths = new Axis(low, high, size.height - kBottom, top);
+    const { negated } = this.session.report.meta.value;
+    this.births = new Axis(low, high, left, size.width - kRight, negated);
+    this.deaths = new Axis(low, high, size.height - kBottom, top, negated);
     for (let i = 0; i < bars.size; ++i) {
       this.x[i] = bars.birth[i] === -Infinity ? kLeft + 6 : this.births.at(bars.birth[i]!);
       this.y[i] = bars.isInfinite(i) ? kTop + 4 : this.deaths.at(bars.death[i]!);
@@ -345,17 +360,4 @@ export class Diagram extends BarChart {
         inside.push(bar);
     return inside;
   }
-}
-
-/// Whether a ray to the right crosses the polygon an odd number of times.
-function isInside(polygon: number[], x: number, y: number): boolean {
-  let inside = false;
-  for (let i = 0, j = polygon.length - 2; i < polygon.length; j = i, i += 2) {
-    const xi = polygon[i]!,
-      yi = polygon[i + 1]!,
-      xj = polygon[j]!,
-      yj = polygon[j + 1]!;
-    if (yi > y !== yj > y && x < ((xj - xi) * (y - yi)) / (yj - yi) + xi) inside = !inside;
-  }
-  return inside;
 }
