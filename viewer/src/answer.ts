@@ -2,7 +2,7 @@
 // What stands out among the bars, and the sentence above the views that says so. docs/report.md has
 // the criterion in words.
 import { counted, homology, short } from "./numbers";
-import { holes, intervalText, inWords, listed, times } from "./words";
+import { capital, holes, intervalText, inWords, listed, times } from "./words";
 import type { Bars } from "./bars";
 import type { Report } from "./report";
 
@@ -91,13 +91,14 @@ export function answerOf(report: Report): Answer {
   const range = bars.high - bars.low;
   const out = found.map((f) => ({ found: f, ...outstanding(f, f.dim > 0 ? scale : 0, range) }));
   const first = out.find((o) => o.bars.length > 0);
-  if (!first) return plain(dims[0] ?? -1, nothing(found));
+  if (!first) return plain(dims[0] ?? -1, nothing(found, !!report.image));
   const others = out.filter((o) => o !== first && o.bars.length > 0);
-  const count = others.reduce((sum, o) => sum + o.bars.length, 0);
   const names = others.map(
     (o) => `${inWords(o.bars.length).toLowerCase()} ${holes(o.found.dim, o.bars.length)}`,
   );
-  const also = count > 0 ? ` So ${count > 1 ? "do" : "does"} ${listed(names)}.` : "";
+  const count = others.reduce((sum, o) => sum + o.bars.length, 0);
+  const verb = count === 1 ? "stands" : "stand";
+  const also = count > 0 ? ` ${capital(listed(names))} ${verb} out, too.` : "";
   return {
     dim: first.found.dim,
     bars: first.bars,
@@ -130,15 +131,19 @@ function sentenceOf(found: Lengths, out: number[], gap: Gap, { meta, bars }: Rep
 }
 
 /// "No loop stands out: the longest is 1.1 times as long as the next."
-function nothing(found: Lengths[]): string {
+function nothing(found: Lengths[], isImage: boolean): string {
   const some = found.filter((f) => f.finite.length > 0 || f.endless.length > 0);
   if (some.length === 0) return "There are no bars.";
-  const told = (some.some((f) => f.dim > 0) ? some.filter((f) => f.dim > 0) : some).slice(0, 3);
-  const one = (f: Lengths) => {
-    if (f.finite.length === 0) return "there is one";
-    if (f.finite.length === 1) return "there is one, and it is short";
-    return `the longest is ${times(f.lengths[0]! / f.lengths[1]!)} as long as the next`;
+  // Components of points say little where there are holes to speak of.
+  const told = (
+    !isImage && some.some((f) => f.dim > 0) ? some.filter((f) => f.dim > 0) : some
+  ).slice(0, 3);
+  const longer = (f: Lengths) => {
+    const ratio = f.lengths[0]! / f.lengths[1]!;
+    return ratio < 1.05 ? "hardly longer than the next" : `${times(ratio)} as long as the next`;
   };
+  const one = (f: Lengths) =>
+    f.finite.length > 1 ? `the longest is ${longer(f)}` : "there is one, and it is short";
   if (told.length === 1) {
     const f = told[0]!;
     if (f.dim === 0 && f.finite.length === 0) return "All is one component: there is no other bar.";
@@ -146,7 +151,7 @@ function nothing(found: Lengths[]): string {
   }
   const each = told.map((f) =>
     f.finite.length > 1
-      ? `the longest ${holes(f.dim)} is ${times(f.lengths[0]! / f.lengths[1]!)} as long as the next`
+      ? `the longest ${holes(f.dim)} is ${longer(f)}`
       : `there is one ${holes(f.dim)}, and it is short`,
   );
   const names = told.map((f) => holes(f.dim));

@@ -173,7 +173,9 @@ export class Colouring {
       case "normal":
         return (i) => colourOfNormal(normals![2 * i]!, normals![2 * i + 1]!) ?? none;
       case "plain": {
-        const colour = packed(session.theme.dark ? [168, 178, 190] : [92, 102, 115]);
+        // A surface is shaded, dots need contrast.
+        const light = session.theme.dark || (this.rgba.length > 12000 && session.report.cloud?.dims === 3);
+        const colour = packed(light ? [178, 187, 198] : [92, 102, 115]);
         return () => colour;
       }
       default: {

@@ -140,14 +140,7 @@ export class Diagram extends BarChart {
     for (const [tinted, colour] of session.tintedBars())
       if (session.isShown(tinted))
         drawMarker(pen, 0, this.x[tinted]!, this.y[tinted]!, 4.2, colour, 1, theme.panel, 0.8);
-    const spots = new Spots();
-    for (const [bar, number] of session.numbers())
-      if (session.isShown(bar) && spots.take(this.x[bar]!, this.y[bar]! + 12, String(number)))
-        pen.text(this.x[bar]!, this.y[bar]! + 15, String(number), {
-          colour: theme.muted,
-          size: 9.5,
-          anchor: "middle",
-        });
+    this.drawNumbers(pen);
     const most = session.selection.length > 5000 ? 1 : 2;
     for (const bar of session.selection.slice(0, 5000)) {
       if (!session.isShown(bar)) continue;
@@ -183,6 +176,23 @@ export class Diagram extends BarChart {
     if (this.lasso.length >= 4) pen.polygon(this.lasso, theme.accent, 0.12, theme.muted, 1);
   }
 
+  /// Beneath the line of infinity, where dots stand side by side; else beside the dots.
+  private drawNumbers(pen: Pen): void {
+    const { session } = this;
+    const spots = new Spots();
+    for (const [bar, number] of session.numbers()) {
+      if (!session.isShown(bar)) continue;
+      const beneath = session.report.bars.isInfinite(bar);
+      const x = this.x[bar]! + (beneath ? 0 : 11),
+        y = this.y[bar]! + (beneath ? 15 : 3.5);
+      if (!spots.take(x, y, String(number))) continue;
+      pen.text(x, y, String(number), {
+        colour: session.theme.muted,
+        size: 9.5,
+        anchor: "middle",
+      });
+    }
+  }
   private drawLabel(pen: Pen, x: number, y: number, text: string): void {
     const { theme } = this.session;
     const width = 6.2 * text.length + 12;

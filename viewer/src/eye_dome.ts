@@ -12,6 +12,7 @@ import {
   Scene,
   ShaderMaterial,
   Vector2,
+  Vector3,
   type WebGLRenderer,
   WebGLRenderTarget,
 } from "three";
@@ -27,7 +28,7 @@ uniform sampler2D colours;
 uniform sampler2D depths;
 uniform vec2 texel;
 uniform vec2 planes; // near, far
-uniform float reach;
+uniform vec3 reach; // pixels: least; of a mark at depth 1; whether that is so at every depth
 varying vec2 at;
 float depthAt(vec2 place) { return texture2D(depths, place).x; }
 float away(float depth) {
@@ -52,17 +53,21 @@ void main() {
     if (beside < 5.0) discard;
   }
   float here = away(depth), behind = 0.0;
+  float wide = clamp(reach.y * (reach.z > 0.5 ? 1.0 : exp2(-here)), reach.x, 8.0 * reach.x);
   for (int i = 0; i < 8; ++i) {
     float angle = 0.7853982 * float(i);
-    float there = depthAt(at + reach * texel * vec2(cos(angle), sin(angle)));
+    float there = depthAt(at + wide * texel * vec2(cos(angle), sin(angle)));
     if (there < 1.0) behind += clamp(here - away(there), 0.0, 0.05);
   }
-  gl_FragColor = vec4(texture2D(colours, from).rgb * max(0.45, exp(-14.0 * behind)), 1.0);
+  gl_FragColor = vec4(texture2D(colours, from).rgb * max(0.4, exp(-16.0 * behind / sqrt(wide))), 1.0);
   gl_FragDepth = depth;
 }`;
 
 export class EyeDome {
   readonly scene = new Scene(); // what is drawn so
+  /// How large the marks of points are, in space or as an angle: within a mark all is even.
+  mark = 0;
+  isAngle = false;
   private readonly target = new WebGLRenderTarget(1, 1, {
     depthTexture: new DepthTexture(1, 1),
     magFilter: NearestFilter,
@@ -76,7 +81,7 @@ export class EyeDome {
       depths: { value: this.target.depthTexture },
       texel: { value: new Vector2() },
       planes: { value: new Vector2() },
-      reach: { value: 1 },
+      reach: { value: new Vector3(1, 0, 0) },
     },
   });
   private readonly screen = new Scene();
@@ -101,7 +106,9 @@ export class EyeDome {
     const { uniforms } = this.material;
     (uniforms["texel"]!.value as Vector2).set(1 / w, 1 / h);
     (uniforms["planes"]!.value as Vector2).set(camera.near, camera.far);
-    uniforms["reach"]!.value = 1.2 * ratio;
+    const { mark, isAngle } = this;
+    const scale = 0.5 * h * camera.projectionMatrix.elements[5]!;
+    (uniforms["reach"]!.value as Vector3).set(1.2 * ratio, 0.7 * mark * scale, isAngle ? 1 : 0);
     renderer.render(this.screen, this.flat);
   }
 }

@@ -4,8 +4,12 @@
 import { button } from "./dom";
 import type { Session } from "./session";
 
-/// Adds the button. @param folded how the panel begins.
-export function foldable(panel: HTMLElement, title: string, folded: boolean): void {
+/// Adds the button. @param folded how the panel begins. @return folds it, or opens it.
+export function foldable(
+  panel: HTMLElement,
+  title: string,
+  folded: boolean,
+): (fold: boolean) => void {
   const toggle = button("", () => show(!panel.classList.contains("folded")), { class: "quiet fold" });
   const show = (fold: boolean) => {
     panel.classList.toggle("folded", fold);
@@ -15,6 +19,7 @@ export function foldable(panel: HTMLElement, title: string, folded: boolean): vo
   };
   panel.querySelector("header")!.append(toggle);
   show(folded);
+  return show;
 }
 
 /// Whether a cut of the tree says something: there are components that stand out, or the data begin

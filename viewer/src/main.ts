@@ -41,8 +41,15 @@ async function start(app: HTMLElement): Promise<void> {
   };
   if (cut && tree) {
     const folded = !cutSays(session);
-    foldable(cut.panel, "Cut", folded);
-    foldable(tree.panel, "Merge tree", folded);
+    const show = [
+      foldable(cut.panel, "Cut", folded),
+      foldable(tree.panel, "Merge tree", folded),
+    ];
+    // Who asks for the colours of a cut wants to move it.
+    session.onChange((changes) => {
+      const ofCut = session.colour === "segment" || session.colour === "persistence";
+      if (changes.has("colour") && ofCut) for (const fold of show) fold(false);
+    });
   }
   if (report.bars.size < 2) foldable(diagram.panel, "Persistence diagram", true);
   const left = [data?.panel, cut?.panel, tree?.panel].filter((panel) => panel !== undefined);

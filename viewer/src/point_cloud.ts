@@ -88,6 +88,14 @@ export class PointCloud {
     this.object.frustumCulled = false;
   }
 
+  /// How large its marks are, in space or as an angle.
+  get mark(): { mark: number; isAngle: boolean } {
+    const { spacing, seen } = this.material.uniforms;
+    return {
+      mark: this.isSurface ? (spacing!.value as number) : 0,
+      isAngle: seen!.value as boolean,
+    };
+  }
   recolour(): void {
     this.tint.needsUpdate = true;
   }

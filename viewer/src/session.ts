@@ -23,7 +23,8 @@ export interface Focus {
 }
 const kNoTints = new Map<number, string>();
 const kMostTinted = 200, // segments whose bars have their colours
-  kMostNumbered = 20;
+  kMostNumbered = 20,
+  kLeastPart = 0.02; // of the largest segment
 const kNothing: Focus = { bar: -1, segment: 0, element: -1 };
 
 export class Session {
@@ -279,6 +280,13 @@ export class Session {
     return this.through;
   }
 
+  /// Whether the program's cut has more than one large part; what ph-segment found is always shown.
+  private hasParts(): boolean {
+    const { tree, meta } = this.report;
+    if (!tree || meta.tree?.command) return !!tree;
+    const [first, second] = tree.cut(meta.tree!.cut, false).segments;
+    return second !== undefined && second.points >= kLeastPart * first!.points;
+  }
   /// The ways to colour that this report has, the default first.
   colourModes(): [ColourMode, string][] {
     const { elements, tree, cloud, image, triangles, meta } = this.report;
@@ -295,7 +303,7 @@ export class Session {
     if (cloud?.dims === 3) modes.push(["depth", meta.cloud?.viewpoint ? "depth" : "z"]);
     if (!triangles && elements?.birth) modes.push(["birth", image ? "value" : "birth"]);
     if (told) modes.push(["persistence", "persistence"]);
-    if (modes[0]?.[0] === "segment" && (this.cut?.segments.length ?? 0) < 2 && modes.length > 1)
+    if (modes[0]?.[0] === "segment" && !this.hasParts() && modes.length > 1)
       modes.push(modes.shift()!);
     return modes;
   }

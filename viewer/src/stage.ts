@@ -33,7 +33,7 @@ export class Stage {
   rendered: (() => void) | undefined;
   turned: (() => void) | undefined; // by the reader
   /// What is solid and seen in perspective has its depth brought out.
-  private readonly dome: EyeDome | undefined;
+  readonly dome: EyeDome | undefined;
   private held = false;
   private scheduled = false;
 

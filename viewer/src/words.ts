@@ -18,6 +18,10 @@ export function inWords(count: number): string {
   return kWords[count] ?? grouped(count);
 }
 
+export function capital(text: string): string {
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}
+
 /// "20 times", "1.1 times".
 export function times(ratio: number): string {
   if (ratio >= 1000) return "more than 1,000 times";
