@@ -49,6 +49,12 @@ std::optional<CubicalImage> image_of(const Shown& shown) {
   return image;
 }
 
+/// Whether the first axis of an image is x: its format says so, or it was made of points.
+bool has_axes_of_space(const ReadResult& read) {
+  return read.format == Format::nifti || read.format == Format::dipha ||
+         std::holds_alternative<Points>(read.data);
+}
+
 /// Whether pairs within a distance are the edges: all points are vertices, all enter at once.
 bool is_euclidean(const Shown& shown, const Arguments& arguments) {
   return std::holds_alternative<Rips>(shown.built.complex) && !shown.built.subsample &&
@@ -82,12 +88,17 @@ report::Metadata metadata_of(const Shown& shown, const Arguments& arguments,
   const bool rips = std::holds_alternative<Rips>(shown.built.complex);
   report::Metadata meta;
   meta.title = report::title_of(shown.info.input);
-  meta.value_label = rips                           ? "Distance"
-                     : arguments.cubical.superlevel ? "Minus the value"
-                                                    : "Filtration value";
+  meta.value_label = rips ? "Distance" : image ? "Value" : "Filtration value";
+  // Files of barcodes hold -f of superlevel sets; a reader of the page sees f.
+  const auto* cubical = std::get_if<Cubical>(&shown.built.complex);
+  meta.negated = cubical && cubical->cubical_image().superlevel;
   meta.barcodes.push_back({meta.title, shown.barcode.cell_kind(), shown.barcode.representatives()});
   if (const Points* points = points_of(shown)) meta.cloud = cloud_meta(*points, shown, arguments);
-  if (image) meta.construction = image->voxels_are_vertices ? "vertices" : "cells";
+  if (image) {
+    meta.construction = image->voxels_are_vertices ? "vertices" : "cells";
+    if (has_axes_of_space(shown.data.read) && image->extents.size() == 3)
+      meta.axes = {"x", "y", "z"};
+  }
   if (tree) meta.tree = tree->meta;
   meta.provenance.command = arguments.command;
   meta.provenance.sha256 = shown.data.sha256;
@@ -134,13 +145,6 @@ void add_image(ReportFile& report, const CubicalImage& image,
     report.add("image/values", std::span(values, image.size()), form);
   });
   if (leaf_of.size() == image.size()) report::add_labels(report, "points/leaf", leaf_of, true);
-  if (!image.superlevel) return;
-  const MemoryClaim copy(report.context().memory, image.size() * sizeof(float));
-  std::vector<float> births;
-  births.reserve(image.size());
-  for (std::size_t i = 0; i < image.size(); ++i)
-    births.push_back(static_cast<float>(image.value(i)));
-  report.add("points/birth", births);
 }
 
 /// The barcode is there already: it is worth showing without its tree.
@@ -157,10 +161,10 @@ std::optional<ShownTree> tree_if_it_fits(const Shown& shown, const Arguments& ar
   return std::nullopt;
 }
 
-/// The distances of two barcodes, one a dimension that either has. Where they would take long a
-/// note says so.
+/// The distances of two barcodes, one a dimension that either has, and the numbers of the bars that
+/// they pair. Where they would take long a note says so.
 void add_distances(report::Metadata& meta, const Barcode& a, const Barcode& b,
-                   app::Session& session) {
+                   std::vector<std::uint32_t>& matched, app::Session& session) {
   std::set<int> dims;
   for (const Barcode* barcode : {&a, &b})
     for (const Bar& bar : *barcode) dims.insert(bar.dim);
@@ -172,8 +176,13 @@ void add_distances(report::Metadata& meta, const Barcode& a, const Barcode& b,
       left_out.push_back(fmt::format("H{}: {} bars", dim, count));
       continue;
     }
-    const double distance = bottleneck_distance(bars[0], bars[1], session.context());
+    const auto [distance, pairs] = bottleneck_matching(bars[0], bars[1], session.context());
     meta.distances.push_back({dim, distance});
+    // Numbers of bars: those of a dimension come one after another in each barcode.
+    const auto first = bars[0].empty() ? 0U : static_cast<std::uint32_t>(&bars[0][0] - &a[0]);
+    const auto second = bars[1].empty() ? 0U : static_cast<std::uint32_t>(&bars[1][0] - &b[0]);
+    for (const auto& [i, j] : pairs)
+      matched.insert(matched.end(), {first + i, static_cast<std::uint32_t>(a.size()) + second + j});
     session.note(fmt::format("H{}: bottleneck distance {}", dim, distance));
   }
   if (!left_out.empty())
@@ -236,13 +245,15 @@ int run_comparison(const Arguments& arguments, app::Session& session) {
         report::sha256_hex(input.bytes(), session.context()));
     session.note(fmt::format("read {}: {} bars", input.name(), barcodes.back().size()));
   }
-  add_distances(meta, barcodes[0], barcodes[1], session);
+  std::vector<std::uint32_t> matched;
+  add_distances(meta, barcodes[0], barcodes[1], matched, session);
   meta.provenance.run.peak_memory = app::peak_memory();
   const app::BarHold results_are_written(session);
   ReportFile report(output.file(), meta, session.context());
   report::add_pictures(report, barcodes, meta);
   report::add_bars(report, barcodes[0], "bars", false);
   report::add_bars(report, barcodes[1], "bars2", false);
+  report.add("matching/pairs", matched, {.shape = {matched.size() / 2, 2}, .delta = true});
   report.finish();
   output.commit();
   return app::kOk;

@@ -168,7 +168,8 @@ TEST(Bottleneck, ItsMatchingCostsNoMore) {
   std::mt19937 random(5);
   for (int round = 0; round < 3000; ++round) {
     const int steps = round % 3 == 0 ? 0 : round % 3 == 1 ? 5 : 15;
-    Bars a = random_bars(random, random() % 14, steps), b = random_bars(random, random() % 14, steps);
+    Bars a = random_bars(random, random() % 14, steps),
+         b = random_bars(random, random() % 14, steps);
     if (round % 4 == 0) {  // most bars have a partner near them
       b = a;
       for (Bar& bar : b) bar.death += 0.3 * std::uniform_real_distribution<>()(random);

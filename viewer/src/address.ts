@@ -3,7 +3,8 @@
 import type { DataView } from "./data_view";
 import { exact } from "./numbers";
 import { prefersDark, themeOf } from "./palette";
-import type { ColourMode, Session } from "./session";
+import type { ColourMode } from "./colour_modes";
+import type { Session } from "./session";
 
 const kMostBars = 200;
 

@@ -149,11 +149,12 @@ function nothing(found: Lengths[], isImage: boolean): string {
     if (f.dim === 0 && f.finite.length === 0) return "All is one component: there is no other bar.";
     return `No ${holes(f.dim)} stands out: ${one(f)}.`;
   }
-  const each = told.map((f) =>
-    f.finite.length > 1
-      ? `the longest ${holes(f.dim)} is ${longer(f)}`
-      : `there is one ${holes(f.dim)}, and it is short`,
-  );
+  const each = told.map((f) => {
+    if (f.finite.length > 1) return `the longest ${holes(f.dim)} is ${longer(f)}`;
+    return f.finite.length === 1
+      ? `there is one ${holes(f.dim)}, and it is short`
+      : `all is one ${holes(f.dim)}`;
+  });
   const names = told.map((f) => holes(f.dim));
   return `No ${listed(names, "or")} stands out: ${listed(each)}.`;
 }

@@ -11,7 +11,7 @@ import type { Size } from "./chart";
 import type { Change, Session } from "./session";
 
 const kLeft = 34,
-  kRight = 24,
+  kRight = 32,
   kTop = 8,
   kBottom = 38,
   kGap = 10,

@@ -3,7 +3,8 @@
 import { dimColour, greyOf, ramp, segmentColour, type Rgb } from "./palette";
 import { barsInView } from "./representatives";
 import { runsOf } from "./voxel_sets";
-import type { ColourMode, Session } from "./session";
+import type { ColourMode } from "./colour_modes";
+import type { Session } from "./session";
 
 export interface Range {
   low: number;

@@ -18,7 +18,8 @@ import { shownValue } from "./words";
 import { StaticPicture } from "./static_picture";
 import { Group, type LineSegments, type Mesh } from "three";
 import type { Report } from "./report";
-import type { Change, ColourMode, Session } from "./session";
+import type { ColourMode } from "./colour_modes";
+import type { Change, Session } from "./session";
 
 /// Nothing without WebGL.
 function stageOf(pose: Pose, solid: boolean): Stage | undefined {

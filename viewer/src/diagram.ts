@@ -3,11 +3,13 @@
 // many, their density and the most persistent ones. A lasso selects.
 import { Axis } from "./axis";
 import { BarChart, intervalOf } from "./bar_chart";
+import { drawDensity } from "./diagram_density";
+import { drawNumbers } from "./dot_numbers";
 import { fanOut, type Crowd } from "./fan";
 import { isInside } from "./lasso";
 import { drawMarker } from "./marker";
+import { drawMatching } from "./matching_lines";
 import { clipped, grouped, homology, short } from "./numbers";
-import { Spots } from "./spots";
 import type { Pen } from "./pen";
 import type { Size } from "./chart";
 import type { Change, Session } from "./session";
@@ -21,15 +23,14 @@ const kLeft = 50,
 const kMostMarkers = 3000,
   kLongest = 1200,
   kLeastFanned = 0.1, // of the range of values
-  kCell = 3,
   kReach = 14;
 
 export class Diagram extends BarChart {
   protected redrawsOn: Change[] = ["dims", "colour"];
-  private x: Float32Array; // of each bar, pixels
-  private y: Float32Array;
-  private births = new Axis(0, 1, 0, 1);
-  private deaths = new Axis(0, 1, 0, 1);
+  x: Float32Array; // of each bar, pixels
+  y: Float32Array;
+  births = new Axis(0, 1, 0, 1);
+  deaths = new Axis(0, 1, 0, 1);
   private lasso: number[] = [];
 
   constructor(session: Session) {
@@ -57,7 +58,7 @@ export class Diagram extends BarChart {
     pen.polygon([left, bottom, right, bottom, right, top], theme.shade);
     this.drawAxes(pen, size);
     pen.line(left, bottom, right, top, theme.faint, 1);
-    this.drawMatching(pen);
+    drawMatching(pen, this.session, this);
     if (bars.size === 0)
       pen.text((left + right) / 2, (top + bottom) / 2 - 40, "no bars", {
         colour: theme.muted,
@@ -67,8 +68,8 @@ export class Diagram extends BarChart {
     let shown = 0;
     for (let i = 0; i < bars.size; ++i) if (this.session.isShown(i)) ++shown;
     const many = shown > kMostMarkers;
-    const crowds = many ? [] : this.fan();
-    if (many) this.drawDensity(pen, size);
+    const crowds = this.fan(many ? kLongest : kMostMarkers);
+    if (many) drawDensity(pen, this.session, this.x, this.y, size);
     const marked = this.shownBars(many ? kLongest : kMostMarkers);
     for (let i = marked.length - 1; i >= 0; --i) {
       const bar = marked[i]!;
@@ -93,13 +94,13 @@ export class Diagram extends BarChart {
 
   /// Equal bars side by side, those of segments in the order of their numbers. Near the diagonal,
   /// where nobody looks for one of them, they lie on each other.
-  private fan(): Crowd[] {
+  private fan(most: number): Crowd[] {
     const { session } = this;
     const { bars } = session.report;
     const numbers = session.numbers();
     const place = (bar: number) => numbers.get(bar) ?? Infinity;
     const groups = new Map<string, number[]>();
-    for (const bar of this.shownBars(kMostMarkers)) {
+    for (const bar of this.shownBars(most)) {
       if (bars.persistence(bar) < kLeastFanned * (bars.high - bars.low)) continue;
       const key = [bars.birth[bar], bars.death[bar], bars.barcodeOf(bar)].join();
       const group = groups.get(key);
@@ -108,26 +109,15 @@ export class Diagram extends BarChart {
     }
     const several = [...groups.values()].filter((group) => group.length > 1);
     for (const group of several) group.sort((a, b) => (place(a) < place(b) ? -1 : 1));
-    return fanOut(several, this.x, this.y, (bar) => bars.isInfinite(bar), this.births.to);
-  }
-
-  /// Which bar became which one: lines between pairs, to the diagonal where there is none.
-  private drawMatching(pen: Pen): void {
-    const { theme, report } = this.session;
-    const { matching, bars } = report;
-    if (!matching || bars.size > kMostMarkers) return;
-    for (let bar = 0; bar < bars.size; ++bar) {
-      const partner = matching.partnerOf(bar);
-      if (!this.session.isShown(bar) || (partner !== undefined && partner < bar)) continue;
-      const x = this.x[bar]!,
-        y = this.y[bar]!;
-      if (partner !== undefined)
-        pen.line(x, y, this.x[partner]!, this.y[partner]!, theme.muted, 1.2);
-      else if (!bars.isInfinite(bar)) {
-        const middle = (bars.birth[bar]! + bars.death[bar]!) / 2;
-        pen.line(x, y, this.births.at(middle), this.deaths.at(middle), theme.faint, 0.8, [2, 3]);
-      }
-    }
+    return fanOut(
+      several,
+      this.x,
+      this.y,
+      (bar) => bars.isInfinite(bar),
+      (bar) => numbers.has(bar),
+      this.births.from,
+      this.births.to,
+    );
   }
 
   protected drawOver(pen: Pen): void {
@@ -140,7 +130,7 @@ export class Diagram extends BarChart {
     for (const [tinted, colour] of session.tintedBars())
       if (session.isShown(tinted))
         drawMarker(pen, 0, this.x[tinted]!, this.y[tinted]!, 4.2, colour, 1, theme.panel, 0.8);
-    this.drawNumbers(pen);
+    drawNumbers(pen, session, this);
     const most = session.selection.length > 5000 ? 1 : 2;
     for (const bar of session.selection.slice(0, 5000)) {
       if (!session.isShown(bar)) continue;
@@ -176,23 +166,6 @@ export class Diagram extends BarChart {
     if (this.lasso.length >= 4) pen.polygon(this.lasso, theme.accent, 0.12, theme.muted, 1);
   }
 
-  /// Beneath the line of infinity, where dots stand side by side; else beside the dots.
-  private drawNumbers(pen: Pen): void {
-    const { session } = this;
-    const spots = new Spots();
-    for (const [bar, number] of session.numbers()) {
-      if (!session.isShown(bar)) continue;
-      const beneath = session.report.bars.isInfinite(bar);
-      const x = this.x[bar]! + (beneath ? 0 : 11),
-        y = this.y[bar]! + (beneath ? 15 : 3.5);
-      if (!spots.take(x, y, String(number))) continue;
-      pen.text(x, y, String(number), {
-        colour: session.theme.muted,
-        size: 9.5,
-        anchor: "middle",
-      });
-    }
-  }
   private drawLabel(pen: Pen, x: number, y: number, text: string): void {
     const { theme } = this.session;
     const width = 6.2 * text.length + 12;
@@ -279,6 +252,7 @@ export class Diagram extends BarChart {
       cutValue,
     } = this.session;
     if (!tree || !this.session.isShown(0) || bars.dim[0] !== 0 || cutValue <= 0) return;
+    if (this.session.tintedBars().size === 0) return; // nothing that is seen is cut
     const low = this.births.value(this.births.from),
       high = this.deaths.value(this.deaths.to);
     if (cutValue > high) return;
@@ -293,35 +267,6 @@ export class Diagram extends BarChart {
       `cut ${short(cutValue, 3)}`,
       { colour: theme.muted, size: 10.5, anchor: "end" },
     );
-  }
-
-  private drawDensity(pen: Pen, size: Size): void {
-    const { bars } = this.session.report;
-    const columns = Math.ceil(size.width / kCell),
-      rows = Math.ceil(size.height / kCell);
-    for (const dim of bars.dims) {
-      if (this.session.hiddenDims.has(dim)) continue;
-      const counts = new Uint32Array(columns * rows);
-      let most = 0;
-      for (let i = 0; i < bars.size; ++i) {
-        if (bars.dim[i] !== dim) continue;
-        const cell = Math.floor(this.y[i]! / kCell) * columns + Math.floor(this.x[i]! / kCell);
-        most = Math.max(most, ++counts[cell]!);
-      }
-      const colour = this.session.colourOfDim(dim),
-        scale = 1 / Math.log(most + 1);
-      counts.forEach((count, cell) => {
-        if (count > 0)
-          pen.rect(
-            (cell % columns) * kCell,
-            Math.floor(cell / columns) * kCell,
-            kCell,
-            kCell,
-            colour,
-            0.3 + 0.65 * Math.log(count + 1) * scale,
-          );
-      });
-    }
   }
 
   private barAt(x: number, y: number): number {

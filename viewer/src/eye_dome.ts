@@ -53,11 +53,12 @@ void main() {
     if (beside < 5.0) discard;
   }
   float here = away(depth), behind = 0.0;
+  float even = reach.z > 0.5 ? 0.006 : 0.0; // the noise of a camera
   float wide = clamp(reach.y * (reach.z > 0.5 ? 1.0 : exp2(-here)), reach.x, 8.0 * reach.x);
   for (int i = 0; i < 8; ++i) {
     float angle = 0.7853982 * float(i);
     float there = depthAt(at + wide * texel * vec2(cos(angle), sin(angle)));
-    if (there < 1.0) behind += clamp(here - away(there), 0.0, 0.05);
+    if (there < 1.0) behind += clamp(here - away(there) - even, 0.0, 0.05);
   }
   gl_FragColor = vec4(texture2D(colours, from).rgb * max(0.4, exp(-16.0 * behind / sqrt(wide))), 1.0);
   gl_FragDepth = depth;

@@ -42,12 +42,13 @@ void main() {
 }`;
 const kFragment = `
 uniform bool round;
+uniform bool soft; // nothing lies behind it: its edge is smooth
 varying vec3 colour;
 varying float size;
 void main() {
-  vec2 at = gl_PointCoord - 0.5;
-  if (round && dot(at, at) > 0.25) discard;
-  gl_FragColor = vec4(colour, 1.0);
+  float out_by = round ? size * (length(gl_PointCoord - 0.5) - 0.5) + 0.5 : 0.0;
+  if (out_by > (soft ? 1.0 : 0.5)) discard;
+  gl_FragColor = vec4(colour, soft ? min(1.0, 1.0 - out_by) : 1.0);
 }`;
 
 export class PointCloud {
@@ -73,6 +74,8 @@ export class PointCloud {
     this.material = new ShaderMaterial({
       vertexShader: kVertex,
       fragmentShader: kFragment,
+      transparent: pose.flat,
+      depthWrite: !pose.flat,
       uniforms: {
         scale: { value: 1 },
         spacing: { value: spacing || (0.3 * pose.radius) / Math.sqrt(count) },
@@ -80,6 +83,7 @@ export class PointCloud {
         eye: { value: new Vector3(...Array.from(eye ?? [0, 0, 0])) },
         limits: { value: new Vector2(1.5, 14) },
         round: { value: !this.isSurface },
+        soft: { value: pose.flat },
         haze: { value: [...pose.centre.toArray(), pose.radius || 1] },
         air: { value: [1, 1, 1, 0] },
       },

@@ -2,6 +2,7 @@
 // What the reader is looking at: one state for all views. A view changes it through the methods
 // here and draws again when it hears of a change; no view knows another one.
 import { answerOf, type Answer } from "./answer";
+import { colourModesOf, type ColourMode } from "./colour_modes";
 import { coloursApart, dimColour, hex, segmentColour, themeOf, type Rgb, type Theme } from "./palette";
 import { suggestedCut } from "./gaps";
 import type { Cut } from "./merge_tree";
@@ -10,8 +11,6 @@ import type { Report } from "./report";
 import { firstAxis } from "./slice_view";
 import { touchingInImage, touchingInSpace } from "./touching";
 
-export type ColourMode =
-  "grey" | "segment" | "rgb" | "truth" | "normal" | "depth" | "birth" | "persistence" | "plain";
 export type Change =
   "focus" | "selection" | "cut" | "colour" | "dims" | "scale" | "slice" | "theme" | "view";
 
@@ -23,8 +22,7 @@ export interface Focus {
 }
 const kNoTints = new Map<number, string>();
 const kMostTinted = 200, // segments whose bars have their colours
-  kMostNumbered = 20,
-  kLeastPart = 0.02; // of the largest segment
+  kMostNumbered = 20;
 const kNothing: Focus = { bar: -1, segment: 0, element: -1 };
 
 export class Session {
@@ -280,31 +278,10 @@ export class Session {
     return this.through;
   }
 
-  /// Whether the program's cut has more than one large part; what ph-segment found is always shown.
-  private hasParts(): boolean {
-    const { tree, meta } = this.report;
-    if (!tree || meta.tree?.command) return !!tree;
-    const [first, second] = tree.cut(meta.tree!.cut, false).segments;
-    return second !== undefined && second.points >= kLeastPart * first!.points;
-  }
   /// The ways to colour that this report has, the default first.
   colourModes(): [ColourMode, string][] {
-    const { elements, tree, cloud, image, triangles, meta } = this.report;
-    const modes: [ColourMode, string][] = [];
-    const told = !!tree && !!elements?.leaf;
-    if (image) modes.push(["grey", "grey value"]);
-    if (triangles && elements?.birth) modes.push(["birth", "value"]); // of a mesh
-    if (told) modes.push(["segment", meta.tree?.what ?? "segment"]);
-    if (elements?.rgb) modes.push(["rgb", "input colour"]);
-    // One segment tells nothing: begin with what does.
-    if (!image) modes.push(["plain", "one colour"]);
-    if (elements?.truth) modes.push(["truth", "ground truth"]);
-    if (elements?.normals) modes.push(["normal", "normal"]);
-    if (cloud?.dims === 3) modes.push(["depth", meta.cloud?.viewpoint ? "depth" : "z"]);
-    if (!triangles && elements?.birth) modes.push(["birth", image ? "value" : "birth"]);
-    if (told) modes.push(["persistence", "persistence"]);
-    if (modes[0]?.[0] === "segment" && !this.hasParts() && modes.length > 1)
-      modes.push(modes.shift()!);
-    return modes;
+    this.modes ??= colourModesOf(this.report);
+    return this.modes;
   }
+  private modes: [ColourMode, string][] | undefined;
 }

@@ -6,7 +6,7 @@ export class Spots {
 
   /// Whether a text of 9.5 pixels, centred here, has room; takes it.
   take(x: number, y: number, text: string): boolean {
-    const half = 3 * text.length + 1.5;
+    const half = 2.7 * text.length + 1.2;
     if (this.taken.some(([a, b, w]) => Math.abs(a - x) < w + half && Math.abs(b - y) < 9)) return false;
     this.taken.push([x, y, half]);
     return true;

@@ -150,8 +150,9 @@ struct Placed {
 struct Parts {
   std::vector<Point> finite;  // the longest first
   std::vector<std::uint32_t> places;
-  std::vector<Placed<double>> rays[2];  // births of bars without death; deaths of those without birth
-  std::vector<std::uint32_t> lines;     // neither
+  std::vector<Placed<double>>
+      rays[2];                       // births of bars without death; deaths of those without birth
+  std::vector<std::uint32_t> lines;  // neither
 };
 
 Parts parts_of(std::span<const Bar> bars) {
@@ -210,7 +211,8 @@ class JoinedMatchings {
       for (std::size_t side : {0U, 1U})
         for (std::uint32_t i = 0; i < mates_[0][side].size(); ++i) {
           const bool in_first = mate(0, side, i) != kNone, in_second = mate(1, side, i) != kNone;
-          if (seen(side, i) || !(in_first || in_second) || (ends && in_first && in_second)) continue;
+          if (seen(side, i) || !(in_first || in_second) || (ends && in_first && in_second))
+            continue;
           take(side, i, in_first ? 0 : 1);
         }
     return std::move(partners_);
@@ -242,9 +244,8 @@ class JoinedMatchings {
       at_matching = 1 - at_matching;
     }
     // A path of as many pairs of each ends where it began, on the same side.
-    const std::size_t better = pairs[0].size() != pairs[1].size()
-                                   ? (pairs[0].size() > pairs[1].size() ? 0U : 1U)
-                                   : side;
+    const std::size_t better =
+        pairs[0].size() != pairs[1].size() ? (pairs[0].size() > pairs[1].size() ? 0U : 1U) : side;
     for (const auto& [a, b] : pairs[better]) partners_[a] = b;
   }
 
@@ -274,7 +275,8 @@ class FiniteBars {
     }
     return std::bit_cast<double>(yes);
   }
-  /// Of each bar of the first diagram the one of the second, or kNone. @param radius that is possible
+  /// Of each bar of the first diagram the one of the second, or kNone. @param radius that is
+  /// possible
   std::vector<std::uint32_t> partners(double radius) {
     is_possible(radius);
     return JoinedMatchings(there_.of_from(), there_.of_to(), back_.of_to(), back_.of_from()).join();

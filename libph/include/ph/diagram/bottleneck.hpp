@@ -38,8 +38,8 @@ struct BottleneckMatching {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
 };
 
-/// Which bars the bottleneck distance pairs. Both ends of a pair are at most the distance apart, and
-/// bars in no pair are at most twice as long as it. Cost, parameters and errors are those of
+/// Which bars the bottleneck distance pairs. Both ends of a pair are at most the distance apart,
+/// and bars in no pair are at most twice as long as it. Cost, parameters and errors are those of
 /// bottleneck_distance; fewer than 2³² bars each.
 BottleneckMatching bottleneck_matching(std::span<const Bar> a, std::span<const Bar> b,
                                        const RunContext& context = default_context());
