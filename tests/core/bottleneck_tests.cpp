@@ -175,9 +175,9 @@ TEST(Bottleneck, ItsMatchingCostsNoMore) {
       for (Bar& bar : b) bar.death += 0.3 * std::uniform_real_distribution<>()(random);
       std::ranges::shuffle(b, random);
     }
-    for (unsigned k = random() % 3; k > 0; --k) {
-      a.push_back({1, double(random() % 5), kInfinity});
-      b.insert(b.begin(), {1, double(random() % 5), kInfinity});
+    for (auto k = random() % 3; k > 0; --k) {
+      a.push_back({1, static_cast<double>(random() % 5), kInfinity});
+      b.insert(b.begin(), {1, static_cast<double>(random() % 5), kInfinity});
     }
     const BottleneckMatching matching = bottleneck_matching(a, b);
     ASSERT_EQ(matching.distance, bottleneck_distance(a, b)) << round;

@@ -21,6 +21,7 @@ export interface Gap {
 
 const kLeastRatio = 2, // of a gap that makes bars stand out
   kLeastShare = 0.1, // of the longest bar: shorter ones are not at the upper end of a gap
+  kHardly = 1.05,
   kMostAbove = 64, // bars above a gap
   kFew = 4; // bars; among so few wide gaps are chance
 
@@ -140,7 +141,7 @@ function nothing(found: Lengths[], isImage: boolean): string {
   ).slice(0, 3);
   const longer = (f: Lengths) => {
     const ratio = f.lengths[0]! / f.lengths[1]!;
-    return ratio < 1.05 ? "hardly longer than the next" : `${times(ratio)} as long as the next`;
+    return ratio < kHardly ? "hardly longer than the next" : `${times(ratio)} as long as the next`;
   };
   const one = (f: Lengths) =>
     f.finite.length > 1 ? `the longest is ${longer(f)}` : "there is one, and it is short";
@@ -155,8 +156,13 @@ function nothing(found: Lengths[], isImage: boolean): string {
       ? `there is one ${holes(f.dim)}, and it is short`
       : `all is one ${holes(f.dim)}`;
   });
-  const names = told.map((f) => holes(f.dim));
-  return `No ${listed(names, "or")} stands out: ${listed(each)}.`;
+  const names = listed(
+    told.map((f) => holes(f.dim)),
+    "or",
+  );
+  const alike = told.every((f) => f.lengths[0]! / f.lengths[1]! < kHardly);
+  if (alike) return `No ${names} stands out: of each the longest is hardly longer than the next.`;
+  return `No ${names} stands out: ${listed(each)}.`;
 }
 
 /// Nothing is selected.

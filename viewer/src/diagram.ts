@@ -9,6 +9,7 @@ import { fanOut, type Crowd } from "./fan";
 import { isInside } from "./lasso";
 import { drawMarker } from "./marker";
 import { drawMatching } from "./matching_lines";
+import { shownValue } from "./words";
 import { clipped, grouped, homology, short } from "./numbers";
 import type { Pen } from "./pen";
 import type { Size } from "./chart";
@@ -236,11 +237,11 @@ export class Diagram extends BarChart {
     });
     if (this.deaths.to > kTop) {
       pen.line(kLeft, kTop + 4, right, kTop + 4, theme.faint, 1, [3, 3]);
-      pen.text(kLeft - 6, kTop + 9, "∞", { ...small, size: 14, anchor: "end" });
+      pen.text(kLeft - 6, kTop + 9, short(shownValue(meta, Infinity)), { ...small, size: 14, anchor: "end" });
     }
     if (this.births.from > kLeft) {
       pen.line(kLeft + 6, kTop, kLeft + 6, bottom, theme.faint, 1, [3, 3]);
-      pen.text(kLeft + 6, bottom + 14, "−∞", { ...small, anchor: "middle" });
+      pen.text(kLeft + 6, bottom + 14, short(shownValue(meta, -Infinity)), { ...small, anchor: "middle" });
     }
   }
 

@@ -60,50 +60,55 @@ function placesOf(session: Session): Label[] {
   const numbers = [...session.numbers().values()];
   const wanted = new Uint8Array(session.cut.segments.length + 1);
   for (const number of numbers) wanted[number] = 1;
-  const best = report.image ? deepest(session, wanted) : middles(session, wanted);
+  const best = middles(session, wanted);
+  const at = placesFrom(report);
   return numbers
     .filter((number) => best[number]! >= 0)
-    .map((number) => ({ text: String(number), place: placeOf(report, best[number]!) }));
+    .map((number) => ({ text: String(number), place: [...at(best[number]!)] as Label["place"] }));
 }
 
-function placeOf({ image, cloud }: Report, element: number): [number, number, number] {
-  if (image) {
-    const columns = image.shape[2]!;
-    return placeInImage(0, Math.floor(element / columns), element % columns);
-  }
-  return Array.from(cloud!.positions.subarray(3 * element, 3 * element + 3)) as Label["place"];
+/// Where each element is; what is returned is overwritten by the next call.
+function placesFrom({ image, cloud }: Report): (element: number) => Label["place"] {
+  if (image) return (i) => placeInImage(0, Math.floor(i / image.shape[2]!), i % image.shape[2]!);
+  const { positions } = cloud!;
+  const place: Label["place"] = [0, 0, 0];
+  return (i) => {
+    for (let k = 0; k < 3; ++k) place[k] = positions[3 * i + k]!;
+    return place;
+  };
 }
 
-/// The voxel of each segment that enters first.
-function deepest(session: Session, wanted: Uint8Array): Float64Array {
-  const birth = session.report.elements!.birth!;
-  const best = new Float64Array(wanted.length).fill(-1);
-  for (let i = 0; i < birth.length; ++i) {
-    const label = session.segmentOf(i);
-    if (wanted[label] && (best[label]! < 0 || birth[i]! < birth[best[label]!]!)) best[label] = i;
-  }
-  return best;
-}
-
-/// The point of each segment that is nearest to its middle: the number lies on it.
+/// The element of each segment that is nearest to its middle: the number lies on it. In an image a
+/// segment is its basin up to where it meets another one.
 function middles(session: Session, wanted: Uint8Array): Float64Array {
-  const { positions } = session.report.cloud!;
-  const count = positions.length / 3;
+  const { report, cutValue } = session;
+  const { count, birth } = report.elements!;
+  const limits = new Float64Array(wanted.length).fill(Infinity);
+  if (report.image)
+    for (const [bar, number] of session.numbers())
+      limits[number] = report.tree!.markBasin(report.tree!.branchOf(bar)!, cutValue, () => {});
+  const at = placesFrom(report);
+  const labelOf = (i: number) => {
+    const label = session.segmentOf(i);
+    return wanted[label] && !(report.image && birth![i]! >= limits[label]!) ? label : 0;
+  };
   const sums = new Float64Array(4 * wanted.length);
   for (let i = 0; i < count; ++i) {
-    const label = session.segmentOf(i);
-    if (!wanted[label]) continue;
-    for (let k = 0; k < 3; ++k) sums[4 * label + k]! += positions[3 * i + k]!;
+    const label = labelOf(i);
+    if (label === 0) continue;
+    const place = at(i);
+    for (let k = 0; k < 3; ++k) sums[4 * label + k]! += place[k]!;
     ++sums[4 * label + 3]!;
   }
   const best = new Float64Array(wanted.length).fill(-1),
     nearest = new Float64Array(wanted.length).fill(Infinity);
   for (let i = 0; i < count; ++i) {
-    const label = session.segmentOf(i);
-    if (!wanted[label]) continue;
+    const label = labelOf(i);
+    if (label === 0) continue;
+    const place = at(i);
     let square = 0;
     for (let k = 0; k < 3; ++k)
-      square += (positions[3 * i + k]! - sums[4 * label + k]! / sums[4 * label + 3]!) ** 2;
+      square += (place[k]! - sums[4 * label + k]! / sums[4 * label + 3]!) ** 2;
     if (square < nearest[label]!) [best[label], nearest[label]] = [i, square];
   }
   return best;

@@ -26,7 +26,7 @@ export function drawMatching(pen: Pen, session: Session, { x, y, births, deaths 
       pen.line(x[bar]!, y[bar]!, x[partner]!, y[partner]!, theme.muted, 1.2);
     else if (!bars.isInfinite(bar) && bars.birth[bar]! > -Infinity) {
       const middle = bars.birth[bar]! / 2 + bars.death[bar]! / 2;
-      pen.line(x[bar]!, y[bar]!, births.at(middle), deaths.at(middle), theme.faint, 0.8, [2, 3]);
+      pen.line(x[bar]!, y[bar]!, births.at(middle), deaths.at(middle), theme.muted, 1, [2, 3]);
     }
   }
 }

@@ -22,7 +22,7 @@ export interface Focus {
 }
 const kNoTints = new Map<number, string>();
 const kMostTinted = 200, // segments whose bars have their colours
-  kMostNumbered = 20;
+  kMostNumbered = 30;
 const kNothing: Focus = { bar: -1, segment: 0, element: -1 };
 
 export class Session {
