@@ -66,9 +66,24 @@ double rounded(double x) {
   return x;
 }
 
+/// Between two neighbouring levels, ascending, that are farther apart than `least`, and farther
+/// than all others. @param width how far apart two of them are.
+template <class Width>
+std::optional<double> middle_of_widest(const std::vector<double>& levels, double least,
+                                       Width width) {
+  std::optional<double> middle;
+  for (std::size_t i = 1; i < levels.size(); ++i) {
+    const double apart = width(levels[i - 1], levels[i]);
+    if (apart <= least) continue;
+    least = apart;
+    middle = rounded(std::sqrt(levels[i - 1]) * std::sqrt(levels[i]));
+  }
+  return middle;
+}
+
 /// Where the levels of the largest merges have their widest gap, as a ratio: what lies above is
-/// much more persistent than what lies below. Without a wide gap the largest level, which leaves
-/// the fewest parts; `from` without merges.
+/// much more persistent than what lies below. Without a wide one, of basins the widest difference;
+/// else the largest level, which leaves the fewest parts; `from` without merges.
 double cut_in_gap(const report::ContractedTree& contracted, const MergeTree& tree,
                   report::CutRule rule, double from) {
   constexpr std::ptrdiff_t most = 64;
@@ -79,16 +94,14 @@ double cut_in_gap(const report::ContractedTree& contracted, const MergeTree& tre
     const double level = rule == report::CutRule::value ? m.value : m.persistence();
     if (level > 0 && std::isfinite(level)) levels.push_back(level);
   }
+  if (levels.empty()) return from;
   std::ranges::sort(levels);
   if (std::ssize(levels) > most) levels.erase(levels.begin(), levels.end() - most);
-  double cut = levels.empty() ? from : levels.back(), widest = least_ratio;
-  for (std::size_t i = 1; i < levels.size(); ++i) {
-    const double ratio = levels[i] / levels[i - 1];
-    if (ratio <= widest) continue;
-    widest = ratio;
-    cut = rounded(levels[i - 1] * std::sqrt(ratio));
-  }
-  return cut;
+  auto cut =
+      middle_of_widest(levels, least_ratio, [](double low, double high) { return high / low; });
+  if (!cut && rule == report::CutRule::persistence)
+    cut = middle_of_widest(levels, 0, [](double low, double high) { return high - low; });
+  return cut.value_or(levels.back());
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ constexpr app::Situations kAllPairs = kPoints | kMatrix | kTriangle, kRips = kAl
 constexpr std::string_view kOfRips = "Rips complexes of points and distances";
 constexpr std::string_view kOfAllPairs = "points and distance matrices";
 constexpr std::string_view kOfMatrices = "full distance matrices (--format distance)";
+constexpr std::string_view kOfDistances = "distances (--format distance)";
 constexpr std::string_view kOfInputs = "what a barcode is computed of";
 
 constexpr std::array kScopes{
@@ -24,13 +25,16 @@ constexpr std::array kScopes{
     OptionScope{"values", kComputed, kOfInputs},  // the readers know better
     OptionScope{"allow-empty", kComputed, kOfInputs},
     OptionScope{"symmetrise", kMatrix, kOfMatrices},
-    OptionScope{"from-correlation", kMatrix | kTriangle, kOfMatrices},
+    OptionScope{"from-correlation", kMatrix | kTriangle | kSomePairs, kOfDistances},
     OptionScope{"diagonal", kMatrix, kOfMatrices},
     OptionScope{"nan", kRips | kCubical, "points, distances and images"},
     OptionScope{"raw-shape", kImage, "images"},
     OptionScope{"raw-type", kImage, "images"},
     OptionScope{"raw-big-endian", kImage, "images"},
     OptionScope{"raw-skip", kImage, "images"},
+    OptionScope{"columns", kComputed, kOfInputs},  // the readers know better
+    OptionScope{"channel", kComputed, kOfInputs},
+    OptionScope{"loops", kComputed, kOfInputs},
     OptionScope{"complex", kComputed, kOfInputs},
     OptionScope{"threshold", kComputed, kOfInputs},
     OptionScope{"metric", kPoints, "Rips complexes of points"},

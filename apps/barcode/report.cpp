@@ -52,6 +52,12 @@ std::optional<CubicalImage> image_of(const Shown& shown) {
   return image;
 }
 
+/// Whether the first axis of an image is x: its format says so, or it was made of points.
+bool has_axes_of_space(const ReadResult& read) {
+  return read.format == Format::nifti || read.format == Format::dipha ||
+         std::holds_alternative<Points>(read.data);
+}
+
 /// Whether pairs within a distance are the edges: all points are vertices, all enter at once.
 bool is_euclidean(const Shown& shown, const Arguments& arguments) {
   return std::holds_alternative<Rips>(shown.built.complex) && !shown.built.subsample &&
@@ -85,12 +91,17 @@ report::Metadata metadata_of(const Shown& shown, const Arguments& arguments,
   const bool rips = std::holds_alternative<Rips>(shown.built.complex);
   report::Metadata meta;
   meta.title = report::title_of(shown.info.input);
-  meta.value_label = rips                           ? "Distance"
-                     : arguments.cubical.superlevel ? "Minus the value"
-                                                    : "Filtration value";
+  meta.value_label = rips ? "Distance" : image ? "Value" : "Filtration value";
+  // Files of barcodes hold -f of superlevel sets; a reader of the page sees f.
+  const auto* cubical = std::get_if<Cubical>(&shown.built.complex);
+  meta.negated = cubical && cubical->cubical_image().superlevel;
   meta.barcodes.push_back({meta.title, shown.barcode.cell_kind(), shown.barcode.representatives()});
   if (const Points* points = points_of(shown)) meta.cloud = cloud_meta(*points, shown, arguments);
-  if (image) meta.construction = image->voxels_are_vertices ? "vertices" : "cells";
+  if (image) {
+    meta.construction = image->voxels_are_vertices ? "vertices" : "cells";
+    if (has_axes_of_space(shown.data.read) && image->extents.size() == 3)
+      meta.axes = {"x", "y", "z"};
+  }
   if (tree) meta.tree = tree->meta;
   meta.provenance.command = arguments.command;
   meta.provenance.sha256 = shown.data.sha256;
@@ -132,20 +143,6 @@ void add_image(ReportFile& report, const CubicalImage& image,
                std::span<const std::uint32_t> leaf_of) {
   report.add_voxels("image/values", image);
   if (leaf_of.size() == image.size()) report::add_labels(report, "points/leaf", leaf_of, true);
-  if (!image.superlevel) return;
-  const MemoryClaim copy(report.context().memory, image.size() * sizeof(float));
-  std::vector<float> births;
-  births.reserve(image.size());
-  constexpr std::size_t block = 1 << 17;
-  const std::size_t width = bytes_of(image.type);
-  while (births.size() < image.size()) {
-    const std::size_t begin = births.size(), end = std::min(image.size(), begin + block);
-    for (std::size_t i = begin; i < end; ++i) births.push_back(static_cast<float>(image.value(i)));
-    if (image.is_in_file)
-      forget_file_pages(static_cast<const std::byte*>(image.voxels) + begin * width,
-                        (end - begin) * width);
-  }
-  report.add("points/birth", births);
 }
 
 /// The barcode is there already: it is worth showing without its tree.
@@ -163,8 +160,10 @@ std::optional<ShownTree> tree_if_it_fits(const Shown& shown, const Arguments& ar
 }
 
 /// The distances of two barcodes, one a dimension that either has.
+/// @param matched receives the numbers of the bars that they pair.
 /// @return where they would take long: "H1: 50000 bars".
 std::vector<std::string> add_distances(report::Metadata& meta, const Barcode& a, const Barcode& b,
+                                       std::vector<std::uint32_t>& matched,
                                        app::Session& session) {
   std::set<int> dims;
   for (const Barcode* barcode : {&a, &b})
@@ -177,8 +176,13 @@ std::vector<std::string> add_distances(report::Metadata& meta, const Barcode& a,
       left_out.push_back(fmt::format("H{}: {} bars", dim, count));
       continue;
     }
-    const double distance = bottleneck_distance(bars[0], bars[1], session.context());
+    const auto [distance, pairs] = bottleneck_matching(bars[0], bars[1], session.context());
     meta.distances.push_back({dim, distance});
+    // Numbers of bars: those of a dimension come one after another in each barcode.
+    const auto first = bars[0].empty() ? 0U : static_cast<std::uint32_t>(&bars[0][0] - &a[0]);
+    const auto second = bars[1].empty() ? 0U : static_cast<std::uint32_t>(&bars[1][0] - &b[0]);
+    for (const auto& [i, j] : pairs)
+      matched.insert(matched.end(), {first + i, static_cast<std::uint32_t>(a.size()) + second + j});
   }
   if (!left_out.empty())
     meta.provenance.notes.emplace_back(
@@ -247,7 +251,8 @@ int run_comparison(const Arguments& arguments, app::Session& session) try {
         report::sha256_hex(input, session.context()));
     session.note(fmt::format("read {}: {} bars", input.name(), barcodes.back().size()));
   }
-  const auto left_out = add_distances(meta, barcodes[0], barcodes[1], session);
+  std::vector<std::uint32_t> matched;
+  const auto left_out = add_distances(meta, barcodes[0], barcodes[1], matched, session);
   meta.provenance.run.peak_memory = app::peak_memory();
   const app::BarHold results_are_written(session);
   if (distances) {
@@ -259,6 +264,7 @@ int run_comparison(const Arguments& arguments, app::Session& session) try {
   report::add_pictures(report, barcodes, meta);
   report::add_bars(report, barcodes[0], "bars", false);
   report::add_bars(report, barcodes[1], "bars2", false);
+  report.add("matching/pairs", matched, {.shape = {matched.size() / 2, 2}, .delta = true});
   report.finish();
   output->commit();
   return app::kOk;

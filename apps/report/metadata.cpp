@@ -110,12 +110,16 @@ std::string metadata_json(const Metadata& m) {
       .add("version", "1")
       .add("title", json_string(m.title))
       .add("program", json_string(m.provenance.run.program))
-      .add("value",
-           JsonObject().add("label", json_string(m.value_label)).text("unit", m.value_unit).str())
+      .add("value", JsonObject()
+                        .add("label", json_string(m.value_label))
+                        .text("unit", m.value_unit)
+                        .add("negated", m.negated ? "true" : "")
+                        .str())
       .add("barcodes", json_array(m.barcodes, barcode));
   if (m.cloud) object.add("cloud", cloud(*m.cloud));
   if (!m.construction.empty())
-    object.add("image", JsonObject().text("construction", m.construction).str());
+    object.add("image",
+               JsonObject().text("construction", m.construction).add("axes", texts(m.axes)).str());
   if (m.tree) object.add("tree", tree(*m.tree));
   object.add("distances", json_array(m.distances, distance));
   object.add("provenance", provenance(m.provenance));

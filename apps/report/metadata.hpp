@@ -64,9 +64,11 @@ struct Provenance {
 struct Metadata {
   std::string title;
   std::string value_label, value_unit = {};  ///< of filtration values
-  std::vector<BarcodeMeta> barcodes;         ///< one, or two in a comparison
+  bool negated = false;  ///< filtration values are minus those of the data (superlevel sets)
+  std::vector<BarcodeMeta> barcodes;  ///< one, or two in a comparison
   std::optional<CloudMeta> cloud = {};
-  std::string construction = {};  ///< of an image: "vertices" or "cells"
+  std::string construction = {};       ///< of an image: "vertices" or "cells"
+  std::vector<std::string> axes = {};  ///< of a volume in space, in the order of the array: x, y, z
   std::optional<TreeMeta> tree = {};
   std::vector<Distance> distances = {};  ///< of a comparison
   Provenance provenance;

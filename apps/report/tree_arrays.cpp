@@ -2,6 +2,7 @@
 #include "tree_arrays.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "ph/core/disjoint_sets.hpp"
@@ -65,7 +66,17 @@ double least_cut(const MergeTree& tree, CutRule rule, std::size_t most) {
   std::vector<double> levels;
   for (const Merge& m : tree.merges)
     if (level(m, rule) > 0 || rule == CutRule::value) levels.push_back(level(m, rule));
-  if (levels.empty()) return 0;
+  if (levels.empty()) {
+    // No merge has persistence, and any cut above 0 does them all: one as large as the values go.
+    if (rule == CutRule::value || tree.merges.empty()) return 0;
+    double low = kInfinity, high = -kInfinity;
+    for (const double birth : tree.births)
+      if (std::isfinite(birth)) {
+        low = std::min(low, birth);
+        high = std::max(high, birth);
+      }
+    return high > low && std::isfinite(high - low) ? high - low : 1;
+  }
   // Rule persistence keeps the merges at `from`, rule value those above it.
   if (levels.size() <= most)
     return rule == CutRule::persistence ? *std::ranges::min_element(levels) : 0;

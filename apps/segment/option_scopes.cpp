@@ -20,6 +20,7 @@ constexpr std::string_view kOfScenes = "clouds and depth images",
 /// Where input, method and plane each have a say, `meant_for` names the one that is rarest.
 constexpr std::array kScopes{
     OptionScope{"color", kDepthImage | kAnyMethod | kAnyPlane, "depth images"},
+    OptionScope{"camera", kDepthImage | kAnyMethod | kAnyPlane, "depth images"},
     OptionScope{"intrinsics", kDepthImage | kAnyMethod | kAnyPlane, "depth images"},
     OptionScope{"depth-scale", kDepthImage | kAnyMethod | kAnyPlane, "depth images"},
     OptionScope{"allow-empty", kCloud | kAnyMethod | kAnyPlane, "clouds"},

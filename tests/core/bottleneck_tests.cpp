@@ -8,6 +8,7 @@
 #include <functional>
 #include <random>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 #include "ph/core/error.hpp"
@@ -141,6 +142,59 @@ TEST(Bottleneck, BarsWithoutEndAreForEachOther) {
   EXPECT_EQ(bottleneck_distance(always, Bars{{0, -kInfinity, kInfinity}, {0, -kInfinity, 5}}), 3);
   EXPECT_EQ(bottleneck_distance(always, Bars{{0, -kInfinity, 2}, {0, 2, kInfinity}}), kInfinity);
   EXPECT_EQ(bottleneck_distance(Bars{{0, kInfinity, kInfinity}}, {}), 0);
+}
+
+/// Whether a pairing costs no more than a distance. Exactly as the definition has it.
+void expect_certificate(const Bars& a, const Bars& b, const BottleneckMatching& matching,
+                        const std::string& where) {
+  std::vector<bool> in_a(a.size()), in_b(b.size());
+  for (const auto& [i, j] : matching.pairs) {
+    ASSERT_LT(i, a.size()) << where;
+    ASSERT_LT(j, b.size()) << where;
+    ASSERT_FALSE(in_a[i] || in_b[j]) << where << ": in two pairs";
+    in_a[i] = in_b[j] = true;
+    const auto difference = [](double x, double y) { return x == y ? 0 : std::abs(x - y); };
+    ASSERT_LE(difference(a[i].birth, b[j].birth), matching.distance) << where;
+    ASSERT_LE(difference(a[i].death, b[j].death), matching.distance) << where;
+  }
+  for (const auto& [bars, paired] : {std::pair(&a, &in_a), std::pair(&b, &in_b)})
+    for (std::size_t i = 0; i < bars->size(); ++i)
+      if (!(*paired)[i]) {
+        ASSERT_LE((*bars)[i].persistence() / 2, matching.distance) << where;
+      }
+}
+
+TEST(Bottleneck, ItsMatchingCostsNoMore) {
+  std::mt19937 random(5);
+  for (int round = 0; round < 3000; ++round) {
+    const int steps = round % 3 == 0 ? 0 : round % 3 == 1 ? 5 : 15;
+    Bars a = random_bars(random, random() % 14, steps),
+         b = random_bars(random, random() % 14, steps);
+    if (round % 4 == 0) {  // most bars have a partner near them
+      b = a;
+      for (Bar& bar : b) bar.death += 0.3 * std::uniform_real_distribution<>()(random);
+      std::ranges::shuffle(b, random);
+    }
+    for (auto k = random() % 3; k > 0; --k) {
+      a.push_back({1, static_cast<double>(random() % 5), kInfinity});
+      b.insert(b.begin(), {1, static_cast<double>(random() % 5), kInfinity});
+    }
+    const BottleneckMatching matching = bottleneck_matching(a, b);
+    ASSERT_EQ(matching.distance, bottleneck_distance(a, b)) << round;
+    expect_certificate(a, b, matching, std::to_string(round));
+    ASSERT_TRUE(std::ranges::is_sorted(matching.pairs)) << round;
+  }
+}
+
+TEST(Bottleneck, EqualBarsArePairedAndWhatDiffersForEverIsNot) {
+  const Bars a = {{0, 0, 1}, {0, 0, kInfinity}, {0, -kInfinity, kInfinity}, {0, 2, 2}};
+  const BottleneckMatching same = bottleneck_matching(a, a);
+  using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+  EXPECT_EQ(same.distance, 0);
+  EXPECT_EQ(same.pairs, (Pairs{{0, 0}, {1, 1}, {2, 2}}));  // no length, no bar
+  const BottleneckMatching other = bottleneck_matching(a, Bars{{0, 0, 1}});
+  EXPECT_EQ(other.distance, kInfinity);
+  EXPECT_TRUE(other.pairs.empty());
 }
 
 TEST(Bottleneck, IsStableAndSymmetricForManyBars) {

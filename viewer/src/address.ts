@@ -3,7 +3,8 @@
 import type { DataView } from "./data_view";
 import { exact } from "./numbers";
 import { prefersDark, themeOf } from "./palette";
-import type { ColourMode, Session } from "./session";
+import type { ColourMode } from "./colour_modes";
+import type { Session } from "./session";
 
 const kMostBars = 200;
 
@@ -19,7 +20,10 @@ export function addressOf(session: Session, data: DataView | undefined): string 
   if (report.image) parts.set("slice", `${session.sliceAxis},${session.slice}`);
   if (session.theme.dark !== prefersDark())
     parts.set("theme", session.theme.dark ? "dark" : "light");
-  if (selection.length > 0 && selection.length <= kMostBars) parts.set("bars", selection.join(","));
+  const { bars } = session.answer;
+  const asAtFirst =
+    selection.length === bars.length && bars.every((bar) => session.isSelected(bar));
+  if (!asAtFirst && selection.length <= kMostBars) parts.set("bars", selection.join(","));
   if (data?.stage?.moved) parts.set("view", data.stage.view.join(","));
   return [...parts].map(([name, value]) => `${name}=${value}`).join("&");
 }
@@ -63,6 +67,6 @@ export function goTo(address: string, session: Session, data: DataView | undefin
   const bars = numbers("bars").filter(
     (bar) => Number.isInteger(bar) && bar >= 0 && bar < report.bars.size,
   );
-  if (bars.length > 0) session.select(bars);
+  if (parts.has("bars")) session.select(bars);
   if (data?.stage && parts.has("view")) data.stage.view = numbers("view");
 }

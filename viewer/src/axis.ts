@@ -18,6 +18,7 @@ export class Axis {
     high: number,
     readonly from: number,
     readonly to: number,
+    private readonly negated = false, // its labels are minus the values
   ) {
     const largest = Math.max(Math.abs(low), Math.abs(high));
     if (largest > 0) {
@@ -60,7 +61,7 @@ export class Axis {
       const part = Math.min(1, Math.max(0, (value - this.low) / (this.high - this.low)));
       ticks.push({
         at: this.from + part * (this.to - this.from),
-        label: (value === 0 ? 0 : value).toFixed(decimals).replace("-", "−"),
+        label: (value === 0 ? 0 : this.negated ? -value : value).toFixed(decimals).replace("-", "−"),
       });
     }
     return ticks;

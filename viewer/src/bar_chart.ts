@@ -3,13 +3,14 @@
 import { Chart } from "./chart";
 import { table } from "./dom";
 import { counted, homology, short } from "./numbers";
+import { intervalText, shownValue } from "./words";
 import type { Session } from "./session";
 
 const kMostRows = 500;
 
 export function intervalOf(session: Session, bar: number): string {
-  const { bars } = session.report;
-  return `[${short(bars.birth[bar]!)}, ${short(bars.death[bar]!)})`;
+  const { bars, meta } = session.report;
+  return intervalText(meta, bars.birth[bar]!, bars.death[bar]!);
 }
 
 /// "H₁ [0.5, 2.25), persistence 1.75", with its barcode where there are two.
@@ -45,8 +46,8 @@ export abstract class BarChart extends Chart {
       Array.from(shown, (bar) => [
         ...(two ? [meta.barcodes[bars.barcodeOf(bar)]!.name] : []),
         bars.dim[bar]!,
-        short(bars.birth[bar]!, 6),
-        short(bars.death[bar]!, 6),
+        short(shownValue(meta, bars.birth[bar]!), 6),
+        short(shownValue(meta, bars.death[bar]!), 6),
         short(bars.persistence(bar), 6),
       ]),
     );

@@ -11,12 +11,13 @@ import type { Size } from "./chart";
 import type { Change, Session } from "./session";
 
 const kLeft = 34,
-  kRight = 24,
+  kRight = 32,
   kTop = 8,
   kBottom = 38,
   kGap = 10,
   kStrip = 12,
   kLeastRow = 2.5,
+  kRowsOfNoNote = 12,
   kMostRow = 14,
   kMostRedrawn = 50_000; // bars; more are not drawn anew at each cut
 
@@ -120,9 +121,20 @@ export class Barcode extends BarChart {
   private drawTinted(pen: Pen): void {
     const tints = this.session.tintedBars();
     if (tints.size === 0) return;
+    const numbers = this.session.numbers();
+    let free = -Infinity; // where the next number has room
     for (const { bar, x1, x2, y, row } of this.items) {
       const colour = tints.get(bar);
-      if (colour) pen.rect(x1, y, Math.max(1, x2 - x1), Math.max(1.5, row), colour);
+      if (!colour) continue;
+      const thick = row > 5 ? 0.62 * row : Math.max(1.5, row);
+      pen.rect(x1, y + (row - thick) / 2, Math.max(1, x2 - x1), thick, colour);
+      const number = numbers.get(bar);
+      if (number === undefined || y + row / 2 < free) continue;
+      pen.text(x2 + (this.session.report.bars.isInfinite(bar) ? 4 : 3), y + row / 2 + 3.5, String(number), {
+        colour: this.session.theme.muted,
+        size: 9.5,
+      });
+      free = y + row / 2 + 9.5;
     }
   }
 
@@ -132,7 +144,7 @@ export class Barcode extends BarChart {
     const width = (size.width - kLeft - kRight * n) / n;
     return meta.barcodes.map((_, i) => {
       const from = kLeft + i * (width + kRight);
-      return new Axis(bars.low, bars.high, from, from + width);
+      return new Axis(bars.low, bars.high, from, from + width, meta.value.negated);
     });
   }
 
@@ -141,11 +153,14 @@ export class Barcode extends BarChart {
       theme,
       report: { bars, meta },
     } = this.session;
-    const dims = bars.dims.filter((dim) => !this.session.hiddenDims.has(dim));
+    const dims = this.session.dimsInOrder().filter((dim) => !this.session.hiddenDims.has(dim));
     if (dims.length === 0) return;
     const room = bottom - top - kGap * dims.length;
+    // Components that say nothing leave the room to the others.
+    const few = this.session.answer.dim !== 0 && this.session.tintedBars().size === 0;
     const counts = dims.map((dim) => Math.max(...meta.barcodes.map((_, i) => bars.count(dim, i))));
-    const rows = shared(counts, Math.floor((room - kStrip * dims.length) / kLeastRow));
+    const wishes = counts.map((n, i) => (few && dims[i] === 0 ? Math.min(n, kRowsOfNoNote) : n));
+    const rows = shared(wishes, Math.floor((room - kStrip * dims.length) / kLeastRow));
     const needsStrip = counts.map((count, i) => count > rows[i]!);
     const strips = needsStrip.filter(Boolean).length * kStrip;
     const row = Math.min(

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A colour for each point or voxel, by what the reader asked for. What is not brought out fades.
-import { dimColour, ramp, segmentColour, type Rgb } from "./palette";
+import { dimColour, greyOf, ramp, segmentColour, type Rgb } from "./palette";
 import { barsInView } from "./representatives";
 import { runsOf } from "./voxel_sets";
-import type { ColourMode, Session } from "./session";
+import type { ColourMode } from "./colour_modes";
+import type { Session } from "./session";
 
 export interface Range {
   low: number;
@@ -32,6 +33,7 @@ export class Colouring {
   private readonly shown: Uint32Array; // the same numbers
   private readonly base: Uint32Array; // without highlights
   private readonly ranges = new Map<ColourMode, Range>();
+  private mode: ColourMode = "plain"; // of what was painted last
   private baseKey = "";
   private key = ""; // of what is brought out
   private selection: number[] = [];
@@ -45,7 +47,7 @@ export class Colouring {
 
   /// The values that a continuous colour spans.
   range(mode: ColourMode): Range | undefined {
-    if (mode !== "depth" && mode !== "birth" && mode !== "persistence") return undefined;
+    if (!["grey", "depth", "birth", "persistence"].includes(mode)) return undefined;
     let range = this.ranges.get(mode);
     if (!range) this.ranges.set(mode, (range = this.measure(mode)));
     return range;
@@ -54,11 +56,13 @@ export class Colouring {
   /// @return whether any colour may have changed: a pointer moves much inside one segment.
   update(mode: ColourMode = this.session.colour): boolean {
     const { session } = this;
+    this.mode = mode;
     const painted = this.paintBase(mode);
     const { segment, bar } = session.focus;
     // Where bars have sets of voxels those are seen, whichever segment is brought out.
     const anyBar = segment > 0 && !session.report.voxels;
-    const key = [segment, anyBar ? -1 : bar, session.scale ?? "all"].join();
+    const basins = mode === "grey" ? session.cutValue : 0;
+    const key = [segment, anyBar ? -1 : bar, session.scale ?? "all", basins].join();
     if (!painted && key === this.key && session.selection === this.selection) return false;
     this.key = key;
     this.selection = session.selection;
@@ -70,15 +74,49 @@ export class Colouring {
   private fade(): void {
     const { session } = this;
     const { leaf, birth, count } = session.report.elements!;
-    const leaves = leaf && session.highlightedLeaves();
+    // A grey picture stays as it is: what is brought out is coloured in it.
+    const isGrey = this.mode === "grey";
+    const leaves = leaf && !isGrey ? session.highlightedLeaves() : undefined;
     const limit = birth ? session.scale : undefined;
     const fade = packed(session.theme.dark ? [30, 35, 42] : [232, 235, 239]);
     this.shown.set(this.base);
+    if (isGrey) this.tintBasins();
     if (!leaves && limit === undefined) return;
     for (let i = 0; i < count; ++i) {
-      const out = (leaves && !leaves[leaf![i]!]) || (limit !== undefined && birth![i]! > limit);
-      if (out) this.shown[i] = mixed(this.base[i]!, fade, 51);
+      const out =
+        (leaves && !leaves[leaf![i]!]) || (limit !== undefined && !(birth![i]! <= limit));
+      if (out && this.base[i] !== 0) this.shown[i] = mixed(this.base[i]!, fade, 51);
     }
+  }
+
+  /// Basins of the bars in view, up to where they meet what the cut keeps apart from them.
+  private tintBasins(): void {
+    const { session } = this;
+    const { elements, tree, voxels } = session.report;
+    const { leaf, birth, count } = elements!;
+    if (!tree || !leaf) return;
+    const { segment } = session.focus;
+    const ofSegment = segment > 0 ? [session.barOfSegment(segment)] : undefined;
+    const bars = (ofSegment ?? barsInView(session)).filter((bar) => !voxels?.ofBar.has(bar));
+    const colours = new Uint32Array(tree.leaves),
+      limits = new Float64Array(tree.leaves);
+    let any = false;
+    for (const bar of bars) {
+      const branch = tree.branchOf(bar);
+      const leaves: number[] = [];
+      if (branch === undefined) continue;
+      const limit = tree.markBasin(branch, session.cutValue, (b) => leaves.push(b));
+      if (limit === Infinity) continue; // the only basin: all of the picture is no part of it
+      any = true;
+      for (const b of leaves) {
+        colours[b] = packed(session.segmentColours[session.cut!.labelOfLeaf[b]! - 1] ?? [0, 0, 0]);
+        limits[b] = limit;
+      }
+    }
+    if (!any) return;
+    for (let i = 0; i < count; ++i)
+      if (birth![i]! < limits[leaf[i]!]!)
+        this.shown[i] = mixed(colours[leaf[i]!]!, this.base[i]!, 144);
   }
 
   /// The voxels of the bars in view, those of less persistent bars over the others.
@@ -118,11 +156,16 @@ export class Colouring {
         const ofLeaf = this.segmentColours(none),
           grey = this.grey();
         if (!grey) return (i) => ofLeaf[leaf![i]!] ?? none;
-        return (i) => mixed(ofLeaf[leaf![i]!] ?? none, grey[i]! * 0x010101, 192);
+        const isThere = session.report.image
+          ? (i: number) => Number.isFinite(session.report.image!.values[i]!)
+          : () => true;
+        return (i) =>
+          isThere(i) ? mixed(ofLeaf[leaf![i]!] ?? none, grey[i]! * 0x010101, 192) : 0;
       }
       case "persistence": {
         const ofLeaf = this.persistenceColours();
-        return (i) => ofLeaf[leaf![i]!] ?? none;
+        const there = session.report.image?.values;
+        return (i) => (there && !Number.isFinite(there[i]!) ? 0 : (ofLeaf[leaf![i]!] ?? none));
       }
       case "rgb":
         return (i) => packed([rgb![3 * i]!, rgb![3 * i + 1]!, rgb![3 * i + 2]!]);
@@ -131,17 +174,23 @@ export class Colouring {
       case "normal":
         return (i) => colourOfNormal(normals![2 * i]!, normals![2 * i + 1]!) ?? none;
       case "plain": {
-        const colour = packed(session.theme.dark ? [168, 178, 190] : [92, 102, 115]);
+        // A surface is shaded, dots need contrast.
+        const light = session.theme.dark || (this.rgba.length > 12000 && session.report.cloud?.dims === 3);
+        const colour = packed(light ? [178, 187, 198] : [92, 102, 115]);
         return () => colour;
       }
       default: {
+        const values = session.report.image?.values ?? birth!;
         const value =
           mode === "depth"
             ? this.depths(session.report.cloud!.positions)
-            : (i: number) => birth![i]!;
+            : (i: number) => values[i]!;
         const { low, high } = this.range(mode)!,
-          span = high - low || 1;
-        return (i) => (Number.isNaN(value(i)) ? none : packed(ramp((value(i) - low) / span)));
+          span = high - low || 1,
+          map = mode === "grey" ? greyOf : ramp;
+        // What is not there is drawn as nothing, not as a value.
+        const absent = session.report.image ? 0 : none;
+        return (i) => (Number.isFinite(value(i)) ? packed(map((value(i) - low) / span)) : absent);
       }
     }
   }
@@ -150,14 +199,14 @@ export class Colouring {
   /// What the camera saw, or the image: a quarter of it, so that a segment is not flat.
   private grey(): Uint8Array | undefined {
     const { elements, image } = this.session.report;
-    const { rgb, birth, count } = elements!;
+    const { rgb, count } = elements!;
     if (this.shades || !(rgb || image)) return this.shades;
     this.shades = new Uint8Array(count);
     const { low, high } = rgb ? { low: 0, high: 0 } : this.range("birth")!;
     for (let i = 0; i < count; ++i)
       this.shades[i] = rgb
         ? 0.299 * rgb[3 * i]! + 0.587 * rgb[3 * i + 1]! + 0.114 * rgb[3 * i + 2]!
-        : 255 * Math.min(1, Math.max(0, (birth![i]! - low) / (high - low || 1)));
+        : 255 * Math.min(1, Math.max(0, (image!.values[i]! - low) / (high - low || 1)));
     return this.shades;
   }
   private segmentColours(none: number): Uint32Array {
@@ -202,7 +251,8 @@ export class Colouring {
       return rangeOf(levels.length, (i) => levels[i]!, 0);
     }
     if (mode === "depth") return rangeOf(elements!.count, this.depths(cloud!.positions));
-    return rangeOf(elements!.count, (i) => elements!.birth![i]!);
+    const values = this.session.report.image?.values ?? elements!.birth!;
+    return rangeOf(elements!.count, (i) => values[i]!);
   }
 }
 

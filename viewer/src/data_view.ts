@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The data: cloud, image or volume, coloured, with what is selected drawn on it.
 import { Colouring } from "./colouring";
+import { scrubber, sliceControls } from "./data_controls";
 import { button, el, select } from "./dom";
 import { ImageSlice } from "./image_slice";
+import { Labels } from "./labels";
 import { Legend } from "./legend";
 import { counted, grouped, homology, short } from "./numbers";
 import { Overlay, thinLines, veil } from "./overlay";
@@ -11,15 +13,18 @@ import { firstPose, type Pose } from "./pose";
 import { shapesOf, type Shape } from "./representatives";
 import { bettiAt, ShownComplex, type ShownPart } from "./shown_complex";
 import { Stage } from "./stage";
+import { SurfaceMesh } from "./surface_mesh";
+import { shownValue } from "./words";
 import { StaticPicture } from "./static_picture";
 import { Group, type LineSegments, type Mesh } from "three";
 import type { Report } from "./report";
-import type { Change, ColourMode, Session } from "./session";
+import type { ColourMode } from "./colour_modes";
+import type { Change, Session } from "./session";
 
 /// Nothing without WebGL.
-function stageOf(pose: Pose): Stage | undefined {
+function stageOf(pose: Pose, solid: boolean): Stage | undefined {
   try {
-    return new Stage(pose);
+    return new Stage(pose, solid);
   } catch {
     return undefined;
   }
@@ -31,6 +36,7 @@ export class DataView {
   private readonly colouring: Colouring;
   private readonly truthColouring: Colouring | undefined;
   private readonly cloud: PointCloud | undefined;
+  private readonly mesh: SurfaceMesh | undefined;
   private readonly slice: ImageSlice | undefined;
   private readonly overlay = new Overlay();
   private readonly still: StaticPicture | undefined;
@@ -42,6 +48,7 @@ export class DataView {
   private readonly canvasHost = el("div", { class: "stage" });
   private readonly legend: Legend;
   private readonly reading = el("output", { class: "reading" });
+  private facing: number; // the axis of the slice that the eye looks along
   private pressedAt: [number, number] | undefined;
 
   constructor(private readonly session: Session) {
@@ -49,11 +56,15 @@ export class DataView {
     this.colouring = new Colouring(session);
     this.colouring.update();
     this.complex = new ShownComplex(report);
-    const pose = firstPose(report);
+    this.facing = session.sliceAxis;
+    const pose = firstPose(report, session.sliceAxis);
     if (report.image) this.slice = new ImageSlice(report.image.shape, this.colouring.rgba);
     else {
-      const spacing = (2 * pose.radius) / Math.sqrt(report.elements!.count);
-      this.cloud = new PointCloud(report.cloud!.positions, this.colouring.rgba, spacing);
+      const { origin, positions } = report.cloud!;
+      const eye = report.meta.cloud?.viewpoint?.map((c, k) => c - origin[k]!);
+      this.cloud = new PointCloud(positions, this.colouring.rgba, pose, eye);
+      const { surface } = this.complex;
+      if (surface) this.mesh = new SurfaceMesh(positions, this.cloud.tint, surface);
       if (report.elements!.truth) {
         this.truthColouring = new Colouring(session);
         this.truthColouring.update("truth");
@@ -65,7 +76,7 @@ export class DataView {
       el("h2", {}, kindOf(report)),
     );
     this.panel = el("section", { class: "panel data", "aria-label": "Data" }, this.head, this.body);
-    this.stage = stageOf(pose);
+    this.stage = stageOf(pose, !report.image);
     if (this.stage) this.setUpStage(this.stage);
     else {
       this.still = new StaticPicture(report, pose, this.slice);
@@ -95,8 +106,12 @@ export class DataView {
       `${this.description()}. Arrow keys turn or move it, plus and minus zoom, 0 fits it.`,
     );
     this.canvasHost.append(canvas);
-    stage.scene.add(this.cloud?.object ?? this.slice!.object, this.complexGroup);
-    stage.scene.add(this.overlay.group);
+    stage.data.add(...[this.cloud, this.mesh, this.slice].flatMap((part) => part?.object ?? []));
+    if (stage.dome && this.cloud && !this.mesh) Object.assign(stage.dome, this.cloud.mark);
+    stage.scene.add(this.complexGroup, this.overlay.group);
+    const labels = new Labels(this.session, stage);
+    this.canvasHost.append(labels.element);
+    stage.rendered = () => labels.place();
     if (this.slice) stage.scene.add(thinLines(Float32Array.from(this.slice.outline()), "#7d8794"));
     new ResizeObserver(() => {
       const size = { width: this.canvasHost.clientWidth, height: this.canvasHost.clientHeight };
@@ -105,7 +120,7 @@ export class DataView {
       stage.render(); // at once: a resized canvas is empty
     }).observe(this.canvasHost);
     addEventListener("beforeprint", () => stage.render()); // what was drawn before is gone
-    stage.controls.addEventListener("end", () => this.session.changed("view"));
+    stage.turned = () => this.session.changed("view");
     canvas.addEventListener("pointermove", (event) => event.buttons === 0 && this.hover(event));
     canvas.addEventListener("pointerleave", () => this.session.setFocus({}));
     canvas.addEventListener(
@@ -144,83 +159,31 @@ export class DataView {
       this.head.append(
         button("fit", () => this.stage!.reset(), { class: "quiet", title: "See everything (0)" }),
       );
-    if (report.image && report.image.shape[0]! > 1) this.addSliceControls(report.image.shape);
+    if (report.image && report.image.shape[0]! > 1)
+      this.panel.append(sliceControls(session, report.image.shape));
     if (report.bars.size > 0 && (this.complex.available || report.elements!.birth))
-      this.addScrubber();
+      this.panel.append(scrubber(session, this.reading));
     if (report.meta.cloud?.projection)
       this.panel.append(el("p", { class: "note" }, report.meta.cloud.projection));
-  }
-  private addSliceControls(shape: number[]): void {
-    const { session } = this;
-    const slider = el("input", { type: "range", min: 0, step: 1, "aria-label": "slice" });
-    const number = el("output", {});
-    const show = () => {
-      choice.querySelector("select")!.value = String(session.sliceAxis);
-      slider.max = String(shape[session.sliceAxis]! - 1);
-      slider.value = String(session.slice);
-      number.textContent = String(session.slice);
-    };
-    slider.addEventListener("input", () => session.set("slice", Number(slider.value), "slice"));
-    const axes: [string, string][] = [
-      ["0", "first axis"],
-      ["1", "second axis"],
-      ["2", "third axis"],
-    ];
-    const choice = select("slice", axes, String(session.sliceAxis), (value) => {
-      session.set("sliceAxis", Number(value), "slice");
-      session.set("slice", Math.floor(shape[Number(value)]! / 2), "slice");
-    });
-    session.onChange((changes) => changes.has("slice") && show());
-    this.panel.append(el("div", { class: "row" }, choice, slider, number));
-    show();
-  }
-  private addScrubber(): void {
-    const { session } = this;
-    const { bars, meta } = session.report;
-    const kSteps = 500;
-    const label = `${meta.value.label.toLowerCase()} up to`;
-    const slider = el("input", {
-      type: "range",
-      min: 0,
-      max: kSteps,
-      step: 1,
-      "aria-label": label,
-    });
-    slider.addEventListener("input", () => {
-      const place = Number(slider.value) / kSteps;
-      session.set(
-        "scale",
-        place === 1 ? undefined : bars.low * (1 - place) + bars.high * place,
-        "scale",
-      );
-    });
-    const show = () => {
-      const { scale } = session;
-      slider.value = String(
-        scale === undefined
-          ? kSteps
-          : Math.round((kSteps * (scale - bars.low)) / (bars.high - bars.low || 1)),
-      );
-      slider.setAttribute("aria-valuetext", this.reading.textContent ?? "");
-    };
-    session.onChange((changes) => changes.has("scale") && show());
-    this.panel.append(
-      el("div", { class: "row scrubber" }, el("span", {}, label), slider, this.reading),
-    );
-    show();
   }
 
   private update(changes: Set<Change>): void {
     const any = (...these: Change[]) => these.some((change) => changes.has(change));
-    const { session } = this;
+    const { session } = this,
+      { report } = session;
     if (any("theme")) this.truthColouring?.update("truth");
+    if (any("theme", "colour")) this.showAir();
     if (any("focus", "selection", "cut", "colour", "scale", "theme")) {
       if (this.colouring.update()) {
         this.cloud?.recolour();
         this.slice?.recolour();
       }
     }
-    if (any("slice")) this.slice?.show(session.sliceAxis, session.slice);
+    if (any("slice")) {
+      this.slice?.show(session.sliceAxis, session.slice);
+      if (this.facing !== session.sliceAxis) this.stage?.face(firstPose(report, session.sliceAxis));
+      this.facing = session.sliceAxis;
+    }
     if (any("scale", "theme")) this.showScale();
     if (any("colour") && this.stage) this.showBeside(this.stage);
     const shapes = any("focus", "selection", "theme", "colour") ? shapesOf(session) : undefined;
@@ -244,6 +207,12 @@ export class DataView {
     }
     stage.resize(stage.size);
   }
+  /// Far points fade where no camera saw them: there is nothing else that says how far they are.
+  private showAir(): void {
+    const { report, theme, colour } = this.session;
+    const part = report.cloud?.dims !== 3 || report.meta.cloud?.viewpoint || colour === "rgb" ? 0 : 0.6;
+    this.cloud?.setAir(theme.panel, part);
+  }
   private showScale(): void {
     const { scale, report, theme } = this.session;
     for (const child of [...this.complexGroup.children] as (LineSegments | Mesh)[]) {
@@ -253,10 +222,15 @@ export class DataView {
     this.complexShape = undefined;
     // A mesh is seen as one; of a Rips complex all edges would hide everything.
     const shown = scale ?? (report.triangles ? Infinity : undefined);
-    let text = scale === undefined ? "all" : `${short(scale, 3)}   ${bettiInWords(report, scale)}`;
+    const value = scale === undefined ? "all" : short(shownValue(report.meta, scale), 3);
+    let text = scale === undefined ? value : `${value}   ${bettiInWords(report, scale)}`;
     if (this.complex.available && shown !== undefined) {
       const part = this.complex.upTo(shown);
-      this.complexGroup.add(thinLines(part.ends, theme.ink), veil(part.corners, theme.ink));
+      this.mesh?.show(part.triangles ?? 0);
+      // Its vertices and edges are seen where there are no triangles yet.
+      if (this.mesh) this.cloud!.object.visible = scale !== undefined;
+      if (!this.mesh || scale !== undefined) this.complexGroup.add(thinLines(part.ends, theme.ink));
+      if (!this.mesh) this.complexGroup.add(veil(part.corners, theme.ink));
       const geometry = { points: [], segments: part.ends, triangles: part.corners };
       this.complexShape = { geometry, colour: theme.muted, width: 0.5, opacity: 0.05, surface: false };
       text += `   ${partInWords(part)}`;

@@ -3,7 +3,14 @@
 // many, their density and the most persistent ones. A lasso selects.
 import { Axis } from "./axis";
 import { BarChart, intervalOf } from "./bar_chart";
-import { clipped, homology, short } from "./numbers";
+import { drawDensity } from "./diagram_density";
+import { drawNumbers } from "./dot_numbers";
+import { fanOut, type Crowd } from "./fan";
+import { isInside } from "./lasso";
+import { drawMarker } from "./marker";
+import { drawMatching } from "./matching_lines";
+import { shownValue } from "./words";
+import { clipped, grouped, homology, short } from "./numbers";
 import type { Pen } from "./pen";
 import type { Size } from "./chart";
 import type { Change, Session } from "./session";
@@ -16,57 +23,15 @@ const kLeft = 50,
   kMinusInfinityRoom = 34;
 const kMostMarkers = 3000,
   kLongest = 1200,
-  kCell = 3,
+  kLeastFanned = 0.1, // of the range of values
   kReach = 14;
-
-/// A shape of its own for each dimension: colours may be lost in print.
-function drawMarker(
-  pen: Pen,
-  dim: number,
-  x: number,
-  y: number,
-  r: number,
-  fill: string,
-  opacity: number,
-  stroke: string,
-  width: number,
-): void {
-  switch (dim % 4) {
-    case 1:
-      return pen.polygon(
-        [x, y - 1.25 * r, x + 1.15 * r, y + 0.8 * r, x - 1.15 * r, y + 0.8 * r],
-        fill,
-        opacity,
-        stroke,
-        width,
-      );
-    case 2:
-      return pen.polygon(
-        [x - r, y - r, x + r, y - r, x + r, y + r, x - r, y + r],
-        fill,
-        opacity,
-        stroke,
-        width,
-      );
-    case 3:
-      return pen.polygon(
-        [x, y - 1.35 * r, x + 1.1 * r, y, x, y + 1.35 * r, x - 1.1 * r, y],
-        fill,
-        opacity,
-        stroke,
-        width,
-      );
-    default:
-      return pen.circle(x, y, r, fill, opacity, stroke, width);
-  }
-}
 
 export class Diagram extends BarChart {
   protected redrawsOn: Change[] = ["dims", "colour"];
-  private x: Float32Array; // of each bar, pixels
-  private y: Float32Array;
-  private births = new Axis(0, 1, 0, 1);
-  private deaths = new Axis(0, 1, 0, 1);
+  x: Float32Array; // of each bar, pixels
+  y: Float32Array;
+  births = new Axis(0, 1, 0, 1);
+  deaths = new Axis(0, 1, 0, 1);
   private lasso: number[] = [];
 
   constructor(session: Session) {
@@ -94,6 +59,7 @@ export class Diagram extends BarChart {
     pen.polygon([left, bottom, right, bottom, right, top], theme.shade);
     this.drawAxes(pen, size);
     pen.line(left, bottom, right, top, theme.faint, 1);
+    drawMatching(pen, this.session, this);
     if (bars.size === 0)
       pen.text((left + right) / 2, (top + bottom) / 2 - 40, "no bars", {
         colour: theme.muted,
@@ -103,7 +69,8 @@ export class Diagram extends BarChart {
     let shown = 0;
     for (let i = 0; i < bars.size; ++i) if (this.session.isShown(i)) ++shown;
     const many = shown > kMostMarkers;
-    if (many) this.drawDensity(pen, size);
+    const crowds = this.fan(many ? kLongest : kMostMarkers);
+    if (many) drawDensity(pen, this.session, this.x, this.y, size);
     const marked = this.shownBars(many ? kLongest : kMostMarkers);
     for (let i = marked.length - 1; i >= 0; --i) {
       const bar = marked[i]!;
@@ -122,6 +89,36 @@ export class Diagram extends BarChart {
         hollow ? 1.4 : 0.8,
       );
     }
+    for (const { x, y, count } of crowds)
+      pen.text(x + 7, y + 13, `${grouped(count)} here`, { colour: theme.muted, size: 10 });
+  }
+
+  /// Equal bars side by side, those of segments in the order of their numbers. Near the diagonal,
+  /// where nobody looks for one of them, they lie on each other.
+  private fan(most: number): Crowd[] {
+    const { session } = this;
+    const { bars } = session.report;
+    const numbers = session.numbers();
+    const place = (bar: number) => numbers.get(bar) ?? Infinity;
+    const groups = new Map<string, number[]>();
+    for (const bar of this.shownBars(most)) {
+      if (bars.persistence(bar) < kLeastFanned * (bars.high - bars.low)) continue;
+      const key = [bars.birth[bar], bars.death[bar], bars.barcodeOf(bar)].join();
+      const group = groups.get(key);
+      if (group) group.push(bar);
+      else groups.set(key, [bar]);
+    }
+    const several = [...groups.values()].filter((group) => group.length > 1);
+    for (const group of several) group.sort((a, b) => (place(a) < place(b) ? -1 : 1));
+    return fanOut(
+      several,
+      this.x,
+      this.y,
+      (bar) => bars.isInfinite(bar),
+      (bar) => numbers.has(bar),
+      this.births.from,
+      this.births.to,
+    );
   }
 
   protected drawOver(pen: Pen): void {
@@ -134,6 +131,7 @@ export class Diagram extends BarChart {
     for (const [tinted, colour] of session.tintedBars())
       if (session.isShown(tinted))
         drawMarker(pen, 0, this.x[tinted]!, this.y[tinted]!, 4.2, colour, 1, theme.panel, 0.8);
+    drawNumbers(pen, session, this);
     const most = session.selection.length > 5000 ? 1 : 2;
     for (const bar of session.selection.slice(0, 5000)) {
       if (!session.isShown(bar)) continue;
@@ -200,8 +198,9 @@ export class Diagram extends BarChart {
       high = fits ? bars.high + margin : bars.high;
     const left = kLeft + (fromBelow ? kMinusInfinityRoom : 0),
       top = kTop + (toAbove ? kInfinityRoom : 0);
-    this.births = new Axis(low, high, left, size.width - kRight);
-    this.deaths = new Axis(low, high, size.height - kBottom, top);
+    const { negated } = this.session.report.meta.value;
+    this.births = new Axis(low, high, left, size.width - kRight, negated);
+    this.deaths = new Axis(low, high, size.height - kBottom, top, negated);
     for (let i = 0; i < bars.size; ++i) {
       this.x[i] = bars.birth[i] === -Infinity ? kLeft + 6 : this.births.at(bars.birth[i]!);
       this.y[i] = bars.isInfinite(i) ? kTop + 4 : this.deaths.at(bars.death[i]!);
@@ -238,11 +237,11 @@ export class Diagram extends BarChart {
     });
     if (this.deaths.to > kTop) {
       pen.line(kLeft, kTop + 4, right, kTop + 4, theme.faint, 1, [3, 3]);
-      pen.text(kLeft - 6, kTop + 9, "∞", { ...small, size: 14, anchor: "end" });
+      pen.text(kLeft - 6, kTop + 9, short(shownValue(meta, Infinity)), { ...small, size: 14, anchor: "end" });
     }
     if (this.births.from > kLeft) {
       pen.line(kLeft + 6, kTop, kLeft + 6, bottom, theme.faint, 1, [3, 3]);
-      pen.text(kLeft + 6, bottom + 14, "−∞", { ...small, anchor: "middle" });
+      pen.text(kLeft + 6, bottom + 14, short(shownValue(meta, -Infinity)), { ...small, anchor: "middle" });
     }
   }
 
@@ -254,6 +253,7 @@ export class Diagram extends BarChart {
       cutValue,
     } = this.session;
     if (!tree || !this.session.isShown(0) || bars.dim[0] !== 0 || cutValue <= 0) return;
+    if (this.session.tintedBars().size === 0) return; // nothing that is seen is cut
     const low = this.births.value(this.births.from),
       high = this.deaths.value(this.deaths.to);
     if (cutValue > high) return;
@@ -268,35 +268,6 @@ export class Diagram extends BarChart {
       `cut ${short(cutValue, 3)}`,
       { colour: theme.muted, size: 10.5, anchor: "end" },
     );
-  }
-
-  private drawDensity(pen: Pen, size: Size): void {
-    const { bars } = this.session.report;
-    const columns = Math.ceil(size.width / kCell),
-      rows = Math.ceil(size.height / kCell);
-    for (const dim of bars.dims) {
-      if (this.session.hiddenDims.has(dim)) continue;
-      const counts = new Uint32Array(columns * rows);
-      let most = 0;
-      for (let i = 0; i < bars.size; ++i) {
-        if (bars.dim[i] !== dim) continue;
-        const cell = Math.floor(this.y[i]! / kCell) * columns + Math.floor(this.x[i]! / kCell);
-        most = Math.max(most, ++counts[cell]!);
-      }
-      const colour = this.session.colourOfDim(dim),
-        scale = 1 / Math.log(most + 1);
-      counts.forEach((count, cell) => {
-        if (count > 0)
-          pen.rect(
-            (cell % columns) * kCell,
-            Math.floor(cell / columns) * kCell,
-            kCell,
-            kCell,
-            colour,
-            0.3 + 0.65 * Math.log(count + 1) * scale,
-          );
-      });
-    }
   }
 
   private barAt(x: number, y: number): number {
@@ -345,17 +316,4 @@ export class Diagram extends BarChart {
         inside.push(bar);
     return inside;
   }
-}
-
-/// Whether a ray to the right crosses the polygon an odd number of times.
-function isInside(polygon: number[], x: number, y: number): boolean {
-  let inside = false;
-  for (let i = 0, j = polygon.length - 2; i < polygon.length; j = i, i += 2) {
-    const xi = polygon[i]!,
-      yi = polygon[i + 1]!,
-      xj = polygon[j]!,
-      yj = polygon[j + 1]!;
-    if (yi > y !== yj > y && x < ((xj - xi) * (y - yi)) / (yj - yi) + xi) inside = !inside;
-  }
-  return inside;
 }

@@ -47,22 +47,28 @@ export function segmentCounts(tree: MergeTree, cuts: number[]): number[] {
 }
 
 /// Between the two neighbouring levels that are farthest apart as a ratio, among the largest
-/// ones: what lies above is much more persistent than what lies below.
+/// ones: what lies above is much more persistent than what lies below. Where no ratio is wide, those
+/// of basins whose difference is the largest.
 export function suggestedCut(tree: MergeTree, from: number, to: number): number | undefined {
   const most = 64;
   const levels = levelsOf(tree)
     .filter((v) => v > 0 && Number.isFinite(v))
     .slice(-most);
-  let best: number | undefined,
-    widest = 1.2;
-  for (let i = 0; i + 1 < levels.length; ++i) {
-    const middle = Math.sqrt(levels[i]! * levels[i + 1]!);
-    const ratio = levels[i + 1]! / levels[i]!;
-    if (ratio <= widest || middle < from || middle > to) continue;
-    widest = ratio;
-    best = Number(middle.toPrecision(3));
-  }
-  return best;
+  const widest = (least: number, width: (low: number, high: number) => number) => {
+    let best: number | undefined,
+      most = least;
+    for (let i = 0; i + 1 < levels.length; ++i) {
+      const [low, high] = [levels[i]!, levels[i + 1]!];
+      const middle = Math.sqrt(low) * Math.sqrt(high);
+      if (width(low, high) <= most || middle < from || middle > to) continue;
+      most = width(low, high);
+      best = Number(middle.toPrecision(3));
+    }
+    return best;
+  };
+  const byRatio = widest(1.2, (low, high) => high / low);
+  if (byRatio !== undefined || tree.arrays.rule === "value") return byRatio;
+  return widest(0, (low, high) => high - low);
 }
 
 /// From a slider's place (0 … 1) to a cut and back: by decades where the levels span some, and

@@ -27,7 +27,7 @@ export class ImageSlice {
     geometry.setAttribute("position", new BufferAttribute(new Float32Array(12), 3));
     geometry.setAttribute("uv", new BufferAttribute(new Float32Array([0, 0, 1, 0, 1, 1, 0, 1]), 2));
     geometry.setIndex([0, 1, 2, 0, 2, 3]);
-    this.object = new Mesh(geometry, new MeshBasicMaterial({ side: DoubleSide }));
+    this.object = new Mesh(geometry, new MeshBasicMaterial({ side: DoubleSide, alphaTest: 0.5 }));
     this.object.frustumCulled = false;
   }
 

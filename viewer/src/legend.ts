@@ -4,7 +4,7 @@
 import type { Colouring } from "./colouring";
 import { el, svg } from "./dom";
 import { counted, grouped, homology, inRange } from "./numbers";
-import { dimColour, hex, ramp } from "./palette";
+import { dimColour, greyOf, hex, ramp } from "./palette";
 import { barsInView, kBirthColour, kDeathColour } from "./representatives";
 import type { Session } from "./session";
 
@@ -70,7 +70,7 @@ export class Legend {
     const rest = segments.length - this.rows.length;
     const what = session.report.image ? "voxels" : "points";
     return [
-      el("h3", {}, "segment", el("span", { class: "count" }, what)),
+      el("h3", {}, session.report.meta.tree?.what ?? "segment", el("span", { class: "count" }, what)),
       ...this.rows,
       ...(rest > 0 ? [el("p", { class: "note" }, `and ${grouped(rest)} smaller`)] : []),
       ...(none > 0
@@ -107,7 +107,7 @@ export class Legend {
           y: 98 - (100 * i) / steps,
           width: 14,
           height: 2.2,
-          fill: hex(ramp(i / (steps - 1))),
+          fill: hex((colour === "grey" ? greyOf : ramp)(i / (steps - 1))),
         }),
       );
     const ticks = (high > low ? [high, (low + high) / 2, low] : [low]).map((v) =>

@@ -5,6 +5,7 @@ import { CutChart } from "./cut_chart";
 import { DataView } from "./data_view";
 import { Diagram } from "./diagram";
 import { button, el } from "./dom";
+import { cutSays, foldable } from "./folding";
 import { prefersDark, themeOf } from "./palette";
 import { readPayload } from "./payload";
 import { readingOf, selectionOf } from "./reading";
@@ -38,6 +39,19 @@ async function start(app: HTMLElement): Promise<void> {
         : []),
     ],
   };
+  if (cut && tree) {
+    const folded = !cutSays(session);
+    const show = [
+      foldable(cut.panel, "Cut", folded),
+      foldable(tree.panel, "Merge tree", folded),
+    ];
+    // Who asks for the colours of a cut wants to move it.
+    session.onChange((changes) => {
+      const ofCut = session.colour === "segment" || session.colour === "persistence";
+      if (changes.has("colour") && ofCut) for (const fold of show) fold(false);
+    });
+  }
+  if (report.bars.size < 2) foldable(diagram.panel, "Persistence diagram", true);
   const left = [data?.panel, cut?.panel, tree?.panel].filter((panel) => panel !== undefined);
   const page = el(
     "main",
@@ -45,7 +59,8 @@ async function start(app: HTMLElement): Promise<void> {
     ...(left.length > 0 ? [el("div", { class: "column left" }, ...left)] : []),
     el("div", { class: "column right" }, diagram.panel, barcode.panel),
   );
-  app.replaceChildren(new Toolbar(session, views, page).element, page, statusLine(session));
+  const toolbar = new Toolbar(session, views, page).element;
+  app.replaceChildren(toolbar, answerLine(session), page, statusLine(session));
 
   document.addEventListener("keydown", (event) => {
     if (event.key === "Escape" && !document.querySelector("dialog[open]")) session.select([]);
@@ -68,6 +83,23 @@ function followTheme(session: Session): void {
   );
   session.onChange((changes) => changes.has("theme") && show());
   show();
+}
+
+/// What stands out, in one sentence; a click selects it again.
+function answerLine(session: Session): HTMLElement {
+  const { sentence, bars } = session.answer;
+  const again = button("select", () => session.select(bars), {
+    class: "quiet",
+    title: "select these bars",
+  });
+  const show = () => {
+    const { selection } = session;
+    const isSelected = selection.length === bars.length && bars.every((b) => session.isSelected(b));
+    again.hidden = bars.length === 0 || isSelected;
+  };
+  session.onChange((changes) => changes.has("selection") && show());
+  show();
+  return el("p", { class: "answer" }, el("span", {}, sentence), again);
 }
 
 function statusLine(session: Session): HTMLElement {

@@ -124,6 +124,19 @@ export class MergeTree {
       r = apart ? this.end[b]! : r + 1;
     }
   }
+  /// Calls `mark` on the leaves of a branch as markBranch does. @return the value below which their
+  /// vertices are the component that was born in it: there it dies, or meets what the cut keeps apart.
+  markBasin(branch: number, cut: number, mark: (leaf: number) => void): number {
+    let limit = this.death(branch);
+    for (let r = this.rank[branch]!; r < this.end[branch]!;) {
+      const b = this.order[r]!;
+      const apart = b !== branch && cut > 0 && !this.isDone(this.deathOf[b]!, cut);
+      if (apart) limit = Math.min(limit, this.death(b));
+      else mark(b);
+      r = apart ? this.end[b]! : r + 1;
+    }
+    return limit;
+  }
   branchOf(bar: number): number | undefined {
     return this.branchOfBar.get(bar);
   }

@@ -109,3 +109,9 @@ export function ramp(part: number): Rgb {
     high = kViridis[i + 1]!;
   return [0, 1, 2].map((k) => Math.round(low[k]! + (at - i) * (high[k]! - low[k]!))) as Rgb;
 }
+
+/// @param part 0 … 1
+export function greyOf(part: number): Rgb {
+  const level = Math.round(255 * Math.min(1, Math.max(0, part)));
+  return [level, level, level];
+}

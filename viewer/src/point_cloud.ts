@@ -1,60 +1,118 @@
 // SPDX-License-Identifier: MIT
-// The points of a cloud on the stage, and which of them is under the pointer.
-import { BufferAttribute, BufferGeometry, Matrix4, Points, ShaderMaterial, Vector2 } from "three";
+// The points of a cloud on the stage, and which of them is under the pointer. Where points are many
+// enough to be a surface their marks are as large as the gaps between them; else they are dots.
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  Matrix4,
+  Points,
+  ShaderMaterial,
+  Vector2,
+  Vector3,
+} from "three";
+import { spacingOf } from "./spacing";
+import type { Pose } from "./pose";
 import type { Stage } from "./stage";
 
-const kReach = 6; // pixels
+const kReach = 6, // pixels
+  kSurface = 3000, // points; fewer make no surface
+  kCover = 1.5; // spacings that a mark covers: neighbours in a row of any direction meet
 
 const kVertex = `
 attribute vec3 tint;
-uniform float size;
+uniform float scale;
+uniform float spacing;
+uniform bool seen;
+uniform vec3 eye;
 uniform vec2 limits;
+uniform vec4 haze; // middle, and how far what is around it reaches
+uniform vec4 air; // its colour, and how much of it there is at the far end
 varying vec3 colour;
+varying float size;
 void main() {
-  colour = tint;
   vec4 at = modelViewMatrix * vec4(position, 1.0);
   gl_Position = projectionMatrix * at;
-  gl_PointSize = clamp(size * projectionMatrix[1][1] / gl_Position.w, limits.x, limits.y);
+  float wide = seen ? spacing * distance(position, eye) : spacing;
+  size = clamp(wide * scale * projectionMatrix[1][1] / gl_Position.w, limits.x, limits.y);
+  gl_PointSize = size;
+  float middle = (modelViewMatrix * vec4(haze.xyz, 1.0)).z;
+  float part = clamp(0.5 + 0.5 * (middle - at.z) / haze.w, 0.0, 1.0);
+  colour = mix(tint, air.rgb, air.a * part);
 }`;
 const kFragment = `
+uniform bool round;
+uniform bool soft; // nothing lies behind it: its edge is smooth
 varying vec3 colour;
+varying float size;
 void main() {
-  vec2 at = gl_PointCoord - 0.5;
-  if (dot(at, at) > 0.25) discard;
-  gl_FragColor = vec4(colour, 1.0);
+  float out_by = round ? size * (length(gl_PointCoord - 0.5) - 0.5) + 0.5 : 0.0;
+  if (out_by > (soft ? 1.0 : 0.5)) discard;
+  gl_FragColor = vec4(colour, soft ? min(1.0, 1.0 - out_by) : 1.0);
 }`;
 
 export class PointCloud {
   readonly object: Points;
   readonly tint: BufferAttribute;
   private readonly material: ShaderMaterial;
+  private readonly isSurface: boolean;
 
-  /// @param spacing how far a point is from the next, about.
+  /// @param eye where the sensor stood, in the space of the positions, if that is known.
   constructor(
     readonly positions: Float32Array,
     rgba: Uint8Array,
-    private readonly spacing: number,
+    pose: Pose,
+    eye: ArrayLike<number> | undefined,
   ) {
+    const count = positions.length / 3;
+    this.isSurface = !pose.flat && count >= kSurface;
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(positions, 3));
     this.tint = new BufferAttribute(rgba, 4, true);
     geometry.setAttribute("tint", this.tint);
+    const spacing = this.isSurface ? kCover * spacingOf(positions, eye) : 0;
     this.material = new ShaderMaterial({
       vertexShader: kVertex,
       fragmentShader: kFragment,
-      uniforms: { size: { value: 1 }, limits: { value: new Vector2(1.5, 14) } },
+      transparent: pose.flat,
+      depthWrite: !pose.flat,
+      uniforms: {
+        scale: { value: 1 },
+        spacing: { value: spacing || (0.3 * pose.radius) / Math.sqrt(count) },
+        seen: { value: spacing > 0 && eye !== undefined },
+        eye: { value: new Vector3(...Array.from(eye ?? [0, 0, 0])) },
+        limits: { value: new Vector2(1.5, 14) },
+        round: { value: !this.isSurface },
+        soft: { value: pose.flat },
+        haze: { value: [...pose.centre.toArray(), pose.radius || 1] },
+        air: { value: [1, 1, 1, 0] },
+      },
     });
     this.object = new Points(geometry, this.material);
     this.object.frustumCulled = false;
   }
 
+  /// How large its marks are, in space or as an angle.
+  get mark(): { mark: number; isAngle: boolean } {
+    const { spacing, seen } = this.material.uniforms;
+    return {
+      mark: this.isSurface ? (spacing!.value as number) : 0,
+      isAngle: seen!.value as boolean,
+    };
+  }
   recolour(): void {
     this.tint.needsUpdate = true;
   }
+  /// What is far fades into this colour, by half at most; true colours stay what they are.
+  setAir(colour: string, part: number): void {
+    const { r, g, b } = new Color(colour);
+    this.material.uniforms["air"]!.value = [r, g, b, part];
+  }
   resize(height: number, pixelRatio: number): void {
-    const least = this.positions.length > 60000 ? 1.5 : 4.5;
-    this.material.uniforms["size"]!.value = 0.15 * this.spacing * height * pixelRatio;
-    (this.material.uniforms["limits"]!.value as Vector2).set(least * pixelRatio, 14 * pixelRatio);
+    const { scale, limits } = this.material.uniforms;
+    const [least, most] = this.isSurface ? [2, 48] : this.positions.length > 60000 ? [1.5, 14] : [5, 14];
+    scale!.value = 0.5 * height * pixelRatio;
+    (limits!.value as Vector2).set(least! * pixelRatio, most! * pixelRatio);
   }
   /// The nearest point to the eye among those at these pixels; -1: none.
   at(stage: Stage, x: number, y: number): number {

@@ -2,6 +2,7 @@
 // From where the data are seen first: from where the sensor stood, if that is known.
 import { Vector3 } from "three";
 import { placeInImage } from "./cell_geometry";
+import { sliceView } from "./slice_view";
 import type { Report } from "./report";
 
 type Triple = [number, number, number];
@@ -20,7 +21,8 @@ export interface Pose {
 
 const kSampled = 20000;
 
-export function firstPose(report: Report): Pose {
+/// @param axis of the slice of a volume.
+export function firstPose(report: Report, axis = 0): Pose {
   const { image, cloud, meta } = report;
   if (image) {
     const [planes, rows, columns] = image.shape as Triple;
@@ -29,25 +31,84 @@ export function firstPose(report: Report): Pose {
       for (const row of [-0.5, rows - 0.5])
         for (const column of [-0.5, columns - 0.5])
           corners.push(...placeInImage(planes === 1 ? 0 : plane, row, column));
-    const flat = planes === 1;
-    return poseOf(
-      corners,
-      flat ? new Vector3(0, 0, 1) : new Vector3(0.75, 0.55, 1),
-      new Vector3(0, 1, 0),
-      flat,
-    );
+    if (planes === 1) return poseOf(corners, new Vector3(0, 0, 1), new Vector3(0, 1, 0), true);
+    const { towards, up } = sliceView(meta, axis);
+    return poseOf(corners, towards, up, false);
   }
   const sample = sampled(cloud!.positions);
   if (cloud!.dims < 3) return poseOf(sample, new Vector3(0, 0, 1), new Vector3(0, 1, 0), true);
   const eye = meta.cloud?.viewpoint;
-  const up = new Vector3(
-    ...((meta.cloud?.up ?? (eye ? [0, -1, 0] : [0, 0, 1])) as Triple),
-  ).normalize();
-  const around = poseOf(sample, new Vector3(0.55, -0.9, 0.6), up, false);
+  const known = meta.cloud?.up ?? (eye && [0, -1, 0]);
+  const up = known ? new Vector3(...(known as Triple)).normalize() : standing(sample);
+  const around = poseOf(sample, broadside(sample, up), up, false);
   if (!eye) return around;
   const sensor = new Vector3(...(eye.map((c, k) => c - cloud!.origin[k]!) as Triple));
   const distance = sensor.distanceTo(around.centre);
   return distance > 0.3 * around.radius ? poseOfSensor(sample, sensor, around) : around;
+}
+
+const kBase = 0.01, // of an extent
+  kLeastOnBase = 0.02, // of the points
+  kMoreThanElsewhere = 4;
+
+/// Upwards where nothing says so: away from a flat base, which has many points right at one end of an
+/// axis and at no other; z if there is none.
+function standing(sample: number[]): Vector3 {
+  const count = sample.length / 3;
+  const shares: { axis: number; sign: number; share: number }[] = [];
+  for (let axis = 0; axis < 3; ++axis) {
+    let low = Infinity,
+      high = -Infinity;
+    for (let i = axis; i < sample.length; i += 3) {
+      low = Math.min(low, sample[i]!);
+      high = Math.max(high, sample[i]!);
+    }
+    const near = kBase * (high - low);
+    let below = 0,
+      above = 0;
+    for (let i = axis; i < sample.length; i += 3) {
+      if (sample[i]! <= low + near) ++below;
+      if (sample[i]! >= high - near) ++above;
+    }
+    shares.push({ axis, sign: 1, share: below / count }, { axis, sign: -1, share: above / count });
+  }
+  shares.sort((a, b) => b.share - a.share);
+  const [base, next] = shares as [(typeof shares)[0], (typeof shares)[0]];
+  const up = new Vector3(0, 0, 1);
+  if (base.share >= kLeastOnBase && base.share >= kMoreThanElsewhere * next.share)
+    up.set(0, 0, 0).setComponent(base.axis, base.sign);
+  return up;
+}
+
+/// Towards an eye that sees the largest horizontal spread from the side, a little from above.
+function broadside(sample: number[], up: Vector3): Vector3 {
+  const first = new Vector3(up.y || up.z ? 1 : 0, up.x ? 1 : 0, 0);
+  const a = first.addScaledVector(up, -first.dot(up)).normalize(),
+    b = new Vector3().crossVectors(up, a);
+  const at = new Vector3(),
+    mean = [0, 0],
+    count = sample.length / 3;
+  const flat = (i: number) => [at.fromArray(sample, i).dot(a), at.dot(b)] as [number, number];
+  for (let i = 0; i < sample.length; i += 3)
+    flat(i).forEach((c, k) => (mean[k] = mean[k]! + c / count));
+  let aa = 0,
+    ab = 0,
+    bb = 0;
+  for (let i = 0; i < sample.length; i += 3) {
+    const [u, v] = flat(i),
+      x = u - mean[0]!,
+      y = v - mean[1]!;
+    aa += x * x;
+    ab += x * y;
+    bb += y * y;
+  }
+  // The angle of the longer axis; the eye stands a quarter from it, and some degrees aside.
+  const along = 0.5 * Math.atan2(2 * ab, aa - bb);
+  const eye = along - Math.PI / 2 + 0.35;
+  return new Vector3()
+    .addScaledVector(a, Math.cos(eye))
+    .addScaledVector(b, Math.sin(eye))
+    .addScaledVector(up, 0.4);
 }
 
 /// The sensor looks at the middle of what it saw; sizes are those at the distance of the centre.

@@ -3,6 +3,7 @@
 import { decoded, PayloadError, type Block, type Numbers, type Payload } from "./payload";
 import { Bars } from "./bars";
 import { MergeTree, type CutRule } from "./merge_tree";
+import { Matching } from "./matching";
 import type { VoxelSets } from "./voxel_sets";
 
 export type CellKind = "vertices" | "grid" | "row";
@@ -34,7 +35,7 @@ export interface Meta {
   title: string;
   program: string;
   provenance: Provenance;
-  value: { label: string; unit?: string };
+  value: { label: string; unit?: string; negated?: boolean };
   barcodes: BarcodeMeta[];
   cloud?: {
     unit?: string;
@@ -44,7 +45,7 @@ export interface Meta {
     metric?: string;
     edges_below?: number;
   };
-  image?: { construction?: "vertices" | "cells" };
+  image?: { construction?: "vertices" | "cells"; axes?: string[] };
   tree?: {
     rule: CutRule;
     label?: string;
@@ -99,6 +100,7 @@ export interface Report {
   image: Image | undefined;
   tree: MergeTree | undefined;
   chains: Chains | undefined;
+  matching: Matching | undefined; // of the two barcodes of a comparison
   voxels: VoxelSets | undefined;
   edges: { ends: Numbers; values: Numbers } | undefined;
   triangles: { corners: Numbers; values: Numbers } | undefined;
@@ -177,7 +179,7 @@ export function reportOf(payload: Payload): Report {
           count,
           rgb: ofElement("rgb") as Uint8Array | undefined,
           normals: block("points/normal")?.values as Int8Array | undefined,
-          birth: ofElement("birth") ?? image?.values,
+          birth: ofElement("birth") ?? (image && birthsOf(image, meta)),
           truth: ofElement("truth"),
           leaf: ofElement("leaf"),
         }
@@ -193,6 +195,7 @@ export function reportOf(payload: Payload): Report {
     image,
     tree: meta.tree ? treeOf(meta.tree, need, array, bars) : undefined,
     chains: chainsOf(need, array, bars, meta),
+    matching: matchingOf(array("matching/pairs"), bars),
     voxels: image && voxelsOf(need, array, image),
     edges,
     triangles: block("complex/triangles")
@@ -230,6 +233,11 @@ function imageOf(block: Block | undefined, meta: Meta): Image | undefined {
   if (block.shape.length > 3) fail("image/values has more than three axes");
   const shape = [1, 1, 1, ...block.shape].slice(-3);
   return { shape, values: decoded(block), shift: meta.image?.construction === "cells" ? -1 : 0 };
+}
+
+/// When each voxel enters: at its value, or, in superlevel sets, at minus that. NaN: never.
+function birthsOf(image: Image, meta: Meta): Numbers {
+  return meta.value.negated ? Float64Array.from(image.values, (v) => -v) : image.values;
 }
 
 function treeOf(
@@ -276,6 +284,12 @@ function chainsOf(
   if (first[bar.length]! > cells.length) fail("chains/cells is too short");
   if (meta.barcodes[0]?.cells === "row") return undefined;
   return { ofBar, start, cells, coefficients: array("chains/coefficients"), first };
+}
+
+function matchingOf(pairs: Numbers | undefined, bars: Bars): Matching | undefined {
+  if (!pairs) return undefined;
+  for (const bar of pairs) if (bar >= bars.size) fail(`matching/pairs: there is no bar ${bar}`);
+  return new Matching(pairs);
 }
 
 function voxelsOf(

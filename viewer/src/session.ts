@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 // What the reader is looking at: one state for all views. A view changes it through the methods
 // here and draws again when it hears of a change; no view knows another one.
+import { answerOf, type Answer } from "./answer";
+import { colourModesOf, type ColourMode } from "./colour_modes";
 import { coloursApart, dimColour, hex, segmentColour, themeOf, type Rgb, type Theme } from "./palette";
 import { suggestedCut } from "./gaps";
 import type { Cut } from "./merge_tree";
 import { kNone, type Numbers } from "./payload";
 import type { Report } from "./report";
+import { firstAxis } from "./slice_view";
 import { touchingInImage, touchingInSpace } from "./touching";
 
-export type ColourMode =
-  "segment" | "rgb" | "truth" | "normal" | "depth" | "birth" | "persistence" | "plain";
 export type Change =
   "focus" | "selection" | "cut" | "colour" | "dims" | "scale" | "slice" | "theme" | "view";
 
@@ -20,7 +21,8 @@ export interface Focus {
   element: number; // -1: none
 }
 const kNoTints = new Map<number, string>();
-const kMostTinted = 200; // segments whose bars have their colours
+const kMostTinted = 200, // segments whose bars have their colours
+  kMostNumbered = 30;
 const kNothing: Focus = { bar: -1, segment: 0, element: -1 };
 
 export class Session {
@@ -36,6 +38,7 @@ export class Session {
   scale: number | undefined; // filtration value up to which the complex is shown
   sliceAxis = 0;
   slice: number;
+  readonly answer: Answer;
   private selected: Uint8Array;
   private leafColours: number[] = [];
   private readonly listeners: ((changes: Set<Change>) => void)[] = [];
@@ -46,9 +49,13 @@ export class Session {
   constructor(readonly report: Report) {
     this.selected = new Uint8Array(report.bars.size);
     this.cutValue = report.meta.tree?.cut ?? 0;
-    this.slice = Math.floor((report.image?.shape[0] ?? 1) / 2);
+    const isVolume = (report.image?.shape[0] ?? 1) > 1;
+    if (isVolume) this.sliceAxis = firstAxis(report.meta);
+    this.slice = Math.floor((report.image?.shape[this.sliceAxis] ?? 1) / 2);
     if (report.tree) this.recut();
     this.colour = this.colourModes()[0]![0];
+    this.answer = answerOf(report);
+    this.select(this.answer.bars);
   }
 
   // Changes.
@@ -86,6 +93,7 @@ export class Session {
     for (const bar of bars) this.selected[bar] = how === "toggle" ? 1 - this.selected[bar]! : 1;
     this.selection = [];
     for (let i = 0; i < this.selected.length; ++i) if (this.selected[i]) this.selection.push(i);
+    if (this.colour === "grey") this.tints = undefined;
     this.changed("selection");
   }
   isSelected(bar: number): boolean {
@@ -102,6 +110,7 @@ export class Session {
     change: Change,
   ): void {
     (this as Session)[what] = value;
+    if (change === "colour") this.tints = undefined;
     this.changed(change);
   }
   toggleDim(dim: number): void {
@@ -209,16 +218,29 @@ export class Session {
   }
   private tints: Map<number, string> | undefined;
   /// The bars of the largest segments with the colours that these have in the data, if they have
-  /// them there; else none.
+  /// them there; else none. A grey image has those of the selected ones.
   tintedBars(): Map<number, string> {
-    if (this.colour !== "segment" || !this.cut) return kNoTints;
+    const isGrey = this.colour === "grey";
+    if ((this.colour !== "segment" && !isGrey) || !this.cut) return kNoTints;
     this.tints ??= new Map(
       this.cut.segments
         .slice(0, kMostTinted)
         .map((s) => [this.barOfSegment(s.label), hex(this.segmentColours[s.label - 1]!)] as const)
-        .filter(([bar]) => bar >= 0),
+        .filter(([bar]) => bar >= 0 && !(isGrey && !this.isSelected(bar))),
     );
     return this.tints;
+  }
+  /// The segments that have a number in every view: the largest of those with a colour, by bar.
+  numbers(): Map<number, number> {
+    const numbers = new Map<number, number>();
+    const tints = this.tintedBars();
+    if ((this.cut?.segments.length ?? 0) < 2) return numbers;
+    for (const { label } of this.cut!.segments) {
+      if (numbers.size >= kMostNumbered || label > kMostTinted) break;
+      const bar = this.barOfSegment(label);
+      if (tints.has(bar)) numbers.set(bar, label);
+    }
+    return numbers;
   }
   /// What a bar is drawn with.
   colourOfBar(bar: number): string {
@@ -232,6 +254,13 @@ export class Session {
   }
   isShown(bar: number): boolean {
     return !this.hiddenDims.has(this.report.bars.dim[bar]!);
+  }
+
+  /// The dimension that the answer is about, then the others, the highest first.
+  dimsInOrder(): number[] {
+    const { dims } = this.report.bars,
+      { dim } = this.answer;
+    return [...dims.filter((d) => d === dim), ...dims.filter((d) => d !== dim).reverse()];
   }
 
   private through: Map<number, number> | undefined;
@@ -251,20 +280,8 @@ export class Session {
 
   /// The ways to colour that this report has, the default first.
   colourModes(): [ColourMode, string][] {
-    const { elements, tree, cloud, image, triangles, meta } = this.report;
-    const modes: [ColourMode, string][] = [];
-    if (triangles && elements?.birth) modes.push(["birth", "value"]); // of a mesh
-    if (tree && elements?.leaf) modes.push(["segment", "segment"]);
-    if (elements?.rgb) modes.push(["rgb", "input colour"]);
-    if (elements?.truth) modes.push(["truth", "ground truth"]);
-    if (elements?.normals) modes.push(["normal", "normal"]);
-    if (cloud?.dims === 3) modes.push(["depth", meta.cloud?.viewpoint ? "depth" : "z"]);
-    if (!triangles && elements?.birth) modes.push(["birth", image ? "value" : "birth"]);
-    if (tree && elements?.leaf) modes.push(["persistence", "persistence"]);
-    if (!image) modes.push(["plain", "one colour"]);
-    // One segment tells nothing: begin with what does.
-    if (tree && (this.cut?.segments.length ?? 0) < 2 && modes.length > 2)
-      modes.push(modes.shift()!);
-    return modes;
+    this.modes ??= colourModesOf(this.report);
+    return this.modes;
   }
+  private modes: [ColourMode, string][] | undefined;
 }

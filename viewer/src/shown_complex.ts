@@ -48,6 +48,12 @@ export class ShownComplex {
     };
   }
 
+  /// The triangles of a mesh, three places each, ascending by value; undefined: it is none.
+  get surface(): Uint32Array | undefined {
+    const { triangles } = this.report;
+    return triangles && this.available ? this.elementsOf(triangles.corners, 3) : undefined;
+  }
+
   /// Those that the program wrote, or, of a flag complex, those whose edges are there.
   private trianglesUpTo(value: number, edges: Uint32Array): Uint32Array | undefined {
     const { triangles, meta } = this.report;

@@ -12,6 +12,7 @@ import {
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { Size } from "./chart";
+import { EyeDome } from "./eye_dome";
 import type { Pose } from "./pose";
 
 // Colours are what the screen shows; nothing is lit.
@@ -23,17 +24,24 @@ const kFieldOfView = 40,
 export class Stage {
   readonly scene = new Scene();
   readonly camera: PerspectiveCamera | OrthographicCamera;
-  readonly controls: OrbitControls;
+  controls: OrbitControls;
   size: Size = { width: 0, height: 0 };
   moved = false; // by the reader
   /// Called before each of two pictures side by side; undefined: one picture.
   besides: ((side: 0 | 1) => void) | undefined;
+  /// Called after each picture: what lies over it follows.
+  rendered: (() => void) | undefined;
+  turned: (() => void) | undefined; // by the reader
+  /// What is solid and seen in perspective has its depth brought out.
+  readonly dome: EyeDome | undefined;
   private held = false;
   private scheduled = false;
 
+  /// @param solid the data have a depth that is worth being brought out: points, a surface.
   /// @throws Error without WebGL.
   constructor(
-    private readonly pose: Pose,
+    private pose: Pose,
+    solid: boolean,
     readonly renderer = new WebGLRenderer({ antialias: true, alpha: true }),
   ) {
     renderer.outputColorSpace = LinearSRGBColorSpace;
@@ -41,19 +49,39 @@ export class Stage {
     renderer.autoClear = false;
     this.camera = pose.flat ? new OrthographicCamera() : new PerspectiveCamera(kFieldOfView);
     this.camera.up.copy(pose.up);
-    this.controls = new OrbitControls(this.camera, renderer.domElement);
-    this.controls.enableRotate = !pose.flat;
-    if (pose.flat) this.controls.mouseButtons.LEFT = 2; // pan
-    this.controls.zoomToCursor = true;
-    this.controls.addEventListener("start", () => (this.held = true));
-    this.controls.addEventListener("end", () => (this.held = false));
-    this.controls.addEventListener("change", () => {
-      this.moved ||= this.held;
-      this.invalidate();
-    });
+    if (!pose.flat && solid) this.dome = new EyeDome();
+    this.controls = this.makeControls();
     this.reset();
   }
 
+  private makeControls(): OrbitControls {
+    const controls = new OrbitControls(this.camera, this.renderer.domElement);
+    controls.enableRotate = !this.pose.flat;
+    if (this.pose.flat) controls.mouseButtons.LEFT = 2; // pan
+    controls.zoomToCursor = true;
+    controls.addEventListener("start", () => (this.held = true));
+    controls.addEventListener("end", () => {
+      this.held = false;
+      this.turned?.();
+    });
+    controls.addEventListener("change", () => {
+      this.moved ||= this.held;
+      this.invalidate();
+    });
+    return controls;
+  }
+  /// Where the data go, beneath all that is drawn over them.
+  get data(): Scene {
+    return this.dome?.scene ?? this.scene;
+  }
+  /// Looks from elsewhere. The controls keep the direction that was upwards when they were made.
+  face(pose: Pose): void {
+    this.pose = pose;
+    this.camera.up.copy(pose.up);
+    this.controls.dispose();
+    this.controls = this.makeControls();
+    this.reset();
+  }
   /// Everything in view.
   reset(): void {
     const { centre, radius, towards, half } = this.pose;
@@ -112,13 +140,23 @@ export class Stage {
         this.renderer.setScissorTest(true);
         this.besides(side);
       }
+      if (this.camera instanceof PerspectiveCamera)
+        this.dome?.render(this.renderer, this.camera, this.besides ? width / 2 : width, height);
       this.renderer.render(this.scene, this.camera);
     }
+    this.rendered?.();
   }
   /// From pixels to -1 … 1, in the picture that holds them.
   normalised(x: number, y: number): [number, number] {
     const width = this.besides ? this.size.width / 2 : this.size.width;
     return [2 * ((x % width) / width) - 1, 1 - (2 * y) / this.size.height];
+  }
+  /// Where in the picture, in pixels, a place is; in the left one of two. undefined: behind the eye.
+  pixelOf(x: number, y: number, z: number): [number, number] | undefined {
+    const at = new Vector3(x, y, z).project(this.camera);
+    if (at.z > 1 || at.z < -1) return undefined;
+    const width = this.besides ? this.size.width / 2 : this.size.width;
+    return [(width * (at.x + 1)) / 2, (this.size.height * (1 - at.y)) / 2];
   }
   /// Turns (3-D) or moves (flat) the picture by the keyboard; `zoom` as a factor.
   nudge(dx: number, dy: number, zoom: number): void {

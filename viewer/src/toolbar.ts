@@ -64,7 +64,7 @@ export class Toolbar {
     const { session } = this;
     const { bars, meta } = session.report;
     this.chips.replaceChildren(
-      ...bars.dims.map((dim) => {
+      ...session.dimsInOrder().map((dim) => {
         const counts = meta.barcodes.map((_, i) => grouped(bars.count(dim, i))).join(" / ");
         const chip = button("", () => session.toggleDim(dim), {
           class: "chip",

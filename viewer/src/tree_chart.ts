@@ -10,12 +10,14 @@ import { hex } from "./palette";
 import type { Pen } from "./pen";
 import { kNone } from "./payload";
 import type { MergeTree } from "./merge_tree";
+import { Spots } from "./spots";
+import { shownValue } from "./words";
 import type { Change, Session } from "./session";
 
 const kLeft = 50,
   kRight = 12,
   kTop = 16,
-  kBottom = 10,
+  kBottom = 16,
   kPitch = 6,
   kReach = 10;
 
@@ -28,7 +30,7 @@ interface Drawn {
 }
 
 export class TreeChart extends Chart {
-  protected redrawsOn: Change[] = ["cut"];
+  protected redrawsOn: Change[] = ["cut", "colour"];
   private drawn: Drawn[] = [];
   private current = -1;
   private readonly tree: MergeTree;
@@ -81,10 +83,18 @@ export class TreeChart extends Chart {
       anchor: "middle",
       upwards: true,
     });
+    const numbers = this.session.numbers(),
+      spots = new Spots();
     for (const d of this.drawn) {
       const merged =
         tree.deathOf[d.branch] !== kNone && tree.isDone(tree.deathOf[d.branch]!, cutValue);
       this.drawBranch(pen, d, merged ? theme.faint : this.colourOf(d.branch), merged ? 1 : 2.2);
+      const number = numbers.get(this.barOf(d.branch));
+      if (number !== undefined && !merged && spots.take(d.x, d.y1 + 11, String(number)))
+        pen.text(d.x, Math.min(d.y1 + 11, size.height - 2), String(number), {
+          ...small,
+          anchor: "middle",
+        });
     }
     if (tree.arrays.rule === "value" && cutValue > 0) {
       const y = axis.at(cutValue);
@@ -116,11 +126,12 @@ export class TreeChart extends Chart {
     return `Merge tree of ${grouped(this.tree.leaves)} branches, ${counted(cut?.segments.length ?? 0, "segment")} at the cut ${short(cutValue)}. Arrow keys go from branch to branch, Enter selects.`;
   }
   protected makeTable(): HTMLTableElement {
-    const { tree } = this;
+    const { tree } = this,
+      { meta } = this.session.report;
     const rows = Array.from(this.byLevel.subarray(0, 500), (b) => [
       b,
-      short(tree.arrays.births[b]!, 6),
-      short(tree.death(b), 6),
+      short(shownValue(meta, tree.arrays.births[b]!), 6),
+      short(shownValue(meta, tree.death(b)), 6),
       tree.parentOf[b] === kNone ? "" : tree.parentOf[b]!,
       tree.arrays.points[b]!,
       this.session.cut?.labelOfLeaf[b] || "",
@@ -159,6 +170,7 @@ export class TreeChart extends Chart {
       Math.max(high, low),
       size.height - kBottom,
       kTop + (endless ? 12 : 0),
+      this.session.report.meta.value.negated,
     );
     const x = new Map(
       shown.map((b, i) => [

@@ -69,6 +69,9 @@ class OneSidedMatching {
       for (const std::uint32_t a : alone) augment(a, layers, radius);
     }
   }
+  /// After is_possible: of each bar of the first and of the second diagram the other one, or kNone.
+  std::span<const std::uint32_t> of_from() const { return of_from_; }
+  std::span<const std::uint32_t> of_to() const { return of_to_; }
 
  private:
   void keep_pairs_within(double radius) {
@@ -136,16 +139,27 @@ class OneSidedMatching {
   Ticker ticker_;
 };
 
+/// A bar and its place among those that were given.
+template <class T>
+struct Placed {
+  T value;
+  std::uint32_t place;
+};
+
 /// Bars of a diagram by which of their ends are finite. The infinite ones by what is left of them.
 struct Parts {
-  std::vector<Point> finite;    // the longest first
-  std::vector<double> rays[2];  // births of bars without death; deaths of bars without birth
-  std::size_t lines = 0;        // neither
+  std::vector<Point> finite;  // the longest first
+  std::vector<std::uint32_t> places;
+  std::vector<Placed<double>>
+      rays[2];                       // births of bars without death; deaths of those without birth
+  std::vector<std::uint32_t> lines;  // neither
 };
 
 Parts parts_of(std::span<const Bar> bars) {
   Parts parts;
-  for (const Bar& bar : bars) {
+  std::vector<Placed<Point>> finite;
+  for (std::uint32_t i = 0; i < bars.size(); ++i) {
+    const Bar& bar = bars[i];
     if (!(bar.birth <= bar.death))
       throw Error(ErrorKind::bad_data,
                   fmt::format("bottleneck_distance: found a bar [{}, {}), expected birth <= death",
@@ -153,59 +167,168 @@ Parts parts_of(std::span<const Bar> bars) {
     if (bar.birth == bar.death) continue;
     const bool has_birth = bar.birth > -kInfinity, has_death = bar.death < kInfinity;
     if (has_birth && has_death)
-      parts.finite.push_back({bar.birth, bar.death});
+      finite.push_back({{bar.birth, bar.death}, i});
     else if (has_birth || has_death)
-      parts.rays[has_birth ? 0 : 1].push_back(has_birth ? bar.birth : bar.death);
+      parts.rays[has_birth ? 0 : 1].push_back({has_birth ? bar.birth : bar.death, i});
     else
-      ++parts.lines;
+      parts.lines.push_back(i);
   }
-  std::ranges::sort(parts.finite, std::greater<>(), to_diagonal);
-  for (std::vector<double>& values : parts.rays) std::ranges::sort(values);
+  std::ranges::sort(finite, std::greater<>(), [](const auto& p) { return to_diagonal(p.value); });
+  for (const auto& [point, place] : finite) {
+    parts.finite.push_back(point);
+    parts.places.push_back(place);
+  }
+  for (auto& rays : parts.rays) std::ranges::sort(rays, {}, &Placed<double>::value);
   return parts;
 }
 
-/// On a line nobody gains by crossing over. @param a, b ascending.
-double distance_of_rays(std::span<const double> a, std::span<const double> b) {
+/// On a line nobody gains by crossing over: the k-th are for each other.
+double distance_of_rays(std::span<const Placed<double>> a, std::span<const Placed<double>> b) {
   if (a.size() != b.size()) return kInfinity;
   double result = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) result = std::max(result, std::abs(a[i] - b[i]));
+  for (std::size_t i = 0; i < a.size(); ++i)
+    result = std::max(result, std::abs(a[i].value - b[i].value));
   return result;
 }
 
-double distance_of_finite(std::span<const Point> a, std::span<const Point> b,
-                          const RunContext& context) {
-  OneSidedMatching there(a, b, context), back(b, a, context);
-  const auto is_possible = [&](double radius) {
-    return there.is_possible(radius) && back.is_possible(radius);
-  };
-  const double bound = std::max(there.lower_bound(), back.lower_bound());
-  if (is_possible(bound)) return bound;
-  double all_left_over = 0;
-  for (const std::span<const Point>& points : {a, b})
-    if (!points.empty()) all_left_over = std::max(all_left_over, to_diagonal(points.front()));
-  // Doubles above 0 are in the order of their bits: the least one that is possible is the answer,
-  // without a list of all differences.
-  auto no = std::bit_cast<std::uint64_t>(bound), yes = std::bit_cast<std::uint64_t>(all_left_over);
-  while (yes - no > 1) {
-    const std::uint64_t middle = no + (yes - no) / 2;
-    (is_possible(std::bit_cast<double>(middle)) ? yes : no) = middle;
+/// Two matchings, one with all long bars of the first diagram, one with those of the second, made
+/// one that has all of both. Together they are paths and cycles, whose pairs come from one and the
+/// other in turn; of each path one of the two has all long bars (Mendelsohn and Dulmage).
+class JoinedMatchings {
+ public:
+  using Mates = std::span<const std::uint32_t>;
+
+  /// @param first_of_a, first_of_b the first matching by bars of either diagram; kNone: no pair.
+  JoinedMatchings(Mates first_of_a, Mates first_of_b, Mates second_of_a, Mates second_of_b)
+      : mates_{{first_of_a, first_of_b}, {second_of_a, second_of_b}},
+        seen_(first_of_a.size() + first_of_b.size()) {}
+
+  /// @return the partner of each bar of the first diagram, or kNone.
+  std::vector<std::uint32_t> join() {
+    partners_.assign(mates_[0][0].size(), kNone);
+    // Paths from their ends, which have a pair in one matching only; what is left are cycles.
+    for (const bool ends : {true, false})
+      for (std::size_t side : {0U, 1U})
+        for (std::uint32_t i = 0; i < mates_[0][side].size(); ++i) {
+          const bool in_first = mate(0, side, i) != kNone, in_second = mate(1, side, i) != kNone;
+          if (seen(side, i) || !(in_first || in_second) || (ends && in_first && in_second))
+            continue;
+          take(side, i, in_first ? 0 : 1);
+        }
+    return std::move(partners_);
   }
-  return std::bit_cast<double>(yes);
+
+ private:
+  std::uint32_t mate(std::size_t matching, std::size_t side, std::uint32_t i) const {
+    return mates_[matching][side][i];
+  }
+  std::vector<bool>::reference seen(std::size_t side, std::uint32_t i) {
+    return seen_[side * mates_[0][0].size() + i];
+  }
+  /// Follows a path from one of its ends, or a cycle, and keeps the pairs of one matching: the one
+  /// with more of them; of as many, the one with the bar at the end that the first diagram has in
+  /// the first matching, or the second in the second.
+  void take(std::size_t side, std::uint32_t start, std::size_t matching) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs[2];
+    std::size_t at_side = side, at_matching = matching;
+    std::uint32_t at = start;
+    seen(side, start) = true;
+    for (;;) {
+      const std::uint32_t next = mate(at_matching, at_side, at);
+      if (next == kNone) break;
+      pairs[at_matching].emplace_back(at_side == 0 ? at : next, at_side == 0 ? next : at);
+      at_side = 1 - at_side;
+      if (seen(at_side, next)) break;
+      seen(at_side, next) = true;
+      at = next;
+      at_matching = 1 - at_matching;
+    }
+    // A path of as many pairs of each ends where it began, on the same side.
+    const std::size_t better =
+        pairs[0].size() != pairs[1].size() ? (pairs[0].size() > pairs[1].size() ? 0U : 1U) : side;
+    for (const auto& [a, b] : pairs[better]) partners_[a] = b;
+  }
+
+  Mates mates_[2][2];
+  std::vector<bool> seen_;
+  std::vector<std::uint32_t> partners_;
+};
+
+class FiniteBars {
+ public:
+  FiniteBars(std::span<const Point> a, std::span<const Point> b, const RunContext& context)
+      : a_(a), b_(b), there_(a, b, context), back_(b, a, context) {}
+
+  double distance() {
+    const double bound = std::max(there_.lower_bound(), back_.lower_bound());
+    if (is_possible(bound)) return bound;
+    double all_left_over = 0;
+    for (const std::span<const Point>& points : {a_, b_})
+      if (!points.empty()) all_left_over = std::max(all_left_over, to_diagonal(points.front()));
+    // Doubles above 0 are in the order of their bits: the least one that is possible is the answer,
+    // without a list of all differences.
+    auto no = std::bit_cast<std::uint64_t>(bound),
+         yes = std::bit_cast<std::uint64_t>(all_left_over);
+    while (yes - no > 1) {
+      const std::uint64_t middle = no + (yes - no) / 2;
+      (is_possible(std::bit_cast<double>(middle)) ? yes : no) = middle;
+    }
+    return std::bit_cast<double>(yes);
+  }
+  /// Of each bar of the first diagram the one of the second, or kNone. @param radius that is
+  /// possible
+  std::vector<std::uint32_t> partners(double radius) {
+    is_possible(radius);
+    return JoinedMatchings(there_.of_from(), there_.of_to(), back_.of_to(), back_.of_from()).join();
+  }
+
+ private:
+  bool is_possible(double radius) {
+    return there_.is_possible(radius) && back_.is_possible(radius);
+  }
+
+  std::span<const Point> a_, b_;
+  OneSidedMatching there_, back_;
+};
+
+constexpr std::size_t kBytesABar = 2 * sizeof(Point) + 40 * sizeof(std::uint32_t);
+
+/// What infinite bars alone decide.
+double distance_of_infinite(const Parts& a, const Parts& b) {
+  if (a.lines.size() != b.lines.size()) return kInfinity;
+  return std::max(distance_of_rays(a.rays[0], b.rays[0]), distance_of_rays(a.rays[1], b.rays[1]));
 }
 
 }  // namespace
 
 double bottleneck_distance(std::span<const Bar> a, std::span<const Bar> b,
                            const RunContext& context) {
-  constexpr std::size_t bytes_a_bar = 2 * sizeof(Point) + 32 * sizeof(std::uint32_t);
-  const MemoryClaim claim(context.memory, (a.size() + b.size()) * bytes_a_bar);
+  const MemoryClaim claim(context.memory, (a.size() + b.size()) * kBytesABar);
   const Parts first = parts_of(a), second = parts_of(b);
-  if (first.lines != second.lines) return kInfinity;
-  double result = 0;
+  const double infinite = distance_of_infinite(first, second);
+  if (infinite == kInfinity) return infinite;
+  return std::max(infinite, FiniteBars(first.finite, second.finite, context).distance());
+}
+
+BottleneckMatching bottleneck_matching(std::span<const Bar> a, std::span<const Bar> b,
+                                       const RunContext& context) {
+  const MemoryClaim claim(context.memory, (a.size() + b.size()) * kBytesABar);
+  const Parts first = parts_of(a), second = parts_of(b);
+  BottleneckMatching result{distance_of_infinite(first, second), {}};
+  if (result.distance == kInfinity) return result;
+  FiniteBars finite(first.finite, second.finite, context);
+  result.distance = std::max(result.distance, finite.distance());
+  const std::vector<std::uint32_t> partners = finite.partners(result.distance);
+  for (std::size_t i = 0; i < partners.size(); ++i)
+    if (partners[i] != kNone)
+      result.pairs.emplace_back(first.places[i], second.places[partners[i]]);
   for (const std::size_t k : {0U, 1U})
-    result = std::max(result, distance_of_rays(first.rays[k], second.rays[k]));
-  if (result == kInfinity) return result;
-  return std::max(result, distance_of_finite(first.finite, second.finite, context));
+    for (std::size_t i = 0; i < first.rays[k].size(); ++i)
+      result.pairs.emplace_back(first.rays[k][i].place, second.rays[k][i].place);
+  for (std::size_t i = 0; i < first.lines.size(); ++i)
+    result.pairs.emplace_back(first.lines[i], second.lines[i]);
+  std::ranges::sort(result.pairs);
+  return result;
 }
 
 }  // namespace ph

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <cstdint>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "ph/core/barcode.hpp"
 #include "ph/core/run_context.hpp"
@@ -26,5 +29,19 @@ namespace ph {
 /// @throws Error (bad_data) on a NaN, or a death before its birth; Error (resource, cancelled).
 double bottleneck_distance(std::span<const Bar> a, std::span<const Bar> b,
                            const RunContext& context = default_context());
+
+/// A pairing of two diagrams that costs no more than their bottleneck distance.
+struct BottleneckMatching {
+  double distance = 0;  ///< infinite: then there are no pairs
+  /// Places in `a` and in `b`, ascending in `a`, each bar in at most one pair. Bars whose length is
+  /// 2 · distance or less may be in none: they go to the diagonal.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+};
+
+/// Which bars the bottleneck distance pairs. Both ends of a pair are at most the distance apart,
+/// and bars in no pair are at most twice as long as it. Cost, parameters and errors are those of
+/// bottleneck_distance; fewer than 2³² bars each.
+BottleneckMatching bottleneck_matching(std::span<const Bar> a, std::span<const Bar> b,
+                                       const RunContext& context = default_context());
 
 }  // namespace ph

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// How far a point is from the next ones: what a mark must cover so that a surface has no holes.
+
+const kSampled = 800,
+  kNeighbours = 4; // of a grid the four next ones are one spacing away
+
+/// The median, over some points, of the distance to the fourth nearest other place; with an eye, of
+/// that distance divided by the distance from the eye: a camera sees in equal angles. 0: unknown.
+export function spacingOf(positions: Float32Array, eye?: ArrayLike<number>): number {
+  const count = positions.length / 3;
+  if (count <= kNeighbours) return 0;
+  const grid = new Grid(positions);
+  const found: number[] = [];
+  const sampled = Math.min(count, kSampled);
+  for (let k = 0; k < sampled; ++k) {
+    const i = Math.floor((k * count) / sampled);
+    const distance = grid.neighbour(i);
+    if (!Number.isFinite(distance)) continue;
+    const away = eye
+      ? Math.hypot(...[0, 1, 2].map((c) => positions[3 * i + c]! - eye[c]!)) || Infinity
+      : 1;
+    found.push(distance / away);
+  }
+  return found.sort((a, b) => a - b)[found.length >> 1] ?? 0;
+}
+
+/// Points by the cubes they lie in; cubes share the lists of a table.
+class Grid {
+  private readonly low: number[] = [];
+  private readonly cube: number;
+  private readonly start: Uint32Array;
+  private readonly members: Uint32Array;
+  private readonly mask: number;
+
+  constructor(private readonly positions: Float32Array) {
+    const count = positions.length / 3;
+    const size: number[] = [];
+    for (let c = 0; c < 3; ++c) {
+      let low = Infinity,
+        high = -Infinity;
+      for (let i = c; i < positions.length; i += 3) {
+        const v = positions[i]!;
+        if (v < low) low = v;
+        if (v > high) high = v;
+      }
+      this.low.push(low);
+      size.push(high - low);
+    }
+    // Points of a surface as large as the two longer sides of their box: some in each cube.
+    const [long, middle] = size.sort((a, b) => b - a) as [number, number];
+    this.cube = 2.5 * Math.sqrt((long * Math.max(middle, long / count)) / count) || 1;
+    this.mask = 2 ** Math.ceil(Math.log2(count + 1)) - 1;
+    this.start = new Uint32Array(this.mask + 2);
+    const list = new Uint32Array(count);
+    for (let i = 0; i < count; ++i) {
+      list[i] = this.listOf(...this.cubeOf(i));
+      ++this.start[list[i]! + 1]!;
+    }
+    for (let k = 1; k < this.start.length; ++k) this.start[k]! += this.start[k - 1]!;
+    const next = this.start.slice();
+    this.members = new Uint32Array(count);
+    for (let i = 0; i < count; ++i) this.members[next[list[i]!]!++] = i;
+  }
+
+  /// The distance of the fourth nearest other place; beyond the cubes around it infinite.
+  neighbour(of: number): number {
+    const nearest = new Array<number>(kNeighbours).fill(Infinity);
+    const lists = new Set<number>();
+    const [x, y, z] = this.cubeOf(of);
+    for (let dx = -1; dx <= 1; ++dx)
+      for (let dy = -1; dy <= 1; ++dy)
+        for (let dz = -1; dz <= 1; ++dz) lists.add(this.listOf(x + dx, y + dy, z + dz));
+    const p = this.positions;
+    for (const list of lists)
+      for (let k = this.start[list]!; k < this.start[list + 1]!; ++k) {
+        const i = this.members[k]!;
+        const square =
+          (p[3 * i]! - p[3 * of]!) ** 2 +
+          (p[3 * i + 1]! - p[3 * of + 1]!) ** 2 +
+          (p[3 * i + 2]! - p[3 * of + 2]!) ** 2;
+        if (square === 0 || square >= nearest[kNeighbours - 1]!) continue;
+        let at = kNeighbours - 1;
+        for (; at > 0 && nearest[at - 1]! > square; --at) nearest[at] = nearest[at - 1]!;
+        nearest[at] = square;
+      }
+    const distance = Math.sqrt(nearest[kNeighbours - 1]!);
+    return distance <= this.cube ? distance : Infinity;
+  }
+
+  private cubeOf(i: number): [number, number, number] {
+    const at = (c: number) => Math.floor((this.positions[3 * i + c]! - this.low[c]!) / this.cube);
+    return [at(0), at(1), at(2)];
+  }
+  private listOf(x: number, y: number, z: number): number {
+    return (Math.imul(x, 73856093) ^ Math.imul(y, 19349663) ^ Math.imul(z, 83492791)) & this.mask;
+  }
+}

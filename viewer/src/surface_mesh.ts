@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// The triangles of a mesh as a surface, with the colours of its vertices.
+import { BufferAttribute, BufferGeometry, DoubleSide, Mesh, ShaderMaterial } from "three";
+
+const kVertex = `
+attribute vec3 tint;
+varying vec3 colour;
+varying vec3 place;
+void main() {
+  colour = tint;
+  place = (modelViewMatrix * vec4(position, 1.0)).xyz;
+  gl_Position = projectionMatrix * vec4(place, 1.0);
+}`;
+// The light falls on the side that is seen, so that no triangle is black.
+const kFragment = `
+varying vec3 colour;
+varying vec3 place;
+void main() {
+  vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
+  if (normal.z < 0.0) normal = -normal;
+  float light = 0.55 + 0.5 * max(0.0, dot(normal, normalize(vec3(0.3, 0.5, 0.9))));
+  gl_FragColor = vec4(min(colour * light, 1.0), 1.0);
+}`;
+
+export class SurfaceMesh {
+  readonly object: Mesh<BufferGeometry, ShaderMaterial>;
+
+  /// @param corners places in `positions`, three a triangle.
+  constructor(positions: Float32Array, tint: BufferAttribute, corners: Uint32Array) {
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(positions, 3));
+    geometry.setAttribute("tint", tint);
+    geometry.setIndex(new BufferAttribute(corners, 1));
+    const material = new ShaderMaterial({
+      vertexShader: kVertex,
+      fragmentShader: kFragment,
+      side: DoubleSide,
+      polygonOffset: true, // edges lie before it
+      polygonOffsetFactor: 1,
+      polygonOffsetUnits: 1,
+    });
+    this.object = new Mesh(geometry, material);
+    this.object.frustumCulled = false;
+  }
+
+  /// Only the first of its triangles.
+  show(triangles: number): void {
+    this.object.geometry.setDrawRange(0, 3 * triangles);
+  }
+}
