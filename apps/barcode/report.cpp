@@ -163,8 +163,7 @@ std::optional<ShownTree> tree_if_it_fits(const Shown& shown, const Arguments& ar
 /// @param matched receives the numbers of the bars that they pair.
 /// @return where they would take long: "H1: 50000 bars".
 std::vector<std::string> add_distances(report::Metadata& meta, const Barcode& a, const Barcode& b,
-                                       std::vector<std::uint32_t>& matched,
-                                       app::Session& session) {
+                                       std::vector<std::uint32_t>& matched, app::Session& session) {
   std::set<int> dims;
   for (const Barcode* barcode : {&a, &b})
     for (const Bar& bar : *barcode) dims.insert(bar.dim);

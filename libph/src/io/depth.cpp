@@ -50,9 +50,8 @@ Cloud cloud_from_depth(const Image& depth, const std::optional<Raster>& colour,
   const Index height = depth.extents[0], width = depth.extents[1];
   if (height < 0 || width < 0 ||
       depth.values.size() != static_cast<std::size_t>(height) * static_cast<std::size_t>(width)) {
-    throw Error(ErrorKind::bad_data,
-                fmt::format("depth image: found {} values, expected {} x {}", depth.values.size(),
-                            width, height));
+    throw Error(ErrorKind::bad_data, fmt::format("depth image: found {} values, expected {} x {}",
+                                                 depth.values.size(), width, height));
   }
   if (camera.width != 0 && (camera.width != width || camera.height != height)) {
     throw Error(ErrorKind::usage,
