@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <variant>
 
 #include "choices.hpp"
+#include "option_scopes.hpp"
 
 namespace ph::barcode {
 
@@ -57,13 +59,18 @@ void check_table_arguments(Arguments& a) {
   ArrayMeaning& meaning = a.read.array;
   if (a.format == Format::distance) meaning = ArrayMeaning::distances;
   if (meaning != ArrayMeaning::automatic) return;
+  // An option that does something for one kind of input only says what the input is.
+  const auto is_only_for = [&](app::Situations kinds) {
+    return std::ranges::any_of(
+        a.given, [&](const app::OptionScope* scope) { return (scope->where & ~kinds) == 0; });
+  };
   const bool is_cubical = a.complex == ComplexKind::cubical;
-  if (a.format == Format::points || a.points_option || a.voxel_option)
+  if (a.format == Format::points || is_only_for(kPoints) || is_only_for(kVoxels))
     meaning = ArrayMeaning::points;
   else if (a.complex == ComplexKind::rips ||
-           (!is_cubical && (a.rips_option || a.options.collapse == Collapse::on)))
+           (!is_cubical && is_only_for(kPoints | kMatrix | kTriangle | kSomePairs)))
     meaning = ArrayMeaning::rips;
-  else if (is_cubical || a.cubical_option)
+  else if (is_cubical || is_only_for(kImage | kVoxels))
     meaning = ArrayMeaning::image;
 }
 

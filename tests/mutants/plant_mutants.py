@@ -26,7 +26,7 @@ from program_mutants import MUTANTS as PROGRAM_MUTANTS
 ROOT = Path(__file__).resolve().parents[2]
 TIME_LIMIT = 90  # seconds a test program may run
 
-SOURCES = ["core", "metric", "complex", "cubical", "engine", "persistence"]  # folders of libph/src
+SOURCES = ["core", "metric", "complex", "cubical", "engine", "persistence", "loops"]  # folders of libph/src
 NINJA = """\
 cxx = {compiler}
 flags = -std=c++20 -O1 -Ilibph/include -Itests '-DPH_SHARED_DIR=""' {includes}
@@ -58,7 +58,7 @@ def write_build(tree, programs):
                         libraries=" ".join(libraries + ["-lpthread"]))
     library = []
     sources = [p.relative_to(tree) for f in SOURCES for p in (tree / "libph/src" / f).glob("*.cpp")]
-    sources.append(Path("libph/src/persistence.cpp"))
+    sources += [Path("libph/src/persistence.cpp"), Path("libph/src/loops.cpp")]
     for source in sorted(sources):
         library.append(f"o/{source.parent.name}_{source.stem}.o")
         text += f"build {library[-1]}: compile {source}\n"
@@ -66,7 +66,7 @@ def write_build(tree, programs):
     text += f"build o/libph.a: archive {' '.join(library)}\n"
     for program in programs:
         text += f"build o/{program}.o: compile tests/core/{program}.cpp\n"
-        asks_for_estimate = program in ("persistence_tests", "components_tests")
+        asks_for_estimate = program in ("persistence_tests", "components_tests", "public_structs_tests")
         extra = "o/estimate.o" if asks_for_estimate else ""
         text += f"build {program}: link o/{program}.o {extra} o/libph.a\n"
     (tree / "build.ninja").write_text(text)
