@@ -27,13 +27,13 @@ const kLeastRatio = 2, // of a gap that makes bars stand out
 
 /// The widest gap, as a ratio, between neighbours of finite lengths > 0 that descend. Lengths below
 /// a tenth of the first and all after the 64th are not at the upper end of it.
-export function widestGap(lengths: ArrayLike<number>): Gap {
+/// @param alike as many lengths are a gap by themselves, if there is none and nothing is below them.
+export function widestGap(lengths: ArrayLike<number>, alike = kFew): Gap {
   const gap: Gap = { count: 0, ratio: 1 };
   for (let n = 1; n <= Math.min(lengths.length, kMostAbove); ++n) {
     if (lengths[n - 1]! < kLeastShare * lengths[0]!) break;
     const next = lengths[n];
-    // All alike and nothing below: they stand out together, if they are few.
-    const ratio = next === undefined ? (n <= kFew ? Infinity : 0) : lengths[n - 1]! / next;
+    const ratio = next === undefined ? (n <= alike ? Infinity : 0) : lengths[n - 1]! / next;
     const isEnd = next === undefined && gap.ratio >= kLeastRatio;
     if (ratio > gap.ratio && !isEnd) [gap.count, gap.ratio] = [n, ratio];
   }
@@ -46,23 +46,27 @@ interface Lengths {
   endless: number[]; // bars that never end
   finite: number[]; // bars, the longest first
   lengths: number[]; // of them; of a bar that is alive at the threshold what is known of it
-  alive: number; // so many of `finite` are alive at the threshold
+  alive: number; // so many of `finite`, the first ones, are alive at the threshold
 }
 
 /// @param threshold where the complex was cut: bars alive there are at least that long.
 function lengthsOf(bars: Bars, dim: number, threshold: number | undefined): Lengths {
   const result: Lengths = { dim, endless: [], finite: [], lengths: [], alive: 0 };
   const cut = dim > 0 ? threshold : undefined;
-  const known: [bar: number, length: number][] = [];
+  const known: [bar: number, length: number][] = [],
+    alive: typeof known = [];
   for (const bar of bars.of(dim, 0)) {
-    const alive = bars.isInfinite(bar) && cut !== undefined;
-    const length = alive ? cut - bars.birth[bar]! : bars.persistence(bar);
-    if (!(length > 0) || (!alive && known.length > 4 * kMostAbove)) break;
-    if (alive) ++result.alive;
+    const isAlive = bars.isInfinite(bar) && cut !== undefined;
+    const length = isAlive ? cut - bars.birth[bar]! : bars.persistence(bar);
     if (length === Infinity) result.endless.push(bar);
+    else if (isAlive) alive.push([bar, length]);
+    else if (!(length > 0) || known.length > 4 * kMostAbove) break;
     else known.push([bar, length]);
   }
-  known.sort((a, b) => b[1] - a[1]);
+  // How long those would be that were born late nobody knows: they are no lower end of a gap.
+  const longer = alive.filter(([, length]) => length > (known[0]?.[1] ?? 0));
+  result.alive = longer.length;
+  known.unshift(...longer.sort((a, b) => b[1] - a[1]));
   result.finite = known.map(([bar]) => bar);
   result.lengths = known.map(([, length]) => length);
   return result;
@@ -71,7 +75,8 @@ function lengthsOf(bars: Bars, dim: number, threshold: number | undefined): Leng
 /// The bars of a dimension that stand out.
 /// @param scale length below which few bars are noise.
 function outstanding(found: Lengths, scale: number, range: number): { bars: number[]; gap: Gap } {
-  const gap = widestGap(found.lengths);
+  // Some points have as many components at first.
+  const gap = widestGap(found.lengths, found.dim === 0 ? 1 : kFew);
   const shortest = found.lengths[gap.count - 1] ?? 0;
   const few = found.finite.length <= kFew && shortest < kLeastShare * range;
   const stands = gap.ratio >= kLeastRatio && shortest >= kLeastShare * scale && !few;

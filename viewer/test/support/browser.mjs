@@ -86,7 +86,7 @@ export async function open(
 }
 
 /// The pixels of an element: four bytes each.
-async function pixelsOf(page, selector) {
+export async function pixelsOf(page, selector) {
   const box = await page.locator(selector).first().boundingBox();
   const png = await page.screenshot({ clip: box, timeout: kPatient });
   const bytes = await page.evaluate(async (data) => {

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// Which bars stand out, and the sentence about them: the criterion of docs/report.md, case by case.
+import assert from "node:assert/strict";
+import test from "node:test";
+import { random } from "./support/random.mjs";
+import { importSource } from "./support/import_source.mjs";
+
+const { answerOf, widestGap } = await importSource("answer.ts");
+const { Bars } = await importSource("bars.ts");
+const { Matching } = await importSource("matching.ts");
+
+const kNever = Infinity;
+const columns = (bars) => ({
+  dim: Uint8Array.from(bars, (b) => b[0]),
+  birth: Float64Array.from(bars, (b) => b[1]),
+  death: Float64Array.from(bars, (b) => b[2]),
+});
+
+/// @param bars [dim, birth, death] each, of one barcode, or of two.
+function answer(bars, { threshold = null, value = {}, second, distances, pairs, ...more } = {}) {
+  const barcodes = (second ? [bars, second] : [bars]).map((_, i) => ({ name: `${i}` }));
+  return answerOf({
+    bars: new Bars((second ? [bars, second] : [bars]).map(columns), barcodes, 0),
+    meta: { barcodes, value: { label: "", ...value }, provenance: { threshold }, distances },
+    matching: pairs && new Matching(pairs),
+    ...more,
+  });
+}
+const noise = (dim, lengths, birth = 0.1) => lengths.map((length) => [dim, birth, birth + length]);
+
+test("the widest gap", () => {
+  assert.deepEqual(widestGap([8, 2, 1]), { count: 1, ratio: 4 });
+  assert.deepEqual(widestGap([8, 7, 1, 0.9]), { count: 2, ratio: 7 });
+  // Far below the longest bar gaps are chance.
+  assert.deepEqual(widestGap([10, 6, 5, 4, 0.5, 0.001]), { count: 4, ratio: 8 });
+  assert.deepEqual(widestGap([10, 9, 8, 7, 6, 0.9, 1e-9]), { count: 5, ratio: 6 / 0.9 });
+  assert.deepEqual(widestGap([3]), { count: 1, ratio: Infinity });
+  assert.deepEqual(widestGap([3, 3]), { count: 2, ratio: Infinity });
+  assert.deepEqual(widestGap([3, 1]), { count: 1, ratio: 3 });
+  assert.equal(widestGap([]).count, 0);
+  assert.equal(widestGap([2, 2, 2, 2, 2, 2]).ratio, 1);
+});
+
+test("one loop, and how long it is", () => {
+  const bars = [[0, 0, kNever], ...noise(0, [0.2, 0.19, 0.18], 0), [1, 0.184, 1.465], ...noise(1, [0.064, 0.06, 0.05, 0.04])];
+  const { dim, bars: chosen, sentence } = answer(bars);
+  assert.equal(sentence, "One loop stands out: [0.184, 1.465), 20 times as long as the next.");
+  assert.deepEqual([dim, chosen], [1, [4]]);
+});
+
+test("the highest dimension in which some stand out is chosen, others are told", () => {
+  const bars = [[0, 0, kNever], [1, 0.3, 1.3], [1, 0.3, 2.3], ...noise(1, [0.1, 0.09, 0.08, 0.08]), [2, 0.5, 1.4], ...noise(2, [0.1, 0.09, 0.08, 0.08], 1)];
+  const { dim, bars: chosen, sentence } = answer(bars);
+  assert.deepEqual([dim, chosen], [2, [7]]);
+  assert.equal(sentence, "One void stands out: [0.5, 1.4), 9.0 times as long as the next. Two loops stand out, too.");
+  const higher = answer([...bars, [3, 1, 3], ...noise(3, [0.1, 0.1, 0.1, 0.1])]);
+  assert.match(higher.sentence, /^One H₃ class stands out: \[1, 3\), 20 times .* One void and two loops stand out, too\.$/);
+});
+
+test("noise of a higher dimension is no answer", () => {
+  const loop = [[0, 0, kNever], [1, 0.2, 1.5], ...noise(1, [0.06, 0.05, 0.05, 0.05])];
+  for (const voids of [[0.02], [0.02, 0.001], [0.09, 0.04, 0.03, 0.03, 0.02]]) {
+    const { dim } = answer([...loop, ...noise(2, voids, 1)]);
+    assert.equal(dim, 1, `${voids}`);
+  }
+  // Nothing but one short bar.
+  const { bars, sentence } = answer([[0, 0, kNever], [1, 1, 1.05]]);
+  assert.deepEqual(bars, []);
+  assert.equal(sentence, "No loop stands out: there is one, and it is short.");
+});
+
+test("honest where nothing stands out", () => {
+  const told = (bars, more) => {
+    const found = answer(bars, more);
+    assert.deepEqual(found.bars, []);
+    return found.sentence;
+  };
+  const loops = [[0, 0, kNever], ...noise(1, [1.1, 1, 0.9, 0.8, 0.7])];
+  assert.equal(told(loops), "No loop stands out: the longest is 1.1 times as long as the next.");
+  assert.equal(
+    told([...loops, ...noise(2, [0.6, 0.5, 0.4, 0.3, 0.3])]),
+    "No void or loop stands out: the longest void is 1.2 times as long as the next and the longest loop is 1.1 times as long as the next.",
+  );
+  assert.equal(told([]), "There are no bars.");
+  assert.equal(told([[0, 0, kNever]]), "All is one component: there is no other bar.");
+  assert.equal(told(noise(1, [2, 2, 2, 2, 2])), "No loop stands out: the longest is hardly longer than the next.");
+  // Lengths of independent exponential distribution: no structure.
+  const next = random(3);
+  let outstanding = 0;
+  for (let round = 0; round < 200; ++round)
+    outstanding += answer(noise(1, Array.from({ length: 200 }, () => -Math.log(1 - next())))).bars.length > 0;
+  assert.ok(outstanding < 10, `${outstanding} of 200`);
+});
+
+test("components: one is always there, several are an answer", () => {
+  const three = [[0, 0, kNever], [0, 0, 1.9], [0, 0, 1.6], ...noise(0, [0.17, 0.16, 0.1], 0)];
+  const found = answer(three);
+  assert.equal(found.sentence, "Three components stand out: the shortest, [0, 1.6), is 9.4 times as long as the next.");
+  assert.ok(found.components);
+  assert.deepEqual(found.bars, [0, 1, 2]);
+  const apart = answer([[0, 0, kNever], [0, 0, kNever], ...noise(0, [0.2, 0.19, 0.18, 0.17, 0.16], 0)]);
+  assert.equal(apart.sentence, "Two components never merge: [0, ∞) and [0, ∞).");
+  assert.ok(!answer([[0, 0, kNever], ...noise(0, [0.2, 0.19, 0.18, 0.17, 0.16], 0)]).components);
+});
+
+test("bars that never end", () => {
+  const { sentence, bars } = answer([[0, -3, kNever], [1, -1, kNever], [1, 1, kNever], [2, 3, kNever]]);
+  assert.equal(sentence, "One void never ends: [3, ∞). Two loops stand out, too.");
+  assert.deepEqual(bars, [3]);
+  // Alive where the complex was cut: at least that long.
+  const cut = [[0, 0, kNever], [1, 0.1, kNever], ...noise(1, [0.1, 0.09, 0.08, 0.08])];
+  assert.equal(answer(cut, { threshold: 0.9 }).sentence, "One loop stands out: [0.1, ∞), at least 8.0 times as long as the next.");
+  // Born right before the cut: nothing is known of it.
+  assert.deepEqual(answer([[0, 0, kNever], [1, 0.88, kNever], ...noise(1, [0.1, 0.09, 0.08, 0.08])], { threshold: 0.9 }).bars, []);
+});
+
+test("of superlevel sets the values of the data", () => {
+  const { sentence } = answer([[0, -200, kNever], [1, -96, -80], ...noise(1, [2, 2, 1, 1], -10)], { value: { negated: true } });
+  assert.match(sentence, /^One loop stands out: \[96, 80\), 8.0 times/);
+});
+
+test("two barcodes: where they differ most, and the pair that decides", () => {
+  const a = [[0, 0, kNever], [1, 0, 4], [1, 0, 1]],
+    b = [[0, 0, kNever], [1, 0, 3.5], [1, 2, 2.1]];
+  const distances = [{ dim: 0, bottleneck: 0 }, { dim: 1, bottleneck: 0.5 }];
+  const pairs = Uint32Array.of(0, 3, 1, 4);
+  const found = answer(a, { second: b, distances, pairs });
+  assert.equal(found.sentence, "The barcodes differ most in H₁: ends of bars have to move by 0.5, the bottleneck distance.");
+  assert.equal(found.dim, 1);
+  assert.deepEqual(found.bars, [1, 4]);
+  assert.match(answer(a, { second: a, distances: [{ dim: 1, bottleneck: 0 }] }).sentence, /are equal/);
+  assert.match(answer(a, { second: b, distances: [{ dim: 1, bottleneck: null }] }).sentence, /never end: .* infinite/);
+});
