@@ -14,12 +14,14 @@ barcode=build/release/apps/barcode/ph-barcode
 segment=build/release/apps/segment/ph-segment
 /usr/bin/python3 scripts/demo_data.py "$out/data"
 
-# Pages to look at, where npm could bundle them.
+# Pages to look at, unless the packages that bundle them could not be had.
 report() { :; }
 with_cells() { :; }
 if $barcode --version --verbose | grep -q '^reports *built in'; then
   report() { printf -- '--report %s' "$out/$1.html"; }
   with_cells() { printf -- '--representatives %s' "$1"; }  # to be drawn on the data
+else
+  echo "no pages to look at: npm could not install what bundles them; see $out/build.log"
 fi
 
 # The five longest bars of a dimension: longest DIM FILE.csv
@@ -42,9 +44,8 @@ echo "   longest voids, length [birth, death)"
 longest 2 "$out/skull.csv"
 
 echo "3. RGB-D frame Motorcycle (python3-skimage): objects by persistence of components"
-$segment --method paper --depth "$out/data/depth.png" --color "$out/data/color.png" \
-  --intrinsics 994.978,994.978,311.193,254.877 \
-  --max-range 4 --plane-distance 0.03 --voxel 0.03 --distance 0.06 \
+$segment --depth "$out/data/depth.png" --color "$out/data/color.png" \
+  --intrinsics 994.978,994.978,311.193,254.877 --max-range 4 \
   -o "$out/motorcycle.ply" --labels "$out/motorcycle_labels.png" --json "$out/motorcycle.json" \
   --plot "$out/motorcycle.svg" --picture "$out/motorcycle.png" $(report motorcycle) 2>&1 | sed 's/^/   /'
 

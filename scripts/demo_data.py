@@ -5,6 +5,8 @@
 kitten.csv      5 210 points on the surface of a cat whose tail makes a loop (libcgal-demo)
 skull.npy       a CT volume of a skull, 64^3 (libcgal-demo)
 depth.png, color.png   the RGB-D frame Motorcycle of the Middlebury stereo set (python3-skimage)
+table.npy       a made depth image, metres, 525 pixels of focal length: on a table a book, two boxes side
+                by side, a can, a pen; a wall behind
 """
 import pathlib
 import shutil
@@ -57,12 +59,62 @@ def write_motorcycle(folder):
     shutil.copy(SKIMAGE_DATA / "motorcycle_left.png", folder / "color.png")
 
 
+def write_table(path):
+    """What a camera 0.9 m from the table sees that looks down by 40 degrees, with noise of depth that
+    grows with the square of the range."""
+    width, height, focal = 640, 480, 525.0
+    tilt = numpy.radians(40)
+    u, v = numpy.meshgrid(numpy.arange(width) - 319.5, numpy.arange(height) - 239.5)
+    # Axes of the table: x right, y away, z up; the camera looks at its middle.
+    eye = 0.9 * numpy.array([0, -numpy.cos(tilt), numpy.sin(tilt)])
+    forward = numpy.array([0, numpy.cos(tilt), -numpy.sin(tilt)])
+    down = numpy.array([0, -numpy.sin(tilt), -numpy.cos(tilt)])
+    rays = (u[..., None] / focal * numpy.array([1.0, 0, 0]) + v[..., None] / focal * down + forward)
+    depth = numpy.full((height, width), numpy.inf)
+
+    def plane(axis, at, inside):
+        with numpy.errstate(divide="ignore", invalid="ignore"):
+            t = (at - eye[axis]) / rays[..., axis]
+            hit = (t > 0) & inside(eye + t[..., None] * rays)
+        depth[hit] = numpy.minimum(depth, t)[hit]
+
+    def box(low, high):
+        with numpy.errstate(divide="ignore", invalid="ignore"):
+            a, b = (numpy.array(low) - eye) / rays, (numpy.array(high) - eye) / rays
+        enter, leave = numpy.minimum(a, b).max(-1), numpy.maximum(a, b).min(-1)
+        hit = (enter < leave) & (enter > 0)
+        depth[hit] = numpy.minimum(depth, enter)[hit]
+
+    def cylinder(x, y, radius, top):
+        across, from_axis = rays[..., :2], eye[:2] - (x, y)
+        a, b = (across ** 2).sum(-1), (across * from_axis).sum(-1)
+        root = b * b - a * ((from_axis ** 2).sum() - radius ** 2)
+        t = (-b - numpy.sqrt(numpy.maximum(root, 0))) / a
+        z = eye[2] + t * rays[..., 2]
+        hit = (root > 0) & (z > 0) & (z < top)
+        depth[hit] = numpy.minimum(depth, t)[hit]
+        plane(2, top, lambda p: (p[..., 0] - x) ** 2 + (p[..., 1] - y) ** 2 < radius ** 2)
+
+    plane(2, 0, lambda p: (abs(p[..., 0]) < 0.7) & (abs(p[..., 1]) < 0.45))
+    plane(1, 0.6, lambda p: p[..., 2] > -0.7)
+    box((-0.3, -0.2, 0), (-0.14, 0.02, 0.004))    # the book
+    box((-0.08, -0.02, 0), (0.04, 0.12, 0.12))    # two boxes that touch
+    box((0.04, 0.0, 0), (0.14, 0.1, 0.06))
+    cylinder(0.27, -0.05, 0.033, 0.115)           # the can
+    cylinder(-0.2, 0.16, 0.045, 0.09)
+    box((0.05, -0.2, 0), (0.11, -0.193, 0.009))   # the pen
+    noise = numpy.random.default_rng(7).normal(0, 0.0004, depth.shape)
+    depth = numpy.where(numpy.isfinite(depth), depth + noise * depth ** 2, numpy.nan)
+    numpy.save(path, depth.astype("<f4"))
+
+
 def main():
     folder = pathlib.Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
     write_kitten(folder / "kitten.csv")
     write_skull(folder / "skull.npy")
     write_motorcycle(folder)
+    write_table(folder / "table.npy")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs the Debian packages that are missing: setup.sh [build|demo|test|viewer|lint|fuzz|coverage]…
+# Installs the Debian packages that are missing: setup.sh [build|page|demo|test|viewer|lint|fuzz|coverage]…
 set -euo pipefail
 
 build=(build-essential cmake ninja-build pkg-config ccache libeigen3-dev libfmt-dev libnanoflann-dev
@@ -9,9 +9,10 @@ demo=(python3-numpy python3-skimage libcgal-demo)
 # Peers and tools that tests compare with or look through.
 test=(libgtest-dev libbenchmark-dev libpcl-dev ripser python3-gudhi python3-numpy librsvg2-bin git
       locales)
-# The page of the reports and its tests in a browser.
-viewer=(chromium)
-command -v npm >/dev/null || viewer+=(nodejs npm)  # Node may be there from elsewhere
+# What bundles the page of the reports; Node may be there from elsewhere.
+page=()
+command -v npm >/dev/null || page=(nodejs npm)
+viewer=("${page[@]}" chromium)  # its tests in a browser, too
 lint=(clang-format-14 clang-tidy-19)
 fuzz=(clang-19 libclang-rt-19-dev libgtest-dev)
 coverage=(gcovr libgtest-dev)
@@ -20,13 +21,14 @@ wanted=()
 for set in "${@:-build}"; do
   case $set in
     build) wanted+=("${build[@]}") ;;
-    demo) wanted+=("${demo[@]}") ;;
+    page) wanted+=("${page[@]}") ;;
+    demo) wanted+=("${page[@]}" "${demo[@]}") ;;
     test) wanted+=("${test[@]}") ;;
     viewer) wanted+=("${viewer[@]}") ;;
     lint) wanted+=("${lint[@]}") ;;
     fuzz) wanted+=("${fuzz[@]}") ;;
     coverage) wanted+=("${coverage[@]}") ;;
-    *) echo "setup.sh: found '$set', expected build, demo, test, viewer, lint, fuzz or coverage" >&2; exit 64 ;;
+    *) echo "setup.sh: found '$set', expected build, page, demo, test, viewer, lint, fuzz or coverage" >&2; exit 64 ;;
   esac
 done
 

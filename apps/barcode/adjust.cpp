@@ -70,6 +70,12 @@ Barcode with_input_ids(const Barcode& barcode, const std::vector<Index>& ids) {
   return result;
 }
 
+void name_points(std::vector<BarLoops>& loops, const std::vector<Index>& ids) {
+  for (BarLoops& of_bar : loops)
+    for (Loop& loop : of_bar.loops)
+      for (Index& v : loop.numbers) v = ids[static_cast<std::size_t>(v)];
+}
+
 Barcode cut_at(const Barcode& barcode, const AnyComplex& complex, double threshold,
                double min_persistence) {
   // A cycle has no cell after its birth; a cocycle has all kinds.

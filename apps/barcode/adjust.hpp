@@ -2,13 +2,16 @@
 #pragma once
 #include <vector>
 
+#include "ph/core/loops.hpp"
 #include "ph/persistence.hpp"
 
 namespace ph::barcode {
 
 /// The barcode with vertices named as in an input of which some points were left out: vertex v
-/// becomes ids[v].
+/// becomes ids[v]. The bars keep their places. Precondition: the ids ascend.
 Barcode with_input_ids(const Barcode& barcode, const std::vector<Index>& ids);
+/// The same for loops of vertices.
+void name_points(std::vector<BarLoops>& loops, const std::vector<Index>& ids);
 
 /// The barcode of the subcomplex of all cells up to a value: later births are not in it, and what
 /// dies later is alive. Cocycles are restricted to the subcomplex.

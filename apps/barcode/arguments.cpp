@@ -2,19 +2,22 @@
 #include "arguments.hpp"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <array>
+#include <filesystem>
 #include <functional>
 #include <string_view>
 
+#include "batch_names.hpp"
 #include "choices.hpp"
 #include "formats_table.hpp"
 #include "image_arguments.hpp"
 #include "numbers.hpp"
+#include "option_scopes.hpp"
 #include "ph/core/field.hpp"
 #include "report/page_template.hpp"
 #include "rips_arguments.hpp"
+#include "table_arguments.hpp"
 
 namespace ph::barcode {
 namespace {
@@ -65,7 +68,15 @@ void take_metric(Arguments& a, const std::string& text) {
                                          PointDistance::cosine,    PointDistance::hamming};
     a.rips.distance = kMetrics[choose("--metric", text, names)];
   }
-  a.points_option = "--metric";
+}
+
+ComplexKind complex_named(const std::string& text) {
+  if (text == "alpha") not_built_in("--complex alpha:");
+  static const Names names{"auto", "rips", "cubical", "explicit", "lower-star"};
+  static constexpr std::array kKinds{ComplexKind::automatic, ComplexKind::rips,
+                                     ComplexKind::cubical, ComplexKind::explicit_cells,
+                                     ComplexKind::lower_star};
+  return kKinds[choose("--complex", text, names)];
 }
 
 std::string lower_case(std::string text) {
@@ -77,7 +88,8 @@ std::string lower_case(std::string text) {
 void take_report(Arguments& a, const std::string& path) {
   report::require_built_in("--report");
   const std::string name = lower_case(path);
-  if (path != "-" && !name.ends_with(".html") && !name.ends_with(".htm"))
+  const bool is_place = path.ends_with('/') || app::is_folder(path);
+  if (path != "-" && !is_place && !name.ends_with(".html") && !name.ends_with(".htm"))
     throw Error(ErrorKind::usage,
                 fmt::format("--report: found '{}', expected a name that ends in .html", path));
   a.report = path;
@@ -85,7 +97,12 @@ void take_report(Arguments& a, const std::string& path) {
 
 void add_input_options(CLI::App& app, Arguments& a) {
   const std::string group = "Input";
-  app.add_option("INPUT", a.inputs, "files to read; - is standard input")->type_name("");
+  app.add_option(
+         "INPUT", a.inputs,
+         "files to read; - is standard input. Several, or a folder, are a batch: its "
+         "outputs are folders (FOLDER/) or have a * for the input's name. A stored barcode "
+         "is drawn, converted or reported again; the word plot before it says that it is one")
+      ->type_name("");
   static const Names formats = format_names();
   add_choice(app, "--format", formats,
              "format of the input (default auto: by content and extension)",
@@ -93,7 +110,7 @@ void add_input_options(CLI::App& app, Arguments& a) {
       ->group(group);
   add_path(app, "--values", "FILE",
            "values of the cells of a boundary matrix (default: their order), or of the vertices of "
-           "a mesh",
+           "a mesh: text, NPY, or a property of a mesh, FILE.ply:NAME",
            a.values)
       ->group(group);
   app.add_flag("--allow-empty", a.read.allow_empty, "an input without points is no error")
@@ -119,7 +136,6 @@ void add_input_options(CLI::App& app, Arguments& a) {
              [&a](std::size_t i) {
                a.read.births_on_diagonal = i == 1;
                a.read.array = ArrayMeaning::distances;
-               if (i == 1) a.rips_option = "--diagonal births";
              })
       ->group(group);
   add_choice(app, "--nan", {"error", "drop"},
@@ -130,10 +146,10 @@ void add_input_options(CLI::App& app, Arguments& a) {
 
 void add_complex_options(CLI::App& app, Arguments& a) {
   const std::string group = "Complex";
-  add_choice(app, "--complex", {"auto", "rips", "cubical", "alpha", "explicit", "lower-star"},
-             "what is built (default auto: rips for points and distances, cubical for images, "
-             "explicit for boundary matrices and simplices; points may be cubical, too: --voxel)",
-             [&a](std::size_t i) { a.complex = static_cast<ComplexKind>(i); })
+  add_value(app, "--complex", "auto|rips|cubical|explicit|lower-star",
+            "what is built (default auto: rips for points and distances, cubical for images, "
+            "explicit for boundary matrices and simplices; points may be cubical, too: --voxel)",
+            [&a](const std::string& text) { a.complex = complex_named(text); })
       ->group(group);
   add_value(app, "--threshold,--max-scale", "T",
             "largest filtration value, in units of the input (default for rips: the enclosing "
@@ -193,6 +209,11 @@ void add_homology_options(CLI::App& app, Arguments& a) {
                a.options.representatives = kKinds[i];
              })
       ->group(group);
+  add_choice(app, "--loops", {"tight", "plain", "none"},
+             "with each cycle of edges, in JSON: the closed walks that it consists of, of rips as "
+             "short as is cheap (tight, default) or as found (plain)",
+             [&a](std::size_t i) { a.loops = static_cast<LoopChoice>(i); })
+      ->group(group);
   app.add_flag("--dry-run", a.dry_run,
                "read the input, print the estimate of cells and memory and the engine; compute "
                "nothing")
@@ -203,27 +224,29 @@ constexpr std::array<std::string_view, 4> kPlotKinds{"barcode", "diagram", "bett
 
 void add_output_options(CLI::App& app, Arguments& a, app::PlotArguments& plots) {
   const std::string group = "Output";
-  add_value(app, "-o,--output", "FILE",
-            "where the barcode goes (default -: standard output); FOLDER/ for several inputs",
-            [&a](const std::string& text) {
-              if (text.empty())
-                throw Error(ErrorKind::usage, "--output: found '', expected a path");
-              a.output = text;
-            })
+  add_value(
+      app, "-o,--output", "FILE",
+      "where the barcode goes (default -: standard output); FOLDER/ for several inputs; after the "
+      "word plot, where the picture goes",
+      [&a](const std::string& text) {
+        if (text.empty()) throw Error(ErrorKind::usage, "--output: found '', expected a path");
+        a.output = text;
+      })
       ->group(group);
   static const Names names = output_formats();
   add_choice(app, "--output-format", names, "format of the barcode (default: by extension, or csv)",
              [&a](std::size_t i) { a.output_format = barcode_format_named(names[i]); })
       ->group(group);
   app::add_plot_options(app, kPlotKinds, "draw the barcode, or the merge tree of H0 (repeatable)",
-                        group, plots);
+                        group, true, plots);
   add_value(app, "--report", "FILE.html",
             "one page to look at: barcode, diagram, merge tree and data, linked; needs no network",
             [&a](const std::string& path) { take_report(a, path); })
       ->group(group);
   app.add_option_function<std::vector<std::string>>(
          "--compare", [&a](const std::vector<std::string>& paths) { a.compare = paths; },
-         "compute nothing but distances: put two barcode files side by side in the report")
+         "compute nothing but the distances of two barcode files, dimension by dimension: text, or "
+         "--output-format csv or json; with --report also side by side in a page")
       ->type_name("A B")
       ->type_size(1)
       ->expected(2)
@@ -242,11 +265,29 @@ std::string built_in() {
                      missing.empty() ? "" : fmt::format("not read   {}\n", missing), written);
 }
 
+/// `ph-barcode plot BARS… -o FILE.svg`: pictures of stored barcodes.
+void take_word(Arguments& a, app::PlotArguments& plots) {
+  if (a.inputs.empty() || a.inputs.front() != "plot") return;
+  // A file of that name alone is an input; beside others it is ./plot.
+  if (a.inputs.size() == 1 && std::filesystem::exists("plot")) return;
+  a.stored = true;
+  a.inputs.erase(a.inputs.begin());
+  if (a.inputs.empty())
+    throw Error(ErrorKind::usage, "plot: INPUT is missing, expected barcode files");
+  // What is named like a barcode is one, converted.
+  if (a.output != "-" && !a.output_format && !barcode_format_of_path(a.output)) {
+    plots.paths.insert(plots.paths.begin(), a.output);
+    a.output = "-";
+  }
+  if (a.output == "-" && !a.output_format) a.output_format = BarcodeFormat::none;
+  if (plots.paths.empty() && a.report.empty() && a.output_format == BarcodeFormat::none)
+    throw Error(ErrorKind::usage, "plot: expected -o FILE.svg or -o FILE.png");
+}
+
 /// What no single option can see.
 void check_together(Arguments& a) {
   const auto reject = [](const std::string& what) { throw Error(ErrorKind::usage, what); };
   if (!a.compare.empty()) {
-    if (a.report.empty()) reject("--compare needs --report FILE.html");
     if (!a.inputs.empty())
       reject(fmt::format("--compare: found INPUT '{}' beside it, expected two barcode files only",
                          a.inputs.front()));
@@ -255,11 +296,6 @@ void check_together(Arguments& a) {
   if (a.inputs.empty()) reject("INPUT is missing; --help lists the options");
   for (const std::string& input : a.inputs)
     if (input.empty()) reject("INPUT: found '', expected a path");
-  if (a.complex == ComplexKind::alpha) not_built_in("--complex alpha:");
-  if (a.inputs.size() > 1 && !a.is_batch() && !a.dry_run && a.output_format != BarcodeFormat::none)
-    reject(fmt::format("--output: several inputs need a folder: -o FOLDER/, found '{}'", a.output));
-  if (a.inputs.size() > 1 && !a.plots.empty()) reject("--plot takes one input only");
-  if (a.inputs.size() > 1 && !a.report.empty()) reject("--report takes one input only");
   if (a.report == "-" && a.output == "-" && a.output_format != BarcodeFormat::none)
     reject("--report: standard output has the barcode; -o FILE or --output-format none");
   if (std::count(a.inputs.begin(), a.inputs.end(), "-") > 1)
@@ -273,6 +309,12 @@ void check_together(Arguments& a) {
         fmt::format("--engine: found {}, which gives no representatives; expected auto, twist or "
                     "cohomology",
                     engine_name(engine)));
+  const bool has_cycles = a.options.representatives == Representatives::cycles ||
+                          a.options.representatives == Representatives::voxels;
+  if (a.loops && !has_cycles)
+    reject("--loops: found without --representatives cycles or voxels, of which loops are made");
+  if (a.loops && (a.options.max_dim == 0 || a.options.min_dim > 1))
+    reject("--loops: found without dimension 1, the only one of which there are loops");
   if (a.options.collapse == Collapse::on && a.options.min_persistence < 0)
     reject(
         "--collapse: found on, which loses bars of length 0; a negative --min-persistence keeps "
@@ -283,11 +325,7 @@ void check_together(Arguments& a) {
         "of all edges");
   check_rips_arguments(a);
   check_image_arguments(a);
-  // A two-dimensional array holds points if that is the only way to make sense of it.
-  if (a.read.array == ArrayMeaning::image &&
-      (a.complex == ComplexKind::rips || a.format == Format::points))
-    a.read.array = ArrayMeaning::points;
-  if (a.format == Format::distance) a.read.array = ArrayMeaning::distances;
+  check_table_arguments(a);
 }
 
 }  // namespace
@@ -297,10 +335,20 @@ bool Arguments::draws_tree() const {
 }
 
 bool Arguments::is_batch() const {
-  if (output == "-") return false;
-  if (output.ends_with('/')) return true;
-  struct stat status {};
-  return stat(output.c_str(), &status) == 0 && S_ISDIR(status.st_mode) && inputs.size() > 1;
+  const auto is_place = [](const std::string& path) { return path.ends_with('/'); };
+  if (inputs.size() > 1 || is_place(output) || is_place(report) ||
+      std::ranges::any_of(plots, is_place, &app::Plot::path))
+    return true;
+  // A folder is a batch only if its results have a place; else it is an input that cannot be read.
+  const auto takes_several = [](const std::string& path) {
+    return path.empty() || path.find('*') != path.npos || app::is_folder(path);
+  };
+  const bool has_others = !plots.empty() || !report.empty();
+  const bool has_place = dry_run || output_format == BarcodeFormat::none ||
+                         (output == "-" && has_others) || (output != "-" && takes_several(output));
+  return has_place && takes_several(report) &&
+         std::ranges::all_of(plots, takes_several, &app::Plot::path) && !inputs.empty() &&
+         app::is_folder(inputs.front());
 }
 
 std::optional<std::string> parse_arguments(int argc, const char* const* argv,
@@ -311,6 +359,7 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv,
       "ph-barcode");
   app::PlotArguments plots;
   add_input_options(app, arguments);
+  add_table_options(app, arguments);
   add_raw_options(app, arguments);
   add_complex_options(app, arguments);
   add_cubical_options(app, arguments);
@@ -323,8 +372,11 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv,
   if (auto answer = app::parse_command_line(app, arguments.common, argc, argv, built_in()))
     return answer;
   if (list_formats) return formats_table();
+  take_word(arguments, plots);
   arguments.plots = plots.together(kPlotKinds.front());
+  arguments.look = plots.look;
   for (const app::Plot& plot : arguments.plots) app::require_known_format(plot);
+  arguments.given = app::given_scopes(app, option_scopes());
   check_together(arguments);
   if (!arguments.report.empty()) arguments.command = app::typed_command("ph-barcode", argc, argv);
   return std::nullopt;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "command_line.hpp"
+#include "option_scope.hpp"
 #include "ph/complex/cubical.hpp"
 #include "ph/complex/rips.hpp"
 #include "ph/complex/voxel_image.hpp"
@@ -15,7 +16,10 @@
 
 namespace ph::barcode {
 
-enum class ComplexKind { automatic, rips, cubical, alpha, explicit_cells, lower_star };
+enum class ComplexKind { automatic, rips, cubical, explicit_cells, lower_star };
+
+/// Whether bars of H1 that come with cycles come with loops, too.
+enum class LoopChoice { tight, plain, none };
 
 /// Everything the command line says.
 struct Arguments {
@@ -38,11 +42,10 @@ struct Arguments {
   CubicalOptions cubical;
   std::optional<double> voxel;  // of points, in their unit
   VoxelValue voxel_value = VoxelValue::distance;
-  // Options that the user gave and that make sense for one kind of input or complex only.
-  std::optional<std::string> points_option, rips_option, cubical_option, voxel_option;
 
   // What is computed.
   Options options;
+  std::optional<LoopChoice> loops;  // empty: not said, which is tight
   bool check = false;
   bool dry_run = false;
 
@@ -50,13 +53,17 @@ struct Arguments {
   std::string output = "-";
   std::optional<BarcodeFormat> output_format;
   std::vector<app::Plot> plots;
+  PlotOptions look;                  // of the plots
   std::string report;                // path; empty: none
+  bool stored = false;               // the inputs are barcodes: `ph-barcode plot BARS…`
   std::vector<std::string> compare;  // two barcode files; empty: a barcode is computed
   std::vector<std::string> command;  // as it was typed, for the report
+  // The options that were given of those that do nothing for some inputs.
+  std::vector<const app::OptionScope*> given;
 
   /// Whether the merge tree is asked for by itself.
   bool draws_tree() const;
-  /// Whether the output is a folder with one file an input.
+  /// Whether each input has files of its own, in folders.
   bool is_batch() const;
 };
 

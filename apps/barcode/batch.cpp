@@ -2,12 +2,15 @@
 #include "batch.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <array>
 #include <map>
 #include <string_view>
 
 #include "batch_names.hpp"
 #include "exit_code.hpp"
+#include "file_identity.hpp"
 #include "program.hpp"
 #include "report.hpp"
 #include "run.hpp"
@@ -17,7 +20,11 @@ namespace {
 
 BarcodeFormat format_of(const Arguments& arguments, app::Session& session) {
   if (arguments.output_format) return *arguments.output_format;
-  if (arguments.is_batch()) return BarcodeFormat::csv;
+  // Pictures of several inputs need no barcodes beside them.
+  const bool has_others = !arguments.plots.empty() || !arguments.report.empty();
+  if (arguments.is_batch() && arguments.output == "-" && has_others) return BarcodeFormat::none;
+  if (arguments.is_batch() && arguments.output.find('*') == arguments.output.npos)
+    return BarcodeFormat::csv;
   if (const auto format = barcode_format_of_path(arguments.output)) return *format;
   const std::string& path = arguments.output;
   const std::size_t name = path.rfind('/') == path.npos ? 0 : path.rfind('/') + 1;
@@ -27,9 +34,16 @@ BarcodeFormat format_of(const Arguments& arguments, app::Session& session) {
   return BarcodeFormat::csv;
 }
 
-/// Only JSON and the report have room for representatives. @throws Error (usage).
+/// Only JSON and the report have room for representatives, and only JSON for loops.
+/// @throws Error (usage).
 void require_room(BarcodeFormat format, const Arguments& arguments) {
   if (arguments.options.representatives == Representatives::none || arguments.dry_run) return;
+  if (arguments.loops && format != BarcodeFormat::json)
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("--loops: found output format {}, expected json; --output-format json or "
+                    "-o FILE.json holds them",
+                    barcode_format_name(format)));
   if (!arguments.report.empty()) return;
   if (format == BarcodeFormat::json || format == BarcodeFormat::none) return;
   throw Error(ErrorKind::usage,
@@ -38,28 +52,121 @@ void require_room(BarcodeFormat format, const Arguments& arguments) {
                           barcode_format_name(format)));
 }
 
-/// One job an input.
-std::vector<Job> jobs_of(const Arguments& arguments, BarcodeFormat format) {
-  std::vector<Job> jobs;
-  if (!arguments.is_batch() || format == BarcodeFormat::none) {
-    for (const std::string& input : arguments.inputs)
-      jobs.push_back({input, arguments.output, format});
-    return jobs;
+// Of what ph-barcode reads, compressed or not; a folder may have other files beside them.
+constexpr std::array<std::string_view, 26> kExtensions{
+    ".csv",  ".tsv", ".txt",       ".dat",    ".xyz", ".xyzrgb",  ".pts", ".npy",   ".npz",
+    ".png",  ".pgm", ".nii",       ".off",    ".ply", ".pcd",     ".bin", ".dipha", ".complex",
+    ".phat", ".coo", ".simplices", ".sparse", ".cub", ".perseus", ".raw", ".json"};
+constexpr std::array<std::string_view, 9> kBarcodeExtensions{
+    ".csv", ".json", ".txt", ".ripser", ".pers", ".dipha", ".diagram", ".npy", ".dat"};
+
+/// The files that a folder among the inputs stands for.
+std::vector<std::string> with_files_of_folders(const Arguments& arguments) {
+  std::vector<std::string_view> extensions;
+  if (arguments.stored)
+    extensions.assign(kBarcodeExtensions.begin(), kBarcodeExtensions.end());
+  else
+    extensions.assign(kExtensions.begin(), kExtensions.end());
+  std::vector<std::string> packed;
+  for (const std::string_view extension : extensions)
+    packed.push_back(std::string(extension) + ".gz");
+  extensions.insert(extensions.end(), packed.begin(), packed.end());
+  std::vector<std::string> inputs;
+  for (const std::string& input : arguments.inputs) {
+    if (!app::is_folder(input)) {
+      inputs.push_back(input);
+      continue;
+    }
+    for (std::string& file : app::files_in(input, extensions, "a file of a known format"))
+      inputs.push_back(std::move(file));
   }
-  const std::vector<std::string> names = app::output_names(arguments.inputs);
+  return inputs;
+}
+
+/// What each input of a batch has, in place of folders and `*`.
+Job job_of(const std::string& input, const std::string& name, const Arguments& arguments,
+           BarcodeFormat format) {
+  Job job{input, arguments.output, format};
+  if (format != BarcodeFormat::none)
+    job.output =
+        app::filled(arguments.output, name, fmt::format(".{}", barcode_format_name(format)));
+  job.plots = arguments.plots;
+  for (app::Plot& plot : job.plots) plot.path = app::filled(plot.path, name, ".svg");
+  job.report = app::filled(arguments.report, name, ".html");
+  return job;
+}
+
+/// One job an input.
+std::vector<Job> jobs_of(const Arguments& arguments, const std::vector<std::string>& inputs,
+                         BarcodeFormat format) {
+  if (!arguments.is_batch())
+    return {{inputs.front(), arguments.output, format, arguments.plots, arguments.report}};
+  const std::string& output = arguments.output;
+  const bool is_place = output.ends_with('/') || output.find('*') != output.npos ||
+                        (output != "-" && app::is_folder(output));
+  if (format != BarcodeFormat::none && !is_place && !arguments.dry_run)
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("--output: several inputs need a folder: -o FOLDER/, found '{}'", output));
+  const std::vector<std::string> names = app::output_names(inputs);
+  const bool writes =
+      format != BarcodeFormat::none || !arguments.plots.empty() || !arguments.report.empty();
   std::map<std::string, std::string> taken;
+  std::vector<Job> jobs;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::string& input = arguments.inputs[i];
-    const std::string output =
-        fmt::format("{}{}{}.{}", arguments.output, arguments.output.ends_with('/') ? "" : "/",
-                    names[i], barcode_format_name(format));
-    const auto [other, fresh] = taken.emplace(output, input);
-    if (!fresh)
+    const auto [other, fresh] = taken.emplace(names[i], inputs[i]);
+    jobs.push_back(job_of(inputs[i], names[i], arguments, format));
+    if (!fresh && writes && !arguments.dry_run)
       throw Error(ErrorKind::usage, fmt::format("--output: {} and {} would both be written to {}",
-                                                other->second, input, output));
-    jobs.push_back({input, output, format});
+                                                other->second, inputs[i], jobs.back().output));
   }
   return jobs;
+}
+
+/// Creates the folders of a batch.
+void prepare_folders(const Arguments& arguments, BarcodeFormat format) {
+  if (format != BarcodeFormat::none) app::prepare_outputs("--output", arguments.output);
+  for (const app::Plot& plot : arguments.plots) app::prepare_outputs("--plot", plot.path);
+  app::prepare_outputs("--report", arguments.report);
+}
+
+/// No output replaces an input, or another output. @throws Error (usage).
+void require_separate(const app::InputFiles& inputs, const std::vector<app::Written>& outputs,
+                      const Arguments& arguments, app::Session& session) {
+  const bool replaces = app::require_separate(inputs, outputs, arguments.common.force);
+  if (arguments.common.force && !replaces)
+    session.explain("--force: not needed, no output is an input");
+}
+void require_separate(const std::vector<Job>& jobs, const Arguments& arguments,
+                      app::Session& session) {
+  app::InputFiles inputs;
+  std::vector<app::Written> outputs;
+  for (const Job& job : jobs) {
+    inputs.add(job.input);
+    if (job.format != BarcodeFormat::none) outputs.push_back({"--output", job.output});
+    for (const app::Plot& plot : job.plots) outputs.push_back({"--plot", plot.path});
+    if (!job.report.empty()) outputs.push_back({"--report", job.report});
+  }
+  inputs.add(arguments.values);
+  inputs.add(arguments.vertex_weights);
+  require_separate(inputs, outputs, arguments, session);
+}
+
+/// Outputs that are asked for and do not come.
+void explain_unwritten(const Arguments& arguments, BarcodeFormat format, app::Session& session) {
+  std::vector<std::string> unwritten;
+  const bool is_named = arguments.output != "-";
+  if (is_named && (arguments.dry_run || format == BarcodeFormat::none))
+    unwritten.push_back("--output " + arguments.output);
+  if (arguments.dry_run) {
+    for (const app::Plot& plot : arguments.plots) unwritten.push_back("--plot " + plot.path);
+    if (!arguments.report.empty()) unwritten.push_back("--report " + arguments.report);
+    if (arguments.check) unwritten.emplace_back("--check");
+  }
+  if (!unwritten.empty())
+    session.note(fmt::format("{}: nothing is done for {}",
+                             arguments.dry_run ? "--dry-run" : "--output-format none",
+                             fmt::join(unwritten, ", ")));
 }
 
 /// One input of several: a line on stderr, whatever becomes of it. @return the exit code.
@@ -74,26 +181,37 @@ int run_one(const Job& job, const Arguments& arguments, app::Session& session) {
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::cancelled) throw;
     const bool named = std::string_view(error.what()).find(job.input) != std::string_view::npos;
-    return app::report_current_exception(named ? "ph-barcode" : "ph-barcode: " + job.input);
+    return app::report_current_exception(kProgram, named ? "" : job.input);
   } catch (...) {
-    return app::report_current_exception("ph-barcode: " + job.input);
+    return app::report_current_exception(kProgram, job.input);
   }
 }
 
 }  // namespace
 
 int run_all(const Arguments& given, app::Session& session) {
-  if (!given.compare.empty()) return run_comparison(given, session);
+  if (!given.compare.empty()) {
+    app::InputFiles inputs;
+    for (const std::string& path : given.compare) inputs.add(path);
+    std::vector<app::Written> outputs;
+    if (given.output != "-") outputs.push_back({"--output", given.output});
+    if (!given.report.empty()) outputs.push_back({"--report", given.report});
+    require_separate(inputs, outputs, given, session);
+    return run_comparison(given, session);
+  }
   const BarcodeFormat format = format_of(given, session);
   Arguments arguments = given;
   // JSON and the report show them.
   arguments.options.cells = format == BarcodeFormat::json || !arguments.report.empty();
   require_room(format, arguments);
-  const std::vector<Job> jobs = jobs_of(arguments, format);
-  if (jobs.size() == 1 && !arguments.is_batch()) return run(jobs[0], arguments, session).code;
+  const std::vector<std::string> inputs =
+      arguments.is_batch() ? with_files_of_folders(arguments) : arguments.inputs;
+  const std::vector<Job> jobs = jobs_of(arguments, inputs, format);
+  if (!arguments.dry_run) require_separate(jobs, arguments, session);
+  explain_unwritten(arguments, format, session);
+  if (!arguments.is_batch()) return run(jobs[0], arguments, session).code;
+  if (!arguments.dry_run) prepare_folders(arguments, format);
 
-  if (arguments.is_batch() && !arguments.dry_run && format != BarcodeFormat::none)
-    app::create_folder(arguments.output);
   int first_failure = app::kOk;
   std::size_t failures = 0;
   for (const Job& job : jobs) {

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "option_scopes.hpp"
+#include "ph/complex/listed_cubes.hpp"
 #include "ph/complex/lower_star.hpp"
 #include "ph/complex/voxel_image.hpp"
 #include "ph/metric/distance_to_measure.hpp"
@@ -15,44 +17,45 @@
 namespace ph::barcode {
 namespace {
 
-constexpr std::string_view kComplexNames[] = {"auto",  "rips",     "cubical",
-                                              "alpha", "explicit", "lower-star"};
+constexpr std::string_view kComplexNames[] = {"auto", "rips", "cubical", "explicit", "lower-star"};
 
 /// Builds from each kind of data the complexes that make sense of it.
 class Builder {
  public:
-  /// @param periodic axes of an image that its file says close up. @param ids of the points in the
-  /// input; empty: all are there. @param dropped how many are not.
+  /// @param read what is said of the data; they are visited. @param dropped how many points of the
+  /// input are not among them.
   Builder(const std::string& name, const Arguments& arguments, const RunContext& context,
-          const std::vector<bool>& periodic, const std::vector<Index>& ids, std::size_t dropped)
+          const ReadResult& read, std::size_t dropped)
       : name_(name),
         arguments_(arguments),
         context_(context),
-        periodic_(periodic),
-        ids_(ids),
+        format_(read.format),
+        periodic_(read.periodic),
+        ids_(read.point_ids),
         dropped_(dropped) {}
 
   BuiltComplex operator()(const Points& points) const { return of_points(points, "points"); }
   BuiltComplex operator()(const DistanceMatrix& distances) const {
     expect("distances", {ComplexKind::rips});
-    refuse(arguments_.points_option, "points", "distances");
+    const bool is_half = format_ == Format::lower_distance || format_ == Format::upper_distance ||
+                         format_ == Format::binary;
+    require_in_scope(is_half ? kTriangle : kMatrix);
     return rips(distances, distances.size() == 0);
   }
   BuiltComplex operator()(const SparseDistances& distances) const {
     expect("distances", {ComplexKind::rips});
-    refuse(arguments_.points_option, "points", "distances");
+    require_in_scope(kSomePairs);
     return rips(distances, distances.size() == 0);
   }
   BuiltComplex operator()(const Image& image) const {
     expect("an image", {ComplexKind::cubical});
-    refuse(arguments_.voxel_option, "points", "an image");
-    refuse(arguments_.points_option, "points", "an image");
+    require_in_scope(kImage);
     return cubical(image);
   }
   BuiltComplex operator()(SimplicesInput&& input) const {
     const ComplexKind kind =
         expect("simplices", {ComplexKind::explicit_cells, ComplexKind::lower_star});
-    refuse(arguments_.points_option, "points", "simplices");
+    require_in_scope(kind == ComplexKind::explicit_cells ? kSimplices : kLowerStar);
     if (kind == ComplexKind::explicit_cells) {
       if (!input.vertex_values.empty())
         throw Error(ErrorKind::usage,
@@ -70,7 +73,7 @@ class Builder {
   }
   BuiltComplex operator()(const BoundaryInput& input) const {
     expect("a boundary matrix", {ComplexKind::explicit_cells});
-    refuse(arguments_.points_option, "points", "a boundary matrix");
+    require_in_scope(kBoundary);
     const bool has_incidences = !input.matrix.incidences.empty() || input.matrix.rows.empty();
     if (!has_incidences && arguments_.options.field != 2)
       throw Error(ErrorKind::usage,
@@ -83,7 +86,7 @@ class Builder {
   BuiltComplex operator()(const Mesh& mesh) const {
     if (mesh.values.empty()) return of_points(mesh.vertices, "a mesh without values");
     expect("a mesh with values", {ComplexKind::lower_star});
-    refuse(arguments_.points_option, "points", "a mesh");
+    require_in_scope(kMesh);
     return stored(lower_star(triangles_of(mesh), mesh.values, {}, context_), "lower-star");
   }
 
@@ -100,33 +103,22 @@ class Builder {
                                                     ? "; --values names the values of the vertices"
                                                     : ""));
     }
-    if (kind != ComplexKind::cubical) {
-      refuse(arguments_.cubical_option, "images", data);
-      refuse(arguments_.voxel_option, "points with --complex cubical", data);
-    }
-    if (kind != ComplexKind::rips) {
-      const std::string_view meant_for = "Rips complexes of points and distances";
-      if (arguments_.options.collapse == Collapse::on) refuse("--collapse on", meant_for, data);
-      refuse(arguments_.rips_option, meant_for, data);
-    }
     return kind;
   }
 
   /// An option that has no effect is a misunderstanding.
-  void refuse(const std::optional<std::string>& option, std::string_view meant_for,
-              std::string_view found) const {
-    if (option)
-      throw Error(ErrorKind::usage,
-                  fmt::format("{}: makes sense for {} only, found {}", *option, meant_for, found));
+  void require_in_scope(Situation here) const {
+    app::require_in_scope(arguments_.given, here, name_of(here));
   }
 
   BuiltComplex of_points(const Points& points, std::string_view data) const {
-    if (expect(data, {ComplexKind::rips, ComplexKind::cubical}) == ComplexKind::rips)
-      return rips(points, points.rows() == 0);
-    refuse(arguments_.points_option, "points with --complex rips", "--complex cubical");
+    const ComplexKind kind = expect(data, {ComplexKind::rips, ComplexKind::cubical});
+    require_in_scope(kind == ComplexKind::rips ? kPoints : kVoxels);
+    if (kind == ComplexKind::rips) return rips(points, points.rows() == 0);
     if (!arguments_.voxel)
       throw Error(ErrorKind::usage,
-                  fmt::format("--complex: found cubical, which needs --voxel X for {}", data));
+                  fmt::format("--complex: found cubical, which needs --voxel X for {}{}", data,
+                              data == "points" ? "; --format grid reads them as an image" : ""));
     if (points.rows() == 0) return cubical(Image{{0}, {}});
     PointImage made = voxel_image(points, *arguments_.voxel, arguments_.voxel_value, 1, context_);
     BuiltComplex built = cubical(made.image);
@@ -147,8 +139,13 @@ class Builder {
     if (options.periodic.size() > axes)
       throw Error(ErrorKind::usage, fmt::format("--periodic: found axis {}, expected 0 to {}",
                                                 options.periodic.size() - 1, axes - 1));
-    return {Cubical(image, options, context_), "cubical", arguments_.threshold,
-            image.values.empty(), std::nullopt};
+    BuiltComplex built{Cubical(image, options, context_), "cubical", arguments_.threshold,
+                       image.values.empty(), std::nullopt};
+    if (arguments_.check)
+      built.by_definition = [image, options](const RunContext& context) {
+        return listed_cubes(image, options, context);
+      };
+    return built;
   }
 
   template <class Data>
@@ -166,7 +163,6 @@ class Builder {
       throw Error(ErrorKind::usage, fmt::format("--threshold: found {}, expected a distance, at "
                                                 "least 0",
                                                 *options.threshold));
-    require_all_distances(data);
     if (options.approximation) options.only_components = false;
     std::vector<double> weights = read_weights(size_of(data));
     // Data that no reader can know to be wrong: a point without direction, distances that overflow.
@@ -208,6 +204,11 @@ class Builder {
     return built;
   }
 
+  /// 1 + x, with all digits of x where they would be lost in the sum.
+  static std::string one_and(double x) {
+    constexpr double least = 1e-6;
+    return x < least ? "1 + " + shortest(x) : shortest(1 + x);
+  }
   /// What an approximation is worth, if there is one.
   /// @param may_be_no_metric whether the triangle inequality is not certain.
   std::optional<std::string> promise_of(const Rips& complex,
@@ -225,7 +226,7 @@ class Builder {
       const double n = static_cast<double>(complex.size());
       text += fmt::format("{}{} of {:.0f} edges: births and deaths are at most {} times too late",
                           text.empty() ? "" : "; ", complex.edge_count(), n * (n - 1) / 2,
-                          shortest(1 + *arguments_.rips.approximation));
+                          one_and(*arguments_.rips.approximation));
     }
     if (text.empty()) return std::nullopt;
     return name_ + ": " + text +
@@ -296,24 +297,6 @@ class Builder {
     return distances.size();
   }
 
-  void require_all_distances(const Points&) const {
-    if (arguments_.read.births_on_diagonal)
-      refuse("--diagonal births", "full distance matrices", "points; --format distance reads one");
-  }
-  void require_all_distances(const DistanceMatrix& distances) const {
-    if (arguments_.read.births_on_diagonal && distances.births().empty() && distances.size() > 0)
-      refuse("--diagonal births", "full distance matrices", "a triangle without its diagonal");
-  }
-  void require_all_distances(const SparseDistances&) const {
-    const std::string_view found = "some distances only";
-    if (arguments_.subsample) refuse("--subsample", "points and distance matrices", found);
-    if (arguments_.rips.approximation)
-      refuse("--approximate", "points and distance matrices", found);
-    if (arguments_.dtm) refuse("--dtm", "points and distance matrices", found);
-    if (arguments_.read.births_on_diagonal)
-      refuse("--diagonal births", "full distance matrices", found);
-  }
-
   BuiltComplex stored(ExplicitComplex complex, std::string name) const {
     const bool empty = complex.size() == 0;
     return {std::move(complex), std::move(name), arguments_.threshold, empty, arguments_.threshold};
@@ -363,8 +346,9 @@ class Builder {
   const std::string& name_;
   const Arguments& arguments_;
   const RunContext& context_;
-  const std::vector<bool>& periodic_;
-  const std::vector<Index>& ids_;
+  const Format format_;
+  const std::vector<bool>& periodic_;  // axes of an image that its file says close up
+  const std::vector<Index>& ids_;      // of the points in the input; empty: all are there
   const std::size_t dropped_;
 };
 
@@ -372,14 +356,12 @@ class Builder {
 
 BuiltComplex build_complex(ReadResult&& input, const std::string& name, std::size_t dropped,
                            const Arguments& arguments, const RunContext& context) {
-  return std::visit(Builder(name, arguments, context, input.periodic, input.point_ids, dropped),
-                    std::move(input.data));
+  return std::visit(Builder(name, arguments, context, input, dropped), std::move(input.data));
 }
 
 BuiltComplex build_complex(const ReadResult& input, const std::string& name, std::size_t dropped,
                            const Arguments& arguments, const RunContext& context) {
-  return std::visit(Builder(name, arguments, context, input.periodic, input.point_ids, dropped),
-                    input.data);
+  return std::visit(Builder(name, arguments, context, input, dropped), input.data);
 }
 
 }  // namespace ph::barcode

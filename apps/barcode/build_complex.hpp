@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <functional>
 #include <string>
 
 #include "arguments.hpp"
@@ -18,6 +19,8 @@ struct BuiltComplex {
   std::optional<BarcodeInfo::Subsample> subsample = std::nullopt;
   std::optional<BarcodeInfo::VoxelGrid> voxels = std::nullopt;  ///< of points
   std::optional<std::string> promise = std::nullopt;  ///< what an approximation is worth, one line
+  /// The same complex made by another path, for the oracle of --check; null: there is none.
+  std::function<AnyComplex(const RunContext& context)> by_definition = nullptr;
 };
 
 /// Builds the complex that the arguments ask for, or the one that suits the data.

@@ -22,7 +22,6 @@ using app::parse_number;
 namespace {
 
 void take_periodic(Arguments& a, const std::string& text) {
-  a.cubical_option = "--periodic";
   if (text == "all") {
     a.cubical.periodic.assign(Cubical::kMaxDim, true);
     return;
@@ -45,15 +44,10 @@ void add_cubical_options(CLI::App& app, Arguments& a) {
              [&a](std::size_t i) {
                using Construction = CubicalOptions::Construction;
                a.cubical.construction = i == 0 ? Construction::vertices : Construction::cells;
-               a.cubical_option = "--construction";
              })
       ->group(group);
   app.add_flag_callback(
-         "--superlevel",
-         [&a] {
-           a.cubical.superlevel = true;
-           a.cubical_option = "--superlevel";
-         },
+         "--superlevel", [&a] { a.cubical.superlevel = true; },
          "superlevel sets; values are those of the negated image")
       ->group(group);
   add_value(app, "--periodic", "AXES",
@@ -67,7 +61,6 @@ void add_cubical_options(CLI::App& app, Arguments& a) {
               constexpr Index most = Index{1} << 30;
               a.common.slab_layers =
                   static_cast<int>(parse_integer("--slab-layers", text, 1, most));
-              a.cubical_option = "--slab-layers";
             })
       ->group(group);
   add_value(app, "--voxel", "X",
@@ -78,17 +71,13 @@ void add_cubical_options(CLI::App& app, Arguments& a) {
                 throw Error(
                     ErrorKind::usage,
                     fmt::format("--voxel: found '{}', expected a finite number above 0", text));
-              a.voxel_option = "--voxel";
             })
       ->group(group);
   add_choice(
       app, "--voxel-value", {"distance", "occupancy", "density"},
       "what such a voxel is worth: the distance to the nearest voxel with a point (default); "
       "0 with a point, else it is not there; minus the number of its points",
-      [&a](std::size_t i) {
-        a.voxel_value = static_cast<VoxelValue>(i);
-        a.voxel_option = "--voxel-value";
-      })
+      [&a](std::size_t i) { a.voxel_value = static_cast<VoxelValue>(i); })
       ->group(group);
 }
 
@@ -132,6 +121,9 @@ void check_image_arguments(Arguments& a) {
     throw Error(ErrorKind::usage, "--raw-shape: makes sense for --format raw only");
   if (!a.read.raw && a.format == Format::raw)
     throw Error(ErrorKind::usage, "--format: found raw, which needs --raw-shape");
+  if (a.read.raw && a.read.raw->big_endian && a.read.raw->type.ends_with('1'))
+    throw Error(ErrorKind::usage,
+                "--raw-big-endian: found numbers of one byte, expected --raw-type with more");
 }
 
 }  // namespace ph::barcode

@@ -2,9 +2,10 @@
 #include "arguments.hpp"
 #include "batch.hpp"
 #include "program.hpp"
+#include "run.hpp"
 
 int main(int argc, char** argv) {
-  return ph::app::run_program("ph-barcode", [&](std::stop_token stop) {
+  return ph::app::run_program(ph::barcode::kProgram, [&](std::stop_token stop) {
     ph::barcode::Arguments arguments;
     if (const auto answer = ph::barcode::parse_arguments(argc, argv, arguments))
       return ph::app::answer_command_line(*answer);

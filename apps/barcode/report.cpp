@@ -12,12 +12,15 @@
 #include "complex_arrays.hpp"
 #include "exit_code.hpp"
 #include "h0_tree.hpp"
+#include "option_scopes.hpp"
+#include "ph/core/file_pages.hpp"
 #include "ph/diagram/bottleneck.hpp"
 #include "report/bar_arrays.hpp"
 #include "report/point_arrays.hpp"
 #include "report/report_file.hpp"
 #include "report/sha256.hpp"
 #include "report/voxel_arrays.hpp"
+#include "stored.hpp"
 
 namespace ph::barcode {
 namespace {
@@ -138,12 +141,7 @@ void add_points(ReportFile& report, const Points& points, const std::vector<Inde
 
 void add_image(ReportFile& report, const CubicalImage& image,
                std::span<const std::uint32_t> leaf_of) {
-  report::ArrayForm form;
-  for (const Index extent : image.extents) form.shape.push_back(static_cast<std::size_t>(extent));
-  with_voxels(image.type, image.voxels, [&]<class T>(const T* values) {
-    form.delta = std::numeric_limits<T>::is_integer;
-    report.add("image/values", std::span(values, image.size()), form);
-  });
+  report.add_voxels("image/values", image);
   if (leaf_of.size() == image.size()) report::add_labels(report, "points/leaf", leaf_of, true);
 }
 
@@ -161,10 +159,11 @@ std::optional<ShownTree> tree_if_it_fits(const Shown& shown, const Arguments& ar
   return std::nullopt;
 }
 
-/// The distances of two barcodes, one a dimension that either has, and the numbers of the bars that
-/// they pair. Where they would take long a note says so.
-void add_distances(report::Metadata& meta, const Barcode& a, const Barcode& b,
-                   std::vector<std::uint32_t>& matched, app::Session& session) {
+/// The distances of two barcodes, one a dimension that either has.
+/// @param matched receives the numbers of the bars that they pair.
+/// @return where they would take long: "H1: 50000 bars".
+std::vector<std::string> add_distances(report::Metadata& meta, const Barcode& a, const Barcode& b,
+                                       std::vector<std::uint32_t>& matched, app::Session& session) {
   std::set<int> dims;
   for (const Barcode* barcode : {&a, &b})
     for (const Bar& bar : *barcode) dims.insert(bar.dim);
@@ -183,12 +182,12 @@ void add_distances(report::Metadata& meta, const Barcode& a, const Barcode& b,
     const auto second = bars[1].empty() ? 0U : static_cast<std::uint32_t>(&bars[1][0] - &b[0]);
     for (const auto& [i, j] : pairs)
       matched.insert(matched.end(), {first + i, static_cast<std::uint32_t>(a.size()) + second + j});
-    session.note(fmt::format("H{}: bottleneck distance {}", dim, distance));
   }
   if (!left_out.empty())
     meta.provenance.notes.emplace_back(
         "Distances left out",
         fmt::format("{}; at most {} are compared", fmt::join(left_out, ", "), kMostComparedBars));
+  return left_out;
 }
 
 }  // namespace
@@ -225,8 +224,14 @@ void write_report(OutputFile& file, const Shown& shown, const Arguments& argumen
   report.finish();
 }
 
-int run_comparison(const Arguments& arguments, app::Session& session) {
-  app::Output output(arguments.report);
+int run_comparison(const Arguments& arguments, app::Session& session) try {
+  app::require_in_scope(arguments.given, kComparison, name_of(kComparison));
+  const DistanceFormat format = distance_format(arguments);
+  std::optional<app::Output> distances, output;
+  const bool is_taken = arguments.report == "-" && arguments.output == "-";
+  if (arguments.output_format != BarcodeFormat::none && !is_taken)
+    distances.emplace(arguments.output);
+  if (!arguments.report.empty()) output.emplace(arguments.report);
   const std::string &first = arguments.compare[0], &second = arguments.compare[1];
   report::Metadata meta;
   meta.title = fmt::format("{} and {}", report::title_of(first), report::title_of(second));
@@ -242,21 +247,32 @@ int run_comparison(const Arguments& arguments, app::Session& session) {
     meta.barcodes.push_back({report::title_of(path), barcodes.back().cell_kind()});
     meta.provenance.notes.emplace_back(
         fmt::format("SHA-256 of {}", barcodes.size() == 1 ? "the first" : "the second"),
-        report::sha256_hex(input.bytes(), session.context()));
+        report::sha256_hex(input, session.context()));
     session.note(fmt::format("read {}: {} bars", input.name(), barcodes.back().size()));
   }
   std::vector<std::uint32_t> matched;
-  add_distances(meta, barcodes[0], barcodes[1], matched, session);
+  const auto left_out = add_distances(meta, barcodes[0], barcodes[1], matched, session);
   meta.provenance.run.peak_memory = app::peak_memory();
   const app::BarHold results_are_written(session);
-  ReportFile report(output.file(), meta, session.context());
+  if (distances) {
+    distances->write(distances_file(meta.distances, left_out, arguments, format));
+    distances->commit();
+  }
+  if (!output) return app::kOk;
+  ReportFile report(output->file(), meta, session.context());
   report::add_pictures(report, barcodes, meta);
   report::add_bars(report, barcodes[0], "bars", false);
   report::add_bars(report, barcodes[1], "bars2", false);
   report.add("matching/pairs", matched, {.shape = {matched.size() / 2, 2}, .delta = true});
   report.finish();
-  output.commit();
+  output->commit();
   return app::kOk;
+} catch (const Error& error) {
+  if (error.kind() != ErrorKind::resource) throw;
+  throw Error(ErrorKind::resource,
+              fmt::format("{}; compare fewer bars, or raise --memory-limit", error.what()));
+} catch (const std::bad_alloc&) {
+  throw Error(ErrorKind::resource, "out of memory; compare fewer bars, or raise --memory-limit");
 }
 
 }  // namespace ph::barcode

@@ -25,7 +25,8 @@ struct Shown {
 void write_report(OutputFile& file, const Shown& shown, const Arguments& arguments,
                   app::Session& session);
 
-/// --compare: reads two barcodes and writes the report of both. @return the exit code.
+/// --compare: reads two barcodes, writes their distances and the report of both. @return the exit
+/// code.
 /// @throws Error as read_barcode and OutputFile.
 int run_comparison(const Arguments& arguments, app::Session& session);
 

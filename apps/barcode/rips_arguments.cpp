@@ -29,7 +29,6 @@ void add_rips_options(CLI::App& app, Arguments& a) {
         throw Error(ErrorKind::usage,
                     fmt::format("{}: found '{}', expected a finite number {} 0", option, text,
                                 may_be_zero ? "of at least" : "above"));
-      a.rips_option = option;
       take(value);
     })->group(group);
   };
@@ -45,13 +44,11 @@ void add_rips_options(CLI::App& app, Arguments& a) {
     if (!a.subsample) a.subsample.emplace();
     return *a.subsample;
   };
-  add_value(app, "--subsample", "N",
-            "keep N points, each the farthest from those before (default: all); with their "
-            "covering radius E, bars longer than 2 E are real and come at most 2 E late",
-            [=, &a](const std::string& text) {
-              limits().points = parse_integer("--subsample", text, 1);
-              a.rips_option = "--subsample";
-            })
+  add_value(
+      app, "--subsample", "N",
+      "keep N points, each the farthest from those before (default: all); with their "
+      "covering radius E, bars longer than 2 E are real and come at most 2 E late",
+      [=, &a](const std::string& text) { limits().points = parse_integer("--subsample", text, 1); })
       ->group(group);
   number("--subsample-radius", "R",
          "keep points until all are within R of one (default 0), in units of the distance", true,
@@ -68,10 +65,7 @@ void add_rips_options(CLI::App& app, Arguments& a) {
   add_value(app, "--dtm", "K",
             "DTM filtration: points enter at twice their distance to the measure of their K "
             "nearest points, themselves included",
-            [&a](const std::string& text) {
-              a.dtm = parse_integer("--dtm", text, 1);
-              a.rips_option = "--dtm";
-            })
+            [&a](const std::string& text) { a.dtm = parse_integer("--dtm", text, 1); })
       ->group(group);
   add_choice(app, "--weight-exponent", {"1", "2", "inf"},
              "how the ball of a point born at B has grown at T: to (T^P - B^P)^(1/P) (default inf, "
@@ -80,7 +74,6 @@ void add_rips_options(CLI::App& app, Arguments& a) {
                constexpr std::array kExponents{WeightExponent::one, WeightExponent::two,
                                                WeightExponent::infinity};
                a.weight_exponent = kExponents[i];
-               a.rips_option = "--weight-exponent";
              })
       ->group(group);
 }
@@ -89,7 +82,6 @@ void check_rips_arguments(Arguments& a) {
   std::vector<std::string_view> sources;
   if (!a.vertex_weights.empty()) {
     sources.push_back("--vertex-weights");
-    a.rips_option = "--vertex-weights";
   }
   if (a.dtm) sources.push_back("--dtm");
   if (a.read.births_on_diagonal) sources.push_back("--diagonal births");

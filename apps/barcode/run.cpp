@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <new>
@@ -16,8 +17,11 @@
 #include "messages.hpp"
 #include "numbers.hpp"
 #include "ph/estimate.hpp"
+#include "ph/loops.hpp"
 #include "report.hpp"
 #include "report/sha256.hpp"
+#include "stored.hpp"
+#include "table_arguments.hpp"
 #include "ways_out.hpp"
 
 namespace ph::barcode {
@@ -37,10 +41,6 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
   std::vector<std::pair<std::string, double>> laps_;
 };
-
-std::string plural(std::size_t count, std::string_view what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
 
 /// Bytes of what was read that stay while the complex is built.
 std::size_t size_of(const ReadResult& read) {
@@ -75,15 +75,34 @@ struct Loaded {
   std::unique_ptr<MemoryClaim> claim = {};
 };
 
-Loaded load(const Job& job, const Arguments& arguments, app::Session& session, Stopwatch& watch) {
-  std::optional<app::BarHold> somebody_types;
-  if (app::is_typed({job.input, arguments.values, arguments.vertex_weights}))
-    somebody_types.emplace(session);
-  NamedData data = read_input(job, arguments, session.context());
+bool is_given(const Arguments& arguments, std::string_view option) {
+  return std::ranges::any_of(arguments.given,
+                             [&](const auto* scope) { return scope->option == option; });
+}
+
+/// Why there can be no NaN in what was read; empty: there may be some.
+std::string_view why_no_nan(const ReadResult& read) {
+  if (read.format == Format::perseus) return "a Perseus file has none";
+  if (std::holds_alternative<Mesh>(read.data)) return "a mesh has none";
+  const auto* image = std::get_if<Image>(&read.data);
+  if (!image) return {};
+  const VoxelType type = image->values.type();
+  return type == VoxelType::float32 || type == VoxelType::float64 ? "" : "no whole number is NaN";
+}
+
+Loaded load(const Job& job, std::optional<Input>& input, const Arguments& arguments,
+            app::Session& session, Stopwatch& watch) {
+  NamedData data = read_input(*input, arguments, session.context());
+  input.reset();
   const auto& [name, read, dropped, sha256] = data;
+  // Scanners mark holes by NaN: they are no error unless somebody says so.
+  if (dropped > 0 && is_given(arguments, "nan") && arguments.read.nan == NanPolicy::error)
+    throw Error(ErrorKind::bad_data,
+                fmt::format("{}: {} with NaN, expected numbers; --nan drop leaves them out", name,
+                            count_of(dropped, "point")));
   const std::string what = fmt::format("read {}: {}", name, read.description);
   // A batch says it in its one line an input.
-  if (arguments.format == Format::automatic && arguments.inputs.size() == 1)
+  if (arguments.format == Format::automatic && arguments.inputs == std::vector{job.input})
     session.note(what);
   else
     session.explain(what);
@@ -92,10 +111,14 @@ Loaded load(const Job& job, const Arguments& arguments, app::Session& session, S
   auto claim = std::make_unique<MemoryClaim>(session.context().memory, size_of(read));
   std::string description = read.description;
   std::vector<Index> point_ids = read.point_ids;
-  const bool is_shown = (!arguments.report.empty() || arguments.draws_tree()) && !arguments.dry_run;
+  if (const std::string_view why = why_no_nan(read); is_given(arguments, "nan") && !why.empty())
+    session.note(fmt::format("{}: --nan does nothing: {}", name, why));
+  const bool is_shown = (!job.report.empty() || arguments.draws_tree()) && !arguments.dry_run;
   BuiltComplex built =
       is_shown ? build_complex(read, name, dropped, arguments, session.context())
                : build_complex(std::move(data.read), name, dropped, arguments, session.context());
+  if (arguments.read.allow_empty && !built.empty)
+    session.explain("--allow-empty: not needed, the input is not empty");
   if (built.promise) session.note(*built.promise);
   if (built.empty && !arguments.read.allow_empty)
     throw Error(ErrorKind::bad_data,
@@ -106,6 +129,27 @@ Loaded load(const Job& job, const Arguments& arguments, app::Session& session, S
     loaded.claim = std::move(claim);
   }
   return loaded;
+}
+
+/// Layers that were asked for, or why they are not looked at one by one.
+void explain_slabs(const BuiltComplex& built, const RunPlan& plan, const Arguments& arguments,
+                   app::Session& session) {
+  const int layers = arguments.common.slab_layers;
+  const auto* cubical = std::get_if<Cubical>(&built.complex);
+  if (layers == 0 || !cubical) return;
+  const auto does_nothing = [&](std::string_view why) {
+    session.note(fmt::format("--slab-layers does nothing: {}", why));
+  };
+  if (plan.engine != Engine::arrows)
+    does_nothing(fmt::format("engine {} takes all of them at once", engine_name(plan.engine)));
+  else if (arguments.options.representatives != Representatives::none)
+    does_nothing("representatives need all of them at once");
+  else if (const std::size_t axes = cubical->cubical_image().extents.size(); axes < 2 || axes > 3)
+    does_nothing(fmt::format("the image has {}, expected two or three",
+                             axes == 1 ? "one axis" : "more axes"));
+  else
+    session.explain(
+        fmt::format("slabs of {}", count_of(static_cast<std::size_t>(layers), "layer")));
 }
 
 /// Whether edges are collapsed first, and why; only said of Rips complexes.
@@ -144,10 +188,19 @@ std::string estimate_text(const Estimate& estimate, const BuiltComplex& built,
   return text + fmt::format("memory   {} to {}\n", app::format_size(low), app::format_size(high));
 }
 
+/// How plots look: those of superlevel sets name the values of the image.
+PlotOptions look_of(const Arguments& arguments) {
+  PlotOptions look = arguments.look;
+  if (!arguments.cubical.superlevel) return look;
+  look.negated = true;
+  look.value_label = "Value, falling";
+  return look;
+}
+
 /// The files of the plots of the merge tree, in their order, before bars are computed, which may
 /// take long: there may be no tree. @throws Error (usage) if there is none.
-std::vector<std::string> pictures_of_tree(const Loaded& loaded, const Arguments& arguments,
-                                          const RunContext& context) {
+std::vector<std::string> pictures_of_tree(const Loaded& loaded, const Job& job,
+                                          const Arguments& arguments, const RunContext& context) {
   const auto tree = whole_tree(loaded.built, *loaded.data, arguments, context);
   if (!tree)
     throw Error(ErrorKind::usage,
@@ -158,48 +211,49 @@ std::vector<std::string> pictures_of_tree(const Loaded& loaded, const Arguments&
   const MemoryClaim claim(context.memory, tree->births.size() * sizeof(Branch));
   const std::vector<Branch> branches = tree->branches();
   std::vector<std::string> pictures;
-  for (const app::Plot& plot : arguments.plots)
-    if (plot.kind == "tree") pictures.push_back(app::drawn(plot, std::span(branches), {}, context));
+  for (const app::Plot& plot : job.plots)
+    if (plot.kind == "tree")
+      pictures.push_back(app::drawn(plot, std::span(branches), look_of(arguments), context));
   return pictures;
 }
 
-/// The files that a run writes. What cannot be created is said before anything is computed.
-struct Outputs {
-  std::optional<app::Output> barcode, report;
-  std::vector<app::Output> plots;
+/// Whether bars of H1 get loops: only JSON has room for them.
+bool writes_loops(const Job& job, const Arguments& arguments) {
+  const Representatives kind = arguments.options.representatives;
+  return job.format == BarcodeFormat::json && arguments.loops != LoopChoice::none &&
+         (kind == Representatives::cycles || kind == Representatives::voxels);
+}
 
-  Outputs(const Job& job, const Arguments& arguments) {
-    if (job.format != BarcodeFormat::none) barcode.emplace(job.output);
-    for (const app::Plot& plot : arguments.plots) plots.emplace_back(plot.path);
-    if (!arguments.report.empty()) report.emplace(arguments.report);
-  }
-  void write(const Barcode& bars, const BarcodeInfo& info, const Job& job,
-             const Arguments& arguments, std::span<const std::string> trees,
-             const RunContext& context) {
-    auto tree = trees.begin();
-    for (std::size_t i = 0; i < plots.size(); ++i) {
-      const app::Plot& plot = arguments.plots[i];
-      const auto kind = plot_kind_named(plot.kind);
-      PlotOptions options;
-      options.kind = kind.value_or(options.kind);
-      plots[i].write(kind ? app::drawn(plot, bars, options, context) : *tree++);
-    }
-    // Pixels may exceed the memory: nothing is complete before all is drawn.
-    if (barcode) {
-      write_barcode(barcode->file(), bars, job.format, info);
-      barcode->commit();
-    }
-    for (app::Output& plot : plots) plot.commit();
-  }
-};
+/// Before anything is computed. @throws Error (usage) if loops are asked for that cannot be had.
+void require_loops(const BuiltComplex& built, const Arguments& arguments) {
+  if (!arguments.loops || *arguments.loops == LoopChoice::none) return;
+  const auto* listed = std::get_if<ExplicitComplex>(&built.complex);
+  if (listed && listed->cell_kind() == CellKind::row)
+    throw Error(ErrorKind::usage,
+                "--loops: found a boundary matrix, expected cells with vertices to walk along");
+  if (*arguments.loops == LoopChoice::tight && !std::holds_alternative<Rips>(built.complex))
+    throw Error(ErrorKind::usage,
+                fmt::format("--loops tight: found complex {}, expected rips; --loops plain gives "
+                            "loops as they are found",
+                            built.name));
+}
 
 Outcome run_once(const Job& job, const Arguments& arguments, app::Session& session) {
   Stopwatch watch;
   std::optional<Outputs> outputs;
-  if (!arguments.dry_run) outputs.emplace(job, arguments);
+  if (!arguments.dry_run) outputs.emplace(job);
+  std::optional<app::BarHold> somebody_types;
+  if (app::is_typed({job.input, arguments.values, arguments.vertex_weights}))
+    somebody_types.emplace(session);
+  std::optional<Input> input(
+      Input::open(job.input, &session.context(), Input::Excess::stays_in_file));
+  if (arguments.stored || (arguments.format == Format::automatic && is_barcode(*input)))
+    return run_stored(job, *input, outputs ? &*outputs : nullptr, arguments, session);
 
-  Loaded loaded = load(job, arguments, session, watch);
+  Loaded loaded = load(job, input, arguments, session, watch);
+  somebody_types.reset();
   auto& [built, description, point_ids, data, claim] = loaded;
+  require_loops(built, arguments);
   const auto taken = static_cast<double>(session.memory_taken());
   if (arguments.dry_run) {
     const Estimate estimated = estimate(built.complex, arguments.options, session.context());
@@ -209,10 +263,10 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   }
   std::vector<std::string> trees;
   if (arguments.draws_tree()) {
-    trees = pictures_of_tree(loaded, arguments, session.context());
+    trees = pictures_of_tree(loaded, job, arguments, session.context());
     watch.lap("tree");
   }
-  if (arguments.report.empty()) {
+  if (job.report.empty()) {
     data.reset();
     claim.reset();
   }
@@ -221,18 +275,30 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   session.explain(fmt::format("engine {}: {}", engine_name(planned.engine), planned.reason));
   if (!planned.collapse_reason.empty()) session.explain("collapse " + collapse_text(planned));
 
+  explain_slabs(built, planned, arguments, session);
+
   Options options = with_plan(arguments.options, planned);
   // A bar that the threshold cuts is infinite, however short it would have been.
   if (built.cut) options.min_persistence = std::min(options.min_persistence, 0.0);
-  const auto compute = [&] {
-    Barcode bars = persistence(built.complex, options, session.context());
-    if (built.cut)
-      bars = cut_at(bars, built.complex, *built.cut, arguments.options.min_persistence);
-    if (!point_ids.empty()) bars = with_input_ids(bars, point_ids);
+  const auto compute = [&](const AnyComplex& complex) {
+    Barcode bars = persistence(complex, options, session.context());
+    if (built.cut) bars = cut_at(bars, complex, *built.cut, arguments.options.min_persistence);
     return bars;
   };
-  const Barcode barcode = compute();
+  Barcode barcode = compute(built.complex);
   watch.lap("persistence");
+  std::vector<BarLoops> loops_of_bars;
+  if (writes_loops(job, arguments)) {
+    loops_of_bars =
+        loops(built.complex, barcode, options,
+              arguments.loops.value_or(LoopChoice::tight) == LoopChoice::tight, session.context());
+    watch.lap("loops");
+  }
+  const MemoryClaim claim_of_loops(session.context().memory, bytes_of(loops_of_bars));
+  if (!point_ids.empty()) {
+    barcode = with_input_ids(barcode, point_ids);
+    name_points(loops_of_bars, point_ids);
+  }
 
   int code = app::kOk;
   std::vector<std::string> warnings;
@@ -240,7 +306,9 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
     options.engine = Engine::standard;
     options.collapse = Collapse::off;
     options.representatives = Representatives::none;
-    const std::string difference = first_difference(barcode, compute());
+    const std::string difference = first_difference(
+        barcode, built.by_definition ? compute(built.by_definition(session.context()))
+                                     : compute(built.complex));
     watch.lap("check");
     if (difference.empty()) {
       session.explain("check: the oracle agrees");
@@ -264,6 +332,7 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   info.subsample = built.subsample;
   info.voxels = built.voxels;
   info.approximation = arguments.rips.approximation;
+  info.loops = loops_of_bars;
   info.engine = engine_name(planned.engine);
   info.timings = watch.laps();
   info.peak_memory = app::peak_memory();
@@ -271,26 +340,55 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
     session.explain(fmt::format("{} {:.3f} s", stage, seconds));
   session.explain("memory " + app::format_size(static_cast<double>(session.memory_taken())));
   const app::BarHold results_are_written(session);
-  outputs->write(barcode, info, job, arguments, trees, session.context());
+  outputs->write(barcode, info, look_of(arguments), trees, session.context());
   if (data) {
     const Shown shown{barcode, info, *data, built, std::move(warnings)};
-    write_report(outputs->report->file(), shown, arguments, session);
-    outputs->report->commit();
+    write_report(outputs->report().file(), shown, arguments, session);
+    outputs->report().commit();
   }
-  return {code, fmt::format("{}: {}", description, plural(barcode.size(), "bar"))};
+  return {code, fmt::format("{}: {}", description, count_of(barcode.size(), "bar"))};
 }
 
 }  // namespace
 
-NamedData read_input(const Job& job, const Arguments& arguments, const RunContext& context) {
+std::string count_of(std::size_t count, std::string_view what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+Outputs::Outputs(const Job& job) : job_(job) {
+  if (job.format != BarcodeFormat::none) barcode_.emplace(job.output);
+  for (const app::Plot& plot : job.plots) plots_.emplace_back(plot.path);
+  if (!job.report.empty()) report_.emplace(job.report);
+}
+
+void Outputs::write(const Barcode& bars, const BarcodeInfo& info, const PlotOptions& look,
+                    std::span<const std::string> trees, const RunContext& context) {
+  auto tree = trees.begin();
+  for (std::size_t i = 0; i < plots_.size(); ++i) {
+    const app::Plot& plot = job_.plots[i];
+    const auto kind = plot_kind_named(plot.kind);
+    PlotOptions options = look;
+    options.kind = kind.value_or(options.kind);
+    plots_[i].write(kind ? app::drawn(plot, bars, options, context) : *tree++);
+  }
+  // Pixels may exceed the memory: nothing is complete before all is drawn.
+  if (barcode_) {
+    write_barcode(barcode_->file(), bars, job_.format, info);
+    barcode_->commit();
+  }
+  for (app::Output& plot : plots_) plot.commit();
+}
+
+NamedData read_input(const Input& input, const Arguments& arguments, const RunContext& context) {
   std::vector<Index> dropped;
   ReadOptions options = arguments.read;
   options.context = &context;
   options.dropped = &dropped;
-  const Input input = Input::open(job.input, &context, Input::Excess::stays_in_file);
   ReadResult read = read_any(input, arguments.format, options, arguments.values);
+  if (std::string note = note_on_mesh(read, arguments); !note.empty())
+    read.notes.push_back(std::move(note));
   std::string sha256;
-  if (!arguments.report.empty()) sha256 = report::sha256_hex(input.bytes(), context);
+  if (!arguments.report.empty() && !arguments.dry_run) sha256 = report::sha256_hex(input, context);
   return {input.name(), std::move(read), dropped.size(), std::move(sha256)};
 }
 

@@ -256,7 +256,8 @@ class WaysOut {
 std::string ways_out(const Job& job, const Arguments& arguments, app::Session& session) {
   if (job.input == "-") return "";  // was read and is gone
   try {
-    const NamedData data = read_input(job, arguments, session.context());
+    const Input input = Input::open(job.input, &session.context(), Input::Excess::stays_in_file);
+    const NamedData data = read_input(input, arguments, session.context());
     const auto found = WaysOut(data, arguments, session.context()).find();
     return fmt::format("{}", fmt::join(found, "; "));
   } catch (const Error& error) {

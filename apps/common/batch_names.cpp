@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <filesystem>
 #include <map>
 #include <system_error>
 
 #include "ph/core/error.hpp"
+#include "ph/io/reader.hpp"
 
 namespace ph::app {
 namespace {
@@ -53,6 +55,51 @@ std::vector<std::string> output_names(const std::vector<std::string>& inputs) {
                                             : name_with_folders(input));
   }
   return result;
+}
+
+std::string filled(const std::string& pattern, const std::string& name,
+                   std::string_view extension) {
+  if (pattern.empty()) return {};
+  if (pattern.ends_with('/')) return fmt::format("{}{}{}", pattern, name, extension);
+  const std::size_t star = pattern.rfind('*');
+  if (star == pattern.npos) return fmt::format("{}/{}{}", pattern, name, extension);
+  std::string path = pattern;
+  return path.replace(star, 1, name);
+}
+
+void prepare_outputs(std::string_view option, const std::string& pattern) {
+  if (pattern.empty() || is_folder(pattern)) return;
+  const std::size_t slash = pattern.rfind('/'), star = pattern.rfind('*');
+  const bool has_star = star != pattern.npos && (slash == pattern.npos || slash < star);
+  if (!has_star && !pattern.ends_with('/'))
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: several inputs need a folder (FOLDER/) or a * for their names, "
+                            "found '{}'",
+                            option, printable(pattern)));
+  if (slash != pattern.npos && slash > 0) create_folder(pattern.substr(0, slash));
+}
+
+std::vector<std::string> files_in(const std::string& folder,
+                                  std::span<const std::string_view> extensions,
+                                  std::string_view what) {
+  namespace fs = std::filesystem;
+  const auto is_known = [&](std::string name) {
+    for (char& c : name)
+      if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return std::ranges::any_of(extensions, [&](std::string_view e) {
+      return name.size() > e.size() && name.ends_with(e);
+    });
+  };
+  std::vector<std::string> files;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    if (is_known(entry.path().filename().string())) files.push_back(entry.path().string());
+  if (error || files.empty())
+    throw Error(ErrorKind::no_input,
+                fmt::format("{}: {}", printable(folder),
+                            error ? error.message() : fmt::format("a folder without {}", what)));
+  std::ranges::sort(files);
+  return files;
 }
 
 bool is_folder(const std::string& path) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ph::app {
@@ -8,6 +10,20 @@ namespace ph::app {
 /// Names for the outputs of inputs: the shortest that only one of them has, without extension, with
 /// it, or with folders. Two inputs may still have the same: the same file named twice.
 std::vector<std::string> output_names(const std::vector<std::string>& inputs);
+
+/// The file of one of several inputs: a folder gets a file of its name, a `*` becomes its name.
+/// @param extension with its dot, for a folder.
+std::string filled(const std::string& pattern, const std::string& name, std::string_view extension);
+
+/// Creates the folder that a pattern of `filled` names.
+/// @throws Error (usage) if it is neither a folder nor has a `*`; Error (cannot_create).
+void prepare_outputs(std::string_view option, const std::string& pattern);
+
+/// The files of a folder whose names end in one of these, whatever their case, by name.
+/// @param what they would be, for the message. @throws Error (no_input) if there are none.
+std::vector<std::string> files_in(const std::string& folder,
+                                  std::span<const std::string_view> extensions,
+                                  std::string_view what);
 
 bool is_folder(const std::string& path);
 

@@ -36,18 +36,27 @@ std::optional<std::string_view> nearest_name(std::string_view typed,
                                              std::span<const std::string_view> names) {
   constexpr std::size_t kLongestWord = 64;  // nobody mistypes more; keeps the cost bounded
   if (typed.empty() || typed.size() > kLongestWord) return std::nullopt;
+  const auto word_of = [](std::string_view name) {
+    return name.substr(std::min(name.find_first_not_of('-'), name.size()));
+  };
+  const std::string_view word = word_of(typed);
   std::optional<std::string_view> best;
   std::size_t best_distance = 0;
   for (const std::string_view name : names) {
-    // A beginning or an end of a name ("--max" for "--max-dim") counts as one edit.
-    const bool part = typed.size() >= 3 && (name.starts_with(typed) || name.ends_with(typed));
-    const std::size_t distance = part ? 1 : edit_distance(typed, name);
+    // A beginning or an end of a name ("--max" for "--max-dim") counts as one edit, and so does a
+    // word before an option's ("--plot-title" for "--title").
+    const std::string_view known = word_of(name);
+    const bool part = (word.size() >= 3 && (known.starts_with(word) || known.ends_with(word))) ||
+                      (name.starts_with("--") && word.size() > known.size() + 1 &&
+                       word.ends_with(known) && word[word.size() - known.size() - 1] == '-');
+    const std::size_t distance = part ? 1 : edit_distance(word, known);
     if (!best || distance < best_distance) {
       best = name;
       best_distance = distance;
     }
   }
-  const std::size_t enough = std::max<std::size_t>(1, typed.size() / 3);
+  // Of what is typed two thirds are right at least, and no more than two letters wrong.
+  const std::size_t enough = std::clamp<std::size_t>(word.size() / 3, 1, 2);
   if (best_distance > enough) return std::nullopt;
   return best;
 }

@@ -111,10 +111,12 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
       ->group(group);
   app.add_flag("--quiet", options.quiet, "no messages but errors")->group(group);
   app.add_flag("--verbose", options.verbose, "say what was chosen and why")->group(group);
+  app.add_flag("--force", options.force, "write over an input, which is refused else")
+      ->group(group);
   app.add_flag("--version", options.version,
                "print the version and exit; with --verbose also what was built in")
       ->group(group);
-  app.add_flag("--help", options.help, "print this text and exit")->group(group);
+  app.add_flag("-h,--help", options.help, "print this text and exit")->group(group);
 }
 
 CLI::Option* add_value(CLI::App& app, const std::string& names, const std::string& placeholder,
@@ -190,6 +192,7 @@ std::optional<std::string> parse_command_line(CLI::App& app, const CommonOptions
       option->description(wrapped(option->get_description()));
     return app.help();
   }
+  if (options.quiet && options.verbose) throw Error(ErrorKind::usage, "--quiet excludes --verbose");
   if (options.version) {
     return program_and_version(app.get_name()) + "\n" +
            (options.verbose ? build_information() + built_in : "");

@@ -21,6 +21,7 @@ struct CommonOptions {
   ProgressMode progress = ProgressMode::automatic;
   bool quiet = false;
   bool verbose = false;
+  bool force = false;  ///< an output may replace an input
   bool help = false;
   bool version = false;
 };

@@ -5,8 +5,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "batch_names.hpp"
 #include "choices.hpp"
+#include "command_line.hpp"
+#include "numbers.hpp"
 #include "ph/core/error.hpp"
 
 namespace ph::app {
@@ -28,16 +32,60 @@ void require_known_format(const Plot& plot) {
   if (plot.is_png() && png_plot_support().empty())
     throw Error(ErrorKind::not_built_in,
                 fmt::format("--plot {}: PNG plots are not built in; use .svg", plot.path));
-  if (!plot.is_png() && !ends_in(plot.path, ".svg"))
+  const bool is_place = plot.path.ends_with('/') || is_folder(plot.path);
+  if (!plot.is_png() && !is_place && !ends_in(plot.path, ".svg"))
     throw Error(
         ErrorKind::usage,
         fmt::format("--plot: found '{}', expected a name that ends in .svg or .png", plot.path));
 }
 
+namespace {
+
+/// "LO,HI", "log" or both.
+PlotAxis parse_axis(const std::string& text) {
+  PlotAxis axis;
+  std::string limits = text;
+  if (limits == "log") {
+    axis.logarithmic = true;
+    return axis;
+  }
+  constexpr std::string_view kLog = ",log";
+  if (limits.ends_with(kLog)) {
+    axis.logarithmic = true;
+    limits.resize(limits.size() - kLog.size());
+  }
+  const std::vector<double> ends = parse_numbers("--axis", limits, 2);
+  if (!(ends[0] < ends[1]) || !std::isfinite(ends[0]) || !std::isfinite(ends[1]))
+    throw Error(ErrorKind::usage, fmt::format("--axis: found '{}', expected LO,HI, a lower and a "
+                                              "higher finite number",
+                                              text));
+  if (axis.logarithmic && ends[0] <= 0)
+    throw Error(ErrorKind::usage,
+                fmt::format("--axis: found '{}', expected numbers above 0 with log", text));
+  axis.low = ends[0];
+  axis.high = ends[1];
+  return axis;
+}
+
+PlotSize parse_size(const std::string& text) {
+  const std::size_t times = text.find('x');
+  if (times == text.npos)
+    throw Error(ErrorKind::usage,
+                fmt::format("--size: found '{}', expected WIDTHxHEIGHT in pixels", text));
+  const auto pixels = [](const std::string& number) {
+    return static_cast<int>(parse_integer("--size", number, 1, kMostPlotPixels));
+  };
+  return {pixels(text.substr(0, times)), pixels(text.substr(times + 1))};
+}
+
+}  // namespace
+
 std::vector<Plot> PlotArguments::together(std::string_view usual) const {
   if (kinds.size() > paths.size())
     throw Error(ErrorKind::usage, paths.empty() ? "--plot-kind needs --plot FILE"
                                                 : "--plot-kind was given more often than --plot");
+  if (paths.empty() && !looks.empty())
+    throw Error(ErrorKind::usage, looks.front() + " needs --plot FILE");
   std::vector<Plot> plots;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (paths[i].empty()) throw Error(ErrorKind::usage, "--plot: found '', expected a path");
@@ -48,11 +96,23 @@ std::vector<Plot> PlotArguments::together(std::string_view usual) const {
     plots.push_back(
         {paths[i], kinds.empty() ? std::string(usual) : kinds[std::min(i, kinds.size() - 1)]});
   }
+  const auto require = [&](std::string_view option, auto&& has_it, std::string_view meant_for) {
+    if (std::ranges::count(looks, option) > 0 && std::ranges::none_of(plots, has_it))
+      throw Error(ErrorKind::usage,
+                  fmt::format("{}: makes sense for plots of {} only, found --plot-kind {}", option,
+                              meant_for, plots.front().kind));
+  };
+  require(
+      "--dims", [](const Plot& plot) { return plot.shows_bars(); }, "bars");
+  require(
+      "--axis", [](const Plot& plot) { return plot.shows_bars() || plot.kind == "tree"; },
+      "bars and merge trees");
   return plots;
 }
 
 void add_plot_options(CLI::App& app, std::span<const std::string_view> kinds,
-                      const std::string& description, const std::string& group, PlotArguments& to) {
+                      const std::string& description, const std::string& group, bool dims,
+                      PlotArguments& to) {
   const auto add = [&](const std::string& name, const std::string& placeholder,
                        const std::string& what, auto take) {
     app.add_option_function<std::vector<std::string>>(name, take, what)
@@ -71,6 +131,27 @@ void add_plot_options(CLI::App& app, std::span<const std::string_view> kinds,
         for (const std::string& word : words)
           to.kinds.emplace_back(kinds[choose("--plot-kind", word, kinds)]);
       });
+  const auto look = [&](const std::string& name, const std::string& placeholder,
+                        const std::string& what, auto take) {
+    add_value(app, name, placeholder, what, [&to, name, take](const std::string& text) {
+      to.looks.push_back(name);
+      take(text);
+    })->group(group);
+  };
+  if (dims)
+    look("--dims", "D,…", "dimensions that plots show (default: all that there are)",
+         [&to](const std::string& text) {
+           for (const std::int64_t dim : parse_integers("--dims", text, 0, 1'000'000))
+             to.look.dims.push_back(static_cast<int>(dim));
+         });
+  look("--title", "TEXT", "title above each plot (default: none)",
+       [&to](const std::string& text) { to.look.title = text; });
+  look("--size", "WxH",
+       "size of each plot in pixels; the picture fits into it (default: 1040 across, in SVG 88 mm)",
+       [&to](const std::string& text) { to.look.size = parse_size(text); });
+  look("--axis", "LO,HI|log|LO,HI,log",
+       "filtration values on the axis of plots; log: logarithmic (default: all that there are)",
+       [&to](const std::string& text) { to.look.axis = parse_axis(text); });
 }
 
 }  // namespace ph::app

@@ -17,10 +17,12 @@ struct Plot {
 
   /// Whether its name ends in .png; what ends in nothing known is SVG.
   bool is_png() const;
+  /// Whether it shows bars: a barcode, a diagram, Betti curves.
+  bool shows_bars() const { return plot_kind_named(kind).has_value(); }
 };
 
-/// @throws Error (usage) unless the name ends in .svg or .png; Error (not_built_in) on a PNG that
-/// this build cannot draw.
+/// @throws Error (usage) unless the name ends in .svg or .png, or is that of a folder; Error
+/// (not_built_in) on a PNG that this build cannot draw.
 void require_known_format(const Plot& plot);
 
 /// The file of a plot. @param what a barcode, a merge tree or a coloured picture.
@@ -30,18 +32,23 @@ std::string drawn(const Plot& plot, const What& what, const PlotOptions& options
   return plot.is_png() ? png_plot(what, options, context) : svg_plot(what, options);
 }
 
-/// --plot and --plot-kind as they were typed.
+/// --plot, --plot-kind and how plots look, as they were typed.
 struct PlotArguments {
   std::vector<std::string> paths, kinds;
+  PlotOptions look;                ///< of all of them: title, size, axis, dimensions
+  std::vector<std::string> looks;  ///< the options that say so
 
   /// Each picture with its kind: in turn, the last kind counts for the rest.
   /// @param usual kind of all if none is given.
-  /// @throws Error (usage) if there are more kinds than pictures, or two pictures in one file.
+  /// @throws Error (usage) if there are more kinds than pictures, two pictures in one file, or a
+  /// look that none of them can have.
   std::vector<Plot> together(std::string_view usual) const;
 };
 
-/// Registers both. @param kinds outlives `app`, as `to` does.
+/// Registers them. @param kinds outlives `app`, as `to` does. @param dims whether bars have several
+/// dimensions to choose from.
 void add_plot_options(CLI::App& app, std::span<const std::string_view> kinds,
-                      const std::string& description, const std::string& group, PlotArguments& to);
+                      const std::string& description, const std::string& group, bool dims,
+                      PlotArguments& to);
 
 }  // namespace ph::app

@@ -22,10 +22,6 @@
 namespace ph::app {
 namespace {
 
-constexpr std::string_view kWaysOut =
-    "lower the threshold, the dimension (--max-dim) or the number of points, or raise "
-    "--memory-limit";
-
 /// Occupies the standard descriptors that the caller closed, so that no file we open becomes
 /// "standard output" by accident. Opened the wrong way round: using them is an error, as it should.
 void occupy_standard_descriptors() {
@@ -42,7 +38,7 @@ void keep_freed_memory() {
 }
 
 /// What report_current_exception does while there is memory for a message.
-int report_with_memory(std::string_view prefix) {
+int report_with_memory(std::string_view prefix, std::string_view ways_out) {
   const auto report = [&](std::string_view what, int code) {
     print_line(fmt::format("{}: {}", prefix, what));
     return code;
@@ -60,12 +56,12 @@ int report_with_memory(std::string_view prefix) {
       return report(fmt::format("internal error: {}; please report", error.what()), kInternal);
     if (error.kind() == ErrorKind::resource &&
         std::string_view(error.what()).find("--memory-limit") == std::string_view::npos)
-      return report(fmt::format("{}; {}", error.what(), kWaysOut), kResource);
+      return report(fmt::format("{}; {}", error.what(), ways_out), kResource);
     return report(error.what(), exit_code(error.kind()));
   } catch (const std::bad_alloc&) {
-    return report(fmt::format("out of memory; {}", kWaysOut), kResource);
+    return report(fmt::format("out of memory; {}", ways_out), kResource);
   } catch (const std::length_error&) {
-    return report(fmt::format("out of memory: a container would be too large; {}", kWaysOut),
+    return report(fmt::format("out of memory: a container would be too large; {}", ways_out),
                   kResource);
   } catch (const std::system_error& error) {
     // What threads throw if the system has no room for another one.
@@ -81,12 +77,14 @@ int report_with_memory(std::string_view prefix) {
 
 }  // namespace
 
-int report_current_exception(std::string_view prefix) {
+int report_current_exception(const Program& program, std::string_view subject) {
   try {
-    return report_with_memory(prefix);
+    const std::string prefix =
+        fmt::format("{}{}{}", program.name, subject.empty() ? "" : ": ", subject);
+    return report_with_memory(prefix, program.ways_out);
   } catch (...) {
     // Not even a message fits into memory: this one needs none.
-    print_without_memory(prefix, "out of memory");
+    print_without_memory(program.name, "out of memory");
     return kResource;
   }
 }
@@ -103,7 +101,7 @@ void take_large_pages() {
   std::free(block);
 }
 
-int run_program(std::string_view name, const std::function<int(std::stop_token)>& body) {
+int run_program(const Program& program, const std::function<int(std::stop_token)>& body) {
   keep_freed_memory();
   occupy_standard_descriptors();
   signal(SIGPIPE, SIG_IGN);  // a write then fails with EPIPE
@@ -113,10 +111,10 @@ int run_program(std::string_view name, const std::function<int(std::stop_token)>
     try {
       return body(signals.token());
     } catch (...) {
-      return report_current_exception(name);
+      return report_current_exception(program);
     }
   } catch (...) {
-    return report_current_exception(name);
+    return report_current_exception(program);
   }
 }
 

@@ -7,19 +7,25 @@
 
 namespace ph::app {
 
+/// A program as its messages have it.
+struct Program {
+  std::string_view name;
+  std::string_view ways_out;  ///< what helps where memory runs out: options that it has
+};
+
 /// Runs the body of a program and turns whatever happens into an exit code and at most one line on
 /// stderr: `name: what`. SIGINT, SIGTERM and SIGHUP request a stop through the token the body gets;
 /// the program ends within 0.2 s even if the body does not listen, and at once on a second signal.
 /// SIGPIPE is ignored, a broken pipe ends the program quietly.
-int run_program(std::string_view name, const std::function<int(std::stop_token)>& body);
+int run_program(const Program& program, const std::function<int(std::stop_token)>& body);
 
 /// Lets the first megabytes of the heap come in large pages, where the system has any; to be called
 /// by a body before it allocates. The stages of a frame take a tenth to a quarter less, but each
 /// page may hold 2 MiB for a few bytes.
 void take_large_pages();
 
-/// The exit code of the exception in flight; reports it on stderr as `prefix: what`, unless it is a
-/// broken pipe or a stop request. For programs that go on with the next input.
-int report_current_exception(std::string_view prefix);
+/// The exit code of the exception in flight; reports it on stderr as `name: subject: what`, unless
+/// it is a broken pipe or a stop request. For programs that go on with the next input.
+int report_current_exception(const Program& program, std::string_view subject = {});
 
 }  // namespace ph::app

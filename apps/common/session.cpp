@@ -26,6 +26,10 @@ Session::Session(std::string_view program, const CommonOptions& options, std::st
   heap_.bound(context_.memory.limit());
   if (progress_.active())
     context_.on_progress = [this](const Progress& progress) { progress_.report(progress); };
+  constexpr std::string_view kModes[] = {"auto", "bar", "json", "none"};
+  if (options.progress != ProgressMode::automatic)
+    explain(fmt::format("progress {}", kModes[static_cast<int>(options.progress)]));
+  if (options.threads > 0) explain(fmt::format("threads {}", options.threads));
   explain(
       fmt::format("memory limit {}", format_size(static_cast<double>(context_.memory.limit()))));
 }

@@ -5,12 +5,14 @@
 #include <fmt/ranges.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <new>
 
 #include "base64.hpp"
 #include "ph/core/error.hpp"
+#include "ph/core/file_pages.hpp"
 #include "ph/io/barcode_io.hpp"
 
 namespace ph::report {
@@ -67,19 +69,29 @@ class DeflatedText {
 /// `delta`, byte after byte of all numbers. @param Word the unsigned integer as wide as a number:
 /// differences modulo its width are those of signed ones, too.
 template <class Word>
-void put_numbers(std::span<const std::byte> bytes, std::size_t columns, bool delta,
-                 DeflatedText& text) {
-  const std::size_t count = bytes.size() / sizeof(Word);
+void put_numbers(const RawArray& array, std::size_t columns, bool delta, DeflatedText& text) {
+  constexpr std::size_t block = 1 << 17;
+  const std::byte* const bytes = array.bytes.data();
+  const std::size_t count = array.bytes.size() / sizeof(Word);
   const auto number = [&](std::size_t i) {
     Word word;
-    std::memcpy(&word, bytes.data() + i * sizeof(Word), sizeof(Word));
+    std::memcpy(&word, bytes + i * sizeof(Word), sizeof(Word));
     return word;
   };
+  const auto give_back = [&](std::size_t begin, std::size_t end) {
+    forget_file_pages(bytes + begin * sizeof(Word), (end - begin) * sizeof(Word));
+  };
   for (std::size_t plane = 0; plane < sizeof(Word); ++plane) {
-    for (std::size_t i = 0; i < count; ++i) {
-      const Word before = delta && i >= columns ? number(i - columns) : Word{0};
-      const auto stored = static_cast<Word>(number(i) - before);
-      text.put(static_cast<std::uint8_t>(stored >> 8 * plane));
+    for (std::size_t begin = 0; begin < count; begin += block) {
+      const std::size_t end = std::min(count, begin + block);
+      for (std::size_t i = begin; i < end; ++i) {
+        const Word before = delta && i >= columns ? number(i - columns) : Word{0};
+        const auto stored = static_cast<Word>(number(i) - before);
+        text.put(static_cast<std::uint8_t>(stored >> 8 * plane));
+      }
+      if (!array.is_in_file) continue;
+      give_back(begin, end);
+      if (delta && end > columns) give_back(begin - std::min(begin, columns), end - columns);
     }
   }
 }
@@ -122,16 +134,16 @@ void write_array(OutputFile& file, const RawArray& array, const ArrayForm& form,
     DeflatedText text(file, context);
     switch (array.width) {
       case 1:
-        put_numbers<std::uint8_t>(array.bytes, columns, form.delta, text);
+        put_numbers<std::uint8_t>(array, columns, form.delta, text);
         break;
       case 2:
-        put_numbers<std::uint16_t>(array.bytes, columns, form.delta, text);
+        put_numbers<std::uint16_t>(array, columns, form.delta, text);
         break;
       case 4:
-        put_numbers<std::uint32_t>(array.bytes, columns, form.delta, text);
+        put_numbers<std::uint32_t>(array, columns, form.delta, text);
         break;
       default:
-        put_numbers<std::uint64_t>(array.bytes, columns, form.delta, text);
+        put_numbers<std::uint64_t>(array, columns, form.delta, text);
     }
     text.finish();
   }

@@ -36,10 +36,12 @@ struct RawArray {
   std::string_view type;  ///< "f64"
   std::size_t width;      ///< bytes a number, in the order of this machine
   std::span<const std::byte> bytes;
+  bool is_in_file = false;  ///< see ph/core/file_pages.hpp
 };
 
 /// Writes an array as docs/report-format.md says: filters, zlib, base64, in an element of its own.
-/// Numbers of more than a byte are stored as planes. Memory beside the array: a constant.
+/// Numbers of more than a byte are stored as planes. Memory beside the array: a constant; of an
+/// array in a file no more than a block is in memory.
 /// @throws Error (io) as OutputFile; Error (cancelled); std::bad_alloc.
 void write_array(OutputFile& file, const RawArray& array, const ArrayForm& form,
                  const RunContext& context);

@@ -53,9 +53,8 @@ void add_bars(ReportFile& report, const Barcode& barcode, std::string_view prefi
   for (const Bar& bar : barcode) {
     if (bar.dim > UINT8_MAX)
       throw Error(ErrorKind::bad_data,
-                  fmt::format("--report: found a bar of dimension {}, expected at most {}; lower "
-                              "--max-dim",
-                              bar.dim, UINT8_MAX));
+                  fmt::format("--report: found a bar of dimension {}, expected at most {}", bar.dim,
+                              UINT8_MAX));
     dims.push_back(static_cast<std::uint8_t>(bar.dim));
     births.push_back(bar.birth);
     deaths.push_back(bar.death);

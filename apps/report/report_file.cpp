@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "report_file.hpp"
 
+#include <limits>
+
 #include "page_template.hpp"
 
 namespace ph::report {
@@ -21,6 +23,17 @@ void ReportFile::add_pictures(std::span<const std::string> pictures) {
   for (const std::string& svg : pictures)
     file_.write(std::string_view(svg).substr(svg.find("<svg")));
   file_.write("</noscript>\n");
+}
+
+void ReportFile::add_voxels(std::string_view name, const CubicalImage& image) {
+  ArrayForm form;
+  for (const Index extent : image.extents) form.shape.push_back(static_cast<std::size_t>(extent));
+  with_voxels(image.type, image.voxels, [&]<class T>(const T* values) {
+    form.delta = std::numeric_limits<T>::is_integer;
+    RawArray array = raw_array(name, std::span(values, image.size()));
+    array.is_in_file = image.is_in_file;
+    write_array(file_, array, form, context_);
+  });
 }
 
 void ReportFile::finish() {

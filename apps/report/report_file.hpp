@@ -7,6 +7,7 @@
 
 #include "array_block.hpp"
 #include "metadata.hpp"
+#include "ph/core/cubical_image.hpp"
 #include "ph/core/run_context.hpp"
 #include "ph/io/output_file.hpp"
 
@@ -27,6 +28,8 @@ class ReportFile {
   void add(std::string_view name, const std::vector<T>& numbers, const ArrayForm& form = {}) {
     add(name, std::span<const T>(numbers), form);
   }
+  /// The voxels of an image, as they are stored.
+  void add_voxels(std::string_view name, const CubicalImage& image);
   /// Writes what is seen where scripts do not run. @param pictures SVG documents.
   void add_pictures(std::span<const std::string> pictures);
   /// Writes the rest of the page.

@@ -56,27 +56,47 @@ void add_block(State& state, const std::byte* block) {
   for (std::size_t i = 0; i < state.size(); ++i) state[i] += added[i];
 }
 
-}  // namespace
-
-std::string sha256_hex(std::span<const std::byte> bytes, const RunContext& context) {
+/// @param done_with called with (begin, size) of each part that was read, about a MiB.
+template <class DoneWith>
+std::string hex_of(std::span<const std::byte> bytes, const RunContext& context,
+                   DoneWith&& done_with) {
+  constexpr std::size_t part = std::size_t{1} << 20;  // a multiple of kBlock
   State state = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
                  0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
   Ticker ticker(context, "hash", bytes.size() / kBlock);
-  const std::uint64_t bits = std::uint64_t{8} * bytes.size();
-  for (; bytes.size() >= kBlock; bytes = bytes.subspan(kBlock)) {
-    add_block(state, bytes.data());
+  std::size_t at = 0, given_back = 0;
+  for (; bytes.size() - at >= kBlock; at += kBlock) {
+    if (at - given_back == part) {
+      done_with(given_back, part);
+      given_back = at;
+    }
+    add_block(state, bytes.data() + at);
     ticker.tick();
   }
   // A one, zeros, and the length in the last eight bytes.
+  const std::span last = bytes.subspan(at);
+  const std::uint64_t bits = std::uint64_t{8} * bytes.size();
   std::array<std::byte, 2 * kBlock> rest{};
-  std::ranges::copy(bytes, rest.begin());
-  rest[bytes.size()] = std::byte{0x80};
-  const std::size_t end = bytes.size() + 9 <= kBlock ? kBlock : 2 * kBlock;
+  std::ranges::copy(last, rest.begin());
+  done_with(given_back, bytes.size() - given_back);
+  rest[last.size()] = std::byte{0x80};
+  const std::size_t end = last.size() + 9 <= kBlock ? kBlock : 2 * kBlock;
   for (std::size_t k = 0; k < 8; ++k) rest[end - 1 - k] = static_cast<std::byte>(bits >> 8 * k);
-  for (std::size_t at = 0; at < end; at += kBlock) add_block(state, rest.data() + at);
+  for (std::size_t k = 0; k < end; k += kBlock) add_block(state, rest.data() + k);
   std::string text;
   for (const std::uint32_t word : state) text += fmt::format("{:08x}", word);
   return text;
+}
+
+}  // namespace
+
+std::string sha256_hex(std::span<const std::byte> bytes, const RunContext& context) {
+  return hex_of(bytes, context, [](std::size_t, std::size_t) {});
+}
+
+std::string sha256_hex(const Input& input, const RunContext& context) {
+  return hex_of(input.bytes(), context,
+                [&](std::size_t begin, std::size_t size) { input.done_with(begin, size); });
 }
 
 }  // namespace ph::report

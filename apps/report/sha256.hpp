@@ -5,11 +5,15 @@
 #include <string>
 
 #include "ph/core/run_context.hpp"
+#include "ph/io/reader.hpp"
 
 namespace ph::report {
 
 /// SHA-256 (FIPS 180-4) of some bytes, as 64 hexadecimal digits. @throws Error (cancelled).
 std::string sha256_hex(std::span<const std::byte> bytes,
                        const RunContext& context = default_context());
+/// The same of an input. One that stays in a file is read block by block: no more than a block of
+/// it is in memory.
+std::string sha256_hex(const Input& input, const RunContext& context = default_context());
 
 }  // namespace ph::report

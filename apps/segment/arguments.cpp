@@ -11,6 +11,7 @@
 #include "batch_names.hpp"
 #include "choices.hpp"
 #include "numbers.hpp"
+#include "option_scopes.hpp"
 #include "ph/core/error.hpp"
 #include "report/page_template.hpp"
 
@@ -89,11 +90,18 @@ int parse_steps(const std::string& text) {
   return static_cast<int>(app::parse_integer("--steps", text, 1, std::numeric_limits<int>::max()));
 }
 
+std::vector<std::string_view> names_of_presets() {
+  std::vector<std::string_view> names;
+  for (const CameraPreset& preset : camera_presets()) names.push_back(preset.name);
+  return names;
+}
+
 void add_input_options(CLI::App& app, Arguments& a) {
   app.add_option(
       "INPUT", a.inputs,
-      "point cloud: .pcd, .ply, .xyz or .csv; a stored merge tree (see --tree); with "
-      "--intrinsics also a depth image; - is standard input. Several, or a folder, are a "
+      "point cloud: .pcd, .ply, .xyz, .csv or .npy; a stored merge tree (see --tree); with "
+      "--camera or --intrinsics a depth image: .png, .pgm or .npy; - is standard input. Several, "
+      "or a folder, are a "
       "stream of frames: its outputs are folders (FOLDER/) or have a * for the frame's "
       "name, and --json gets one line a frame");
   app::add_path(app, "--frames-from", "LIST",
@@ -103,16 +111,25 @@ void add_input_options(CLI::App& app, Arguments& a) {
   app.add_flag("--stable-labels", a.stable_labels,
                "stream: an object keeps its label from frame to frame (by overlap in the image, of "
                "unorganised clouds in voxels); labels are then not in the order of size");
-  app::add_path(app, "--depth", "D.png", "depth image in place of INPUT; 0 is a hole",
+  app::add_path(app, "--depth", "D.png",
+                "depth image in place of INPUT: .png, .pgm or .npy; 0 and NaN are holes",
                 a.image.depth);
   app::add_path(app, "--color,--colour", "C.png", "colour image of the same size", a.image.colour);
-  add_value(app, "--intrinsics", "FX,FY,CX,CY",
-            "focal lengths and principal point of the depth image, pixels",
-            [&a](const std::string& v) {
-              const auto k = app::parse_numbers("--intrinsics", v, 4);
-              a.image.intrinsics = Intrinsics{k[0], k[1], k[2], k[3]};
-            });
-  add_value(app, "--depth-scale", "S", "depth units a metre (default: 1000, millimetres)",
+  CLI::Option* intrinsics = add_value(
+      app, "--intrinsics", "FX,FY,CX,CY",
+      "focal lengths and principal point of the depth image, pixels", [&a](const std::string& v) {
+        const auto k = app::parse_numbers("--intrinsics", v, 4);
+        a.image.camera = Camera{{k[0], k[1], k[2], k[3]}};
+      });
+  app::add_path(app, "--camera", "FILE|NAME",
+                fmt::format("the camera of the depth image in place of --intrinsics: a camera_info "
+                            "YAML of ROS, with its lens, an intrinsic JSON of Open3D, or the "
+                            "nominal values of {}",
+                            fmt::join(names_of_presets(), ", ")),
+                a.image.calibration)
+      ->excludes(intrinsics);
+  add_value(app, "--depth-scale", "S",
+            "depth units a metre (default: 1000, millimetres; floats: 1, metres)",
             [&a](const std::string& v) { a.image.scale = length("--depth-scale", v); });
   app.add_flag("--allow-empty", a.allow_empty,
                "a cloud without points is an empty result (default: an error)");
@@ -129,7 +146,8 @@ double at_least_zero(std::string_view option, const std::string& text) {
 /// Options that others contradict. Not asked for by name: that ends the program if there is no
 /// memory for a copy of the name.
 struct Known {
-  CLI::Option *method = nullptr, *supervoxels = nullptr, *min_persistence = nullptr;
+  CLI::Option *method = nullptr, *supervoxels = nullptr, *min_persistence = nullptr,
+              *plot_view = nullptr;
 };
 
 /// What comes before the plane is gone.
@@ -159,7 +177,8 @@ void add_scene_options(CLI::App& app, SegmentOptions& o) {
                         d.plane_noise),
             [&o](const std::string& v) { o.plane_noise = length("--plane-noise", v, true); });
   add_value(app, "--viewpoint", "X,Y,Z",
-            "where the sensor stood, metres (default: the file's VIEWPOINT, else 0,0,0)",
+            "where the sensor stood, metres (default: the file's VIEWPOINT, else 0,0,0; of an "
+            "organised cloud whose pixels' rays meet elsewhere that place, with a note)",
             [&o](const std::string& v) { o.viewpoint = parse_point("--viewpoint", v); });
 }
 
@@ -246,7 +265,7 @@ ViewTurn parse_turn(std::string_view option, const std::string& text) {
   return {v[0], v[1]};
 }
 
-void add_output_options(CLI::App& app, Arguments& a, app::PlotArguments& plots) {
+void add_output_options(CLI::App& app, Arguments& a, app::PlotArguments& plots, Known& known) {
   OutputPaths& files = a.files;
   const auto path = [&app](const std::string& names, const std::string& placeholder,
                            const std::string& what, std::string& target) {
@@ -273,11 +292,12 @@ void add_output_options(CLI::App& app, Arguments& a, app::PlotArguments& plots) 
       app, kPlotKinds,
       "figure of the barcode, of the merge tree, or of the cloud with a colour a segment "
       "(repeatable)",
-      "Options", plots);
-  add_value(app, "--plot-view", "RIGHT,UP",
-            "where a plot of the cloud is seen from: by how much the eye goes around the segments "
-            "from the viewpoint, degrees (default: 0,0)",
-            [&a](const std::string& v) { a.plot_view = parse_turn("--plot-view", v); });
+      "Options", false, plots);
+  known.plot_view = add_value(
+      app, "--plot-view", "RIGHT,UP",
+      "where a plot of the cloud is seen from: by how much the eye goes around the segments "
+      "from the viewpoint, degrees (default: 0,0)",
+      [&a](const std::string& v) { a.plot_view = parse_turn("--plot-view", v); });
   path("--coloured,--colored", "FILE.pcd|.ply",
        "the points with a colour a segment, safe for the colour-blind, and the rest in grey",
        files.coloured);
@@ -295,40 +315,38 @@ void add_output_options(CLI::App& app, Arguments& a, app::PlotArguments& plots) 
 
 /// What makes the scene, for a command that cuts it elsewhere.
 std::vector<std::string> scene_options(const CLI::App& app) {
-  constexpr std::array<std::string_view, 19> other = {
+  constexpr std::array<std::string_view, 22> other = {
       "output",      "labels",        "json",      "signatures", "tree",
       "barcode",     "plot",          "coloured",  "explain",    "picture",
       "report",      "cut",           "objects",   "parts",      "min-persistence",
-      "frames-from", "stable-labels", "plot-kind", "plot-view"};
+      "frames-from", "stable-labels", "plot-kind", "plot-view",  "title",
+      "size",        "axis"};
   return app::given_options(app, other);
 }
 
-/// The first option that was given of those that a stored tree cannot follow.
-std::string scene_option(const CLI::App& app) {
-  constexpr std::array<std::string_view, 12> names = {
-      "method",    "max-range",   "crop",  "plane",           "plane-distance", "plane-noise",
-      "viewpoint", "supervoxels", "voxel", "min-persistence", "distance",       "steps"};
-  for (const CLI::Option* option : app.get_options()) {
-    const std::vector<std::string>& known_as = option->get_lnames();
-    if (option->count() > 0 && !known_as.empty() && std::ranges::count(names, known_as.front()) > 0)
-      return "--" + known_as.front();
-  }
-  return {};
+/// Whether an input is a depth image, by its name, where a camera is given.
+bool may_be_image(const std::string& path) {
+  constexpr std::array<std::string_view, 6> extensions = {".png", ".PNG", ".pgm",
+                                                          ".PGM", ".npy", ".NPY"};
+  return std::ranges::any_of(extensions, [&](auto e) { return path.ends_with(e); });
 }
-
-bool is_png(const std::string& path) { return path.ends_with(".png") || path.ends_with(".PNG"); }
+/// Without one, an array of NumPy is a cloud.
+bool must_be_image(const std::string& path) {
+  return may_be_image(path) && !path.ends_with(".npy") && !path.ends_with(".NPY");
+}
 
 void require_inputs(const Arguments& a) {
   const bool depth = !a.image.depth.empty(), several = a.is_stream();
   const auto reject = [](const std::string& what) { throw Error(ErrorKind::usage, what); };
   if (a.inputs.empty() && a.frames_from.empty() && !depth)
     reject("expected INPUT or --depth; see --help");
-  if ((!a.inputs.empty() || !a.frames_from.empty()) && depth)
+  if (!a.frames_from.empty() && depth) reject("--frames-from: found --depth beside it");
+  if (!a.inputs.empty() && depth)
     reject("found both INPUT and --depth, expected one of them");
   for (const std::string& input : a.inputs) {
     if (input.empty()) reject("INPUT: found '', expected a path");
-    if (is_png(input) && !a.image.intrinsics)
-      reject(fmt::format("{}: expected --intrinsics FX,FY,CX,CY with a depth image",
+    if (must_be_image(input) && !a.image.has_camera())
+      reject(fmt::format("{}: expected --camera or --intrinsics FX,FY,CX,CY with a depth image",
                          printable(input)));
   }
   if (std::ranges::count(a.inputs, "-") + (a.frames_from == "-") > 1)
@@ -342,8 +360,8 @@ void require_inputs(const Arguments& a) {
 void require_consistent(const Arguments& a) {
   require_inputs(a);
   const bool depth = !a.image.depth.empty();
-  if (depth && !a.image.intrinsics) {
-    throw Error(ErrorKind::usage, "--depth: expected --intrinsics FX,FY,CX,CY with it");
+  if (depth && !a.image.has_camera()) {
+    throw Error(ErrorKind::usage, "--depth: expected --camera or --intrinsics FX,FY,CX,CY with it");
   }
   if (a.explain && a.files.to_standard_output()) {
     throw Error(ErrorKind::usage, "--explain and a result that goes to standard output, too");
@@ -351,8 +369,10 @@ void require_consistent(const Arguments& a) {
   if (!depth && !a.image.colour.empty()) {
     throw Error(ErrorKind::usage, "--color: expected --depth with it");
   }
-  if (a.image.intrinsics && !depth && !a.is_stream() && !is_png(a.inputs.front())) {
-    throw Error(ErrorKind::usage, "--intrinsics: expected a depth image, found a cloud");
+  if (!depth && !a.is_stream() && !may_be_image(a.inputs.front())) {
+    if (a.image.has_camera())
+      throw Error(ErrorKind::usage, fmt::format("{}: expected a depth image, found a cloud",
+                                                a.image.camera ? "--intrinsics" : "--camera"));
   }
 }
 
@@ -363,10 +383,10 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
                "ph-segment");
   add_input_options(app, a);
   add_scene_options(app, a.options);
-  const Known known = add_method_options(app, a.options);
+  Known known = add_method_options(app, a.options);
   add_cut_options(app, a.cut, known);
   app::PlotArguments plots;
-  add_output_options(app, a, plots);
+  add_output_options(app, a, plots, known);
   app::add_common_options(app, a.common);
   if (auto answer = app::parse_command_line(app, a.common, argc, argv,
                                             fmt::format(kBuiltIn, fmt::join(kMethodNames, " "))))
@@ -379,8 +399,13 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
     }
     a.options.method = Method::supervoxels;
   }
-  a.scene_option = scene_option(app);
+  a.given = app::given_scopes(app, option_scopes());
+  require_plane(a.given, a.options.plane);
   a.files.plots = plots.together(kPlotKinds.front());
+  a.files.look = plots.look;
+  const bool shows_cloud = std::ranges::count(a.files.plots, "cloud", &app::Plot::kind) > 0;
+  if (known.plot_view->count() > 0 && !shows_cloud)
+    throw Error(ErrorKind::usage, "--plot-view needs --plot FILE --plot-kind cloud");
   if (!a.files.report.empty()) {
     report::require_built_in("--report");
     a.command = app::typed_command("ph-segment", argc, argv);
@@ -408,7 +433,7 @@ bool Arguments::is_stream() const {
 }
 
 bool Arguments::is_depth_image() const {
-  return !image.depth.empty() || (image.intrinsics && is_png(input));
+  return !image.depth.empty() || (image.has_camera() && may_be_image(input));
 }
 
 }  // namespace ph::segment

@@ -9,6 +9,8 @@
 
 #include "cloud_picture.hpp"
 #include "command_line.hpp"
+#include "file_identity.hpp"
+#include "option_scope.hpp"
 #include "ph/io/cloud_io.hpp"
 #include "ph/segment.hpp"
 #include "plot_arguments.hpp"
@@ -18,9 +20,12 @@ namespace ph::segment {
 /// A depth image with what is needed to make a cloud of it.
 struct DepthInput {
   std::string depth;
-  std::string colour;                    ///< empty: none
-  std::optional<Intrinsics> intrinsics;  ///< pixels
-  double scale = 1000;                   ///< depth units a metre
+  std::string colour;            ///< empty: none
+  std::string calibration;       ///< --camera: a file, or a name; empty: none
+  std::optional<Camera> camera;  ///< of --intrinsics, or what `calibration` holds
+  std::optional<double> scale;   ///< depth units a metre; none: as the image suggests
+
+  bool has_camera() const { return camera || !calibration.empty(); }
 };
 
 /// The files to write. An empty path: not asked for.
@@ -34,12 +39,30 @@ struct OutputPaths {
   std::string picture;           ///< the image with a colour a segment
   std::string report;            ///< the page to look at
   std::vector<app::Plot> plots;  ///< figures of what is in it
+  PlotOptions look = {};         ///< of the figures
 
   std::vector<const std::string*> all() const {
     std::vector<const std::string*> paths{&output, &labels, &json, &tree, &barcode};
     for (const app::Plot& plot : plots) paths.push_back(&plot.path);
     paths.insert(paths.end(), {&coloured, &picture, &report});
     return paths;
+  }
+  /// Those that are asked for, with their options.
+  std::vector<app::Written> written() const {
+    std::vector<app::Written> files;
+    const auto add = [&](std::string_view option, const std::string& path) {
+      if (!path.empty()) files.push_back({option, path});
+    };
+    add("--output", output);
+    add("--labels", labels);
+    add("--json", json);
+    add("--tree", tree);
+    add("--barcode", barcode);
+    for (const app::Plot& plot : plots) add("--plot", plot.path);
+    add("--coloured", coloured);
+    add("--picture", picture);
+    add("--report", report);
+    return files;
   }
   /// Those that a stream has for each of its frames, and that are asked for.
   std::vector<std::string> of_each_frame() const {
@@ -79,7 +102,8 @@ struct Arguments {
   bool allow_empty = false;  ///< a cloud without points is an empty result, not an error
   SegmentOptions options;
   CutArguments cut;
-  std::string scene_option;  ///< an option that was given and that a stored tree cannot follow
+  /// The options that were given of those that do nothing for some inputs or methods.
+  std::vector<const app::OptionScope*> given;
   OutputPaths files;
   ViewTurn plot_view;       ///< of a plot that shows the cloud
   bool signatures = false;  ///< the homology of each segment goes into the JSON

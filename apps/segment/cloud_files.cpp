@@ -51,6 +51,7 @@ std::string cloud_bytes(const Cloud& cloud, CloudFormat format) {
 Cloud read_cloud(const std::filesystem::path& path) { return ph::read_cloud(path); }
 
 Cloud with_labels(const Cloud& cloud, std::span<const std::uint32_t> labels) {
+  cloud.check();
   if (static_cast<Index>(labels.size()) != cloud.size()) {
     throw Error(ErrorKind::usage, fmt::format("found {} labels, expected {}, one a point",
                                               labels.size(), cloud.size()));

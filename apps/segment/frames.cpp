@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 
@@ -16,55 +15,17 @@
 namespace ph::segment {
 namespace {
 
-namespace fs = std::filesystem;
+// Depth images last.
+constexpr std::array<std::string_view, 9> kExtensions = {".pcd", ".ply",  ".xyz", ".xyzrgb", ".csv",
+                                                         ".pts", ".tree", ".png", ".pgm"};
+constexpr std::size_t kImages = 2;
 
-constexpr std::array<std::string_view, 8> kExtensions = {".pcd", ".ply", ".xyz",  ".xyzrgb",
-                                                         ".csv", ".pts", ".tree", ".png"};
-
-/// The files of a folder that may be frames, by name.
+/// The files of a folder that may be frames, by name. Arrays of NumPy may be labels of an earlier
+/// run, and are none.
 std::vector<std::string> frames_in(const std::string& folder, bool depth_images) {
-  std::vector<std::string> frames;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    std::string extension = entry.path().extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; });
-    const bool known = std::ranges::find(kExtensions, extension) != kExtensions.end();
-    if (known && (depth_images || extension != ".png")) frames.push_back(entry.path().string());
-  }
-  if (error || frames.empty()) {
-    throw Error(
-        ErrorKind::no_input,
-        fmt::format("{}: {}", printable(folder),
-                    error ? error.message() : "a folder without frames: no file is a cloud"));
-  }
-  std::ranges::sort(frames);
-  return frames;
-}
-
-/// A path for one frame: a folder gets a file of its name, a `*` becomes its name.
-std::string filled(const std::string& pattern, const std::string& name,
-                   std::string_view extension) {
-  if (pattern.empty()) return {};
-  if (pattern.ends_with('/')) return fmt::format("{}{}{}", pattern, name, extension);
-  const std::size_t star = pattern.rfind('*');
-  if (star == pattern.npos) return fmt::format("{}/{}{}", pattern, name, extension);
-  std::string path = pattern;
-  return path.replace(star, 1, name);
-}
-
-/// Creates the folder that a pattern names. @throws Error (usage) if it names none.
-void prepare(std::string_view option, const std::string& pattern) {
-  if (pattern.empty() || app::is_folder(pattern)) return;
-  const std::size_t slash = pattern.rfind('/'), star = pattern.rfind('*');
-  const bool has_star = star != pattern.npos && (slash == pattern.npos || slash < star);
-  if (!has_star && !pattern.ends_with('/')) {
-    throw Error(ErrorKind::usage,
-                fmt::format("{}: several inputs need a folder (FOLDER/) or a * for their names, "
-                            "found '{}'",
-                            option, printable(pattern)));
-  }
-  if (slash != pattern.npos && slash > 0) app::create_folder(pattern.substr(0, slash));
+  std::span<const std::string_view> extensions = kExtensions;
+  if (!depth_images) extensions = extensions.first(extensions.size() - kImages);
+  return app::files_in(folder, extensions, "frames: no file is a cloud");
 }
 
 }  // namespace
@@ -76,14 +37,14 @@ FrameSource::FrameSource(const Arguments& a)
         std::pair("--tree", &patterns_.tree), std::pair("--barcode", &patterns_.barcode),
         std::pair("--coloured", &patterns_.coloured), std::pair("--picture", &patterns_.picture),
         std::pair("--report", &patterns_.report)})
-    prepare(option, *path);
-  for (const app::Plot& plot : patterns_.plots) prepare("--plot", plot.path);
+    app::prepare_outputs(option, *path);
+  for (const app::Plot& plot : patterns_.plots) app::prepare_outputs("--plot", plot.path);
   for (const std::string& input : a.inputs) {
     if (!app::is_folder(input)) {
       inputs_.push_back(input);
       continue;
     }
-    for (std::string& frame : frames_in(input, a.image.intrinsics.has_value()))
+    for (std::string& frame : frames_in(input, a.image.has_camera()))
       inputs_.push_back(std::move(frame));
   }
   if (has_files_) take_names();
@@ -144,16 +105,17 @@ OutputPaths FrameSource::files_of(const std::string& name) const {
   std::vector<app::Plot> plots = p.plots;
   const std::string_view of_cloud = png_plot_support().empty() ? ".svg" : ".png";
   for (app::Plot& plot : plots)
-    plot.path = filled(plot.path, name, plot.kind == "cloud" ? of_cloud : ".svg");
-  return {.output = filled(p.output, name, ".pcd"),
-          .labels = filled(p.labels, name, ".npy"),
+    plot.path = app::filled(plot.path, name, plot.kind == "cloud" ? of_cloud : ".svg");
+  return {.output = app::filled(p.output, name, ".pcd"),
+          .labels = app::filled(p.labels, name, ".npy"),
           .json = {},  // one file for all
-          .tree = filled(p.tree, name, ".tree"),
-          .barcode = filled(p.barcode, name, ".csv"),
-          .coloured = filled(p.coloured, name, ".pcd"),
-          .picture = filled(p.picture, name, ".png"),
-          .report = filled(p.report, name, ".html"),
-          .plots = std::move(plots)};
+          .tree = app::filled(p.tree, name, ".tree"),
+          .barcode = app::filled(p.barcode, name, ".csv"),
+          .coloured = app::filled(p.coloured, name, ".pcd"),
+          .picture = app::filled(p.picture, name, ".png"),
+          .report = app::filled(p.report, name, ".html"),
+          .plots = std::move(plots),
+          .look = p.look};
 }
 
 }  // namespace ph::segment

@@ -27,6 +27,8 @@ class FrameSource {
   explicit FrameSource(const Arguments& arguments);
   ~FrameSource();
 
+  /// The inputs that are known from the start.
+  const std::vector<std::string>& known() const { return inputs_; }
   /// @throws Error as the constructor, about this frame only.
   std::optional<Frame> next();
 

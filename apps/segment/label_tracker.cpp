@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "ph/label_tracker.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <iterator>
 #include <map>
+
+#include "options.hpp"
+#include "ph/core/error.hpp"
 
 namespace ph::segment {
 namespace {
@@ -17,6 +22,15 @@ struct Overlap {
 };
 
 }  // namespace
+
+LabelTracker::LabelTracker(int patience, double cell) : patience_(patience), cell_(cell) {
+  if (patience < 0)
+    throw Error(ErrorKind::usage,
+                fmt::format("patience: found {} frames, expected 0 or more", patience));
+  if (!(cell > 0) || !std::isfinite(cell))
+    throw Error(ErrorKind::usage,
+                fmt::format("cell: found {}, expected a positive finite length", cell));
+}
 
 std::vector<std::uint32_t> LabelTracker::update(std::span<const std::uint32_t> labels) {
   // Those that occur, ascending: a label may be as large as it likes.
@@ -42,6 +56,7 @@ std::vector<std::uint32_t> LabelTracker::update(std::span<const std::uint32_t> l
 }
 
 std::vector<std::uint32_t> LabelTracker::update(const SceneTree& scene, const SceneCut& cut) {
+  validate(scene, cut);
   std::vector<Place> places;
   if (scene.height > 1) {
     const auto width = static_cast<std::size_t>(scene.width);

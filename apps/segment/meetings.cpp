@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "options.hpp"
 #include "ph/core/disjoint_sets.hpp"
 #include "ph/core/error.hpp"
 
@@ -30,6 +31,7 @@ void find_neighbours(const MergeTree& tree, const Contacts& contacts, SceneCut& 
 
 std::optional<Meeting> first_meeting(const SceneTree& scene, const SceneCut& cut, std::uint32_t a,
                                      std::uint32_t b) {
+  validate(scene, cut);
   for (const std::uint32_t label : {a, b})
     if (label == 0 || label > cut.segments.size())
       throw Error(ErrorKind::usage, fmt::format("segment {}: there are the segments 1 to {}", label,

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "ph/core/error.hpp"
 #include "voxel_grid.hpp"
@@ -60,7 +61,60 @@ void validate(const CloudView& cloud, const SegmentOptions& o) {
   }
 }
 
+void validate(const SceneTree& scene) {
+  const auto fail = [](std::string_view what, auto found, auto expected) {
+    throw Error(ErrorKind::bad_data,
+                fmt::format("scene: {}: found {}, expected {}", what, found, expected));
+  };
+  const auto expect = [&](std::string_view what, std::size_t found, std::size_t expected) {
+    if (found != expected) fail(what, found, expected);
+  };
+  const std::size_t vertices = scene.cells.size(), points = scene.points.size();
+  const bool is_paper = scene.method == Method::paper;
+  expect("centroids", static_cast<std::size_t>(scene.vertices.size()), 3 * vertices);
+  expect("coordinates of a centroid", static_cast<std::size_t>(scene.vertices.cols()), 3);
+  expect("numbers of normals", static_cast<std::size_t>(scene.normals.size()),
+         is_paper ? 0 : 3 * vertices);
+  expect("counts", scene.counts.size(), vertices);
+  expect("births", scene.tree.births.size(), vertices);
+  expect("vertices of points", scene.vertex_of_point.size(), points);
+  expect("coordinates", scene.xyz.size(), 3 * points);
+  Index size = 0;
+  if (scene.width < 0 || scene.height < 0 ||
+      __builtin_mul_overflow(scene.width, scene.height, &size))
+    fail("size of the cloud", fmt::format("{} x {}", scene.width, scene.height),
+         "a number of points");
+  for (Index last = -1; const Index i : scene.points) {
+    if (i <= last || i >= size) fail("points", i, fmt::format("ascending, below {}", size));
+    last = i;
+  }
+  for (const std::uint32_t v : scene.vertex_of_point)
+    if (v >= vertices) fail("vertex of a point", v, fmt::format("one below {}", vertices));
+  for (const Merge& m : scene.tree.merges)
+    for (const Index v : {m.u, m.v, m.elder, m.younger})
+      if (v < 0 || std::cmp_greater_equal(v, vertices))
+        fail("vertex of a merge", v, fmt::format("one of {}", vertices));
+}
+
+void validate(const SceneTree& scene, const SceneCut& cut) {
+  validate(scene);
+  const auto expect = [&](std::string_view what, std::size_t found, std::size_t expected) {
+    if (found != expected)
+      throw Error(
+          ErrorKind::bad_data,
+          fmt::format("cut: {}: found {}, expected {}, as in the scene", what, found, expected));
+  };
+  expect("labels", cut.labels.size(), scene.cloud_size());
+  expect("labels of vertices", cut.vertex_labels.size(), scene.cells.size());
+  for (const auto* labels : {&cut.labels, &cut.vertex_labels})
+    for (const std::uint32_t label : *labels)
+      if (label > cut.segments.size())
+        throw Error(ErrorKind::bad_data, fmt::format("cut: label: found {}, expected at most {}",
+                                                     label, cut.segments.size()));
+}
+
 void validate(const SceneTree& scene, const CutOptions& o) {
+  validate(scene);
   require(o.value >= 0, "cut", o.value, "at least 0");
   require(scene.method != Method::paper || o.value <= scene.distance, "cut", o.value,
           fmt::format("at most {}, the distance up to which the tree was made", scene.distance));

@@ -126,19 +126,8 @@ void Outputs::open(Kind kind, const std::string& path, const app::Plot* plot) {
   if (!path.empty()) files_.push_back({kind, app::Output(path), plot});
 }
 
-void Outputs::require_suitable(const Cloud* cloud, Index height) const {
+void Outputs::require_suitable(Index height) const {
   const OutputPaths& f = arguments_.files;
-  if (!cloud) {
-    for (const auto& [option, path] :
-         {std::pair("--output", &f.output), std::pair("--coloured", &f.coloured),
-          std::pair("--picture", &f.picture)}) {
-      if (path->empty()) continue;
-      throw Error(ErrorKind::usage,
-                  fmt::format("{}: found a stored tree, expected a cloud; --labels "
-                              "writes the labels of its points",
-                              option));
-    }
-  }
   if (height > 1) return;
   const auto refuse = [&](std::string_view option, std::string_view hint) {
     throw Error(
@@ -158,7 +147,7 @@ std::vector<std::uint32_t> Outputs::colours(const Cloud* cloud, const Segmentati
 
 std::string Outputs::plot(const app::Plot& plot, const Cloud* cloud, const Segmentation& s,
                           const RunInfo& info, const RunContext& context) const {
-  PlotOptions options;
+  PlotOptions options = arguments_.files.look;
   if (plot.kind == "cloud") {
     const std::vector<std::uint32_t> palette = colours(cloud, s, info);
     CloudPicture seen = cloud_picture(cloud, s, s.labels, palette, arguments_.plot_view, context);

@@ -40,9 +40,8 @@ class Outputs {
   /// @throws Error (usage) on an unknown extension; Error (cannot_create).
   explicit Outputs(const Arguments& arguments);
 
-  /// @throws Error (usage) if a file asks for points that are not there (those of a stored tree),
-  /// or for rows and columns that they have not.
-  void require_suitable(const Cloud* cloud, Index height) const;
+  /// @throws Error (usage) if a file asks for rows and columns of an unorganised cloud.
+  void require_suitable(Index height) const;
   /// @param cloud null: a stored tree was cut.
   /// Writes and completes all of them.
   void write(const Cloud* cloud, const Segmentation& segmentation, const RunInfo& info,

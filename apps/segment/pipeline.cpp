@@ -6,11 +6,13 @@
 
 #include "cross_check.hpp"
 #include "cut.hpp"
+#include "hidden_points.hpp"
 #include "methods.hpp"
 #include "options.hpp"
 #include "ph/core/error.hpp"
 #include "ph/segment.hpp"
 #include "plane.hpp"
+#include "projection_centre.hpp"
 #include "range_filter.hpp"
 
 namespace ph::segment {
@@ -59,9 +61,10 @@ Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageCl
   }
   result.plane = scene.plane = search.plane;
   result.plane_note = std::move(search.note);
-  if (scene.plane)
+  if (scene.plane) {
+    result.plane_sight = sight_past(cloud, in_range, *scene.plane, scene.margin);
     scene.points = remove_plane(cloud, in_range, *scene.plane, scene.margin);
-  else
+  } else
     scene.points.beyond = std::move(in_range);
   clock.finish("plane", count(scene.points.beyond));
   return scene;
@@ -124,6 +127,8 @@ Segmentation segment(const CloudView& input, const SegmentOptions& options,
   const MemoryClaim of_points(context.memory, bytes_for_points(cloud));
   Segmentation result;
   StageClock clock(context, result.stages);
+  result.rays_meet_at = centre_elsewhere(cloud);
+  if (result.rays_meet_at && !options.viewpoint) cloud.viewpoint = *result.rays_meet_at;
   const Scene scene = clear_scene(cloud, options, clock, result);
   const VoxelFiltration filtration = options.method == Method::paper
                                          ? rips_filtration(scene, options, context, clock)

@@ -10,7 +10,9 @@
 
 #include "arguments.hpp"
 #include "cross_check.hpp"
+#include "depth_camera.hpp"
 #include "exit_code.hpp"
+#include "option_scopes.hpp"
 #include "outputs.hpp"
 #include "ph/core/error.hpp"
 #include "ph/io/output_file.hpp"
@@ -24,11 +26,23 @@ namespace {
 
 constexpr std::string_view kProgram = "ph-segment";
 
-Cloud read_depth(const Input& input, const DepthInput& image, const RunContext& context) {
-  const Raster depth = read_png(input);
+Cloud read_depth_image(const Input& input, const DepthInput& image, app::Session& session) {
+  const RunContext& context = session.context();
+  const DepthImage depth = read_depth(input, {.context = &context});
+  const Index rows = depth.depth.extents[0], columns = depth.depth.extents[1];
   std::optional<Raster> colour;
   if (!image.colour.empty()) colour = read_png(image.colour, &context);
-  return cloud_from_depth(depth, colour, *image.intrinsics, image.scale);
+  const Camera camera = camera_for(image, columns, rows, session);
+  DepthCounts counts;
+  Cloud cloud =
+      cloud_from_depth(depth.depth, colour, camera, image.scale.value_or(depth.scale), &counts);
+  if (counts.negative > 0)
+    session.note(fmt::format("{} pixels of a depth below 0: taken as holes", counts.negative));
+  if (counts.unseen > 0) {
+    session.note(
+        fmt::format("{} pixels are where the camera's lens shows no ray: holes", counts.unseen));
+  }
+  return cloud;
 }
 
 Cloud read_points(const Input& input, bool allow_empty, app::Session& session) {
@@ -37,6 +51,14 @@ Cloud read_points(const Input& input, bool allow_empty, app::Session& session) {
   options.allow_empty = allow_empty;
   options.note = [&session](const std::string& text) { session.note(text); };
   return ph::read_cloud(input, options);
+}
+
+/// No output replaces an input. @throws Error (usage).
+void require_separate(const Arguments& a, app::Session& session) {
+  app::InputFiles inputs;
+  for (const std::string& path : {a.input, a.image.depth, a.image.colour}) inputs.add(path);
+  if (!app::require_separate(inputs, a.files.written(), a.common.force) && a.common.force)
+    session.explain("--force: not needed, no output is an input");
 }
 
 /// The library knows what is missing, the program which of its options help.
@@ -61,14 +83,10 @@ void cut_again(Segmentation& s, const CutOptions& options, const RunContext& con
 
 Segmentation cut_of_tree(const Input& input, const Arguments& arguments,
                          const RunContext& context) {
-  if (!arguments.scene_option.empty()) {
-    throw Error(ErrorKind::usage,
-                fmt::format("{}: found a stored tree, which was made with what it was made with; "
-                            "--cut, --min-part, --min-size, --objects and --parts cut it anew",
-                            arguments.scene_option));
-  }
   Segmentation s;
   static_cast<SceneTree&>(s) = read_tree(input);
+  require_input(arguments.given, kStoredTree);
+  require_method(arguments.given, s.method);
   if (!s.plane) s.plane_note = "the tree was made without one";
   s.barcode = barcode_of(s.tree);
   const auto start = std::chrono::steady_clock::now();
@@ -96,11 +114,14 @@ Result result_of(const Arguments& arguments, const Outputs& outputs, app::Sessio
   const DepthInput& image = arguments.image;
   std::optional<Input> input(
       Input::open(image.depth.empty() ? arguments.input : image.depth, &context));
+  const bool is_scene = arguments.is_depth_image() || !is_tree(*input);
+  if (is_scene) require_input(arguments.given, arguments.is_depth_image() ? kDepthImage : kCloud);
+  if (is_scene) require_method(arguments.given, arguments.options.method);
   if (arguments.is_depth_image())
-    result.cloud = read_depth(*input, image, context);
-  else if (!is_tree(*input))
+    result.cloud = read_depth_image(*input, image, session);
+  else if (is_scene)
     result.cloud = read_points(*input, arguments.allow_empty, session);
-  if (!arguments.files.report.empty()) result.sha256 = report::sha256_hex(input->bytes(), context);
+  if (!arguments.files.report.empty()) result.sha256 = report::sha256_hex(*input, context);
   somebody_types.reset();
   Segmentation& s = result.segmentation;
   const auto stop_reading = [&] {
@@ -111,12 +132,14 @@ Result result_of(const Arguments& arguments, const Outputs& outputs, app::Sessio
     s = cut_of_tree(*input, arguments, context);
     stop_reading();
     result.read_seconds -= s.stages.front().seconds;
-    outputs.require_suitable(nullptr, s.height);
+    outputs.require_suitable(s.height);
     return result;
   }
   input.reset();
   stop_reading();
-  outputs.require_suitable(&*result.cloud, result.cloud->height);
+  if (arguments.allow_empty && result.cloud->size() > 0)
+    session.explain("--allow-empty: not needed, the cloud has points");
+  outputs.require_suitable(result.cloud->height);
   s = segment_within_limits(*result.cloud, arguments.options, context);
   const CutOptions asked = arguments.cut.over(s.first_cut);
   if (asked != s.first_cut) cut_again(s, asked, context);
@@ -163,6 +186,7 @@ void explain_stages(const Segmentation& s, const Arguments& arguments, app::Sess
 }
 
 Outcome outcome_of(const Arguments& arguments, app::Session& session, const OfStream* stream) {
+  if (!stream) require_separate(arguments, session);
   Outputs outputs(arguments);
   const Result result = result_of(arguments, outputs, session);
   const Segmentation& s = result.segmentation;
@@ -207,6 +231,7 @@ int run(int argc, const char* const* argv, std::stop_token stop) {
   if (const auto answer = parse_arguments(argc, argv, arguments))
     return app::answer_command_line(*answer);
   app::Session session(kProgram, arguments.common, std::move(stop));
+  load_camera(arguments.image, session);
   if (arguments.is_stream()) return run_stream(arguments, session);
   const Outcome outcome = run_frame(arguments, session, nullptr);
   session.note(outcome.summary);

@@ -5,9 +5,12 @@
 
 #include "arguments.hpp"
 #include "ph/label_tracker.hpp"
+#include "program.hpp"
 #include "session.hpp"
 
 namespace ph::segment {
+
+inline constexpr app::Program kProgram{"ph-segment", "use fewer points, or raise --memory-limit"};
 
 /// Runs ph-segment; results go to files or standard output. @return the exit code.
 int run(int argc, const char* const* argv, std::stop_token stop);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "options.hpp"
 #include "ph/complex/voxel_image.hpp"
 #include "ph/core/error.hpp"
 #include "ph/persistence.hpp"
@@ -12,6 +13,7 @@ namespace ph::segment {
 
 Barcode signature(const SceneTree& scene, const SceneCut& cut,
                   std::span<const std::uint32_t> labels, const RunContext& context) {
+  validate(scene, cut);
   std::vector<bool> wanted(cut.segments.size() + 1);
   for (const std::uint32_t label : labels) {
     if (label == 0 || label > cut.segments.size())

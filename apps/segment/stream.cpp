@@ -50,6 +50,10 @@ class Stream {
                   "several inputs: expected a folder for their results, such as --labels FOLDER/, "
                   "or --json FILE");
     }
+    for (const std::string& input : source_.known()) known_.add(input);
+    known_.add(arguments.frames_from);
+    if (!arguments.files.json.empty() && !arguments.common.force)
+      known_.require_other({"--json", arguments.files.json});
     if (!arguments.files.json.empty()) json_.emplace(arguments.files.json);
     // Of a long list of inputs there is one copy here, not one a frame.
     one_.inputs = {};
@@ -76,6 +80,8 @@ class Stream {
       ++frames_;
       one.input = frame->input;
       one.files = std::move(frame->files);
+      if (one.files.any()) known_.add(one.input);  // a stream may go on for ever
+      app::require_separate(known_, one.files.written(), arguments_.common.force);
       const OfStream stream{arguments_.stable_labels ? &tracker_ : nullptr, json_.has_value()};
       const Outcome outcome = run_frame(one, session_, &stream);
       code = outcome.code;
@@ -86,11 +92,10 @@ class Stream {
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::cancelled) throw;
       const bool named = std::string_view(error.what()).find(one.input) != std::string_view::npos;
-      code = app::report_current_exception(named ? "ph-segment"
-                                                 : "ph-segment: " + printable(one.input));
+      code = app::report_current_exception(kProgram, named ? "" : printable(one.input));
       line = failure_line(one.input, code);
     } catch (...) {
-      code = app::report_current_exception("ph-segment: " + printable(one.input));
+      code = app::report_current_exception(kProgram, printable(one.input));
       line = failure_line(one.input, code);
     }
     if (json_) {
@@ -118,6 +123,7 @@ class Stream {
   Arguments one_;  // of the frame at hand
   app::Session& session_;
   FrameSource source_;
+  app::InputFiles known_;  // and those of the list so far
   std::optional<app::Output> json_;
   LabelTracker tracker_;
   std::size_t frames_ = 0, failures_ = 0;

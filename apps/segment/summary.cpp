@@ -136,6 +136,7 @@ std::string json_summary(const Arguments& arguments, const Segmentation& s, cons
                    {"options", info.from_tree ? "null" : options_of(arguments.options)},
                    {"cut", cut(s.first_cut)},
                    {"stages", stages_of(s)},
+                   {"viewpoint", numbers(s.viewpoint)},
                    {"plane", plane_of(s)},
                    {"voxel", number(s.voxel)},
                    {"complex", object({{"vertices", integer(vertices)},
@@ -155,7 +156,7 @@ std::string json_summary(const Arguments& arguments, const Segmentation& s, cons
 
 std::string text_summary(const Segmentation& s) {
   std::string text =
-      "label   points  voxels        x        y        z   size x   size y   size z\n";
+      "label   points  voxels      x/m      y/m      z/m size x/m size y/m size z/m\n";
   for (const Segment& g : s.segments) {
     fmt::format_to(std::back_inserter(text), "{:5} {:8} {:7}", g.label, g.points, g.voxels);
     for (const double c : g.centroid) fmt::format_to(std::back_inserter(text), " {:8.4f}", c);

@@ -6,6 +6,7 @@
 #include <bit>
 #include <iterator>
 
+#include "options.hpp"
 #include "ph/scene_tree.hpp"
 
 namespace ph::segment {
@@ -38,6 +39,7 @@ std::uint32_t tree_sum(std::string_view bytes) {
 }
 
 std::string tree_bytes(const SceneTree& scene) {
+  validate(scene);
   std::string bytes(kTreeMagic);
   const std::size_t n = scene.cells.size();
   bytes.reserve(kTreeHeader + kTreeSum + n * 11 * kTreeWord +

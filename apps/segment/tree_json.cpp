@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "json_text.hpp"
+#include "options.hpp"
 #include "tree_file.hpp"
 
 namespace ph::segment {
@@ -57,6 +58,7 @@ std::string plane_of(const std::optional<Plane>& plane) {
 }  // namespace
 
 std::string tree_json(const SceneTree& scene) {
+  validate(scene);
   const bool paper = scene.method == Method::paper;
   return document({{"format", json_string("ph-segment-tree")},
                    {"version", "1"},

@@ -4,10 +4,12 @@
 Each way to blow up runs under limits from 1 MiB to 128 MiB. It either succeeds or ends with 75, in
 one line that says how to go on, and never takes more than the limit and 32 MiB beside it.
 """
+import gzip
 import os
 import random
 import re
 import resource
+import shutil
 import signal
 import struct
 import subprocess
@@ -21,6 +23,7 @@ from program import ProgramTest, main
 
 MIB = 1 << 20
 LIMITS = (1, 4, 16, 32, 64, 128)  # MiB
+NOBODY = 65534
 BESIDE = 32  # MiB that code, libraries and small things may take beside the limit
 SECONDS = 3  # of CPU; a run that fits takes its time: what it took until then counts
 
@@ -112,14 +115,15 @@ BLOW_UPS = (
 )
 
 
-class Limits(ProgramTest):
+class UnderLimit(ProgramTest):
+    SECONDS = SECONDS
+
     @classmethod
     def setUpClass(cls):
         if is_sanitized():
             raise unittest.SkipTest("AddressSanitizer takes memory of its own")
         cls.inputs = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.inputs.cleanup)
-        write_inputs(cls.inputs.name)
 
     def forget(self, *names):
         for name in names:
@@ -132,20 +136,28 @@ class Limits(ProgramTest):
     def run_within(self, limit, arguments):
         """@return exit code (None: still running), peak in MiB, stderr."""
         output = () if "--output-format" in arguments else ("--output-format", "csv")
-        names = [os.path.join(self.inputs.name, word) if word.endswith((".txt", ".dipha", ".values"))
-                 else word for word in arguments]
+        names = [os.path.join(self.inputs.name, word)
+                 if word.endswith((".txt", ".dipha", ".values", ".npy", ".gz")) else word
+                 for word in arguments]
         read_end, write_end = os.pipe()
         pid = os.posix_spawn(
             program.PROGRAM, [program.PROGRAM, *names, *output, "--quiet", "-o", "out",
                               "--memory-limit", f"{limit}MiB"], os.environ,
             file_actions=[(os.POSIX_SPAWN_DUP2, write_end, 2)])
         os.close(write_end)
-        resource.prlimit(pid, resource.RLIMIT_CPU, (SECONDS, SECONDS))
+        resource.prlimit(pid, resource.RLIMIT_CPU, (self.SECONDS, self.SECONDS))
         with os.fdopen(read_end) as pipe:
             message = pipe.read()
         _, status, usage = os.wait4(pid, 0)
         code = os.waitstatus_to_exitcode(status)
         return None if code in (-signal.SIGKILL, -signal.SIGXCPU) else code, usage.ru_maxrss / 1024, message
+
+
+class Limits(UnderLimit):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        write_inputs(cls.inputs.name)
 
     def test_the_limit_holds(self):
         os.chdir(self.folder)
@@ -170,6 +182,73 @@ class Limits(ProgramTest):
         print(f"\n{sum(ends.values())} runs under a limit: {ends[75]} stopped by it, {ends[0]} "
               f"done, {ends[None]} still running after {SECONDS} s of CPU", file=sys.stderr)
         self.assertGreaterEqual(ends[75], 100)
+
+
+def write_npy(path, shape, kind, middle=b""):
+    """Zeros, but for some bytes in the middle; the file has holes where its zeros are."""
+    header = f"{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}"
+    header = header.ljust(117) + "\n"
+    size = int(kind[-1])
+    for n in shape:
+        size *= n
+    with open(path, "wb") as file:
+        file.write(b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode())
+        start = file.tell()
+        file.seek(start + size // 2)
+        file.write(middle)
+        file.truncate(start + size)
+
+
+class LargeFiles(UnderLimit):
+    """Inputs that are mapped, larger than the limit and all that may be beside it: whatever reads
+    them, the limit holds, and what does not fit says so soon."""
+    SECONDS = 40  # of CPU: all of them end
+    SECONDS_TO_REFUSE = 15  # on a busy machine; of CPU it is a second or two
+    ROWS = (("bytes.npy", (8, 36), ("--max-dim", "0", "--report", "o.html")),
+            ("bytes.npy", (20,), ("--max-dim", "0", "--report", "o.html", "--plot", "o.svg",
+                                  "--plot-kind", "diagram", "--superlevel")),
+            ("bytes.npy", (8,), ("--max-dim", "0", "--construction", "cells", "--periodic", "0",
+                                 "--report", "o.html")),
+            ("bytes.npy.gz", (20,), ("--max-dim", "0", "--report", "o.html")),
+            ("picture.npy", (1, 8), ("--report", "o.html")),
+            ("picture.npy", (8,), ("--report", "o.html", "--plot", "o.svg", "--plot-kind", "tree")),
+            ("floats.npy", (1, 10, 24), ("--report", "o.html")),
+            ("floats.npy", (24,), ("--report", "o.html", "--superlevel")),
+            ("floats.npy", (8, 24), ("--engine", "cohomology", "--report", "o.html")),
+            ("floats.npy", (24,), ("--representatives", "voxels", "--output-format", "json",
+                                   "--report", "o.html")),
+            ("shown.npy", (1, 60), ("--max-dim", "0", "--report", "o.html")),
+            ("shown.npy", (1, 60), ("--max-dim", "0", "--superlevel", "--report", "o.html")))
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        path = lambda name: os.path.join(cls.inputs.name, name)
+        write_npy(path("bytes.npy"), (420, 420, 420), "|u1", b"\x03" * 10)  # 71 MiB
+        write_npy(path("picture.npy"), (9000, 9000), "|u1", b"\x05\x00\x07")
+        write_npy(path("floats.npy"), (200, 200, 200), "<f8", struct.pack("<4d", 1, 2, 1, 3))
+        write_npy(path("shown.npy"), (5, 1600, 1600), "<f8", struct.pack("<4d", 1, 2, 1, 3))  # 98
+        with open(path("bytes.npy"), "rb") as file, gzip.open(path("bytes.npy.gz"), "wb", 1) as packed:
+            shutil.copyfileobj(file, packed, 1 << 16)
+
+    def test_the_limit_holds(self):
+        os.chdir(self.folder)
+        self.addCleanup(os.chdir, "/")
+        codes = []
+        for name, limits, options in self.ROWS:
+            for limit in limits:
+                with self.subTest(name=name, limit=limit, options=options):
+                    start = time.monotonic()
+                    code, peak, message = self.run_within(limit, (name, *options))
+                    codes.append(code)
+                    self.assertIn(code, (0, 75), message)
+                    self.assertLessEqual(peak, limit + BESIDE, f"exit code {code}")
+                    if code == 75:
+                        self.assertLess(time.monotonic() - start, self.SECONDS_TO_REFUSE)
+                        self.assertEqual(message.count("\n"), 1, message)
+                    self.forget("out", "o.html", "o.svg")
+        self.assertIn(0, codes)
+        self.assertIn(75, codes)
 
 
 class WaysOut(ProgramTest):
@@ -266,6 +345,8 @@ class System(ProgramTest):
         self.assertEqual(self.heap_limit_after(3, soft), soft)
 
     def test_control_group(self):
+        if not os.path.exists("/proc/self/cgroup"):
+            self.skipTest("no /proc/self/cgroup, which tells the program its group")
         group = f"/sys/fs/cgroup/memory/ph-test-{os.getpid()}"
         name = "memory.limit_in_bytes"
         if not os.path.isdir("/sys/fs/cgroup/memory"):
@@ -273,10 +354,10 @@ class System(ProgramTest):
         try:
             os.mkdir(group)
         except OSError as error:
-            self.skipTest(f"skipped: a control group cannot be made here: {error.strerror}")
+            self.skipTest(f"a control group cannot be made here: {error.strerror}")
         self.addCleanup(os.rmdir, group)
         if not os.path.exists(os.path.join(group, name)):
-            self.skipTest("skipped: the memory controller is not there")
+            self.skipTest("the memory controller is not there")
         with open(os.path.join(group, name), "w") as file:
             file.write(str(64 * MIB))
 
@@ -289,21 +370,21 @@ class System(ProgramTest):
         self.assertEqual(self.files(), ["many.txt", "square.txt"])
 
     def test_no_thread_can_be_created(self):
+        command, user = [program.PROGRAM], {}
         if os.geteuid() == 0:  # limits on processes do not bind root
+            user = {"user": NOBODY, "group": NOBODY, "extra_groups": []}
+            os.chmod(self.folder, 0o755)
+            # The program may lie in a folder of root's.
+            command = [shutil.copy(program.PROGRAM, self.path("program"))]
             try:
-                import pwd
-                nobody = pwd.getpwnam("nobody").pw_uid
-            except KeyError:
-                self.skipTest("skipped: there is no user nobody")
-            os.chmod(self.folder, 0o777)
-        else:
-            nobody = None
-
-        def no_more():
-            if nobody is not None:
-                os.setuid(nobody)
-            resource.setrlimit(resource.RLIMIT_NPROC, (0, 0))
-        run = self.run_program("square.txt", preexec_fn=no_more)
+                subprocess.run([*command, "--version"], cwd=self.folder, check=True,
+                               stdout=subprocess.DEVNULL, **user)
+            except (OSError, subprocess.SubprocessError) as error:
+                self.skipTest(f"no other user may start the program: {error}")
+        run = subprocess.run([*command, "square.txt"], cwd=self.folder, text=True, timeout=60,
+                             capture_output=True, check=False,
+                             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NPROC, (0, 0)),
+                             **user)
         self.assertEqual((run.returncode, run.stdout), (0, program.SQUARE_CSV), run.stderr)
 
 

@@ -375,7 +375,7 @@ class Reports(ProgramTest):
         self.write("a.csv", SQUARE_CSV)
         self.write("b.csv", "dim,birth,death\n0,0,inf\n1,1,3\n")
         run = self.expect(0, "--compare", "a.csv", "b.csv", "--report", "r.html")
-        self.assertEqual(run.stdout, "")
+        self.assertTrue(run.stdout.startswith("bottleneck distance of a.csv and b.csv\nH0  "))
         report = Report(self.path("r.html"))
         self.assertEqual(report.bars(), self.bars_of_csv(SQUARE_CSV))
         self.assertEqual(report.bars("bars2"), [(0, 0, math.inf), (1, 1, 3)])
@@ -397,7 +397,6 @@ class Reports(ProgramTest):
 
     def test_comparisons_that_make_no_sense(self):
         self.write("a.csv", SQUARE_CSV)
-        self.expect(64, "--compare", "a.csv", "a.csv")
         self.expect(64, "--compare", "a.csv", "--report", "r.html")
         self.expect(64, "square.txt", "--compare", "a.csv", "a.csv", "--report", "r.html")
         self.expect(66, "--compare", "a.csv", "none.csv", "--report", "r.html")

@@ -23,6 +23,52 @@ TEST(VoxelRepresentatives, SetsByFloodFill) {
   });
 }
 
+// All shapes of one to three voxels along one to three axes, whatever axes close up.
+TEST(VoxelRepresentatives, OfAllSmallShapes) {
+  for_each_seed(4, [](Generator& random, bool ties, std::int64_t field) {
+    for (std::size_t axes = 1; axes <= 3; ++axes) {
+      std::vector<Index> extents(axes, 1);
+      for (bool more = true; more;) {
+        for (unsigned closed = 0; closed < 1U << axes; ++closed) {
+          for (const auto construction :
+               {CubicalOptions::Construction::vertices, CubicalOptions::Construction::cells}) {
+            CubicalOptions options{.construction = construction, .superlevel = random.coin()};
+            for (std::size_t k = 0; k < axes; ++k)
+              options.periodic.push_back((closed >> k & 1U) != 0);
+            SCOPED_TRACE(::testing::PrintToString(extents) + " periodic " + std::to_string(closed) +
+                         (construction == CubicalOptions::Construction::cells ? " T" : " V"));
+            check_sets(random.image(extents, ties), options, 3, field);
+            if (::testing::Test::HasFailure()) return;
+          }
+        }
+        std::size_t k = axes;
+        while (k > 0 && ++extents[k - 1] == 4) extents[--k] = 1;
+        more = k > 0;
+      }
+    }
+  });
+}
+
+// The circle of one voxel that everything goes around.
+TEST(VoxelRepresentatives, ACircleOfOneVoxelIsGoneAroundByCycles) {
+  const Image pair{{1, 2}, {1, 2}};
+  const Barcode bars = persistence(Cubical(pair, {.periodic = {true}}),
+                                   {.representatives = Representatives::voxels});
+  ASSERT_EQ(bars.size(), 2U);  // a component, and what goes around it
+  EXPECT_EQ(bars.voxels(0).size(), 2U);
+  EXPECT_EQ(bars[1], (Bar{1, 1, kInfinity}));
+  EXPECT_TRUE(bars.voxels(1).empty());
+  EXPECT_GT(bars.representative(1).size(), 0U);
+  // A ring with nothing beside it surrounds no voxel.
+  const Image ring{{5, 1}, {1, 2, 3, 4, 5}};
+  const Barcode around = persistence(
+      Cubical(ring, {.construction = CubicalOptions::Construction::cells, .periodic = {true}}),
+      {.representatives = Representatives::voxels});
+  ASSERT_EQ(around.bars(1).size(), 1U);
+  EXPECT_TRUE(around.voxels(1).empty());
+  EXPECT_GT(around.representative(1).size(), 0U);
+}
+
 // Columns that are added to each other, long ways through the forest: what each number of threads
 // finds is the same, closed, and born when it should be.
 TEST(VoxelRepresentatives, CyclesOfLargerVolumes) {

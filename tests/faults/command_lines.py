@@ -92,6 +92,14 @@ BARCODE = [
     (50, ["--max-dims=2"], "did you mean '--max-dim'"),
     (50, ["-max-dim", "2"], "did you mean '--max-dim'"),
     (50, ["--no-such-thing-at-all"], "--no-such-thing-at-all"),
+    (50, ["--plot-title", "x"], "did you mean '--title'"),
+    (50, ["--plot-range", "x"], "'--plot-range'; --help lists the options"),
+    (49, ["--quiet", "--verbose"], "--quiet excludes --verbose"),
+    (49, ["--plot", "x.svg", "--size", "10"], "--size"),
+    (49, ["--plot", "x.svg", "--axis", "2,1"], "--axis"),
+    (49, ["--plot", "x.svg", "--plot-kind", "tree", "--dims", "1"], "--dims"),
+    (49, ["--dims", "1"], "--dims needs --plot"),
+    (49, ["--compare", "square.txt", "square.txt"], "--compare"),
     (50, ["--quiet=perhaps"], "--quiet"),
     (50, ["-o", ""], "--output"),
     (50, ["square.txt"], "-o FOLDER/"),
@@ -104,9 +112,15 @@ BARCODE_FILES = [
     (49, "lower.txt", b"1\n3 2\n", ["--format", "lower-distance", "--metric", "manhattan"],
      "--metric"),
     (49, "edge.phat", b"0\n0\n1 0 1\n", ["--collapse", "on"], "--collapse"),
-    *((49, "image.pgm", b"P2\n2 1\n9\n1 2\n", options, "points and distances")
+    *((49, "image.pgm", b"P2\n2 1\n9\n1 2\n", options, "points and distance")
       for options in (["--collapse", "on"], ["--subsample", "2"], ["--approximate", "1"],
-                      ["--dtm", "2"], ["--vertex-weights", "image.pgm"], ["--diagonal", "births"])),
+                      ["--dtm", "2"], ["--vertex-weights", "image.pgm"])),
+    *((49, "image.pgm", b"P2\n2 1\n9\n1 2\n", options, "found an image")
+      for options in (["--diagonal", "births"], ["--diagonal", "zero"], ["--from-correlation"],
+                      ["--symmetrise", "max"], ["--metric", "euclidean"], ["--collapse", "auto"])),
+    (49, "p.txt", b"0 0\n1 0\n0 1\n", ["--from-correlation", "--format", "points"], "found points"),
+    (49, "p.txt", b"0 0\n1 0\n0 1\n", ["--symmetrise", "max", "--format", "points"], "found points"),
+    (49, "i.raw", b"1234", ["--raw-shape", "2,2", "--raw-big-endian"], "--raw-big-endian"),
     *((49, "sparse.txt", b"0 1 1\n", ["--format", "sparse", *options], "found some distances only")
       for options in (["--subsample", "2"], ["--approximate", "1"], ["--dtm", "2"],
                       ["--diagonal", "births"])),
@@ -131,7 +145,7 @@ NOT_BUILT_IN = [
     (["--complex", "alpha"], "alpha"),
 ]
 
-FINE = [["--subsample", "4"], ["--subsample-radius", "0"], ["--dtm", "1"], ["--diagonal", "zero"],
+FINE = [["--subsample", "4"], ["--subsample-radius", "0"], ["--dtm", "1"], 
         ["--collapse", "auto"], ["--collapse", "on"], ["--collapse", "off"], ["--representatives", "none"],
         ["--threads", "1"], ["--threads=2"], ["--memory-limit", "1GiB"], ["--memory-limit", "1e9"],
         ["--memory-limit", "500MB"], ["--threshold", "inf"], ["--progress", "none"],
@@ -161,6 +175,11 @@ SEGMENT = [
     (49, ["--labels", "x.png"], "unorganised"),
     (49, ["--picture", "x.png"], "unorganised"),
     (49, ["--picture", "x.jpg"], "--picture"),
+    (49, ["--steps", "10"], "--method paper only"),
+    (49, ["--method", "paper", "--min-part", "3"], "found --method paper"),
+    (49, ["--plane", "off", "--plane-distance", "0.01"], "--plane on"),
+    (49, ["--depth-scale", "1000"], "found a cloud"),
+    (49, ["--plot", "x.svg", "--plot-view", "1,2"], "--plot-kind cloud"),
     (49, ["--plot", "x.pdf"], "--plot"),
     (49, ["--barcode", "x.xlsx"], "--barcode"),
     (49, ["-o", "x.obj"], "x.obj: expected a file name that ends in .pcd or .ply"),

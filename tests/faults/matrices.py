@@ -101,7 +101,9 @@ def not_square():
 
 def diagonal():
     yield refused(22, "distance", "not zero", "0 1\n1 3\n", ":2:3: non-zero diagonal, found 3")
-    yield refused(22, "distance", "nearly zero", "1e-9 1\n1 0\n", ":1:1: non-zero diagonal")
+    yield taken(22, "distance", "rounding", "1e-9 1\n1 0\n", bars("0,0,1", "0,0,inf"),
+                note="0 but for rounding")
+    yield refused(22, "distance", "more than rounding", "1e-5 1\n1 0\n", ":1:1: non-zero diagonal")
     yield refused(22, "npy-distance", "not zero", square([0, 1, 1, 3]), "diagonal at row 1, column 1")
     yield refused(22, "dipha", "not zero", words("<", MAGIC, 7, 2, 0., 1., 1., 3.), "diagonal")
     yield refused(22, "distance", "negative distance", "0 -1\n-1 0\n", ":1:3: negative distance")
@@ -147,6 +149,11 @@ def correlations():
     yield refused(24, "npy-distance", "without the option", square([1, 0.5, 0.5, 1]),
                   "diagonal.*--from-correlation")
     yield taken(24, "distance", "with the option", content, bars("0,0,0.5", "0,0,inf"),
+                "--from-correlation")
+    yield refused(24, "points", "names of rows", "a,b\np,0\nq,1\n", ":2:1: .*--columns")
+    yield refused(24, "sparse", "above 1", "0 1 1.5\n", ":1:5: not a correlation",
+                  "--from-correlation")
+    yield taken(24, "sparse", "with the option", "0 1 0.75\n", bars("0,0,0.25", "0,0,inf"),
                 "--from-correlation")
     yield refused(24, "distance", "above 1", "1 1.5\n1.5 1\n", ":1:3: not a correlation",
                   "--from-correlation")

@@ -6,8 +6,10 @@ file or the option, nothing on stdout, nothing written, no temporary file, withi
 import collections
 import os
 import re
+import shutil
 import subprocess
 import sys
+import tempfile
 import time
 
 import corpus
@@ -20,30 +22,47 @@ NOBODY = 65534
 OUTPUT = {"ph-barcode": "out.csv", "ph-segment": "out.pcd"}
 
 
+def named_options(text):
+    return re.findall(r"(?<![\w!-])--[a-z][a-z0-9-]*[a-z0-9]", text)
+
+
+def options_of(program):
+    """The options that the help of a program lists."""
+    return set(named_options(subprocess.run([program, "--help"], capture_output=True, text=True,
+                                            timeout=60, check=True).stdout))
+
+
 class Runner:
     def __init__(self, barcode, segment, peak):
         self.programs = {"ph-barcode": os.path.abspath(barcode),
                          "ph-segment": os.path.abspath(segment)}
         self.peak = os.path.abspath(peak)
+        self.options = {name: options_of(program) for name, program in self.programs.items()}
         with open(barcode, "rb") as file:
             self.sanitized = b"__asan_init" in file.read()  # its own memory and time count too
-        self.nobody = os.geteuid() != 0 or self.runs_for_nobody()
+        self.obstacle = self.let_nobody_in() if os.geteuid() == 0 else None
 
-    def runs_for_nobody(self):
-        """Whether another user may start what is tested: it may lie in a folder of root's."""
+    def let_nobody_in(self):
+        """What is tested may lie in a folder of root's: copies are where another user may start
+        them. @return why he may not; nothing if he may."""
+        self.copies = tempfile.TemporaryDirectory()  # as long as the runner
+        os.chmod(self.copies.name, 0o755)
+        self.programs = {name: shutil.copy(path, self.copies.name)
+                         for name, path in self.programs.items()}
+        self.peak = shutil.copy(self.peak, self.copies.name)
         try:
-            return all(subprocess.run([program, "--version"], user=NOBODY, group=NOBODY,
-                                      extra_groups=[], capture_output=True, timeout=60,
-                                      check=False).returncode == 0
-                       for program in self.programs.values())
-        except OSError:
-            return False
+            for path in self.programs.values():
+                subprocess.run([path, "--version"], user=NOBODY, group=NOBODY, extra_groups=[],
+                               cwd="/", capture_output=True, timeout=60, check=True)
+        except (OSError, subprocess.SubprocessError) as error:
+            return f"no other user may start the programs: {error}"
+        return None
 
     def faults(self, entry):
         """@return what the program did that it must not; nothing if all is well.
         @throws Unavailable if it cannot be tried here."""
-        if entry.unprivileged and not self.nobody:
-            raise Unavailable("no other user may start the programs")
+        if entry.unprivileged and self.obstacle:
+            raise Unavailable(self.obstacle)
         for _ in range(TRIES):
             fault, of_time = self.try_once(entry)
             if not of_time:
@@ -84,6 +103,7 @@ class Runner:
                 return "it hangs", False
         seconds = time.monotonic() - start
         wrong = self.result_faults(entry, run.returncode, out or b"", err or b"")
+        wrong += self.unknown_options(entry, (err or b"").decode("utf-8", "replace"))
         after = sorted(os.listdir(os.fsencode(folder)))
         expected = sorted({*before, *map(os.fsencode, entry.creates)})
         if after != expected:
@@ -95,6 +115,14 @@ class Runner:
         with open(report, encoding="ascii") as file:
             kib, microseconds = map(int, file.read().split())
         return self.cost_fault(entry, seconds, kib, microseconds)
+
+    def unknown_options(self, entry, message):
+        """Options that a message sends the user to and that the program has not; what the user
+        wrote himself may be anything."""
+        written = " ".join(map(os.fsdecode, entry.arguments))
+        return [f"it names {option}, which {entry.program} has not: {message!r}"
+                for option in sorted(set(named_options(message)) - self.options[entry.program])
+                if option not in written]
 
     @staticmethod
     def result_faults(entry, code, out, err):

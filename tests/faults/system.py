@@ -4,6 +4,8 @@ limits of the system or a second reader is in tests/apps/barcode_faults.py."""
 import contextlib
 import functools
 import os
+import shutil
+import stat
 import subprocess
 import tempfile
 import threading
@@ -47,7 +49,10 @@ def with_link(folder, target, name):
 @around
 def with_fifo(folder, name, content):
     path = os.path.join(folder, name)
-    os.mkfifo(path)
+    try:
+        os.mkfifo(path)
+    except OSError as error:
+        raise Unavailable(f"no FIFO: {error.strerror}") from error
     writer = threading.Thread(target=lambda: open(path, "wb").write(content), daemon=True)
     writer.start()
     yield {}
@@ -60,16 +65,54 @@ def with_stdin(_folder, content):
     yield {"input": content}
 
 
+def require_device(path):
+    """@throws Unavailable where it is none: opening it would create a file."""
+    try:
+        if stat.S_ISCHR(os.stat(path).st_mode):
+            return
+    except OSError:
+        pass
+    raise Unavailable(f"no device {path}")
+
+
+@around
+def with_device(_folder, path):
+    require_device(path)
+    yield {}
+
+
 @around
 def from_device(_folder, path):
+    require_device(path)
     with open(path, "rb") as file:
         yield {"stdin": file}
 
 
 @around
+def from_file(folder, name):
+    with open(os.path.join(folder, name), "rb") as file:
+        yield {"stdin": file}
+
+
+@around
 def to_device(_folder, path):
+    require_device(path)
     with open(path, "wb") as file:
         yield {"stdout": file}
+
+
+@around
+def with_standard_input_file(_folder, content):
+    if not os.path.exists("/dev/stdin"):
+        raise Unavailable("no /dev/stdin")
+    yield {"input": content}
+
+
+@around
+def with_proc(_folder):
+    if not os.path.exists("/proc/self"):
+        raise Unavailable("no /proc")
+    yield {}
 
 
 @around
@@ -85,6 +128,8 @@ def folder_of_locales():
     """Locales made for this run: a machine seldom has those that matter here."""
     folder = tempfile.TemporaryDirectory()
     for locale in LOCALES.values():
+        if shutil.which("localedef") is None:
+            raise Unavailable(f"no locale {locale}: localedef is not installed")
         made = subprocess.run(["localedef", "-f", "UTF-8", "-i", locale.split(".")[0],
                                os.path.join(folder.name, locale)], capture_output=True, check=False)
         if not os.path.isdir(os.path.join(folder.name, locale)):
@@ -148,17 +193,17 @@ def inputs():
         yield refused(54, f"{program}: a link to itself", "link.txt", code=66, message="link",
                       named="link.txt", program=program, around=with_link("link.txt", "link.txt"))
         yield refused(53, f"{program}: /dev/zero", "/dev/zero", code=65, message="stream of NUL bytes",
-                      named="/dev/zero", program=program)
+                      named="/dev/zero", program=program, around=with_device("/dev/zero"))
         yield refused(53, f"{program}: /dev/zero as standard input", "-", code=65,
                       message="stream of NUL bytes", named="<stdin>", program=program,
                       around=from_device("/dev/zero"))
         yield refused(53, f"{program}: /dev/urandom", "/dev/urandom", "--memory-limit", "32MiB",
                       code=75, message="longer than the memory limit", named="/dev/urandom",
-                      program=program)
+                      program=program, around=with_device("/dev/urandom"))
         yield refused(52, f"{program}: faulty standard input", "-", code=65, message=":2:3: not a num",
                       named="<stdin>", program=program, around=with_stdin(b"0 0 1\n1 x 1\n"))
         yield refused(52, f"{program}: /dev/null", "/dev/null", code=65, message="no points",
-                      named="/dev/null", program=program)
+                      named="/dev/null", program=program, around=with_device("/dev/null"))
     yield refused(51, "--values is a directory", "edge.phat", "--values", ".", code=66,
                   message="it is a directory", named=".", files={"edge.phat": b"0\n0\n1 0 1\n"})
     yield refused(54, "--values is missing", "edge.phat", "--values", "no.txt", code=66,
@@ -166,20 +211,18 @@ def inputs():
     yield refused(54, "--depth is missing", "--depth", "no.png", "--intrinsics", "1,1,0,0", code=66,
                   message="No such file", named="no.png", program=SEGMENT)
     yield squares(52, "standard input", "-", around=with_stdin(SQUARE.encode()))
-    yield squares(52, "a file as standard input", "-", around=from_device_file("square.txt"))
-    yield squares(52, "/dev/stdin", "/dev/stdin", around=with_stdin(SQUARE.encode()))
+    yield squares(52, "a file as standard input", "-", around=from_file("square.txt"))
+    yield squares(52, "/dev/stdin", "/dev/stdin",
+                  around=with_standard_input_file(SQUARE.encode()))
     yield squares(52, "a FIFO", "fifo", around=with_fifo("fifo", SQUARE.encode()))
     yield refused(52, "a FIFO that ends in a row", "fifo", code=65, message="ragged row", named="fifo",
                   around=with_fifo("fifo", b"0 0\n1"))
 
 
-def from_device_file(name):
-    return lambda folder: from_device(os.path.join(folder, name))(folder)
-
-
 def outputs():
-    for path in ("missing/out.csv", "square.txt/out.csv", ".", "/proc/out.csv", "x" * 300,
-                 "/dev/null/out.csv"):
+    yield refused(55, "-o /proc/out.csv", "square.txt", "-o", "/proc/out.csv", code=73, message=".",
+                  named="/proc/out.csv", around=with_proc())
+    for path in ("missing/out.csv", "square.txt/out.csv", ".", "x" * 300, "/dev/null/out.csv"):
         yield refused(55, f"-o {path[:20]}", "square.txt", "-o", path, code=73, message=".",
                       named=path[:200])
     yield refused(55, "--plot missing/out.svg", "square.txt", "--plot", "missing/out.svg", code=73,
@@ -197,12 +240,17 @@ def outputs():
                   program=SEGMENT, files={"cloud.xyz": b"0 0 1\n1 0 1\n"}, unprivileged=True,
                   around=with_folder("closed", 0o555))
     done = SQUARE_BARS.encode()
-    yield squares(57, "the input", "square.txt", "-o", "square.txt", "--output-format", "csv",
-                  output="", after=holds("square.txt", done))
-    yield squares(57, "a link to the input", "square.txt", "-o", "link.csv", output="",
-                  around=with_link("square.txt", "link.csv"), after=holds("square.txt", done))
+    square = holds("square.txt", SQUARE.encode())
+    yield refused(57, "the input", "square.txt", "-o", "square.txt", "--output-format", "csv",
+                  code=64, message="--force", named="--output", after=square)
+    yield refused(57, "a link to the input", "square.txt", "-o", "link.csv", code=64,
+                  message="is the input square.txt", named="--output",
+                  around=with_link("square.txt", "link.csv"), after=square)
+    yield squares(57, "the input, by force", "square.txt", "-o", "square.txt", "--output-format", "csv",
+                  "--force", output="", after=holds("square.txt", done))
     faulty = b"0 0\n1 0\n1\n"
-    yield refused(57, "a faulty input", "bad.txt", "-o", "bad.txt", "--output-format", "csv", code=65,
+    yield refused(57, "a faulty input", "bad.txt", "-o", "bad.txt", "--output-format", "csv",
+                  "--force", code=65,
                   message="ragged row", named="bad.txt", files={"bad.txt": faulty},
                   after=holds("bad.txt", faulty))
     yield refused(58, "standard output", "square.txt", "-o", "-", code=74, message="No space",
@@ -211,7 +259,7 @@ def outputs():
         yield refused(58, option, option, "-o", "-", code=74, message="No space", named="ph-barcode",
                       around=to_device("/dev/full"))
     yield refused(58, "-o /dev/full", "square.txt", "-o", "/dev/full", code=74, message="No space",
-                  named="/dev/full")
+                  named="/dev/full", around=with_device("/dev/full"))
     yield refused(58, "ph-segment: --labels /dev/full", "cloud.xyz", "-o", "-", code=74,
                   message="No space", named="ph-segment", program=SEGMENT,
                   files={"cloud.xyz": b"0 0 1\n1 0 1\n"}, around=to_device("/dev/full"))

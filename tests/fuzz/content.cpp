@@ -32,7 +32,7 @@ void require_image(const Image& image) {
     voxels *= static_cast<std::size_t>(extent);
   }
   require(voxels == image.values.size(), "the sizes of an image are not those of its values");
-  require(none_is_nan(image.values), "an image has a NaN");
+  require(image.masked || none_is_nan(image.values), "an image without a mask has a NaN");
 }
 
 void add_cell(Content& content, std::span<const Index> numbers) {
@@ -92,7 +92,8 @@ Content content_of(const Image& image) {
   require_image(image);
   Content content;
   content.head = fmt::format("{}", fmt::join(image.extents, " x "));
-  content.add(image.values);
+  for (const double value : image.values)  // NaN, an absent voxel, is equal to nothing
+    content.numbers.push_back(std::isnan(value) ? kInfinity : value);
   content.end_row();
   return content;
 }
@@ -106,7 +107,7 @@ Content content_of(const PerseusImage& perseus) {
                              fmt::join(perseus.periodic.begin(), perseus.periodic.end(), " "));
   std::vector<Index> place(extents.size());
   for (const double value : perseus.image.values) {
-    if (value != kInfinity) {
+    if (!std::isnan(value)) {
       content.add(place);
       content.numbers.push_back(value);
       content.end_row();

@@ -16,6 +16,14 @@ std::size_t big_endian(std::string_view bytes, std::size_t at) {
                              std::endian::big);
 }
 
+/// The first channel.
+Image grey_of(const Raster& raster) {
+  std::vector<std::uint16_t> grey;
+  for (std::size_t i = 0; i < raster.samples.size(); i += static_cast<std::size_t>(raster.channels))
+    grey.push_back(raster.samples[i]);
+  return {{raster.height, raster.width}, std::move(grey)};
+}
+
 /// Every chunk with the checksum of what it holds.
 std::string with_right_checksums(std::string_view bytes) {
   constexpr std::size_t kSignature = 8, kLength = 4, kKind = 4, kSum = 4;
@@ -43,7 +51,8 @@ void run_png(std::string_view bytes) {
   try {
     const Input input = Input::hold({repaired.begin(), repaired.end()}, "input.png", &context);
     const Raster raster = read_png(input);
-    const Cloud cloud = cloud_from_depth(raster, raster, {.fx = 2, .fy = 2, .cx = 1, .cy = 1});
+    const Cloud cloud =
+        cloud_from_depth(grey_of(raster), raster, {{.fx = 2, .fy = 2, .cx = 1, .cy = 1}});
     require(cloud.width == raster.width && cloud.height == raster.height,
             "a pixel is no point of the cloud");
     static_cast<void>(content_of(cloud));

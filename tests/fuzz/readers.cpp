@@ -60,6 +60,25 @@ std::vector<double> values(const Input& input, const ReadOptions& options) {
   return read_values(input, kValues, options);
 }
 
+/// All numbers of a camera; what it has no ray for is left out.
+std::vector<double> camera(const Input& input, const ReadOptions&) {
+  const Camera c = read_camera(input);
+  std::vector<double> numbers{c.intrinsics.fx,
+                              c.intrinsics.fy,
+                              c.intrinsics.cx,
+                              c.intrinsics.cy,
+                              static_cast<double>(c.width),
+                              static_cast<double>(c.height)};
+  numbers.insert(numbers.end(), c.lens.coefficients.begin(), c.lens.coefficients.end());
+  if (const auto ray = c.lens.straightened(0.25, 0.25))
+    numbers.insert(numbers.end(), ray->begin(), ray->end());
+  return numbers;
+}
+
+Image depth(const Input& input, const ReadOptions& options) {
+  return read_depth(input, options).depth;
+}
+
 template <auto read>
 void rewrite_with(const Input& input, const ReadOptions& options) {
   write_and_read_again(read(input, options));
@@ -99,6 +118,9 @@ constexpr std::array kReaders{
     reader<Reads<Mesh>(&read_off)>("off", ".off"),
     reader<Reads<Mesh>(&read_ply_mesh)>("ply_mesh", ".ply"),
     reader<&png>("png", ".png"),
+    reader<&camera>("camera", ".yaml"),
+    reader<&depth>("depth", ""),
+    reader<&read_npy_cloud>("npy_cloud", ".npy"),
     reader<Reads<Cloud>(&read_cloud)>("cloud", ""),
     reader<&read_pcd>("pcd", ".pcd"),
     reader<&of_format<Format::pcd>>("pcd_points", ".pcd"),

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
+#include <functional>
 #include <limits>
 #include <random>
 #include <regex>
 
+#include "ph/core/error.hpp"
 #include "ph/io/svg_plot.hpp"
 #include "plot_support.hpp"
 
@@ -35,6 +39,113 @@ TEST(Plot, AnyValues) {
       options.kind = kind;
       check(svg_plot(test::barcode_of(bars), options));
     }
+}
+
+/// The texts of a picture, in their order.
+std::vector<std::string> texts_of(const std::string& svg) {
+  std::vector<std::string> texts;
+  const std::regex text("<text[^>]*>([^<]*)</text>");
+  for (std::sregex_iterator it(svg.begin(), svg.end(), text), end; it != end; ++it)
+    texts.push_back((*it)[1]);
+  return texts;
+}
+
+bool has_text(const std::string& svg, const std::string& text) {
+  return std::ranges::count(texts_of(svg), text) > 0;
+}
+
+TEST(Plot, AnyLookOfAnyValues) {
+  for (const auto& bars : test::odd_barcodes())
+    for (const PlotKind kind : test::kPlotKinds)
+      for (const bool negated : {false, true}) {
+        PlotOptions options;
+        options.kind = kind;
+        options.negated = negated;
+        options.size = {300, 200};
+        options.dims = {0, 1};
+        check(svg_plot(test::barcode_of(bars), options));
+        options.axis = {-1, 2.5, false};
+        check(svg_plot(test::barcode_of(bars), options));
+        options.axis = {0.5, 1e6, true};
+        check(svg_plot(test::barcode_of(bars), options));
+        options.axis = {{}, {}, true};
+        check(svg_plot(test::barcode_of(bars), options));
+      }
+}
+
+TEST(Plot, AnAxisNamesWhatIsOnItAndCountsWhatIsNot) {
+  const Barcode barcode =
+      test::barcode_of({{0, 0, kInfinity}, {0, 0, 1}, {0, 7, 8}, {0, -5, -4}, {1, 3, 4}});
+  PlotOptions options;
+  options.axis = {0.0, 2.0, false};
+  const std::string bars = svg_plot(barcode, options);
+  EXPECT_TRUE(has_text(bars, "3 beyond"));
+  EXPECT_TRUE(has_text(bars, "2.0"));
+  EXPECT_FALSE(has_text(bars, "H₁"));
+  options.dims = {1};
+  options.axis = {};
+  EXPECT_FALSE(has_text(svg_plot(barcode, options), "H₀"));
+  EXPECT_TRUE(has_text(svg_plot(barcode, options), "H₁"));
+  for (const PlotAxis& axis : {PlotAxis{2.0, 1.0, false}, PlotAxis{1.0, 1.0, false},
+                               PlotAxis{0.0, 1.0, true}, PlotAxis{-1.0, {}, true}}) {
+    options.axis = axis;
+    EXPECT_THROW(svg_plot(barcode, options), Error);
+  }
+}
+
+TEST(Plot, ALogarithmicAxisHasAsMuchRoomForEachPowerOfTen) {
+  PlotOptions options;
+  options.axis.logarithmic = true;
+  const std::string svg =
+      svg_plot(test::barcode_of({{0, 0, 1}, {0, 1, 100}, {0, 10, 100}}), options);
+  for (const char* tick : {"1", "10", "100"}) EXPECT_TRUE(has_text(svg, tick)) << tick;
+  // The second line begins at 1, the third one half way.
+  std::smatch lines;
+  ASSERT_TRUE(std::regex_search(
+      svg, lines,
+      std::regex("<path d=\"M([0-9.]+) [0-9.]+H([0-9.]+)M([0-9.]+) [0-9.]+H([0-9.]+)M([0-9.]+) ")));
+  const double begin = std::stod(lines[3]), end = std::stod(lines[4]), middle = std::stod(lines[5]);
+  EXPECT_EQ(std::stod(lines[1]), begin);
+  EXPECT_NEAR(middle, (begin + end) / 2, 0.02);
+}
+
+TEST(Plot, NegatedValuesFallFromLeftToRight) {
+  PlotOptions options;
+  options.negated = true;
+  const auto texts = texts_of(svg_plot(test::barcode_of({{0, -4, -1}, {0, -4, 0}}), options));
+  std::vector<double> ticks;
+  for (const std::string& text : texts)
+    if (text.size() == 1 && std::isdigit(static_cast<unsigned char>(text[0])) && text != "2")
+      ticks.push_back(std::stod(text));
+  ASSERT_GE(ticks.size(), 3u);
+  EXPECT_EQ(ticks.front(), 4);
+  EXPECT_TRUE(std::ranges::is_sorted(ticks, std::greater<>()));
+  for (const std::string& text : texts) EXPECT_FALSE(text.starts_with("−")) << text;
+}
+
+TEST(Plot, ASizeIsThatOfThePicture) {
+  PlotOptions options;
+  const Barcode barcode = test::barcode_of({{0, 0, 1}});
+  for (const PlotSize size : {PlotSize{640, 480}, PlotSize{100, 900}}) {
+    options.size = size;
+    const std::string svg = svg_plot(barcode, options);
+    std::smatch found;
+    ASSERT_TRUE(std::regex_search(
+        svg, found,
+        std::regex("width=\"(\\d+)\" height=\"(\\d+)\" viewBox=\"0 0 ([0-9.]+) ([0-9.]+)\"")));
+    EXPECT_EQ(std::stoi(found[1]), size.width);
+    EXPECT_EQ(std::stoi(found[2]), size.height);
+    EXPECT_NEAR(std::stod(found[3]) / std::stod(found[4]), 1.0 * size.width / size.height, 1e-3);
+  }
+  options.size = {0, 480};
+  EXPECT_THROW(svg_plot(barcode, options), Error);
+}
+
+TEST(TreePlot, OneClassBeginsAtItsBirth) {
+  const std::vector<Branch> tree{{-3, kInfinity, -1}};
+  const std::string svg = svg_plot(tree);
+  EXPECT_TRUE(has_text(svg, "−3.0"));
+  EXPECT_FALSE(has_text(svg, "−4.0"));
 }
 
 TEST(Plot, ManyBarsStaySmall) {

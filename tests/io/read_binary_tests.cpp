@@ -156,8 +156,9 @@ TEST(ReadNpy, RefusesDamage) {
 
 TEST(ReadNpy, MasksAndReadsAsPointsAndDistances) {
   const std::string data = le(1.0) + le(std::nan("")) + le(kInf) + le(-kInf);
-  EXPECT_EQ(image(npy("<f8", "False", "(4,)", data), {.nan = NanPolicy::drop}).values,
-            (std::vector<double>{1, kInf, kInf, -kInf}));
+  const Image masked = image(npy("<f8", "False", "(4,)", data), {.nan = NanPolicy::drop});
+  EXPECT_TRUE(masked.masked);
+  EXPECT_EQ(marked(masked.values), (std::vector<double>{1, kMark, kInf, -kInf}));
   EXPECT_EQ(image(npy("<f8", "False", "(0, 3)", ""), {.allow_empty = true}).values.size(), 0U);
   const std::string square = npy("<f8", "False", "(2, 2)", le(0.0) + le(1.0) + le(1.0) + le(0.0));
   EXPECT_EQ(read_distances(Input::view(square, "a.npy"))(0, 1), 1);

@@ -234,10 +234,89 @@ TEST(ReadXyz, NamesColumns) {
   }
 }
 
+/// A NumPy file of little-endian numbers in C order.
+template <class T>
+std::string npy(const std::string& descr, const std::string& shape, const std::vector<T>& values) {
+  const std::string header =
+      "{'descr': '" + descr + "', 'fortran_order': False, 'shape': " + shape + "}\n";
+  std::string bytes =
+      std::string("\x93NUMPY\x01\x00", 8) + le(static_cast<std::uint16_t>(header.size())) + header;
+  for (const T value : values) bytes += le(value);
+  return bytes;
+}
+
+TEST(ReadNpyCloud, TakesPointsAndOrganisedPoints) {
+  const auto cloud = [](const std::string& bytes) {
+    return read_cloud(Input::view(bytes, "c.npy"));
+  };
+  const std::vector<float> six{1, 2, 3, std::nanf(""), 5, 6};
+  const Cloud points = cloud(npy("<f4", "(2, 3)", six));
+  EXPECT_EQ(points.width, 2);
+  EXPECT_FALSE(points.organised());
+  EXPECT_EQ(points.fields.size(), 3U);
+  EXPECT_EQ(points.xyz()[2], 3);
+  EXPECT_TRUE(std::isnan(points.xyz()[3]));
+  const Cloud organised = cloud(npy("<f4", "(2, 1, 3)", six));
+  EXPECT_EQ(organised.width, 1);
+  EXPECT_EQ(organised.height, 2);
+  EXPECT_EQ(organised.xyz()[5], 6);
+  const Cloud bytes = cloud(npy<double>("<f8", "(1, 6)", {1, 2, 3, 255, 0, 16}));
+  EXPECT_EQ(bytes.rgb()->at(0), 0xFF0010U);
+  const Cloud shares = cloud(npy<double>("<f8", "(2, 6)", {1, 2, 3, 1, 0, 1, 0, 0, 0, 1, 0.2, 0}));
+  EXPECT_EQ(*shares.rgb(), (std::vector<std::uint32_t>{0xFF00FF, 0xFF3300}));
+  const Cloud intensity = cloud(npy<double>("<f8", "(1, 4)", {1, 2, 3, 7}));
+  EXPECT_EQ(intensity.fields[3].name, "field_3");
+  const struct {
+    std::string bytes, message;
+  } faults[] = {
+      {npy("<f4", "(3, 2)", six), "save its transpose"},
+      {npy<double>("<f8", "(3, 100)", std::vector<double>(300)), "save its transpose"},
+      {npy<double>("<f8", "(70, 80)", std::vector<double>(5600)), "--camera or --intrinsics"},
+      {npy("<f4", "(6,)", six), "found shape (6), expected (points, 3)"},
+      {npy<std::int32_t>("<i4", "(1, 3)", {1, 2, 3}), "found whole numbers, expected floats"},
+      {npy<double>("<f8", "(1, 3)", {1, 2, HUGE_VAL}), "infinite coordinate of point 0"},
+      {npy<float>("<f4", "(0, 3)", {}), "no points"},
+      {npy<float>("<f4", "(2, 3)", {1, 2}), "truncated"},
+  };
+  for (const auto& [content, message] : faults)
+    EXPECT_TRUE(contains(bad_data([&, b = content] { cloud(b); }), message)) << message;
+}
+
+TEST(ReadDepth, KnowsWhichUnitIsUsual) {
+  const auto depth = [](const std::string& bytes, const std::string& name = "d.npy") {
+    return read_depth(Input::view(bytes, name));
+  };
+  const DepthImage metres = depth(npy<float>("<f4", "(1, 3)", {0.5F, std::nanf(""), 2}));
+  EXPECT_EQ(metres.scale, 1);
+  EXPECT_EQ(metres.depth.extents, (std::vector<Index>{1, 3}));
+  const Cloud cloud = cloud_from_depth(metres.depth, {}, {{1, 1, 0, 0}}, metres.scale);
+  EXPECT_EQ(cloud.xyz()[2], 0.5F);
+  EXPECT_TRUE(std::isnan(cloud.xyz()[5]));
+  EXPECT_EQ(cloud.xyz()[8], 2);
+  EXPECT_EQ(depth(npy<std::uint16_t>("<u2", "(1, 2)", {1, 2})).scale, 1000);
+  EXPECT_EQ(depth(npy<std::int32_t>("<i4", "(1, 2)", {1, 2})).scale, 1000) << "not a float";
+  EXPECT_EQ(depth("P5 2 1 65535\n" + std::string(4, '\1'), "d.pgm").depth.values[1], 257);
+  for (const std::string& bytes :
+       {npy<float>("<f4", "(1, 2, 3)", std::vector<float>(6)), std::string("1 2 3\n")})
+    bad_data([&] { depth(bytes); });
+}
+
+TEST(CloudFromDepth, CountsWhatCannotBe) {
+  const Image depth{{1, 3}, {-1.0, 1.0, 1.0}};
+  // Seen at -1, 0 and 1 focal lengths; the lens shows up to 0.7.
+  const Camera camera{{1, 1, 1, 0}, 3, 1, {Lens::Model::polynomial, {-0.3}}};
+  DepthCounts counts;
+  const std::vector<float> xyz = cloud_from_depth(depth, {}, camera, 1, &counts).xyz();
+  EXPECT_EQ(counts.negative, 1);
+  EXPECT_EQ(counts.unseen, 1);
+  EXPECT_TRUE(std::isnan(xyz[2]) && std::isnan(xyz[8]));
+  EXPECT_EQ(xyz[5], 1);
+}
+
 TEST(CloudFromDepth, BackProjectsPixels) {
-  const Raster depth{2, 2, 1, 16, {0, 1000, 2000, 500}};
+  const Image depth{{2, 2}, std::vector<std::uint16_t>{0, 1000, 2000, 500}};
   const Raster colour{2, 2, 3, 8, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}};
-  const Cloud cloud = cloud_from_depth(depth, colour, {.fx = 2, .fy = 4, .cx = 1, .cy = 0}, 1000);
+  const Cloud cloud = cloud_from_depth(depth, colour, {{.fx = 2, .fy = 4, .cx = 1, .cy = 0}}, 1000);
   EXPECT_EQ(cloud.width, 2);
   EXPECT_EQ(cloud.height, 2);
   const std::vector<float> xyz = cloud.xyz();
@@ -245,11 +324,16 @@ TEST(CloudFromDepth, BackProjectsPixels) {
   EXPECT_EQ(std::vector<float>(xyz.begin() + 3, xyz.end()),
             (std::vector<float>{0, 0, 1, -1, 0.5, 2, 0, 0.125, 0.5}));
   EXPECT_EQ(*cloud.rgb(), (std::vector<std::uint32_t>{0x010203, 0x040506, 0x070809, 0x0A0B0C}));
-  EXPECT_EQ(cloud_from_depth(depth, std::nullopt, {1, 1, 0, 0}).fields.size(), 3U);
-  EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { cloud_from_depth(depth, {}, {0, 1, 0, 0}); }));
-  EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { cloud_from_depth(depth, {}, {1, 1, 0, 0}, 0); }));
-  bad_data([&] { cloud_from_depth(colour, {}, {1, 1, 0, 0}); });
-  bad_data([&] { cloud_from_depth(depth, Raster{1, 1, 1, 8, {0}}, {1, 1, 0, 0}); });
+  EXPECT_EQ(cloud_from_depth(depth, std::nullopt, {{1, 1, 0, 0}}).fields.size(), 3U);
+  EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { cloud_from_depth(depth, {}, {{0, 1, 0, 0}}); }));
+  EXPECT_TRUE(fails_with(ErrorKind::usage, [&] {
+    cloud_from_depth(depth, {}, {{1, 1, 0, 0}}, 0);
+  }));
+  const Image volume{{1, 2, 2}, depth.values};
+  EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { cloud_from_depth(volume, {}, {{1, 1, 0, 0}}); }));
+  const Camera other{{1, 1, 0, 0}, 4, 4};
+  EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { cloud_from_depth(depth, {}, other); }));
+  bad_data([&] { cloud_from_depth(depth, Raster{1, 1, 1, 8, {0}}, {{1, 1, 0, 0}}); });
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <zlib.h>
+#include <cmath>
 
 #include <limits>
 
@@ -65,7 +66,7 @@ TEST(ReadPerseus, GridsWithTheFirstAxisFastest) {
   ReadResult any = read_any(Input::view(one_line, "a.perseus"));
   EXPECT_EQ(any.periodic, (std::vector<bool>{false, true}));
   EXPECT_EQ(any.description, "image of 2 x 3 voxels, Perseus, periodic");
-  EXPECT_EQ(std::get<Image>(any.data).values.back(), kInf);
+  EXPECT_TRUE(std::isnan(std::get<Image>(any.data).values.back()));
   EXPECT_TRUE(read_any(Input::view(grid, "a.perseus")).periodic.empty());
   check_prefixes(
       grid, "a.perseus", [](const Input& in) { read_any(in); },
@@ -75,7 +76,8 @@ TEST(ReadPerseus, GridsWithTheFirstAxisFastest) {
 TEST(ReadPerseus, ListsOfCubes) {
   const PerseusImage read = read_perseus(Input::view("2\n0 1 5\n2 0 7\n", "a"));
   EXPECT_EQ(read.image.extents, (std::vector<Index>{3, 2}));
-  EXPECT_EQ(read.image.values, (std::vector<double>{kInf, 5, kInf, kInf, 7, kInf}));
+  EXPECT_TRUE(read.image.masked);
+  EXPECT_EQ(marked(read.image.values), (std::vector<double>{kMark, 5, kMark, kMark, 7, kMark}));
   expect_refused("a.perseus", {"2\n0 1 5\n0 1 5\n", "2\n0 1 5\n0 1\n", "2\n0 1 5\n0 1 5 6\n",
                                "2\n0 -1 5\n", "2\n0 1.5 5\n", "2\n0 1000000 5\n1000000 0 1\n",
                                "3\n1000000000000 1000000000000 1000000000000 1\n"});
@@ -87,15 +89,16 @@ TEST(ReadPerseus, MinusOneIsMissingWherePerseusWouldReadIt) {
     options.note = [&](std::string said) {
       if (note != nullptr) *note = std::move(said);
     };
-    return read_perseus(Input::view(text, "a"), options).image.values;
+    return marked(read_perseus(Input::view(text, "a"), options).image.values);
   };
   std::string note;
-  EXPECT_EQ(values("1\n3\n1 -1 2\n", &note), (std::vector<double>{1, kInf, 2}));
+  EXPECT_EQ(values("1\n3\n1 -1 2\n", &note), (std::vector<double>{1, kMark, 2}));
   EXPECT_TRUE(contains(note, "never enter")) << note;
   EXPECT_EQ(values("1\n3\n0 -1 2\n", &note), (std::vector<double>{0, -1, 2}));
   EXPECT_TRUE(contains(note, "taken as such")) << note;
   EXPECT_EQ(values("1\n3\n1.5 -1 2\n"), (std::vector<double>{1.5, -1, 2}));
   EXPECT_EQ(values("1\n3\n-2 -1 2\n"), (std::vector<double>{-2, -1, 2}));
+  EXPECT_EQ(values("1\n3\n0.5 inf -inf\n"), (std::vector<double>{0.5, kMark, -kInf}));
 }
 
 TEST(ReadPerseus, RefusesDamage) {

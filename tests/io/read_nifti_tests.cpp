@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <memory_resource>
 #include <thread>
@@ -11,8 +12,6 @@
 
 namespace ph::test {
 namespace {
-
-constexpr double kInf = std::numeric_limits<double>::infinity();
 
 TEST(ReadNifti, EveryDatatypeInBothByteOrders) {
   for (const bool big : {false, true}) {
@@ -49,7 +48,7 @@ TEST(ReadNifti, ScalesAndDropsTrailingAxes) {
   n = {.datatype = 16, .bitpix = 32};
   const std::string holes = n.with(std::vector<float>{0, 1, 2, 3, 4, std::nanf("")});
   EXPECT_TRUE(contains(bad_data([&] { image_of(holes, "a.nii"); }), "NaN"));
-  EXPECT_EQ(image_of(holes, "a.nii", {.nan = NanPolicy::drop}).values[5], kInf);
+  EXPECT_TRUE(std::isnan(image_of(holes, "a.nii", {.nan = NanPolicy::drop}).values[5]));
   Nifti extended{.offset = 368};
   const std::string header = extended.header() + std::string(16, 'e');
   EXPECT_EQ(image_of(header + std::string(12, '\1'), "a.nii").values[0], 257);

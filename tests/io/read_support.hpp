@@ -3,17 +3,31 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <memory_resource>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "ph/core/error.hpp"
+#include "ph/image/image.hpp"
 #include "ph/io/formats.hpp"
 #include "ph/io/reader.hpp"
 
 namespace ph::test {
+
+/// In place of an absent voxel, whose NaN is equal to nothing.
+inline constexpr double kMark = -987654321;
+
+/// The numbers of an image with kMark for absent voxels.
+inline std::vector<double> marked(const Voxels& voxels) {
+  std::vector<double> numbers = voxels.doubles();
+  for (double& number : numbers)
+    if (std::isnan(number)) number = kMark;
+  return numbers;
+}
 
 /// The message of the bad_data error that `f` throws; fails the test if it throws something else or
 /// nothing.

@@ -80,6 +80,7 @@ TEST(Gzip, BombsEndSoon) {
 }
 
 TEST(Input, AStreamOfNulsIsRefusedAtOnce) {
+  if (!std::filesystem::is_character_file("/dev/zero")) GTEST_SKIP() << "no device /dev/zero";
   RunContext context;
   const auto start = std::chrono::steady_clock::now();
   EXPECT_TRUE(contains(bad_data([&] { Input::open("/dev/zero", &context); }), "NUL bytes"));
@@ -87,7 +88,9 @@ TEST(Input, AStreamOfNulsIsRefusedAtOnce) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1));
   const TempDir dir;  // a file of NULs is told from text by its first bytes
   const auto path = dir.write("nul.txt", "");
-  std::filesystem::resize_file(path, std::uintmax_t{8} << 30);
+  std::error_code error;
+  std::filesystem::resize_file(path, std::uintmax_t{8} << 30, error);
+  if (error) GTEST_SKIP() << "no file of 8 GiB here: " << error.message();
   EXPECT_TRUE(contains(bad_data([&] { read_any(path); }), "NUL byte"));
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1));
 }

@@ -8,7 +8,7 @@ of them.
 A mutant is killed if one of its test programs fails or runs into the time limit. It counts as a
 failure if the tests pass, if it does not compile, or if the text it replaces is not found exactly
 once: then the code has moved on and the mutant must follow. Exit code 0 if all were killed.
---check builds nothing and only sees whether each text is found.
+--check builds nothing and only sees whether each text is found, also those of program_mutants.py.
 """
 import argparse
 import os
@@ -21,11 +21,12 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from mutants import MUTANTS
+from program_mutants import MUTANTS as PROGRAM_MUTANTS
 
 ROOT = Path(__file__).resolve().parents[2]
 TIME_LIMIT = 90  # seconds a test program may run
 
-SOURCES = ["core", "metric", "complex", "cubical", "engine", "persistence"]  # folders of libph/src
+SOURCES = ["core", "metric", "complex", "cubical", "engine", "persistence", "loops"]  # folders of libph/src
 NINJA = """\
 cxx = {compiler}
 flags = -std=c++20 -O1 -Ilibph/include -Itests '-DPH_SHARED_DIR=""' {includes}
@@ -57,7 +58,7 @@ def write_build(tree, programs):
                         libraries=" ".join(libraries + ["-lpthread"]))
     library = []
     sources = [p.relative_to(tree) for f in SOURCES for p in (tree / "libph/src" / f).glob("*.cpp")]
-    sources.append(Path("libph/src/persistence.cpp"))
+    sources += [Path("libph/src/persistence.cpp"), Path("libph/src/loops.cpp")]
     for source in sorted(sources):
         library.append(f"o/{source.parent.name}_{source.stem}.o")
         text += f"build {library[-1]}: compile {source}\n"
@@ -65,7 +66,7 @@ def write_build(tree, programs):
     text += f"build o/libph.a: archive {' '.join(library)}\n"
     for program in programs:
         text += f"build o/{program}.o: compile tests/core/{program}.cpp\n"
-        asks_for_estimate = program in ("persistence_tests", "components_tests")
+        asks_for_estimate = program in ("persistence_tests", "components_tests", "public_structs_tests")
         extra = "o/estimate.o" if asks_for_estimate else ""
         text += f"build {program}: link o/{program}.o {extra} o/libph.a\n"
     (tree / "build.ninja").write_text(text)
@@ -90,7 +91,7 @@ def passes(tree, program):
 
 def why_not_planted(base, mutant):
     """Empty if it can be."""
-    _, file, old, _, _ = mutant
+    file, old = mutant[1:3]
     found = (base / file).read_text().count(old) if (base / file).exists() else 0
     return "" if found == 1 else f"NOT PLANTED: {old!r} occurs {found} times in {file}"
 
@@ -123,11 +124,12 @@ def main():
     parser.add_argument("--check", action="store_true")
     parser.add_argument("names", nargs="*")
     arguments = parser.parse_args()
-    mutants = [m for m in MUTANTS if not arguments.names or m[0] in arguments.names]
     if arguments.check:
+        mutants = MUTANTS + PROGRAM_MUTANTS
         lost = [f"{m[0]}: {why}" for m in mutants if (why := why_not_planted(ROOT, m))]
         print(*lost, f"{len(mutants) - len(lost)} of {len(mutants)} can be planted", sep="\n")
         return 1 if lost else 0
+    mutants = [m for m in MUTANTS if not arguments.names or m[0] in arguments.names]
     programs = sorted({p for m in mutants for p in m[4]})
     start = time.monotonic()
 

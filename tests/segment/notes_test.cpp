@@ -64,6 +64,43 @@ TEST_F(Notes, DepthImages) {
   EXPECT_EQ(run("scene.pcd " + camera), 64);
 }
 
+/// The scene as a robot has it: z up, the table at 0.75 m.
+TEST_F(Notes, AnotherFrame) {
+  const double c = std::sqrt(0.5);
+  const std::vector<float>& xyz = scene_.xyz();
+  std::vector<float> moved, dense;
+  for (std::size_t i = 0; i < xyz.size(); i += 3) {
+    const double x = xyz[i], y = xyz[i + 1], z = xyz[i + 2];
+    for (const double p : {c * (z - y) - c + 0.8, -x, -c * (z + y) + c + 0.75})
+      moved.push_back(static_cast<float>(p));
+    if (!std::isnan(x)) dense.insert(dense.end(), moved.end() - 3, moved.end());
+  }
+  const std::string sensor = "0.093,0.000,1.457";
+  write_cloud(at("base.pcd"), test::cloud_of(moved, scene_.kWidth, scene_.kHeight));
+  ASSERT_EQ(run("base.pcd --json base.json"), 0) << err();
+  EXPECT_TRUE(
+      notes("the rays of the pixels do not meet at the viewpoint of the input but at " + sensor))
+      << err();
+  EXPECT_TRUE(notes("2 segments")) << err();
+  EXPECT_NE(contents(at("base.json")).find("\"viewpoint\": [0.0928"), std::string::npos)
+      << contents(at("base.json"));
+  ASSERT_EQ(run("base.pcd --viewpoint " + sensor), 0) << err();
+  EXPECT_EQ(std::ranges::count(err(), '\n'), 1) << err();
+  ASSERT_EQ(run("base.pcd --viewpoint 0,0,0"), 0) << err();
+  EXPECT_TRUE(
+      notes("--viewpoint: found 0.000,0.000,0.000, but the rays of the pixels meet at " + sensor))
+      << err();
+
+  const auto points = static_cast<Index>(dense.size() / 3);
+  write_cloud(at("dense.pcd"), test::cloud_of(dense, points, 1));
+  ASSERT_EQ(run("dense.pcd"), 0) << err();
+  EXPECT_TRUE(notes("as seen from 0.000,0.000,0.000: are they in another frame? see --viewpoint"))
+      << err();
+  ASSERT_EQ(run("dense.pcd --viewpoint " + sensor), 0) << err();
+  EXPECT_EQ(std::ranges::count(err(), '\n'), 1) << err();
+  EXPECT_TRUE(notes("2 segments")) << err();
+}
+
 TEST_F(Notes, ThreadsChangeNoByte) {
   ASSERT_EQ(run("scene.pcd --threads 1 --labels a.npy --tree a.tree"), 0) << err();
   ASSERT_EQ(run("scene.pcd --threads 4 --labels b.npy --tree b.tree"), 0) << err();

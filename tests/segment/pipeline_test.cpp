@@ -167,7 +167,17 @@ TEST(Pipeline, TheViewpointDecidesWhichSideIsKept) {
   Cloud cloud = scene.cloud();
   EXPECT_EQ(segment(cloud, kPaper).segments.size(), 2U);
   cloud.viewpoint[2] = 2.5;  // below the table
-  EXPECT_EQ(segment(cloud, {.method = Method::paper, .max_range = 5}).segments.size(), 0U);
+  const Segmentation told = segment(cloud, {.method = Method::paper, .max_range = 5});
+  EXPECT_EQ(told.segments.size(), 2U) << "the rays of the pixels tell better";
+  EXPECT_TRUE(told.rays_meet_at);
+  EXPECT_LT(told.plane_sight.behind, 0.1);
+  cloud.width = cloud.size();
+  cloud.height = 1;  // no rays
+  const Segmentation below = segment(cloud, {.method = Method::paper, .max_range = 5});
+  EXPECT_EQ(below.segments.size(), 0U);
+  EXPECT_FALSE(below.rays_meet_at);
+  EXPECT_GT(below.plane_sight.behind, 0.9);
+  EXPECT_GT(below.plane_sight.hidden, 0.1);
   EXPECT_EQ(segment(cloud, {.method = Method::paper, .viewpoint = Vec3{0, 0, 0}}).segments.size(),
             2U);
 }

@@ -141,7 +141,10 @@ TEST_F(Program, StandardInputAndOutput) {
 }
 
 TEST_F(Program, ItsOutputIsAnInput) {
-  ASSERT_EQ(run("scene.pcd -o scene.pcd"), 0) << err();
+  const std::string before = contents(at("scene.pcd"));
+  EXPECT_EQ(run("scene.pcd -o scene.pcd"), 64);
+  EXPECT_EQ(contents(at("scene.pcd")), before);
+  ASSERT_EQ(run("scene.pcd -o scene.pcd --force"), 0) << err();
   ASSERT_EQ(run("scene.pcd -o scene.ply"), 0) << err();
   const Cloud cloud = read_cloud(at("scene.ply"));
   EXPECT_TRUE(cloud.find("label_in"));
@@ -284,7 +287,8 @@ TEST_F(Program, SupervoxelsAndSignatures) {
   EXPECT_NE(summary.find("\"method\": \"supervoxels\""), std::string::npos);
   EXPECT_NE(summary.find("\"label\": 10,"), std::string::npos) << summary;
   EXPECT_NE(summary.find("\"signature\": null"), std::string::npos);
-  ASSERT_EQ(run("s.tree --cut 0 --objects --labels b.npy"), 0) << err();
+  EXPECT_EQ(run("s.tree --cut 0 --objects --labels b.npy"), 64);
+  ASSERT_EQ(run("s.tree --cut 0 --labels b.npy"), 0) << err();
   EXPECT_EQ(contents(at("a.npy")), contents(at("b.npy")));
   ASSERT_EQ(run("scene.pcd --signatures --json s.json"), 0) << err();
   EXPECT_NE(

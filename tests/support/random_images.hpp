@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 // Checks of what represents the bars of one random image.
+#include <limits>
+
 #include "support/generators.hpp"
 #include "support/voxel_sets.hpp"
 
@@ -21,7 +23,10 @@ struct RandomImage {
     if (random.integer(0, 3) == 0)
       options.threshold =
           (options.superlevel ? -1 : 1) * (ties ? random.integer(0, 3) : random.real());
-    const double never = options.superlevel ? -kInfinity : kInfinity;
+    image.masked = random.coin();
+    const double never = image.masked         ? std::numeric_limits<double>::quiet_NaN()
+                         : options.superlevel ? -kInfinity
+                                              : kInfinity;
     if (random.integer(0, 2) == 0)
       for (int i = random.integer(1, 4); i-- > 0;) {
         const auto hole =
@@ -50,18 +55,20 @@ inline void check_random_cycles(Generator& random, bool ties, std::int64_t field
   }
 }
 
-inline void check_random_sets(Generator& random, bool ties, std::int64_t field) {
-  RandomImage random_image(random, ties, 5);
-  const auto& extents = random_image.image.extents;
-  for (std::size_t k = 0; k < extents.size(); ++k)
-    if (extents[k] == 1) random_image.options.periodic[k] = false;
-  const Cubical cubical(random_image.image, random_image.options);
-  Options options{.max_dim = random.integer(0, 3), .field = field, .engine = Engine::arrows};
+inline void check_sets(const Image& image, const CubicalOptions& cubical_options, int max_dim,
+                       std::int64_t field) {
+  const Cubical cubical(image, cubical_options);
+  Options options{.max_dim = max_dim, .field = field, .engine = Engine::arrows};
   const auto pairs = pairs_of(persistence(cubical, options));
   options.representatives = Representatives::voxels;
   const Barcode bars = persistence(cubical, options);
   ASSERT_EQ(pairs_of(bars), pairs);
-  check_voxel_sets(random_image.image, random_image.options, bars);
+  check_voxel_sets(image, cubical_options, bars, field);
+}
+
+inline void check_random_sets(Generator& random, bool ties, std::int64_t field) {
+  const RandomImage random_image(random, ties, 5);
+  check_sets(random_image.image, random_image.options, random.integer(0, 3), field);
 }
 
 }  // namespace ph::test

@@ -34,6 +34,12 @@ class VoxelNeighbours {
     for (std::size_t k = 0; k < extents_.size(); ++k) count += has_axis(k) ? 1 : 0;
     return count;
   }
+  /// Whether there is a circle of one voxel.
+  bool has_loop() const {
+    for (std::size_t k = 0; k < extents_.size(); ++k)
+      if (extents_[k] == 1 && periodic_[k]) return true;
+    return false;
+  }
   Place place(std::span<const Index> voxel) const {
     Place result = 0;
     for (std::size_t k = 0; k < voxel.size(); ++k)
@@ -105,9 +111,10 @@ class VoxelNeighbours {
   int open_axes_ = 0;
 };
 
-/// The sets of all bars of an image without axes of one voxel that close up.
-inline void check_voxel_sets(const Image& image, const CubicalOptions& options,
-                             const Barcode& bars) {
+/// What represents each bar of an image when sets are asked for: which bars have a set, and what is
+/// in it; the others have a cycle.
+inline void check_voxel_sets(const Image& image, const CubicalOptions& options, const Barcode& bars,
+                             std::int64_t field) {
   const VoxelNeighbours grid(image.extents, options.periodic, options.construction);
   const bool is_vertices = options.construction == CubicalOptions::Construction::vertices;
   const double sign = options.superlevel ? -1 : 1;
@@ -115,6 +122,8 @@ inline void check_voxel_sets(const Image& image, const CubicalOptions& options,
   const auto enters = [&](Place p) {
     return value(p) < kInfinity && (!options.threshold || value(p) <= *options.threshold);
   };
+  const Cubical cubical(image, options);
+  const OrderedCells<Cubical> cells(cubical, cubical.top_dim() + 1, field);
   for (std::size_t i = 0; i < bars.size(); ++i) {
     SCOPED_TRACE("bar " + std::to_string(i));
     const Bar& bar = bars[i];
@@ -135,21 +144,27 @@ inline void check_voxel_sets(const Image& image, const CubicalOptions& options,
       }));
       continue;
     }
-    if (bar.dim != grid.axes() - 1 || has_chain) {
-      EXPECT_TRUE(has_chain);
+    // Of what surrounds something only what is never filled may surround no voxel.
+    const bool may_be_hollow = !grid.has_loop() && bar.dim == grid.axes() - 1;
+    if (!may_be_hollow || (bar.is_infinite() && has_chain)) {
       EXPECT_TRUE(found.empty());
+      check_cycle(cells, bars, i);
       continue;
     }
+    EXPECT_FALSE(has_chain);
+    ASSERT_FALSE(found.empty());
     const auto is_open = [&](Place p) {
       return p >= grid.size() || !enters(p) || value(p) > bar.birth;
     };
     // A hollow that is never filled has something in it that has always been there: voxels that
     // never enter, or what lies beyond one end of an axis; not what lies beyond the other.
     const Place beyond = grid.outside(is_vertices), other = grid.outside(!is_vertices);
-    const Place inside = !bar.is_infinite() ? grid.place(bars.death_voxel(i))
-                         : found.empty()    ? beyond
-                                            : *found.begin();
+    const Place inside = bar.is_infinite() ? *found.begin() : grid.place(bars.death_voxel(i));
     PlaceSet filled = grid.flood(inside, is_vertices, is_open);
+    if (bar.is_infinite()) {
+      EXPECT_TRUE(
+          std::ranges::any_of(filled, [&](Place p) { return p >= grid.size() || !enters(p); }));
+    }
     if (bar.is_infinite() && beyond != other) filled.erase(beyond);
     EXPECT_EQ(found, filled);
   }

@@ -39,9 +39,9 @@ struct Options {
 };
 
 /// The barcode of a filtered complex.
-/// @throws Error (usage) on a field that is not one, a negative dimension, an engine that cannot do
-///         the task or a collapse that would spoil it; Error (resource) beyond the memory limit;
-///         Error (cancelled) on a stop request.
+/// @throws Error (usage) on a field that is not one, a negative dimension, a NaN, an engine that
+///         cannot do the task or a collapse that would spoil it; Error (resource) beyond the memory
+///         limit; Error (cancelled) on a stop request.
 Barcode persistence(const Rips& rips, const Options& options = {},
                     const RunContext& context = default_context());
 Barcode persistence(const Cubical& cubical, const Options& options = {},

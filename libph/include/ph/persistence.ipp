@@ -7,10 +7,10 @@
 namespace ph {
 namespace detail {
 
-/// @throws Error (usage) if it is negative. @param name what it is, for the message.
-int checked_dim(std::string_view name, int dim);
+/// @throws Error (usage) on dimensions below 0 or a min_persistence that is no number.
+void check(const Options& options);
 
-/// The highest dimension to compute. @throws Error (usage) as checked_dim, or above 0 where
+/// The highest dimension to compute. @throws Error (usage) as check, or above 0 where
 /// only the components are there.
 int rips_max_dim(const Rips& rips, const Options& options);
 
@@ -80,19 +80,19 @@ struct Plan {
   int max_dim;
   EngineChoice choice;
 };
-/// @throws Error (usage) on a negative dimension, or as choose_engine.
+/// @throws Error (usage) as check and choose_engine.
 template <Filtration F>
 Plan plan(const F& f, const Options& options) {
+  check(options);
   // Low dimensions first: the top dimension of a flag complex takes time and memory to find.
-  if (options.max_dim && checked_dim("highest dimension", *options.max_dim) <= 2) {
+  if (options.max_dim && *options.max_dim <= 2) {
     const EngineChoice choice =
         choose_engine(f, options.engine, task_of(options, *options.max_dim));
     if (choice.engine == Engine::lens || choice.engine == Engine::union_find)
       return {*options.max_dim, choice};
   }
   const int top = std::max(0, f.top_dim());
-  const int max_dim =
-      std::min(checked_dim("highest dimension", options.max_dim.value_or(top)), top);
+  const int max_dim = std::min(options.max_dim.value_or(top), top);
   return {max_dim, choose_engine(f, options.engine, task_of(options, max_dim))};
 }
 
@@ -113,7 +113,7 @@ Barcode persistence(const F& filtration, const Options& options, const RunContex
   const Engine chosen = choice.engine;
   BarcodeBuilder<F> bars(filtration, max_dim, options.min_persistence, options.representatives,
                          options.cells, context);
-  bars.set_min_dim(detail::checked_dim("lowest dimension", options.min_dim));
+  bars.set_min_dim(options.min_dim);
   detail::with_field(options.field, [&](const auto& field) {
     for_each_engine([&](auto engine) {
       if (engine.id == chosen) engine.run(filtration, field, bars, context);

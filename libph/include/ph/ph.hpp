@@ -9,5 +9,6 @@
 #include "ph/complex/voxel_image.hpp"
 #include "ph/engine/merge_tree.hpp"
 #include "ph/estimate.hpp"
+#include "ph/loops.hpp"
 #include "ph/metric/distance_to_measure.hpp"
 #include "ph/persistence.hpp"

@@ -13,6 +13,7 @@
 #include "ph/core/error.hpp"
 #include "ph/core/file_pages.hpp"
 #include "ph/core/radix_sort.hpp"
+#include "ph/core/voxels_in_use.hpp"
 
 namespace ph {
 namespace {
@@ -62,7 +63,9 @@ void refuse_nan(const CubicalImage& grid, const RunContext& context) {
         for (std::size_t i = begin; any && i < end; ++i)
           if (std::isnan(voxels[i]))
             throw Error(ErrorKind::bad_data,
-                        fmt::format("voxel {}: found nan, expected a number", i));
+                        fmt::format("voxel {}: found nan, expected a number in an image without "
+                                    "a mask",
+                                    i));
       }
     }
   });
@@ -89,7 +92,7 @@ Cubical::Cubical(const Image& image, const CubicalOptions& options, const RunCon
   grid_.is_in_file = voxels_.is_in_file();
   grid_.voxels_are_vertices = options.construction == CubicalOptions::Construction::vertices;
   grid_.superlevel = options.superlevel;
-  refuse_nan(grid_, context);
+  if (!image.masked) refuse_nan(grid_, context);
 
   cells_ = 1;
   for (int k = dim_ - 1; k >= 0; --k) {
@@ -133,6 +136,7 @@ Cubical::Table Cubical::new_table(const RunContext& context) const {
     to_spread += cells_ / length * ((grid_.voxels_are_vertices ? length : length + 1) / 2);
   }
   Ticker ticker(context, "cells", to_spread);
+  const VoxelsInUse voxels_are_read(grid_, context);
   std::pmr::vector<Voxel> order(&context.memory);
   order.reserve(voxels_.size());
   for (std::size_t i = 0; i < voxels_.size(); ++i) {

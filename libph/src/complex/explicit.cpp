@@ -10,6 +10,7 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "ph/core/barcode.hpp"
 #include "ph/core/error.hpp"
 
 namespace ph {
@@ -47,21 +48,34 @@ void check_size(std::size_t cells) {
 // Tables are made with a row a dimension: a wrong number in a file must not make them huge.
 constexpr int kLargestDimension = 65535;
 
+[[noreturn]] void refuse(std::string_view what, const std::string& fault) {
+  throw Error(ErrorKind::bad_data, fmt::format("{}: {}", what, fault));
+}
+
+// Compressed rows: those of row i are offsets[i] .. offsets[i+1] of `items`.
+void check_offsets(std::string_view what, const std::vector<std::size_t>& offsets,
+                   std::size_t items) {
+  if (!offsets.empty() && offsets.front() == 0 && offsets.back() == items &&
+      std::ranges::is_sorted(offsets))
+    return;
+  refuse(what, fmt::format("found {}, expected offsets that ascend from 0 to {}",
+                           offsets.empty() ? "no offsets"
+                                           : fmt::format("{} offsets from {} to {}", offsets.size(),
+                                                         offsets.front(), offsets.back()),
+                           items));
+}
+
 void check_layout(const BoundaryMatrix& matrix) {
   const std::size_t n = matrix.size();
-  const auto refuse = [](const std::string& what) {
-    throw Error(ErrorKind::bad_data, "boundary matrix: " + what);
-  };
+  constexpr std::string_view what = "boundary matrix";
   if (matrix.offsets.size() != n + 1)
-    refuse(fmt::format("found {} offsets, expected {}", matrix.offsets.size(), n + 1));
+    refuse(what, fmt::format("found {} offsets, expected {}", matrix.offsets.size(), n + 1));
   if (!matrix.values.empty() && matrix.values.size() != n)
-    refuse(fmt::format("found {} values, expected {}", matrix.values.size(), n));
-  if (matrix.offsets.front() != 0 || matrix.offsets.back() != matrix.rows.size() ||
-      !std::ranges::is_sorted(matrix.offsets))
-    refuse(fmt::format("expected offsets that ascend from 0 to {}", matrix.rows.size()));
+    refuse(what, fmt::format("found {} values, expected {}", matrix.values.size(), n));
+  check_offsets(what, matrix.offsets, matrix.rows.size());
   if (!matrix.incidences.empty() && matrix.incidences.size() != matrix.rows.size())
-    refuse(fmt::format("found {} incidence numbers, expected {}", matrix.incidences.size(),
-                       matrix.rows.size()));
+    refuse(what, fmt::format("found {} incidence numbers, expected {}", matrix.incidences.size(),
+                             matrix.rows.size()));
 }
 
 // The boundary matrix of a set of simplices whose vertices are ascending.
@@ -100,9 +114,17 @@ BoundaryMatrix boundary_of(const SimplexList& simplices, const CellNamer& name,
 
 }  // namespace
 
+void SimplexList::check_layout() const {
+  check_offsets("list of simplices", offsets, vertices.size());
+}
+
 ExplicitComplex ExplicitComplex::from_simplices(SimplexList simplices, const CellNamer& name,
                                                 const RunContext& context) {
+  simplices.check_layout();
   check_size(simplices.size());
+  if (simplices.values.size() != simplices.size())
+    refuse("list of simplices",
+           fmt::format("found {} values, expected {}", simplices.values.size(), simplices.size()));
   for (std::size_t i = 0; i < simplices.size(); ++i) {
     const auto vertex = [&](std::size_t k) {
       return simplices.vertices.begin() + static_cast<std::ptrdiff_t>(k);
@@ -182,6 +204,8 @@ ExplicitComplex ExplicitComplex::from_boundary(const BoundaryMatrix& matrix, con
   }
   context.poll();
   complex.check(matrix.dims, name);
+  complex.leave_out_what_never_enters();
+  complex.sort_by_dimension(matrix.dims);
   complex.build_cofacets();
   return complex;
 }
@@ -196,21 +220,46 @@ void ExplicitComplex::order_cells(const std::vector<int>& dims, std::span<const 
   });
   id_of_.resize(n);
   key_.resize(n);
-  std::size_t dimensions = 0;
   for (std::uint32_t id = 0; id < n; ++id) {
     const std::uint32_t i = input_position_[id];
     id_of_[i] = id;
     if (values_.empty() || values_.back() != values[i]) values_.push_back(values[i]);
     key_[id] = static_cast<std::uint32_t>(values_.size() - 1);
-    dimensions = std::max(dimensions, static_cast<std::size_t>(dims[i]) + 1);
   }
-  first_of_dim_.assign(dimensions + 1, 0);
-  for (const int d : dims) ++first_of_dim_[static_cast<std::size_t>(d) + 1];
+}
+
+// They come last in the order, and no cell that enters has one of them as a facet.
+void ExplicitComplex::leave_out_what_never_enters() {
+  if (values_.empty() || values_.back() < kInfinity) return;
+  const auto never = static_cast<std::uint32_t>(values_.size() - 1);
+  const auto count = static_cast<std::size_t>(std::ranges::lower_bound(key_, never) - key_.begin());
+  values_.pop_back();
+  key_.resize(count);
+  input_position_.resize(count);
+  facets_.offsets.resize(count + 1);
+  facets_.cells.resize(facets_.offsets.back());
+  facets_.incidences.resize(facets_.offsets.back());
+}
+
+void ExplicitComplex::sort_by_dimension(const std::vector<int>& dims) {
+  const auto dim_of = [&](std::size_t i) { return static_cast<std::size_t>(dims[i]); };
+  first_of_dim_.assign(1, 0);
+  for (const std::uint32_t i : input_position_) {
+    if (dim_of(i) + 2 > first_of_dim_.size()) first_of_dim_.resize(dim_of(i) + 2, 0);
+    ++first_of_dim_[dim_of(i) + 1];
+  }
   std::partial_sum(first_of_dim_.begin(), first_of_dim_.end(), first_of_dim_.begin());
-  of_dim_.resize(n);
+  of_dim_.resize(size());
   std::vector<std::size_t> next(first_of_dim_.begin(), first_of_dim_.end());
-  for (std::size_t i = 0; i < n; ++i)  // within a dimension in the order of the input
-    of_dim_[next[static_cast<std::size_t>(dims[i])]++] = id_of_[i];
+  for (std::size_t i = 0; i < dims.size(); ++i) {  // within a dimension in the order of the input
+    if (dims[i] == 0) vertices_.push_back(static_cast<std::uint32_t>(i));
+    if (id_of_[i] < size()) of_dim_[next[dim_of(i)]++] = id_of_[i];
+  }
+}
+
+std::size_t ExplicitComplex::vertex_number(Cell vertex) const {
+  return static_cast<std::size_t>(std::ranges::lower_bound(vertices_, input_position_[vertex.id]) -
+                                  vertices_.begin());
 }
 
 void ExplicitComplex::build_cofacets() {
@@ -253,7 +302,7 @@ void ExplicitComplex::check(const std::vector<int>& dims, const CellNamer& name)
     }
     if (dims[i] == 1) {
       const bool joins = end - begin == 2 && (!has_incidences_ || sum == 0) &&
-                         std::abs(facets_.incidences[begin]) == 1;
+                         (facets_.incidences[begin] == 1 || facets_.incidences[begin] == -1);
       edges_join_vertices_ = edges_join_vertices_ && (begin == end || joins);
     }
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "ph/core/barcode.hpp"
 #include "ph/core/error.hpp"
 #include "ph/core/radix_sort.hpp"
 
@@ -25,6 +26,7 @@ FilteredGraph::FilteredGraph(std::span<const double> births, std::size_t edge_co
     if (std::isnan(births_[v]))
       throw Error(ErrorKind::bad_data, fmt::format("vertex {}: found the value nan", v));
     births_[v] += 0.0;
+    none_enters_ = none_enters_ && births_[v] == kInfinity;
   }
   edges_.reserve(edge_count);
 }
@@ -54,6 +56,7 @@ FilteredGraph::FilteredGraph(std::span<const double> births, std::span<const Wei
   }
   const auto value_of = [](const Edge& e) { return e.value; };
   if (!std::ranges::is_sorted(edges_, {}, value_of)) radix_sort_by_value(edges_, value_of, context);
+  leave_out_what_never_enters();
 }
 
 FilteredGraph FilteredGraph::lower_star(std::span<const double> vertex_values,
@@ -82,7 +85,12 @@ FilteredGraph FilteredGraph::lower_star(std::span<const double> vertex_values,
     const Edge edge = graph.edge_between(e);
     graph.edges_[next[place_of(edge)]++] = edge;
   }
+  graph.leave_out_what_never_enters();
   return graph;
+}
+
+void FilteredGraph::leave_out_what_never_enters() {
+  while (!edges_.empty() && edges_.back().value == kInfinity) edges_.pop_back();
 }
 
 void FilteredGraph::append_input_cell(int dim, Cell cell, std::vector<Index>& numbers) const {

@@ -44,6 +44,7 @@ ExplicitComplex lower_star_of(Closure simplices, std::span<const double> vertex_
 
 ExplicitComplex lower_star(const SimplexList& simplices, std::span<const double> vertex_values,
                            const CellNamer& name, const RunContext& context) {
+  simplices.check_layout();
   Closure closure(&context.memory);
   std::pmr::vector<Index> face;
   for (std::size_t i = 0; i < simplices.size(); ++i) {

@@ -164,10 +164,13 @@ PointImage voxel_image(const Points& points, double voxel, VoxelValue value, Ind
     if (found == kInfinity) found = 0;
     if (value == VoxelValue::density) --found;
   }
+  const bool masked = value != VoxelValue::distance;
+  if (masked) std::ranges::replace(values, kInfinity, std::numeric_limits<double>::quiet_NaN());
   if (value == VoxelValue::distance) make_distances(grid, voxel, values, ticker, &context.memory);
   PointImage result{{}, grid.first(), voxel};
   result.image.extents = grid.extents();
   result.image.values = std::move(values);
+  result.image.masked = masked;
   return result;
 }
 

@@ -10,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -17,7 +18,6 @@
 #include <utility>
 
 #include "ph/core/error.hpp"
-#include "ph/core/pages.hpp"
 
 namespace ph {
 namespace {
@@ -53,7 +53,13 @@ int open_nameless(const std::string& folder) {
 }  // namespace
 
 void forget_file_pages(const void* begin, std::size_t bytes) {
-  drop_pages(const_cast<void*>(begin), bytes);
+  if (bytes == 0) return;
+  // The pages of both ends, too: else a file that is given back block by block would leave a page
+  // of each block. They belong to the mapping, for some of their bytes do.
+  const auto page = static_cast<std::uintptr_t>(::sysconf(_SC_PAGESIZE));
+  const auto address = reinterpret_cast<std::uintptr_t>(begin);
+  const std::uintptr_t first = address / page * page;
+  ::madvise(reinterpret_cast<void*>(first), address + bytes - first, MADV_DONTNEED);
 }
 
 ScratchFile::ScratchFile(std::size_t bytes) : file_(open_nameless(temporary_folder())) {

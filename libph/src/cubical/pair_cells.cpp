@@ -6,6 +6,7 @@
 #include "boundary_reduction.hpp"
 #include "cell_components.hpp"
 #include "cell_sink.hpp"
+#include "ph/core/voxels_in_use.hpp"
 #include "star_matcher.hpp"
 
 namespace ph::cubical {
@@ -79,6 +80,7 @@ double bytes_of_cells(const CubicalImage& grid) {
 template <Field K>
 void pair_cells(const CubicalImage& image, const K& field, int max_dim, bool wants_cells,
                 const RunContext& context, const BarSink& bars) {
+  const VoxelsInUse voxels_are_read(image, context);
   CellGrid grid(image, context);
   CellSink sink(grid, wants_cells, bars);
   CellPairing pairing(grid, sink, context);

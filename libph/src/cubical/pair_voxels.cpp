@@ -9,6 +9,7 @@
 #include "pair_cells.hpp"
 #include "pair_in_slabs.hpp"
 #include "ph/core/parallel.hpp"
+#include "ph/core/voxels_in_use.hpp"
 #include "two_graphs.hpp"
 
 namespace ph::cubical {
@@ -158,6 +159,7 @@ void pair_voxels(const CubicalImage& voxels, const K& field, const WantedBars& w
     pair_in_slabs(slabs, field, wanted, context, pairs);
     return;
   }
+  const VoxelsInUse voxels_are_read(voxels, context);
   StarGrid grid(voxels, context);
   if (wants_loops(frame, wanted))
     pair_all_of_three_axes(grid, field, context, sink, pairs);

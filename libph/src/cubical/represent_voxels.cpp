@@ -10,6 +10,7 @@
 #include "forest_closing.hpp"
 #include "loop_reduction.hpp"
 #include "nested_sets.hpp"
+#include "ph/core/voxels_in_use.hpp"
 #include "represented_pairs.hpp"
 #include "separating_cycles.hpp"
 #include "torus_surfaces.hpp"
@@ -158,14 +159,14 @@ class Representing {
     for (const auto& merge : tree.merges()) {
       ticker.tick();
       add_merge(tree, merge, [&](Rep& rep) {
-        if (sets) return give_set(*sets, stored, merge.dies, rep);
+        if (rep.as_set) return give_set(*sets, stored, merge.dies, rep);
         rep.chain.emplace_back(tree.root_cell(merge.dies), field_.from_int(1));
         rep.chain.emplace_back(tree.root_cell(merge.into), field_.from_int(-1));
       });
     }
     add_survivors(tree, [&](std::uint32_t b) {
       return [&, b](Rep& rep) {
-        if (sets) return give_set(*sets, stored, b, rep);
+        if (rep.as_set) return give_set(*sets, stored, b, rep);
         rep.chain.emplace_back(tree.root_cell(b), field_.from_int(1));
       };
     });
@@ -176,7 +177,7 @@ class Representing {
   void add_hollows(ComponentTree<Graph>&& tree) {
     std::optional<NestedSets> sets;
     std::size_t stored = 0;
-    if (pairs_.wants_sets()) stored = make_sets(tree, true, sets);
+    if (pairs_.wants_hollows()) stored = make_sets(tree, true, sets);
     // What separates is asked for by few bars if sets are wanted.
     std::unique_ptr<SeparatingCycles<Graph, K>> cycles;
     const auto separating = [&]() -> SeparatingCycles<Graph, K>& {
@@ -187,7 +188,9 @@ class Representing {
     for (const auto& merge : tree.merges()) {
       ticker.tick();
       add_merge(tree, merge, [&](Rep& rep) {
-        if (sets) return give_set(*sets, stored, merge.dies, rep);
+        if (rep.as_set) give_set(*sets, stored, merge.dies, rep);
+        // No voxel lies towards an end where all that are there are in the way.
+        if (rep.voxels.begin != rep.voxels.end) return;
         separating().append(merge.dies, rep.chain);
       });
     }
@@ -232,12 +235,12 @@ class Representing {
     };
     for (const auto& merge : tree.merges())
       add_merge(tree, merge, [&](Rep& rep) {
-        if (line) return give(tree.bridge_cell(merge.bridge), rep);
+        if (rep.as_set) return give(tree.bridge_cell(merge.bridge), rep);
         cycles.append(merge.dies, rep.chain);
       });
     add_survivors(tree, [&](std::uint32_t b) {
       return [&, b](Rep& rep) {
-        if (line && grid_.top_dim() == 0) return give(tree.root_cell(b), rep);
+        if (rep.as_set && grid_.top_dim() == 0) return give(tree.root_cell(b), rep);
         cycles.append_all(b, rep.chain);
       };
     });
@@ -245,7 +248,7 @@ class Representing {
     for (const auto& [value, cell] : edges.order) {
       const StarCell edge{edges.cells[cell].voxel, kEdges[edges.cells[cell].number], value};
       pairs_.essential(1, edge, [&](Rep& rep) {
-        if (line) return give(edge, rep);
+        if (rep.as_set) return give(edge, rep);
         rep.chain.emplace_back(edge, field_.from_int(1));
       });
     }
@@ -329,6 +332,7 @@ bool can_represent_voxels(const CubicalImage& grid) { return GridFrame::can_hold
 template <Field K>
 void represent_voxels(const CubicalImage& grid, const K& field, int max_dim, Representatives kind,
                       const RunContext& context, const RepresentativeSink& sink) {
+  const VoxelsInUse voxels_are_read(grid, context);
   Representing<K>(grid, field, max_dim, kind, context, sink).run();
 }
 

@@ -10,9 +10,10 @@
 
 namespace ph::cubical {
 
-/// What represents a pair, to be filled in by who knows.
+/// What represents a bar, to be filled in by who knows.
 template <Field K>
 struct Representation {
+  bool as_set = false;  ///< a set of voxels is wanted; who knows of none fills in the chain
   VoxelChain<K> chain;  ///< cells of the stars' grid, each once
   VoxelRange voxels;
 };
@@ -36,7 +37,10 @@ class RepresentedPairs {
   RepresentedPairs& operator=(const RepresentedPairs&) = delete;
 
   bool wants_sets() const { return kind_ == Representatives::voxels; }
-  /// See PairSink. @param fill is called once, or never.
+  /// Whether hollows are wanted as sets. Where an axis of one voxel closes up, whatever surrounds
+  /// something goes around that axis, too: a set would not say so.
+  bool wants_hollows() const { return wants_sets() && grid_.loop_count() == 0; }
+  /// See PairSink. @param fill is called for a set, for a chain, for both or never.
   void pair(int dim, const StarCell& birth, const StarCell& death, const Fill& fill) {
     begin(grid_.relative() ? death : birth, grid_.relative() ? &birth : &death, fill);
     pairs_.pair(dim, birth, death);
@@ -59,7 +63,11 @@ class RepresentedPairs {
   void add(const Bar& bar, std::span<const Index> birth, std::span<const Index> death) {
     const unsigned loops = copies_++;
     if (!sink_.add(bar, birth, death)) return;
-    if (!found_) (*fill_)(found_.emplace());
+    const bool as_set = bar.dim == 0 ? wants_sets() : wants_hollows();
+    if (!found_ || found_->as_set != as_set) {
+      found_.emplace().as_set = as_set;
+      (*fill_)(*found_);
+    }
     const std::size_t cells = found_->chain.size();
     claim_.grow_to(cells * (sizeof(found_->chain[0]) + (birth.size() + 1) * sizeof(Index)));
     numbers_.clear();

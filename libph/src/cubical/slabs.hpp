@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 #include <memory_resource>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -37,7 +38,10 @@ class Slabs {
   }
   /// The stars of a slab, with the layers beside it as ghosts, until it is forgotten.
   StarGrid stars(std::uint32_t slab) {
-    return {image(slab),
+    const CubicalImage part = image(slab);
+    read_.reset();
+    read_.emplace(context_.memory, part.is_in_file ? part.size() * bytes_of(part.type) : 0);
+    return {part,
             context_,
             {.is_first = slab == 0,
              .is_last = slab + 1 == count(),
@@ -49,6 +53,7 @@ class Slabs {
     around_ = decltype(around_)(around_.get_allocator());
     const CubicalImage part = frame_.layers(begin(slab), end(slab));
     if (part.is_in_file) forget_file_pages(part.voxels, part.size() * bytes_of(part.type));
+    read_.reset();
   }
 
  private:
@@ -90,6 +95,7 @@ class Slabs {
   CubePairMemos cube_pairs_;
   std::pmr::vector<std::byte> around_;
   const RunContext& context_;
+  std::optional<MemoryClaim> read_;  // of a slab's voxels in a file: in memory while it is seen
 };
 
 }  // namespace ph::cubical

@@ -13,15 +13,22 @@ namespace {
 constexpr std::uint32_t kBlock = 4096;     // voxels of a row that are looked at together
 constexpr std::uint32_t kPiece = 1 << 16;  // voxels that a thread takes at a time, about
 
-// Whether u is older than v: with and without equality, which the places decide.
-template <bool descending, class T>
-bool is_older(T u, T v) {
-  return descending ? u > v : u < v;
-}
-template <bool descending, class T>
-bool is_not_younger(T u, T v) {
-  return descending ? u >= v : u <= v;
-}
+// Whether u is older than v, which is not absent: with and without equality, which the places
+// decide. An absent voxel, NaN, is younger than all in the V-construction and older than all in the
+// T-construction, in which what never enters has always been there.
+template <bool descending, bool absent_is_older>
+struct VoxelAges {
+  template <class T>
+  static bool is_older(T u, T v) {
+    if constexpr (absent_is_older) return descending ? !(u <= v) : !(u >= v);
+    return descending ? u > v : u < v;
+  }
+  template <class T>
+  static bool is_not_younger(T u, T v) {
+    if constexpr (absent_is_older) return descending ? !(u < v) : !(u > v);
+    return descending ? u >= v : u <= v;
+  }
+};
 
 }  // namespace
 
@@ -36,10 +43,13 @@ StarGrid::StarGrid(const CubicalImage& grid, const RunContext& context, const Sl
   if (cube_pairs_ == nullptr) cube_pairs_ = cube_pair_memos(*this, context);
   stars_.resize(size_);
   with_voxels(grid.type, grid.voxels, [&]<class T>(const T* voxels) {
-    if (grid.superlevel != relative_)
-      find_stars<T, true>(voxels);
+    // The T-construction runs backwards.
+    if (relative_)
+      grid.superlevel ? find_stars<VoxelAges<false, true>>(voxels)
+                      : find_stars<VoxelAges<true, true>>(voxels);
     else
-      find_stars<T, false>(voxels);
+      grid.superlevel ? find_stars<VoxelAges<true, false>>(voxels)
+                      : find_stars<VoxelAges<false, false>>(voxels);
   });
 }
 
@@ -51,7 +61,7 @@ CubePairMemos cube_pair_memos(const GridFrame& frame, const RunContext& context)
   return memos;
 }
 
-template <class T, bool descending>
+template <class Ages, class T>
 std::uint32_t StarGrid::find_one(const T* voxels, std::uint32_t v) const {
   const auto at = [&](std::uint32_t u) { return voxels[relative_ ? size_ - 1 - u : u]; };
   std::uint32_t star = 0;
@@ -64,8 +74,8 @@ std::uint32_t StarGrid::find_one(const T* voxels, std::uint32_t v) const {
       if (u != kOutside) u = step(u, a, d[a]);
     }
     const bool older = u == kOutside        ? relative_
-                       : comes_before(u, v) ? is_not_younger<descending>(at(u), value)
-                                            : is_older<descending>(at(u), value);
+                       : comes_before(u, v) ? Ages::is_not_younger(at(u), value)
+                                            : Ages::is_older(at(u), value);
     if (older) star |= star_bit(d);
   };
   for (const Direction& d : kEdges) look(d);
@@ -76,7 +86,7 @@ std::uint32_t StarGrid::find_one(const T* voxels, std::uint32_t v) const {
 
 // The stars of a part of a row. Inside the row neighbours are at fixed distances: no test, one
 // comparison each, which compilers do for several voxels at a time.
-template <class T, bool descending>
+template <class Ages, class T>
 void StarGrid::find_block(const T* voxels, const Block& block, std::uint32_t* stars) const {
   const Axis &deep = axes_[0], &high = axes_[1];
   const std::uint32_t n = axes_[2].extent, first = block.z * deep.stride + block.y * high.stride;
@@ -126,8 +136,8 @@ void StarGrid::find_block(const T* voxels, const Block& block, std::uint32_t* st
         }
       };
       // Voxels that come before v are older if they are equal.
-      const auto older = [](T u, T v) { return is_older<descending>(u, v); };
-      const auto not_younger = [](T u, T v) { return is_not_younger<descending>(u, v); };
+      const auto older = [](T u, T v) { return Ages::is_older(u, v); };
+      const auto not_younger = [](T u, T v) { return Ages::is_not_younger(u, v); };
       if (row == first) {
         relative_ ? compare(older, not_younger) : compare(not_younger, older);
       } else {
@@ -136,11 +146,11 @@ void StarGrid::find_block(const T* voxels, const Block& block, std::uint32_t* st
     }
   }
   if (relative_) std::reverse(stars, stars + count);
-  if (block.begin == 0) stars[0] = find_one<T, descending>(voxels, first);
-  if (block.end == n) stars[count - 1] = find_one<T, descending>(voxels, first + n - 1);
+  if (block.begin == 0) stars[0] = find_one<Ages>(voxels, first);
+  if (block.end == n) stars[count - 1] = find_one<Ages>(voxels, first + n - 1);
 }
 
-template <class T, bool descending>
+template <class Ages, class T>
 void StarGrid::find_stars(const T* voxels) {
   const std::uint32_t n = axes_[2].extent, high = axes_[1].extent;
   const std::uint32_t blocks_a_row = (n - 1) / kBlock + 1;
@@ -173,7 +183,7 @@ void StarGrid::find_stars(const T* voxels) {
           if (is_ghost)
             std::fill_n(stars, count, 0U);
           else
-            find_block<T, descending>(voxels, block, stars);
+            find_block<Ages>(voxels, block, stars);
           if (some_may_not) {
             const T* there = relative_ ? voxels + (size_ - first - count) : voxels + first;
             bool block_enters = true;

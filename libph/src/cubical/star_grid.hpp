@@ -60,11 +60,11 @@ class StarGrid : public GridFrame {
   struct Block {
     std::uint32_t z, y, begin, end;
   };
-  template <class T, bool descending>
+  template <class Ages, class T>
   void find_stars(const T* voxels);
-  template <class T, bool descending>
+  template <class Ages, class T>
   void find_block(const T* voxels, const Block& block, std::uint32_t* stars) const;
-  template <class T, bool descending>
+  template <class Ages, class T>
   std::uint32_t find_one(const T* voxels, std::uint32_t v) const;
   /// Whether u comes before v in the whole grid. Precondition: v is no ghost.
   bool comes_before(std::uint32_t u, std::uint32_t v) const {

@@ -45,7 +45,8 @@ MergeTree tree_of(const F& f, const RunContext& context) {
                                tree.births[younger]});
         sizes[elder] += sizes[younger];
       });
-  if constexpr (std::same_as<F, Cubical>) {  // voxels that never enter keep their numbers
+  // Vertices that never enter keep their numbers.
+  if constexpr (requires { f.vertex_number(graph.vertices[0]); }) {
     std::vector<Index> number;
     number.reserve(graph.vertices.size());
     for (const auto& v : graph.vertices) number.push_back(static_cast<Index>(f.vertex_number(v)));

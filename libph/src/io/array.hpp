@@ -32,6 +32,16 @@ struct ArrayLayout {
   std::size_t offset = 0;           ///< of the first element
 };
 
+/// What the header of an NPY file says.
+struct NpyLayout {
+  ArrayLayout array;
+  std::vector<Index> shape;
+  char kind = 'f';        ///< NumPy's letter of the type: b, u, i or f
+  std::size_t count = 0;  ///< of elements, all there
+};
+/// @throws Error (bad_data) on what is no NPY file, or has not as many elements as it says.
+NpyLayout npy_layout(const Input& input);
+
 /// Whether so many bytes that are made of an input are better left in a file: more than a third of
 /// the memory that is left, or of an input that stays in one itself.
 bool stays_in_file(const Input& input, std::size_t bytes);

@@ -79,6 +79,39 @@ void write_chain(OutputFile& file, const InputChain& chain) {
   file.write("]");
 }
 
+std::string_view tightness_name(Tightness tightness) {
+  switch (tightness) {
+    case Tightness::none:
+      return "no";
+    case Tightness::locally:
+      return "locally";
+    case Tightness::shortest:
+      return "shortest";
+  }
+  return "";
+}
+
+/// A member of a bar. @param edge of its chain.
+void write_loops(OutputFile& file, const BarLoops& of_bar, const InputCell& edge) {
+  const bool is_grid = edge.kind == CellKind::grid;
+  const std::size_t arity = is_grid ? edge.numbers.size() : 1;
+  std::string_view between = ", \"loops\": [";
+  for (const Loop& loop : of_bar.loops) {
+    const std::span<const Index> numbers = loop.numbers;
+    file.write(fmt::format("{}{{\"{}\": [", between, is_grid ? "grid" : "vertices"));
+    for (std::size_t i = 0; i < numbers.size(); i += arity) {
+      const std::string text = fmt::format("{}", fmt::join(numbers.subspan(i, arity), ", "));
+      file.write(i == 0 ? "" : ", ");
+      file.write(is_grid ? "[" + text + "]" : text);
+    }
+    file.write(fmt::format("], \"coefficient\": {}", loop.coefficient));
+    if (loop.length) file.write(fmt::format(", \"length\": {}", json_number(*loop.length)));
+    file.write(fmt::format(", \"tight\": \"{}\"}}", tightness_name(of_bar.tightness)));
+    between = ", ";
+  }
+  file.write("]");
+}
+
 /// The voxels of a bar, and a cycle where there are none.
 void write_voxels(OutputFile& file, const Barcode& barcode, std::size_t i) {
   file.write(fmt::format(", \"birth_voxel\": [{}]", fmt::join(barcode.birth_voxel(i), ", ")));
@@ -175,6 +208,8 @@ void write_barcode_json(OutputFile& file, const Barcode& barcode, const BarcodeI
       file.write(", \"representative\": ");
       write_chain(file, barcode.representative(i));
     }
+    if (i < info.loops.size() && !info.loops[i].loops.empty())
+      write_loops(file, info.loops[i], barcode.representative(i).cell(0));
     file.write("}");
   }
   file.write(barcode.empty() ? "],\n" : "\n  ],\n");

@@ -186,7 +186,26 @@ BarcodeFormat format_of(const Input& input) {
   return barcode_format_of_path("x" + input.extension()).value_or(BarcodeFormat::csv);
 }
 
+bool has_header(const Input& input) {
+  TextLines lines(input);
+  return lines.next() &&
+         header_names(lines.line()) == std::vector<std::string>{"dim", "birth", "death"};
+}
+
 }  // namespace
+
+bool is_barcode(const Input& input) {
+  if (detail::is_dipha(input)) return detail::dipha_type(input) == detail::DiphaType::diagram;
+  if (detail::is_npy(input) || detail::is_npz(input)) return false;
+  switch (format_of(input)) {
+    case BarcodeFormat::json:
+    case BarcodeFormat::ripser:
+    case BarcodeFormat::pers:
+      return true;
+    default:
+      return input.text().substr(0, 64).find("dim") != std::string_view::npos && has_header(input);
+  }
+}
 
 Fault fault_of_bar(const Bar& bar) {
   if (std::isnan(bar.birth) || bar.birth == kInfinity) {

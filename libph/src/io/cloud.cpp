@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
+#include <utility>
 
 #include "field_access.hpp"
 #include "ph/io/cloud_io.hpp"
@@ -60,6 +62,27 @@ std::size_t size_of(FieldType type) {
   return detail::visit_type(type, []<class T>(T) { return sizeof(T); });
 }
 
+void Cloud::check() const {
+  const auto refuse = [](const std::string& found, const std::string& expected) {
+    throw Error(ErrorKind::bad_data, fmt::format("cloud: found {}, expected {}", found, expected));
+  };
+  if (width < 0 || height < 0)
+    refuse(fmt::format("{} x {} points", width, height), "sizes of 0 or more");
+  const auto points =
+      checked_product(static_cast<std::size_t>(width), static_cast<std::size_t>(height));
+  const auto bytes = points ? checked_product(*points, stride) : std::nullopt;
+  if (!bytes || *bytes != data.size() || !std::in_range<Index>(*points))
+    refuse(fmt::format("{} bytes", data.size()),
+           fmt::format("{} x {} points of {} bytes", width, height, stride));
+  for (const CloudField& field : fields) {
+    const auto size = checked_product(field.count, size_of(field.type));
+    if (!size || *size > stride || field.offset > stride - *size)
+      refuse(fmt::format("field {} of {} numbers from byte {} on", printable(field.name, 100),
+                         field.count, field.offset),
+             fmt::format("it inside the {} bytes of a point", stride));
+  }
+}
+
 const CloudField* Cloud::find(std::string_view name) const {
   const auto found = std::find_if(fields.begin(), fields.end(),
                                   [name](const CloudField& field) { return field.name == name; });
@@ -67,10 +90,13 @@ const CloudField* Cloud::find(std::string_view name) const {
 }
 
 std::size_t Cloud::add_field(std::string name, FieldType type, std::size_t count) {
-  const std::size_t wider = stride + size_of(type) * count;
+  check();
+  const auto more = checked_product(size_of(type), count);
+  const std::size_t wider = more && *more <= SIZE_MAX - stride ? stride + *more : SIZE_MAX;
   const auto points = static_cast<std::size_t>(size());
   const auto bytes = checked_product(points, wider);
-  if (!bytes) throw Error(ErrorKind::resource, "cloud: too large for another field");
+  if (!bytes || *bytes > std::numeric_limits<std::ptrdiff_t>::max())
+    throw Error(ErrorKind::resource, "cloud: too large for another field");
   std::vector<std::byte> wide(*bytes);
   for (std::size_t i = 0; i < points && stride > 0; ++i) {
     std::memcpy(wide.data() + i * wider, data.data() + i * stride, stride);
@@ -82,6 +108,7 @@ std::size_t Cloud::add_field(std::string name, FieldType type, std::size_t count
 }
 
 std::vector<float> Cloud::xyz() const {
+  check();
   std::vector<float> result(static_cast<std::size_t>(size()) * 3);
   for_each_coordinate(*this, [&](std::size_t i, std::size_t axis, auto value) {
     result[3 * i + axis] = static_cast<float>(value);
@@ -90,6 +117,7 @@ std::vector<float> Cloud::xyz() const {
 }
 
 std::optional<std::vector<std::uint32_t>> Cloud::rgb() const {
+  check();
   const auto points = static_cast<std::size_t>(size());
   std::vector<std::uint32_t> result(points);
   for (const std::string_view name : {"rgba", "rgb"}) {  // packed, in an integer or a float
@@ -134,6 +162,7 @@ std::optional<std::vector<std::uint32_t>> Cloud::rgb() const {
 }
 
 void Cloud::set_uint32(std::size_t field, const std::vector<std::uint32_t>& values) {
+  check();
   if (field >= fields.size() || fields[field].type != FieldType::uint32 ||
       values.size() != static_cast<std::size_t>(size())) {
     throw Error(ErrorKind::internal, "cloud: set_uint32 needs a uint32 field and a value a point");
@@ -145,6 +174,7 @@ void Cloud::set_uint32(std::size_t field, const std::vector<std::uint32_t>& valu
 }
 
 Points points_of(const Cloud& cloud) {
+  cloud.check();
   Points points(cloud.size(), 3);
   for_each_coordinate(cloud, [&](std::size_t i, std::size_t axis, auto value) {
     points(static_cast<Index>(i), static_cast<Index>(axis)) = static_cast<double>(value) + 0.0;

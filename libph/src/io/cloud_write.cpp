@@ -18,18 +18,9 @@ namespace {
 constexpr std::size_t kFlushAt = std::size_t{1} << 16;  // bytes of text written at once
 
 void check_cloud(const Cloud& cloud) {
-  bool right = cloud.width >= 0 && cloud.height >= 0 && !cloud.fields.empty() &&
-               cloud.data.size() == static_cast<std::size_t>(cloud.size()) * cloud.stride;
-  for (const CloudField& field : cloud.fields) {
-    right = right && field.offset + field.count * size_of(field.type) <= cloud.stride;
-  }
-  if (!right) {
-    throw Error(
-        ErrorKind::bad_data,
-        fmt::format("cloud: found {} bytes, expected {} x {} points of {} bytes with fields "
-                    "inside",
-                    cloud.data.size(), cloud.width, cloud.height, cloud.stride));
-  }
+  cloud.check();
+  if (cloud.fields.empty())
+    throw Error(ErrorKind::bad_data, "cloud: found no fields, expected at least one");
 }
 
 void put(std::ostream& out, std::string_view text) {

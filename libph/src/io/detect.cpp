@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cstdint>
-#include <utility>
 
 #include "ph/io/formats.hpp"
 #include "readers.hpp"
+#include "table.hpp"
 
 namespace ph {
 namespace {
-
-constexpr std::size_t kProbedLines = 64;
 
 bool starts_like_text(const Input& input) {
   const std::string_view probe = input.text().substr(0, 4096);
@@ -53,51 +51,24 @@ std::optional<Format> by_extension(const Input& input) {
   return std::nullopt;
 }
 
-// Lengths of the rows and the diagonal tell a matrix from a set of points, which cannot be ragged.
-Format by_rows(const Input& input) {
-  TextLines lines(input);
-  Cells cells(lines);
-  std::vector<std::size_t> lengths;
-  bool zero_diagonal = true, first = true;
-  while (lengths.size() < kProbedLines && lines.next()) {
-    if (std::exchange(first, false) && !header_names(lines.line()).empty()) continue;
-    if (lines.line().find(':') != std::string_view::npos) return Format::simplices;
-    std::size_t length = 0;
-    for (cells.start(); cells.more(); ++length) {
-      const std::string_view word = cells.word();
-      if (length == lengths.size()) {
-        zero_diagonal = zero_diagonal && word.find_first_not_of("0.+-") == std::string_view::npos;
-      }
-    }
-    lengths.push_back(length);
-  }
-  const std::size_t rows = lengths.size();
-  if (rows < 3) return Format::points;
-  bool rising = lengths[0] == 1, falling = true, square = zero_diagonal;
-  for (std::size_t i = 0; i < rows; ++i) {
-    rising = rising && lengths[i] == i + 1;
-    falling = falling && lengths[i] + i == lengths[0];
-    square = square && lengths[i] == lengths[0];
-  }
-  if (rising) return Format::lower_distance;
-  if (falling) return Format::upper_distance;
-  if (!square || lengths[0] < rows) return Format::points;
-  std::size_t all_rows = rows;
-  while (lines.next() && all_rows <= lengths[0]) ++all_rows;
-  return all_rows == lengths[0] ? Format::distance : Format::points;
-}
-
 }  // namespace
 
-Format detect_format(const Input& input) {
+namespace detail {
+
+std::optional<Format> format_by_content(const Input& input) {
   if (const auto format = by_magic(input)) return *format;
   if (const auto format = by_extension(input)) return *format;
-  if (!starts_like_text(input)) {
-    // Bytes without a magic number: Ripser's binary has none. Anything else is told why by the
-    // reader of text.
-    return input.extension() == ".bin" ? Format::binary : Format::points;
-  }
-  return by_rows(input);
+  if (starts_like_text(input)) return std::nullopt;
+  // Bytes without a magic number: Ripser's binary has none. Anything else is told why by the
+  // reader of text.
+  return input.extension() == ".bin" ? Format::binary : Format::points;
+}
+
+}  // namespace detail
+
+Format detect_format(const Input& input) {
+  const auto format = detail::format_by_content(input);
+  return format ? *format : detail::guess_text(input, {}).format;
 }
 
 }  // namespace ph

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "array.hpp"
+#include "matrix_entry.hpp"
 #include "ph/io/read.hpp"
 #include "readers.hpp"
 
@@ -204,14 +205,14 @@ SparseDistances read_dipha_sparse(const Input& input, const ReadOptions& options
     for (auto left = again.read<std::int64_t>("degree"); left > 0; --left) {
       const Index v = read_int(ids, 0, static_cast<Index>(n) - 1, "connected point");
       const std::size_t place = values.offset();
-      double value = values.read<double>("distance") + 0.0;
-      if (std::isnan(value) && options.nan == NanPolicy::drop) value = kInfinity;
-      if (!(value >= 0) || (u == v && value != 0)) {
-        input.fail_at_byte(place, {fmt::format("distance of {} and {}", u, v),
-                                   fmt::format("{}", value),
-                                   u == v ? "0" : "0 or more",
-                                   {}});
-      }
+      const double raw = values.read<double>("distance") + 0.0;
+      const auto fail_pair = [&](Fault fault) {
+        fault.what += fmt::format(", distance of {} and {}", u, v);
+        input.fail_at_byte(place, fault);
+      };
+      const double value = checked_distance(raw, u == v, options, fail_pair);
+      if (u == v && value != 0 && !options.from_correlation)
+        fail_pair({"non-zero diagonal", fmt::format("{}", value), "0", {}});
       if (u != v) edges.push_back({{std::min(u, v), std::max(u, v), value}, place});
     }
   }

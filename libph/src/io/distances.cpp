@@ -5,13 +5,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "matrix_entry.hpp"
 #include "ph/io/read.hpp"
 #include "readers.hpp"
+#include "table.hpp"
 
 namespace ph {
 namespace {
 
-constexpr double kSymmetric = 1e-6;  // relative; matrices computed in float32 are ordinary
+constexpr double kSymmetric = detail::kRounding;  // matrices computed in float32 are ordinary
+constexpr const char* kCorrelations = "--from-correlation reads a correlation matrix";
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::size_t triangle(std::size_t n) { return n % 2 == 0 ? n / 2 * (n - 1) : (n - 1) / 2 * n; }
@@ -26,66 +29,65 @@ std::optional<std::size_t> points_of_pairs(std::size_t pairs) {
   return std::nullopt;
 }
 
-// What is wrong with a number of the input off or on the diagonal; `what` is empty if nothing is.
-Fault fault_of(double raw, bool on_diagonal, const ReadOptions& options) {
-  constexpr const char* hint = "--from-correlation reads a correlation matrix";
-  if (std::isnan(raw) && options.nan == NanPolicy::error) {
-    return {"not a distance", "NaN", "0 or more", "--nan drop never joins such a pair"};
+// The diagonal of a matrix of distances, which is known to be zero only when all of it was read:
+// what is small beside the largest entry is rounding.
+class Diagonal {
+ public:
+  void add(double entry) { entries_.push_back(entry); }
+  void look_at(double distance) {
+    if (distance > largest_ && std::isfinite(distance)) largest_ = distance;
   }
-  if (options.from_correlation) {
-    if (on_diagonal && !(std::abs(raw - 1) <= kSymmetric)) {
-      return {"diagonal of a correlation matrix", fmt::format("{}", raw), "1", {}};
+  /// Says that rounding was taken for 0. Calls `fail(point, fault)`, which does not return, at the
+  /// first entry that is more than that.
+  template <class Fail>
+  void finish(const ReadOptions& options, Fail&& fail) const {
+    double rounding = 0;
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+      const double entry = entries_[i];
+      rounding = std::max(rounding, std::abs(entry));
+      if (std::abs(entry) <= kSymmetric * largest_) continue;
+      const bool is_one = std::abs(entry - 1) <= kSymmetric;
+      fail(i,
+           Fault{"non-zero diagonal", fmt::format("{}", entry),
+                 largest_ > 0 ? fmt::format("0, or rounding: at most {:.2g}", kSymmetric * largest_)
+                              : "0",
+                 is_one      ? kCorrelations
+                 : entry > 0 ? "--diagonal births takes it for the births of the points"
+                             : ""});
     }
-    if (std::abs(raw) > 1 + kSymmetric) {
-      return {"not a correlation", fmt::format("{}", raw), "-1 to 1", {}};
-    }
-  } else if (on_diagonal && options.births_on_diagonal) {
-    if (!(raw >= 0 && raw < kInfinity))
-      return {"not a birth", fmt::format("{} on the diagonal", raw), "a finite number >= 0", {}};
-  } else if (on_diagonal && raw != 0 && !std::isnan(raw)) {
-    return {"non-zero diagonal", fmt::format("{}", raw), "0",
-            raw == 1  ? hint
-            : raw > 0 ? "--diagonal births takes it for the births of the points"
-                      : ""};
-  } else if (raw < 0) {
-    return {"negative distance", fmt::format("{}", raw), "0 or more", raw >= -1 ? hint : ""};
+    if (rounding > 0)
+      detail::note(options, fmt::format("the diagonal is 0 but for rounding, at most {:.2g}: taken "
+                                        "as 0",
+                                        rounding));
   }
-  return {};
-}
 
-// The distance that a faultless number means.
-double distance_of(double raw, const ReadOptions& options) {
-  if (std::isnan(raw)) return kInfinity;
-  return options.from_correlation ? 1 - std::clamp(raw, -1.0, 1.0) : raw;
-}
-
-// The distance that a number of the input means. Calls `fail(fault)`, which does not return, if it
-// means none.
-template <class Fail>
-double checked_distance(double raw, bool on_diagonal, const ReadOptions& options, Fail&& fail) {
-  if (raw >= 0 && !options.from_correlation && !on_diagonal) return raw;  // as a rule
-  if (Fault fault = fault_of(raw, on_diagonal, options); !fault.what.empty())
-    fail(std::move(fault));
-  return distance_of(raw, options);
-}
+ private:
+  std::vector<double> entries_;
+  double largest_ = 0;
+};
 
 // Reads entries of a text matrix, each checked where it stands.
 class Entries {
  public:
   Entries(const TextLines& lines, const ReadOptions& options)
-      : lines_(lines), options_(options), cells_(lines) {}
+      : lines_(lines),
+        options_(options),
+        cells_(lines,
+               options.nan == NanPolicy::drop
+                   ? "names? --columns takes some columns only"
+                   : "--nan drop takes an empty cell for NaN; --columns takes some columns") {}
 
   void start() { cells_.start(); }
   bool more() const { return cells_.more(); }
-  void skip() { cells_.word(); }
+  std::string_view skip() { return cells_.skip(); }
   const char* place() const { return cells_.place(); }
 
   double next(bool on_diagonal = false) {
     const char* place = cells_.place();
     const double raw =
-        cells_.number(options_.nan == NanPolicy::drop ? Allow::any : Allow::infinite);
-    return checked_distance(raw, on_diagonal, options_,
-                            [&](const Fault& fault) { lines_.fail(place, fault); });
+        cells_.number(options_.nan == NanPolicy::drop ? Allow::missing : Allow::infinite);
+    return detail::checked_distance(raw, on_diagonal, options_,
+                                    [&](const Fault& fault) { lines_.fail(place, fault); });
   }
 
  private:
@@ -118,17 +120,23 @@ bool first_row(TextLines& lines, const ReadOptions& options) {
   return lines.next();
 }
 
+// Names the option that asked for a square matrix.
+std::string why_square(const ReadOptions& options) {
+  const std::string_view option = detail::matrix_option(options);
+  const std::string question = "is the file truncated, or a set of points?";
+  return option.empty() ? question : fmt::format("{} takes a square matrix: {}", option, question);
+}
+
 // Memory for all pairs of n points, once the bytes that are there were found to be enough for
 // `cells` cells.
 std::vector<double> make_triangle(const Input& input, std::size_t n, std::size_t first,
-                                  std::optional<std::size_t> cells) {
+                                  std::optional<std::size_t> cells, const ReadOptions& options) {
   if (!cells || *cells > input.size() / 2 + 1) {
     std::size_t rows = 0;
     for (TextLines lines(input); lines.next();) ++rows;
     input.fail({"rows and columns do not fit",
                 fmt::format("{} rows, the first of {} cells", rows, first),
-                fmt::format("{} rows", n == first ? n : n - 1),
-                "is the file truncated, or a set of points?"});
+                fmt::format("{} rows", n == first ? n : n - 1), why_square(options)});
   }
   input.require_memory(triangle(n) * sizeof(double));
   return std::vector<double>(triangle(n));
@@ -202,10 +210,10 @@ DistanceMatrix read_lower_rows(TextLines& lines, Entries& entries, std::vector<d
 }
 
 // The rows after the first one of the upper triangle: each goes into a column of the lower one.
-DistanceMatrix read_upper_rows(TextLines& lines, Entries& entries,
-                               const std::vector<double>& first) {
+DistanceMatrix read_upper_rows(TextLines& lines, Entries& entries, const std::vector<double>& first,
+                               const ReadOptions& options) {
   const std::size_t n = first.size() + 1;
-  std::vector<double> pairs = make_triangle(lines.input(), n, n - 1, triangle(n));
+  std::vector<double> pairs = make_triangle(lines.input(), n, n - 1, triangle(n), options);
   for (std::size_t j = 1; j < n; ++j) pairs[triangle(j)] = first[j - 1];
   std::size_t row = 1;
   do {
@@ -246,7 +254,7 @@ DistanceMatrix read_triangle(const Input& input, const ReadOptions& options, boo
   while (entries.more()) first.push_back(entries.next());
   const std::size_t first_line = lines.number();
   if (!lines.next()) return from_one_line(lines, first_line, std::move(first), lower);
-  if (!lower) return read_upper_rows(lines, entries, first);
+  if (!lower) return read_upper_rows(lines, entries, first, options);
   if (first.size() != 1) {
     input.fail_at(first_line, 1,
                   {"row 1 of the matrix is too long", fmt::format("{} cells", first.size()), "1",
@@ -255,47 +263,101 @@ DistanceMatrix read_triangle(const Input& input, const ReadOptions& options, boo
   return read_lower_rows(lines, entries, std::move(first));
 }
 
+// Rows of names in another order than columns make another matrix.
+class RowNames {
+ public:
+  explicit RowNames(const detail::TableLayout& layout) : header_(layout.header) {
+    is_known_ = layout.names_rows && layout.header.size() == layout.width;
+  }
+  void check(const TextLines& lines, std::size_t row, std::string_view cell) {
+    if (!is_known_) return;
+    const std::string_view name = detail::without_quotes(cell);
+    const std::string& column = header_[row + 1];
+    if (name == column) return;
+    if (std::find(header_.begin() + 1, header_.end(), name) == header_.end()) {
+      is_known_ = false;  // rows are named or numbered in a way of their own
+      return;
+    }
+    lines.fail(lines.line().data(), {"rows and columns in another order",
+                                     fmt::format("row {} of the name {}", row, printable(name, 40)),
+                                     printable(column, 40) + ", as the column",
+                                     {}});
+  }
+
+ private:
+  const std::vector<std::string>& header_;
+  bool is_known_ = false;
+};
+
 DistanceMatrix read_text_square(const Input& input, const ReadOptions& options) {
+  const detail::TableLayout layout = detail::table_layout(input, options);
+  layout.tell(options);
   TextLines lines(input);
-  if (!first_row(lines, options)) return no_points(input, options);
-  std::size_t n = 0;
-  Cells count(lines);
-  for (count.start(); count.more(); ++n) count.word();
-  std::vector<double> pairs = make_triangle(input, n, n, checked_product(n, n)), births;
+  if (!layout.start(lines)) return no_points(input, options);
+  const std::vector<bool> taken = layout.taken();
+  const std::size_t n = layout.columns.size();
+  std::vector<double> pairs = make_triangle(input, n, n, checked_product(n, n), options), births;
+  Diagonal diagonal;
+  const bool has_zeros = !options.from_correlation && !options.births_on_diagonal;
+  RowNames names(layout);
   Entries entries(lines, options);
   std::size_t row = 0;
   do {
     if (row == n) {
-      lines.fail(lines.line().data(), {"not square",
-                                       fmt::format("more than {} rows", n),
-                                       fmt::format("as many as columns, {}", n),
-                                       {}});
+      lines.fail(lines.line().data(),
+                 {"not square", fmt::format("more than {} rows", n),
+                  fmt::format("as many as columns, {}", n), why_square(options)});
     }
     entries.start();
-    std::size_t k = 0;
-    for (; entries.more() && k < n; ++k) {
+    std::size_t k = 0, cell = 0;
+    const auto take = [&](auto&& read) {
+      const char* place = entries.place();
+      const double value = read(k == row);
       if (k == row) {
-        const double birth = entries.next(true);
-        if (options.births_on_diagonal) births.push_back(birth);
+        if (options.births_on_diagonal) births.push_back(value);
+        if (has_zeros) diagonal.add(value);
       } else if (k > row) {
-        pairs[triangle(k) + row] = entries.next();
+        pairs[triangle(k) + row] = value;
+        diagonal.look_at(value);
       } else {
-        const char* place = entries.place();
         double& pair = pairs[triangle(row) + k];
-        const double value = entries.next();
         const auto both = merged(pair, value, options.symmetrise);
         if (!both) lines.fail(place, asymmetric(row, k, value, pair));
         pair = *both;
+        diagonal.look_at(value);
+      }
+      ++k;
+    };
+    for (; entries.more() && cell < layout.width; ++cell) {
+      if (taken[cell]) {
+        take([&](bool on_diagonal) { return entries.next(on_diagonal); });
+      } else {
+        const std::string_view skipped = entries.skip();
+        if (cell == 0) names.check(lines, row, skipped);
       }
     }
-    for (; entries.more(); ++k) entries.skip();
-    if (k != n) fail_row(lines, row, k, n);
+    if (cell + 1 == layout.width && taken[cell] && options.nan == NanPolicy::drop &&
+        detail::ends_empty(lines.line())) {
+      take([](bool on_diagonal) { return on_diagonal ? 0 : kInfinity; });  // NaN
+      ++cell;
+    }
+    for (; entries.more(); ++cell) entries.skip();
+    if (cell != layout.width) fail_row(lines, row, cell - (layout.width - n), n);
     ++row;
   } while (lines.next());
   if (row != n) {
     input.fail({"not square", fmt::format("{} rows of {} cells", row, n), fmt::format("{} rows", n),
-                "is the file truncated, or a set of points?"});
+                why_square(options)});
   }
+  diagonal.finish(options, [&](std::size_t point, const Fault& fault) {
+    TextLines again(input);
+    layout.start(again);
+    for (std::size_t i = 0; i < point; ++i) again.next();
+    Cells cells(again);
+    cells.start();
+    for (std::size_t i = 0; i < layout.columns[point]; ++i) cells.skip();
+    again.fail(cells.place(), fault);
+  });
   return DistanceMatrix(static_cast<Index>(n), std::move(pairs), std::move(births));
 }
 
@@ -303,12 +365,40 @@ DistanceMatrix read_text_square(const Input& input, const ReadOptions& options) 
 
 namespace detail {
 
+Fault fault_of_entry(double raw, bool on_diagonal, const ReadOptions& options) {
+  if (std::isnan(raw) && options.nan == NanPolicy::error) {
+    return {"not a distance", "NaN", "0 or more", "--nan drop never joins such a pair"};
+  }
+  if (options.from_correlation) {
+    if (on_diagonal && !std::isnan(raw) && !(std::abs(raw - 1) <= kSymmetric)) {
+      return {"diagonal of a correlation matrix", fmt::format("{}", raw), "1", {}};
+    }
+    if (std::abs(raw) > 1 + kSymmetric) {
+      return {"not a correlation", fmt::format("{}", raw), "-1 to 1", {}};
+    }
+  } else if (on_diagonal && options.births_on_diagonal) {
+    if (!(raw >= 0 && raw < kInfinity))
+      return {"not a birth", fmt::format("{} on the diagonal", raw), "a finite number >= 0", {}};
+  } else if (!on_diagonal && raw < 0) {
+    return {"negative distance", fmt::format("{}", raw), "0 or more",
+            raw >= -1 ? kCorrelations : ""};
+  }
+  return {};
+}
+
+double distance_of_entry(double raw, bool on_diagonal, const ReadOptions& options) {
+  if (std::isnan(raw)) return on_diagonal ? 0 : kInfinity;
+  return options.from_correlation ? 1 - std::clamp(raw, -1.0, 1.0) : raw;
+}
+
 DistanceMatrix square_to_distances(const Image& array, const Input& input,
                                    const ReadOptions& options) {
   if (array.dim() != 2 || array.extents[0] != array.extents[1]) {
+    const std::string_view option = matrix_option(options);
     input.fail({"not a square matrix",
                 fmt::format("shape ({})", fmt::join(array.extents, ", ")),
-                "as many columns as rows",
+                option.empty() ? "as many columns as rows"
+                               : fmt::format("as many columns as rows, for {}", option),
                 {}});
   }
   const auto n = static_cast<std::size_t>(array.extents[0]);
@@ -316,21 +406,29 @@ DistanceMatrix square_to_distances(const Image& array, const Input& input,
   input.require_memory(triangle(n) * sizeof(double));
   std::vector<double> pairs(triangle(n)), births;
   const auto entry = [&](std::size_t i, std::size_t j) {
-    return checked_distance(array.values[i * n + j], i == j, options, [&](Fault fault) {
+    return detail::checked_distance(array.values[i * n + j], i == j, options, [&](Fault fault) {
       fault.what += fmt::format(" at row {}, column {}", i, j);
       input.fail(fault);
     });
   };
+  Diagonal diagonal;
+  const bool has_zeros = !options.from_correlation && !options.births_on_diagonal;
   for (std::size_t i = 0; i < n; ++i) {
-    const double birth = entry(i, i);
-    if (options.births_on_diagonal) births.push_back(birth);
+    const double on_diagonal = entry(i, i);
+    if (options.births_on_diagonal) births.push_back(on_diagonal);
+    if (has_zeros) diagonal.add(on_diagonal);
     for (std::size_t j = 0; j < i; ++j) {
       const double lower = entry(i, j), upper = entry(j, i);
       const auto both = merged(upper, lower, options.symmetrise);
       if (!both) input.fail(asymmetric(i, j, lower, upper));
       pairs[triangle(i) + j] = *both;
+      diagonal.look_at(std::max(lower, upper));
     }
   }
+  diagonal.finish(options, [&](std::size_t point, Fault fault) {
+    fault.what += fmt::format(" at row {}, column {}", point, point);
+    input.fail(fault);
+  });
   return DistanceMatrix(static_cast<Index>(n), std::move(pairs), std::move(births));
 }
 
@@ -365,7 +463,7 @@ DistanceMatrix read_binary_distances(const Input& input, const ReadOptions& opti
   std::vector<double> pairs(count);
   for (std::size_t k = 0; k < count; ++k) {
     const auto raw = load<float>(input.bytes().data() + k * sizeof(float), std::endian::little);
-    pairs[k] = checked_distance(double{raw}, false, options, [&](const Fault& fault) {
+    pairs[k] = detail::checked_distance(double{raw}, false, options, [&](const Fault& fault) {
       input.fail_at_byte(k * sizeof(float), fault);
     });
   }

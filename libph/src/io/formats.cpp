@@ -9,6 +9,7 @@
 
 #include "ph/io/cloud_io.hpp"
 #include "readers.hpp"
+#include "table.hpp"
 
 namespace ph {
 namespace {
@@ -30,7 +31,10 @@ ReadResult result_of(DistanceMatrix distances, std::string_view kind) {
 
 ReadResult result_of(Image image, std::string_view kind) {
   ReadResult result;
-  result.description = fmt::format("image of {} voxels, {}", fmt::join(image.extents, " x "), kind);
+  result.description =
+      image.dim() == 1
+          ? fmt::format("signal of {} values, {}", image.extents[0], kind)
+          : fmt::format("image of {} voxels, {}", fmt::join(image.extents, " x "), kind);
   result.data = std::move(image);
   return result;
 }
@@ -128,13 +132,20 @@ ReadResult pts_result(const Input& input, const ReadOptions& options) {
   const ReadOptions inner{.allow_empty = true, .context = options.context};
   return cloud_of(read_pts(input, inner), input, options, "PTS");
 }
+ReadResult grid_result(const Input& input, const ReadOptions& options) {
+  return result_of(detail::read_grid(input, options), "text");
+}
 ReadResult npy_result(const Input& input, const ReadOptions& options) {
-  switch (options.array) {
+  const detail::ArrayGuess guess = detail::guess_array(input, options);
+  if (!guess.note.empty()) detail::note(options, guess.note);
+  if (guess.meaning == ArrayMeaning::image) detail::refuse_columns(options, "an image");
+  if (guess.meaning == ArrayMeaning::distances) detail::refuse_columns(options, "distances, NPY");
+  switch (guess.meaning) {
     case ArrayMeaning::points:
       return result_of(read_points(input, options), "NPY");
     case ArrayMeaning::distances:
       return result_of(read_distances(input, options), "NPY");
-    case ArrayMeaning::image:
+    default:
       break;
   }
   return result_of(read_npy_image(input, options), "NPY");
@@ -145,8 +156,8 @@ ReadResult npz_result(const Input& input, const ReadOptions& options) {
   detail::note(options, "read as " + array.name());
   return result;
 }
-ReadResult png_result(const Input& input, const ReadOptions&) {
-  return result_of(detail::read_png_image(input), "PNG");
+ReadResult png_result(const Input& input, const ReadOptions& options) {
+  return result_of(detail::read_png_image(input, options), "PNG");
 }
 ReadResult phat_result(const Input& input, const ReadOptions& options) {
   BoundaryInput boundary = read_phat(input, options);
@@ -193,7 +204,7 @@ constexpr std::array kFormats{
     FormatInfo{Format::npy, "npy", "a NumPy array: an image, points or distances", "", &npy_result},
     FormatInfo{Format::pgm, "pgm", "a grey picture, P2 or P5, 8 or 16 bits", "P2 640 480 255",
                &pgm_result},
-    FormatInfo{Format::png, "png", "a grey picture", "", &png_result},
+    FormatInfo{Format::png, "png", "a picture: grey, or one --channel of it", "", &png_result},
     FormatInfo{Format::perseus, "perseus",
                "a cubical complex as text: dimension, sizes, values; or a cube a line", "2",
                &perseus_result},
@@ -213,6 +224,8 @@ constexpr std::array kFormats{
                "0.5 1.25 2 255 0 0", &xyz_result},
     FormatInfo{Format::pts, "pts", "the same behind a line with the number of points", "1024",
                &pts_result},
+    FormatInfo{Format::grid, "grid", "an image as text: a row of pixels a line; or a signal",
+               "0.5 1.25 2", &grid_result},
     FormatInfo{Format::raw, "raw", "the numbers of an image: --raw-shape, --raw-type, --raw-skip",
                "", &raw_result},
 };
@@ -242,7 +255,7 @@ bool goes_by_blocks(const Input& input, Format format, const ReadOptions& option
     case Format::raw:
       return true;
     case Format::npy:
-      return options.array == ArrayMeaning::image;
+      return detail::guess_array(input, options).meaning == ArrayMeaning::image;
     case Format::dipha:
       return detail::dipha_type(input) == detail::DiphaType::image;
     default:
@@ -250,18 +263,82 @@ bool goes_by_blocks(const Input& input, Format format, const ReadOptions& option
   }
 }
 
+// The format of a text of numbers, by what the options say and, where they leave it open, by its
+// rows.
+Format format_of_text(const Input& input, const ReadOptions& options) {
+  if (options.array == ArrayMeaning::image) {
+    // Two to four numbers a row are coordinates as a rule, hardly ever a picture.
+    const std::size_t width = detail::table_layout(input, options).columns.size();
+    if (width >= 2 && width <= 4) return Format::points;
+    if (width > 4) detail::note(options, "read as an image; --voxel X reads points");
+    return Format::grid;
+  }
+  const detail::TextGuess guess = detail::guess_text(input, options);
+  const bool is_table = guess.format == Format::points || guess.format == Format::distance;
+  if (!is_table) return guess.format;
+  if (const std::string_view option = detail::matrix_option(options); !option.empty()) {
+    const bool is_square = guess.rows == guess.columns;
+    // Points have no diagonal: --diagonal zero asks for nothing, births are refused with the
+    // points.
+    if (!is_square && option.starts_with("--diagonal")) return Format::points;
+    if (guess.rows != 0 && !is_square) {
+      input.fail({"not a square matrix",
+                  guess.rows > guess.columns
+                      ? fmt::format("rows of {} cells, and more of them", guess.columns)
+                      : fmt::format("{} rows of {} cells", guess.rows, guess.columns),
+                  fmt::format("as many rows as columns, for {}", option),
+                  "is the file truncated, or a set of points?"});
+    }
+    return Format::distance;
+  }
+  if (options.array == ArrayMeaning::points) return Format::points;
+  using detail::SquareKind;
+  if (guess.columns == 1 && guess.rows > 1 && options.array == ArrayMeaning::automatic)
+    detail::note(options, "a number a line: points of a line; --complex cubical reads a signal");
+  const std::string size = fmt::format("{} x {} numbers", guess.rows, guess.columns);
+  const char* const choices =
+      "--format distance reads distances, --from-correlation correlations, --format points a point "
+      "a row";
+  if (guess.format == Format::distance) {
+    detail::note(options,
+                 "square with a zero diagonal: read as distances; --format points reads points");
+  } else if (guess.rows > 2 && guess.square == SquareKind::correlations) {
+    input.fail({"correlations or points",
+                fmt::format("{}, symmetric, from -1 to 1 with ones on the diagonal", size),
+                "an option that says which",
+                "--from-correlation takes distances 1 - r, --format points a point a row"});
+  } else if (guess.square == SquareKind::symmetric && guess.same_names) {
+    input.fail({"distances, correlations or points",
+                fmt::format("{}, rows and columns of the same names, no zero diagonal", size),
+                "an option that says which", choices});
+  } else if (guess.square != SquareKind::nothing && guess.square != SquareKind::zeros) {
+    detail::note(options, fmt::format("{}, symmetric: read as points; {}", size, choices));
+  }
+  return guess.format;
+}
+
+// What an option says of an input that knows nothing of it.
+void check_part(const Input& input, Format format, const ReadOptions& options) {
+  const auto refuse = [&](std::string_view option, std::string_view meant_for) {
+    throw Error(ErrorKind::usage, fmt::format("{}: makes sense for {} only, found {}", option,
+                                              meant_for, format_info(format).name));
+  };
+  const bool is_table = format == Format::points || format == Format::distance ||
+                        format == Format::grid || format == Format::npy || format == Format::npz;
+  if (!options.columns.empty() && !is_table)
+    refuse("--columns", "tables of numbers, as text or NPY");
+  if (options.channel != Channel::automatic && format != Format::png)
+    refuse("--channel", "PNG pictures");
+  if (format == Format::ply && !input.member().empty()) {
+    input.fail({"a property of a mesh", printable(input.member(), 40), "the mesh itself",
+                "--values FILE.ply:NAME takes one"});
+  }
+}
+
 }  // namespace
 
 ReadResult read_any(const Input& input, Format format, const ReadOptions& options,
                     const std::filesystem::path& values_path) {
-  const bool automatic = format == Format::automatic;
-  if (automatic) format = detect_format(input);
-  const FormatInfo& info = format_info(format);
-  if (info.read == nullptr) {
-    throw Error(ErrorKind::not_built_in,
-                fmt::format("{}: format {} is not built in", input.name(), info.name));
-  }
-  if (!goes_by_blocks(input, format, options)) input.take_memory();
   std::vector<std::string> notes;
   std::vector<Index> dropped;
   ReadOptions inner = options;
@@ -270,10 +347,17 @@ ReadResult read_any(const Input& input, Format format, const ReadOptions& option
     if (options.note) options.note(std::move(text));
   };
   inner.dropped = &dropped;
-  if (automatic && format == Format::distance) {
-    detail::note(inner,
-                 "square with a zero diagonal: read as distances; --format points reads points");
+  if (format == Format::automatic) {
+    const auto known = detail::format_by_content(input);
+    format = known ? *known : format_of_text(input, inner);
   }
+  check_part(input, format, options);
+  const FormatInfo& info = format_info(format);
+  if (info.read == nullptr) {
+    throw Error(ErrorKind::not_built_in,
+                fmt::format("{}: format {} is not built in", input.name(), info.name));
+  }
+  if (!goes_by_blocks(input, format, inner)) input.take_memory();
   ReadResult result = info.read(input, inner);
   result.format = format;
   result.notes = std::move(notes);
@@ -296,18 +380,18 @@ ReadResult read_any(const Input& input, Format format, const ReadOptions& option
   }
   if (values_path.empty()) return result;
 
-  const auto values_for = [&](std::size_t count) {
-    return read_values(Input::open(values_path, options.context), count, options);
+  const auto values_for = [&](std::size_t count, std::string_view owner) {
+    return read_values(Input::open(values_path, options.context), count, options, owner);
   };
   if (auto* boundary = std::get_if<BoundaryInput>(&result.data)) {
-    boundary->matrix.values = values_for(boundary->matrix.size());
+    boundary->matrix.values = values_for(boundary->matrix.size(), "cell");
   } else if (auto* mesh = std::get_if<Mesh>(&result.data)) {
-    mesh->values = values_for(static_cast<std::size_t>(mesh->vertices.rows()));
+    mesh->values = values_for(static_cast<std::size_t>(mesh->vertices.rows()), "vertex");
   } else if (auto* simplices = std::get_if<SimplicesInput>(&result.data)) {
     const auto& vertices = simplices->simplices.vertices;
     const Index largest =
         vertices.empty() ? -1 : *std::max_element(vertices.begin(), vertices.end());
-    simplices->vertex_values = values_for(static_cast<std::size_t>(largest + 1));
+    simplices->vertex_values = values_for(static_cast<std::size_t>(largest + 1), "vertex");
   } else {
     throw Error(ErrorKind::usage,
                 fmt::format("--values: format {} takes no separate values", info.name));

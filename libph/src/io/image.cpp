@@ -6,7 +6,7 @@ namespace ph {
 
 Image read_image(const Input& input, const ReadOptions& options) {
   if (detail::is_png(input) || detail::is_pgm(input) || detail::is_npz(input)) input.take_memory();
-  if (detail::is_png(input)) return detail::read_png_image(input);
+  if (detail::is_png(input)) return detail::read_png_image(input, options);
   if (detail::is_pgm(input)) return detail::read_pgm_image(input);
   if (detail::is_dipha(input)) return detail::read_dipha_image(input, options);
   if (detail::is_nifti(input)) return read_nifti(input, options);

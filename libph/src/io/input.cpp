@@ -51,14 +51,16 @@ std::string lower_extension(const std::filesystem::path& path) {
   return result;
 }
 
-// Splits "FILE.npz:NAME" into both, unless there is a file of this name.
+// Splits "FILE.npz:NAME" or "FILE.ply:NAME" into both, unless there is a file of this name.
 std::pair<std::filesystem::path, std::string> split_member(const std::filesystem::path& path) {
-  constexpr std::string_view kMark = ".npz:";
   const std::string& name = path.native();
-  const std::size_t mark = name.rfind(kMark);
   std::error_code ignored;
-  if (mark == std::string::npos || std::filesystem::exists(path, ignored)) return {path, {}};
-  return {name.substr(0, mark + kMark.size() - 1), name.substr(mark + kMark.size())};
+  for (const std::string_view suffix : {".npz:", ".ply:"}) {
+    const std::size_t mark = name.rfind(suffix);
+    if (mark == std::string::npos || std::filesystem::exists(path, ignored)) continue;
+    return {name.substr(0, mark + suffix.size() - 1), name.substr(mark + suffix.size())};
+  }
+  return {path, {}};
 }
 
 std::size_t half_of_memory() {

@@ -159,8 +159,12 @@ namespace detail {
 
 bool is_npy(const Input& input) { return input.text().starts_with(kMagic); }
 
-Image read_npy_array(const Input& input, Input::Excess excess) {
-  if (is_npz(input)) return read_npy_array(read_npz_member(input));
+bool is_npy_of_floats(const Input& input) {
+  const std::string descr = read_header(input).descr;
+  return descr.size() > 1 && descr[1] == 'f';
+}
+
+NpyLayout npy_layout(const Input& input) {
   Header header = read_header(input);
   const char mark = header.descr.empty() ? '\0' : header.descr[0];
   const auto type = mark == '<' || mark == '>' || mark == '|' || mark == '='
@@ -172,17 +176,25 @@ Image read_npy_array(const Input& input, Input::Excess excess) {
                 "booleans, integers or floats of at most 8 bytes",
                 {}});
   }
-  const ArrayLayout layout{*type, mark == '>' ? std::endian::big : std::endian::little,
-                           header.fortran_order, header.offset};
-  const std::size_t count = count_elements(input, layout, header.shape);
-  for (std::size_t k = 0; header.descr[1] == 'b' && k < count; ++k) {
-    const auto value = std::to_integer<int>(input.bytes()[header.offset + k]);
+  NpyLayout npy{{*type, mark == '>' ? std::endian::big : std::endian::little, header.fortran_order,
+                 header.offset},
+                std::move(header.shape),
+                header.descr[1]};
+  npy.count = count_elements(input, npy.array, npy.shape);
+  return npy;
+}
+
+Image read_npy_array(const Input& input, Input::Excess excess) {
+  if (is_npz(input)) return read_npy_array(read_npz_member(input));
+  NpyLayout npy = npy_layout(input);
+  for (std::size_t k = 0; npy.kind == 'b' && k < npy.count; ++k) {
+    const auto value = std::to_integer<int>(input.bytes()[npy.array.offset + k]);
     if (value > 1) {
-      input.fail_at_byte(header.offset + k,
+      input.fail_at_byte(npy.array.offset + k,
                          {"not a boolean", fmt::format("{}", value), "0 or 1", {}});
     }
   }
-  return load_array(input, layout, std::move(header.shape), excess);
+  return load_array(input, npy.array, std::move(npy.shape), excess);
 }
 
 namespace {
@@ -235,24 +247,10 @@ Image without_nan_pixels(Image image, const Input& input, const ReadOptions& opt
         input.fail({fmt::format("value at [{}]", place_of(at, image.extents)), "NaN", "a number",
                     "--nan drop masks such voxels"});
       }
-      constexpr T never = std::numeric_limits<T>::infinity();
-      if (in_file) {
-        values = voxels_in_file<T>(values.type(), all.size(), [&](std::span<T> to) {
-          for_each_block(all, true, input, [&](std::size_t begin, std::size_t end) {
-            std::ranges::replace_copy_if(all.subspan(begin, end - begin), to.data() + begin, is_nan,
-                                         never);
-            forget_file_pages(to.data() + begin, (end - begin) * sizeof(T));
-          });
-        });
-      } else {
-        values.change([&](auto& stored) {
-          if constexpr (std::is_same_v<T, typename std::decay_t<decltype(stored)>::value_type>)
-            std::ranges::replace_if(stored, is_nan, never);
-        });
-      }
     }
   });
-  if (masked > 0) note(options, fmt::format("{} voxels are NaN: masked", masked));
+  image.masked = masked > 0;
+  if (image.masked) note(options, fmt::format("{} voxels are NaN: masked", masked));
   if (image.values.empty() && !options.allow_empty) {
     input.fail({"no voxels", fmt::format("shape ({})", fmt::join(image.extents, ", ")),
                 "at least one", "--allow-empty accepts an empty image"});
@@ -270,7 +268,9 @@ Image read_npy_image(const Input& input, const ReadOptions& options) {
 
 void write_npy(std::ostream& out, std::span<const std::uint32_t> labels, Index width,
                Index height) {
-  if (width < 0 || height < 0 || static_cast<std::size_t>(width * height) != labels.size()) {
+  const bool is_size = width >= 0 && height >= 0;
+  if (!is_size || checked_product(static_cast<std::size_t>(width),
+                                  static_cast<std::size_t>(height)) != labels.size()) {
     throw Error(ErrorKind::bad_data,
                 fmt::format("labels: found {}, expected {} x {}", labels.size(), width, height));
   }

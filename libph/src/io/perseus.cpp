@@ -17,6 +17,7 @@ constexpr std::int64_t kMostExtent = std::int64_t{1} << 40;
 constexpr std::size_t kMostVoxelsPerCube = 1024;
 constexpr std::size_t kFreeVoxels = std::size_t{1} << 20;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();  // see Image::masked
 
 // The cells of a text one after another, wherever its lines end.
 class CellStream {
@@ -50,12 +51,13 @@ class CellStream {
 // What -1 says. Perseus takes positive integers, and -1 for a cube that is never there; in GUDHI,
 // which takes any number, it is a value like another. A file that Perseus could read is meant so.
 void take_missing_cubes(std::vector<double>& values, const ReadOptions& options) {
+  std::ranges::replace(values, kInfinity, kAbsent);
   const auto count = std::count(values.begin(), values.end(), -1.0);
   if (count == 0) return;
   const bool perseus = std::all_of(values.begin(), values.end(), [](double v) {
-    return v == -1 || (v > 0 && (v == std::floor(v) || v == kInfinity));
+    return v == -1 || std::isnan(v) || (v > 0 && v == std::floor(v));
   });
-  if (perseus) std::replace(values.begin(), values.end(), -1.0, kInfinity);
+  if (perseus) std::ranges::replace(values, -1.0, kAbsent);
   detail::note(options, perseus ? fmt::format("{} cubes of value -1 never enter, as in Perseus "
                                               "(all other values are positive integers)",
                                               count)
@@ -147,8 +149,7 @@ PerseusImage read_sparse_cubes(TextLines& lines, std::size_t axes) {
                 fmt::format("at most {}", most), "coordinates count from 0"});
   }
   input.require_memory(*count * sizeof(double));
-  // NaN: not listed yet
-  std::vector<double> values(*count, std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> values(*count, kAbsent);
   for (std::size_t i = 0; i < cubes.values.size(); ++i) {
     std::size_t place = 0;
     for (std::size_t axis = 0; axis < axes; ++axis) {
@@ -160,9 +161,6 @@ PerseusImage read_sparse_cubes(TextLines& lines, std::size_t axes) {
       input.fail_at(cubes.lines[i], 1, {"cube listed twice", {}, "each cube once", {}});
     }
     value = cubes.values[i];
-  }
-  for (double& value : values) {
-    if (std::isnan(value)) value = kInfinity;
   }
   result.image.values = std::move(values);
   return result;
@@ -195,6 +193,7 @@ PerseusImage read_perseus(const Input& input, const ReadOptions& options) {
   }
   result.image.values.change([&]<class T>(std::vector<T>& values) {
     if constexpr (std::same_as<T, double>) take_missing_cubes(values, options);
+    result.image.masked = std::ranges::any_of(values, [](T v) { return v != v; });
   });
   return result;
 }

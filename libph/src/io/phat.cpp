@@ -93,6 +93,10 @@ BoundaryInput read_binary(const Input& input) {
   return result;
 }
 
+}  // namespace
+
+namespace detail {
+
 // Text has no byte below the tab; eight bytes of a count below 2^40 have several.
 bool is_text(const Input& input) {
   const std::string_view probe = input.text().substr(0, 4096);
@@ -101,7 +105,7 @@ bool is_text(const Input& input) {
   });
 }
 
-}  // namespace
+}  // namespace detail
 
 CellNamer BoundaryInput::namer() const {
   return [at = places, in_bytes = binary, file = name](std::size_t i) {
@@ -113,7 +117,7 @@ CellNamer BoundaryInput::namer() const {
 
 BoundaryInput read_phat(const Input& input, const ReadOptions& options) {
   if (detail::is_dipha(input)) return detail::read_dipha_boundary(input, options);
-  BoundaryInput result = is_text(input) ? read_text(input) : read_binary(input);
+  BoundaryInput result = detail::is_text(input) ? read_text(input) : read_binary(input);
   result.name = input.name();
   if (result.matrix.size() == 0 && !options.allow_empty) {
     input.fail({"no cells", {}, "a boundary matrix", "--allow-empty accepts an empty complex"});
@@ -129,50 +133,6 @@ BoundaryInput read_phat(const std::filesystem::path& path, const std::filesystem
         read_values(Input::open(values_path, options.context), result.matrix.size(), options);
   }
   return result;
-}
-
-std::vector<double> read_values(const Input& input, std::size_t count, const ReadOptions&,
-                                std::string_view owner) {
-  std::vector<double> values;
-  input.require_memory(std::min(count, input.size()) * sizeof(double));
-  values.reserve(std::min(count, input.size()));
-  const Fault wrong_count{
-      "wrong number of values", {}, fmt::format("{}, one a {}", count, owner), {}};
-  if (is_text(input)) {
-    TextLines lines(input);
-    Cells cells(lines);
-    while (lines.next()) {
-      for (cells.start(); cells.more();) {
-        if (values.size() == count) {
-          lines.fail(
-              cells.place(),
-              {"too many values", fmt::format("more than {}", count), wrong_count.expected, {}});
-        }
-        values.push_back(cells.number(Allow::infinite));
-      }
-    }
-    if (values.size() != count) {
-      input.fail({"truncated: too few values",
-                  fmt::format("{}", values.size()),
-                  wrong_count.expected,
-                  {}});
-    }
-    return values;
-  }
-  if (input.size() % sizeof(double) != 0 || input.size() / sizeof(double) != count) {
-    input.fail({wrong_count.what,
-                fmt::format("{} bytes", input.size()),
-                fmt::format("{} values of 8 bytes, one a {}", count, owner),
-                {}});
-  }
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto value = load<double>(input.bytes().data() + k * sizeof(double), std::endian::little);
-    if (std::isnan(value)) {
-      input.fail_at_byte(k * sizeof(double), {fmt::format("value {}", k), "NaN", "a number", {}});
-    }
-    values.push_back(value + 0.0);
-  }
-  return values;
 }
 
 }  // namespace ph

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ph/core/error.hpp"
+#include "ph/io/barcode_io.hpp"
 #include "plot_canvas.hpp"
 
 namespace ph::plot {
@@ -27,8 +29,23 @@ std::string superscript(int number) {
 
 }  // namespace
 
-Axis::Axis(double low, double high, double from, double to)
-    : low_(low), high_(high), from_(from), to_(to) {
+Axis::Axis(const Range& range, const PlotOptions& options, double from, double to)
+    : from_(from), to_(to), logarithmic_(options.axis.logarithmic), negated_(options.negated) {
+  double low = options.axis.low.value_or(range.low), high = options.axis.high.value_or(range.high);
+  const bool is_given = options.axis.low || options.axis.high;
+  if (is_given && !(low < high))
+    throw Error(ErrorKind::usage, fmt::format("axis: found {} to {}, expected a lower number first",
+                                              shortest(low), shortest(high)));
+  if (logarithmic_) {
+    if (!(low > 0))
+      throw Error(
+          ErrorKind::usage,
+          fmt::format("logarithmic axis: found {}, expected values above 0", shortest(low)));
+    low_ = std::log10(low);
+    high_ = std::log10(high);
+    if (!(high_ - low_ > 1e-12)) high_ = low_ + 1;
+    return;
+  }
   const double largest = std::max(std::abs(low), std::abs(high));
   if (largest > 0) {
     const int power = magnitude(largest);
@@ -37,21 +54,52 @@ Axis::Axis(double low, double high, double from, double to)
   }
   low_ = in_units(low, exponent_);
   high_ = in_units(high, exponent_);
-  // Equal ends, or so near to each other that doubles between them are few.
+  // Equal ends, or so near to each other that doubles between them are few: a class that lives
+  // there begins at the left and has room to go on.
   const double least = 1e-12 * std::max({std::abs(low_), std::abs(high_), 1e-300});
-  if (!(high_ - low_ > least)) {
-    const double room = low_ == 0 ? 1 : 0.5 * std::abs(low_);
-    if (low_ != 0) low_ -= room;
-    high_ += room;
-  }
+  if (!(high_ - low_ > least)) high_ += low_ == 0 ? 1 : 0.5 * std::abs(low_);
 }
 
 double Axis::at(double value) const {
-  const double part = (in_units(value, exponent_) - low_) / (high_ - low_);
+  const double place =
+      logarithmic_ ? (value > 0 ? std::log10(value) : -kInfinity) : in_units(value, exponent_);
+  const double part = (place - low_) / (high_ - low_);
   return from_ + std::clamp(part, 0.0, 1.0) * (to_ - from_);
 }
 
+std::string Axis::label_of(double value, int decimals) const {
+  if (negated_) value = -value;
+  std::string label = fmt::format("{:.{}f}", value == 0 ? 0.0 : value, decimals);
+  if (label.front() == '-') label.replace(0, 1, "−");
+  return label;
+}
+
+/// At 1, 2 and 5 times powers of ten, or at powers alone, as many as there is room for.
+std::vector<Axis::Tick> Axis::powers_of_ten(int count) const {
+  std::vector<Tick> ticks;
+  const auto add = [&](double factor, int power) {
+    const double place = std::log10(factor) + power;
+    constexpr double slack = 1e-9;
+    if (place < low_ - slack || place > high_ + slack) return;
+    const double part = std::clamp((place - low_) / (high_ - low_), 0.0, 1.0);
+    const std::string label =
+        power >= -3 && power <= 4
+            ? label_of(factor * std::pow(10.0, power), std::max(0, -power))
+            : fmt::format("{}{}10{}", negated_ ? "−" : "",
+                          factor == 1 ? "" : fmt::format("{}·", factor), superscript(power));
+    ticks.push_back({from_ + part * (to_ - from_), label});
+  };
+  const auto first = static_cast<int>(std::floor(low_)), last = static_cast<int>(std::ceil(high_));
+  const int step = std::max(1, (last - first) / std::max(1, count));
+  for (int power = first; power <= last; power += step)
+    for (const double factor : {1.0, 2.0, 5.0})
+      if (factor == 1 || (last - first) * 3 <= 2 * count) add(factor, power);
+  return ticks;
+}
+
 std::vector<Axis::Tick> Axis::ticks(int count) const {
+  if (logarithmic_)
+    if (std::vector<Tick> powers = powers_of_ten(count); powers.size() > 1) return powers;
   const double rough = (high_ - low_) / count;
   const double power = std::pow(10.0, magnitude(rough));
   double step = 10 * power;
@@ -64,10 +112,11 @@ std::vector<Axis::Tick> Axis::ticks(int count) const {
   const double last = std::floor(high_ / step + slack);
   for (int i = 0; first + i <= last && i < 4 * count; ++i) {
     const double value = (first + i) * step;
-    std::string label = fmt::format("{:.{}f}", value == 0 ? 0.0 : value, decimals);
-    if (label.front() == '-') label.replace(0, 1, "−");
     const double part = std::clamp((value - low_) / (high_ - low_), 0.0, 1.0);
-    ticks.push_back({from_ + part * (to_ - from_), std::move(label)});
+    // Less than a decade has no round powers: round logarithms have to do.
+    ticks.push_back(
+        {from_ + part * (to_ - from_),
+         logarithmic_ ? label_of(std::pow(10.0, value), decimals + 1) : label_of(value, decimals)});
   }
   return ticks;
 }
@@ -95,15 +144,17 @@ void Axis::draw_below(Canvas& canvas, double top, double bottom, const std::stri
   canvas.text((from_ + to_) / 2, bottom + 20, with_unit, Anchor::middle, 7.5);
 }
 
-Range finite_range(const Barcode& barcode) {
+void widen(Range& range, double value, bool logarithmic) {
+  if (!std::isfinite(value) || (logarithmic && value <= 0)) return;
+  range.low = std::min(range.low, value);
+  range.high = std::max(range.high, value);
+}
+
+Range finite_range(const Barcode& barcode, bool logarithmic) {
   Range range{kInfinity, -kInfinity};
   for (const Bar& bar : barcode)
-    for (const double value : {bar.birth, bar.death}) {
-      if (!std::isfinite(value)) continue;
-      range.low = std::min(range.low, value);
-      range.high = std::max(range.high, value);
-    }
-  if (range.low > range.high) return {};
+    for (const double value : {bar.birth, bar.death}) widen(range, value, logarithmic);
+  if (range.low > range.high) return logarithmic ? Range{1, 10} : Range{};
   return range;
 }
 

@@ -47,11 +47,11 @@ std::vector<Panel> panels_of(const Barcode& barcode) {
 
 }  // namespace
 
-Drawing draw_barcode(const Barcode& barcode, const PlotOptions& options) {
+Drawing draw_barcode(const Barcode& barcode, std::size_t beyond, const PlotOptions& options) {
   Canvas canvas;
   const std::vector<Panel> panels = panels_of(barcode);
-  const auto [low, high] = finite_range(barcode);
-  const Axis axis(low, high, kFirstValue, kLastValue);
+  const Axis axis(finite_range(barcode, options.axis.logarithmic), options, kFirstValue,
+                  kLastValue);
   std::size_t rows = 0;
   for (const Panel& panel : panels) rows += panel.places.crisp.size();
   const double pitch = pitch_of(rows);
@@ -97,6 +97,7 @@ Drawing draw_barcode(const Barcode& barcode, const PlotOptions& options) {
     any_infinite = any_infinite || std::ranges::any_of(panel.bars, &Bar::is_infinite);
   }
   if (any_infinite) explain_triangles(canvas, bottom);
+  explain_beyond(canvas, beyond, bottom);
   return canvas.finish(bottom + 25, options.title.empty() ? "Barcode" : options.title,
                        "Barcode: " + description_of(barcode));
 }

@@ -115,11 +115,10 @@ void draw_curve(Canvas& canvas, std::span<const Bar> bars, int dim, const Axis& 
 
 }  // namespace
 
-Drawing draw_betti(const Barcode& barcode, const PlotOptions& options) {
+Drawing draw_betti(const Barcode& barcode, std::size_t beyond, const PlotOptions& options) {
   Canvas canvas;
   const std::vector<int> dims = dims_of(barcode);
-  const auto [low, high] = finite_range(barcode);
-  const Axis axis(low, high, kLeft, kRight);
+  const Axis axis(finite_range(barcode, options.axis.logarithmic), options, kLeft, kRight);
   const double top = options.title.empty() ? 8 : 20;
   const auto panels = static_cast<double>(std::max<std::size_t>(dims.size(), 1));
   const double bottom = top + panels * (kHeight + kGap) - kGap;
@@ -133,6 +132,7 @@ Drawing draw_betti(const Barcode& barcode, const PlotOptions& options) {
     draw_curve(canvas, barcode.bars(dim), dim, axis, y);
     y += kHeight + kGap;
   }
+  explain_beyond(canvas, beyond, bottom);
   return canvas.finish(bottom + 25, options.title.empty() ? "Betti curves" : options.title,
                        "Betti curves: " + description_of(barcode));
 }

@@ -98,7 +98,12 @@ void Canvas::title(const std::string& title) {
 }
 
 Drawing Canvas::finish(double height, std::string_view title, std::string_view description) {
-  return {height, std::string(title), std::string(description), std::exchange(elements_, {})};
+  Drawing drawing;
+  drawing.height = height;
+  drawing.title = title;
+  drawing.description = description;
+  drawing.elements = std::exchange(elements_, {});
+  return drawing;
 }
 
 }  // namespace ph::plot

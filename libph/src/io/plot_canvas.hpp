@@ -64,12 +64,12 @@ class Outline {
 
   bool empty() const { return steps_.empty(); }
   const std::vector<Step>& steps() const { return steps_; }
-
- private:
   Outline& add(const Step& step) {
     steps_.push_back(step);
     return *this;
   }
+
+ private:
   std::vector<Step> steps_;
 };
 
@@ -120,10 +120,11 @@ struct Picture {
 };
 using Element = std::variant<Line, Rectangle, Shape, Text, Picture>;
 
-/// A whole picture on white, kWidth wide. Formats are made of it: to_svg, to_raster.
+/// A whole picture on white. Formats are made of it: to_svg, to_raster.
 struct Drawing {
-  double height = 0;
-  std::string title, description;  // for those who cannot see it
+  double height = 0, width = kWidth;  // points
+  std::optional<PlotSize> size = {};  // empty: 88 mm wide, kPixels
+  std::string title, description;     // for those who cannot see it
   std::vector<Element> elements;
 };
 
@@ -148,12 +149,19 @@ class Canvas {
   std::vector<Element> elements_;
 };
 
+/// The least and the largest finite value; 0 and 1 if there is none, 1 and 10 of logarithms.
+struct Range {
+  double low = 0;
+  double high = 1;
+};
+
 /// Maps the finite values of a barcode to positions and says where the ticks are. Safe for values
 /// of any size: it computes in units of a power of ten.
 class Axis {
  public:
-  /// @param low, high values at the ends; widened if they are equal.
-  Axis(double low, double high, double from, double to);
+  /// @param range values at the ends, which the options may replace; widened if they are equal.
+  /// @throws Error (usage) if the options leave no room.
+  Axis(const Range& range, const PlotOptions& options, double from, double to);
 
   double from() const { return from_; }
   double to() const { return to_; }
@@ -172,26 +180,36 @@ class Axis {
   void draw_below(Canvas& canvas, double top, double bottom, const std::string& name) const;
 
  private:
-  double low_, high_;  // in units of 10^exponent_
+  std::vector<Tick> powers_of_ten(int count) const;
+  std::string label_of(double value, int decimals) const;
+
+  double low_ = 0, high_ = 1;  // in units of 10^exponent_; of a logarithmic axis the logarithms
   double from_, to_;
   int exponent_ = 0;
-  bool shows_unit_ = false;
+  bool shows_unit_ = false, logarithmic_ = false, negated_ = false;
 };
 
-/// The least and the largest finite value of a barcode; 0 and 1 if there is none.
-struct Range {
-  double low = 0;
-  double high = 1;
-};
-Range finite_range(const Barcode& barcode);
+/// @param logarithmic of values above 0 only.
+Range finite_range(const Barcode& barcode, bool logarithmic = false);
+/// Widens a range by a value, unless it has no place on an axis.
+void widen(Range& range, double value, bool logarithmic);
+/// Whether a class has a place on the axis.
+bool is_shown(double birth, double death, const PlotAxis& axis);
+/// The bars that are drawn, without cells. @param beyond how many are not, for the axis.
+Barcode shown_of(const Barcode& barcode, const PlotOptions& options, std::size_t& beyond);
+/// What is not drawn, at the left, beside the name of the axis.
+void explain_beyond(Canvas& canvas, std::size_t beyond, double bottom);
+/// The drawing in the middle of a picture of that size.
+Drawing fitted(Drawing drawing, const PlotOptions& options);
 /// The dimensions that have bars, ascending.
 std::vector<int> dims_of(const Barcode& barcode);
 /// "214 bars in H₀, 3 in H₁"
 std::string description_of(const Barcode& barcode);
 
-Drawing draw_barcode(const Barcode& barcode, const PlotOptions& options);
-Drawing draw_diagram(const Barcode& barcode, const PlotOptions& options);
-Drawing draw_betti(const Barcode& barcode, const PlotOptions& options);
+// Of what is shown of a barcode. @param beyond how many bars are not, for the axis.
+Drawing draw_barcode(const Barcode& barcode, std::size_t beyond, const PlotOptions& options);
+Drawing draw_diagram(const Barcode& barcode, std::size_t beyond, const PlotOptions& options);
+Drawing draw_betti(const Barcode& barcode, std::size_t beyond, const PlotOptions& options);
 Drawing draw_tree(std::span<const Branch> tree, const PlotOptions& options);
 Drawing draw_coloured(const ColouredPicture& picture, const PlotOptions& options);
 /// Of any of the kinds. @throws Error (internal) on an unknown one.

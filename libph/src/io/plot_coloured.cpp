@@ -42,11 +42,10 @@ Drawing draw_coloured(const ColouredPicture& picture, const PlotOptions& options
   const double top = options.title.empty() ? 0 : 16;
   if (!options.title.empty()) canvas.title(options.title);
   const Raster& raster = picture.raster;
-  const auto samples = static_cast<std::size_t>(raster.width * raster.height * raster.channels);
-  if (raster.width < 1 || raster.height < 1 || samples != raster.samples.size())
-    throw Error(ErrorKind::bad_data,
-                fmt::format("picture: found {} samples for {} x {} pixels of {} channels",
-                            raster.samples.size(), raster.width, raster.height, raster.channels));
+  raster.check();
+  if (raster.samples.empty())
+    throw Error(ErrorKind::bad_data, fmt::format("{}: found {} x {} pixels, expected some",
+                                                 raster.name, raster.width, raster.height));
   // Pixels of the raster are those of a PNG unless there are too many.
   const double pixel = kWidth / static_cast<double>(std::max(kPixels, raster.width));
   const double width = pixel * static_cast<double>(raster.width);

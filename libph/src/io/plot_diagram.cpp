@@ -138,7 +138,7 @@ class Squares {
 /// The axes of a diagram, and where on it a bar is.
 class Frame {
  public:
-  Frame(const Barcode& barcode, double top)
+  Frame(const Barcode& barcode, const PlotOptions& options, double top)
       : infinite_(std::ranges::any_of(barcode, &Bar::is_infinite)),
         from_minus_infinity_(
             std::ranges::any_of(barcode, [](const Bar& bar) { return bar.birth == -kInfinity; })),
@@ -146,9 +146,9 @@ class Frame {
         left_(kLeft + (from_minus_infinity_ ? 1.5 * kInfinityRoom : 0)),
         finite_top_(top + (infinite_ ? kInfinityRoom : 0)),
         bottom_(finite_top_ + (kRight - left_)),
-        range_(widened(finite_range(barcode))),
-        births_(range_.low, range_.high, left_, kRight),
-        deaths_(range_.low, range_.high, bottom_, finite_top_) {}
+        range_(widened(finite_range(barcode, options.axis.logarithmic), options.axis.logarithmic)),
+        births_(range_, options, left_, kRight),
+        deaths_(range_, options, bottom_, finite_top_) {}
 
   double left() const { return left_; }
   double bottom() const { return bottom_; }
@@ -188,7 +188,8 @@ class Frame {
 
  private:
   /// By a margin, unless it would not be finite.
-  static Range widened(Range range) {
+  static Range widened(Range range, bool logarithmic) {
+    if (logarithmic) return range;
     const double margin = 0.03 * (range.high / 2 - range.low / 2) * 2;
     if (std::isfinite(range.high + margin) && std::isfinite(range.low - margin)) {
       range.high += margin;
@@ -264,9 +265,9 @@ void draw_legend(Canvas& canvas, const Barcode& barcode, double bottom, bool joi
 
 }  // namespace
 
-Drawing draw_diagram(const Barcode& barcode, const PlotOptions& options) {
+Drawing draw_diagram(const Barcode& barcode, std::size_t beyond, const PlotOptions& options) {
   Canvas canvas;
-  const Frame frame(barcode, options.title.empty() ? 8 : 20);
+  const Frame frame(barcode, options, options.title.empty() ? 8 : 20);
   if (!options.title.empty()) canvas.title(options.title);
   frame.draw(canvas, options.value_label);
 
@@ -284,6 +285,7 @@ Drawing draw_diagram(const Barcode& barcode, const PlotOptions& options) {
   if (barcode.empty())
     canvas.text(frame.left() + 50, frame.bottom() - 150, "no bars", Anchor::middle, 7, kGrey);
   draw_legend(canvas, barcode, frame.bottom(), joined, parts.rest.size());
+  explain_beyond(canvas, beyond, frame.bottom());
   return canvas.finish(frame.bottom() + 25,
                        options.title.empty() ? "Persistence diagram" : options.title,
                        "Persistence diagram: " + description_of(barcode));

@@ -12,8 +12,20 @@
 namespace ph::plot {
 namespace {
 
-constexpr double kScale = static_cast<double>(kPixels) / kWidth;  // pixels a point
-constexpr double kBold = 0.045;                                   // of the size: what bold adds
+constexpr double kBold = 0.045;  // of the size: what bold adds
+
+/// Pixels across a picture.
+Index pixels_across(const Drawing& drawing) {
+  return drawing.size ? drawing.size->width : std::lround(kPixels * drawing.width / kWidth);
+}
+/// Pixels a point.
+double scale_of(const Drawing& drawing) {
+  return static_cast<double>(pixels_across(drawing)) / drawing.width;
+}
+Index pixels_down(const Drawing& drawing) {
+  return drawing.size ? drawing.size->height
+                      : std::max<Index>(1, std::lround(scale_of(drawing) * drawing.height));
+}
 
 /// Fills `corners` with those of a circle, of a radius in pixels, around its middle.
 void make_circle(std::vector<Place>& corners, Place middle, double radius) {
@@ -33,7 +45,7 @@ struct Piece {
 
 /// Calls visit(piece) for each part of an outline; they share their memory, `piece`.
 template <class Visit>
-void for_each_piece(const Outline& outline, Piece& piece, Visit&& visit) {
+void for_each_piece(const Outline& outline, double scale, Piece& piece, Visit&& visit) {
   using Verb = Outline::Verb;
   Place at;
   const auto go = [&](Place to) { piece.corners.push_back(at = to); };
@@ -44,7 +56,7 @@ void for_each_piece(const Outline& outline, Piece& piece, Visit&& visit) {
   };
   piece.corners.clear();
   for (const auto& [verb, x_points, y_points] : outline.steps()) {
-    const double x = kScale * x_points, y = kScale * y_points;
+    const double x = scale * x_points, y = scale * y_points;
     switch (verb) {
       case Verb::move_to:
         finish();
@@ -81,8 +93,9 @@ void for_each_piece(const Outline& outline, Piece& piece, Visit&& visit) {
 
 class Painter {
  public:
-  explicit Painter(double height)
-      : raster_{kPixels, std::max<Index>(1, std::lround(kScale * height)), 3, 8, {}},
+  explicit Painter(const Drawing& drawing)
+      : scale_(scale_of(drawing)),
+        raster_{pixels_across(drawing), pixels_down(drawing), 3, 8, {}},
         coverage_(static_cast<std::size_t>(raster_.width),
                   static_cast<std::size_t>(raster_.height)) {
     raster_.samples.assign(static_cast<std::size_t>(raster_.width * raster_.height * 3), 255);
@@ -90,8 +103,8 @@ class Painter {
   }
 
   void operator()(const Line& line) {
-    const Place from{kScale * line.x1, kScale * line.y1}, to{kScale * line.x2, kScale * line.y2};
-    const double width = kScale * line.width;
+    const Place from{scale_ * line.x1, scale_ * line.y1}, to{scale_ * line.x2, scale_ * line.y2};
+    const double width = scale_ * line.width;
     if (line.stroke == Stroke::solid) {
       add_stroke(from, to, width);
     } else {
@@ -100,15 +113,15 @@ class Painter {
         const double t = std::min(part / length, 1.0);
         return Place{from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)};
       };
-      for (double dash = 0; dash < length; dash += 5 * kScale)
-        add_stroke(at(dash), at(dash + 3 * kScale), width);
+      for (double dash = 0; dash < length; dash += 5 * scale_)
+        add_stroke(at(dash), at(dash + 3 * scale_), width);
     }
     paint(line.colour, 1);
   }
 
   /// On whole pixels: what is side by side has no seam.
   void operator()(const Rectangle& rect) {
-    const auto whole = [](double points) { return std::round(kScale * points); };
+    const auto whole = [this](double points) { return std::round(scale_ * points); };
     const double left = whole(rect.x), right = whole(rect.x + rect.width);
     const double top = whole(rect.y), bottom = whole(rect.y + rect.height);
     coverage_.add(
@@ -119,20 +132,20 @@ class Painter {
   void operator()(const Shape& shape) {
     const Style& style = shape.style;
     if (style.fill) {
-      for_each_piece(shape.outline, piece_,
+      for_each_piece(shape.outline, scale_, piece_,
                      [&](const Piece& piece) { coverage_.add_turned(piece.corners); });
       paint(*style.fill, style.fill_opacity);
     }
     if (style.stroke) {
-      for_each_piece(shape.outline, piece_,
-                     [&](const Piece& piece) { add_stroke(piece, kScale * style.stroke_width); });
+      for_each_piece(shape.outline, scale_, piece_,
+                     [&](const Piece& piece) { add_stroke(piece, scale_ * style.stroke_width); });
       paint(*style.stroke, 1);
     }
   }
 
   void operator()(const Text& text) {
     if (text.look == Look::haloed) {
-      add_text(text, kScale * kHalo);
+      add_text(text, scale_ * kHalo);
       paint(kWhite, 1);
     }
     add_text(text, 0);
@@ -142,7 +155,7 @@ class Painter {
   /// The nearest pixel of the picture for each of ours.
   void operator()(const Picture& picture) {
     const Raster& from = *picture.raster;
-    const auto whole = [](double points) { return std::lround(kScale * points); };
+    const auto whole = [this](double points) { return std::lround(scale_ * points); };
     const Index left = whole(picture.x), width = whole(picture.width);
     const Index top = whole(picture.y), height = whole(picture.height);
     for (Index y = std::max<Index>(0, -top); y < std::min(height, raster_.height - top); ++y)
@@ -165,7 +178,7 @@ class Painter {
   /// @param halo width of a line along the outlines, pixels.
   void add_text(const Text& text, double halo) {
     const std::vector<std::string> characters = characters_of(text.content);
-    const double size = kScale * text.size;
+    const double size = scale_ * text.size;
     const bool is_bold = text.look == Look::bold || text.look == Look::haloed;
     const double bold = is_bold ? kBold * size : 0;
     double length = 0;
@@ -173,7 +186,7 @@ class Painter {
     double along = text.anchor == Anchor::start    ? 0
                    : text.anchor == Anchor::middle ? -length / 2
                                                    : -length;
-    const Place origin{kScale * text.x, kScale * text.y};
+    const Place origin{scale_ * text.x, scale_ * text.y};
     for (const std::string& c : characters) {
       const Font::Glyph& glyph = font_.glyph(c);
       for (const std::vector<Place>& outline : glyph.outlines) {
@@ -226,6 +239,7 @@ class Painter {
     });
   }
 
+  double scale_;  // pixels a point
   Raster raster_;
   Coverage coverage_;
   Piece piece_;                // what is being added
@@ -238,12 +252,12 @@ class Painter {
 std::size_t raster_bytes(const Drawing& drawing) {
   constexpr std::size_t a_pixel = 3 * (sizeof(std::uint16_t) + 1) + sizeof(float);
   constexpr std::size_t font_and_deflate = 1 << 20;
-  const auto rows = static_cast<std::size_t>(std::max(1.0, kScale * drawing.height)) + 1;
-  return rows * static_cast<std::size_t>(kPixels) * a_pixel + font_and_deflate;
+  const auto rows = static_cast<std::size_t>(pixels_down(drawing)) + 1;
+  return rows * static_cast<std::size_t>(pixels_across(drawing)) * a_pixel + font_and_deflate;
 }
 
 Raster to_raster(const Drawing& drawing) {
-  Painter painter(drawing.height);
+  Painter painter(drawing);
   for (const Element& element : drawing.elements) std::visit(painter, element);
   return painter.take();
 }

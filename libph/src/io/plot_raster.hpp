@@ -8,7 +8,7 @@ namespace ph::plot {
 /// Bytes that to_raster needs, and writing what it makes as a PNG.
 std::size_t raster_bytes(const Drawing& drawing);
 
-/// The drawing as RGB, kPixels wide. @throws std::bad_alloc.
+/// The drawing as RGB. @throws std::bad_alloc.
 Raster to_raster(const Drawing& drawing);
 
 }  // namespace ph::plot

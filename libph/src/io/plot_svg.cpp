@@ -158,15 +158,18 @@ std::string element(const Picture& picture) {
 }  // namespace
 
 std::string to_svg(const Drawing& drawing) {
+  const double points = drawing.size ? 1.0 * drawing.size->width / drawing.width : 88 / kWidth;
+  const std::string_view unit = drawing.size ? "" : "mm";
   std::string text = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"88mm\" height=\"{}mm\" "
-      "viewBox=\"0 0 {} {}\" font-family=\"Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', "
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}{2}\" height=\"{1}{2}\" "
+      "viewBox=\"0 0 {3} {4}\" font-family=\"Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', "
       "sans-serif\" role=\"img\">\n"
-      "<title>{}</title>\n<desc>{}</desc>\n"
+      "<title>{5}</title>\n<desc>{6}</desc>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",
-      coordinate(88 * drawing.height / kWidth), coordinate(kWidth), coordinate(drawing.height),
-      xml_escaped(drawing.title), xml_escaped(drawing.description));
+      coordinate(points * drawing.width), coordinate(points * drawing.height), unit,
+      coordinate(drawing.width), coordinate(drawing.height), xml_escaped(drawing.title),
+      xml_escaped(drawing.description));
   for (const Element& one : drawing.elements)
     text += std::visit([](const auto& kind) { return element(kind); }, one);
   return text += "</svg>\n";

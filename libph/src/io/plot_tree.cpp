@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
+#include "ph/core/error.hpp"
 #include "plot_intervals.hpp"
 
 namespace ph::plot {
@@ -71,25 +74,55 @@ class Layout {
   std::size_t next_ = 0;
 };
 
-Range finite_range(std::span<const Branch> tree, const std::vector<std::size_t>& classes) {
+/// @throws Error (bad_data) on NaN, or unless each branch comes to an end at one that never dies.
+void check(std::span<const Branch> tree) {
+  const auto refuse = [](std::size_t i, const std::string& found, const std::string& expected) {
+    throw Error(ErrorKind::bad_data,
+                fmt::format("branch {}: found {}, expected {}", i, found, expected));
+  };
+  std::vector<std::size_t> seen_from(tree.size(), kNone);
+  for (std::size_t i = 0; i < tree.size(); ++i) {
+    if (std::isnan(tree[i].birth) || std::isnan(tree[i].death))
+      refuse(i, fmt::format("[{}, {})", tree[i].birth, tree[i].death), "two numbers");
+    if (std::cmp_greater_equal(tree[i].elder, tree.size()))
+      refuse(i, fmt::format("an elder branch {}", tree[i].elder),
+             fmt::format("one below {}", tree.size()));
+  }
+  for (std::size_t i = 0; i < tree.size(); ++i) {
+    for (std::size_t at = i; seen_from[at] == kNone;
+         at = static_cast<std::size_t>(tree[at].elder)) {
+      seen_from[at] = i;
+      if (tree[at].is_infinite()) break;
+      if (seen_from[static_cast<std::size_t>(tree[at].elder)] == i)
+        refuse(i, "elder branches that go round in a circle", "an end");
+    }
+  }
+}
+
+Range finite_range(std::span<const Branch> tree, const std::vector<std::size_t>& classes,
+                   bool logarithmic) {
   Range range{kInfinity, -kInfinity};
   for (const std::size_t i : classes)
-    for (const double value : {tree[i].birth, tree[i].death}) {
-      if (!std::isfinite(value)) continue;
-      range.low = std::min(range.low, value);
-      range.high = std::max(range.high, value);
-    }
-  return range.low > range.high ? Range() : range;
+    for (const double value : {tree[i].birth, tree[i].death}) widen(range, value, logarithmic);
+  if (range.low <= range.high) return range;
+  return logarithmic ? Range{1, 10} : Range{};
 }
 
 }  // namespace
 
 Drawing draw_tree(std::span<const Branch> tree, const PlotOptions& options) {
+  check(tree);
   Canvas canvas;
   // One of no length is no bar either.
   std::vector<std::size_t> classes;
-  for (std::size_t i = 0; i < tree.size(); ++i)
-    if (tree[i].persistence() > 0) classes.push_back(i);
+  std::size_t beyond = 0;
+  for (std::size_t i = 0; i < tree.size(); ++i) {
+    if (!(tree[i].persistence() > 0)) continue;
+    if (is_shown(tree[i].birth, tree[i].death, options.axis))
+      classes.push_back(i);
+    else
+      ++beyond;
+  }
   Longest places = longest_of(classes.size(), kRows,
                               [&](std::size_t k) { return tree[classes[k]].persistence(); });
   for (std::size_t& place : places.crisp) place = classes[place];
@@ -97,8 +130,8 @@ Drawing draw_tree(std::span<const Branch> tree, const PlotOptions& options) {
   const Layout layout(tree, places.crisp);
   const std::size_t rows = places.crisp.size();
   const double pitch = pitch_of(rows);
-  const auto [low, high] = finite_range(tree, classes);
-  const Axis axis(low, high, kFirstValue, kLastValue);
+  const Axis axis(finite_range(tree, classes, options.axis.logarithmic), options, kFirstValue,
+                  kLastValue);
   const Colour colour = colour_of_dim(0);
 
   const double top = options.title.empty() ? 8 : 20;
@@ -131,6 +164,7 @@ Drawing draw_tree(std::span<const Branch> tree, const PlotOptions& options) {
   }
   const auto infinite = static_cast<std::size_t>(std::ranges::count_if(tree, &Branch::is_infinite));
   if (infinite > 0) explain_triangles(canvas, bottom);
+  explain_beyond(canvas, beyond, bottom);
   return canvas.finish(
       bottom + 25, options.title.empty() ? "Merge tree" : options.title,
       fmt::format("Merge tree: {} classes of {}, {} never die", grouped(classes.size()),

@@ -10,6 +10,7 @@
 #include <ostream>
 
 #include "readers.hpp"
+#include "table.hpp"
 
 namespace ph {
 namespace {
@@ -153,7 +154,10 @@ bool is_png(const Input& input) { return input.text().starts_with("\x89PNG\r\n\x
 
 Raster read_png(const Input& input) {
   if (!detail::is_png(input)) {
-    input.fail_at_byte(0, {"not a PNG file", "another signature", "\\x89PNG", {}});
+    const auto foreign = detail::foreign_kind(input.text());
+    input.fail_at_byte(
+        0, {"not a PNG file", foreign ? std::string(foreign->name) : "another signature",
+            "\\x89PNG", foreign ? std::string(foreign->advice) : ""});
   }
   require_chunks(input);
   Report report;
@@ -211,20 +215,24 @@ Raster read_png(const std::filesystem::path& path, const RunContext* context) {
   return read_png(Input::open(path, context));
 }
 
+void Raster::check() const {
+  std::optional<std::size_t> count;
+  if (width >= 0 && height >= 0 && channels >= 1 && channels <= 4)
+    count = checked_product(static_cast<std::size_t>(width), static_cast<std::size_t>(height));
+  if (count) count = checked_product(*count, static_cast<std::size_t>(channels));
+  if (count == samples.size() && (bits == 8 || bits == 16)) return;
+  throw Error(ErrorKind::bad_data,
+              fmt::format("{}: found {} samples of {} bits for {} x {} pixels of {} channels, "
+                          "expected as many as pixels and channels say, 8 or 16 bits",
+                          name, samples.size(), bits, width, height, channels));
+}
+
 void write_png(std::ostream& out, const Raster& raster) {
-  const bool sizes = raster.width > 0 && raster.height > 0 && raster.width <= kMaxSide &&
-                     raster.height <= kMaxSide && raster.channels >= 1 && raster.channels <= 4 &&
-                     (raster.bits == 8 || raster.bits == 16);
-  if (!sizes || raster.samples.size() !=
-                    static_cast<std::size_t>(raster.width * raster.height * raster.channels)) {
-    throw Error(
-        ErrorKind::bad_data,
-        fmt::format("picture: found {} samples of {} bits for {} x {} pixels of {} channels, "
-                    "expected as many as pixels and channels say, 8 or 16 bits, at most "
-                    "{} pixels a side",
-                    raster.samples.size(), raster.bits, raster.width, raster.height,
-                    raster.channels, kMaxSide));
-  }
+  raster.check();
+  if (raster.width < 1 || raster.height < 1 || raster.width > kMaxSide || raster.height > kMaxSide)
+    throw Error(ErrorKind::bad_data,
+                fmt::format("{}: found {} x {} pixels, expected 1 to {} a side", raster.name,
+                            raster.width, raster.height, kMaxSide));
   std::vector<png_byte> bytes(raster.samples.size() * static_cast<std::size_t>(raster.bits / 8));
   if (raster.bits == 16) {
     std::memcpy(bytes.data(), raster.samples.data(), bytes.size());
@@ -247,23 +255,5 @@ void write_png(std::ostream& out, const Raster& raster) {
     throw Error(ErrorKind::io, "PNG: " + report.message);
   }
 }
-
-namespace detail {
-
-Image read_png_image(const Input& input) {
-  Raster raster = read_png(input);
-  if (raster.channels != 1) {
-    input.fail({"not a grey image", fmt::format("{} channels", raster.channels), "1", {}});
-  }
-  const std::vector<Index> extents{raster.height, raster.width};
-  if (raster.bits > 8) return {extents, std::move(raster.samples)};
-  input.require_memory(raster.samples.size());
-  std::vector<std::uint8_t> bytes(raster.samples.size());
-  std::transform(raster.samples.begin(), raster.samples.end(), bytes.begin(),
-                 [](std::uint16_t sample) { return static_cast<std::uint8_t>(sample); });
-  return {extents, std::move(bytes)};
-}
-
-}  // namespace detail
 
 }  // namespace ph

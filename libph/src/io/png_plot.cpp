@@ -16,8 +16,8 @@ namespace {
 
 #if PH_WITH_FREETYPE
 template <class Draw>
-std::string png_of(const RunContext& context, Draw&& draw) {
-  const plot::Drawing drawing = draw();
+std::string png_of(const RunContext& context, const PlotOptions& options, Draw&& draw) {
+  const plot::Drawing drawing = plot::fitted(draw(), options);
   const MemoryClaim claim(context.memory, plot::raster_bytes(drawing));
   std::ostringstream out;
   out.exceptions(std::ios::badbit);  // else a stream keeps it to itself that memory ran out
@@ -26,7 +26,7 @@ std::string png_of(const RunContext& context, Draw&& draw) {
 }
 #else
 template <class Draw>
-std::string png_of(const RunContext&, Draw&&) {
+std::string png_of(const RunContext&, const PlotOptions&, Draw&&) {
   throw Error(ErrorKind::not_built_in, "PNG plots are not built in; use SVG");
 }
 #endif
@@ -43,17 +43,17 @@ std::string png_plot_support() {
 
 std::string png_plot(const Barcode& barcode, const PlotOptions& options,
                      const RunContext& context) {
-  return png_of(context, [&] { return plot::draw(barcode, options); });
+  return png_of(context, options, [&] { return plot::draw(barcode, options); });
 }
 
 std::string png_plot(std::span<const Branch> tree, const PlotOptions& options,
                      const RunContext& context) {
-  return png_of(context, [&] { return plot::draw_tree(tree, options); });
+  return png_of(context, options, [&] { return plot::draw_tree(tree, options); });
 }
 
 std::string png_plot(const ColouredPicture& picture, const PlotOptions& options,
                      const RunContext& context) {
-  return png_of(context, [&] { return plot::draw_coloured(picture, options); });
+  return png_of(context, options, [&] { return plot::draw_coloured(picture, options); });
 }
 
 }  // namespace ph

@@ -8,6 +8,8 @@
 
 namespace ph::detail {
 
+struct TableLayout;
+
 /// Rows of numbers of one length, as text has them.
 struct TextTable {
   Points rows;
@@ -15,9 +17,12 @@ struct TextTable {
 };
 
 /// Reads a whole table. @param allow what cells may hold besides finite numbers.
-/// @param counted the first line is the number of rows.
+/// @param counted the first line is the number of rows. @param layout which columns are read;
+/// null: all, behind a first line of names, if there is one.
 TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& options,
-                          bool counted = false);
+                          bool counted = false, const TableLayout* layout = nullptr);
+/// A table as an image: a row of pixels a line. One row or one column is an image of one axis.
+Image read_grid(const Input& input, const ReadOptions& options);
 
 /// Takes the rows with a NaN out, or throws, as options.nan says; reports what it drops.
 /// @param holes rows with a NaN are holes of a point cloud: they are left out in any case.
@@ -48,15 +53,21 @@ bool is_pgm(const Input& input);
 bool is_nifti(const Input& input);
 bool is_dipha(const Input& input);
 
+/// Whether bytes may be numbers as text: those of eight bytes never are.
+bool is_text(const Input& input);
+
 /// A set of points whose first line is their number, as PTS has it.
 bool is_counted(const Input& input);
 
 /// NPY as it is, or the array of an NPZ: NaN and all.
 Image read_npy_array(const Input& input, Input::Excess excess = Input::Excess::refused);
+/// Whether an NPY has floats; precondition: it is one.
+bool is_npy_of_floats(const Input& input);
 /// The one array of an NPZ, or the one that input.member() names, unpacked.
 Input read_npz_member(const Input& input);
 
-Image read_png_image(const Input& input);
+/// Takes options.channel.
+Image read_png_image(const Input& input, const ReadOptions& options);
 Image read_pgm_image(const Input& input);
 
 /// What a DIPHA file holds: the number that follows its magic number.
@@ -77,8 +88,8 @@ DistanceMatrix read_dipha_distances(const Input& input, const ReadOptions& optio
 SparseDistances read_dipha_sparse(const Input& input, const ReadOptions& options);
 BoundaryInput read_dipha_boundary(const Input& input, const ReadOptions& options);
 
-/// Masks NaN (+infinity) or throws, as options.nan says; an image without voxels is an error unless
-/// options.allow_empty.
+/// Takes NaN as the mark of absent voxels or throws, as options.nan says; an image without voxels
+/// is an error unless options.allow_empty.
 Image without_nan_pixels(Image image, const Input& input, const ReadOptions& options);
 
 /// Brings the little-endian numbers of a record to this machine's byte order.

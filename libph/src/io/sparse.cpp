@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "matrix_entry.hpp"
 #include "ph/io/read.hpp"
 #include "readers.hpp"
 
@@ -74,7 +75,7 @@ SparseDistances read_sparse(const Input& input, const ReadOptions& options) {
     line.edge.v = cells.integer(0, kMostPoints - 1, "point");
     missing("distance");
     const char* third = cells.place();
-    line.edge.value = cells.number(options.nan == NanPolicy::drop ? Allow::any : Allow::infinite);
+    const double raw = cells.number(options.nan == NanPolicy::drop ? Allow::any : Allow::infinite);
     cells.expect_end("i j distance");
     if (line.edge.u == line.edge.v) {
       lines.fail(second, {"a point joined to itself",
@@ -82,10 +83,8 @@ SparseDistances read_sparse(const Input& input, const ReadOptions& options) {
                           "two different points",
                           {}});
     }
-    if (line.edge.value < 0) {
-      lines.fail(third, {"negative distance", fmt::format("{}", line.edge.value), "0 or more", {}});
-    }
-    if (std::isnan(line.edge.value)) line.edge.value = std::numeric_limits<double>::infinity();
+    line.edge.value = detail::checked_distance(
+        raw, false, options, [&](const Fault& fault) { lines.fail(third, fault); });
     if (line.edge.u > line.edge.v) std::swap(line.edge.u, line.edge.v);
     if (line.edge.v >= size) {
       size = line.edge.v + 1;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "ph/io/reader.hpp"
+#include "table.hpp"
 
 namespace ph {
 namespace {
@@ -80,7 +81,7 @@ std::string hint_for(std::string_view cell) {
   if (starts_with_word(cell, "0x")) return "hexadecimal numbers are not read";
   if (cell.find('_') != std::string_view::npos) return "write numbers without digit separators";
   if (cell.find(',') != std::string_view::npos) return "write a decimal point, not a comma";
-  if (!cell.empty() && (cell[0] == '"' || cell[0] == '\'')) return "write numbers without quotes";
+  if (!cell.empty() && cell[0] == '\'') return "write numbers without quotes";
   if (cell.find('\r') != std::string_view::npos) return "end lines with a line feed";
   if (cell.find('\0') != std::string_view::npos) return "is this a binary file?";
   return {};
@@ -108,7 +109,12 @@ TextLines::TextLines(const Input& input) : TextLines(input, 0, 0) {
   const std::string_view probe = input.text().substr(0, kProbe);
   const std::string_view mark = probe.substr(0, 2);
   const std::size_t nul = probe.find('\0');
-  const std::string hint = "save it as UTF-8, or say what it is with --format";
+  // Which formats there are the caller knows: programs that read clouds alone have no --format.
+  const std::string hint = "save it as UTF-8";
+  if (const auto foreign = detail::foreign_kind(probe)) {
+    input.fail_at_byte(
+        0, {"not plain text", std::string(foreign->name), "UTF-8", std::string(foreign->advice)});
+  }
   if (mark == "\xFF\xFE" || mark == "\xFE\xFF") {
     input.fail_at_byte(0, {"not plain text", "a UTF-16 byte order mark", "UTF-8", hint});
   }
@@ -118,7 +124,7 @@ TextLines::TextLines(const Input& input) : TextLines(input, 0, 0) {
                        std::all_of(probe.begin(), probe.end(),
                                    [](char c) { return static_cast<unsigned char>(c) < 0x80; });
     input.fail_at_byte(nul, {"not plain text", utf16 ? "NUL bytes as in UTF-16" : "a NUL byte",
-                             "UTF-8", utf16 ? hint : "is this a binary file? see --format"});
+                             "UTF-8", utf16 ? hint : "is this a binary file of another format?"});
   }
   if (probe.substr(0, 3) == "\xEF\xBB\xBF") position_ += 3;
 }
@@ -202,22 +208,32 @@ template <class T>
 T Cells::floating(Allow allow) {
   const char* begin = position_;
   const char* digits = begin;
+  const bool in_quotes = begin != end_ && *begin == '"';
+  if (in_quotes) ++digits;
   // from_chars takes no plus sign
   if (digits != end_ && *digits == '+' && end_ - digits > 1 && digits[1] != '-') ++digits;
   T value = 0;
-  const auto [stop, error] = std::from_chars(digits, end_, value);
-  if (error == std::errc::invalid_argument || (stop != end_ && !ends_cell(*stop))) {
+  const auto [last, error] = std::from_chars(digits, end_, value);
+  const char* stop = last;
+  if (in_quotes && stop != end_ && *stop == '"') ++stop;
+  if (allow == Allow::missing && error == std::errc::invalid_argument &&
+      is_empty_cell(begin, stop)) {
+    after_cell(stop);
+    return std::numeric_limits<T>::quiet_NaN();
+  }
+  if (error == std::errc::invalid_argument || (stop != end_ && !ends_cell(*stop)) ||
+      (in_quotes && stop == last)) {
     reject(begin, stop, "not a number", "a decimal number");
   }
   if (error == std::errc::result_out_of_range) {
-    if (!rounds_to_zero({digits, stop})) {
+    if (!rounds_to_zero({digits, last})) {
       reject(begin, stop, "number out of range",
              fmt::format("at most {:.2g} in size", std::numeric_limits<T>::max()));
     }
     value = 0;
   }
   if (!std::isfinite(value)) {
-    if (std::isnan(value) && (allow != Allow::any || stop[-1] == ')')) {
+    if (std::isnan(value) && (allow < Allow::any || last[-1] == ')')) {
       reject(begin, stop, "not a number", "a decimal number");
     }
     if (std::isinf(value) && allow == Allow::finite) {
@@ -259,11 +275,32 @@ std::uint64_t Cells::unsigned64(const char* what) {
 
 std::string_view Cells::word() {
   const char* begin = position_;
-  const char* stop = begin;
-  while (stop != end_ && !ends_cell(*stop)) ++stop;
+  const char* stop = end_of_cell(begin);
   if (stop == begin) reject(begin, stop, "empty cell", "a value");
   after_cell(stop);
   return {begin, static_cast<std::size_t>(stop - begin)};
+}
+
+std::string_view Cells::skip() {
+  const char* begin = position_;
+  const char* stop = end_of_cell(begin);
+  after_cell(stop);
+  return {begin, static_cast<std::size_t>(stop - begin)};
+}
+
+const char* Cells::end_of_cell(const char* begin) const {
+  const char* stop = begin;
+  if (stop != end_ && *stop == '"') {
+    const char* close = std::find(stop + 1, end_, '"');
+    if (close != end_) stop = close + 1;
+  }
+  while (stop != end_ && !ends_cell(*stop)) ++stop;
+  return stop;
+}
+
+bool Cells::is_empty_cell(const char* begin, const char* stop) const {
+  if (stop - begin == 2) return *begin == '"' && begin[1] == '"';
+  return stop == begin && stop != end_ && (*stop == ',' || *stop == ';');
 }
 
 void Cells::expect_end(std::string_view expected) {
@@ -309,12 +346,12 @@ void Cells::reject(const char* begin, const char* stop, std::string what,
   while (stop != end_ && !ends_cell(*stop)) ++stop;
   const std::string_view cell(begin, static_cast<std::size_t>(stop - begin));
   if (cell.empty()) {
-    lines_->fail(begin, {"empty cell",
-                         stop == end_ ? "the end of the line" : quoted({stop, 1}),
-                         std::move(expected),
-                         {}});
+    lines_->fail(begin, {"empty cell", stop == end_ ? "the end of the line" : quoted({stop, 1}),
+                         std::move(expected), std::string(hint_)});
   }
-  lines_->fail(begin, {std::move(what), quoted(cell), std::move(expected), hint_for(cell)});
+  std::string hint = hint_for(cell);
+  if (hint.empty()) hint = hint_;
+  lines_->fail(begin, {std::move(what), quoted(cell), std::move(expected), std::move(hint)});
 }
 
 }  // namespace ph

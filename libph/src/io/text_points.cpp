@@ -7,17 +7,67 @@
 #include <cmath>
 
 #include "ph/io/cloud_io.hpp"
+#include "table.hpp"
 
 namespace ph {
 
+namespace {
+
+constexpr std::string_view kChooseColumns = "names or an index? --columns takes some columns only";
+
+std::size_t count_cells(const TextLines& lines) {
+  Cells cells(lines);
+  std::size_t count = 0;
+  for (cells.start(); cells.more(); ++count) cells.skip();
+  return count;
+}
+
+// Whether a column counts the rows, from 0 or from 1.
+bool counts_rows(const Points& points, Index column) {
+  for (Index i = 0; i < points.rows(); ++i)
+    if (points(i, column) != points(0, column) + static_cast<double>(i)) return false;
+  return points(0, column) == 0 || points(0, column) == 1;
+}
+
+// The numbers of a table, without those of its index.
+detail::TextTable table_of_points(const Input& input, const ReadOptions& options) {
+  constexpr Index kFewest = 8;  // rows that hardly count by chance
+  const detail::TableLayout layout = detail::table_layout(input, options);
+  detail::TextTable table = detail::read_text_table(
+      input, options.nan == NanPolicy::drop ? Allow::missing : Allow::finite, options, false,
+      &layout);
+  const Points& rows = table.rows;
+  if (layout.header.empty() && options.columns.empty() && rows.rows() >= kFewest &&
+      rows.cols() > 1 && counts_rows(rows, 0)) {
+    detail::note(options,
+                 fmt::format("the first column counts the rows and is read as a coordinate; "
+                             "--columns 2-{} leaves it out",
+                             rows.cols()));
+  }
+  return table;
+}
+
+// The columns of an array that were asked for.
+Points chosen_of(Points points, const Input& input, const ReadOptions& options) {
+  if (options.columns.empty()) return points;
+  const auto columns =
+      detail::chosen_columns(options.columns, {}, static_cast<std::size_t>(points.cols()), input);
+  Points chosen(points.rows(), static_cast<Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    chosen.col(static_cast<Index>(k)) = points.col(static_cast<Index>(columns[k]));
+  return chosen;
+}
+
+}  // namespace
+
 namespace detail {
 
-TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& options,
-                          bool counted) {
+TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& options, bool counted,
+                          const TableLayout* layout) {
   TextTable table;
   TextLines lines(input);
-  Cells cells(lines);
-  bool more = lines.next();
+  Cells cells(lines, layout != nullptr ? kChooseColumns : "");
+  bool more = layout != nullptr ? layout->start(lines) : lines.next();
   std::size_t said = 0;
   if (counted) {
     if (!more) input.fail({"no number of points", "nothing", "it on the first line", {}});
@@ -26,6 +76,9 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
     said = static_cast<std::size_t>(cells.integer(0, most, "number of points"));
     cells.expect_end("the number of points alone");
     more = lines.next();
+  } else if (layout != nullptr) {
+    table.header = layout->header;
+    layout->tell(options);
   } else if (more) {
     table.header = header_names(lines.line());
     if (!table.header.empty()) {
@@ -46,47 +99,51 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
   }
 
   const std::size_t first_line = lines.number();
-  std::vector<double> first_row;
-  cells.start();
-  while (cells.more()) first_row.push_back(cells.number(allow));
-  const std::size_t columns = first_row.size();
+  const std::size_t width = layout != nullptr ? layout->width : count_cells(lines);
+  const std::vector<bool> taken =
+      layout != nullptr ? layout->taken() : std::vector<bool>(width, true);
+  const auto columns = static_cast<std::size_t>(std::ranges::count(taken, true));
 
   // No more rows than lines, and a row takes two bytes a cell: memory is at most four times the
   // file, whatever it holds.
   const std::string_view rest = input.text().substr(lines.offset());
   const std::size_t by_lines =
       static_cast<std::size_t>(std::count(rest.begin(), rest.end(), '\n')) + 2;
-  const std::size_t most = std::min(by_lines, rest.size() / (2 * columns) + 2);
+  const std::size_t most = std::min(by_lines, rest.size() / (2 * width) + 2);
   input.require_memory(most * columns * sizeof(double));
   table.rows.resize(static_cast<Index>(most), static_cast<Index>(columns));
-  double* row = std::copy(first_row.begin(), first_row.end(), table.rows.data());
-  std::size_t count = 1;
-  while (lines.next()) {
+  double* value = table.rows.data();
+  std::size_t count = 0;
+  do {
     cells.start();
     std::size_t k = 0;
-    while (cells.more()) {
-      if (k == columns) break;
-      row[k++] = cells.number(allow);
-    }
-    if (k != columns || cells.more()) {
-      while (cells.more()) {
-        cells.word();
-        ++k;
+    for (; k < width && cells.more(); ++k) {
+      if (taken[k]) {
+        *value++ = cells.number(allow);
+      } else {
+        cells.skip();
       }
+    }
+    if (k + 1 == width && allow == Allow::missing && ends_empty(lines.line())) {
+      if (taken[k]) *value++ = std::numeric_limits<double>::quiet_NaN();
+      ++k;
+    }
+    if (k != width || cells.more()) {
+      for (; cells.more(); ++k) cells.skip();
       lines.fail(lines.line().data(),
                  {"ragged row", fmt::format("{} cell{}", k, k == 1 ? "" : "s"),
-                  fmt::format("{}, as in line {}", columns, first_line),
-                  k < columns && lines.offset() == input.size() ? "is the file truncated?" : ""});
+                  fmt::format("{}, as in line {}", width, first_line),
+                  k < width && lines.offset() == input.size() ? "is the file truncated?" : ""});
     }
-    row += columns;
     ++count;
-  }
+  } while (lines.next());
   check_count(count);
   table.rows.conservativeResize(static_cast<Index>(count), Eigen::NoChange);
-  if (!table.header.empty() && table.header.size() != columns && columns > 1 &&
-      table.header.size() > 1) {
+  const bool names_rows = layout != nullptr && layout->names_rows;
+  if (!table.header.empty() && table.header.size() != width && width > 1 &&
+      table.header.size() > 1 && !names_rows) {
     note(options,
-         fmt::format("the header has {} names for {} columns", table.header.size(), columns));
+         fmt::format("the header has {} names for {} columns", table.header.size(), width));
   }
   return table;
 }
@@ -133,10 +190,8 @@ Points read_points(const Input& input, const ReadOptions& options) {
   if (detail::is_npy(input) || detail::is_npz(input)) {
     const Image array = detail::read_npy_array(input);
     if (array.dim() != 2) {
-      input.fail({"not a set of points",
-                  fmt::format("an array of {} dimensions", array.dim()),
-                  "2: a point a row",
-                  {}});
+      input.fail({"not a set of points", fmt::format("an array of {} dimensions", array.dim()),
+                  "2: a point a row", array.dim() == 1 ? "a[:, None] has a number a row" : ""});
     }
     if (array.values.empty() && array.extents[0] > 0) {
       input.fail({"points without coordinates",
@@ -155,23 +210,39 @@ Points read_points(const Input& input, const ReadOptions& options) {
         std::copy_n(numbers + k, count, points.data() + k);
       }
     });
+    points = chosen_of(std::move(points), input, options);
     points = detail::without_nan_rows(std::move(points), input, options, false);
   } else if (detail::is_pcd(input) || detail::is_ply(input)) {
     points = detail::without_nan_rows(
         points_of(read_cloud(input, {.allow_empty = true, .context = options.context})), input,
         options, true);
   } else {
-    const bool drop = options.nan == NanPolicy::drop;
-    detail::TextTable table =
-        detail::read_text_table(input, drop ? Allow::any : Allow::finite, options);
-    points = drop ? detail::without_nan_rows(std::move(table.rows), input, options, false)
-                  : std::move(table.rows);
+    points = table_of_points(input, options).rows;
+    if (options.nan == NanPolicy::drop)
+      points = detail::without_nan_rows(std::move(points), input, options, false);
   }
   if (points.rows() == 0 && !options.allow_empty) {
     input.fail({"no points", {}, "one point a line", "--allow-empty accepts an empty set"});
   }
   return points;
 }
+
+namespace detail {
+
+Image read_grid(const Input& input, const ReadOptions& options) {
+  const TableLayout layout = table_layout(input, options);
+  const Allow allow = options.nan == NanPolicy::drop ? Allow::missing : Allow::infinite;
+  Points rows = read_text_table(input, allow, options, false, &layout).rows;
+  Image image;
+  if (rows.rows() > 0) image.extents = {rows.rows(), rows.cols()};
+  if (rows.rows() == 1 || rows.cols() == 1) image.extents = {rows.size()};
+  if (rows.size() == 0) image.extents = {0};
+  input.require_memory(static_cast<std::size_t>(rows.size()) * sizeof(double));
+  image.values = std::vector<double>(rows.data(), rows.data() + rows.size());
+  return without_nan_pixels(std::move(image), input, options);
+}
+
+}  // namespace detail
 
 Points read_points(const std::filesystem::path& path, const ReadOptions& options) {
   return read_points(Input::open(path, options.context), options);

@@ -9,8 +9,12 @@ namespace ph {
 
 DistanceMatrix::DistanceMatrix(Index size, std::vector<double> lower, std::vector<double> births)
     : size_(size), lower_(std::move(lower)), births_(std::move(births)) {
+  constexpr Index most = Index{1} << 31;  // whose pairs can be counted
+  if (size < 0 || size > most)
+    throw Error(ErrorKind::bad_data,
+                fmt::format("distance matrix: found {} points, expected 0 to 2^31", size));
   const Index pairs = size > 0 ? size * (size - 1) / 2 : 0;
-  if (size < 0 || static_cast<Index>(lower_.size()) != pairs) {
+  if (static_cast<Index>(lower_.size()) != pairs) {
     throw Error(ErrorKind::bad_data, fmt::format("distance matrix: found {} distances, expected {} "
                                                  "for {} points",
                                                  lower_.size(), pairs, size));

@@ -27,6 +27,9 @@ void check(const WeightedEdge& e, Index size) {
 
 SparseDistances::SparseDistances(Index size, std::vector<WeightedEdge> edges)
     : size_(size), edges_(std::move(edges)) {
+  if (size < 0)
+    throw Error(ErrorKind::bad_data,
+                fmt::format("sparse distances: found {} points, expected 0 or more", size));
   for (WeightedEdge& e : edges_) {
     check(e, size_);
     if (e.u > e.v) std::swap(e.u, e.v);

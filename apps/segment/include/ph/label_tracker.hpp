@@ -21,8 +21,8 @@ class LabelTracker {
  public:
   /// @param patience frames for which an object that is not seen is remembered, >= 0.
   /// @param cell edge of the cubes by which clouds that are not organised are compared, metres, >
-  /// 0.
-  explicit LabelTracker(int patience = 5, double cell = 0.01) : patience_(patience), cell_(cell) {}
+  /// 0. @throws Error (usage) on others.
+  explicit LabelTracker(int patience = 5, double cell = 0.01);
 
   /// The next frame of a sensor with a fixed raster: places are pixels.
   /// @param labels one a pixel: 0 none, else any number of a segment. A frame of another size than
@@ -32,6 +32,7 @@ class LabelTracker {
   /// The same for the result of ph::segment::segment. Of an unorganised cloud places are cubes of
   /// space, whatever its voxels are: the sensor must stand still.
   /// @return the number of the object that each segment is: that of label i + 1 at i.
+  /// @throws Error (bad_data) if the cut is not one of this scene.
   std::vector<std::uint32_t> update(const SceneTree& scene, const SceneCut& cut);
 
  private:

@@ -141,7 +141,8 @@ struct SceneCut {
 /// are near each other and which parts make an object (not paper), which segments touch, and what
 /// is said of each; planes, voxels, normals and the tree are those of `scene`. `cut(scene,
 /// scene.first_cut)` is what ph::segment::segment gave.
-/// @throws Error (usage) on an option out of its range, or a distance beyond that of the tree.
+/// @throws Error (usage) on an option out of its range, or a distance beyond that of the tree;
+///         Error (bad_data) if arrays of the scene disagree. So do all functions below.
 SceneCut cut(const SceneTree& scene, const CutOptions& options,
              const RunContext& context = default_context());
 

@@ -47,8 +47,10 @@ struct SegmentOptions {
   /// metres, >= 0) and at least four standard deviations of the noise that is found; 0: as thick
   /// as plane_distance everywhere. A plane_distance that is given and smaller goes before it.
   double plane_noise = 0.005;
-  std::optional<Vec3> viewpoint = {};  ///< where the sensor stood; default: the cloud's
-  bool check = true;                   ///< compare union-find with boundary-matrix reduction
+  /// Where the sensor stood. Default: where the pixels' rays of an organised cloud meet, if that
+  /// can be told and is not at the cloud's viewpoint; else the cloud's.
+  std::optional<Vec3> viewpoint = {};
+  bool check = true;  ///< compare union-find with boundary-matrix reduction
 
   // Methods surface and supervoxels. Not given: see cut.
   std::optional<double> min_persistence = {};  ///< least persistence of a part, >= 0; unit: Segment
@@ -91,10 +93,20 @@ struct Stage {
   double seconds = 0;  ///< wall-clock time
 };
 
+/// What the supporting plane says of the viewpoint, as shares of the points in range off the plane.
+struct PlaneSight {
+  double behind = 0;  ///< lie behind the plane as seen from the viewpoint, past its edge or hidden
+  double hidden = 0;  ///< lie behind points of the plane: no sensor there could see them
+};
+
 /// The result of the pipeline: the merge tree of the scene, one cut of it, and how it went. A
 /// value: it refers to nothing outside.
 struct Segmentation : SceneTree, SceneCut {
-  std::string plane_note;       ///< why there is no plane; empty if there is one
+  std::string plane_note;  ///< why there is no plane; empty if there is one
+  /// Where the pixels' rays meet, if that is not where the options or the cloud say that the sensor
+  /// stood. It was taken as `viewpoint` unless the options have one.
+  std::optional<Vec3> rays_meet_at;
+  PlaneSight plane_sight;       ///< much of it: the viewpoint is wrong
   Barcode barcode = Barcode();  ///< H0, zero-length bars included
   bool checked = false;         ///< whether the cross-check ran
   std::string difference;       ///< what it found; empty: both engines agree

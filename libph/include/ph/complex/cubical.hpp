@@ -40,7 +40,7 @@ struct CubicalOptions {
 /// Holds the voxels, shared with the image. What generic engines need, 4 bytes a cell (2^d cells a
 /// voxel) and the sorted values, is made once, by `prepare` or else when a cell or value is first
 /// asked for; an engine that goes voxel by voxel does without. +infinity never enters; -infinity is
-/// born at -infinity.
+/// born at -infinity (both after the sign of superlevel sets). Absent voxels never enter.
 class Cubical {
  public:
   struct Cell {
@@ -52,9 +52,9 @@ class Cubical {
   static constexpr bool first_equal_cofacet_is_oldest = true;
 
   /// @param context outlives the filtration.
-  /// @throws Error (bad_data) on NaN, an axis of length 0 or sizes that disagree; Error (usage) on
-  ///         more than 8 axes or a periodic axis that does not exist; Error (resource) on more
-  ///         than 2^32 - 2 voxels or beyond the context's memory limit.
+  /// @throws Error (bad_data) on NaN unless the image is masked, an axis of length 0 or sizes that
+  ///         disagree; Error (usage) on more than 8 axes or a periodic axis that does not exist;
+  ///         Error (resource) on more than 2^32 - 2 voxels or beyond the context's memory limit.
   explicit Cubical(const Image& image, const CubicalOptions& options = {},
                    const RunContext& context = default_context());
 

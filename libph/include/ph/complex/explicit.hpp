@@ -18,7 +18,9 @@ struct SimplexList {
   std::vector<std::size_t> offsets{0};
   std::vector<double> values;
 
-  std::size_t size() const { return offsets.size() - 1; }
+  std::size_t size() const { return offsets.empty() ? 0 : offsets.size() - 1; }
+  /// @throws Error (bad_data) unless the offsets ascend from 0 to the number of vertices.
+  void check_layout() const;
   std::span<const Index> simplex(std::size_t i) const {
     return std::span(vertices).subspan(offsets[i], offsets[i + 1] - offsets[i]);
   }
@@ -44,8 +46,9 @@ struct BoundaryMatrix {
 /// Names a cell of the input in an error message ("mesh.txt:12"); by default its position.
 using CellNamer = std::function<std::string(std::size_t)>;
 
-/// A filtered complex stored cell by cell, with facets and cofacets.
-/// Order: (value, dimension, position in the input).
+/// A filtered complex stored cell by cell, with facets and cofacets. A cell of value +infinity
+/// never enters: it is looked at for mistakes and then left out. Order: (value, dimension, position
+/// in the input).
 class ExplicitComplex {
  public:
   struct Cell {
@@ -55,7 +58,7 @@ class ExplicitComplex {
   static constexpr bool first_equal_cofacet_is_oldest = true;
 
   /// @throws Error (bad_data) if a simplex occurs twice, repeats a vertex, lacks a facet, is
-  ///         older than a facet of its own, or has a NaN value.
+  ///         older than a facet of its own, or has a NaN value; if sizes disagree.
   static ExplicitComplex from_simplices(SimplexList simplices, const CellNamer& name = {},
                                         const RunContext& context = default_context());
   /// @throws Error (bad_data) if a facet is out of range, is not of one dimension less or is
@@ -66,7 +69,12 @@ class ExplicitComplex {
 
   /// Whether incidence numbers are known; without them only Z/2 makes sense.
   bool has_incidences() const { return has_incidences_; }
+  /// Cells that enter.
   std::size_t size() const { return input_position_.size(); }
+  /// How many vertices the input has, those that never enter included.
+  std::size_t vertex_count() const { return vertices_.size(); }
+  /// The place of a vertex among them, in the order of the input.
+  std::size_t vertex_number(Cell vertex) const;
 
   int top_dim() const { return static_cast<int>(first_of_dim_.size()) - 2; }
   double value(Cell c) const { return values_[key_[c.id]]; }
@@ -108,6 +116,7 @@ class ExplicitComplex {
         key_(memory),
         input_position_(memory),
         id_of_(memory),
+        vertices_(memory),
         first_of_dim_(memory),
         of_dim_(memory),
         facets_(memory),
@@ -115,6 +124,8 @@ class ExplicitComplex {
   void order_cells(const std::vector<int>& dims, std::span<const double> values);
   void build_cofacets();
   void check(const std::vector<int>& dims, const CellNamer& name);
+  void leave_out_what_never_enters();
+  void sort_by_dimension(const std::vector<int>& dims);
 
   CellKind kind_ = CellKind::row;
   bool has_incidences_ = true;
@@ -122,7 +133,8 @@ class ExplicitComplex {
   std::pmr::vector<double> values_;                 // distinct values, ascending
   std::pmr::vector<std::uint32_t> key_;             // by id: index into values_
   std::pmr::vector<std::uint32_t> input_position_;  // by id: which cell of the input it is
-  std::pmr::vector<std::uint32_t> id_of_;           // its inverse
+  std::pmr::vector<std::uint32_t> id_of_;           // its inverse, of all cells of the input
+  std::pmr::vector<std::uint32_t> vertices_;        // their positions in the input, ascending
   std::pmr::vector<std::size_t> first_of_dim_;      // ranges of of_dim_
   std::pmr::vector<std::uint32_t> of_dim_;          // ids sorted by dimension, then order
   Incidence facets_, cofacets_;

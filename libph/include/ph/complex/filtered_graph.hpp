@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <memory_resource>
 #include <span>
 #include <vector>
@@ -12,7 +13,8 @@
 namespace ph {
 
 /// A graph whose vertices and edges have values, as a filtration: all that H0 and its merge tree
-/// need, in 16 bytes an edge. Order: (value, dimension, vertex number or position of the edge).
+/// need, in 16 bytes an edge. What has the value +infinity never enters. Order: (value, dimension,
+/// vertex number or position of the edge).
 class FilteredGraph {
  public:
   using Cell = std::uint32_t;  ///< vertex v is v; the edge at position i of the order is size() + i
@@ -31,9 +33,12 @@ class FilteredGraph {
                                   const RunContext& context = default_context());
 
   Index size() const { return static_cast<Index>(births_.size()); }
-  std::size_t edge_count() const { return edges_.size(); }
+  std::size_t edge_count() const { return edges_.size(); }  ///< that enter
+  /// As many as there are, those that never enter included.
+  std::size_t vertex_count() const { return births_.size(); }
+  static std::size_t vertex_number(Cell vertex) { return vertex; }
 
-  int top_dim() const { return births_.empty() ? -1 : edges_.empty() ? 0 : 1; }
+  int top_dim() const { return none_enters_ ? -1 : edges_.empty() ? 0 : 1; }
   double value(Cell c) const {
     return c < births_.size() ? births_[c] : edges_[c - births_.size()].value;
   }
@@ -52,7 +57,8 @@ class FilteredGraph {
     const auto vertices = static_cast<Cell>(births_.size());
     const auto cells = static_cast<Cell>(slot_count());
     if (dim == 0)
-      for (Cell v = 0; v < vertices; ++v) visit(v);
+      for (Cell v = 0; v < vertices; ++v)
+        if (births_[v] < std::numeric_limits<double>::infinity()) visit(v);
     if (dim == 1)
       for (Cell e = vertices; e < cells; ++e) visit(e);
   }
@@ -74,8 +80,12 @@ class FilteredGraph {
   /// With the value of its later end. @throws Error (bad_data) on a vertex out of range.
   Edge edge_between(const WeightedEdge& edge) const;
 
+  /// Edges that never enter come last in the order.
+  void leave_out_what_never_enters();
+
   std::pmr::vector<double> births_;
   std::pmr::vector<Edge> edges_;  // in the order of the filtration
+  bool none_enters_ = true;       // no vertex
 };
 
 }  // namespace ph

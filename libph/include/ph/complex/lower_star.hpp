@@ -10,8 +10,8 @@ namespace ph {
 /// The lower-star filtration: a simplex enters with the last of its vertices. The simplices may
 /// come without their faces (the triangles of a mesh, say): faces are added. Values of the list are
 /// ignored.
-/// @param vertex_values a value for each vertex id 0 … size-1, not NaN; every vertex enters.
-/// @throws Error (bad_data) on a vertex id without a value or a NaN.
+/// @param vertex_values a value for each vertex id 0 … size-1, not NaN; +infinity never enters.
+/// @throws Error (bad_data) on a vertex id without a value or a NaN, or if sizes disagree.
 ExplicitComplex lower_star(const SimplexList& simplices, std::span<const double> vertex_values,
                            const CellNamer& name = {},
                            const RunContext& context = default_context());

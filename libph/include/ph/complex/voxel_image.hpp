@@ -25,8 +25,8 @@ enum class VoxelValue {
   /// bounds the error of every bar (Cohen-Steiner, Edelsbrunner & Harer, Stability of persistence
   /// diagrams, 2007).
   distance,
-  occupancy,  ///< 0 where a point is in it; elsewhere infinite: it never enters
-  density,    ///< minus the number of points in it; infinite where there is none
+  occupancy,  ///< 0 where a point is in it; elsewhere it is absent, see Image::masked
+  density,    ///< minus the number of points in it; absent where there is none
 };
 
 /// The voxels of a grid around a point cloud, as an image.

@@ -231,13 +231,14 @@ class BarcodeBuilder {
   bool add_pair(int dim, const Cell& birth, const Cell& death) {
     if (!wants(dim)) return false;
     const Bar bar{dim, filtration_.value(birth), filtration_.value(death)};
+    if (bar.is_infinite()) return add_essential(dim, birth);
     if (!(bar.persistence() > min_persistence_)) return false;
     add(bar, birth, &death);
     return true;
   }
-  /// A class of H_dim that never dies.
+  /// A class of H_dim that never dies. What would be born at infinity never is.
   bool add_essential(int dim, const Cell& birth) {
-    if (!wants(dim)) return false;
+    if (!wants(dim) || filtration_.value(birth) == kInfinity) return false;
     add(Bar{dim, filtration_.value(birth), kInfinity}, birth, nullptr);
     return true;
   }
@@ -296,7 +297,8 @@ class BarcodeBuilder {
  private:
   bool wants(int dim) const { return min_dim_ <= dim && dim <= max_dim_; }
   bool keeps(const Bar& bar) const {
-    return wants(bar.dim) && (bar.is_infinite() || bar.persistence() > min_persistence_);
+    return wants(bar.dim) && bar.birth < kInfinity &&
+           (bar.is_infinite() || bar.persistence() > min_persistence_);
   }
   void add(const Bar& bar, const Cell& birth, const Cell* death) {
     numbers_.clear();

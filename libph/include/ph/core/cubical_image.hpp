@@ -35,7 +35,7 @@ inline std::size_t bytes_of(VoxelType type) {
 }
 
 /// The cubical filtration of an image as the image itself: what an engine needs that goes voxel by
-/// voxel and never lists cells. Points to voxels that outlive it. No value is NaN.
+/// voxel and never lists cells. Points to voxels that outlive it. NaN is a voxel that is absent.
 struct CubicalImage {
   std::vector<Index> extents;  ///< in C order: the last axis is the fastest
   std::vector<bool> periodic;  ///< as many as extents
@@ -52,10 +52,11 @@ struct CubicalImage {
     for (const Index n : extents) product *= static_cast<std::size_t>(n);
     return product;
   }
-  /// The value at which a voxel enters.
+  /// The value at which a voxel enters; infinity if it is absent.
   double value(std::size_t i) const {
     const double v =
         with_voxels(type, voxels, [i](const auto* all) { return static_cast<double>(all[i]); });
+    if (v != v) return std::numeric_limits<double>::infinity();
     return (superlevel ? -v : v) + 0.0;
   }
 };

@@ -5,8 +5,9 @@
 namespace ph {
 
 /// Says that what was read or written of a mapped file in this range is not needed for now: it
-/// leaves the process's memory and comes back from the file when it is touched. Whole pages only.
-/// A hint. Precondition: all of it is a file that is mapped, shared or never written to.
+/// leaves the process's memory and comes back from the file when it is touched. So does what shares
+/// a page with its ends. A hint. Precondition: all of it is a file that is mapped, shared or never
+/// written to.
 void forget_file_pages(const void* begin, std::size_t bytes);
 
 /// Memory that is a file without a name, in the folder for temporary files (TMPDIR): what is not in

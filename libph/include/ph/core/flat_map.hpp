@@ -11,26 +11,30 @@
 namespace ph {
 
 /// A hash table from 64-bit numbers to small values, in one array with linear probing: several
-/// times faster than std::unordered_map for what inner loops look up. Nothing is ever erased.
+/// times faster than std::unordered_map for what inner loops look up. Every number is a key.
+/// Nothing is ever erased.
 template <class Value>
 class FlatMap {
  public:
   using Key = std::uint64_t;
-  static constexpr Key kNoKey = UINT64_MAX;  ///< the one number that is no key
 
   explicit FlatMap(std::pmr::memory_resource* memory) : slots_(memory) {}
 
   /// Null if the key is absent. Valid until the next insertion.
   Value* find(Key key) {
+    if (key == kFree) [[unlikely]]
+      return has_last_ ? &last_ : nullptr;
     if (size_ == 0) return nullptr;
     Slot& slot = slot_of(key);
     return slot.key == key ? &slot.value : nullptr;
   }
   /// The value of a key, a fresh one if it was absent, and whether it was.
   std::pair<Value*, bool> try_emplace(Key key) {
+    if (key == kFree) [[unlikely]]
+      return {&last_, !std::exchange(has_last_, true)};
     if (2 * (size_ + 1) > slots_.size()) grow();
     Slot& slot = slot_of(key);
-    const bool is_new = slot.key == kNoKey;
+    const bool is_new = slot.key == kFree;
     if (is_new) {
       slot.key = key;
       ++size_;
@@ -39,6 +43,8 @@ class FlatMap {
   }
   /// Keeps the array where it is small, so that clearing often costs little.
   void clear() {
+    last_ = Value{};
+    has_last_ = false;
     if (size_ == 0) return;
     size_ = 0;
     if (slots_.size() <= kSmall) {
@@ -50,8 +56,9 @@ class FlatMap {
   }
 
  private:
+  static constexpr Key kFree = UINT64_MAX;  // marks a free slot: as a key it has a place of its own
   struct Slot {
-    Key key = kNoKey;
+    Key key = kFree;
     Value value{};
   };
   static constexpr std::size_t kSmall = 64;
@@ -61,18 +68,20 @@ class FlatMap {
     const std::size_t mask = slots_.size() - 1;
     // Fibonacci hashing: the upper bits of the product are well mixed.
     std::size_t i = key * 0x9E3779B97F4A7C15U >> (64 - std::bit_width(mask));
-    while (slots_[i].key != key && slots_[i].key != kNoKey) i = (i + 1) & mask;
+    while (slots_[i].key != key && slots_[i].key != kFree) i = (i + 1) & mask;
     return slots_[i];
   }
   void grow() {
     std::pmr::vector<Slot> old(std::max(kSmall, 2 * slots_.size()), Slot{}, slots_.get_allocator());
     old.swap(slots_);
     for (Slot& slot : old)
-      if (slot.key != kNoKey) slot_of(slot.key) = std::move(slot);
+      if (slot.key != kFree) slot_of(slot.key) = std::move(slot);
   }
 
   std::pmr::vector<Slot> slots_;  // a power of two, at most half full
-  std::size_t size_ = 0;
+  std::size_t size_ = 0;          // of what is in the slots
+  Value last_{};                  // the value of kFree,
+  bool has_last_ = false;         // if it is there
 };
 
 }  // namespace ph

@@ -197,6 +197,9 @@ class Voxels {
 struct Image {
   std::vector<Index> extents;
   Voxels values;
+  /// Whether NaN marks an absent voxel, which never enters: neither in sublevel nor in superlevel
+  /// sets. An infinite value is no such mark: it has a sign. Without a mask NaN is refused.
+  bool masked = false;
 
   int dim() const { return static_cast<int>(extents.size()); }
 };

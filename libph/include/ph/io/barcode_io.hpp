@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ph/core/barcode.hpp"
+#include "ph/core/loops.hpp"
 #include "ph/io/output_file.hpp"
 #include "ph/io/reader.hpp"
 
@@ -51,6 +52,9 @@ struct BarcodeInfo {
   };
   std::optional<VoxelGrid> voxels;
   std::optional<double> approximation;  ///< epsilon of a sparse Rips filtration
+  /// By bar of the barcode that is written, as ph::loops gives them: they stand beside the cycles.
+  /// Empty: there are none.
+  std::span<const BarLoops> loops;
   std::string engine;
   std::vector<std::pair<std::string, double>> timings;  ///< stage, seconds
   std::uint64_t peak_memory = 0;                        ///< bytes; 0: unknown
@@ -89,6 +93,10 @@ Barcode read_barcode(const std::filesystem::path& path,
                      std::optional<BarcodeFormat> format = std::nullopt,
                      const RunContext* context = nullptr);
 Barcode read_barcode(const Input& input, std::optional<BarcodeFormat> format = std::nullopt);
+
+/// Whether a file is a barcode for certain: a header `dim,birth,death`, JSON, text of Ripser,
+/// DIPHA's diagram, or a name in .pers. Rows of numbers alone, in text or NPY, may be anything.
+bool is_barcode(const Input& input);
 
 /// The shortest text that reads back to the same double; `inf`, `-inf`, `nan`; -0 as 0.
 std::string shortest(double value);

@@ -38,6 +38,9 @@ struct Cloud {
 
   Index size() const { return width * height; }
   bool organised() const { return height > 1; }
+  /// @throws Error (bad_data) unless `data` holds width * height records, and they their fields.
+  /// All that follows does so, too.
+  void check() const;
   const CloudField* find(std::string_view name) const;
   /// Appends a field of zeros to every point; its index. Rewrites `data`.
   std::size_t add_field(std::string name, FieldType type, std::size_t count = 1);

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "ph/image/image.hpp"
+#include "ph/io/camera.hpp"
 #include "ph/io/cloud.hpp"
 #include "ph/io/png.hpp"
 #include "ph/io/read.hpp"
@@ -16,8 +18,8 @@ namespace ph {
 // The readers throw as those of read.hpp do. A cloud without points is an error unless
 // options.allow_empty; a NaN coordinate is a hole and no error.
 
-/// By content (PCD, PLY), else text: see read_xyz and read_pts. A cloud without the fields x, y and
-/// z is an error.
+/// By content (PCD, PLY, NPY), else text: see read_xyz and read_pts. A cloud without the fields x,
+/// y and z is an error.
 Cloud read_cloud(const std::filesystem::path& path, const ReadOptions& options = {});
 Cloud read_cloud(const Input& input, const ReadOptions& options = {});
 
@@ -41,21 +43,39 @@ Cloud read_pts(const Input& input, const ReadOptions& options = {});
 /// @throws Error (bad_data) if x, y or z is missing.
 Points points_of(const Cloud& cloud);
 
-/// A pinhole camera, in pixels.
-struct Intrinsics {
-  double fx = 0, fy = 0;  ///< focal lengths
-  double cx = 0, cy = 0;  ///< principal point; the centre of pixel (0, 0) is (0, 0)
+/// Array of NumPy (.npy), floats: shape (n, 3) or more columns, or (rows,
+/// columns, 3) or more, an organised cloud. The columns are those of read_xyz without a header; red
+/// green blue may be numbers of 0…1, too. NaN is a hole.
+Cloud read_npy_cloud(const Input& input, const ReadOptions& options = {});
+
+/// A depth image as its file has it.
+struct DepthImage {
+  Image depth;          ///< two axes: rows, columns
+  double scale = 1000;  ///< depth units a metre where nobody says them: floats are metres, whole
+                        ///< numbers millimetres
+};
+/// A grey PNG, PGM, or an array of NumPy (.npy) with two axes. NaN becomes infinite, which is a
+/// hole for cloud_from_depth. @throws Error (bad_data) also on colours or other axes.
+DepthImage read_depth(const Input& input, const ReadOptions& options = {});
+
+/// What became of the pixels of a depth image.
+struct DepthCounts {
+  Index negative = 0;  ///< of a depth below 0: holes
+  Index unseen = 0;    ///< of a depth, but where the lens shows no ray: holes
 };
 
 /// The organised cloud of a depth image: x right, y down, z forward, metres; fields x y z (float32)
-/// and, with a colour image, rgba (uint32). A depth of 0 is a hole.
-/// @param depth grey, 8 or 16 bits. @param colour grey or RGB(A), of the same size.
+/// and, with a colour image, rgba (uint32). Depth is along z. One that is not above 0 and finite is
+/// a hole.
+/// @param depth two axes. @param colour grey or RGB(A), of the same size.
+/// @param camera its size is that of the image, or 0.
 /// @param depth_scale depth units a metre: 1000 for millimetres.
-/// @throws Error (bad_data) if the sizes differ or depth is not grey; Error (usage) on focal
-/// lengths
-///         or a scale that are not positive.
-Cloud cloud_from_depth(const Raster& depth, const std::optional<Raster>& colour,
-                       const Intrinsics& intrinsics, double depth_scale = 1000);
+/// @param counts receives what it says; may be null.
+/// @throws Error (bad_data) if the sizes differ; Error (usage) on focal lengths or a scale that are
+///         not positive, or another number of axes.
+Cloud cloud_from_depth(const Image& depth, const std::optional<Raster>& colour,
+                       const Camera& camera, double depth_scale = 1000,
+                       DepthCounts* counts = nullptr);
 
 enum class PcdData { ascii, binary, binary_compressed };
 enum class PlyData { ascii, little_endian };

@@ -36,6 +36,7 @@ enum class Format {
   xyz,
   pts,
   raw,
+  grid,
 };
 
 /// What was read, whatever the format.
@@ -69,7 +70,8 @@ const FormatInfo& format_info(Format format);
 std::optional<Format> format_from_name(std::string_view name);
 
 /// Decides by content first (magic numbers, shape of the first lines), then by extension. Never
-/// returns Format::automatic; text of numbers without more evidence is `points`.
+/// returns Format::automatic; text of numbers without more evidence is `points`. Reads no options:
+/// see read_any for text that they tell more about.
 Format detect_format(const Input& input);
 
 /// Reads any format.

@@ -22,6 +22,8 @@ struct Raster {
   std::string name = "image";          ///< of the file, printable, for messages
   double dots_per_inch = 0;            ///< how large it is on paper, when written; 0: not said
 
+  /// @throws Error (bad_data) unless there are as many samples as pixels and channels say.
+  void check() const;
   std::uint16_t at(Index x, Index y, int channel = 0) const {
     return samples[static_cast<std::size_t>((y * width + x) * channels + channel)];
   }

@@ -28,14 +28,28 @@ enum class Symmetrise {
 enum class NanPolicy {
   error,  ///< bad data; only a hole of a point cloud is accepted
   drop,   ///< points: the row is left out; distances: the pair is never joined (+infinity);
-          ///< images: the voxel never enters (+infinity)
+          ///< images: the voxel is absent, see Image::masked
 };
 
-/// What a two-dimensional array (NPY) holds.
+/// What a two-dimensional array (NPY), or a text of numbers, holds.
 enum class ArrayMeaning {
+  automatic,  ///< what its shape, its type and its diagonal say, with a note; else an image (NPY)
+              ///< or points (text)
+  rips,       ///< points or distances, as its diagonal says
   image,      ///< values of pixels
   points,     ///< a point a row
   distances,  ///< a square distance matrix
+};
+
+/// Which number of a pixel is its value.
+enum class Channel {
+  automatic,  ///< the only one there is, or the one that all are equal to
+  grey,       ///< of colours: their luma by ITU-R BT.601, 0.299 R + 0.587 G + 0.114 B, to the
+              ///< nearest integer
+  red,
+  green,
+  blue,
+  alpha,  ///< opacity
 };
 
 /// How an image lies in a file that does not say so itself.
@@ -49,16 +63,18 @@ struct RawLayout {
 /// How input is taken. The defaults refuse whatever is doubtful, with an error that names the
 /// option.
 struct ReadOptions {
-  bool allow_empty = false;                    ///< an input without data is an empty result
-  Symmetrise symmetrise = Symmetrise::none;    ///< of square matrices
-  bool from_correlation = false;               ///< d = 1 - r; the diagonal must be 1
-  bool births_on_diagonal = false;             ///< of square matrices; else it must be 0
-  NanPolicy nan = NanPolicy::error;            ///< see NanPolicy
-  ArrayMeaning array = ArrayMeaning::image;    ///< used by read_any for 2-D arrays
-  std::optional<RawLayout> raw = {};           ///< used by read_any for Format::raw
-  const RunContext* context = nullptr;         ///< budget and stop token; may be null
-  std::function<void(std::string)> note = {};  ///< told what was assumed, one line each
-  std::vector<Index>* dropped = nullptr;       ///< receives the rows left out, ascending
+  bool allow_empty = false;                      ///< an input without data is an empty result
+  Symmetrise symmetrise = Symmetrise::none;      ///< of square matrices
+  bool from_correlation = false;                 ///< d = 1 - r; the diagonal must be 1
+  bool births_on_diagonal = false;               ///< of square matrices; else it must be 0
+  NanPolicy nan = NanPolicy::error;              ///< see NanPolicy
+  ArrayMeaning array = ArrayMeaning::automatic;  ///< used by read_any
+  std::vector<std::string> columns = {};         ///< of tables: names, "3", "2-5"; empty: all
+  Channel channel = Channel::automatic;          ///< of pictures
+  std::optional<RawLayout> raw = {};             ///< used by read_any for Format::raw
+  const RunContext* context = nullptr;           ///< budget and stop token; may be null
+  std::function<void(std::string)> note = {};    ///< told what was assumed, one line each
+  std::vector<Index>* dropped = nullptr;         ///< receives the rows left out, ascending
 };
 
 // Every reader takes a path ("-" is standard input) or an open Input. All throw
@@ -106,10 +122,10 @@ SparseDistances read_sparse(const Input& input, const ReadOptions& options = {})
 
 /// An array of any dimension from NPY, NPZ, PNG (grey), PGM, DIPHA or NIfTI, by content. The axes
 /// are those of the file, in C order: a picture has (y, x), DIPHA and NIfTI have (x, y, z).
-/// +-infinity is legal; NaN is an error or, with NanPolicy::drop, +infinity. An array (but one of
-/// an archive) that would take more than a third of the memory left in the budget stays in its
-/// file, or in a temporary one where it is stored in another way than in memory; the file must not
-/// change meanwhile.
+/// +-infinity is legal; NaN is an error or, with NanPolicy::drop, an absent voxel. An array (but
+/// one of an archive) that would take more than a third of the memory left in the budget stays in
+/// its file, or in a temporary one where it is stored in another way than in memory; the file must
+/// not change meanwhile.
 Image read_image(const std::filesystem::path& path, const ReadOptions& options = {});
 Image read_image(const Input& input, const ReadOptions& options = {});
 /// NumPy's .npy: booleans, integers, floats (16, 32, 64 bits), both byte orders and both storage
@@ -189,7 +205,7 @@ struct Mesh {
   std::vector<std::size_t> offsets{0};
   std::vector<double> values;  ///< one a vertex, or empty
 
-  std::size_t faces() const { return offsets.size() - 1; }
+  std::size_t faces() const { return offsets.empty() ? 0 : offsets.size() - 1; }
 };
 
 /// OFF (Geomview), text. @throws Error (bad_data) also on a face that names a missing vertex.

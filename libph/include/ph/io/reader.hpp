@@ -47,8 +47,8 @@ class Input {
   };
 
   /// @param path a file, a FIFO, or "-" for standard input. "FILE.npz:NAME" asks for one array of
-  /// an
-  ///        archive, see `member`, unless a file has this name.
+  ///        an archive, "FILE.ply:NAME" for one property, see `member`, unless a file has this
+  ///        name.
   /// @param context its memory budget bounds what a stream may hold and its stop token is polled;
   ///        it must outlive the input. Without one a stream may take half of the machine's memory.
   /// @throws Error (no_input) if it is missing, unreadable or a directory; Error (io) if reading
@@ -75,7 +75,7 @@ class Input {
   std::size_t size() const { return text_.size(); }
   const std::string& name() const { return name_; }            ///< printable
   const std::string& extension() const { return extension_; }  ///< lower case, with its dot
-  /// The part of an archive that was asked for; empty: none.
+  /// The part of an archive or of a mesh that was asked for; empty: none.
   const std::string& member() const { return member_; }
   const RunContext* context() const { return context_; }
   /// Whether it exceeds the memory budget: to be read block by block, see `done_with`.
@@ -157,15 +157,23 @@ class TextLines {
 std::vector<std::string> header_names(std::string_view line);
 
 /// Which numbers a cell may hold besides finite ones.
-enum class Allow { finite, infinite, any };
+enum class Allow {
+  finite,
+  infinite,
+  any,      ///< also NaN
+  missing,  ///< also nothing, before a comma or a semicolon or between quotes: NaN
+};
 
 /// Splits the current line into cells. The first separator of the first line with two cells
 /// (blanks,
 /// ',' or ';') is the file's separator: another one is an error, so that a decimal comma cannot
-/// pass for two cells. Blanks around ',' and one separator at the end of the line are accepted.
+/// pass for two cells. Blanks around ',' and one separator at the end of the line are accepted. A
+/// cell may stand between double quotes; separators between them are part of it.
 class Cells {
  public:
-  explicit Cells(const TextLines& lines) : lines_(&lines) {}
+  /// @param hint what the user can do about a cell that is no number and does not say itself why.
+  explicit Cells(const TextLines& lines, std::string_view hint = {})
+      : lines_(&lines), hint_(hint) {}
 
   /// Starts on the current line.
   void start() { start_in(lines_->line()); }
@@ -186,17 +194,22 @@ class Cells {
   std::uint64_t unsigned64(const char* what);
   /// The next cell as it is written.
   std::string_view word();
+  /// Goes past the next cell, whatever it holds, nothing too. @return it as it is written.
+  std::string_view skip();
   /// @throws Error (bad_data) naming the next cell, if there is one. @param expected "i j distance"
   void expect_end(std::string_view expected);
 
  private:
   template <class T>
   T whole(T least, T most, const char* what);
+  const char* end_of_cell(const char* begin) const;
+  bool is_empty_cell(const char* begin, const char* stop) const;
   void after_cell(const char* end_of_cell);
   [[noreturn]] void reject(const char* begin, const char* stop, std::string what,
                            std::string expected) const;
 
   const TextLines* lines_;
+  std::string_view hint_;
   const char* position_ = nullptr;
   const char* end_ = nullptr;
   char separator_ = 0;  // 0: not seen yet

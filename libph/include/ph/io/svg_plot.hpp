@@ -21,21 +21,40 @@ enum class PlotKind {
 };
 std::optional<PlotKind> plot_kind_named(std::string_view name);
 
+/// Of a whole picture, pixels; in SVG the pixels of CSS.
+struct PlotSize {
+  int width = 0, height = 0;  ///< 1 to kMostPlotPixels
+};
+inline constexpr int kMostPlotPixels = 10'000;
+
+/// What of the filtration values is on the axis. Classes beyond it are counted, not drawn.
+struct PlotAxis {
+  std::optional<double> low, high;  ///< low < high; empty: as far as the values go
+  bool logarithmic = false;         ///< values of at most 0 lie at its beginning
+};
+
 /// How a barcode is drawn.
 struct PlotOptions {
   PlotKind kind = PlotKind::barcode;
   std::string title;                             ///< empty: none
   std::string value_label = "Filtration value";  ///< names the axis and, in brackets, its unit
+  std::vector<int> dims = {};                    ///< of a barcode that are drawn; empty: all
+  std::optional<PlotSize> size = {};  ///< the picture fits into it, white around it; default: 88 mm
+  PlotAxis axis = {};
+  /// The values are those of negated data (superlevel sets): the axis names the data's own, which
+  /// then fall from left to right.
+  bool negated = false;
 };
 
 /// A picture of a barcode as a complete SVG document, sized for a column of a paper (88 mm).
 /// Text stays text. However many bars there are, the file stays below 1 MB: what cannot be told
 /// apart is drawn once.
+/// @throws Error (usage) on an axis without room: low >= high, or logarithmic from at most 0.
 std::string svg_plot(const Barcode& barcode, const PlotOptions& options = {});
 
 /// The same of a merge tree (MergeTree::branches): one line a class over the filtration value, and
 /// where it dies a line to the class that it joins. Those of little persistence are a density.
-/// `options.kind` has no say.
+/// `options.kind` has no say. @throws Error (bad_data) on NaN, or an elder branch that is not there.
 std::string svg_plot(std::span<const Branch> tree, const PlotOptions& options = {});
 
 /// A picture made of points or pixels whose colours have names.

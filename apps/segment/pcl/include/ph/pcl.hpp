@@ -180,7 +180,8 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
   /// Half of it at a range of one metre, at least, growing with the square of the range; metres.
   void setPlaneNoise(double metres) { options_.plane_noise = metres; }
   double getPlaneNoise() const { return options_.plane_noise; }
-  /// Where the sensor stood; else the origin that the cloud states.
+  /// Where the sensor stood; else where the rays of the pixels of an organised cloud meet, if that
+  /// can be told, else the origin that the cloud states.
   void setViewPoint(float x, float y, float z) { options_.viewpoint = segment::Vec3{x, y, z}; }
   void useSensorOriginAsViewPoint() { options_.viewpoint.reset(); }
   /// Where the sensor stands, if that was set, else where the input cloud states.

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "option_scopes.hpp"
+
+#include <array>
+#include <bit>
+
+namespace ph::barcode {
+namespace {
+
+using app::OptionScope;
+
+constexpr app::Situations kAllPairs = kPoints | kMatrix | kTriangle, kRips = kAllPairs | kSomePairs,
+                          kCubical = kImage | kVoxels,
+                          kListed = kSimplices | kLowerStar | kBoundary | kMesh,
+                          kComputed = kRips | kCubical | kListed;
+
+constexpr std::string_view kOfRips = "Rips complexes of points and distances";
+constexpr std::string_view kOfAllPairs = "points and distance matrices";
+constexpr std::string_view kOfMatrices = "full distance matrices (--format distance)";
+constexpr std::string_view kOfDistances = "distances (--format distance)";
+constexpr std::string_view kOfInputs = "what a barcode is computed of";
+
+constexpr std::array kScopes{
+    OptionScope{"format", kComputed, kOfInputs},
+    OptionScope{"values", kComputed, kOfInputs},  // the readers know better
+    OptionScope{"allow-empty", kComputed, kOfInputs},
+    OptionScope{"symmetrise", kMatrix, kOfMatrices},
+    OptionScope{"from-correlation", kMatrix | kTriangle | kSomePairs, kOfDistances},
+    OptionScope{"diagonal", kMatrix, kOfMatrices},
+    OptionScope{"nan", kRips | kCubical, "points, distances and images"},
+    OptionScope{"raw-shape", kImage, "images"},
+    OptionScope{"raw-type", kImage, "images"},
+    OptionScope{"raw-big-endian", kImage, "images"},
+    OptionScope{"raw-skip", kImage, "images"},
+    OptionScope{"columns", kComputed, kOfInputs},  // the readers know better
+    OptionScope{"channel", kComputed, kOfInputs},
+    OptionScope{"loops", kComputed, kOfInputs},
+    OptionScope{"complex", kComputed, kOfInputs},
+    OptionScope{"threshold", kComputed, kOfInputs},
+    OptionScope{"metric", kPoints, "Rips complexes of points"},
+    OptionScope{"construction", kCubical, "images"},
+    OptionScope{"superlevel", kCubical, "images"},
+    OptionScope{"periodic", kCubical, "images"},
+    OptionScope{"slab-layers", kCubical, "images"},
+    OptionScope{"voxel", kVoxels, "points with --complex cubical"},
+    OptionScope{"voxel-value", kVoxels, "points with --complex cubical"},
+    OptionScope{"collapse", kRips, kOfRips},
+    OptionScope{"subsample", kAllPairs, kOfAllPairs},
+    OptionScope{"subsample-radius", kAllPairs, kOfAllPairs},
+    OptionScope{"approximate", kAllPairs, kOfAllPairs},
+    OptionScope{"vertex-weights", kRips, kOfRips},
+    OptionScope{"dtm", kAllPairs, kOfAllPairs},
+    OptionScope{"weight-exponent", kRips, kOfRips},
+    OptionScope{"max-dim", kComputed, kOfInputs},
+    OptionScope{"min-dim", kComputed, kOfInputs},
+    OptionScope{"field", kComputed, kOfInputs},
+    OptionScope{"engine", kComputed, kOfInputs},
+    OptionScope{"check", kComputed, kOfInputs},
+    OptionScope{"min-persistence", kComputed, kOfInputs},
+    OptionScope{"representatives", kComputed, kOfInputs},
+    OptionScope{"dry-run", kComputed, kOfInputs},
+    OptionScope{"plot", kComputed | kBarcode, "one barcode"},
+    OptionScope{"plot-kind", kComputed | kBarcode, "one barcode"},
+    OptionScope{"dims", kComputed | kBarcode, "one barcode"},
+    OptionScope{"title", kComputed | kBarcode, "one barcode"},
+    OptionScope{"size", kComputed | kBarcode, "one barcode"},
+    OptionScope{"axis", kComputed | kBarcode, "one barcode"},
+};
+
+}  // namespace
+
+std::span<const OptionScope> option_scopes() { return kScopes; }
+
+std::string_view name_of(Situation situation) {
+  constexpr std::array<std::string_view, 12> kNames{"points",
+                                                    "a full distance matrix",
+                                                    "a triangle without its diagonal",
+                                                    "some distances only",
+                                                    "an image",
+                                                    "points with --complex cubical",
+                                                    "simplices",
+                                                    "simplices with --complex lower-star",
+                                                    "a boundary matrix",
+                                                    "a mesh with values",
+                                                    "a barcode",
+                                                    "two barcodes to compare"};
+  return kNames[static_cast<std::size_t>(std::countr_zero(app::Situations{situation}))];
+}
+
+}  // namespace ph::barcode

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <string_view>
+
+#include "option_scope.hpp"
+
+namespace ph::barcode {
+
+/// What was read, with what is made of it: options differ in where they do something.
+enum Situation : app::Situations {
+  kPoints = 1 << 0,       ///< their Rips complex
+  kMatrix = 1 << 1,       ///< of all distances, a full square
+  kTriangle = 1 << 2,     ///< the same, half of it
+  kSomePairs = 1 << 3,    ///< sparse distances
+  kImage = 1 << 4,        ///< with cubical complex
+  kVoxels = 1 << 5,       ///< points with --complex cubical
+  kSimplices = 1 << 6,    ///< with values of their own
+  kLowerStar = 1 << 7,    ///< simplices with values of the vertices
+  kBoundary = 1 << 8,     ///< a boundary matrix
+  kMesh = 1 << 9,         ///< with values of the vertices
+  kBarcode = 1 << 10,     ///< a stored one, computed earlier
+  kComparison = 1 << 11,  ///< of two stored ones
+};
+
+/// All options that do nothing in some of them.
+std::span<const app::OptionScope> option_scopes();
+
+/// What a message calls a situation.
+std::string_view name_of(Situation situation);
+
+}  // namespace ph::barcode

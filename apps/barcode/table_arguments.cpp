@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "table_arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <variant>
+
+#include "choices.hpp"
+#include "option_scopes.hpp"
+
+namespace ph::barcode {
+
+using app::add_choice;
+using app::add_value;
+
+namespace {
+
+void take_columns(Arguments& a, const std::string& text) {
+  a.read.columns.clear();
+  for (std::string_view rest = text;;) {
+    const std::size_t comma = rest.find(',');
+    std::string_view word = rest.substr(0, comma);
+    while (word.starts_with(' ')) word.remove_prefix(1);
+    while (word.ends_with(' ')) word.remove_suffix(1);
+    if (word.empty())
+      throw Error(ErrorKind::usage,
+                  fmt::format("--columns: found '{}', expected names or numbers such as x,y or 2-3",
+                              printable(text, 80)));
+    a.read.columns.emplace_back(word);
+    if (comma == std::string_view::npos) return;
+    rest.remove_prefix(comma + 1);
+  }
+}
+
+}  // namespace
+
+void add_table_options(CLI::App& app, Arguments& a) {
+  const std::string group = "Input";
+  add_value(app, "--columns", "LIST",
+            "columns of a table that are read, by the names in its header or by numbers from 1: "
+            "x,y or 2-4 or 1,3 (default: all but an index)",
+            [&a](const std::string& text) { take_columns(a, text); })
+      ->group(group);
+  add_choice(app, "--channel", {"grey", "red", "green", "blue", "alpha"},
+             "what of a colour picture is read (default: its grey, if it has no colours); grey of "
+             "colours is their luma, 0.299 R + 0.587 G + 0.114 B",
+             [&a](std::size_t i) {
+               constexpr std::array kChannels{Channel::grey, Channel::red, Channel::green,
+                                              Channel::blue, Channel::alpha};
+               a.read.channel = kChannels[i];
+             })
+      ->group(group);
+}
+
+void check_table_arguments(Arguments& a) {
+  ArrayMeaning& meaning = a.read.array;
+  if (a.format == Format::distance) meaning = ArrayMeaning::distances;
+  if (meaning != ArrayMeaning::automatic) return;
+  // An option that does something for one kind of input only says what the input is.
+  const auto is_only_for = [&](app::Situations kinds) {
+    return std::ranges::any_of(
+        a.given, [&](const app::OptionScope* scope) { return (scope->where & ~kinds) == 0; });
+  };
+  const bool is_cubical = a.complex == ComplexKind::cubical;
+  if (a.format == Format::points || is_only_for(kPoints) || is_only_for(kVoxels))
+    meaning = ArrayMeaning::points;
+  else if (a.complex == ComplexKind::rips ||
+           (!is_cubical && is_only_for(kPoints | kMatrix | kTriangle | kSomePairs)))
+    meaning = ArrayMeaning::rips;
+  else if (is_cubical || is_only_for(kImage | kVoxels))
+    meaning = ArrayMeaning::image;
+}
+
+std::string note_on_mesh(const ReadResult& read, const Arguments& a) {
+  const auto* const mesh = std::get_if<Mesh>(&read.data);
+  if (a.complex == ComplexKind::lower_star || mesh == nullptr || mesh->faces() == 0 ||
+      !mesh->values.empty())
+    return {};
+  return fmt::format(
+      "the {} faces are not used, the vertices are points; --values FILE has values of the "
+      "vertices "
+      "and filters the mesh",
+      mesh->faces());
+}
+
+}  // namespace ph::barcode

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "arguments.hpp"
+
+namespace ph::barcode {
+
+/// What of a table or a picture is read: --columns, --channel.
+void add_table_options(CLI::App& app, Arguments& a);
+
+/// Decides what a table means where other options leave one reading only.
+void check_table_arguments(Arguments& a);
+
+/// What a result does with a mesh that has no values, as a note; empty: it is no such mesh.
+std::string note_on_mesh(const ReadResult& read, const Arguments& a);
+
+}  // namespace ph::barcode

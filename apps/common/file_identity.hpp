@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <compare>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ph::app {
+
+/// A file that a program writes, and the option that asks for it: "--report".
+struct Written {
+  std::string_view option;
+  std::string path;
+};
+
+/// A file by whatever name: by its place on the disk, or, as long as it is not there, by the folder
+/// that it will be in. "-" is what standard output goes to.
+struct FileIdentity {
+  std::uint64_t device = 0, inode = 0;
+  std::string name;  ///< in that folder; empty: the file is there
+  auto operator<=>(const FileIdentity&) const = default;
+};
+
+/// The inputs of a run, which no output may replace.
+class InputFiles {
+ public:
+  /// @param path "-": what standard input comes from. What is no file has nothing to lose.
+  void add(const std::string& path);
+  /// @throws Error (usage) "--output: a.csv is the input ./a.csv; …".
+  void require_other(const Written& output) const;
+  /// The input that an output would replace; null: none.
+  const std::string* replaced_by(const std::string& output) const;
+
+ private:
+  std::map<FileIdentity, std::string> paths_;
+};
+
+/// @throws Error (usage) "--report: x is written by --plot, too" if two outputs are one file.
+void require_distinct(std::span<const Written> outputs);
+
+/// Both: each output is a file of its own, and none of the inputs.
+/// @param force outputs may replace inputs. @return whether one does.
+bool require_separate(const InputFiles& inputs, std::span<const Written> outputs, bool force);
+
+}  // namespace ph::app

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "depth_camera.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "ph/core/error.hpp"
+
+namespace ph::segment {
+
+void load_camera(DepthInput& image, app::Session& session) {
+  if (image.calibration.empty()) return;
+  const auto presets = camera_presets();
+  const auto preset = std::ranges::find(presets, image.calibration, &CameraPreset::name);
+  if (preset != presets.end()) {
+    image.camera = preset->camera;
+    session.note(
+        fmt::format("--camera {}: nominal values, which each camera misses by some per "
+                    "cent; its calibration is better",
+                    preset->name));
+    return;
+  }
+  image.camera = read_camera(image.calibration, &session.context());
+  if (image.camera->lens.model != Lens::Model::none) {
+    session.note(
+        fmt::format("--camera {}: the depth image is taken for a raw one, and the bending "
+                    "of its lens is undone",
+                    printable(image.calibration)));
+  }
+}
+
+Camera camera_for(const DepthInput& image, Index width, Index height, app::Session& session) {
+  const Camera& camera = *image.camera;
+  Camera result;
+  try {
+    result = camera.scaled_to(width, height);
+  } catch (const Error& error) {
+    throw Error(error.kind(),
+                fmt::format("--camera {}: {}", printable(image.calibration), error.what()));
+  }
+  if (camera.width != 0 && (camera.width != width || camera.height != height)) {
+    const Intrinsics& k = result.intrinsics;
+    session.note(
+        fmt::format("--camera {}: calibrated for {} x {} pixels; for {} x {} it is scaled to "
+                    "--intrinsics {:.6g},{:.6g},{:.6g},{:.6g}",
+                    printable(image.calibration), camera.width, camera.height, width, height, k.fx,
+                    k.fy, k.cx, k.cy));
+  }
+  return result;
+}
+
+}  // namespace ph::segment

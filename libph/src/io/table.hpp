@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ph/io/formats.hpp"
+
+// What is what in a table: names, an index, numbers; and what a square one may be.
+
+namespace ph::detail {
+
+/// Where the numbers of a text table are.
+struct TableLayout {
+  std::vector<std::string> header;   ///< names of the columns, on the first line; empty: none
+  std::size_t header_line = 0;       ///< its number, from 1
+  std::size_t width = 0;             ///< cells of the first row; 0: there is none
+  std::vector<std::size_t> columns;  ///< those that hold numbers to be read, ascending
+  bool names_rows = false;           ///< the first column has names and is not among them
+  std::vector<std::string> notes;    ///< what was assumed
+
+  /// Whether column k is one of `columns`, for all k < width.
+  std::vector<bool> taken() const;
+  /// Goes to the first row, behind the header. @return whether there is one.
+  bool start(TextLines& lines) const;
+  /// Tells options.note the notes.
+  void tell(const ReadOptions& options) const;
+};
+
+/// Looks at the first lines and, where they leave it open, at the first column. A first column is
+/// left out if it has no name, or if it is an index by name (id, index, …) and counts the rows.
+/// @throws Error (usage) if options.columns names what is not there.
+TableLayout table_layout(const Input& input, const ReadOptions& options);
+
+/// A cell without the double quotes around it.
+std::string_view without_quotes(std::string_view cell);
+/// Whether a line ends in a separator: its last cell is empty if another one is expected.
+bool ends_empty(std::string_view line);
+
+/// The columns that a list of names and numbers from 1 ("x", "3", "2-5") stands for, ascending.
+/// @param header may be empty. @throws Error (usage) on one that is not there or stands twice.
+std::vector<std::size_t> chosen_columns(const std::vector<std::string>& wanted,
+                                        const std::vector<std::string>& header, std::size_t width,
+                                        const Input& input);
+
+/// What a square table of numbers looks like.
+enum class SquareKind {
+  nothing,       ///< no symmetric matrix
+  zeros,         ///< a diagonal of zeros, but not symmetric, or with negative entries
+  distances,     ///< symmetric, not negative, with a diagonal of zeros
+  correlations,  ///< symmetric, from -1 to 1, with a diagonal of ones
+  symmetric,     ///< symmetric only
+};
+
+/// Most rows of a submatrix that `kind_of_square` is asked about.
+constexpr std::size_t kMostLookedAt = 64;
+/// Rounding, relative to the largest entry: of a diagonal, and of the two entries of a pair.
+constexpr double kRounding = 1e-6;
+
+/// @param block the entries of a principal submatrix, row by row, `side`^2 of them. NaN fits all.
+SquareKind kind_of_square(std::span<const double> block, std::size_t side);
+
+/// Whether more than half of what is not on the diagonal is 0: of pictures, never of distances.
+bool is_mostly_zero(std::span<const double> block, std::size_t side);
+
+/// Why an array is taken for what it is taken for: for a note.
+struct ArrayGuess {
+  ArrayMeaning meaning = ArrayMeaning::image;
+  std::string note;  ///< empty: there was no choice
+};
+/// What an NPY array holds, where options.array leaves it open.
+/// @throws Error (bad_data) on what looks like correlations: no meaning is safe.
+ArrayGuess guess_array(const Input& input, const ReadOptions& options);
+
+/// What a magic number or an extension says; nothing of a text of numbers.
+std::optional<Format> format_by_content(const Input& input);
+
+/// What a text of numbers without a magic number holds.
+struct TextGuess {
+  Format format = Format::points;
+  SquareKind square = SquareKind::nothing;  ///< of a square table
+  /// Of a table; rows are counted up to one more than columns, and 0 if they differ in length.
+  std::size_t rows = 0, columns = 0;
+  bool same_names = false;                  ///< its rows have the names of its columns
+};
+TextGuess guess_text(const Input& input, const ReadOptions& options);
+
+/// "a JPEG picture" and what to do with it, for files that this library knows but does not read.
+struct ForeignKind {
+  std::string_view name;
+  std::string_view advice;
+};
+/// By magic number; nothing if it is not known.
+std::optional<ForeignKind> foreign_kind(std::string_view bytes);
+
+/// @throws Error (usage) if options.columns were given for what has none to choose.
+void refuse_columns(const ReadOptions& options, std::string_view found);
+
+/// The option of these that asks for a square matrix: "--from-correlation"; empty: none.
+std::string_view matrix_option(const ReadOptions& options);
+
+}  // namespace ph::detail

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <memory_resource>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "ph/complex/rips_graph.hpp"
+
+namespace ph::detail {
+
+/// The first edges of a RipsGraph, those that are there when loops are born. At each vertex
+/// neighbours come in the order of their edges, so that the graph at any earlier value is there,
+/// too.
+class EarlyGraph {
+ public:
+  using Key = RipsGraph::Key;
+  struct Neighbour {
+    std::uint32_t vertex;
+    Key key;
+  };
+
+  /// @param last value of an edge.
+  EarlyGraph(const RipsGraph& graph, double last, const RunContext& context)
+      : graph_(graph), last_value_(last), offsets_(&context.memory), neighbours_(&context.memory) {
+    edges_ = edges_up_to(last);
+    const auto n = static_cast<std::size_t>(graph.size());
+    offsets_.assign(n + 1, 0);
+    for (Key key = 1; key <= edges_; ++key) {
+      ++offsets_[graph.edge(key).u + 1];
+      ++offsets_[graph.edge(key).v + 1];
+    }
+    for (std::size_t v = 0; v < n; ++v) offsets_[v + 1] += offsets_[v];
+    neighbours_.resize(offsets_.back());
+    std::pmr::vector<std::size_t> next(offsets_.begin(), offsets_.end() - 1, &context.memory);
+    for (Key key = 1; key <= edges_; ++key) {
+      const FlagEdge& e = graph.edge(key);
+      neighbours_[next[e.u]++] = {e.v, key};
+      neighbours_[next[e.v]++] = {e.u, key};
+    }
+  }
+
+  std::size_t vertices() const { return offsets_.size() - 1; }
+  Key edges() const { return edges_; }
+  double last_value() const { return last_value_; }
+  /// How many edges have a value <= `last`: the key of the last of them.
+  Key edges_up_to(double last) const {
+    // Edges are sorted as far as anybody looks: not beyond twice as many as are wanted.
+    const Key all = static_cast<Key>(graph_.edge_count());
+    Key low = 0, high = std::min<Key>(1, all);
+    while (high < all && graph_.value(high) <= last) {
+      low = high;
+      high = high < all / 2 ? 2 * high : all;
+    }
+    while (low < high) {
+      const Key middle = low + (high - low) / 2;
+      if (graph_.value(middle + 1) <= last)
+        low = middle + 1;
+      else
+        high = middle;
+    }
+    return low;
+  }
+  double value(Key key) const { return graph_.value(key); }
+  const FlagEdge& edge(Key key) const { return graph_.edge(key); }
+
+  /// Calls `use(vertex, key)` for the neighbours of v by edges up to `limit`, one excepted.
+  template <class Use>
+  void for_each_neighbour(std::uint32_t v, Key limit, Key except, Use&& use) const {
+    for (const Neighbour& n : neighbours(v)) {
+      if (n.key > limit) return;
+      if (n.key != except) use(n.vertex, n.key);
+    }
+  }
+  /// Nothing if no edge up to the last one joins them.
+  std::optional<Key> key_of(std::uint32_t u, std::uint32_t v) const {
+    const auto of_u = neighbours(u), of_v = neighbours(v);
+    const bool u_has_fewer = of_u.size() <= of_v.size();
+    for (const Neighbour& n : u_has_fewer ? of_u : of_v)
+      if (n.vertex == (u_has_fewer ? v : u)) return n.key;
+    return std::nullopt;
+  }
+  /// The vertex that stands for a point. Precondition: there is one.
+  std::uint32_t vertex_of(Index point) const {
+    if (!graph_.has_names())
+      return static_cast<std::uint32_t>(std::clamp<Index>(point, 0, graph_.size() - 1));
+    std::uint32_t low = 0, high = static_cast<std::uint32_t>(graph_.size());  // names ascend
+    while (low + 1 < high) {
+      const std::uint32_t middle = low + (high - low) / 2;
+      (graph_.name(middle) <= point ? low : high) = middle;
+    }
+    return low;
+  }
+  Index name(std::uint32_t v) const { return graph_.name(v); }
+
+ private:
+  std::span<const Neighbour> neighbours(std::uint32_t v) const {
+    return std::span(neighbours_).subspan(offsets_[v], offsets_[v + 1] - offsets_[v]);
+  }
+
+  const RipsGraph& graph_;
+  double last_value_;
+  Key edges_ = 0;
+  std::pmr::vector<std::size_t> offsets_;
+  std::pmr::vector<Neighbour> neighbours_;
+};
+
+}  // namespace ph::detail

@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: MIT
+"""The options and the kinds of input of ph-segment, for option_inputs.py."""
+import math
+import os
+import random
+import struct
+import subprocess
+import tempfile
+import zlib
+
+WIDTH, HEIGHT, FOCAL = 96, 72, 150
+CAMERA = f"{FOCAL},{FOCAL},{WIDTH / 2},{HEIGHT / 2}"
+RESULTS = ["--labels", "l-*.csv", "--barcode", "b-*.csv"]
+
+
+def rows(Row):
+    plot = [*RESULTS, "--plot", "x-*.svg"]
+
+    def row(*arguments, beside=RESULTS, **how):
+        return Row(*arguments, beside=beside, **how)
+    return {
+        "--frames-from": row("--frames-from", "list.txt"),
+        "--stable-labels": row("--stable-labels"),
+        "--depth": row("--depth", "other.png"),
+        "--color": row("--color", "colour.png", beside=["-o", "o-*.pcd"]),
+        "--intrinsics": row("--intrinsics", "100,100,48,36"),
+        "--depth-scale": row("--depth-scale", "900"),
+        "--allow-empty": row("--allow-empty", variant="empty", sign="--allow-empty: not needed"),
+        "--max-range": row("--max-range", "0.93"),
+        "--crop": row("--crop", "-0.1,0.1,-1,1,0,2"),
+        "--plane": row("--plane", "off"),
+        "--plane-distance": row("--plane-distance", "0.08"),
+        "--plane-noise": row("--plane-noise", "0.02"),
+        "--viewpoint": row("--viewpoint", "0.5,0.5,0.2"),
+        "--method": row("--method", "paper"),
+        "--supervoxels": row("--supervoxels", "0.06"),
+        "--voxel": row("--voxel", "0.02"),
+        "--min-persistence": row("--min-persistence", "1.5"),
+        "--distance": row("--distance", "0.012"),
+        "--steps": row("--steps", "3"),
+        "--no-check": row("--no-check", lost=", checked"),
+        "--cut": row("--cut", "0.011"),
+        "--min-part": row("--min-part", "600"),
+        "--min-size": row("--min-size", "500"),
+        "--objects": row("--objects", default=True),
+        "--parts": row("--parts"),
+        "--output": row("-o", "o-*.pcd"),
+        "--labels": row("--labels", "l-*.csv", beside=[]),
+        "--json": row("--json", "x.json"),
+        "--signatures": row("--signatures", beside=["--json", "x.json"]),
+        "--tree": row("--tree", "t-*.tree"),
+        "--barcode": row("--barcode", "b-*.csv", beside=[]),
+        "--plot": row("--plot", "x-*.svg"),
+        "--plot-kind": row("--plot-kind", "diagram", beside=plot),
+        "--plot-view": row("--plot-view", "30,20", beside=[*plot, "--plot-kind", "cloud"]),
+        "--title": row("--title", "Table", beside=plot),
+        "--size": row("--size", "300x200", beside=plot),
+        "--axis": row("--axis", "0.001,0.02", beside=plot),
+        "--coloured": row("--coloured", "c-*.pcd"),
+        "--explain": row("--explain", "1,2"),
+        "--picture": row("--picture", "p-*.png"),
+        "--report": row("--report", "r-*.html"),
+        "--threads": row("--threads", "1", sign="threads 1"),
+        "--memory-limit": row("--memory-limit", "300MiB", sign="memory limit 300 MiB"),
+        "--progress": row("--progress", "json", sign="progress json"),
+        "--quiet": row("--quiet", lost="segment"),
+        "--verbose": row("--verbose", sign="memory limit"),
+        "--force": row("--force", beside=["--json", "@input"]),
+        "--version": row("--version"),
+        "--help": row("--help"),
+    }
+
+
+def png(width, lines, bits, colour):
+    def chunk(name, content):
+        return (struct.pack(">I", len(content)) + name + content
+                + struct.pack(">I", zlib.crc32(name + content)))
+    header = struct.pack(">IIBBBBB", width, len(lines), bits, colour, 0, 0, 0)
+    data = b"".join(b"\0" + line for line in lines)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(data))
+            + chunk(b"IEND", b""))
+
+
+def depths(second, first=24):
+    """Millimetres: a table at 1 m, a box 10 cm high, `first`
+    pixels wide, whose top has waves, a flat thing, another box `second` pixels wide, and a rod
+    above it that hides its middle."""
+    random.seed(7)
+    image = []
+    for y in range(HEIGHT):
+        row = []
+        for x in range(WIDTH):
+            depth = 1000
+            if 10 <= x < 10 + first and 14 <= y < 52:
+                depth = round(900 + 8 * math.cos(2 * math.pi * (x - 10) / 12))
+            if 2 <= x < 8 and 56 <= y < 68:
+                depth = 985
+            if 52 <= x < 52 + second and 10 <= y < 60:
+                depth = 860
+            if 33 <= y < 37 and x > 44:
+                depth = 700
+            row.append(depth + random.choice((-1, 0, 0, 1)))
+        image.append(row)
+    return image
+
+
+def points_of(image):
+    for y, row in enumerate(image):
+        for x, depth in enumerate(row):
+            z = depth / 1000
+            yield (x - WIDTH / 2) * z / FOCAL, (y - HEIGHT / 2) * z / FOCAL, z
+
+
+def text_of(points):
+    return "".join(f"{x:.5f} {y:.5f} {z:.5f}\n" for x, y, z in points).encode()
+
+
+def pcd(points, width, height):
+    return (f"VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH {width}\n"
+            f"HEIGHT {height}\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {width * height}\n"
+            "DATA ascii\n").encode() + text_of(points)
+
+
+def ply(points):
+    return (f"ply\nformat ascii 1.0\nelement vertex {len(points)}\nproperty float x\n"
+            "property float y\nproperty float z\nend_header\n").encode() + text_of(points)
+
+
+def tree(program, cloud, arguments):
+    with tempfile.TemporaryDirectory() as folder:
+        with open(os.path.join(folder, "s.pcd"), "wb") as file:
+            file.write(cloud)
+        subprocess.run([program, "s.pcd", "--tree", "t.tree", "--quiet", *arguments], cwd=folder,
+                       check=True)
+        with open(os.path.join(folder, "t.tree"), "rb") as file:
+            return file.read()
+
+
+def inputs(Input, program):
+    import option_inputs
+    Row = option_inputs.Row
+    image, other = depths(36), depths(36, 12)
+    points = list(points_of(image))
+    organised = pcd(points, WIDTH, HEIGHT)
+    sixteen = png(WIDTH, [struct.pack(f">{WIDTH}H", *row) for row in image], 16, 0)
+    beside = {
+        "list.txt": b"next.pcd\n", "images.txt": b"other.png\n", "next.pcd": organised, "other.png":
+        png(WIDTH, [struct.pack(f">{WIDTH}H", *row) for row in other], 16, 0),
+        "colour.png": png(WIDTH, [bytes([90, 160, 30]) * WIDTH] * HEIGHT, 8, 2)}
+    streams = {"--explain": Row("--explain", "1,2", beside=RESULTS),
+               "--force": Row("--force", beside=["--json", "@input"])}
+    moved = {"--viewpoint": Row("--viewpoint", "0.3,0,0", beside=[*RESULTS, "--plane", "off",
+                                                              "--max-range", "1.02"])}
+    supervoxels = {**moved, "--min-persistence": Row("--min-persistence", "0.05", beside=RESULTS),
+                   "--cut": Row("--cut", "0.05", beside=RESULTS)}
+    shape = {"--cut": Row("--cut", "1.5", beside=RESULTS)}
+    apart = {"--objects": Row("--objects", beside=RESULTS),
+             "--parts": Row("--parts", default=True, beside=RESULTS), **shape}
+    paper = {**moved, "--method": Row("--method", "supervoxels", beside=RESULTS)}
+    kinds = [
+        ("organised PCD", ["s.pcd"], {"s.pcd": organised}, shape, pcd([], 0, 1)),
+        ("organised PCD, paper", ["s.pcd", "--method", "paper"], {"s.pcd": organised}, paper, None),
+        ("organised PCD, supervoxels", ["s.pcd", "--method", "supervoxels"], {"s.pcd": organised},
+         supervoxels, None),
+        ("PCD without a plane", ["s.pcd", "--plane", "off", "--max-range", "0.95"],
+         {"s.pcd": organised}, {**shape, "--plane": Row("--plane", "on", default=True, beside=RESULTS)}, None),
+        ("unorganised PCD", ["s.pcd"], {"s.pcd": pcd(points, len(points), 1)}, shape, None),
+        ("PLY", ["s.ply"], {"s.ply": ply(points)}, shape, ply([])),
+        ("XYZ", ["s.xyz"], {"s.xyz": text_of(points)}, shape, b"# none\n"),
+        ("depth image", ["--depth", "d.png", "--intrinsics", CAMERA], {"d.png": sixteen}, shape, None),
+        ("depth INPUT", ["d.png", "--intrinsics", CAMERA], {"d.png": sixteen},
+         {**shape, "--frames-from": Row("--frames-from", "images.txt", beside=RESULTS)}, None),
+        ("tree", ["t.tree"], {"t.tree": tree(program, organised, ["--parts"])}, apart, None),
+        ("tree, paper", ["t.tree"], {"t.tree": tree(program, organised, ["--method", "paper"])}, {},
+         None),
+        ("stream", ["s.pcd", "u.pcd"], {"s.pcd": organised,
+                                        "u.pcd": pcd(list(points_of(other)), WIDTH, HEIGHT)},
+         {**streams, **shape}, None),
+        ("folder", ["in"], {"in/s.pcd": organised,
+                            "in/u.pcd": pcd(list(points_of(other)), WIDTH, HEIGHT)},
+         {**streams, **shape}, None),
+    ]
+    return [Input(name, arguments, {**files, **beside}, rows=given,
+                  **({} if empty is None else {"empty": empty}))
+            for name, arguments, files, given, empty in kinds]

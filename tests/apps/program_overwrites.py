@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: MIT
+"""program_overwrites.py PH_BARCODE PH_SEGMENT: an output is never one of the inputs, nor another
+output, by whatever name, unless --force allows the first."""
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from option_inputs_segment import CAMERA, HEIGHT, WIDTH, depths, pcd, png, points_of
+import struct
+
+BARCODE = SEGMENT = None
+POINTS = b"0 0\n1 0\n1 1\n0 1.25\n"
+ALIASES = ("{}", "./{}", "folder/../{}", "link-{}", "hard-{}")
+
+
+class Overwrites(unittest.TestCase):
+    def setUp(self):
+        self._folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self._folder.cleanup)
+        self.folder = self._folder.name
+        os.mkdir(os.path.join(self.folder, "folder"))
+
+    def write(self, name, content):
+        """A file, and other names for it."""
+        path = os.path.join(self.folder, name)
+        with open(path, "wb") as file:
+            file.write(content)
+        folder, name = os.path.split(path)
+        os.symlink(name, os.path.join(folder, "link-" + name))
+        os.link(path, os.path.join(folder, "hard-" + name))
+
+    def read(self, name):
+        with open(os.path.join(self.folder, name), "rb") as file:
+            return file.read()
+
+    def run_in_folder(self, *arguments, **options):
+        return subprocess.run(arguments, cwd=self.folder, capture_output=True, text=True,
+                              timeout=60, **options)
+
+    def refused(self, program, option, files, *arguments):
+        """Exit 64 that names the option; no file changes."""
+        before = {name: self.read(name) for name in files}
+        run = self.run_in_folder(program, *arguments)
+        self.assertEqual(run.returncode, 64, (arguments, run.stderr))
+        self.assertIn(option, run.stderr)
+        self.assertEqual(run.stdout, "")
+        for name, content in before.items():
+            self.assertEqual(self.read(name), content, arguments)
+
+    def test_ph_barcode(self):
+        inputs = {"p.csv": POINTS, "w.csv": b"0\n0\n0\n0\n", "v.html": POINTS, "s.svg": POINTS}
+        for name, content in inputs.items():
+            self.write(name, content)
+        for alias in ALIASES:
+            points, weights = alias.format("p.csv"), alias.format("w.csv")
+            for option, arguments in (
+                    ("--output", ["p.csv", "-o", points]),
+                    ("--output", ["p.csv", "--vertex-weights", "w.csv", "-o", weights]),
+                    ("--report", ["v.html", "--report", alias.format("v.html")]),
+                    ("--plot", ["s.svg", "--plot", alias.format("s.svg")]),
+                    ("--output", ["p.csv", "w.csv", "-o", "./"]),
+                    ("--output", ["--compare", "p.csv", "w.csv", "-o", weights])):
+                with self.subTest(arguments=arguments):
+                    self.refused(BARCODE, option, inputs, *arguments)
+
+    def test_ph_barcode_values(self):
+        self.write("m.off", b"OFF\n2 1 0\n0 0 0\n1 0 0\n2 0 1\n")
+        self.write("v.csv", b"1\n2\n")
+        self.refused(BARCODE, "--output", ["v.csv"], "m.off", "--values", "v.csv", "-o", "hard-v.csv")
+
+    def test_standard_input_is_an_input(self):
+        self.write("p.csv", POINTS)
+        with open(os.path.join(self.folder, "p.csv"), "rb") as file:
+            run = self.run_in_folder(BARCODE, "-", "-o", "p.csv", stdin=file)
+        self.assertEqual((run.returncode, self.read("p.csv")), (64, POINTS))
+
+    def test_standard_output_is_an_output(self):
+        self.write("p.csv", POINTS)
+        with open(os.path.join(self.folder, "p.csv"), "ab") as file:
+            run = subprocess.run([BARCODE, "p.csv"], cwd=self.folder, stdout=file,
+                                 stderr=subprocess.PIPE, timeout=60)
+        self.assertEqual((run.returncode, self.read("p.csv")), (64, POINTS))
+
+    def test_two_outputs(self):
+        self.write("p.csv", POINTS)
+        for alias in ("x.svg", "./x.svg", "folder/../x.svg"):
+            self.refused(BARCODE, "x.svg", ["p.csv"], "p.csv", "-o", "x.svg", "--plot", alias)
+            self.refused(BARCODE, "x.svg", ["p.csv"], "p.csv", "--plot", "x.svg", "--plot", alias,
+                         "--force")
+        self.assertFalse(os.path.exists(os.path.join(self.folder, "x.svg")))
+        # What keeps nothing may be written twice.
+        run = self.run_in_folder(BARCODE, "p.csv", "-o", "/dev/null", "--quiet")
+        self.assertEqual(run.returncode, 0, run.stderr)
+
+    def test_force(self):
+        self.write("p.csv", POINTS)
+        run = self.run_in_folder(BARCODE, "p.csv", "-o", "p.csv", "--force")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertTrue(self.read("p.csv").startswith(b"dim,birth,death\n"))
+
+    def test_ph_segment(self):
+        image = depths(36)
+        self.write("s.pcd", pcd(list(points_of(image)), WIDTH, HEIGHT))
+        self.write("d.png", png(WIDTH, [struct.pack(f">{WIDTH}H", *row) for row in image], 16, 0))
+        self.write("c.png", png(WIDTH, [bytes([9, 9, 9]) * WIDTH] * HEIGHT, 8, 2))
+        files = ("s.pcd", "d.png", "c.png")
+        depth = ["--depth", "d.png", "--color", "c.png", "--intrinsics", CAMERA]
+        for alias in ALIASES:
+            cloud = alias.format("s.pcd")
+            for option, arguments in (
+                    ("--output", ["s.pcd", "-o", cloud]),
+                    ("--coloured", ["s.pcd", "--coloured", cloud]),
+                    ("--json", ["s.pcd", "--json", cloud]),
+                    ("--picture", [*depth, "--picture", alias.format("d.png")]),
+                    ("--labels", [*depth, "--labels", alias.format("c.png")]),
+                    ("--plot", [*depth, "--plot", alias.format("c.png")])):
+                with self.subTest(arguments=arguments):
+                    self.refused(SEGMENT, option, files, *arguments)
+        self.refused(SEGMENT, "--labels", files, "s.pcd", "--barcode", "x.csv", "--labels", "./x.csv")
+        self.refused(SEGMENT, "--output", files, "s.pcd", "hard-s.pcd", "-o", "*.pcd")
+        self.refused(SEGMENT, "--json", files, "s.pcd", "hard-s.pcd", "--json", "link-s.pcd")
+
+
+if __name__ == "__main__":
+    BARCODE, SEGMENT = (os.path.abspath(sys.argv.pop(1)) for _ in range(2))
+    unittest.main(verbosity=2)

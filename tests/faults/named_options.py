@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: MIT
+"""named_options.py SOURCE_FOLDER PH_BARCODE PH_SEGMENT: each option that a message in the sources
+names is one of the program that prints it: a text in a folder of one program is that program's, and
+what both share names only what both have."""
+import os
+import re
+import sys
+
+from run_corpus import named_options, options_of
+
+# What ph-segment reads its inputs with, beside the folders of core/, metric/ and complex/.
+READERS_OF_CLOUDS = re.compile(
+    r"io/(cloud|pcd|ply|png|depth|input|unpack|lzf|text_lines|binary_cursor|output_file)")
+STRING = re.compile(r'"((?:[^"\\]|\\.)*)"')
+
+
+def texts_of(path):
+    """The string literals of a file, with their lines; comments are left out."""
+    with open(path, encoding="utf-8") as file:
+        for number, line in enumerate(file, 1):
+            if line.lstrip().startswith(("//", "#include")):
+                continue
+            for text in STRING.findall(line):
+                yield number, text
+
+
+def sources(folder):
+    for base, _, names in os.walk(folder):
+        for name in sorted(names):
+            if name.endswith((".cpp", ".hpp", ".ipp")):
+                yield os.path.join(base, name)
+
+
+def programs_of(path):
+    """Which programs print what this file says."""
+    if path.startswith("apps/barcode/"):
+        return ("ph-barcode",)
+    if path.startswith("apps/segment/"):
+        return ("ph-segment",)
+    if path.startswith("libph/") and not READERS_OF_CLOUDS.search(path) and "/io/" in path:
+        return ("ph-barcode",)
+    return ("ph-barcode", "ph-segment")
+
+
+def main():
+    root, barcode, segment = sys.argv[1:4]
+    options = {"ph-barcode": options_of(barcode), "ph-segment": options_of(segment)}
+    os.chdir(root)
+    looked_at = faults = 0
+    for folder in ("apps", "libph"):
+        for path in sources(folder):
+            for number, text in texts_of(path):
+                for option in named_options(text):
+                    looked_at += 1
+                    for program in programs_of(path):
+                        if option not in options[program]:
+                            faults += 1
+                            print(f"{path}:{number}: {option}: {program} has no such option")
+    print(f"{looked_at} options named in messages, {faults} that are not there")
+    sys.exit(1 if faults or looked_at < 100 else 0)
+
+
+if __name__ == "__main__":
+    main()

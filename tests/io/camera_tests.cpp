@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+#include "ph/io/camera.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "read_support.hpp"
+
+namespace ph::test {
+namespace {
+
+/// As camera_calibration of ROS writes it.
+std::string ros_file(const std::string& model, const std::string& coefficients) {
+  return "image_width: 640\nimage_height: 480\ncamera_name: narrow_stereo\n"
+         "camera_matrix:\n  rows: 3\n  cols: 3\n"
+         "  data: [520.5, 0., 318.25, 0, 5.215e2, 241.5,\n         0, 0, 1]  # row by row\n"
+         "distortion_model: " +
+         model + "\ndistortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [" + coefficients +
+         "]\nrectification_matrix:\n  rows: 3\n  cols: 3\n  data: [1, 0, 0, 0, 1, 0, 0, 0, 1]\n";
+}
+
+/// As `ros2 topic echo` prints it.
+const std::string kTopic =
+    "header:\n  stamp:\n    sec: 1\n    nanosec: 5\n  frame_id: camera\nheight: 480\nwidth: 640\n"
+    "distortion_model: plumb_bob\nd:\n- 0.0\n- 0.0\n- 0.0\n- 0.0\n- 0.0\nk:\n- 520.5\n- 0.0\n"
+    "- 318.25\n- 0.0\n- 521.5\n- 241.5\n- 0.0\n- 0.0\n- 1.0\nr: [1, 0, 0, 0, 1, 0, 0, 0, 1]\n"
+    "binning_x: 0\nbinning_y: 0\nroi:\n  x_offset: 0\n  y_offset: 0\n  height: 0\n  width: 0\n"
+    "  do_rectify: false\n---\n";
+
+Camera camera_of(const std::string& text) { return read_camera(Input::view(text, "c.yaml")); }
+
+void expect_usual(const Camera& c) {
+  EXPECT_EQ(c.width, 640);
+  EXPECT_EQ(c.height, 480);
+  EXPECT_EQ(c.intrinsics.fx, 520.5);
+  EXPECT_EQ(c.intrinsics.fy, 521.5);
+  EXPECT_EQ(c.intrinsics.cx, 318.25);
+  EXPECT_EQ(c.intrinsics.cy, 241.5);
+}
+
+std::string replaced(std::string text, const std::string& old, const std::string& other) {
+  const std::size_t at = text.find(old);
+  EXPECT_NE(at, text.npos) << old;
+  return text.replace(at, old.size(), other);
+}
+
+TEST(Camera, IsReadAsProgramsWriteIt) {
+  const Camera file = camera_of(ros_file("plumb_bob", "0.1, -0.2, 0.001, 0.002, 0.05"));
+  expect_usual(file);
+  EXPECT_EQ(file.lens.model, Lens::Model::polynomial);
+  EXPECT_EQ(file.lens.coefficients,
+            (std::array<double, 8>{0.1, -0.2, 0.001, 0.002, 0.05, 0, 0, 0}));
+  expect_usual(camera_of(ros_file("plumb_bob", "0, 0, 0, 0, 0")));
+  EXPECT_EQ(camera_of(ros_file("whatever", "0, 0")).lens.model, Lens::Model::none);
+  EXPECT_EQ(camera_of(ros_file("equidistant", "0.1,0,0,0")).lens.model, Lens::Model::equidistant);
+  for (const std::string& text : {kTopic, kTopic + kTopic, replaced(kTopic, "k:\n", "K:\n"),
+                                  replaced(kTopic, "header:", "---\nheader:")})
+    expect_usual(camera_of(text));
+  // ROS 1, and OpenCV's FileStorage.
+  expect_usual(
+      camera_of("height: 480\nwidth: 640\ndistortion_model: \"plumb_bob\"\nD: [0.0, 0.0]\n"
+                "K: [520.5, 0.0, 318.25, 0.0, 521.5, 241.5, 0.0, 0.0, 1.0]\n"));
+  const Camera opencv = camera_of(
+      "%YAML:1.0\r\n---\r\nimage_width: 640\r\nimage_height: 480\r\n"
+      "camera_matrix: !!opencv-matrix\r\n   rows: 3\r\n   cols: 3\r\n   dt: d\r\n"
+      "   data: [ 520.5, 0., 318.25, 0., 521.5, 241.5, 0., 0., 1. ]\r\n"
+      "distortion_coefficients: !!opencv-matrix\r\n   rows: 5\r\n   cols: 1\r\n   dt: d\r\n"
+      "   data: [ 0.1, 0., 0., 0., 0. ]\r\n");
+  expect_usual(opencv);
+  EXPECT_EQ(opencv.lens.model, Lens::Model::polynomial);
+  const std::string open3d =
+      "{\"width\": 640, \"height\": 480, \"intrinsic_matrix\": [520.5, 0, 0, 0, 521.5, 0, 318.25, "
+      "241.5, 1]}";
+  expect_usual(camera_of(open3d));
+  expect_usual(
+      camera_of("{\"class_name\": \"PinholeCameraParameters\", \"extrinsic\": [1, 2],\n"
+                " \"intrinsic\": " +
+                open3d + "}"));
+}
+
+TEST(Camera, BinningAndRegionAreApplied) {
+  std::string text = replaced(kTopic, "binning_x: 0", "binning_x: 2");
+  text = replaced(text, "binning_y: 0", "binning_y: 2");
+  text = replaced(text, "x_offset: 0", "x_offset: 40");
+  text = replaced(text, "  height: 0", "  height: 400");
+  text = replaced(text, "  width: 0", "  width: 600");
+  const Camera c = camera_of(text);
+  EXPECT_EQ(c.width, 300);
+  EXPECT_EQ(c.height, 200);
+  EXPECT_EQ(c.intrinsics.fx, 260.25);
+  EXPECT_EQ(c.intrinsics.cx, (318.25 - 40) / 2);
+  EXPECT_EQ(c.intrinsics.cy, 241.5 / 2);
+}
+
+TEST(Camera, FaultsNameTheirPlace) {
+  const std::string good = ros_file("plumb_bob", "0.1, 0, 0, 0, 0");
+  const struct {
+    std::string text, message;
+  } faults[] = {
+      {replaced(good, "5.215e2", "5,21.5"), "c.yaml:7:3: camera matrix, found 10 numbers"},
+      {replaced(good, "5.215e2", "abc"), "c.yaml:7:32: not a number, found \"abc\""},
+      {replaced(good, "520.5", "0"), "c.yaml:7:3: focal lengths, found 0 and 521.5"},
+      {replaced(good, "520.5, 0.", "520.5, 2"), "c.yaml:7:3: camera matrix, found 520.5, 2"},
+      {replaced(good, "image_width: 640", "image_width: 6.5"), "c.yaml:1:14: not a number of pix"},
+      {replaced(good, "image_width", "image_hight"), "c.yaml: no image_width"},
+      {replaced(good, "image_width: 640", "image_width 640"), "c.yaml:1:1: not a key with a value"},
+      {replaced(good, "image_height: 480", "image_width: 640"), "c.yaml:2:1: a key twice"},
+      {replaced(good, "plumb_bob", "odd"), "c.yaml:9:1: model of the lens, found \"odd\""},
+      {replaced(good, "plumb_bob", "rational_polynomial"), "coefficients of rational_polynomial"},
+      {replaced(good, "1]  #", "1  #"), "not a number, found \"distortion_model: plumb_bob\""},
+      {good + "more: [1, 2", "list without an end"},
+      {good + "more: [1,, 2]\n", "empty element of a list"},
+      {good + "more: &a 2\n", "anchor or alias"},
+      {good + "\tmore: 2\n", "a tab before a key"},
+      {"- 1\n", "c.yaml:1:1: list, found \"- 1\", expected a key before it"},
+      {"", "c.yaml: no image_width"},
+      {std::string("a\0b", 3), "not plain text"},
+      {std::string(2 << 20, ' '), "found 2097152 bytes, expected at most 1048576"},
+      {"{\"width\": 640}", "not a camera of Open3D"},
+      {"{\"width\": 640, \"height\": 480, \"intrinsic_matrix\": [1, 0, 3, 0, 1, 3, 0, 0, 1]}",
+       "c.yaml:1:51: intrinsic_matrix, found [1, 0, 3"},
+  };
+  for (const auto& [text, message] : faults) {
+    const std::string found = bad_data([&, t = text] { camera_of(t); });
+    EXPECT_TRUE(contains(found, message)) << found;
+  }
+}
+
+/// The models as their papers and OpenCV's documentation have them.
+std::array<double, 2> by_the_book(const Lens& lens, double x, double y) {
+  const auto& c = lens.coefficients;
+  const double r = std::sqrt(x * x + y * y);
+  if (lens.model == Lens::Model::equidistant) {
+    const double t = std::atan(r);
+    const double shown = t + c[0] * std::pow(t, 3) + c[1] * std::pow(t, 5) + c[2] * std::pow(t, 7) +
+                         c[3] * std::pow(t, 9);
+    return r == 0 ? std::array{0.0, 0.0} : std::array{shown * x / r, shown * y / r};
+  }
+  const double factor =
+      (1 + c[0] * std::pow(r, 2) + c[1] * std::pow(r, 4) + c[4] * std::pow(r, 6)) /
+      (1 + c[5] * std::pow(r, 2) + c[6] * std::pow(r, 4) + c[7] * std::pow(r, 6));
+  return {x * factor + 2 * c[2] * x * y + c[3] * (r * r + 2 * x * x),
+          y * factor + c[2] * (r * r + 2 * y * y) + 2 * c[3] * x * y};
+}
+
+TEST(Lens, IsStraightenedAgain) {
+  const Lens lenses[] = {
+      {},
+      {Lens::Model::polynomial, {-0.28, 0.07, 0.0002, -0.0001, 0}},
+      {Lens::Model::polynomial, {0.25, -0.8, -0.0003, 0.0025, 0.92}},
+      {Lens::Model::polynomial, {0.1, 0, 0.003, -0.002, 0}},
+      {Lens::Model::polynomial, {0.52, -2.6, 0.0006, -0.0002, 1.48, 0.4, -2.43, 1.41}},
+      {Lens::Model::equidistant, {-0.01, 0.004, -0.002, 0.0001}},
+  };
+  for (const Lens& lens : lenses) {
+    for (double x = -0.62; x <= 0.63; x += 0.04) {
+      for (double y = -0.47; y <= 0.48; y += 0.05) {
+        const auto bent = lens.bent(x, y);
+        const auto expected =
+            lens.model == Lens::Model::none ? std::array{x, y} : by_the_book(lens, x, y);
+        ASSERT_NEAR(bent[0], expected[0], 1e-12);
+        ASSERT_NEAR(bent[1], expected[1], 1e-12);
+        const auto again = lens.straightened(bent[0], bent[1]);
+        ASSERT_TRUE(again) << x << ' ' << y << ' ' << lens.coefficients[0];
+        EXPECT_NEAR((*again)[0], x, 1e-9);
+        EXPECT_NEAR((*again)[1], y, 1e-9);
+      }
+    }
+  }
+}
+
+TEST(Lens, ShowsNothingBeyondItsEdge) {
+  // r (1 - 0.3 r^2) is at most 0.7027.
+  const Lens barrel{Lens::Model::polynomial, {-0.3}};
+  EXPECT_TRUE(barrel.straightened(0.6, 0));
+  EXPECT_FALSE(barrel.straightened(0.75, 0));
+  EXPECT_FALSE(barrel.straightened(0.6, 0.6));
+  const Lens fisheye{Lens::Model::equidistant, {}};
+  EXPECT_TRUE(fisheye.straightened(1.5, 0));
+  EXPECT_FALSE(fisheye.straightened(1.6, 0)) << "behind the camera";
+}
+
+TEST(Camera, ScalesToImagesOfItsShape) {
+  const Camera camera{{600, 602, 319.5, 240}, 640, 480};
+  const Camera half = camera.scaled_to(320, 240);
+  EXPECT_EQ(half.intrinsics.fx, 300);
+  EXPECT_EQ(half.intrinsics.fy, 301);
+  EXPECT_EQ(half.intrinsics.cx, 159.5);  // the middle stays the middle
+  EXPECT_EQ(half.intrinsics.cy, 119.75);
+  EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { camera.scaled_to(640, 360); }));
+  const Camera any{{1, 2, 3, 4}};
+  EXPECT_EQ(any.scaled_to(7, 5).intrinsics.cx, 3);
+}
+
+TEST(Camera, PresetsHaveTheFieldsOfViewThatArePublished) {
+  const auto degrees = [](Index pixels, double focal) {
+    return 2 * std::atan(static_cast<double>(pixels) / 2 / focal) * 180 / 3.14159265358979;
+  };
+  for (const auto& [name, camera] : camera_presets()) {
+    const Intrinsics& k = camera.intrinsics;
+    // Kinect v1 and Xtion: the colour camera, to which depth is registered, of 525 pixels.
+    const bool realsense = name.starts_with("realsense"), second = name == "kinect-v2";
+    EXPECT_NEAR(degrees(camera.width, k.fx), realsense ? 69.4 : second ? 70.6 : 62.7, 0.7) << name;
+    EXPECT_NEAR(degrees(camera.height, k.fy), realsense ? 42.5 : second ? 60 : 49.1, 0.3) << name;
+    if (!realsense) continue;
+    const Camera cropped = camera.scaled_to(640, 480);
+    EXPECT_EQ(cropped.intrinsics.fx, 616);
+    EXPECT_EQ(cropped.intrinsics.cx, 319.5);
+    EXPECT_EQ(cropped.intrinsics.cy, 239.5);
+  }
+}
+
+}  // namespace
+}  // namespace ph::test
