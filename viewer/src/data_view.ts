@@ -107,7 +107,8 @@ export class DataView {
     );
     this.canvasHost.append(canvas);
     stage.data.add(...[this.cloud, this.mesh, this.slice].flatMap((part) => part?.object ?? []));
-    if (stage.dome && this.cloud && !this.mesh) Object.assign(stage.dome, this.cloud.mark);
+    if (stage.dome && this.cloud)
+      Object.assign(stage.dome, this.mesh ? { lamp: false } : this.cloud.mark);
     stage.scene.add(this.complexGroup, this.overlay.group);
     const labels = new Labels(this.session, stage);
     this.canvasHost.append(labels.element);

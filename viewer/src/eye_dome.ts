@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Points of a surface as a surface: pinholes between their marks are filled, and a pixel is darker
-// the farther it lies behind its neighbours, so that what is in front is seen to be so (eye-dome
-// lighting: Christian Boucheny, 2009).
+// Points of a surface as a surface: pinholes between their marks are filled, a pixel is darker the
+// farther it lies behind what is around it (after the eye-dome lighting of Christian Boucheny, 2009),
+// and the surface is lit from the eye.
 import {
   DepthTexture,
   Mesh,
@@ -28,39 +28,60 @@ uniform sampler2D colours;
 uniform sampler2D depths;
 uniform vec2 texel;
 uniform vec2 planes; // near, far
+uniform bool lamp;
+uniform float pixel; // an angle
 uniform vec3 reach; // pixels: least; of a mark at depth 1; whether that is so at every depth
 varying vec2 at;
 float depthAt(vec2 place) { return texture2D(depths, place).x; }
 float away(float depth) {
   return log2(planes.x * planes.y / (planes.y - depth * (planes.y - planes.x)));
 }
+float beside(vec2 place, float here) {
+  float there = depthAt(place);
+  return there < 1.0 ? away(there) : here;
+}
 void main() {
   vec2 from = at;
   float depth = depthAt(at);
   if (depth >= 1.0) {
-    float beside = 0.0;
+    float neighbours = 0.0;
     for (int x = -1; x <= 1; ++x)
       for (int y = -1; y <= 1; ++y) {
         vec2 next = at + vec2(x, y) * texel;
         float there = depthAt(next);
         if (there >= 1.0) continue;
-        beside += 1.0;
+        neighbours += 1.0;
         if (there < depth) {
           depth = there;
           from = next;
         }
       }
-    if (beside < 5.0) discard;
+    if (neighbours < 5.0) discard;
   }
-  float here = away(depth), behind = 0.0;
-  float even = reach.z > 0.5 ? 0.006 : 0.0; // the noise of a camera
-  float wide = clamp(reach.y * (reach.z > 0.5 ? 1.0 : exp2(-here)), reach.x, 8.0 * reach.x);
-  for (int i = 0; i < 8; ++i) {
+  float here = away(depth);
+  bool isCamera = reach.z > 0.5;
+  float wide = clamp(reach.y * (isCamera ? 1.0 : exp2(-here)), reach.x, 8.0 * reach.x);
+  // A camera is rough, and marks are steps.
+  float noise = isCamera ? 0.004 : 1.5 * wide * pixel;
+  // How far it is behind the middle of what lies on both sides of it: nothing on a plane.
+  float behind = 0.0;
+  vec2 slope = vec2(0.0);
+  for (int i = 0; i < 4; ++i) {
     float angle = 0.7853982 * float(i);
-    float there = depthAt(at + wide * texel * vec2(cos(angle), sin(angle)));
-    if (there < 1.0) behind += clamp(here - away(there) - even, 0.0, 0.05);
+    vec2 towards = vec2(cos(angle), sin(angle));
+    float one = beside(at + wide * texel * towards, here), other = beside(at - wide * texel * towards, here);
+    behind += clamp(here - 0.5 * (one + other) - noise, 0.0, 0.05);
+    // Where the surface ends the nearer side goes on.
+    float up = one - here, down = here - other;
+    if (i == 0) slope.x = abs(up) < abs(down) ? up : down;
+    if (i == 2) slope.y = abs(up) < abs(down) ? up : down;
   }
-  gl_FragColor = vec4(texture2D(colours, from).rgb * max(0.4, exp(-16.0 * behind / sqrt(wide))), 1.0);
+  float light = exp(-(isCamera ? 24.0 : 9.0) * behind);
+  if (lamp) {
+    vec2 tangent = 0.6931472 * slope / (wide * pixel);
+    light *= 0.5 + 0.5 * inversesqrt(1.0 + dot(tangent, tangent));
+  }
+  gl_FragColor = vec4(texture2D(colours, from).rgb * max(0.4, light), 1.0);
   gl_FragDepth = depth;
 }`;
 
@@ -69,6 +90,7 @@ export class EyeDome {
   /// How large the marks of points are, in space or as an angle: within a mark all is even.
   mark = 0;
   isAngle = false;
+  lamp = true; // what has no shades of its own is lit from the eye
   private readonly target = new WebGLRenderTarget(1, 1, {
     depthTexture: new DepthTexture(1, 1),
     magFilter: NearestFilter,
@@ -82,6 +104,8 @@ export class EyeDome {
       depths: { value: this.target.depthTexture },
       texel: { value: new Vector2() },
       planes: { value: new Vector2() },
+      lamp: { value: true },
+      pixel: { value: 1 },
       reach: { value: new Vector3(1, 0, 0) },
     },
   });
@@ -109,6 +133,8 @@ export class EyeDome {
     (uniforms["planes"]!.value as Vector2).set(camera.near, camera.far);
     const { mark, isAngle } = this;
     const scale = 0.5 * h * camera.projectionMatrix.elements[5]!;
+    uniforms["lamp"]!.value = this.lamp && !isAngle; // a camera's depth is too rough for it
+    uniforms["pixel"]!.value = 1 / scale;
     (uniforms["reach"]!.value as Vector3).set(1.2 * ratio, 0.7 * mark * scale, isAngle ? 1 : 0);
     renderer.render(this.screen, this.flat);
   }

@@ -80,7 +80,8 @@ function standing(sample: number[]): Vector3 {
   return up;
 }
 
-/// Towards an eye that sees the largest horizontal spread from the side, a little from above.
+/// Towards an eye that sees the largest horizontal spread from the side, a little from above; what
+/// is flat, more.
 function broadside(sample: number[], up: Vector3): Vector3 {
   const first = new Vector3(up.y || up.z ? 1 : 0, up.x ? 1 : 0, 0);
   const a = first.addScaledVector(up, -first.dot(up)).normalize(),
@@ -102,13 +103,20 @@ function broadside(sample: number[], up: Vector3): Vector3 {
     ab += x * y;
     bb += y * y;
   }
+  const height = extentAlong(sample, up),
+    width = Math.max(extentAlong(sample, a), extentAlong(sample, b));
   // The angle of the longer axis; the eye stands a quarter from it, and some degrees aside.
   const along = 0.5 * Math.atan2(2 * ab, aa - bb);
   const eye = along - Math.PI / 2 + 0.35;
   return new Vector3()
     .addScaledVector(a, Math.cos(eye))
     .addScaledVector(b, Math.sin(eye))
-    .addScaledVector(up, 0.4);
+    .addScaledVector(up, Math.max(0.4, 0.9 - 1.3 * (height / (width || 1))));
+}
+
+function extentAlong(sample: number[], axis: Vector3): number {
+  const { low, high } = ends(sample, (x, y, z) => axis.x * x + axis.y * y + axis.z * z);
+  return high - low;
 }
 
 /// The sensor looks at the middle of what it saw; sizes are those at the distance of the centre.

@@ -150,7 +150,7 @@ test("linked views of points", { timeout: 120_000 }, async (t) => {
       [browser, ".stage"],
       [still, ".stage svg"],
     ]) {
-      const none = await open(there, report, { hash: "#colour=plain" });
+      const none = await open(there, report, { hash: "#colour=plain&bars=" });
       const before = await tintedPixels(none.page, view, green);
       await none.close();
       const grown = await open(there, report, { hash: "#colour=plain&scale=0.4" });
