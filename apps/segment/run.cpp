@@ -24,7 +24,6 @@
 namespace ph::segment {
 namespace {
 
-constexpr std::string_view kProgram = "ph-segment";
 
 Cloud read_depth_image(const Input& input, const DepthInput& image, app::Session& session) {
   const RunContext& context = session.context();
@@ -200,7 +199,7 @@ Outcome outcome_of(const Arguments& arguments, app::Session& session, const OfSt
     answer = explanation(s, (*labels)[0], (*labels)[1]);
   else if (!stream && !arguments.files.any())
     answer = text_summary(s);
-  RunInfo info{.program = app::program_and_version(std::string(kProgram)),
+  RunInfo info{.program = app::program_and_version(std::string(kProgram.name)),
                .input = arguments.input.empty() ? arguments.image.depth : arguments.input,
                .read_seconds = result.read_seconds,
                .from_tree = !result.cloud,
@@ -230,7 +229,7 @@ int run(int argc, const char* const* argv, std::stop_token stop) {
   Arguments arguments;
   if (const auto answer = parse_arguments(argc, argv, arguments))
     return app::answer_command_line(*answer);
-  app::Session session(kProgram, arguments.common, std::move(stop));
+  app::Session session(kProgram.name, arguments.common, std::move(stop));
   load_camera(arguments.image, session);
   if (arguments.is_stream()) return run_stream(arguments, session);
   const Outcome outcome = run_frame(arguments, session, nullptr);
