@@ -16,6 +16,9 @@ RIPS = ("points", "points.gz", "NPY points", "OFF mesh", "PCD", "XYZ", "matrix",
 LISTED = ("lower star", "PHAT", "DIPHA boundaries", "OFF mesh with values", "PLY mesh with values")
 
 
+LOOPS = ["--representatives", "cycles", "--output-format", "json"]
+
+
 def rows(Row):
     plot = ["--plot", "x.svg"]
     return {
@@ -34,19 +37,19 @@ def rows(Row):
         "--raw-skip": Row("--raw-skip", "2", bad_data=True),
         "--complex": Row("--complex", "cubical"),
         "--threshold": Row("--threshold", "0.9"),
-        "--metric": Row("--metric", "manhattan"),
-        "--construction": Row("--construction", "cells"),
-        "--superlevel": Row("--superlevel"),
-        "--periodic": Row("--periodic", "all"),
-        "--slab-layers": Row("--slab-layers", "1", sign="slabs of 1 layer"),
-        "--voxel": Row("--voxel", "0.4"),
-        "--voxel-value": Row("--voxel-value", "density"),
-        "--collapse": Row("--collapse", "on", sign=r"collapse on \(asked for\)"),
-        "--subsample": Row("--subsample", "6"),
-        "--subsample-radius": Row("--subsample-radius", "0.5"),
-        "--approximate": Row("--approximate", "0.5", sign="times too late"),
-        "--vertex-weights": Row("--vertex-weights", "weights.txt"),
-        "--dtm": Row("--dtm", "3"),
+        "--metric": Row("--metric", "manhattan", bad_data=True),
+        "--construction": Row("--construction", "cells", bad_data=True),
+        "--superlevel": Row("--superlevel", bad_data=True),
+        "--periodic": Row("--periodic", "all", bad_data=True),
+        "--slab-layers": Row("--slab-layers", "1", sign="slabs of 1 layer", bad_data=True),
+        "--voxel": Row("--voxel", "0.4", bad_data=True),
+        "--voxel-value": Row("--voxel-value", "density", bad_data=True),
+        "--collapse": Row("--collapse", "on", sign=r"collapse on \(asked for\)", bad_data=True),
+        "--subsample": Row("--subsample", "6", bad_data=True),
+        "--subsample-radius": Row("--subsample-radius", "0.5", bad_data=True),
+        "--approximate": Row("--approximate", "0.5", sign="times too late", bad_data=True),
+        "--vertex-weights": Row("--vertex-weights", "weights.txt", bad_data=True),
+        "--dtm": Row("--dtm", "3", bad_data=True),
         "--weight-exponent": Row("--weight-exponent", "2"),
         "--max-dim": Row("--max-dim", "0"),
         "--min-dim": Row("--min-dim", "1"),
@@ -55,7 +58,7 @@ def rows(Row):
         "--check": Row("--check", sign="check: the oracle agrees"),
         "--min-persistence": Row("--min-persistence", "1e9"),
         "--representatives": Row("--representatives", "cycles", beside=["--output-format", "json"]),
-        "--loops": Row("--loops", "none", beside=["--representatives", "cycles", "--output-format", "json"]),
+        "--loops": Row("--loops", "none", beside=LOOPS),
         "--dry-run": Row("--dry-run"),
         "--output": Row("--output", "x.csv"),
         "--output-format": Row("--output-format", "json"),
@@ -197,7 +200,7 @@ def inputs(Input, program):
         rows={"--nan": (("--nan", "error"), {"variant": "nan", "bad_data": True})},
         nan=pcd + text([(math.nan, 0.0, 0.0), *((*p, 0.0) for p in points[1:])]))
     add("NPY points", ["p.npy", "--complex", "rips"], {"p.npy": npy((size, 2), flat)},
-        rows={"--complex": (("--complex", "rips"), {})},
+        rows={"--complex": (("--complex", "rips"), {"default": True})},
         nan=npy((size, 2), [math.nan, *flat[1:]]), empty=npy((0, 2), []))
     add("voxels", ["p.csv", "--complex", "cubical", "--voxel", "0.25"], {"p.csv": text(points)},
         rows={"--complex": (("--complex", "explicit"), {}),
@@ -239,6 +242,7 @@ def inputs(Input, program):
     # Of one axis both constructions have the same bars, and none but periodic ones a loop.
     add("NPY series", ["s.npy"], {"s.npy": npy((30,), floats)}, 4, nan=npy((30,), one_nan),
         rows={"--construction": (("--construction", "cells"), {"default": True}),
+              "--loops": (("--loops", "none"), {"beside": [*LOOPS, "--periodic", "all"]}),
               "--max-dim": (("--max-dim", "0"), {"beside": ["--periodic", "all"]}),
               "--min-dim": (("--min-dim", "1"), {"beside": ["--periodic", "all"]})})
     add("NPZ image", ["i.npz"], {"i.npz": npz(npy((5, 6), floats))}, 4, nan=npz(npy((5, 6), one_nan)))
@@ -264,6 +268,7 @@ def inputs(Input, program):
     phat = b"0\n0\n0\n1 0 1\n1 1 2\n1 0 2\n2 3 4 5\n"
     add("PHAT", ["b.phat"], {"b.phat": phat}, 5.5, values=[0, 0, 0, 1, 2, 3, 5],
         rows={"--format": (("--format", "simplices"), {"bad_data": True}),
+              "--loops": (("--loops", "plain"), {"beside": LOOPS}),
               "--complex": (("--complex", "rips"), {})})
     add("DIPHA boundaries", ["b.dipha"],
         {"b.dipha": struct.pack("<qqqqq", 8067171840, 0, 0, 7, 2)
@@ -272,6 +277,7 @@ def inputs(Input, program):
          + struct.pack("<8q", 0, 0, 0, 0, 2, 4, 6, 9)
          + struct.pack("<9q", 0, 1, 1, 2, 0, 2, 3, 4, 5)}, 2.5, values=[0, 0, 0, 1, 2, 3, 6],
         rows={"--format": (("--format", "simplices"), {"bad_data": True}),
+              "--loops": (("--loops", "plain"), {"beside": LOOPS}),
               "--complex": (("--complex", "rips"), {})})
     corners = [*((x, y, 0.0) for x, y in points)]
     faces = "".join(f"3 {k} {(k + 1) % size} {(k + 2) % size}\n" for k in range(size)).encode()
@@ -286,16 +292,17 @@ def inputs(Input, program):
         {"m.ply": ply.encode() + text(corners) + faces}, 4, values=heights,
         rows={"--complex": (("--complex", "rips"), {})})
     bars = b"dim,birth,death\n0,0,1\n0,0,inf\n1,0.3,0.75\n"
-    add("a barcode", ["b.csv"], {"b.csv": bars})
+    alone = {"--loops": (("--loops", "none"), {})}
+    add("a barcode", ["b.csv"], {"b.csv": bars}, rows=alone)
     add("plot a barcode", ["plot", "b.npy", "-o", "y.svg"],
         {"b.npy": npy((2, 3), [0, 0, 1, 1, 0.3, 0.75])},
-        rows={"--force": (("--force",), {"sign": "--force: not needed"}),
+        rows={**alone, "--force": (("--force",), {"sign": "--force: not needed"}),
               "--output": (("--output", "x.png"), {"beside": ["--report", "x.html"]}),
               "--plot-kind": (("--plot-kind", "betti"), {}), "--dims": (("--dims", "9"), {}),
               "--title": (("--title", "Loops"), {}), "--size": (("--size", "300x200"), {}),
               "--axis": (("--axis", "0.25,0.5"), {})})
     add("two barcodes", ["--compare", "b.csv", "bars.csv"], {"b.csv": bars},
-        rows={"--compare": (("--compare", "bars.csv", "bars.csv"), {}),
+        rows={**alone, "--compare": (("--compare", "bars.csv", "bars.csv"), {}),
               "--plot-kind": (("--plot-kind", "betti"), {}), "--dims": (("--dims", "9"), {}),
               "--title": (("--title", "Loops"), {}), "--size": (("--size", "300x200"), {}),
               "--axis": (("--axis", "0.25,0.5"), {})})

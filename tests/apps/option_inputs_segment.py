@@ -23,6 +23,7 @@ def rows(Row):
         "--stable-labels": row("--stable-labels"),
         "--depth": row("--depth", "other.png"),
         "--color": row("--color", "colour.png", beside=["-o", "o-*.pcd"]),
+        "--camera": row("--camera", "kinect-v1"),
         "--intrinsics": row("--intrinsics", "100,100,48,36"),
         "--depth-scale": row("--depth-scale", "900"),
         "--allow-empty": row("--allow-empty", variant="empty", sign="--allow-empty: not needed"),

@@ -435,8 +435,10 @@ DistanceMatrix square_to_distances(const Image& array, const Input& input,
 }  // namespace detail
 
 DistanceMatrix read_distances(const Input& input, const ReadOptions& options) {
-  if (detail::is_npy(input) || detail::is_npz(input))
+  if (detail::is_npy(input) || detail::is_npz(input)) {
+    detail::refuse_columns(options, "distances, NPY");
     return detail::square_to_distances(detail::read_npy_array(input), input, options);
+  }
   if (detail::is_dipha(input)) return detail::read_dipha_distances(input, options);
   return read_text_square(input, options);
 }
