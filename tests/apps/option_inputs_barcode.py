@@ -35,7 +35,7 @@ def rows(Row):
         "--raw-type": Row("--raw-type", "int16", bad_data=True),
         "--raw-big-endian": Row("--raw-big-endian", bad_data=True),
         "--raw-skip": Row("--raw-skip", "2", bad_data=True),
-        "--complex": Row("--complex", "cubical"),
+        "--complex": Row("--complex", "cubical", bad_data=True),
         "--threshold": Row("--threshold", "0.9"),
         "--metric": Row("--metric", "manhattan", bad_data=True),
         "--construction": Row("--construction", "cells", bad_data=True),
