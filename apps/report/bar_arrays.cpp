@@ -70,6 +70,7 @@ void add_pictures(ReportFile& report, std::span<const Barcode> barcodes, const M
   options.value_label = meta.value_unit.empty()
                             ? meta.value_label
                             : fmt::format("{} ({})", meta.value_label, meta.value_unit);
+  options.negated = meta.negated;
   std::vector<std::string> pictures;
   for (std::size_t i = 0; i < barcodes.size(); ++i) {
     // It finds the longest bars.

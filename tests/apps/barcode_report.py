@@ -192,10 +192,47 @@ class Reports(ProgramTest):
         self.write("i.npy", npy((2, 3), [0, 1, 2, 5, 4, 3]))
         report = self.report("i.npy", "--superlevel")
         self.assertEqual(report["image/values"], [0, 1, 2, 5, 4, 3])
-        self.assertEqual(report["points/birth"], [0, -1, -2, -5, -4, -3])
+        self.assertNotIn("points/birth", report)  # minus the value, as the metadata say
+        self.assertIs(report.meta["value"]["negated"], True)
+        self.assertEqual(report.meta["value"]["label"], "Value")
         report = self.report("i.npy", "--construction", "cells")
+        self.assertNotIn("negated", report.meta["value"])
         self.assertEqual(report.meta["image"], {"construction": "cells"})
         self.assertNotIn("tree", report.meta)
+
+    def test_voxels_that_are_absent_are_no_numbers(self):
+        self.write("n.npy", npy((2, 2), [1, math.nan, 2, 0.5]))
+        for way in ([], ["--superlevel"]):
+            values = self.report("n.npy", "--nan", "drop", *way)["image/values"]
+            self.assertEqual([v for v in values if math.isfinite(v)], [1, 2, 0.5])
+
+    def test_axes_in_space_have_names(self):
+        self.write("p.csv", "0,0,0\n2,0,0\n0,3,0\n0,0,4\n")
+        report = self.report("p.csv", "--complex", "cubical", "--voxel", "1")
+        self.assertEqual(report.meta["image"]["axes"], ["x", "y", "z"])
+        self.write("i.npy", npy((2, 2, 2), range(8)))
+        self.assertNotIn("axes", self.report("i.npy").meta["image"])
+
+    def test_without_a_wide_ratio_the_first_cut_is_in_the_widest_difference(self):
+        # Minima between walls of 200: persistences 100, 95, 90, 80, 77.
+        self.write("i.npy", npy((1, 11), [0, 200, 100, 200, 105, 200, 110, 200, 120, 200, 123]))
+        report = self.report("i.npy")
+        self.assertEqual(report.meta["tree"]["cut"], 84.9)
+        self.assertEqual(max(report.leaf_labels(84.9)), 4)
+
+    def test_a_mesh_without_basins_is_no_comb(self):
+        # Heights that rise along a strip: each vertex joins at its own value.
+        rows = [(x, y) for x in range(6) for y in range(2)]
+        faces = [f for x in range(5) for f in ((2 * x, 2 * x + 1, 2 * x + 2),
+                                               (2 * x + 1, 2 * x + 2, 2 * x + 3))]
+        self.write("m.off", f"OFF\n{len(rows)} {len(faces)} 0\n"
+                   + "".join(f"{x} {y} 0\n" for x, y in rows)
+                   + "".join("3 %d %d %d\n" % f for f in faces))
+        self.write("v.txt", "".join(f"{2 * x + y}\n" for x, y in rows))
+        report = self.report("m.off", "--values", "v.txt")
+        self.assertEqual(report["tree/leaf_vertices"], [12])
+        self.assertEqual(report["tree/merge_value"], [])
+        self.assertGreater(report.meta["tree"]["cut"], 0)
 
     def test_sets_of_voxels_are_those_of_the_json(self):
         rng = random.Random(8)
@@ -394,6 +431,35 @@ class Reports(ProgramTest):
         self.assertEqual([d["dim"] for d in report.meta["distances"]], [0, 2])
         self.assertEqual(report.meta["provenance"]["notes"]["Distances left out"],
                          "H1: 40002 bars; at most 40000 are compared")
+
+    def test_the_matching_is_worth_the_distances(self):
+        rng = random.Random(3)
+        files = []
+        for name in ("a.csv", "b.csv"):
+            bars = [(0, 0, math.inf)] + [(dim, birth, birth + rng.random() ** 3) for dim in (0, 1)
+                                         for birth in [rng.random() for _ in range(30)]]
+            bars.sort()
+            self.write(name, "dim,birth,death\n" + "".join(f"{d},{b},{e}\n" for d, b, e in bars))
+            files.append(bars)
+        report = self.report("--compare", "a.csv", "b.csv")
+        first, second = files
+        pairs = report.arrays["matching/pairs"].rows()
+        distance = {d["dim"]: d["bottleneck"] for d in report.meta["distances"]}
+        paired = [set(), set()]
+        worst = dict.fromkeys(distance, 0)
+        for i, j in pairs:
+            a, b = first[i], second[j - len(first)]
+            self.assertEqual(a[0], b[0])
+            paired[0].add(i)
+            paired[1].add(j - len(first))
+            moved = max(abs(x - y) if x != y else 0 for x, y in zip(a[1:], b[1:]))
+            worst[a[0]] = max(worst[a[0]], moved)
+        for bars, seen in zip(files, paired):
+            self.assertEqual(len(seen), len(pairs))
+            for k, (dim, birth, death) in enumerate(bars):
+                if k not in seen:
+                    worst[dim] = max(worst[dim], (death - birth) / 2)
+        self.assertEqual(worst, distance)
 
     def test_comparisons_that_make_no_sense(self):
         self.write("a.csv", SQUARE_CSV)
