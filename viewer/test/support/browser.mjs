@@ -85,11 +85,11 @@ export async function open(
   };
 }
 
-/// The pixels of an element: four bytes each.
+/// The pixels of an element, four bytes each, with their `width` and `height`.
 export async function pixelsOf(page, selector) {
   const box = await page.locator(selector).first().boundingBox();
   const png = await page.screenshot({ clip: box, timeout: kPatient });
-  const bytes = await page.evaluate(async (data) => {
+  const { text, width, height } = await page.evaluate(async (data) => {
     const image = new Image();
     image.src = `data:image/png;base64,${data}`;
     await image.decode();
@@ -102,9 +102,9 @@ export async function pixelsOf(page, selector) {
     let text = "";
     for (let i = 0; i < pixels.length; i += 8192)
       text += String.fromCharCode(...pixels.subarray(i, i + 8192));
-    return btoa(text);
+    return { text: btoa(text), width: image.width, height: image.height };
   }, png.toString("base64"));
-  return new Uint8Array(Buffer.from(bytes, "base64"));
+  return Object.assign(new Uint8Array(Buffer.from(text, "base64")), { width, height });
 }
 
 /// How many colours the pixels of an element have: an empty view has one.
