@@ -101,10 +101,13 @@ Raster raster_of(Index width, Index height, int channels, int bits, std::size_t 
 }
 
 TEST(PublicStructs, RasterAndCamera) {
-  const auto depth = [](Index width, Index height, int channels, std::size_t samples,
+  const auto depth = [](std::vector<Index> extents, std::size_t count,
                         Intrinsics camera = {1, 1, 0, 0}, double scale = 1000) {
-    const Raster raster = raster_of(width, height, channels, 8, samples);
-    return [=] { cloud_from_depth(raster, {}, camera, scale); };
+    const Image image{std::move(extents), std::vector<double>(count, 1)};
+    return [=] { cloud_from_depth(image, {}, {camera}, scale); };
+  };
+  const auto coloured = [](Raster colour) {
+    return [=] { cloud_from_depth({{2, 2}, {1, 1, 1, 1}}, colour, {{1, 1, 0, 0}}); };
   };
   const auto picture = [](Index width, Index height, int channels, int bits, std::size_t samples) {
     ColouredPicture of;
@@ -112,16 +115,19 @@ TEST(PublicStructs, RasterAndCamera) {
     return [=] { svg_plot(of); };
   };
   expect_errors({
-      {"too few", kBad, "found 3 samples", depth(2, 2, 1, 3)},
-      {"negative", kBad, "-2 x -2", depth(-2, -2, 1, 4)},
-      {"overflow", kBad, "found 0 samples", depth(kMost, kMost, 1, 0)},
-      {"no channels", kBad, "0 channels", depth(2, 2, 0, 0)},
-      {"colours", kBad, "found 3 channels", depth(2, 2, 3, 12)},
-      {"focal length NaN", kUsage, "focal lengths nan", depth(1, 1, 1, 1, {kNan, 1, 0, 0})},
-      {"focal length 0", kUsage, "focal lengths 0", depth(1, 1, 1, 1, {0, 1, 0, 0})},
-      {"centre NaN", kUsage, "centre nan", depth(1, 1, 1, 1, {1, 1, kNan, 0})},
-      {"scale 0", kUsage, "scale 0", depth(1, 1, 1, 1, {1, 1, 0, 0}, 0)},
-      {"scale infinite", kUsage, "scale inf", depth(1, 1, 1, 1, {1, 1, 0, 0}, kInfinity)},
+      {"too few", kBad, "found 3 values", depth({2, 2}, 3)},
+      {"negative", kBad, "-2 x -2", depth({-2, -2}, 4)},
+      // The square of the greatest extent is 1 in 64 bits.
+      {"overflow", kBad, "found 1 values", depth({kMost, kMost}, 1)},
+      {"volume", kUsage, "found 3 axes", depth({1, 1, 1}, 1)},
+      {"focal length NaN", kUsage, "focal lengths nan", depth({1, 1}, 1, {kNan, 1, 0, 0})},
+      {"focal length 0", kUsage, "focal lengths 0", depth({1, 1}, 1, {0, 1, 0, 0})},
+      {"centre NaN", kUsage, "centre nan", depth({1, 1}, 1, {1, 1, kNan, 0})},
+      {"scale 0", kUsage, "scale 0", depth({1, 1}, 1, {1, 1, 0, 0}, 0)},
+      {"scale infinite", kUsage, "scale inf", depth({1, 1}, 1, {1, 1, 0, 0}, kInfinity)},
+      {"colour: too few", kBad, "found 3 samples", coloured(raster_of(2, 2, 3, 8, 3))},
+      {"colour: no channels", kBad, "0 channels", coloured(raster_of(2, 2, 0, 8, 0))},
+      {"colour: other size", kBad, "expected 2 x 2", coloured(raster_of(1, 2, 1, 8, 2))},
       {"picture: too few", kBad, "found 3 samples", picture(2, 2, 1, 8, 3)},
       {"picture: overflow", kBad, "found 0 samples", picture(kMost, kMost, 4, 8, 0)},
       {"picture: five channels", kBad, "5 channels", picture(1, 1, 5, 8, 5)},

@@ -54,8 +54,8 @@ struct DepthImage {
   double scale = 1000;  ///< depth units a metre where nobody says them: floats are metres, whole
                         ///< numbers millimetres
 };
-/// A grey PNG, PGM, or an array of NumPy (.npy) with two axes. NaN becomes infinite, which is a
-/// hole for cloud_from_depth. @throws Error (bad_data) also on colours or other axes.
+/// A grey PNG, PGM, or an array of NumPy (.npy) with two axes. NaN is an
+/// absent pixel: a hole for cloud_from_depth. @throws Error (bad_data) also on colours or other axes.
 DepthImage read_depth(const Input& input, const ReadOptions& options = {});
 
 /// What became of the pixels of a depth image.
