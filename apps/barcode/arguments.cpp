@@ -238,7 +238,14 @@ void add_output_options(CLI::App& app, Arguments& a, app::PlotArguments& plots) 
              [&a](std::size_t i) { a.output_format = barcode_format_named(names[i]); })
       ->group(group);
   app::add_plot_options(app, kPlotKinds, "draw the barcode, or the merge tree of H0 (repeatable)",
-                        group, true, plots);
+                        group, plots);
+  app::add_plot_look(
+      app, {"--dims", [](const app::Plot& plot) { return plot.shows_bars(); }, "bars"}, "D,…",
+      "dimensions that plots show (default: all that there are)", group, plots,
+      [&plots](const std::string& text) {
+        for (const std::int64_t dim : app::parse_integers("--dims", text, 0, 1'000'000))
+          plots.look.dims.push_back(static_cast<int>(dim));
+      });
   add_value(app, "--report", "FILE.html",
             "one page to look at: barcode, diagram, merge tree and data, linked; needs no network",
             [&a](const std::string& path) { take_report(a, path); })

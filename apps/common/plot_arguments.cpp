@@ -85,7 +85,7 @@ std::vector<Plot> PlotArguments::together(std::string_view usual) const {
     throw Error(ErrorKind::usage, paths.empty() ? "--plot-kind needs --plot FILE"
                                                 : "--plot-kind was given more often than --plot");
   if (paths.empty() && !looks.empty())
-    throw Error(ErrorKind::usage, looks.front() + " needs --plot FILE");
+    throw Error(ErrorKind::usage, looks.front().option + " needs --plot FILE");
   std::vector<Plot> plots;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (paths[i].empty()) throw Error(ErrorKind::usage, "--plot: found '', expected a path");
@@ -96,23 +96,16 @@ std::vector<Plot> PlotArguments::together(std::string_view usual) const {
     plots.push_back(
         {paths[i], kinds.empty() ? std::string(usual) : kinds[std::min(i, kinds.size() - 1)]});
   }
-  const auto require = [&](std::string_view option, auto&& has_it, std::string_view meant_for) {
-    if (std::ranges::count(looks, option) > 0 && std::ranges::none_of(plots, has_it))
+  for (const PlotLook& wanted : looks)
+    if (std::ranges::none_of(plots, wanted.fits))
       throw Error(ErrorKind::usage,
-                  fmt::format("{}: makes sense for plots of {} only, found --plot-kind {}", option,
-                              meant_for, plots.front().kind));
-  };
-  require(
-      "--dims", [](const Plot& plot) { return plot.shows_bars(); }, "bars");
-  require(
-      "--axis", [](const Plot& plot) { return plot.shows_bars() || plot.kind == "tree"; },
-      "bars and merge trees");
+                  fmt::format("{}: makes sense for plots of {} only, found --plot-kind {}",
+                              wanted.option, wanted.meant_for, plots.front().kind));
   return plots;
 }
 
 void add_plot_options(CLI::App& app, std::span<const std::string_view> kinds,
-                      const std::string& description, const std::string& group, bool dims,
-                      PlotArguments& to) {
+                      const std::string& description, const std::string& group, PlotArguments& to) {
   const auto add = [&](const std::string& name, const std::string& placeholder,
                        const std::string& what, auto take) {
     app.add_option_function<std::vector<std::string>>(name, take, what)
@@ -131,27 +124,29 @@ void add_plot_options(CLI::App& app, std::span<const std::string_view> kinds,
         for (const std::string& word : words)
           to.kinds.emplace_back(kinds[choose("--plot-kind", word, kinds)]);
       });
-  const auto look = [&](const std::string& name, const std::string& placeholder,
-                        const std::string& what, auto take) {
-    add_value(app, name, placeholder, what, [&to, name, take](const std::string& text) {
-      to.looks.push_back(name);
-      take(text);
-    })->group(group);
-  };
-  if (dims)
-    look("--dims", "D,…", "dimensions that plots show (default: all that there are)",
-         [&to](const std::string& text) {
-           for (const std::int64_t dim : parse_integers("--dims", text, 0, 1'000'000))
-             to.look.dims.push_back(static_cast<int>(dim));
-         });
-  look("--title", "TEXT", "title above each plot (default: none)",
-       [&to](const std::string& text) { to.look.title = text; });
-  look("--size", "WxH",
-       "size of each plot in pixels; the picture fits into it (default: 1040 across, in SVG 88 mm)",
-       [&to](const std::string& text) { to.look.size = parse_size(text); });
-  look("--axis", "LO,HI|log|LO,HI,log",
-       "filtration values on the axis of plots; log: logarithmic (default: all that there are)",
-       [&to](const std::string& text) { to.look.axis = parse_axis(text); });
+  const auto is_any = [](const Plot&) { return true; };
+  add_plot_look(app, {"--title", is_any, {}}, "TEXT", "title above each plot (default: none)",
+                group, to, [&to](const std::string& text) { to.look.title = text; });
+  add_plot_look(
+      app, {"--size", is_any, {}}, "WxH",
+      "size of each plot in pixels; the picture fits into it (default: 1040 across, in SVG 88 mm)",
+      group, to, [&to](const std::string& text) { to.look.size = parse_size(text); });
+  const auto has_axis = [](const Plot& plot) { return plot.shows_bars() || plot.kind == "tree"; };
+  add_plot_look(
+      app, {"--axis", has_axis, "bars and merge trees"}, "LO,HI|log|LO,HI,log",
+      "filtration values on the axis of plots; log: logarithmic (default: all that there are)",
+      group, to, [&to](const std::string& text) { to.look.axis = parse_axis(text); });
+}
+
+void add_plot_look(CLI::App& app, const PlotLook& look, const std::string& placeholder,
+                   const std::string& what, const std::string& group, PlotArguments& to,
+                   std::function<void(const std::string&)> take) {
+  add_value(app, look.option, placeholder, what,
+            [&to, look, take = std::move(take)](const std::string& text) {
+              to.looks.push_back(look);
+              take(text);
+            })
+      ->group(group);
 }
 
 }  // namespace ph::app

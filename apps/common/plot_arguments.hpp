@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -32,11 +33,18 @@ std::string drawn(const Plot& plot, const What& what, const PlotOptions& options
   return plot.is_png() ? png_plot(what, options, context) : svg_plot(what, options);
 }
 
+/// An option that says how plots look, and which plots can look so.
+struct PlotLook {
+  std::string option;
+  bool (*fits)(const Plot& plot);
+  std::string meant_for;  ///< "bars": in the message that no plot fits
+};
+
 /// --plot, --plot-kind and how plots look, as they were typed.
 struct PlotArguments {
   std::vector<std::string> paths, kinds;
-  PlotOptions look;                ///< of all of them: title, size, axis, dimensions
-  std::vector<std::string> looks;  ///< the options that say so
+  PlotOptions look;             ///< of all of them: title, size, axis, dimensions
+  std::vector<PlotLook> looks;  ///< the options that said so
 
   /// Each picture with its kind: in turn, the last kind counts for the rest.
   /// @param usual kind of all if none is given.
@@ -45,10 +53,13 @@ struct PlotArguments {
   std::vector<Plot> together(std::string_view usual) const;
 };
 
-/// Registers them. @param kinds outlives `app`, as `to` does. @param dims whether bars have several
-/// dimensions to choose from.
+/// Registers those that all programs have. @param kinds outlives `app`, as `to` does.
 void add_plot_options(CLI::App& app, std::span<const std::string_view> kinds,
-                      const std::string& description, const std::string& group, bool dims,
-                      PlotArguments& to);
+                      const std::string& description, const std::string& group, PlotArguments& to);
+
+/// Registers one more look. @param take puts the text of the option into `to.look`.
+void add_plot_look(CLI::App& app, const PlotLook& look, const std::string& placeholder,
+                   const std::string& what, const std::string& group, PlotArguments& to,
+                   std::function<void(const std::string& text)> take);
 
 }  // namespace ph::app

@@ -292,7 +292,7 @@ void add_output_options(CLI::App& app, Arguments& a, app::PlotArguments& plots, 
       app, kPlotKinds,
       "figure of the barcode, of the merge tree, or of the cloud with a colour a segment "
       "(repeatable)",
-      "Options", false, plots);
+      "Options", plots);
   known.plot_view = add_value(
       app, "--plot-view", "RIGHT,UP",
       "where a plot of the cloud is seen from: by how much the eye goes around the segments "
@@ -341,8 +341,7 @@ void require_inputs(const Arguments& a) {
   if (a.inputs.empty() && a.frames_from.empty() && !depth)
     reject("expected INPUT or --depth; see --help");
   if (!a.frames_from.empty() && depth) reject("--frames-from: found --depth beside it");
-  if (!a.inputs.empty() && depth)
-    reject("found both INPUT and --depth, expected one of them");
+  if (!a.inputs.empty() && depth) reject("found both INPUT and --depth, expected one of them");
   for (const std::string& input : a.inputs) {
     if (input.empty()) reject("INPUT: found '', expected a path");
     if (must_be_image(input) && !a.image.has_camera())

@@ -41,8 +41,8 @@ CASES = [
      {"-o": "out.pcd", "--labels": "out.npy", "--plot": "out.svg", "--picture": "out.png"}),
     (SEGMENT, ["table.pcd", "--min-size", "1", "--plot-kind", "cloud"], {"--plot": "out.png"}),
     (SEGMENT, ["table.pcd", "--min-size", "1", "--plot-kind", "cloud"], {"--plot": "out.svg"}),
-    (SEGMENT, ["--depth", "out.png.in", "--intrinsics", "20,20,7,7", "--depth-scale", "1",
-               "--allow-empty"], {"--json": "/dev/null", "-o": "out.pcd"}),
+    (SEGMENT, ["--depth", "out.png.in", "--intrinsics", "20,20,7,7", "--depth-scale", "1"],
+     {"--json": "/dev/null", "-o": "out.pcd"}),
     (SEGMENT, ["out.pcd.in", "--min-size", "1"], {"--coloured": "out.ply", "--labels": "out.png"}),
 ]
 DRAWS_PNG = "PNG plots   FreeType" in subprocess.run([BARCODE, "--version", "--verbose"], check=True,

@@ -136,11 +136,12 @@ TEST(InfiniteBirths, AreNowhere) {
     return std::vector<Bar>(bars.begin(), bars.end());
   };
   const ExplicitComplex star = lower_star(edges, values);
-  for_each_engine([&](auto engine) {
-    if (engine.can_run(star, Task{})) {
-      EXPECT_EQ(bars_of(persistence(star, {.engine = engine.id})), expected) << engine.name;
-    }
-  });
+  for (const int max_dim : {0, 1})
+    for_each_engine([&](auto engine) {
+      if (!engine.can_run(star, Task{.max_dim = max_dim})) return;
+      const Barcode bars = persistence(star, {.max_dim = max_dim, .engine = engine.id});
+      EXPECT_EQ(bars_of(bars), expected) << engine.name;
+    });
   EXPECT_EQ(star.size(), 3U);
   const std::vector<WeightedEdge> graph{{0, 1, kInfinity}, {1, 2, kInfinity}, {1, 3, 2}};
   EXPECT_EQ(bars_of(persistence(FilteredGraph(values, graph))),

@@ -10,7 +10,9 @@ from run_corpus import named_options, options_of
 
 # What ph-segment reads its inputs with, beside the folders of core/, metric/ and complex/.
 READERS_OF_CLOUDS = re.compile(
-    r"io/(cloud|pcd|ply|png|depth|input|unpack|lzf|text_lines|binary_cursor|output_file)")
+    r"io/(cloud|pcd|ply|png|input|unpack|lzf|text_lines|binary_cursor|output_file)")
+# What ph-segment alone reads.
+DEPTH_AND_ARRAYS = re.compile(r"io/(depth|npy_cloud|camera)")
 STRING = re.compile(r'"((?:[^"\\]|\\.)*)"')
 
 
@@ -35,7 +37,7 @@ def programs_of(path):
     """Which programs print what this file says."""
     if path.startswith("apps/barcode/"):
         return ("ph-barcode",)
-    if path.startswith("apps/segment/"):
+    if path.startswith("apps/segment/") or DEPTH_AND_ARRAYS.search(path):
         return ("ph-segment",)
     if path.startswith("libph/") and not READERS_OF_CLOUDS.search(path) and "/io/" in path:
         return ("ph-barcode",)

@@ -66,8 +66,10 @@ void run_reader(std::string_view name, std::string_view bytes) {
     require(strict == attempt(reader, bytes, {}), "a reader gives two results for one file");
   if (!strict.content && bytes.size() % 2 != 0) return;
   // What is taken strictly is taken leniently, and means the same.
-  const ReadOptions taking{
-      .allow_empty = true, .symmetrise = Symmetrise::lower, .nan = NanPolicy::drop};
+  ReadOptions taking{.allow_empty = true, .nan = NanPolicy::drop};
+  // It says that a table is a matrix, so only who reads nothing else may be told so.
+  if (name == "distances" || name == "correlations" || name == "npy_distances")
+    taking.symmetrise = Symmetrise::lower;
   const Outcome lenient = attempt(reader, bytes, taking);
   require(!strict.content || strict.content == lenient.content,
           "a lenient reader reads something else");

@@ -234,7 +234,11 @@ TEST(DamagedTree, ContentsThatCannotBe) {
                    }),
                    "birth"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.tree.merges[9].value = kInfinity; }), "merge"));
-  EXPECT_TRUE(says(damaged([](SceneTree& t) { t.tree.merges[9].u = 1 << 30; }), "vertices"));
+  // A tree with such a merge is not written either.
+  const std::size_t first_merge = kTreeHeader / kTreeWord + 11 * s.cells.size();
+  EXPECT_TRUE(
+      says(refusal(with_word(tree_bytes(s), first_merge + 2 * 9 + 1, std::int64_t{1} << 30)),
+           "vertices"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.tree.merges[9] = t.tree.merges[8]; }), "forest"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { std::swap(t.tree.merges[9], t.tree.merges.back()); }),
                    "forest"));

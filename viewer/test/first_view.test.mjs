@@ -283,17 +283,17 @@ test("the first view", { timeout: 300_000 }, async (t) => {
       },
     });
     const kYellow = [253, 231, 37],
-      kBlueGreen = [44, 113, 142];
+      kViolet = [72, 36, 117];
     const colours = async () => [
       await tintedPixels(page, ".stage canvas", kYellow),
-      await tintedPixels(page, ".stage canvas", kBlueGreen),
+      await tintedPixels(page, ".stage canvas", kViolet),
     ];
-    const [yellow, blue] = await colours();
-    assert.ok(yellow > 2000 && blue > 2000, `${yellow} and ${blue} pixels`);
+    const [yellow, violet] = await colours();
+    assert.ok(yellow > 2000 && violet > 2000, `${yellow} and ${violet} pixels`);
     await page.evaluate(() => (location.hash = "scale=4"));
     await frame(page);
     const [less, same] = await colours();
-    assert.ok(less < yellow / 10 && same > blue / 2, `${less} and ${same} pixels`);
+    assert.ok(less < yellow / 10 && same > violet / 2, `${yellow}, ${violet} pixels, then ${less} and ${same}`);
     assert.deepEqual(problems, []);
     await close();
   });
@@ -350,6 +350,15 @@ test("the first view", { timeout: 300_000 }, async (t) => {
     const side = await words();
     assert.ok(side.y[0] > side.z[0] && side.z[1] < side.y[1], `y ${side.y} is to the right, z ${side.z} up`);
     await close();
+  });
+
+  await t.test("heads of panels wrap in narrow windows, and words stay words", async () => {
+    for (const width of [390, 500, 700]) {
+      const { page, close } = await open(browser, scene(), { width, height: 900 });
+      const heights = await page.$$eval(".panel > header", (all) => all.map((e) => e.getBoundingClientRect().height));
+      assert.ok(Math.max(...heights) < 110, `heads of ${heights} pixels in a window of ${width}`);
+      await close();
+    }
   });
 
   await t.test("nothing is cut off on a telephone", async () => {

@@ -23,9 +23,10 @@ const written = (name) => readFileSync(join(folder, name), "utf8");
 const kCharts = [".diagram .chart", ".barcode .chart"];
 const kTree = [".cut .chart", ".tree .chart"];
 
-/// Opens a report that a program made; each of these views must show something.
+/// Opens a report that a program made; each of these views must show something, once it is unfolded.
 async function look(browser, name, views, act = async () => {}) {
   const { page, problems, close } = await open(browser, written(name));
+  for (const folded of await page.$$(".panel.folded .fold")) await folded.click();
   for (const view of views) assert.ok((await coloursOf(page, view)) > 1, `${view} is empty`);
   await act(page);
   await picture(page, `program_${name.replace(".html", "")}`);
@@ -101,6 +102,7 @@ test("reports of the programs", { timeout: 300_000 }, async (t) => {
       const bar = rows.indexOf([...rows].sort((a, b) => length(b) - length(a))[0]);
       await look(browser, `${name}.html`, [...kCharts, ".stage"], async (page) => {
         await page.selectOption(".data select", "birth");
+        await page.click("text=clear"); // the page has chosen a bar
         const before = await tintedPixels(page, ".stage", colour);
         await page.evaluate((b) => (location.hash = `colour=birth&bars=${b}`), bar);
         await frame(page);

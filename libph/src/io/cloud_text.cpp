@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "cloud_rows.hpp"
 #include "ph/io/cloud_io.hpp"
 #include "readers.hpp"
 
@@ -21,14 +22,11 @@ std::string lower(std::string_view word) {
 
 constexpr std::array<std::string_view, 3> kCoordinates{"x", "y", "z"};
 
-/// Where the rows of a cloud come from.
-enum class Source { text, pts, array };
-
 bool is_share(double value) { return value >= 0 && value <= 1; }
 bool is_byte(double value) { return value >= 0 && value <= 255 && value == std::floor(value); }
 
 std::vector<std::string> column_names(const Points& rows, const std::vector<std::string>& header,
-                                      const Input& input, Source source) {
+                                      const Input& input, detail::RowSource source) {
   const auto columns = static_cast<std::size_t>(rows.cols());
   std::vector<std::string> names;
   if (header.size() == columns) {
@@ -53,14 +51,14 @@ std::vector<std::string> column_names(const Points& rows, const std::vector<std:
   }
   names = {"x", "y", "z"};
   // PTS has an intensity before the colours, or alone.
-  const bool intensity = source == Source::pts && (columns == 4 || columns == 7);
+  const bool intensity = source == detail::RowSource::pts && (columns == 4 || columns == 7);
   if (intensity) names.emplace_back("intensity");
   const std::size_t first = names.size();
   const auto are = [&](auto* kind) {
     return columns >= first + 3 &&
            rows.middleCols(static_cast<Index>(first), 3).unaryExpr(kind).all();
   };
-  const bool colours = are(&is_byte) || (source == Source::array && are(&is_share));
+  const bool colours = are(&is_byte) || (source == detail::RowSource::array && are(&is_share));
   for (std::size_t k = first; k < columns; ++k) {
     constexpr std::array<std::string_view, 3> kColours{"red", "green", "blue"};
     names.push_back(colours && k < first + 3 ? std::string(kColours[k - first])
@@ -69,8 +67,12 @@ std::vector<std::string> column_names(const Points& rows, const std::vector<std:
   return names;
 }
 
-Cloud cloud_of(const detail::TextTable& table, const Input& input, const ReadOptions& options,
-               Source source) {
+}  // namespace
+
+namespace detail {
+
+Cloud cloud_of_rows(const TextTable& table, const Input& input, const ReadOptions& options,
+                    RowSource source) {
   Cloud cloud;
   cloud.width = table.rows.rows();
   if (cloud.width == 0) {
@@ -88,7 +90,7 @@ Cloud cloud_of(const detail::TextTable& table, const Input& input, const ReadOpt
     return name == "red" || name == "green" || name == "blue";
   };
   // Colours of an array may be shares of full brightness; black and white are then 0 and 1.
-  bool shares = source == Source::array;
+  bool shares = source == RowSource::array;
   for (std::size_t k = 0; k < names.size(); ++k)
     if (is_colour(names[k]))
       shares = shares && table.rows.col(static_cast<Index>(k)).unaryExpr(&is_share).all();
@@ -122,10 +124,6 @@ Cloud cloud_of(const detail::TextTable& table, const Input& input, const ReadOpt
   return cloud;
 }
 
-}  // namespace
-
-namespace detail {
-
 bool is_counted(const Input& input) {
   const std::string_view probe = input.text().substr(0, 4096);
   if (probe.find('\0') != std::string_view::npos) return false;
@@ -150,41 +148,13 @@ bool is_counted(const Input& input) {
 }  // namespace detail
 
 Cloud read_xyz(const Input& input, const ReadOptions& options) {
-  return cloud_of(detail::read_text_table(input, Allow::any, options), input, options,
-                  Source::text);
+  return detail::cloud_of_rows(detail::read_text_table(input, Allow::any, options), input, options,
+                               detail::RowSource::text);
 }
 
 Cloud read_pts(const Input& input, const ReadOptions& options) {
-  return cloud_of(detail::read_text_table(input, Allow::any, options, true), input, options,
-                  Source::pts);
-}
-
-Cloud read_npy_cloud(const Input& input, const ReadOptions& options) {
-  const Image array = detail::read_npy_array(input);
-  const std::vector<Index>& shape = array.extents;
-  const bool organised = shape.size() == 3;
-  const std::string found = fmt::format("shape ({})", fmt::join(shape, ", "));
-  constexpr Index least_columns = 3, most_columns = 64;
-  const auto are_columns = [&](Index n) { return n >= least_columns && n <= most_columns; };
-  if (shape.size() < 2 || shape.size() > 3 || !are_columns(shape.back())) {
-    const bool turned = shape.size() == 2 && are_columns(shape.front());
-    input.fail({"not an array of points", found, "(points, 3) or (rows, columns, 3)",
-                turned              ? "save its transpose"
-                : shape.size() == 2 ? "a depth image needs a camera: --camera or --intrinsics"
-                                    : ""});
-  }
-  if (!detail::is_npy_of_floats(input))
-    input.fail({"coordinates", "whole numbers", "floats", "points are in metres"});
-  const Index count = organised ? shape[0] * shape[1] : shape[0];
-  input.require_memory(static_cast<std::size_t>(count * shape.back()) * sizeof(double));
-  detail::TextTable table{Points(count, shape.back()), {}};
-  for (std::size_t i = 0; i < array.values.size(); ++i) table.rows.data()[i] = array.values[i];
-  Cloud cloud = cloud_of(table, input, options, Source::array);
-  if (organised && count > 0) {
-    cloud.width = shape[1];
-    cloud.height = shape[0];
-  }
-  return cloud;
+  return detail::cloud_of_rows(detail::read_text_table(input, Allow::any, options, true), input,
+                               options, detail::RowSource::pts);
 }
 
 Cloud read_cloud(const Input& input, const ReadOptions& options) {

@@ -56,8 +56,8 @@ Cloud cloud_from_depth(const Image& depth, const std::optional<Raster>& colour,
   }
   const Index height = depth.extents[0], width = depth.extents[1];
   if (height < 0 || width < 0 ||
-      depth.values.size() != detail::checked_product(static_cast<std::size_t>(height),
-                                                     static_cast<std::size_t>(width))) {
+      depth.values.size() !=
+          checked_product(static_cast<std::size_t>(height), static_cast<std::size_t>(width))) {
     throw Error(ErrorKind::bad_data, fmt::format("depth image: found {} values, expected {} x {}",
                                                  depth.values.size(), width, height));
   }

@@ -180,6 +180,10 @@ ReadResult ply_result(const Input& input, const ReadOptions& options) {
   return result_of(detail::without_nan_rows(std::move(mesh.vertices), input, options, true), "PLY");
 }
 ReadResult pcd_result(const Input& input, const ReadOptions& options) {
+  if (!detail::is_pcd(input)) {
+    const std::string_view first = input.text().substr(0, input.text().find('\n'));
+    input.fail({"not a PCD file", printable(first, 40), "a header with VERSION and FIELDS", {}});
+  }
   return result_of(read_points(input, options), "PCD");
 }
 
