@@ -187,11 +187,13 @@ void add_homology_options(CLI::App& app, Arguments& a) {
             })
       ->group(group);
   static const Names engines = engine_names();
-  add_choice(app, "--engine", engines, "how it is computed (default auto; standard is the oracle)",
+  add_choice(app, "--engine", engines,
+             "how it is computed (default auto; standard is the slow reference engine)",
              [&a](std::size_t i) { a.options.engine = *engine_named(engines[i]); })
       ->group(group);
   app.add_flag("--check", a.check,
-               "also run the oracle and compare; a difference is printed and exits 1")
+               "also run the slow reference engine and compare; a difference is printed and "
+               "exits 1")
       ->group(group);
   add_value(app, "--min-persistence", "X",
             "omit bars with death - birth <= X (default 0; a negative X keeps bars of length 0)",

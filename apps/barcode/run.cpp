@@ -311,11 +311,12 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
                                      : compute(built.complex));
     watch.lap("check");
     if (difference.empty()) {
-      session.explain("check: the oracle agrees");
+      session.explain("check: the reference engine agrees");
     } else {
-      app::print_line(fmt::format("ph-barcode: {}: check: engine {} and the oracle differ: {}",
-                                  job.input, engine_name(planned.engine), difference));
-      warnings.push_back("check: the engine and the oracle differ: " + difference);
+      app::print_line(
+          fmt::format("ph-barcode: {}: check: engine {} and the reference engine differ: {}",
+                      job.input, engine_name(planned.engine), difference));
+      warnings.push_back("check: the engine and the reference engine differ: " + difference);
       code = app::kDifference;
     }
   }

@@ -23,7 +23,7 @@ using app::add_value;
 /// What --version --verbose adds.
 constexpr std::string_view kBuiltIn =
     "methods     {}\n"
-    "reads       pcd ply xyz csv png tree\n"
+    "reads       pcd ply xyz csv pts npy png pgm tree\n"
     "writes      pcd ply npy csv png json svg tree\n";
 
 /// A number that must be above zero (or, with `zero`, at least zero) and finite.
@@ -99,18 +99,18 @@ std::vector<std::string_view> names_of_presets() {
 void add_input_options(CLI::App& app, Arguments& a) {
   app.add_option(
       "INPUT", a.inputs,
-      "point cloud: .pcd, .ply, .xyz, .csv or .npy; a stored merge tree (see --tree); with "
-      "--camera or --intrinsics a depth image: .png, .pgm or .npy; - is standard input. Several, "
-      "or a folder, are a "
-      "stream of frames: its outputs are folders (FOLDER/) or have a * for the frame's "
-      "name, and --json gets one line a frame");
+      "point cloud: .pcd, .ply, .npy, or text: .xyz, .csv, .pts; a stored merge tree (see --tree); "
+      "with --camera or --intrinsics a depth image: .png, .pgm or .npy; - is standard input. "
+      "Several, or a folder, are a stream of frames: its outputs are folders (FOLDER/) or have a * "
+      "for the frame's name, and --json gets one line a frame");
   app::add_path(app, "--frames-from", "LIST",
                 "a stream of the files that LIST names, one a line; -: standard input, each as "
                 "soon as it is named",
                 a.frames_from);
   app.add_flag("--stable-labels", a.stable_labels,
-               "stream: an object keeps its label from frame to frame (by overlap in the image, of "
-               "unorganised clouds in voxels); labels are then not in the order of size");
+               "stream: an object keeps its label from frame to frame, by overlap in the image; "
+               "clouds without rows and columns are compared in cubes of 1 cm. Labels are then not "
+               "in the order of size");
   app::add_path(app, "--depth", "D.png",
                 "depth image in place of INPUT: .png, .pgm or .npy; 0 and NaN are holes",
                 a.image.depth);
@@ -171,9 +171,9 @@ void add_scene_options(CLI::App& app, SegmentOptions& o) {
                         defaults_of(&SegmentOptions::plane_margin)),
             [&o](const std::string& v) { o.plane_distance = length("--plane-distance", v); });
   add_value(app, "--plane-noise", "M",
-            fmt::format("surface, supervoxels: half the thickness of the plane at a range of one "
-                        "metre, metres, at least; it grows with the square of the range. A smaller "
-                        "--plane-distance goes before it; 0: no growth (default: {})",
+            fmt::format("surface, supervoxels: least half thickness of the plane at a range of one "
+                        "metre, metres; it grows with the square of the range. A --plane-distance "
+                        "below it replaces it; 0: --plane-distance alone counts (default: {})",
                         d.plane_noise),
             [&o](const std::string& v) { o.plane_noise = length("--plane-noise", v, true); });
   add_value(app, "--viewpoint", "X,Y,Z",

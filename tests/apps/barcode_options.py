@@ -253,7 +253,7 @@ class Options(ProgramTest):
             run = self.expect(0, "square.txt", "--engine", engine, "--check", "--max-dim", "2",
                               "--verbose")
             self.assertEqual(run.stdout, SQUARE_CSV)
-            self.assertIn("the oracle agrees", run.stderr)
+            self.assertIn("the reference engine agrees", run.stderr)
             self.assertIn("engine ", run.stderr)
 
     def test_collapse_leaves_the_bars_and_says_what_it_did(self):
@@ -266,7 +266,7 @@ class Options(ProgramTest):
             options = ("cloud.txt", "--collapse", way, "--max-dim", "2", "--engine", "cohomology")
             runs[way] = self.expect(0, *options, "--check", "--verbose")
             self.assertIn(words, runs[way].stderr)
-            self.assertIn("the oracle agrees", runs[way].stderr)
+            self.assertIn("the reference engine agrees", runs[way].stderr)
             self.assertIn("collapse " + ("off" if way == "off" else "on"),
                           self.expect(0, *options, "--dry-run").stdout)
         self.assertEqual(runs["on"].stdout, runs["off"].stdout)

@@ -191,7 +191,7 @@ class Representatives(ProgramTest):
     def test_check_compares_the_bars(self):
         run = self.expect(0, "square.txt", "--representatives", "cycles", "--check", "--verbose",
                           "-o", "out.json")
-        self.assertIn("the oracle agrees", run.stderr)
+        self.assertIn("the reference engine agrees", run.stderr)
         self.assertEqual(len(json.loads(self.read("out.json"))["bars"][4]["representative"]), 4)
 
     def test_threshold_cuts_cocycles(self):

@@ -55,7 +55,7 @@ def rows(Row):
         "--min-dim": Row("--min-dim", "1"),
         "--field": Row("--field", "3", beside=["--output-format", "json"]),
         "--engine": Row("--engine", "standard", sign="engine standard: asked for"),
-        "--check": Row("--check", sign="check: the oracle agrees"),
+        "--check": Row("--check", sign="check: the reference engine agrees"),
         "--min-persistence": Row("--min-persistence", "1e9"),
         "--representatives": Row("--representatives", "cycles", beside=["--output-format", "json"]),
         "--loops": Row("--loops", "none", beside=LOOPS),

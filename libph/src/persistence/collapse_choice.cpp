@@ -25,7 +25,7 @@ std::string_view obstacle(const Options& options) {
 std::string_view no_need(Engine engine) {
   if (engine == Engine::lens || engine == Engine::union_find)
     return "the engine goes by edges alone";
-  if (engine == Engine::standard) return "the oracle takes the complex as it is";
+  if (engine == Engine::standard) return "the reference engine takes the complex as it is";
   return {};
 }
 

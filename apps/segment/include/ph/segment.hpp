@@ -155,7 +155,7 @@ Barcode signature(const SceneTree& scene, const SceneCut& cut,
 /// apart. Those that touch differ as long as none touches more than six.
 std::vector<std::uint32_t> label_colours(const SceneCut& cut);
 
-/// Reads a cloud: .pcd, .ply, .xyz, .csv. @throws Error as ph::read_cloud does.
+/// Reads a cloud: .pcd, .ply, .npy, .xyz, .csv, .pts. @throws Error as ph::read_cloud does.
 Cloud read_cloud(const std::filesystem::path& path);
 
 /// The same points in the same order and organisation with all their fields, and `label`; a field
