@@ -16,9 +16,9 @@ void load_camera(DepthInput& image, app::Session& session) {
   if (preset != presets.end()) {
     image.camera = preset->camera;
     session.note(
-        fmt::format("--camera {}: nominal values, which each camera misses by some per "
-                    "cent; its calibration is better",
-                    preset->name));
+        fmt::format("--camera {}: nominal values for {}; each camera differs by some per cent, "
+                    "other images by more; its calibration is better",
+                    preset->name, preset->images));
     return;
   }
   image.camera = read_camera(image.calibration, &session.context());

@@ -197,8 +197,9 @@ TEST(Camera, PresetsHaveTheFieldsOfViewThatArePublished) {
   const auto degrees = [](Index pixels, double focal) {
     return 2 * std::atan(static_cast<double>(pixels) / 2 / focal) * 180 / 3.14159265358979;
   };
-  for (const auto& [name, camera] : camera_presets()) {
+  for (const auto& [name, camera, images] : camera_presets()) {
     const Intrinsics& k = camera.intrinsics;
+    EXPECT_FALSE(images.empty()) << name;
     // Kinect v1 and Xtion: the colour camera, to which depth is registered, of 525 pixels.
     const bool realsense = name.starts_with("realsense"), second = name == "kinect-v2";
     EXPECT_NEAR(degrees(camera.width, k.fx), realsense ? 69.4 : second ? 70.6 : 62.7, 0.7) << name;

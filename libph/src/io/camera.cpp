@@ -119,11 +119,13 @@ std::span<const CameraPreset> camera_presets() {
   static constexpr Camera kinect_v2{{365.456, 365.456, 254.878, 205.395}, 512, 424};
   // Depth aligned to the colour camera, whose data sheet says 69 x 42 degrees at 16:9.
   static constexpr Camera realsense{{924, 924, 639.5, 359.5}, 1280, 720, {}, true};
-  static constexpr std::array<CameraPreset, 5> presets{{{"kinect-v1", primesense},
-                                                        {"xtion", primesense},
-                                                        {"kinect-v2", kinect_v2},
-                                                        {"realsense-d415", realsense},
-                                                        {"realsense-d435", realsense}}};
+  static constexpr std::string_view registered = "depth registered to the colour camera";
+  static constexpr std::array<CameraPreset, 5> presets{
+      {{"kinect-v1", primesense, registered},
+       {"xtion", primesense, registered},
+       {"kinect-v2", kinect_v2, "images of the depth camera itself"},
+       {"realsense-d415", realsense, registered},
+       {"realsense-d435", realsense, registered}}};
   return presets;
 }
 

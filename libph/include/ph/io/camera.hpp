@@ -61,7 +61,8 @@ Camera read_camera(const std::filesystem::path& path, const RunContext* context 
 /// A camera by its name.
 struct CameraPreset {
   std::string_view name;
-  Camera camera;  ///< nominal: each device differs by some per cent
+  Camera camera;            ///< nominal: each device differs by some per cent; no lens
+  std::string_view images;  ///< which depth images it is for; others may differ by far more
 };
 std::span<const CameraPreset> camera_presets();
 
