@@ -2,8 +2,8 @@
 """Runs the commands that pages show and compares what they print: commands_in_pages.py BIN… -- PAGE…
 
 In a block ```console, a line `$ command` is run in a copy of the repository with the programs of the folders BIN
-on the path; the lines after it are what it prints. `…` stands for anything within a line, a line `…` for any
-number of lines.
+on the path; a backslash at its end continues it in the next line. The lines after it are what it prints. `…` stands
+for anything within a line, a line `…` for any number of lines.
 """
 import os
 import pathlib
@@ -24,6 +24,8 @@ def commands_of(page):
         for line in block.splitlines():
             if line.startswith("$ "):
                 commands.append((line[2:], []))
+            elif commands and commands[-1][0].endswith("\\"):
+                commands[-1] = (f"{commands[-1][0]}\n{line}", [])
             elif commands:
                 commands[-1][1].append(line)
     return commands
