@@ -5,8 +5,8 @@
 kitten.csv      5 210 points on the surface of a cat whose tail makes a loop (libcgal-demo)
 skull.npy       a CT volume of a skull, 64^3 (libcgal-demo)
 depth.png, color.png   the RGB-D frame Motorcycle of the Middlebury stereo set (python3-skimage)
-table.npy       a made depth image, metres, 525 pixels of focal length: on a table a book, two boxes side
-                by side, a can, a pen; a wall behind
+table.npy       a synthetic depth image, metres, 525 pixels of focal length: on a table a book, two boxes
+                side by side, two cans, a pen; a wall behind
 """
 import pathlib
 import shutil
@@ -100,7 +100,7 @@ def write_table(path):
     box((-0.3, -0.2, 0), (-0.14, 0.02, 0.004))    # the book
     box((-0.08, -0.02, 0), (0.04, 0.12, 0.12))    # two boxes that touch
     box((0.04, 0.0, 0), (0.14, 0.1, 0.06))
-    cylinder(0.27, -0.05, 0.033, 0.115)           # the can
+    cylinder(0.27, -0.05, 0.033, 0.115)           # the cans
     cylinder(-0.2, 0.16, 0.045, 0.09)
     box((0.05, -0.2, 0), (0.11, -0.193, 0.009))   # the pen
     noise = numpy.random.default_rng(7).normal(0, 0.0004, depth.shape)
