@@ -24,7 +24,6 @@
 namespace ph::segment {
 namespace {
 
-
 Cloud read_depth_image(const Input& input, const DepthInput& image, app::Session& session) {
   const RunContext& context = session.context();
   const DepthImage depth = read_depth(input, {.context = &context});
@@ -52,11 +51,14 @@ Cloud read_points(const Input& input, bool allow_empty, app::Session& session) {
   return ph::read_cloud(input, options);
 }
 
+/// Whether the answer is a text on standard output.
+bool prints(const Arguments& a) { return a.explain || !a.files.any(); }
+
 /// No output replaces an input. @throws Error (usage).
 void require_separate(const Arguments& a, app::Session& session) {
-  app::InputFiles inputs;
-  for (const std::string& path : {a.input, a.image.depth, a.image.colour}) inputs.add(path);
-  if (!app::require_separate(inputs, a.files.written(), a.common.force) && a.common.force)
+  std::vector<app::Written> outputs = a.files.written();
+  if (prints(a)) outputs.push_back({a.explain ? "--explain" : "the table", "-"});
+  if (!app::require_separate(inputs_of(a), outputs, a.common.force) && a.common.force)
     session.explain("--force: not needed, no output is an input");
 }
 
@@ -197,7 +199,7 @@ Outcome outcome_of(const Arguments& arguments, app::Session& session, const OfSt
   std::optional<std::string> answer;
   if (const auto& labels = arguments.explain)
     answer = explanation(s, (*labels)[0], (*labels)[1]);
-  else if (!stream && !arguments.files.any())
+  else if (!stream && prints(arguments))
     answer = text_summary(s);
   RunInfo info{.program = app::program_and_version(std::string(kProgram.name)),
                .input = arguments.input.empty() ? arguments.image.depth : arguments.input,
