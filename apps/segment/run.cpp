@@ -12,6 +12,7 @@
 #include "cross_check.hpp"
 #include "depth_camera.hpp"
 #include "exit_code.hpp"
+#include "idle_options.hpp"
 #include "option_scopes.hpp"
 #include "outputs.hpp"
 #include "ph/core/error.hpp"
@@ -69,10 +70,10 @@ Segmentation segment_within_limits(const Cloud& cloud, const SegmentOptions& opt
     return segment(cloud, options, context);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::resource) throw;
+    const std::string_view edges = options.method == Method::paper ? "--distance or " : "";
     throw Error(ErrorKind::resource,
-                fmt::format("{}; lower --distance or --max-range, enlarge --voxel, or raise "
-                            "--memory-limit",
-                            error.what()));
+                fmt::format("{}; lower {}--max-range, enlarge --voxel, or raise --memory-limit",
+                            error.what(), edges));
   }
 }
 
@@ -232,6 +233,7 @@ int run(int argc, const char* const* argv, std::stop_token stop) {
   if (const auto answer = parse_arguments(argc, argv, arguments))
     return app::answer_command_line(*answer);
   app::Session session(kProgram.name, arguments.common, std::move(stop));
+  for (const std::string& text : idle_options(arguments)) session.note(text);
   load_camera(arguments.image, session);
   if (arguments.is_stream()) return run_stream(arguments, session);
   const Outcome outcome = run_frame(arguments, session, nullptr);

@@ -64,7 +64,7 @@ def rows(Row, name="x"):
         "--explain": row("--explain", "1,2"),
         "--picture": row("--picture", f"p-{name}.png"),
         "--report": row("--report", f"r-{name}.html"),
-        "--threads": row("--threads", "1", sign="threads 1"),
+        "--threads": row("--threads", "1"),
         "--memory-limit": row("--memory-limit", "300MiB", sign="memory limit 300 MiB"),
         "--progress": row("--progress", "json", sign="progress json"),
         "--quiet": row("--quiet", lost="segment"),
