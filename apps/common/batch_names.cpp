@@ -67,11 +67,14 @@ std::string filled(const std::string& pattern, const std::string& name,
   return path.replace(star, 1, name);
 }
 
+bool has_star(const std::string& pattern) {
+  return pattern.find('*', pattern.rfind('/') + 1) != pattern.npos;  // npos + 1 is 0
+}
+
 void prepare_outputs(std::string_view option, const std::string& pattern) {
   if (pattern.empty() || is_folder(pattern)) return;
-  const std::size_t slash = pattern.rfind('/'), star = pattern.rfind('*');
-  const bool has_star = star != pattern.npos && (slash == pattern.npos || slash < star);
-  if (!has_star && !pattern.ends_with('/'))
+  const std::size_t slash = pattern.rfind('/');
+  if (!has_star(pattern) && !pattern.ends_with('/'))
     throw Error(ErrorKind::usage,
                 fmt::format("{}: several inputs need a folder (FOLDER/) or a * for their names, "
                             "found '{}'",

@@ -15,6 +15,9 @@ std::vector<std::string> output_names(const std::vector<std::string>& inputs);
 /// @param extension with its dot, for a folder.
 std::string filled(const std::string& pattern, const std::string& name, std::string_view extension);
 
+/// Whether a pattern has a `*` for the name of an input: one behind its folders.
+bool has_star(const std::string& pattern);
+
 /// Creates the folder that a pattern of `filled` names.
 /// @throws Error (usage) if it is neither a folder nor has a `*`; Error (cannot_create).
 void prepare_outputs(std::string_view option, const std::string& pattern);

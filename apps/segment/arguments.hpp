@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -11,9 +10,9 @@
 #include "command_line.hpp"
 #include "file_identity.hpp"
 #include "option_scope.hpp"
+#include "output_paths.hpp"
 #include "ph/io/cloud_io.hpp"
 #include "ph/segment.hpp"
-#include "plot_arguments.hpp"
 
 namespace ph::segment {
 
@@ -26,57 +25,8 @@ struct DepthInput {
   std::optional<double> scale;   ///< depth units a metre; none: as the image suggests
 
   bool has_camera() const { return camera || !calibration.empty(); }
-};
-
-/// The files to write. An empty path: not asked for.
-struct OutputPaths {
-  std::string output;            ///< the cloud with its labels
-  std::string labels;            ///< one label a point
-  std::string json;              ///< the summary
-  std::string tree;              ///< the merge tree
-  std::string barcode;           ///< H0
-  std::string coloured;          ///< the cloud with a colour a segment
-  std::string picture;           ///< the image with a colour a segment
-  std::string report;            ///< the page to look at
-  std::vector<app::Plot> plots;  ///< figures of what is in it
-  PlotOptions look = {};         ///< of the figures
-
-  std::vector<const std::string*> all() const {
-    std::vector<const std::string*> paths{&output, &labels, &json, &tree, &barcode};
-    for (const app::Plot& plot : plots) paths.push_back(&plot.path);
-    paths.insert(paths.end(), {&coloured, &picture, &report});
-    return paths;
-  }
-  /// Those that are asked for, with their options.
-  std::vector<app::Written> written() const {
-    std::vector<app::Written> files;
-    const auto add = [&](std::string_view option, const std::string& path) {
-      if (!path.empty()) files.push_back({option, path});
-    };
-    add("--output", output);
-    add("--labels", labels);
-    add("--json", json);
-    add("--tree", tree);
-    add("--barcode", barcode);
-    for (const app::Plot& plot : plots) add("--plot", plot.path);
-    add("--coloured", coloured);
-    add("--picture", picture);
-    add("--report", report);
-    return files;
-  }
-  /// Those that a stream has for each of its frames, and that are asked for.
-  std::vector<std::string> of_each_frame() const {
-    std::vector<std::string> paths;
-    for (const std::string* path : all())
-      if (path != &json && !path->empty()) paths.push_back(*path);
-    return paths;
-  }
-  bool any() const {
-    return std::ranges::any_of(all(), [](const std::string* path) { return !path->empty(); });
-  }
-  bool to_standard_output() const {
-    return std::ranges::any_of(all(), [](const std::string* path) { return *path == "-"; });
-  }
+  /// What --camera reads; empty: nothing.
+  std::string calibration_file() const;
 };
 
 /// What the command line says of the cut.
@@ -118,6 +68,9 @@ struct Arguments {
   /// Whether `input` is a depth image, or `image` has one.
   bool is_depth_image() const;
 };
+
+/// What is read, but for frames in folders and in lists: no output may replace it.
+app::InputFiles inputs_of(const Arguments& arguments);
 
 /// Reads the command line; prints nothing.
 /// @return the answer to --help or --version, which is all that is left to do.

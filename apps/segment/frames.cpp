@@ -32,13 +32,7 @@ std::vector<std::string> frames_in(const std::string& folder, bool depth_images)
 
 FrameSource::FrameSource(const Arguments& a)
     : patterns_(a.files), has_files_(!a.files.of_each_frame().empty()) {
-  for (const auto& [option, path] :
-       {std::pair("--output", &patterns_.output), std::pair("--labels", &patterns_.labels),
-        std::pair("--tree", &patterns_.tree), std::pair("--barcode", &patterns_.barcode),
-        std::pair("--coloured", &patterns_.coloured), std::pair("--picture", &patterns_.picture),
-        std::pair("--report", &patterns_.report)})
-    app::prepare_outputs(option, *path);
-  for (const app::Plot& plot : patterns_.plots) app::prepare_outputs("--plot", plot.path);
+  for (const auto& [option, path] : patterns_.of_each_frame()) app::prepare_outputs(option, path);
   for (const std::string& input : a.inputs) {
     if (!app::is_folder(input)) {
       inputs_.push_back(input);
@@ -72,18 +66,32 @@ void FrameSource::take_names() {
   }
 }
 
-std::optional<Frame> FrameSource::next() {
-  if (given_ < inputs_.size()) {
-    Frame frame{inputs_[given_], has_files_ ? files_of(names_[given_]) : OutputPaths{}};
-    ++given_;
-    return frame;
-  }
-  std::string line;
+bool FrameSource::next_line(std::string& line) {
   while (list_ && std::getline(*list_, line)) {
     if (line.ends_with('\r')) line.pop_back();
-    if (!line.empty()) return Frame{line, has_files_ ? files_of(name_of(line)) : OutputPaths{}};
+    if (!line.empty()) return true;
   }
-  return std::nullopt;
+  return false;
+}
+
+void FrameSource::add_known(app::InputFiles& known) {
+  for (const std::string& input : inputs_) known.add(input);
+  if (!list_) return;
+  const std::streampos start = list_->tellg();
+  if (start == std::streampos(-1)) return;
+  for (std::string line; next_line(line);) known.add(line);
+  list_->clear();
+  list_->seekg(start);
+}
+
+std::optional<Frame> FrameSource::next() {
+  if (given_ < inputs_.size()) {
+    const std::size_t i = given_++;
+    return Frame{inputs_[i], has_files_ ? patterns_.filled(names_[i]) : OutputPaths{}};
+  }
+  std::string line;
+  if (!next_line(line)) return std::nullopt;
+  return Frame{line, has_files_ ? patterns_.filled(name_of(line)) : OutputPaths{}};
 }
 
 /// The frames to come are not known: the name without extension, or one with a number behind it.
@@ -98,24 +106,6 @@ std::string FrameSource::name_of(const std::string& input) {
   } while (!taken_.emplace(name, 1).second);
   taken_[stem] = number;
   return name;
-}
-
-OutputPaths FrameSource::files_of(const std::string& name) const {
-  const OutputPaths& p = patterns_;
-  std::vector<app::Plot> plots = p.plots;
-  const std::string_view of_cloud = png_plot_support().empty() ? ".svg" : ".png";
-  for (app::Plot& plot : plots)
-    plot.path = app::filled(plot.path, name, plot.kind == "cloud" ? of_cloud : ".svg");
-  return {.output = app::filled(p.output, name, ".pcd"),
-          .labels = app::filled(p.labels, name, ".npy"),
-          .json = {},  // one file for all
-          .tree = app::filled(p.tree, name, ".tree"),
-          .barcode = app::filled(p.barcode, name, ".csv"),
-          .coloured = app::filled(p.coloured, name, ".pcd"),
-          .picture = app::filled(p.picture, name, ".png"),
-          .report = app::filled(p.report, name, ".html"),
-          .plots = std::move(plots),
-          .look = p.look};
 }
 
 }  // namespace ph::segment

@@ -27,15 +27,17 @@ class FrameSource {
   explicit FrameSource(const Arguments& arguments);
   ~FrameSource();
 
-  /// The inputs that are known from the start.
-  const std::vector<std::string>& known() const { return inputs_; }
-  /// @throws Error as the constructor, about this frame only.
+  /// Adds the frames that are known before the first one is asked for: all but those of a list that
+  /// can be read once only, a pipe, which may have no end.
+  void add_known(app::InputFiles& known);
+  /// @return none: that was all.
   std::optional<Frame> next();
 
  private:
   void take_names();
   std::string name_of(const std::string& input);
-  OutputPaths files_of(const std::string& name) const;
+  /// That of the next frame of the list. @return whether there is one.
+  bool next_line(std::string& line);
 
   const OutputPaths& patterns_;
   bool has_files_;  // each frame has files: names matter

@@ -2,6 +2,7 @@
 #include "outputs.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <sstream>
@@ -25,18 +26,13 @@ std::string extension_of(std::string_view path) {
   return extension;
 }
 
-/// @throws Error (usage) unless the path ends in one of the extensions; "-" is fine.
-void require_extension(std::string_view option, const std::string& path,
-                       std::initializer_list<std::string_view> extensions) {
-  if (path.empty() || path == "-") return;
-  const std::string found = extension_of(path);
-  if (std::ranges::find(extensions, found) != extensions.end()) return;
-  std::string expected;
-  for (const std::string_view e : extensions) {
-    expected += fmt::format("{}{}", expected.empty() ? "" : " or ", e);
-  }
+/// @throws Error (usage) unless the path ends in what the option can write; "-" is fine.
+void require_extension(const OutputOption& of, const std::string& path) {
+  if (of.extensions.empty() || path == "-") return;
+  if (std::ranges::count(of.extensions, extension_of(path)) > 0) return;
+  if (of.kind == OutputKind::barcode && barcode_format_of_path(path)) return;  // by other names
   throw Error(ErrorKind::usage, fmt::format("{}: found {}, expected a file name that ends in {}",
-                                            option, path, expected));
+                                            of.option, path, fmt::join(of.extensions, " or ")));
 }
 
 template <class Write>
@@ -98,32 +94,13 @@ BarcodeInfo barcode_info(const Segmentation& s, const RunInfo& info) {
 }
 
 Outputs::Outputs(const Arguments& a) : arguments_(a) {
-  const OutputPaths& f = a.files;
-  for (const std::string& path : {f.output, f.coloured}) {
-    if (!path.empty()) cloud_format_of(path);
-  }
-  require_extension("--labels", f.labels, {".npy", ".csv", ".png"});
-  require_extension("--tree", f.tree, {".tree", ".json"});
-  for (const app::Plot& plot : f.plots)
-    if (plot.path != "-") app::require_known_format(plot);
-  require_extension("--picture", f.picture, {".png"});
-  require_extension("--report", f.report, {".html", ".htm"});
-  if (!f.barcode.empty() && f.barcode != "-" && !barcode_format_of_path(f.barcode)) {
-    require_extension("--barcode", f.barcode, {".csv", ".json", ".txt", ".pers", ".dipha", ".npy"});
-  }
-  open(Kind::cloud, f.output);
-  open(Kind::labels, f.labels);
-  open(Kind::json, f.json);
-  open(Kind::tree, f.tree);
-  open(Kind::barcode, f.barcode);
-  for (const app::Plot& plot : f.plots) open(Kind::plot, plot.path, &plot);
-  open(Kind::coloured, f.coloured);
-  open(Kind::picture, f.picture);
-  open(Kind::report, f.report);
-}
-
-void Outputs::open(Kind kind, const std::string& path, const app::Plot* plot) {
-  if (!path.empty()) files_.push_back({kind, app::Output(path), plot});
+  a.files.each([](const OutputOption& of, const std::string& path, const app::Plot* plot) {
+    if (!plot) return require_extension(of, path);
+    if (path != "-") app::require_known_format(*plot);
+  });
+  a.files.each([&](const OutputOption& of, const std::string& path, const app::Plot* plot) {
+    files_.push_back({of.kind, app::Output(path), plot});
+  });
 }
 
 void Outputs::require_suitable(Index height) const {
@@ -168,29 +145,29 @@ void Outputs::write_file(File& file, const Cloud* cloud, const Segmentation& s, 
   const OutputPaths& f = arguments_.files;
   app::Output& out = file.output;
   switch (file.kind) {
-    case Kind::cloud:
+    case OutputKind::cloud:
       return out.write(
           cloud_bytes(with_labels(*cloud, numbers_of(s.labels, info)), cloud_format_of(f.output)));
-    case Kind::labels:
+    case OutputKind::labels:
       return out.write(label_file(f.labels, s, numbers_of(s.labels, info)));
-    case Kind::json:
+    case OutputKind::json:
       return out.write(json_summary(arguments_, s, info));
-    case Kind::tree:
+    case OutputKind::tree:
       return out.write(extension_of(f.tree) == ".json" ? tree_json(s) : tree_bytes(s));
-    case Kind::barcode:
+    case OutputKind::barcode:
       return write_barcode(out.file(), s.barcode,
                            barcode_format_of_path(f.barcode).value_or(BarcodeFormat::csv),
                            barcode_info(s, info));
-    case Kind::plot:
+    case OutputKind::plot:
       return out.write(plot(*file.plot, cloud, s, info, context));
-    case Kind::coloured:
+    case OutputKind::coloured:
       return out.write(cloud_bytes(coloured_cloud(*cloud, s.labels, colours(cloud, s, info)),
                                    cloud_format_of(f.coloured)));
-    case Kind::picture:
+    case OutputKind::picture:
       return out.write(text_of([&](std::ostream& o) {
         write_png(o, ph::segment::picture(*cloud, s.labels, colours(cloud, s, info)));
       }));
-    case Kind::report:
+    case OutputKind::report:
       return write_report(out.file(), cloud, s, info, arguments_, context);
   }
 }

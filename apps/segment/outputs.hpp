@@ -48,13 +48,11 @@ class Outputs {
              const RunContext& context);
 
  private:
-  enum class Kind { cloud, labels, json, tree, barcode, plot, coloured, picture, report };
   struct File {
-    Kind kind;
+    OutputKind kind;
     app::Output output;
     const app::Plot* plot;  ///< what a plot shows
   };
-  void open(Kind kind, const std::string& path, const app::Plot* plot = nullptr);
   void write_file(File& file, const Cloud* cloud, const Segmentation& segmentation,
                   const RunInfo& info, const RunContext& context) const;
   std::string plot(const app::Plot& plot, const Cloud* cloud, const Segmentation& s,

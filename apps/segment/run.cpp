@@ -12,6 +12,7 @@
 #include "cross_check.hpp"
 #include "depth_camera.hpp"
 #include "exit_code.hpp"
+#include "idle_options.hpp"
 #include "option_scopes.hpp"
 #include "outputs.hpp"
 #include "ph/core/error.hpp"
@@ -23,7 +24,6 @@
 
 namespace ph::segment {
 namespace {
-
 
 Cloud read_depth_image(const Input& input, const DepthInput& image, app::Session& session) {
   const RunContext& context = session.context();
@@ -52,11 +52,14 @@ Cloud read_points(const Input& input, bool allow_empty, app::Session& session) {
   return ph::read_cloud(input, options);
 }
 
+/// Whether the answer is a text on standard output.
+bool prints(const Arguments& a) { return a.explain || !a.files.any(); }
+
 /// No output replaces an input. @throws Error (usage).
 void require_separate(const Arguments& a, app::Session& session) {
-  app::InputFiles inputs;
-  for (const std::string& path : {a.input, a.image.depth, a.image.colour}) inputs.add(path);
-  if (!app::require_separate(inputs, a.files.written(), a.common.force) && a.common.force)
+  std::vector<app::Written> outputs = a.files.written();
+  if (prints(a)) outputs.push_back({a.explain ? "--explain" : "the table", "-"});
+  if (!app::require_separate(inputs_of(a), outputs, a.common.force) && a.common.force)
     session.explain("--force: not needed, no output is an input");
 }
 
@@ -67,10 +70,10 @@ Segmentation segment_within_limits(const Cloud& cloud, const SegmentOptions& opt
     return segment(cloud, options, context);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::resource) throw;
+    const std::string_view edges = options.method == Method::paper ? "--distance or " : "";
     throw Error(ErrorKind::resource,
-                fmt::format("{}; lower --distance or --max-range, enlarge --voxel, or raise "
-                            "--memory-limit",
-                            error.what()));
+                fmt::format("{}; lower {}--max-range, enlarge --voxel, or raise --memory-limit",
+                            error.what(), edges));
   }
 }
 
@@ -197,7 +200,7 @@ Outcome outcome_of(const Arguments& arguments, app::Session& session, const OfSt
   std::optional<std::string> answer;
   if (const auto& labels = arguments.explain)
     answer = explanation(s, (*labels)[0], (*labels)[1]);
-  else if (!stream && !arguments.files.any())
+  else if (!stream && prints(arguments))
     answer = text_summary(s);
   RunInfo info{.program = app::program_and_version(std::string(kProgram.name)),
                .input = arguments.input.empty() ? arguments.image.depth : arguments.input,
@@ -230,6 +233,7 @@ int run(int argc, const char* const* argv, std::stop_token stop) {
   if (const auto answer = parse_arguments(argc, argv, arguments))
     return app::answer_command_line(*answer);
   app::Session session(kProgram.name, arguments.common, std::move(stop));
+  for (const std::string& text : idle_options(arguments)) session.note(text);
   load_camera(arguments.image, session);
   if (arguments.is_stream()) return run_stream(arguments, session);
   const Outcome outcome = run_frame(arguments, session, nullptr);

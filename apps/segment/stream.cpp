@@ -44,44 +44,70 @@ std::string failure_line(const std::string& input, int code) {
 class Stream {
  public:
   Stream(const Arguments& arguments, app::Session& session)
-      : arguments_(arguments), one_(arguments), session_(session), source_(arguments) {
+      : arguments_(arguments),
+        one_(arguments),
+        session_(session),
+        source_(arguments),
+        known_(inputs_of(arguments)) {
     if (!arguments.files.any()) {
       throw Error(ErrorKind::usage,
                   "several inputs: expected a folder for their results, such as --labels FOLDER/, "
                   "or --json FILE");
     }
-    for (const std::string& input : source_.known()) known_.add(input);
-    known_.add(arguments.frames_from);
-    if (!arguments.files.json.empty() && !arguments.common.force)
-      known_.require_other({"--json", arguments.files.json});
-    if (!arguments.files.json.empty()) json_.emplace(arguments.files.json);
+    source_.add_known(known_);
+    if (!json().path.empty()) {
+      if (!arguments.common.force) known_.require_other(json());
+      json_.emplace(json().path);
+    }
     // Of a long list of inputs there is one copy here, not one a frame.
     one_.inputs = {};
     one_.frames_from.clear();
   }
 
   int run() {
-    while (next_frame()) session_.context().poll();
+    while (std::optional<Frame> frame = source_.next()) {
+      require_not_json(frame->input);
+      segment(std::move(*frame));
+      session_.context().poll();
+    }
     if (json_) json_->commit();
+    if (arguments_.common.force && !replaces_input_)
+      session_.explain("--force: not needed, no output is an input");
     report_throughput();
     return first_failure_;
   }
 
  private:
-  /// @return whether there was one. @throws Error if the others need not be tried.
-  bool next_frame() {
+  app::Written json() const { return {"--json", arguments_.files.json}; }
+
+  /// In the end the file of all frames would replace this one: there is no use in going on.
+  void require_not_json(const std::string& input) {
+    if (!json_) return;
+    app::InputFiles frame;
+    frame.add(input);
+    if (!arguments_.common.force) frame.require_other(json());
+    replaces_input_ = replaces_input_ || frame.replaced_by(json().path);
+  }
+
+  /// No output replaces an input, nor another output. @throws Error (usage).
+  void require_separate(const Arguments& one) {
+    std::vector<app::Written> outputs = one.files.written();
+    if (outputs.empty()) return;
+    known_.add(one.input);  // not without need: a stream may go on for ever
+    if (json_) outputs.push_back(json());
+    if (app::require_separate(known_, outputs, arguments_.common.force)) replaces_input_ = true;
+  }
+
+  /// @throws Error if the others need not be tried.
+  void segment(Frame&& frame) {
     Arguments& one = one_;
-    one.input.clear();
+    one.input = std::move(frame.input);
+    one.files = std::move(frame.files);
+    ++frames_;
     int code = app::kOk;
     std::string line;
     try {
-      std::optional<Frame> frame = source_.next();
-      if (!frame) return false;
-      ++frames_;
-      one.input = frame->input;
-      one.files = std::move(frame->files);
-      if (one.files.any()) known_.add(one.input);  // a stream may go on for ever
-      app::require_separate(known_, one.files.written(), arguments_.common.force);
+      require_separate(one);
       const OfStream stream{arguments_.stable_labels ? &tracker_ : nullptr, json_.has_value()};
       const Outcome outcome = run_frame(one, session_, &stream);
       code = outcome.code;
@@ -102,10 +128,9 @@ class Stream {
       json_->write(line);
       json_->file().flush();
     }
-    if (code == app::kOk) return true;
+    if (code == app::kOk) return;
     if (first_failure_ == app::kOk) first_failure_ = code;
     ++failures_;
-    return true;
   }
 
   void report_throughput() const {
@@ -123,7 +148,8 @@ class Stream {
   Arguments one_;  // of the frame at hand
   app::Session& session_;
   FrameSource source_;
-  app::InputFiles known_;  // and those of the list so far
+  app::InputFiles known_;  // and those of a pipe so far
+  bool replaces_input_ = false;
   std::optional<app::Output> json_;
   LabelTracker tracker_;
   std::size_t frames_ = 0, failures_ = 0;

@@ -10,19 +10,22 @@ import zlib
 
 WIDTH, HEIGHT, FOCAL = 96, 72, 150
 CAMERA = f"{FOCAL},{FOCAL},{WIDTH / 2},{HEIGHT / 2}"
-RESULTS = ["--labels", "l-*.csv", "--barcode", "b-*.csv"]
+RESULTS = ["--labels", "l-x.csv", "--barcode", "b-x.csv"]
+OF_FRAMES = ["--labels", "l-*.csv", "--barcode", "b-*.csv"]
 
 
-def rows(Row):
-    plot = [*RESULTS, "--plot", "x-*.svg"]
+def rows(Row, name="x"):
+    """@param name what the names of files have of their input, * in a stream."""
+    results = OF_FRAMES if name == "*" else RESULTS
+    plot = [*results, "--plot", f"x-{name}.svg"]
 
-    def row(*arguments, beside=RESULTS, **how):
+    def row(*arguments, beside=results, **how):
         return Row(*arguments, beside=beside, **how)
     return {
-        "--frames-from": row("--frames-from", "list.txt"),
+        "--frames-from": row("--frames-from", "list.txt", beside=OF_FRAMES),
         "--stable-labels": row("--stable-labels"),
         "--depth": row("--depth", "other.png"),
-        "--color": row("--color", "colour.png", beside=["-o", "o-*.pcd"]),
+        "--color": row("--color", "colour.png", beside=["-o", f"o-{name}.pcd"]),
         "--camera": row("--camera", "kinect-v1"),
         "--intrinsics": row("--intrinsics", "100,100,48,36"),
         "--depth-scale": row("--depth-scale", "900"),
@@ -45,23 +48,23 @@ def rows(Row):
         "--min-size": row("--min-size", "500"),
         "--objects": row("--objects", default=True),
         "--parts": row("--parts"),
-        "--output": row("-o", "o-*.pcd"),
-        "--labels": row("--labels", "l-*.csv", beside=[]),
+        "--output": row("-o", f"o-{name}.pcd"),
+        "--labels": row("--labels", f"l-{name}.csv", beside=[]),
         "--json": row("--json", "x.json"),
         "--signatures": row("--signatures", beside=["--json", "x.json"]),
-        "--tree": row("--tree", "t-*.tree"),
-        "--barcode": row("--barcode", "b-*.csv", beside=[]),
-        "--plot": row("--plot", "x-*.svg"),
+        "--tree": row("--tree", f"t-{name}.tree"),
+        "--barcode": row("--barcode", f"b-{name}.csv", beside=[]),
+        "--plot": row("--plot", f"x-{name}.svg"),
         "--plot-kind": row("--plot-kind", "diagram", beside=plot),
         "--plot-view": row("--plot-view", "30,20", beside=[*plot, "--plot-kind", "cloud"]),
         "--title": row("--title", "Table", beside=plot),
         "--size": row("--size", "300x200", beside=plot),
         "--axis": row("--axis", "0.001,0.02", beside=plot),
-        "--coloured": row("--coloured", "c-*.pcd"),
+        "--coloured": row("--coloured", f"c-{name}.pcd"),
         "--explain": row("--explain", "1,2"),
-        "--picture": row("--picture", "p-*.png"),
-        "--report": row("--report", "r-*.html"),
-        "--threads": row("--threads", "1", sign="threads 1"),
+        "--picture": row("--picture", f"p-{name}.png"),
+        "--report": row("--report", f"r-{name}.html"),
+        "--threads": row("--threads", "1"),
         "--memory-limit": row("--memory-limit", "300MiB", sign="memory limit 300 MiB"),
         "--progress": row("--progress", "json", sign="progress json"),
         "--quiet": row("--quiet", lost="segment"),
@@ -148,8 +151,7 @@ def inputs(Input, program):
         "list.txt": b"next.pcd\n", "images.txt": b"other.png\n", "next.pcd": organised, "other.png":
         png(WIDTH, [struct.pack(f">{WIDTH}H", *row) for row in other], 16, 0),
         "colour.png": png(WIDTH, [bytes([90, 160, 30]) * WIDTH] * HEIGHT, 8, 2)}
-    streams = {"--explain": Row("--explain", "1,2", beside=RESULTS),
-               "--force": Row("--force", beside=["--json", "@input"])}
+    streams = {**rows(Row, "*"), "--cut": Row("--cut", "1.5", beside=OF_FRAMES)}
     moved = {"--viewpoint": Row("--viewpoint", "0.3,0,0", beside=[*RESULTS, "--plane", "off",
                                                               "--max-range", "1.02"])}
     supervoxels = {**moved, "--min-persistence": Row("--min-persistence", "0.05", beside=RESULTS),
@@ -170,16 +172,16 @@ def inputs(Input, program):
         ("XYZ", ["s.xyz"], {"s.xyz": text_of(points)}, shape, b"# none\n"),
         ("depth image", ["--depth", "d.png", "--intrinsics", CAMERA], {"d.png": sixteen}, shape, None),
         ("depth INPUT", ["d.png", "--intrinsics", CAMERA], {"d.png": sixteen},
-         {**shape, "--frames-from": Row("--frames-from", "images.txt", beside=RESULTS)}, None),
+         {**shape, "--frames-from": Row("--frames-from", "images.txt", beside=OF_FRAMES)}, None),
         ("tree", ["t.tree"], {"t.tree": tree(program, organised, ["--parts"])}, apart, None),
         ("tree, paper", ["t.tree"], {"t.tree": tree(program, organised, ["--method", "paper"])}, {},
          None),
         ("stream", ["s.pcd", "u.pcd"], {"s.pcd": organised,
                                         "u.pcd": pcd(list(points_of(other)), WIDTH, HEIGHT)},
-         {**streams, **shape}, None),
+         streams, None),
         ("folder", ["in"], {"in/s.pcd": organised,
                             "in/u.pcd": pcd(list(points_of(other)), WIDTH, HEIGHT)},
-         {**streams, **shape}, None),
+         streams, None),
     ]
     return [Input(name, arguments, {**files, **beside}, rows=given,
                   **({} if empty is None else {"empty": empty}))

@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: MIT
 """program_overwrites.py PH_BARCODE PH_SEGMENT: an output is never one of the inputs, nor another
 output, by whatever name, unless --force allows the first."""
+import json
 import os
+import struct
 import subprocess
 import sys
 import tempfile
 import unittest
 
-from option_inputs_segment import CAMERA, HEIGHT, WIDTH, depths, pcd, png, points_of
-import struct
+from option_inputs_segment import CAMERA, FOCAL, HEIGHT, WIDTH, depths, pcd, png, points_of
 
 BARCODE = SEGMENT = None
 POINTS = b"0 0\n1 0\n1 1\n0 1.25\n"
@@ -100,19 +101,32 @@ class Overwrites(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertTrue(self.read("p.csv").startswith(b"dim,birth,death\n"))
 
-    def test_ph_segment(self):
+    def scene(self, *clouds):
+        """The same scene as clouds, as a depth image, and the camera of that."""
         image = depths(36)
-        self.write("s.pcd", pcd(list(points_of(image)), WIDTH, HEIGHT))
+        for name in clouds:
+            self.write(name, pcd(list(points_of(image)), WIDTH, HEIGHT))
         self.write("d.png", png(WIDTH, [struct.pack(f">{WIDTH}H", *row) for row in image], 16, 0))
+        self.write("cam.json", json.dumps({
+            "width": WIDTH, "height": HEIGHT, "intrinsic_matrix":
+            [FOCAL, 0, 0, 0, FOCAL, 0, WIDTH / 2, HEIGHT / 2, 1]}).encode())
+
+    def write_list(self, *frames):
+        self.write("list.txt", "".join(f"{frame}\n" for frame in frames).encode())
+
+    def test_ph_segment(self):
+        self.scene("s.pcd")
         self.write("c.png", png(WIDTH, [bytes([9, 9, 9]) * WIDTH] * HEIGHT, 8, 2))
-        files = ("s.pcd", "d.png", "c.png")
+        files = ("s.pcd", "d.png", "c.png", "cam.json")
         depth = ["--depth", "d.png", "--color", "c.png", "--intrinsics", CAMERA]
         for alias in ALIASES:
-            cloud = alias.format("s.pcd")
+            cloud, camera = alias.format("s.pcd"), alias.format("cam.json")
             for option, arguments in (
                     ("--output", ["s.pcd", "-o", cloud]),
                     ("--coloured", ["s.pcd", "--coloured", cloud]),
                     ("--json", ["s.pcd", "--json", cloud]),
+                    ("--json", ["d.png", "--camera", "cam.json", "--json", camera]),
+                    ("--json", ["d.png", "d.png", "--camera", "cam.json", "--json", camera]),
                     ("--picture", [*depth, "--picture", alias.format("d.png")]),
                     ("--labels", [*depth, "--labels", alias.format("c.png")]),
                     ("--plot", [*depth, "--plot", alias.format("c.png")])):
@@ -121,6 +135,71 @@ class Overwrites(unittest.TestCase):
         self.refused(SEGMENT, "--labels", files, "s.pcd", "--barcode", "x.csv", "--labels", "./x.csv")
         self.refused(SEGMENT, "--output", files, "s.pcd", "hard-s.pcd", "-o", "*.pcd")
         self.refused(SEGMENT, "--json", files, "s.pcd", "hard-s.pcd", "--json", "link-s.pcd")
+
+    def test_a_camera_by_its_name_is_no_file(self):
+        self.scene()
+        self.write("kinect-v1", b"anything")
+        run = self.run_in_folder(SEGMENT, "d.png", "--camera", "kinect-v1", "--json", "kinect-v1")
+        self.assertEqual(run.returncode, 0, run.stderr)
+
+    def test_frames_of_a_list(self):
+        self.scene("s.pcd", "folder/s.pcd")
+        self.write_list("folder/s.pcd", "s.pcd")
+        files = ("s.pcd", "folder/s.pcd", "list.txt")
+        with open(os.path.join(self.folder, "list.txt"), "rb") as opened:
+            for source in (["--frames-from", "list.txt"], ["--frames-from", "-"]):
+                opened.seek(0)
+                before = {name: self.read(name) for name in files}
+                run = self.run_in_folder(SEGMENT, *source, "-o", "*.pcd", stdin=opened)
+                self.assertEqual(run.returncode, 64, run.stderr)
+                self.assertIn("--output: s.pcd is an input, expected another file", run.stderr)
+                self.assertEqual(before, {name: self.read(name) for name in files}, source)
+        for output in ("s.pcd", "hard-s.pcd", "list.txt"):
+            self.refused(SEGMENT, "--json", files, "--frames-from", "list.txt", "--json", output)
+
+    def test_frames_of_a_pipe(self):
+        self.scene("s.pcd", "t.pcd")
+        frames = "t.pcd\ns.pcd\nt.pcd\n"
+        for labels in ([], ["--labels", "out/"]):
+            before = self.read("s.pcd")
+            run = self.run_in_folder(SEGMENT, "--frames-from", "-", "--json", "hard-s.pcd", *labels,
+                                     input=frames)
+            self.assertEqual((run.returncode, self.read("s.pcd")), (64, before), run.stderr)
+            self.assertIn("--json: hard-s.pcd is the input s.pcd", run.stderr)
+        run = self.run_in_folder(SEGMENT, "--frames-from", "-", "--json", "s.pcd", "--force",
+                                 input=frames)
+        self.assertEqual((run.returncode, self.read("s.pcd")[:1]), (0, b"{"), run.stderr)
+
+    def test_the_json_of_all_frames_is_a_file_of_its_own(self):
+        self.scene("a.pcd", "b.pcd")
+        run = self.run_in_folder(SEGMENT, "a.pcd", "b.pcd", "--labels", "out/*.csv", "--json",
+                                 "folder/../out/a.csv")
+        self.assertEqual(run.returncode, 64, run.stderr)
+        self.assertIn("--json: folder/../out/a.csv is written by --labels, too", run.stderr)
+
+    def test_text_of_ph_segment(self):
+        self.scene("s.pcd")
+        before = self.read("s.pcd")
+        for arguments in ([], ["--explain", "1,2"], ["--json", "-"], ["hard-s.pcd", "--json", "-"]):
+            with open(os.path.join(self.folder, "s.pcd"), "ab") as file:
+                run = subprocess.run([SEGMENT, "s.pcd", *arguments], cwd=self.folder, stdout=file,
+                                     stderr=subprocess.PIPE, text=True, timeout=60)
+            self.assertEqual((run.returncode, self.read("s.pcd")), (64, before), arguments)
+            self.assertIn("standard output is the input", run.stderr)
+
+    def test_a_star_stands_for_the_name_of_one_input_too(self):
+        self.scene("s.pcd")
+        run = self.run_in_folder(SEGMENT, "s.pcd", "-o", "out/*.pcd", "--labels", "out/*.npy")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(sorted(os.listdir(os.path.join(self.folder, "out"))), ["s.npy", "s.pcd"])
+
+    def test_force_is_not_needed(self):
+        self.scene("s.pcd", "t.pcd")
+        said = "--force: not needed, no output is an input"
+        for outputs, needed in ((["--json", "x.json"], False), (["-o", "out/"], False),
+                                (["-o", "./"], True), (["--json", "s.pcd"], True)):
+            run = self.run_in_folder(SEGMENT, "s.pcd", "t.pcd", *outputs, "--force", "--verbose")
+            self.assertEqual(said in run.stderr, not needed, (outputs, run.stderr))
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What ph-segment notes where lengths or a camera cannot be meant.
+// What ph-segment notes: lengths or a camera that cannot be meant, options that do nothing.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -99,6 +99,66 @@ TEST_F(Notes, AnotherFrame) {
   ASSERT_EQ(run("dense.pcd --viewpoint " + sensor), 0) << err();
   EXPECT_EQ(std::ranges::count(err(), '\n'), 1) << err();
   EXPECT_TRUE(notes("2 segments")) << err();
+}
+
+/// One thread is all that the pipeline has; signatures take more.
+TEST_F(Notes, ThreadsAreForSignatures) {
+  ASSERT_EQ(run("scene.pcd --threads 2 --json a.json"), 0) << err();
+  EXPECT_TRUE(notes("--threads does nothing: ")) << err();
+  ASSERT_EQ(run("scene.pcd scene.pcd --threads 2 --json a.json"), 0) << err();
+  EXPECT_EQ(err().find("--threads does nothing: "), err().rfind("--threads")) << err();
+  ASSERT_EQ(run("scene.pcd --threads 2 --json a.json --signatures"), 0) << err();
+  EXPECT_FALSE(notes("--threads")) << err();
+}
+
+TEST_F(Notes, ColoursThatNoOutputShows) {
+  write_depth();
+  const Raster grey{scene_.kWidth, scene_.kHeight, 1, 8,
+                    std::vector<std::uint16_t>(scene_.truth().size(), 90)};
+  std::ofstream file(at("c.png"), std::ios::binary);
+  write_png(file, grey);
+  file.close();
+  const std::string depth = "--depth d.png --color c.png --intrinsics 260,260,159.5,119.5 ";
+  for (const char* outputs : {"", "--explain 1,2", "--labels l.npy --tree t.tree --json j.json",
+                              "--plot p.svg --barcode b.csv"}) {
+    ASSERT_EQ(run(depth + outputs), 0) << err();
+    EXPECT_TRUE(notes("--color does nothing: no output shows colours")) << outputs << err();
+  }
+  for (const char* outputs : {"-o o.pcd", "--picture p.png", "--coloured c.pcd"}) {
+    ASSERT_EQ(run(depth + outputs), 0) << err();
+    EXPECT_FALSE(notes("--color")) << outputs << err();
+  }
+}
+
+TEST_F(Notes, StableLabelsThatNoOutputShows) {
+  std::filesystem::copy_file(at("scene.pcd"), at("next.pcd"));
+  ASSERT_EQ(run("scene.pcd next.pcd --stable-labels --barcode b/ --tree b/"), 0) << err();
+  EXPECT_TRUE(notes("--stable-labels does nothing: no output shows labels")) << err();
+  ASSERT_EQ(run("scene.pcd next.pcd --stable-labels --barcode b/ --labels l/"), 0) << err();
+  EXPECT_FALSE(notes("--stable-labels")) << err();
+}
+
+TEST_F(Notes, TheSmallerMarginOfThePlaneGoesFirst) {
+  ASSERT_EQ(run("scene.pcd --plane-distance 0.001 --plane-noise 0.004"), 0) << err();
+  EXPECT_TRUE(notes("--plane-noise does nothing: --plane-distance 0.001 is smaller")) << err();
+  for (const char* options : {"--plane-distance 0.001", "--plane-noise 0.004",
+                              "--plane-distance 0.005 --plane-noise 0.004"}) {
+    ASSERT_EQ(run(std::string("scene.pcd ") + options), 0) << err();
+    EXPECT_FALSE(notes("does nothing")) << options << err();
+  }
+}
+
+/// Only what the method takes: --distance of another one is refused.
+TEST_F(Notes, OutOfMemoryNamesOptionsOfTheMethod) {
+  for (const char* method : {"surface", "supervoxels", "paper"}) {
+    const std::string options = std::string("scene.pcd --plane off --voxel 0.0005 --method ") +
+                                method + " --memory-limit 12MB --distance 2";
+    const bool is_paper = method == std::string("paper");
+    ASSERT_EQ(run(is_paper ? options : options.substr(0, options.rfind(" --distance"))), 75)
+        << err();
+    EXPECT_EQ(notes("--distance"), is_paper) << err();
+    EXPECT_TRUE(notes("--max-range, enlarge --voxel, or raise --memory-limit")) << err();
+  }
 }
 
 TEST_F(Notes, ThreadsChangeNoByte) {

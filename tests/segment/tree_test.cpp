@@ -242,11 +242,12 @@ TEST(DamagedTree, ContentsThatCannotBe) {
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.tree.merges[9] = t.tree.merges[8]; }), "forest"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { std::swap(t.tree.merges[9], t.tree.merges.back()); }),
                    "forest"));
-  EXPECT_TRUE(says(damaged([](SceneTree& t) {
-                     t.points.erase(t.points.begin());
-                     t.vertex_of_point.erase(t.vertex_of_point.begin());
-                   }),
-                   "points with a vertex"));
+  // Nor is one with more coordinates than points.
+  std::string bytes = tree_bytes(s);
+  const std::size_t first_point = (first_merge + 2 * s.tree.merges.size()) * kTreeWord;
+  std::memcpy(&bytes[first_point + sizeof kTreeNoVertex * static_cast<std::size_t>(s.points[0])],
+              &kTreeNoVertex, sizeof kTreeNoVertex);
+  EXPECT_TRUE(says(refusal(with_right_sum(bytes)), "points with a vertex"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.xyz[0] = test::kHole; }), "coordinate"));
   // Far from the voxel: aside, high above it, behind the plane; or so few that a point is missing.
   const Vec3 n = s.plane->normal;
