@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Dots of a diagram that lie on each other, fanned out: each can be seen and hit.
 
-const kPitch = 8.5, // pixels from dot to dot
-  kMostFanned = 24, // dots at one place; of more their number is shown
+/// Pixels from dot to dot.
+export const kPitch = 8.5;
+/// Dots at one place; of more their number is shown.
+const kMostFanned = 24,
   kMostOnLine = 60;
 
 export interface Crowd {
