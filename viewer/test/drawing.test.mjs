@@ -3,11 +3,16 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import { importSource } from "./support/import_source.mjs";
+import { random } from "./support/random.mjs";
 
 const { fanOut } = await importSource("fan.ts");
 const { drawMatching } = await importSource("matching_lines.ts");
 const { Matching } = await importSource("matching.ts");
 const { Bars } = await importSource("bars.ts");
+const { drawDensity } = await importSource("diagram_density.ts");
+const { spacingOf } = await importSource("spacing.ts");
+const { firstPose } = await importSource("pose.ts");
+const { Spots } = await importSource("spots.ts");
 
 const kLeft = 50,
   kRight = 348;
@@ -81,6 +86,14 @@ function linesOf(barcodes, pairs) {
   return { lines, left };
 }
 
+test("of very many pairs those that move farthest have lines", () => {
+  const many = Array.from({ length: 2000 }, (_, i) => [0, 10 + i]);
+  const pairs = many.flatMap((_, i) => [i, 2000 + i]);
+  const { lines, left } = linesOf([many, many.map(([b, d]) => [b + (d - 10) / 1e4, d])], pairs);
+  assert.deepEqual(left, { drawn: 1500, all: 2000 });
+  assert.equal(Math.min(...lines.map((l) => l[1])), 510);
+});
+
 test("a matching: lines between partners, dotted ones to the diagonal", () => {
   const two = [
     [[0, 4], [0, 2]],
@@ -90,4 +103,61 @@ test("a matching: lines between partners, dotted ones to the diagonal", () => {
   const { lines } = linesOf(two, [0, 2]);
   assert.deepEqual(lines.map((l) => l.slice(0, 4)), [[0, 4, 1, 4], [0, 2, 1, 1]]);
   assert.deepEqual(lines.map((l) => l[6]), [undefined, [2, 3]]);
+});
+
+test("a density passes over what is nowhere", () => {
+  const rects = [];
+  const session = {
+    hiddenDims: new Set(),
+    colourOfDim: () => "#000",
+    report: { bars: { size: 4, dims: [0], dim: [0, 0, 0, 0] } },
+  };
+  const x = Float32Array.of(10, NaN, 500, -3),
+    y = Float32Array.of(10, 10, 10, 10);
+  drawDensity({ rect: (...rect) => rects.push(rect) }, session, x, y, { width: 30, height: 30 });
+  assert.deepEqual(rects.map((r) => r.slice(0, 2)), [[9, 9]]);
+  assert.ok(rects.every((r) => Number.isFinite(r[5])));
+});
+
+test("the spacing of a grid, whatever lies far from it", (t) => {
+  const side = 401,
+    next = random(2);
+  const grid = Float32Array.from({ length: 3 * side * side }, (_, k) => {
+    const i = Math.floor(k / 3);
+    return [i % side, Math.floor(i / side), 0.01 * next()][k % 3];
+  });
+  const expected = spacingOf(grid);
+  assert.ok(Math.abs(expected - 1) < 0.1, `${expected}`);
+  const far = grid.slice();
+  far.set([1e7, -1e7, 1e7], 3 * 1234);
+  const start = process.cpuUsage();
+  const found = spacingOf(far);
+  const { user, system } = process.cpuUsage(start);
+  t.diagnostic(`with one point far away in ${((user + system) / 1000).toFixed(0)} ms`);
+  assert.ok(Math.abs(found - expected) < 0.1, `${found}`);
+  assert.ok(user + system < 250_000 * Number(process.env.PATIENCE ?? 4));
+});
+
+test("the first view has an upright axis and an eye for any direction upwards", () => {
+  const next = random(3);
+  const positions = Float32Array.from({ length: 300 }, () => next());
+  for (const up of [[0, 0, 1], [1, 1, 0], [0, -1, 0], [1, 0, 0], [1, -1, 1]]) {
+    const { towards, half } = firstPose({
+      meta: { cloud: { up } },
+      cloud: { dims: 3, origin: [0, 0, 0], positions },
+    });
+    assert.ok(Math.abs(towards.length() - 1) < 1e-6, `${up}: ${towards.toArray()}`);
+    assert.ok(half.width > 0.1 && half.height > 0.1);
+    const along = Math.abs(towards.x * up[0] + towards.y * up[1] + towards.z * up[2]) / Math.hypot(...up);
+    assert.ok(along < 0.8, `${up}: seen from above`);
+  }
+});
+
+test("numbers keep apart, larger ones more", () => {
+  const small = new Spots(9.5),
+    large = new Spots(24);
+  for (const spots of [small, large]) assert.ok(spots.take(0, 0, "12"));
+  assert.ok(small.take(0, 12, "12"));
+  assert.ok(!large.take(0, 12, "12"));
+  assert.ok(!small.take(3, 0, "7"));
 });
