@@ -94,8 +94,7 @@ ComplexArrays arrays_of(const RipsGraph& graph, std::size_t count, const std::ve
 
 ComplexArrays complex_arrays(const AnyComplex& complex, std::size_t count,
                              const std::vector<Index>& ids, const RunContext& context) {
-  const MemoryClaim claim(context.memory,
-                          count * sizeof(float) + 16 * kMostEdges);
+  const MemoryClaim claim(context.memory, count * sizeof(float) + 16 * kMostEdges);
   if (const auto* rips = std::get_if<Rips>(&complex)) return arrays_of(rips->graph(), count, ids);
   if (const auto* listed = std::get_if<ExplicitComplex>(&complex))
     return arrays_of(*listed, count, context);

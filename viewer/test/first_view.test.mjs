@@ -10,6 +10,7 @@ import { clusters, torus } from "./support/point_fixtures.mjs";
 import { scene } from "./support/scene_fixture.mjs";
 import { importSource } from "./support/import_source.mjs";
 import {
+  downloaded,
   frame,
   launch,
   open,
@@ -85,6 +86,8 @@ test("the first view", { timeout: 300_000 }, async (t) => {
     assert.equal(await selection(first.page), "nothing selected");
     const hash = new URL(first.page.url()).hash;
     await first.page.click(".answer button");
+    // The button is gone; the keyboard goes on from the bars.
+    assert.ok(await first.page.evaluate(() => document.activeElement.matches(".diagram canvas")));
     await frame(first.page);
     assert.match(await selection(first.page), /^H₂/);
     await first.close();
@@ -138,15 +141,31 @@ test("the first view", { timeout: 300_000 }, async (t) => {
       positions.push(r * Math.cos(turn), r * Math.sin(turn), z);
       rgb.push(...(z > 0 ? kBlue : kOrange));
     }
-    const { page, close } = await open(
-      browser,
-      cloudOf(positions, rgb, { viewpoint: [0, 0, 6], up: [0, 1, 0] }),
-      { hash: "#colour=rgb" },
-    );
+    const ball = cloudOf(positions, rgb, { viewpoint: [0, 0, 6], up: [0, 1, 0] });
+    ball.meta.tree = { rule: "value", cut: 0.5 };
+    Object.assign(ball.arrays, {
+      "points/leaf": Uint16Array.from({ length: 6000 }, (_, k) => Number(k >= 3000)),
+      "tree/leaf_birth": Float64Array.of(0, 0),
+      "tree/leaf_points": Uint32Array.of(3000, 3000),
+      "tree/leaf_vertices": Uint32Array.of(3000, 3000),
+      "tree/leaf_bar": Uint32Array.of(0, 0),
+      "tree/merge_younger": Uint32Array.of(1),
+      "tree/merge_elder": Uint32Array.of(0),
+      "tree/merge_value": Float64Array.of(1),
+      "tree/merge_level": Float64Array.of(1),
+      "tree/merge_bar": Uint32Array.of(1),
+    });
+    const { page, close } = await open(browser, ball, { hash: "#colour=rgb" });
     const pixels = await pixelsOf(page, ".stage");
     const front = vividPixels(pixels, 40, kBlue),
       back = vividPixels(pixels, 40, kOrange);
     assert.ok(front > 30_000 && back < front / 500, `${front} and ${back} pixels`);
+    // Nor does the number of what is behind.
+    await page.evaluate(() => (location.hash = "colour=segment"));
+    await page.waitForFunction(() => document.querySelectorAll(".numbers text").length === 1);
+    await page.focus(".stage canvas");
+    for (let i = 0; i < 13; ++i) await page.keyboard.press("ArrowLeft"); // a quarter: both are seen
+    await page.waitForFunction(() => document.querySelectorAll(".numbers text").length === 2);
     await close();
   });
 
@@ -154,12 +173,31 @@ test("the first view", { timeout: 300_000 }, async (t) => {
     const { page, close } = await open(browser, image(), { hash: "#bars=" });
     const vivid = async () => vividPixels(await pixelsOf(page, ".stage"), 25);
     assert.equal(await page.inputValue(".data select"), "grey");
+    const ticks = await page.$$eval(".legend .ticks span", (all) => all.map((e) => e.textContent));
+    assert.deepEqual([ticks[0], ticks[2]], ["255", "0"], "grey values are as they are");
     assert.equal(await vivid(), 0);
     const box = await page.locator(".stage canvas").boundingBox();
     await page.mouse.click(box.x + 0.5 * box.width, box.y + 0.5 * box.height);
     await page.mouse.move(2, 2);
     await frame(page);
     assert.match(await selection(page), /^H₀/);
+    // Its branch has its number: nothing but what is over the chart is drawn anew.
+    await page.keyboard.press("Escape");
+    await page.waitForFunction(() => document.querySelectorAll(".numbers text").length === 0);
+    await page.evaluate(() => {
+      const { prototype } = CanvasRenderingContext2D;
+      const original = prototype.fillText;
+      window.drawn = [];
+      prototype.fillText = function (text, ...more) {
+        if (this.canvas.closest(".tree")) window.drawn.push(text);
+        original.call(this, text, ...more);
+      };
+    });
+    await page.mouse.click(box.x + 0.5 * box.width, box.y + 0.5 * box.height);
+    await page.mouse.move(2, 2);
+    await page.waitForSelector(".numbers text");
+    await frame(page);
+    assert.ok((await page.evaluate(() => window.drawn)).includes(await page.textContent(".numbers text")));
     const some = await vivid();
     assert.ok(some > 1000 && some < (box.width * box.height) / 2, `${some} pixels`);
     await close();
@@ -230,6 +268,17 @@ test("the first view", { timeout: 300_000 }, async (t) => {
     const rows = await page.$$eval(".legend button.row .name", (all) => all.map((e) => e.textContent));
     assert.ok(rows.length > 2);
     assert.deepEqual(numbers.sort(), rows.slice(0, 30).sort());
+    // All of them are in a picture, with the sentence.
+    const svg = (await downloaded(page, "Picture, SVG")).toString();
+    const words = [...svg.matchAll(/<text [^>]*>([^<]*)</g)].map(([, text]) => text);
+    assert.ok(words.includes(await page.textContent(".answer span")));
+    for (const row of rows) assert.ok(words.filter((w) => w === row).length >= 4, `${row} in legend, data, charts`);
+    // What the reader folds stays so.
+    await page.click(".tree .fold");
+    await page.selectOption(".data select", "persistence");
+    await frame(page);
+    assert.ok(!(await page.locator(".tree .chart").isVisible()) && (await page.locator(".cut .chart").isVisible()));
+    assert.ok(!/>Merge tree</.test(await downloaded(page, "Picture, SVG")));
     await close();
   });
 
@@ -242,14 +291,22 @@ test("the first view", { timeout: 300_000 }, async (t) => {
       assert.equal(await page.getAttribute(`${panel} .fold`, "aria-expanded"), "true");
     }
     await close();
+    const again = await open(browser, odd.singlePoint());
+    const svg = (await downloaded(again.page, "Picture, SVG")).toString();
+    assert.ok(!/NaN|>Merge tree<|>Persistence diagram</.test(svg) && />Barcode</.test(svg));
+    // An address with a cut shows it.
+    await again.page.evaluate(() => (location.hash = "cut=0.5"));
+    await again.page.waitForSelector(".cut .chart", { state: "visible" });
+    await again.close();
   });
 
   await t.test("a mesh is its surface, in the colours of its values", async () => {
     const side = 12,
-      count = side * side;
+      count = side * side + 1;
     const positions = Float64Array.from({ length: 3 * count }, (_, k) =>
       [Math.floor(k / 3) % side, Math.floor(k / 3 / side), 0][k % 3],
     );
+    positions.set([15, 5, 0], 3 * side * side); // in no triangle
     const corners = [];
     for (let y = 0; y + 1 < side; ++y)
       for (let x = 0; x + 1 < side; ++x) {
@@ -278,6 +335,10 @@ test("the first view", { timeout: 300_000 }, async (t) => {
       const pixels = await pixelsOf(page, ".stage canvas");
       return [vividPixels(pixels, 40, kYellow), vividPixels(pixels, 40, kViolet)];
     };
+    const outside = await pixelsOf(page, ".stage canvas", [0.8, 0, 1, 1]);
+    const dot = outside.filter((v, i) => i % 4 === 0 && v < 200).length;
+    assert.ok(dot > 5, `${dot} pixels of a vertex in no triangle`);
+    assert.match(await page.getAttribute(".stage canvas", "aria-label"), /^Mesh of 145 vertices/);
     const [yellow, violet] = await colours();
     assert.ok(yellow > 2000 && violet > 2000, `${yellow} and ${violet} pixels`);
     await page.evaluate(() => (location.hash = "scale=4"));
@@ -301,9 +362,7 @@ test("the first view", { timeout: 300_000 }, async (t) => {
       },
     });
     const { page, close } = await open(browser, make([0, 2]));
-    await page.click("summary");
-    const [file] = await Promise.all([page.waitForEvent("download"), page.click("text=Picture, SVG")]);
-    const svg = Buffer.concat(await (await file.createReadStream()).toArray()).toString();
+    const svg = (await downloaded(page, "Picture, SVG")).toString();
     assert.equal(svg.match(/stroke-dasharray="2 3"/g)?.length, 1, "one bar goes to the diagonal");
     assert.match(await selection(page), /^2 bars selected/);
     await close();

@@ -8,6 +8,7 @@ import { scene } from "./support/scene_fixture.mjs";
 import { cutOf } from "./support/reference_tree.mjs";
 import {
   coloursOf,
+  downloaded,
   frame,
   launch,
   open,
@@ -29,16 +30,6 @@ const drawnOver = (page, chart) =>
     for (let i = 3; i < data.length; i += 4) if (data[i] > 0) ++drawn;
     return drawn;
   }, chart);
-
-async function downloaded(page, label) {
-  await page.click("summary");
-  const [file] = await Promise.all([
-    page.waitForEvent("download"),
-    page.click(`.menu >> text=${label}`),
-  ]);
-  const parts = await (await file.createReadStream()).toArray();
-  return Buffer.concat(parts);
-}
 
 test("linked views", { timeout: 300_000 }, async (t) => {
   const browser = await launch();

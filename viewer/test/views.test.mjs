@@ -10,10 +10,12 @@ import { reportHtml } from "./support/write_report.mjs";
 import {
   allPixelsOf,
   coloursOf,
+  downloaded,
   frame,
   launch,
   open,
   picture,
+  setSlider,
   template,
   vividPixels,
 } from "./support/browser.mjs";
@@ -90,15 +92,7 @@ test("pages", { timeout: 500_000 }, async (t) => {
     assert.match(await page.textContent("dialog[open] code"), /'it'\\''s; rm -rf \/'/);
     assert.equal(await page.locator("dialog[open] img, dialog[open] script").count(), 0);
     await page.keyboard.press("Escape");
-    const [file] = await Promise.all([
-      page.waitForEvent("download"),
-      page.click("summary").then(() => page.click("text=Picture, SVG")),
-    ]);
-    const svg = await (
-      await file.createReadStream()
-    )
-      .toArray()
-      .then((parts) => Buffer.concat(parts).toString());
+    const svg = (await downloaded(page, "Picture, SVG")).toString();
     assert.match(svg, /&lt;script&gt;/);
     assert.doesNotMatch(svg, /<script/);
     assert.deepEqual(problems, []);
@@ -172,6 +166,16 @@ test("pages", { timeout: 500_000 }, async (t) => {
     await close();
   });
 
+  await t.test("where cut and tree are folded, the other panels have the page", async () => {
+    const { page, close } = await open(browser, odd.treeOnly());
+    const width = async () => (await page.locator(".column.right").boundingBox()).width;
+    const before = await width();
+    for (const panel of [".cut", ".tree"]) await page.click(`${panel} .fold`);
+    const after = await width();
+    assert.ok(before < 800 && after > 1200, `${before}, then ${after} pixels`);
+    await close();
+  });
+
   await t.test("an address names a slice", async () => {
     const { page, problems, close } = await open(browser, image([8, 10, 12]), { hash: "#slice=2,5" });
     const row = page.locator(".row", { has: page.getByLabel("slice", { exact: true }) }).first();
@@ -179,6 +183,13 @@ test("pages", { timeout: 500_000 }, async (t) => {
     assert.equal(await row.locator("output").textContent(), "5");
     await row.locator("select").selectOption("1");
     await page.waitForFunction(() => location.hash.includes("slice=1,5"));
+    // The other slice is seen from where the address says, not from its front.
+    const view = "view=30,9,40,5,-4,4,1";
+    await page.evaluate((v) => (location.hash = `slice=0,3&${v}`), view);
+    await frame(page);
+    await setSlider(page, '.row input[aria-label="slice"]', 4);
+    await page.waitForFunction(() => location.hash.includes("slice=0,4"));
+    assert.ok((await page.evaluate(() => location.hash)).endsWith(view), await page.evaluate(() => location.hash));
     assert.deepEqual(problems, []);
     await close();
   });

@@ -177,3 +177,13 @@ export async function setSlider(page, selector, value) {
   );
   await frame(page);
 }
+
+/// What an item of the menu hands out.
+export async function downloaded(page, label) {
+  await page.click("summary");
+  const [file] = await Promise.all([
+    page.waitForEvent("download"),
+    page.click(`.menu >> text=${label}`),
+  ]);
+  return Buffer.concat(await (await file.createReadStream()).toArray());
+}
