@@ -12,17 +12,19 @@ import type { Stage } from "./stage";
 
 const kPatience = 60, // milliseconds after the last change
   kSize = 12, // of the text, pixels
-  kBehind = 1.02; // of the distance of what hides it
+  kBehind = 1.02, // of the distance of what hides it
+  kPlaces = 48; // of a segment, of which one may be seen where its middle is hidden
 
+type Place = [number, number, number];
 interface Label {
   text: string;
-  place: [number, number, number];
+  places: Place[]; // the best first
 }
 
 export class Labels {
   readonly element = svg("svg", { class: "numbers", "aria-hidden": "true" });
   private labels: Label[] = [];
-  private hidden = new Set<Label>();
+  private seen = new Map<Label, Place | undefined>();
   private finding = 0;
   private looking = 0;
 
@@ -43,8 +45,7 @@ export class Labels {
     clearTimeout(this.finding);
     this.finding = window.setTimeout(() => {
       this.labels = placesOf(this.session);
-      this.hidden = this.behind();
-      this.show();
+      this.look();
     }, kPatience);
   }
   /// To where the picture has their places. What hides some of them is found when it stands still.
@@ -52,18 +53,16 @@ export class Labels {
     this.show();
     clearTimeout(this.looking);
     if (!this.cloud || this.labels.length === 0) return;
-    this.looking = window.setTimeout(() => {
-      this.hidden = this.behind();
-      this.show();
-    }, kPatience);
+    this.looking = window.setTimeout(() => this.look(), kPatience);
   }
   private show(): void {
     const spots = new Spots(kSize);
     const { width, height } = this.stage.shown;
     this.element.replaceChildren(
       ...this.labels.flatMap((label) => {
-        const at = this.stage.pixelOf(...label.place);
-        if (!at || this.hidden.has(label)) return [];
+        const place = this.seen.has(label) ? this.seen.get(label) : label.places[0];
+        const at = place && this.stage.pixelOf(...place);
+        if (!at) return [];
         const [x, y] = at,
           isIn = x >= 0 && x <= width && y >= 0 && y <= height;
         if (!isIn || !spots.take(x, y, label.text)) return [];
@@ -71,17 +70,23 @@ export class Labels {
       }),
     );
   }
-  /// Those with other points before them.
-  private behind(): Set<Label> {
-    const hidden = new Set<Label>();
+  /// Finds for each the first place with no other points before it.
+  private look(): void {
     const { cloud, stage } = this;
-    if (!cloud?.isSurface) return hidden;
-    const at = this.labels.map(({ place }) => stage.pixelOf(...place));
-    const first = cloud.depthsAt(stage, at);
-    this.labels.forEach((label, i) => {
-      if (stage.depthOf(...label.place) > kBehind * first[i]!) hidden.add(label);
-    });
-    return hidden;
+    this.seen.clear();
+    if (cloud?.isSurface) {
+      const places = this.labels.flatMap((label) => label.places);
+      const first = cloud.depthsAt(stage, places.map((place) => stage.pixelOf(...place)));
+      let k = 0;
+      for (const label of this.labels) {
+        const from = k;
+        k += label.places.length;
+        const isSeen = (place: Place, i: number) =>
+          first[from + i]! < Infinity && stage.depthOf(...place) <= kBehind * first[from + i]!;
+        this.seen.set(label, label.places.find(isSeen));
+      }
+    }
+    this.show();
   }
 }
 
@@ -92,24 +97,25 @@ function placesOf(session: Session): Label[] {
   if (isVolume) return axesOf(report);
   const numbers = session.numbers();
   if (!session.cut || !leaf || numbers.size === 0) return [];
-  const best = middles(session, numbers);
+  const found = middles(session, numbers);
   const labels: Label[] = [];
   for (const number of numbers.values()) {
-    const element = best[number]!;
-    if (element >= 0) labels.push({ text: String(number), place: placeOf(report, element) });
+    const elements = found.get(number);
+    if (!elements) continue;
+    labels.push({ text: String(number), places: elements.map((i) => placeOf(report, i)) });
   }
   return labels;
 }
 
-function placeOf({ image, cloud }: Report, element: number): Label["place"] {
+function placeOf({ image, cloud }: Report, element: number): Place {
   const columns = image?.shape[2] ?? 1;
   if (image) return placeInImage(0, Math.floor(element / columns), element % columns);
-  return [0, 1, 2].map((k) => cloud!.positions[3 * element + k]!) as Label["place"];
+  return [0, 1, 2].map((k) => cloud!.positions[3 * element + k]!) as Place;
 }
 
-/// The element of each segment that is nearest to its middle: the number lies on it. In an image a
-/// segment is its basin up to where it meets another one.
-function middles(session: Session, numbers: Map<number, number>): Float64Array {
+/// The element of each segment that is nearest to its middle, then some others, the nearest first: the
+/// number lies on one of them. In an image a segment is its basin up to where it meets another one.
+function middles(session: Session, numbers: Map<number, number>): Map<number, number[]> {
   const { elements, image, cloud, tree } = session.report;
   const { count, birth, leaf } = elements!;
   const most = Math.max(...numbers.values()) + 1;
@@ -140,17 +146,31 @@ function middles(session: Session, numbers: Map<number, number>): Float64Array {
     for (let k = 0; k < 3; ++k) sums[4 * label + k]! += coordinate(i, k);
     ++sums[4 * label + 3]!;
   }
-  const best = new Float64Array(most).fill(-1),
-    nearest = new Float64Array(most).fill(Infinity);
-  for (let i = 0; i < count; ++i) {
-    const label = labelOf(i);
-    if (label === 0) continue;
+  const squareOf = (i: number, label: number) => {
     let square = 0;
     for (let k = 0; k < 3; ++k)
       square += (coordinate(i, k) - sums[4 * label + k]! / sums[4 * label + 3]!) ** 2;
+    return square;
+  };
+  const best = new Float64Array(most),
+    nearest = new Float64Array(most).fill(Infinity),
+    met = new Uint32Array(most);
+  const others = new Map<number, number[]>();
+  for (let i = 0; i < count; ++i) {
+    const label = labelOf(i);
+    if (label === 0) continue;
+    const square = squareOf(i, label);
     if (square < nearest[label]!) [best[label], nearest[label]] = [i, square];
+    const list = others.get(label) ?? [];
+    if (list.length === 0) others.set(label, list);
+    const step = Math.ceil(sums[4 * label + 3]! / kPlaces);
+    if (cloud && met[label]!++ % step === 0) list.push(i);
   }
-  return best;
+  for (const [label, list] of others) {
+    list.sort((a, b) => squareOf(a, label) - squareOf(b, label));
+    list.unshift(best[label]!);
+  }
+  return others;
 }
 
 /// The names of the axes of a volume, each at the end of its edge of the box.
@@ -158,8 +178,8 @@ function axesOf({ image, meta }: Report): Label[] {
   const sizes = image!.shape as [number, number, number];
   const least = [-0.5, -0.5, -0.5] as const;
   return axisNames(meta).map((name, axis) => {
-    const at = [...least] as Label["place"];
+    const at = [...least] as Place;
     at[axis] = sizes[axis]! + 0.05 * Math.max(...sizes);
-    return { text: name, place: placeInImage(...at) };
+    return { text: name, places: [placeInImage(...at)] };
   });
 }

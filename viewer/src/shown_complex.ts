@@ -40,8 +40,8 @@ export class ShownComplex {
     return {
       ends: shown,
       corners: this.trianglesUpTo(value, shown),
-      moreEdges: value >= missingFrom,
-      moreTriangles: value >= (this.report.meta.cloud?.triangles_below ?? Infinity),
+      moreEdges: reaches(value, missingFrom),
+      moreTriangles: reaches(value, this.report.meta.cloud?.triangles_below),
     };
   }
   /// x, y, z of each.
@@ -102,6 +102,11 @@ export class ShownComplex {
     this.found.set(vertices, elements);
     return elements;
   }
+}
+
+/// Whether there is a value from which on cells are missing, and another one is not below it.
+function reaches(value: number, missingFrom = Infinity): boolean {
+  return missingFrom < Infinity && value >= missingFrom;
 }
 
 /// How many of ascending values lie up to another one. Values and positions are float32.
