@@ -335,6 +335,7 @@ test("the first view", { timeout: 300_000 }, async (t) => {
       const pixels = await pixelsOf(page, ".stage canvas");
       return [vividPixels(pixels, 40, kYellow), vividPixels(pixels, 40, kViolet)];
     };
+    assert.match(await page.textContent(".scrubber output"), / 1 edge, 242 triangles$/);
     const outside = await pixelsOf(page, ".stage canvas", [0.8, 0, 1, 1]);
     const dot = outside.filter((v, i) => i % 4 === 0 && v < 200).length;
     assert.ok(dot > 5, `${dot} pixels of a vertex in no triangle`);
