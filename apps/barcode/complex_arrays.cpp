@@ -8,8 +8,8 @@
 namespace ph::barcode {
 namespace {
 
-// What a page can draw.
-constexpr std::size_t kMostEdges = 40'000, kMostTriangles = 100'000;
+// What a page can draw: of edges the first ones, of a mesh all that there is.
+constexpr std::size_t kMostEdges = 40'000, kMostTriangles = 2'000'000;
 
 struct ValuedCell {
   double value;
@@ -35,6 +35,11 @@ std::optional<double> add_first(const ExplicitComplex& complex, int dim, std::si
     missing_from = cells[most].value;
     cells.resize(most);
   }
+  const auto arity = static_cast<std::size_t>(dim) + 1;
+  const MemoryClaim kept(context.memory,
+                         cells.size() * (arity * sizeof(std::uint32_t) + sizeof(float)));
+  numbers.reserve(cells.size() * arity);
+  values.reserve(cells.size());
   std::vector<Index> vertices;
   for (const ValuedCell& cell : cells) {
     vertices.clear();
@@ -57,7 +62,8 @@ ComplexArrays arrays_of(const ExplicitComplex& complex, std::size_t count,
   });
   arrays.missing_from =
       add_first(complex, 1, kMostEdges, context, arrays.edges, arrays.edge_values);
-  add_first(complex, 2, kMostTriangles, context, arrays.triangles, arrays.triangle_values);
+  arrays.triangles_missing_from =
+      add_first(complex, 2, kMostTriangles, context, arrays.triangles, arrays.triangle_values);
   return arrays;
 }
 
@@ -88,8 +94,7 @@ ComplexArrays arrays_of(const RipsGraph& graph, std::size_t count, const std::ve
 
 ComplexArrays complex_arrays(const AnyComplex& complex, std::size_t count,
                              const std::vector<Index>& ids, const RunContext& context) {
-  const MemoryClaim claim(context.memory,
-                          count * sizeof(float) + 16 * kMostEdges + 16 * kMostTriangles);
+  const MemoryClaim claim(context.memory, count * sizeof(float) + 16 * kMostEdges);
   if (const auto* rips = std::get_if<Rips>(&complex)) return arrays_of(rips->graph(), count, ids);
   if (const auto* listed = std::get_if<ExplicitComplex>(&complex))
     return arrays_of(*listed, count, context);

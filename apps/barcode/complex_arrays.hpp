@@ -16,11 +16,12 @@ struct ComplexArrays {
   std::vector<float> births;  ///< of each point; NaN: it is no vertex. Empty: all enter together
   std::vector<std::uint32_t> edges, triangles;
   std::vector<float> edge_values, triangle_values;  ///< ascending
-  std::optional<double> missing_from;               ///< edges from this value on are left out
+  /// Edges, triangles from these values on are left out.
+  std::optional<double> missing_from, triangles_missing_from;
 };
 
 /// Of a Rips complex its first edges (the page finds triangles by them), unless only a forest is
-/// held; of a mesh with values its first edges and triangles.
+/// held; of a mesh with values its first edges and all triangles, of more than 2 000 000 the first.
 /// @param count of points. @param ids their numbers in the input; empty: all are there.
 /// @throws Error (resource, cancelled).
 ComplexArrays complex_arrays(const AnyComplex& complex, std::size_t count,

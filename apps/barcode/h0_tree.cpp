@@ -67,12 +67,15 @@ double rounded(double x) {
 }
 
 /// Between two neighbouring levels, ascending, that are farther apart than `least`, and farther
-/// than all others. @param width how far apart two of them are.
+/// than all others. The upper one is at least a tenth of the largest: gaps far below it are chance.
+/// @param width how far apart two of them are.
 template <class Width>
 std::optional<double> middle_of_widest(const std::vector<double>& levels, double least,
                                        Width width) {
+  constexpr double least_share = 0.1;
   std::optional<double> middle;
   for (std::size_t i = 1; i < levels.size(); ++i) {
+    if (levels[i] < least_share * levels.back()) continue;
     const double apart = width(levels[i - 1], levels[i]);
     if (apart <= least) continue;
     least = apart;
@@ -86,7 +89,7 @@ std::optional<double> middle_of_widest(const std::vector<double>& levels, double
 /// else the largest level, which leaves the fewest parts; `from` without merges.
 double cut_in_gap(const report::ContractedTree& contracted, const MergeTree& tree,
                   report::CutRule rule, double from) {
-  constexpr std::ptrdiff_t most = 64;
+  constexpr std::ptrdiff_t most = 65;  // the upper end of a gap is one of the largest 64
   constexpr double least_ratio = 1.2;
   std::vector<double> levels;
   for (const auto& kept : contracted.merges) {

@@ -200,7 +200,10 @@ void write_report(OutputFile& file, const Shown& shown, const Arguments& argumen
   const report::VoxelSets sets =
       image ? report::voxel_sets(shown.barcode, session.context()) : report::VoxelSets();
   const ComplexArrays cells_shown = complex_of(shown, arguments, session.context());
-  if (meta.cloud) meta.cloud->edges_below = cells_shown.missing_from;
+  if (meta.cloud) {
+    meta.cloud->edges_below = cells_shown.missing_from;
+    meta.cloud->triangles_below = cells_shown.triangles_missing_from;
+  }
   if (const std::string note = sets.note(); !note.empty())
     meta.provenance.notes.emplace_back("Sets of voxels", note);
   ReportFile report(file, meta, session.context());

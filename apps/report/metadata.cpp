@@ -33,6 +33,7 @@ std::string cloud(const CloudMeta& meta) {
       .add("up", numbers(meta.up))
       .text("metric", meta.metric)
       .add("edges_below", meta.edges_below ? json_number(*meta.edges_below) : "")
+      .add("triangles_below", meta.triangles_below ? json_number(*meta.triangles_below) : "")
       .text("projection", meta.projection)
       .str();
 }

@@ -25,8 +25,9 @@ struct CloudMeta {
   std::optional<std::array<double, 3>> viewpoint = {};  ///< where the sensor stood
   std::optional<std::array<double, 3>> up = {};
   std::string metric = {};  ///< "euclidean": the page may find the edges of a Rips complex
-  std::optional<double> edges_below = {};  ///< values of complex/edges that are all there
-  std::string projection = {};             ///< "first 3 of 10 coordinates"
+  std::optional<double> edges_below = {};      ///< values of complex/edges that are all there
+  std::optional<double> triangles_below = {};  ///< the same of complex/triangles
+  std::string projection = {};                 ///< "first 3 of 10 coordinates"
 };
 
 /// What decides which merges a cut does.

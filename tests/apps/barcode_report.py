@@ -352,6 +352,24 @@ class Reports(ProgramTest):
                          [[1, 2, 3], [0, 1, 2]])
         self.assertEqual(report["complex/triangle_values"], [2, 3])
 
+    def test_a_mesh_has_all_its_triangles(self):
+        side = 240
+        faces = [f"3 {i} {i + 1} {i + side}\n3 {i + 1} {i + side} {i + side + 1}\n"
+                 for y in range(side - 1) for i in range(y * side, y * side + side - 1)]
+        self.write("m.off", f"OFF\n{side * side} {2 * len(faces)} 0\n"
+                   + "".join(f"{i % side} {i // side} 0\n" for i in range(side * side))
+                   + "".join(faces))
+        self.write("v.txt", "".join(f"{i % 7}\n" for i in range(side * side)))
+        report = self.report("m.off", "--values", "v.txt", "--max-dim", "0")
+        self.assertEqual(len(report["complex/triangle_values"]), 2 * (side - 1) ** 2)
+        self.assertNotIn("triangles_below", report.meta["cloud"])
+
+    def test_the_default_cut_is_below_what_stands_out(self):
+        # The widest ratio of neighbours, 0.01 to 0.0001, is far below the longest bar.
+        self.write("p.txt", "0\n0.0001\n0.0101\n0.0191\n0.5191\n1.5191\n")
+        cut = self.report("p.txt", "--max-dim", "0").meta["tree"]["cut"]
+        self.assertTrue(0.01 < cut < 0.5, cut)
+
     def test_where_it_comes_from(self):
         report = self.report("square.txt", "--threads", "1", "--field", "3", "--max-dim", "1")
         p = report.meta["provenance"]

@@ -20,10 +20,7 @@ export function addressOf(session: Session, data: DataView | undefined): string 
   if (report.image) parts.set("slice", `${session.sliceAxis},${session.slice}`);
   if (session.theme.dark !== prefersDark())
     parts.set("theme", session.theme.dark ? "dark" : "light");
-  const { bars } = session.answer;
-  const asAtFirst =
-    selection.length === bars.length && bars.every((bar) => session.isSelected(bar));
-  if (!asAtFirst && selection.length <= kMostBars) parts.set("bars", selection.join(","));
+  if (!session.selectsTheAnswer && selection.length <= kMostBars) parts.set("bars", selection.join(","));
   if (data?.stage?.moved) parts.set("view", data.stage.view.join(","));
   return [...parts].map(([name, value]) => `${name}=${value}`).join("&");
 }
@@ -68,5 +65,6 @@ export function goTo(address: string, session: Session, data: DataView | undefin
     (bar) => Number.isInteger(bar) && bar >= 0 && bar < report.bars.size,
   );
   if (parts.has("bars")) session.select(bars);
+  data?.face(); // before the view, not after it
   if (data?.stage && parts.has("view")) data.stage.view = numbers("view");
 }

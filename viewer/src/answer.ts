@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What stands out among the bars, and the sentence above the views that says so. docs/report.md has
 // the criterion in words.
+import { kLeastShare, kMostAbove } from "./gaps";
 import { counted, homology, short } from "./numbers";
-import { capital, holes, intervalText, inWords, listed, times } from "./words";
+import { capital, holes, intervalText, inWords, kindOfSegment, listed, shownValue, times } from "./words";
 import type { Bars } from "./bars";
+import type { Meta } from "./meta";
 import type { Report } from "./report";
 
 export interface Answer {
@@ -20,17 +22,19 @@ export interface Gap {
 }
 
 const kLeastRatio = 2, // of a gap that makes bars stand out
-  kLeastShare = 0.1, // of the longest bar: shorter ones are not at the upper end of a gap
+  kLeastAlone = 1 / 3, // of the longest bar of H1 and higher: what bars need with none below them
   kHardly = 1.05,
-  kMostAbove = 64, // bars above a gap
+  kMostKnown = 4 * kMostAbove, // bars of a dimension
+  kMostSelected = 1000,
   kFew = 4; // bars; among so few wide gaps are chance
 
 /// The widest gap, as a ratio, between neighbours of finite lengths > 0 that descend. Lengths below
 /// a tenth of the first and all after the 64th are not at the upper end of it.
 /// @param alike as many lengths are a gap by themselves, if there is none and nothing is below them.
-export function widestGap(lengths: ArrayLike<number>, alike = kFew): Gap {
+/// @param least so many of them are no lower end of a gap.
+export function widestGap(lengths: ArrayLike<number>, alike = kFew, least = 1): Gap {
   const gap: Gap = { count: 0, ratio: 1 };
-  for (let n = 1; n <= Math.min(lengths.length, kMostAbove); ++n) {
+  for (let n = Math.max(1, least); n <= Math.min(lengths.length, kMostAbove); ++n) {
     if (lengths[n - 1]! < kLeastShare * lengths[0]!) break;
     const next = lengths[n];
     const ratio = next === undefined ? (n <= alike ? Infinity : 0) : lengths[n - 1]! / next;
@@ -43,7 +47,8 @@ export function widestGap(lengths: ArrayLike<number>, alike = kFew): Gap {
 /// The bars of one dimension of a barcode by what is known of their lengths.
 interface Lengths {
   dim: number;
-  endless: number[]; // bars that never end
+  endless: number[]; // bars of infinite length
+  isEndless: boolean; // one of them never ends: others have no beginning
   finite: number[]; // bars, the longest first
   lengths: number[]; // of them; of a bar that is alive at the threshold what is known of it
   alive: number; // so many of `finite`, the first ones, are alive at the threshold
@@ -51,16 +56,19 @@ interface Lengths {
 
 /// @param threshold where the complex was cut: bars alive there are at least that long.
 function lengthsOf(bars: Bars, dim: number, threshold: number | undefined): Lengths {
-  const result: Lengths = { dim, endless: [], finite: [], lengths: [], alive: 0 };
+  const result: Lengths = { dim, endless: [], isEndless: false, finite: [], lengths: [], alive: 0 };
   const cut = dim > 0 ? threshold : undefined;
   const known: [bar: number, length: number][] = [],
     alive: typeof known = [];
   for (const bar of bars.of(dim, 0)) {
     const isAlive = bars.isInfinite(bar) && cut !== undefined;
     const length = isAlive ? cut - bars.birth[bar]! : bars.persistence(bar);
-    if (length === Infinity) result.endless.push(bar);
+    if (length === Infinity) {
+      result.endless.push(bar);
+      result.isEndless ||= bars.isInfinite(bar);
+    }
     else if (isAlive) alive.push([bar, length]);
-    else if (!(length > 0) || known.length > 4 * kMostAbove) break;
+    else if (!(length > 0) || known.length > kMostKnown) break;
     else known.push([bar, length]);
   }
   // How long those would be that were born late nobody knows: they are no lower end of a gap.
@@ -76,13 +84,15 @@ function lengthsOf(bars: Bars, dim: number, threshold: number | undefined): Leng
 /// @param scale length below which few bars are noise.
 function outstanding(found: Lengths, scale: number, range: number): { bars: number[]; gap: Gap } {
   // Some points have as many components at first.
-  const gap = widestGap(found.lengths, found.dim === 0 ? 1 : kFew);
+  const gap = widestGap(found.lengths, found.dim === 0 ? 1 : kFew, found.alive);
   const shortest = found.lengths[gap.count - 1] ?? 0;
   const few = found.finite.length <= kFew && shortest < kLeastShare * range;
-  const stands = gap.ratio >= kLeastRatio && shortest >= kLeastShare * scale && !few;
+  const share = gap.ratio === Infinity ? kLeastAlone : kLeastShare;
+  const stands = gap.ratio >= kLeastRatio && shortest >= share * scale && !few;
   const above = stands ? found.finite.slice(0, gap.count) : [];
   // One component is always there: it is none that stands out among others.
-  const alone = found.dim === 0 && found.endless.length === 1 && above.length === 0;
+  const alone =
+    found.dim === 0 && found.endless.length === 1 && found.isEndless && above.length === 0;
   return { bars: alone ? [] : [...found.endless, ...above], gap };
 }
 
@@ -97,7 +107,7 @@ export function answerOf(report: Report): Answer {
   const range = bars.high - bars.low;
   const out = found.map((f) => ({ found: f, ...outstanding(f, f.dim > 0 ? scale : 0, range) }));
   const first = out.find((o) => o.bars.length > 0);
-  if (!first) return plain(dims[0] ?? -1, nothing(found, !!report.image));
+  if (!first) return plain(dims[0] ?? -1, nothing(found, report));
   const others = out.filter((o) => o !== first && o.bars.length > 0);
   const names = others.map(
     (o) => `${inWords(o.bars.length).toLowerCase()} ${holes(o.found.dim, o.bars.length)}`,
@@ -107,7 +117,7 @@ export function answerOf(report: Report): Answer {
   const also = count > 0 ? ` ${capital(listed(names))} ${verb} out, too.` : "";
   return {
     dim: first.found.dim,
-    bars: first.bars,
+    bars: first.bars.length > kMostSelected ? [] : first.bars,
     components: out.some((o) => o.found.dim === 0 && o.bars.length > 0),
     sentence: `${sentenceOf(first.found, first.bars, first.gap, report)}.${also}`,
   };
@@ -120,13 +130,11 @@ function sentenceOf(found: Lengths, out: number[], gap: Gap, { meta, bars }: Rep
   const above = many - found.endless.length;
   if (above === 0) {
     const which = many <= 2 ? `: ${out.map(of).join(" and ")}` : "";
-    return found.dim === 0 && many > 1
-      ? `${subject} never merge${which}`
-      : `${subject} never ${many === 1 ? "ends" : "end"}${which}`;
+    return `${subject} ${fate(found, many, meta, out.every((bar) => bars.isInfinite(bar)))}${which}`;
   }
   const verb = many === 1 ? "stands out" : "stand out";
   const last = out[many - 1]!;
-  const least = out.some((bar) => bars.isInfinite(bar)) && found.alive > 0 ? "at least " : "";
+  const least = gap.count === found.alive ? "at least " : "";
   const ratio = `${least}${times(gap.ratio)} as long as the next`;
   const only = gap.ratio === Infinity;
   if (many === 1) return `${subject} ${verb}: ${of(last)}, ${only ? "the only one" : ratio}`;
@@ -136,38 +144,58 @@ function sentenceOf(found: Lengths, out: number[], gap: Gap, { meta, bars }: Rep
     : `${subject} ${verb}: the ${shorter}, ${of(last)}, is ${ratio}`;
 }
 
+/// What is known of bars of infinite length: beyond the threshold nobody has looked.
+function fate(found: Lengths, many: number, meta: Meta, all: boolean): string {
+  const { threshold } = meta.provenance;
+  if (!found.isEndless) return many === 1 ? "has no beginning" : "have no beginning";
+  if (!all) return "have no beginning or no end";
+  if (found.dim > 0 || many === 1) return many === 1 ? "never ends" : "never end";
+  if (typeof threshold !== "number") return "never merge";
+  return `are apart ${meta.value.negated ? "down" : "up"} to ${short(shownValue(meta, threshold))}`;
+}
+
 /// "No loop stands out: the longest is 1.1 times as long as the next."
-function nothing(found: Lengths[], isImage: boolean): string {
+function nothing(found: Lengths[], { bars, image }: Report): string {
   const some = found.filter((f) => f.finite.length > 0 || f.endless.length > 0);
-  if (some.length === 0) return "There are no bars.";
+  if (bars.size === 0) return "There are no bars.";
+  if (some.length === 0) return "No bar stands out: all have length 0.";
   // Components of points say little where there are holes to speak of.
   const told = (
-    !isImage && some.some((f) => f.dim > 0) ? some.filter((f) => f.dim > 0) : some
+    !image && some.some((f) => f.dim > 0) ? some.filter((f) => f.dim > 0) : some
   ).slice(0, 3);
-  const longer = (f: Lengths) => {
-    const ratio = f.lengths[0]! / f.lengths[1]!;
-    return ratio < kHardly ? "hardly longer than the next" : `${times(ratio)} as long as the next`;
-  };
-  const one = (f: Lengths) =>
-    f.finite.length > 1 ? `the longest is ${longer(f)}` : "there is one, and it is short";
   if (told.length === 1) {
     const f = told[0]!;
     if (f.dim === 0 && f.finite.length === 0) return "All is one component: there is no other bar.";
-    return `No ${holes(f.dim)} stands out: ${one(f)}.`;
+    return `No ${f.endless.length > 0 ? "other " : ""}${holes(f.dim)} stands out: ${lengthsInWords(f, false)}.`;
   }
-  const each = told.map((f) => {
-    if (f.finite.length > 1) return `the longest ${holes(f.dim)} is ${longer(f)}`;
-    return f.finite.length === 1
-      ? `there is one ${holes(f.dim)}, and it is short`
-      : `all is one ${holes(f.dim)}`;
-  });
+  const each = told.map((f) =>
+    f.finite.length > 0 ? lengthsInWords(f, true) : `all is one ${holes(f.dim)}`,
+  );
   const names = listed(
     told.map((f) => holes(f.dim)),
     "or",
   );
-  const alike = told.every((f) => f.lengths[0]! / f.lengths[1]! < kHardly);
+  const alike = told.every((f) => f.alive === 0 && f.lengths[0]! / f.lengths[1]! < kHardly);
   if (alike) return `No ${names} stands out: of each the longest is hardly longer than the next.`;
   return `No ${names} stands out: ${listed(each)}.`;
+}
+
+/// How the lengths of a dimension compare in which none stands out.
+/// @param named by "loops", not only by "all" and "the longest".
+function lengthsInWords({ dim, lengths, alive, endless }: Lengths, named: boolean): string {
+  const many = lengths.length;
+  const hole = named ? ` ${holes(dim)}` : "",
+    all = named ? ` ${holes(dim, 2)}` : "";
+  if (many === 1) return `there is one${endless.length > 0 ? " other" : ""}${hole}, and it is short`;
+  if (alive === many) return `all${all} are alive at the threshold, and short`;
+  if (many <= kMostKnown && lengths[0] === lengths[many - 1]) return `all${all} are equally long`;
+  const upper = Math.max(1, alive);
+  const ratio = lengths[upper - 1]! / lengths[upper]!;
+  const least = alive > 0 ? "at least " : "";
+  const subject = alive > 1 ? `the shortest${hole} alive at the threshold` : `the longest${hole}`;
+  return ratio < kHardly && alive === 0
+    ? `${subject} is hardly longer than the next`
+    : `${subject} is ${least}${times(ratio)} as long as the next`;
 }
 
 /// Nothing is selected.
@@ -177,7 +205,8 @@ function plain(dim: number, sentence: string): Answer {
 
 /// What ph-segment found is no single bar.
 function segmentsOf({ tree, meta, bars }: Report): Answer {
-  const { cut: at, what = "segment" } = meta.tree!;
+  const { cut: at } = meta.tree!,
+    what = kindOfSegment(meta);
   const { segments } = tree!.cut(at, tree!.hasJoins);
   const dim = bars.dims[0] ?? -1;
   const [largest] = segments;
@@ -198,14 +227,21 @@ function comparisonOf({ meta, bars, matching }: Report): Answer {
     distances[0] ?? { dim: bars.dims[0] ?? -1, value: NaN },
   );
   const name = homology(most.dim);
-  if (Number.isNaN(most.value)) return plain(most.dim, "Two barcodes.");
+  const left = bars.dims.filter((dim) => !distances.some((d) => d.dim === dim)).map(homology);
+  const rest =
+    left.length > 0 ? ` ${listed(left)} ${left.length === 1 ? "was" : "were"} not compared.` : "";
+  const equal = left.length > 0 ? listed(distances.map((d) => homology(d.dim))) : "";
+  if (Number.isNaN(most.value)) return plain(most.dim, `Two barcodes.${rest}`);
   if (most.value === 0)
-    return plain(most.dim, "The two barcodes are equal: every bottleneck distance is 0.");
+    return plain(
+      most.dim,
+      `The two barcodes are equal${equal && ` in ${equal}`}: every bottleneck distance is 0.${rest}`,
+    );
   if (most.value === Infinity)
     return plain(
       most.dim,
-      `In ${name} different numbers of bars never end: the bottleneck distance is infinite.`,
+      `In ${name} different numbers of bars never end: the bottleneck distance is infinite.${rest}`,
     );
-  const sentence = `The barcodes differ most in ${name}: ends of bars have to move by ${short(most.value)}, the bottleneck distance.`;
+  const sentence = `The barcodes differ most in ${name}: ends of bars have to move by ${short(most.value)}, the bottleneck distance.${rest}`;
   return { ...plain(most.dim, sentence), bars: matching?.widest(bars, most.dim) ?? [] };
 }

@@ -159,7 +159,9 @@ export class Barcode extends BarChart {
     // Components that say nothing leave the room to the others.
     const few = this.session.answer.dim !== 0 && this.session.tintedBars().size === 0;
     const counts = dims.map((dim) => Math.max(...meta.barcodes.map((_, i) => bars.count(dim, i))));
-    const wishes = counts.map((n, i) => (few && dims[i] === 0 ? Math.min(n, kRowsOfNoNote) : n));
+    const others = counts.reduce((sum, n, i) => sum + (dims[i] === 0 ? 0 : n), 0);
+    const rest = Math.max(kRowsOfNoNote, Math.floor(room / kMostRow) - others);
+    const wishes = counts.map((n, i) => (few && dims[i] === 0 ? Math.min(n, rest) : n));
     const rows = shared(wishes, Math.floor((room - kStrip * dims.length) / kLeastRow));
     const needsStrip = counts.map((count, i) => count > rows[i]!);
     const strips = needsStrip.filter(Boolean).length * kStrip;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The bars of one or two barcodes as columns of numbers. Bar i of the second barcode has number
 // `first[1] + i`, so that one number names any bar.
-import type { BarcodeMeta } from "./report";
+import type { BarcodeMeta } from "./meta";
 import { PayloadError, type Numbers } from "./payload";
 
 interface Columns {

@@ -55,6 +55,12 @@ export abstract class Chart {
     this.draw(pen, size);
     this.drawOver(pen);
   }
+  takeFocus(): void {
+    this.over.focus();
+  }
+  get isFolded(): boolean {
+    return this.panel.classList.contains("folded");
+  }
   get shape(): Size {
     return this.size;
   }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+import { kindOfSegment } from "./words";
 import type { Report } from "./report";
 
 export type ColourMode =
@@ -14,7 +15,7 @@ export function colourModesOf(report: Report): [ColourMode, string][] {
   const told = !!tree && !!elements?.leaf;
   if (image) modes.push(["grey", "grey value"]);
   if (triangles && elements?.birth) modes.push(["birth", "value"]);
-  if (told) modes.push(["segment", meta.tree?.what ?? "segment"]);
+  if (told) modes.push(["segment", kindOfSegment(meta)]);
   if (elements?.rgb) modes.push(["rgb", "input colour"]);
   if (!image) modes.push(["plain", "one colour"]);
   if (elements?.truth) modes.push(["truth", "ground truth"]);

@@ -4,11 +4,13 @@ import { dimColour, greyOf, ramp, segmentColour, type Rgb } from "./palette";
 import { barsInView } from "./representatives";
 import { runsOf } from "./voxel_sets";
 import type { ColourMode } from "./colour_modes";
+import type { Numbers } from "./payload";
 import type { Session } from "./session";
 
 export interface Range {
   low: number;
   high: number;
+  clipped?: boolean; // some values lie beyond its ends
 }
 
 /// Red in the lowest byte, as the bytes of a texture are read.
@@ -252,8 +254,29 @@ export class Colouring {
     }
     if (mode === "depth") return rangeOf(elements!.count, this.depths(cloud!.positions));
     const values = this.session.report.image?.values ?? elements!.birth!;
-    return rangeOf(elements!.count, (i) => values[i]!);
+    // Bytes are grey values by themselves.
+    if (mode === "grey" && values instanceof Uint8Array) return { low: 0, high: 255 };
+    const whole = rangeOf(elements!.count, (i) => values[i]!);
+    return mode === "grey" ? withoutOutermost(values, whole) : whole;
   }
+}
+
+/// Of every hundred values the half that lies farthest out at each end, where they would take most of
+/// the greys.
+export const kOutermost = 0.005;
+
+function withoutOutermost(values: Numbers, whole: Range): Range {
+  const step = Math.max(1, Math.floor(values.length / 50_000));
+  const sample: number[] = [];
+  for (let i = 0; i < values.length; i += step)
+    if (Number.isFinite(values[i]!)) sample.push(values[i]!);
+  const sorted = Float64Array.from(sample).sort();
+  const cut = Math.floor(kOutermost * sorted.length);
+  if (cut === 0) return whole;
+  const low = sorted[cut]!,
+    high = sorted[sorted.length - 1 - cut]!;
+  const few = high > low && high / 2 - low / 2 < (whole.high / 2 - whole.low / 2) / 2;
+  return few ? { low, high, clipped: true } : whole;
 }
 
 function rangeOf(count: number, value: (i: number) => number, least = Infinity): Range {

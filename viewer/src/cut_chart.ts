@@ -5,6 +5,7 @@ import { Chart, type Size } from "./chart";
 import { button, el, table } from "./dom";
 import { CutScale, segmentCounts } from "./gaps";
 import { counted, exact, grouped, short } from "./numbers";
+import { kindOfSegment } from "./words";
 import type { Pen } from "./pen";
 import type { Change, Session } from "./session";
 
@@ -16,7 +17,7 @@ const kSamples = 200,
 export class CutChart extends Chart {
   protected redrawsOn: Change[] = ["cut"];
   private readonly scale: CutScale;
-  private readonly counts: number[]; // segments at each sample
+  readonly counts: number[]; // segments at each sample
   private readonly slider: HTMLInputElement;
   private readonly number: HTMLInputElement;
   private readonly outcome = el("output", { class: "outcome" });
@@ -150,7 +151,7 @@ export class CutChart extends Chart {
       });
     return [
       to("program's cut", own),
-      ...(this.suggested === undefined ? [] : [to("widest gap", this.suggested)]),
+      ...(this.suggested === undefined || this.suggested === own ? [] : [to("widest gap", this.suggested)]),
     ];
   }
   private note(): string {
@@ -162,7 +163,7 @@ export class CutChart extends Chart {
   private show(): void {
     const { session } = this;
     const count = session.cut!.segments.length,
-      what = session.report.meta.tree!.what ?? "segment";
+      what = kindOfSegment(session.report.meta);
     this.slider.value = String(Math.round(2000 * this.scale.place(session.cutValue)));
     this.slider.setAttribute(
       "aria-valuetext",

@@ -43,6 +43,7 @@ export class DataView {
   private readonly complex: ShownComplex;
   private readonly complexGroup = new Group();
   private complexShape: Shape | undefined; // of the still picture
+  private outside: Uint32Array | undefined; // vertices of a mesh that lie in no triangle
   private readonly head: HTMLElement;
   private readonly body = el("div", { class: "data-body" });
   private readonly canvasHost = el("div", { class: "stage" });
@@ -56,6 +57,7 @@ export class DataView {
     this.colouring = new Colouring(session);
     this.colouring.update();
     this.complex = new ShownComplex(report);
+    if (report.triangles) this.outside = this.complex.outside();
     this.facing = session.sliceAxis;
     const pose = firstPose(report, session.sliceAxis);
     if (report.image) this.slice = new ImageSlice(report.image.shape, this.colouring.rgba);
@@ -110,14 +112,14 @@ export class DataView {
     if (stage.dome && this.cloud)
       Object.assign(stage.dome, this.mesh ? { lamp: false } : this.cloud.mark);
     stage.scene.add(this.complexGroup, this.overlay.group);
-    const labels = new Labels(this.session, stage);
+    const labels = new Labels(this.session, stage, this.cloud);
     this.canvasHost.append(labels.element);
     stage.rendered = () => labels.place();
     if (this.slice) stage.scene.add(thinLines(Float32Array.from(this.slice.outline()), "#7d8794"));
     new ResizeObserver(() => {
       const size = { width: this.canvasHost.clientWidth, height: this.canvasHost.clientHeight };
       stage.resize(size);
-      this.cloud?.resize(size.height, stage.renderer.getPixelRatio());
+      this.cloud?.resize(size.height, stage.renderer.getPixelRatio(), stage.largestMark);
       stage.render(); // at once: a resized canvas is empty
     }).observe(this.canvasHost);
     addEventListener("beforeprint", () => stage.render()); // what was drawn before is gone
@@ -136,14 +138,16 @@ export class DataView {
     const { report } = this.session;
     if (report.image)
       return `Image of ${report.image.shape.filter((n, i) => n > 1 || i > 0).join(" × ")}`;
-    return `Cloud of ${counted(report.elements!.count, "point")}`;
+    const { count } = report.elements!;
+    if (!report.triangles) return `Cloud of ${counted(count, "point")}`;
+    return `Mesh of ${count === 1 ? "1 vertex" : `${grouped(count)} vertices`}`;
   }
 
   private addControls(): void {
     const { session } = this;
     const { report } = session;
     const modes = session.colourModes();
-    const size = this.description().replace(/^(Cloud|Image) of /, "");
+    const size = this.description().replace(/^(Cloud|Image|Mesh) of /, "");
     const colour = select("colour", modes, session.colour, (value) =>
       session.set("colour", value as ColourMode, "colour"),
     );
@@ -168,10 +172,16 @@ export class DataView {
       this.panel.append(el("p", { class: "note" }, report.meta.cloud.projection));
   }
 
+  /// Sees the slice from the front.
+  face(): void {
+    const { report, sliceAxis } = this.session;
+    if (this.facing !== sliceAxis) this.stage?.face(firstPose(report, sliceAxis));
+    this.facing = sliceAxis;
+  }
+
   private update(changes: Set<Change>): void {
     const any = (...these: Change[]) => these.some((change) => changes.has(change));
-    const { session } = this,
-      { report } = session;
+    const { session } = this;
     if (any("theme")) this.truthColouring?.update("truth");
     if (any("theme", "colour")) this.showAir();
     if (any("focus", "selection", "cut", "colour", "scale", "theme")) {
@@ -182,8 +192,7 @@ export class DataView {
     }
     if (any("slice")) {
       this.slice?.show(session.sliceAxis, session.slice);
-      if (this.facing !== session.sliceAxis) this.stage?.face(firstPose(report, session.sliceAxis));
-      this.facing = session.sliceAxis;
+      this.face();
     }
     if (any("scale", "theme")) this.showScale();
     if (any("colour") && this.stage) this.showBeside(this.stage);
@@ -227,13 +236,21 @@ export class DataView {
     let text = scale === undefined ? value : `${value}   ${bettiInWords(report, scale)}`;
     if (this.complex.available && shown !== undefined) {
       const part = this.complex.upTo(shown);
-      this.mesh?.show(part.triangles ?? 0);
-      // Its vertices and edges are seen where there are no triangles yet.
-      if (this.mesh) this.cloud!.object.visible = scale !== undefined;
-      if (!this.mesh || scale !== undefined) this.complexGroup.add(thinLines(part.ends, theme.ink));
-      if (!this.mesh) this.complexGroup.add(veil(part.corners, theme.ink));
-      const geometry = { points: [], segments: part.ends, triangles: part.corners };
-      this.complexShape = { geometry, colour: theme.muted, width: 0.5, opacity: 0.05, surface: false };
+      const corners = part.corners ?? new Uint32Array();
+      this.mesh?.show(corners.length / 3);
+      // Its vertices and edges are seen where there are no triangles, or none yet.
+      if (this.mesh) this.cloud!.showOnly(scale === undefined ? this.outside : undefined);
+      if (!this.mesh || scale !== undefined)
+        this.complexGroup.add(thinLines(this.complex.places(part.ends), theme.ink));
+      if (!this.mesh) this.complexGroup.add(veil(this.complex.places(corners), theme.ink));
+      if (this.still) {
+        const geometry = {
+          points: [],
+          segments: this.complex.places(part.ends),
+          triangles: this.complex.places(corners),
+        };
+        this.complexShape = { geometry, colour: theme.muted, width: 0.5, opacity: 0.05, surface: false };
+      }
       text += `   ${partInWords(part)}`;
     }
     this.reading.textContent = text;
@@ -292,8 +309,10 @@ function bettiInWords(report: Report, value: number): string {
     .join("  ");
 }
 
-function partInWords({ edges, triangles, more }: ShownPart): string {
-  const first = more ? `the first ${grouped(edges)} edges` : counted(edges, "edge");
-  if (triangles === undefined) return `${first}, more triangles than can be drawn`;
-  return triangles > 0 ? `${first}, ${counted(triangles, "triangle")}` : first;
+function partInWords({ ends, corners, moreEdges, moreTriangles }: ShownPart): string {
+  const of = (count: number, cell: string, more: boolean) =>
+    more ? `the first ${grouped(count)} ${cell}s` : counted(count, cell);
+  const edges = of(ends.length / 2, "edge", moreEdges);
+  if (!corners) return `${edges}, more triangles than can be drawn`;
+  return corners.length > 0 ? `${edges}, ${of(corners.length / 3, "triangle", moreTriangles)}` : edges;
 }

@@ -32,6 +32,7 @@ export class Diagram extends BarChart {
   y: Float32Array;
   births = new Axis(0, 1, 0, 1);
   deaths = new Axis(0, 1, 0, 1);
+  private readonly hint: string;
   private lasso: number[] = [];
 
   constructor(session: Session) {
@@ -40,6 +41,7 @@ export class Diagram extends BarChart {
       ? `filled: ${first!.name}, hollow: ${second.name}`
       : "drag a lasso to select";
     super(session, "diagram", "Persistence diagram", hint);
+    this.hint = hint;
     this.x = new Float32Array(session.report.bars.size);
     this.y = new Float32Array(session.report.bars.size);
     this.over.addEventListener("pointerdown", (event) => this.begin(event));
@@ -59,7 +61,6 @@ export class Diagram extends BarChart {
     pen.polygon([left, bottom, right, bottom, right, top], theme.shade);
     this.drawAxes(pen, size);
     pen.line(left, bottom, right, top, theme.faint, 1);
-    drawMatching(pen, this.session, this);
     if (bars.size === 0)
       pen.text((left + right) / 2, (top + bottom) / 2 - 40, "no bars", {
         colour: theme.muted,
@@ -70,6 +71,12 @@ export class Diagram extends BarChart {
     for (let i = 0; i < bars.size; ++i) if (this.session.isShown(i)) ++shown;
     const many = shown > kMostMarkers;
     const crowds = this.fan(many ? kLongest : kMostMarkers);
+    const lines = drawMatching(pen, this.session, this);
+    const farthest =
+      lines.all > lines.drawn
+        ? ` · lines: of ${grouped(lines.all)} pairs the ${grouped(lines.drawn)} that move farthest`
+        : "";
+    this.head.querySelector(".hint")!.textContent = this.hint + farthest;
     if (many) drawDensity(pen, this.session, this.x, this.y, size);
     const marked = this.shownBars(many ? kLongest : kMostMarkers);
     for (let i = marked.length - 1; i >= 0; --i) {

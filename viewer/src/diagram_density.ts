@@ -22,8 +22,10 @@ export function drawDensity(
     let most = 0;
     for (let i = 0; i < bars.size; ++i) {
       if (bars.dim[i] !== dim) continue;
-      const cell = Math.floor(y[i]! / kCell) * columns + Math.floor(x[i]! / kCell);
-      most = Math.max(most, ++counts[cell]!);
+      const column = Math.floor(x[i]! / kCell),
+        row = Math.floor(y[i]! / kCell);
+      if (!(column >= 0 && column < columns && row >= 0 && row < rows)) continue;
+      most = Math.max(most, ++counts[row * columns + column]!);
     }
     const colour = session.colourOfDim(dim),
       scale = 1 / Math.log(most + 1);

@@ -22,7 +22,7 @@ export function pictureSvg(session: Session, views: Views, page: HTMLElement): s
   const pen = new SvgPen();
   const origin = page.getBoundingClientRect();
   const margin = 20,
-    head = 36,
+    head = 58,
     width = origin.width + 2 * margin,
     height = origin.height + 2 * margin + head;
   pen.rect(0, 0, width, height, theme.panel);
@@ -31,6 +31,7 @@ export function pictureSvg(session: Session, views: Views, page: HTMLElement): s
     size: 16,
     bold: true,
   });
+  pen.text(margin, margin + 36, session.answer.sentence, { colour: theme.ink, size: 13 });
   bars.dims.forEach((dim, i) =>
     pen.text(
       width - margin - 90 * (bars.dims.length - 1 - i),
@@ -56,9 +57,17 @@ export function pictureSvg(session: Session, views: Views, page: HTMLElement): s
   if (picture) {
     const at = place(views.data!.stage!.renderer.domElement);
     pen.image(at.x, at.y, at.width, at.height, picture);
+    for (const word of views.data!.panel.querySelectorAll(".numbers text"))
+      pen.text(
+        at.x + Number(word.getAttribute("x")),
+        at.y + Number(word.getAttribute("y")),
+        word.textContent ?? "",
+        { colour: "#14181d", size: 12, bold: true, anchor: "middle", halo: "#fff" },
+      );
     drawLegend(pen, views.data!.panel.querySelector(".legend")!, place, session);
   }
   for (const [title, chart] of views.charts) {
+    if (chart.isFolded) continue;
     const at = place(chart.panel.querySelector("canvas.over")!);
     pen.text(at.x + 4, at.y - 10, title, { colour: theme.ink, size: 13, bold: true });
     pen.at(at.x, at.y, () => chart.drawAll(pen, chart.shape));

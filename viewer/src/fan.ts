@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Dots of a diagram that lie on each other, fanned out: each can be seen and hit.
 
-const kPitch = 8.5, // pixels from dot to dot
-  kMostFanned = 24, // dots at one place; of more their number is shown
+/// Pixels from dot to dot.
+export const kPitch = 8.5;
+/// Dots at one place; of more their number is shown.
+const kMostFanned = 24,
   kMostOnLine = 60;
 
 export interface Crowd {
@@ -31,9 +33,9 @@ export function fanOut(
     const at = { x: x[first]!, y: y[first]! };
     if (onLine(first)) {
       // All of them, or those with numbers and the others on each other behind these.
-      const apart = group.length <= kMostOnLine ? group : group.filter(isNumbered).slice(0, kMostFanned);
-      // To the side where there is room.
-      const side = right - at.x > apart.length * kPitch ? 1 : -1;
+      const apart = group.length <= kMostOnLine ? group : group.filter(isNumbered);
+      // To the side where there is more room.
+      const side = right - at.x >= at.x - left ? 1 : -1;
       const pitch = Math.min(kPitch, (side > 0 ? right - at.x : at.x - left) / apart.length);
       apart.forEach((bar, k) => (x[bar] = at.x + side * k * pitch));
       const end = at.x + side * apart.length * pitch;

@@ -3,6 +3,10 @@
 import { DisjointSets, numbered } from "./disjoint_sets";
 import type { MergeTree } from "./merge_tree";
 
+/// Of the longest: shorter ones are not at the upper end of a gap. Nor are those after so many.
+export const kLeastShare = 0.1,
+  kMostAbove = 64;
+
 /// Levels of all merges, ascending.
 function levelsOf(tree: MergeTree): Float64Array {
   return Float64Array.from(tree.arrays.levels).sort();
@@ -46,20 +50,20 @@ export function segmentCounts(tree: MergeTree, cuts: number[]): number[] {
   });
 }
 
-/// Between the two neighbouring levels that are farthest apart as a ratio, among the largest
-/// ones: what lies above is much more persistent than what lies below. Where no ratio is wide, those
+/// Between the two neighbouring levels that are farthest apart as a ratio, the upper of them among
+/// the largest ones: what lies above is much more persistent than what lies below. Where no ratio is wide, those
 /// of basins whose difference is the largest.
 export function suggestedCut(tree: MergeTree, from: number, to: number): number | undefined {
-  const most = 64;
   const levels = levelsOf(tree)
     .filter((v) => v > 0 && Number.isFinite(v))
-    .slice(-most);
+    .slice(-kMostAbove - 1);
   const widest = (least: number, width: (low: number, high: number) => number) => {
     let best: number | undefined,
       most = least;
     for (let i = 0; i + 1 < levels.length; ++i) {
       const [low, high] = [levels[i]!, levels[i + 1]!];
       const middle = Math.sqrt(low) * Math.sqrt(high);
+      if (high < kLeastShare * levels.at(-1)!) continue;
       if (width(low, high) <= most || middle < from || middle > to) continue;
       most = width(low, high);
       best = Number(middle.toPrecision(3));

@@ -90,13 +90,14 @@ export class ImageSlice {
     const [v, u] = this.sides();
     const height = this.shape[v]!,
       width = this.shape[u]!;
-    const pixels = new Uint8Array(4 * width * height);
-    for (let i = 0; i < height; ++i)
-      for (let j = 0; j < width; ++j) {
-        const from = 4 * this.element(i, j);
-        pixels.set(this.rgba.subarray(from, from + 4), 4 * (i * width + j));
-      }
-    return { pixels, width, height };
+    const from = new Uint32Array(this.rgba.buffer),
+      to = new Uint32Array(width * height);
+    const first = this.element(0, 0),
+      down = height > 1 ? this.element(1, 0) - first : 0,
+      right = width > 1 ? this.element(0, 1) - first : 0;
+    for (let i = 0, k = 0; i < height; ++i)
+      for (let j = 0, at = first + i * down; j < width; ++j, at += right) to[k++] = from[at]!;
+    return { pixels: new Uint8Array(to.buffer), width, height };
   }
   /// The voxel at these pixels; -1: none.
   at(stage: Stage, x: number, y: number): number {

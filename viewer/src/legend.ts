@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What the colours mean: segments with their counts, a scale for a continuous colour, the marks of
 // a selection.
-import type { Colouring } from "./colouring";
+import { kOutermost, type Colouring, type Range } from "./colouring";
 import { el, svg } from "./dom";
 import { counted, grouped, homology, inRange } from "./numbers";
 import { dimColour, greyOf, hex, ramp } from "./palette";
+import { kindOfSegment } from "./words";
 import { barsInView, kBirthColour, kDeathColour } from "./representatives";
 import type { Session } from "./session";
 
@@ -35,12 +36,14 @@ export class Legend {
     this.rows = [];
     const range = this.colouring.range(session.colour);
     if (session.colour === "segment") this.colours.replaceChildren(...this.segments());
-    else if (range) this.colours.replaceChildren(this.scale(range.low, range.high));
+    else if (range) this.colours.replaceChildren(this.scale(range));
     else this.colours.replaceChildren();
   }
   private segments(): HTMLElement[] {
     const { session } = this;
     const segments = session.cut!.segments;
+    const name = kindOfSegment(session.report.meta),
+      what = session.report.image ? "voxel" : "point";
     const total = segments.reduce((sum, s) => sum + s.points, 0);
     const none = session.report.elements!.count - total;
     this.rows = segments.slice(0, kMostRows).map((segment, i) => {
@@ -49,7 +52,7 @@ export class Legend {
         {
           type: "button",
           class: "row",
-          "aria-label": `segment ${segment.label}, ${counted(segment.points, "point")}`,
+          "aria-label": `${name} ${segment.label}, ${counted(segment.points, what)}`,
         },
         swatch(hex(session.segmentColours[i]!)),
         el("span", { class: "name" }, String(segment.label)),
@@ -68,9 +71,8 @@ export class Legend {
       return row;
     });
     const rest = segments.length - this.rows.length;
-    const what = session.report.image ? "voxels" : "points";
     return [
-      el("h3", {}, session.report.meta.tree?.what ?? "segment", el("span", { class: "count" }, what)),
+      el("h3", {}, name, el("span", { class: "count" }, `${what}s`)),
       ...this.rows,
       ...(rest > 0 ? [el("p", { class: "note" }, `and ${grouped(rest)} smaller`)] : []),
       ...(none > 0
@@ -86,7 +88,7 @@ export class Legend {
         : []),
     ];
   }
-  private scale(low: number, high: number): HTMLElement {
+  private scale({ low, high, clipped }: Range): HTMLElement {
     const { session } = this;
     const {
       colour,
@@ -119,6 +121,9 @@ export class Legend {
       {},
       el("h3", {}, unit ? `${name} (${unit})` : name),
       el("div", { class: "scale" }, bar, el("div", { class: "ticks" }, ...ticks)),
+      clipped
+        ? el("p", { class: "note" }, `up to ${100 * kOutermost} % of the values lie beyond each end`)
+        : undefined,
     );
   }
   private showMarks(): void {

@@ -40,15 +40,17 @@ async function start(app: HTMLElement): Promise<void> {
     ],
   };
   if (cut && tree) {
-    const folded = !cutSays(session);
-    const show = [
+    const folded = !cutSays(session, cut.counts);
+    const unfold = [
       foldable(cut.panel, "Cut", folded),
       foldable(tree.panel, "Merge tree", folded),
     ];
-    // Who asks for the colours of a cut wants to move it.
+    // Who asks for the colours of a cut, or for another cut, wants to see it.
     session.onChange((changes) => {
       const ofCut = session.colour === "segment" || session.colour === "persistence";
-      if (changes.has("colour") && ofCut) for (const fold of show) fold(false);
+      const other = session.cutValue !== report.meta.tree!.cut;
+      if ((changes.has("colour") && ofCut) || (changes.has("cut") && other))
+        for (const open of unfold) open();
     });
   }
   if (report.bars.size < 2) foldable(diagram.panel, "Persistence diagram", true);
@@ -60,7 +62,7 @@ async function start(app: HTMLElement): Promise<void> {
     el("div", { class: "column right" }, diagram.panel, barcode.panel),
   );
   const toolbar = new Toolbar(session, views, page).element;
-  app.replaceChildren(toolbar, answerLine(session), page, statusLine(session));
+  app.replaceChildren(toolbar, answerLine(session, diagram), page, statusLine(session));
 
   document.addEventListener("keydown", (event) => {
     if (event.key === "Escape" && !document.querySelector("dialog[open]")) session.select([]);
@@ -86,17 +88,14 @@ function followTheme(session: Session): void {
 }
 
 /// What stands out, in one sentence; a click selects it again.
-function answerLine(session: Session): HTMLElement {
+function answerLine(session: Session, diagram: Diagram): HTMLElement {
   const { sentence, bars } = session.answer;
-  const again = button("select", () => session.select(bars), {
-    class: "quiet",
-    title: "select these bars",
-  });
-  const show = () => {
-    const { selection } = session;
-    const isSelected = selection.length === bars.length && bars.every((b) => session.isSelected(b));
-    again.hidden = bars.length === 0 || isSelected;
+  const select = () => {
+    session.select(bars);
+    diagram.takeFocus(); // the button hides itself
   };
+  const again = button("select", select, { class: "quiet", title: "select these bars" });
+  const show = () => (again.hidden = bars.length === 0 || session.selectsTheAnswer);
   session.onChange((changes) => changes.has("selection") && show());
   show();
   return el("p", { class: "answer" }, el("span", {}, sentence), again);

@@ -8,7 +8,7 @@ export class Matching {
   private readonly partners = new Map<number, number>();
 
   /// @param pairs numbers of bars, one of the first and one of the second barcode.
-  constructor(readonly pairs: Numbers) {
+  constructor(pairs: Numbers) {
     for (let i = 0; i + 1 < pairs.length; i += 2) {
       this.partners.set(pairs[i]!, pairs[i + 1]!);
       this.partners.set(pairs[i + 1]!, pairs[i]!);

@@ -8,6 +8,7 @@ export interface TextStyle {
   anchor?: "start" | "middle" | "end";
   bold?: boolean;
   upwards?: boolean; // turned by a quarter
+  halo?: string; // around the letters: they lie on a picture
 }
 
 type Line = [
@@ -84,6 +85,12 @@ export class CanvasPen implements Pen {
     if (style.upwards) c.rotate(-Math.PI / 2);
     c.font = `${style.bold ? "600 " : ""}${style.size ?? 11}px ${kFont}`;
     c.textAlign = style.anchor === "middle" ? "center" : (style.anchor ?? "start");
+    if (style.halo) {
+      c.strokeStyle = style.halo;
+      c.lineWidth = 3;
+      c.lineJoin = "round";
+      c.strokeText(text, 0, 0);
+    }
     c.fillStyle = style.colour;
     c.fillText(text, 0, 0);
     c.restore();
@@ -161,6 +168,10 @@ export class SvgPen implements Pen {
         x,
         y,
         fill: style.colour,
+        stroke: style.halo,
+        "stroke-width": style.halo && 3,
+        "stroke-linejoin": style.halo && "round",
+        "paint-order": style.halo && "stroke",
         "font-size": style.size ?? 11,
         "text-anchor": style.anchor ?? "start",
         "font-weight": style.bold ? 600 : undefined,

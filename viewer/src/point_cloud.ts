@@ -16,6 +16,7 @@ import type { Pose } from "./pose";
 import type { Stage } from "./stage";
 
 const kReach = 6, // pixels
+  kCell = 6,
   kSurface = 3000, // points; fewer make no surface
   kCover = 1.5; // spacings that a mark covers: neighbours in a row of any direction meet
 
@@ -55,7 +56,7 @@ export class PointCloud {
   readonly object: Points;
   readonly tint: BufferAttribute;
   private readonly material: ShaderMaterial;
-  private readonly isSurface: boolean;
+  readonly isSurface: boolean; // what is behind its points is hidden
 
   /// @param eye where the sensor stood, in the space of the positions, if that is known.
   constructor(
@@ -100,17 +101,24 @@ export class PointCloud {
       isAngle: seen!.value as boolean,
     };
   }
+  /// Draws only some of its points; undefined: all.
+  showOnly(elements: Uint32Array | undefined): void {
+    this.object.geometry.setIndex(elements ? new BufferAttribute(elements, 1) : null);
+    this.object.visible = elements?.length !== 0;
+  }
   recolour(): void {
     this.tint.needsUpdate = true;
   }
-  /// What is far fades into this colour, by half at most; true colours stay what they are.
+  /// What is far fades into this colour, by `part` at most; true colours stay what they are.
   setAir(colour: string, part: number): void {
     const { r, g, b } = new Color(colour);
     this.material.uniforms["air"]!.value = [r, g, b, part];
   }
-  resize(height: number, pixelRatio: number): void {
+  /// @param largest mark that the graphics card draws, device pixels.
+  resize(height: number, pixelRatio: number, largest: number): void {
     const { scale, limits } = this.material.uniforms;
-    const [least, most] = this.isSurface ? [2, 48] : this.positions.length > 60000 ? [1.5, 14] : [5, 14];
+    // Near the eye the marks of a surface are as large as can be: smaller ones would tear it.
+    const [least, most] = this.isSurface ? [2, largest / pixelRatio] : this.positions.length > 60000 ? [1.5, 14] : [5, 14];
     scale!.value = 0.5 * height * pixelRatio;
     (limits!.value as Vector2).set(least! * pixelRatio, most! * pixelRatio);
   }
@@ -121,9 +129,9 @@ export class PointCloud {
       stage.camera.projectionMatrix,
       stage.camera.matrixWorldInverse,
     ).elements as number[];
-    const width = stage.besides ? stage.size.width / 2 : stage.size.width;
+    const { width, height } = stage.shown;
     const rx = (2 * kReach) / width,
-      ry = (2 * kReach) / stage.size.height;
+      ry = (2 * kReach) / height;
     const p = this.positions;
     let best = -1,
       nearest = Infinity;
@@ -144,5 +152,38 @@ export class PointCloud {
       if (depth < nearest) [best, nearest] = [i / 3, depth];
     }
     return best;
+  }
+  /// How far the nearest point to the eye is around each of some pixels; Infinity: there is none.
+  depthsAt(stage: Stage, pixels: ([number, number] | undefined)[]): Float64Array {
+    const { width, height } = stage.shown;
+    const depths = new Float64Array(pixels.length).fill(Infinity);
+    const columns = Math.ceil(width / kCell),
+      rows = Math.ceil(height / kCell);
+    const cells = new Int32Array(columns * rows).fill(-1); // which of the pixels is in each
+    const cellOf = (x: number, y: number) =>
+      x >= 0 && x < width && y >= 0 && y < height
+        ? Math.floor(y / kCell) * columns + Math.floor(x / kCell)
+        : -1;
+    const place = pixels.map((at) => (at ? cellOf(...at) : -1));
+    place.forEach((cell, i) => cell >= 0 && (cells[cell] = i));
+    const m = new Matrix4().multiplyMatrices(
+      stage.camera.projectionMatrix,
+      stage.camera.matrixWorldInverse,
+    ).elements as number[];
+    const p = this.positions;
+    for (let i = 0; i < p.length; i += 3) {
+      const a = p[i]!,
+        b = p[i + 1]!,
+        c = p[i + 2]!;
+      const w = m[3]! * a + m[7]! * b + m[11]! * c + m[15]!; // in perspective its depth
+      if (w <= 0) continue;
+      const x = ((m[0]! * a + m[4]! * b + m[8]! * c + m[12]!) / w + 1) * (width / 2),
+        y = (1 - (m[1]! * a + m[5]! * b + m[9]! * c + m[13]!) / w) * (height / 2);
+      const cell = cellOf(x, y);
+      const which = cell < 0 ? -1 : cells[cell]!;
+      if (which >= 0 && w < depths[which]!) depths[which] = w;
+    }
+    // Pixels in one cell.
+    return depths.map((depth, i) => (place[i]! < 0 ? depth : depths[cells[place[i]!]!]!));
   }
 }

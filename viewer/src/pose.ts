@@ -83,7 +83,8 @@ function standing(sample: number[]): Vector3 {
 /// Towards an eye that sees the largest horizontal spread from the side, a little from above; what
 /// is flat, more.
 function broadside(sample: number[], up: Vector3): Vector3 {
-  const first = new Vector3(up.y || up.z ? 1 : 0, up.x ? 1 : 0, 0);
+  const parts = up.toArray().map(Math.abs);
+  const first = new Vector3().setComponent(parts.indexOf(Math.min(...parts)), 1);
   const a = first.addScaledVector(up, -first.dot(up)).normalize(),
     b = new Vector3().crossVectors(up, a);
   const at = new Vector3(),

@@ -3,7 +3,7 @@
 import { commandLine } from "./command";
 import { button, el } from "./dom";
 import { bytes, counted, exact, grouped, homology, seconds, short } from "./numbers";
-import type { Meta } from "./report";
+import type { Meta } from "./meta";
 import type { Session } from "./session";
 
 export function provenanceDialog(session: Session): HTMLDialogElement {
@@ -103,7 +103,7 @@ export function helpDialog(): HTMLDialogElement {
     el(
       "p",
       {},
-      "A bar [birth, death) is a hole: H₀ components, H₁ loops, H₂ voids. What is far above the diagonal, or long, is there to stay. The four views show the same bars; the address of the page keeps what you see.",
+      "A bar [birth, death) is a hole: H₀ components, H₁ loops, H₂ voids. What is far above the diagonal, or long, is there to stay. All views show the same bars; the address of the page keeps what you see.",
     ),
     el("dl", {}, ...rows.flatMap(([key, text]) => [el("dt", {}, key), el("dd", {}, text)])),
     button("close", () => dialog.close(), { class: "close" }),

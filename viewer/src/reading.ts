@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 import { nameOfBar } from "./bar_chart";
 import { counted, exact, grouped, short } from "./numbers";
+import { kindOfSegment } from "./words";
 import type { Session } from "./session";
 
 /// What is under the pointer, in words.
@@ -9,7 +10,11 @@ export function readingOf(session: Session): string {
   const words: string[] = [];
   if (focus.element >= 0) words.push(...elementWords(session, focus.element));
   const segment = cut?.segments[focus.segment - 1];
-  if (segment) words.push(`segment ${segment.label}, ${counted(segment.points, "point")}`);
+  if (segment) {
+    const what = session.report.image ? "voxel" : "point";
+    const kind = kindOfSegment(session.report.meta);
+    words.push(`${kind} ${segment.label}, ${counted(segment.points, what)}`);
+  }
   if (focus.bar >= 0) words.push(nameOfBar(session, focus.bar));
   return words.join("  ·  ");
 }

@@ -2,70 +2,16 @@
 // What a report says: its metadata, checked, and its arrays under the names of docs/report-format.md.
 import { decoded, PayloadError, type Block, type Numbers, type Payload } from "./payload";
 import { Bars } from "./bars";
-import { MergeTree, type CutRule } from "./merge_tree";
+import { MergeTree } from "./merge_tree";
 import { Matching } from "./matching";
-import type { VoxelSets } from "./voxel_sets";
-
-export type CellKind = "vertices" | "grid" | "row";
-
-export interface BarcodeMeta {
-  name: string;
-  cells?: CellKind;
-  representatives?: "cycles" | "cocycles" | "voxels";
-}
-
-export interface Provenance {
-  version?: string;
-  command?: string[];
-  input?: { path?: string; description?: string; sha256?: string };
-  complex?: string;
-  field?: number;
-  max_dim?: number;
-  threshold?: number | null;
-  engine?: string;
-  timings?: Record<string, number>;
-  peak_memory?: number | null;
-  warnings?: string[];
-  notes?: Record<string, string>;
-}
-
-export interface Meta {
-  format: "ph-report";
-  version: 1;
-  title: string;
-  program: string;
-  provenance: Provenance;
-  value: { label: string; unit?: string; negated?: boolean };
-  barcodes: BarcodeMeta[];
-  cloud?: {
-    unit?: string;
-    up?: number[];
-    viewpoint?: number[];
-    projection?: string;
-    metric?: string;
-    edges_below?: number;
-  };
-  image?: { construction?: "vertices" | "cells"; axes?: string[] };
-  tree?: {
-    rule: CutRule;
-    label?: string;
-    unit?: string;
-    cut: number;
-    from?: number;
-    to?: number;
-    min_size?: number;
-    what?: string;
-    command?: string[];
-  };
-  distances?: { dim: number; bottleneck: number | null }[]; // null: infinite
-}
+import type { Meta } from "./meta";
 
 /// The points or voxels that are shown.
 export interface Elements {
   count: number;
   rgb: Uint8Array | undefined;
   normals: Int8Array | undefined; // octahedral, two a point
-  birth: Numbers | undefined;
+  readonly birth: Numbers | undefined; // found when it is asked for
   truth: Numbers | undefined;
   leaf: Numbers | undefined; // in the merge tree; 2^bits - 1: none
 }
@@ -90,6 +36,14 @@ export interface Chains {
   cells: Numbers;
   coefficients: Numbers | undefined;
   first: Float64Array; // place in `cells` of each chain
+}
+
+/// Sets of voxels of bars, as runs of places in the image.
+export interface VoxelSets {
+  ofBar: Map<number, number>;
+  start: Numbers; // set i has the runs start[i] … start[i + 1] - 1
+  runs: Numbers; // first place and length of each
+  surfaces: Map<number, Float32Array>; // by bar, of those seen last
 }
 
 export interface Report {
@@ -173,13 +127,16 @@ export function reportOf(payload: Payload): Report {
     if (found && found.length < count) fail(`points/${name} is too short`);
     return found;
   };
+  let births = ofElement("birth");
   const elements =
     count > 0
       ? {
           count,
           rgb: ofElement("rgb") as Uint8Array | undefined,
           normals: block("points/normal")?.values as Int8Array | undefined,
-          birth: ofElement("birth") ?? (image && birthsOf(image, meta)),
+          get birth() {
+            return (births ??= image && birthsOf(image, meta));
+          },
           truth: ofElement("truth"),
           leaf: ofElement("leaf"),
         }
@@ -236,8 +193,18 @@ function imageOf(block: Block | undefined, meta: Meta): Image | undefined {
 }
 
 /// When each voxel enters: at its value, or, in superlevel sets, at minus that. NaN: never.
-function birthsOf(image: Image, meta: Meta): Numbers {
-  return meta.value.negated ? Float64Array.from(image.values, (v) => -v) : image.values;
+function birthsOf({ values }: Image, meta: Meta): Numbers {
+  if (!meta.value.negated) return values;
+  const births = roomForNegated(values);
+  for (let i = 0; i < births.length; ++i) births[i] = -values[i]!;
+  return births;
+}
+
+function roomForNegated(values: Numbers): Numbers {
+  if (values instanceof Float32Array) return new Float32Array(values.length);
+  if (values.BYTES_PER_ELEMENT === 1) return new Int16Array(values.length);
+  if (values.BYTES_PER_ELEMENT === 2) return new Int32Array(values.length);
+  return new Float64Array(values.length);
 }
 
 function treeOf(

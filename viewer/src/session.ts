@@ -96,6 +96,11 @@ export class Session {
     if (this.colour === "grey") this.tints = undefined;
     this.changed("selection");
   }
+  /// Whether just the bars of the answer are selected, as at first.
+  get selectsTheAnswer(): boolean {
+    const { bars } = this.answer;
+    return this.selection.length === bars.length && bars.every((bar) => this.isSelected(bar));
+  }
   isSelected(bar: number): boolean {
     return this.selected[bar] === 1;
   }

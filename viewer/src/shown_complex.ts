@@ -11,11 +11,10 @@ const kMostEdges = 40_000,
   kMostPoints = 50_000;
 
 export interface ShownPart {
-  ends: Float32Array; // x, y, z of each end of an edge
-  corners: Float32Array; // x, y, z of each corner of a triangle
-  edges: number;
-  triangles: number | undefined; // undefined: too many to draw
-  more: boolean; // there are more edges than the budget has
+  ends: Uint32Array; // places in the picture, two an edge
+  corners: Uint32Array | undefined; // three a triangle; undefined: too many to draw
+  moreEdges: boolean; // than the budget has
+  moreTriangles: boolean; // than the report has
 }
 
 export class ShownComplex {
@@ -38,20 +37,35 @@ export class ShownComplex {
     this.pairs ??= this.computed ? this.nearest() : this.written();
     const { ends, values, missingFrom } = this.pairs;
     const shown = ends.subarray(0, 2 * countUpTo(values, value));
-    const triangles = this.trianglesUpTo(value, shown);
     return {
-      ends: this.places(shown),
-      corners: this.places(triangles ?? []),
-      edges: shown.length / 2,
-      triangles: triangles && triangles.length / 3,
-      more: missingFrom < Infinity && value >= missingFrom,
+      ends: shown,
+      corners: this.trianglesUpTo(value, shown),
+      moreEdges: reaches(value, missingFrom),
+      moreTriangles: reaches(value, this.report.meta.cloud?.triangles_below),
     };
   }
+  /// x, y, z of each.
+  places(elements: Uint32Array): Float32Array {
+    const to = new Float32Array(3 * elements.length);
+    const { positions } = this.report.cloud!;
+    for (let i = 0; i < elements.length; ++i)
+      for (let k = 0; k < 3; ++k) to[3 * i + k] = positions[3 * elements[i]! + k]!;
+    return to;
+  }
 
+  /// The vertices that lie in no triangle of a mesh.
+  outside(): Uint32Array {
+    const isIn = new Uint8Array(this.report.elements!.count);
+    for (const element of this.surface ?? []) isIn[element] = 1;
+    let count = 0;
+    const found = new Uint32Array(isIn.length);
+    for (let i = 0; i < isIn.length; ++i) if (isIn[i] === 0) found[count++] = i;
+    return found.subarray(0, count);
+  }
   /// The triangles of a mesh, three places each, ascending by value; undefined: it is none.
   get surface(): Uint32Array | undefined {
     const { triangles } = this.report;
-    return triangles && this.available ? this.elementsOf(triangles.corners, 3) : undefined;
+    return triangles && this.available ? this.elementsOf(triangles.corners) : undefined;
   }
 
   /// Those that the program wrote, or, of a flag complex, those whose edges are there.
@@ -59,7 +73,7 @@ export class ShownComplex {
     const { triangles, meta } = this.report;
     if (triangles) {
       const count = countUpTo(triangles.values, value);
-      return this.elementsOf(triangles.corners, 3).subarray(0, 3 * count);
+      return this.elementsOf(triangles.corners).subarray(0, 3 * count);
     }
     const isFlag = meta.provenance.complex === "rips";
     return isFlag ? trianglesOf(edges, kMostTriangles) : new Uint32Array();
@@ -69,29 +83,30 @@ export class ShownComplex {
   }
   private written(): SortedPairs {
     const { edges, meta } = this.report;
+    const ends = this.elementsOf(edges!.ends);
+    for (let i = 0; i < ends.length; i += 2) ends.subarray(i, i + 2).sort(); // for triangles
     return {
-      ends: this.elementsOf(edges!.ends, 2),
+      ends,
       values: Float64Array.from(edges!.values),
       missingFrom: meta.cloud?.edges_below ?? Infinity,
     };
   }
   private readonly found = new Map<Numbers, Uint32Array>();
-  /// Vertices of cells as places in the picture, ascending within a cell.
-  private elementsOf(vertices: Numbers, arity: number): Uint32Array {
+  /// Vertices of cells as places in the picture.
+  private elementsOf(vertices: Numbers): Uint32Array {
     let elements = this.found.get(vertices);
     if (elements) return elements;
-    elements = Uint32Array.from(vertices, (v) => elementOf(this.report, v) ?? 0);
-    for (let i = 0; i < elements.length; i += arity) elements.subarray(i, i + arity).sort();
+    elements = new Uint32Array(vertices.length);
+    for (let i = 0; i < elements.length; ++i)
+      elements[i] = elementOf(this.report, vertices[i]!) ?? 0;
     this.found.set(vertices, elements);
     return elements;
   }
-  private places(elements: ArrayLike<number>): Float32Array {
-    const to = new Float32Array(3 * elements.length);
-    const { positions } = this.report.cloud!;
-    for (let i = 0; i < elements.length; ++i)
-      to.set(positions.subarray(3 * elements[i]!, 3 * elements[i]! + 3), 3 * i);
-    return to;
-  }
+}
+
+/// Whether there is a value from which on cells are missing, and another one is not below it.
+function reaches(value: number, missingFrom = Infinity): boolean {
+  return missingFrom < Infinity && value >= missingFrom;
 }
 
 /// How many of ascending values lie up to another one. Values and positions are float32.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How a volume lies: what its axes are called, and from where a slice across each is seen upright.
 import { Vector3 } from "three";
-import type { Meta } from "./report";
+import type { Meta } from "./meta";
 
 type Triple = [number, number, number];
 interface View {

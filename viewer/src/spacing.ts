@@ -2,6 +2,8 @@
 // How far a point is from the next ones: what a mark must cover so that a surface has no holes.
 
 const kSampled = 800,
+  kMostCompared = 4000, // points around one
+  kOutermost = 0.01, // of the points at each end of an axis: they may be anywhere
   kNeighbours = 4; // of a grid the four next ones are one spacing away
 
 /// The median, over some points, of the distance to the fourth nearest other place; with an eye, of
@@ -36,15 +38,13 @@ class Grid {
     const count = positions.length / 3;
     const size: number[] = [];
     for (let c = 0; c < 3; ++c) {
-      let low = Infinity,
-        high = -Infinity;
-      for (let i = c; i < positions.length; i += 3) {
-        const v = positions[i]!;
-        if (v < low) low = v;
-        if (v > high) high = v;
-      }
-      this.low.push(low);
-      size.push(high - low);
+      const step = Math.max(1, Math.floor(count / 20_000));
+      const sample = new Float32Array(Math.ceil(count / step));
+      for (let i = 0; i < sample.length; ++i) sample[i] = positions[3 * i * step + c]!;
+      sample.sort();
+      const cut = Math.floor(kOutermost * sample.length);
+      this.low.push(sample[cut]!);
+      size.push(sample[sample.length - 1 - cut]! - sample[cut]!);
     }
     // Points of a surface as large as the two longer sides of their box: some in each cube.
     const [long, middle] = size.sort((a, b) => b - a) as [number, number];
@@ -71,8 +71,12 @@ class Grid {
       for (let dy = -1; dy <= 1; ++dy)
         for (let dz = -1; dz <= 1; ++dz) lists.add(this.listOf(x + dx, y + dy, z + dz));
     const p = this.positions;
+    let members = 0;
+    for (const list of lists) members += this.start[list + 1]! - this.start[list]!;
+    // Where points are crowded every so many are looked at; those of a surface are then farther apart.
+    const step = Math.ceil(members / kMostCompared);
     for (const list of lists)
-      for (let k = this.start[list]!; k < this.start[list + 1]!; ++k) {
+      for (let k = this.start[list]!; k < this.start[list + 1]!; k += step) {
         const i = this.members[k]!;
         const square =
           (p[3 * i]! - p[3 * of]!) ** 2 +
@@ -83,7 +87,7 @@ class Grid {
         for (; at > 0 && nearest[at - 1]! > square; --at) nearest[at] = nearest[at - 1]!;
         nearest[at] = square;
       }
-    const distance = Math.sqrt(nearest[kNeighbours - 1]!);
+    const distance = Math.sqrt(nearest[kNeighbours - 1]! / step);
     return distance <= this.cube ? distance : Infinity;
   }
 

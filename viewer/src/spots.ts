@@ -4,10 +4,15 @@
 export class Spots {
   private readonly taken: [x: number, y: number, halfWidth: number][] = [];
 
-  /// Whether a text of 9.5 pixels, centred here, has room; takes it.
+  /// @param size of the text, pixels.
+  constructor(private readonly size = 9.5) {}
+
+  /// Whether a text that is centred here has room; takes it.
   take(x: number, y: number, text: string): boolean {
-    const half = 2.7 * text.length + 1.2;
-    if (this.taken.some(([a, b, w]) => Math.abs(a - x) < w + half && Math.abs(b - y) < 9)) return false;
+    const half = 0.284 * this.size * text.length + 1.2,
+      high = 0.95 * this.size;
+    if (this.taken.some(([a, b, w]) => Math.abs(a - x) < w + half && Math.abs(b - y) < high))
+      return false;
     this.taken.push([x, y, half]);
     return true;
   }

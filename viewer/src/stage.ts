@@ -54,6 +54,11 @@ export class Stage {
     this.reset();
   }
 
+  /// The widest point that can be drawn, device pixels.
+  get largestMark(): number {
+    const gl = this.renderer.getContext();
+    return (gl.getParameter(gl.ALIASED_POINT_SIZE_RANGE) as Float32Array)[1]!;
+  }
   private makeControls(): OrbitControls {
     const controls = new OrbitControls(this.camera, this.renderer.domElement);
     controls.enableRotate = !this.pose.flat;
@@ -141,21 +146,30 @@ export class Stage {
         this.besides(side);
       }
       if (this.camera instanceof PerspectiveCamera)
-        this.dome?.render(this.renderer, this.camera, this.besides ? width / 2 : width, height);
+        this.dome?.render(this.renderer, this.camera, this.shown.width, height);
       this.renderer.render(this.scene, this.camera);
     }
     this.rendered?.();
   }
+  /// The size of the picture, of the left one of two.
+  get shown(): Size {
+    const { width, height } = this.size;
+    return { width: this.besides ? width / 2 : width, height };
+  }
+  /// How far a place is from the eye, along its view.
+  depthOf(x: number, y: number, z: number): number {
+    return -new Vector3(x, y, z).applyMatrix4(this.camera.matrixWorldInverse).z;
+  }
   /// From pixels to -1 … 1, in the picture that holds them.
   normalised(x: number, y: number): [number, number] {
-    const width = this.besides ? this.size.width / 2 : this.size.width;
+    const { width } = this.shown;
     return [2 * ((x % width) / width) - 1, 1 - (2 * y) / this.size.height];
   }
   /// Where in the picture, in pixels, a place is; in the left one of two. undefined: behind the eye.
   pixelOf(x: number, y: number, z: number): [number, number] | undefined {
     const at = new Vector3(x, y, z).project(this.camera);
     if (at.z > 1 || at.z < -1) return undefined;
-    const width = this.besides ? this.size.width / 2 : this.size.width;
+    const { width } = this.shown;
     return [(width * (at.x + 1)) / 2, (this.size.height * (1 - at.y)) / 2];
   }
   /// Turns (3-D) or moves (flat) the picture by the keyboard; `zoom` as a factor.
@@ -199,6 +213,6 @@ export class Stage {
   }
 
   private aspect(): number {
-    return (this.besides ? this.size.width / 2 : this.size.width) / this.size.height || 1;
+    return this.shown.width / this.shown.height || 1;
   }
 }

@@ -83,18 +83,9 @@ export class TreeChart extends Chart {
       anchor: "middle",
       upwards: true,
     });
-    const numbers = this.session.numbers(),
-      spots = new Spots();
     for (const d of this.drawn) {
-      const merged =
-        tree.deathOf[d.branch] !== kNone && tree.isDone(tree.deathOf[d.branch]!, cutValue);
+      const merged = this.isMerged(d.branch);
       this.drawBranch(pen, d, merged ? theme.faint : this.colourOf(d.branch), merged ? 1 : 2.2);
-      const number = numbers.get(this.barOf(d.branch));
-      if (number !== undefined && !merged && spots.take(d.x, d.y1 + 11, String(number)))
-        pen.text(d.x, Math.min(d.y1 + 11, size.height - 2), String(number), {
-          ...small,
-          anchor: "middle",
-        });
     }
     if (tree.arrays.rule === "value" && cutValue > 0) {
       const y = axis.at(cutValue);
@@ -110,8 +101,31 @@ export class TreeChart extends Chart {
         : "";
   }
 
+  /// Whether the cut has joined a branch to the one that it merges into.
+  private isMerged(branch: number): boolean {
+    const merge = this.tree.deathOf[branch]!;
+    return merge !== kNone && this.tree.isDone(merge, this.session.cutValue);
+  }
+
+  /// Numbers follow the selection where only what is selected has one.
+  private drawNumbers(pen: Pen): void {
+    const numbers = this.session.numbers(),
+      spots = new Spots();
+    for (const d of this.drawn) {
+      const number = numbers.get(this.barOf(d.branch));
+      if (number === undefined || this.isMerged(d.branch)) continue;
+      if (spots.take(d.x, d.y1 + 11, String(number)))
+        pen.text(d.x, Math.min(d.y1 + 11, this.size.height - 2), String(number), {
+          colour: this.session.theme.muted,
+          size: 10.5,
+          anchor: "middle",
+        });
+    }
+  }
+
   protected drawOver(pen: Pen): void {
     const { theme, focus } = this.session;
+    this.drawNumbers(pen);
     for (const d of this.drawn) {
       const bar = this.barOf(d.branch);
       if (bar < 0 || !(bar === focus.bar || this.session.isSelected(bar))) continue;

@@ -1,15 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Sets of voxels of bars, written as runs of places in the image: which voxels they are, and, in a
-// volume, the surface around them.
+// Sets of voxels of bars: which voxels they are, and, in a volume, the surface around them.
 import { placeInImage } from "./cell_geometry";
 import type { Numbers } from "./payload";
-
-export interface VoxelSets {
-  ofBar: Map<number, number>;
-  start: Numbers; // set i has the runs start[i] … start[i + 1] - 1
-  runs: Numbers; // first place and length of each
-  surfaces: Map<number, Float32Array>; // by bar, of those seen last
-}
+import type { VoxelSets } from "./report";
 
 /// The runs of a bar; nothing if it has no set.
 export function runsOf(sets: VoxelSets | undefined, bar: number): Numbers {

@@ -2,7 +2,7 @@
 // Holes and intervals in words. Of superlevel sets a report holds minus the values; what a reader
 // sees are the values themselves, which fall from birth to death.
 import { grouped, homology, short } from "./numbers";
-import type { Meta } from "./report";
+import type { Meta } from "./meta";
 
 /// "loop", "loops": what a bar of a dimension is.
 export function holes(dim: number, count = 1): string {
@@ -34,13 +34,18 @@ export function listed(words: string[], last = "and"): string {
   return `${words.slice(0, -1).join(", ")} ${last} ${words.at(-1)}`;
 }
 
+/// What a part of the cut is called.
+export function kindOfSegment(meta: Meta): string {
+  return meta.tree?.what ?? "segment";
+}
+
 /// A filtration value as a reader knows it.
 export function shownValue(meta: Meta, value: number): number {
   return meta.value.negated ? 0 - value : value;
 }
 
 /// "[0.184, 1.465)"; of superlevel sets from the larger value to the smaller one.
-export function intervalText(meta: Meta, birth: number, death: number, digits = 4): string {
-  const [from, to] = [birth, death].map((v) => short(shownValue(meta, v), digits));
+export function intervalText(meta: Meta, birth: number, death: number): string {
+  const [from, to] = [birth, death].map((v) => short(shownValue(meta, v)));
   return `[${from}, ${to})`;
 }

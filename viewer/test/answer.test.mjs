@@ -6,6 +6,7 @@ import { random } from "./support/random.mjs";
 import { importSource } from "./support/import_source.mjs";
 
 const { answerOf, widestGap } = await importSource("answer.ts");
+const { suggestedCut } = await importSource("gaps.ts");
 const { Bars } = await importSource("bars.ts");
 const { Matching } = await importSource("matching.ts");
 
@@ -63,6 +64,8 @@ test("noise of a higher dimension is no answer", () => {
     const { dim } = answer([...loop, ...noise(2, voids, 1)]);
     assert.equal(dim, 1, `${voids}`);
   }
+  // One alone has nothing below it to stand out from.
+  assert.equal(answer([[0, 0, kNever], [1, 0, 1], ...noise(1, [0.1, 0.1, 0.1]), [2, 0.5, 0.65]]).dim, 1);
   // Nothing but one short bar.
   const { bars, sentence } = answer([[0, 0, kNever], [1, 1, 1.05]]);
   assert.deepEqual(bars, []);
@@ -83,7 +86,13 @@ test("honest where nothing stands out", () => {
   );
   assert.equal(told([]), "There are no bars.");
   assert.equal(told([[0, 0, kNever]]), "All is one component: there is no other bar.");
-  assert.equal(told(noise(1, [2, 2, 2, 2, 2])), "No loop stands out: the longest is hardly longer than the next.");
+  assert.equal(told(noise(1, [2, 2, 2, 2, 2])), "No loop stands out: all are equally long.");
+  assert.equal(told(noise(1, [2, 1.99, 1.98, 1.97, 1.96])), "No loop stands out: the longest is hardly longer than the next.");
+  assert.equal(told([[0, 1, 1], [1, 2, 2]]), "No bar stands out: all have length 0.");
+  assert.equal(
+    told([[0, 0, kNever], [0, 95, 100]], { image: {} }),
+    "No other component stands out: there is one other, and it is short.",
+  );
   // Lengths of independent exponential distribution: no structure.
   const next = random(3);
   let outstanding = 0;
@@ -101,6 +110,47 @@ test("components: one is always there, several are an answer", () => {
   const apart = answer([[0, 0, kNever], [0, 0, kNever], ...noise(0, [0.2, 0.19, 0.18, 0.17, 0.16], 0)]);
   assert.equal(apart.sentence, "Two components never merge: [0, ∞) and [0, ∞).");
   assert.ok(!answer([[0, 0, kNever], ...noise(0, [0.2, 0.19, 0.18, 0.17, 0.16], 0)]).components);
+  const begun = answer([[0, -Infinity, 3]]);
+  assert.equal(begun.sentence, "One component has no beginning: [−∞, 3).");
+  // So many are said, but not selected.
+  const dust = answer(Array(70_001).fill([0, 0, kNever]));
+  assert.deepEqual([dust.sentence, dust.bars], ["70,001 components never merge.", []]);
+});
+
+test("beyond the threshold nobody has looked", () => {
+  const two = [[0, 0, kNever], [0, 0, kNever], ...noise(0, [0.2, 0.19, 0.18, 0.17, 0.16], 0)];
+  assert.equal(answer(two, { threshold: 0.5 }).sentence, "Two components are apart up to 0.5: [0, ∞) and [0, ∞).");
+  const negated = two.map(([dim, birth, death]) => [dim, birth - 3, death - 3]);
+  assert.match(
+    answer(negated, { threshold: -2.5, value: { negated: true } }).sentence,
+    /^Two components are apart down to 2\.5/,
+  );
+  // Alive at 1, and known to be 0.9, 0.3 long: both may be longer, so that no gap is between them.
+  const loops = [[0, 0, kNever], [1, 0.1, kNever], [1, 0.7, kNever], ...noise(1, [0.1, 0.1, 0.09, 0.08])];
+  assert.equal(
+    answer(loops, { threshold: 1 }).sentence,
+    "Two loops stand out: the shorter, [0.7, ∞), is at least 3.0 times as long as the next.",
+  );
+  // The gap is among the dead ones, whose lengths are known.
+  const dead = [[0, 0, kNever], [1, 0.1, kNever], ...noise(1, [0.6, 0.05, 0.05, 0.04, 0.04])];
+  assert.equal(
+    answer(dead, { threshold: 1 }).sentence,
+    "Two loops stand out: the shorter, [0.1, 0.7), is 12 times as long as the next.",
+  );
+  const alike = [[0, 0, kNever], ...[0.1, 0.12].map((b) => [1, b, kNever]), ...noise(1, [0.8, 0.7, 0.6, 0.5])];
+  assert.equal(
+    answer(alike, { threshold: 1 }).sentence,
+    "No loop stands out: the shortest alive at the threshold is at least 1.1 times as long as the next.",
+  );
+});
+
+test("the page cuts where the sentence has its gap", () => {
+  // The widest ratio is far below the longest bar, and chance.
+  const levels = [0.0001, 0.009, 0.01, 0.5, 1];
+  const cut = suggestedCut({ arrays: { rule: "value", levels: Float64Array.from(levels) } }, 0, Infinity);
+  const bars = [[0, 0, kNever], ...[...levels].reverse().map((death) => [0, 0, death])];
+  assert.equal(answer(bars).bars.length, bars.filter(([, , death]) => death > cut).length);
+  assert.ok(cut > 0.01 && cut < 0.5, `${cut}`);
 });
 
 test("bars that never end", () => {
@@ -129,5 +179,7 @@ test("two barcodes: where they differ most, and the pair that decides", () => {
   assert.equal(found.dim, 1);
   assert.deepEqual(found.bars, [1, 4]);
   assert.match(answer(a, { second: a, distances: [{ dim: 1, bottleneck: 0 }] }).sentence, /are equal/);
+  const left = answer(a, { second: a, distances: [{ dim: 0, bottleneck: 0 }] }).sentence;
+  assert.equal(left, "The two barcodes are equal in H₀: every bottleneck distance is 0. H₁ was not compared.");
   assert.match(answer(a, { second: b, distances: [{ dim: 1, bottleneck: null }] }).sentence, /never end: .* infinite/);
 });

@@ -8,7 +8,19 @@ import { image } from "./support/image_fixture.mjs";
 import * as odd from "./support/odd_fixtures.mjs";
 import { clusters, torus } from "./support/point_fixtures.mjs";
 import { scene } from "./support/scene_fixture.mjs";
-import { frame, launch, open, picture, pixelsOf, tintedPixels } from "./support/browser.mjs";
+import { importSource } from "./support/import_source.mjs";
+import {
+  downloaded,
+  frame,
+  launch,
+  open,
+  picture,
+  pixelsOf,
+  tintedPixels,
+  vividPixels,
+} from "./support/browser.mjs";
+
+const { kPitch } = await importSource("fan.ts");
 
 const selection = (page) => page.textContent(".status .selection");
 const kOrange = [230, 159, 0],
@@ -40,15 +52,17 @@ function sheet(side, place, colour) {
 }
 /// Pixels in the middle of the stage that are background (white).
 async function holes(page) {
-  const pixels = await pixelsOf(page, ".stage");
-  const { width, height } = pixels;
+  const pixels = await pixelsOf(page, ".stage", [0.4, 0.46, 0.6, 0.54]);
   let count = 0;
-  for (let y = Math.ceil(0.46 * height); y < 0.54 * height; ++y)
-    for (let x = Math.ceil(0.4 * width); x < 0.6 * width; ++x) {
-      const at = 4 * (y * width + x);
-      if (pixels[at] > 240 && pixels[at + 1] > 240 && pixels[at + 2] > 240) ++count;
-    }
+  for (let at = 0; at < pixels.length; at += 4)
+    if (pixels[at] > 240 && pixels[at + 1] > 240 && pixels[at + 2] > 240) ++count;
   return count;
+}
+/// A scene that is made at once; its words are as long as those of a large one.
+function smallScene() {
+  const report = scene(160, 134);
+  report.meta.provenance.input.description = "343 040 points, PCD, 640 x 536";
+  return report;
 }
 
 test("the first view", { timeout: 300_000 }, async (t) => {
@@ -72,6 +86,8 @@ test("the first view", { timeout: 300_000 }, async (t) => {
     assert.equal(await selection(first.page), "nothing selected");
     const hash = new URL(first.page.url()).hash;
     await first.page.click(".answer button");
+    // The button is gone; the keyboard goes on from the bars.
+    assert.ok(await first.page.evaluate(() => document.activeElement.matches(".diagram canvas")));
     await frame(first.page);
     assert.match(await selection(first.page), /^H₂/);
     await first.close();
@@ -94,22 +110,23 @@ test("the first view", { timeout: 300_000 }, async (t) => {
     for (const [name, { positions, rgb }, cloud] of [
       ["flat", flat, {}],
       ["seen", seen, { viewpoint: [0, 0, 0], up: [0, -1, 0] }],
-    ])
+    ]) {
+      const report = cloudOf(positions, rgb, cloud);
+      const { page, problems, close } = await open(browser, report, { hash: "#colour=rgb" });
+      await page.focus(".stage canvas");
       for (const [width, height] of [[390, 844], [700, 640], [1400, 900], [1920, 1200]]) {
-        const { page, problems, close } = await open(browser, cloudOf(positions, rgb, cloud), {
-          width,
-          height,
-          hash: "#colour=rgb",
-        });
+        await page.setViewportSize({ width, height });
+        await page.keyboard.press("0");
+        await frame(page);
         assert.equal(await holes(page), 0, `${name}, ${width} x ${height}`);
-        await page.focus(".stage canvas");
         for (const key of ["ArrowLeft", "ArrowLeft", "ArrowUp", "+", "+", "+"]) await page.keyboard.press(key);
         await frame(page);
         assert.equal(await holes(page), 0, `${name}, ${width} x ${height}, turned and near`);
         await picture(page, `sheet_${name}_${width}`);
-        assert.deepEqual(problems, []);
-        await close();
       }
+      assert.deepEqual(problems, []);
+      await close();
+    }
     tt.diagnostic("no pixel of the background within the sheets");
   });
 
@@ -124,35 +141,63 @@ test("the first view", { timeout: 300_000 }, async (t) => {
       positions.push(r * Math.cos(turn), r * Math.sin(turn), z);
       rgb.push(...(z > 0 ? kBlue : kOrange));
     }
-    const { page, close } = await open(
-      browser,
-      cloudOf(positions, rgb, { viewpoint: [0, 0, 6], up: [0, 1, 0] }),
-      { hash: "#colour=rgb" },
-    );
-    const front = await tintedPixels(page, ".stage", kBlue),
-      back = await tintedPixels(page, ".stage", kOrange);
+    const ball = cloudOf(positions, rgb, { viewpoint: [0, 0, 6], up: [0, 1, 0] });
+    ball.meta.tree = { rule: "value", cut: 0.5 };
+    Object.assign(ball.arrays, {
+      "points/leaf": Uint16Array.from({ length: 6000 }, (_, k) => Number(k >= 3000)),
+      "tree/leaf_birth": Float64Array.of(0, 0),
+      "tree/leaf_points": Uint32Array.of(3000, 3000),
+      "tree/leaf_vertices": Uint32Array.of(3000, 3000),
+      "tree/leaf_bar": Uint32Array.of(0, 0),
+      "tree/merge_younger": Uint32Array.of(1),
+      "tree/merge_elder": Uint32Array.of(0),
+      "tree/merge_value": Float64Array.of(1),
+      "tree/merge_level": Float64Array.of(1),
+      "tree/merge_bar": Uint32Array.of(1),
+    });
+    const { page, close } = await open(browser, ball, { hash: "#colour=rgb" });
+    const pixels = await pixelsOf(page, ".stage");
+    const front = vividPixels(pixels, 40, kBlue),
+      back = vividPixels(pixels, 40, kOrange);
     assert.ok(front > 30_000 && back < front / 500, `${front} and ${back} pixels`);
+    // Nor does the number of what is behind.
+    await page.evaluate(() => (location.hash = "colour=segment"));
+    await page.waitForFunction(() => document.querySelectorAll(".numbers text").length === 1);
+    await page.focus(".stage canvas");
+    for (let i = 0; i < 13; ++i) await page.keyboard.press("ArrowLeft"); // a quarter: both are seen
+    await page.waitForFunction(() => document.querySelectorAll(".numbers text").length === 2);
     await close();
   });
 
   await t.test("an image is grey, and only chosen basins are coloured", async () => {
     const { page, close } = await open(browser, image(), { hash: "#bars=" });
-    const vivid = async () => {
-      const pixels = await pixelsOf(page, ".stage");
-      let count = 0;
-      for (let i = 0; i < pixels.length; i += 4) {
-        const rgb = pixels.subarray(i, i + 3);
-        if (Math.max(...rgb) - Math.min(...rgb) > 25) ++count;
-      }
-      return count;
-    };
+    const vivid = async () => vividPixels(await pixelsOf(page, ".stage"), 25);
     assert.equal(await page.inputValue(".data select"), "grey");
+    const ticks = await page.$$eval(".legend .ticks span", (all) => all.map((e) => e.textContent));
+    assert.deepEqual([ticks[0], ticks[2]], ["255", "0"], "grey values are as they are");
     assert.equal(await vivid(), 0);
     const box = await page.locator(".stage canvas").boundingBox();
     await page.mouse.click(box.x + 0.5 * box.width, box.y + 0.5 * box.height);
     await page.mouse.move(2, 2);
     await frame(page);
     assert.match(await selection(page), /^H₀/);
+    // Its branch has its number: nothing but what is over the chart is drawn anew.
+    await page.keyboard.press("Escape");
+    await page.waitForFunction(() => document.querySelectorAll(".numbers text").length === 0);
+    await page.evaluate(() => {
+      const { prototype } = CanvasRenderingContext2D;
+      const original = prototype.fillText;
+      window.drawn = [];
+      prototype.fillText = function (text, ...more) {
+        if (this.canvas.closest(".tree")) window.drawn.push(text);
+        original.call(this, text, ...more);
+      };
+    });
+    await page.mouse.click(box.x + 0.5 * box.width, box.y + 0.5 * box.height);
+    await page.mouse.move(2, 2);
+    await page.waitForSelector(".numbers text");
+    await frame(page);
+    assert.ok((await page.evaluate(() => window.drawn)).includes(await page.textContent(".numbers text")));
     const some = await vivid();
     assert.ok(some > 1000 && some < (box.width * box.height) / 2, `${some} pixels`);
     await close();
@@ -208,25 +253,11 @@ test("the first view", { timeout: 300_000 }, async (t) => {
     const bars = [...Array(5).fill([0, 0, Infinity]), ...Array(4).fill([1, 1, 3]), [1, 1, 1.2]];
     const { page, close } = await open(browser, { meta: metaOf("equal.csv"), arrays: barArrays(bars) });
     const box = await page.locator(".diagram canvas.over").boundingBox();
-    const found = new Set();
-    for (let x = 40; x < 140; x += 2) {
-      await page.mouse.move(box.x + x, box.y + 14);
-      await frame(page);
-      // What is under the pointer has a mark of its own.
-      found.add(
-        await page.evaluate(() => {
-          const canvas = document.querySelector(".diagram canvas.over");
-          const { data } = canvas.getContext("2d").getImageData(0, 0, 200, 30);
-          let sum = 0,
-            drawn = 0;
-          for (let i = 3; i < data.length; i += 4)
-            if (data[i] > 200 && Math.floor(i / 800) < 18) (sum += (i >> 2) % 200), ++drawn;
-          return drawn > 20 ? Math.round(sum / drawn / 4) : 0;
-        }),
-      );
+    for (let bar = 0; bar < 5; ++bar) {
+      // The line of infinity; its first dot is at the left end of the axis.
+      await page.mouse.click(box.x + 50 + bar * kPitch, box.y + 14);
+      await page.waitForFunction((b) => location.hash.includes(`bars=${b}`), bar);
     }
-    found.delete(0);
-    assert.ok(found.size >= 5, `${[...found]}`);
     await close();
   });
 
@@ -237,6 +268,17 @@ test("the first view", { timeout: 300_000 }, async (t) => {
     const rows = await page.$$eval(".legend button.row .name", (all) => all.map((e) => e.textContent));
     assert.ok(rows.length > 2);
     assert.deepEqual(numbers.sort(), rows.slice(0, 30).sort());
+    // All of them are in a picture, with the sentence.
+    const svg = (await downloaded(page, "Picture, SVG")).toString();
+    const words = [...svg.matchAll(/<text [^>]*>([^<]*)</g)].map(([, text]) => text);
+    assert.ok(words.includes(await page.textContent(".answer span")));
+    for (const row of rows) assert.ok(words.filter((w) => w === row).length >= 4, `${row} in legend, data, charts`);
+    // What the reader folds stays so.
+    await page.click(".tree .fold");
+    await page.selectOption(".data select", "persistence");
+    await frame(page);
+    assert.ok(!(await page.locator(".tree .chart").isVisible()) && (await page.locator(".cut .chart").isVisible()));
+    assert.ok(!/>Merge tree</.test(await downloaded(page, "Picture, SVG")));
     await close();
   });
 
@@ -249,17 +291,22 @@ test("the first view", { timeout: 300_000 }, async (t) => {
       assert.equal(await page.getAttribute(`${panel} .fold`, "aria-expanded"), "true");
     }
     await close();
-    const told = await open(browser, scene());
-    assert.ok(await told.page.locator(".tree .chart").isVisible());
-    await told.close();
+    const again = await open(browser, odd.singlePoint());
+    const svg = (await downloaded(again.page, "Picture, SVG")).toString();
+    assert.ok(!/NaN|>Merge tree<|>Persistence diagram</.test(svg) && />Barcode</.test(svg));
+    // An address with a cut shows it.
+    await again.page.evaluate(() => (location.hash = "cut=0.5"));
+    await again.page.waitForSelector(".cut .chart", { state: "visible" });
+    await again.close();
   });
 
   await t.test("a mesh is its surface, in the colours of its values", async () => {
     const side = 12,
-      count = side * side;
+      count = side * side + 1;
     const positions = Float64Array.from({ length: 3 * count }, (_, k) =>
       [Math.floor(k / 3) % side, Math.floor(k / 3 / side), 0][k % 3],
     );
+    positions.set([15, 5, 0], 3 * side * side); // in no triangle
     const corners = [];
     for (let y = 0; y + 1 < side; ++y)
       for (let x = 0; x + 1 < side; ++x) {
@@ -284,10 +331,15 @@ test("the first view", { timeout: 300_000 }, async (t) => {
     });
     const kYellow = [253, 231, 37],
       kViolet = [72, 36, 117];
-    const colours = async () => [
-      await tintedPixels(page, ".stage canvas", kYellow),
-      await tintedPixels(page, ".stage canvas", kViolet),
-    ];
+    const colours = async () => {
+      const pixels = await pixelsOf(page, ".stage canvas");
+      return [vividPixels(pixels, 40, kYellow), vividPixels(pixels, 40, kViolet)];
+    };
+    assert.match(await page.textContent(".scrubber output"), / 1 edge, 242 triangles$/);
+    const outside = await pixelsOf(page, ".stage canvas", [0.8, 0, 1, 1]);
+    const dot = outside.filter((v, i) => i % 4 === 0 && v < 200).length;
+    assert.ok(dot > 5, `${dot} pixels of a vertex in no triangle`);
+    assert.match(await page.getAttribute(".stage canvas", "aria-label"), /^Mesh of 145 vertices/);
     const [yellow, violet] = await colours();
     assert.ok(yellow > 2000 && violet > 2000, `${yellow} and ${violet} pixels`);
     await page.evaluate(() => (location.hash = "scale=4"));
@@ -307,24 +359,14 @@ test("the first view", { timeout: 300_000 }, async (t) => {
       arrays: {
         ...barArrays([[1, 0, 4], [1, 0, 2]]),
         ...barArrays([[1, 1, 4]], "bars2"),
-        ...(pairs && { "matching/pairs": [Uint32Array.from(pairs), { shape: [pairs.length / 2, 2] }] }),
+        "matching/pairs": [Uint32Array.from(pairs), { shape: [pairs.length / 2, 2] }],
       },
     });
-    const lines = async (report) => {
-      const { page, close } = await open(browser, report);
-      await page.click("summary");
-      const [file] = await Promise.all([page.waitForEvent("download"), page.click("text=Picture, SVG")]);
-      const svg = Buffer.concat(await (await file.createReadStream()).toArray()).toString();
-      const selected = await selection(page);
-      await close();
-      return { dotted: svg.match(/stroke-dasharray="2 3"/g)?.length ?? 0, all: svg.match(/<line/g).length, selected };
-    };
-    const without = await lines(make()),
-      matched = await lines(make([0, 2]));
-    assert.equal(without.dotted, 0);
-    assert.equal(matched.dotted, 1, "one bar goes to the diagonal");
-    assert.equal(matched.all, without.all + 2, "and one to its partner");
-    assert.match(matched.selected, /^2 bars selected/);
+    const { page, close } = await open(browser, make([0, 2]));
+    const svg = (await downloaded(page, "Picture, SVG")).toString();
+    assert.equal(svg.match(/stroke-dasharray="2 3"/g)?.length, 1, "one bar goes to the diagonal");
+    assert.match(await selection(page), /^2 bars selected/);
+    await close();
     const bad = await open(browser, make([0, 7]));
     assert.match(await bad.page.textContent(".failure"), /no bar 7/);
     await bad.close();
@@ -352,39 +394,49 @@ test("the first view", { timeout: 300_000 }, async (t) => {
     await close();
   });
 
-  await t.test("heads of panels wrap in narrow windows, and words stay words", async () => {
-    for (const width of [390, 500, 700]) {
-      const { page, close } = await open(browser, scene(), { width, height: 900 });
+  await t.test("a scene: its tree is open; heads wrap in narrow windows; nothing is cut off", async () => {
+    const { page, problems, close } = await open(browser, smallScene());
+    assert.ok(await page.locator(".tree .chart").isVisible());
+    for (const width of [700, 500, 390]) {
+      await page.setViewportSize({ width, height: width === 390 ? 844 : 900 });
+      await frame(page);
       const heights = await page.$$eval(".panel > header", (all) => all.map((e) => e.getBoundingClientRect().height));
       assert.ok(Math.max(...heights) < 110, `heads of ${heights} pixels in a window of ${width}`);
-      await close();
     }
+    await assertNothingIsCutOff(page, "scene");
+    assert.deepEqual(problems, []);
+    await close();
   });
 
   await t.test("nothing is cut off on a telephone", async () => {
-    for (const [name, make] of Object.entries({ torus, image, scene, two: odd.twoBarcodes, volume: () => image([20, 24, 28]) })) {
+    for (const [name, make] of Object.entries({ torus, image, two: odd.twoBarcodes, volume: () => image([20, 24, 28]) })) {
       const { page, problems, close } = await open(browser, make(), { width: 390, height: 844 });
-      const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
-      assert.ok(wide <= 0, `${name} is ${wide} pixels too wide`);
-      const cut = await page.$$eval(".top *, .answer *, .panel > header *, .panel > .row *, .legend *, .status *", (all) =>
-        all
-          .filter((e) => e.checkVisibility() && !e.closest("svg, .menu .items, dialog, option"))
-          .filter((e) => {
-            const box = e.getBoundingClientRect(),
-              panel = e.closest(".panel, .top, .status, .answer").getBoundingClientRect();
-            const ends = box.right > Math.min(390, panel.right) + 0.5 || box.left < -0.5;
-            return ends || (e.children.length === 0 && e.scrollWidth > e.clientWidth + 1 && e.clientWidth > 0);
-          })
-          .map((e) => `${e.tagName} ${e.textContent.slice(0, 40)}`),
-      );
-      assert.deepEqual(cut, [], name);
-      if (await page.locator(".stage").count()) {
-        const [stage, panel] = [await page.locator(".stage").boundingBox(), await page.locator(".panel.data").boundingBox()];
-        assert.ok(stage.width > panel.width - 4, `${name}: the picture has ${stage.width} of ${panel.width} pixels`);
-      }
-      await picture(page, `phone_${name}`);
+      await assertNothingIsCutOff(page, name);
       assert.deepEqual(problems, []);
       await close();
     }
   });
 });
+
+/// In a window of 390 pixels.
+async function assertNothingIsCutOff(page, name) {
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+  assert.ok(wide <= 0, `${name} is ${wide} pixels too wide`);
+  const cut = await page.$$eval(".top *, .answer *, .panel > header *, .panel > .row *, .legend *, .status *", (all) =>
+    all
+      .filter((e) => e.checkVisibility() && !e.closest("svg, .menu .items, dialog, option"))
+      .filter((e) => {
+        const box = e.getBoundingClientRect(),
+          panel = e.closest(".panel, .top, .status, .answer").getBoundingClientRect();
+        const ends = box.right > Math.min(390, panel.right) + 0.5 || box.left < -0.5;
+        return ends || (e.children.length === 0 && e.scrollWidth > e.clientWidth + 1 && e.clientWidth > 0);
+      })
+      .map((e) => `${e.tagName} ${e.textContent.slice(0, 40)}`),
+  );
+  assert.deepEqual(cut, [], name);
+  if (await page.locator(".stage").count()) {
+    const [stage, panel] = [await page.locator(".stage").boundingBox(), await page.locator(".panel.data").boundingBox()];
+    assert.ok(stage.width > panel.width - 4, `${name}: the picture has ${stage.width} of ${panel.width} pixels`);
+  }
+  await picture(page, `phone_${name}`);
+}

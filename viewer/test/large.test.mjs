@@ -3,9 +3,10 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 import * as odd from "./support/odd_fixtures.mjs";
+import { scene } from "./support/scene_fixture.mjs";
 import { coloursOf, kPatience, launch, median, open, picture, setSlider } from "./support/browser.mjs";
 
-test("a million bars, two million points", { timeout: 500_000 }, async (t) => {
+test("a million bars, a scene, two million points", { timeout: 500_000 }, async (t) => {
   const browser = await launch();
   t.after(() => browser.close());
   await t.test("bars", async (tt) => {
@@ -55,6 +56,40 @@ test("a million bars, two million points", { timeout: 500_000 }, async (t) => {
       `${(bytes / 2 ** 20).toFixed(1)} MiB, first frame ${firstFrame} ms, cuts in ${list} ms`,
     );
     assert.ok(median(times) < 50 * kPatience);
+    assert.deepEqual(problems, []);
+    await close();
+  });
+  await t.test("a scene of 343 040 points, its cut", async (tt) => {
+    const report = scene(),
+      count = report.vertexOfPoint.length;
+    const { page, problems, bytes, firstFrame, wall, close } = await open(browser, report);
+    tt.diagnostic(
+      `${count} points: ${(bytes / 2 ** 20).toFixed(2)} MiB, ${(bytes / count).toFixed(1)} bytes a point, first frame ${firstFrame} ms (with the browser's work ${wall.toFixed(0)} ms)`,
+    );
+    assert.ok(bytes <= 12 * count && bytes <= 5 * 2 ** 20, "the page is too large");
+    assert.ok(firstFrame < 1500 * kPatience, "the page is too slow");
+    const times = [];
+    for (const place of [300, 900, 1200, 1500, 700])
+      times.push(
+        await page.$eval(
+          ".cut input[type=range]",
+          (input, v) => {
+            const start = performance.now();
+            input.value = v;
+            input.dispatchEvent(new Event("input", { bubbles: true }));
+            return new Promise((done) =>
+              requestAnimationFrame(() => setTimeout(() => done(performance.now() - start))),
+            );
+          },
+          String(place),
+        ),
+      );
+    const own = Number((await page.getAttribute(".cut .outcome", "title")).match(/[\d.]+/)[0]);
+    tt.diagnostic(
+      `cut and coloured in ${own} ms; drawn by the software renderer after ${times.map((ms) => ms.toFixed(0)).join(", ")} ms`,
+    );
+    assert.ok(own < 50 * kPatience);
+    await picture(page, "scene_cut");
     assert.deepEqual(problems, []);
     await close();
   });

@@ -6,7 +6,19 @@ import test from "node:test";
 import * as odd from "./support/odd_fixtures.mjs";
 import { image } from "./support/image_fixture.mjs";
 import { clusters, torus } from "./support/point_fixtures.mjs";
-import { coloursOf, launch, open, picture } from "./support/browser.mjs";
+import { reportHtml } from "./support/write_report.mjs";
+import {
+  allPixelsOf,
+  coloursOf,
+  downloaded,
+  frame,
+  launch,
+  open,
+  picture,
+  setSlider,
+  template,
+  vividPixels,
+} from "./support/browser.mjs";
 
 const kCharts = [".diagram .chart", ".barcode .chart"];
 const cases = {
@@ -14,7 +26,7 @@ const cases = {
   clusters: [clusters, [...kCharts, ".stage", ".cut .chart", ".tree .chart"]],
   image: [image, [...kCharts, ".stage", ".cut .chart", ".tree .chart"]],
   volume: [() => image([28, 36, 44]), [...kCharts, ".stage", ".cut .chart", ".tree .chart"]],
-  empty: [odd.empty, [".barcode .chart"]],
+  empty: [odd.empty, []],
   single_point: [odd.singlePoint, [".barcode .chart", ".stage"]],
   hostile: [odd.hostile, kCharts],
   two_barcodes: [odd.twoBarcodes, kCharts],
@@ -25,26 +37,52 @@ const cases = {
   extreme: [odd.extreme, [...kCharts, ".stage"]],
 };
 
+/// A chart shows something in colour; the data are not all of one colour.
+function assertShows(view, pixels) {
+  if (view !== ".stage") return assert.ok(vividPixels(pixels, 25) > 30, `${view} is empty`);
+  const counts = new Map();
+  for (const p of new Uint32Array(pixels.buffer)) counts.set(p, (counts.get(p) ?? 0) + 1);
+  const other = pixels.length / 4 - Math.max(...counts.values());
+  assert.ok(other > 20, `${view}: ${other} pixels are not the background`);
+}
+
 test("pages", { timeout: 500_000 }, async (t) => {
   const browser = await launch();
   t.after(() => browser.close());
   for (const [name, [make, views]] of Object.entries(cases))
-    for (const dark of [false, true])
-      await t.test(`${name}${dark ? ", dark" : ""}`, async (tt) => {
-        const { page, problems, firstFrame, bytes, close } = await open(browser, make(), { dark });
-        for (const view of views) assert.ok((await coloursOf(page, view)) > 1, `${view} is empty`);
-        await picture(page, `${name}${dark ? "_dark" : ""}`);
-        if (!dark) {
-          await page.setViewportSize({ width: 900, height: 800 });
-          await page.waitForTimeout(150);
-          await picture(page, `${name}_900`);
-          const wide = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
-          assert.ok(!wide, "the page is wider than the window");
-        }
-        assert.deepEqual(problems, []);
-        tt.diagnostic(`${(bytes / 2 ** 20).toFixed(2)} MiB, first frame ${firstFrame} ms`);
-        await close();
+    await t.test(name, async (tt) => {
+      const { page, problems, firstFrame, bytes, close } = await open(browser, make());
+      const look = async (theme) => {
+        await frame(page);
+        (await allPixelsOf(page, views)).forEach((pixels, i) => assertShows(views[i], pixels));
+        await picture(page, `${name}${theme}`);
+      };
+      await look("");
+      await page.emulateMedia({ colorScheme: "dark" });
+      await look("_dark");
+      await page.emulateMedia({ colorScheme: "light" });
+      await page.setViewportSize({ width: 900, height: 800 });
+      await frame(page);
+      await picture(page, `${name}_900`);
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
+      assert.ok(!wide, "the page is wider than the window");
+      assert.deepEqual(problems, []);
+      tt.diagnostic(`${(bytes / 2 ** 20).toFixed(2)} MiB, first frame ${firstFrame} ms`);
+      await close();
+    });
+
+  await t.test("a page that opens dark", async () => {
+    for (const name of ["torus", "image"]) {
+      const [make, views] = cases[name];
+      const { page, problems, close } = await open(browser, make(), { dark: true });
+      (await allPixelsOf(page, views)).forEach((pixels, i) => {
+        assertShows(views[i], pixels);
+        if (views[i] !== ".stage") assert.ok(pixels[0] < 60, `${views[i]} is not dark`);
       });
+      assert.deepEqual(problems, []);
+      await close();
+    }
+  });
 
   await t.test("hostile names stay text", async () => {
     const { page, problems, close } = await open(browser, odd.hostile());
@@ -54,15 +92,7 @@ test("pages", { timeout: 500_000 }, async (t) => {
     assert.match(await page.textContent("dialog[open] code"), /'it'\\''s; rm -rf \/'/);
     assert.equal(await page.locator("dialog[open] img, dialog[open] script").count(), 0);
     await page.keyboard.press("Escape");
-    const [file] = await Promise.all([
-      page.waitForEvent("download"),
-      page.click("summary").then(() => page.click("text=Picture, SVG")),
-    ]);
-    const svg = await (
-      await file.createReadStream()
-    )
-      .toArray()
-      .then((parts) => Buffer.concat(parts).toString());
+    const svg = (await downloaded(page, "Picture, SVG")).toString();
     assert.match(svg, /&lt;script&gt;/);
     assert.doesNotMatch(svg, /<script/);
     assert.deepEqual(problems, []);
@@ -71,8 +101,6 @@ test("pages", { timeout: 500_000 }, async (t) => {
 
   await t.test("an inline script that is not the page's own does not run", async () => {
     const { meta, arrays } = odd.empty();
-    const { reportHtml } = await import("./support/write_report.mjs");
-    const { template } = await import("./support/browser.mjs");
     const html = reportHtml(template(), meta, arrays).replace(
       '<div id="app"',
       `<script>document.title = "owned"</script><div onclick="x()" style="color:red" id="x"></div><div id="app"`,
@@ -101,11 +129,11 @@ test("pages", { timeout: 500_000 }, async (t) => {
       const wanted = await page.$$eval("button, input, select, summary, canvas[role=img]", (all) =>
         all.filter((e) => !e.disabled && e.checkVisibility() && e.tabIndex >= 0).length,
       );
-      await page.evaluate(() => (window.reached = new Set()));
-      for (let i = 0; i < 2 * wanted; ++i) {
-        await page.keyboard.press("Tab");
-        await page.evaluate(() => window.reached.add(document.activeElement));
-      }
+      await page.evaluate(() => {
+        window.reached = new Set();
+        document.addEventListener("focusin", (event) => window.reached.add(event.target));
+      });
+      for (let i = 0; i < 2 * wanted; ++i) await page.keyboard.press("Tab");
       const reached = await page.evaluate(() => window.reached.size);
       assert.ok(wanted > 5 && reached >= wanted, `${reached} of ${wanted}`);
       assert.equal(await page.getAttribute(".status .reading", "aria-live"), "polite");
@@ -126,8 +154,7 @@ test("pages", { timeout: 500_000 }, async (t) => {
     assert.equal(await controls.count(), 0); // chips name the dimensions
     assert.ok(await page.locator(".diagram canvas").first().isVisible());
     await close();
-    const policy = await (await import("./support/browser.mjs")).template();
-    assert.match(policy, /http-equiv="Content-Security-Policy" content="default-src 'none'; /);
+    assert.match(template(), /http-equiv="Content-Security-Policy" content="default-src 'none'; /);
   });
 
   await t.test("two barcodes: how far they are apart", async () => {
@@ -139,6 +166,16 @@ test("pages", { timeout: 500_000 }, async (t) => {
     await close();
   });
 
+  await t.test("where cut and tree are folded, the other panels have the page", async () => {
+    const { page, close } = await open(browser, odd.treeOnly());
+    const width = async () => (await page.locator(".column.right").boundingBox()).width;
+    const before = await width();
+    for (const panel of [".cut", ".tree"]) await page.click(`${panel} .fold`);
+    const after = await width();
+    assert.ok(before < 800 && after > 1200, `${before}, then ${after} pixels`);
+    await close();
+  });
+
   await t.test("an address names a slice", async () => {
     const { page, problems, close } = await open(browser, image([8, 10, 12]), { hash: "#slice=2,5" });
     const row = page.locator(".row", { has: page.getByLabel("slice", { exact: true }) }).first();
@@ -146,12 +183,18 @@ test("pages", { timeout: 500_000 }, async (t) => {
     assert.equal(await row.locator("output").textContent(), "5");
     await row.locator("select").selectOption("1");
     await page.waitForFunction(() => location.hash.includes("slice=1,5"));
+    // The other slice is seen from where the address says, not from its front.
+    const view = "view=30,9,40,5,-4,4,1";
+    await page.evaluate((v) => (location.hash = `slice=0,3&${v}`), view);
+    await frame(page);
+    await setSlider(page, '.row input[aria-label="slice"]', 4);
+    await page.waitForFunction(() => location.hash.includes("slice=0,4"));
+    assert.ok((await page.evaluate(() => location.hash)).endsWith(view), await page.evaluate(() => location.hash));
     assert.deepEqual(problems, []);
     await close();
   });
 
   await t.test("what is no report says so", async () => {
-    const { template } = await import("./support/browser.mjs");
     const { page, close } = await open(browser, template());
     assert.match(await page.textContent(".failure"), /holds no report/);
     await close();

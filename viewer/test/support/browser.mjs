@@ -5,6 +5,7 @@ import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
+import { cropped, decodedPng } from "./png.mjs";
 import { reportHtml } from "./write_report.mjs";
 
 const root = join(dirname(fileURLToPath(import.meta.url)), "../..");
@@ -12,9 +13,10 @@ const executable = process.env.CHROMIUM ?? "/usr/bin/chromium";
 /// Two million points take a software renderer seconds.
 const kPatient = 120_000;
 
+let read;
 export function template() {
   const built = process.env.PH_REPORT_TEMPLATE ?? join(root, "build/report-template.html");
-  return readFileSync(built, "utf8");
+  return (read ??= readFileSync(built, "utf8"));
 }
 
 export async function launch({ webgl = true } = {}) {
@@ -30,24 +32,36 @@ export async function launch({ webgl = true } = {}) {
 const folder = mkdtempSync(join(tmpdir(), "ph-report-"));
 let written = 0;
 
+// A process for each page takes longer than most tests: what a test closes the next one opens.
+const free = new WeakMap();
+
+async function pageOf(browser, scripts) {
+  if (!scripts) return (await browser.newContext({ javaScriptEnabled: false })).newPage();
+  if (!free.has(browser)) free.set(browser, { context: browser.newContext(), pages: [] });
+  const { context, pages } = free.get(browser);
+  return pages.pop() ?? (await context).newPage();
+}
+
+async function release(browser, page) {
+  page.removeAllListeners();
+  await page.mouse.move(0, 0);
+  await page.goto("about:blank");
+  free.get(browser).pages.push(page);
+}
+
 /// Opens a report. `problems` collects console errors, page errors, and every request but the file.
 export async function open(
   browser,
   report,
-  { width = 1280, height = 800, dark = false, hash = "", reducedMotion, scripts = true } = {},
+  { width = 1280, height = 800, dark = false, hash = "", reducedMotion = null, scripts = true } = {},
 ) {
   const path = join(folder, `${++written}.html`);
   const html =
     typeof report === "string" ? report : reportHtml(template(), report.meta, report.arrays);
   writeFileSync(path, html);
-  const context = await browser.newContext({
-    viewport: { width, height },
-    colorScheme: dark ? "dark" : "light",
-    reducedMotion,
-    javaScriptEnabled: scripts,
-    acceptDownloads: true,
-  });
-  const page = await context.newPage();
+  const page = await pageOf(browser, scripts);
+  await page.setViewportSize({ width, height });
+  await page.emulateMedia({ media: null, colorScheme: dark ? "dark" : "light", reducedMotion });
   const problems = [];
   page.on(
     "console",
@@ -72,7 +86,7 @@ export async function open(
   );
   const start = performance.now();
   await page.goto(url + hash);
-  if (!scripts) return { page, problems, close: () => context.close() };
+  if (!scripts) return { page, problems, close: () => page.context().close() };
   await page.waitForSelector("#app[data-first-frame], .failure", { timeout: 60000 });
   const firstFrame = Number(await page.getAttribute("#app", "data-first-frame"));
   return {
@@ -81,54 +95,60 @@ export async function open(
     bytes: html.length,
     firstFrame,
     wall: performance.now() - start,
-    close: () => context.close(),
+    close: () => release(browser, page),
   };
 }
 
 /// The pixels of an element, four bytes each, with their `width` and `height`.
-export async function pixelsOf(page, selector) {
+/// @param part of it, in parts of its sides: [left, top, right, bottom].
+export async function pixelsOf(page, selector, part = [0, 0, 1, 1]) {
   const box = await page.locator(selector).first().boundingBox();
-  const png = await page.screenshot({ clip: box, timeout: kPatient });
-  const { text, width, height } = await page.evaluate(async (data) => {
-    const image = new Image();
-    image.src = `data:image/png;base64,${data}`;
-    await image.decode();
-    const canvas = document.createElement("canvas");
-    canvas.width = image.width;
-    canvas.height = image.height;
-    const c = canvas.getContext("2d");
-    c.drawImage(image, 0, 0);
-    const pixels = c.getImageData(0, 0, image.width, image.height).data;
-    let text = "";
-    for (let i = 0; i < pixels.length; i += 8192)
-      text += String.fromCharCode(...pixels.subarray(i, i + 8192));
-    return { text: btoa(text), width: image.width, height: image.height };
-  }, png.toString("base64"));
-  return Object.assign(new Uint8Array(Buffer.from(text, "base64")), { width, height });
+  const clip = {
+    x: box.x + part[0] * box.width,
+    y: box.y + part[1] * box.height,
+    width: (part[2] - part[0]) * box.width,
+    height: (part[3] - part[1]) * box.height,
+  };
+  return decodedPng(await page.screenshot({ clip, timeout: kPatient }));
 }
 
-/// How many colours the pixels of an element have: an empty view has one.
-export async function coloursOf(page, selector) {
-  const pixels = await pixelsOf(page, selector);
-  return new Set(new Uint32Array(pixels.buffer)).size;
+/// Boxes of elements, and the pixels of each, all from one screenshot.
+export async function allPixelsOf(page, selectors) {
+  const boxes = [];
+  for (const selector of selectors) boxes.push(await page.locator(selector).first().boundingBox());
+  const whole = decodedPng(await page.screenshot({ timeout: kPatient }));
+  return boxes.map((box) => cropped(whole, box));
 }
+
+/// How many colours pixels have: an empty view has one.
+export const colourCount = (pixels) => new Set(new Uint32Array(pixels.buffer)).size;
+
+export const coloursOf = async (page, selector) => colourCount(await pixelsOf(page, selector));
 
 const hueOf = (r, g, b) =>
   (Math.atan2(Math.sqrt(3) * (g - b), 2 * r - g - b) * (180 / Math.PI) + 360) % 360;
 
-/// How many pixels of an element have the hue of a colour, whatever the light on it.
-export async function tintedPixels(page, selector, [r, g, b]) {
-  const pixels = await pixelsOf(page, selector),
-    wanted = hueOf(r, g, b);
+/// How many pixels are far from grey; with a colour, how many of these have its hue, whatever the
+/// light on it.
+export function vividPixels(pixels, spread, colour) {
+  const wanted = colour && hueOf(...colour);
   let count = 0;
   for (let i = 0; i < pixels.length; i += 4) {
-    const rgb = pixels.subarray(i, i + 3);
-    const vivid = Math.max(...rgb) - Math.min(...rgb) > 40;
-    const away = Math.abs(hueOf(...rgb) - wanted);
-    if (vivid && Math.min(away, 360 - away) < 12) ++count;
+    const r = pixels[i],
+      g = pixels[i + 1],
+      b = pixels[i + 2];
+    if (Math.max(r, g, b) - Math.min(r, g, b) <= spread) continue;
+    if (colour) {
+      const away = Math.abs(hueOf(r, g, b) - wanted);
+      if (Math.min(away, 360 - away) >= 12) continue;
+    }
+    ++count;
   }
   return count;
 }
+
+export const tintedPixels = async (page, selector, colour) =>
+  vividPixels(await pixelsOf(page, selector), 40, colour);
 
 export async function picture(page, name) {
   if (!process.env.PICTURES) return;
@@ -156,4 +176,14 @@ export async function setSlider(page, selector, value) {
     String(value),
   );
   await frame(page);
+}
+
+/// What an item of the menu hands out.
+export async function downloaded(page, label) {
+  await page.click("summary");
+  const [file] = await Promise.all([
+    page.waitForEvent("download"),
+    page.click(`.menu >> text=${label}`),
+  ]);
+  return Buffer.concat(await (await file.createReadStream()).toArray());
 }

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// The metadata of a report, as docs/report-format.md has them.
+import type { CutRule } from "./merge_tree";
+
+export type CellKind = "vertices" | "grid" | "row";
+
+export interface BarcodeMeta {
+  name: string;
+  cells?: CellKind;
+  representatives?: "cycles" | "cocycles" | "voxels";
+}
+
+export interface Provenance {
+  version?: string;
+  command?: string[];
+  input?: { path?: string; description?: string; sha256?: string };
+  complex?: string;
+  field?: number;
+  max_dim?: number;
+  threshold?: number | null;
+  engine?: string;
+  timings?: Record<string, number>;
+  peak_memory?: number | null;
+  warnings?: string[];
+  notes?: Record<string, string>;
+}
+
+export interface Meta {
+  format: "ph-report";
+  version: 1;
+  title: string;
+  program: string;
+  provenance: Provenance;
+  value: { label: string; unit?: string; negated?: boolean };
+  barcodes: BarcodeMeta[];
+  cloud?: {
+    unit?: string;
+    up?: number[];
+    viewpoint?: number[];
+    projection?: string;
+    metric?: string;
+    edges_below?: number;
+    triangles_below?: number;
+  };
+  image?: { construction?: "vertices" | "cells"; axes?: string[] };
+  tree?: {
+    rule: CutRule;
+    label?: string;
+    unit?: string;
+    cut: number;
+    from?: number;
+    to?: number;
+    min_size?: number;
+    what?: string;
+    command?: string[];
+  };
+  distances?: { dim: number; bottleneck: number | null }[]; // null: infinite
+}

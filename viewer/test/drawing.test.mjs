@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// What is drawn where, without a browser: dots that are fanned out, lines of a matching.
+import assert from "node:assert/strict";
+import test from "node:test";
+import { importSource } from "./support/import_source.mjs";
+import { random } from "./support/random.mjs";
+
+const { fanOut } = await importSource("fan.ts");
+const { drawMatching } = await importSource("matching_lines.ts");
+const { Matching } = await importSource("matching.ts");
+const { Bars } = await importSource("bars.ts");
+const { drawDensity } = await importSource("diagram_density.ts");
+const { spacingOf } = await importSource("spacing.ts");
+const { firstPose } = await importSource("pose.ts");
+const { Spots } = await importSource("spots.ts");
+
+const kLeft = 50,
+  kRight = 348;
+
+/// Dots of equal bars on the line of infinity, fanned out; the first `numbered` ones have numbers.
+function onLine(count, at, { numbered = 0, right = kRight } = {}) {
+  const x = new Float32Array(count).fill(at),
+    y = new Float32Array(count).fill(14);
+  const group = Array.from({ length: count }, (_, i) => i);
+  const crowds = fanOut([group], x, y, () => true, (bar) => bar < numbered, kLeft, right);
+  return { x: [...x], crowds };
+}
+const isApart = (x, least) => {
+  const sorted = [...x].sort((a, b) => a - b);
+  return sorted.every((v, i) => i === 0 || v - sorted[i - 1] >= least);
+};
+
+test("dots on the line of infinity stand side by side, within the axis", () => {
+  for (const [at, count, least] of [
+    [kLeft, 5, 8],
+    [kRight, 5, 8],
+    [200, 5, 8],
+    [kLeft, 36, 8], // more than there is room for at full pitch
+    [kRight, 36, 8],
+    [200, 60, 2],
+  ]) {
+    const { x, crowds } = onLine(count, at);
+    assert.ok(isApart(x, Math.min(least, (kRight - kLeft) / 2 / count)), `${count} at ${at}: ${x}`);
+    assert.ok(x.every((v) => v >= kLeft - 1e-3 && v <= kRight + 1e-3), `${x}`);
+    assert.deepEqual(crowds, []);
+  }
+});
+
+test("of more than 60 those with numbers stand apart, the others are a crowd", () => {
+  const { x, crowds } = onLine(100, kLeft, { numbered: 30 });
+  assert.ok(isApart(x.slice(0, 30), 5), `${x.slice(0, 30)}`);
+  assert.equal(new Set(x.slice(30)).size, 1);
+  assert.ok(!x.slice(0, 30).includes(x[99]));
+  assert.deepEqual(crowds.map((c) => c.count), [70]);
+});
+
+test("elsewhere dots lie around their place", () => {
+  const x = new Float32Array(30).fill(100),
+    y = new Float32Array(30).fill(100);
+  const some = Array.from({ length: 24 }, (_, i) => i);
+  const of = (group) => fanOut([group], x, y, () => false, () => false, kLeft, kRight);
+  assert.deepEqual(of(some), []);
+  for (const i of some)
+    for (const j of some)
+      if (i < j) assert.ok(Math.hypot(x[i] - x[j], y[i] - y[j]) > 5, `${i} and ${j}`);
+  assert.deepEqual(of(Array.from({ length: 30 }, (_, i) => i)), [{ x: 100, y: 100, count: 30 }]);
+});
+
+/// The lines that a matching is drawn with. @param bars [birth, death] of each barcode.
+function linesOf(barcodes, pairs) {
+  const columns = barcodes.map((bars) => ({
+    dim: new Uint8Array(bars.length).fill(1),
+    birth: Float64Array.from(bars, (b) => b[0]),
+    death: Float64Array.from(bars, (b) => b[1]),
+  }));
+  const bars = new Bars(columns, barcodes.map((_, i) => ({ name: `${i}` })), 0);
+  const lines = [];
+  const axis = { at: (v) => v };
+  const session = {
+    theme: { muted: "#000" },
+    isShown: () => true,
+    report: { bars, matching: pairs && new Matching(Uint32Array.from(pairs)) },
+  };
+  const places = { x: Float32Array.from(bars.birth), y: Float32Array.from(bars.death), births: axis, deaths: axis };
+  const left = drawMatching({ line: (...line) => lines.push(line) }, session, places);
+  return { lines, left };
+}
+
+test("of very many pairs those that move farthest have lines", () => {
+  const many = Array.from({ length: 2000 }, (_, i) => [0, 10 + i]);
+  const pairs = many.flatMap((_, i) => [i, 2000 + i]);
+  const { lines, left } = linesOf([many, many.map(([b, d]) => [b + (d - 10) / 1e4, d])], pairs);
+  assert.deepEqual(left, { drawn: 1500, all: 2000 });
+  assert.equal(Math.min(...lines.map((l) => l[1])), 510);
+});
+
+test("a matching: lines between partners, dotted ones to the diagonal", () => {
+  const two = [
+    [[0, 4], [0, 2]],
+    [[1, 4]],
+  ];
+  assert.deepEqual(linesOf(two).lines, []);
+  const { lines } = linesOf(two, [0, 2]);
+  assert.deepEqual(lines.map((l) => l.slice(0, 4)), [[0, 4, 1, 4], [0, 2, 1, 1]]);
+  assert.deepEqual(lines.map((l) => l[6]), [undefined, [2, 3]]);
+});
+
+test("a density passes over what is nowhere", () => {
+  const rects = [];
+  const session = {
+    hiddenDims: new Set(),
+    colourOfDim: () => "#000",
+    report: { bars: { size: 4, dims: [0], dim: [0, 0, 0, 0] } },
+  };
+  const x = Float32Array.of(10, NaN, 500, -3),
+    y = Float32Array.of(10, 10, 10, 10);
+  drawDensity({ rect: (...rect) => rects.push(rect) }, session, x, y, { width: 30, height: 30 });
+  assert.deepEqual(rects.map((r) => r.slice(0, 2)), [[9, 9]]);
+  assert.ok(rects.every((r) => Number.isFinite(r[5])));
+});
+
+test("the spacing of a grid, whatever lies far from it", (t) => {
+  const side = 401,
+    next = random(2);
+  const grid = Float32Array.from({ length: 3 * side * side }, (_, k) => {
+    const i = Math.floor(k / 3);
+    return [i % side, Math.floor(i / side), 0.01 * next()][k % 3];
+  });
+  const expected = spacingOf(grid);
+  assert.ok(Math.abs(expected - 1) < 0.1, `${expected}`);
+  const far = grid.slice();
+  far.set([1e7, -1e7, 1e7], 3 * 1234);
+  const start = process.cpuUsage();
+  const found = spacingOf(far);
+  const { user, system } = process.cpuUsage(start);
+  t.diagnostic(`with one point far away in ${((user + system) / 1000).toFixed(0)} ms`);
+  assert.ok(Math.abs(found - expected) < 0.1, `${found}`);
+  assert.ok(user + system < 250_000 * Number(process.env.PATIENCE ?? 4));
+});
+
+test("the first view has an upright axis and an eye for any direction upwards", () => {
+  const next = random(3);
+  const positions = Float32Array.from({ length: 300 }, () => next());
+  for (const up of [[0, 0, 1], [1, 1, 0], [0, -1, 0], [1, 0, 0], [1, -1, 1]]) {
+    const { towards, half } = firstPose({
+      meta: { cloud: { up } },
+      cloud: { dims: 3, origin: [0, 0, 0], positions },
+    });
+    assert.ok(Math.abs(towards.length() - 1) < 1e-6, `${up}: ${towards.toArray()}`);
+    assert.ok(half.width > 0.1 && half.height > 0.1);
+    const along = Math.abs(towards.x * up[0] + towards.y * up[1] + towards.z * up[2]) / Math.hypot(...up);
+    assert.ok(along < 0.8, `${up}: seen from above`);
+  }
+});
+
+test("numbers keep apart, larger ones more", () => {
+  const small = new Spots(9.5),
+    large = new Spots(24);
+  for (const spots of [small, large]) assert.ok(spots.take(0, 0, "12"));
+  assert.ok(small.take(0, 12, "12"));
+  assert.ok(!large.take(0, 12, "12"));
+  assert.ok(!small.take(3, 0, "7"));
+});
