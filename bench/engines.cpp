@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "ph/custom.hpp"
 #include "ph/ph.hpp"
 
 namespace {

@@ -2,6 +2,7 @@
 // A complex of your own: five small functions, and every engine that needs no more runs on it.
 // Here: a polygon whose sides appear one by one, and at last the disc inside.
 #include <iostream>
+#include <ph/custom.hpp>
 #include <ph/ph.hpp>
 
 // A polygon of n corners. Cells are numbered 0 … n-1 (corners), n … 2n-1 (side n+i joins corner i

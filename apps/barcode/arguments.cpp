@@ -42,12 +42,6 @@ Names format_names() {
   return names;
 }
 
-Names engine_names() {
-  Names names{"auto"};
-  for_each_engine([&](auto engine) { names.push_back(engine_name(engine.id)); });
-  return names;
-}
-
 Names output_formats() { return {"csv", "json", "ripser", "pers", "dipha", "npy", "none"}; }
 
 void take_metric(Arguments& a, const std::string& text) {

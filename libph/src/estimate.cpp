@@ -7,6 +7,7 @@
 #include "complex/clique_count.hpp"
 #include "persistence/memory_forecast.hpp"
 #include "ph/complex/edge_collapse.hpp"
+#include "ph/custom.hpp"
 
 namespace ph {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/persistence.hpp"
+#include "ph/custom.hpp"
 
 #include <fmt/format.h>
 
@@ -69,6 +69,10 @@ Barcode persistence(const ExplicitComplex& complex, const Options& options,
                             options.field));
   }
   return persistence<ExplicitComplex>(complex, options, context);
+}
+
+Barcode persistence(const FilteredGraph& graph, const Options& options, const RunContext& context) {
+  return persistence<FilteredGraph>(graph, options, context);
 }
 
 Barcode persistence(const AnyComplex& complex, const Options& options, const RunContext& context) {

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "ph/persistence.hpp"
+#include "ph/custom.hpp"
 
 namespace ph::test {
 

@@ -11,7 +11,7 @@
 #include "ph/complex/rips.hpp"
 #include "ph/core/barcode.hpp"
 #include "ph/core/run_context.hpp"
-#include "ph/engine/registry.hpp"
+#include "ph/engine/engine.hpp"
 
 namespace ph {
 
@@ -29,7 +29,7 @@ struct Options {
   std::optional<int> max_dim = std::nullopt;
   int min_dim = 0;  ///< lowest one reported: where that saves work, lower ones are not computed
   std::int64_t field = 2;             ///< characteristic of the coefficients: a prime < 2^31
-  Engine engine = Engine::automatic;  ///< which engine; see registry.hpp
+  Engine engine = Engine::automatic;  ///< which engine
   /// Rips only. With it, birth and death cells have the values of their bar, but among the many of
   /// one value others may be named; zero-length bars and cocycles exclude it.
   Collapse collapse = Collapse::automatic;
@@ -48,10 +48,9 @@ Barcode persistence(const Cubical& cubical, const Options& options = {},
                     const RunContext& context = default_context());
 Barcode persistence(const ExplicitComplex& complex, const Options& options = {},
                     const RunContext& context = default_context());
-/// The same for a complex of your own: anything that models Filtration.
-template <Filtration F>
-Barcode persistence(const F& filtration, const Options& options = {},
+Barcode persistence(const FilteredGraph& graph, const Options& options = {},
                     const RunContext& context = default_context());
+// For a complex of your own there is a template: ph/custom.hpp.
 
 /// Any of the complexes above, for programs that learn at run time what they have.
 using AnyComplex = std::variant<Rips, Cubical, ExplicitComplex>;
@@ -63,5 +62,3 @@ Barcode persistence(const AnyComplex& complex, const Options& options = {},
 std::string first_difference(const Barcode& a, const Barcode& b);
 
 }  // namespace ph
-
-#include "ph/persistence.ipp"

@@ -20,4 +20,10 @@ std::optional<Engine> engine_named(std::string_view name) {
   return engine;
 }
 
+std::vector<std::string_view> engine_names() {
+  std::vector<std::string_view> names{engine_name(Engine::automatic)};
+  for_each_engine([&](auto e) { names.push_back(e.name); });
+  return names;
+}
+
 }  // namespace ph

@@ -12,6 +12,7 @@
 #include "early_graph.hpp"
 #include "edge_cocycles.hpp"
 #include "ph/core/error.hpp"
+#include "ph/custom.hpp"
 #include "shortcuts.hpp"
 
 namespace ph::detail {

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "ph/complex/edge_collapse.hpp"
-#include "ph/persistence.hpp"
+#include "ph/custom.hpp"
 
 namespace ph::detail {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/persistence.hpp"
+#include "ph/custom.hpp"
 
 namespace ph {
 

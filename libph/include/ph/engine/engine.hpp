@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <optional>
+#include <string_view>
+#include <vector>
+
 #include "ph/core/barcode.hpp"
 
 namespace ph {
@@ -14,6 +18,13 @@ enum class Engine {
   lens,        ///< Rips, H0 to H2: edge by edge
   arrows,      ///< images: voxel by voxel
 };
+
+/// The name of an engine; "auto" for Engine::automatic.
+std::string_view engine_name(Engine engine);
+/// The engine of that name, "auto" included; nothing if there is none.
+std::optional<Engine> engine_named(std::string_view name);
+/// The names of all engines, "auto" first.
+std::vector<std::string_view> engine_names();
 
 /// What an engine is asked for.
 struct Task {

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <optional>
-#include <string_view>
 #include <tuple>
 
 #include "ph/engine/arrows.hpp"
@@ -23,10 +21,5 @@ template <class Use>
 void for_each_engine(Use&& use) {
   std::apply([&](auto... engine) { (use(engine), ...); }, Engines{});
 }
-
-/// The name of an engine; "auto" for Engine::automatic.
-std::string_view engine_name(Engine engine);
-/// The engine of that name, "auto" included; nothing if there is none.
-std::optional<Engine> engine_named(std::string_view name);
 
 }  // namespace ph

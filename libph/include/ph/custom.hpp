@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// How `persistence` chooses field and engine. Included by persistence.hpp.
+// For a complex of your own: the engines as templates, and how `persistence` chooses among them.
+// Costly to compile; whoever uses the complexes of libph needs persistence.hpp only.
 #include <algorithm>
 #include <string>
+
+#include "ph/engine/registry.hpp"
+#include "ph/persistence.hpp"
 
 namespace ph {
 namespace detail {
@@ -105,8 +109,10 @@ decltype(auto) with_field(std::int64_t characteristic, Use&& use) {
 
 }  // namespace detail
 
+/// The barcode of a complex of your own: anything that models Filtration. @throws as the others.
 template <Filtration F>
-Barcode persistence(const F& filtration, const Options& options, const RunContext& context) {
+Barcode persistence(const F& filtration, const Options& options = {},
+                    const RunContext& context = default_context()) {
   if (options.collapse == Collapse::on)
     throw Error(ErrorKind::usage, "edge collapse is for Rips complexes only");
   const auto [max_dim, choice] = detail::plan(filtration, options);
