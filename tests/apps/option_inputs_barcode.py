@@ -16,45 +16,48 @@ RIPS = ("points", "points.gz", "NPY points", "OFF mesh", "PCD", "XYZ", "matrix",
 LISTED = ("lower star", "PHAT", "DIPHA boundaries", "OFF mesh with values", "PLY mesh with values")
 
 
+# What an option may make of data that it does not fit, in the words of the message.
+POINTS, IMAGE = "not a set of points|found points", "an image has rows"
 LOOPS = ["--representatives", "cycles", "--output-format", "json"]
 
 
 def rows(Row):
     plot = ["--plot", "x.svg"]
     return {
-        "--format": Row("--format", "phat", bad_data=True),
-        "--values": Row("--values", "values.txt", bad_data=True),
+        "--format": Row("--format", "phat", choices=(),
+                        unfit="found phat|dimension|number of cells|boundary matrix|facet"),
+        "--values": Row("--values", "values.txt"),
         "--allow-empty": Row("--allow-empty", variant="empty", sign="--allow-empty: not needed"),
-        "--symmetrise": Row("--symmetrise", "max", variant="asymmetric", bad_data=True),
-        "--from-correlation": Row("--from-correlation", variant="correlation", bad_data=True),
-        "--diagonal": Row("--diagonal", "births", variant="births", bad_data=True),
+        "--symmetrise": Row("--symmetrise", "max", variant="asymmetric"),
+        "--from-correlation": Row("--from-correlation", variant="correlation", unfit="not a correlation"),
+        "--diagonal": Row("--diagonal", "births", variant="births"),
         "--nan": Row("--nan", "drop", variant="nan"),
-        "--columns": Row("--columns", "1", variant="labelled", bad_data=True),
-        "--channel": Row("--channel", "red", variant="colour", bad_data=True),
-        "--raw-shape": Row("--raw-shape", "5,4", bad_data=True),
-        "--raw-type": Row("--raw-type", "int16", bad_data=True),
-        "--raw-big-endian": Row("--raw-big-endian", bad_data=True),
-        "--raw-skip": Row("--raw-skip", "2", bad_data=True),
-        "--complex": Row("--complex", "cubical", bad_data=True),
+        "--columns": Row("--columns", "1", variant="labelled", unfit="as many as columns|ragged row|a point a row"),
+        "--channel": Row("--channel", "red", variant="colour", unfit="no channel"),
+        "--raw-shape": Row("--raw-shape", "5,4", unfit="for shape|found raw"),
+        "--raw-type": Row("--raw-type", "int16", unfit="for shape|found raw"),
+        "--raw-big-endian": Row("--raw-big-endian"),
+        "--raw-skip": Row("--raw-skip", "2", unfit="for shape|found raw"),
+        "--complex": Row("--complex", "cubical", unfit=IMAGE),
         "--threshold": Row("--threshold", "0.9"),
-        "--metric": Row("--metric", "manhattan", bad_data=True),
-        "--construction": Row("--construction", "cells", bad_data=True),
-        "--superlevel": Row("--superlevel", bad_data=True),
-        "--periodic": Row("--periodic", "all", bad_data=True),
-        "--slab-layers": Row("--slab-layers", "1", sign="slabs of 1 layer", bad_data=True),
-        "--voxel": Row("--voxel", "0.4", bad_data=True),
-        "--voxel-value": Row("--voxel-value", "density", bad_data=True),
-        "--collapse": Row("--collapse", "on", sign=r"collapse on \(asked for\)", bad_data=True),
-        "--subsample": Row("--subsample", "6", bad_data=True),
-        "--subsample-radius": Row("--subsample-radius", "0.5", bad_data=True),
-        "--approximate": Row("--approximate", "0.5", sign="times too late", bad_data=True),
-        "--vertex-weights": Row("--vertex-weights", "weights.txt", bad_data=True),
-        "--dtm": Row("--dtm", "3", bad_data=True),
+        "--metric": Row("--metric", "manhattan", unfit=POINTS),
+        "--construction": Row("--construction", "cells", unfit=IMAGE),
+        "--superlevel": Row("--superlevel", unfit=IMAGE),
+        "--periodic": Row("--periodic", "all", unfit=IMAGE),
+        "--slab-layers": Row("--slab-layers", "1", sign="slabs of 1 layer", unfit=IMAGE),
+        "--voxel": Row("--voxel", "0.4", unfit=POINTS),
+        "--voxel-value": Row("--voxel-value", "density", unfit=POINTS),
+        "--collapse": Row("--collapse", "on", sign=r"collapse {} \(asked for\)", unfit=POINTS),
+        "--subsample": Row("--subsample", "6", unfit=POINTS + "|no sample"),
+        "--subsample-radius": Row("--subsample-radius", "0.5", unfit=POINTS + "|no sample"),
+        "--approximate": Row("--approximate", "0.5", sign="times too late", unfit=POINTS + "|no approximation"),
+        "--vertex-weights": Row("--vertex-weights", "weights.txt", unfit="weights.txt|" + POINTS),
+        "--dtm": Row("--dtm", "3", unfit=POINTS),
         "--weight-exponent": Row("--weight-exponent", "2"),
         "--max-dim": Row("--max-dim", "0"),
         "--min-dim": Row("--min-dim", "1"),
         "--field": Row("--field", "3", beside=["--output-format", "json"]),
-        "--engine": Row("--engine", "standard", sign="engine standard: asked for"),
+        "--engine": Row("--engine", "standard", sign="engine {}: asked for"),
         "--check": Row("--check", sign="check: the oracle agrees"),
         "--min-persistence": Row("--min-persistence", "1e9"),
         "--representatives": Row("--representatives", "cycles", beside=["--output-format", "json"]),
@@ -73,7 +76,7 @@ def rows(Row):
         "--formats": Row("--formats"),
         "--threads": Row("--threads", "1", sign="threads 1"),
         "--memory-limit": Row("--memory-limit", "300MiB", sign="memory limit 300 MiB"),
-        "--progress": Row("--progress", "json", sign="progress json"),
+        "--progress": Row("--progress", "json", sign="progress {}"),
         "--quiet": Row("--quiet", lost="ph-barcode: "),
         "--verbose": Row("--verbose", sign="memory limit"),
         "--force": Row("--force", beside=["-o", "@input", "--output-format", "csv"]),
@@ -96,13 +99,14 @@ def npz(array):
     return archive.getvalue()
 
 
-def png(width, grey):
+def png(width, grey, colour=0):
     def chunk(name, content):
         return (struct.pack(">I", len(content)) + name + content
                 + struct.pack(">I", zlib.crc32(name + content)))
-    height = len(grey) // width
-    lines = b"".join(b"\0" + bytes(grey[y * width:(y + 1) * width]) for y in range(height))
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0))
+    size = width * (4 if colour == 6 else 1)
+    height = len(grey) // size
+    lines = b"".join(b"\0" + bytes(grey[y * size:(y + 1) * size]) for y in range(height))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, colour, 0, 0, 0))
             + chunk(b"IDAT", zlib.compress(lines)) + chunk(b"IEND", b""))
 
 
@@ -142,7 +146,8 @@ def inputs(Input, program):
         return math.dist(points[i], points[j])
 
     matrix = square(length, size)
-    asymmetric = [[d if i < j else 1.5 * d for j, d in enumerate(row)] for i, row in enumerate(matrix)]
+    asymmetric = [[d if (i < j) == ((i + j) % 2 == 0) else 1.5 * d for j, d in enumerate(row)]
+                  for i, row in enumerate(matrix)]
     births = [[0.3 if i == j else d for j, d in enumerate(row)] for i, row in enumerate(matrix)]
     correlation = [[1 - d / 4 for d in row] for row in matrix]
     holes = [[math.nan if {i, j} == {0, 1} else d for j, d in enumerate(row)]
@@ -157,6 +162,7 @@ def inputs(Input, program):
     pairs = [(i, j, length(i, j)) for i in range(size) for j in range(i)]
     grey = [random.randrange(10) for _ in range(30)]
     grey[7] = 200  # a byte with its high bit
+    many = [random.randrange(256) for _ in range(4 * 30)]
     floats = [value + 0.25 for value in grey]
     one_nan = [math.nan, *floats[1:]]
     volume = [random.randrange(10) + 0.5 for _ in range(27)]
@@ -171,7 +177,7 @@ def inputs(Input, program):
         if threshold is not None:
             given["--threshold"] = row("--threshold", str(threshold))
         if threshold is not None and name not in LISTED:  # an image
-            given["--complex"] = row("--complex", "rips", bad_data=True)
+            given["--complex"] = row("--complex", "rips", unfit=POINTS)
         if {"--format", "--raw-shape"} & set(arguments):  # what is read is not said then
             given["--quiet"] = row("--quiet", lost="ph-barcode: ",
                                    beside=["-o", "x.csv", "--output-format", "none"])
@@ -192,15 +198,15 @@ def inputs(Input, program):
     add("points.gz", ["p.txt.gz"], {"p.txt.gz": gzip.compress(text(points))},
         nan=gzip.compress(text(with_nan)))
     add("XYZ", ["p.xyz"], {"p.xyz": text((*p, 0.0) for p in points)},
-        rows={"--nan": (("--nan", "error"), {"variant": "nan", "bad_data": True})},
+        rows={"--nan": (("--nan", "error"), {"variant": "nan"})},
         nan=text([(math.nan, 0.0, 0.0), *((*p, 0.0) for p in points[1:])]))
     pcd = (f"VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH {size}\nHEIGHT 1\n"
            f"VIEWPOINT 0 0 0 1 0 0 0\nPOINTS {size}\nDATA ascii\n").encode()
     add("PCD", ["p.pcd"], {"p.pcd": pcd + text((*p, 0.0) for p in points)},
-        rows={"--nan": (("--nan", "error"), {"variant": "nan", "bad_data": True})},
+        rows={"--nan": (("--nan", "error"), {"variant": "nan"})},
         nan=pcd + text([(math.nan, 0.0, 0.0), *((*p, 0.0) for p in points[1:])]))
     add("NPY points", ["p.npy", "--complex", "rips"], {"p.npy": npy((size, 2), flat)},
-        rows={"--complex": (("--complex", "rips"), {"default": True})},
+        rows={"--complex": (("--complex", "rips"), {"default": ["--complex", "cubical"]})},
         nan=npy((size, 2), [math.nan, *flat[1:]]), empty=npy((0, 2), []))
     add("voxels", ["p.csv", "--complex", "cubical", "--voxel", "0.25"], {"p.csv": text(points)},
         rows={"--complex": (("--complex", "explicit"), {}),
@@ -241,12 +247,13 @@ def inputs(Input, program):
         nan=npy((3, 3, 3), [math.nan, *volume[1:]]))
     # Of one axis both constructions have the same bars, and none but periodic ones a loop.
     add("NPY series", ["s.npy"], {"s.npy": npy((30,), floats)}, 4, nan=npy((30,), one_nan),
-        rows={"--construction": (("--construction", "cells"), {"default": True}),
-              "--loops": (("--loops", "none"), {"beside": [*LOOPS, "--periodic", "all"]}),
+        rows={"--loops": (("--loops", "none"), {"beside": [*LOOPS, "--periodic", "all"]}),
               "--max-dim": (("--max-dim", "0"), {"beside": ["--periodic", "all"]}),
               "--min-dim": (("--min-dim", "1"), {"beside": ["--periodic", "all"]})})
     add("NPZ image", ["i.npz"], {"i.npz": npz(npy((5, 6), floats))}, 4, nan=npz(npy((5, 6), one_nan)))
     add("PNG", ["i.png"], {"i.png": png(6, grey)}, 4)
+    add("PNG in colours", ["i.png", "--channel", "green"], {"i.png": png(6, many, 6)}, 40,
+        rows={"--channel": (("--channel", "red"), {})})
     add("PGM", ["i.pgm"], {"i.pgm": b"P2\n6 5\n255\n" + " ".join(map(str, grey)).encode()}, 4)
     add("NIfTI", ["v.nii"], {"v.nii": nifti((3, 3, 3), volume)}, 4,
         nan=nifti((3, 3, 3), [math.nan, *volume[1:]]))
@@ -267,7 +274,7 @@ def inputs(Input, program):
                                    "--min-dim": (("--min-dim", "1"), {})})
     phat = b"0\n0\n0\n1 0 1\n1 1 2\n1 0 2\n2 3 4 5\n"
     add("PHAT", ["b.phat"], {"b.phat": phat}, 5.5, values=[0, 0, 0, 1, 2, 3, 5],
-        rows={"--format": (("--format", "simplices"), {"bad_data": True}),
+        rows={"--format": (("--format", "simplices"), {"unfit": "simplex|plain text", "choices": ()}),
               "--loops": (("--loops", "plain"), {"beside": LOOPS}),
               "--complex": (("--complex", "rips"), {})})
     add("DIPHA boundaries", ["b.dipha"],
@@ -276,7 +283,7 @@ def inputs(Input, program):
          + struct.pack("<7d", 0, 0, 0, 1, 2, 3, 5)
          + struct.pack("<8q", 0, 0, 0, 0, 2, 4, 6, 9)
          + struct.pack("<9q", 0, 1, 1, 2, 0, 2, 3, 4, 5)}, 2.5, values=[0, 0, 0, 1, 2, 3, 6],
-        rows={"--format": (("--format", "simplices"), {"bad_data": True}),
+        rows={"--format": (("--format", "simplices"), {"unfit": "simplex|plain text", "choices": ()}),
               "--loops": (("--loops", "plain"), {"beside": LOOPS}),
               "--complex": (("--complex", "rips"), {})})
     corners = [*((x, y, 0.0) for x, y in points)]
@@ -291,13 +298,25 @@ def inputs(Input, program):
     add("PLY mesh with values", ["m.ply", "--values", "values.txt"],
         {"m.ply": ply.encode() + text(corners) + faces}, 4, values=heights,
         rows={"--complex": (("--complex", "rips"), {})})
+    looks = {"--plot-kind": (("--plot-kind", "betti"), {}), "--dims": (("--dims", "1"), {}),
+             "--title": (("--title", "Loops"), {}), "--size": (("--size", "300x200"), {}),
+             "--axis": (("--axis", "-3,-1"), {})}
+    add("points, dry run", ["p.csv", "--dry-run"], {"p.csv": text(points)}, nan=text(with_nan))
+    add("points, nothing but a plot", ["p.csv", "--output-format", "none", "--plot", "y.svg"],
+        {"p.csv": text(points)}, nan=text(with_nan),
+        rows={**looks, "--axis": (("--axis", "0.25,0.5"), {})})
+    add("points, plot of the tree", ["p.csv", "--plot-kind", "tree", "--plot", "y.svg"],
+        {"p.csv": text(points)}, nan=text(with_nan),
+        rows={**looks, "--axis": (("--axis", "0.25,0.5"), {})})
+    add("superlevel plot", ["i.npy", "--superlevel", "--plot", "y.svg"],
+        {"i.npy": npy((5, 6), floats)}, -4, nan=npy((5, 6), one_nan), rows=looks)
     bars = b"dim,birth,death\n0,0,1\n0,0,inf\n1,0.3,0.75\n"
     alone = {"--loops": (("--loops", "none"), {})}
     add("a barcode", ["b.csv"], {"b.csv": bars}, rows=alone)
     add("plot a barcode", ["plot", "b.npy", "-o", "y.svg"],
         {"b.npy": npy((2, 3), [0, 0, 1, 1, 0.3, 0.75])},
         rows={**alone, "--force": (("--force",), {"sign": "--force: not needed"}),
-              "--output": (("--output", "x.png"), {"beside": ["--report", "x.html"]}),
+              "--output": (("--output", "x.svg"), {}),
               "--plot-kind": (("--plot-kind", "betti"), {}), "--dims": (("--dims", "9"), {}),
               "--title": (("--title", "Loops"), {}), "--size": (("--size", "300x200"), {}),
               "--axis": (("--axis", "0.25,0.5"), {})})

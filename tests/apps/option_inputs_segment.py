@@ -43,7 +43,7 @@ def rows(Row):
         "--cut": row("--cut", "0.011"),
         "--min-part": row("--min-part", "600"),
         "--min-size": row("--min-size", "500"),
-        "--objects": row("--objects", default=True),
+        "--objects": row("--objects", default=["--parts"]),
         "--parts": row("--parts"),
         "--output": row("-o", "o-*.pcd"),
         "--labels": row("--labels", "l-*.csv", beside=[]),
@@ -63,7 +63,7 @@ def rows(Row):
         "--report": row("--report", "r-*.html"),
         "--threads": row("--threads", "1", sign="threads 1"),
         "--memory-limit": row("--memory-limit", "300MiB", sign="memory limit 300 MiB"),
-        "--progress": row("--progress", "json", sign="progress json"),
+        "--progress": row("--progress", "json", sign="progress {}"),
         "--quiet": row("--quiet", lost="segment"),
         "--verbose": row("--verbose", sign="memory limit"),
         "--force": row("--force", beside=["--json", "@input"]),
@@ -156,7 +156,7 @@ def inputs(Input, program):
                    "--cut": Row("--cut", "0.05", beside=RESULTS)}
     shape = {"--cut": Row("--cut", "1.5", beside=RESULTS)}
     apart = {"--objects": Row("--objects", beside=RESULTS),
-             "--parts": Row("--parts", default=True, beside=RESULTS), **shape}
+             "--parts": Row("--parts", default=["--objects"], beside=RESULTS), **shape}
     paper = {**moved, "--method": Row("--method", "supervoxels", beside=RESULTS)}
     kinds = [
         ("organised PCD", ["s.pcd"], {"s.pcd": organised}, shape, pcd([], 0, 1)),
@@ -164,7 +164,7 @@ def inputs(Input, program):
         ("organised PCD, supervoxels", ["s.pcd", "--method", "supervoxels"], {"s.pcd": organised},
          supervoxels, None),
         ("PCD without a plane", ["s.pcd", "--plane", "off", "--max-range", "0.95"],
-         {"s.pcd": organised}, {**shape, "--plane": Row("--plane", "on", default=True, beside=RESULTS)}, None),
+         {"s.pcd": organised}, {**shape, "--plane": Row("--plane", "on", default=["--plane", "off"], beside=RESULTS)}, None),
         ("unorganised PCD", ["s.pcd"], {"s.pcd": pcd(points, len(points), 1)}, shape, None),
         ("PLY", ["s.ply"], {"s.ply": ply(points)}, shape, ply([])),
         ("XYZ", ["s.xyz"], {"s.xyz": text_of(points)}, shape, b"# none\n"),
@@ -181,6 +181,20 @@ def inputs(Input, program):
                             "in/u.pcd": pcd(list(points_of(other)), WIDTH, HEIGHT)},
          {**streams, **shape}, None),
     ]
+    looks = {**streams, "--frames-from": Row("--frames-from", "list.txt", unfit="several inputs"),
+             "--plot-kind": Row("--plot-kind", "diagram"),
+             "--title": Row("--title", "Table"), "--size": Row("--size", "300x200"),
+             "--axis": Row("--axis", "0.001,0.02")}
+    scaled = {"d.png": sixteen}
+    kinds += [
+        ("frames from a list", ["--frames-from", "frames.txt"],
+         {"s.pcd": organised, "frames.txt": b"s.pcd\nu.pcd\n",
+          "u.pcd": pcd(list(points_of(other)), WIDTH, HEIGHT)}, {**streams, **shape}, None),
+        ("stream with a camera", ["d.png", "other.png", "--camera", "xtion"], scaled,
+         {**streams, **shape, "--frames-from": Row("--frames-from", "images.txt", beside=RESULTS)},
+         None),
+        ("plot of the tree", ["s.pcd", *RESULTS, "--plot", "y.svg", "--plot-kind", "tree"],
+         {"s.pcd": organised}, {**shape, **looks}, None)]
     return [Input(name, arguments, {**files, **beside}, rows=given,
                   **({} if empty is None else {"empty": empty}))
             for name, arguments, files, given, empty in kinds]
