@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: MIT
 """The options and the kinds of input of ph-barcode, for option_inputs.py."""
 import gzip
-import io
 import math
 import random
 import struct
-import zipfile
-import zlib
+
+from program import files
 
 RIPS = ("points", "points.gz", "NPY points", "OFF mesh", "PCD", "XYZ", "matrix", "NPY matrix",
         "DIPHA distances", "lower triangle", "upper triangle", "binary triangle", "sparse",
@@ -85,45 +84,10 @@ def rows(Row):
     }
 
 
-def npy(shape, values, kind="<f8"):
-    header = f"{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}"
-    header = header.ljust(117) + "\n"
-    packed = struct.pack(f"<{len(values)}{'d' if kind == '<f8' else 'B'}", *values)
-    return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode() + packed
-
-
-def npz(array):
-    archive = io.BytesIO()
-    with zipfile.ZipFile(archive, "w") as file:
-        file.writestr("image.npy", array)
-    return archive.getvalue()
-
-
-def png(width, grey, colour=0):
-    def chunk(name, content):
-        return (struct.pack(">I", len(content)) + name + content
-                + struct.pack(">I", zlib.crc32(name + content)))
-    size = width * (4 if colour == 6 else 1)
-    height = len(grey) // size
-    lines = b"".join(b"\0" + bytes(grey[y * size:(y + 1) * size]) for y in range(height))
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, colour, 0, 0, 0))
-            + chunk(b"IDAT", zlib.compress(lines)) + chunk(b"IEND", b""))
-
-
-def nifti(shape, values):
-    header = bytearray(352)
-    struct.pack_into("<i", header, 0, 348)
-    struct.pack_into("<8h", header, 40, len(shape), *shape, *[1] * (7 - len(shape)))
-    struct.pack_into("<hh", header, 70, 16, 32)  # float32
-    struct.pack_into("<8f", header, 76, *[1.0] * 8)
-    struct.pack_into("<f", header, 108, 352.0)
-    header[344:348] = b"n+1\0"
-    return bytes(header) + struct.pack(f"<{len(values)}f", *values)
-
-
-def dipha(kind, integers, doubles):
-    return (struct.pack("<qq", 8067171840, kind) + struct.pack(f"<{len(integers)}q", *integers)
-            + struct.pack(f"<{len(doubles)}d", *doubles))
+def png(width, samples, colour=files.GREY):
+    size = width * (4 if colour == files.RGBA else 1)
+    rows = [bytes(samples[k:k + size]) for k in range(0, len(samples), size)]
+    return files.png(width, len(rows), 8, colour, rows)
 
 
 def text(table):
@@ -200,23 +164,22 @@ def inputs(Input, program):
     add("XYZ", ["p.xyz"], {"p.xyz": text((*p, 0.0) for p in points)},
         rows={"--nan": (("--nan", "error"), {"variant": "nan"})},
         nan=text([(math.nan, 0.0, 0.0), *((*p, 0.0) for p in points[1:])]))
-    pcd = (f"VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH {size}\nHEIGHT 1\n"
-           f"VIEWPOINT 0 0 0 1 0 0 0\nPOINTS {size}\nDATA ascii\n").encode()
+    pcd = files.pcd_header(width=size)
     add("PCD", ["p.pcd"], {"p.pcd": pcd + text((*p, 0.0) for p in points)},
         rows={"--nan": (("--nan", "error"), {"variant": "nan"})},
         nan=pcd + text([(math.nan, 0.0, 0.0), *((*p, 0.0) for p in points[1:])]))
-    add("NPY points", ["p.npy", "--complex", "rips"], {"p.npy": npy((size, 2), flat)},
+    add("NPY points", ["p.npy", "--complex", "rips"], {"p.npy": files.array((size, 2), flat)},
         rows={"--complex": (("--complex", "rips"), {"default": ["--complex", "cubical"]})},
-        nan=npy((size, 2), [math.nan, *flat[1:]]), empty=npy((0, 2), []))
+        nan=files.array((size, 2), [math.nan, *flat[1:]]), empty=files.array((0, 2), []))
     add("voxels", ["p.csv", "--complex", "cubical", "--voxel", "0.25"], {"p.csv": text(points)},
         rows={"--complex": (("--complex", "explicit"), {}),
               "--threshold": (("--threshold", "0.1"), {})}, nan=text(with_nan))
     for name, arguments, make in (
             ("matrix", ["m.txt", "--format", "distance"], text),
             ("NPY matrix", ["m.npy", "--format", "distance"],
-             lambda table: npy((size, size), [x for row in table for x in row])),
+             lambda table: files.array((size, size), [x for row in table for x in row])),
             ("DIPHA distances", ["m.dipha"],
-             lambda table: dipha(7, [size], [x for row in table for x in row]))):
+             lambda table: files.dipha(7, size, *(x for row in table for x in row)))):
         file = arguments[0]
         add(name, arguments, {file: make(matrix)}, asymmetric=make(asymmetric), births=make(births),
             correlation=make(correlation), nan=make(holes))
@@ -234,36 +197,36 @@ def inputs(Input, program):
         nan=text([(1, 0, math.nan), *pairs[1:]]))
     def connections(distance):
         others = [[j for j in range(size) if j != i] for i in range(size)]
-        return (struct.pack("<qqq", 8067171840, 8, size)
+        return (files.dipha(8, size)
                 + struct.pack(f"<{size}q", *map(len, others))
                 + b"".join(struct.pack(f"<{size - 1}q", *row) for row in others)
                 + b"".join(struct.pack(f"<{size - 1}d", *(distance(i, j) for j in row))
                            for i, row in enumerate(others)))
     add("DIPHA sparse distances", ["s.dipha"], {"s.dipha": connections(length)},
         nan=connections(lambda i, j: math.nan if {i, j} == {0, 1} else length(i, j)))
-    add("NPY image", ["i.npy"], {"i.npy": npy((5, 6), floats)}, 4, nan=npy((5, 6), one_nan))
-    add("NPY whole numbers", ["i.npy"], {"i.npy": npy((5, 6), grey, "|u1")}, 4)
-    add("NPY volume", ["v.npy"], {"v.npy": npy((3, 3, 3), volume)}, 4,
-        nan=npy((3, 3, 3), [math.nan, *volume[1:]]))
+    add("NPY image", ["i.npy"], {"i.npy": files.array((5, 6), floats)}, 4, nan=files.array((5, 6), one_nan))
+    add("NPY whole numbers", ["i.npy"], {"i.npy": files.array((5, 6), grey, "|u1")}, 4)
+    add("NPY volume", ["v.npy"], {"v.npy": files.array((3, 3, 3), volume)}, 4,
+        nan=files.array((3, 3, 3), [math.nan, *volume[1:]]))
     # Of one axis both constructions have the same bars, and none but periodic ones a loop.
-    add("NPY series", ["s.npy"], {"s.npy": npy((30,), floats)}, 4, nan=npy((30,), one_nan),
+    add("NPY series", ["s.npy"], {"s.npy": files.array((30,), floats)}, 4, nan=files.array((30,), one_nan),
         rows={"--loops": (("--loops", "none"), {"beside": [*LOOPS, "--periodic", "all"]}),
               "--max-dim": (("--max-dim", "0"), {"beside": ["--periodic", "all"]}),
               "--min-dim": (("--min-dim", "1"), {"beside": ["--periodic", "all"]})})
-    add("NPZ image", ["i.npz"], {"i.npz": npz(npy((5, 6), floats))}, 4, nan=npz(npy((5, 6), one_nan)))
+    add("NPZ image", ["i.npz"], {"i.npz": files.npz({"image.npy": files.array((5, 6), floats)})}, 4, nan=files.npz({"image.npy": files.array((5, 6), one_nan)}))
     add("PNG", ["i.png"], {"i.png": png(6, grey)}, 4)
-    add("PNG in colours", ["i.png", "--channel", "green"], {"i.png": png(6, many, 6)}, 40,
+    add("PNG in colours", ["i.png", "--channel", "green"], {"i.png": png(6, many, files.RGBA)}, 40,
         rows={"--channel": (("--channel", "red"), {})})
     add("PGM", ["i.pgm"], {"i.pgm": b"P2\n6 5\n255\n" + " ".join(map(str, grey)).encode()}, 4)
-    add("NIfTI", ["v.nii"], {"v.nii": nifti((3, 3, 3), volume)}, 4,
-        nan=nifti((3, 3, 3), [math.nan, *volume[1:]]))
+    add("NIfTI", ["v.nii"], {"v.nii": files.nifti("<f4", (3, 3, 3), volume)}, 4,
+        nan=files.nifti("<f4", (3, 3, 3), [math.nan, *volume[1:]]))
     words = struct.pack("<20H", *(random.randrange(60000) for _ in range(20)))
     add("raw", ["i.raw", "--raw-shape", "4,5", "--raw-type", "uint16"], {"i.raw": words}, 30000)
     add("Perseus", ["i.perseus"],
         {"i.perseus": ("2\n6\n5\n" + "\n".join(map(str, floats)) + "\n").encode()}, 4,
         rows={"--construction": (("--construction", "cells"), {})})
-    add("DIPHA image", ["i.dipha"], {"i.dipha": dipha(1, [30, 2, 6, 5], floats)}, 4,
-        nan=dipha(1, [30, 2, 6, 5], one_nan))
+    add("DIPHA image", ["i.dipha"], {"i.dipha": files.dipha_image((6, 5), floats)}, 4,
+        nan=files.dipha_image((6, 5), one_nan))
     # A triangle that is filled late, and a hollow one beside it.
     simplices = (b"0 : 0\n1 : 0.25\n2 : 0\n0 1 : 1\n1 2 : 2\n0 2 : 3\n0 1 2 : 4\n3 : 0\n2 3 : 2\n4 : 0\n"
                  b"3 4 : 2.5\n2 4 : 2.75\n")
@@ -278,7 +241,7 @@ def inputs(Input, program):
               "--loops": (("--loops", "plain"), {"beside": LOOPS}),
               "--complex": (("--complex", "rips"), {})})
     add("DIPHA boundaries", ["b.dipha"],
-        {"b.dipha": struct.pack("<qqqqq", 8067171840, 0, 0, 7, 2)
+        {"b.dipha": files.dipha(0, 0, 7, 2)
          + struct.pack("<7q", 0, 0, 0, 1, 1, 1, 2)
          + struct.pack("<7d", 0, 0, 0, 1, 2, 3, 5)
          + struct.pack("<8q", 0, 0, 0, 0, 2, 4, 6, 9)
@@ -309,12 +272,12 @@ def inputs(Input, program):
         {"p.csv": text(points)}, nan=text(with_nan),
         rows={**looks, "--axis": (("--axis", "0.25,0.5"), {})})
     add("superlevel plot", ["i.npy", "--superlevel", "--plot", "y.svg"],
-        {"i.npy": npy((5, 6), floats)}, -4, nan=npy((5, 6), one_nan), rows=looks)
+        {"i.npy": files.array((5, 6), floats)}, -4, nan=files.array((5, 6), one_nan), rows=looks)
     bars = b"dim,birth,death\n0,0,1\n0,0,inf\n1,0.3,0.75\n"
     alone = {"--loops": (("--loops", "none"), {})}
     add("a barcode", ["b.csv"], {"b.csv": bars}, rows=alone)
     add("plot a barcode", ["plot", "b.npy", "-o", "y.svg"],
-        {"b.npy": npy((2, 3), [0, 0, 1, 1, 0.3, 0.75])},
+        {"b.npy": files.array((2, 3), [0, 0, 1, 1, 0.3, 0.75])},
         rows={**alone, "--force": (("--force",), {"sign": "--force: not needed"}),
               "--output": (("--output", "x.svg"), {}),
               "--plot-kind": (("--plot-kind", "betti"), {}), "--dims": (("--dims", "9"), {}),

@@ -6,7 +6,8 @@ import random
 import struct
 import subprocess
 import tempfile
-import zlib
+
+from program import files
 
 WIDTH, HEIGHT, FOCAL = 96, 72, 150
 CAMERA = f"{FOCAL},{FOCAL},{WIDTH / 2},{HEIGHT / 2}"
@@ -72,14 +73,9 @@ def rows(Row):
     }
 
 
-def png(width, lines, bits, colour):
-    def chunk(name, content):
-        return (struct.pack(">I", len(content)) + name + content
-                + struct.pack(">I", zlib.crc32(name + content)))
-    header = struct.pack(">IIBBBBB", width, len(lines), bits, colour, 0, 0, 0)
-    data = b"".join(b"\0" + line for line in lines)
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(data))
-            + chunk(b"IEND", b""))
+def depth_png(image):
+    rows = [struct.pack(f">{WIDTH}H", *row) for row in image]
+    return files.png(WIDTH, HEIGHT, 16, files.GREY, rows)
 
 
 def depths(second, first=24):
@@ -117,9 +113,7 @@ def text_of(points):
 
 
 def pcd(points, width, height):
-    return (f"VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH {width}\n"
-            f"HEIGHT {height}\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {width * height}\n"
-            "DATA ascii\n").encode() + text_of(points)
+    return files.pcd_header(width=width, height=height) + text_of(points)
 
 
 def ply(points):
@@ -143,11 +137,11 @@ def inputs(Input, program):
     image, other = depths(36), depths(36, 12)
     points = list(points_of(image))
     organised = pcd(points, WIDTH, HEIGHT)
-    sixteen = png(WIDTH, [struct.pack(f">{WIDTH}H", *row) for row in image], 16, 0)
+    sixteen = depth_png(image)
     beside = {
-        "list.txt": b"next.pcd\n", "images.txt": b"other.png\n", "next.pcd": organised, "other.png":
-        png(WIDTH, [struct.pack(f">{WIDTH}H", *row) for row in other], 16, 0),
-        "colour.png": png(WIDTH, [bytes([90, 160, 30]) * WIDTH] * HEIGHT, 8, 2)}
+        "list.txt": b"next.pcd\n", "images.txt": b"other.png\n", "next.pcd": organised, 
+        "other.png": depth_png(other),
+        "colour.png": files.png(WIDTH, HEIGHT, 8, files.RGB, [bytes([90, 160, 30]) * WIDTH] * HEIGHT)}
     streams = {"--explain": Row("--explain", "1,2", beside=RESULTS),
                "--force": Row("--force", beside=["--json", "@input"])}
     moved = {"--viewpoint": Row("--viewpoint", "0.3,0,0", beside=[*RESULTS, "--plane", "off",

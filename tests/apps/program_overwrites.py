@@ -7,8 +7,8 @@ import sys
 import tempfile
 import unittest
 
-from option_inputs_segment import CAMERA, HEIGHT, WIDTH, depths, pcd, png, points_of
-import struct
+from option_inputs_segment import CAMERA, HEIGHT, WIDTH, depth_png, depths, pcd, points_of
+from files import RGB, png
 
 BARCODE = SEGMENT = None
 POINTS = b"0 0\n1 0\n1 1\n0 1.25\n"
@@ -103,8 +103,8 @@ class Overwrites(unittest.TestCase):
     def test_ph_segment(self):
         image = depths(36)
         self.write("s.pcd", pcd(list(points_of(image)), WIDTH, HEIGHT))
-        self.write("d.png", png(WIDTH, [struct.pack(f">{WIDTH}H", *row) for row in image], 16, 0))
-        self.write("c.png", png(WIDTH, [bytes([9, 9, 9]) * WIDTH] * HEIGHT, 8, 2))
+        self.write("d.png", depth_png(image))
+        self.write("c.png", png(WIDTH, HEIGHT, 8, RGB, [bytes([9, 9, 9]) * WIDTH] * HEIGHT))
         files = ("s.pcd", "d.png", "c.png")
         depth = ["--depth", "d.png", "--color", "c.png", "--intrinsics", CAMERA]
         for alias in ALIASES:
