@@ -119,6 +119,11 @@ Loaded load(const Job& job, std::optional<Input>& input, const Arguments& argume
                : build_complex(std::move(data.read), name, dropped, arguments, session.context());
   if (arguments.read.allow_empty && !built.empty)
     session.explain("--allow-empty: not needed, the input is not empty");
+  const auto* const cubical = std::get_if<Cubical>(&built.complex);
+  if (cubical && cubical->cubical_image().extents.size() == 1 &&
+      is_given(arguments, "construction") &&
+      arguments.options.representatives == Representatives::none)
+    session.note("--construction does nothing: of one axis both have the same bars");
   if (built.promise) session.note(*built.promise);
   if (built.empty && !arguments.read.allow_empty)
     throw Error(ErrorKind::bad_data,

@@ -3,20 +3,13 @@
 import gzip
 import json
 import shutil
-import struct
 import subprocess
-import unittest
 
 import program
 from program import SQUARE_CSV, ProgramTest
+from files import dipha, nifti
 
 DISTANCES = "0 1 2 1.5\n1 0 1.25 2\n2 1.25 0 1\n1.5 2 1 0\n"
-
-
-def dipha(*items):
-    """Integers and floats as DIPHA stores them."""
-    return b"".join(struct.pack("<q" if isinstance(i, int) else "<d", i)
-                    for i in (8067171840, *items))
 
 
 class Formats(ProgramTest):
@@ -44,15 +37,9 @@ class Formats(ProgramTest):
         self.assertEqual(self.bars("a.perseus", "2\n3 2\n" + "\n".join(map(str, values))), expected)
         self.assertEqual(self.bars("a.pgm", "P2 3 2 9\n" + " ".join(map(str, values))), expected)
         self.assertEqual(self.bars("b.pgm", b"P5 3 2 9\n" + bytes(values)), expected)
-        nifti = bytearray(352)
-        struct.pack_into("<i", nifti, 0, 348)
-        struct.pack_into("<4h", nifti, 40, 3, 3, 2, 1)
-        struct.pack_into("<2h", nifti, 70, 2, 8)
-        struct.pack_into("<3f", nifti, 108, 352, 1, 0)
-        nifti[344:348] = b"n+1\0"
-        self.assertEqual(self.bars("a.nii", bytes(nifti) + bytes(values)), expected)
-        self.assertEqual(self.bars("a.nii.gz", gzip.compress(bytes(nifti) + bytes(values))),
-                         expected)
+        volume = nifti("|u1", (3, 2, 1), values, slope=1)
+        self.assertEqual(self.bars("a.nii", volume), expected)
+        self.assertEqual(self.bars("a.nii.gz", gzip.compress(volume)), expected)
 
     def test_one_set_of_distances_in_many_formats(self):
         rows = [[float(d) for d in line.split()] for line in DISTANCES.splitlines()]

@@ -4,10 +4,9 @@ The results are computed here again, from the numbers before they became a file.
 import math
 import random
 import struct
-import zlib
 
 import program
-from program import ProgramTest, npy
+from program import ProgramTest, files
 
 
 def components(pairs):
@@ -50,24 +49,11 @@ def flat(rows):
     return [x for row in rows for x in row]
 
 
-def array(descr, code, shape, values):
-    header = f"{{'descr': '{descr}', 'fortran_order': False, 'shape': {shape}, }}".ljust(117) + "\n"
-    return (b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode()
-            + struct.pack(f"<{len(values)}{code}", *values))
-
-
-def png(width, height, colour_type, bits, samples, palette=b""):
-    def chunk(kind, data):
-        return (struct.pack(">I", len(data)) + kind + data
-                + struct.pack(">I", zlib.crc32(kind + data)))
-    row = len(samples) // height
-    code = "B" if bits == 8 else "H"
-    lines = b"".join(b"\0" + struct.pack(f">{row}{code}", *samples[y * row:(y + 1) * row])
-                     for y in range(height))
-    return (b"\x89PNG\r\n\x1a\n"
-            + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, bits, colour_type, 0, 0, 0))
-            + (chunk(b"PLTE", palette) if palette else b"")
-            + chunk(b"IDAT", zlib.compress(lines)) + chunk(b"IEND", b""))
+def png(width, height, colour, bits, samples, palette=b""):
+    row, code = len(samples) // height, "B" if bits == 8 else "H"
+    rows = [struct.pack(f">{row}{code}", *samples[y * row:(y + 1) * row]) for y in range(height)]
+    return files.png(width, height, bits, colour, rows,
+                     files.png_chunk(b"PLTE", palette) if palette else b"")
 
 
 class Guesses(ProgramTest):
@@ -99,7 +85,7 @@ class Matrices(Guesses):
         self.r = correlations(self.rng, 20)
         self.of_r = {(i, j): 1 - self.r[i][j] for i in range(20) for j in range(i)}
         self.write("r.csv", csv(self.r))
-        self.write("r.npy", npy((20, 20), flat(self.r)))
+        self.write("r.npy", files.array((20, 20), flat(self.r)))
 
     def test_correlations(self):
         for name in ("r.csv", "r.npy"):
@@ -136,7 +122,7 @@ class Matrices(Guesses):
         self.write("nan.csv", csv(r))
         self.write("gaps.csv", "," + ",".join(f"v{i}" for i in range(20)) + "\n" + "".join(
             f"v{i}," + csv([row]).replace("nan", "") for i, row in enumerate(r)))
-        self.write("nan.npy", npy((20, 20), flat(r)))
+        self.write("nan.npy", files.array((20, 20), flat(r)))
         for name in ("nan.csv", "gaps.csv", "nan.npy"):
             self.check(pairs, name, "--from-correlation", "--nan", "drop")
             self.refused(65, ["--nan drop"] if name != "nan.csv" else [], name, "--from-correlation")
@@ -159,7 +145,7 @@ class Matrices(Guesses):
         for k, noise in ((5, 2.1e-8), (0, -1e-17)):
             d[k][k] = noise
         self.write("d.csv", csv(d))
-        self.write("d.npy", npy((20, 20), flat(d)))
+        self.write("d.npy", files.array((20, 20), flat(d)))
         for name in ("exact.csv", "savetxt.txt"):
             self.check(pairs, name, note="zero diagonal", silent=["rounding"])
         for name in ("d.csv", "d.npy"):
@@ -169,7 +155,7 @@ class Matrices(Guesses):
         for factor, code in ((0.99e-6, 0), (1.01e-6, 65)):
             d[7][7] = factor * largest
             self.write("edge.csv", csv(d))
-            self.write("edge.npy", npy((20, 20), flat(d)))
+            self.write("edge.npy", files.array((20, 20), flat(d)))
             self.expect(code, "edge.csv", "--format", "distance", "--quiet")
             self.expect(code, "edge.npy", "--format", "distance", "--quiet")
         self.refused(65, ["edge.csv:8:", "non-zero diagonal"], "edge.csv", "--format", "distance")
@@ -177,7 +163,7 @@ class Matrices(Guesses):
     def test_what_is_no_matrix(self):
         points = [[self.rng.random(), self.rng.random()] for _ in range(9)]
         self.write("p.csv", csv(points))
-        self.write("p.npy", npy((9, 2), flat(points)))
+        self.write("p.npy", files.array((9, 2), flat(points)))
         for option in (["--from-correlation"], ["--symmetrise", "max"], ["--diagonal", "births"]):
             for name in ("p.csv", "p.npy"):
                 is_usage = name == "p.csv" and option[0] == "--diagonal"
@@ -197,7 +183,7 @@ class Arrays(Guesses):
         super().setUp()
         rng = random.Random(3)
         self.points = [[rng.gauss(0, 1) for _ in range(3)] for _ in range(24)]
-        self.write("x.npy", npy((24, 3), flat(self.points)))
+        self.write("x.npy", files.array((24, 3), flat(self.points)))
         self.pairs = distances_of(self.points)
 
     def test_points(self):
@@ -214,26 +200,26 @@ class Arrays(Guesses):
     def test_images(self):
         image = self.h0("x.npy", "--complex", "cubical", silent=["a point a row"])
         self.assertNotEqual(image, components(self.pairs))
-        small = array("|u1", "B", "(24, 3)", [int(50 * abs(x)) % 256 for x in flat(self.points)])
+        small = files.array((24, 3), [int(50 * abs(x)) % 256 for x in flat(self.points)], "|u1")
         self.write("u.npy", small)
         self.h0("u.npy", note="read as an image; --complex rips")
         self.assertEqual(len(self.h0("u.npy", "--complex", "rips", silent=["image"])), 24)
-        self.write("wide.npy", npy((11, 3), flat(self.points[:11])))
+        self.write("wide.npy", files.array((11, 3), flat(self.points[:11])))
         self.h0("wide.npy", note="image of 11 x 3", silent=["point"])
-        self.write("one.npy", npy("(72,)", flat(self.points)))
+        self.write("one.npy", files.array((72,), flat(self.points)))
         self.h0("one.npy", note="signal of 72 values")
-        self.write("batch.npy", npy((2, 12, 3), flat(self.points)))
+        self.write("batch.npy", files.array((2, 12, 3), flat(self.points)))
         self.h0("batch.npy", note="three axes: read as a volume")
 
     def test_distances(self):
         d = [[math.dist(p, q) for q in self.points] for p in self.points]
-        self.write("d.npy", npy((24, 24), flat(d)))
+        self.write("d.npy", files.array((24, 24), flat(d)))
         for options in ([], ["--complex", "rips"], ["--subsample", "24"]):
             self.check(self.pairs, "d.npy", *options, note="read as distances")
         self.h0("d.npy", "--complex", "cubical", note="image of 24 x 24")
         picture = [[0.0] * 24 for _ in range(24)]
         picture[3][9] = picture[9][3] = 5.0
-        self.write("black.npy", npy((24, 24), flat(picture)))
+        self.write("black.npy", files.array((24, 24), flat(picture)))
         self.h0("black.npy", note="read as an image; --format distance")
 
 
@@ -291,7 +277,7 @@ class Tables(Guesses):
         self.refused(64, ["--voxel", "--format grid"], "p.csv", "--complex", "cubical")
         rows = [[v + k * k % 3 for k in range(6)] for v in values]
         self.write("i.csv", csv(rows))
-        self.write("i.npy", npy((12, 6), flat(rows)))
+        self.write("i.npy", files.array((12, 6), flat(rows)))
         expected = self.expect(0, "i.npy", "--complex", "cubical").stdout
         self.assertEqual(self.expect(0, "i.csv", "--complex", "cubical").stdout, expected)
         self.assertEqual(self.expect(0, "i.csv", "--format", "grid").stdout, expected)
@@ -309,24 +295,24 @@ class Values(Guesses):
         self.write("v.txt", "5\n1\n3\n2\n")
         expected = "dim,birth,death\n0,1,inf\n2,5,inf\n"
         self.write("v.csv", "height\n5\n1\n3\n2\n")
-        self.write("v.npy", npy("(4,)", [5, 1, 3, 2]))
-        self.write("column.npy", npy((4, 1), [5, 1, 3, 2]))
-        self.write("whole.npy", array("<i4", "i", "(4,)", [5, 1, 3, 2]))
+        self.write("v.npy", files.array((4,), [5, 1, 3, 2]))
+        self.write("column.npy", files.array((4, 1), [5, 1, 3, 2]))
+        self.write("whole.npy", files.array((4,), [5, 1, 3, 2], "<i4"))
         for mesh in ("m.off", "m.ply"):
             for values in ("v.txt", "v.csv", "v.npy", "column.npy", "whole.npy", "m.ply:height"):
                 run = self.expect(0, mesh, "--values", values)
                 self.assertEqual(run.stdout, expected, (mesh, values))
                 self.assertNotIn("faces are not used", run.stderr)
             self.assertIn("4 faces are not used", self.expect(0, mesh).stderr)
-        self.write("square.npy", npy((2, 2), [5, 1, 3, 2]))
-        self.write("few.npy", npy("(3,)", [5, 1, 3]))
+        self.write("square.npy", files.array((2, 2), [5, 1, 3, 2]))
+        self.write("few.npy", files.array((3,), [5, 1, 3]))
         for values, words in (("square.npy", ["(2, 2)"]), ("few.npy", ["too few", "3", "4"]),
                               ("m.ply", ["height"]), ("m.ply:depth", ["depth", "height"])):
             self.refused(65, words, "m.off", "--values", values)
         self.refused(65, ["property"], "m.ply:height")
 
     def test_of_points(self):
-        self.write("w.npy", npy("(4,)", [0.5, 0, 0, 0.25]))
+        self.write("w.npy", files.array((4,), [0.5, 0, 0, 0.25]))
         self.write("w.txt", "0.5\n0\n0\n0.25\n")
         results = {self.expect(0, "square.txt", "--vertex-weights", name).stdout
                    for name in ("w.npy", "w.txt")}
@@ -345,14 +331,14 @@ class Pictures(Guesses):
             self.write("rgb.png", png(6, 5, 2, bits, flat(p[:3] for p in pixels)))
             self.write("la.png", png(6, 5, 4, bits, flat((p[0], p[3]) for p in pixels)))
             for channel, values in planes.items():
-                self.write("i.npy", npy((5, 6), values))
+                self.write("i.npy", files.array((5, 6), values))
                 expected = self.expect(0, "i.npy").stdout
                 for name in ("rgba.png", "rgb.png"):
                     if (name, channel) != ("rgb.png", "alpha"):
                         run = self.expect(0, name, "--channel", channel)
                         self.assertEqual(run.stdout, expected, (name, channel, bits))
             for channel, k in (("grey", 0), ("alpha", 3)):
-                self.write("i.npy", npy((5, 6), [p[k] for p in pixels]))
+                self.write("i.npy", files.array((5, 6), [p[k] for p in pixels]))
                 self.assertEqual(self.expect(0, "la.png", "--channel", channel).stdout,
                                  self.expect(0, "i.npy").stdout)
             for name in ("rgba.png", "rgb.png", "la.png"):
@@ -371,7 +357,7 @@ class Pictures(Guesses):
         places = [rng.randrange(5) for _ in range(30)]
         self.write("p.png", png(6, 5, 3, 8, places, bytes(flat(colours))))
         self.refused(65, ["--channel grey"], "p.png")
-        self.write("i.npy", npy((5, 6), [colours[k][1] for k in places]))
+        self.write("i.npy", files.array((5, 6), [colours[k][1] for k in places]))
         self.assertEqual(self.expect(0, "p.png", "--channel", "green").stdout,
                          self.expect(0, "i.npy").stdout)
 

@@ -4,7 +4,7 @@ import json
 import math
 import random
 
-from program import ProgramTest, main, npy
+from program import ProgramTest, files, main
 
 
 def ring(n, shift=0.0):
@@ -62,7 +62,7 @@ class Loops(ProgramTest):
                               "-o", "x.json", *dimensions)
             self.assertIn("without dimension 1", run.stderr)
         asked = ["--representatives", "cycles", "-o", "x.json", "--loops"]
-        self.write("hole.npy", npy((3, 3), [1.0] * 4 + [5.0] + [1.0] * 4))
+        self.write("hole.npy", files.array((3, 3), [1.0] * 4 + [5.0] + [1.0] * 4))
         run = self.expect(64, "hole.npy", *asked, "tight")
         self.assertIn("expected rips", run.stderr)
         self.expect(0, "hole.npy", *asked, "plain")
@@ -151,7 +151,7 @@ class Loops(ProgramTest):
     def test_images(self):
         rows = [1.0] * 9
         rows[4] = 5.0
-        self.write("hole.npy", npy((3, 3), rows))
+        self.write("hole.npy", files.array((3, 3), rows))
         (bar,) = self.loops("hole.npy")
         self.assertEqual(bar["loops"], [{
             "grid": [[0, 0], [0, 2], [0, 4], [2, 4], [4, 4], [4, 2], [4, 0], [2, 0]],
@@ -161,11 +161,11 @@ class Loops(ProgramTest):
         for vertex in bar["loops"][0]["grid"]:
             self.assertTrue(all(x % 2 == 0 and 0 <= x <= 6 for x in vertex))
         # A walk over the end of a periodic axis.
-        self.write("band.npy", npy((2, 5), [1.0] * 5 + [3.0] * 5))
+        self.write("band.npy", files.array((2, 5), [1.0] * 5 + [3.0] * 5))
         bar = self.loops("band.npy", "--periodic", "1")[0]
         self.assertEqual(bar["loops"][0]["grid"], [[0, 0], [0, 2], [0, 4], [0, 6], [0, 8]])
         # Sets of voxels have no loops, the cycles beside them have.
-        volume = npy((3, 3, 3), [1.0 if (y, x) != (1, 1) else 2.0 for z in range(3)
+        volume = files.array((3, 3, 3), [1.0 if (y, x) != (1, 1) else 2.0 for z in range(3)
                                  for y in range(3) for x in range(3)])
         bars = self.result(self.write("pipe.npy", volume), "--representatives", "voxels",
                            "--periodic", "0")

@@ -5,18 +5,15 @@ Files are written here and barcodes are computed by cubical_oracle.py, which nev
 More than the suite runs: barcode_masks.py PROGRAM --images 20000
 """
 import gzip
-import io
 import itertools
 import math
 import os
 import random
-import struct
 import sys
-import unittest
 import zipfile
 
 import cubical_oracle
-from program import ProgramTest, main
+from program import ProgramTest, files, main
 
 IMAGES = 600
 BATCH = 25  # images of one command line
@@ -30,42 +27,31 @@ def first_axis_fastest(shape):
     return (at[::-1] for at in itertools.product(*map(range, shape[::-1])))
 
 
-def npy(letter, byte_order=">", fortran=False):
+def numbers_of(voxels, places, scale=1.0):
+    return [math.nan if voxels[at] is None else voxels[at] / scale for at in places]
+
+
+def npy(descr, fortran=False):
     def write(shape, voxels):
         places = first_axis_fastest(shape) if fortran else in_c_order(shape)
-        numbers = [math.nan if voxels[at] is None else voxels[at] for at in places]
-        size = struct.calcsize(letter)
-        header = f"{{'descr': '{byte_order}f{size}', 'fortran_order': {fortran}, 'shape': {tuple(shape)}, }}\n"
-        return (b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode()
-                + struct.pack(f"{byte_order}{len(numbers)}{letter}", *numbers))
+        return files.array(shape, numbers_of(voxels, places), descr, fortran)
     return write
 
 
 def npz(shape, voxels):
-    archive = io.BytesIO()
-    with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as file:
-        file.writestr("scan.npy", npy("d", "<")(shape, voxels))
-    return archive.getvalue()
+    return files.npz({"scan.npy": npy("<f8")(shape, voxels)}, zipfile.ZIP_DEFLATED)
 
 
-def nifti(letter, datatype, slope=0.0):
+def nifti(descr, slope=0.0):
     """With a slope the stored numbers are halves, which the reader doubles."""
     def write(shape, voxels):
-        scale = slope or 1.0
-        numbers = [math.nan if voxels[at] is None else voxels[at] / scale for at in first_axis_fastest(shape)]
-        header = bytearray(352)
-        struct.pack_into("<i", header, 0, 348)
-        struct.pack_into("<8h", header, 40, len(shape), *shape, *[1] * (7 - len(shape)))
-        struct.pack_into("<hh", header, 70, datatype, 8 * struct.calcsize(letter))
-        struct.pack_into("<3f", header, 108, 352, slope, 0)
-        header[344:348] = b"n+1\0"
-        return bytes(header) + struct.pack(f"<{len(numbers)}{letter}", *numbers)
+        numbers = numbers_of(voxels, first_axis_fastest(shape), slope or 1.0)
+        return files.nifti(descr, shape, numbers, slope)
     return write
 
 
 def dipha(shape, voxels):
-    numbers = [math.nan if voxels[at] is None else voxels[at] for at in first_axis_fastest(shape)]
-    return struct.pack(f"<4q{len(shape)}q{len(numbers)}d", 8067171840, 1, len(numbers), len(shape), *shape, *numbers)
+    return files.dipha_image(shape, numbers_of(voxels, first_axis_fastest(shape)))
 
 
 def perseus_grid(mark):
@@ -88,15 +74,15 @@ def zipped(write):
 NAN = ("--nan", "drop")
 # name: extension, writer, options, what values it can have
 FORMATS = {
-    "npy f8": (".npy", npy("d"), NAN, "any"),
-    "npy f4": (".npy", npy("f", "<"), NAN, "any"),
-    "npy f4 fortran": (".npy", npy("f", ">", True), NAN, "any"),
-    "npy f2": (".npy", npy("e", "<"), NAN, "any"),
-    "npy gz": (".npy.gz", zipped(npy("d", "<")), NAN, "any"),
+    "npy f8": (".npy", npy(">f8"), NAN, "any"),
+    "npy f4": (".npy", npy("<f4"), NAN, "any"),
+    "npy f4 fortran": (".npy", npy(">f4", True), NAN, "any"),
+    "npy f2": (".npy", npy("<f2"), NAN, "any"),
+    "npy gz": (".npy.gz", zipped(npy("<f8")), NAN, "any"),
     "npz": (".npz", npz, NAN, "any"),
-    "nifti f4": (".nii", nifti("f", 16), NAN, "any"),
-    "nifti f8 scaled": (".nii", nifti("d", 64, 0.5), NAN, "any"),
-    "nifti gz": (".nii.gz", zipped(nifti("d", 64)), NAN, "any"),
+    "nifti f4": (".nii", nifti("<f4"), NAN, "any"),
+    "nifti f8 scaled": (".nii", nifti("<f8", 0.5), NAN, "any"),
+    "nifti gz": (".nii.gz", zipped(nifti("<f8")), NAN, "any"),
     "dipha": (".dipha", dipha, NAN, "any"),
     "perseus inf": (".perseus", perseus_grid("inf"), (), "finite"),
     "perseus -1": (".perseus", perseus_grid("-1"), (), "positive"),
@@ -186,7 +172,7 @@ class Masks(ProgramTest):
                                      cubical_oracle.barcode([n + 2 for n in shape], voxels, cells, superlevel))
 
     def test_without_the_option_nan_is_refused(self):
-        self.write("n.npy", npy("d", "<")([4], {(0,): 1.0, (1,): None, (2,): 2.0, (3,): 0.5}))
+        self.write("n.npy", npy("<f8")([4], {(0,): 1.0, (1,): None, (2,): 2.0, (3,): 0.5}))
         self.assertIn("value at [1], found NaN", self.expect(65, "n.npy").stderr)
         run = self.expect(0, "n.npy", "--nan", "drop", "--superlevel")
         self.assertEqual(run.stdout, "dim,birth,death\n0,-2,inf\n0,-1,inf\n")

@@ -4,33 +4,25 @@
 Each way to blow up runs under limits from 1 MiB to 128 MiB. It either succeeds or ends with 75, in
 one line that says how to go on, and never takes more than the limit and 32 MiB beside it.
 """
-import gzip
 import os
 import random
 import re
 import resource
 import shutil
-import signal
 import struct
 import subprocess
 import sys
-import tempfile
 import time
-import unittest
 
 import program
 from program import ProgramTest, main
+from under_limit import BESIDE, INPUTS, UnderLimit, is_sanitized, peak_of
 
 MIB = 1 << 20
 LIMITS = (1, 4, 16, 32, 64, 128)  # MiB
 NOBODY = 65534
-BESIDE = 32  # MiB that code, libraries and small things may take beside the limit
-SECONDS = 3  # of CPU; a run that fits takes its time: what it took until then counts
-
-
-def is_sanitized():
-    with open(program.PROGRAM, "rb") as file:
-        return b"__asan_init" in file.read()
+SECONDS = 2  # of CPU; a run that fits takes its time: what it took until then counts
+MOST_STOP = 75  # runs; some need nearly so many seconds to get there
 
 
 def write_points(path, count, dim, digits=6):
@@ -115,53 +107,10 @@ BLOW_UPS = (
 )
 
 
-class UnderLimit(ProgramTest):
-    SECONDS = SECONDS
-
-    @classmethod
-    def setUpClass(cls):
-        if is_sanitized():
-            raise unittest.SkipTest("AddressSanitizer takes memory of its own")
-        cls.inputs = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.inputs.cleanup)
-
-    def forget(self, *names):
-        for name in names:
-            if os.path.exists(name):
-                os.remove(name)
-        for name in os.listdir("."):  # what a run that was killed had begun
-            if name.startswith(".ph-"):
-                os.remove(name)
-
-    def run_within(self, limit, arguments):
-        """@return exit code (None: still running), peak in MiB, stderr."""
-        output = () if "--output-format" in arguments else ("--output-format", "csv")
-        names = [os.path.join(self.inputs.name, word)
-                 if word.endswith((".txt", ".dipha", ".values", ".npy", ".gz")) else word
-                 for word in arguments]
-        read_end, write_end = os.pipe()
-        pid = os.posix_spawn(
-            program.PROGRAM, [program.PROGRAM, *names, *output, "--quiet", "-o", "out",
-                              "--memory-limit", f"{limit}MiB"], os.environ,
-            file_actions=[(os.POSIX_SPAWN_DUP2, write_end, 2)])
-        os.close(write_end)
-        resource.prlimit(pid, resource.RLIMIT_CPU, (self.SECONDS, self.SECONDS))
-        with os.fdopen(read_end) as pipe:
-            message = pipe.read()
-        _, status, usage = os.wait4(pid, 0)
-        code = os.waitstatus_to_exitcode(status)
-        return None if code in (-signal.SIGKILL, -signal.SIGXCPU) else code, usage.ru_maxrss / 1024, message
-
-
 class Limits(UnderLimit):
-    @classmethod
-    def setUpClass(cls):
-        super().setUpClass()
-        write_inputs(cls.inputs.name)
+    write_inputs = staticmethod(write_inputs)
 
     def test_the_limit_holds(self):
-        os.chdir(self.folder)
-        self.addCleanup(os.chdir, "/")
         ends = {0: 0, 75: 0, None: 0}
         version = self.expect(0, "--version", "--verbose").stdout
         for arguments in BLOW_UPS:
@@ -169,7 +118,7 @@ class Limits(UnderLimit):
                 continue
             for limit in LIMITS:
                 with self.subTest(arguments=arguments, limit=limit):
-                    code, peak, message = self.run_within(limit, arguments)
+                    code, peak, _, message = self.run_within(limit, SECONDS, arguments)
                     self.assertIn(code, ends, message)
                     ends[code] += 1
                     self.assertLessEqual(peak, limit + BESIDE)
@@ -181,77 +130,10 @@ class Limits(UnderLimit):
                     self.forget("out", "out.svg", "out.png")
         print(f"\n{sum(ends.values())} runs under a limit: {ends[75]} stopped by it, {ends[0]} "
               f"done, {ends[None]} still running after {SECONDS} s of CPU", file=sys.stderr)
-        self.assertGreaterEqual(ends[75], 100)
+        self.assertGreaterEqual(ends[75], MOST_STOP)
 
 
-def write_npy(path, shape, kind, middle=b""):
-    """Zeros, but for some bytes in the middle; the file has holes where its zeros are."""
-    header = f"{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}"
-    header = header.ljust(117) + "\n"
-    size = int(kind[-1])
-    for n in shape:
-        size *= n
-    with open(path, "wb") as file:
-        file.write(b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode())
-        start = file.tell()
-        file.seek(start + size // 2)
-        file.write(middle)
-        file.truncate(start + size)
-
-
-class LargeFiles(UnderLimit):
-    """Inputs that are mapped, larger than the limit and all that may be beside it: whatever reads
-    them, the limit holds, and what does not fit says so soon."""
-    SECONDS = 40  # of CPU: all of them end
-    SECONDS_TO_REFUSE = 15  # on a busy machine; of CPU it is a second or two
-    ROWS = (("bytes.npy", (8, 36), ("--max-dim", "0", "--report", "o.html")),
-            ("bytes.npy", (20,), ("--max-dim", "0", "--report", "o.html", "--plot", "o.svg",
-                                  "--plot-kind", "diagram", "--superlevel")),
-            ("bytes.npy", (8,), ("--max-dim", "0", "--construction", "cells", "--periodic", "0",
-                                 "--report", "o.html")),
-            ("bytes.npy.gz", (20,), ("--max-dim", "0", "--report", "o.html")),
-            ("picture.npy", (1, 8), ("--report", "o.html")),
-            ("picture.npy", (8,), ("--report", "o.html", "--plot", "o.svg", "--plot-kind", "tree")),
-            ("floats.npy", (1, 10, 24), ("--report", "o.html")),
-            ("floats.npy", (24,), ("--report", "o.html", "--superlevel")),
-            ("floats.npy", (8, 24), ("--engine", "cohomology", "--report", "o.html")),
-            ("floats.npy", (24,), ("--representatives", "voxels", "--output-format", "json",
-                                   "--report", "o.html")),
-            ("shown.npy", (1, 60), ("--max-dim", "0", "--report", "o.html")),
-            ("shown.npy", (1, 60), ("--max-dim", "0", "--superlevel", "--report", "o.html")))
-
-    @classmethod
-    def setUpClass(cls):
-        super().setUpClass()
-        path = lambda name: os.path.join(cls.inputs.name, name)
-        write_npy(path("bytes.npy"), (420, 420, 420), "|u1", b"\x03" * 10)  # 71 MiB
-        write_npy(path("picture.npy"), (9000, 9000), "|u1", b"\x05\x00\x07")
-        write_npy(path("floats.npy"), (200, 200, 200), "<f8", struct.pack("<4d", 1, 2, 1, 3))
-        write_npy(path("shown.npy"), (5, 1600, 1600), "<f8", struct.pack("<4d", 1, 2, 1, 3))  # 98
-        with open(path("bytes.npy"), "rb") as file, gzip.open(path("bytes.npy.gz"), "wb", 1) as packed:
-            shutil.copyfileobj(file, packed, 1 << 16)
-
-    def test_the_limit_holds(self):
-        os.chdir(self.folder)
-        self.addCleanup(os.chdir, "/")
-        codes = []
-        for name, limits, options in self.ROWS:
-            for limit in limits:
-                with self.subTest(name=name, limit=limit, options=options):
-                    start = time.monotonic()
-                    code, peak, message = self.run_within(limit, (name, *options))
-                    codes.append(code)
-                    self.assertIn(code, (0, 75), message)
-                    self.assertLessEqual(peak, limit + BESIDE, f"exit code {code}")
-                    if code == 75:
-                        self.assertLess(time.monotonic() - start, self.SECONDS_TO_REFUSE)
-                        self.assertEqual(message.count("\n"), 1, message)
-                    self.forget("out", "o.html", "o.svg")
-        self.assertIn(0, codes)
-        self.assertIn(75, codes)
-
-
-class WaysOut(ProgramTest):
+class WaysOut(UnderLimit):
     """What a run that was stopped says would fit, does."""
     ROWS = (("space.txt", 10, 3, "--max-dim", "2"),  # name, limit in MiB, ways out at least
             ("space.txt", 12, 3),
@@ -263,15 +145,11 @@ class WaysOut(ProgramTest):
             ("graph.txt", 22, 1, "--format", "sparse"),
             ("band.txt", 32, 2, "--format", "sparse", "--max-dim", "2"))
 
-    def setUp(self):
-        super().setUp()
-        if is_sanitized():
-            self.skipTest("AddressSanitizer takes memory of its own")
-        write_inputs(self.folder)
+    write_inputs = staticmethod(write_inputs)
 
     def test_each_is_taken(self):
         for name, limit, ways, *options in self.ROWS:
-            arguments = [name, "--quiet", "--output-format", "none", *options]
+            arguments = [os.path.join(INPUTS.name, name), "--quiet", "--output-format", "none", *options]
             run = self.run_program(*arguments, "--memory-limit", f"{limit}MiB")
             self.assertEqual(run.returncode, 75, run.stderr)
             found = re.findall(r"(--[a-z-]+) (\S+) \(([^)]*) to ([^)]*)\)", run.stderr)
@@ -291,10 +169,8 @@ class WaysOut(ProgramTest):
                 words[words.index(option) + 1] = value
             else:
                 words += [option, value]
-        words[0] = self.path(words[0])
-        pid = os.posix_spawn(program.PROGRAM, [program.PROGRAM, *words], os.environ)
-        _, status, usage = os.wait4(pid, 0)
-        return os.waitstatus_to_exitcode(status), usage.ru_maxrss / 1024
+        code, peak, _, _ = peak_of(words, self.folder)
+        return code, peak
 
 
 class System(ProgramTest):

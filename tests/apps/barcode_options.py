@@ -10,7 +10,7 @@ import subprocess
 import time
 
 import program
-from program import SQUARE, SQUARE_CSV, ProgramTest, main, npy
+from program import SQUARE, SQUARE_CSV, ProgramTest, files, main
 
 TRIANGLE = "0 : 0\n1 : 0\n2 : 0\n0 1 : 1\n1 2 : 2\n0 2 : 3\n0 1 2 : 4\n"
 
@@ -72,7 +72,7 @@ class Options(ProgramTest):
         self.assertEqual(self.bars("empty.txt", "--allow-empty"), [])
 
     def test_image(self):
-        self.write("row.npy", npy((5,), [0, 3, 1, 4, 2]))
+        self.write("row.npy", files.array((5,), [0, 3, 1, 4, 2]))
         self.assertEqual(self.bars("row.npy"), [(0, 0, math.inf), (0, 1, 3), (0, 2, 4)])
         self.assertEqual(self.bars("row.npy", "--threshold", "3"),
                          [(0, 0, math.inf), (0, 1, 3), (0, 2, math.inf)])
@@ -81,7 +81,7 @@ class Options(ProgramTest):
         self.assertEqual(self.bars("row.npy", "--periodic=all"), self.bars("row.npy", "--periodic=0"))
         self.assertEqual(self.bars("row.npy", "--construction", "cells"), self.bars("row.npy"))
         self.assertEqual(len(self.bars("row.npy", "--superlevel")), 2)
-        self.write("points.npy", npy((2, 2), [0, 0, 3, 4]))
+        self.write("points.npy", files.array((2, 2), [0, 0, 3, 4]))
         self.assertEqual(self.bars("points.npy", "--complex", "rips")[0], (0, 0, 5))
 
     def test_raw_images(self):
@@ -273,7 +273,7 @@ class Options(ProgramTest):
         self.assertEqual(runs["auto"].stdout, runs["off"].stdout)
         # H1 needs none, an image has no edges to collapse.
         self.assertIn("collapse off (", self.expect(0, "cloud.txt", "--verbose").stderr)
-        self.write("image.npy", npy((1, 3), [0, 2, 1]))
+        self.write("image.npy", files.array((1, 3), [0, 2, 1]))
         self.assertNotIn("collapse", self.expect(0, "image.npy", "--verbose").stderr)
 
     def test_high_dimensions_are_legal(self):

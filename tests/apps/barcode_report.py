@@ -10,7 +10,7 @@ import unittest
 import xml.dom.minidom
 
 import report_reader
-from program import SQUARE_CSV, ProgramTest, main, npy
+from program import SQUARE_CSV, ProgramTest, files, main
 from report_reader import NONE, Report
 
 
@@ -173,7 +173,7 @@ class Reports(ProgramTest):
         rows, columns = 9, 11
         rng = random.Random(3)
         values = [float(rng.randrange(40)) for _ in range(rows * columns)]
-        self.write("i.npy", npy((rows, columns), values))
+        self.write("i.npy", files.array((rows, columns), values))
         report = self.report("i.npy", "-o", "i.json")
         self.assertEqual(report.arrays["image/values"].shape, [rows, columns])
         self.assertEqual(report["image/values"], values)
@@ -189,7 +189,7 @@ class Reports(ProgramTest):
                                  for b in bars if b["dim"] == 0))
 
     def test_an_image_from_above_and_of_cells(self):
-        self.write("i.npy", npy((2, 3), [0, 1, 2, 5, 4, 3]))
+        self.write("i.npy", files.array((2, 3), [0, 1, 2, 5, 4, 3]))
         report = self.report("i.npy", "--superlevel")
         self.assertEqual(report["image/values"], [0, 1, 2, 5, 4, 3])
         self.assertNotIn("points/birth", report)  # minus the value, as the metadata say
@@ -201,7 +201,7 @@ class Reports(ProgramTest):
         self.assertNotIn("tree", report.meta)
 
     def test_voxels_that_are_absent_are_no_numbers(self):
-        self.write("n.npy", npy((2, 2), [1, math.nan, 2, 0.5]))
+        self.write("n.npy", files.array((2, 2), [1, math.nan, 2, 0.5]))
         for way in ([], ["--superlevel"]):
             values = self.report("n.npy", "--nan", "drop", *way)["image/values"]
             self.assertEqual([v for v in values if math.isfinite(v)], [1, 2, 0.5])
@@ -210,12 +210,12 @@ class Reports(ProgramTest):
         self.write("p.csv", "0,0,0\n2,0,0\n0,3,0\n0,0,4\n")
         report = self.report("p.csv", "--complex", "cubical", "--voxel", "1")
         self.assertEqual(report.meta["image"]["axes"], ["x", "y", "z"])
-        self.write("i.npy", npy((2, 2, 2), range(8)))
+        self.write("i.npy", files.array((2, 2, 2), range(8)))
         self.assertNotIn("axes", self.report("i.npy").meta["image"])
 
     def test_without_a_wide_ratio_the_first_cut_is_in_the_widest_difference(self):
         # Minima between walls of 200: persistences 100, 95, 90, 80, 77.
-        self.write("i.npy", npy((1, 11), [0, 200, 100, 200, 105, 200, 110, 200, 120, 200, 123]))
+        self.write("i.npy", files.array((1, 11), [0, 200, 100, 200, 105, 200, 110, 200, 120, 200, 123]))
         report = self.report("i.npy")
         self.assertEqual(report.meta["tree"]["cut"], 84.9)
         self.assertEqual(max(report.leaf_labels(84.9)), 4)
@@ -238,7 +238,7 @@ class Reports(ProgramTest):
         rng = random.Random(8)
         for shape in ((9, 11), (5, 6, 7)):
             count = math.prod(shape)
-            self.write("i.npy", npy(shape, [float(rng.randrange(60)) for _ in range(count)]))
+            self.write("i.npy", files.array(shape, [float(rng.randrange(60)) for _ in range(count)]))
             for construction in ("vertices", "cells"):
                 report = self.report("i.npy", "--representatives", "voxels", "-o", "i.json",
                                      "--construction", construction)
@@ -259,7 +259,7 @@ class Reports(ProgramTest):
         rows, columns = 400, 400
         values = [float(columns - x if x % 2 == 0 else 9999 if y else columns + x)
                   for y in range(rows) for x in range(columns)]
-        self.write("i.npy", npy((rows, columns), values))
+        self.write("i.npy", files.array((rows, columns), values))
         report = self.report("i.npy", "--representatives", "voxels", "--max-dim", "0")
         note = report.meta["provenance"]["notes"]["Sets of voxels"]
         self.assertRegex(note, r"^sets of \d+ of \d+ bars")
@@ -270,7 +270,7 @@ class Reports(ProgramTest):
     def test_images_that_a_page_cannot_show(self):
         for shape in ((8,), (2, 2, 2, 2)):
             count = math.prod(shape)
-            self.write("i.npy", npy(f"({','.join(map(str, shape))},)",
+            self.write("i.npy", files.array(tuple(shape),
                                     [float(i * 7 % 5) for i in range(count)]))
             report = self.report("i.npy", "--format", "npy", "--complex", "cubical")
             self.assertNotIn("image/values", report)

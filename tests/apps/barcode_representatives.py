@@ -10,7 +10,7 @@ import math
 import os
 import sys
 
-from program import SQUARE, ProgramTest, main, npy
+from program import SQUARE, ProgramTest, files, main
 
 UPDATE = "--update" in sys.argv
 if UPDATE:
@@ -121,7 +121,7 @@ class Representatives(ProgramTest):
         self.assertEqual(found[1, 1, 7]["voxels"], [[14, 1]])
         self.assertEqual(found[1, 1, 7]["death_voxel"], [2, 2])
         # A bar that has no set has a cycle: H1 of a volume.
-        volume = npy((3, 3, 3), [1.0 if (y, x) != (1, 1) else 2.0 for z in range(3)
+        volume = files.array((3, 3, 3), [1.0 if (y, x) != (1, 1) else 2.0 for z in range(3)
                                  for y in range(3) for x in range(3)])
         for construction in ("vertices", "cells"):
             bars = self.bars(self.write("pipe.npy", volume), "--representatives", "voxels",
@@ -168,7 +168,7 @@ class Representatives(ProgramTest):
 
     def test_ring(self):
         rows = [[0, 1, 2], [1, 9, 3], [2, 3, 4]]
-        self.write("ring.npy", npy((3, 3), sum(rows, [])))
+        self.write("ring.npy", files.array((3, 3), sum(rows, [])))
         for field in (2, 3):
             self.check(f"ring_z{field}", image(rows), field, "ring.npy")
 

@@ -10,7 +10,7 @@ import subprocess
 import unittest
 import xml.dom.minidom
 
-from program import SQUARE_CSV, ProgramTest, main, npy
+from program import SQUARE_CSV, ProgramTest, files, main
 
 
 class Formats(ProgramTest):
@@ -77,7 +77,7 @@ class Formats(ProgramTest):
             self.assertEqual([len(b["representative"]) for b in bars], sizes)
 
     def test_json_of_image_and_matrix_name_their_cells(self):
-        self.write("image.npy", npy((1, 3), [0, 2, 1]))
+        self.write("image.npy", files.array((1, 3), [0, 2, 1]))
         bars = json.loads(self.expect(0, "image.npy", "--output-format", "json").stdout)["bars"]
         self.assertEqual([(b["birth_cell"], b["death_cell"]) for b in bars],
                          [({"grid": [0, 0]}, None), ({"grid": [0, 4]}, {"grid": [0, 3]})])

@@ -8,7 +8,7 @@ import re
 import struct
 import xml.etree.ElementTree
 
-from program import SQUARE, SQUARE_CSV, ProgramTest, main, npy
+from program import SQUARE, SQUARE_CSV, ProgramTest, files, main
 
 FORMATS = ("csv", "json", "ripser", "pers", "dipha", "npy")
 SVG = "{http://www.w3.org/2000/svg}"
@@ -101,7 +101,7 @@ class Stored(ProgramTest):
     def test_a_folder_is_its_files(self):
         os.mkdir(self.path("in"))
         for name in ("b.txt", "a.csv", "notes.md", "c.npy"):
-            self.write(f"in/{name}", npy((2, 2), [0, 1, 2, 3]) if name == "c.npy" else SQUARE)
+            self.write(f"in/{name}", files.array((2, 2), [0, 1, 2, 3]) if name == "c.npy" else SQUARE)
         run = self.expect(0, "in", "-o", "out/")
         self.assertEqual([line.split(":")[1].strip() for line in run.stderr.splitlines()],
                          ["in/a.csv", "in/b.txt", "in/c.npy"])
@@ -157,7 +157,7 @@ class Stored(ProgramTest):
                                               "tree", option, value).stderr)
 
     def test_pictures_of_superlevel_sets_name_the_values_of_the_image(self):
-        self.write("row.npy", npy((5,), [50, 10, 40, 10, 30]))
+        self.write("row.npy", files.array((5,), [50, 10, 40, 10, 30]))
         for kind in ("barcode", "diagram", "betti", "tree"):
             run = self.expect(0, "row.npy", "--superlevel", "--plot", "x.svg", "--plot-kind", kind)
             self.assertIn("0,-50,inf", run.stdout)  # files keep the negated values
@@ -169,7 +169,7 @@ class Stored(ProgramTest):
             self.assertEqual(axis, sorted(axis, reverse=True), kind)
 
     def test_the_tree_of_one_class_begins_at_its_birth(self):
-        self.write("one.npy", npy((2,), [-3, -3]))
+        self.write("one.npy", files.array((2,), [-3, -3]))
         self.expect(0, "one.npy", "--plot", "x.svg", "--plot-kind", "tree")
         ticks = [t.replace("−", "-") for t in self.texts("x.svg") if re.fullmatch("−?[0-9.]+", t)]
         self.assertEqual(min(float(t) for t in ticks), -3)

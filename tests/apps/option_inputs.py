@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""option_inputs.py PH_BARCODE PH_SEGMENT [TABLE.csv]: each option of each program with each kind of
+"""option_inputs.py PH_BARCODE PH_SEGMENT [TABLE.csv [OPTION...]]: each option of each program with each kind of
 input. It runs the program with and without the option; the option
 
 * changes the result (exit code, standard output, files), or
@@ -7,8 +7,13 @@ input. It runs the program with and without the option; the option
 * is refused (64) by name, or
 * is said on standard error to do nothing.
 
-Anything else is an option that was ignored without a word: SILENT, and the test fails. The options
-are those that --help lists: one that has no row here fails, too. The table is written to TABLE.csv."""
+Anything else is an option that was ignored without a word: SILENT, and the test fails. So is one
+whose input is then bad data without a word of what the option changed, and one that the program
+fails to obey. Of an option with choices (--help lists them as a|b|c) each choice is tried: it is
+refused by name, or its result is that of no other choice.
+
+The options are those that --help lists: one that has no row here fails, too. The table is written
+to TABLE.csv. OPTION...: only these."""
 import collections
 import concurrent.futures
 import csv
@@ -18,29 +23,38 @@ import re
 import subprocess
 import sys
 import tempfile
+import threading
 
 import option_inputs_barcode
 import option_inputs_segment
 
 CHANGES, OBEYED, REFUSED, SAID, SILENT = "changes", "obeyed", "refused", "said", "SILENT"
 VOLATILE = ("timings", "peak_memory", "stages", "table", "seconds")
+DOES_NOTHING = "does nothing|do nothing|nothing is done|not needed|is not used"
+TIMES = r"; [0-9.]+ ms|[0-9.]+ s: .* CPU a frame"
+MEMORY = rb"(?m)^memory .*$"  # what a dry run says depends on the heap of the process
+RUNS_AT_ONCE = 2
 
 
 class Row:
     """How an option is tried.
 
-    arguments: those that are the option; `@name` is a file of the input.
+    arguments: those that are the option; `@input` is the first file of the input.
     variant: of the input, where it has one: what makes the difference ("nan").
-    beside: arguments of both runs. free: dropped from the input's own arguments.
-    sign: a pattern that standard error has with the option only, in place of another result.
-    lost: one that it has without the option only. default: whether the result is the same, for the
-    option says what holds anyway.
-    bad_data: whether it may turn good data into bad ones (65)."""
+    beside: arguments of both runs.
+    sign: a pattern that standard error has with the option only, in place of another result; {} in
+    it is the choice. lost: one that it has without the option only.
+    default: other arguments, where the option says what holds anyway: they change the result.
+    unfit: what a message says where the option makes of the input what it, or another option, does
+    not fit (64, 65); its name will always do.
+    choices: those that are tried, each with another result; by default those of --help.
+    alike: choices that have the result of another one."""
 
-    def __init__(self, *arguments, variant="plain", beside=(), sign=None, lost=None,
-                 default=False, bad_data=False):
+    def __init__(self, *arguments, variant="plain", beside=(), sign=None, lost=None, default=(),
+                 unfit=None, choices=None, alike=()):
         self.arguments, self.variant, self.beside = list(arguments), variant, list(beside)
-        self.sign, self.lost, self.default, self.bad_data = sign, lost, default, bad_data
+        self.sign, self.lost, self.default, self.unfit = sign, lost, list(default), unfit
+        self.choices, self.alike = choices, alike
 
 
 class Input:
@@ -58,25 +72,31 @@ class Input:
 
 
 def options_of(program):
-    """All options of --help, each by its first long name."""
+    """All options of --help, each by its first long name, and the choices it lists."""
     text = subprocess.run([program, "--help"], capture_output=True, text=True, check=True).stdout
-    found = []
+    found = {}
     for line in text.splitlines():
-        match = re.match(r"  (-[^ ]+)", line)
-        if match:
-            found.append(next(name for name in match[1].split(",") if name.startswith("--")))
+        if match := re.match(r"  (-[^ ]+) ?(\S*)", line):
+            name = next(name for name in match[1].split(",") if name.startswith("--"))
+            choices = match[2].replace("minkowski:P", "minkowski:3").split("|")
+            is_list = len(choices) > 1 and all(re.fullmatch("[a-z0-9:_-]+", c) for c in choices)
+            found[name] = [c for c in choices if c != "auto"] if is_list else []
     return found
 
 
 def result_of(content):
-    """JSON without what differs from run to run."""
+    """JSON, of a stream one a line, without what differs from run to run."""
     try:
-        value = json.loads(content)
+        values = [json.loads(content)]
     except (ValueError, UnicodeDecodeError):
-        return content
-    for name in VOLATILE if isinstance(value, dict) else ():
-        value.pop(name, None)
-    return json.dumps(value)
+        try:
+            values = [json.loads(line) for line in content.splitlines()]
+        except (ValueError, UnicodeDecodeError):
+            return re.sub(MEMORY, b"", content)
+    for value in values:
+        for name in VOLATILE if isinstance(value, dict) else ():
+            value.pop(name, None)
+    return json.dumps(values)
 
 
 class Run:
@@ -90,7 +110,7 @@ class Run:
             run = subprocess.run([program, *arguments], cwd=folder, capture_output=True, timeout=60,
                                  stdin=subprocess.DEVNULL)
             self.code, self.stdout = run.returncode, result_of(run.stdout)
-            self.stderr = run.stderr.decode(errors="replace")
+            self.stderr = re.sub(TIMES, "", run.stderr.decode(errors="replace"))
             self.files = {}
             for where, _, names in os.walk(folder):
                 for name in names:
@@ -100,6 +120,108 @@ class Run:
 
     def result(self):
         return self.code, self.stdout, self.files
+
+    def names(self, word, line=None):
+        text = self.stderr if line is None else line
+        return re.search(rf"{word}(?![a-z-])", text.replace("-o,", "--output"))
+
+
+class Runs:
+    """Each is made once."""
+
+    def __init__(self):
+        self.known, self.lock = {}, threading.Lock()
+
+    def get(self, program, arguments, files, again=False):
+        """@param again a second run of the same."""
+        key = (program, tuple(arguments), tuple(files.items()), again)
+        with self.lock:
+            first = key not in self.known
+            future = self.known.setdefault(key, concurrent.futures.Future())
+        if first:
+            try:
+                future.set_result(Run(program, arguments, files))
+            except BaseException as error:
+                future.set_exception(error)
+                raise
+        return future.result()
+
+
+class Pair:
+    """An option with a kind of input."""
+
+    def __init__(self, runs, program, option, row, kind, choices):
+        self.runs, self.program, self.option, self.row, self.kind = runs, program, option, row, kind
+        self.files = kind.content(row.variant)
+        self.base = without(kind.arguments, option)
+        for word in row.beside:
+            self.base = without(self.base, word)
+        self.base += self.filled(row.beside)
+        if row.sign and "--verbose" not in self.base and option not in ("--quiet", "--verbose"):
+            self.base.append("--verbose")
+        self.choices = choices if row.choices is None else row.choices
+        self.program_name = os.path.basename(program)
+
+    def filled(self, arguments):
+        first = next(iter(self.kind.files))
+        return [a.replace("@input", first) for a in arguments]
+
+    def run(self, arguments, **how):
+        return self.runs.get(self.program, self.base + self.filled(arguments), self.files, **how)
+
+    def classify(self):
+        plain = self.run([])
+        if plain.result() != self.run([], again=True).result():
+            return SILENT, f"{self.base}: another result each time"
+        verdict = self.verdict(plain, self.row.arguments)
+        if verdict[0] == SILENT or not self.choices:
+            return verdict
+        return self.fault_of_choices(plain) or verdict
+
+    def verdict(self, plain, arguments):
+        row, option, given = self.row, self.option, self.run(arguments)
+        sign = row.sign and row.sign.replace("{}", re.escape(arguments[-1]))
+        tried = f"{self.base} {arguments}: {given.code}, {given.stderr}"
+        if given.code not in (0, 64, 65, 66):
+            return SILENT, tried
+        if given.code != 0 and given.stderr != plain.stderr:
+            told = (given.names(option) or row.unfit and re.search(row.unfit, given.stderr)
+                    or arguments[-1] in self.choices and given.names(arguments[-1]))
+            return (REFUSED if given.code == 64 else CHANGES, "") if told else (SILENT, tried)
+        if given.result() != plain.result():
+            return CHANGES, ""
+        if sign and re.search(sign, given.stderr) and not re.search(sign, plain.stderr):
+            return OBEYED, ""
+        if row.lost and re.search(row.lost, plain.stderr) and not re.search(row.lost, given.stderr):
+            return OBEYED, ""
+        if row.default and given.code == 0:
+            other = self.run(row.default)
+            return ((OBEYED, "") if other.code == 0 and other.result() != given.result()
+                    else (SILENT, f"nor does {row.default}: {tried}"))
+        # What is said of an output is said of how it looks, too.
+        outputs = {"-o": "--output", "--plot": "--plot", "--representatives": "--representatives"}
+        said_of = [option, *(outputs[word] for word in row.beside if word in outputs)]
+        if any(given.names(word, line) and re.search(DOES_NOTHING, line)
+               for line in given.stderr.splitlines() for word in said_of):
+            return SAID, ""
+        return SILENT, tried
+
+    def fault_of_choices(self, plain):
+        """Each choice is the default, or does what an option does, and no two are the same."""
+        results = {}
+        for choice in self.choices:
+            arguments = [self.option, choice]
+            given = self.run(arguments)
+            verdict = self.verdict(plain, arguments)
+            is_default = given.result() == plain.result() and given.stderr == plain.stderr
+            if verdict[0] == SILENT and not is_default:
+                return verdict
+            if given.code == 0 and verdict[0] != SAID and not self.row.sign:
+                results.setdefault(str(given.result()), []).append(choice)
+        for same in results.values():
+            if len(set(same) - set(self.row.alike)) > 1:
+                return SILENT, f"{self.base}: {self.option} is the same of {same}"
+        return None
 
 
 def without(arguments, option):
@@ -115,65 +237,40 @@ def without(arguments, option):
     return kept
 
 
-def classify(program, option, row, kind):
-    files = kind.content(row.variant)
-    first = next(iter(kind.files))
-
-    def filled(arguments):
-        return [first if a == "@input" else a.replace("@input", first) for a in arguments]
-
-    base = without(kind.arguments, option) + filled(row.beside)
-    if row.sign and "--verbose" not in base and option not in ("--quiet", "--verbose"):
-        base.append("--verbose")
-    plain = Run(program, base, files)
-    given = Run(program, base + filled(row.arguments), files)
-    names = given.stderr.replace("-o,", "--output")
-    if given.code not in (0, 1, 64, 65, 66, 69, 75):
-        return SILENT, f"exit {given.code}: {given.stderr}"
-    if given.code == 64 and given.stderr != plain.stderr:
-        return (REFUSED, "") if option in names else (SILENT, "refused, but not by name: " + names)
-    if given.code in (65, 66) and plain.code == 0 and not row.bad_data:
-        return SILENT, "bad data: " + given.stderr
-    if given.result() != plain.result():
-        return CHANGES, ""
-    if row.sign and re.search(row.sign, given.stderr) and not re.search(row.sign, plain.stderr):
-        return OBEYED, ""
-    if row.lost and re.search(row.lost, plain.stderr) and not re.search(row.lost, given.stderr):
-        return OBEYED, ""
-    if row.default and given.code == 0:
-        return OBEYED, ""
-    if option in given.stderr and option not in plain.stderr:
-        return SAID, ""
-    return SILENT, f"{base} {row.arguments}: {given.code}, {given.stderr}"
-
-
-def pairs_of(program, suite):
+def pairs_of(runs, program, suite):
     rows = suite.rows(Row)
     listed = options_of(program)
     missing = [option for option in listed if option not in rows]
     if missing:
         sys.exit(f"{program}: no row for {', '.join(missing)} in {suite.__name__}.py")
+    version = subprocess.run([program, "--version", "--verbose"], capture_output=True, text=True,
+                             check=True).stdout
+    if re.search("reports +not built in", version):
+        print(f"skipped: {os.path.basename(program)} --report: this build has no page")
+        del listed["--report"]
     for kind in suite.inputs(Input, program):
-        for option in listed:
-            yield program, option, kind.rows.get(option, rows[option]), kind
+        for option, choices in listed.items():
+            yield Pair(runs, program, option, kind.rows.get(option, rows[option]), kind, choices)
 
 
 def main():
-    programs = sys.argv[1:3]
+    runs, programs = Runs(), sys.argv[1:3]
     pairs = [pair for program, suite in zip(programs, (option_inputs_barcode, option_inputs_segment))
-             for pair in pairs_of(os.path.abspath(program), suite)]
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        results = list(pool.map(lambda pair: classify(*pair), pairs))
+             for pair in pairs_of(runs, os.path.abspath(program), suite)
+             if pair.option in sys.argv[4:] or not sys.argv[4:]]
+    with concurrent.futures.ThreadPoolExecutor(RUNS_AT_ONCE) as pool:
+        results = list(pool.map(Pair.classify, pairs))
     counts = collections.Counter(result for result, _ in results)
     if len(sys.argv) > 3:
         with open(sys.argv[3], "w", newline="", encoding="utf-8") as file:
             table = csv.writer(file)
             table.writerow(["program", "option", "input", "result"])
-            for (program, option, _, kind), (result, _) in zip(pairs, results):
-                table.writerow([os.path.basename(program), option, kind.name, result])
-    for (program, option, _, kind), (result, why) in zip(pairs, results):
+            for pair, (result, _) in zip(pairs, results):
+                table.writerow([pair.program_name, pair.option, pair.kind.name, result])
+    for pair, (result, why) in zip(pairs, results):
         if result == SILENT:
-            print(f"SILENT {os.path.basename(program)} {option} with {kind.name}: {why.strip()}")
+            print(f"SILENT {pair.program_name} {pair.option} with {pair.kind.name}: {why.strip()}")
+    print(f"{len(runs.known)} runs")
     print(f"{len(pairs)} pairs: " + ", ".join(f"{counts[name]} {name}" for name in
                                              (CHANGES, OBEYED, REFUSED, SAID, SILENT)))
     sys.exit(1 if counts[SILENT] else 0)

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: MIT
 """The options and the kinds of input of ph-barcode, for option_inputs.py."""
 import gzip
-import io
 import math
 import random
 import struct
-import zipfile
-import zlib
+
+from program import files
 
 RIPS = ("points", "points.gz", "NPY points", "OFF mesh", "PCD", "XYZ", "matrix", "NPY matrix",
         "DIPHA distances", "lower triangle", "upper triangle", "binary triangle", "sparse",
@@ -16,45 +15,48 @@ RIPS = ("points", "points.gz", "NPY points", "OFF mesh", "PCD", "XYZ", "matrix",
 LISTED = ("lower star", "PHAT", "DIPHA boundaries", "OFF mesh with values", "PLY mesh with values")
 
 
+# What an option may make of data that it does not fit, in the words of the message.
+POINTS, IMAGE = "not a set of points|found points", "an image has rows"
 LOOPS = ["--representatives", "cycles", "--output-format", "json"]
 
 
 def rows(Row):
     plot = ["--plot", "x.svg"]
     return {
-        "--format": Row("--format", "phat", bad_data=True),
-        "--values": Row("--values", "values.txt", bad_data=True),
+        "--format": Row("--format", "phat", choices=(),
+                        unfit="found phat|dimension|number of cells|boundary matrix|facet"),
+        "--values": Row("--values", "values.txt"),
         "--allow-empty": Row("--allow-empty", variant="empty", sign="--allow-empty: not needed"),
-        "--symmetrise": Row("--symmetrise", "max", variant="asymmetric", bad_data=True),
-        "--from-correlation": Row("--from-correlation", variant="correlation", bad_data=True),
-        "--diagonal": Row("--diagonal", "births", variant="births", bad_data=True),
+        "--symmetrise": Row("--symmetrise", "max", variant="asymmetric"),
+        "--from-correlation": Row("--from-correlation", variant="correlation", unfit="not a correlation"),
+        "--diagonal": Row("--diagonal", "births", variant="births"),
         "--nan": Row("--nan", "drop", variant="nan"),
-        "--columns": Row("--columns", "1", variant="labelled", bad_data=True),
-        "--channel": Row("--channel", "red", variant="colour", bad_data=True),
-        "--raw-shape": Row("--raw-shape", "5,4", bad_data=True),
-        "--raw-type": Row("--raw-type", "int16", bad_data=True),
-        "--raw-big-endian": Row("--raw-big-endian", bad_data=True),
-        "--raw-skip": Row("--raw-skip", "2", bad_data=True),
-        "--complex": Row("--complex", "cubical", bad_data=True),
+        "--columns": Row("--columns", "1", variant="labelled", unfit="as many as columns|ragged row|a point a row"),
+        "--channel": Row("--channel", "red", variant="colour", unfit="no channel"),
+        "--raw-shape": Row("--raw-shape", "5,4", unfit="for shape|found raw"),
+        "--raw-type": Row("--raw-type", "int16", unfit="for shape|found raw"),
+        "--raw-big-endian": Row("--raw-big-endian"),
+        "--raw-skip": Row("--raw-skip", "2", unfit="for shape|found raw"),
+        "--complex": Row("--complex", "cubical", unfit=IMAGE),
         "--threshold": Row("--threshold", "0.9"),
-        "--metric": Row("--metric", "manhattan", bad_data=True),
-        "--construction": Row("--construction", "cells", bad_data=True),
-        "--superlevel": Row("--superlevel", bad_data=True),
-        "--periodic": Row("--periodic", "all", bad_data=True),
-        "--slab-layers": Row("--slab-layers", "1", sign="slabs of 1 layer", bad_data=True),
-        "--voxel": Row("--voxel", "0.4", bad_data=True),
-        "--voxel-value": Row("--voxel-value", "density", bad_data=True),
-        "--collapse": Row("--collapse", "on", sign=r"collapse on \(asked for\)", bad_data=True),
-        "--subsample": Row("--subsample", "6", bad_data=True),
-        "--subsample-radius": Row("--subsample-radius", "0.5", bad_data=True),
-        "--approximate": Row("--approximate", "0.5", sign="times too late", bad_data=True),
-        "--vertex-weights": Row("--vertex-weights", "weights.txt", bad_data=True),
-        "--dtm": Row("--dtm", "3", bad_data=True),
+        "--metric": Row("--metric", "manhattan", unfit=POINTS),
+        "--construction": Row("--construction", "cells", unfit=IMAGE),
+        "--superlevel": Row("--superlevel", unfit=IMAGE),
+        "--periodic": Row("--periodic", "all", unfit=IMAGE),
+        "--slab-layers": Row("--slab-layers", "1", sign="slabs of 1 layer", unfit=IMAGE),
+        "--voxel": Row("--voxel", "0.4", unfit=POINTS),
+        "--voxel-value": Row("--voxel-value", "density", unfit=POINTS),
+        "--collapse": Row("--collapse", "on", sign=r"collapse {} \(asked for\)", unfit=POINTS),
+        "--subsample": Row("--subsample", "6", unfit=POINTS + "|no sample"),
+        "--subsample-radius": Row("--subsample-radius", "0.5", unfit=POINTS + "|no sample"),
+        "--approximate": Row("--approximate", "0.5", sign="times too late", unfit=POINTS + "|no approximation"),
+        "--vertex-weights": Row("--vertex-weights", "weights.txt", unfit="weights.txt|" + POINTS),
+        "--dtm": Row("--dtm", "3", unfit=POINTS),
         "--weight-exponent": Row("--weight-exponent", "2"),
         "--max-dim": Row("--max-dim", "0"),
         "--min-dim": Row("--min-dim", "1"),
         "--field": Row("--field", "3", beside=["--output-format", "json"]),
-        "--engine": Row("--engine", "standard", sign="engine standard: asked for"),
+        "--engine": Row("--engine", "standard", sign="engine {}: asked for"),
         "--check": Row("--check", sign="check: the reference engine agrees"),
         "--min-persistence": Row("--min-persistence", "1e9"),
         "--representatives": Row("--representatives", "cycles", beside=["--output-format", "json"]),
@@ -73,7 +75,7 @@ def rows(Row):
         "--formats": Row("--formats"),
         "--threads": Row("--threads", "1", sign="threads 1"),
         "--memory-limit": Row("--memory-limit", "300MiB", sign="memory limit 300 MiB"),
-        "--progress": Row("--progress", "json", sign="progress json"),
+        "--progress": Row("--progress", "json", sign="progress {}"),
         "--quiet": Row("--quiet", lost="ph-barcode: "),
         "--verbose": Row("--verbose", sign="memory limit"),
         "--force": Row("--force", beside=["-o", "@input", "--output-format", "csv"]),
@@ -82,44 +84,10 @@ def rows(Row):
     }
 
 
-def npy(shape, values, kind="<f8"):
-    header = f"{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}"
-    header = header.ljust(117) + "\n"
-    packed = struct.pack(f"<{len(values)}{'d' if kind == '<f8' else 'B'}", *values)
-    return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode() + packed
-
-
-def npz(array):
-    archive = io.BytesIO()
-    with zipfile.ZipFile(archive, "w") as file:
-        file.writestr("image.npy", array)
-    return archive.getvalue()
-
-
-def png(width, grey):
-    def chunk(name, content):
-        return (struct.pack(">I", len(content)) + name + content
-                + struct.pack(">I", zlib.crc32(name + content)))
-    height = len(grey) // width
-    lines = b"".join(b"\0" + bytes(grey[y * width:(y + 1) * width]) for y in range(height))
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0))
-            + chunk(b"IDAT", zlib.compress(lines)) + chunk(b"IEND", b""))
-
-
-def nifti(shape, values):
-    header = bytearray(352)
-    struct.pack_into("<i", header, 0, 348)
-    struct.pack_into("<8h", header, 40, len(shape), *shape, *[1] * (7 - len(shape)))
-    struct.pack_into("<hh", header, 70, 16, 32)  # float32
-    struct.pack_into("<8f", header, 76, *[1.0] * 8)
-    struct.pack_into("<f", header, 108, 352.0)
-    header[344:348] = b"n+1\0"
-    return bytes(header) + struct.pack(f"<{len(values)}f", *values)
-
-
-def dipha(kind, integers, doubles):
-    return (struct.pack("<qq", 8067171840, kind) + struct.pack(f"<{len(integers)}q", *integers)
-            + struct.pack(f"<{len(doubles)}d", *doubles))
+def png(width, samples, colour=files.GREY):
+    size = width * (4 if colour == files.RGBA else 1)
+    rows = [bytes(samples[k:k + size]) for k in range(0, len(samples), size)]
+    return files.png(width, len(rows), 8, colour, rows)
 
 
 def text(table):
@@ -142,7 +110,8 @@ def inputs(Input, program):
         return math.dist(points[i], points[j])
 
     matrix = square(length, size)
-    asymmetric = [[d if i < j else 1.5 * d for j, d in enumerate(row)] for i, row in enumerate(matrix)]
+    asymmetric = [[d if (i < j) == ((i + j) % 2 == 0) else 1.5 * d for j, d in enumerate(row)]
+                  for i, row in enumerate(matrix)]
     births = [[0.3 if i == j else d for j, d in enumerate(row)] for i, row in enumerate(matrix)]
     correlation = [[1 - d / 4 for d in row] for row in matrix]
     holes = [[math.nan if {i, j} == {0, 1} else d for j, d in enumerate(row)]
@@ -157,6 +126,7 @@ def inputs(Input, program):
     pairs = [(i, j, length(i, j)) for i in range(size) for j in range(i)]
     grey = [random.randrange(10) for _ in range(30)]
     grey[7] = 200  # a byte with its high bit
+    many = [random.randrange(256) for _ in range(4 * 30)]
     floats = [value + 0.25 for value in grey]
     one_nan = [math.nan, *floats[1:]]
     volume = [random.randrange(10) + 0.5 for _ in range(27)]
@@ -171,7 +141,7 @@ def inputs(Input, program):
         if threshold is not None:
             given["--threshold"] = row("--threshold", str(threshold))
         if threshold is not None and name not in LISTED:  # an image
-            given["--complex"] = row("--complex", "rips", bad_data=True)
+            given["--complex"] = row("--complex", "rips", unfit=POINTS)
         if {"--format", "--raw-shape"} & set(arguments):  # what is read is not said then
             given["--quiet"] = row("--quiet", lost="ph-barcode: ",
                                    beside=["-o", "x.csv", "--output-format", "none"])
@@ -192,25 +162,24 @@ def inputs(Input, program):
     add("points.gz", ["p.txt.gz"], {"p.txt.gz": gzip.compress(text(points))},
         nan=gzip.compress(text(with_nan)))
     add("XYZ", ["p.xyz"], {"p.xyz": text((*p, 0.0) for p in points)},
-        rows={"--nan": (("--nan", "error"), {"variant": "nan", "bad_data": True})},
+        rows={"--nan": (("--nan", "error"), {"variant": "nan"})},
         nan=text([(math.nan, 0.0, 0.0), *((*p, 0.0) for p in points[1:])]))
-    pcd = (f"VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH {size}\nHEIGHT 1\n"
-           f"VIEWPOINT 0 0 0 1 0 0 0\nPOINTS {size}\nDATA ascii\n").encode()
+    pcd = files.pcd_header(width=size)
     add("PCD", ["p.pcd"], {"p.pcd": pcd + text((*p, 0.0) for p in points)},
-        rows={"--nan": (("--nan", "error"), {"variant": "nan", "bad_data": True})},
+        rows={"--nan": (("--nan", "error"), {"variant": "nan"})},
         nan=pcd + text([(math.nan, 0.0, 0.0), *((*p, 0.0) for p in points[1:])]))
-    add("NPY points", ["p.npy", "--complex", "rips"], {"p.npy": npy((size, 2), flat)},
-        rows={"--complex": (("--complex", "rips"), {"default": True})},
-        nan=npy((size, 2), [math.nan, *flat[1:]]), empty=npy((0, 2), []))
+    add("NPY points", ["p.npy", "--complex", "rips"], {"p.npy": files.array((size, 2), flat)},
+        rows={"--complex": (("--complex", "rips"), {"default": ["--complex", "cubical"]})},
+        nan=files.array((size, 2), [math.nan, *flat[1:]]), empty=files.array((0, 2), []))
     add("voxels", ["p.csv", "--complex", "cubical", "--voxel", "0.25"], {"p.csv": text(points)},
         rows={"--complex": (("--complex", "explicit"), {}),
               "--threshold": (("--threshold", "0.1"), {})}, nan=text(with_nan))
     for name, arguments, make in (
             ("matrix", ["m.txt", "--format", "distance"], text),
             ("NPY matrix", ["m.npy", "--format", "distance"],
-             lambda table: npy((size, size), [x for row in table for x in row])),
+             lambda table: files.array((size, size), [x for row in table for x in row])),
             ("DIPHA distances", ["m.dipha"],
-             lambda table: dipha(7, [size], [x for row in table for x in row]))):
+             lambda table: files.dipha(7, size, *(x for row in table for x in row)))):
         file = arguments[0]
         add(name, arguments, {file: make(matrix)}, asymmetric=make(asymmetric), births=make(births),
             correlation=make(correlation), nan=make(holes))
@@ -228,35 +197,36 @@ def inputs(Input, program):
         nan=text([(1, 0, math.nan), *pairs[1:]]))
     def connections(distance):
         others = [[j for j in range(size) if j != i] for i in range(size)]
-        return (struct.pack("<qqq", 8067171840, 8, size)
+        return (files.dipha(8, size)
                 + struct.pack(f"<{size}q", *map(len, others))
                 + b"".join(struct.pack(f"<{size - 1}q", *row) for row in others)
                 + b"".join(struct.pack(f"<{size - 1}d", *(distance(i, j) for j in row))
                            for i, row in enumerate(others)))
     add("DIPHA sparse distances", ["s.dipha"], {"s.dipha": connections(length)},
         nan=connections(lambda i, j: math.nan if {i, j} == {0, 1} else length(i, j)))
-    add("NPY image", ["i.npy"], {"i.npy": npy((5, 6), floats)}, 4, nan=npy((5, 6), one_nan))
-    add("NPY whole numbers", ["i.npy"], {"i.npy": npy((5, 6), grey, "|u1")}, 4)
-    add("NPY volume", ["v.npy"], {"v.npy": npy((3, 3, 3), volume)}, 4,
-        nan=npy((3, 3, 3), [math.nan, *volume[1:]]))
+    add("NPY image", ["i.npy"], {"i.npy": files.array((5, 6), floats)}, 4, nan=files.array((5, 6), one_nan))
+    add("NPY whole numbers", ["i.npy"], {"i.npy": files.array((5, 6), grey, "|u1")}, 4)
+    add("NPY volume", ["v.npy"], {"v.npy": files.array((3, 3, 3), volume)}, 4,
+        nan=files.array((3, 3, 3), [math.nan, *volume[1:]]))
     # Of one axis both constructions have the same bars, and none but periodic ones a loop.
-    add("NPY series", ["s.npy"], {"s.npy": npy((30,), floats)}, 4, nan=npy((30,), one_nan),
-        rows={"--construction": (("--construction", "cells"), {"default": True}),
-              "--loops": (("--loops", "none"), {"beside": [*LOOPS, "--periodic", "all"]}),
+    add("NPY series", ["s.npy"], {"s.npy": files.array((30,), floats)}, 4, nan=files.array((30,), one_nan),
+        rows={"--loops": (("--loops", "none"), {"beside": [*LOOPS, "--periodic", "all"]}),
               "--max-dim": (("--max-dim", "0"), {"beside": ["--periodic", "all"]}),
               "--min-dim": (("--min-dim", "1"), {"beside": ["--periodic", "all"]})})
-    add("NPZ image", ["i.npz"], {"i.npz": npz(npy((5, 6), floats))}, 4, nan=npz(npy((5, 6), one_nan)))
+    add("NPZ image", ["i.npz"], {"i.npz": files.npz({"image.npy": files.array((5, 6), floats)})}, 4, nan=files.npz({"image.npy": files.array((5, 6), one_nan)}))
     add("PNG", ["i.png"], {"i.png": png(6, grey)}, 4)
+    add("PNG in colours", ["i.png", "--channel", "green"], {"i.png": png(6, many, files.RGBA)}, 40,
+        rows={"--channel": (("--channel", "red"), {})})
     add("PGM", ["i.pgm"], {"i.pgm": b"P2\n6 5\n255\n" + " ".join(map(str, grey)).encode()}, 4)
-    add("NIfTI", ["v.nii"], {"v.nii": nifti((3, 3, 3), volume)}, 4,
-        nan=nifti((3, 3, 3), [math.nan, *volume[1:]]))
+    add("NIfTI", ["v.nii"], {"v.nii": files.nifti("<f4", (3, 3, 3), volume)}, 4,
+        nan=files.nifti("<f4", (3, 3, 3), [math.nan, *volume[1:]]))
     words = struct.pack("<20H", *(random.randrange(60000) for _ in range(20)))
     add("raw", ["i.raw", "--raw-shape", "4,5", "--raw-type", "uint16"], {"i.raw": words}, 30000)
     add("Perseus", ["i.perseus"],
         {"i.perseus": ("2\n6\n5\n" + "\n".join(map(str, floats)) + "\n").encode()}, 4,
         rows={"--construction": (("--construction", "cells"), {})})
-    add("DIPHA image", ["i.dipha"], {"i.dipha": dipha(1, [30, 2, 6, 5], floats)}, 4,
-        nan=dipha(1, [30, 2, 6, 5], one_nan))
+    add("DIPHA image", ["i.dipha"], {"i.dipha": files.dipha_image((6, 5), floats)}, 4,
+        nan=files.dipha_image((6, 5), one_nan))
     # A triangle that is filled late, and a hollow one beside it.
     simplices = (b"0 : 0\n1 : 0.25\n2 : 0\n0 1 : 1\n1 2 : 2\n0 2 : 3\n0 1 2 : 4\n3 : 0\n2 3 : 2\n4 : 0\n"
                  b"3 4 : 2.5\n2 4 : 2.75\n")
@@ -267,16 +237,16 @@ def inputs(Input, program):
                                    "--min-dim": (("--min-dim", "1"), {})})
     phat = b"0\n0\n0\n1 0 1\n1 1 2\n1 0 2\n2 3 4 5\n"
     add("PHAT", ["b.phat"], {"b.phat": phat}, 5.5, values=[0, 0, 0, 1, 2, 3, 5],
-        rows={"--format": (("--format", "simplices"), {"bad_data": True}),
+        rows={"--format": (("--format", "simplices"), {"unfit": "simplex|plain text", "choices": ()}),
               "--loops": (("--loops", "plain"), {"beside": LOOPS}),
               "--complex": (("--complex", "rips"), {})})
     add("DIPHA boundaries", ["b.dipha"],
-        {"b.dipha": struct.pack("<qqqqq", 8067171840, 0, 0, 7, 2)
+        {"b.dipha": files.dipha(0, 0, 7, 2)
          + struct.pack("<7q", 0, 0, 0, 1, 1, 1, 2)
          + struct.pack("<7d", 0, 0, 0, 1, 2, 3, 5)
          + struct.pack("<8q", 0, 0, 0, 0, 2, 4, 6, 9)
          + struct.pack("<9q", 0, 1, 1, 2, 0, 2, 3, 4, 5)}, 2.5, values=[0, 0, 0, 1, 2, 3, 6],
-        rows={"--format": (("--format", "simplices"), {"bad_data": True}),
+        rows={"--format": (("--format", "simplices"), {"unfit": "simplex|plain text", "choices": ()}),
               "--loops": (("--loops", "plain"), {"beside": LOOPS}),
               "--complex": (("--complex", "rips"), {})})
     corners = [*((x, y, 0.0) for x, y in points)]
@@ -291,13 +261,25 @@ def inputs(Input, program):
     add("PLY mesh with values", ["m.ply", "--values", "values.txt"],
         {"m.ply": ply.encode() + text(corners) + faces}, 4, values=heights,
         rows={"--complex": (("--complex", "rips"), {})})
+    looks = {"--plot-kind": (("--plot-kind", "betti"), {}), "--dims": (("--dims", "1"), {}),
+             "--title": (("--title", "Loops"), {}), "--size": (("--size", "300x200"), {}),
+             "--axis": (("--axis", "-3,-1"), {})}
+    add("points, dry run", ["p.csv", "--dry-run"], {"p.csv": text(points)}, nan=text(with_nan))
+    add("points, nothing but a plot", ["p.csv", "--output-format", "none", "--plot", "y.svg"],
+        {"p.csv": text(points)}, nan=text(with_nan),
+        rows={**looks, "--axis": (("--axis", "0.25,0.5"), {})})
+    add("points, plot of the tree", ["p.csv", "--plot-kind", "tree", "--plot", "y.svg"],
+        {"p.csv": text(points)}, nan=text(with_nan),
+        rows={**looks, "--axis": (("--axis", "0.25,0.5"), {})})
+    add("superlevel plot", ["i.npy", "--superlevel", "--plot", "y.svg"],
+        {"i.npy": files.array((5, 6), floats)}, -4, nan=files.array((5, 6), one_nan), rows=looks)
     bars = b"dim,birth,death\n0,0,1\n0,0,inf\n1,0.3,0.75\n"
     alone = {"--loops": (("--loops", "none"), {})}
     add("a barcode", ["b.csv"], {"b.csv": bars}, rows=alone)
     add("plot a barcode", ["plot", "b.npy", "-o", "y.svg"],
-        {"b.npy": npy((2, 3), [0, 0, 1, 1, 0.3, 0.75])},
+        {"b.npy": files.array((2, 3), [0, 0, 1, 1, 0.3, 0.75])},
         rows={**alone, "--force": (("--force",), {"sign": "--force: not needed"}),
-              "--output": (("--output", "x.png"), {"beside": ["--report", "x.html"]}),
+              "--output": (("--output", "x.svg"), {}),
               "--plot-kind": (("--plot-kind", "betti"), {}), "--dims": (("--dims", "9"), {}),
               "--title": (("--title", "Loops"), {}), "--size": (("--size", "300x200"), {}),
               "--axis": (("--axis", "0.25,0.5"), {})})

@@ -6,7 +6,8 @@ import random
 import struct
 import subprocess
 import tempfile
-import zlib
+
+from program import files
 
 WIDTH, HEIGHT, FOCAL = 96, 72, 150
 CAMERA = f"{FOCAL},{FOCAL},{WIDTH / 2},{HEIGHT / 2}"
@@ -46,7 +47,7 @@ def rows(Row, name="x"):
         "--cut": row("--cut", "0.011"),
         "--min-part": row("--min-part", "600"),
         "--min-size": row("--min-size", "500"),
-        "--objects": row("--objects", default=True),
+        "--objects": row("--objects", default=["--parts"]),
         "--parts": row("--parts"),
         "--output": row("-o", f"o-{name}.pcd"),
         "--labels": row("--labels", f"l-{name}.csv", beside=[]),
@@ -66,7 +67,7 @@ def rows(Row, name="x"):
         "--report": row("--report", f"r-{name}.html"),
         "--threads": row("--threads", "1"),
         "--memory-limit": row("--memory-limit", "300MiB", sign="memory limit 300 MiB"),
-        "--progress": row("--progress", "json", sign="progress json"),
+        "--progress": row("--progress", "json", sign="progress {}"),
         "--quiet": row("--quiet", lost="segment"),
         "--verbose": row("--verbose", sign="memory limit"),
         "--force": row("--force", beside=["--json", "@input"]),
@@ -75,14 +76,9 @@ def rows(Row, name="x"):
     }
 
 
-def png(width, lines, bits, colour):
-    def chunk(name, content):
-        return (struct.pack(">I", len(content)) + name + content
-                + struct.pack(">I", zlib.crc32(name + content)))
-    header = struct.pack(">IIBBBBB", width, len(lines), bits, colour, 0, 0, 0)
-    data = b"".join(b"\0" + line for line in lines)
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(data))
-            + chunk(b"IEND", b""))
+def depth_png(image):
+    rows = [struct.pack(f">{WIDTH}H", *row) for row in image]
+    return files.png(WIDTH, HEIGHT, 16, files.GREY, rows)
 
 
 def depths(second, first=24):
@@ -120,9 +116,7 @@ def text_of(points):
 
 
 def pcd(points, width, height):
-    return (f"VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH {width}\n"
-            f"HEIGHT {height}\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {width * height}\n"
-            "DATA ascii\n").encode() + text_of(points)
+    return files.pcd_header(width=width, height=height) + text_of(points)
 
 
 def ply(points):
@@ -146,11 +140,11 @@ def inputs(Input, program):
     image, other = depths(36), depths(36, 12)
     points = list(points_of(image))
     organised = pcd(points, WIDTH, HEIGHT)
-    sixteen = png(WIDTH, [struct.pack(f">{WIDTH}H", *row) for row in image], 16, 0)
+    sixteen = depth_png(image)
     beside = {
-        "list.txt": b"next.pcd\n", "images.txt": b"other.png\n", "next.pcd": organised, "other.png":
-        png(WIDTH, [struct.pack(f">{WIDTH}H", *row) for row in other], 16, 0),
-        "colour.png": png(WIDTH, [bytes([90, 160, 30]) * WIDTH] * HEIGHT, 8, 2)}
+        "list.txt": b"next.pcd\n", "images.txt": b"other.png\n", "next.pcd": organised, 
+        "other.png": depth_png(other),
+        "colour.png": files.png(WIDTH, HEIGHT, 8, files.RGB, [bytes([90, 160, 30]) * WIDTH] * HEIGHT)}
     streams = {**rows(Row, "*"), "--cut": Row("--cut", "1.5", beside=OF_FRAMES)}
     moved = {"--viewpoint": Row("--viewpoint", "0.3,0,0", beside=[*RESULTS, "--plane", "off",
                                                               "--max-range", "1.02"])}
@@ -158,7 +152,7 @@ def inputs(Input, program):
                    "--cut": Row("--cut", "0.05", beside=RESULTS)}
     shape = {"--cut": Row("--cut", "1.5", beside=RESULTS)}
     apart = {"--objects": Row("--objects", beside=RESULTS),
-             "--parts": Row("--parts", default=True, beside=RESULTS), **shape}
+             "--parts": Row("--parts", default=["--objects"], beside=RESULTS), **shape}
     paper = {**moved, "--method": Row("--method", "supervoxels", beside=RESULTS)}
     kinds = [
         ("organised PCD", ["s.pcd"], {"s.pcd": organised}, shape, pcd([], 0, 1)),
@@ -166,7 +160,7 @@ def inputs(Input, program):
         ("organised PCD, supervoxels", ["s.pcd", "--method", "supervoxels"], {"s.pcd": organised},
          supervoxels, None),
         ("PCD without a plane", ["s.pcd", "--plane", "off", "--max-range", "0.95"],
-         {"s.pcd": organised}, {**shape, "--plane": Row("--plane", "on", default=True, beside=RESULTS)}, None),
+         {"s.pcd": organised}, {**shape, "--plane": Row("--plane", "on", default=["--plane", "off"], beside=RESULTS)}, None),
         ("unorganised PCD", ["s.pcd"], {"s.pcd": pcd(points, len(points), 1)}, shape, None),
         ("PLY", ["s.ply"], {"s.ply": ply(points)}, shape, ply([])),
         ("XYZ", ["s.xyz"], {"s.xyz": text_of(points)}, shape, b"# none\n"),
@@ -183,6 +177,20 @@ def inputs(Input, program):
                             "in/u.pcd": pcd(list(points_of(other)), WIDTH, HEIGHT)},
          streams, None),
     ]
+    looks = {"--frames-from": Row("--frames-from", "list.txt", unfit="several inputs"),
+             "--plot-kind": Row("--plot-kind", "diagram"),
+             "--title": Row("--title", "Table"), "--size": Row("--size", "300x200"),
+             "--axis": Row("--axis", "0.001,0.02")}
+    scaled = {"d.png": sixteen}
+    kinds += [
+        ("frames from a list", ["--frames-from", "frames.txt"],
+         {"s.pcd": organised, "frames.txt": b"s.pcd\nu.pcd\n",
+          "u.pcd": pcd(list(points_of(other)), WIDTH, HEIGHT)}, streams, None),
+        ("stream with a camera", ["d.png", "other.png", "--camera", "xtion"], scaled,
+         {**streams, "--frames-from": Row("--frames-from", "images.txt", beside=OF_FRAMES)},
+         None),
+        ("plot of the tree", ["s.pcd", *RESULTS, "--plot", "y.svg", "--plot-kind", "tree"],
+         {"s.pcd": organised}, {**shape, **looks}, None)]
     return [Input(name, arguments, {**files, **beside}, rows=given,
                   **({} if empty is None else {"empty": empty}))
             for name, arguments, files, given, empty in kinds]

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Runs a program in a folder of its own; shared by the tests that drive programs."""
 import os
-import struct
 import subprocess
 import sys
 import tempfile
 import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "support"))
+import files  # noqa: E402, the encoders that all tests share
 
 PROGRAM = None
 SQUARE = "0 0\n1 0\n1 1\n0 1.25\n"
@@ -55,14 +57,6 @@ class ProgramTest(unittest.TestCase):
 
     def files(self):
         return sorted(os.listdir(self.folder))
-
-
-def npy(shape, values):
-    """A NumPy file of float64 in C order."""
-    header = f"{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}"
-    header = header.ljust(117) + "\n"
-    return (b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode()
-            + struct.pack(f"<{len(values)}d", *values))
 
 
 def main():

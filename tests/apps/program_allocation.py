@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Memory that runs out at any moment: the programs exit with 75, or do without; no file is half
-written: program_allocation.py PH-BARCODE PH-SEGMENT FAILING-MALLOC.so"""
+written: program_allocation.py PH-BARCODE PH-SEGMENT FAILING-MALLOC.so [--all]
+
+There are some 17000 calls, a run each and twice: without --all one in EVERY fails, in each case and
+for each way to fail others."""
 import gzip
 import os
 import re
@@ -8,9 +11,10 @@ import subprocess
 import sys
 import tempfile
 
-from program import SQUARE, npy
+from program import SQUARE, files
 
 BARCODE, SEGMENT, SHIM = map(os.path.abspath, sys.argv[1:4])
+EVERY = 1 if "--all" in sys.argv else 23
 
 TRIANGLE = "0 : 0\n1 : 0\n2 : 0\n0 1 : 1\n1 2 : 2\n0 2 : 3\n0 1 2 : 4\n"
 
@@ -20,8 +24,7 @@ def table():
     points = [(0.01 * x, 0.01 * y, 0.9 if 4 <= x < 8 and 4 <= y < 8 else 1.0)
               for y in range(14) for x in range(14)]
     lines = "".join("%g %g %g\n" % p for p in points)
-    return ("VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 14\nHEIGHT 14\n"
-            f"VIEWPOINT 0 0 0 1 0 0 0\nPOINTS {len(points)}\nDATA ascii\n{lines}")
+    return files.pcd_header(width=14, height=14) + lines.encode()
 
 
 # (program, arguments without outputs, outputs of which each is complete or absent)
@@ -39,8 +42,10 @@ CASES = [
     (BARCODE, ["square.txt"], {"--plot": "out.png"}),
     (SEGMENT, ["table.pcd", "--min-size", "1", "--voxel", "0.01"],
      {"-o": "out.pcd", "--labels": "out.npy", "--plot": "out.svg", "--picture": "out.png"}),
-    (SEGMENT, ["table.pcd", "--min-size", "1", "--plot-kind", "cloud"], {"--plot": "out.png"}),
-    (SEGMENT, ["table.pcd", "--min-size", "1", "--plot-kind", "cloud"], {"--plot": "out.svg"}),
+    (SEGMENT, ["table.pcd", "--min-size", "1", "--plot-kind", "cloud", "--size", "200x150"],
+     {"--plot": "out.png"}),
+    (SEGMENT, ["table.pcd", "--min-size", "1", "--plot-kind", "cloud", "--size", "200x150"],
+     {"--plot": "out.svg"}),
     (SEGMENT, ["--depth", "out.png.in", "--intrinsics", "20,20,7,7", "--depth-scale", "1"],
      {"--json": "/dev/null", "-o": "out.pcd"}),
     (SEGMENT, ["out.pcd.in", "--min-size", "1"], {"--coloured": "out.ply", "--labels": "out.png"}),
@@ -58,6 +63,7 @@ REPORTS = [
 
 SAMPLED = 97  # one in so many of the calls that an earlier case has let fail already
 total = [0]  # runs
+first = [0]  # of the calls that fail
 
 
 class Folder:
@@ -65,8 +71,8 @@ class Folder:
         self.path = path
         self.inputs = {}
         for name, content in (("square.txt", SQUARE.encode()), ("triangle.txt", TRIANGLE.encode()),
-                              ("ring.npy", npy((3, 3), [0, 1, 2, 1, 9, 3, 2, 3, 4])),
-                              ("table.pcd", table().encode()),
+                              ("ring.npy", files.array((3, 3), [0, 1, 2, 1, 9, 3, 2, 3, 4])),
+                              ("table.pcd", table()),
                               ("square.txt.gz", gzip.compress(SQUARE.encode()))):
             self.add(name, content)
 
@@ -124,10 +130,12 @@ def check(folder, case, known, wrong):
     sizes, want = calls_of(folder, *case)
     assert set(want) == set(outputs.values()) - {"/dev/null"}, want.keys()
     before = shared(sizes, known)
-    calls = [*range(1, before + 1, SAMPLED), *range(before + 1, len(sizes) + 1)]
     runs = {0: 0, 75: 0}
     for how in ("PH_FAIL_AT", "PH_FAIL_FROM"):
-        for call in calls:
+        first[0] += 5  # prime to EVERY
+        skip = first[0] % EVERY
+        for call in [*range(1 + skip, before + 1, SAMPLED * EVERY),
+                     *range(before + 1 + skip, len(sizes) + 1, EVERY)]:
             run = folder.run(*case, **{how: str(call)})
             left = folder.outputs()
             label = f"{os.path.basename(program)} {' '.join(arguments)} {how}={call}"
@@ -165,12 +173,12 @@ def main():
         folder.add("out.png.in", made["out.png"])
         # Most calls declare the options, the same in every run of a program: all of them fail in
         # its first case.
-        first = {}
+        of_program = {}
         built_in = subprocess.run([BARCODE, "--version", "--verbose"], stdout=subprocess.PIPE,
                                   check=True).stdout
         for case in CASES + (REPORTS if re.search(rb"reports +built in", built_in) else []):
-            sizes = check(folder, case, first.get(case[0], []), wrong)
-            first.setdefault(case[0], sizes)
+            sizes = check(folder, case, of_program.get(case[0], []), wrong)
+            of_program.setdefault(case[0], sizes)
     print("\n".join([*wrong, f"{total[0]} runs"]))
     return 1 if wrong else 0
 

@@ -3,13 +3,13 @@
 output, by whatever name, unless --force allows the first."""
 import json
 import os
-import struct
 import subprocess
 import sys
 import tempfile
 import unittest
 
-from option_inputs_segment import CAMERA, FOCAL, HEIGHT, WIDTH, depths, pcd, png, points_of
+from option_inputs_segment import CAMERA, FOCAL, HEIGHT, WIDTH, depth_png, depths, pcd, points_of
+from files import RGB, png
 
 BARCODE = SEGMENT = None
 POINTS = b"0 0\n1 0\n1 1\n0 1.25\n"
@@ -106,7 +106,7 @@ class Overwrites(unittest.TestCase):
         image = depths(36)
         for name in clouds:
             self.write(name, pcd(list(points_of(image)), WIDTH, HEIGHT))
-        self.write("d.png", png(WIDTH, [struct.pack(f">{WIDTH}H", *row) for row in image], 16, 0))
+        self.write("d.png", depth_png(image))
         self.write("cam.json", json.dumps({
             "width": WIDTH, "height": HEIGHT, "intrinsic_matrix":
             [FOCAL, 0, 0, 0, FOCAL, 0, WIDTH / 2, HEIGHT / 2, 1]}).encode())
@@ -116,7 +116,7 @@ class Overwrites(unittest.TestCase):
 
     def test_ph_segment(self):
         self.scene("s.pcd")
-        self.write("c.png", png(WIDTH, [bytes([9, 9, 9]) * WIDTH] * HEIGHT, 8, 2))
+        self.write("c.png", png(WIDTH, HEIGHT, 8, RGB, [bytes([9, 9, 9]) * WIDTH] * HEIGHT))
         files = ("s.pcd", "d.png", "c.png", "cam.json")
         depth = ["--depth", "d.png", "--color", "c.png", "--intrinsics", CAMERA]
         for alias in ALIASES:

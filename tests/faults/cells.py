@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Rows 9 to 16: one cell that is no number, or a number that the input may not hold."""
-from clouds import pcd_header, ply_header, XYZ
+from clouds import ply_header, XYZ
+from files import pcd_header
 
 from entry import bars, labels, refused, taken
 

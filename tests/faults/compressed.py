@@ -5,9 +5,9 @@ import struct
 import zipfile
 import zlib
 
-from arrays import GRID, nifti
-from clouds import CORNERS, TRIANGLE, XYZ, columns, floats, pcd_header, ply_header
-from sample import (GREY, PNG_SIGNATURE, gzipped, lzf, npy, npz, png, png_chunk)
+from arrays import GRID, VALUES
+from clouds import CORNERS, TRIANGLE, XYZ, columns, floats, ply_header
+from files import (GREY, PNG_SIGNATURE, gzipped, lzf, nifti, npy, npz, pcd_header, png, png_chunk)
 
 from entry import refused, sample, with_bytes, with_change
 
@@ -173,7 +173,7 @@ def trailing():
             ("pts", sample("pts", "plain.pts") + b"1 1 1\n"),
             ("npy", GRID + b"\0"),
             ("npz", npz({"a.npy": GRID}) + b"\0"),
-            ("nifti", nifti(2, "u1") + b"\0"),
+            ("nifti", nifti("|u1", (3, 2), VALUES) + b"\0"),
             ("pgm", sample("image", "raw.pgm") + b"\n"),
             ("pgm", sample("image", "raw.pgm") * 2),
             ("pgm", sample("image", "plain.pgm") + b"1\n"),

@@ -2,9 +2,10 @@
 """Rows 31 to 38: headers that promise what is not there, or cannot be."""
 import struct
 
-from arrays import GRID, MAGIC, nifti
-from clouds import TRIANGLE, XYZ, floats, pcd_header, ply_header
-from sample import GREY, RGB, npy, npy_header, npz, png, png_chunk, words
+from arrays import GRID, VALUES
+from clouds import TRIANGLE, XYZ, floats, ply_header
+import files
+from files import DIPHA_MAGIC, GREY, RGB, dipha, npy, npy_header, npz, pcd_header, png, png_chunk, words
 
 from entry import Entry, refused, sample, with_bytes, with_change
 
@@ -24,8 +25,8 @@ def shape(text, descr="<f8"):
     return npy_header(f"{{'descr': '{descr}', 'fortran_order': False, 'shape': {text}, }}") + bytes(8)
 
 
-def dipha(*numbers):
-    return words("<", MAGIC, *numbers)
+def nifti():
+    return files.nifti("|u1", (3, 2), VALUES)
 
 
 def with_size(content, width, height):
@@ -35,7 +36,7 @@ def with_size(content, width, height):
 
 
 def extents(*numbers):
-    content = bytearray(nifti(2, "u1"))
+    content = bytearray(nifti())
     struct.pack_into(f"<{len(numbers) + 1}h", content, 40, len(numbers), *numbers)
     return bytes(content)
 
@@ -75,7 +76,7 @@ def tera():
     yield refused(31, "perseus", "values", "1\n1000000000000\n1 2\n", "sizes do not fit the file")
     yield refused(31, "perseus", "a cube far away", "2\n1000000 1000000 5\n", "input.perseus")
     yield refused(31, "nifti", "voxels", extents(32767, 32767, 931), "truncated")
-    yield refused(31, "nifti", "offset", with_bytes(nifti(2, "u1"), 108, struct.pack("<f", 1e12)),
+    yield refused(31, "nifti", "offset", with_bytes(nifti(), 108, struct.pack("<f", 1e12)),
                   "offset of the voxels")
     yield refused(31, "phat", "a dimension, ascii", f"{TERA}\n", ":1:1: dimension")
 
@@ -133,9 +134,9 @@ def negative():
     yield refused(33, "pgm", "grey", "P2 1 1 9\n-1\n", "grey value is not a number")
     yield refused(33, "perseus", "dimension", "-1\n1\n1\n", ":1:1: dimension out of range")
     yield refused(33, "nifti", "an axis", extents(-3, 2), "size of axis 0, found -3")
-    yield refused(33, "nifti", "number of axes", with_bytes(nifti(2, "u1"), 40, b"\xff\xff"),
+    yield refused(33, "nifti", "number of axes", with_bytes(nifti(), 40, b"\xff\xff"),
                   "number of axes, found -1")
-    yield refused(33, "nifti", "offset", with_bytes(nifti(2, "u1"), 108, struct.pack("<f", -352)),
+    yield refused(33, "nifti", "offset", with_bytes(nifti(), 108, struct.pack("<f", -352)),
                   "offset of the voxels")
 
 
@@ -232,9 +233,9 @@ def counts_and_sizes():
     yield refused(37, "pcd", "a float of 1", pcd_header(sizes="4 4 1") + POINT, "TYPE F of SIZE 1")
     yield refused(37, "npy", "a float of 3", shape("(1,)", "<f3"), "NPY element type, found <f3")
     yield refused(37, "npy", "a float of 16", shape("(1,)", "<f16"), "NPY element type")
-    yield refused(37, "nifti", "bits of a voxel", with_bytes(nifti(2, "u1"), 72, b"\x18\0"),
+    yield refused(37, "nifti", "bits of a voxel", with_bytes(nifti(), 72, b"\x18\0"),
                   "bits of a voxel, found 24")
-    yield refused(37, "nifti", "header size", with_bytes(nifti(2, "u1"), 0, b"\x5d\1"),
+    yield refused(37, "nifti", "header size", with_bytes(nifti(), 0, b"\x5d\1"),
                   "not a NIfTI-1 file")
     yield refused(37, "png", "3 bits", png(1, 1, 3, 0, [b"\0"]), "PNG")
     yield refused(37, "binary", "3 bytes", b"\0\0\0", "not a triangle")
@@ -272,12 +273,12 @@ def unknown():
                   "double cannot hold")
     for code in (1, 32, 128, 1536, 2304):
         yield refused(38, "nifti", f"datatype {code}",
-                      with_bytes(nifti(2, "u1"), 70, struct.pack("<h", code)), f"datatype, found {code}")
-    yield refused(38, "nifti", "a pair of files", with_bytes(nifti(2, "u1"), 344, b"ni1\0"), "pair")
-    yield refused(38, "nifti", "ANALYZE", with_bytes(nifti(2, "u1"), 344, bytes(4)), "NIfTI magic")
+                      with_bytes(nifti(), 70, struct.pack("<h", code)), f"datatype, found {code}")
+    yield refused(38, "nifti", "a pair of files", with_bytes(nifti(), 344, b"ni1\0"), "pair")
+    yield refused(38, "nifti", "ANALYZE", with_bytes(nifti(), 344, bytes(4)), "NIfTI magic")
     for kind in (3, 9, -1):
         yield refused(38, "dipha", f"type {kind}", dipha(kind, 0), "DIPHA|diagram")
-    yield refused(38, "dipha", "magic number", words("<", MAGIC + 1, 1), "not a DIPHA file")
+    yield refused(38, "dipha", "magic number", words("<", DIPHA_MAGIC + 1, 1), "not a DIPHA file")
     yield refused(38, "dipha", "a dualised matrix", dipha(0, 1, 0, 0, 0), "dualised")
     for magic in ("P1", "P3", "P4", "P6", "P7", "p2"):
         yield refused(38, "pgm", magic, f"{magic} 1 1 9\n0\n", "not a PGM file")

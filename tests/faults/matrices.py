@@ -2,8 +2,7 @@
 """Rows 17 to 24 and 43 to 46: rows, headers, matrices that are none, and pairs of points."""
 import struct
 
-from arrays import MAGIC, packed
-from sample import npy, words
+from files import dipha, npy, packed
 
 from clouds import pcd_header, ply_header, XYZ
 from entry import bars, refused, taken
@@ -105,13 +104,13 @@ def diagonal():
                 note="0 but for rounding")
     yield refused(22, "distance", "more than rounding", "1e-5 1\n1 0\n", ":1:1: non-zero diagonal")
     yield refused(22, "npy-distance", "not zero", square([0, 1, 1, 3]), "diagonal at row 1, column 1")
-    yield refused(22, "dipha", "not zero", words("<", MAGIC, 7, 2, 0., 1., 1., 3.), "diagonal")
+    yield refused(22, "dipha", "not zero", dipha(7, 2, 0., 1., 1., 3.), "diagonal")
     yield refused(22, "distance", "negative distance", "0 -1\n-1 0\n", ":1:3: negative distance")
     yield refused(22, "lower-distance", "negative distance", "-1\n", ":1:1: negative distance")
     yield refused(22, "upper-distance", "negative distance", "1 -2\n1\n", ":1:3: negative distance")
     yield refused(22, "sparse", "negative distance", "0 1 -1\n", ":1:5: negative distance")
     yield refused(22, "binary", "negative distance", struct.pack("<f", -1), "byte 0: negative")
-    yield refused(22, "dipha", "negative distance", words("<", MAGIC, 7, 2, 0., -1., -1., 0.),
+    yield refused(22, "dipha", "negative distance", dipha(7, 2, 0., -1., -1., 0.),
                   "negative distance")
     yield refused(22, "npy-distance", "NaN", square([0, float("nan")] * 2), "NaN")
     yield refused(22, "binary", "NaN", struct.pack("<f", float("nan")), "byte 0: .*NaN")
@@ -120,7 +119,7 @@ def diagonal():
     yield refused(22, "distance", "births without the option", births, "--diagonal births")
     yield taken(22, "npy-distance", "births", square([2, 3, 3, 0.5]), bars("0,0.5,inf", "0,2,3"),
                 "--diagonal", "births")
-    yield taken(22, "dipha", "births", words("<", MAGIC, 7, 2, 2., 3., 3., 0.5),
+    yield taken(22, "dipha", "births", dipha(7, 2, 2., 3., 3., 0.5),
                 bars("0,0.5,inf", "0,2,3"), "--diagonal", "births")
     for bad in ("-1", "inf"):
         yield refused(22, "distance", f"{bad} as a birth", f"0 1\n1 {bad}\n", ":2:3: ", "--diagonal",
@@ -134,7 +133,7 @@ def asymmetric():
     content = "0 1 2\n1.5 0 3\n2 3 0\n"
     yield refused(23, "distance", "by a half", content, r":2:1: asymmetric .*d\(1,0\) = 1.5 .*--symm")
     yield refused(23, "npy-distance", "by a half", square([0, 1, 1.5, 0]), "asymmetric")
-    yield refused(23, "dipha", "by a half", words("<", MAGIC, 7, 2, 0., 1., 1.5, 0.), "asymmetric")
+    yield refused(23, "dipha", "by a half", dipha(7, 2, 0., 1., 1.5, 0.), "asymmetric")
     yield refused(23, "distance", "inf on one side", "0 inf\n1 0\n", ":2:1: asymmetric")
     yield refused(23, "distance", "by 1e-5", "0 1\n1.00001 0\n", ":2:1: asymmetric")
     yield taken(23, "distance", "by 1e-7", "0 1.0000001\n1 0\n", bars("0,0,1", "0,0,inf"))
@@ -164,7 +163,7 @@ def correlations():
 
 
 def sparse_of_dipha(degrees, ids, distances, count=3):
-    return words("<", MAGIC, 8, count, *degrees, *ids, *distances)
+    return dipha(8, count, *degrees, *ids, *distances)
 
 
 def pairs():

@@ -3,9 +3,9 @@
 import os
 import struct
 
-from arrays import CAMERA, packed
+from arrays import CAMERA
 from clouds import NAN, columns, compressed, floats, pcd_header, ply_header
-from sample import GREY, npy, png
+from files import GREY, npy, packed, png
 
 from entry import Entry, bars, labels, refused, taken
 

@@ -10,7 +10,7 @@ import subprocess
 import tempfile
 import threading
 
-from arrays import nifti
+from files import nifti
 
 from entry import Entry, Unavailable, bars
 from characters import SQUARE, SQUARE_BARS
@@ -300,7 +300,7 @@ def surroundings():
         yield squares(row, locale, "SQUARE.TXT", "--quiet", files={"SQUARE.TXT": SQUARE.encode()},
                       around=inside)
         yield squares(row, f"{locale}, an extension in capitals", "A.NII", "--quiet",
-                      files={"A.NII": nifti(2, "u1", [1] * 6)}, output=bars("0,1,inf"), around=inside)
+                      files={"A.NII": nifti("|u1", (3, 2), [1] * 6)}, output=bars("0,1,inf"), around=inside)
         yield refused(row, f"{locale}, a decimal comma", "c.txt", code=65, message="decimal point",
                       named="c.txt", files={"c.txt": b"0,5 1,5\n"}, around=inside)
     for zone in ("X", "Asia/Kathmandu", ":/dev/full"):

@@ -4,18 +4,12 @@ import struct
 import zipfile
 import zlib
 
-from sample import (GREY, GREY_ALPHA, PALETTE, RGB, RGBA, Sample, gzipped, npy, npy_header, npz,
-                    png, png_chunk, words)
+from sample import Sample
+import files
+from files import (GREY, GREY_ALPHA, KINDS, NIFTI_TYPES, PALETTE, RGB, RGBA, gzipped, npy, npy_header,
+                   npz, packed, png, png_chunk, words)
 
 VALUES = [0, 5, 2, 4, 9, 1]
-KINDS = {"b1": "?", "i1": "b", "i2": "h", "i4": "i", "i8": "q", "u1": "B", "u2": "H", "u4": "I",
-         "u8": "Q", "f2": "e", "f4": "f", "f8": "d"}
-
-
-def packed(descr, values):
-    order = ">" if descr[0] == ">" else "<"
-    convert = {"b": bool, "f": float}.get(descr[1], int)
-    return struct.pack(f"{order}{len(values)}{KINDS[descr[1:]]}", *map(convert, values))
 
 
 def numpy_image(name, descr, shape=(2, 3), values=VALUES, **options):
@@ -52,36 +46,21 @@ NUMPY = [
 ]
 
 
-def nifti(datatype, kind, values=VALUES, extents=(3, 2), order="<", slope=0.0, intercept=0.0):
-    header = bytearray(352)
-    bits = 8 * struct.calcsize("<" + KINDS[kind])
-    struct.pack_into(order + "i", header, 0, 348)
-    struct.pack_into(f"{order}8h", header, 40, len(extents), *extents, *[1] * (7 - len(extents)))
-    struct.pack_into(order + "2h", header, 70, datatype, bits)
-    struct.pack_into(order + "3f", header, 108, 352, slope, intercept)
-    header[344:348] = b"n+1\0"
-    return bytes(header) + packed(order + kind, values)
-
-
-def nifti_sample(name, *arguments, **options):
-    return Sample(name, "nifti", nifti(*arguments, **options), True)
+def nifti_sample(name, descr, extents=(3, 2), values=VALUES, **options):
+    return Sample(name, "nifti", files.nifti(descr, extents, values, **options), True)
 
 
 NIFTI = [
-    *(nifti_sample(f"{kind}.nii", datatype, kind) for kind, datatype in
-      {"u1": 2, "i2": 4, "i4": 8, "f4": 16, "f8": 64, "i1": 256, "u2": 512, "u4": 768,
-       "u8": 1280}.items()),
-    nifti_sample("f4_scaled.nii", 16, "f4", slope=0.5, intercept=-1),
-    nifti_sample("big_endian_f8.nii", 64, "f8", order=">"),
-    nifti_sample("volume_i8.nii", 1024, "i8", extents=(3, 1, 2, 1, 1)),
-    Sample("u2.nii.gz", "nifti", gzipped(nifti(512, "u2")), True),
+    *(nifti_sample(f"{kind}.nii", "<" + kind) for kind in NIFTI_TYPES if kind != "i8"),
+    nifti_sample("f4_scaled.nii", "<f4", slope=0.5, intercept=-1),
+    nifti_sample("big_endian_f8.nii", ">f8"),
+    nifti_sample("volume_i8.nii", "<i8", extents=(3, 1, 2, 1, 1)),
+    Sample("u2.nii.gz", "nifti", gzipped(files.nifti("<u2", (3, 2), VALUES)), True),
 ]
-
-MAGIC = 8067171840
 
 
 def dipha(name, reader, *numbers):
-    return Sample(name, reader, words("<", MAGIC, *numbers), True)
+    return Sample(name, reader, files.dipha(*numbers), True)
 
 
 DIPHA = [

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Barcodes, as ph-barcode writes them and others do."""
-from sample import Sample, npy, words
-from arrays import MAGIC, packed
+from sample import Sample
+from files import dipha, npy, packed
 
 
 def barcode(name, content, sized=False):
@@ -42,7 +42,7 @@ SAMPLES = [
     barcode("bars.ripser", RIPSER),
     barcode("bars.pers", b"0 0 1.5\n0 0 inf\n1 1.25 2\n"),
     barcode("characteristic.pers", b"2  0 0 1.5\n2  0 0 inf\n3  1 1.25 2\n"),
-    barcode("bars.dipha", words("<", MAGIC, 2, 3, 0, 0., 1.5, -1, 0., 2., 1, 1.25, 2.), sized=True),
+    barcode("bars.dipha", dipha(2, 3, 0, 0., 1.5, -1, 0., 2., 1, 1.25, 2.), sized=True),
     barcode("bars.npy", npy("<f8", (2, 3), packed("<f8", [0, 0, 1.5, 0, 0, float("inf")])),
             sized=True),
 ]

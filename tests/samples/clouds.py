@@ -2,7 +2,8 @@
 """Point clouds and meshes: PCD, PLY, XYZ, PTS."""
 import struct
 
-from sample import Sample, gzipped, lzf
+from sample import Sample
+from files import gzipped, lzf, pcd_header
 
 NAN = float("nan")
 CORNERS = [(0, 0, 1), (0.5, 0, 1), (0, 0.25, 1), (0.5, 0.25, 2)]
@@ -10,14 +11,6 @@ CORNERS = [(0, 0, 1), (0.5, 0, 1), (0, 0.25, 1), (0.5, 0.25, 2)]
 
 def cloud(name, reader, content, sized=True):
     return Sample(name, reader, content, sized, ("{}",), "ph-segment")
-
-
-def pcd_header(fields="x y z", sizes="4 4 4", types="F F F", counts="1 1 1", width=4, height=1,
-               points=None, data="ascii"):
-    points = width * height if points is None else points
-    return (f"# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS {fields}\n"
-            f"SIZE {sizes}\nTYPE {types}\nCOUNT {counts}\nWIDTH {width}\nHEIGHT {height}\n"
-            f"VIEWPOINT 0 0 0 1 0 0 0\nPOINTS {points}\nDATA {data}\n").encode()
 
 
 def floats(points):

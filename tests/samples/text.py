@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Formats of numbers as text: points, distances, complexes, images."""
-from sample import Sample, gzipped
+from sample import Sample
+from files import gzipped
 
 SQUARE = b"0 0\n1 0\n1 1\n0 1.25\n"
 CIRCLE = (b"1 0\n0.866025 0.5\n0.5 0.866025\n0 1\n-0.5 0.866025\n-0.866025 0.5\n-1 0\n"

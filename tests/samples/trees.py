@@ -3,7 +3,8 @@
 import binascii
 import struct
 
-from sample import Sample, words
+from sample import Sample
+from files import words
 
 SURFACE, PAPER = 0, 1
 NO_VERTEX = 0xFFFFFFFF

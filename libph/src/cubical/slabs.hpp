@@ -52,7 +52,20 @@ class Slabs {
   void forget(std::uint32_t slab) {
     around_ = decltype(around_)(around_.get_allocator());
     const CubicalImage part = frame_.layers(begin(slab), end(slab));
-    if (part.is_in_file) forget_file_pages(part.voxels, part.size() * bytes_of(part.type));
+    if (part.is_in_file) {
+      // The system maps what lies around a page that is read, too: pages of slabs that are done.
+      constexpr std::ptrdiff_t kMappedAround = 64 << 10;
+      const CubicalImage all = frame_.layers(0, depth());
+      const auto* const begin_of_all = static_cast<const char*>(all.voxels);
+      const auto* const voxels = static_cast<const char*>(part.voxels);
+      const auto bytes = [](const CubicalImage& image) {
+        return static_cast<std::ptrdiff_t>(image.size() * bytes_of(image.type));
+      };
+      const std::ptrdiff_t at = voxels - begin_of_all;
+      const std::ptrdiff_t from = std::max<std::ptrdiff_t>(at - kMappedAround, 0);
+      const std::ptrdiff_t to = std::min(at + bytes(part) + kMappedAround, bytes(all));
+      forget_file_pages(begin_of_all + from, static_cast<std::size_t>(to - from));
+    }
     read_.reset();
   }
 

@@ -133,7 +133,9 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
       lines.fail(lines.line().data(),
                  {"ragged row", fmt::format("{} cell{}", k, k == 1 ? "" : "s"),
                   fmt::format("{}, as in line {}", width, first_line),
-                  k < width && lines.offset() == input.size() ? "is the file truncated?" : ""});
+                  k < width && lines.offset() == input.size() ? "is the file truncated?"
+                  : options.array == ArrayMeaning::image      ? "an image has rows of one length"
+                                                              : ""});
     }
     ++count;
   } while (lines.next());

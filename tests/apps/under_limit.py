@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: MIT
+"""Runs ph-barcode under a memory limit: TEST.py PH_BARCODE PEAK. PEAK is the program of
+tests/faults/peak.c."""
+import os
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import program
+from program import ProgramTest
+
+BESIDE = 32  # MiB that code, libraries and small things may take beside the limit
+PEAK = os.path.abspath(sys.argv.pop(2))
+INPUTS = tempfile.TemporaryDirectory()  # of all tests of a script
+FILES = (".txt", ".dipha", ".values", ".npy", ".gz")
+
+
+def is_sanitized():
+    with open(program.PROGRAM, "rb") as file:
+        return b"__asan_init" in file.read()
+
+
+def peak_of(arguments, folder, seconds=None):
+    """@return exit code (None: still running after so many seconds of CPU), peak in MiB, seconds of
+    CPU, stderr."""
+    read_end, write_end = os.pipe()
+    with os.fdopen(read_end) as report:
+        run = subprocess.run(
+            [PEAK, f"/dev/fd/{write_end}", program.PROGRAM, *arguments], cwd=folder, text=True,
+            stdin=subprocess.DEVNULL, capture_output=True, pass_fds=[write_end], check=False,
+            preexec_fn=lambda: seconds and resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds)))
+        os.close(write_end)
+        kib, microseconds = map(int, report.read().split())
+    stopped = run.returncode in (-signal.SIGKILL, -signal.SIGXCPU)
+    return None if stopped else run.returncode, kib / 1024, microseconds / 1e6, run.stderr
+
+
+class UnderLimit(ProgramTest):
+    """`write_inputs` of a class writes what its tests read, once for all that have the same."""
+    written = set()
+
+    @classmethod
+    def setUpClass(cls):
+        if is_sanitized():
+            raise unittest.SkipTest("AddressSanitizer takes memory of its own")
+        if cls.write_inputs not in UnderLimit.written:
+            cls.write_inputs(INPUTS.name)
+            UnderLimit.written.add(cls.write_inputs)
+
+    def forget(self, *names):
+        for name in os.listdir(self.folder):  # also what a run that was killed had begun
+            if name in names or name.startswith(".ph-"):
+                os.remove(self.path(name))
+
+    def run_within(self, limit, seconds, arguments):
+        """@param limit in MiB. @return as `peak_of`."""
+        output = () if "--output-format" in arguments else ("--output-format", "csv")
+        words = [os.path.join(INPUTS.name, word) if word.endswith(FILES) else word
+                 for word in arguments]
+        return peak_of([*words, *output, "--quiet", "-o", "out", "--memory-limit", f"{limit}MiB"],
+                       self.folder, seconds)

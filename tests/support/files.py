@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: MIT
+"""Small encoders of the formats that tests write: NumPy, NIfTI, DIPHA, PNG and PCD."""
+import binascii
+import io
+import struct
+import zipfile
+import zlib
+
+KINDS = {"b1": "?", "i1": "b", "i2": "h", "i4": "i", "i8": "q", "u1": "B", "u2": "H", "u4": "I",
+         "u8": "Q", "f2": "e", "f4": "f", "f8": "d"}
+DIPHA_MAGIC = 8067171840
+
+
+def words(order, *numbers):
+    """Integers as int64, floats as float64. @param order '<' or '>'."""
+    return b"".join(struct.pack(order + ("q" if isinstance(n, int) else "d"), n) for n in numbers)
+
+
+def packed(descr, values):
+    """@param descr as in NumPy: "<f8", "|u1"."""
+    order = ">" if descr[0] == ">" else "<"
+    convert = {"b": bool, "f": float}.get(descr[1], int)
+    return struct.pack(f"{order}{len(values)}{KINDS[descr[1:]]}", *map(convert, values))
+
+
+def npy_header(header, version=1):
+    """Magic number, version and header, padded so that the data start at a multiple of 64."""
+    length = 10 if version == 1 else 12
+    encoded = header.encode("latin1" if version < 3 else "utf-8")
+    encoded += b" " * (-(length + len(encoded) + 1) % 64) + b"\n"
+    return (b"\x93NUMPY" + bytes([version, 0])
+            + struct.pack("<H" if version == 1 else "<I", len(encoded)) + encoded)
+
+
+def npy(descr, shape, data, fortran=False, version=1):
+    shape = "({},)".format(shape[0]) if len(shape) == 1 else str(tuple(shape))
+    return npy_header(f"{{'descr': '{descr}', 'fortran_order': {fortran}, 'shape': {shape}, }}",
+                      version) + data
+
+
+def array(shape, values, descr="<f8", fortran=False):
+    """An NPY file of these values, in the order in which they are stored."""
+    return npy(descr, shape, packed(descr, values), fortran)
+
+
+def npz(members, method=zipfile.ZIP_STORED):
+    """@param members name to content."""
+    archive = io.BytesIO()
+    with zipfile.ZipFile(archive, "w", method) as file:
+        for name, content in members.items():
+            file.writestr(zipfile.ZipInfo(name, (2020, 1, 1, 0, 0, 0)), content, method)
+    return archive.getvalue()
+
+
+def gzipped(content):
+    """Without a time in its header: the same bytes each time."""
+    packer = zlib.compressobj(9, zlib.DEFLATED, 31)
+    return packer.compress(content) + packer.flush()
+
+
+def png_chunk(kind, content):
+    return (struct.pack(">I", len(content)) + kind + content
+            + struct.pack(">I", binascii.crc32(kind + content)))
+
+
+PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+GREY, RGB, PALETTE, GREY_ALPHA, RGBA = 0, 2, 3, 4, 6
+
+
+def png(width, height, bits, colour, rows, extra=b""):
+    """@param rows the bytes of each row. @param extra chunks before the pixels."""
+    header = struct.pack(">IIBBBBB", width, height, bits, colour, 0, 0, 0)
+    return (PNG_SIGNATURE + png_chunk(b"IHDR", header) + extra
+            + png_chunk(b"IDAT", zlib.compress(b"".join(b"\0" + row for row in rows), 9))
+            + png_chunk(b"IEND", b""))
+
+
+NIFTI_TYPES = {"u1": 2, "i2": 4, "i4": 8, "f4": 16, "f8": 64, "i1": 256, "u2": 512, "u4": 768,
+               "i8": 1024, "u8": 1280}
+
+
+def nifti(descr, extents, values, slope=0.0, intercept=0.0):
+    """@param values as they are stored, the first axis fastest."""
+    header = bytearray(352)
+    order, kind = descr[0].replace("|", "<"), descr[1:]
+    struct.pack_into(order + "i", header, 0, 348)
+    struct.pack_into(f"{order}8h", header, 40, len(extents), *extents, *[1] * (7 - len(extents)))
+    struct.pack_into(order + "2h", header, 70, NIFTI_TYPES[kind],
+                     8 * struct.calcsize("<" + KINDS[kind]))
+    struct.pack_into(order + "3f", header, 108, 352, slope, intercept)
+    header[344:348] = b"n+1\0"
+    return bytes(header) + packed(descr, values)
+
+
+def dipha(*numbers):
+    return words("<", DIPHA_MAGIC, *numbers)
+
+
+def dipha_image(extents, values):
+    """@param values the first axis fastest."""
+    return dipha(1, len(values), len(extents), *extents, *map(float, values))
+
+
+def pcd_header(fields="x y z", sizes="4 4 4", types="F F F", counts="1 1 1", width=4, height=1,
+               points=None, data="ascii"):
+    points = width * height if points is None else points
+    return (f"# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS {fields}\n"
+            f"SIZE {sizes}\nTYPE {types}\nCOUNT {counts}\nWIDTH {width}\nHEIGHT {height}\n"
+            f"VIEWPOINT 0 0 0 1 0 0 0\nPOINTS {points}\nDATA {data}\n").encode()
+
+
+def lzf(content):
+    """LZF with literals, and matches where a byte repeats."""
+    out, literals, i = bytearray(), bytearray(), 0
+
+    def flush():
+        for k in range(0, len(literals), 32):
+            run = literals[k:k + 32]
+            out.append(len(run) - 1)
+            out.extend(run)
+        literals.clear()
+
+    while i < len(content):
+        run = 1
+        while i + run < len(content) and run < 265 and content[i + run] == content[i]:
+            run += 1
+        literals.append(content[i])
+        if run > 9:
+            flush()
+            out.extend((0xE0, run - 1 - 9, 0))  # the byte before, run - 1 times more
+            i += run
+        else:
+            i += 1
+    flush()
+    return bytes(out)
