@@ -74,6 +74,42 @@ TEST(ReadTable, EmptyCellsAreMissingIfNanIsDropped) {
   bad_data([&] { any(text, {.from_correlation = true}); });
 }
 
+std::string repeated(std::string_view text, int times) {
+  std::string all;
+  while (times-- > 0) all += text;
+  return all;
+}
+
+TEST(ReadTable, CellsOfNothingTakeAByte) {
+  const std::string wide = repeated("1,,,,,,,,,2\n", 1000);
+  const Points two = std::get<Points>(any(wide, {.columns = {"1", "10"}}).data);
+  ASSERT_EQ(two.rows(), 1000);
+  EXPECT_TRUE((two.col(0).array() == 1).all() && (two.col(1).array() == 2).all());
+  const std::string holes = "1,2,3,4\n" + repeated(",,,\n", 1000);
+  EXPECT_EQ(std::get<Points>(any(holes, {.nan = NanPolicy::drop}).data).rows(), 1);
+  const ReadResult grid =
+      read_any(Input::view(holes, "g.csv"), Format::grid, {.nan = NanPolicy::drop});
+  EXPECT_EQ(std::get<Image>(grid.data).extents, (std::vector<Index>{1001, 4}));
+  const auto unknown = std::get<DistanceMatrix>(
+      read_any(Input::view(repeated(std::string(39, ',') + '\n', 40), "d.csv"), Format::distance,
+               {.nan = NanPolicy::drop})
+          .data);
+  EXPECT_EQ(unknown.size(), 40);
+  EXPECT_EQ(unknown(3, 7), kInf);
+}
+
+TEST(ReadTable, TheLastCellMayBeEmptyWhereItIsNotTaken) {
+  EXPECT_EQ(std::get<Points>(any("1,2,3\n4,5,\n", {.columns = {"1-2"}}).data),
+            (Points(2, 2) << 1, 2, 4, 5).finished());
+  const auto distances = [](const std::string& text) {
+    return std::get<DistanceMatrix>(
+        read_any(Input::view(text, "m.csv"), Format::distance, {.columns = {"1-3"}}).data);
+  };
+  EXPECT_EQ(distances("0,1,2,9\n1,0,3,\n2,3,0,\n")(1, 2), 3);
+  const std::string message = bad_data([&] { distances("0,1,2,9,9,9,9\n1,0\n2,3,0,9,9,9,9\n"); });
+  EXPECT_TRUE(contains(message, "found 2 cells, expected 7")) << message;
+}
+
 TEST(ReadTable, MatricesAreKnownByTheirDiagonal) {
   const auto format = [](const std::string& text) { return any(text).format; };
   EXPECT_EQ(format("0.0e+00 1 2\n1 0.0e+00 3\n2 3 0.0e+00\n"), Format::distance);

@@ -128,10 +128,10 @@ std::string why_square(const ReadOptions& options) {
 }
 
 // Memory for all pairs of n points, once the bytes that are there were found to be enough for
-// `cells` cells.
+// `cells` cells, of which empty ones take a byte.
 std::vector<double> make_triangle(const Input& input, std::size_t n, std::size_t first,
                                   std::optional<std::size_t> cells, const ReadOptions& options) {
-  if (!cells || *cells > input.size() / 2 + 1) {
+  if (!cells || *cells > input.size() + 1) {
     std::size_t rows = 0;
     for (TextLines lines(input); lines.next();) ++rows;
     input.fail({"rows and columns do not fit",
@@ -336,13 +336,13 @@ DistanceMatrix read_text_square(const Input& input, const ReadOptions& options) 
         if (cell == 0) names.check(lines, row, skipped);
       }
     }
-    if (cell + 1 == layout.width && taken[cell] && options.nan == NanPolicy::drop &&
+    if (cell + 1 == layout.width && (options.nan == NanPolicy::drop || !taken[cell]) &&
         detail::ends_empty(lines.line())) {
-      take([](bool on_diagonal) { return on_diagonal ? 0 : kInfinity; });  // NaN
+      if (taken[cell]) take([](bool on_diagonal) { return on_diagonal ? 0 : kInfinity; });  // NaN
       ++cell;
     }
     for (; entries.more(); ++cell) entries.skip();
-    if (cell != layout.width) fail_row(lines, row, cell - (layout.width - n), n);
+    if (cell != layout.width) fail_row(lines, row, cell, layout.width);
     ++row;
   } while (lines.next());
   if (row != n) {

@@ -104,12 +104,12 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
       layout != nullptr ? layout->taken() : std::vector<bool>(width, true);
   const auto columns = static_cast<std::size_t>(std::ranges::count(taken, true));
 
-  // No more rows than lines, and a row takes two bytes a cell: memory is at most four times the
-  // file, whatever it holds.
+  // No more rows than lines. A row takes a byte a cell, its separator or the line end, for cells
+  // may be empty: memory is at most eight times the file, whatever it holds.
   const std::string_view rest = input.text().substr(lines.offset());
   const std::size_t by_lines =
       static_cast<std::size_t>(std::count(rest.begin(), rest.end(), '\n')) + 2;
-  const std::size_t most = std::min(by_lines, rest.size() / (2 * width) + 2);
+  const std::size_t most = std::min(by_lines, rest.size() / width + 2);
   input.require_memory(most * columns * sizeof(double));
   table.rows.resize(static_cast<Index>(most), static_cast<Index>(columns));
   double* value = table.rows.data();
@@ -124,7 +124,7 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
         cells.skip();
       }
     }
-    if (k + 1 == width && allow == Allow::missing && ends_empty(lines.line())) {
+    if (k + 1 == width && (allow == Allow::missing || !taken[k]) && ends_empty(lines.line())) {
       if (taken[k]) *value++ = std::numeric_limits<double>::quiet_NaN();
       ++k;
     }
