@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "adjust.hpp"
 
+#include <fmt/format.h>
+
 #include <functional>
 #include <set>
 
@@ -48,11 +50,27 @@ std::set<Numbers> cells_beyond(const AnyComplex& complex, double threshold) {
   return beyond;
 }
 
+/// Coordinates of a grid and rows of a matrix are the numbers of no points.
+void require_vertices(CellKind kind) {
+  if (kind != CellKind::vertices)
+    throw Error(ErrorKind::usage,
+                "ids of points: found cells of a grid or rows of a matrix, expected vertices");
+}
+
+Index id_of(Index v, const std::vector<Index>& ids) {
+  if (v < 0 || static_cast<std::size_t>(v) >= ids.size())
+    throw Error(ErrorKind::usage,
+                fmt::format("ids of points: found vertex {}, expected 0 to {}", v,
+                            static_cast<Index>(ids.size()) - 1));
+  return ids[static_cast<std::size_t>(v)];
+}
+
 }  // namespace
 
 Barcode with_input_ids(const Barcode& barcode, const std::vector<Index>& ids) {
+  require_vertices(barcode.cell_kind());
   const auto rename = [&](Numbers& numbers) {
-    for (Index& v : numbers) v = ids[static_cast<std::size_t>(v)];
+    for (Index& v : numbers) v = id_of(v, ids);
   };
   const auto named = [&](const InputCell& cell) {
     Numbers numbers = numbers_of(cell);
@@ -73,7 +91,7 @@ Barcode with_input_ids(const Barcode& barcode, const std::vector<Index>& ids) {
 void name_points(std::vector<BarLoops>& loops, const std::vector<Index>& ids) {
   for (BarLoops& of_bar : loops)
     for (Loop& loop : of_bar.loops)
-      for (Index& v : loop.numbers) v = ids[static_cast<std::size_t>(v)];
+      for (Index& v : loop.numbers) v = id_of(v, ids);
 }
 
 Barcode cut_at(const Barcode& barcode, const AnyComplex& complex, double threshold,

@@ -9,8 +9,9 @@ namespace ph::barcode {
 
 /// The barcode with vertices named as in an input of which some points were left out: vertex v
 /// becomes ids[v]. The bars keep their places. Precondition: the ids ascend.
+/// @throws Error (usage) if the cells have no vertices, or others than the ids name.
 Barcode with_input_ids(const Barcode& barcode, const std::vector<Index>& ids);
-/// The same for loops of vertices.
+/// The same for loops of vertices. @throws Error (usage) on a vertex without an id.
 void name_points(std::vector<BarLoops>& loops, const std::vector<Index>& ids);
 
 /// The barcode of the subcomplex of all cells up to a value: later births are not in it, and what

@@ -300,7 +300,8 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
     watch.lap("loops");
   }
   const MemoryClaim claim_of_loops(session.context().memory, bytes_of(loops_of_bars));
-  if (!point_ids.empty()) {
+  // Points may have become an image, whose cells are named by coordinates.
+  if (!point_ids.empty() && barcode.cell_kind() == CellKind::vertices) {
     barcode = with_input_ids(barcode, point_ids);
     name_points(loops_of_bars, point_ids);
   }

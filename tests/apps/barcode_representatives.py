@@ -131,6 +131,23 @@ class Representatives(ProgramTest):
                 self.assertEqual("voxels" in bar, bar["dim"] in (0, 2))
             self.assertEqual({bar["dim"] for bar in bars}, {0, 1, 2})
 
+    def test_voxels_of_points_with_holes(self):
+        """Cells of a grid have no numbers of points, though rows of the table are left out."""
+        ring = ["0,0", "nan,1", "2,0", "4,0", "4,2", "4,4", ",7", "2,4", "0,4", "0,2", "9,9"]
+        whole = [line for line in ring if line not in ("nan,1", ",7")]
+        self.write("holes.csv", "\n".join(ring) + "\n")
+        self.write("whole.csv", "\n".join(whole) + "\n")
+        for kind in ("cycles", "cocycles", "voxels"):
+            options = ["--nan", "drop", "--complex", "cubical", "--voxel", "0.5", "--representatives",
+                       kind]
+            bars = self.bars("whole.csv", *options)
+            self.assertEqual(self.bars("holes.csv", *options), bars, kind)
+            self.assertGreater(len(bars), 2)
+        rips = ["--nan", "drop", "--representatives", "cycles"]
+        names = [i for i, line in enumerate(ring) if line in whole]
+        for a, b in zip(self.bars("holes.csv", *rips), self.bars("whole.csv", *rips)):
+            self.assertEqual(name(a["birth_cell"]), tuple(names[v] for v in name(b["birth_cell"])))
+
     def normal(self, bar, field):
         """The bar with its terms in order, the birth cell with coefficient 1."""
         chain = {name(term): (term, term["coefficient"]) for term in bar["representative"]}

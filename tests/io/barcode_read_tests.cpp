@@ -54,6 +54,20 @@ TEST(ReadBarcode, EveryFormatByContent) {
   }
 }
 
+TEST(ReadBarcode, BytesThatBeginLikeJsonAreNone) {
+  const auto is = [](const std::string& bytes, const char* name) {
+    return is_barcode(Input::view(bytes, name));
+  };
+  std::string cells = test::le(std::int64_t{'{'});
+  for (int i = 0; i < '{'; ++i) cells += test::le(std::int64_t{0}) + test::le(std::int64_t{0});
+  EXPECT_FALSE(is(cells, "m.phat"));
+  EXPECT_FALSE(is(cells, "m"));
+  EXPECT_FALSE(is(std::string("{\0\x80\x3f", 4), "d.bin"));
+  EXPECT_FALSE(is("{", "d.sparse"));
+  EXPECT_TRUE(is("{\"bars\": []}", "b"));
+  EXPECT_TRUE(is("\n {\"bars\": []}", "b.txt"));
+}
+
 TEST(ReadBarcode, EmptyOnesToo) {
   for (const BarcodeFormat format : kFormats) {
     const std::string name = "b." + std::string(barcode_format_name(format));

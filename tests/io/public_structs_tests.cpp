@@ -6,9 +6,11 @@
 #include <limits>
 #include <sstream>
 
+#include "ph/io/barcode_io.hpp"
 #include "ph/io/cloud_io.hpp"
 #include "ph/io/png_plot.hpp"
 #include "ph/io/read.hpp"
+#include "ph/io/svg_plot.hpp"
 #include "support/wrong_values.hpp"
 
 namespace ph::test {
@@ -138,6 +140,55 @@ TEST(PublicStructs, RasterAndCamera) {
          write_png(out, raster_of(kMost, 2, 1, 8, 0));
        }},
   });
+}
+
+TEST(PublicStructs, EndsOfAnAxis) {
+  const auto plot = [](std::optional<double> low, std::optional<double> high) {
+    return [=] {
+      Barcode bars(CellKind::vertices);
+      bars.add({0, 0, 1}, {}, {});
+      PlotOptions options;
+      options.axis.low = low;
+      options.axis.high = high;
+      svg_plot(bars, options);
+    };
+  };
+  expect_errors({
+      {"from -infinity", kUsage, "axis: found -inf to 1", plot(-kInfinity, 1)},
+      {"to infinity", kUsage, "to inf", plot(0, kInfinity)},
+      {"to infinity, alone", kUsage, "to inf", plot({}, kInfinity)},
+      {"NaN", kUsage, "nan", plot(kNan, 1)},
+      {"falling", kUsage, "a lower number first", plot(1, 0)},
+  });
+  plot(-1e308, 1e308)();
+}
+
+TEST(PublicStructs, LoopsOfBars) {
+  const auto write = [](std::vector<BarLoops> loops, CellKind kind = CellKind::vertices,
+                        bool has_chain = true) {
+    return [=] {
+      const std::size_t numbers = kind == CellKind::row ? 1 : 2;
+      Barcode bars(kind);
+      bars.add({1, 0, 1}, std::vector<Index>(numbers, 0), {});
+      if (has_chain)
+        bars.set_representative(Representatives::cycles, std::vector<Index>(numbers, 0),
+                                std::vector<std::int64_t>{1});
+      BarcodeInfo info;
+      info.loops = loops;
+      OutputFile file("/dev/null");
+      write_barcode(file, bars, BarcodeFormat::json, info);
+    };
+  };
+  const BarLoops loop{{Loop{{0, 1, 2}, 1}}, Tightness::none};
+  expect_errors({
+      {"too many", kUsage, "those of 2 bars", write({loop, loop})},
+      {"no chain", kUsage, "bar 0 without a chain", write({loop}, CellKind::vertices, false)},
+      {"rows of a matrix", kUsage, "rows of a matrix", write({loop}, CellKind::row)},
+      {"half a vertex", kUsage, "a loop of 3 numbers", write({loop}, CellKind::grid)},
+      {"nothing", kUsage, "a loop of 0 numbers", write({BarLoops{{Loop{}}, Tightness::none}})},
+  });
+  write({loop})();
+  write({})();
 }
 
 TEST(PublicStructs, BranchesOfATree) {

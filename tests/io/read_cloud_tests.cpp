@@ -301,6 +301,25 @@ TEST(ReadDepth, KnowsWhichUnitIsUsual) {
     bad_data([&] { depth(bytes); });
 }
 
+TEST(ReadDepth, RefusesMoreThanOneChannel) {
+  for (const int channels : {1, 2, 3, 4}) {
+    Raster raster{1, 1, channels, 8,
+                  std::vector<std::uint16_t>(static_cast<std::size_t>(channels))};
+    raster.samples.back() = 255;
+    std::ostringstream out;
+    write_png(out, raster);
+    const std::string bytes = out.str();
+    const auto read = [&] { read_depth(Input::view(bytes, "d.png")); };
+    if (channels == 1) {
+      EXPECT_NO_THROW(read());
+      continue;
+    }
+    const std::string message = bad_data(read);
+    EXPECT_TRUE(contains(message, "found " + std::to_string(channels) + " channels, expected 1"));
+    EXPECT_FALSE(contains(message, "--")) << message;
+  }
+}
+
 TEST(CloudFromDepth, CountsWhatCannotBe) {
   const Image depth{{1, 3}, {-1.0, 1.0, 1.0}};
   // Seen at -1, 0 and 1 focal lengths; the lens shows up to 0.7.

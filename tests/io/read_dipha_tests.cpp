@@ -93,6 +93,14 @@ TEST(ReadDipha, SparseDistanceMatrices) {
                   dipha(8, {kHuge}), dipha(8, {std::int64_t{1} << 40, 0})});
 }
 
+TEST(ReadDipha, RoundingOnTheDiagonalOfASparseMatrix) {
+  const auto read = [](double diagonal) {
+    return std::get<SparseDistances>(any(dipha(8, {2, 2, 0, 0, 1}, {diagonal, 1.5})).data);
+  };
+  EXPECT_EQ(read(1e-9).edges(), (std::vector<WeightedEdge>{{0, 1, 1.5}}));
+  EXPECT_TRUE(contains(bad_data([&] { read(1e-5); }), "non-zero diagonal, distance of 0 and 0"));
+}
+
 TEST(ReadDipha, BoundaryMatrices) {
   const std::string head = dipha(0, {0, 3, 1, 0, 0, 1}, {0, 0.5, 2});
   const auto rest = [](const std::vector<std::int64_t>& numbers) {

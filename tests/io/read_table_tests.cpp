@@ -74,6 +74,44 @@ TEST(ReadTable, EmptyCellsAreMissingIfNanIsDropped) {
   bad_data([&] { any(text, {.from_correlation = true}); });
 }
 
+std::string repeated(std::string_view text, int times) {
+  std::string all;
+  while (times-- > 0) all += text;
+  return all;
+}
+
+TEST(ReadTable, CellsOfNothingTakeAByte) {
+  const std::string wide = repeated("1,,,,,,,,,2\n", 1000);
+  const Points two = std::get<Points>(any(wide, {.columns = {"1", "10"}}).data);
+  ASSERT_EQ(two.rows(), 1000);
+  EXPECT_TRUE((two.col(0).array() == 1).all() && (two.col(1).array() == 2).all());
+  const std::string holes = "1,2,3,4\n" + repeated(",,,\n", 1000);
+  EXPECT_EQ(std::get<Points>(any(holes, {.nan = NanPolicy::drop}).data).rows(), 1);
+  const ReadResult grid =
+      read_any(Input::view(holes, "g.csv"), Format::grid, {.nan = NanPolicy::drop});
+  EXPECT_EQ(std::get<Image>(grid.data).extents, (std::vector<Index>{1001, 4}));
+  std::string unknown_cells = "a";
+  for (int i = 1; i < 40; ++i) unknown_cells += ",a" + std::to_string(i);
+  unknown_cells += '\n' + repeated(repeated(",", 39).append("\n"), 40);
+  const auto unknown = std::get<DistanceMatrix>(
+      read_any(Input::view(unknown_cells, "d.csv"), Format::distance, {.nan = NanPolicy::drop})
+          .data);
+  EXPECT_EQ(unknown.size(), 40);
+  EXPECT_EQ(unknown(3, 7), kInf);
+}
+
+TEST(ReadTable, TheLastCellMayBeEmptyWhereItIsNotTaken) {
+  EXPECT_EQ(std::get<Points>(any("1,2,3\n4,5,\n", {.columns = {"1-2"}}).data),
+            (Points(2, 2) << 1, 2, 4, 5).finished());
+  const auto distances = [](const std::string& text) {
+    return std::get<DistanceMatrix>(
+        read_any(Input::view(text, "m.csv"), Format::distance, {.columns = {"1-3"}}).data);
+  };
+  EXPECT_EQ(distances("0,1,2,9\n1,0,3,\n2,3,0,\n")(1, 2), 3);
+  const std::string message = bad_data([&] { distances("0,1,2,9,9,9,9\n1,0\n2,3,0,9,9,9,9\n"); });
+  EXPECT_TRUE(contains(message, "found 2 cells, expected 7")) << message;
+}
+
 TEST(ReadTable, MatricesAreKnownByTheirDiagonal) {
   const auto format = [](const std::string& text) { return any(text).format; };
   EXPECT_EQ(format("0.0e+00 1 2\n1 0.0e+00 3\n2 3 0.0e+00\n"), Format::distance);
@@ -91,6 +129,127 @@ TEST(ReadTable, MatricesAreKnownByTheirDiagonal) {
   }
   EXPECT_TRUE(contains(bad_data([] { any("1,2\n3,4\n5,6\n", {.from_correlation = true}); }),
                        "--from-correlation"));
+}
+
+// Rounding is what is small beside the largest entry, whatever the entry beside it is.
+TEST(ReadTable, RoundingIsRelativeToTheLargestEntry) {
+  const char* correlations = "1,1e-17,0.5\n-2e-17,1,0.25\n0.5,0.25,1\n";
+  EXPECT_TRUE(contains(bad_data([&] { any(correlations); }), "--from-correlation"));
+  EXPECT_EQ(std::get<DistanceMatrix>(any(correlations, {.from_correlation = true}).data)(0, 2),
+            0.5);
+  // Entries near 1: their distances are small, and differ by more than 1e-6 of themselves.
+  const char* near = "1,0.999999,0.5\n0.9999991,1,0.5\n0.5,0.5,1\n";
+  EXPECT_NO_THROW(any(near, {.from_correlation = true}));
+
+  const auto distances = [](const std::string& text) {
+    const ReadResult result = any(text);
+    EXPECT_EQ(result.format, Format::distance) << text;
+    return std::get<DistanceMatrix>(result.data);
+  };
+  EXPECT_EQ(distances("0,1e-9,2\n2e-9,0,3\n2,3,0\n")(0, 1), 2e-9);
+  EXPECT_EQ(distances("0,-2e-16,1\n-2e-16,0,1\n1,1,0\n")(0, 1), 0);
+  EXPECT_TRUE(says(any("0,-2e-16,1\n-2e-16,0,1\n1,1,0\n"), "0 or more but for rounding"));
+  for (const auto& [text, words] : std::vector<std::pair<const char*, const char*>>{
+           {"0,1e-5,2\n2e-5,0,3\n2,3,0\n", "t.csv:2:1: asymmetric"},
+           {"0,1,2\n1,0,-3e-5\n2,-3e-5,0\n", "t.csv:2:5: negative"},
+           {"0,inf,2\n1,0,3\n2,3,0\n", "t.csv:2:1: asymmetric"}}) {
+    EXPECT_TRUE(contains(bad_data([&] { any(text); }), words)) << bad_data([&] { any(text); });
+  }
+  // An infinity is near nothing.
+  EXPECT_FALSE(says(any(npy("(3, 3)", {5, kInf, 2, 1, 5, 3, 2, 3, 5})), "symmetric"));
+  const auto lower = [](const char* text) {
+    return read_lower_distances(Input::view(text, "l"))(1, 0);
+  };
+  EXPECT_EQ(lower("-1e-17\n2 3\n"), 0);
+  EXPECT_TRUE(contains(bad_data([&] { lower("-1e-5\n2 3\n"); }), "l:1:1: negative"));
+}
+
+TEST(ReadTable, ColumnsAndRowsMayHaveNumbers) {
+  const auto is_matrix = [](const std::string& text, const char* note) {
+    const ReadResult result = any(text);
+    ASSERT_EQ(result.format, Format::distance) << text;
+    EXPECT_EQ(std::get<DistanceMatrix>(result.data).size(), 3) << text;
+    EXPECT_EQ(std::get<DistanceMatrix>(result.data)(1, 2), 3) << text;
+    EXPECT_TRUE(says(result, note)) << text;
+  };
+  for (const char* header : {"0,1,2\n", "1,2,3\n", "\"0\",\"1\",\"2\"\n"})
+    is_matrix(std::string(header) + "0,1,2\n1,0,3\n2,3,0\n", "line 1 counts the columns");
+  is_matrix("0,0,1,2\n1,1,0,3\n2,2,3,0\n", "first column counts the rows");
+  is_matrix("1 0 1 2\n2 1 0 3\n3 2 3 0\n", "first column counts the rows");
+  EXPECT_TRUE(
+      contains(bad_data([] { any("0,1,2\n1,.5,.2\n.5,1,.3\n.2,.3,1\n"); }), "--from-correlation"));
+  // Images and points: nothing is left out, but said.
+  const ReadResult slope = read_any(Input::view("0 1 2 3\n1 2 3 4\n2 3 4 5\n", "s"), Format::grid);
+  EXPECT_EQ(std::get<Image>(slope.data).extents, (std::vector<Index>{3, 4}));
+  EXPECT_EQ(std::get<Points>(
+                read_any(Input::view("0 1 2\n5 1 2\n1 7 3\n2 3 4\n", "p"), Format::points).data)
+                .rows(),
+            4);
+  const ReadResult three = any("0,1,2\n5,1,2\n9,7,3\n2,3,4\n");
+  EXPECT_EQ(std::get<Points>(three.data).rows(), 4);
+  EXPECT_TRUE(says(three, "first row counts the columns"));
+  EXPECT_TRUE(says(any("0,1\n0.25,1.5\n"), "first row counts the columns"));
+  EXPECT_FALSE(says(any("0,1\n5,7\n"), "first row"));
+  EXPECT_EQ(std::get<Points>(any("0,0,1,2\n1,4,5,3\n2,2,3,0\n").data).cols(), 4);
+}
+
+TEST(ReadTable, NamesOfColumnsHaveOneMeaning) {
+  const auto first = [](const std::string& text, const std::string& column) {
+    return std::get<Points>(any(text, {.columns = {column}}).data)(0, 0);
+  };
+  const std::string numbered = ",0,1,2\na,5,6,7\nb,1,2,3\n";
+  for (const char* either : {"1", "2"})
+    EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { first(numbered, either); })) << either;
+  EXPECT_EQ(first(numbered, "0"), 5);
+  EXPECT_EQ(first(numbered, "3-3"), 6);
+  EXPECT_EQ(first(numbered, "4"), 7);
+  EXPECT_EQ(first("1,2,3\n5,6,7\n8,9,7\n", "2"), 2);  // no header
+  const std::string twice = "x,y,x\n5,6,7\n1,2,3\n";
+  EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { first(twice, "x"); }));
+  EXPECT_EQ(first(twice, "3"), 7);
+  const std::string of_r = "x y\na 5 6\nb 7 8\n";
+  EXPECT_EQ(first(of_r, "x"), 5);
+  EXPECT_EQ(first(of_r, "y"), 6);
+}
+
+TEST(ReadTable, ColumnsOfWhatIsNoTableAreRefused) {
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+      "property float z\nend_header\n1 2 3\n";
+  std::string dipha;
+  for (const std::int64_t word :
+       {std::int64_t{8067171840}, std::int64_t{7}, std::int64_t{1}, std::int64_t{0}})
+    dipha += le(word);  // 0: the distance
+  const ReadOptions options{.columns = {"1"}};
+  const Input cloud = Input::view(ply, "c.ply"), matrix = Input::view(dipha, "m.dipha");
+  EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { read_any(cloud, Format::points, options); }));
+  EXPECT_TRUE(fails_with(ErrorKind::usage, [&] { read_any(matrix, Format::distance, options); }));
+  EXPECT_NO_THROW(read_any(cloud, Format::points));
+  EXPECT_NO_THROW(read_any(matrix, Format::distance));
+}
+
+TEST(ReadTable, LettersOfOtherFormatsMayBeNames) {
+  for (const char* text : {"PAR1,PAR2\n1,2\n3,4\n", "P3\n1\n2\n3\n", "P6\n1\n2\n3\n",
+                           "LASF,b\n1,2\n3,4\n", "BZh,b\n1,2\n3,4\n", "GIF8 b\n1 2\n3 4\n"})
+    EXPECT_GE(std::get<Points>(any(text).data).rows(), 2) << text;
+  for (const auto& [bytes, name] : std::vector<std::pair<std::string, const char*>>{
+           {std::string("PAR1\x15\x04\x15\0PAR1", 12), "Parquet"},
+           {"P3\n# by hand\n2 1\n255\n1 2 3 4 5 6\n", "PPM"},
+           {"P6\n2 1\n255\n123456", "PPM"},
+           {std::string("BZh91AY&SY\0\x01\x02", 13), "bzip2"}})
+    EXPECT_TRUE(contains(bad_data([&] { any(bytes); }), name)) << name;
+}
+
+TEST(ReadTable, HintsSayWhatHelps) {
+  const auto message = [](const std::string& text, const ReadOptions& options = {}) {
+    return bad_data([&] { any(text, options); });
+  };
+  for (const char* text : {"1,2\n3,nan\n", "1,2\n,3\n", "1,2\n\"\",3\n"})
+    EXPECT_TRUE(contains(message(text), "--nan drop")) << message(text);
+  EXPECT_TRUE(contains(message("1,2\na,3\n"), "names or an index?"));
+  EXPECT_FALSE(contains(message("1,2\na,3\n"), "--nan"));
+  for (const char* text : {"1,2\n3,inf\n", "1,2\n3,1e999\n"})
+    EXPECT_FALSE(contains(message(text), "--")) << message(text);
 }
 
 TEST(ReadTable, RowsHaveTheOrderOfTheColumns) {
@@ -121,7 +280,18 @@ TEST(ReadTable, ArraysAreKnownByShapeAndDiagonal) {
   EXPECT_EQ(kind("(7, 2)", std::vector<double>(14, 1.5)), 3U);
   EXPECT_EQ(kind("(68, 17)", std::vector<double>(68 * 17, 1.5)), 3U);
   EXPECT_EQ(kind("(3, 3)", {0, 1, 2, 1, 0, 3, 2, 3, 0}), 1U);
-  EXPECT_EQ(kind("(3, 3)", {0, 1, 2, 1, 0, 3, 2, 4, 0}), 3U);
+  // Distances that are damaged are no picture in silence; zeros are none.
+  for (const std::vector<double>& damaged :
+       {std::vector<double>{0, 1, 2, 1, 0, 3, 2, 4, 0}, {0, .5, -.5, .5, 0, .25, -.5, .25, 0}})
+    bad_data([&] { kind("(3, 3)", damaged); });
+  EXPECT_EQ(kind("(3, 3)", {0, -2e-16, 1, -2e-16, 0, 1, 1, 1, 0}), 1U);
+  const std::vector<double> few = {0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0};
+  const ReadOptions rips{.array = ArrayMeaning::rips};
+  EXPECT_EQ(any(npy("(4, 4)", few)).data.index(), 3U);
+  EXPECT_EQ(any(npy("(4, 4)", few), rips).data.index(), 1U);
+  const std::vector<double> uneven = {0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0};
+  EXPECT_TRUE(says(any(npy("(4, 4)", uneven)), "--format distance"));
+  EXPECT_TRUE(contains(bad_data([&] { any(npy("(4, 4)", uneven), rips); }), "asymmetric"));
   EXPECT_EQ(kind("(3, 3)", {0, 0, 0, 0, 0, 0, 0, 0, 0}), 3U);
   bad_data([&] { kind("(3, 3)", {1, .1, .2, .1, 1, .3, .2, .3, 1}); });
   EXPECT_EQ(any(npy("(5,)", {1, 2, 3, 4, 5})).description, "signal of 5 values, NPY");

@@ -80,7 +80,7 @@ class InputGenerator {
     std::set<std::vector<Index>> all;
     for (int i = 0; i < count; ++i) {
       std::set<Index> chosen;
-      const int size = integer(1, top_dim + 1);
+      const int size = integer(1, std::min(top_dim + 1, static_cast<int>(vertices)));
       while (static_cast<int>(chosen.size()) < size)
         chosen.insert(integer(0, static_cast<int>(vertices) - 1));
       const std::vector<Index> simplex(chosen.begin(), chosen.end());

@@ -91,6 +91,29 @@ std::string_view tightness_name(Tightness tightness) {
   return "";
 }
 
+/// Before anything is written.
+void check_loops(const Barcode& barcode, std::span<const BarLoops> loops) {
+  if (loops.empty()) return;
+  const auto fail = [](const std::string& found, const std::string& expected) {
+    throw Error(ErrorKind::usage, fmt::format("loops: found {}, expected {}", found, expected));
+  };
+  if (loops.size() != barcode.size())
+    fail(fmt::format("those of {} bars", loops.size()), fmt::format("{}, or none", barcode.size()));
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (loops[i].loops.empty()) continue;
+    const std::string bar = fmt::format("bar {} ", i);
+    if (barcode.representatives() == Representatives::none || barcode.representative(i).size() == 0)
+      fail(bar + "without a chain", "loops beside a cycle");
+    const InputCell edge = barcode.representative(i).cell(0);
+    if (edge.kind == CellKind::row) fail(bar + "of rows of a matrix", "cells with vertices");
+    const std::size_t arity = edge.kind == CellKind::grid ? edge.numbers.size() : 1;
+    for (const Loop& loop : loops[i].loops)
+      if (loop.numbers.empty() || loop.numbers.size() % arity != 0)
+        fail(bar + fmt::format("with a loop of {} numbers", loop.numbers.size()),
+             fmt::format("{} a vertex", arity));
+  }
+}
+
 /// A member of a bar. @param edge of its chain.
 void write_loops(OutputFile& file, const BarLoops& of_bar, const InputCell& edge) {
   const bool is_grid = edge.kind == CellKind::grid;
@@ -166,6 +189,7 @@ std::string json_string(std::string_view text) {
 }
 
 void write_barcode_json(OutputFile& file, const Barcode& barcode, const BarcodeInfo& info) {
+  check_loops(barcode, info.loops);
   file.write("{\n  \"format\": \"ph-barcode\",\n  \"version\": 1,\n");
   file.write(fmt::format("  \"program\": {},\n", json_string(info.program)));
   file.write(fmt::format("  \"input\": {{\"path\": {}, \"description\": {}}},\n",
@@ -208,7 +232,7 @@ void write_barcode_json(OutputFile& file, const Barcode& barcode, const BarcodeI
       file.write(", \"representative\": ");
       write_chain(file, barcode.representative(i));
     }
-    if (i < info.loops.size() && !info.loops[i].loops.empty())
+    if (!info.loops.empty() && !info.loops[i].loops.empty())
       write_loops(file, info.loops[i], barcode.representative(i).cell(0));
     file.write("}");
   }

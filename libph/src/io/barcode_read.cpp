@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "readers.hpp"
+#include "table.hpp"
 
 namespace ph {
 namespace {
@@ -196,7 +197,8 @@ bool has_header(const Input& input) {
 
 bool is_barcode(const Input& input) {
   if (detail::is_dipha(input)) return detail::dipha_type(input) == detail::DiphaType::diagram;
-  if (detail::is_npy(input) || detail::is_npz(input)) return false;
+  // Bytes without a magic number may begin like any text, and names say what other text is.
+  if (detail::format_by_content(input)) return false;
   switch (format_of(input)) {
     case BarcodeFormat::json:
     case BarcodeFormat::ripser:

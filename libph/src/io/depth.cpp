@@ -21,13 +21,13 @@ DepthImage read_depth(const Input& input, const ReadOptions& options) {
                 "numpy.save writes arrays of any other"});
   }
   // Readers of pictures take colours where an option says which; a depth image has none.
-  constexpr std::size_t colour_type = 25;  // in the header of a PNG: 2 is RGB, 6 has alpha, too
-  if (detail::is_png(input) && input.size() > colour_type) {
-    const char type = input.text()[colour_type];
-    if (type == 2 || type == 6)
-      input.fail({"depth image", type == 2 ? "3 channels" : "4 channels", "1 (grey)", {}});
-  }
-  DepthImage result{read_image(input, holes)};
+  const auto read_grey = [&] {
+    Raster raster = read_png(input);
+    if (raster.channels > 1)
+      input.fail({"depth image", fmt::format("{} channels", raster.channels), "1 (grey)", {}});
+    return detail::image_of(std::move(raster), input, holes);
+  };
+  DepthImage result{detail::is_png(input) ? read_grey() : read_image(input, holes)};
   if (result.depth.extents.size() != 2) {
     input.fail({"depth image",
                 fmt::format("shape ({})", fmt::join(result.depth.extents, ", ")),

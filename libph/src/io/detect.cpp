@@ -9,13 +9,6 @@
 namespace ph {
 namespace {
 
-bool starts_like_text(const Input& input) {
-  const std::string_view probe = input.text().substr(0, 4096);
-  return std::none_of(probe.begin(), probe.end(), [](char c) {
-    return static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\r' && c != '\t';
-  });
-}
-
 // Formats with a magic number, and formats known by nothing but their name.
 std::optional<Format> by_magic(const Input& input) {
   if (detail::is_npy(input)) return Format::npy;
@@ -55,10 +48,17 @@ std::optional<Format> by_extension(const Input& input) {
 
 namespace detail {
 
+bool is_text(std::string_view bytes) {
+  bytes = bytes.substr(0, 4096);
+  return std::ranges::all_of(bytes, [](char c) {
+    return c == '\n' || c == '\r' || c == '\t' || static_cast<unsigned char>(c) >= 0x20;
+  });
+}
+
 std::optional<Format> format_by_content(const Input& input) {
   if (const auto format = by_magic(input)) return *format;
   if (const auto format = by_extension(input)) return *format;
-  if (starts_like_text(input)) return std::nullopt;
+  if (is_text(input.text())) return std::nullopt;
   // Bytes without a magic number: Ripser's binary has none. Anything else is told why by the
   // reader of text.
   return input.extension() == ".bin" ? Format::binary : Format::points;

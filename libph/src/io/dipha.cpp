@@ -7,6 +7,7 @@
 
 #include "array.hpp"
 #include "matrix_entry.hpp"
+#include "ph/core/barcode.hpp"
 #include "ph/io/read.hpp"
 #include "readers.hpp"
 
@@ -16,7 +17,6 @@ namespace ph::detail {
 namespace {
 
 constexpr std::size_t kWord = 8;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kHeader = 2 * kWord;  // the magic number and the type
 constexpr std::int64_t kMostDimension = 1 << 20;
 constexpr std::int64_t kMostPoints = std::int64_t{1} << 31;
@@ -200,22 +200,23 @@ SparseDistances read_dipha_sparse(const Input& input, const ReadOptions& options
   BinaryCursor again(input, std::endian::little, degrees_at);
   BinaryCursor ids(input, std::endian::little, ids_at);
   BinaryCursor values(input, std::endian::little, values_at);
+  MatrixEntries entries(options);
+  const auto fail_entry = [&](const EntryPlace& place, Fault fault) {
+    fault.what += fmt::format(", distance of {} and {}", place.row, place.column);
+    input.fail_at_byte(place.byte, fault);
+  };
   for (std::size_t i = 0; i < n; ++i) {
     const auto u = static_cast<Index>(i);
     for (auto left = again.read<std::int64_t>("degree"); left > 0; --left) {
       const Index v = read_int(ids, 0, static_cast<Index>(n) - 1, "connected point");
-      const std::size_t place = values.offset();
+      const EntryPlace place{i, to_size(v), values.offset()};
       const double raw = values.read<double>("distance") + 0.0;
-      const auto fail_pair = [&](Fault fault) {
-        fault.what += fmt::format(", distance of {} and {}", u, v);
-        input.fail_at_byte(place, fault);
-      };
-      const double value = checked_distance(raw, u == v, options, fail_pair);
-      if (u == v && value != 0 && !options.from_correlation)
-        fail_pair({"non-zero diagonal", fmt::format("{}", value), "0", {}});
-      if (u != v) edges.push_back({{std::min(u, v), std::max(u, v), value}, place});
+      const double value =
+          entries.distance(raw, place, [&](const Fault& fault) { fail_entry(place, fault); });
+      if (u != v) edges.push_back({{std::min(u, v), std::max(u, v), value}, place.byte});
     }
   }
+  entries.finish(fail_entry);
   const auto fail = [&](std::size_t at, const Fault& fault) { input.fail_at_byte(at, fault); };
   return SparseDistances(static_cast<Index>(n), unique_edges(std::move(edges), input, fail));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <array>
 
+#include "readers.hpp"
 #include "table.hpp"
 
 namespace ph::detail {
@@ -33,8 +34,6 @@ constexpr std::array kMagics{
     Magic{0, "\x89HDF\r\n\x1A\n"sv, {"an HDF5 file", kToNpy}},
     Magic{0, "MATLAB 5.0 MAT-file"sv, {"a MATLAB file", kToNpy}},
     Magic{0, "PAR1"sv, {"a Parquet file", "write the table as CSV"}},
-    Magic{0, "P6\n"sv, {"a PPM picture", kToPng}},
-    Magic{0, "P3\n"sv, {"a PPM picture", kToPng}},
     Magic{0, "%PDF-"sv, {"a PDF document", kToPng}},
     Magic{0, "LASF"sv, {"a LAS point cloud", "convert it to PLY or PCD"}},
     Magic{0, "ASTM-E57"sv, {"an E57 point cloud", "convert it to PLY or PCD"}},
@@ -47,12 +46,36 @@ constexpr std::array kMagics{
     Magic{0, "BZh"sv, {"data compressed with bzip2", kUnpack}},
 };
 
+constexpr std::size_t kProbe = 4096;
+// So many letters may begin a text of anything; longer magic numbers do not.
+constexpr std::size_t kFewLetters = 4;
+
+// Letters and a line with two sizes, behind comments: a column may have these letters for a name.
+bool is_ppm(std::string_view bytes) {
+  if (!bytes.starts_with("P3\n") && !bytes.starts_with("P6\n")) return false;
+  do {
+    bytes.remove_prefix(bytes.find('\n') + 1);
+  } while (bytes.starts_with('#') && bytes.find('\n') != std::string_view::npos);
+  const std::string_view line = bytes.substr(0, bytes.find('\n'));
+  const std::size_t blank = line.find(' ');
+  const auto is_size = [](std::string_view word) {
+    return !word.empty() && word.find_first_not_of("0123456789") == std::string_view::npos;
+  };
+  return blank != std::string_view::npos && is_size(line.substr(0, blank)) &&
+         is_size(line.substr(blank + 1));
+}
+
 }  // namespace
 
 std::optional<ForeignKind> foreign_kind(std::string_view bytes) {
-  for (const Magic& magic : kMagics)
+  bytes = bytes.substr(0, kProbe);
+  const bool may_be_numbers = is_text(bytes);
+  for (const Magic& magic : kMagics) {
+    if (may_be_numbers && magic.bytes.size() <= kFewLetters) continue;
     if (bytes.size() > magic.offset && bytes.substr(magic.offset).starts_with(magic.bytes))
       return magic.kind;
+  }
+  if (is_ppm(bytes)) return ForeignKind{"a PPM picture", kToPng};
   // A bitmap has its own length behind its two letters.
   if (bytes.starts_with("BM") && bytes.size() > 14 && bytes.substr(6, 4) == "\0\0\0\0"sv)
     return ForeignKind{"a BMP picture", kToPng};

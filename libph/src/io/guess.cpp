@@ -16,30 +16,18 @@
 namespace ph::detail {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr Index kMostCoordinates = 16;  // of points in an array that may be an image
 constexpr Index kSlender = 4;           // so many times more rows than columns it has then
-
-double number_of(std::string_view cell) {
-  cell = without_quotes(cell);
-  if (cell.starts_with('+')) cell.remove_prefix(1);
-  double value = kUnknown;
-  std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  return value;
-}
 
 // Lengths of the first rows: they tell a triangle of a matrix from what cannot be ragged.
 std::optional<Format> triangle_of(const Input& input) {
   TextLines lines(input);
-  Cells cells(lines);
   std::vector<std::size_t> lengths;
   bool first = true;
   while (lengths.size() < kMostLookedAt && lines.next()) {
     if (std::exchange(first, false) && !header_names(lines.line()).empty()) continue;
     if (lines.line().find(':') != std::string_view::npos) return Format::simplices;
-    std::size_t length = 0;
-    for (cells.start(); cells.more(); ++length) cells.skip();
-    lengths.push_back(length);
+    lengths.push_back(count_cells(lines));
   }
   if (lengths.size() < 3) return std::nullopt;
   bool rising = lengths[0] == 1, falling = true;
@@ -50,33 +38,6 @@ std::optional<Format> triangle_of(const Input& input) {
   if (rising) return Format::lower_distance;
   if (falling) return Format::upper_distance;
   return std::nullopt;
-}
-
-// The rows of a table, each as long as the first one; nothing if one is not among those looked at.
-std::optional<std::size_t> count_rows(const Input& input, const TableLayout& layout,
-                                      std::size_t most, std::vector<double>& block,
-                                      bool& same_names) {
-  const std::size_t side = std::min(layout.columns.size(), kMostLookedAt);
-  const std::vector<bool> taken = layout.taken();
-  TextLines lines(input);
-  Cells cells(lines);
-  std::size_t rows = 0;
-  same_names = layout.names_rows && layout.header.size() == layout.width;
-  for (bool more = layout.start(lines); more && rows <= most; more = lines.next(), ++rows) {
-    if (rows >= side) continue;
-    std::size_t length = 0, column = 0;
-    for (cells.start(); cells.more() && length < layout.width; ++length) {
-      const std::string_view cell = cells.skip();
-      if (length == 0) same_names = same_names && without_quotes(cell) == layout.header[rows + 1];
-      if (taken[length] && column < side) {
-        block[rows * side + column++] = number_of(cell);
-      }
-    }
-    const bool is_short =
-        length != layout.width && !(length + 1 == layout.width && ends_empty(lines.line()));
-    if (is_short || cells.more()) return std::nullopt;
-  }
-  return rows;
 }
 
 }  // namespace
@@ -92,18 +53,11 @@ TextGuess guess_text(const Input& input, const ReadOptions& options) {
   const TableLayout layout = table_layout(input, options);
   const std::size_t n = layout.columns.size();
   if (n == 0) return guess;
-  const std::size_t side = std::min(n, kMostLookedAt);
-  std::vector<double> block(side * side, kUnknown);
-  bool same_names = false;
-  const auto rows = count_rows(input, layout, n, block, same_names);
-  guess.rows = rows.value_or(0);
   guess.columns = n;
-  if (n < 2 || guess.rows != n) return guess;
-  guess.same_names = same_names;
-  guess.square = kind_of_square(block, side);
+  guess.table = shape_of(input, layout);
+  const SquareKind square = guess.table.square;
   // Two rows say too little: two points of the plane may well be symmetric.
-  if (n < 3) return guess;
-  if (guess.square == SquareKind::distances || guess.square == SquareKind::zeros)
+  if (n > 2 && (square == SquareKind::distances || square == SquareKind::zeros))
     guess.format = Format::distance;
   return guess;
 }
@@ -159,10 +113,21 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
               fmt::format("{}, symmetric: read as {}; --format distance reads distances", shape,
                           is_rips ? "points" : "an image")};
     }
-    if (kind == SquareKind::distances && !is_mostly_zero(block, side)) {
-      return {
-          ArrayMeaning::distances,
-          fmt::format("{}, symmetric with a zero diagonal: read as distances; {}", shape, instead)};
+    const bool has_zeros = kind == SquareKind::distances || kind == SquareKind::zeros;
+    // Pictures may be black, maps of labels empty; points and distances are not.
+    const bool is_sure = is_rips || (!is_mostly_zero(block, side) &&
+                                     (kind == SquareKind::distances || npy.kind == 'f'));
+    if (has_zeros && is_sure) {
+      // What is not symmetric, or below 0, the reader of distances refuses.
+      return {ArrayMeaning::distances,
+              fmt::format("{}{} with a zero diagonal: read as distances; {}", shape,
+                          kind == SquareKind::distances ? ", symmetric" : "", instead)};
+    }
+    if (kind == SquareKind::zeros && (npy.kind == 'f' || !is_mostly_zero(block, side))) {
+      return {otherwise.meaning,
+              fmt::format("{} with a zero diagonal: read as an image; --format distance reads "
+                          "distances",
+                          shape)};
     }
     if (kind == SquareKind::correlations) {
       input.fail({"correlations, points or an image",

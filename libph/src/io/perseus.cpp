@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "array.hpp"
+#include "ph/core/barcode.hpp"
 #include "ph/io/read.hpp"
 #include "readers.hpp"
 
@@ -16,7 +17,6 @@ constexpr std::int64_t kMostExtent = std::int64_t{1} << 40;
 // A list of cubes may ask for a grid this much larger than itself.
 constexpr std::size_t kMostVoxelsPerCube = 1024;
 constexpr std::size_t kFreeVoxels = std::size_t{1} << 20;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();  // see Image::masked
 
 // The cells of a text one after another, wherever its lines end.

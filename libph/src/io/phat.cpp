@@ -95,18 +95,6 @@ BoundaryInput read_binary(const Input& input) {
 
 }  // namespace
 
-namespace detail {
-
-// Text has no byte below the tab; eight bytes of a count below 2^40 have several.
-bool is_text(const Input& input) {
-  const std::string_view probe = input.text().substr(0, 4096);
-  return std::all_of(probe.begin(), probe.end(), [](char c) {
-    return c == '\n' || c == '\r' || c == '\t' || static_cast<unsigned char>(c) >= 0x20;
-  });
-}
-
-}  // namespace detail
-
 CellNamer BoundaryInput::namer() const {
   return [at = places, in_bytes = binary, file = name](std::size_t i) {
     if (i >= at.size()) return file;
@@ -117,7 +105,7 @@ CellNamer BoundaryInput::namer() const {
 
 BoundaryInput read_phat(const Input& input, const ReadOptions& options) {
   if (detail::is_dipha(input)) return detail::read_dipha_boundary(input, options);
-  BoundaryInput result = detail::is_text(input) ? read_text(input) : read_binary(input);
+  BoundaryInput result = detail::is_text(input.text()) ? read_text(input) : read_binary(input);
   result.name = input.name();
   if (result.matrix.size() == 0 && !options.allow_empty) {
     input.fail({"no cells", {}, "a boundary matrix", "--allow-empty accepts an empty complex"});

@@ -57,7 +57,10 @@ std::optional<std::size_t> place_of(Channel channel, const Raster& raster, const
 }  // namespace
 
 Image read_png_image(const Input& input, const ReadOptions& options) {
-  Raster raster = read_png(input);
+  return image_of(read_png(input), input, options);
+}
+
+Image image_of(Raster raster, const Input& input, const ReadOptions& options) {
   const std::vector<Index> extents{raster.height, raster.width};
   const auto channels = static_cast<std::size_t>(raster.channels);
   const std::size_t count = raster.samples.size() / channels;

@@ -33,6 +33,9 @@ Axis::Axis(const Range& range, const PlotOptions& options, double from, double t
     : from_(from), to_(to), logarithmic_(options.axis.logarithmic), negated_(options.negated) {
   double low = options.axis.low.value_or(range.low), high = options.axis.high.value_or(range.high);
   const bool is_given = options.axis.low || options.axis.high;
+  if (is_given && !(std::isfinite(low) && std::isfinite(high)))
+    throw Error(ErrorKind::usage, fmt::format("axis: found {} to {}, expected finite ends",
+                                              shortest(low), shortest(high)));
   if (is_given && !(low < high))
     throw Error(ErrorKind::usage, fmt::format("axis: found {} to {}, expected a lower number first",
                                               shortest(low), shortest(high)));

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "ph/io/cloud.hpp"
+#include "ph/io/png.hpp"
 #include "ph/io/read.hpp"
 
 namespace ph::detail {
@@ -53,8 +54,9 @@ bool is_pgm(const Input& input);
 bool is_nifti(const Input& input);
 bool is_dipha(const Input& input);
 
-/// Whether bytes may be numbers as text: those of eight bytes never are.
-bool is_text(const Input& input);
+/// Whether bytes begin like text, without those below the tab: eight bytes of a count below 2^40
+/// have several.
+bool is_text(std::string_view bytes);
 
 /// A set of points whose first line is their number, as PTS has it.
 bool is_counted(const Input& input);
@@ -66,7 +68,8 @@ bool is_npy_of_floats(const Input& input);
 /// The one array of an NPZ, or the one that input.member() names, unpacked.
 Input read_npz_member(const Input& input);
 
-/// Takes options.channel.
+/// One number a pixel of a PNG; takes options.channel.
+Image image_of(Raster raster, const Input& input, const ReadOptions& options);
 Image read_png_image(const Input& input, const ReadOptions& options);
 Image read_pgm_image(const Input& input);
 

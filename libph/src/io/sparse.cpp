@@ -52,6 +52,7 @@ SparseDistances read_sparse(const Input& input, const ReadOptions& options) {
   if (detail::is_dipha(input)) return detail::read_dipha_sparse(input, options);
   TextLines lines(input);
   Cells cells(lines);
+  detail::MatrixEntries entries(options);
   std::vector<detail::LocatedEdge> found;
   Index size = 0;
   std::size_t largest_line = 0;
@@ -83,8 +84,9 @@ SparseDistances read_sparse(const Input& input, const ReadOptions& options) {
                           "two different points",
                           {}});
     }
-    line.edge.value = detail::checked_distance(
-        raw, false, options, [&](const Fault& fault) { lines.fail(third, fault); });
+    const detail::EntryPlace place{1, 0, static_cast<std::size_t>(third - input.text().data())};
+    line.edge.value =
+        entries.distance(raw, place, [&](const Fault& fault) { lines.fail(third, fault); });
     if (line.edge.u > line.edge.v) std::swap(line.edge.u, line.edge.v);
     if (line.edge.v >= size) {
       size = line.edge.v + 1;
@@ -95,6 +97,9 @@ SparseDistances read_sparse(const Input& input, const ReadOptions& options) {
     }
     found.push_back(line);
   }
+  entries.finish([&](const detail::EntryPlace& place, const Fault& fault) {
+    detail::fail_in_text(input, place.byte, fault);
+  });
   if (size == 0 && !options.allow_empty) {
     input.fail({"no points", {}, "lines of i j distance", "--allow-empty accepts an empty set"});
   }

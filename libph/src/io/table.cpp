@@ -17,36 +17,16 @@ namespace {
 
 constexpr std::size_t kShownNames = 10;
 
-bool is_number(std::string_view cell) {
-  cell = without_quotes(cell);
-  if (cell.starts_with('+')) cell.remove_prefix(1);
-  double value = 0;
-  const auto [stop, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  return error != std::errc::invalid_argument && stop == cell.data() + cell.size();
-}
+bool begins_empty(std::string_view line) { return line.find_first_of(",;") == 0; }
 
 // Cells of a line with its first one empty, as tables have it whose rows have names.
 std::vector<std::string> unnamed_header(std::string_view line) {
-  const std::size_t mark = line.find_first_of(",;");
-  if (mark == std::string_view::npos) return {};
-  const std::string_view first = line.substr(0, mark);
-  if (!first.empty() && first != "\"\"") return {};
-  const char separator = line[mark];
-  std::vector<std::string> names{""};
-  bool is_named = false;
-  for (std::string_view rest = line.substr(mark + 1);;) {
-    std::size_t end = 0;
-    for (bool in_quotes = false; end < rest.size() && (in_quotes || rest[end] != separator); ++end)
-      if (rest[end] == '"') in_quotes = !in_quotes;
-    std::string_view name = rest.substr(0, end);
-    while (name.starts_with(' ') || name.starts_with('\t')) name.remove_prefix(1);
-    while (name.ends_with(' ') || name.ends_with('\t')) name.remove_suffix(1);
-    names.emplace_back(without_quotes(name));
-    is_named = is_named || !names.back().empty();
-    if (end == rest.size()) break;
-    rest.remove_prefix(end + 1);
-  }
-  return is_named ? names : std::vector<std::string>();
+  if (!begins_empty(line) && !line.starts_with("\"\"")) return {};
+  std::vector<std::string> names = header_cells(line, false);
+  const bool is_named =
+      std::ranges::any_of(names, [](const std::string& name) { return !name.empty(); });
+  if (!is_named || !names.front().empty()) names.clear();
+  return names;
 }
 
 bool is_name_of_index(std::string name) {
@@ -57,16 +37,16 @@ bool is_name_of_index(std::string name) {
   return std::ranges::find(kNames, name) != kNames.end();
 }
 
-bool begins_empty(std::string_view line) { return line.find_first_of(",;") == 0; }
-
-// The first column of the rows from here on.
+// The first column.
 struct FirstColumn {
   std::size_t rows = 0;
   bool counts = true;         // 0, 1, 2, … or 1, 2, 3, …
   bool names_columns = true;  // row k has the name of column k
 };
 
-FirstColumn first_column(const Input& input, const TableLayout& layout) {
+// Of the first rows, `most` of them at most.
+FirstColumn first_column(const Input& input, const TableLayout& layout,
+                         std::size_t most = std::numeric_limits<std::size_t>::max()) {
   FirstColumn column;
   TextLines lines(input);
   Cells cells(lines);
@@ -86,7 +66,7 @@ FirstColumn first_column(const Input& input, const TableLayout& layout) {
                            layout.header[column.rows + 1] == cell;
     ++column.rows;
     if (!column.counts && !column.names_columns) break;
-  } while (lines.next());
+  } while (column.rows < most && lines.next());
   return column;
 }
 
@@ -96,12 +76,52 @@ std::vector<std::size_t> range(std::size_t begin, std::size_t end) {
   return all;
 }
 
+// Whether a line is 0, 1, 2, … or 1, 2, 3, …, as tables have it whose columns have numbers.
+std::vector<std::string> counting_header(const TextLines& line) {
+  std::vector<std::string> names;
+  Cells cells(line);
+  for (cells.start(); cells.more();) {
+    names.emplace_back(without_quotes(cells.skip()));
+    const std::size_t first = names.front() == "0" ? 0 : 1;
+    if (names.back() != std::to_string(first + names.size() - 1)) return {};
+  }
+  return names;
+}
+
+// Names and an index that a matrix has though they look like its numbers: n rows are symmetric
+// behind a line that counts the columns, or behind a column that counts the rows.
+void leave_counts_out(const Input& input, const TextLines& first, const ReadOptions& options,
+                      TableLayout& layout) {
+  const auto is_matrix = [&](const TableLayout& rest) {
+    const TableShape shape = shape_of(input, rest);
+    return rest.columns.size() > 2 && shape.rows == rest.columns.size() &&
+           shape.square != SquareKind::nothing;
+  };
+  const std::size_t n = layout.width;
+  if (std::vector<std::string> names = counting_header(first); names.size() == n) {
+    TableLayout rest{.header = std::move(names), .width = n, .columns = range(0, n)};
+    if (is_matrix(rest)) {
+      layout.header = std::move(rest.header);
+      layout.notes.push_back(fmt::format(
+          "line {} counts the columns of a symmetric matrix: a header, skipped", first.number()));
+      return;
+    }
+  }
+  if (!options.columns.empty()) return;
+  const TableLayout rest{.width = n, .columns = range(1, n), .names_rows = true};
+  if (first_column(input, rest, n).counts && is_matrix(rest)) {
+    layout.names_rows = true;
+    layout.notes.push_back(
+        fmt::format("the first column counts the rows of a symmetric matrix: left out; --columns "
+                    "1-{} takes it, too",
+                    n));
+  }
+}
+
 // Cells of a row; where an empty one is no error, the last one may be.
-std::size_t count_cells(const TextLines& lines, const TableLayout& layout,
-                        const ReadOptions& options) {
-  Cells cells(lines);
-  std::size_t count = 0;
-  for (cells.start(); cells.more(); ++count) cells.skip();
+std::size_t width_of(const TextLines& lines, const TableLayout& layout,
+                     const ReadOptions& options) {
+  const std::size_t count = count_cells(lines);
   const bool is_last_missing = options.nan == NanPolicy::drop &&
                                count + 1 == layout.header.size() && ends_empty(lines.line());
   return count + (is_last_missing ? 1 : 0);
@@ -120,7 +140,7 @@ bool leads_with_names(const Input& input, TableLayout& layout, std::string_view 
     return true;
   }
   const bool is_index = is_full && is_name_of_index(layout.header[0]);
-  if (!is_number(first_cell)) {
+  if (!number_in(first_cell)) {
     if (!is_index && !is_one_short && !(is_full && first_column(input, layout).names_columns))
       return false;
     layout.notes.push_back("the first column has names of the rows: left out");
@@ -165,29 +185,32 @@ TableLayout table_layout(const Input& input, const ReadOptions& options) {
   layout.header = header_names(lines.line());
   const bool is_unnamed = layout.header.empty();
   if (is_unnamed) layout.header = unnamed_header(lines.line());
-  layout.header_line = lines.number();
   TextLines next(lines);
   const bool has_next = next.next();
   if (is_unnamed && !layout.header.empty() &&
       (!has_next || begins_empty(next.line()) ||
-       count_cells(next, layout, options) != layout.header.size())) {
+       width_of(next, layout, options) != layout.header.size())) {
     layout.header.clear();  // a row that begins with an empty cell
   }
   const bool has_header = !layout.header.empty();
   if (has_header)
-    layout.notes.push_back(fmt::format("line {} is a header: skipped", layout.header_line));
+    layout.notes.push_back(fmt::format("line {} is a header: skipped", lines.number()));
   if (has_header && !has_next) return layout;
   const TextLines& row = has_header ? next : lines;
-  layout.width = count_cells(row, layout, options);
+  layout.width = width_of(row, layout, options);
+  // Points and pictures may well be symmetric behind numbers that count.
+  if (!has_header && options.array != ArrayMeaning::points && options.array != ArrayMeaning::image)
+    leave_counts_out(input, lines, options, layout);
   if (!options.columns.empty()) {
-    const bool named = layout.header.size() == layout.width;
-    layout.columns = chosen_columns(
-        options.columns, named ? layout.header : std::vector<std::string>(), layout.width, input);
+    std::vector<std::string> names = layout.header;
+    if (names.size() + 1 == layout.width) names.insert(names.begin(), "");  // as R writes it
+    if (names.size() != layout.width) names.clear();
+    layout.columns = chosen_columns(options.columns, names, layout.width, input);
     return layout;
   }
   Cells cells(row);
   cells.start();
-  layout.names_rows = leads_with_names(input, layout, cells.skip());
+  if (has_header) layout.names_rows = leads_with_names(input, layout, cells.skip());
   layout.columns = range(layout.names_rows ? 1 : 0, layout.width);
   return layout;
 }
@@ -199,7 +222,7 @@ std::vector<std::size_t> chosen_columns(const std::vector<std::string>& wanted,
     std::vector<std::string> names;
     for (const std::string& name : header) {
       if (names.size() == kShownNames) break;
-      names.push_back(printable(name, 40));
+      if (!name.empty()) names.push_back(printable(name, 40));
     }
     throw Error(ErrorKind::usage,
                 fmt::format("--columns: found '{}'{}, expected columns of {}: {}{}{} from 1 to {}",
@@ -220,7 +243,14 @@ std::vector<std::size_t> chosen_columns(const std::vector<std::string>& wanted,
   };
   for (const std::string& word : wanted) {
     if (const auto named = std::ranges::find(header, word); named != header.end()) {
-      take(static_cast<std::size_t>(named - header.begin()), word);
+      const auto column = static_cast<std::size_t>(named - header.begin());
+      if (std::find(named + 1, header.end(), word) != header.end())
+        fail(word, ", the name of several columns");
+      if (number(word) != 0 && number(word) != column + 1)
+        fail(word, fmt::format(", a name and the number of another column (by number: {0}-{0} "
+                               "or {1}-{1})",
+                               column + 1, number(word)));
+      take(column, word);
       continue;
     }
     const std::size_t dash = word.find('-');
@@ -236,51 +266,37 @@ std::vector<std::size_t> chosen_columns(const std::vector<std::string>& wanted,
   return columns;
 }
 
-SquareKind kind_of_square(std::span<const double> block, std::size_t side) {
-  double largest = 0;
-  bool symmetric = true, positive = true, in_one = true;
-  for (std::size_t i = 0; i < side; ++i) {
-    for (std::size_t j = 0; j < side; ++j) {
-      const double value = block[i * side + j], other = block[j * side + i];
-      if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
-      in_one = in_one && !(std::abs(value) > 1 + kRounding);
-      if (i == j || std::isnan(value)) {
-        symmetric = symmetric && (i == j || std::isnan(other));
-        continue;
-      }
-      positive = positive && value >= 0;
-      symmetric = symmetric &&
-                  (value == other || std::abs(value - other) <=
-                                         kRounding * std::max(std::abs(value), std::abs(other)));
-    }
-  }
-  bool zeros = true, ones = true, known = false;
-  for (std::size_t i = 0; i < side; ++i) {
-    const double value = block[i * side + i];
-    if (std::isnan(value)) continue;
-    known = true;
-    zeros = zeros && std::abs(value) <= kRounding * largest;
-    ones = ones && std::abs(value - 1) <= kRounding;
-  }
-  if (known && zeros) return symmetric && positive ? SquareKind::distances : SquareKind::zeros;
-  if (!symmetric) return SquareKind::nothing;
-  return known && ones && in_one ? SquareKind::correlations : SquareKind::symmetric;
-}
-
 std::string_view without_quotes(std::string_view cell) {
   if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
     return cell.substr(1, cell.size() - 2);
   return cell;
 }
 
-bool ends_empty(std::string_view line) { return line.ends_with(',') || line.ends_with(';'); }
-
-bool is_mostly_zero(std::span<const double> block, std::size_t side) {
-  std::size_t zeros = 0;
-  for (std::size_t i = 0; i < side; ++i)
-    for (std::size_t j = 0; j < side; ++j) zeros += i != j && block[i * side + j] == 0 ? 1 : 0;
-  return 2 * zeros > side * (side - 1);
+std::optional<double> number_in(std::string_view cell) {
+  cell = without_quotes(cell);
+  if (cell.starts_with('+')) cell.remove_prefix(1);
+  double value = std::numeric_limits<double>::quiet_NaN();
+  const auto [stop, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error == std::errc::invalid_argument || stop != cell.data() + cell.size())
+    return std::nullopt;
+  return value;
 }
+
+CellHints cell_hints(const ReadOptions& options) {
+  return {"names or an index? --columns takes some columns only",
+          options.nan == NanPolicy::error
+              ? "--nan drop accepts missing values; --columns takes some columns only"
+              : ""};
+}
+
+std::size_t count_cells(const TextLines& lines) {
+  Cells cells(lines);
+  std::size_t count = 0;
+  for (cells.start(); cells.more(); ++count) cells.skip();
+  return count;
+}
+
+bool ends_empty(std::string_view line) { return line.ends_with(',') || line.ends_with(';'); }
 
 void refuse_columns(const ReadOptions& options, std::string_view found) {
   if (!options.columns.empty())

@@ -12,12 +12,11 @@ namespace ph::detail {
 
 /// Where the numbers of a text table are.
 struct TableLayout {
-  std::vector<std::string> header;   ///< names of the columns, on the first line; empty: none
-  std::size_t header_line = 0;       ///< its number, from 1
-  std::size_t width = 0;             ///< cells of the first row; 0: there is none
-  std::vector<std::size_t> columns;  ///< those that hold numbers to be read, ascending
-  bool names_rows = false;           ///< the first column has names and is not among them
-  std::vector<std::string> notes;    ///< what was assumed
+  std::vector<std::string> header = {};   ///< names of the columns, on the first line; empty: none
+  std::size_t width = 0;                  ///< cells of the first row; 0: there is none
+  std::vector<std::size_t> columns = {};  ///< those that hold numbers to be read, ascending
+  bool names_rows = false;                ///< the first column has names and is not among them
+  std::vector<std::string> notes = {};    ///< what was assumed
 
   /// Whether column k is one of `columns`, for all k < width.
   std::vector<bool> taken() const;
@@ -32,13 +31,25 @@ struct TableLayout {
 /// @throws Error (usage) if options.columns names what is not there.
 TableLayout table_layout(const Input& input, const ReadOptions& options);
 
+/// The number that a cell holds, NaN if double cannot hold it; nothing if it holds no number.
+std::optional<double> number_in(std::string_view cell);
 /// A cell without the double quotes around it.
 std::string_view without_quotes(std::string_view cell);
+/// Cells of a line of names, without the quotes around them and without an empty last one.
+/// @param names_only nothing if one is a number, or empty.
+std::vector<std::string> header_cells(std::string_view line, bool names_only);
+/// Cells of the current line, without an empty last one.
+std::size_t count_cells(const TextLines& lines);
 /// Whether a line ends in a separator: its last cell is empty if another one is expected.
 bool ends_empty(std::string_view line);
 
+/// What to do about a cell of a table that is no number.
+CellHints cell_hints(const ReadOptions& options);
+
 /// The columns that a list of names and numbers from 1 ("x", "3", "2-5") stands for, ascending.
-/// @param header may be empty. @throws Error (usage) on one that is not there or stands twice.
+/// @param header may be empty. @throws Error (usage) on one that is not there, stands twice, is
+/// the name of several columns, or the name of one and the number of another: of "2-2" there is
+/// one meaning.
 std::vector<std::size_t> chosen_columns(const std::vector<std::string>& wanted,
                                         const std::vector<std::string>& header, std::size_t width,
                                         const Input& input);
@@ -54,7 +65,8 @@ enum class SquareKind {
 
 /// Most rows of a submatrix that `kind_of_square` is asked about.
 constexpr std::size_t kMostLookedAt = 64;
-/// Rounding, relative to the largest entry: of a diagonal, and of the two entries of a pair.
+/// Rounding, relative to the largest entry: of a diagonal, of the two entries of a pair, and of
+/// what is below 0.
 constexpr double kRounding = 1e-6;
 
 /// @param block the entries of a principal submatrix, row by row, `side`^2 of them. NaN fits all.
@@ -62,6 +74,15 @@ SquareKind kind_of_square(std::span<const double> block, std::size_t side);
 
 /// Whether more than half of what is not on the diagonal is 0: of pictures, never of distances.
 bool is_mostly_zero(std::span<const double> block, std::size_t side);
+
+/// What the rows of a table are, as far as was looked.
+struct TableShape {
+  /// Counted up to one more than columns; 0 if they differ in length.
+  std::size_t rows = 0;
+  SquareKind square = SquareKind::nothing;  ///< of a square table
+  bool same_names = false;                  ///< its rows have the names of its columns
+};
+TableShape shape_of(const Input& input, const TableLayout& layout);
 
 /// Why an array is taken for what it is taken for: for a note.
 struct ArrayGuess {
@@ -78,10 +99,8 @@ std::optional<Format> format_by_content(const Input& input);
 /// What a text of numbers without a magic number holds.
 struct TextGuess {
   Format format = Format::points;
-  SquareKind square = SquareKind::nothing;  ///< of a square table
-  /// Of a table; rows are counted up to one more than columns, and 0 if they differ in length.
-  std::size_t rows = 0, columns = 0;
-  bool same_names = false;                  ///< its rows have the names of its columns
+  std::size_t columns = 0;  ///< of a table
+  TableShape table;
 };
 TextGuess guess_text(const Input& input, const ReadOptions& options);
 

@@ -179,22 +179,23 @@ void TextLines::fail(const char* place, const Fault& fault) const {
   input_.fail_at(number_, column(place), fault);
 }
 
-std::vector<std::string> header_names(std::string_view line) {
+std::vector<std::string> detail::header_cells(std::string_view line, bool names_only) {
   const char separator = line.find(',') != std::string_view::npos   ? ','
                          : line.find(';') != std::string_view::npos ? ';'
                                                                     : ' ';
-  std::vector<std::string> names;
+  std::vector<std::string> cells;
   for (std::string_view rest = trimmed(line); !rest.empty();) {
     const std::size_t length = header_cell(rest, separator);
-    std::string_view name = trimmed(rest.substr(0, length));
-    if (name.size() >= 2 && name.front() == '"' && name.back() == '"') {
-      name = name.substr(1, name.size() - 2);
-    }
-    if (looks_numeric(name)) return {};
-    names.emplace_back(name);
+    const std::string_view cell = without_quotes(trimmed(rest.substr(0, length)));
+    if (names_only && looks_numeric(cell)) return {};
+    cells.emplace_back(cell);
     rest = trimmed(rest.substr(std::min(length + 1, rest.size())));
   }
-  return names;
+  return cells;
+}
+
+std::vector<std::string> header_names(std::string_view line) {
+  return detail::header_cells(line, true);
 }
 
 void Cells::start_in(std::string_view part) {
@@ -223,7 +224,7 @@ T Cells::floating(Allow allow) {
   }
   if (error == std::errc::invalid_argument || (stop != end_ && !ends_cell(*stop)) ||
       (in_quotes && stop == last)) {
-    reject(begin, stop, "not a number", "a decimal number");
+    reject(begin, stop, "not a number", "a decimal number", hints_.word);
   }
   if (error == std::errc::result_out_of_range) {
     if (!rounds_to_zero({digits, last})) {
@@ -234,7 +235,7 @@ T Cells::floating(Allow allow) {
   }
   if (!std::isfinite(value)) {
     if (std::isnan(value) && (allow < Allow::any || last[-1] == ')')) {
-      reject(begin, stop, "not a number", "a decimal number");
+      reject(begin, stop, "not a number", "a decimal number", hints_.missing);
     }
     if (std::isinf(value) && allow == Allow::finite) {
       reject(begin, stop, "infinite number", "a finite one");
@@ -341,17 +342,17 @@ void Cells::after_cell(const char* end_of_cell) {
   position_ = p;
 }
 
-void Cells::reject(const char* begin, const char* stop, std::string what,
-                   std::string expected) const {
+void Cells::reject(const char* begin, const char* stop, std::string what, std::string expected,
+                   std::string_view hint) const {
   while (stop != end_ && !ends_cell(*stop)) ++stop;
   const std::string_view cell(begin, static_cast<std::size_t>(stop - begin));
   if (cell.empty()) {
     lines_->fail(begin, {"empty cell", stop == end_ ? "the end of the line" : quoted({stop, 1}),
-                         std::move(expected), std::string(hint_)});
+                         std::move(expected), std::string(hints_.missing)});
   }
-  std::string hint = hint_for(cell);
-  if (hint.empty()) hint = hint_;
-  lines_->fail(begin, {std::move(what), quoted(cell), std::move(expected), std::move(hint)});
+  const std::string why = hint_for(cell);
+  lines_->fail(begin, {std::move(what), quoted(cell), std::move(expected),
+                       why.empty() ? std::string(cell == "\"\"" ? hints_.missing : hint) : why});
 }
 
 }  // namespace ph

@@ -13,15 +13,6 @@ namespace ph {
 
 namespace {
 
-constexpr std::string_view kChooseColumns = "names or an index? --columns takes some columns only";
-
-std::size_t count_cells(const TextLines& lines) {
-  Cells cells(lines);
-  std::size_t count = 0;
-  for (cells.start(); cells.more(); ++count) cells.skip();
-  return count;
-}
-
 // Whether a column counts the rows, from 0 or from 1.
 bool counts_rows(const Points& points, Index column) {
   for (Index i = 0; i < points.rows(); ++i)
@@ -29,10 +20,23 @@ bool counts_rows(const Points& points, Index column) {
   return points(0, column) == 0 || points(0, column) == 1;
 }
 
+// Whether the first point may be a header of numbers: 0, 1, 2, … or 1, 2, 3, …. Of two whole
+// numbers among others that says nothing.
+bool may_be_header(const Points& rows) {
+  const Index columns = rows.cols();
+  if (rows.rows() < 2 || columns < 2 || (rows(0, 0) != 0 && rows(0, 0) != 1)) return false;
+  for (Index k = 1; k < columns; ++k)
+    if (rows(0, k) != rows(0, 0) + static_cast<double>(k)) return false;
+  const auto next = rows.middleRows(1, std::min<Index>(rows.rows() - 1, 8)).array();
+  return columns > 2 || (next != next.floor()).any();
+}
+
 // The numbers of a table, without those of its index.
 detail::TextTable table_of_points(const Input& input, const ReadOptions& options) {
   constexpr Index kFewest = 8;  // rows that hardly count by chance
-  const detail::TableLayout layout = detail::table_layout(input, options);
+  ReadOptions as_points = options;
+  as_points.array = ArrayMeaning::points;
+  const detail::TableLayout layout = detail::table_layout(input, as_points);
   detail::TextTable table = detail::read_text_table(
       input, options.nan == NanPolicy::drop ? Allow::missing : Allow::finite, options, false,
       &layout);
@@ -44,6 +48,10 @@ detail::TextTable table_of_points(const Input& input, const ReadOptions& options
                              "--columns 2-{} leaves it out",
                              rows.cols()));
   }
+  if (layout.header.empty() && options.columns.empty() && may_be_header(rows))
+    detail::note(options,
+                 "the first row counts the columns and is read as a point; take it out if it is a "
+                 "header");
   return table;
 }
 
@@ -66,7 +74,7 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
                           const TableLayout* layout) {
   TextTable table;
   TextLines lines(input);
-  Cells cells(lines, layout != nullptr ? kChooseColumns : "");
+  Cells cells(lines, layout != nullptr ? cell_hints(options) : CellHints());
   bool more = layout != nullptr ? layout->start(lines) : lines.next();
   std::size_t said = 0;
   if (counted) {
@@ -104,12 +112,12 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
       layout != nullptr ? layout->taken() : std::vector<bool>(width, true);
   const auto columns = static_cast<std::size_t>(std::ranges::count(taken, true));
 
-  // No more rows than lines, and a row takes two bytes a cell: memory is at most four times the
-  // file, whatever it holds.
+  // No more rows than lines. A row takes a byte a cell, its separator or the line end, for cells
+  // may be empty: memory is at most eight times the file, whatever it holds.
   const std::string_view rest = input.text().substr(lines.offset());
   const std::size_t by_lines =
       static_cast<std::size_t>(std::count(rest.begin(), rest.end(), '\n')) + 2;
-  const std::size_t most = std::min(by_lines, rest.size() / (2 * width) + 2);
+  const std::size_t most = std::min(by_lines, rest.size() / width + 2);
   input.require_memory(most * columns * sizeof(double));
   table.rows.resize(static_cast<Index>(most), static_cast<Index>(columns));
   double* value = table.rows.data();
@@ -124,7 +132,7 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
         cells.skip();
       }
     }
-    if (k + 1 == width && allow == Allow::missing && ends_empty(lines.line())) {
+    if (k + 1 == width && (allow == Allow::missing || !taken[k]) && ends_empty(lines.line())) {
       if (taken[k]) *value++ = std::numeric_limits<double>::quiet_NaN();
       ++k;
     }
@@ -215,6 +223,7 @@ Points read_points(const Input& input, const ReadOptions& options) {
     points = chosen_of(std::move(points), input, options);
     points = detail::without_nan_rows(std::move(points), input, options, false);
   } else if (detail::is_pcd(input) || detail::is_ply(input)) {
+    detail::refuse_columns(options, detail::is_pcd(input) ? "PCD" : "PLY");
     points = detail::without_nan_rows(
         points_of(read_cloud(input, {.allow_empty = true, .context = options.context})), input,
         options, true);
@@ -232,7 +241,9 @@ Points read_points(const Input& input, const ReadOptions& options) {
 namespace detail {
 
 Image read_grid(const Input& input, const ReadOptions& options) {
-  const TableLayout layout = table_layout(input, options);
+  ReadOptions as_image = options;
+  as_image.array = ArrayMeaning::image;
+  const TableLayout layout = table_layout(input, as_image);
   const Allow allow = options.nan == NanPolicy::drop ? Allow::missing : Allow::infinite;
   Points rows = read_text_table(input, allow, options, false, &layout).rows;
   Image image;

@@ -108,7 +108,7 @@ std::vector<double> read_values(const Input& input, std::size_t count, const Rea
                                 std::string_view owner) {
   const bool is_array = detail::is_npy(input) || detail::is_npz(input);
   const bool is_ply = detail::is_ply(input);
-  const bool is_raw = !is_array && !is_ply && !detail::is_text(input);
+  const bool is_raw = !is_array && !is_ply && !detail::is_text(input.text());
   std::vector<double> values = is_array ? of_array(input, owner)
                                : is_ply ? of_property(input)
                                : is_raw ? of_bytes(input, count, owner)

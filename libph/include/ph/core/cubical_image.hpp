@@ -44,7 +44,7 @@ struct CubicalImage {
   bool is_in_file = false;          ///< see core/file_pages.hpp
   bool voxels_are_vertices = true;  ///< V-construction; else the voxels are top cubes (T)
   bool superlevel = false;          ///< values are those of -f
-  /// Values above it never enter; finite.
+  /// Values above it never enter; below +infinity.
   double limit = std::numeric_limits<double>::max();
 
   std::size_t size() const {

@@ -78,7 +78,7 @@ std::optional<BarcodeFormat> barcode_format_named(std::string_view name);
 std::optional<BarcodeFormat> barcode_format_of_path(std::string_view path);
 
 /// Writes a barcode; the caller commits the file.
-/// @throws Error (io) as OutputFile.
+/// @throws Error (io) as OutputFile; Error (usage) on loops that are not of these bars.
 void write_barcode(OutputFile& file, const Barcode& barcode, BarcodeFormat format,
                    const BarcodeInfo& info = {});
 

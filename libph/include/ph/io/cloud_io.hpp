@@ -43,9 +43,9 @@ Cloud read_pts(const Input& input, const ReadOptions& options = {});
 /// @throws Error (bad_data) if x, y or z is missing.
 Points points_of(const Cloud& cloud);
 
-/// Array of NumPy (.npy), floats: shape (n, 3) or more columns, or (rows,
-/// columns, 3) or more, an organised cloud. The columns are those of read_xyz without a header; red
-/// green blue may be numbers of 0…1, too. NaN is a hole.
+/// Array of NumPy (.npy), floats: shape (n, 3) or more columns, or (rows, columns, 3) or more, an
+/// organised cloud. The columns are those of read_xyz without a header; red green blue may be
+/// numbers of 0…1, too. NaN is a hole.
 Cloud read_npy_cloud(const Input& input, const ReadOptions& options = {});
 
 /// A depth image as its file has it.
@@ -54,8 +54,8 @@ struct DepthImage {
   double scale = 1000;  ///< depth units a metre where nobody says them: floats are metres, whole
                         ///< numbers millimetres
 };
-/// A grey PNG, PGM, or an array of NumPy (.npy) with two axes. NaN is an
-/// absent pixel: a hole for cloud_from_depth. @throws Error (bad_data) also on colours or other axes.
+/// A PNG of one channel, PGM, or an array of NumPy (.npy) with two axes. NaN is an absent pixel: a
+/// hole for cloud_from_depth. @throws Error (bad_data) also on more channels or other axes.
 DepthImage read_depth(const Input& input, const ReadOptions& options = {});
 
 /// What became of the pixels of a depth image.

@@ -18,7 +18,7 @@ namespace ph {
 
 /// How an asymmetric square matrix becomes a distance matrix.
 enum class Symmetrise {
-  none,   ///< it is an error, if it differs by more than 1e-6 of the larger entry
+  none,   ///< it is an error, if they differ by more than 1e-6 of the largest entry
   max,    ///< d(i,j) = max of both entries
   min,    ///< d(i,j) = min of both entries
   lower,  ///< the entry below the diagonal
@@ -120,7 +120,7 @@ DistanceMatrix read_binary_distances(const Input& input, const ReadOptions& opti
 SparseDistances read_sparse(const std::filesystem::path& path, const ReadOptions& options = {});
 SparseDistances read_sparse(const Input& input, const ReadOptions& options = {});
 
-/// An array of any dimension from NPY, NPZ, PNG (grey), PGM, DIPHA or NIfTI, by content. The axes
+/// An array of any dimension from NPY, NPZ, PNG, PGM, DIPHA or NIfTI, by content. The axes
 /// are those of the file, in C order: a picture has (y, x), DIPHA and NIfTI have (x, y, z).
 /// +-infinity is legal; NaN is an error or, with NanPolicy::drop, an absent voxel. An array (but
 /// one of an archive) that would take more than a third of the memory left in the budget stays in

@@ -164,6 +164,12 @@ enum class Allow {
   missing,  ///< also nothing, before a comma or a semicolon or between quotes: NaN
 };
 
+/// What the user can do about a cell that is no number and does not say itself why.
+struct CellHints {
+  std::string_view word = {};     ///< where there is something else
+  std::string_view missing = {};  ///< where there is nothing, or NaN
+};
+
 /// Splits the current line into cells. The first separator of the first line with two cells
 /// (blanks,
 /// ',' or ';') is the file's separator: another one is an error, so that a decimal comma cannot
@@ -171,9 +177,7 @@ enum class Allow {
 /// cell may stand between double quotes; separators between them are part of it.
 class Cells {
  public:
-  /// @param hint what the user can do about a cell that is no number and does not say itself why.
-  explicit Cells(const TextLines& lines, std::string_view hint = {})
-      : lines_(&lines), hint_(hint) {}
+  explicit Cells(const TextLines& lines, CellHints hints = {}) : lines_(&lines), hints_(hints) {}
 
   /// Starts on the current line.
   void start() { start_in(lines_->line()); }
@@ -206,10 +210,10 @@ class Cells {
   bool is_empty_cell(const char* begin, const char* stop) const;
   void after_cell(const char* end_of_cell);
   [[noreturn]] void reject(const char* begin, const char* stop, std::string what,
-                           std::string expected) const;
+                           std::string expected, std::string_view hint = {}) const;
 
   const TextLines* lines_;
-  std::string_view hint_;
+  CellHints hints_;
   const char* position_ = nullptr;
   const char* end_ = nullptr;
   char separator_ = 0;  // 0: not seen yet

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+// Reads any format: chooses it where it is left open, refuses options that it has no use for.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "ph/io/formats.hpp"
+#include "readers.hpp"
+#include "table.hpp"
+
+namespace ph {
+namespace {
+
+// Whether it is an image that need not be in memory as a whole.
+bool goes_by_blocks(const Input& input, Format format, const ReadOptions& options) {
+  switch (format) {
+    case Format::nifti:
+    case Format::raw:
+      return true;
+    case Format::npy:
+      return detail::guess_array(input, options).meaning == ArrayMeaning::image;
+    case Format::dipha:
+      return detail::dipha_type(input) == detail::DiphaType::image;
+    default:
+      return false;
+  }
+}
+
+// The format of a text of numbers, by what the options say and, where they leave it open, by its
+// rows.
+Format format_of_text(const Input& input, const ReadOptions& options) {
+  if (options.array == ArrayMeaning::image) {
+    // Two to four numbers a row are coordinates as a rule, hardly ever a picture.
+    const std::size_t width = detail::table_layout(input, options).columns.size();
+    if (width >= 2 && width <= 4) return Format::points;
+    if (width > 4) detail::note(options, "read as an image; --voxel X reads points");
+    return Format::grid;
+  }
+  const detail::TextGuess guess = detail::guess_text(input, options);
+  const bool is_table = guess.format == Format::points || guess.format == Format::distance;
+  if (!is_table) return guess.format;
+  if (const std::string_view option = detail::matrix_option(options); !option.empty()) {
+    const bool is_square = guess.table.rows == guess.columns;
+    // Points have no diagonal: --diagonal zero asks for nothing, births are refused with the
+    // points.
+    if (!is_square && option.starts_with("--diagonal")) return Format::points;
+    if (guess.table.rows != 0 && !is_square) {
+      input.fail({"not a square matrix",
+                  guess.table.rows > guess.columns
+                      ? fmt::format("rows of {} cells, and more of them", guess.columns)
+                      : fmt::format("{} rows of {} cells", guess.table.rows, guess.columns),
+                  fmt::format("as many rows as columns, for {}", option),
+                  "is the file truncated, or a set of points?"});
+    }
+    return Format::distance;
+  }
+  if (options.array == ArrayMeaning::points) return Format::points;
+  using detail::SquareKind;
+  if (guess.columns == 1 && guess.table.rows > 1 && options.array == ArrayMeaning::automatic)
+    detail::note(options, "a number a line: points of a line; --complex cubical reads a signal");
+  const std::string size = fmt::format("{} x {} numbers", guess.table.rows, guess.columns);
+  const char* const choices =
+      "--format distance reads distances, --from-correlation correlations, --format points a point "
+      "a row";
+  if (guess.format == Format::distance) {
+    detail::note(options,
+                 "square with a zero diagonal: read as distances; --format points reads points");
+  } else if (guess.table.rows > 2 && guess.table.square == SquareKind::correlations) {
+    input.fail({"correlations or points",
+                fmt::format("{}, symmetric, from -1 to 1 with ones on the diagonal", size),
+                "an option that says which",
+                "--from-correlation takes distances 1 - r, --format points a point a row"});
+  } else if (guess.table.square == SquareKind::symmetric && guess.table.same_names) {
+    input.fail({"distances, correlations or points",
+                fmt::format("{}, rows and columns of the same names, no zero diagonal", size),
+                "an option that says which", choices});
+  } else if (guess.table.square != SquareKind::nothing && guess.table.square != SquareKind::zeros) {
+    detail::note(options, fmt::format("{}, symmetric: read as points; {}", size, choices));
+  }
+  return guess.format;
+}
+
+// What an option says of an input that knows nothing of it.
+void check_part(const Input& input, Format format, const ReadOptions& options) {
+  const auto refuse = [&](std::string_view option, std::string_view meant_for) {
+    throw Error(ErrorKind::usage, fmt::format("{}: makes sense for {} only, found {}", option,
+                                              meant_for, format_info(format).name));
+  };
+  const bool is_table = format == Format::points || format == Format::distance ||
+                        format == Format::grid || format == Format::npy || format == Format::npz;
+  if (!options.columns.empty() && !is_table)
+    refuse("--columns", "tables of numbers, as text or NPY");
+  if (options.channel != Channel::automatic && format != Format::png)
+    refuse("--channel", "PNG pictures");
+  if (format == Format::ply && !input.member().empty()) {
+    input.fail({"a property of a mesh", printable(input.member(), 40), "the mesh itself",
+                "--values FILE.ply:NAME takes one"});
+  }
+}
+
+}  // namespace
+
+ReadResult read_any(const Input& input, Format format, const ReadOptions& options,
+                    const std::filesystem::path& values_path) {
+  std::vector<std::string> notes;
+  std::vector<Index> dropped;
+  ReadOptions inner = options;
+  inner.note = [&](std::string text) {
+    notes.push_back(text);
+    if (options.note) options.note(std::move(text));
+  };
+  inner.dropped = &dropped;
+  if (format == Format::automatic) {
+    const auto known = detail::format_by_content(input);
+    format = known ? *known : format_of_text(input, inner);
+  }
+  check_part(input, format, options);
+  const FormatInfo& info = format_info(format);
+  if (info.read == nullptr) {
+    throw Error(ErrorKind::not_built_in,
+                fmt::format("{}: format {} is not built in", input.name(), info.name));
+  }
+  if (!goes_by_blocks(input, format, inner)) input.take_memory();
+  ReadResult result = info.read(input, inner);
+  result.format = format;
+  result.notes = std::move(notes);
+  if (options.dropped != nullptr) *options.dropped = dropped;
+  if (!dropped.empty()) {
+    const auto* points = std::get_if<Points>(&result.data);
+    const Index total = (points ? points->rows() : 0) + static_cast<Index>(dropped.size());
+    auto next = dropped.begin();
+    for (Index i = 0; i < total; ++i) {
+      if (next != dropped.end() && *next == i) {
+        ++next;
+      } else {
+        result.point_ids.push_back(i);
+      }
+    }
+  }
+  if (const auto* points = std::get_if<Points>(&result.data);
+      points && points->rows() == 0 && !options.allow_empty) {
+    input.fail({"no points", {}, "at least one", "--allow-empty accepts an empty set"});
+  }
+  if (values_path.empty()) return result;
+
+  const auto values_for = [&](std::size_t count, std::string_view owner) {
+    return read_values(Input::open(values_path, options.context), count, options, owner);
+  };
+  if (auto* boundary = std::get_if<BoundaryInput>(&result.data)) {
+    boundary->matrix.values = values_for(boundary->matrix.size(), "cell");
+  } else if (auto* mesh = std::get_if<Mesh>(&result.data)) {
+    mesh->values = values_for(static_cast<std::size_t>(mesh->vertices.rows()), "vertex");
+  } else if (auto* simplices = std::get_if<SimplicesInput>(&result.data)) {
+    const auto& vertices = simplices->simplices.vertices;
+    const Index largest =
+        vertices.empty() ? -1 : *std::max_element(vertices.begin(), vertices.end());
+    simplices->vertex_values = values_for(static_cast<std::size_t>(largest + 1), "vertex");
+  } else {
+    throw Error(ErrorKind::usage,
+                fmt::format("--values: format {} takes no separate values", info.name));
+  }
+  return result;
+}
+
+ReadResult read_any(const std::filesystem::path& path, Format format, const ReadOptions& options,
+                    const std::filesystem::path& values_path) {
+  return read_any(Input::open(path, options.context, Input::Excess::stays_in_file), format, options,
+                  values_path);
+}
+
+}  // namespace ph
