@@ -122,7 +122,7 @@ class Builder {
     if (points.rows() == 0) return cubical(Image{{0}, {}});
     PointImage made = voxel_image(points, *arguments_.voxel, arguments_.voxel_value, 1, context_);
     BuiltComplex built = cubical(made.image);
-    constexpr std::string_view kValues[] = {"distance", "occupancy", "density"};
+    constexpr const char* kValues[] = {"distance", "occupancy", "density"};
     built.voxels = {made.voxel, std::move(made.first),
                     kValues[static_cast<int>(arguments_.voxel_value)]};
     return built;

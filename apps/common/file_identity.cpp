@@ -5,11 +5,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <filesystem>
+#include <system_error>
+
 #include "ph/core/error.hpp"
 #include "ph/io/reader.hpp"
 
 namespace ph::app {
 namespace {
+
+namespace fs = std::filesystem;
 
 std::optional<FileIdentity> identity(const struct stat& status) {
   // A pipe, a terminal or /dev/null keeps nothing that could be lost.
@@ -22,18 +27,25 @@ std::optional<FileIdentity> identity_of(const std::string& path, int standard_de
   if (path == "-")
     return fstat(standard_descriptor, &status) == 0 ? identity(status) : std::nullopt;
   if (stat(path.c_str(), &status) == 0) return identity(status);
-  const std::size_t slash = path.rfind('/');
-  const std::string folder = slash == path.npos ? "." : path.substr(0, slash + 1);
-  if (stat(folder.c_str(), &status) != 0) return std::nullopt;
-  return FileIdentity{status.st_dev, status.st_ino,
-                      slash == path.npos ? path : path.substr(slash + 1)};
+  std::error_code error;
+  const fs::path absolute = fs::absolute(path, error);
+  const fs::path place = fs::weakly_canonical(absolute, error);
+  if (error) return std::nullopt;
+  // A batch creates folders later: the file is known by the nearest one that is there.
+  fs::path folder = place.parent_path();
+  while (stat(folder.c_str(), &status) != 0) {
+    if (folder == folder.parent_path()) return std::nullopt;
+    folder = folder.parent_path();
+  }
+  return FileIdentity{status.st_dev, status.st_ino, place.lexically_relative(folder).string()};
 }
 
 }  // namespace
 
 void InputFiles::add(const std::string& path) {
   if (path.empty()) return;
-  if (auto file = identity_of(path, STDIN_FILENO); file && file->name.empty())
+  const std::string whole = split_member(path).first.string();
+  if (auto file = identity_of(whole, STDIN_FILENO); file && file->name.empty())
     paths_.emplace(std::move(*file), path);
 }
 

@@ -17,18 +17,19 @@ struct Written {
   std::string path;
 };
 
-/// A file by whatever name: by its place on the disk, or, as long as it is not there, by the folder
-/// that it will be in. "-" is what standard output goes to.
+/// A file by whatever name: by its place on the disk, or, as long as it is not there, by the
+/// nearest folder above it that is. "-" is what standard output goes to.
 struct FileIdentity {
   std::uint64_t device = 0, inode = 0;
-  std::string name;  ///< in that folder; empty: the file is there
+  std::string name;  ///< the way from that folder; empty: the file is there
   auto operator<=>(const FileIdentity&) const = default;
 };
 
 /// The inputs of a run, which no output may replace.
 class InputFiles {
  public:
-  /// @param path "-": what standard input comes from. What is no file has nothing to lose.
+  /// @param path as Input::open takes it: "-" is what standard input comes from, "FILE.npz:NAME" is
+  /// a part of FILE.npz. What is no file has nothing to lose.
   void add(const std::string& path);
   /// @throws Error (usage) "--output: a.csv is the input ./a.csv; …".
   void require_other(const Written& output) const;

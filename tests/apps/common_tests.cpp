@@ -143,6 +143,16 @@ TEST_F(Files, AnInputIsKnownByAnyOfItsNames) {
   EXPECT_FALSE(require_separate(inputs_, std::span(&null, 1), false));
 }
 
+TEST_F(Files, APartOfAnInputIsTheInput) {
+  std::ofstream(at("scan.npz")) << "x";
+  std::ofstream(at("whole.npz:a")) << "x";
+  inputs_.add(at("scan.npz:image"));
+  inputs_.add(at("whole.npz:a"));
+  EXPECT_TRUE(is_input("scan.npz"));
+  EXPECT_TRUE(is_input("whole.npz:a"));
+  EXPECT_FALSE(is_input("whole.npz"));
+}
+
 TEST_F(Files, TwoOutputsAreTwoFiles) {
   std::filesystem::create_directory(at("folder"));
   const auto kind = [](const std::vector<Written>& outputs) {
@@ -152,6 +162,11 @@ TEST_F(Files, TwoOutputsAreTwoFiles) {
   EXPECT_EQ(kind({{"--output", at("a")}, {"--report", at("b")}}), none);
   EXPECT_EQ(kind({{"--output", at("a")}, {"--report", at("folder/a")}}), none);
   EXPECT_EQ(kind({{"--output", at("a")}, {"--report", at("folder/../a")}}), ErrorKind::usage);
+  // A folder that a batch will create.
+  EXPECT_EQ(kind({{"--output", at("new/a")}, {"--report", at("new/b")}}), none);
+  EXPECT_EQ(kind({{"--output", at("new/a")}, {"--report", at("new/deep/a")}}), none);
+  EXPECT_EQ(kind({{"--output", at("new/a")}, {"--report", at("folder/../new/./a")}}),
+            ErrorKind::usage);
   EXPECT_EQ(kind({{"--output", "-"}, {"--report", "-"}}), ErrorKind::usage);
   EXPECT_EQ(kind({{"--output", "/dev/null"}, {"--report", "/dev/null"}}), none);
 }

@@ -133,6 +133,50 @@ TEST(ReadBarcode, JsonSkipsWhatItDoesNotKnow) {
   EXPECT_EQ(read[0], (Bar{2, 1, kInfinity}));
 }
 
+TEST(ReadBarcode, JsonSaysWhereItCameFrom) {
+  const auto stored = [](const std::string& text) {
+    return read_stored_barcode(Input::view(text, "b.json"));
+  };
+  const StoredBarcode read = stored(R"({"format": "ph-barcode", "version": 1, "program": "p 1",
+ "input": {"path": "a", "description": "d"}, "complex": "rips", "field": 3, "max_dim": 2,
+ "threshold": 1.5, "vertex_weights": "dtm 2",
+ "subsample": {"points": 4, "of": 9, "covering_radius": 0.5},
+ "voxels": {"edge": 2, "first": [0, -1], "value": "density"}, "approximation": 0.25,
+ "engine": "twist", "shape": "round", "timings": {"read": 0.5, "plan": 1}, "peak_memory": 77,
+ "bars": [{"dim": 1, "birth": 0, "death": 1, "loops": []}]})");
+  const BarcodeInfo& info = read.info;
+  EXPECT_EQ(info.program, "p 1");
+  EXPECT_EQ(info.input, "a");
+  EXPECT_EQ(info.input_description, "d");
+  EXPECT_EQ(info.complex, "rips");
+  EXPECT_EQ(info.field, 3);
+  EXPECT_EQ(info.max_dim, 2);
+  EXPECT_EQ(info.threshold, 1.5);
+  EXPECT_EQ(info.vertex_weights, "dtm 2");
+  ASSERT_TRUE(info.subsample && info.voxels);
+  EXPECT_EQ(info.subsample->points, 4);
+  EXPECT_EQ(info.subsample->of, 9);
+  EXPECT_EQ(info.subsample->covering_radius, 0.5);
+  EXPECT_EQ(info.voxels->voxel, 2);
+  EXPECT_EQ(info.voxels->first, (std::vector<double>{0, -1}));
+  EXPECT_EQ(info.voxels->value, "density");
+  EXPECT_EQ(info.approximation, 0.25);
+  EXPECT_EQ(info.engine, "twist");
+  EXPECT_EQ(info.timings,
+            (std::vector<std::pair<std::string, double>>{{"read", 0.5}, {"plan", 1}}));
+  EXPECT_EQ(info.peak_memory, 77U);
+  EXPECT_EQ(read.left_out, (std::vector<std::string>{"loops", "shape"}));
+  // What nobody said is not known, and not written.
+  const StoredBarcode bare = stored(R"({"format": "ph-barcode", "bars": [], "threshold": null})");
+  EXPECT_EQ(bare.info.complex, "");
+  EXPECT_EQ(bare.info.threshold, std::nullopt);
+  const std::string text = text_of(bare.bars, BarcodeFormat::json);
+  for (const char* member : {"complex", "field", "max_dim", "threshold", "engine"})
+    EXPECT_FALSE(contains(text, std::string("\"") + member)) << member;
+  EXPECT_EQ(stored(R"({"format": "ph-barcode", "bars": [], "threshold": "-inf"})").info.threshold,
+            -kInfinity);
+}
+
 TEST(ReadBarcode, JsonRefusesDamage) {
   const std::string whole = text_of(example(), BarcodeFormat::json);
   check_prefixes(

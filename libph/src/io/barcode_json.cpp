@@ -194,10 +194,11 @@ void write_barcode_json(OutputFile& file, const Barcode& barcode, const BarcodeI
   file.write(fmt::format("  \"program\": {},\n", json_string(info.program)));
   file.write(fmt::format("  \"input\": {{\"path\": {}, \"description\": {}}},\n",
                          json_string(info.input), json_string(info.input_description)));
-  file.write(fmt::format("  \"complex\": {},\n  \"field\": {},\n  \"max_dim\": {},\n",
-                         json_string(info.complex), info.field, info.max_dim));
-  file.write(fmt::format("  \"threshold\": {},\n",
-                         info.threshold ? json_number(*info.threshold) : "null"));
+  if (!info.complex.empty())
+    file.write(fmt::format(
+        "  \"complex\": {},\n  \"field\": {},\n  \"max_dim\": {},\n  \"threshold\": {},\n",
+        json_string(info.complex), info.field, info.max_dim,
+        info.threshold ? json_number(*info.threshold) : "null"));
   if (!info.vertex_weights.empty())
     file.write(fmt::format("  \"vertex_weights\": {},\n", json_string(info.vertex_weights)));
   if (info.subsample)
@@ -214,7 +215,8 @@ void write_barcode_json(OutputFile& file, const Barcode& barcode, const BarcodeI
   if (info.approximation)
     file.write(fmt::format("  \"approximation\": {},\n", json_number(*info.approximation)));
   const bool with_chains = barcode.representatives() != Representatives::none;
-  file.write(fmt::format("  \"engine\": {},\n", json_string(info.engine)));
+  if (!info.engine.empty())
+    file.write(fmt::format("  \"engine\": {},\n", json_string(info.engine)));
   if (with_chains)
     file.write(fmt::format("  \"representatives\": \"{}\",\n",
                            representatives_name(barcode.representatives())));

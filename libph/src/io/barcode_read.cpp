@@ -222,28 +222,33 @@ Fault fault_of_bar(const Bar& bar) {
   return {};
 }
 
-Barcode read_barcode(const Input& input, std::optional<BarcodeFormat> format) {
-  const auto read = [&] {
+StoredBarcode read_stored_barcode(const Input& input, std::optional<BarcodeFormat> format) {
+  const auto read = [&]() -> StoredBarcode {
     switch (format.value_or(format_of(input))) {
       case BarcodeFormat::json:
         return read_barcode_json(input);
       case BarcodeFormat::ripser:
-        return read_ripser_text(input);
+        return {read_ripser_text(input), {}, {}};
       case BarcodeFormat::dipha:
-        return read_dipha(input);
+        return {read_dipha(input), {}, {}};
       case BarcodeFormat::npy:
-        return read_npy(input);
+        return {read_npy(input), {}, {}};
       case BarcodeFormat::pers:
-        return read_rows(input, true);  // an empty barcode is an empty file
+        return {read_rows(input, true), {}, {}};  // an empty barcode is an empty file
       case BarcodeFormat::csv:
       case BarcodeFormat::none:
         break;
     }
-    return read_rows(input, false);
+    return {read_rows(input, false), {}, {}};
   };
-  Barcode barcode = read();
-  barcode.sort();
-  return barcode;
+  input.take_memory();
+  StoredBarcode stored = read();
+  stored.bars.sort();
+  return stored;
+}
+
+Barcode read_barcode(const Input& input, std::optional<BarcodeFormat> format) {
+  return read_stored_barcode(input, format).bars;
 }
 
 Barcode read_barcode(const std::filesystem::path& path, std::optional<BarcodeFormat> format,

@@ -13,6 +13,6 @@ inline constexpr std::int64_t kMostBarDimension = 1 << 20;
 /// What is wrong with a bar; `what` is empty if nothing is.
 Fault fault_of_bar(const Bar& bar);
 
-Barcode read_barcode_json(const Input& input);
+StoredBarcode read_barcode_json(const Input& input);
 
 }  // namespace ph

@@ -1,22 +1,142 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <set>
+
 #include "barcode_read.hpp"
 #include "json_cursor.hpp"
 
 namespace ph {
 namespace {
 
+using detail::JsonCursor;
+
+/// Calls `take` with each member of the object that comes next.
+template <class Take>
+void for_each_member(JsonCursor& json, Take&& take) {
+  std::string name;
+  json.expect('{');
+  for (bool first = true; json.next_member(first, name);) take(name);
+}
+
+// null is a death that never comes.
+double value_of(JsonCursor& json) {
+  if (json.accept_null()) return kInfinity;
+  if (json.peek() != '"') return json.number();
+  const std::size_t place = json.place();
+  const std::string word = json.string();
+  if (word != "-inf") json.fail(place, {"value", printable(word, 40), "a number or -inf", {}});
+  return -kInfinity;
+}
+
+/// The members that say where a barcode came from.
+class InfoReader {
+ public:
+  InfoReader(JsonCursor& json, BarcodeInfo& info) : json_(json), info_(info) {}
+
+  /// Reads the member, if it is one of them.
+  bool read(const std::string& name) {
+    if (name == "program") {
+      info_.program = text();
+    } else if (name == "input") {
+      for_each_member(json_, [&](const std::string& member) {
+        if (member == "path")
+          info_.input = text();
+        else if (member == "description")
+          info_.input_description = text();
+        else
+          json_.skip_value();
+      });
+    } else if (name == "complex") {
+      info_.complex = text();
+    } else if (name == "field") {
+      info_.field = json_.integer(2, kMost, "field");
+    } else if (name == "max_dim") {
+      info_.max_dim = static_cast<int>(json_.integer(0, kMost, "dimension"));
+    } else if (name == "threshold") {
+      info_.threshold = number();
+    } else if (name == "vertex_weights") {
+      info_.vertex_weights = text();
+    } else if (name == "subsample") {
+      read_subsample();
+    } else if (name == "voxels") {
+      read_voxels();
+    } else if (name == "approximation") {
+      info_.approximation = number();
+    } else if (name == "engine") {
+      info_.engine = text();
+    } else if (name == "timings") {
+      for_each_member(json_, [&](const std::string& stage) {
+        info_.timings.emplace_back(stage, json_.number());
+      });
+    } else if (name == "peak_memory") {
+      info_.peak_memory = static_cast<std::uint64_t>(count());
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+ private:
+  static constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
+
+  // null says that it is not known.
+  std::string text() { return json_.accept_null() ? std::string() : json_.string(); }
+  std::optional<double> number() {
+    return json_.accept_null() ? std::nullopt : std::optional(value_of(json_));
+  }
+  std::int64_t count() {
+    return json_.accept_null()
+               ? 0
+               : json_.integer(0, std::numeric_limits<std::int64_t>::max(), "number");
+  }
+
+  void read_subsample() {
+    if (json_.accept_null()) return;
+    auto& sample = info_.subsample.emplace();
+    for_each_member(json_, [&](const std::string& member) {
+      if (member == "points")
+        sample.points = count();
+      else if (member == "of")
+        sample.of = count();
+      else if (member == "covering_radius")
+        sample.covering_radius = number().value_or(kInfinity);
+      else
+        json_.skip_value();
+    });
+  }
+
+  void read_voxels() {
+    if (json_.accept_null()) return;
+    auto& grid = info_.voxels.emplace();
+    for_each_member(json_, [&](const std::string& member) {
+      if (member == "edge") {
+        grid.voxel = json_.number();
+      } else if (member == "value") {
+        grid.value = text();
+      } else if (member == "first") {
+        json_.expect('[');
+        for (bool first = true; json_.next_element(first);) grid.first.push_back(json_.number());
+      } else {
+        json_.skip_value();
+      }
+    });
+  }
+
+  JsonCursor& json_;
+  BarcodeInfo& info_;
+};
+
 /// Reads the JSON that write_barcode_json writes; members that it does not know are skipped.
 class Reader {
  public:
   explicit Reader(const Input& input) : input_(input), json_(input) {}
 
-  Barcode read() {
-    bool first = true, format = false, bars = false;
-    std::string name;
-    json_.expect('{');
-    while (json_.next_member(first, name)) {
+  StoredBarcode read() {
+    StoredBarcode stored;
+    InfoReader info(json_, stored.info);
+    bool format = false, bars = false;
+    for_each_member(json_, [&](const std::string& name) {
       const std::size_t place = json_.place();
       if (name == "format") {
         const std::string value = json_.string();
@@ -33,10 +153,10 @@ class Reader {
         if (bars) json_.fail(place, {"bars", "them again", "them once", {}});
         bars = true;
         read_bars();
-      } else {
-        json_.skip_value();
+      } else if (!info.read(name)) {
+        skip(name);
       }
-    }
+    });
     json_.expect_end();
     if (!format || !bars) {
       input_.fail({"not a barcode",
@@ -44,11 +164,18 @@ class Reader {
                    R"("format": "ph-barcode" and "bars")",
                    {}});
     }
-    barcode_.sort();
-    return std::move(barcode_);
+    stored.bars = std::move(barcode_);
+    stored.left_out.assign(skipped_.begin(), skipped_.end());
+    return stored;
   }
 
  private:
+  void skip(const std::string& name) {
+    constexpr std::size_t most = 20;  // names: enough to say what is lost
+    if (skipped_.size() < most) skipped_.insert(printable(name, 40));
+    json_.skip_value();
+  }
+
   Representatives representatives() {
     const std::size_t place = json_.place();
     const std::string value = json_.string();
@@ -86,10 +213,10 @@ class Reader {
         bar.dim = static_cast<int>(json_.integer(0, kMostBarDimension, "dimension"));
         dim = true;
       } else if (name == "birth") {
-        bar.birth = value();
+        bar.birth = value_of(json_);
         birth = true;
       } else if (name == "death") {
-        bar.death = value();
+        bar.death = value_of(json_);
         death = true;
       } else if (name == "birth_cell") {
         if (!json_.accept_null()) read_cell(birth_);
@@ -98,7 +225,7 @@ class Reader {
       } else if (name == "representative" && representatives_ != Representatives::none) {
         read_chain();
       } else {
-        json_.skip_value();
+        skip(name);
       }
     }
     if (!dim || !birth || !death) {
@@ -125,16 +252,6 @@ class Reader {
     if (representatives_ != Representatives::none) {
       barcode_.set_representative(representatives_, chain_, coefficients_);
     }
-  }
-
-  // null is a death that never comes.
-  double value() {
-    if (json_.accept_null()) return kInfinity;
-    if (json_.peek() != '"') return json_.number();
-    const std::size_t place = json_.place();
-    const std::string word = json_.string();
-    if (word != "-inf") json_.fail(place, {"value", printable(word, 40), "a number or -inf", {}});
-    return -kInfinity;
   }
 
   void set_kind(CellKind kind, std::size_t place) {
@@ -215,18 +332,19 @@ class Reader {
   }
 
   const Input& input_;
-  detail::JsonCursor json_;
+  JsonCursor json_;
   Barcode barcode_;
   Representatives representatives_ = Representatives::none;
   CellKind kind_ = CellKind::vertices;
   bool any_cell_ = false, with_cells_ = false;
   std::size_t count_ = 0;
+  std::set<std::string> skipped_;
   std::vector<Index> birth_, death_, chain_;
   std::vector<std::int64_t> coefficients_;
 };
 
 }  // namespace
 
-Barcode read_barcode_json(const Input& input) { return Reader(input).read(); }
+StoredBarcode read_barcode_json(const Input& input) { return Reader(input).read(); }
 
 }  // namespace ph

@@ -51,18 +51,6 @@ std::string lower_extension(const std::filesystem::path& path) {
   return result;
 }
 
-// Splits "FILE.npz:NAME" or "FILE.ply:NAME" into both, unless there is a file of this name.
-std::pair<std::filesystem::path, std::string> split_member(const std::filesystem::path& path) {
-  const std::string& name = path.native();
-  std::error_code ignored;
-  for (const std::string_view suffix : {".npz:", ".ply:"}) {
-    const std::size_t mark = name.rfind(suffix);
-    if (mark == std::string::npos || std::filesystem::exists(path, ignored)) continue;
-    return {name.substr(0, mark + suffix.size() - 1), name.substr(mark + suffix.size())};
-  }
-  return {path, {}};
-}
-
 std::size_t half_of_memory() {
   const long pages = ::sysconf(_SC_PHYS_PAGES);
   const long page_size = ::sysconf(_SC_PAGESIZE);
@@ -103,6 +91,17 @@ std::string message_of(const std::string& place, const Fault& fault) {
 }
 
 }  // namespace
+
+std::pair<std::filesystem::path, std::string> split_member(const std::filesystem::path& path) {
+  const std::string& name = path.native();
+  std::error_code ignored;
+  for (const std::string_view suffix : {".npz:", ".ply:"}) {
+    const std::size_t mark = name.rfind(suffix);
+    if (mark == std::string::npos || std::filesystem::exists(path, ignored)) continue;
+    return {name.substr(0, mark + suffix.size() - 1), name.substr(mark + suffix.size())};
+  }
+  return {path, {}};
+}
 
 std::string printable(std::string_view bytes, std::size_t max_bytes) {
   std::string result;

@@ -27,7 +27,8 @@ enum class BarcodeFormat {
   none,    ///< nothing
 };
 
-/// Where a barcode came from: what the JSON format says beside the bars. Empty fields are left out.
+/// Where a barcode came from: what the JSON format says beside the bars. Empty fields are left out;
+/// without a complex so are the field of coefficients, the dimension and the threshold.
 struct BarcodeInfo {
   std::string program;            ///< name and version
   std::string input;              ///< path of the input
@@ -48,7 +49,7 @@ struct BarcodeInfo {
   struct VoxelGrid {
     double voxel = 0;           ///< edge
     std::vector<double> first;  ///< centre of the voxel at (0, ..., 0), in the points' coordinates
-    std::string_view value;     ///< "distance", "occupancy" or "density"
+    std::string value;          ///< "distance", "occupancy" or "density"
   };
   std::optional<VoxelGrid> voxels;
   std::optional<double> approximation;  ///< epsilon of a sparse Rips filtration
@@ -93,6 +94,16 @@ Barcode read_barcode(const std::filesystem::path& path,
                      std::optional<BarcodeFormat> format = std::nullopt,
                      const RunContext* context = nullptr);
 Barcode read_barcode(const Input& input, std::optional<BarcodeFormat> format = std::nullopt);
+
+/// A barcode with what its file says about it.
+struct StoredBarcode {
+  Barcode bars;
+  BarcodeInfo info;  ///< without loops; empty of all formats but JSON
+  /// Members of the JSON that are not here, by name: "loops", "voxels", others that nobody knows.
+  std::vector<std::string> left_out;
+};
+StoredBarcode read_stored_barcode(const Input& input,
+                                  std::optional<BarcodeFormat> format = std::nullopt);
 
 /// Whether a file is a barcode for certain: a header `dim,birth,death`, JSON, text of Ripser,
 /// DIPHA's diagram, or a name in .pers. Rows of numbers alone, in text or NPY, may be anything.

@@ -13,6 +13,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "ph/core/error.hpp"
@@ -24,6 +25,10 @@ namespace ph {
 /// Bytes of a name or a cell as one printable line: control characters, newlines and bytes that are
 /// not UTF-8 become \n, \t or \xNN; longer than `max_bytes` is cut and ends in "...".
 std::string printable(std::string_view bytes, std::size_t max_bytes = 4096);
+
+/// "FILE.npz:NAME" or "FILE.ply:NAME" as the file and the part of it that is asked for; any other
+/// path, and one that is there by the whole name, as the file alone.
+std::pair<std::filesystem::path, std::string> split_member(const std::filesystem::path& path);
 
 /// What is wrong at one place of an input. Empty parts are left out of the message.
 struct Fault {
@@ -46,9 +51,7 @@ class Input {
     stays_in_file,  ///< mapped, what was unpacked from a temporary file, and not counted
   };
 
-  /// @param path a file, a FIFO, or "-" for standard input. "FILE.npz:NAME" asks for one array of
-  ///        an archive, "FILE.ply:NAME" for one property, see `member`, unless a file has this
-  ///        name.
+  /// @param path a file, a FIFO, or "-" for standard input; a part of one: see split_member.
   /// @param context its memory budget bounds what a stream may hold and its stop token is polled;
   ///        it must outlive the input. Without one a stream may take half of the machine's memory.
   /// @throws Error (no_input) if it is missing, unreadable or a directory; Error (io) if reading
