@@ -123,6 +123,51 @@ TEST(Plot, NegatedValuesFallFromLeftToRight) {
   for (const std::string& text : texts) EXPECT_FALSE(text.starts_with("−")) << text;
 }
 
+TEST(Plot, TheAxisOfNegatedValuesIsOfTheDataSOwn) {
+  PlotOptions options;
+  options.negated = true;
+  options.axis = {10.0, 50.0, false};
+  const Barcode barcode =
+      test::barcode_of({{0, -50, kInfinity}, {0, -30, -20}, {0, -9, -5}, {0, -60, -55}});
+  for (const PlotKind kind : test::kPlotKinds) {
+    options.kind = kind;
+    const std::string svg = svg_plot(barcode, options);
+    EXPECT_TRUE(has_text(svg, "2 beyond"));
+    EXPECT_TRUE(has_text(svg, "50") && has_text(svg, "10"));
+  }
+  const std::vector<Branch> tree{{-50, kInfinity, -1}, {-30, -20, 0}, {-9, -5, 0}};
+  EXPECT_TRUE(has_text(svg_plot(tree, options), "1 beyond"));
+  options.axis = {-1.0, 50.0, true};
+  EXPECT_THROW(svg_plot(barcode, options), Error);
+}
+
+TEST(Plot, ALogarithmicAxisOfNegatedValuesFalls) {
+  PlotOptions options;
+  options.negated = true;
+  options.axis.logarithmic = true;
+  const std::string svg =
+      svg_plot(test::barcode_of({{0, -100, -1}, {0, -10, -1}, {0, -10, 5}}), options);
+  std::vector<std::string> ticks;
+  for (const std::string& text : texts_of(svg))
+    if (text == "1" || text == "10" || text == "100") ticks.push_back(text);
+  EXPECT_EQ(ticks.size(), 3U);
+  // The first line is as long as the axis, the others begin half way; 5 has no logarithm of its
+  // own.
+  std::smatch lines;
+  ASSERT_TRUE(std::regex_search(svg, lines,
+                                std::regex("<path d=\"M([0-9.]+) [0-9.]+H([0-9.]+)M([0-9.]+) "
+                                           "[0-9.]+H([0-9.]+)M([0-9.]+) [0-9.]+H([0-9.]+)")));
+  std::vector<std::pair<double, double>> ends;
+  for (const std::size_t i : {1U, 3U, 5U})
+    ends.emplace_back(std::stod(lines[i]), std::stod(lines[i + 1]));
+  std::ranges::sort(ends);
+  const auto [begin, end] = ends[0];
+  for (const std::size_t i : {1U, 2U}) {
+    EXPECT_NEAR(ends[i].first, (begin + end) / 2, 0.02);
+    EXPECT_NEAR(ends[i].second, end, 0.02);
+  }
+}
+
 TEST(Plot, ASizeIsThatOfThePicture) {
   PlotOptions options;
   const Barcode barcode = test::barcode_of({{0, 0, 1}});

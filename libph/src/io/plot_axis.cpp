@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "ph/core/error.hpp"
 #include "ph/io/barcode_io.hpp"
@@ -31,18 +32,19 @@ std::string superscript(int number) {
 
 Axis::Axis(const Range& range, const PlotOptions& options, double from, double to)
     : from_(from), to_(to), logarithmic_(options.axis.logarithmic), negated_(options.negated) {
-  double low = options.axis.low.value_or(range.low), high = options.axis.high.value_or(range.high);
-  const bool is_given = options.axis.low || options.axis.high;
-  if (is_given && !(low < high))
+  const PlotAxis limits = limits_of(options);
+  const double low = limits.low.value_or(range.low), high = limits.high.value_or(range.high);
+  const double lowest = negated_ ? -high : low, highest = negated_ ? -low : high;  // as shown
+  if ((limits.low || limits.high) && !(low < high))
     throw Error(ErrorKind::usage, fmt::format("axis: found {} to {}, expected a lower number first",
-                                              shortest(low), shortest(high)));
+                                              shortest(lowest), shortest(highest)));
   if (logarithmic_) {
-    if (!(low > 0))
+    if (!(lowest > 0))
       throw Error(
           ErrorKind::usage,
-          fmt::format("logarithmic axis: found {}, expected values above 0", shortest(low)));
-    low_ = std::log10(low);
-    high_ = std::log10(high);
+          fmt::format("logarithmic axis: found {}, expected values above 0", shortest(lowest)));
+    low_ = in_scale(low);
+    high_ = in_scale(high);
     if (!(high_ - low_ > 1e-12)) high_ = low_ + 1;
     return;
   }
@@ -60,15 +62,19 @@ Axis::Axis(const Range& range, const PlotOptions& options, double from, double t
   if (!(high_ - low_ > least)) high_ += low_ == 0 ? 1 : 0.5 * std::abs(low_);
 }
 
+double Axis::in_scale(double value) const {
+  if (!logarithmic_) return in_units(value, exponent_);
+  if (negated_) return value < 0 ? -std::log10(-value) : kInfinity;
+  return value > 0 ? std::log10(value) : -kInfinity;
+}
+
 double Axis::at(double value) const {
-  const double place =
-      logarithmic_ ? (value > 0 ? std::log10(value) : -kInfinity) : in_units(value, exponent_);
-  const double part = (place - low_) / (high_ - low_);
+  const double part = (in_scale(value) - low_) / (high_ - low_);
   return from_ + std::clamp(part, 0.0, 1.0) * (to_ - from_);
 }
 
 std::string Axis::label_of(double value, int decimals) const {
-  if (negated_) value = -value;
+  if (negated_ && !logarithmic_) value = -value;
   std::string label = fmt::format("{:.{}f}", value == 0 ? 0.0 : value, decimals);
   if (label.front() == '-') label.replace(0, 1, "−");
   return label;
@@ -78,18 +84,19 @@ std::string Axis::label_of(double value, int decimals) const {
 std::vector<Axis::Tick> Axis::powers_of_ten(int count) const {
   std::vector<Tick> ticks;
   const auto add = [&](double factor, int power) {
-    const double place = std::log10(factor) + power;
+    const double place = (negated_ ? -1 : 1) * (std::log10(factor) + power);
     constexpr double slack = 1e-9;
     if (place < low_ - slack || place > high_ + slack) return;
     const double part = std::clamp((place - low_) / (high_ - low_), 0.0, 1.0);
     const std::string label =
         power >= -3 && power <= 4
             ? label_of(factor * std::pow(10.0, power), std::max(0, -power))
-            : fmt::format("{}{}10{}", negated_ ? "−" : "",
-                          factor == 1 ? "" : fmt::format("{}·", factor), superscript(power));
+            : fmt::format("{}10{}", factor == 1 ? "" : fmt::format("{}·", factor),
+                          superscript(power));
     ticks.push_back({from_ + part * (to_ - from_), label});
   };
-  const auto first = static_cast<int>(std::floor(low_)), last = static_cast<int>(std::ceil(high_));
+  const double least = negated_ ? -high_ : low_, most = negated_ ? -low_ : high_;
+  const auto first = static_cast<int>(std::floor(least)), last = static_cast<int>(std::ceil(most));
   const int step = std::max(1, (last - first) / std::max(1, count));
   for (int power = first; power <= last; power += step)
     for (const double factor : {1.0, 2.0, 5.0})
@@ -114,9 +121,10 @@ std::vector<Axis::Tick> Axis::ticks(int count) const {
     const double value = (first + i) * step;
     const double part = std::clamp((value - low_) / (high_ - low_), 0.0, 1.0);
     // Less than a decade has no round powers: round logarithms have to do.
-    ticks.push_back(
-        {from_ + part * (to_ - from_),
-         logarithmic_ ? label_of(std::pow(10.0, value), decimals + 1) : label_of(value, decimals)});
+    ticks.push_back({from_ + part * (to_ - from_),
+                     logarithmic_
+                         ? label_of(std::pow(10.0, negated_ ? -value : value), decimals + 1)
+                         : label_of(value, decimals)});
   }
   return ticks;
 }
@@ -144,18 +152,55 @@ void Axis::draw_below(Canvas& canvas, double top, double bottom, const std::stri
   canvas.text((from_ + to_) / 2, bottom + 20, with_unit, Anchor::middle, 7.5);
 }
 
-void widen(Range& range, double value, bool logarithmic) {
-  if (!std::isfinite(value) || (logarithmic && value <= 0)) return;
-  range.low = std::min(range.low, value);
-  range.high = std::max(range.high, value);
+PlotAxis limits_of(const PlotOptions& options) {
+  PlotAxis limits = options.axis;
+  if (!options.negated) return limits;
+  std::swap(limits.low, limits.high);
+  for (std::optional<double>* limit : {&limits.low, &limits.high})
+    if (*limit) *limit = -**limit;
+  return limits;
 }
 
-Range finite_range(const Barcode& barcode, bool logarithmic) {
-  Range range{kInfinity, -kInfinity};
+namespace {
+
+/// Collects the finite values that have a place on the axis.
+class Values {
+ public:
+  explicit Values(const PlotOptions& options) : options_(options) {}
+
+  void add(double value) {
+    const double own = options_.negated ? -value : value;
+    if (!std::isfinite(value) || (options_.axis.logarithmic && own <= 0)) return;
+    range_.low = std::min(range_.low, value);
+    range_.high = std::max(range_.high, value);
+  }
+
+  Range range() const {
+    if (range_.low <= range_.high) return range_;
+    if (!options_.axis.logarithmic) return {};
+    return options_.negated ? Range{-10, -1} : Range{1, 10};
+  }
+
+ private:
+  const PlotOptions& options_;
+  Range range_{kInfinity, -kInfinity};
+};
+
+}  // namespace
+
+Range finite_range(const Barcode& barcode, const PlotOptions& options) {
+  Values values(options);
   for (const Bar& bar : barcode)
-    for (const double value : {bar.birth, bar.death}) widen(range, value, logarithmic);
-  if (range.low > range.high) return logarithmic ? Range{1, 10} : Range{};
-  return range;
+    for (const double value : {bar.birth, bar.death}) values.add(value);
+  return values.range();
+}
+
+Range finite_range(std::span<const Branch> tree, const std::vector<std::size_t>& classes,
+                   const PlotOptions& options) {
+  Values values(options);
+  for (const std::size_t i : classes)
+    for (const double value : {tree[i].birth, tree[i].death}) values.add(value);
+  return values.range();
 }
 
 std::vector<int> dims_of(const Barcode& barcode) {

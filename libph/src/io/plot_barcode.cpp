@@ -50,8 +50,7 @@ std::vector<Panel> panels_of(const Barcode& barcode) {
 Drawing draw_barcode(const Barcode& barcode, std::size_t beyond, const PlotOptions& options) {
   Canvas canvas;
   const std::vector<Panel> panels = panels_of(barcode);
-  const Axis axis(finite_range(barcode, options.axis.logarithmic), options, kFirstValue,
-                  kLastValue);
+  const Axis axis(finite_range(barcode, options), options, kFirstValue, kLastValue);
   std::size_t rows = 0;
   for (const Panel& panel : panels) rows += panel.places.crisp.size();
   const double pitch = pitch_of(rows);

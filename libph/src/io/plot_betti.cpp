@@ -118,7 +118,7 @@ void draw_curve(Canvas& canvas, std::span<const Bar> bars, int dim, const Axis& 
 Drawing draw_betti(const Barcode& barcode, std::size_t beyond, const PlotOptions& options) {
   Canvas canvas;
   const std::vector<int> dims = dims_of(barcode);
-  const Axis axis(finite_range(barcode, options.axis.logarithmic), options, kLeft, kRight);
+  const Axis axis(finite_range(barcode, options), options, kLeft, kRight);
   const double top = options.title.empty() ? 8 : 20;
   const auto panels = static_cast<double>(std::max<std::size_t>(dims.size(), 1));
   const double bottom = top + panels * (kHeight + kGap) - kGap;

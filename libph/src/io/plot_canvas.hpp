@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -182,6 +183,8 @@ class Axis {
  private:
   std::vector<Tick> powers_of_ten(int count) const;
   std::string label_of(double value, int decimals) const;
+  /// A value in the units of low_ and high_. Of negated data the logarithm is that of their own.
+  double in_scale(double value) const;
 
   double low_ = 0, high_ = 1;  // in units of 10^exponent_; of a logarithmic axis the logarithms
   double from_, to_;
@@ -189,12 +192,14 @@ class Axis {
   bool shows_unit_ = false, logarithmic_ = false, negated_ = false;
 };
 
-/// @param logarithmic of values above 0 only.
-Range finite_range(const Barcode& barcode, bool logarithmic = false);
-/// Widens a range by a value, unless it has no place on an axis.
-void widen(Range& range, double value, bool logarithmic);
-/// Whether a class has a place on the axis.
-bool is_shown(double birth, double death, const PlotAxis& axis);
+/// The limits of the axis as values of the bars: of negated data they change places.
+PlotAxis limits_of(const PlotOptions& options);
+/// Of what has a place on the axis; of none one that says nothing.
+Range finite_range(const Barcode& barcode, const PlotOptions& options);
+Range finite_range(std::span<const Branch> tree, const std::vector<std::size_t>& classes,
+                   const PlotOptions& options);
+/// Whether a class has a place on the axis. @param limits see limits_of.
+bool is_shown(double birth, double death, const PlotAxis& limits);
 /// The bars that are drawn, without cells. @param beyond how many are not, for the axis.
 Barcode shown_of(const Barcode& barcode, const PlotOptions& options, std::size_t& beyond);
 /// What is not drawn, at the left, beside the name of the axis.

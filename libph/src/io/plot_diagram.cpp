@@ -146,7 +146,7 @@ class Frame {
         left_(kLeft + (from_minus_infinity_ ? 1.5 * kInfinityRoom : 0)),
         finite_top_(top + (infinite_ ? kInfinityRoom : 0)),
         bottom_(finite_top_ + (kRight - left_)),
-        range_(widened(finite_range(barcode, options.axis.logarithmic), options.axis.logarithmic)),
+        range_(widened(finite_range(barcode, options), options.axis.logarithmic)),
         births_(range_, options, left_, kRight),
         deaths_(range_, options, bottom_, finite_top_) {}
 

@@ -44,12 +44,12 @@ struct Shift {
 
 }  // namespace
 
-bool is_shown(double birth, double death, const PlotAxis& axis) {
-  return !(axis.high && birth > *axis.high) && !(axis.low && death < *axis.low);
+bool is_shown(double birth, double death, const PlotAxis& limits) {
+  return !(limits.high && birth > *limits.high) && !(limits.low && death < *limits.low);
 }
 
 Barcode shown_of(const Barcode& barcode, const PlotOptions& options, std::size_t& beyond) {
-  const PlotAxis& axis = options.axis;
+  const PlotAxis axis = limits_of(options);
   const auto is_off = [&](double value) {
     return std::isfinite(value) &&
            ((axis.low && value < *axis.low) || (axis.high && value > *axis.high));

@@ -99,26 +99,18 @@ void check(std::span<const Branch> tree) {
   }
 }
 
-Range finite_range(std::span<const Branch> tree, const std::vector<std::size_t>& classes,
-                   bool logarithmic) {
-  Range range{kInfinity, -kInfinity};
-  for (const std::size_t i : classes)
-    for (const double value : {tree[i].birth, tree[i].death}) widen(range, value, logarithmic);
-  if (range.low <= range.high) return range;
-  return logarithmic ? Range{1, 10} : Range{};
-}
-
 }  // namespace
 
 Drawing draw_tree(std::span<const Branch> tree, const PlotOptions& options) {
   check(tree);
   Canvas canvas;
   // One of no length is no bar either.
+  const PlotAxis limits = limits_of(options);
   std::vector<std::size_t> classes;
   std::size_t beyond = 0;
   for (std::size_t i = 0; i < tree.size(); ++i) {
     if (!(tree[i].persistence() > 0)) continue;
-    if (is_shown(tree[i].birth, tree[i].death, options.axis))
+    if (is_shown(tree[i].birth, tree[i].death, limits))
       classes.push_back(i);
     else
       ++beyond;
@@ -130,8 +122,7 @@ Drawing draw_tree(std::span<const Branch> tree, const PlotOptions& options) {
   const Layout layout(tree, places.crisp);
   const std::size_t rows = places.crisp.size();
   const double pitch = pitch_of(rows);
-  const Axis axis(finite_range(tree, classes, options.axis.logarithmic), options, kFirstValue,
-                  kLastValue);
+  const Axis axis(finite_range(tree, classes, options), options, kFirstValue, kLastValue);
   const Colour colour = colour_of_dim(0);
 
   const double top = options.title.empty() ? 8 : 20;

@@ -30,7 +30,7 @@ inline constexpr int kMostPlotPixels = 10'000;
 /// What of the filtration values is on the axis. Classes beyond it are counted, not drawn.
 struct PlotAxis {
   std::optional<double> low, high;  ///< low < high; empty: as far as the values go
-  bool logarithmic = false;         ///< values of at most 0 lie at its beginning
+  bool logarithmic = false;         ///< values of at most 0 lie at the end of small ones
 };
 
 /// How a barcode is drawn.
@@ -42,7 +42,7 @@ struct PlotOptions {
   std::optional<PlotSize> size = {};  ///< the picture fits into it, white around it; default: 88 mm
   PlotAxis axis = {};
   /// The values are those of negated data (superlevel sets): the axis names the data's own, which
-  /// then fall from left to right.
+  /// then fall from left to right. `axis` is of the data's own.
   bool negated = false;
 };
 
@@ -54,7 +54,8 @@ std::string svg_plot(const Barcode& barcode, const PlotOptions& options = {});
 
 /// The same of a merge tree (MergeTree::branches): one line a class over the filtration value, and
 /// where it dies a line to the class that it joins. Those of little persistence are a density.
-/// `options.kind` has no say. @throws Error (bad_data) on NaN, or an elder branch that is not there.
+/// `options.kind` has no say. @throws Error (bad_data) on NaN, or an elder branch that is not
+/// there.
 std::string svg_plot(std::span<const Branch> tree, const PlotOptions& options = {});
 
 /// A picture made of points or pixels whose colours have names.
