@@ -217,6 +217,7 @@ class LargeFiles(UnderLimit):
             ("floats.npy", (8, 24), ("--engine", "cohomology", "--report", "o.html")),
             ("floats.npy", (24,), ("--representatives", "voxels", "--output-format", "json",
                                    "--report", "o.html")),
+            ("bars.txt", (8, 90), ("--report", "o.html")),
             ("shown.npy", (1, 60), ("--max-dim", "0", "--report", "o.html")),
             ("shown.npy", (1, 60), ("--max-dim", "0", "--superlevel", "--report", "o.html")))
 
@@ -228,6 +229,10 @@ class LargeFiles(UnderLimit):
         write_npy(path("picture.npy"), (9000, 9000), "|u1", b"\x05\x00\x07")
         write_npy(path("floats.npy"), (200, 200, 200), "<f8", struct.pack("<4d", 1, 2, 1, 3))
         write_npy(path("shown.npy"), (5, 1600, 1600), "<f8", struct.pack("<4d", 1, 2, 1, 3))  # 98
+        with open(path("bars.txt"), "w") as file:  # a stored barcode, 71 MiB
+            file.write("dim,birth,death\n0,0,inf\n")
+            for _ in range(71):
+                file.write(("#" + 1022 * "-" + "\n") * 1024)
         with open(path("bytes.npy"), "rb") as file, gzip.open(path("bytes.npy.gz"), "wb", 1) as packed:
             shutil.copyfileobj(file, packed, 1 << 16)
 
@@ -282,6 +287,17 @@ class WaysOut(ProgramTest):
                     code, peak = self.peak(arguments, {option: value, "--memory-limit": f"{limit}MiB"})
                     self.assertEqual(code, 0)
                     self.assertLessEqual(peak, limit + BESIDE)
+
+    def test_loops_that_there_cannot_be_are_taken_back(self):
+        run = self.run_program("space.txt", "--quiet", "-o", "x.json", "--max-dim", "2",
+                               "--representatives", "cycles", "--loops", "plain",
+                               "--memory-limit", "10MiB")
+        self.assertEqual(run.returncode, 75, run.stderr)
+        changes = run.stderr.split("what would fit: ")[1].split("; ")
+        without = [c for c in changes if "--representatives none" in c or "--max-dim 0" in c]
+        self.assertTrue(without, run.stderr)
+        for change in without:
+            self.assertIn(" without --loops", change)
 
     def peak(self, arguments, changes):
         """@return exit code, peak in MiB."""
