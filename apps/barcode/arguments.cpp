@@ -277,8 +277,16 @@ void take_word(Arguments& a, app::PlotArguments& plots) {
   a.inputs.erase(a.inputs.begin());
   if (a.inputs.empty())
     throw Error(ErrorKind::usage, "plot: INPUT is missing, expected barcode files");
+  const bool wants_bars = a.output_format.value_or(BarcodeFormat::none) != BarcodeFormat::none;
+  const app::Plot picture{a.output, {}};
+  if (wants_bars && (picture.is_svg() || picture.is_png()))
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("--output-format: found {0} with the picture -o {1}; expected --plot {1} "
+                    "for it and -o for the barcode",
+                    barcode_format_name(*a.output_format), a.output));
   // What is named like a barcode is one, converted.
-  if (a.output != "-" && !a.output_format && !barcode_format_of_path(a.output)) {
+  if (a.output != "-" && !wants_bars && !barcode_format_of_path(a.output)) {
     plots.paths.insert(plots.paths.begin(), a.output);
     a.output = "-";
   }
@@ -290,6 +298,9 @@ void take_word(Arguments& a, app::PlotArguments& plots) {
 /// What no single option can see.
 void check_together(Arguments& a) {
   const auto reject = [](const std::string& what) { throw Error(ErrorKind::usage, what); };
+  if (a.report == "-" && a.output == "-" && a.output_format != BarcodeFormat::none)
+    reject(fmt::format("--report: standard output has the {}; -o FILE or --output-format none",
+                       a.compare.empty() ? "barcode" : "distances"));
   if (!a.compare.empty()) {
     if (!a.inputs.empty())
       reject(fmt::format("--compare: found INPUT '{}' beside it, expected two barcode files only",
@@ -299,8 +310,6 @@ void check_together(Arguments& a) {
   if (a.inputs.empty()) reject("INPUT is missing; --help lists the options");
   for (const std::string& input : a.inputs)
     if (input.empty()) reject("INPUT: found '', expected a path");
-  if (a.report == "-" && a.output == "-" && a.output_format != BarcodeFormat::none)
-    reject("--report: standard output has the barcode; -o FILE or --output-format none");
   if (std::count(a.inputs.begin(), a.inputs.end(), "-") > 1)
     reject("INPUT: standard input can be read once only");
   if (a.options.max_dim && a.options.min_dim > *a.options.max_dim)
@@ -338,13 +347,12 @@ bool Arguments::draws_tree() const {
 }
 
 bool Arguments::is_batch() const {
-  const auto is_place = [](const std::string& path) { return path.ends_with('/'); };
-  if (inputs.size() > 1 || is_place(output) || is_place(report) ||
-      std::ranges::any_of(plots, is_place, &app::Plot::path))
+  if (inputs.size() > 1 || app::names_each(output) || app::names_each(report) ||
+      std::ranges::any_of(plots, app::names_each, &app::Plot::path))
     return true;
   // A folder is a batch only if its results have a place; else it is an input that cannot be read.
   const auto takes_several = [](const std::string& path) {
-    return path.empty() || path.find('*') != path.npos || app::is_folder(path);
+    return path.empty() || app::is_folder(path);
   };
   const bool has_others = !plots.empty() || !report.empty();
   const bool has_place = dry_run || output_format == BarcodeFormat::none ||

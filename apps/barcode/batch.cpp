@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include "batch_names.hpp"
 #include "exit_code.hpp"
 #include "file_identity.hpp"
+#include "option_scopes.hpp"
 #include "program.hpp"
 #include "report.hpp"
 #include "run.hpp"
@@ -23,7 +25,8 @@ BarcodeFormat format_of(const Arguments& arguments, app::Session& session) {
   // Pictures of several inputs need no barcodes beside them.
   const bool has_others = !arguments.plots.empty() || !arguments.report.empty();
   if (arguments.is_batch() && arguments.output == "-" && has_others) return BarcodeFormat::none;
-  if (arguments.is_batch() && arguments.output.find('*') == arguments.output.npos)
+  if (arguments.is_batch() &&
+      (arguments.output.ends_with('/') || !app::names_each(arguments.output)))
     return BarcodeFormat::csv;
   if (const auto format = barcode_format_of_path(arguments.output)) return *format;
   const std::string& path = arguments.output;
@@ -44,8 +47,7 @@ void require_room(BarcodeFormat format, const Arguments& arguments) {
         fmt::format("--loops: found output format {}, expected json; --output-format json or "
                     "-o FILE.json holds them",
                     barcode_format_name(format)));
-  if (!arguments.report.empty()) return;
-  if (format == BarcodeFormat::json || format == BarcodeFormat::none) return;
+  if (!arguments.report.empty() || format == BarcodeFormat::json) return;
   throw Error(ErrorKind::usage,
               fmt::format("--representatives: found output format {}, expected json; "
                           "--output-format json or -o FILE.json holds them",
@@ -102,8 +104,7 @@ std::vector<Job> jobs_of(const Arguments& arguments, const std::vector<std::stri
   if (!arguments.is_batch())
     return {{inputs.front(), arguments.output, format, arguments.plots, arguments.report}};
   const std::string& output = arguments.output;
-  const bool is_place = output.ends_with('/') || output.find('*') != output.npos ||
-                        (output != "-" && app::is_folder(output));
+  const bool is_place = app::names_each(output) || (output != "-" && app::is_folder(output));
   if (format != BarcodeFormat::none && !is_place && !arguments.dry_run)
     throw Error(
         ErrorKind::usage,
@@ -134,7 +135,10 @@ void prepare_folders(const Arguments& arguments, BarcodeFormat format) {
 void require_separate(const app::InputFiles& inputs, const std::vector<app::Written>& outputs,
                       const Arguments& arguments, app::Session& session) {
   const bool replaces = app::require_separate(inputs, outputs, arguments.common.force);
-  if (arguments.common.force && !replaces)
+  if (!arguments.common.force || replaces) return;
+  if (arguments.dry_run)
+    session.note("--force does nothing: --dry-run writes no file");
+  else
     session.explain("--force: not needed, no output is an input");
 }
 void require_separate(const std::vector<Job>& jobs, const Arguments& arguments,
@@ -143,10 +147,12 @@ void require_separate(const std::vector<Job>& jobs, const Arguments& arguments,
   std::vector<app::Written> outputs;
   for (const Job& job : jobs) {
     inputs.add(job.input);
+    if (arguments.dry_run) continue;
     if (job.format != BarcodeFormat::none) outputs.push_back({"--output", job.output});
     for (const app::Plot& plot : job.plots) outputs.push_back({"--plot", plot.path});
     if (!job.report.empty()) outputs.push_back({"--report", job.report});
   }
+  if (arguments.dry_run) outputs.push_back({"--dry-run", "-"});
   inputs.add(arguments.values);
   inputs.add(arguments.vertex_weights);
   require_separate(inputs, outputs, arguments, session);
@@ -162,11 +168,33 @@ void explain_unwritten(const Arguments& arguments, BarcodeFormat format, app::Se
     for (const app::Plot& plot : arguments.plots) unwritten.push_back("--plot " + plot.path);
     if (!arguments.report.empty()) unwritten.push_back("--report " + arguments.report);
     if (arguments.check) unwritten.emplace_back("--check");
+    // The estimate counts the cells of bars in JSON, and bars of length 0.
+    if (arguments.output_format && format != BarcodeFormat::json)
+      unwritten.push_back(fmt::format("--output-format {}", barcode_format_name(format)));
+    if (arguments.options.min_persistence > 0) unwritten.emplace_back("--min-persistence");
+    if (arguments.loops) unwritten.emplace_back("--loops");
   }
   if (!unwritten.empty())
     session.note(fmt::format("{}: nothing is done for {}",
                              arguments.dry_run ? "--dry-run" : "--output-format none",
                              fmt::join(unwritten, ", ")));
+}
+
+/// Options of bars where the merge tree is all that is written.
+void explain_unseen_bars(const Arguments& arguments, BarcodeFormat format, app::Session& session) {
+  const bool is_seen = format != BarcodeFormat::none || !arguments.report.empty() ||
+                       arguments.check ||
+                       std::ranges::any_of(arguments.plots, &app::Plot::shows_bars);
+  if (is_seen || !arguments.draws_tree() || arguments.dry_run) return;
+  constexpr std::array<std::string_view, 5> kOfBars{"min-persistence", "max-dim", "min-dim",
+                                                    "field", "engine"};
+  std::vector<std::string> given;
+  for (const app::OptionScope* scope : arguments.given)
+    if (std::ranges::find(kOfBars, scope->option) != kOfBars.end())
+      given.push_back(fmt::format("--{}", scope->option));
+  if (!given.empty())
+    session.note(fmt::format("nothing is done for {}: the merge tree is all that is written",
+                             fmt::join(given, ", ")));
 }
 
 /// One input of several: a line on stderr, whatever becomes of it. @return the exit code.
@@ -191,12 +219,15 @@ int run_one(const Job& job, const Arguments& arguments, app::Session& session) {
 
 int run_all(const Arguments& given, app::Session& session) {
   if (!given.compare.empty()) {
+    app::require_in_scope(given.given, kComparison, name_of(kComparison));
     app::InputFiles inputs;
     for (const std::string& path : given.compare) inputs.add(path);
     std::vector<app::Written> outputs;
-    if (given.output != "-") outputs.push_back({"--output", given.output});
+    const BarcodeFormat format = given.output_format.value_or(BarcodeFormat::csv);
+    if (format != BarcodeFormat::none) outputs.push_back({"--output", given.output});
     if (!given.report.empty()) outputs.push_back({"--report", given.report});
     require_separate(inputs, outputs, given, session);
+    explain_unwritten(given, format, session);
     return run_comparison(given, session);
   }
   const BarcodeFormat format = format_of(given, session);
@@ -207,8 +238,9 @@ int run_all(const Arguments& given, app::Session& session) {
   const std::vector<std::string> inputs =
       arguments.is_batch() ? with_files_of_folders(arguments) : arguments.inputs;
   const std::vector<Job> jobs = jobs_of(arguments, inputs, format);
-  if (!arguments.dry_run) require_separate(jobs, arguments, session);
+  require_separate(jobs, arguments, session);
   explain_unwritten(arguments, format, session);
+  explain_unseen_bars(arguments, format, session);
   if (!arguments.is_batch()) return run(jobs[0], arguments, session).code;
   if (!arguments.dry_run) prepare_folders(arguments, format);
 

@@ -12,7 +12,6 @@
 #include "complex_arrays.hpp"
 #include "exit_code.hpp"
 #include "h0_tree.hpp"
-#include "option_scopes.hpp"
 #include "ph/core/file_pages.hpp"
 #include "ph/diagram/bottleneck.hpp"
 #include "report/bar_arrays.hpp"
@@ -228,12 +227,9 @@ void write_report(OutputFile& file, const Shown& shown, const Arguments& argumen
 }
 
 int run_comparison(const Arguments& arguments, app::Session& session) try {
-  app::require_in_scope(arguments.given, kComparison, name_of(kComparison));
   const DistanceFormat format = distance_format(arguments);
   std::optional<app::Output> distances, output;
-  const bool is_taken = arguments.report == "-" && arguments.output == "-";
-  if (arguments.output_format != BarcodeFormat::none && !is_taken)
-    distances.emplace(arguments.output);
+  if (arguments.output_format != BarcodeFormat::none) distances.emplace(arguments.output);
   if (!arguments.report.empty()) output.emplace(arguments.report);
   const std::string &first = arguments.compare[0], &second = arguments.compare[1];
   report::Metadata meta;
@@ -255,6 +251,8 @@ int run_comparison(const Arguments& arguments, app::Session& session) try {
   }
   std::vector<std::uint32_t> matched;
   const auto left_out = add_distances(meta, barcodes[0], barcodes[1], matched, session);
+  for (const std::string& what : left_out)  // not each format has room for them
+    session.note(fmt::format("left out: {}; at most {} are compared", what, kMostComparedBars));
   meta.provenance.run.peak_memory = app::peak_memory();
   const app::BarHold results_are_written(session);
   if (distances) {
@@ -272,10 +270,9 @@ int run_comparison(const Arguments& arguments, app::Session& session) try {
   return app::kOk;
 } catch (const Error& error) {
   if (error.kind() != ErrorKind::resource) throw;
-  throw Error(ErrorKind::resource,
-              fmt::format("{}; compare fewer bars, or raise --memory-limit", error.what()));
+  throw Error(ErrorKind::resource, fmt::format("{}; {}", error.what(), kFewerBars));
 } catch (const std::bad_alloc&) {
-  throw Error(ErrorKind::resource, "out of memory; compare fewer bars, or raise --memory-limit");
+  throw Error(ErrorKind::resource, fmt::format("out of memory; {}", kFewerBars));
 }
 
 }  // namespace ph::barcode

@@ -12,10 +12,12 @@
 
 #include "adjust.hpp"
 #include "build_complex.hpp"
+#include "estimate_text.hpp"
 #include "exit_code.hpp"
 #include "h0_tree.hpp"
 #include "messages.hpp"
 #include "numbers.hpp"
+#include "option_scopes.hpp"
 #include "ph/estimate.hpp"
 #include "ph/loops.hpp"
 #include "report.hpp"
@@ -157,42 +159,6 @@ void explain_slabs(const BuiltComplex& built, const RunPlan& plan, const Argumen
         fmt::format("slabs of {}", count_of(static_cast<std::size_t>(layers), "layer")));
 }
 
-/// Whether edges are collapsed first, and why; only said of Rips complexes.
-std::string collapse_text(const RunPlan& plan) {
-  return fmt::format("{} ({})", plan.collapses ? "on" : "off", plan.collapse_reason);
-}
-
-/// @param taken bytes that reading and building took.
-std::string estimate_text(const Estimate& estimate, const BuiltComplex& built,
-                          const std::string& description, double taken) {
-  std::string text = fmt::format("input    {}\ncomplex  {}", description, built.name);
-  if (built.threshold) text += fmt::format(", values up to {}", shortest(*built.threshold));
-  if (!built.vertex_weights.empty())
-    text += fmt::format(", vertices enter late ({})", built.vertex_weights);
-  text += fmt::format("\nengine   {} ({})\n", engine_name(estimate.engine), estimate.reason);
-  if (!estimate.collapse_reason.empty()) text += "collapse " + collapse_text(estimate) + '\n';
-  if (const auto* rips = std::get_if<Rips>(&built.complex); rips && estimate.collapses)
-    text += fmt::format("edges    {} before the collapse\n", rips->edge_count());
-  for (std::size_t dim = 0; dim < estimate.cells.size(); ++dim) {
-    const bool is_counted = static_cast<int>(dim) < estimate.counted_dims;
-    text += fmt::format("cells    dimension {}: {}{:.0f}\n", dim,
-                        estimate.cells_at_most ? "at most "
-                        : is_counted           ? ""
-                                               : "about ",
-                        estimate.cells[dim]);
-  }
-  const int listed = static_cast<int>(estimate.cells.size()) - 1;
-  if (listed < estimate.max_dim + 1)
-    text += fmt::format("cells    dimension {} and above: not listed\n", listed + 1);
-  // Part of what was taken are pages of code, which any input takes.
-  constexpr double code = 2 << 20;
-  const double low = std::max({0.0, taken - code, estimate.bytes_low});
-  // What building gave back may not fit what comes next: at worst nothing of it is used again.
-  const double high =
-      std::max(taken, estimate.bytes_held) + estimate.bytes_high - estimate.bytes_held;
-  return text + fmt::format("memory   {} to {}\n", app::format_size(low), app::format_size(high));
-}
-
 /// How plots look: those of superlevel sets name the values of the image.
 PlotOptions look_of(const Arguments& arguments) {
   PlotOptions look = arguments.look;
@@ -243,7 +209,9 @@ void require_loops(const BuiltComplex& built, const Arguments& arguments) {
                             built.name));
 }
 
-Outcome run_once(const Job& job, const Arguments& arguments, app::Session& session) {
+/// @param is_stored receives whether the input is a barcode that was computed earlier.
+Outcome run_once(const Job& job, const Arguments& arguments, app::Session& session,
+                 bool& is_stored) {
   Stopwatch watch;
   std::optional<Outputs> outputs;
   if (!arguments.dry_run) outputs.emplace(job);
@@ -252,8 +220,11 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
     somebody_types.emplace(session);
   std::optional<Input> input(
       Input::open(job.input, &session.context(), Input::Excess::stays_in_file));
-  if (arguments.stored || (arguments.format == Format::automatic && is_barcode(*input)))
-    return run_stored(job, *input, outputs ? &*outputs : nullptr, arguments, session);
+  is_stored = arguments.stored || (arguments.format == Format::automatic && is_barcode(*input));
+  if (is_stored) {
+    app::require_in_scope(arguments.given, kBarcode, name_of(kBarcode));  // --dry-run is not
+    return run_stored(job, *input, *outputs, arguments, session);
+  }
 
   Loaded loaded = load(job, input, arguments, session, watch);
   somebody_types.reset();
@@ -262,6 +233,7 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   const auto taken = static_cast<double>(session.memory_taken());
   if (arguments.dry_run) {
     const Estimate estimated = estimate(built.complex, arguments.options, session.context());
+    explain_slabs(built, estimated, arguments, session);
     const app::BarHold results_are_written(session);
     write_file("-", estimate_text(estimated, built, description, taken));
     return {app::kOk, description};
@@ -401,8 +373,9 @@ NamedData read_input(const Input& input, const Arguments& arguments, const RunCo
 
 Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
   std::string what;
+  bool is_stored = false;
   try {
-    return run_once(job, arguments, session);
+    return run_once(job, arguments, session, is_stored);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::resource) throw;
     what = error.what();
@@ -413,6 +386,8 @@ Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
   malloc_trim(0);
   session.loosen_heap_bound();
   const std::string peak = app::format_size(static_cast<double>(session.memory_taken()));
+  if (is_stored)
+    throw Error(ErrorKind::resource, fmt::format("{}; peak {}; {}", what, peak, kFewerBars));
   if (const std::string changes = ways_out(job, arguments, session); !changes.empty())
     throw Error(ErrorKind::resource,
                 fmt::format("{}; peak {}; what would fit: {}; or raise --memory-limit", what, peak,

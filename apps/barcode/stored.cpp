@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "exit_code.hpp"
-#include "option_scopes.hpp"
 #include "report/bar_arrays.hpp"
 #include "report/report_file.hpp"
 #include "report/sha256.hpp"
@@ -26,7 +25,7 @@ void write_stored_report(app::Output& output, const Input& input, const Barcode&
   meta.provenance.command = arguments.command;
   meta.provenance.has_homology = false;
   meta.provenance.run = info;
-  meta.provenance.sha256 = report::sha256_hex(input.bytes(), session.context());
+  meta.provenance.sha256 = report::sha256_hex(input, session.context());
   report::ReportFile report(output.file(), meta, session.context());
   report::add_pictures(report, std::span(&barcode, 1), meta);
   // Its cells are those of data that are not here.
@@ -37,31 +36,33 @@ void write_stored_report(app::Output& output, const Input& input, const Barcode&
 
 }  // namespace
 
-Outcome run_stored(const Job& job, const Input& input, Outputs* outputs, const Arguments& arguments,
+Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, const Arguments& arguments,
                    app::Session& session) {
-  app::require_in_scope(arguments.given, kBarcode, name_of(kBarcode));
   for (const app::Plot& plot : job.plots)
     if (!plot.shows_bars())
       throw Error(
           ErrorKind::usage,
           fmt::format("--plot-kind {}: makes sense for data only, found a barcode", plot.kind));
-  const Barcode barcode = read_barcode(input);
+  const auto [barcode, origin, left_out] = read_stored_barcode(input);
   const std::string description = fmt::format("a barcode, {}", count_of(barcode.size(), "bar"));
   const std::string what = fmt::format("read {}: {}", input.name(), description);
   if (arguments.is_batch())
     session.explain(what);
   else
     session.note(what);
-  if (!outputs) return {app::kOk, description};
+  if (job.format == BarcodeFormat::json && !left_out.empty())
+    session.note(fmt::format("{}: not kept: {}", input.name(), fmt::join(left_out, ", ")));
   BarcodeInfo info;
   info.program = app::program_and_version("ph-barcode");
   info.input = job.input;
   info.input_description = description;
   info.peak_memory = app::peak_memory();
   const app::BarHold results_are_written(session);
-  outputs->write(barcode, info, arguments.look, {}, session.context());
+  // Who computed the bars is not who converts them.
+  const bool is_known = !origin.program.empty();
+  outputs.write(barcode, is_known ? origin : info, arguments.look, {}, session.context());
   if (!job.report.empty())
-    write_stored_report(outputs->report(), input, barcode, info, arguments, session);
+    write_stored_report(outputs.report(), input, barcode, info, arguments, session);
   return {app::kOk, description};
 }
 
@@ -71,10 +72,15 @@ DistanceFormat distance_format(const Arguments& arguments) {
   if (!format || *format == BarcodeFormat::none) return DistanceFormat::text;
   if (*format == BarcodeFormat::csv) return DistanceFormat::csv;
   if (*format == BarcodeFormat::json) return DistanceFormat::json;
+  if (arguments.output_format)
+    throw Error(ErrorKind::usage,
+                fmt::format("--output-format: found {}, expected csv, json or none with --compare; "
+                            "without it they are text",
+                            barcode_format_name(*format)));
   throw Error(ErrorKind::usage,
-              fmt::format("--output-format: found {}, expected csv, json or none with --compare; "
-                          "without it they are text",
-                          barcode_format_name(*format)));
+              fmt::format("--output: found {}, expected FILE.csv or FILE.json with --compare; "
+                          "other names are text",
+                          printable(arguments.output)));
 }
 
 std::string distances_file(const std::vector<report::Distance>& distances,

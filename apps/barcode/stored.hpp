@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ph/io/reader.hpp"
@@ -9,10 +10,12 @@
 
 namespace ph::barcode {
 
+/// The way out where barcodes are too large for the memory.
+inline constexpr std::string_view kFewerBars = "take fewer bars, or raise --memory-limit";
+
 /// Reads a stored barcode and writes it as a job says: converted, drawn, in a report.
-/// @param outputs null with --dry-run: nothing is written. @throws Error (usage) on an option that
-/// computes; Error as read_barcode and OutputFile.
-Outcome run_stored(const Job& job, const Input& input, Outputs* outputs, const Arguments& arguments,
+/// @throws Error (usage) on a plot of anything else; Error as read_barcode and OutputFile.
+Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, const Arguments& arguments,
                    app::Session& session);
 
 /// The formats of the distances of two barcodes.

@@ -12,6 +12,7 @@
 #include <optional>
 #include <random>
 #include <stop_token>
+#include <utility>
 #include <vector>
 
 #include "build_complex.hpp"
@@ -152,11 +153,16 @@ class WaysOut {
     try_out("--engine auto", changed);
   }
 
+  /// Where there can be no loops --loops is refused.
+  static std::string without_loops(std::string change, Arguments& changed) {
+    return std::exchange(changed.loops, std::nullopt) ? change + " without --loops" : change;
+  }
+
   /// If that is not enough, in lower dimensions.
   void drop_representatives() {
     Arguments changed = arguments_;
     changed.options.representatives = Representatives::none;
-    const std::string text = "--representatives none";
+    const std::string text = without_loops("--representatives none", changed);
     if (!try_out(text, changed)) lower_dimension(changed, text + " ");
   }
 
@@ -195,7 +201,9 @@ class WaysOut {
     const int highest = arguments_.options.max_dim.value_or(default_max_dim());
     for (int dim = highest - 1; dim >= arguments_.options.min_dim; --dim) {
       changed.options.max_dim = dim;
-      if (try_out(fmt::format("{}--max-dim {}", others, dim), changed)) return;
+      std::string text = fmt::format("{}--max-dim {}", others, dim);
+      if (dim == 0) text = without_loops(std::move(text), changed);
+      if (try_out(text, changed)) return;
     }
   }
 

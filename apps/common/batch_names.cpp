@@ -57,24 +57,23 @@ std::vector<std::string> output_names(const std::vector<std::string>& inputs) {
   return result;
 }
 
+bool names_each(const std::string& path) {
+  return path.ends_with('/') || file_name(path).find('*') != path.npos;
+}
+
 std::string filled(const std::string& pattern, const std::string& name,
                    std::string_view extension) {
   if (pattern.empty()) return {};
   if (pattern.ends_with('/')) return fmt::format("{}{}{}", pattern, name, extension);
-  const std::size_t star = pattern.rfind('*');
-  if (star == pattern.npos) return fmt::format("{}/{}{}", pattern, name, extension);
+  if (!names_each(pattern)) return fmt::format("{}/{}{}", pattern, name, extension);
   std::string path = pattern;
-  return path.replace(star, 1, name);
-}
-
-bool has_star(const std::string& pattern) {
-  return pattern.find('*', pattern.rfind('/') + 1) != pattern.npos;  // npos + 1 is 0
+  return path.replace(pattern.rfind('*'), 1, name);
 }
 
 void prepare_outputs(std::string_view option, const std::string& pattern) {
   if (pattern.empty() || is_folder(pattern)) return;
   const std::size_t slash = pattern.rfind('/');
-  if (!has_star(pattern) && !pattern.ends_with('/'))
+  if (!names_each(pattern))
     throw Error(ErrorKind::usage,
                 fmt::format("{}: several inputs need a folder (FOLDER/) or a * for their names, "
                             "found '{}'",

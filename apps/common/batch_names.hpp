@@ -11,12 +11,12 @@ namespace ph::app {
 /// it, or with folders. Two inputs may still have the same: the same file named twice.
 std::vector<std::string> output_names(const std::vector<std::string>& inputs);
 
+/// Whether a path has a place for the name of each input: it is FOLDER/, or the file has a `*`.
+bool names_each(const std::string& path);
+
 /// The file of one of several inputs: a folder gets a file of its name, a `*` becomes its name.
 /// @param extension with its dot, for a folder.
 std::string filled(const std::string& pattern, const std::string& name, std::string_view extension);
-
-/// Whether a pattern has a `*` for the name of an input: one behind its folders.
-bool has_star(const std::string& pattern);
 
 /// Creates the folder that a pattern of `filled` names.
 /// @throws Error (usage) if it is neither a folder nor has a `*`; Error (cannot_create).

@@ -27,13 +27,14 @@ bool ends_in(std::string_view path, std::string_view extension) {
 }  // namespace
 
 bool Plot::is_png() const { return ends_in(path, ".png"); }
+bool Plot::is_svg() const { return ends_in(path, ".svg"); }
 
 void require_known_format(const Plot& plot) {
   if (plot.is_png() && png_plot_support().empty())
     throw Error(ErrorKind::not_built_in,
                 fmt::format("--plot {}: PNG plots are not built in; use .svg", plot.path));
   const bool is_place = plot.path.ends_with('/') || is_folder(plot.path);
-  if (!plot.is_png() && !is_place && !ends_in(plot.path, ".svg"))
+  if (!plot.is_png() && !plot.is_svg() && !is_place)
     throw Error(
         ErrorKind::usage,
         fmt::format("--plot: found '{}', expected a name that ends in .svg or .png", plot.path));

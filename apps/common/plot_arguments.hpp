@@ -18,6 +18,7 @@ struct Plot {
 
   /// Whether its name ends in .png; what ends in nothing known is SVG.
   bool is_png() const;
+  bool is_svg() const;  ///< by its name
   /// Whether it shows bars: a barcode, a diagram, Betti curves.
   bool shows_bars() const { return plot_kind_named(kind).has_value(); }
 };

@@ -34,6 +34,10 @@ def write_inputs(folder):
     write_zeros(path("picture.npy"), "<f4", (3600, 3600), MIDDLE)  # 49
     write_zeros(path("floats.npy"), "<f8", (190, 190, 190), MIDDLE)  # 52
     write_zeros(path("shown.npy"), "<f8", (9, 1000, 1000), MIDDLE)  # 69
+    with open(path("bars.txt"), "w") as file:  # a stored barcode and comments, 60
+        file.write("dim,birth,death\n0,0,inf\n")
+        for _ in range(60):
+            file.write(("#" + 1022 * "-" + "\n") * 1024)
     with open(path("bytes.npy"), "rb") as file, gzip.open(path("bytes.npy.gz"), "wb", 1) as packed:
         shutil.copyfileobj(file, packed, 1 << 16)
 
@@ -55,6 +59,7 @@ class LargeFiles(UnderLimit):
             ("floats.npy", (8,), ("--engine", "cohomology", "--report", "o.html")),
             ("floats.npy", (8,), ("--representatives", "voxels", "--output-format", "json",
                                   "--report", "o.html")),
+            ("bars.txt", (8, 80), ("--report", "o.html")),
             ("shown.npy", (1, 24), ("--max-dim", "0", "--report", "o.html")),
             ("shown.npy", (1, 24), ("--max-dim", "0", "--superlevel", "--report", "o.html")))
 

@@ -72,7 +72,7 @@ class Loops(ProgramTest):
             self.assertIn("vertices to walk along", run.stderr)
         self.expect(0, "ring.phat", "--format", "phat", *asked, "none")
         # Nothing is said where nobody asked.
-        self.expect(0, "square.txt", "--representatives", "cycles", "--output-format", "none")
+        self.expect(0, "square.txt", "--representatives", "cycles", "-o", "x.json")
 
     def test_numbers_are_those_of_the_input(self):
         lines = text(ring(12)).splitlines()

@@ -161,6 +161,17 @@ class WaysOut(UnderLimit):
                     self.assertEqual(code, 0)
                     self.assertLessEqual(peak, limit + BESIDE)
 
+    def test_loops_that_there_cannot_be_are_taken_back(self):
+        run = self.run_program("space.txt", "--quiet", "-o", "x.json", "--max-dim", "2",
+                               "--representatives", "cycles", "--loops", "plain",
+                               "--memory-limit", "10MiB")
+        self.assertEqual(run.returncode, 75, run.stderr)
+        changes = run.stderr.split("what would fit: ")[1].split("; ")
+        without = [c for c in changes if "--representatives none" in c or "--max-dim 0" in c]
+        self.assertTrue(without, run.stderr)
+        for change in without:
+            self.assertIn(" without --loops", change)
+
     def peak(self, arguments, changes):
         """@return exit code, peak in MiB."""
         words = list(arguments)

@@ -287,6 +287,38 @@ class Options(ProgramTest):
         self.assertIn("cells    dimension 2 and above: not listed\n", run.stdout)
         self.assertEqual(self.files(), ["square.txt"])
 
+    def test_dry_run_says_what_it_does_not_do(self):
+        dry = ("square.txt", "--dry-run")
+        for options in (("--output-format", "pers"), ("--min-persistence", "1"), ("--force",),
+                        ("--loops", "plain", "--representatives", "cycles", "--output-format",
+                         "json")):
+            run = self.expect(0, *dry, *options)
+            self.assertIn(options[0], run.stderr, options)
+            self.assertNotIn("--representatives", run.stderr)
+        for options in ((), ("--min-persistence=-1",), ("--output-format", "json")):
+            self.assertNotIn("-dry-run", self.expect(0, *dry, *options).stderr)
+        self.write("row.npy", npy((3,), [0, 2, 1]))
+        self.assertIn("--slab-layers does nothing: the image has one axis",
+                      self.expect(0, "row.npy", "--slab-layers", "1", "--dry-run").stderr)
+
+    def test_options_of_bars_that_nobody_sees(self):
+        self.write("row.npy", npy((3,), [0, 2, 1]))
+        tree = ("row.npy", "--plot", "t.svg", "--plot-kind", "tree")
+        bars = ("--min-persistence", "5", "--max-dim", "0")
+        run = self.expect(0, *tree, "--output-format", "none", *bars)
+        self.assertIn("nothing is done for --max-dim, --min-persistence: the merge tree",
+                      run.stderr)
+        for options in (bars, (*bars, "--output-format", "none", "--check"),
+                        (*bars, "--output-format", "none", "--plot", "b.svg", "--plot-kind",
+                         "diagram"), ("--output-format", "none")):
+            self.assertNotIn("nothing is done", self.expect(0, *tree, *options).stderr)
+
+    def test_representatives_that_nobody_sees(self):
+        for options in (("--output-format", "none"), ("--plot", "pics/")):
+            run = self.expect(64, "square.txt", "--representatives", "cycles", *options)
+            self.assertIn("--representatives: found output format none, expected json", run.stderr)
+        self.assertEqual(self.files(), ["square.txt"])
+
     def test_json_progress(self):
         run = self.expect(0, "square.txt", "--progress", "json", "--quiet")
         for line in run.stderr.splitlines():

@@ -65,6 +65,32 @@ class Stored(ProgramTest):
                         open(self.path(f"bars.{form}"), "rb") as b:
                     self.assertEqual(a.read(), b.read(), (source, form))
 
+    def test_json_keeps_what_it_says(self):
+        def members(name):
+            return json.loads(self.read(name))
+        for options in (["--field", "3", "--max-dim", "2", "--threshold", "1.5", "--dtm", "2"],
+                        ["--subsample", "3", "--representatives", "cocycles"],
+                        ["--approximate", "0.5"],
+                        ["--complex", "cubical", "--voxel", "0.5"]):
+            self.expect(0, "square.txt", *options, "-o", "a.json")
+            run = self.expect(0, "a.json", "-o", "b.json")
+            self.assertNotIn("not kept", run.stderr)
+            self.assertEqual(members("a.json"), members("b.json"), options)
+        self.expect(0, "square.txt", "--representatives", "cycles", "-o", "a.json")
+        run = self.expect(0, "a.json", "-o", "b.json")
+        self.assertIn("a.json: not kept: loops\n", run.stderr)
+        self.assertNotIn("not kept", self.expect(0, "a.json", "-o", "b.csv").stderr)
+        kept = members("a.json")
+        for bar in kept["bars"]:
+            bar.pop("loops", None)
+        self.assertEqual(kept, members("b.json"))
+        # Other formats do not say what the bars are of.
+        self.expect(0, "b.csv", "-o", "c.json")
+        self.assertEqual(members("c.json")["input"],
+                         {"path": "b.csv", "description": "a barcode, 5 bars"})
+        for name in ("complex", "field", "max_dim", "threshold", "engine"):
+            self.assertNotIn(name, members("c.json"))
+
     def test_a_file_by_the_name_of_plot(self):
         self.write("plot", SQUARE)
         self.assertEqual(self.expect(0, "plot").stdout, SQUARE_CSV)
@@ -78,10 +104,27 @@ class Stored(ProgramTest):
                 (("bars.csv", "--max-dim", "1"), "--max-dim"),
                 (("plot", "bars.csv", "-o", "x.svg", "--superlevel"), "--superlevel"),
                 (("plot", "bars.csv", "-o", "x.svg", "--plot-kind", "tree"), "tree"),
+                (("plot", "bars.csv", "-o", "x.svg", "--output-format", "json"), "--plot x.svg"),
+                (("plot", "bars.csv", "-o", "x.png", "--output-format", "csv"), "--plot x.png"),
                 (("plot", "bars.csv", "-o", "x.gif"), ".svg or .png")):
             self.assertIn(what, self.expect(64, *arguments).stderr)
         self.expect(65, "plot", "square.txt", "-o", "x.svg")
         self.assertNotIn("x.svg", self.files())
+
+    def test_a_picture_and_no_barcode(self):
+        self.store()
+        self.expect(0, "plot", "bars.csv", "-o", "x.svg", "--output-format", "none")
+        self.assertTrue(self.texts("x.svg"))
+        self.assertEqual(self.expect(0, "plot", "bars.csv", "--plot", "x.svg", "--output-format",
+                                     "csv").stdout, SQUARE_CSV)
+
+    def test_too_large_for_the_memory(self):
+        rows = [x for i in range(200_000) for x in (0, 0, 1 + i)]
+        self.write("big.npy", files.array((200_000, 3), rows))
+        run = self.expect(75, "plot", "big.npy", "-o", "x.svg", "--memory-limit", "1MiB")
+        self.assertIn("take fewer bars, or raise --memory-limit", run.stderr)
+        for option in ("--max-dim", "--subsample", "--threshold"):
+            self.assertNotIn(option, run.stderr)
 
     def test_pictures_of_a_batch(self):
         self.write("pair.txt", "0 0\n3 4\n")
@@ -95,6 +138,10 @@ class Stored(ProgramTest):
         self.assertIn("FOLDER/", self.expect(64, *both, "--plot", "x.svg").stderr)
         self.expect(0, *both, "-o", "named/*.pers")
         self.assertEqual(sorted(os.listdir(self.path("named"))), ["pair.pers", "square.pers"])
+        # Also one input has the name that a * stands for.
+        self.expect(0, "pair.txt", "-o", "one/*.json", "--plot", "*-one.svg")
+        self.assertEqual(os.listdir(self.path("one")), ["pair.json"])
+        self.assertIn("pair-one.svg", self.files())
         self.expect(0, "plot", "out/pair.csv", "out/square.csv", "-o", "again/")
         self.assertEqual(sorted(os.listdir(self.path("again"))), ["pair.svg", "square.svg"])
 
@@ -125,9 +172,24 @@ class Stored(ProgramTest):
         self.assertEqual([(d["dim"], d["bottleneck"]) for d in distances["distances"]],
                          [(0, 0.5), (1, 0.25), (2, None)])
         self.assertEqual(self.expect(0, *pair, "--output-format", "none").stdout, "")
+        run = self.expect(0, *pair, "--output-format", "none", "-o", "x.csv")
+        self.assertIn("nothing is done for --output x.csv", run.stderr)
+        self.assertNotIn("x.csv", self.files())
+        for arguments in ((), ("--output-format", "json")):
+            self.assertIn("--report", self.expect(64, *pair, "--report", "-", *arguments).stderr)
+        run = self.expect(64, *pair, "-o", "d.npy")
+        self.assertIn("--output: found d.npy", run.stderr)
+        self.assertNotIn("--output-format", run.stderr)
         for arguments in (("--output-format", "npy"), ("--plot", "x.svg"), ("--metric", "hamming"),
                           ("--max-dim", "1")):
             self.assertIn(arguments[0], self.expect(64, *pair, *arguments).stderr)
+
+    def test_compare_says_what_it_leaves_out(self):
+        self.write("a.csv", "dim,birth,death\n0,0,1\n")
+        self.write("many.csv", "dim,birth,death\n" + "1,0,1\n" * 40_001)
+        for output in ([], ["--output-format", "csv"], ["--output-format", "json"]):
+            run = self.expect(0, "--compare", "a.csv", "many.csv", *output)
+            self.assertIn("left out: H1: 40001 bars; at most 40000", run.stderr)
 
     def test_looks(self):
         self.write("bars.csv", "dim,birth,death\n0,0,1\n0,0,inf\n0,5,6\n1,1,100\n")
@@ -167,6 +229,15 @@ class Stored(ProgramTest):
             self.assertFalse([t for t in self.texts("x.svg") if "−" in t], kind)
             axis = [n for n in numbers if n % 5 == 0][:4]
             self.assertEqual(axis, sorted(axis, reverse=True), kind)
+
+    def test_the_axis_of_superlevel_sets_is_of_the_image(self):
+        self.write("row.npy", files.array((5,), [50, 10, 40, 10, 30]))
+        for kind in ("barcode", "diagram", "betti", "tree"):
+            self.expect(0, "row.npy", "--superlevel", "--plot", "x.svg", "--plot-kind", kind,
+                        "--axis", "10,50")
+            texts = self.texts("x.svg")
+            self.assertTrue({"50", "10"} <= set(texts), (kind, texts))
+            self.assertFalse([t for t in texts if "beyond" in t], (kind, texts))
 
     def test_the_tree_of_one_class_begins_at_its_birth(self):
         self.write("one.npy", files.array((2,), [-3, -3]))

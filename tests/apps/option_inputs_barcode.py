@@ -280,6 +280,8 @@ def inputs(Input, program):
         {"b.npy": files.array((2, 3), [0, 0, 1, 1, 0.3, 0.75])},
         rows={**alone, "--force": (("--force",), {"sign": "--force: not needed"}),
               "--output": (("--output", "x.svg"), {}),
+              "--field": (("--field", "3"), {}),
+              "--representatives": (("--representatives", "cycles"), {}),
               "--plot-kind": (("--plot-kind", "betti"), {}), "--dims": (("--dims", "9"), {}),
               "--title": (("--title", "Loops"), {}), "--size": (("--size", "300x200"), {}),
               "--axis": (("--axis", "0.25,0.5"), {})})

@@ -7,9 +7,10 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import zipfile
 
 from option_inputs_segment import CAMERA, FOCAL, HEIGHT, WIDTH, depth_png, depths, pcd, points_of
-from files import RGB, png
+from files import RGB, array, png
 
 BARCODE = SEGMENT = None
 POINTS = b"0 0\n1 0\n1 1\n0 1.25\n"
@@ -71,6 +72,25 @@ class Overwrites(unittest.TestCase):
         self.write("v.csv", b"1\n2\n")
         self.refused(BARCODE, "--output", ["v.csv"], "m.off", "--values", "v.csv", "-o", "hard-v.csv")
 
+    def test_a_part_of_a_file_is_an_input(self):
+        for name in ("scan.npz", "a.npz"):
+            path = os.path.join(self.folder, name)
+            with zipfile.ZipFile(path, "w") as archive:
+                for part in ("image", "x"):
+                    archive.writestr(part + ".npy", array((2, 3), [0, 0, 1, 1, 0, 2]))
+        self.write("h.ply", b"ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\n"
+                   b"property float y\nproperty float z\nproperty float height\nelement face 1\n"
+                   b"property list uchar int vertex_indices\nend_header\n0 0 0 1\n1 0 0 2\n2 0 1\n")
+        for option, arguments in (
+                ("--output", ["scan.npz:image", "-o", "scan.npz"]),
+                ("--plot", ["scan.npz:image", "--plot", "link.svg"]),
+                ("--output", ["h.ply", "--values", "hard-h.ply:height", "-o", "h.ply"]),
+                ("--output", ["--compare", "scan.npz:image", "a.npz:x", "-o", "a.npz"])):
+            if "link.svg" in arguments:
+                os.symlink("scan.npz", os.path.join(self.folder, "link.svg"))
+            with self.subTest(arguments=arguments):
+                self.refused(BARCODE, option, ["scan.npz", "a.npz", "h.ply"], *arguments)
+
     def test_standard_input_is_an_input(self):
         self.write("p.csv", POINTS)
         with open(os.path.join(self.folder, "p.csv"), "rb") as file:
@@ -84,6 +104,17 @@ class Overwrites(unittest.TestCase):
                                  stderr=subprocess.PIPE, timeout=60)
         self.assertEqual((run.returncode, self.read("p.csv")), (64, POINTS))
 
+    def test_standard_output_of_other_modes(self):
+        bars = b"dim,birth,death\n0,0,1\n"
+        self.write("a.csv", bars)
+        self.write("p.csv", POINTS)
+        for name, content, arguments in (("a.csv", bars, ["--compare", "a.csv", "link-a.csv"]),
+                                         ("p.csv", POINTS, ["p.csv", "--dry-run"])):
+            with open(os.path.join(self.folder, name), "ab") as file:
+                run = subprocess.run([BARCODE, *arguments], cwd=self.folder, stdout=file,
+                                     stderr=subprocess.PIPE, timeout=60)
+            self.assertEqual((run.returncode, self.read(name)), (64, content), run.stderr)
+
     def test_two_outputs(self):
         self.write("p.csv", POINTS)
         for alias in ("x.svg", "./x.svg", "folder/../x.svg"):
@@ -91,6 +122,12 @@ class Overwrites(unittest.TestCase):
             self.refused(BARCODE, "x.svg", ["p.csv"], "p.csv", "--plot", "x.svg", "--plot", alias,
                          "--force")
         self.assertFalse(os.path.exists(os.path.join(self.folder, "x.svg")))
+        # In a folder that is not there yet.
+        for arguments in (["--plot", "new/", "--plot-kind", "barcode", "--plot", "new/*.svg",
+                           "--plot-kind", "diagram"],
+                          ["-o", "new/*.svg", "--plot", "folder/../new/*.svg"]):
+            self.refused(BARCODE, "p.svg", ["p.csv"], "p.csv", "link-p.csv", *arguments)
+        self.assertFalse(os.path.exists(os.path.join(self.folder, "new")))
         # What keeps nothing may be written twice.
         run = self.run_in_folder(BARCODE, "p.csv", "-o", "/dev/null", "--quiet")
         self.assertEqual(run.returncode, 0, run.stderr)

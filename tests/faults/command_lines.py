@@ -51,7 +51,7 @@ BARCODE = [
     (49, ["--representatives", "voxels", "--output-format", "json"], "sets of voxels need an image"),
     (49, ["--representatives", "cocycles", "-o", "x.csv"], "found output format csv"),
     *((49, ["--representatives", "cycles", "--output-format", name], "found output format " + name)
-      for name in ("csv", "ripser", "pers", "dipha", "npy")),
+      for name in ("csv", "ripser", "pers", "dipha", "npy", "none")),
     *((49, ["--representatives", "cycles", "--output-format", "json", "--max-dim", "0", "--engine",
             name], "--engine: found " + name) for name in ("standard",)),
     (49, ["--collapse", "maybe"], "--collapse"),
