@@ -81,10 +81,11 @@ class Overwrites(unittest.TestCase):
         self.write("h.ply", b"ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\n"
                    b"property float y\nproperty float z\nproperty float height\nelement face 1\n"
                    b"property list uchar int vertex_indices\nend_header\n0 0 0 1\n1 0 0 2\n2 0 1\n")
+        self.write("m.off", b"OFF\n2 1 0\n0 0 0\n1 0 0\n2 0 1\n")
         for option, arguments in (
                 ("--output", ["scan.npz:image", "-o", "scan.npz"]),
                 ("--plot", ["scan.npz:image", "--plot", "link.svg"]),
-                ("--output", ["h.ply", "--values", "hard-h.ply:height", "-o", "h.ply"]),
+                ("--output", ["m.off", "--values", "hard-h.ply:height", "-o", "h.ply"]),
                 ("--output", ["--compare", "scan.npz:image", "a.npz:x", "-o", "a.npz"])):
             if "link.svg" in arguments:
                 os.symlink("scan.npz", os.path.join(self.folder, "link.svg"))
