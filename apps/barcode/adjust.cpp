@@ -59,9 +59,8 @@ void require_vertices(CellKind kind) {
 
 Index id_of(Index v, const std::vector<Index>& ids) {
   if (v < 0 || static_cast<std::size_t>(v) >= ids.size())
-    throw Error(ErrorKind::usage,
-                fmt::format("ids of points: found vertex {}, expected 0 to {}", v,
-                            static_cast<Index>(ids.size()) - 1));
+    throw Error(ErrorKind::usage, fmt::format("ids of points: found vertex {}, expected 0 to {}", v,
+                                              static_cast<Index>(ids.size()) - 1));
   return ids[static_cast<std::size_t>(v)];
 }
 
