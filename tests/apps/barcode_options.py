@@ -297,12 +297,12 @@ class Options(ProgramTest):
             self.assertNotIn("--representatives", run.stderr)
         for options in ((), ("--min-persistence=-1",), ("--output-format", "json")):
             self.assertNotIn("-dry-run", self.expect(0, *dry, *options).stderr)
-        self.write("row.npy", npy((3,), [0, 2, 1]))
+        self.write("row.npy", files.array((3,), [0, 2, 1]))
         self.assertIn("--slab-layers does nothing: the image has one axis",
                       self.expect(0, "row.npy", "--slab-layers", "1", "--dry-run").stderr)
 
     def test_options_of_bars_that_nobody_sees(self):
-        self.write("row.npy", npy((3,), [0, 2, 1]))
+        self.write("row.npy", files.array((3,), [0, 2, 1]))
         tree = ("row.npy", "--plot", "t.svg", "--plot-kind", "tree")
         bars = ("--min-persistence", "5", "--max-dim", "0")
         run = self.expect(0, *tree, "--output-format", "none", *bars)
