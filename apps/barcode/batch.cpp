@@ -160,7 +160,7 @@ void require_separate(const std::vector<Job>& jobs, const Arguments& arguments,
 
 /// Outputs that are asked for and do not come.
 void explain_unwritten(const Arguments& arguments, BarcodeFormat format, app::Session& session) {
-  std::vector<std::string> unwritten;
+  std::vector<std::string> unwritten, estimated;
   const bool is_named = arguments.output != "-";
   if (is_named && (arguments.dry_run || format == BarcodeFormat::none))
     unwritten.push_back("--output " + arguments.output);
@@ -168,16 +168,24 @@ void explain_unwritten(const Arguments& arguments, BarcodeFormat format, app::Se
     for (const app::Plot& plot : arguments.plots) unwritten.push_back("--plot " + plot.path);
     if (!arguments.report.empty()) unwritten.push_back("--report " + arguments.report);
     if (arguments.check) unwritten.emplace_back("--check");
-    // The estimate counts the cells of bars in JSON, and bars of length 0.
-    if (arguments.output_format && format != BarcodeFormat::json)
-      unwritten.push_back(fmt::format("--output-format {}", barcode_format_name(format)));
-    if (arguments.options.min_persistence > 0) unwritten.emplace_back("--min-persistence");
+    const Options& options = arguments.options;
+    if (options.min_persistence > 0) unwritten.emplace_back("--min-persistence");
     if (arguments.loops) unwritten.emplace_back("--loops");
+    // What bars take depends on these: on the cells that JSON has, for one.
+    if (arguments.output_format)
+      estimated.push_back(fmt::format("--output-format {}", barcode_format_name(format)));
+    if (options.min_dim > 0) estimated.emplace_back("--min-dim");
+    if (options.field != 2) estimated.emplace_back("--field");
+    if (options.representatives != Representatives::none)
+      estimated.emplace_back("--representatives");
   }
   if (!unwritten.empty())
     session.note(fmt::format("{}: nothing is done for {}",
                              arguments.dry_run ? "--dry-run" : "--output-format none",
                              fmt::join(unwritten, ", ")));
+  if (!estimated.empty())
+    session.note(fmt::format("--dry-run: nothing is done for {} but to estimate memory",
+                             fmt::join(estimated, ", ")));
 }
 
 /// Options of bars where the merge tree is all that is written.

@@ -162,8 +162,8 @@ class WaysOut(UnderLimit):
                     self.assertLessEqual(peak, limit + BESIDE)
 
     def test_loops_that_there_cannot_be_are_taken_back(self):
-        run = self.run_program("space.txt", "--quiet", "-o", "x.json", "--max-dim", "2",
-                               "--representatives", "cycles", "--loops", "plain",
+        run = self.run_program(os.path.join(INPUTS.name, "space.txt"), "--quiet", "-o", "x.json",
+                               "--max-dim", "2", "--representatives", "cycles", "--loops", "plain",
                                "--memory-limit", "10MiB")
         self.assertEqual(run.returncode, 75, run.stderr)
         changes = run.stderr.split("what would fit: ")[1].split("; ")

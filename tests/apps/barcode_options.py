@@ -294,8 +294,10 @@ class Options(ProgramTest):
                          "json")):
             run = self.expect(0, *dry, *options)
             self.assertIn(options[0], run.stderr, options)
-            self.assertNotIn("--representatives", run.stderr)
-        for options in ((), ("--min-persistence=-1",), ("--output-format", "json")):
+        for options in (("--output-format", "json"), ("--field", "3"), ("--min-dim", "1")):
+            self.assertRegex(self.expect(0, *dry, *options).stderr,
+                             f"nothing is done for {options[0]}.* but to estimate memory")
+        for options in ((), ("--min-persistence=-1",)):
             self.assertNotIn("-dry-run", self.expect(0, *dry, *options).stderr)
         self.write("row.npy", files.array((3,), [0, 2, 1]))
         self.assertIn("--slab-layers does nothing: the image has one axis",

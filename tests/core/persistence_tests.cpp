@@ -208,7 +208,7 @@ TEST(Estimates, SayWhetherEdgesAreCollapsed) {
   says(ring, {.max_dim = 2, .collapse = Collapse::on}, true, "asked for");
   says(solid, {.max_dim = 2, .collapse = Collapse::off}, false, "asked for");
   says(solid, {}, false, "by edges alone");
-  says(solid, {.max_dim = 2, .engine = Engine::standard}, false, "oracle");
+  says(solid, {.max_dim = 2, .engine = Engine::standard}, false, "reference engine");
   says(solid, {.max_dim = 2, .engine = Engine::cohomology, .min_persistence = -1}, false,
        "length zero");
   says(solid,

@@ -182,7 +182,7 @@ SEGMENT = [
     (49, ["--plot", "x.svg", "--plot-view", "1,2"], "--plot-kind cloud"),
     (49, ["--plot", "x.pdf"], "--plot"),
     (49, ["--barcode", "x.xlsx"], "--barcode"),
-    (49, ["-o", "x.obj"], "x.obj: expected a file name that ends in .pcd or .ply"),
+    (49, ["-o", "x.obj"], "found x.obj, expected a file name that ends in .pcd or .ply"),
     (50, ["--distance"], "--distance"),
     (50, ["--voxle", "0.1"], "did you mean '--voxel'"),
     (50, ["another.pcd"], "several inputs need a folder"),

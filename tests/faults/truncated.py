@@ -59,7 +59,7 @@ def text_without_a_length():
     yield refused(30, "points", "in a row", "0 0\n1 0\n1", f":3:1: ragged row.*{hint}")
     yield refused(30, "points", "in a number", "0 0\n1 1e", ":2:3: not a number")
     yield refused(30, "points", "behind a separator", "0,0\n1,", f":2:1: ragged row.*{hint}")
-    yield refused(30, "distance", "in a row", "0 1 2\n1 0 3\n2 3", f"found 3 rows.*{hint}")
+    yield refused(30, "distance", "in a row", "0 1 2\n1 0 3\n2 3", f"row 2 of the matrix is too short, found 2 cells.*{hint}")
     yield refused(30, "distance", "after a row", "0 1 2\n1 0 3\n", f"found 2 rows.*{hint}")
     yield refused(30, "distance", "in a number", "0 1e\n", "input.txt")
     yield refused(30, "lower-distance", "in a row", "1\n2 3\n4 5", f":3:1: row 3 .*{hint}")
