@@ -163,9 +163,7 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
 bool Arguments::is_stream() const {
   if (!frames_from.empty() || inputs.size() > 1) return true;
   const std::vector<app::Written> outputs = files.of_each_frame();
-  const auto names_frames = [](const app::Written& output) {
-    return app::names_each(output.path);
-  };
+  const auto names_frames = [](const app::Written& output) { return app::names_each(output.path); };
   if (std::ranges::any_of(outputs, names_frames)) return true;
   // A folder is one only if its results have a place; else it is an input that cannot be read.
   return files.any() && !inputs.empty() && app::is_folder(inputs.front()) &&
