@@ -2,18 +2,27 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <string>
 
 #include "support/generators.hpp"
 
 namespace ph::test {
 
-/// Runs `check(generator, ties, field)` for `count` seeds: every other one with heavy ties, each
-/// with one of four fields. Stops at the first failure, which names the seed.
+/// How many seeds of `count` to try: the environment variable PH_TEST_SEEDS multiplies them, as in
+/// 0.02 for a quick look or 250 for a long search.
+inline int seeds(int count) {
+  const char* times = std::getenv("PH_TEST_SEEDS");
+  return times ? std::max(1, static_cast<int>(count * std::atof(times))) : count;
+}
+
+/// Runs `check(generator, ties, field)` for `seeds(count)` seeds: every other one with heavy ties,
+/// each with one of four fields. Stops at the first failure, which names the seed.
 template <class Check>
 void for_each_seed(int count, Check&& check) {
   static constexpr std::int64_t fields[] = {2, 3, 5, 11};
-  for (int seed = 0; seed < count && !::testing::Test::HasFailure(); ++seed) {
+  for (int seed = 0; seed < seeds(count) && !::testing::Test::HasFailure(); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Generator random(static_cast<std::uint64_t>(seed));
     check(random, seed % 2 == 0, fields[seed / 2 % 4]);
