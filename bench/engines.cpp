@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "ph/custom.hpp"
+#include "persistence/all_engines.hpp"
 #include "ph/ph.hpp"
 
 namespace {

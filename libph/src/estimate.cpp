@@ -7,7 +7,7 @@
 #include "complex/clique_count.hpp"
 #include "persistence/memory_forecast.hpp"
 #include "ph/complex/edge_collapse.hpp"
-#include "ph/custom.hpp"
+#include "persistence/choice.hpp"
 
 namespace ph {
 namespace {
@@ -73,7 +73,7 @@ RunPlan plan_of(const detail::Plan& plan) {
 
 template <class Complex>
 RunPlan plan_one(const Complex& complex, const Options& options, const RunContext&) {
-  return plan_of(detail::plan(complex, options));
+  return plan_of(detail::plan<AllEngines>(complex, options));
 }
 RunPlan plan_one(const Rips& rips, const Options& options, const RunContext& context) {
   Options rips_options = options;
@@ -86,7 +86,7 @@ RunPlan plan_one(const Rips& rips, const Options& options, const RunContext& con
     result.max_dim = *rips_options.max_dim;  // the top dimension is not known before the collapse
   } else {
     result = rips.with_filtration(*rips_options.max_dim, [&](const auto& f) {
-      return plan_of(detail::plan(f, rips_options));
+      return plan_of(detail::plan<AllEngines>(f, rips_options));
     });
   }
   if (rips.has_only_components()) result.reason += "; a spanning forest knows them";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/custom.hpp"
+#include "persistence/choice.hpp"
 
 #include <fmt/format.h>
 
@@ -48,7 +48,7 @@ Barcode persistence(const Rips& rips, const Options& options, const RunContext& 
   rips_options.collapse = Collapse::off;  // done here or not at all
   const auto compute = [&](const Rips& complex) {
     return complex.with_filtration(*rips_options.max_dim, [&](const auto& filtration) {
-      return persistence(filtration, rips_options, context);
+      return detail::compute<AllEngines>(filtration, rips_options, context);
     });
   };
   if (!choice.collapses) return compute(rips);
@@ -57,7 +57,7 @@ Barcode persistence(const Rips& rips, const Options& options, const RunContext& 
 }
 
 Barcode persistence(const Cubical& cubical, const Options& options, const RunContext& context) {
-  return persistence<Cubical>(cubical, options, context);
+  return detail::compute<AllEngines>(cubical, options, context);
 }
 
 Barcode persistence(const ExplicitComplex& complex, const Options& options,
@@ -68,11 +68,11 @@ Barcode persistence(const ExplicitComplex& complex, const Options& options,
                             "field 2 only",
                             options.field));
   }
-  return persistence<ExplicitComplex>(complex, options, context);
+  return detail::compute<AllEngines>(complex, options, context);
 }
 
 Barcode persistence(const FilteredGraph& graph, const Options& options, const RunContext& context) {
-  return persistence<FilteredGraph>(graph, options, context);
+  return detail::compute<AllEngines>(graph, options, context);
 }
 
 Barcode persistence(const AnyComplex& complex, const Options& options, const RunContext& context) {

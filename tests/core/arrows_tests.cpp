@@ -262,15 +262,15 @@ TEST(Arrows, AKnotAndWhatIsAroundIt) {
 
 TEST(Arrows, AreTakenWhereTheyCan) {
   const Image flat{{2, 3}, {1, 2, 3, 4, 5, 6}};
-  EXPECT_EQ(detail::plan(Cubical(flat), {}).choice.engine, Engine::arrows);
-  EXPECT_EQ(detail::plan(Cubical(flat), {.max_dim = 0}).choice.engine, Engine::arrows);
+  EXPECT_EQ(detail::plan<AllEngines>(Cubical(flat), {}).choice.engine, Engine::arrows);
+  EXPECT_EQ(detail::plan<AllEngines>(Cubical(flat), {.max_dim = 0}).choice.engine, Engine::arrows);
   // Axes of one voxel do not count.
   const Image thin{{2, 1, 2, 1, 2}, std::vector<double>(8, 0.0)};
-  EXPECT_EQ(detail::plan(Cubical(thin), {}).choice.engine, Engine::arrows);
+  EXPECT_EQ(detail::plan<AllEngines>(Cubical(thin), {}).choice.engine, Engine::arrows);
   const Options cycles{.representatives = Representatives::cycles};
-  EXPECT_EQ(detail::plan(Cubical(flat), cycles).choice.engine, Engine::arrows);
+  EXPECT_EQ(detail::plan<AllEngines>(Cubical(flat), cycles).choice.engine, Engine::arrows);
   const Options cocycles{.representatives = Representatives::cocycles};
-  EXPECT_EQ(detail::plan(Cubical(flat), cocycles).choice.engine, Engine::cohomology);
+  EXPECT_EQ(detail::plan<AllEngines>(Cubical(flat), cocycles).choice.engine, Engine::cohomology);
 }
 
 TEST(Arrows, ThreadsDoNotMatter) {

@@ -108,9 +108,9 @@ TEST(ManyAxes, KnownSpaces) {
 
 TEST(ManyAxes, AreTakenWhereTheyCan) {
   const Cubical deep(Image{{2, 2, 2, 2}, std::vector<double>(16, 0.0)});
-  EXPECT_EQ(detail::plan(deep, {}).choice.engine, Engine::arrows);
-  EXPECT_EQ(detail::plan(deep, {.max_dim = 1}).choice.engine, Engine::arrows);
-  EXPECT_EQ(detail::plan(deep, {.min_persistence = -1}).choice.engine, Engine::twist);
+  EXPECT_EQ(detail::plan<AllEngines>(deep, {}).choice.engine, Engine::arrows);
+  EXPECT_EQ(detail::plan<AllEngines>(deep, {.max_dim = 1}).choice.engine, Engine::arrows);
+  EXPECT_EQ(detail::plan<AllEngines>(deep, {.min_persistence = -1}).choice.engine, Engine::twist);
   CubicalImage grid = deep.cubical_image();
   grid.periodic.assign(8, false);
   grid.extents.assign(8, 8);  // 15^8 cells

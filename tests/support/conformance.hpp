@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "ph/custom.hpp"
+#include "persistence/all_engines.hpp"
 
 namespace ph::test {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "ph/custom.hpp"
+#include "persistence/all_engines.hpp"
 
-namespace ph {
+namespace ph::detail {
 
-template Barcode persistence<Cubical>(const Cubical&, const Options&, const RunContext&);
+template Barcode compute<AllEngines>(const Cubical&, const Options&, const RunContext&);
 
-}  // namespace ph
+}  // namespace ph::detail

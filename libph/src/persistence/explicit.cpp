@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "ph/custom.hpp"
+#include "persistence/all_engines.hpp"
 
-namespace ph {
+namespace ph::detail {
 
-template Barcode persistence<ExplicitComplex>(const ExplicitComplex&, const Options&,
-                                              const RunContext&);
-template Barcode persistence<FilteredGraph>(const FilteredGraph&, const Options&,
-                                            const RunContext&);
+template Barcode compute<AllEngines>(const ExplicitComplex&, const Options&, const RunContext&);
+template Barcode compute<AllEngines>(const FilteredGraph&, const Options&, const RunContext&);
 
-}  // namespace ph
+}  // namespace ph::detail

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "../complex/clique_count.hpp"
+#include "persistence/all_engines.hpp"
 #include "ph/engine/lens_graph.hpp"
 
 namespace ph::detail {
@@ -144,17 +145,11 @@ std::size_t pilot_size(const Rips& rips, std::span<const std::uint32_t> order, d
 }  // namespace
 
 int listed_dim(Engine engine, int max_dim) {
-  switch (engine) {
-    case Engine::lens:
-    case Engine::union_find:
-      return 1;
-    case Engine::arrows:
-      return 0;
-    case Engine::cohomology:
-      return max_dim;
-    default:
-      return max_dim + 1;
-  }
+  int dim = max_dim;
+  for_each_engine([&](auto e) {
+    if (e.id == engine) dim = e.listed_dim(max_dim);
+  });
+  return dim;
 }
 
 MemoryForecast forecast_rips(const Rips& rips, std::span<const double> cells,

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "ph/custom.hpp"
+#include "persistence/all_engines.hpp"
 
-namespace ph {
+namespace ph::detail {
 
-template Barcode persistence<RipsFiltration<RipsLayout::any, 4>>(
-    const RipsFiltration<RipsLayout::any, 4>&, const Options&, const RunContext&);
+template Barcode compute<AllEngines>(const RipsFiltration<RipsLayout::any, 4>&, const Options&,
+                                     const RunContext&);
 
-}  // namespace ph
+}  // namespace ph::detail

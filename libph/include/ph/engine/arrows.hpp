@@ -25,6 +25,12 @@ struct ArrowsEngine {
       return false;
     }
   }
+  template <Filtration F>
+  static Suitability suitability(const F&, const Task&) {
+    return {6, "an image is paired voxel by voxel"};
+  }
+  static constexpr int listed_dim(int) { return 0; }
+  static constexpr bool goes_by_edges = false, is_oracle = false;
 
   template <Filtration F, Field K>
   static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context) {

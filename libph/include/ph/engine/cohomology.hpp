@@ -20,6 +20,12 @@ struct CohomologyEngine {
   static bool can_run(const F&, const Task& task) {
     return CofacetFiltration<F> && task.wants_no_sets();
   }
+  template <Filtration F>
+  static Suitability suitability(const F&, const Task&) {
+    return {2, "cells of the highest dimension are too many to list"};
+  }
+  static constexpr int listed_dim(int max_dim) { return max_dim; }
+  static constexpr bool goes_by_edges = false, is_oracle = false;
 
   template <Filtration F, Field K>
   static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context) {

@@ -35,4 +35,22 @@ struct Task {
   bool wants_no_sets() const { return representatives != Representatives::voxels; }
 };
 
+// AN ENGINE is a struct of static members that says all about itself:
+//
+//   id, name           what it is called
+//   can_run(f, task)   whether it can do the task
+//   suitability(f, task)   how well, where it can: the best of all engines is taken
+//   listed_dim(max_dim)    the highest dimension whose cells it lists
+//   goes_by_edges      whether it looks at nothing but vertices and edges
+//   is_oracle          whether it is what the others are checked with
+//   run(f, field, bars, context)   computes
+//
+// A new one is this and a line in generic_engines.hpp or all_engines.hpp.
+
+/// How well an engine suits a task.
+struct Suitability {
+  int rank = 0;             ///< the highest is taken; 0: never unless asked for
+  std::string_view reason;  ///< why it is taken, one phrase
+};
+
 }  // namespace ph

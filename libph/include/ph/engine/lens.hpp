@@ -27,6 +27,12 @@ struct LensEngine {
     else
       return false;
   }
+  template <Filtration F>
+  static Suitability suitability(const F&, const Task&) {
+    return {4, "H1 and H2 of a Rips complex need no triangles"};
+  }
+  static constexpr int listed_dim(int) { return 1; }
+  static constexpr bool goes_by_edges = true, is_oracle = false;
 
   template <Filtration F, Field K>
   static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context,

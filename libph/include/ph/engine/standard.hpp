@@ -23,6 +23,12 @@ struct StandardEngine {
   static bool can_run(const F&, const Task& task) {
     return task.representatives == Representatives::none;
   }
+  template <Filtration F>
+  static Suitability suitability(const F&, const Task&) {
+    return {};
+  }
+  static constexpr int listed_dim(int max_dim) { return max_dim + 1; }
+  static constexpr bool goes_by_edges = false, is_oracle = true;
 
   template <Filtration F, Field K>
   static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context) {

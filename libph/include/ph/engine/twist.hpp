@@ -15,6 +15,15 @@ struct TwistEngine {
   static bool can_run(const F&, const Task& task) {
     return task.representatives != Representatives::cocycles && task.wants_no_sets();
   }
+  /// Measured: where cells are numbered, columns are few and short in both directions and the
+  /// boundary wins; where they are not, the next dimension must never be listed.
+  template <Filtration F>
+  static Suitability suitability(const F&, const Task&) {
+    if (SlottedFiltration<F>) return {3, "the complex numbers its cells"};
+    return {1, "the complex lists facets only"};
+  }
+  static constexpr int listed_dim(int max_dim) { return max_dim + 1; }
+  static constexpr bool goes_by_edges = false, is_oracle = false;
 
   template <Filtration F, Field K>
   static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context) {

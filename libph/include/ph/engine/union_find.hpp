@@ -52,6 +52,12 @@ struct UnionFindEngine {
   static bool can_run(const F& f, const Task& task) {
     return task.max_dim == 0 && is_graph_like(f) && task.wants_no_sets();
   }
+  template <Filtration F>
+  static Suitability suitability(const F&, const Task&) {
+    return {5, "only components are asked for"};
+  }
+  static constexpr int listed_dim(int) { return 1; }
+  static constexpr bool goes_by_edges = true, is_oracle = false;
 
   template <Filtration F, Field K>
   static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context) {

@@ -1,3 +1,3 @@
 // SPDX-License-Identifier: MIT
-#include "ph/engine/registry.hpp"
+#include "ph/engine/generic_engines.hpp"
 #include "ph/complex/explicit.hpp"

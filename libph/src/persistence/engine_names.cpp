@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/engine/registry.hpp"
+#include "persistence/all_engines.hpp"
 
 namespace ph {
 
