@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "ph/complex/edge_collapse.hpp"
+#include "ph/edge_collapse.hpp"
 #include "ph/io/read.hpp"
 #include "ph/ph.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "persistence/all_engines.hpp"
+#include "facade/all_engines.hpp"
 #include "ph/ph.hpp"
 
 namespace {

@@ -13,10 +13,6 @@ function(ph_link_program program)
     return()
   endif()
   target_link_options(${program} PRIVATE -static -Wl,--gc-sections)
-  if(PH_LINKS_IN_ORDER)
-    target_link_options(${program} PRIVATE -Wl,-T,${PH_ORDER})
-    set_property(TARGET ${program} APPEND PROPERTY LINK_DEPENDS ${PH_ORDER})
-  endif()
 endfunction()
 
 if(NOT PH_STATIC_PROGRAMS OR NOT PH_BUILD_APPS)
@@ -61,10 +57,6 @@ else()
 endif()
 
 set(PH_IS_STATIC TRUE)
-set(PH_ORDER ${CMAKE_CURRENT_LIST_DIR}/function_order.ld)
-set(CMAKE_REQUIRED_LINK_OPTIONS -static -Wl,-T,${PH_ORDER})
-check_cxx_source_compiles("#include <iostream>\nint main() { std::cout << 1; }" PH_LINKS_IN_ORDER)
-unset(CMAKE_REQUIRED_LINK_OPTIONS)
 
 target_compile_options(ph_options INTERFACE -ffunction-sections)
 # What find_package() takes, whatever it found when the programs were linked dynamically.

@@ -4,7 +4,7 @@
 #include <iostream>
 #include <map>
 #include <numbers>
-#include <ph/engine/merge_tree.hpp>
+#include <ph/merge_tree.hpp>
 #include <ph/ph.hpp>
 
 int main() {

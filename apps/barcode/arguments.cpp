@@ -14,7 +14,7 @@
 #include "image_arguments.hpp"
 #include "numbers.hpp"
 #include "option_scopes.hpp"
-#include "ph/core/field.hpp"
+#include "ph/detail/field.hpp"
 #include "report/page_template.hpp"
 #include "rips_arguments.hpp"
 #include "table_arguments.hpp"

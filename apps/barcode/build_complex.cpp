@@ -9,10 +9,10 @@
 #include <limits>
 
 #include "option_scopes.hpp"
-#include "ph/complex/listed_cubes.hpp"
-#include "ph/complex/lower_star.hpp"
-#include "ph/complex/voxel_image.hpp"
-#include "ph/metric/distance_to_measure.hpp"
+#include "complex/listed_cubes.hpp"
+#include "ph/lower_star.hpp"
+#include "ph/voxel_image.hpp"
+#include "ph/distance_to_measure.hpp"
 
 namespace ph::barcode {
 namespace {

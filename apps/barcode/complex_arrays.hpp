@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "build_complex.hpp"
-#include "ph/core/run_context.hpp"
+#include "ph/run_context.hpp"
 #include "report/report_file.hpp"
 
 namespace ph::barcode {

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "numbers.hpp"
-#include "ph/io/barcode_io.hpp"
+#include "ph/io/write.hpp"
 
 namespace ph::barcode {
 

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "ph/io/barcode_io.hpp"
+#include "ph/io/write.hpp"
 #include "ph/io/formats.hpp"
 
 namespace ph::barcode {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ph/io/reader.hpp"
+#include "ph/detail/reader.hpp"
 #include "report/metadata.hpp"
 #include "run.hpp"
 

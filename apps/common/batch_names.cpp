@@ -10,8 +10,8 @@
 #include <map>
 #include <system_error>
 
-#include "ph/core/error.hpp"
-#include "ph/io/reader.hpp"
+#include "ph/error.hpp"
+#include "ph/detail/reader.hpp"
 
 namespace ph::app {
 namespace {

@@ -12,7 +12,7 @@
 #include "choices.hpp"
 #include "exit_code.hpp"
 #include "numbers.hpp"
-#include "ph/io/output_file.hpp"
+#include "ph/detail/output_file.hpp"
 
 namespace ph::app {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "ph/core/error.hpp"
+#include "ph/error.hpp"
 
 namespace ph::app {
 

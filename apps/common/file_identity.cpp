@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <system_error>
 
-#include "ph/core/error.hpp"
-#include "ph/io/reader.hpp"
+#include "ph/error.hpp"
+#include "ph/detail/reader.hpp"
 
 namespace ph::app {
 namespace {

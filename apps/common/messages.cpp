@@ -6,7 +6,7 @@
 #include <mutex>
 #include <string>
 
-#include "ph/io/reader.hpp"
+#include "ph/detail/reader.hpp"
 
 namespace ph::app {
 namespace {

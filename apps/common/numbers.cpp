@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "ph/core/error.hpp"
+#include "ph/error.hpp"
 
 namespace ph::app {
 namespace {

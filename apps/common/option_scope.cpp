@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "ph/core/error.hpp"
+#include "ph/error.hpp"
 
 namespace ph::app {
 

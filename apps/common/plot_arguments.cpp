@@ -11,7 +11,7 @@
 #include "choices.hpp"
 #include "command_line.hpp"
 #include "numbers.hpp"
-#include "ph/core/error.hpp"
+#include "ph/error.hpp"
 
 namespace ph::app {
 namespace {

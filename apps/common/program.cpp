@@ -16,7 +16,7 @@
 
 #include "exit_code.hpp"
 #include "messages.hpp"
-#include "ph/io/output_file.hpp"
+#include "ph/detail/output_file.hpp"
 #include "signals.hpp"
 
 namespace ph::app {

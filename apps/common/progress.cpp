@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "messages.hpp"
-#include "ph/io/barcode_io.hpp"
+#include "ph/io/write.hpp"
 
 namespace ph::app {
 namespace {

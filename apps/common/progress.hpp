@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "command_line.hpp"
-#include "ph/core/run_context.hpp"
+#include "ph/run_context.hpp"
 
 namespace ph::app {
 

@@ -11,9 +11,9 @@
 #include <new>
 
 #include "base64.hpp"
-#include "ph/core/error.hpp"
-#include "ph/core/file_pages.hpp"
-#include "ph/io/barcode_io.hpp"
+#include "ph/error.hpp"
+#include "ph/detail/file_pages.hpp"
+#include "ph/io/write.hpp"
 
 namespace ph::report {
 namespace {

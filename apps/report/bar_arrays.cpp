@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "ph/core/error.hpp"
+#include "ph/error.hpp"
 #include "ph/io/svg_plot.hpp"
 
 namespace ph::report {

@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-#include "ph/core/barcode.hpp"
+#include "ph/barcode.hpp"
 #include "report_file.hpp"
 
 namespace ph::report {

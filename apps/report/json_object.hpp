@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "ph/io/barcode_io.hpp"
+#include "ph/io/write.hpp"
 
 namespace ph::report {
 

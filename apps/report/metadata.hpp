@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "ph/core/barcode.hpp"
-#include "ph/io/barcode_io.hpp"
+#include "ph/barcode.hpp"
+#include "ph/io/write.hpp"
 
 namespace ph::report {
 

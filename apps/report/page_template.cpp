@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "ph/core/error.hpp"
+#include "ph/error.hpp"
 
 namespace ph::report {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ph/core/barcode.hpp"
+#include "ph/barcode.hpp"
 
 namespace ph::report {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "array_block.hpp"
 #include "metadata.hpp"
-#include "ph/core/cubical_image.hpp"
-#include "ph/core/run_context.hpp"
-#include "ph/io/output_file.hpp"
+#include "ph/detail/cubical_image.hpp"
+#include "ph/run_context.hpp"
+#include "ph/detail/output_file.hpp"
 
 namespace ph::report {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
-#include "ph/core/run_context.hpp"
-#include "ph/io/reader.hpp"
+#include "ph/run_context.hpp"
+#include "ph/detail/reader.hpp"
 
 namespace ph::report {
 

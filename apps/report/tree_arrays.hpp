@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "metadata.hpp"
-#include "ph/core/barcode.hpp"
-#include "ph/engine/merge_tree.hpp"
+#include "ph/barcode.hpp"
+#include "ph/merge_tree.hpp"
 #include "report_file.hpp"
 
 namespace ph::report {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "ph/core/place_runs.hpp"
+#include "complex/place_runs.hpp"
 
 namespace ph::report {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "ph/core/barcode.hpp"
+#include "ph/barcode.hpp"
 #include "report_file.hpp"
 
 namespace ph::report {

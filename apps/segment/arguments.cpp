@@ -11,7 +11,7 @@
 #include "batch_names.hpp"
 #include "numbers.hpp"
 #include "option_scopes.hpp"
-#include "ph/core/error.hpp"
+#include "ph/error.hpp"
 #include "report/page_template.hpp"
 
 namespace ph::segment {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cloud_picture.hpp"
+#include "pictures/cloud_picture.hpp"
 #include "command_line.hpp"
 #include "file_identity.hpp"
 #include "option_scope.hpp"

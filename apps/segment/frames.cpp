@@ -9,8 +9,8 @@
 #include <iostream>
 
 #include "batch_names.hpp"
-#include "ph/core/error.hpp"
-#include "ph/io/reader.hpp"
+#include "ph/error.hpp"
+#include "ph/detail/reader.hpp"
 
 namespace ph::segment {
 namespace {

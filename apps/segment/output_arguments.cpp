@@ -7,7 +7,7 @@
 
 #include "argument_groups.hpp"
 #include "numbers.hpp"
-#include "ph/core/error.hpp"
+#include "ph/error.hpp"
 
 namespace ph::segment {
 namespace {

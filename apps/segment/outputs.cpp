@@ -8,10 +8,10 @@
 #include <sstream>
 
 #include "cloud_files.hpp"
-#include "cloud_legend.hpp"
-#include "colouring.hpp"
-#include "ph/core/error.hpp"
-#include "ph/io/barcode_io.hpp"
+#include "pictures/cloud_legend.hpp"
+#include "pictures/colouring.hpp"
+#include "ph/error.hpp"
+#include "ph/io/write.hpp"
 #include "report.hpp"
 #include "summary.hpp"
 

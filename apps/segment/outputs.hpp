@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "arguments.hpp"
-#include "ph/io/barcode_io.hpp"
+#include "ph/io/write.hpp"
 #include "session.hpp"
 
 namespace ph::segment {

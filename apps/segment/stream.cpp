@@ -10,8 +10,8 @@
 
 #include "exit_code.hpp"
 #include "frames.hpp"
-#include "json_text.hpp"
-#include "ph/core/error.hpp"
+#include "tree/json_text.hpp"
+#include "ph/error.hpp"
 #include "ph/label_tracker.hpp"
 #include "program.hpp"
 #include "run.hpp"

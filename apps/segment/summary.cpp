@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-#include "json_text.hpp"
+#include "tree/json_text.hpp"
 
 namespace ph::segment {
 namespace {

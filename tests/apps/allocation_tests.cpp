@@ -14,8 +14,8 @@
 #include <new>
 #include <sstream>
 
-#include "ph/engine/merge_tree.hpp"
-#include "ph/io/barcode_io.hpp"
+#include "ph/merge_tree.hpp"
+#include "ph/io/write.hpp"
 #include "ph/io/cloud_io.hpp"
 #include "ph/io/formats.hpp"
 #include "ph/io/png_plot.hpp"

@@ -13,7 +13,7 @@
 #include <sstream>
 #include <string>
 
-#include "ph/core/error.hpp"
+#include "ph/error.hpp"
 #include "report/array_block.hpp"
 #include "report/base64.hpp"
 #include "report/metadata.hpp"

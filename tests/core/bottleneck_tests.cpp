@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "ph/core/error.hpp"
-#include "ph/diagram/bottleneck.hpp"
+#include "ph/error.hpp"
+#include "ph/bottleneck.hpp"
 
 namespace ph {
 namespace {

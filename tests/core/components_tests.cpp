@@ -2,7 +2,7 @@
 // Spanning forests: H0 without the graph of all edges, held to the oracle on the whole filtration.
 #include <limits>
 
-#include "ph/engine/merge_tree.hpp"
+#include "ph/merge_tree.hpp"
 #include "ph/estimate.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"

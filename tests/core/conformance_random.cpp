@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "ph/complex/filtered_graph.hpp"
+#include "ph/filtered_graph.hpp"
 #include "support/conformance.hpp"
 #include "support/for_each_seed.hpp"
 

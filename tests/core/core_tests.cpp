@@ -5,9 +5,9 @@
 #include <tuple>
 #include <vector>
 
-#include "ph/core/barcode.hpp"
-#include "ph/core/field.hpp"
-#include "ph/core/radix_sort.hpp"
+#include "ph/barcode.hpp"
+#include "ph/detail/field.hpp"
+#include "ph/detail/radix_sort.hpp"
 #include "ph/persistence.hpp"
 #include "support/expect_error.hpp"
 #include "support/generators.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Edge collapse: fewer edges, the same bars, cells and cycles that mean what they say.
-#include "ph/complex/edge_collapse.hpp"
+#include "ph/edge_collapse.hpp"
 
 #include <fstream>
 #include <sstream>

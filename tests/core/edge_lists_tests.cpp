@@ -9,8 +9,8 @@
 #include <tuple>
 #include <vector>
 
-#include "ph/core/binned_edges.hpp"
-#include "ph/engine/neighbour_lists.hpp"
+#include "ph/detail/binned_edges.hpp"
+#include "rips/sweep/neighbour_lists.hpp"
 #include "ph/persistence.hpp"
 #include "support/conformance.hpp"
 #include "support/known_spaces.hpp"

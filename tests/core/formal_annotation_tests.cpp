@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "ph/engine/formal_sums.hpp"
-#include "ph/engine/pair_labels.hpp"
-#include "ph/engine/sum_rows.hpp"
+#include "rips/annotations/formal_sums.hpp"
+#include "rips/annotations/pair_labels.hpp"
+#include "rips/annotations/sum_rows.hpp"
 #include "support/for_each_seed.hpp"
 
 namespace ph::test {

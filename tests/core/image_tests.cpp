@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "ph/complex/voxel_image.hpp"
-#include "ph/core/error.hpp"
+#include "ph/voxel_image.hpp"
+#include "ph/error.hpp"
 #include "ph/persistence.hpp"
 
 namespace ph {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // H0 as a tree, held to brute force and to the oracle.
-#include "ph/engine/merge_tree.hpp"
+#include "ph/merge_tree.hpp"
 
 #include <numeric>
 
-#include "ph/complex/filtered_graph.hpp"
+#include "ph/filtered_graph.hpp"
 #include "ph/persistence.hpp"
 #include "support/expect_error.hpp"
 #include "support/generators.hpp"

@@ -6,12 +6,12 @@
 #include <climits>
 #include <limits>
 
-#include "ph/complex/lower_star.hpp"
-#include "ph/complex/voxel_image.hpp"
-#include "ph/diagram/bottleneck.hpp"
+#include "ph/lower_star.hpp"
+#include "ph/voxel_image.hpp"
+#include "ph/bottleneck.hpp"
 #include "ph/estimate.hpp"
-#include "ph/metric/distance_to_measure.hpp"
-#include "ph/metric/greedy_permutation.hpp"
+#include "ph/distance_to_measure.hpp"
+#include "ph/greedy_permutation.hpp"
 #include "ph/persistence.hpp"
 #include "support/wrong_values.hpp"
 

@@ -2,7 +2,7 @@
 // The graph under a Rips filtration: thresholds, layouts, small and degenerate inputs.
 #include <limits>
 
-#include "ph/engine/merge_tree.hpp"
+#include "ph/merge_tree.hpp"
 #include "ph/persistence.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"

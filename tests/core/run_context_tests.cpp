@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Memory that is counted and refused, stops that are heard, progress that is reported.
-#include "ph/core/run_context.hpp"
+#include "ph/run_context.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -9,7 +9,7 @@
 #include <string>
 #include <thread>
 
-#include "persistence/all_engines.hpp"
+#include "facade/all_engines.hpp"
 #include "support/expect_error.hpp"
 #include "support/generators.hpp"
 #include "support/known_spaces.hpp"

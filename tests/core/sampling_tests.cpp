@@ -3,9 +3,9 @@
 #include <limits>
 #include <numeric>
 
-#include "ph/complex/sparse_rips.hpp"
-#include "ph/metric/distance_to_measure.hpp"
-#include "ph/metric/greedy_permutation.hpp"
+#include "ph/detail/sparse_rips.hpp"
+#include "ph/distance_to_measure.hpp"
+#include "ph/greedy_permutation.hpp"
 #include "ph/persistence.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"

@@ -3,8 +3,8 @@
 #include <limits>
 #include <numeric>
 
-#include "ph/complex/edge_collapse.hpp"
-#include "ph/engine/merge_tree.hpp"
+#include "ph/edge_collapse.hpp"
+#include "ph/merge_tree.hpp"
 #include "ph/persistence.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "ph/io/barcode_io.hpp"
+#include "ph/io/write.hpp"
 #include "ph/io/cloud_io.hpp"
 #include "ph/io/formats.hpp"
 #include "ph/scene_tree.hpp"

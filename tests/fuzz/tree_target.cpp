@@ -3,7 +3,7 @@
 // right.
 #include <string>
 
-#include "segment/tree_file.hpp"
+#include "tree/tree_file.hpp"
 #include "targets.hpp"
 
 namespace ph::fuzz {

@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "ph/io/barcode_io.hpp"
+#include "ph/io/write.hpp"
 #include "read_support.hpp"
 
 namespace ph::test {

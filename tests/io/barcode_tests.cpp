@@ -9,7 +9,7 @@
 #include <limits>
 #include <sstream>
 
-#include "ph/io/barcode_io.hpp"
+#include "ph/io/write.hpp"
 
 namespace ph {
 namespace {

@@ -9,7 +9,7 @@
 #include <random>
 #include <regex>
 
-#include "ph/core/error.hpp"
+#include "ph/error.hpp"
 #include "ph/io/svg_plot.hpp"
 #include "plot_support.hpp"
 

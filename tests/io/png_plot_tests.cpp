@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-#include "ph/io/png.hpp"
+#include "ph/detail/png.hpp"
 #include "plot_support.hpp"
 #include "support/expect_error.hpp"
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <sstream>
 
-#include "ph/io/barcode_io.hpp"
+#include "ph/io/write.hpp"
 #include "ph/io/cloud_io.hpp"
 #include "ph/io/png_plot.hpp"
 #include "ph/io/read.hpp"

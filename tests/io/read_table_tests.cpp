@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "ph/io/formats.hpp"
-#include "ph/io/png.hpp"
+#include "ph/detail/png.hpp"
 #include "read_support.hpp"
 
 namespace ph::test {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "ph/io/barcode_io.hpp"
+#include "ph/io/write.hpp"
 #include "ph/io/formats.hpp"
 #include "read_support.hpp"
 

@@ -58,11 +58,11 @@ def write_build(tree, programs):
                         libraries=" ".join(libraries + ["-lpthread"]))
     library = []
     sources = [p.relative_to(tree) for f in SOURCES for p in (tree / "libph/src" / f).glob("*.cpp")]
-    sources += [Path("libph/src/persistence.cpp"), Path("libph/src/loops.cpp")]
+    sources += [Path("libph/src/facade/persistence.cpp"), Path("libph/src/facade/loops.cpp")]
     for source in sorted(sources):
         library.append(f"o/{source.parent.name}_{source.stem}.o")
         text += f"build {library[-1]}: compile {source}\n"
-    text += "build o/estimate.o: compile libph/src/estimate.cpp\n"
+    text += "build o/estimate.o: compile libph/src/facade/estimate.cpp\n"
     text += f"build o/libph.a: archive {' '.join(library)}\n"
     for program in programs:
         text += f"build o/{program}.o: compile tests/core/{program}.cpp\n"

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "ph/diagram/bottleneck.hpp"
+#include "ph/bottleneck.hpp"
 #include "ph/persistence.hpp"
 #include "support/generators.hpp"
 #include "support/known_spaces.hpp"

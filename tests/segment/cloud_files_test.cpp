@@ -7,7 +7,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "ph/core/error.hpp"
+#include "ph/error.hpp"
 #include "scenery.hpp"
 
 namespace ph::segment {

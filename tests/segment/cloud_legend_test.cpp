@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cloud_legend.hpp"
+#include "pictures/cloud_legend.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cloud_picture.hpp"
+#include "pictures/cloud_picture.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "colouring.hpp"
+#include "pictures/colouring.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
 #include <set>
 
-#include "ph/core/error.hpp"
+#include "ph/error.hpp"
 #include "scenery.hpp"
 
 namespace ph::segment {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "ph/io/png.hpp"
+#include "ph/detail/png.hpp"
 #include "program_fixture.hpp"
 
 namespace ph::segment {

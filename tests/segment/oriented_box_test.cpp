@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oriented_box.hpp"
+#include "objects/oriented_box.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ph/core/error.hpp"
+#include "ph/error.hpp"
 #include "scenery.hpp"
 
 namespace ph::segment {

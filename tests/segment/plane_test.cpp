@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plane.hpp"
+#include "plane/plane.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <numeric>
 #include <random>
 
-#include "range_filter.hpp"
+#include "plane/range_filter.hpp"
 #include "scenery.hpp"
 
 namespace ph::segment {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "projection_centre.hpp"
+#include "plane/projection_centre.hpp"
 
 #include <gtest/gtest.h>
 

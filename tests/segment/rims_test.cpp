@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rims.hpp"
+#include "plane/rims.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <numbers>
 #include <vector>
 
-#include "ph/core/error.hpp"
+#include "ph/error.hpp"
 
 namespace ph::segment {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "ph/core/error.hpp"
+#include "ph/error.hpp"
 #include "ph/segment.hpp"
 
 namespace ph::segment {

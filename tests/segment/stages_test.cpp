@@ -7,15 +7,15 @@
 #include <map>
 #include <random>
 
-#include "components.hpp"
-#include "cross_check.hpp"
-#include "ph/complex/rips.hpp"
-#include "ph/core/error.hpp"
+#include "voxels/components.hpp"
+#include "voxels/cross_check.hpp"
+#include "ph/rips.hpp"
+#include "ph/error.hpp"
 #include "ph/persistence.hpp"
-#include "range_filter.hpp"
-#include "rips_graph.hpp"
+#include "plane/range_filter.hpp"
+#include "voxels/rips_graph.hpp"
 #include "scenery.hpp"
-#include "voxel_grid.hpp"
+#include "voxels/voxel_grid.hpp"
 
 namespace ph::segment {
 namespace {

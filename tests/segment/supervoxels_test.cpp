@@ -9,10 +9,10 @@
 #include <random>
 #include <set>
 
-#include "ph/core/error.hpp"
-#include "ph/metric/greedy_permutation.hpp"
+#include "ph/error.hpp"
+#include "ph/greedy_permutation.hpp"
 #include "scenery.hpp"
-#include "seeds.hpp"
+#include "surface/seeds.hpp"
 
 namespace ph::segment {
 namespace {

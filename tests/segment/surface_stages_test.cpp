@@ -11,12 +11,12 @@
 #include <numbers>
 #include <random>
 
-#include "concavity.hpp"
-#include "objects.hpp"
-#include "ph/complex/filtered_graph.hpp"
-#include "ph/core/error.hpp"
+#include "surface/concavity.hpp"
+#include "objects/objects.hpp"
+#include "ph/filtered_graph.hpp"
+#include "ph/error.hpp"
 #include "scenery.hpp"
-#include "voxel_pairs.hpp"
+#include "voxels/voxel_pairs.hpp"
 
 namespace ph::segment {
 namespace {

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <random>
 
-#include "ph/core/error.hpp"
+#include "ph/error.hpp"
 #include "scenery.hpp"
 
 namespace ph::segment {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "foot.hpp"
+#include "plane/foot.hpp"
 #include "scenery.hpp"
 #include "support/for_each_seed.hpp"
 #include "top_down_scene.hpp"

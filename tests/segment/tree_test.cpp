@@ -9,10 +9,10 @@
 #include <filesystem>
 #include <iostream>
 
-#include "ph/core/error.hpp"
-#include "ph/io/barcode_io.hpp"
+#include "ph/error.hpp"
+#include "ph/io/write.hpp"
 #include "scenery.hpp"
-#include "tree_file.hpp"
+#include "tree/tree_file.hpp"
 
 namespace ph::segment {
 namespace {

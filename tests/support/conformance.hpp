@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "persistence/all_engines.hpp"
+#include "facade/all_engines.hpp"
 
 namespace ph::test {
 

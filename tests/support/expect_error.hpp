@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "ph/core/error.hpp"
+#include "ph/error.hpp"
 
 namespace ph::test {
 

@@ -9,10 +9,10 @@
 #include <set>
 #include <vector>
 
-#include "ph/complex/lower_star.hpp"
-#include "ph/complex/rips.hpp"
-#include "ph/core/barcode.hpp"
-#include "ph/image/image.hpp"
+#include "ph/lower_star.hpp"
+#include "ph/rips.hpp"
+#include "ph/barcode.hpp"
+#include "ph/image.hpp"
 
 namespace ph::test {
 

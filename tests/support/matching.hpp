@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "ph/core/barcode.hpp"
+#include "ph/barcode.hpp"
 
 namespace ph::test {
 

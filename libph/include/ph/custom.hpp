@@ -2,7 +2,7 @@
 #pragma once
 // For a complex of your own: the engines for any filtration, as templates. Costly to compile;
 // whoever uses the complexes of libph needs persistence.hpp only.
-#include "ph/engine/choose_engine.hpp"
+#include "ph/detail/choose_engine.hpp"
 
 namespace ph {
 

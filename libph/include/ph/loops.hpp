@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "ph/core/loops.hpp"
+#include "ph/loop.hpp"
 #include "ph/persistence.hpp"
 
 namespace ph {

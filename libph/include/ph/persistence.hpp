@@ -5,13 +5,13 @@
 #include <variant>
 #include <vector>
 
-#include "ph/complex/cubical.hpp"
-#include "ph/complex/explicit.hpp"
-#include "ph/complex/filtered_graph.hpp"
-#include "ph/complex/rips.hpp"
-#include "ph/core/barcode.hpp"
-#include "ph/core/run_context.hpp"
-#include "ph/engine/engine.hpp"
+#include "ph/cubical.hpp"
+#include "ph/explicit.hpp"
+#include "ph/filtered_graph.hpp"
+#include "ph/rips.hpp"
+#include "ph/barcode.hpp"
+#include "ph/run_context.hpp"
+#include "ph/engine.hpp"
 
 namespace ph {
 

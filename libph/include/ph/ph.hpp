@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 // The umbrella: complexes, engines, barcodes; and, where ph::io is linked, files.
-#include "ph/complex/cubical.hpp"
-#include "ph/complex/explicit.hpp"
-#include "ph/complex/filtered_graph.hpp"
-#include "ph/complex/lower_star.hpp"
-#include "ph/complex/rips.hpp"
-#include "ph/complex/voxel_image.hpp"
-#include "ph/engine/merge_tree.hpp"
+#include "ph/cubical.hpp"
+#include "ph/explicit.hpp"
+#include "ph/filtered_graph.hpp"
+#include "ph/lower_star.hpp"
+#include "ph/rips.hpp"
+#include "ph/voxel_image.hpp"
+#include "ph/merge_tree.hpp"
 #include "ph/estimate.hpp"
 #include "ph/loops.hpp"
-#include "ph/metric/distance_to_measure.hpp"
+#include "ph/distance_to_measure.hpp"
 #include "ph/persistence.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/complex/cubical.hpp"
+#include "ph/cubical.hpp"
 
 #include <fmt/format.h>
 
@@ -10,10 +10,10 @@
 #include <optional>
 #include <thread>
 
-#include "ph/core/error.hpp"
-#include "ph/core/file_pages.hpp"
-#include "ph/core/radix_sort.hpp"
-#include "ph/core/voxels_in_use.hpp"
+#include "ph/error.hpp"
+#include "ph/detail/file_pages.hpp"
+#include "ph/detail/radix_sort.hpp"
+#include "complex/voxels_in_use.hpp"
 
 namespace ph {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/complex/explicit.hpp"
+#include "ph/explicit.hpp"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,8 @@
 #include <numeric>
 #include <unordered_map>
 
-#include "ph/core/barcode.hpp"
-#include "ph/core/error.hpp"
+#include "ph/barcode.hpp"
+#include "ph/error.hpp"
 
 namespace ph {
 namespace {

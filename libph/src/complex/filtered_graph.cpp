@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/complex/filtered_graph.hpp"
+#include "ph/filtered_graph.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "ph/core/barcode.hpp"
-#include "ph/core/error.hpp"
-#include "ph/core/radix_sort.hpp"
+#include "ph/barcode.hpp"
+#include "ph/error.hpp"
+#include "ph/detail/radix_sort.hpp"
 
 namespace ph {
 

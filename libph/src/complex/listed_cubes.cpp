@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/complex/listed_cubes.hpp"
+#include "complex/listed_cubes.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <functional>
 #include <numeric>
 
-#include "ph/core/barcode.hpp"
-#include "ph/core/error.hpp"
+#include "ph/barcode.hpp"
+#include "ph/error.hpp"
 
 namespace ph {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/complex/lower_star.hpp"
+#include "ph/lower_star.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include <set>
 #include <vector>
 
-#include "ph/core/error.hpp"
+#include "ph/error.hpp"
 
 namespace ph {
 namespace {

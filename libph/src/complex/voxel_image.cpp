@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/complex/voxel_image.hpp"
+#include "ph/voxel_image.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <memory_resource>
 #include <utility>
 
-#include "ph/complex/cubical.hpp"
-#include "ph/core/barcode.hpp"
-#include "ph/core/error.hpp"
+#include "ph/cubical.hpp"
+#include "ph/barcode.hpp"
+#include "ph/error.hpp"
 
 namespace ph {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/core/barcode.hpp"
+#include "ph/barcode.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -7,9 +7,9 @@
 #include <string>
 #include <tuple>
 
-#include "ph/core/error.hpp"
-#include "ph/core/polled_sort.hpp"
-#include "ph/core/radix_sort.hpp"
+#include "ph/error.hpp"
+#include "ph/detail/polled_sort.hpp"
+#include "ph/detail/radix_sort.hpp"
 
 namespace ph {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "ph/core/bit_matrix.hpp"
+#include "ph/detail/bit_matrix.hpp"
 
-#include "for_each_target.hpp"
+#include "core/for_each_target.hpp"
 
 namespace ph::bits {
 

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <utility>
 
-#include "ph/core/error.hpp"
-#include "ph/core/loops.hpp"
+#include "ph/error.hpp"
+#include "ph/loop.hpp"
 
 namespace ph {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "ph/core/field.hpp"
+#include "ph/detail/field.hpp"
 
 #include <string>
 #include <utility>
 
-#include "ph/core/error.hpp"
+#include "ph/error.hpp"
 
 namespace ph {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/core/parallel.hpp"
+#include "ph/detail/parallel.hpp"
 
 #include <algorithm>
 #include <atomic>

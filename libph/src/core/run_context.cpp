@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/core/run_context.hpp"
+#include "ph/run_context.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <utility>
 
-#include "ph/core/error.hpp"
-#include "ph/core/pages.hpp"
+#include "ph/error.hpp"
+#include "core/system/pages.hpp"
 
 namespace ph {
 namespace {

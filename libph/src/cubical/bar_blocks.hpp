@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "ph/core/barcode.hpp"
-#include "ph/cubical/pair_voxels.hpp"
+#include "ph/barcode.hpp"
+#include "cubical/pair_voxels.hpp"
 
 namespace ph::cubical {
 

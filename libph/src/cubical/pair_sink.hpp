@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "bar_blocks.hpp"
-#include "grid_frame.hpp"
+#include "cubical/bar_blocks.hpp"
+#include "cubical/stars/grid_frame.hpp"
 
 namespace ph::cubical {
 

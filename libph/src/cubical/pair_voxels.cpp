@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "ph/cubical/pair_voxels.hpp"
+#include "cubical/pair_voxels.hpp"
 
 #include <algorithm>
 #include <bit>
 #include <mutex>
 
-#include "loop_reduction.hpp"
-#include "pair_cells.hpp"
-#include "pair_in_slabs.hpp"
-#include "ph/core/parallel.hpp"
-#include "ph/core/voxels_in_use.hpp"
-#include "two_graphs.hpp"
+#include "cubical/loops/loop_reduction.hpp"
+#include "cubical/any_axes/pair_cells.hpp"
+#include "cubical/slabs/pair_in_slabs.hpp"
+#include "ph/detail/parallel.hpp"
+#include "complex/voxels_in_use.hpp"
+#include "cubical/graphs/two_graphs.hpp"
 
 namespace ph::cubical {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/diagram/bottleneck.hpp"
+#include "ph/bottleneck.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <numeric>
 #include <utility>
 
-#include "near_points.hpp"
-#include "ph/core/error.hpp"
+#include "diagram/near_points.hpp"
+#include "ph/error.hpp"
 
 namespace ph {
 namespace {

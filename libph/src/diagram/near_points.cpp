@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "near_points.hpp"
+#include "diagram/near_points.hpp"
 
 #include <utility>
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 
 #include "ph/io/formats.hpp"
-#include "readers.hpp"
-#include "table.hpp"
+#include "io/readers.hpp"
+#include "io/points/table.hpp"
 
 namespace ph {
 namespace {

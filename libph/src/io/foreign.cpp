@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <array>
 
-#include "readers.hpp"
-#include "table.hpp"
+#include "io/readers.hpp"
+#include "io/points/table.hpp"
 
 namespace ph::detail {
 namespace {

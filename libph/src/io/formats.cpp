@@ -8,8 +8,8 @@
 #include <array>
 
 #include "ph/io/cloud_io.hpp"
-#include "readers.hpp"
-#include "table.hpp"
+#include "io/readers.hpp"
+#include "io/points/table.hpp"
 
 namespace ph {
 namespace {

@@ -9,9 +9,9 @@
 #include <limits>
 #include <utility>
 
-#include "array.hpp"
-#include "readers.hpp"
-#include "table.hpp"
+#include "io/points/array.hpp"
+#include "io/readers.hpp"
+#include "io/points/table.hpp"
 
 namespace ph::detail {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "ph/io/formats.hpp"
-#include "readers.hpp"
-#include "table.hpp"
+#include "io/readers.hpp"
+#include "io/points/table.hpp"
 
 namespace ph {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "ph/io/cloud.hpp"
-#include "ph/io/png.hpp"
+#include "ph/detail/png.hpp"
 #include "ph/io/read.hpp"
 
 namespace ph::detail {

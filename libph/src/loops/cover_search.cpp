@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cover_search.hpp"
+#include "loops/cover_search.hpp"
 
 #include <algorithm>
 #include <functional>

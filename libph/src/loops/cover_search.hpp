@@ -6,8 +6,8 @@
 #include <memory_resource>
 #include <vector>
 
-#include "early_graph.hpp"
-#include "edge_cocycles.hpp"
+#include "loops/early_graph.hpp"
+#include "loops/edge_cocycles.hpp"
 
 namespace ph::detail {
 

@@ -4,8 +4,8 @@
 #include <memory_resource>
 #include <span>
 
-#include "early_graph.hpp"
-#include "ph/core/barcode.hpp"
+#include "loops/early_graph.hpp"
+#include "ph/barcode.hpp"
 
 namespace ph::detail {
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "cover_search.hpp"
-#include "early_graph.hpp"
+#include "loops/cover_search.hpp"
+#include "loops/early_graph.hpp"
 
 namespace ph::detail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tighten.hpp"
+#include "loops/tighten.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +8,12 @@
 #include <numeric>
 #include <optional>
 
-#include "cover_search.hpp"
-#include "early_graph.hpp"
-#include "edge_cocycles.hpp"
-#include "ph/core/error.hpp"
+#include "loops/cover_search.hpp"
+#include "loops/early_graph.hpp"
+#include "loops/edge_cocycles.hpp"
+#include "ph/error.hpp"
 #include "ph/custom.hpp"
-#include "shortcuts.hpp"
+#include "loops/shortcuts.hpp"
 
 namespace ph::detail {
 namespace {

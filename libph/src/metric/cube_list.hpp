@@ -8,8 +8,8 @@
 #include <tuple>
 #include <vector>
 
-#include "ph/core/run_context.hpp"
-#include "ph/metric/metric.hpp"
+#include "ph/run_context.hpp"
+#include "ph/metric.hpp"
 
 namespace ph {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "ph/metric/distance_matrix.hpp"
+#include "ph/distance_matrix.hpp"
 
 #include <fmt/format.h>
 
-#include "ph/core/error.hpp"
+#include "ph/error.hpp"
 
 namespace ph {
 

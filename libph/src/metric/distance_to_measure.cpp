@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "ph/metric/distance_to_measure.hpp"
+#include "ph/distance_to_measure.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <numeric>
 
-#include "neighbour_search.hpp"
-#include "ph/core/error.hpp"
-#include "ph/core/parallel.hpp"
-#include "ph/metric/spanning_forest.hpp"
+#include "metric/neighbour_search.hpp"
+#include "ph/error.hpp"
+#include "ph/detail/parallel.hpp"
+#include "ph/detail/spanning_forest.hpp"
 
 namespace ph {
 

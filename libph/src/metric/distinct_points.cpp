@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "distinct_points.hpp"
+#include "metric/distinct_points.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/metric/greedy_permutation.hpp"
+#include "ph/greedy_permutation.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <optional>
 
-#include "ph/core/error.hpp"
+#include "ph/error.hpp"
 
 namespace ph {
 namespace {

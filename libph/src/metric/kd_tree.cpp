@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "kd_tree.hpp"
+#include "metric/kd_tree.hpp"
 
 #include <algorithm>
 
-#include "ph/core/parallel.hpp"
+#include "ph/detail/parallel.hpp"
 
 namespace ph {
 

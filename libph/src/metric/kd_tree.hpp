@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "ph/core/run_context.hpp"
-#include "ph/metric/metric.hpp"
+#include "ph/run_context.hpp"
+#include "ph/metric.hpp"
 
 namespace ph {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "neighbour_search.hpp"
+#include "metric/neighbour_search.hpp"
 
 #include <algorithm>
 #include <array>

@@ -5,8 +5,8 @@
 #include <memory>
 #include <span>
 
-#include "kd_tree.hpp"
-#include "ph/metric/point_metric.hpp"
+#include "metric/kd_tree.hpp"
+#include "ph/points.hpp"
 
 namespace ph {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/metric/pairs_within.hpp"
+#include "metric/pairs_within.hpp"
 
 #include <fmt/format.h>
 
@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "cube_list.hpp"
-#include "ph/core/error.hpp"
-#include "ph/metric/point_metric.hpp"
-#include "ph/metric/row_distances.hpp"
+#include "metric/cube_list.hpp"
+#include "ph/error.hpp"
+#include "ph/points.hpp"
+#include "ph/detail/row_distances.hpp"
 
 namespace ph {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/metric/point_metric.hpp"
+#include "ph/points.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "ph/core/error.hpp"
+#include "ph/error.hpp"
 
 namespace ph {
 namespace {

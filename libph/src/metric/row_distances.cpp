@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/metric/row_distances.hpp"
+#include "ph/detail/row_distances.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "../core/for_each_target.hpp"
+#include "core/for_each_target.hpp"
 
 namespace ph {
 namespace {

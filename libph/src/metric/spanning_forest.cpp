@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "ph/metric/spanning_forest.hpp"
+#include "ph/detail/spanning_forest.hpp"
 
 #include <array>
 #include <atomic>
 
-#include "distinct_points.hpp"
-#include "neighbour_search.hpp"
-#include "ph/core/disjoint_sets.hpp"
-#include "ph/core/parallel.hpp"
+#include "metric/distinct_points.hpp"
+#include "metric/neighbour_search.hpp"
+#include "ph/detail/disjoint_sets.hpp"
+#include "ph/detail/parallel.hpp"
 
 namespace ph {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "ph/metric/sparse_distances.hpp"
+#include "ph/sparse_distances.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "ph/core/error.hpp"
-#include "ph/metric/pairs_within.hpp"
+#include "ph/error.hpp"
+#include "metric/pairs_within.hpp"
 
 namespace ph {
 namespace {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ph/core/filtration.hpp"
+#include "ph/filtration.hpp"
 
 namespace ph {
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "ph/core/run_context.hpp"
+#include "ph/run_context.hpp"
 #include "ph/io/svg_plot.hpp"
 
 namespace ph {

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "ph/complex/explicit.hpp"
-#include "ph/core/run_context.hpp"
-#include "ph/image/image.hpp"
-#include "ph/io/reader.hpp"
-#include "ph/metric/distance_matrix.hpp"
-#include "ph/metric/metric.hpp"
-#include "ph/metric/sparse_distances.hpp"
+#include "ph/explicit.hpp"
+#include "ph/run_context.hpp"
+#include "ph/image.hpp"
+#include "ph/detail/reader.hpp"
+#include "ph/distance_matrix.hpp"
+#include "ph/metric.hpp"
+#include "ph/sparse_distances.hpp"
 
 namespace ph {
 

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "ph/core/barcode.hpp"
-#include "ph/core/branch.hpp"
-#include "ph/io/png.hpp"
+#include "ph/barcode.hpp"
+#include "ph/detail/branch.hpp"
+#include "ph/detail/png.hpp"
 
 namespace ph {
 

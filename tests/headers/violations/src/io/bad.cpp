@@ -1,3 +1,3 @@
 // SPDX-License-Identifier: MIT
-#include "ph/engine/generic_engines.hpp"
-#include "ph/complex/explicit.hpp"
+#include "ph/detail/generic_engines.hpp"
+#include "ph/explicit.hpp"

@@ -1,3 +1,3 @@
 // SPDX-License-Identifier: MIT
-#include "ph/complex/rips.hpp"
+#include "ph/rips.hpp"
 #include "ph/core/good.hpp"

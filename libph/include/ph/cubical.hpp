@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cstdint>
+#include <memory>
+#include <memory_resource>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "ph/detail/cubical_image.hpp"
+#include "ph/filtration.hpp"
+#include "ph/run_context.hpp"
+#include "ph/image.hpp"
+
+namespace ph {
+
+/// How voxels become cubes.
+struct CubicalOptions {
+  enum class Construction {
+    vertices,  ///< voxels are vertices, a cube enters with its last vertex (V): 4/6-neighbours join
+    cells,  ///< voxels are top cubes, a face enters with its first cube (T): 8/26-neighbours join
+  };
+  Construction construction = Construction::vertices;
+  /// Superlevel sets of f: the sublevel filtration of -f; values are reported as -f.
+  bool superlevel = false;
+  /// The axes (of the input) that close up on themselves; empty: none.
+  std::vector<bool> periodic = {};
+  /// Largest value that enters, inclusive (of -f with `superlevel`).
+  std::optional<double> threshold = std::nullopt;
+};
+
+/// The cubical filtration of an image of any dimension, in doubled grid coordinates: an axis of n
+/// voxels has 2n-1 coordinates in the V-construction (even: a voxel, odd: between two), 2n+1 in the
+/// T-construction (odd: a voxel), 2n in both if it is periodic. A cell's dimension is the number of
+/// its odd coordinates. Order: (rank of the voxel that decides the value, dimension, grid index).
+///
+/// Holds the voxels, shared with the image. What generic engines need, 4 bytes a cell (2^d cells a
+/// voxel) and the sorted values, is made once, by `prepare` or else when a cell or value is first
+/// asked for; an engine that goes voxel by voxel does without. +infinity never enters; -infinity is
+/// born at -infinity (both after the sign of superlevel sets). Absent voxels never enter.
+class Cubical {
+ public:
+  struct Cell {
+    std::uint32_t key = 0;    ///< rank of the deciding voxel
+    std::uint64_t index = 0;  ///< position in the doubled grid
+    friend bool operator==(const Cell&, const Cell&) = default;
+  };
+  static constexpr int kMaxDim = 8;
+  static constexpr bool first_equal_cofacet_is_oldest = true;
+
+  /// @param context outlives the filtration.
+  /// @throws Error (bad_data) on NaN unless the image is masked, an axis of length 0 or sizes that
+  ///         disagree; Error (usage) on more than 8 axes or a periodic axis that does not exist;
+  ///         Error (resource) on more than 2^32 - 2 voxels or beyond the context's memory limit.
+  explicit Cubical(const Image& image, const CubicalOptions& options = {},
+                   const RunContext& context = default_context());
+
+  /// Makes what cells are made of, unless it is there. It stays with the filtration, and is counted
+  /// in the budget of the context that the filtration was built with; while it is made, with 32
+  /// bytes a voxel for sorting, `context` bounds, watches and stops it. O(cells). Thread-safe.
+  /// @throws Error (resource) and (cancelled); it can be tried again.
+  void prepare(const RunContext& context) const;
+
+  int top_dim() const { return dim_; }
+  std::uint32_t key(const Cell& c) const { return c.key; }
+  /// @throws Error (resource) and (cancelled) if it is the first call and nobody has called
+  ///         `prepare`: it does so itself then, with the context of the construction.
+  double value(const Cell& c) const { return table().values[c.key]; }
+  static bool precedes(const Cell& a, const Cell& b) {
+    return a.key != b.key ? a.key < b.key : a.index < b.index;
+  }
+  std::size_t slot_count() const { return cells_; }
+  static std::size_t slot(const Cell& c) { return c.index; }
+  static bool edges_join_vertices() { return true; }
+  static CellKind cell_kind() { return CellKind::grid; }
+  void append_input_cell(int dim, const Cell& cell, std::vector<Index>& numbers) const;
+  /// The image as it is, in the order of this filtration.
+  CubicalImage cubical_image() const { return grid_; }
+  /// Bytes that the voxels take.
+  std::size_t voxel_bytes() const { return voxels_.bytes(); }
+  /// How many vertices the grid has, those that never enter included: voxels (V), corners (T).
+  std::size_t vertex_count() const;
+  /// The place of a vertex among them in C order.
+  std::size_t vertex_number(const Cell& vertex) const;
+
+  // They throw, and take O(cells) the first time, as `value`.
+  template <class Visit>
+  void for_each_cell(int dim, Visit&& visit) const;
+  template <class Visit>
+  void for_each_facet(int dim, const Cell& cell, Visit&& visit) const;
+  template <class Visit>
+  void for_each_cofacet(int dim, const Cell& cell, Visit&& visit) const;
+
+ private:
+  static constexpr std::uint32_t kNever = UINT32_MAX;
+  struct Axis {
+    std::uint64_t stride = 0;
+    std::uint64_t length = 0;  // doubled coordinates
+    bool periodic = false;
+  };
+  /// What cells are made of.
+  struct Table {
+    std::pmr::vector<std::uint32_t> keys;  // by grid index; kNever: never enters
+    std::pmr::vector<double> values;       // by key
+  };
+  struct Lazy {
+    std::mutex mutex;
+    std::optional<Table> table;
+    std::atomic<const Table*> made{nullptr};
+  };
+  const Table& table() const {
+    if (const Table* made = lazy_->made.load(std::memory_order_acquire)) return *made;
+    return make_table(*context_);
+  }
+  /// Made by whichever thread comes first; the others wait.
+  const Table& make_table(const RunContext& context) const;
+  Table new_table(const RunContext& context) const;
+  /// Fills the layers between (V) or around (T) the voxels along an axis.
+  static void spread_keys(std::pmr::vector<std::uint32_t>& keys, const Axis& axis,
+                          bool voxels_are_vertices, Ticker& ticker);
+  std::uint64_t coordinate(std::uint64_t index, const Axis& axis) const {
+    return index / axis.stride % axis.length;
+  }
+
+  int dim_ = 0;
+  std::array<Axis, kMaxDim> axes_;  // in the input's order, the last one fastest
+  std::size_t cells_ = 0;           // of the doubled grid
+  Voxels voxels_;
+  CubicalImage grid_;  // points into voxels_
+  const RunContext* context_;
+  std::shared_ptr<const MemoryClaim> claim_;  // of the voxels
+  std::shared_ptr<Lazy> lazy_ = std::make_shared<Lazy>();
+};
+
+}  // namespace ph
+
+template <>
+struct std::hash<ph::Cubical::Cell> {
+  std::size_t operator()(const ph::Cubical::Cell& c) const { return c.index; }
+};
+
+#include "ph/detail/cubical_cells.ipp"

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <optional>
+
+#include "ph/detail/field.hpp"
+#include "ph/filtration.hpp"
+
+namespace ph {
+
+/// Apparent pairs (Bauer, Ripser, section 3.5): a cell and a cofacet of equal key, the cofacet the
+/// oldest of the cell's cofacets and the cell the youngest of the cofacet's facets. Each is a
+/// persistence pair, found by looking at neighbours alone: nothing to reduce, nothing to store.
+/// Over a filtration without cofacets there are none.
+template <Filtration F, Field K>
+class ApparentPairs {
+ public:
+  using Cell = typename F::Cell;
+
+  ApparentPairs(const F& filtration, const K& field) : filtration_(filtration), field_(field) {}
+
+  /// The cofacet with which `cell` (of dimension `dim`) is an apparent pair.
+  std::optional<Cell> killer_of(int dim, const Cell& cell) const {
+    if constexpr (ApparentFiltration<F>) {
+      return filtration_.apparent_cofacet(dim, cell);
+    } else if constexpr (CofacetFiltration<F>) {
+      const auto cofacet = oldest_equal_cofacet(dim, cell);
+      if (!cofacet) return std::nullopt;
+      const auto facet = youngest_equal_facet(dim + 1, *cofacet);
+      if (facet && *facet == cell) return cofacet;
+    }
+    return std::nullopt;
+  }
+
+  /// The facet with which `cell` (of dimension `dim`) is an apparent pair.
+  std::optional<Cell> victim_of(int dim, const Cell& cell) const {
+    if constexpr (ApparentFiltration<F>) {
+      return filtration_.apparent_facet(dim, cell);
+    } else if constexpr (CofacetFiltration<F>) {
+      const auto facet = youngest_equal_facet(dim, cell);
+      if (!facet) return std::nullopt;
+      const auto cofacet = oldest_equal_cofacet(dim - 1, *facet);
+      if (cofacet && *cofacet == cell) return facet;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  std::optional<Cell> oldest_equal_cofacet(int dim, const Cell& cell) const {
+    std::optional<Cell> oldest;
+    filtration_.for_each_cofacet(dim, cell, [&](const Cell& cofacet, int incidence) {
+      if (filtration_.key(cofacet) != filtration_.key(cell)) return true;
+      if (field_.is_zero(field_.from_int(incidence))) return true;
+      if (!oldest || filtration_.precedes(cofacet, *oldest)) oldest = cofacet;
+      return !F::first_equal_cofacet_is_oldest;
+    });
+    return oldest;
+  }
+  std::optional<Cell> youngest_equal_facet(int dim, const Cell& cell) const {
+    std::optional<Cell> youngest;
+    filtration_.for_each_facet(dim, cell, [&](const Cell& facet, int incidence) {
+      if (filtration_.key(facet) != filtration_.key(cell)) return;
+      if (field_.is_zero(field_.from_int(incidence))) return;
+      if (!youngest || filtration_.precedes(*youngest, facet)) youngest = facet;
+    });
+    return youngest;
+  }
+
+  const F& filtration_;
+  const K& field_;
+};
+
+}  // namespace ph

@@ -1,0 +1,392 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <concepts>
+#include <memory>
+#include <memory_resource>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "ph/barcode.hpp"
+#include "ph/error.hpp"
+#include "ph/detail/parallel.hpp"
+#include "ph/detail/polled_sort.hpp"
+#include "ph/run_context.hpp"
+#include "ph/detail/apparent_pairs.hpp"
+#include "ph/detail/cell_map.hpp"
+#include "ph/detail/pivot_table.hpp"
+#include "ph/detail/working_column.hpp"
+
+namespace ph {
+
+/// Reduces coboundary columns of one dimension after the other, youngest first, with clearing (Chen
+/// & Kerber, Persistent homology computation with a twist): a cell found as a pivot needs no column
+/// of its own in the next dimension. A column that was added to is kept as the cochain whose
+/// coboundary it is, a cocycle until the death: coboundaries are far longer than the cochains.
+///
+/// Several threads reduce columns at the same time, see PivotTable. The pairs do not depend on how
+/// many: a reduction by additions of younger columns to older ones has only one outcome. The
+/// cochains may, so where cocycles are asked for there is one thread.
+template <CofacetFiltration F, Field K>
+class CohomologyReduction {
+ public:
+  using Cell = typename F::Cell;
+
+  /// How threads share the columns; the pairs are the same.
+  struct Schedule {
+    std::size_t piece = 32;     ///< columns a thread takes at a time: few, since old ones are long
+    bool oldest_first = false;  ///< the worst order: each column is reduced before those it needs
+  };
+  CohomologyReduction(const F& filtration, const K& field, BarcodeBuilder<F>& bars,
+                      const RunContext& context)
+      : CohomologyReduction(filtration, field, bars, context, Schedule()) {}
+  CohomologyReduction(const F& filtration, const K& field, BarcodeBuilder<F>& bars,
+                      const RunContext& context, Schedule schedule)
+      : f_(filtration),
+        field_(field),
+        bars_(bars),
+        context_(context),
+        apparent_(filtration, field),
+        cleared_(filtration, &context.memory),
+        killers_(&context.memory),
+        essential_(&context.memory),
+        to_reduce_(&context.memory),
+        schedule_(schedule),
+        gives_cocycles_(bars.representatives() == Representatives::cocycles) {}
+
+  /// Reduces all columns of dimension `dim`. Call with ascending dimensions.
+  void reduce_dimension(int dim) {
+    dim_ = dim;
+    killers_.clear();
+    essential_.clear();
+    to_reduce_.clear();
+    collect_columns();
+    if (to_reduce_.size() >= PivotTable<F, K>::kNone)
+      throw Error(ErrorKind::resource, "cohomology: more columns of one dimension than 2^32 - 2");
+    pivots_.emplace(f_, to_reduce_.size(), &context_.memory);
+    if (gives_cocycles_)
+      reduce_one_by_one();
+    else
+      reduce_side_by_side();
+    report_pairs();
+    pivots_.reset();
+    workers_.clear();
+  }
+  /// The cells of dimension dim + 1 that killed a class of the dimension reduced last (those of
+  /// apparent pairs only if zero-length bars are wanted), and the births of its infinite bars.
+  std::span<const Cell> killers() const { return killers_; }
+  std::span<const Cell> essential() const { return essential_; }
+
+  /// The cells of dimension `dim` that are pivots of the dimension before: for the first call to
+  /// `reduce_dimension`, when another engine did that dimension.
+  void set_cleared(CellMap<F> pivots) { cleared_ = std::move(pivots); }
+
+ private:
+  using Term = Entry<Cell, K>;
+  using Column = ReducedColumn<Cell, K>;
+  static constexpr std::size_t kPollInterval = 4096;  // steps
+
+  /// What one thread works with. Columns that it published stay valid as long as it does.
+  struct Worker {
+    Worker(const F& f, const K& field, const RunContext& run)
+        : context(run), working(f, field, &run.memory), chain(&run.memory), arena(&run.memory) {}
+
+    void work(std::size_t steps) {
+      pending += steps;
+      if (pending < kPollInterval) return;
+      pending = 0;
+      context.poll();
+    }
+
+    const RunContext& context;
+    WorkingColumn<F, K, Pivot::oldest> working;
+    std::pmr::vector<Term> chain;  // what was added to the column
+    std::pmr::monotonic_buffer_resource arena;
+    std::size_t pending = 0;
+  };
+
+  void collect_columns();
+  void collect_unmatched();
+  void reduce_one_by_one();
+  void reduce_side_by_side();
+  void report_pairs();
+
+  /// Reduces column `number`, and those that are driven out on the way.
+  void reduce(std::uint32_t number, Worker& worker);
+  /// Fills the working column with the plain coboundary of a column. True if the pivot showed
+  /// itself on the way, an emergent pair (Bauer, Ripser, section 3.5); the working column is
+  /// unfinished then.
+  bool start_column(std::uint32_t number, Worker& worker, Term& pivot) const;
+  /// Goes on with a column that was driven out.
+  void resume_column(std::uint32_t number, const Column& column, Worker& worker) const;
+  /// Adds a multiple of column `cell` + `chain` to the working column.
+  void add_column(const Cell& cell, std::span<const Term> chain, typename K::Element scale,
+                  Worker& worker) const;
+  /// Cancels the pivot with a column that has it. @return whether there is one.
+  bool cancel_pivot(std::uint32_t number, const Term& pivot, Worker& worker) const;
+  /// A copy of the chain, with the pivot if there is one, that stays.
+  const Column* keep(const Term* pivot, Worker& worker) const;
+  void give_cocycle(const Cell& cell, std::span<const Term> chain);
+
+  const F& f_;
+  const K& field_;
+  BarcodeBuilder<F>& bars_;
+  const RunContext& context_;
+  ApparentPairs<F, K> apparent_;
+  int dim_ = 0;
+  CellMap<F> cleared_;  // pivots of the dimension before
+  std::pmr::vector<Cell> killers_, essential_;
+  std::pmr::vector<Cell> to_reduce_;  // youngest first; a column's number is its position
+  std::optional<PivotTable<F, K>> pivots_;
+  std::vector<std::unique_ptr<Worker>> workers_;
+  Schedule schedule_;
+  bool gives_cocycles_;
+};
+
+template <CofacetFiltration F, Field K>
+void CohomologyReduction<F, K>::collect_columns() {
+  if constexpr (ApparentFiltration<F>) {
+    if (dim_ > 0 && !bars_.wants_zero_length()) {
+      collect_unmatched();
+      return;
+    }
+  }
+  Ticker ticker(context_, "columns");
+  f_.for_each_cell(dim_, [&](const Cell& cell) {
+    ticker.tick();
+    if (cleared_.find(cell) != CellMap<F>::kAbsent) return;
+    if (apparent_.victim_of(dim_, cell)) return;  // a pivot of the dimension below
+    if (const auto killer = apparent_.killer_of(dim_, cell)) {
+      if (!bars_.wants_zero_length()) return;
+      killers_.push_back(*killer);
+      if (bars_.add_pair(dim_, cell, *killer)) give_cocycle(cell, {});
+      return;
+    }
+    to_reduce_.push_back(cell);
+  });
+  const auto is_younger = [&](const Cell& a, const Cell& b) { return f_.precedes(b, a); };
+  polled_sort(to_reduce_, is_younger, ticker);
+}
+
+template <CofacetFiltration F, Field K>
+void CohomologyReduction<F, K>::collect_unmatched() {
+  // Groups are taken from the last one on. Each piece has a place of its own for what it finds, so
+  // that the order does not depend on threads.
+  constexpr std::size_t piece = 256;
+  const std::size_t groups = f_.group_count();
+  using Finder = decltype(f_.unmatched_cells(dim_));
+  std::mutex mutex;
+  std::vector<std::unique_ptr<Finder>> idle;
+  std::vector<std::pmr::vector<Cell>> found;
+  for (std::size_t i = 0; i < groups; i += piece) found.emplace_back(&context_.memory);
+  for_each_piece("columns", groups, piece, context_, [&](std::size_t begin, std::size_t end) {
+    std::unique_ptr<Finder> cells;
+    {
+      const std::lock_guard lock(mutex);
+      if (!idle.empty()) {
+        cells = std::move(idle.back());
+        idle.pop_back();
+      }
+    }
+    if (!cells) cells = std::make_unique<Finder>(f_.unmatched_cells(dim_));
+    auto& list = found[begin / piece];
+    std::size_t pending = 0;
+    cells->for_each(
+        groups - end, groups - begin,
+        [&](const Cell& cell) {
+          if (cleared_.find(cell) == CellMap<F>::kAbsent) list.push_back(cell);
+        },
+        [&] {
+          if (++pending % kPollInterval == 0) context_.poll();
+        });
+    const std::lock_guard lock(mutex);
+    idle.push_back(std::move(cells));
+  });
+  for (auto& list : found) {
+    to_reduce_.insert(to_reduce_.end(), list.begin(), list.end());
+    list = std::pmr::vector<Cell>(&context_.memory);
+  }
+}
+
+template <CofacetFiltration F, Field K>
+void CohomologyReduction<F, K>::reduce_one_by_one() {
+  workers_.push_back(std::make_unique<Worker>(f_, field_, context_));
+  Ticker ticker(context_, "cohomology", to_reduce_.size());
+  for (std::uint32_t i = 0; i < to_reduce_.size(); ++i) {
+    reduce(i, *workers_.front());
+    ticker.tick();
+  }
+}
+
+template <CofacetFiltration F, Field K>
+void CohomologyReduction<F, K>::reduce_side_by_side() {
+  std::mutex mutex;
+  std::vector<Worker*> idle;
+  for_each_piece("cohomology", to_reduce_.size(), schedule_.piece, context_,
+                 [&](std::size_t begin, std::size_t end) {
+                   Worker* worker = nullptr;
+                   {
+                     const std::lock_guard lock(mutex);
+                     if (idle.empty()) {
+                       workers_.push_back(std::make_unique<Worker>(f_, field_, context_));
+                       idle.push_back(workers_.back().get());
+                     }
+                     worker = idle.back();
+                     idle.pop_back();
+                   }
+                   for (std::size_t i = begin; i < end; ++i) {
+                     const std::size_t number =
+                         schedule_.oldest_first ? to_reduce_.size() - 1 - i : i;
+                     reduce(static_cast<std::uint32_t>(number), *worker);
+                   }
+                   const std::lock_guard lock(mutex);
+                   idle.push_back(worker);
+                 });
+}
+
+template <CofacetFiltration F, Field K>
+void CohomologyReduction<F, K>::report_pairs() {
+  cleared_ = CellMap<F>(f_, &context_.memory);
+  for (std::uint32_t i = 0; i < to_reduce_.size(); ++i) {
+    const Cell& cell = to_reduce_[i];
+    const Column* column = pivots_->column(i);
+    bool is_kept;
+    if (column && !field_.is_zero(column->coefficient)) {
+      killers_.push_back(column->pivot);
+      cleared_.insert(column->pivot, 0);
+      is_kept = bars_.add_pair(dim_, cell, column->pivot);
+    } else {
+      essential_.push_back(cell);
+      is_kept = bars_.add_essential(dim_, cell);
+    }
+    if (is_kept) give_cocycle(cell, column ? column->chain : std::span<const Term>());
+  }
+}
+
+template <CofacetFiltration F, Field K>
+void CohomologyReduction<F, K>::give_cocycle(const Cell& cell, std::span<const Term> chain) {
+  if (!gives_cocycles_) return;
+  std::pmr::vector<Term> terms(&context_.memory);
+  terms.emplace_back(cell, field_.from_int(1));
+  terms.insert(terms.end(), chain.begin(), chain.end());
+  bars_.add_representative(dim_, terms, field_);
+}
+
+template <CofacetFiltration F, Field K>
+bool CohomologyReduction<F, K>::start_column(std::uint32_t number, Worker& worker,
+                                             Term& pivot) const {
+  const Cell& cell = to_reduce_[number];
+  worker.working.clear();
+  worker.chain.clear();
+  bool found = false, looks_for_pivot = F::first_equal_cofacet_is_oldest;
+  f_.for_each_cofacet(dim_, cell, [&](const Cell& cofacet, int incidence) {
+    const auto a = field_.from_int(incidence);
+    if (!worker.working.append(cofacet, a)) return true;
+    if (looks_for_pivot && f_.key(cofacet) == f_.key(cell)) {
+      looks_for_pivot = false;
+      found =
+          pivots_->owner_of(cofacet).number >= number && !apparent_.victim_of(dim_ + 1, cofacet);
+      if (found) pivot = Term(cofacet, a);
+    }
+    return !found;
+  });
+  worker.work(worker.working.size() + 1);
+  if (!found) worker.working.heapify();
+  return found;
+}
+
+template <CofacetFiltration F, Field K>
+void CohomologyReduction<F, K>::resume_column(std::uint32_t number, const Column& column,
+                                              Worker& worker) const {
+  worker.working.clear();
+  worker.chain.assign(column.chain.begin(), column.chain.end());
+  const auto append = [&](const Cell& cell, typename K::Element scale) {
+    f_.for_each_cofacet(dim_, cell, [&](const Cell& cofacet, int incidence) {
+      worker.working.append(cofacet, field_.multiply(scale, field_.from_int(incidence)));
+      worker.work(1);
+      return true;
+    });
+  };
+  append(to_reduce_[number], field_.from_int(1));
+  for (const Term& term : column.chain) append(term.cell, term.coefficient());
+  worker.working.heapify();
+}
+
+template <CofacetFiltration F, Field K>
+void CohomologyReduction<F, K>::add_column(const Cell& cell, std::span<const Term> chain,
+                                           typename K::Element scale, Worker& worker) const {
+  const auto add = [&](const Cell& summand, typename K::Element a) {
+    worker.chain.emplace_back(summand, a);
+    f_.for_each_cofacet(dim_, summand, [&](const Cell& cofacet, int incidence) {
+      worker.working.push(cofacet, field_.multiply(a, field_.from_int(incidence)));
+      worker.work(1);
+      return true;
+    });
+  };
+  add(cell, scale);
+  for (const Term& term : chain) add(term.cell, field_.multiply(scale, term.coefficient()));
+}
+
+template <CofacetFiltration F, Field K>
+bool CohomologyReduction<F, K>::cancel_pivot(std::uint32_t number, const Term& pivot,
+                                             Worker& worker) const {
+  const auto cancel = [&](const Cell& cell, std::span<const Term> chain, typename K::Element a) {
+    worker.working.push(pivot.cell, pivot.coefficient());
+    const auto scale = field_.negate(field_.multiply(pivot.coefficient(), field_.inverse(a)));
+    add_column(cell, chain, scale, worker);
+    return true;
+  };
+  const auto owner = pivots_->owner_of(pivot.cell);
+  if (owner.number < number)
+    return cancel(to_reduce_[owner.number], owner.column->chain, owner.column->coefficient);
+  if (owner.column) return false;  // a column that has to give way
+  const std::optional<Cell> partner = apparent_.victim_of(dim_ + 1, pivot.cell);
+  if (!partner) return false;
+  auto a = field_.from_int(1);
+  if constexpr (!std::same_as<K, Z2>) {
+    f_.for_each_cofacet(dim_, *partner, [&](const Cell& cofacet, int incidence) {
+      if (cofacet == pivot.cell) a = field_.from_int(incidence);
+      return !(cofacet == pivot.cell);
+    });
+  }
+  return cancel(*partner, {}, a);
+}
+
+template <CofacetFiltration F, Field K>
+auto CohomologyReduction<F, K>::keep(const Term* pivot, Worker& worker) const -> const Column* {
+  worker.chain.resize(add_up<F, K>(worker.chain, f_, field_));
+  std::pmr::polymorphic_allocator<> arena(&worker.arena);
+  const std::size_t size = worker.chain.size();
+  Term* const chain = size == 0 ? nullptr : arena.allocate_object<Term>(size);
+  std::uninitialized_copy(worker.chain.begin(), worker.chain.end(), chain);
+  return arena.new_object<Column>(pivot ? Column{pivot->cell, pivot->coefficient(), {chain, size}}
+                                        : Column{{}, field_.from_int(0), {chain, size}});
+}
+
+template <CofacetFiltration F, Field K>
+void CohomologyReduction<F, K>::reduce(std::uint32_t number, Worker& worker) {
+  Term pivot;
+  bool is_new = start_column(number, worker, pivot);
+  for (;;) {
+    if (!is_new) {
+      if (!worker.working.pop_pivot(pivot)) break;
+      if (cancel_pivot(number, pivot, worker)) continue;
+    }
+    is_new = false;
+    const Column* column = keep(&pivot, worker);
+    const std::uint32_t other = pivots_->claim(number, column);
+    if (other == PivotTable<F, K>::kNone) return;
+    if (other != number) {
+      number = other;
+      column = pivots_->column(number);
+    }
+    resume_column(number, *column, worker);
+  }
+  // Nothing is left: the column has no pivot, and what it published before is no longer true.
+  pivots_->publish(number, gives_cocycles_ ? keep(nullptr, worker) : nullptr);
+}
+
+}  // namespace ph

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <memory_resource>
+#include <optional>
+#include <vector>
+
+#include "ph/barcode.hpp"
+#include "ph/detail/chain.hpp"
+#include "ph/detail/field.hpp"
+#include "ph/filtration.hpp"
+#include "ph/detail/elder_rule.hpp"
+
+namespace ph {
+
+/// Gives the bars of H0 their representatives, where they are wanted: the cycle is the difference
+/// of the oldest vertices of the two components that join, the cocycle is one on the component that
+/// dies.
+template <Filtration F, Field K>
+class ComponentRepresentatives {
+ public:
+  ComponentRepresentatives(std::size_t vertices, const K& field, BarcodeBuilder<F>& bars,
+                           std::pmr::memory_resource* memory)
+      : field_(field),
+        bars_(bars),
+        components_(is_wanted(Representatives::cocycles) ? vertices : 0, memory),
+        terms_(memory) {}
+
+  /// To the bar just added. @param cell_of a vertex. @param v the oldest vertex of the component.
+  /// @param elder that of the component which v's is about to join; none if it lives on.
+  template <class CellOf>
+  void give(std::uint32_t v, std::optional<std::uint32_t> elder, CellOf&& cell_of) {
+    if (is_wanted(Representatives::none)) return;
+    terms_.clear();
+    const auto add = [&](std::uint32_t w, int a) {
+      terms_.emplace_back(cell_of(w), field_.from_int(a));
+    };
+    if (is_wanted(Representatives::cocycles)) {
+      components_.for_each(v, [&](std::uint32_t w) { add(w, 1); });
+    } else {
+      add(v, 1);
+      if (elder) add(*elder, -1);
+    }
+    bars_.add_representative(0, terms_, field_);
+  }
+  void join(std::uint32_t elder, std::uint32_t younger) {
+    if (is_wanted(Representatives::cocycles)) components_.join(elder, younger);
+  }
+
+ private:
+  bool is_wanted(Representatives kind) const { return bars_.representatives() == kind; }
+
+  const K& field_;
+  BarcodeBuilder<F>& bars_;
+  ComponentRings components_;
+  std::pmr::vector<Entry<typename F::Cell, K>> terms_;
+};
+
+}  // namespace ph

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <bit>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <memory_resource>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "ph/error.hpp"
+#include "ph/detail/file_pages.hpp"
+#include "ph/run_context.hpp"
+
+namespace ph {
+
+/// Bytes of a name or a cell as one printable line: control characters, newlines and bytes that are
+/// not UTF-8 become \n, \t or \xNN; longer than `max_bytes` is cut and ends in "...".
+std::string printable(std::string_view bytes, std::size_t max_bytes = 4096);
+
+/// "FILE.npz:NAME" or "FILE.ply:NAME" as the file and the part of it that is asked for; any other
+/// path, and one that is there by the whole name, as the file alone.
+std::pair<std::filesystem::path, std::string> split_member(const std::filesystem::path& path);
+
+/// What is wrong at one place of an input. Empty parts are left out of the message.
+struct Fault {
+  std::string what;      ///< "ragged row"
+  std::string found;     ///< "2 cells"
+  std::string expected;  ///< "3 cells, as in line 1"
+  std::string hint;      ///< what the user can do
+};
+
+/// All bytes of a file, of standard input ("-") or of a FIFO, with the name used in messages.
+/// Regular files above 16 MiB are mapped (another program must not shorten them meanwhile), smaller
+/// ones are copied; streams grow within the memory budget of the run. What is compressed with gzip
+/// is unpacked: its extension is then the one before ".gz", and lines and bytes are counted in what
+/// was unpacked. Move only.
+class Input {
+ public:
+  /// What becomes of a regular file that exceeds the memory budget of the run, or unpacks to more.
+  enum class Excess {
+    refused,
+    stays_in_file,  ///< mapped, what was unpacked from a temporary file, and not counted
+  };
+
+  /// @param path a file, a FIFO, or "-" for standard input; a part of one: see split_member.
+  /// @param context its memory budget bounds what a stream may hold and its stop token is polled;
+  ///        it must outlive the input. Without one a stream may take half of the machine's memory.
+  /// @throws Error (no_input) if it is missing, unreadable or a directory; Error (io) if reading
+  ///         breaks off; Error (resource) if a stream or what was unpacked is longer than the
+  ///         budget; Error (bad_data) if compressed data are damaged or expand beyond reason, or if
+  ///         a stream begins with 1 MiB of NUL bytes, as /dev/zero does.
+  static Input open(const std::filesystem::path& path, const RunContext* context = nullptr,
+                    Excess excess = Excess::refused);
+  /// A view of bytes that outlive the input.
+  static Input view(std::string_view bytes, std::string name);
+  /// An input that owns its bytes: what was unpacked from another one.
+  static Input hold(std::pmr::vector<char> bytes, std::string name,
+                    const RunContext* context = nullptr);
+
+  /// The same of bytes that stay in a file.
+  static Input hold(ScratchFile bytes, std::string name, const RunContext* context = nullptr);
+
+  Input(Input&& other) noexcept;
+  Input& operator=(Input&& other) noexcept;
+  ~Input();
+
+  std::string_view text() const { return text_; }
+  std::span<const std::byte> bytes() const { return std::as_bytes(std::span(text_)); }
+  std::size_t size() const { return text_.size(); }
+  const std::string& name() const { return name_; }            ///< printable
+  const std::string& extension() const { return extension_; }  ///< lower case, with its dot
+  /// The part of an archive or of a mesh that was asked for; empty: none.
+  const std::string& member() const { return member_; }
+  const RunContext* context() const { return context_; }
+  /// Whether it exceeds the memory budget: to be read block by block, see `done_with`.
+  bool stays_in_file() const;
+  /// For readers that take it as a whole: from now on it is counted, as if it had not exceeded.
+  /// @throws Error (resource) if it does not fit.
+  void take_memory() const;
+  /// Says that these bytes are not needed for now.
+  void done_with(std::size_t offset, std::size_t size) const;
+  /// Keeps the bytes where they are though the input is gone; from now on they are not counted.
+  /// Nothing if they are in no file.
+  std::shared_ptr<const void> keep_in_file() const;
+
+  /// @throws Error (resource) if the run's budget does not allow `bytes` more. Allocates nothing.
+  void require_memory(std::size_t bytes) const;
+  /// Tells the run how many bytes are done, if it wants to know. @throws Error (cancelled) once a
+  /// stop was requested.
+  void poll(std::size_t done = 0) const;
+
+  /// Throws Error (bad_data): "name: what, found X, expected Y; hint".
+  [[noreturn]] void fail(const Fault& fault) const;
+  /// Throws Error (bad_data): "name:line:column: …"; both count from 1, columns in bytes.
+  [[noreturn]] void fail_at(std::size_t line, std::size_t column, const Fault& fault) const;
+  /// Throws Error (bad_data): "name: byte N: …"; bytes count from 0.
+  [[noreturn]] void fail_at_byte(std::size_t offset, const Fault& fault) const;
+
+ private:
+  struct Storage;
+  Input();
+
+  std::shared_ptr<Storage> storage_;  // null for a view
+  std::string_view text_;
+  std::string name_;
+  std::string extension_;
+  std::string member_;
+  const RunContext* context_ = nullptr;
+};
+
+/// The lines of a text input that carry data: comments ('#' to the end of the line) and blank lines
+/// are skipped, a byte order mark and CRLF are accepted.
+class TextLines {
+ public:
+  static constexpr std::size_t kMaxLine = std::size_t{64} << 20;  ///< longest line, bytes
+
+  /// @throws Error (bad_data) if the input is UTF-16, or binary (NUL bytes in its first 4 KiB).
+  explicit TextLines(const Input& input);
+  /// The text that starts at byte `offset`, after `lines_before` lines; not tested for NUL bytes.
+  TextLines(const Input& input, std::size_t offset, std::size_t lines_before);
+
+  /// Goes to the next line with data; false at the end.
+  /// @throws Error (bad_data) on a line longer than kMaxLine.
+  bool next();
+  /// The current line, without its comment, line end and surrounding blanks.
+  std::string_view line() const { return line_; }
+  std::size_t number() const { return number_; }  ///< of the current line, from 1
+  /// First byte after the current line.
+  std::size_t offset() const { return static_cast<std::size_t>(position_ - input_.text().data()); }
+  const Input& input() const { return input_; }
+  /// Column, from 1, of a place inside the current line.
+  std::size_t column(const char* place) const {
+    return static_cast<std::size_t>(place - start_) + 1;
+  }
+  /// Throws Error (bad_data) at a place inside the current line.
+  [[noreturn]] void fail(const char* place, const Fault& fault) const;
+
+ private:
+  const Input& input_;
+  const char* position_ = nullptr;  // first byte after the current line
+  const char* end_ = nullptr;
+  const char* start_ = nullptr;  // first byte of the current line
+  std::string_view line_;
+  std::size_t number_ = 0;
+  std::size_t polled_ = 0;  // offset of the last look at the stop token
+};
+
+/// The names in a header line: a line whose cells are all something else than numbers. Cells are
+/// split at commas or semicolons if there are any, else at blanks; quotes are taken off. Nothing if
+/// the line is no header.
+std::vector<std::string> header_names(std::string_view line);
+
+/// Which numbers a cell may hold besides finite ones.
+enum class Allow {
+  finite,
+  infinite,
+  any,      ///< also NaN
+  missing,  ///< also nothing, before a comma or a semicolon or between quotes: NaN
+};
+
+/// What the user can do about a cell that is no number and does not say itself why.
+struct CellHints {
+  std::string_view word = {};     ///< where there is something else
+  std::string_view missing = {};  ///< where there is nothing, or NaN
+};
+
+/// Splits the current line into cells. The first separator of the first line with two cells
+/// (blanks,
+/// ',' or ';') is the file's separator: another one is an error, so that a decimal comma cannot
+/// pass for two cells. Blanks around ',' and one separator at the end of the line are accepted. A
+/// cell may stand between double quotes; separators between them are part of it.
+class Cells {
+ public:
+  explicit Cells(const TextLines& lines, CellHints hints = {}) : lines_(&lines), hints_(hints) {}
+
+  /// Starts on the current line.
+  void start() { start_in(lines_->line()); }
+  /// Starts on a part of the current line.
+  void start_in(std::string_view part);
+  bool more() const { return position_ != end_; }
+  const char* place() const { return position_; }  ///< where the next cell starts
+  /// Reads one number: decimal, with an optional sign and exponent, independent of the locale.
+  /// @throws Error (bad_data) naming the cell if it is something else, or not in the range of
+  ///         double.
+  double number(Allow allow = Allow::finite);
+  /// The same in the precision of T: float or double.
+  template <class T>
+  T floating(Allow allow);
+  /// Reads one integer from `least` to `most`. @throws Error (bad_data) naming the cell.
+  std::int64_t integer(std::int64_t least, std::int64_t most, const char* what);
+  /// Reads one integer of 0 … 2^64 - 1.
+  std::uint64_t unsigned64(const char* what);
+  /// The next cell as it is written.
+  std::string_view word();
+  /// Goes past the next cell, whatever it holds, nothing too. @return it as it is written.
+  std::string_view skip();
+  /// @throws Error (bad_data) naming the next cell, if there is one. @param expected "i j distance"
+  void expect_end(std::string_view expected);
+
+ private:
+  template <class T>
+  T whole(T least, T most, const char* what);
+  const char* end_of_cell(const char* begin) const;
+  bool is_empty_cell(const char* begin, const char* stop) const;
+  void after_cell(const char* end_of_cell);
+  [[noreturn]] void reject(const char* begin, const char* stop, std::string what,
+                           std::string expected, std::string_view hint = {}) const;
+
+  const TextLines* lines_;
+  CellHints hints_;
+  const char* position_ = nullptr;
+  const char* end_ = nullptr;
+  char separator_ = 0;  // 0: not seen yet
+};
+
+/// `a * b`, or nothing if it exceeds size_t.
+constexpr std::optional<std::size_t> checked_product(std::size_t a, std::size_t b) {
+  if (b != 0 && a > std::numeric_limits<std::size_t>::max() / b) return std::nullopt;
+  return a * b;
+}
+
+/// Loads a number stored in the given byte order.
+template <class T>
+requires std::is_arithmetic_v<T> T load(const std::byte* from, std::endian order) {
+  std::byte raw[sizeof(T)];
+  if (order == std::endian::native) {
+    std::memcpy(raw, from, sizeof(T));
+  } else {
+    for (std::size_t i = 0; i < sizeof(T); ++i) raw[i] = from[sizeof(T) - 1 - i];
+  }
+  T value;
+  std::memcpy(&value, raw, sizeof(T));
+  return value;
+}
+
+/// Walks through the bytes of a binary input and never beyond them.
+class BinaryCursor {
+ public:
+  BinaryCursor(const Input& input, std::endian order, std::size_t offset = 0)
+      : input_(input), order_(order), offset_(offset) {}
+
+  const Input& input() const { return input_; }
+  std::size_t offset() const { return offset_; }
+  std::size_t remaining() const { return input_.size() - offset_; }
+  /// The next number. @throws Error (bad_data) "truncated" if there are not enough bytes for it.
+  template <class T>
+  T read(const char* what) {
+    return load<T>(take(sizeof(T), what).data(), order_);
+  }
+  /// A count from a header, checked against the bytes that are there before anything is allocated.
+  /// @throws Error (bad_data) if it is negative or `bytes_each` times it exceeds what remains.
+  std::size_t read_count(const char* what, std::size_t bytes_each);
+  /// The next `size` bytes. @throws Error (bad_data) "truncated".
+  std::span<const std::byte> take(std::size_t size, const char* what);
+  /// @throws Error (bad_data) "trailing data" unless everything was read.
+  void expect_end() const;
+
+ private:
+  const Input& input_;
+  std::endian order_;
+  std::size_t offset_;
+};
+
+}  // namespace ph

@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "ph/detail/packed_vertices.hpp"
+#include "ph/detail/rips_graph.hpp"
+#include "ph/detail/rips_groups.hpp"
+#include "ph/error.hpp"
+#include "ph/filtration.hpp"
+
+namespace ph {
+
+/// Where keys are looked up: a square matrix, sorted neighbour lists, or either, as the graph has
+/// it.
+enum class RipsLayout { dense, sparse, any };
+
+/// A simplex with the key of its longest edge.
+template <int Words>
+struct RipsCell {
+  RipsGraph::Key key = 0;
+  PackedVertices<Words> vertices;
+  friend bool operator==(const RipsCell&, const RipsCell&) = default;
+};
+
+/// The flag complex of a RipsGraph as an engine sees it; no simplex is stored.
+/// Order: (key of the longest edge, dimension, vertices read from the largest down); vertices that
+/// enter at births of their own by birth first.
+/// @tparam Words size of a cell: how many vertices of how many bits it can hold.
+template <RipsLayout Layout, int Words>
+class RipsFiltration {
+ public:
+  using Key = RipsGraph::Key;
+  using Vertices = PackedVertices<Words>;
+
+  using Cell = RipsCell<Words>;
+  static constexpr bool first_equal_cofacet_is_oldest = true;
+  static constexpr int kMostVertices = 64 * Words < 256 ? 64 * Words : 256;
+
+  explicit RipsFiltration(const RipsGraph& graph)
+      : graph_(graph),
+        bits_(std::max(1, static_cast<int>(std::bit_width(
+                              static_cast<std::uint64_t>(std::max<Index>(graph.size() - 1, 0)))))) {
+  }
+
+  /// How many vertices a cell of `words` words can hold for a graph of that size.
+  static int capacity(const RipsGraph& graph) {
+    return std::min(kMostVertices, Vertices::kBits / RipsFiltration(graph).bits_);
+  }
+
+  int top_dim() const {
+    return static_cast<int>(std::min<Index>(adjacency().clique_bound(), capacity(graph_))) - 1;
+  }
+  Key key(const Cell& c) const { return c.key; }
+  double value(const Cell& c) const {
+    return c.key == 0 ? graph_.birth(vertex(c, 0)) : graph_.value(c.key);
+  }
+  bool precedes(const Cell& a, const Cell& b) const {
+    if (a.key != b.key) return a.key < b.key;
+    if (a.key == 0 && value(a) != value(b)) return value(a) < value(b);
+    return a.vertices < b.vertices;
+  }
+  static bool edges_join_vertices() { return true; }
+  static CellKind cell_kind() { return CellKind::vertices; }
+  void append_input_cell(int dim, const Cell& cell, std::vector<Index>& numbers) const {
+    for (int slot = 0; slot <= dim; ++slot) numbers.push_back(graph_.name(vertex(cell, slot)));
+  }
+
+  std::size_t vertex_count() const { return static_cast<std::size_t>(graph_.size()); }
+  std::span<const double> vertex_births() const { return graph_.births(); }
+  const BinnedEdges& binned_edges() const { return graph_.binned_edges(); }
+  Cell vertex_cell(std::uint32_t v) const { return {0, Vertices(v)}; }
+  Cell edge_cell(std::uint32_t position) const {
+    const FlagEdge& e = graph_.edge(position + 1);
+    return {position + 1, Vertices(e.u) << bits_ | Vertices(e.v)};
+  }
+  std::uint32_t edge_position(std::uint32_t u, std::uint32_t v) const {
+    return adjacency().key_of(u, v) - 1;
+  }
+  Cell triangle_cell(std::uint32_t longest, std::uint32_t apex) const {
+    return over_edge(longest, std::array{apex});
+  }
+  Cell tetrahedron_cell(std::uint32_t longest, std::uint32_t w, std::uint32_t x) const {
+    return over_edge(longest, std::array{std::max(w, x), std::min(w, x)});
+  }
+  Cell triangle_cell_of(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+    const RipsAdjacency& adjacent = adjacency();
+    return {std::max({adjacent.key_of(b, a), adjacent.key_of(c, a), adjacent.key_of(c, b)}),
+            (Vertices(c) << bits_ | Vertices(b)) << bits_ | Vertices(a)};
+  }
+
+  template <class Visit>
+  void for_each_cell(int dim, Visit&& visit) const;
+  template <class Visit>
+  void for_each_facet(int dim, const Cell& cell, Visit&& visit) const;
+  template <class Visit>
+  void for_each_cofacet(int dim, const Cell& cell, Visit&& visit) const;
+
+  /// As ApparentFiltration asks for them: a group has the simplices of one longest edge.
+  std::optional<Cell> apparent_cofacet(int dim, const Cell& cell) const;
+  std::optional<Cell> apparent_facet(int dim, const Cell& cell) const;
+  std::size_t group_count() const { return graph_.edge_count(); }
+  class UnmatchedCells;
+  UnmatchedCells unmatched_cells(int dim) const { return UnmatchedCells(*this, dim); }
+
+ private:
+  using Neighbour = RipsAdjacency::Neighbour;
+
+  const RipsAdjacency& adjacency() const { return graph_.adjacency(); }
+  bool has_matrix() const {
+    if constexpr (Layout == RipsLayout::any)
+      return adjacency().has_matrix();
+    else
+      return Layout == RipsLayout::dense;
+  }
+  std::uint32_t vertex(const Cell& cell, int slot) const {
+    return static_cast<std::uint32_t>((cell.vertices >> (slot * bits_)).low_bits(bits_));
+  }
+  /// The simplex of an edge and other vertices, descending.
+  Cell over_edge(std::uint32_t longest, std::span<const std::uint32_t> others) const {
+    const FlagEdge& e = graph_.edge(longest + 1);
+    Cell cell{longest + 1, {}};
+    const auto append = [&](std::uint32_t w) {
+      cell.vertices = cell.vertices << bits_ | Vertices(w);
+    };
+    auto it = others.begin();
+    for (const std::uint32_t end : {e.u, e.v}) {
+      while (it != others.end() && *it > end) append(*it++);
+      append(end);
+    }
+    while (it != others.end()) append(*it++);
+    return cell;
+  }
+  /// The cell with slot `slot` taken out.
+  Vertices without(const Vertices& v, int slot) const {
+    const Vertices above = (v >> ((slot + 1) * bits_)) << (slot * bits_);
+    return above | below(v, slot);
+  }
+  /// The slots below `slot`, the others zero.
+  Vertices below(const Vertices& v, int slot) const {
+    const int drop = Vertices::kBits - slot * bits_;
+    return (v << drop) >> drop;
+  }
+
+  /// The slot of the smallest vertex that is not an end of the longest edge; dim + 1 if there is
+  /// none.
+  int first_slot_off_longest(int dim, const Cell& cell) const {
+    const FlagEdge& longest = graph_.edge(cell.key);
+    for (int slot = 0; slot <= dim; ++slot)
+      if (const auto v = vertex(cell, slot); v != longest.u && v != longest.v) return slot;
+    return dim + 1;
+  }
+  /// The smallest vertex below `below` that edges before `key` join to all slots of a cell, slot
+  /// `skipped` apart; kNoVertex if there is none.
+  std::uint32_t first_common_neighbour(int dim, const Cell& cell, int skipped,
+                                       std::uint32_t below) const;
+  static constexpr std::uint32_t kNoVertex = UINT32_MAX;
+  static constexpr int kNoSlot = -1;
+
+  /// Extends a clique by every smaller vertex joined to all of it by edges up to `limit`.
+  template <class Visit>
+  void extend_clique(const Cell& clique, std::span<const Neighbour> candidates, int missing,
+                     Key limit, std::vector<std::vector<Neighbour>>& scratch, Visit&& visit) const;
+  /// The vertices below `below` joined to `from`, ascending.
+  void smaller_neighbours(std::uint32_t from, std::uint32_t below,
+                          std::vector<Neighbour>& out) const;
+
+  const RipsGraph& graph_;
+  int bits_;
+};
+
+template <RipsLayout Layout, int Words>
+template <class Visit>
+void RipsFiltration<Layout, Words>::for_each_cell(int dim, Visit&& visit) const {
+  const auto n = static_cast<std::uint32_t>(graph_.size());
+  if (dim < 0 || dim > top_dim()) return;
+  if (dim == 0) {
+    for (std::uint32_t v = 0; v < n; ++v) visit(Cell{0, Vertices(v)});
+    return;
+  }
+  if (dim == 1) {  // in the order of the filtration
+    const auto count = static_cast<std::uint32_t>(graph_.edges().size());
+    for (std::uint32_t i = 0; i < count; ++i) visit(edge_cell(i));
+    return;
+  }
+  std::vector<std::vector<Neighbour>> scratch(static_cast<std::size_t>(dim) + 1);
+  std::vector<Neighbour> candidates;
+  for (std::uint32_t v = 0; v < n; ++v) {
+    smaller_neighbours(v, v, candidates);
+    extend_clique(Cell{0, Vertices(v)}, candidates, dim, RipsAdjacency::kNever - 1, scratch, visit);
+  }
+}
+
+template <RipsLayout Layout, int Words>
+void RipsFiltration<Layout, Words>::smaller_neighbours(std::uint32_t from, std::uint32_t below,
+                                                       std::vector<Neighbour>& out) const {
+  out.clear();
+  if (has_matrix()) {
+    const Key* row = adjacency().row(from);
+    for (std::uint32_t w = 0; w < below; ++w)
+      if (row[w] != RipsAdjacency::kNever) out.push_back({w, row[w]});
+  } else {
+    for (const Neighbour& w : adjacency().neighbours(from)) {
+      if (w.vertex >= below) break;
+      out.push_back(w);
+    }
+  }
+}
+
+template <RipsLayout Layout, int Words>
+template <class Visit>
+void RipsFiltration<Layout, Words>::extend_clique(const Cell& clique,
+                                                  std::span<const Neighbour> candidates,
+                                                  int missing, Key limit,
+                                                  std::vector<std::vector<Neighbour>>& scratch,
+                                                  Visit&& visit) const {
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const Neighbour& w = candidates[i];
+    const Cell larger{std::max(clique.key, w.key), clique.vertices << bits_ | Vertices(w.vertex)};
+    if (missing == 1) {
+      visit(larger);
+      continue;
+    }
+    // Candidates stay those below w that are joined to w too; each carries the key of its longest
+    // edge to the clique.
+    auto& next = scratch[static_cast<std::size_t>(missing)];
+    next.clear();
+    if (has_matrix()) {
+      const Key* row = adjacency().row(w.vertex);
+      for (std::size_t k = 0; k < i; ++k) {
+        const Key key = row[candidates[k].vertex];
+        if (key <= limit) next.push_back({candidates[k].vertex, std::max(key, candidates[k].key)});
+      }
+    } else {
+      auto it = adjacency().neighbours(w.vertex).begin();
+      const auto end = adjacency().neighbours(w.vertex).end();
+      for (std::size_t k = 0; k < i; ++k) {
+        while (it != end && it->vertex < candidates[k].vertex) ++it;
+        if (it == end) break;
+        if (it->vertex == candidates[k].vertex && it->key <= limit)
+          next.push_back({it->vertex, std::max(it->key, candidates[k].key)});
+      }
+    }
+    extend_clique(larger, next, missing - 1, limit, scratch, visit);
+  }
+}
+
+template <RipsLayout Layout, int Words>
+template <class Visit>
+void RipsFiltration<Layout, Words>::for_each_facet(int dim, const Cell& cell, Visit&& visit) const {
+  if (dim == 0) return;
+  if (dim == 1) {
+    visit(Cell{0, without(cell.vertices, 0)}, 1);
+    visit(Cell{0, without(cell.vertices, 1)}, -1);
+    return;
+  }
+  const RipsAdjacency& adjacent = adjacency();
+  // A facet that keeps the longest edge keeps the key.
+  const FlagEdge longest = graph_.edge(cell.key);
+  std::array<std::uint32_t, kMostVertices> vertices;
+  for (int slot = 0; slot <= dim; ++slot)
+    vertices[static_cast<std::size_t>(slot)] = vertex(cell, slot);
+  for (int slot = 0; slot <= dim; ++slot) {
+    const std::uint32_t gone = vertices[static_cast<std::size_t>(slot)];
+    Key key = cell.key;
+    if (gone == longest.u || gone == longest.v) {
+      key = 0;
+      for (std::size_t i = 1; i <= static_cast<std::size_t>(dim); ++i) {
+        if (vertices[i] == gone) continue;
+        for (std::size_t j = 0; j < i; ++j)
+          if (vertices[j] != gone) key = std::max(key, adjacent.key_of(vertices[i], vertices[j]));
+      }
+    }
+    visit(Cell{key, without(cell.vertices, slot)}, slot % 2 == 0 ? 1 : -1);
+  }
+}
+
+template <RipsLayout Layout, int Words>
+template <class Visit>
+void RipsFiltration<Layout, Words>::for_each_cofacet(int dim, const Cell& cell,
+                                                     Visit&& visit) const {
+  // The new vertex w ascends, and with it the cofacet's vertices: among cofacets of equal key the
+  // first visited is the oldest. `slot` is w's place among the vertices: those below it are
+  // smaller.
+  const int count = dim + 1;
+  std::array<std::uint32_t, kMostVertices + 1> vertices;
+  for (int slot = 0; slot < count; ++slot)
+    vertices[static_cast<std::size_t>(slot)] = vertex(cell, slot);
+  vertices[static_cast<std::size_t>(count)] = static_cast<std::uint32_t>(graph_.size());
+
+  const RipsAdjacency& adjacent = adjacency();
+  int slot = 0;
+  Vertices frame;  // the cofacet without w
+  const auto open_slot = [&] {
+    frame = (cell.vertices >> (slot * bits_)) << ((slot + 1) * bits_) | below(cell.vertices, slot);
+  };
+  open_slot();
+  const auto emit = [&](std::uint32_t w, Key key) {
+    return visit(Cell{key, frame | Vertices(w) << (slot * bits_)}, slot % 2 == 0 ? 1 : -1);
+  };
+
+  if (has_matrix()) {
+    std::array<const Key*, kMostVertices> rows;
+    for (int i = 0; i < count; ++i)
+      rows[static_cast<std::size_t>(i)] = adjacent.row(vertices[static_cast<std::size_t>(i)]);
+    std::uint32_t w = 0;
+    for (;; open_slot()) {
+      const std::uint32_t end = vertices[static_cast<std::size_t>(slot)];
+      for (; w < end; ++w) {
+        Key key = cell.key;
+        for (int i = 0; i < count; ++i) key = std::max(key, rows[static_cast<std::size_t>(i)][w]);
+        if (key != RipsAdjacency::kNever && !emit(w, key)) return;
+      }
+      if (slot == count) return;
+      ++w;
+      ++slot;
+    }
+  } else {
+    std::array<std::span<const Neighbour>, kMostVertices> lists;
+    for (int i = 0; i < count; ++i) {
+      lists[static_cast<std::size_t>(i)] =
+          adjacent.neighbours(vertices[static_cast<std::size_t>(i)]);
+      // The shortest list leads.
+      if (lists[static_cast<std::size_t>(i)].size() < lists[0].size())
+        std::swap(lists[static_cast<std::size_t>(i)], lists[0]);
+    }
+    for (const Neighbour& lead : lists[0]) {
+      Key key = std::max(cell.key, lead.key);
+      bool common = true;
+      for (int i = 1; common && i < count; ++i) {
+        auto& list = lists[static_cast<std::size_t>(i)];
+        while (!list.empty() && list.front().vertex < lead.vertex) list = list.subspan(1);
+        if (list.empty()) return;
+        common = list.front().vertex == lead.vertex;
+        if (common) key = std::max(key, list.front().key);
+      }
+      if (!common) continue;
+      if (vertices[static_cast<std::size_t>(slot)] < lead.vertex) {
+        while (vertices[static_cast<std::size_t>(slot)] < lead.vertex) ++slot;
+        open_slot();
+      }
+      if (!emit(lead.vertex, key)) return;
+    }
+  }
+}
+
+/// Calls `use` with the filtration whose cells are just large enough for dimension max_dim + 1.
+template <class Use>
+decltype(auto) with_rips_filtration(const RipsGraph& graph, int max_dim, Use&& use) {
+  const auto fits = [&]<class F>(std::type_identity<F>) {
+    const Index capacity = F::capacity(graph);
+    return Index{max_dim} + 2 <= capacity || graph.adjacency().clique_bound() <= capacity;
+  };
+  using Dense = RipsFiltration<RipsLayout::dense, 1>;
+  using Sparse = RipsFiltration<RipsLayout::sparse, 1>;
+  if (fits(std::type_identity<Sparse>()))
+    return graph.is_dense() ? use(Dense(graph)) : use(Sparse(graph));
+  using Wide = RipsFiltration<RipsLayout::any, 2>;
+  using Widest = RipsFiltration<RipsLayout::any, 4>;
+  if (fits(std::type_identity<Wide>())) return use(Wide(graph));
+  if (fits(std::type_identity<Widest>())) return use(Widest(graph));
+  throw Error(
+      ErrorKind::resource,
+      "simplices of " +
+          std::to_string(std::min<Index>(Index{max_dim} + 2, graph.adjacency().clique_bound())) +
+          " vertices out of " + std::to_string(graph.size()) +
+          " are too large; lower the dimension or the threshold, or subsample");
+}
+
+}  // namespace ph
+
+template <int Words>
+struct std::hash<ph::RipsCell<Words>> {
+  std::size_t operator()(const ph::RipsCell<Words>& c) const { return c.vertices.hash(); }
+};
+
+#include "ph/detail/rips_filtration.ipp"

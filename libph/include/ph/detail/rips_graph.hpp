@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <memory_resource>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "ph/detail/rips_adjacency.hpp"
+#include "ph/detail/vertex_weights.hpp"
+#include "ph/detail/binned_edges.hpp"
+#include "ph/filtration.hpp"
+#include "ph/detail/parallel.hpp"
+#include "ph/run_context.hpp"
+#include "ph/metric.hpp"
+#include "ph/detail/row_distances.hpp"
+#include "ph/detail/spanning_forest.hpp"
+#include "ph/sparse_distances.hpp"
+
+namespace ph {
+
+/// The graph under a Vietoris-Rips filtration: all edges up to a threshold, sorted by
+/// (distance, larger end, smaller end) as far as that was needed, and known by their key, an
+/// integer. Keys start at 1; key 0 belongs to the vertices, which enter at 0 or at births of their
+/// own. (A collapsed graph has its own order within a value, see edge_collapse.hpp.)
+class RipsGraph {
+ public:
+  using Key = RipsAdjacency::Key;
+  static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+  /// Evaluates all n(n-1)/2 distances, twice. @throws Error (bad_data) on a negative or NaN one.
+  /// @param weights here and below: of the vertices, which all enter up to the threshold.
+  template <Metric M>
+  static RipsGraph of_metric(const M& metric, std::optional<double> threshold,
+                             const RunContext& context, const VertexWeights& weights = {});
+  /// Euclidean distances up to the threshold; never n^2 of them.
+  static RipsGraph of_points_within(const Points& points, double threshold,
+                                    const RunContext& context, const VertexWeights& weights = {});
+  static RipsGraph of_edges(Index size, std::span<const WeightedEdge> edges,
+                            std::optional<double> threshold, const RunContext& context,
+                            const VertexWeights& weights = {});
+
+  /// The same vertices, names, births and threshold with other edges.
+  /// @param edges by ascending value; ties come in the order given.
+  static RipsGraph with_edges(const RipsGraph& graph, FlagEdges&& edges, const RunContext& context);
+
+  /// Only a minimum spanning forest, which has the components of the whole graph at every distance.
+  /// Without a threshold there is none. Evaluates each distance once and keeps O(n) memory.
+  template <Metric M>
+  static RipsGraph forest_of_metric(const M& metric, std::optional<double> threshold,
+                                    const RunContext& context, const VertexWeights& weights = {});
+  /// The same in near-linear time. Precondition: has_fast_spanning_forest(points, distance).
+  static RipsGraph forest_of_points(const Points& points, PointDistance distance, double p,
+                                    std::optional<double> threshold, const RunContext& context);
+  static RipsGraph forest_of_edges(Index size, std::span<const WeightedEdge> edges,
+                                   std::optional<double> threshold, const RunContext& context,
+                                   const VertexWeights& weights = {});
+
+  /// @throws Error (resource) if there are too many points for a Rips filtration.
+  static void check_size(Index size);
+  /// @return the distance, without the sign of a zero. @throws Error (bad_data) on a negative or
+  /// NaN one.
+  static double checked_distance(Index i, Index j, double value);
+
+  Index size() const { return size_; }
+  /// The point that vertex v stands for: v itself unless the vertices were named.
+  Index name(std::uint32_t v) const { return names_.empty() ? Index{v} : Index{names_[v]}; }
+  bool has_names() const { return !names_.empty(); }
+  /// The points that the vertices, or those that they were named after, stand for.
+  /// @param points ascending.
+  void name_vertices(std::span<const std::uint32_t> points, const RunContext& context);
+  /// When the vertices enter; empty: all at 0.
+  std::span<const double> births() const { return births_; }
+  double birth(std::uint32_t v) const { return births_.empty() ? 0.0 : births_[v]; }
+  std::size_t edge_count() const { return edges_.size(); }
+  /// Whether only a spanning forest is held.
+  bool is_forest() const { return is_forest_; }
+  double threshold() const { return threshold_; }
+
+  const FlagEdge& edge(Key key) const { return edges_[key - 1]; }
+  /// Of an edge.
+  double value(Key key) const { return edges_[key - 1].value; }
+  /// All, in order.
+  std::span<const FlagEdge> edges() const { return edges_.sorted(); }
+  /// For those who may not need all of them in order.
+  const BinnedEdges& binned_edges() const { return edges_; }
+  /// Where the edges are allocated.
+  std::pmr::memory_resource* memory() const { return names_.get_allocator().resource(); }
+
+  /// Whether most pairs are edges: the layout that adjacency() has, or will have.
+  bool is_dense() const {
+    return RipsAdjacency::is_dense(static_cast<std::size_t>(size_), edge_count());
+  }
+  /// Made when it is first asked for, by whichever thread comes first: engines that go edge by edge
+  /// do without.
+  const RipsAdjacency& adjacency() const {
+    if (const RipsAdjacency* made = lazy_->made.load(std::memory_order_acquire)) return *made;
+    const std::lock_guard lock(lazy_->mutex);
+    if (const RipsAdjacency* made = lazy_->made.load(std::memory_order_relaxed)) return *made;
+    const RipsAdjacency& made =
+        lazy_->adjacency.emplace(static_cast<std::size_t>(size_), edges_.sorted(), memory());
+    lazy_->made.store(&made, std::memory_order_release);
+    return made;
+  }
+
+ private:
+  // Not std::call_once: an exception that passes it ends the process where memory has run out,
+  // since glibc then loads what it needs to unwind.
+  struct Lazy {
+    std::mutex mutex;
+    std::optional<RipsAdjacency> adjacency;
+    std::atomic<const RipsAdjacency*> made{nullptr};
+  };
+  RipsGraph(Index size, double threshold, BinnedEdges&& edges, const RunContext& context,
+            std::span<const double> births = {});
+  static RipsGraph of_forest(Index size, double limit, FlagEdges&& forest,
+                             const RunContext& context, std::span<const double> births = {});
+  static void check_arguments(Index size, std::optional<double> threshold);
+  /// Rows of a triangle in ranges of equally many pairs: where range r of so many begins.
+  static Index range_begin(Index rows, std::size_t r, std::size_t ranges);
+  /// As many ranges as keep the threads busy.
+  static std::size_t range_count(Index rows, const RunContext& context);
+
+  Index size_ = 0;
+  double threshold_ = 0;
+  bool is_forest_ = false;
+  BinnedEdges edges_;                      // by key - 1
+  std::pmr::vector<std::uint32_t> names_;  // by vertex; empty: its number
+  std::pmr::vector<double> births_;        // by vertex; empty: 0
+  std::unique_ptr<Lazy> lazy_ = std::make_unique<Lazy>();
+};
+
+template <Metric M>
+RipsGraph RipsGraph::forest_of_metric(const M& metric, std::optional<double> threshold,
+                                      const RunContext& context, const VertexWeights& weights) {
+  const Index n = metric.size();
+  check_arguments(n, threshold);
+  const double limit = threshold.value_or(kNoLimit);
+  const auto value_of = [&](Index i, Index j) {
+    return weights.edge_value(i, j, checked_distance(i, j, metric(i, j)));
+  };
+  return of_forest(n, limit, spanning_forest(n, value_of, limit, context), context,
+                   weights.births());
+}
+
+template <Metric M>
+RipsGraph RipsGraph::of_metric(const M& metric, std::optional<double> threshold,
+                               const RunContext& context, const VertexWeights& weights) {
+  const Index n = metric.size();
+  check_arguments(n, threshold);
+  // One pass finds the enclosing radius and how the distances are spread, the next one keeps those
+  // within: distances are evaluated twice rather than all stored.
+  const RowDistances<M> distances(metric, &context.memory);
+  const std::size_t ranges = range_count(n, context);
+  const bool is_weighted = !weights.births().empty();
+  using Row = std::pmr::vector<double>;
+  const auto for_each_row = [&](std::string_view stage, auto&& use_range) {
+    for_each_piece(stage, ranges, 1, context, [&](std::size_t range, std::size_t) {
+      std::optional<Ticker> ticker;  // of the only range
+      if (ranges == 1) ticker.emplace(context, stage, static_cast<std::uint64_t>(n));
+      Row row(static_cast<std::size_t>(distances.row_capacity()), 0.0, &context.memory);
+      const Index end = range_begin(n, range + 1, ranges);
+      use_range(range, [&](auto&& use) {
+        for (Index i = range_begin(n, range, ranges); i < end; ++i) {
+          distances(i, row.data());
+          if (is_weighted)
+            for (Index j = 0; j < i; ++j)
+              row[static_cast<std::size_t>(j)] = weights.edge_value(
+                  i, j, checked_distance(i, j, row[static_cast<std::size_t>(j)]));
+          use(i, row.data());
+          if (!ticker) {
+            context.poll();
+            continue;
+          }
+          ticker->tick();
+          ticker->work(static_cast<std::uint64_t>(i));
+        }
+      });
+    });
+  };
+  EdgeBinner binner(static_cast<std::size_t>(n) * static_cast<std::size_t>(n) / 2, ranges, context);
+  Row farthest(static_cast<std::size_t>(n), 0.0, &context.memory);
+  std::ranges::copy(weights.births(), farthest.begin());
+  std::mutex farthest_mutex;
+  for_each_row("enclosing radius", [&](std::size_t range, auto&& for_each) {
+    Row of_range(farthest.size(), 0.0, &context.memory);
+    for_each([&](Index i, double* row) {
+      const double largest = take_maxima(row, i, of_range.data());
+      if (std::isnan(largest))
+        for (Index j = 0; j < i; ++j) checked_distance(i, j, row[j]);
+      double& of_row = of_range[static_cast<std::size_t>(i)];
+      of_row = std::max(of_row, largest);
+      for (Index j = 0; j < i; ++j) binner.count(row[j], range);
+    });
+    const std::lock_guard lock(farthest_mutex);
+    for (std::size_t i = 0; i < farthest.size(); ++i)
+      farthest[i] = std::max(farthest[i], of_range[i]);
+  });
+  const double radius = n == 0 ? kNoLimit : *std::ranges::min_element(farthest);
+  const double limit = threshold.value_or(radius);
+  const double last = std::min(limit, std::numeric_limits<double>::max());  // infinite: no edge
+  binner.allocate(last);
+  for_each_row("edges", [&](std::size_t range, auto&& for_each) {
+    for_each([&](Index i, const double* row) {
+      for (Index j = 0; j < i; ++j)
+        if (row[j] <= last)
+          binner.add({row[j] + 0.0, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)},
+                     range);
+    });
+  });
+  return RipsGraph(n, limit, binner.finish(), context, weights.births());
+}
+
+}  // namespace ph

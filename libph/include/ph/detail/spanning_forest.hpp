@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <memory_resource>
+#include <numeric>
+#include <vector>
+
+#include "ph/filtration.hpp"
+#include "ph/run_context.hpp"
+#include "ph/metric.hpp"
+#include "ph/points.hpp"
+
+namespace ph {
+
+// The minimum spanning forest of a finite set with distances: of all pairs at finite distance <=
+// limit those that Kruskal's algorithm takes in the order (distance, larger end, smaller end). The
+// order is total, hence there is one such forest. It has the components of the whole graph up to
+// any distance, and so the same H0 pairs, cell by cell; see docs/algorithms.md.
+//
+// Edges come with u > v, in any order; fewer than 2^32 - 1 points.
+
+/// By Prim's algorithm (1957): each pair is looked at once and no edge but the forest's is kept.
+/// O(n^2) time, O(n) memory.
+/// @param distance_of(i, j) for i > j: >= 0 or infinite.
+template <class DistanceOf>
+FlagEdges spanning_forest(Index size, DistanceOf&& distance_of, double limit,
+                          const RunContext& context) {
+  // A vertex that is not in the forest yet, with its first edge to the tree that grows.
+  struct Outside {
+    FlagEdge edge;
+    std::uint32_t vertex;
+  };
+  constexpr double never = std::numeric_limits<double>::infinity();
+  FlagEdges forest(&context.memory);
+  std::pmr::vector<Outside> outside(static_cast<std::size_t>(size), &context.memory);
+  for (std::uint32_t v = 0; v < outside.size(); ++v) outside[v] = {{never, 0, 0}, v};
+  Ticker ticker(context, "spanning forest", outside.size());
+  std::size_t left = outside.size(), next = 0;  // `next` enters the tree
+  while (left > 0) {
+    const FlagEdge& first = outside[next].edge;  // if it is too long, another tree begins
+    if (first.value <= limit && first.value < never) forest.push_back(first);
+    const std::uint32_t entered = outside[next].vertex;
+    // The others stay in order, which is that of a matrix in memory.
+    std::size_t kept = 0, nearest = 0;
+    for (std::size_t i = 0; i < left; ++i) {
+      Outside w = outside[i];
+      if (w.vertex == entered) continue;
+      const auto [v, u] = std::minmax(w.vertex, entered);
+      const FlagEdge edge{distance_of(Index{u}, Index{v}), u, v};
+      if (precedes(edge, w.edge)) w.edge = edge;
+      outside[kept] = w;
+      if (precedes(w.edge, outside[nearest].edge)) nearest = kept;
+      ++kept;
+    }
+    ticker.tick();
+    ticker.work(left);
+    left = kept;
+    next = nearest;
+  }
+  return forest;
+}
+
+/// Whether `spanning_forest` of points takes less than a look at each pair.
+bool has_fast_spanning_forest(const Points& points, PointDistance distance);
+
+/// Of points, by Borůvka's algorithm (1926) with a k-d tree that finds the nearest point of another
+/// component (March, Ram, Gray, "Fast Euclidean minimum spanning tree", 2010): O(n log n) as a rule
+/// in a space of few dimensions, never more than O(n^2 log n). O(n) memory.
+/// @param points one point a row. @param p exponent of PointDistance::minkowski.
+/// Precondition: has_fast_spanning_forest(points, distance).
+/// @throws Error (bad_data) as PointMetric.
+FlagEdges spanning_forest(const Points& points, PointDistance distance, double p, double limit,
+                          const RunContext& context);
+
+}  // namespace ph

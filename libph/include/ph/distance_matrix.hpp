@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <span>
+#include <vector>
+
+#include "ph/metric.hpp"
+
+namespace ph {
+
+/// All distances of a finite set, stored once for each pair: the strict lower triangle row by row,
+/// d(1,0), d(2,0), d(2,1), d(3,0), … Points may have births, as on the diagonal of a matrix that
+/// gives each vertex the value at which it enters.
+class DistanceMatrix {
+ public:
+  /// @param size number of points. @param lower size*(size-1)/2 distances, each >= 0 or +infinity.
+  /// @param births one a point, finite and >= 0, or none.
+  /// @throws Error (bad_data) on a wrong count, a NaN or a negative distance. (Births are looked at
+  /// by who uses them.)
+  DistanceMatrix(Index size, std::vector<double> lower, std::vector<double> births = {});
+
+  Index size() const { return size_; }
+  /// By point; empty: all are there from 0 on.
+  std::span<const double> births() const { return births_; }
+  double operator()(Index i, Index j) const {
+    if (i == j) return 0.0;
+    if (i < j) std::swap(i, j);
+    return lower_[static_cast<std::size_t>(i * (i - 1) / 2 + j)];
+  }
+
+ private:
+  Index size_;
+  std::vector<double> lower_, births_;
+};
+
+}  // namespace ph

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <functional>
+#include <memory_resource>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ph/filtration.hpp"
+#include "ph/run_context.hpp"
+
+namespace ph {
+
+/// Simplices in any order, each with its value: simplex i has the vertices
+/// vertices[offsets[i] .. offsets[i+1]).
+struct SimplexList {
+  std::vector<Index> vertices;
+  std::vector<std::size_t> offsets{0};
+  std::vector<double> values;
+
+  std::size_t size() const { return offsets.empty() ? 0 : offsets.size() - 1; }
+  /// @throws Error (bad_data) unless the offsets ascend from 0 to the number of vertices.
+  void check_layout() const;
+  std::span<const Index> simplex(std::size_t i) const {
+    return std::span(vertices).subspan(offsets[i], offsets[i + 1] - offsets[i]);
+  }
+  void add(std::span<const Index> simplex_vertices, double value) {
+    vertices.insert(vertices.end(), simplex_vertices.begin(), simplex_vertices.end());
+    offsets.push_back(vertices.size());
+    values.push_back(value);
+  }
+};
+
+/// A boundary matrix by columns: column i is cell i, of dimension dims[i], with the facets
+/// rows[offsets[i] .. offsets[i+1]) and, beside them, their incidence numbers.
+struct BoundaryMatrix {
+  std::vector<int> dims;
+  std::vector<std::size_t> offsets{0};
+  std::vector<Index> rows;
+  std::vector<int> incidences;  ///< empty: all 1, meaningful over Z/2 only
+  std::vector<double> values;   ///< empty: the cell's position in the order
+
+  std::size_t size() const { return dims.size(); }
+};
+
+/// Names a cell of the input in an error message ("mesh.txt:12"); by default its position.
+using CellNamer = std::function<std::string(std::size_t)>;
+
+/// A filtered complex stored cell by cell, with facets and cofacets. A cell of value +infinity
+/// never enters: it is looked at for mistakes and then left out. Order: (value, dimension, position
+/// in the input).
+class ExplicitComplex {
+ public:
+  struct Cell {
+    std::uint32_t id = 0;  ///< position in the total order
+    friend auto operator<=>(const Cell&, const Cell&) = default;
+  };
+  static constexpr bool first_equal_cofacet_is_oldest = true;
+
+  /// @throws Error (bad_data) if a simplex occurs twice, repeats a vertex, lacks a facet, is
+  ///         older than a facet of its own, or has a NaN value; if sizes disagree.
+  static ExplicitComplex from_simplices(SimplexList simplices, const CellNamer& name = {},
+                                        const RunContext& context = default_context());
+  /// @throws Error (bad_data) if a facet is out of range, is not of one dimension less or is
+  ///         younger than its coface; if sizes disagree, a value is NaN, or the boundary of a
+  ///         boundary is not zero (over the integers, or over Z/2 without incidences).
+  static ExplicitComplex from_boundary(const BoundaryMatrix& matrix, const CellNamer& name = {},
+                                       const RunContext& context = default_context());
+
+  /// Whether incidence numbers are known; without them only Z/2 makes sense.
+  bool has_incidences() const { return has_incidences_; }
+  /// Cells that enter.
+  std::size_t size() const { return input_position_.size(); }
+  /// How many vertices the input has, those that never enter included.
+  std::size_t vertex_count() const { return vertices_.size(); }
+  /// The place of a vertex among them, in the order of the input.
+  std::size_t vertex_number(Cell vertex) const;
+
+  int top_dim() const { return static_cast<int>(first_of_dim_.size()) - 2; }
+  double value(Cell c) const { return values_[key_[c.id]]; }
+  std::uint32_t key(Cell c) const { return key_[c.id]; }
+  static bool precedes(Cell a, Cell b) { return a.id < b.id; }
+  std::size_t slot_count() const { return size(); }
+  static std::size_t slot(Cell c) { return c.id; }
+  bool edges_join_vertices() const { return edges_join_vertices_; }
+  CellKind cell_kind() const { return kind_; }
+  void append_input_cell(int dim, Cell cell, std::vector<Index>& numbers) const;
+
+  template <class Visit>
+  void for_each_cell(int dim, Visit&& visit) const {
+    if (dim < 0 || dim > top_dim()) return;
+    const auto d = static_cast<std::size_t>(dim);
+    for (std::size_t i = first_of_dim_[d]; i < first_of_dim_[d + 1]; ++i) visit(Cell{of_dim_[i]});
+  }
+  template <class Visit>
+  void for_each_facet(int, Cell cell, Visit&& visit) const {
+    for (std::size_t i = facets_.offsets[cell.id]; i < facets_.offsets[cell.id + 1]; ++i)
+      visit(Cell{facets_.cells[i]}, int{facets_.incidences[i]});
+  }
+  template <class Visit>
+  void for_each_cofacet(int, Cell cell, Visit&& visit) const {
+    for (std::size_t i = cofacets_.offsets[cell.id]; i < cofacets_.offsets[cell.id + 1]; ++i)
+      if (!visit(Cell{cofacets_.cells[i]}, int{cofacets_.incidences[i]})) return;
+  }
+
+ private:
+  struct Incidence {  // compressed rows: neighbours of cell i in ascending order
+    explicit Incidence(std::pmr::memory_resource* memory)
+        : offsets(memory), cells(memory), incidences(memory) {}
+    std::pmr::vector<std::size_t> offsets;
+    std::pmr::vector<std::uint32_t> cells;
+    std::pmr::vector<int> incidences;
+  };
+  explicit ExplicitComplex(std::pmr::memory_resource* memory)
+      : values_(memory),
+        key_(memory),
+        input_position_(memory),
+        id_of_(memory),
+        vertices_(memory),
+        first_of_dim_(memory),
+        of_dim_(memory),
+        facets_(memory),
+        cofacets_(memory) {}
+  void order_cells(const std::vector<int>& dims, std::span<const double> values);
+  void build_cofacets();
+  void check(const std::vector<int>& dims, const CellNamer& name);
+  void leave_out_what_never_enters();
+  void sort_by_dimension(const std::vector<int>& dims);
+
+  CellKind kind_ = CellKind::row;
+  bool has_incidences_ = true;
+  bool edges_join_vertices_ = true;
+  std::pmr::vector<double> values_;                 // distinct values, ascending
+  std::pmr::vector<std::uint32_t> key_;             // by id: index into values_
+  std::pmr::vector<std::uint32_t> input_position_;  // by id: which cell of the input it is
+  std::pmr::vector<std::uint32_t> id_of_;           // its inverse, of all cells of the input
+  std::pmr::vector<std::uint32_t> vertices_;        // their positions in the input, ascending
+  std::pmr::vector<std::size_t> first_of_dim_;      // ranges of of_dim_
+  std::pmr::vector<std::uint32_t> of_dim_;          // ids sorted by dimension, then order
+  Incidence facets_, cofacets_;
+  SimplexList simplices_;  // for kind vertices: the input's simplices, vertices ascending
+};
+
+}  // namespace ph
+
+template <>
+struct std::hash<ph::ExplicitComplex::Cell> {
+  std::size_t operator()(ph::ExplicitComplex::Cell c) const { return c.id; }
+};

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "ph/filtration.hpp"
+#include "ph/run_context.hpp"
+#include "ph/sparse_distances.hpp"
+
+namespace ph {
+
+/// A graph whose vertices and edges have values, as a filtration: all that H0 and its merge tree
+/// need, in 16 bytes an edge. What has the value +infinity never enters. Order: (value, dimension,
+/// vertex number or position of the edge).
+class FilteredGraph {
+ public:
+  using Cell = std::uint32_t;  ///< vertex v is v; the edge at position i of the order is size() + i
+
+  /// @param births a value for each vertex 0 … size-1. @param edges in any order, parallel ones and
+  /// loops allowed; ties are broken by position. O(vertices log vertices + edges).
+  /// @throws Error (bad_data) on NaN, a vertex out of range or an edge older than one of its ends;
+  ///         Error (resource) beyond 2^32 - 2 cells or the memory limit.
+  FilteredGraph(std::span<const double> births, std::span<const WeightedEdge> edges,
+                const RunContext& context = default_context());
+
+  /// The lower-star filtration of a graph: each edge enters with the later of its ends.
+  /// @param edges their values are ignored. O(vertices log vertices + edges).
+  static FilteredGraph lower_star(std::span<const double> vertex_values,
+                                  std::span<const WeightedEdge> edges,
+                                  const RunContext& context = default_context());
+
+  Index size() const { return static_cast<Index>(births_.size()); }
+  std::size_t edge_count() const { return edges_.size(); }  ///< that enter
+  /// As many as there are, those that never enter included.
+  std::size_t vertex_count() const { return births_.size(); }
+  static std::size_t vertex_number(Cell vertex) { return vertex; }
+
+  int top_dim() const { return none_enters_ ? -1 : edges_.empty() ? 0 : 1; }
+  double value(Cell c) const {
+    return c < births_.size() ? births_[c] : edges_[c - births_.size()].value;
+  }
+  bool precedes(Cell a, Cell b) const {
+    if (a < births_.size() && births_[a] != births_[b]) return births_[a] < births_[b];
+    return a < b;
+  }
+  std::size_t slot_count() const { return births_.size() + edges_.size(); }
+  static std::size_t slot(Cell c) { return c; }
+  static bool edges_join_vertices() { return true; }
+  static CellKind cell_kind() { return CellKind::vertices; }
+  void append_input_cell(int dim, Cell cell, std::vector<Index>& numbers) const;
+
+  template <class Visit>
+  void for_each_cell(int dim, Visit&& visit) const {
+    const auto vertices = static_cast<Cell>(births_.size());
+    const auto cells = static_cast<Cell>(slot_count());
+    if (dim == 0)
+      for (Cell v = 0; v < vertices; ++v)
+        if (births_[v] < std::numeric_limits<double>::infinity()) visit(v);
+    if (dim == 1)
+      for (Cell e = vertices; e < cells; ++e) visit(e);
+  }
+  template <class Visit>
+  void for_each_facet(int dim, Cell cell, Visit&& visit) const {
+    if (dim != 1) return;
+    const Edge& e = edges_[cell - births_.size()];
+    if (e.u == e.v) return;  // the ends of a loop cancel
+    visit(Cell{e.v}, 1);
+    visit(Cell{e.u}, -1);
+  }
+
+ private:
+  struct Edge {
+    std::uint32_t u, v;  // u <= v
+    double value;
+  };
+  FilteredGraph(std::span<const double> births, std::size_t edge_count, const RunContext& context);
+  /// With the value of its later end. @throws Error (bad_data) on a vertex out of range.
+  Edge edge_between(const WeightedEdge& edge) const;
+
+  /// Edges that never enter come last in the order.
+  void leave_out_what_never_enters();
+
+  std::pmr::vector<double> births_;
+  std::pmr::vector<Edge> edges_;  // in the order of the filtration
+  bool none_enters_ = true;       // no vertex
+};
+
+}  // namespace ph

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <memory_resource>
+#include <utility>
+#include <vector>
+
+#include "ph/run_context.hpp"
+#include "ph/metric.hpp"
+#include "ph/points.hpp"
+
+namespace ph {
+
+/// How far a greedy permutation goes: to the first that is reached.
+struct GreedyLimits {
+  Index points = std::numeric_limits<Index>::max();  ///< so many points, >= 1
+  double radius = 0;  ///< a covering radius, >= 0; 0: until every point or a copy of it is there
+};
+
+/// Points in the order of farthest-point sampling (Gonzalez, Clustering to minimize the maximum
+/// intercluster distance, 1985): after point 0 always the point farthest from all before, the one
+/// of the smallest number among equals.
+struct GreedyPermutation {
+  std::vector<std::uint32_t> points;
+  /// Of points[k] the distance to the nearest of points[0 .. k); infinite for k = 0. Never
+  /// increases.
+  std::vector<double> radii;
+  /// Each point of the whole set is at most so far from one of `points`.
+  double covering_radius = 0;
+
+  /// The points, ascending: as RipsOptions::vertices wants them.
+  std::vector<std::uint32_t> ascending() const {
+    std::vector<std::uint32_t> sorted = points;
+    std::ranges::sort(sorted);
+    return sorted;
+  }
+};
+
+// Both take O(n k) distances for k points of n and O(n) memory.
+//
+// What a subsample is worth. Let e be its covering radius and the triangle inequality hold. The
+// Rips barcodes of the whole set and of the subsample can be matched such that in the subsample
+// bars are born and die at the same value or later, by 2e at most; only bars no longer than 2e,
+// of either, are left unmatched. See docs/approximation.md.
+
+/// Of points: the same permutation as that of the metric.
+/// @param points one point a row. @param p exponent of PointDistance::minkowski.
+/// @throws Error (bad_data) as PointMetric; Error (usage) on limits out of range.
+GreedyPermutation greedy_permutation(const Points& points, const GreedyLimits& limits = {},
+                                     PointDistance distance = PointDistance::euclidean,
+                                     double p = 2, const RunContext& context = default_context());
+
+namespace detail {
+void check(const GreedyLimits& limits, Index size);
+}
+
+/// Of any metric.
+template <Metric M>
+GreedyPermutation greedy_permutation(const M& metric, const GreedyLimits& limits = {},
+                                     const RunContext& context = default_context()) {
+  const Index n = metric.size();
+  detail::check(limits, n);
+  GreedyPermutation result;
+  result.covering_radius = n == 0 ? 0 : std::numeric_limits<double>::infinity();
+  std::pmr::vector<double> nearest(static_cast<std::size_t>(n), result.covering_radius,
+                                   &context.memory);
+  Ticker ticker(context, "greedy permutation",
+                static_cast<std::uint64_t>(std::min(n, limits.points)));
+  for (Index next = 0; static_cast<Index>(result.points.size()) < std::min(n, limits.points);) {
+    result.points.push_back(static_cast<std::uint32_t>(next));
+    result.radii.push_back(result.covering_radius);
+    nearest[static_cast<std::size_t>(next)] = 0;
+    Index farthest = 0;
+    for (Index i = 0; i < n; ++i) {
+      double& of_i = nearest[static_cast<std::size_t>(i)];
+      if (of_i > 0) of_i = std::min<double>(of_i, metric(i, next));
+      if (of_i > nearest[static_cast<std::size_t>(farthest)]) farthest = i;
+    }
+    ticker.tick();
+    ticker.work(static_cast<std::uint64_t>(n));
+    next = farthest;
+    result.covering_radius = nearest[static_cast<std::size_t>(farthest)];
+    if (result.covering_radius <= limits.radius) break;
+  }
+  return result;
+}
+
+}  // namespace ph

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <atomic>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <iterator>
+#include <memory>
+#include <span>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "ph/detail/cubical_image.hpp"
+
+namespace ph {
+
+/// What the numbers of an image may be: the types that VoxelType names.
+template <class T>
+concept VoxelNumber = std::same_as<T, std::uint8_t> || std::same_as<T, std::uint16_t> ||
+    std::same_as<T, std::int16_t> || std::same_as<T, float> || std::same_as<T, double>;
+
+/// Numbers of an image that stay in a mapped file.
+struct VoxelsInFile {
+  VoxelType type;
+  std::shared_ptr<const void> file;  ///< keeps it mapped; see core/file_pages.hpp
+  const void* data;                  ///< the first number, aligned
+  std::size_t count;
+};
+
+/// The numbers of an image, stored as they came: a byte stays a byte. Read as doubles. Copies share
+/// the numbers; whoever changes them gets numbers of his own. Threads may go on with a copy each as
+/// if it were not shared. What was moved from is empty.
+class Voxels {
+  using Numbers =
+      std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<std::int16_t>,
+                   std::vector<float>, std::vector<double>, VoxelsInFile>;
+  /// What copies have in common. They are counted here because the last owner, who changes numbers
+  /// in place, must see that the others, on their threads, are done reading: an acquiring load says
+  /// so, std::shared_ptr::use_count() does not.
+  struct Shared {
+    Numbers numbers;
+    std::atomic<std::size_t> owners{1};
+  };
+
+  template <class Use>
+  decltype(auto) visit(Use&& use) const {
+    return with_voxels(type(), data(), [&]<class T>(const T* first) {
+      return use(std::span<const T>(first, size()));
+    });
+  }
+
+ public:
+  Voxels() = default;
+  template <VoxelNumber T>
+  Voxels(std::vector<T> numbers) : shared_(new Shared{std::move(numbers)}) {}
+  explicit Voxels(VoxelsInFile numbers) : shared_(new Shared{std::move(numbers)}) {}
+  Voxels(std::initializer_list<double> numbers) : Voxels(std::vector<double>(numbers)) {}
+  Voxels(const Voxels& other) noexcept : shared_(other.shared_) {
+    if (shared_ != nullptr) shared_->owners.fetch_add(1, std::memory_order_relaxed);
+  }
+  Voxels(Voxels&& other) noexcept : shared_(std::exchange(other.shared_, nullptr)) {}
+  Voxels& operator=(Voxels other) noexcept {
+    std::swap(shared_, other.shared_);
+    return *this;
+  }
+  ~Voxels() {
+    if (shared_ != nullptr && shared_->owners.fetch_sub(1, std::memory_order_acq_rel) == 1)
+      delete shared_;
+  }
+
+  VoxelType type() const {
+    if (shared_ == nullptr) return VoxelType::float64;
+    const VoxelsInFile* in_file = this->in_file();
+    return in_file != nullptr ? in_file->type : static_cast<VoxelType>(shared_->numbers.index());
+  }
+  /// The first number, of the type that type() says; the next ones follow it. Null or not to be
+  /// read if there is none.
+  const void* data() const {
+    if (shared_ == nullptr) return nullptr;
+    return std::visit([](const auto& all) { return data_of(all); }, shared_->numbers);
+  }
+  std::size_t size() const {
+    if (shared_ == nullptr) return 0;
+    return std::visit([](const auto& all) { return size_of(all); }, shared_->numbers);
+  }
+  bool empty() const { return size() == 0; }
+  /// Whether they stay in a file: they take no memory but while they are read.
+  bool is_in_file() const { return in_file() != nullptr; }
+  /// Memory that they take.
+  std::size_t bytes() const { return is_in_file() ? 0 : size() * bytes_of(type()); }
+  /// Precondition: i < size().
+  double operator[](std::size_t i) const {
+    return std::visit([i](const auto& all) { return number_of(all, i); }, shared_->numbers);
+  }
+  /// A copy, 8 bytes a number.
+  std::vector<double> doubles() const {
+    return visit([](const auto& all) { return std::vector<double>(all.begin(), all.end()); });
+  }
+  /// Precondition: !empty().
+  double front() const { return (*this)[0]; }
+  /// Precondition: !empty().
+  double back() const { return (*this)[size() - 1]; }
+
+  /// Calls `use(std::vector<T>&)` with the numbers, for the type T that they have, to change them.
+  /// Copies them first if they are shared or in a file.
+  template <class Use>
+  void change(Use&& use) {
+    if (shared_ == nullptr)
+      *this = Voxels(std::vector<double>());
+    else if (is_in_file() || shared_->owners.load(std::memory_order_acquire) > 1)
+      *this = visit([]<class T>(std::span<const T> all) {
+        return Voxels(std::vector<T>(all.begin(), all.end()));
+      });
+    std::visit(
+        [&]<class All>(All& all) {
+          if constexpr (!std::same_as<All, VoxelsInFile>) use(all);
+        },
+        shared_->numbers);
+  }
+
+  /// Gives doubles.
+  class Iterator {
+   public:
+    using iterator_category = std::input_iterator_tag;
+    using value_type = double;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const double*;
+    using reference = double;
+
+    Iterator() = default;
+    Iterator(const Voxels& voxels, std::size_t at) : voxels_(&voxels), at_(at) {}
+    double operator*() const { return (*voxels_)[at_]; }
+    Iterator& operator++() {
+      ++at_;
+      return *this;
+    }
+    Iterator operator++(int) {
+      const Iterator before = *this;
+      ++at_;
+      return before;
+    }
+    friend bool operator==(const Iterator& a, const Iterator& b) { return a.at_ == b.at_; }
+
+   private:
+    const Voxels* voxels_ = nullptr;
+    std::size_t at_ = 0;
+  };
+  Iterator begin() const { return {*this, 0}; }
+  Iterator end() const { return {*this, size()}; }
+
+  friend bool operator==(const Voxels& a, const Voxels& b) {
+    return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin());
+  }
+
+ private:
+  const VoxelsInFile* in_file() const {
+    return shared_ == nullptr ? nullptr : std::get_if<VoxelsInFile>(&shared_->numbers);
+  }
+  template <class T>
+  static const void* data_of(const std::vector<T>& all) {
+    return all.data();
+  }
+  static const void* data_of(const VoxelsInFile& all) { return all.data; }
+  template <class T>
+  static std::size_t size_of(const std::vector<T>& all) {
+    return all.size();
+  }
+  static std::size_t size_of(const VoxelsInFile& all) { return all.count; }
+
+  template <class T>
+  static double number_of(const std::vector<T>& all, std::size_t i) {
+    return static_cast<double>(all[i]);
+  }
+  static double number_of(const VoxelsInFile& all, std::size_t i) {
+    return with_voxels(all.type, all.data,
+                       [i](const auto* first) { return static_cast<double>(first[i]); });
+  }
+
+  template <VoxelType named, class T>
+  static constexpr bool kStores =
+      std::same_as<std::variant_alternative_t<static_cast<std::size_t>(named), Numbers>,
+                   std::vector<T>>;
+  static_assert(kStores<VoxelType::uint8, std::uint8_t> &&
+                    kStores<VoxelType::uint16, std::uint16_t> &&
+                    kStores<VoxelType::int16, std::int16_t> && kStores<VoxelType::float32, float> &&
+                    kStores<VoxelType::float64, double>,
+                "type() is the place of the alternative");
+
+  Shared* shared_ = nullptr;  // null: no numbers
+};
+
+/// A dense array of any dimension: `extents[k]` voxels along axis k, the last axis fastest (C
+/// order). The axes are those of the input file.
+struct Image {
+  std::vector<Index> extents;
+  Voxels values;
+  /// Whether NaN marks an absent voxel, which never enters: neither in sublevel nor in superlevel
+  /// sets. An infinite value is no such mark: it has a sign. Without a mask NaN is refused.
+  bool masked = false;
+
+  int dim() const { return static_cast<int>(extents.size()); }
+};
+
+}  // namespace ph

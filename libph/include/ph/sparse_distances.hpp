@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <vector>
+
+#include "ph/metric.hpp"
+
+namespace ph {
+
+/// A pair of points with its distance.
+struct WeightedEdge {
+  Index u = 0;
+  Index v = 0;
+  double value = 0;
+  friend bool operator==(const WeightedEdge&, const WeightedEdge&) = default;
+};
+
+/// Some of the distances of a finite set; every other pair is never joined.
+class SparseDistances {
+ public:
+  /// @param size number of points. @param edges pairs u != v below `size`, each pair at most once,
+  /// distances >= 0. @throws Error (bad_data) naming the edge that breaks this.
+  SparseDistances(Index size, std::vector<WeightedEdge> edges);
+
+  /// All pairs of points at Euclidean distance <= radius: O(n log n + edges). See pairs_within.hpp.
+  /// @param points one point a row. @param radius in units of the coordinates, >= 0.
+  static SparseDistances within(const Points& points, double radius);
+
+  Index size() const { return size_; }
+  const std::vector<WeightedEdge>& edges() const { return edges_; }
+
+ private:
+  Index size_;
+  std::vector<WeightedEdge> edges_;
+};
+
+}  // namespace ph

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "cubical/bar_blocks.hpp"
+#include "cubical/any_axes/cell_grid.hpp"
+
+namespace ph::cubical {
+
+/// Turns pairs of a grid's cells into bars of the input.
+class CellSink {
+ public:
+  CellSink(const CellGrid& grid, bool wants_cells, const BarSink& bars)
+      : grid_(grid), blocks_(grid.loop_count(), wants_cells, bars) {}
+
+  /// A class of dimension `dim` born with a cell, killed by a cell one dimension higher: a bar
+  /// unless both have the same value. Without a death it never dies.
+  void add(int dim, CellGrid::Name birth, std::optional<CellGrid::Name> death) {
+    const double from = grid_.value(birth), to = death ? grid_.value(*death) : kInfinity;
+    if (from == to) return;
+    blocks_.add({dim, from, to},
+                [&](unsigned loops, std::vector<Index>& of_birth, std::vector<Index>& of_death) {
+                  grid_.append_numbers(CellGrid::cell(birth), loops, of_birth);
+                  if (death) grid_.append_numbers(CellGrid::cell(*death), loops, of_death);
+                });
+  }
+  /// Hands over what it still holds.
+  void finish() { blocks_.finish(); }
+
+ private:
+  const CellGrid& grid_;
+  BarBlocks blocks_;
+};
+
+}  // namespace ph::cubical

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "ph/barcode.hpp"
+#include "cubical/pair_voxels.hpp"
+#include "cubical/representatives/represent_voxels.hpp"
+#include "ph/engine.hpp"
+
+namespace ph {
+
+/// Images of fewer than 2^31 voxels (three axes) or 2^32 cells (more; axes of one voxel do not
+/// count), all dimensions, no zero-length pairs: cells are paired voxel by voxel, what is left by
+/// union-find from both ends and by reduction between them. Of three axes with cycles or sets of
+/// voxels, not with cocycles. See docs/algorithms.md.
+struct ArrowsEngine {
+  static constexpr Engine id = Engine::arrows;
+  static constexpr const char* name = "arrows";
+  template <Filtration F>
+  static bool can_run(const F& f, const Task& task) {
+    if constexpr (VoxelFiltration<F>) {
+      if (task.zero_length || task.representatives == Representatives::cocycles) return false;
+      if (task.representatives == Representatives::none)
+        return cubical::can_pair_voxels(f.cubical_image());
+      return cubical::can_represent_voxels(f.cubical_image());
+    } else {
+      return false;
+    }
+  }
+  template <Filtration F>
+  static Suitability suitability(const F&, const Task&) {
+    return {6, "an image is paired voxel by voxel"};
+  }
+  static constexpr int listed_dim(int) { return 0; }
+  static constexpr bool goes_by_edges = false, is_oracle = false;
+
+  template <Filtration F, Field K>
+  static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context) {
+    if constexpr (VoxelFiltration<F>) {
+      if (bars.representatives() != Representatives::none)
+        return represent(f, field, bars, context);
+      const cubical::BarSink sink{
+          [&](const Bar& bar, std::span<const Index> birth, std::span<const Index> death) {
+            bars.add_bar(bar, birth, death);
+          },
+          [&](std::span<const Bar> some) { bars.add_bars(some); },
+          [&](std::size_t count) { bars.expect(count); }};
+      const cubical::WantedBars wanted{bars.min_dim(), bars.max_dim(), bars.wants_cells()};
+      cubical::pair_voxels(f.cubical_image(), field, wanted, context, sink);
+    }
+  }
+
+ private:
+  template <Filtration F, Field K>
+  static void represent(const F& f, const K& field, BarcodeBuilder<F>& bars,
+                        const RunContext& context) {
+    const auto kept = [&](std::span<const Index> cell) {
+      return bars.wants_cells() ? cell : std::span<const Index>();
+    };
+    const cubical::RepresentativeSink sink{
+        [&](const Bar& bar, std::span<const Index> birth, std::span<const Index> death) {
+          return bars.add_bar(bar, kept(birth), kept(death));
+        },
+        [&](const cubical::RepresentedBar& bar) {
+          bars.add_representative(bar.numbers, bar.coefficients);
+          bars.add_voxels(bar.voxels, bar.birth_voxel, bar.death_voxel);
+        },
+        [&](std::span<const std::uint32_t> places) { return bars.store_voxels(places); }};
+    cubical::represent_voxels(f.cubical_image(), field, bars.max_dim(), bars.representatives(),
+                              context, sink);
+  }
+};
+
+}  // namespace ph

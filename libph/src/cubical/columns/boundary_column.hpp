@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cubical/any_axes/cell_grid.hpp"
+#include "cubical/columns/chain_heap.hpp"
+#include "ph/detail/chain.hpp"
+#include "ph/detail/field.hpp"
+#include "ph/run_context.hpp"
+
+namespace ph::cubical {
+
+/// A chain of cells that is being reduced. A cell that is killed inside its star is
+/// replaced by the rest of the boundary of its killer when it comes up, so a chain is followed only
+/// as far down as its pivot; cells that kill are left out (no cycle has its youngest cell there).
+/// Not for several threads at once.
+template <Field K>
+class BoundaryColumn {
+ public:
+  using Element = typename K::Element;
+  using Term = Entry<CellGrid::Name, K>;
+
+  BoundaryColumn(const CellGrid& grid, const K& field, const RunContext& context)
+      : grid_(grid), field_(field), context_(context), heap_(field, &context.memory) {}
+
+  /// Begins anew with the boundary of a cell.
+  void assign_boundary(std::uint32_t cell) {
+    heap_.clear();
+    add_boundary(cell, grid_.coordinates(cell), CellGrid::kNone, field_.from_int(1));
+  }
+  /// Begins anew with a chain.
+  void assign(std::span<const Term> chain) { heap_.assign(chain); }
+  void add(Element scale, std::span<const Term> chain) {
+    count(chain.size());
+    heap_.add([&](Terms& terms) {
+      for (const Term& term : chain)
+        terms.emplace_back(term.cell, field_.multiply(scale, term.coefficient()));
+    });
+  }
+  /// Takes out the youngest cell that is in no pair inside its star; nothing if none is left.
+  std::optional<Term> take_pivot() {
+    while (const std::optional<Term> youngest = heap_.take()) {
+      const std::uint32_t cell = CellGrid::cell(youngest->cell);
+      const CellMark mark = grid_.mark(cell);
+      if (!mark.is_killed()) return youngest;
+      CellGrid::Coordinates x = grid_.coordinates(cell);
+      const int direction = mark.direction();
+      const auto axis = static_cast<std::size_t>(direction / 2);
+      // The incidence of the cell in its killer, of which it is the lower end if that lies above.
+      bool is_negative = direction % 2 != 0;
+      for (std::size_t k = 0; k < axis; ++k) is_negative = is_negative != (x[k] % 2 != 0);
+      const std::uint32_t killer = grid_.beside(cell, x[axis], direction);
+      x[axis] = grid_.next(x[axis], direction);
+      const Element a = youngest->coefficient();
+      add_boundary(killer, x, cell, is_negative ? a : field_.negate(a));
+    }
+    return std::nullopt;
+  }
+  /// What it holds, each cell once; to be assigned before it is used again.
+  std::span<const Term> consolidate() { return heap_.consolidate(); }
+
+ private:
+  using Terms = std::pmr::vector<Term>;
+
+  static bool precedes(CellGrid::Name a, CellGrid::Name b) { return a < b; }
+  void count(std::size_t steps) {
+    constexpr std::size_t many = 4096;
+    if ((steps_ += steps + 1) < many) return;
+    steps_ = 0;
+    context_.poll();
+  }
+  // Adds `scale` times the boundary of a cell, but for the facet `skip`. @param at where it is.
+  void add_boundary(std::uint32_t cell, const CellGrid::Coordinates& at, std::uint32_t skip,
+                    Element scale) {
+    count(1);
+    heap_.add([&](Terms& terms) {
+      grid_.for_each_facet(
+          cell, at, [&](std::uint32_t facet, const CellGrid::Coordinates& x, int incidence) {
+            if (facet == skip || grid_.mark(facet).kills()) return;
+            terms.emplace_back(grid_.name(facet, x), incidence > 0 ? scale : field_.negate(scale));
+          });
+    });
+  }
+
+  const CellGrid& grid_;
+  const K& field_;
+  const RunContext& context_;
+  std::size_t steps_ = 0;  // since the last look at the stop token
+  ChainHeap<K, Term, &BoundaryColumn::precedes> heap_;
+};
+
+}  // namespace ph::cubical

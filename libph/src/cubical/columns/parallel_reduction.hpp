@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <memory_resource>
+#include <mutex>
+#include <new>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "ph/detail/field.hpp"
+#include "ph/detail/parallel.hpp"
+
+namespace ph::cubical {
+
+/// Columns of a boundary matrix, reduced by adding older ones only. Several threads reduce columns
+/// at a time; who has an older column's pivot takes it, and the younger column is reduced further
+/// in the next round (Morozov & Nigmetov, Towards lockfree persistent homology, 2020). The pairs do
+/// not depend on who comes first. Each step of a column reads memory anywhere, so a thread works on
+/// some columns in turns and asks for what the next step will read.
+/// @tparam Chain a working column, such as BoundaryColumn.
+template <Field K, class Chain>
+class ParallelReduction {
+ public:
+  using Term = typename Chain::Term;
+  /// The boundary of a cell and what was added to it, as far as it was followed. What is below its
+  /// pivot lies behind it in memory: who finds it by its pivot has it all.
+  class Column {
+   public:
+    Column(const Term& pivot, std::uint32_t number, std::uint32_t size)
+        : pivot_(pivot), number_(number), size_(size) {}
+    const Term& pivot() const { return pivot_; }
+    std::uint32_t number() const { return number_; }
+    std::span<const Term> below() const { return {reinterpret_cast<const Term*>(this + 1), size_}; }
+
+   private:
+    Term pivot_;
+    std::uint32_t number_, size_;
+  };
+
+  /// @param size columns, from old to young.
+  ParallelReduction(std::size_t size, const K& field, const RunContext& context)
+      : field_(field), context_(context), columns_(size, nullptr, &context.memory) {}
+
+  /// @param piece columns that a thread takes at a time.
+  /// @param make_chain called for a working column.
+  /// @param assign_boundary called with (chain, column): makes it the boundary of the column's
+  /// cell.
+  /// @param owner_of called with a pivot's cell: where its column is noted, null at first.
+  /// @param expect_owner called some time before `owner_of`: what that will read may be prefetched.
+  /// @param arrange called with the columns of a round: may bring them into another order.
+  template <class MakeChain, class AssignBoundary, class OwnerOf, class ExpectOwner, class Arrange>
+  void run(std::string_view stage, std::size_t piece, MakeChain&& make_chain,
+           AssignBoundary&& assign_boundary, OwnerOf&& owner_of, ExpectOwner&& expect_owner,
+           Arrange&& arrange) {
+    std::pmr::vector<std::uint32_t> round(columns_.size(), &context_.memory);
+    std::iota(round.begin(), round.end(), 0U);
+    const auto take_pivot = [&](Lane& lane) {
+      lane.pivot = lane.chain.take_pivot();
+      return expect(lane, expect_owner);
+    };
+    const auto begin_with = [&](Lane& lane, std::uint32_t i) {
+      lane.column = i;
+      const Column* const own = std::exchange(columns_[i], nullptr);
+      if (own == nullptr) {
+        assign_boundary(lane.chain, i);
+        return take_pivot(lane);
+      }
+      lane.chain.assign(own->below());
+      lane.pivot = own->pivot();
+      return expect(lane, expect_owner);
+    };
+    while (!round.empty()) {
+      arrange(std::span(round));
+      for_each_piece(stage, round.size(), piece, context_, [&](std::size_t begin, std::size_t end) {
+        Worker& worker = take_worker(make_chain);
+        for (bool is_busy = true; is_busy;) {
+          is_busy = false;
+          for (Lane& lane : worker.lanes) {
+            if (lane.is_busy) lane.is_busy = advance(lane, worker, owner_of, take_pivot);
+            while (!lane.is_busy && begin < end) lane.is_busy = begin_with(lane, round[begin++]);
+            is_busy = is_busy || lane.is_busy;
+          }
+        }
+        const std::lock_guard lock(mutex_);
+        idle_.push_back(&worker);
+      });
+      round.clear();
+      for (const auto& worker : workers_) {
+        round.insert(round.end(), worker->again.begin(), worker->again.end());
+        worker->again.clear();
+      }
+      std::ranges::sort(round);
+    }
+  }
+
+  /// Those that have run; null: zero.
+  std::span<const Column* const> columns() const { return columns_; }
+
+ private:
+  // A column that is being reduced.
+  struct Lane {
+    Chain chain;
+    bool is_busy = false;
+    std::uint32_t column = 0;
+    std::optional<Term> pivot{};
+    enum class Step : std::uint8_t { find_owner, read_owner, use_owner } next{};
+    const Column** owner = nullptr;  // where the column of the pivot is noted
+    const Column* older = nullptr;   // that column
+  };
+  static constexpr std::size_t kLanes = 8;
+
+  // What a thread has to itself. Columns stay where they are: others read them.
+  struct Worker {
+    using Unit = std::uint64_t;
+    static_assert(alignof(Column) <= alignof(Unit) && sizeof(Column) % sizeof(Unit) == 0 &&
+                  sizeof(Term) % sizeof(Unit) == 0 && std::is_trivially_copyable_v<Term>);
+
+    std::vector<Lane> lanes{};
+    std::vector<std::pmr::vector<Unit>> kept{};
+    std::vector<std::uint32_t> again{};  // lost their pivots
+
+    const Column* keep(const Term& pivot, std::uint32_t number, std::span<const Term> below,
+                       std::pmr::memory_resource* memory) {
+      constexpr std::size_t block = 1 << 15;
+      const std::size_t units = (sizeof(Column) + below.size_bytes()) / sizeof(Unit);
+      if (kept.empty() || kept.back().capacity() - kept.back().size() < units)
+        kept.emplace_back(memory).reserve(std::max(block, units));
+      auto& into = kept.back();
+      into.resize(into.size() + units);
+      auto* const column = new (into.data() + into.size() - units)
+          Column(pivot, number, static_cast<std::uint32_t>(below.size()));
+      std::uninitialized_copy(below.begin(), below.end(), reinterpret_cast<Term*>(column + 1));
+      return column;
+    }
+  };
+  template <class MakeChain>
+  Worker& take_worker(MakeChain&& make_chain) {
+    const std::lock_guard lock(mutex_);
+    if (idle_.empty()) {
+      workers_.push_back(std::make_unique<Worker>());
+      for (std::size_t i = 0; i < kLanes; ++i) workers_.back()->lanes.push_back({make_chain()});
+      return *workers_.back();
+    }
+    Worker& worker = *idle_.back();
+    idle_.pop_back();
+    return worker;
+  }
+
+  // Whether the column has a pivot, for which to look.
+  template <class ExpectOwner>
+  static bool expect(Lane& lane, ExpectOwner&& expect_owner) {
+    if (!lane.pivot) return false;
+    expect_owner(lane.pivot->cell);
+    lane.next = Lane::Step::find_owner;
+    return true;
+  }
+  // The next step of a column. @return whether there are more.
+  template <class OwnerOf, class TakePivot>
+  bool advance(Lane& lane, Worker& worker, OwnerOf&& owner_of, TakePivot&& take_pivot) {
+    using Step = typename Lane::Step;
+    if (lane.next == Step::find_owner) {
+      lane.owner = &owner_of(lane.pivot->cell);
+      __builtin_prefetch(lane.owner, 1);
+      lane.next = Step::read_owner;
+      return true;
+    }
+    if (lane.next == Step::read_owner) {
+      lane.older = std::atomic_ref(*lane.owner).load(std::memory_order_acquire);
+      if (lane.older != nullptr) __builtin_prefetch(lane.older);
+      lane.next = Step::use_owner;
+      return true;
+    }
+    const auto has_older = [&] {
+      return lane.older != nullptr && lane.older->number() < lane.column;
+    };
+    if (!has_older()) {
+      const Column* const kept =
+          worker.keep(*lane.pivot, lane.column, lane.chain.consolidate(), &context_.memory);
+      const std::atomic_ref owner(*lane.owner);
+      while (!has_older()) {
+        if (!owner.compare_exchange_weak(lane.older, kept, std::memory_order_acq_rel)) continue;
+        columns_[lane.column] = kept;
+        if (lane.older != nullptr) worker.again.push_back(lane.older->number());
+        return false;
+      }
+      lane.chain.assign(kept->below());  // an older one came first
+    }
+    lane.chain.add(
+        field_.negate(field_.multiply(lane.pivot->coefficient(),
+                                      field_.inverse(lane.older->pivot().coefficient()))),
+        lane.older->below());
+    return take_pivot(lane);
+  }
+
+  const K& field_;
+  const RunContext& context_;
+  std::pmr::vector<const Column*> columns_;
+  std::mutex mutex_;  // for what follows
+  std::vector<std::unique_ptr<Worker>> workers_;
+  std::vector<Worker*> idle_;
+};
+
+}  // namespace ph::cubical

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+
+#include "ph/detail/parallel.hpp"
+#include "ph/detail/raw_vector.hpp"
+#include "ph/run_context.hpp"
+
+namespace ph::cubical {
+
+/// Disjoint sets of nodes, each a tree that begins as arrows: a node's parent is where its arrow
+/// leads until paths are halved and roots are linked. Roots have numbers.
+/// @tparam Graph `size()` nodes; `arrow(node)`: the node that it points to. Arrows make no circles
+/// and end at roots.
+template <class Graph>
+class ArrowForest {
+ public:
+  ArrowForest(const Graph& graph, const RunContext& context)
+      : graph_(graph), context_(context), next_(graph.size(), &context.memory) {
+    constexpr std::size_t piece = 1 << 18;
+    for_each_piece("basins", next_.size(), piece, context, [&](std::size_t i, std::size_t end) {
+      std::fill_n(next_.begin() + static_cast<std::ptrdiff_t>(i), end - i, kUnknown);
+    });
+  }
+
+  /// Whether the node is a root, or its arrow has been looked up or replaced.
+  bool is_known(std::uint32_t node) const { return next_[node] != kUnknown; }
+  void set_root(std::uint32_t node, std::uint32_t number) { next_[node] = number | kIsRoot; }
+  /// Hangs a root, or a node that never was asked for, under another node.
+  void link(std::uint32_t node, std::uint32_t to) { next_[node] = to; }
+
+  /// The root that a node hangs under. Several threads may ask while nothing else is done: each
+  /// only makes paths shorter.
+  std::uint32_t find(std::uint32_t node) {
+    std::uint32_t steps = 0;
+    for (std::uint32_t next = after(node); (next & kIsRoot) == 0; next = after(node)) {
+      const std::uint32_t over = after(next);
+      if ((over & kIsRoot) != 0) return next;
+      parent(node).store(over, std::memory_order_relaxed);
+      node = over;
+      if (++steps % 4096 == 0) context_.poll();
+    }
+    return node;
+  }
+  std::uint32_t number_of_root(std::uint32_t root) { return after(root) & ~kIsRoot; }
+
+ private:
+  static constexpr std::uint32_t kIsRoot = std::uint32_t{1} << 31;
+  static constexpr std::uint32_t kUnknown = UINT32_MAX;
+
+  std::atomic_ref<std::uint32_t> parent(std::uint32_t node) { return std::atomic_ref(next_[node]); }
+  std::uint32_t after(std::uint32_t node) {
+    const std::uint32_t next = parent(node).load(std::memory_order_relaxed);
+    if (next != kUnknown) return next;
+    const std::uint32_t arrow = graph_.arrow(node);
+    parent(node).store(arrow, std::memory_order_relaxed);
+    return arrow;
+  }
+
+  const Graph& graph_;
+  const RunContext& context_;
+  RawVector<std::uint32_t> next_;  // a node, or the number of a root
+};
+
+}  // namespace ph::cubical

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <memory_resource>
+#include <optional>
+#include <vector>
+
+#include "cubical/graphs/arrow_forest.hpp"
+#include "cubical/stars/critical_cells.hpp"
+#include "ph/detail/parallel.hpp"
+
+namespace ph::cubical {
+
+/// Links nodes as their arrows say, but for some at the border, where many arrows will be met: all
+/// of them one after another are quicker then.
+template <class Graph>
+void follow_inner_arrows(const StarGrid& grid, const Graph& graph, ArrowForest<Graph>& forest,
+                         const RunContext& context) {
+  constexpr std::uint32_t many = 256;  // of so many voxels one has a critical cell
+  if (grid.critical().size() <= grid.size() / many) return;
+  // Rows that share cells with those before them are looked at twice where a piece begins.
+  const std::uint32_t layer = grid.has_axis(0) ? grid.extent(1) : 1;
+  const std::uint32_t piece = std::max(16 * layer, (1U << 18) / grid.extent(2));
+  for_each_piece("arrows", grid.row_count(), piece, context,
+                 [&](std::size_t begin, std::size_t end) {
+                   graph.for_each_inner_arrow(
+                       static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end),
+                       [&](std::uint32_t node, std::uint32_t to) { forest.link(node, to); });
+                 });
+}
+
+/// The trees that the arrows of a graph make, by the numbers of their roots: first what has always
+/// been there, which has no cell, then critical cells in the order of the grid.
+template <class Graph>
+class Basins {
+ public:
+  Basins(const StarGrid& grid, const Graph& graph, const RunContext& context)
+      : grid_(grid),
+        graph_(graph),
+        context_(context),
+        forest_(graph, context),
+        roots_(&context.memory) {
+    follow_inner_arrows(grid, graph, forest_, context);
+    for (const int part : {0, 1}) forest_.set_root(graph.outside(part), endless_++);
+    if (graph.has_endless()) join_endless();
+    Ticker ticker(context, "roots");
+    for (const std::uint32_t v : grid.critical()) {
+      ticker.work();
+      graph.for_each_root(v, [&](std::uint32_t node, std::uint32_t number) {
+        forest_.set_root(node, endless_ + static_cast<std::uint32_t>(roots_.size()));
+        roots_.push_back({v, number});
+      });
+    }
+  }
+
+  /// How many have always been there.
+  std::uint32_t endless() const { return endless_; }
+  /// The cells of the others.
+  std::pmr::vector<NumberedCell>& roots() { return roots_; }
+  /// In which one a node is. Several threads may ask.
+  std::uint32_t basin_of(std::uint32_t node) { return forest_.number_of_root(forest_.find(node)); }
+
+ private:
+  // Besides the outside; joined as far as it hangs together.
+  void join_endless() {
+    Ticker ticker(context_, "holes", grid_.size());
+    for (std::uint32_t v = 0; v < grid_.size(); ++v) {
+      ticker.tick();
+      if (grid_.enters(v)) continue;
+      std::optional<std::uint32_t> root;
+      graph_.for_each_endless(v, [&](std::uint32_t node) {
+        if (!forest_.is_known(node)) return;
+        const std::uint32_t own = forest_.find(node);
+        if (!root) root = own;
+        if (own == *root) return;
+        // The outside comes first, whatever it is joined to.
+        const bool is_first = forest_.number_of_root(own) < forest_.number_of_root(*root);
+        forest_.link(is_first ? *root : own, is_first ? own : *root);
+        if (is_first) root = own;
+      });
+      graph_.for_each_endless(v, [&](std::uint32_t node) {
+        if (forest_.is_known(node)) return;
+        if (root)
+          forest_.link(node, *root);
+        else
+          forest_.set_root(*(root = node), endless_++);
+      });
+    }
+  }
+
+  const StarGrid& grid_;
+  const Graph& graph_;
+  const RunContext& context_;
+  ArrowForest<Graph> forest_;
+  std::pmr::vector<NumberedCell> roots_;
+  std::uint32_t endless_ = 0;
+};
+
+}  // namespace ph::cubical

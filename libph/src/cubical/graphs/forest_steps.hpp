@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "cubical/graphs/top_graph.hpp"
+#include "cubical/graphs/voxel_graph.hpp"
+
+namespace ph::cubical {
+
+// The two graphs as graphs of vertices and edges of the input: voxels and the edges between them in
+// the V-construction, top cells and facets of the stars' grid in the T-construction, where all axes
+// run backwards.
+
+/// Along an arrow.
+struct ForestStep {
+  StarCell edge;
+  std::uint32_t to;
+  bool from_upper;  ///< whether the edge ends where the step begins
+};
+
+inline int axis_of(const Direction& d) { return d[0] != 0 ? 0 : d[1] != 0 ? 1 : 2; }
+
+/// The voxel in whose star a node is.
+inline std::uint32_t owner_of(const VoxelGraph&, std::uint32_t node) { return node; }
+inline std::uint32_t owner_of(const TopGraph& graph, std::uint32_t node) {
+  return graph.cell(node).voxel;
+}
+
+/// Nothing at a root.
+inline std::optional<ForestStep> step_from(const StarGrid& grid, const VoxelGraph& graph,
+                                           std::uint32_t node) {
+  const std::uint32_t star = grid.star(node);
+  if (StarTables::edges(star) == 0) return std::nullopt;
+  const int number = grid.tables(node).arrow(star);
+  const Direction& d = kEdges[number];
+  return ForestStep{{node, d, 0},
+                    graph.ends(node, static_cast<std::uint32_t>(number))[1],
+                    d[axis_of_edge(number)] < 0};
+}
+inline std::optional<ForestStep> step_from(const StarGrid&, const TopGraph& graph,
+                                           std::uint32_t node) {
+  const StarCell top = graph.cell(node);
+  const std::optional<int> axis = graph.exit_of(top);
+  if (!axis) return std::nullopt;
+  const int side = top.direction[*axis];
+  return ForestStep{{top.voxel, turned(top.direction, *axis, 0), 0},
+                    graph.node(top.voxel, turned(top.direction, *axis, -side)),
+                    side < 0};
+}
+
+/// Where an edge begins and ends.
+inline std::array<std::uint32_t, 2> oriented_ends(const VoxelGraph& graph, const StarCell& edge) {
+  const int number = number_of(edge.direction);
+  const auto [near, far] = graph.ends(edge.voxel, static_cast<std::uint32_t>(number));
+  if (edge.direction[axis_of_edge(number)] > 0) return {near, far};
+  return {far, near};
+}
+inline std::array<std::uint32_t, 2> oriented_ends(const TopGraph& graph, const StarCell& facet) {
+  const auto [low, high] =
+      graph.ends(facet.voxel, static_cast<std::uint32_t>(number_of(facet.direction)));
+  return {high, low};
+}
+
+}  // namespace ph::cubical

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "cubical/stars/star_grid.hpp"
+
+namespace ph::cubical {
+
+/// The cells of the highest dimension (two or three), numbered by their corner that comes first,
+/// and what has always been there: the outside, in two parts where one axis alone has ends, and
+/// cells that never enter. Roots are critical top cells, bridges critical facets, but for edges
+/// that are marked: they are in pairs with voxels. The same as the graph of voxels for the image
+/// turned around.
+class TopGraph {
+ public:
+  static constexpr bool kBackwards = true;
+
+  explicit TopGraph(const StarGrid& grid);
+
+  std::size_t size() const { return std::size_t{count_} + 2; }
+  std::uint32_t outside(int part) const { return count_ + static_cast<std::uint32_t>(part); }
+  Direction root_direction(std::uint32_t n) const { return has_cubes() ? kCubes[n] : kSquares[n]; }
+  Direction bridge_direction(std::uint32_t n) const {
+    return has_cubes() ? kSquares[n] : kEdges[n];
+  }
+
+  /// Out of a cell by the facet that it is paired with. Precondition: the cell enters and is not
+  /// critical.
+  std::uint32_t arrow(std::uint32_t node) const;
+  /// Calls `use(node, node)` for the arrows from the top cells that lie before some rows of voxels,
+  /// but for some at the border.
+  template <class Use>
+  void for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_row, Use&& use) const;
+  /// Whether anything but the outside has always been there.
+  bool has_endless() const { return !grid_.relative() && !grid_.all_enter(); }
+  /// Calls `use(node)` for what hangs together because a voxel never enters: all top cells around
+  /// it.
+  template <class Use>
+  void for_each_endless(std::uint32_t v, Use&& use) const;
+  /// Calls `use(node, number)` for the roots in the star of a voxel, in the order of the grid.
+  template <class Use>
+  void for_each_root(std::uint32_t v, Use&& use) const;
+  /// As in VoxelGraph: the top cells between the ghost layer and the one beside it.
+  std::array<std::uint32_t, 2> seam(bool after) const;
+  std::optional<double> seam_value(std::uint32_t node) const;
+  bool is_known_here(std::uint32_t node) const { return cell(node).direction != Direction{}; }
+  /// What a facet in the star of a voxel joins.
+  std::array<std::uint32_t, 2> ends(std::uint32_t v, std::uint32_t number) const;
+  /// The top cell in a direction from a voxel.
+  std::uint32_t node(std::uint32_t v, const Direction& d) const;
+  /// The star that a top cell is in; one of no direction if it is in none.
+  StarCell cell(std::uint32_t node) const;
+  /// The axis along which a top cell is left; nothing if it is critical.
+  std::optional<int> exit_of(const StarCell& top) const {
+    const int number = number_of(top.direction);
+    const unsigned critical =
+        has_cubes() ? grid_.pair_cubes(top.voxel).critical_cubes()
+                    : grid_.tables(top.voxel).critical_squares(grid_.star(top.voxel), {});
+    if ((critical >> number & 1U) != 0) return std::nullopt;
+    return exit_axis(top.voxel, number);
+  }
+
+ private:
+  bool has_cubes() const { return grid_.top_dim() == 3; }
+  /// The axis along which a top cell is left, by its number in the star of a voxel.
+  int exit_axis(std::uint32_t v, int number) const {
+    if (has_cubes()) return grid_.pair_cubes(v).exit(number);
+    return exit_of_square(grid_.tables(v).edge_of(grid_.star(v), number));
+  }
+  /// That of a square, by the edge that it is paired with.
+  static int exit_of_square(int edge) { return 3 - axis_of_edge(edge); }  // the other of 1, 2
+  /// What a voxel says about the arrows of top cells in its star, see `for_each_inner_arrow`.
+  template <class ExitOf>
+  std::uint32_t arrow_word(unsigned cells, ExitOf&& exit_of) const;
+  /// Whether a top cell at a coordinate, that of its first voxel, and those beside it along the
+  /// axis lie between voxels that follow each other.
+  bool is_inner(int axis, std::uint32_t low) const {
+    const std::uint32_t n = grid_.extent(axis), first = 1 - border_[axis];
+    return low >= first && low < n && n - low > 2 - border_[axis] && !grid_.is_wrapped(axis, low) &&
+           !grid_.is_wrapped(axis, low + 1);
+  }
+  /// Calls `use(voxel, direction from it)` for the corners of a top cell until it returns true.
+  template <class Use>
+  void for_each_corner(std::uint32_t node, Use&& use) const;
+  std::uint32_t outside_beyond(const Direction& d) const;
+  const StarGrid& grid_;
+  std::array<std::uint32_t, 3> extent_{}, stride_{}, border_{};
+  std::array<Divisor, 3> by_extent_;
+  std::uint32_t count_ = 1;
+};
+
+// A voxel tells the cells around it whose star they are in where their arrows lead, in one word:
+// bit 3u + a where it is corner u of a cell that is left along axis a. Corner u of a cell lies
+// u[a] = bit a of u voxels from its first one. So the corners of a cell together say one bit or
+// none, and nothing is decided by a branch that cannot be foretold.
+template <class Use>
+void TopGraph::for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_row,
+                                    Use&& use) const {
+  std::array<std::uint32_t, 24> offset{};  // by bit
+  for (std::uint32_t bit = 0; bit < offset.size(); ++bit) {
+    const std::uint32_t u = bit / 3, a = bit % 3;
+    offset[bit] = (u >> a & 1U) != 0 ? stride_[a] : 0 - stride_[a];
+  }
+  std::vector<std::uint32_t> word_of_squares(has_cubes() ? 0 : 1 << kSquareCount);
+  for (std::uint32_t squares = 0; squares < word_of_squares.size(); ++squares) {
+    const StarTables& tables = star_tables(0);
+    const std::uint32_t star = squares << kSquareShift;
+    word_of_squares[squares] = arrow_word(
+        tables.edge_squares(star), [&](int s) { return exit_of_square(tables.edge_of(star, s)); });
+  }
+  const auto word_of = [&](std::uint32_t v) {
+    const std::uint32_t star = grid_.star(v);
+    if (!has_cubes()) return word_of_squares[StarTables::squares(star)];
+    const CubePairs pairs = grid_.pair_cubes(v);
+    return arrow_word(StarTables::cubes(star) & ~pairs.critical_cubes(),
+                      [&](int c) { return pairs.exit(c); });
+  };
+  // The words of a row and of those before it that share cells with it.
+  const std::uint32_t width = grid_.extent(2), height = grid_.extent(1);
+  const std::uint32_t layers = has_cubes() ? 2 : 1, kept = (layers - 1) * height + 2;
+  std::vector<std::uint32_t> words(std::size_t{kept} * width);
+  const auto words_of = [&](std::uint32_t r) { return &words[std::size_t{r % kept} * width]; };
+  for (std::uint32_t number = first_row - std::min(first_row, kept - 1); number < end_row;
+       ++number) {
+    const StarGrid::Row row = grid_.row(number);
+    std::uint32_t* const own = words_of(number);
+    for (std::uint32_t x = 0; x < width; ++x) own[x] = word_of(row.first + x);
+    if (number < first_row) continue;
+    const std::uint32_t z = row.z - (layers - 1), y = row.y - 1;  // of the cells
+    if (!is_inner(1, y) || (has_cubes() && !is_inner(0, z))) continue;
+    std::array<const std::uint32_t*, 4> voxels{};  // by bits 0 and 1 of u
+    for (std::uint32_t zy = 0; zy < 4; ++zy)
+      if ((zy & 1U) < layers)
+        voxels[zy] = words_of(number - (layers - 1 - (zy & 1U)) * height - (1 - (zy >> 1U)));
+    const auto said_by = [&](std::uint32_t x, std::uint32_t zy) {
+      return (voxels[zy][x] & 7U << 3 * zy) | (voxels[zy][x + 1] & 7U << 3 * (zy | 4U));
+    };
+    std::uint32_t node = (z + border_[0]) * stride_[0] + (y + border_[1]) * stride_[1] + stride_[2];
+    for (std::uint32_t x = 1 - border_[2]; is_inner(2, x); ++x, node += stride_[2]) {
+      std::uint32_t said = said_by(x, 0) | said_by(x, 2);
+      if (layers == 2) said |= said_by(x, 1) | said_by(x, 3);
+      if (said != 0) use(node, node + offset[static_cast<std::size_t>(std::countr_zero(said))]);
+    }
+  }
+}
+
+template <class ExitOf>
+std::uint32_t TopGraph::arrow_word(unsigned cells, ExitOf&& exit_of) const {
+  std::uint32_t word = 0;
+  for (; cells != 0; cells &= cells - 1) {
+    const int n = std::countr_zero(cells);
+    const Direction d = root_direction(static_cast<std::uint32_t>(n));
+    const unsigned u = (d[0] < 0 ? 1U : 0U) | (d[1] < 0 ? 2U : 0U) | (d[2] < 0 ? 4U : 0U);
+    word |= 1U << (3 * u + static_cast<unsigned>(exit_of(n)));
+  }
+  return word;
+}
+
+template <class Use>
+void TopGraph::for_each_endless(std::uint32_t v, Use&& use) const {
+  for (const Direction& d : kCubes) {
+    Direction inside = d;
+    bool is_first = true;  // of those that differ along axes that are not there
+    for (int a = 0; a < 3; ++a)
+      if (!grid_.has_axis(a)) {
+        is_first = is_first && d[a] < 0;
+        inside[a] = 0;
+      }
+    if (is_first) use(node(v, inside));
+  }
+}
+
+template <class Use>
+void TopGraph::for_each_root(std::uint32_t v, Use&& use) const {
+  const std::uint32_t star = grid_.star(v);
+  const StarTables& tables = grid_.tables(v);
+  const auto use_cell = [&](int number) {
+    const auto n = static_cast<std::uint32_t>(number);
+    use(node(v, root_direction(n)), n);
+  };
+  if (!has_cubes())
+    tables.square_order().for_each(tables.critical_squares(star, {}), use_cell);
+  else if (StarTables::cubes(star) == 255)
+    tables.cube_order().for_each(grid_.pair_cubes(v).critical_cubes(), use_cell);
+}
+
+}  // namespace ph::cubical

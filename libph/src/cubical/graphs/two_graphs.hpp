@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "cubical/stars/critical_cells.hpp"
+#include "cubical/pair_sink.hpp"
+#include "cubical/pair_voxels.hpp"
+#include "cubical/stars/star_grid.hpp"
+
+namespace ph::cubical {
+
+/// The lowest dimension of pairs that a bar may come from: periodic axes of one voxel raise it.
+inline int lowest_dim(const GridFrame& frame, const WantedBars& wanted) {
+  return wanted.min_dim - static_cast<int>(frame.loop_count());
+}
+/// Whether bars of three axes are wanted that come from neither graph.
+inline bool wants_loops(const GridFrame& frame, const WantedBars& wanted) {
+  // Around periodic axes classes of all dimensions may live for ever.
+  return frame.top_dim() == 3 && wanted.max_dim > 0 &&
+         (lowest_dim(frame, wanted) <= 1 || frame.any_periodic());
+}
+/// Whether bars are wanted that come from the graph that knows H0: of all others than three axes
+/// any bars.
+inline bool wants_lowest(const GridFrame& frame, const WantedBars& wanted) {
+  return lowest_dim(frame, wanted) <= 0 || frame.top_dim() < 3;
+}
+/// Whether bars are wanted that come from the graph of voxels: H0; turned around the highest ones.
+inline bool wants_vertices(const GridFrame& frame, const WantedBars& wanted) {
+  return frame.relative() ? wanted.max_dim > 0 : wants_lowest(frame, wanted);
+}
+/// The same for the graph of top cells.
+inline bool wants_top_cells(const GridFrame& frame, const WantedBars& wanted) {
+  return frame.relative() ? wants_lowest(frame, wanted) : wanted.max_dim > 0;
+}
+
+/// How many of two tasks a thread takes: both where a thread would cost more than it saves.
+inline std::size_t tasks_at_a_time(const GridFrame& frame) {
+  constexpr std::uint32_t few = 1 << 16;  // voxels
+  return frame.size() < few ? 2 : 1;
+}
+
+/// Components of the sublevel sets: voxels joined by edges, in the order of the stars. Takes the
+/// edges that kill from the order of `edges`, all critical ones.
+void pair_vertices_with_edges(const StarGrid& grid, CriticalCells& edges, const RunContext& context,
+                              PairSink& sink);
+
+/// The same on the dual, backwards: cells of the highest dimension joined by their facets, the
+/// youngest first; what never enters and what is outside has always been there. Takes the facets
+/// that give birth from the order of `facets`, all critical ones that kill nothing. Precondition:
+/// grid.top_dim() >= 2.
+void pair_facets_with_top_cells(const StarGrid& grid, CriticalCells& facets,
+                                const RunContext& context, PairSink& sink);
+
+/// Both, of three axes, side by side if there are threads. @param top_sink receives the second.
+void pair_in_both_graphs(const StarGrid& grid, CriticalCells& edges, CriticalCells& squares,
+                         const RunContext& context, PairSink& sink, PairSink& top_sink);
+
+}  // namespace ph::cubical

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <memory_resource>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cubical/columns/chain_heap.hpp"
+#include "ph/detail/chain.hpp"
+#include "ph/detail/field.hpp"
+#include "ph/detail/radix_sort.hpp"
+#include "ph/run_context.hpp"
+#include "cubical/stars/star_grid.hpp"
+
+namespace ph::cubical {
+
+/// An edge, ordered as in the filtration: by the value of its star, then by name.
+struct LoopEdge {
+  std::uint64_t key;   ///< orders as the value does
+  std::uint64_t name;  ///< (the voxel, the rank of the direction in its star)
+
+  std::uint32_t voxel() const { return static_cast<std::uint32_t>(name >> 3); }
+  double value() const { return from_ordered_bits(key); }
+  int rank() const { return static_cast<int>(name & 7); }
+  friend bool operator==(const LoopEdge& a, const LoopEdge& b) { return a.name == b.name; }
+  static bool precedes(const LoopEdge& a, const LoopEdge& b) {
+    __extension__ using Wide = unsigned __int128;
+    return (Wide{a.key} << 64 | a.name) < (Wide{b.key} << 64 | b.name);
+  }
+};
+
+/// A chain of edges that is being reduced. An edge that is paired inside its star is replaced by
+/// the rest of the boundary of its square when it comes up, so a chain is followed only as far down
+/// as its pivot; edges that kill a component are left out (no column has its pivot there). Not for
+/// several threads at once.
+/// @tparam Stars StarGrid, or StoredStars.
+template <Field K, class Stars>
+class LoopColumn {
+ public:
+  using Element = typename K::Element;
+  using Term = Entry<LoopEdge, K>;
+
+  LoopColumn(const Stars& grid, const K& field, const RunContext& context)
+      : grid_(grid), field_(field), context_(context), heap_(field, &context.memory) {}
+
+  /// Begins anew with the boundary of a square.
+  void assign_boundary(std::uint32_t v, int square) {
+    heap_.clear();
+    heap_.add([&](Terms& terms) { append_boundary(v, square, field_.from_int(1), -1, terms); });
+  }
+  /// Begins anew with a chain.
+  void assign(std::span<const Term> chain) { heap_.assign(chain); }
+  void add(Element scale, std::span<const Term> chain) {
+    count(chain.size());
+    for (const Term& term : chain) grid_.expect_star(term.cell.voxel());
+    heap_.add([&](Terms& terms) {
+      for (const Term& term : chain)
+        terms.emplace_back(term.cell, field_.multiply(scale, term.coefficient()));
+    });
+  }
+  /// Takes out the youngest edge that is in no pair inside its star; nothing if none is left.
+  std::optional<Term> take_pivot() {
+    while (const std::optional<Term> youngest = heap_.take()) {
+      count(1);
+      if (const Term* const next = heap_.next()) grid_.expect_star(next->cell.voxel());
+      const std::uint32_t u = youngest->cell.voxel();
+      const StarTables& tables = grid_.tables(u);
+      const int edge = tables.edge_order().at(youngest->cell.rank());
+      const int s = tables.square_of(grid_.star(u), edge);
+      if (s < 0) return youngest;
+      const auto [first, second] = kEdgesOfSquare[s];
+      const int incidence =
+          edge == second ? -kSquares[s][axis_of_edge(first)] : kSquares[s][axis_of_edge(second)];
+      const Element scale = field_.negate(times(youngest->coefficient(), incidence));
+      heap_.add([&](Terms& terms) { append_boundary(u, s, scale, edge, terms); });
+    }
+    return std::nullopt;
+  }
+  /// What it holds, each edge once; to be assigned before it is used again.
+  std::span<const Term> consolidate() { return heap_.consolidate(); }
+
+ private:
+  using Terms = std::pmr::vector<Term>;
+
+  void count(std::size_t steps) {
+    constexpr std::size_t many = 64;
+    if ((steps_ += steps) < many) return;
+    steps_ = 0;
+    context_.poll();
+    grid_.tidy();
+  }
+  Element times(Element scale, int sign) const { return sign > 0 ? scale : field_.negate(scale); }
+
+  // Appends an edge of a star unless it kills the voxel or a component.
+  void append_in_star(std::uint32_t v, int edge, Element coefficient, Terms& terms) {
+    const std::uint32_t star = grid_.star(v);
+    const StarTables& tables = grid_.tables(v);
+    if (tables.arrow(star) == edge || (star & tables.taken_mark(edge)) != 0) return;
+    const std::uint64_t name =
+        std::uint64_t{v} << 3 | static_cast<std::uint64_t>(tables.edge_order().rank(edge));
+    terms.emplace_back(LoopEdge{ordered_bits(grid_.value(v) + 0.0), name}, coefficient);
+  }
+  // Appends `scale` times the boundary of a square, without the edge `skip` of its voxel if it is
+  // not negative. Incidences as in complex/cubical_cells.ipp.
+  void append_boundary(std::uint32_t v, int square, Element scale, int skip, Terms& terms) {
+    const auto [first, second] = kEdgesOfSquare[square];
+    const int a = axis_of_edge(first), b = axis_of_edge(second);
+    const int at = kSquares[square][a], bt = kSquares[square][b];  // where the square lies
+    if (second != skip) append_in_star(v, second, times(scale, -at), terms);
+    if (first != skip) append_in_star(v, first, times(scale, bt), terms);
+    const std::uint32_t over_a = grid_.step(v, a, at), over_b = grid_.step(v, b, bt);
+    append_far(over_a, over_b, a, at, b, bt, times(scale, at), times(scale, -bt), terms);
+  }
+  // The two edges of a square that do not touch its voxel.
+  void append_far(std::uint32_t over_a, std::uint32_t over_b, int a, int at, int b, int bt,
+                  Element along_b, Element along_a, Terms& terms) {
+    std::uint32_t corner = StarGrid::kOutside;
+    if (over_a != StarGrid::kOutside)
+      corner = grid_.step(over_a, b, bt);
+    else if (over_b != StarGrid::kOutside)
+      corner = grid_.step(over_b, a, at);
+    append_between(over_a, corner, b, bt, along_b, terms);
+    append_between(over_b, corner, a, at, along_a, terms);
+  }
+  // The edge from u to w, one step along an axis; either may be no voxel.
+  void append_between(std::uint32_t u, std::uint32_t w, int axis, int sign, Element coefficient,
+                      Terms& terms) {
+    Direction d{};
+    d[axis] = sign;
+    if (u != StarGrid::kOutside && grid_.enters(u) && (grid_.star(u) & star_bit(d)) != 0) {
+      append_in_star(u, number_of(d), coefficient, terms);
+      return;
+    }
+    d[axis] = -sign;
+    if (w != StarGrid::kOutside && grid_.enters(w))
+      append_in_star(w, number_of(d), coefficient, terms);
+  }
+
+  const Stars& grid_;
+  const K& field_;
+  const RunContext& context_;
+  ChainHeap<K, Term, &LoopEdge::precedes> heap_;
+  std::size_t steps_ = 0;  // since the last look at the stop token
+};
+
+}  // namespace ph::cubical

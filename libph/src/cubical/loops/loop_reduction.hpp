@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <bit>
+#include <concepts>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "cubical/stars/critical_cells.hpp"
+#include "cubical/stars/free_edges.hpp"
+#include "cubical/loops/loop_column.hpp"
+#include "cubical/pair_sink.hpp"
+#include "cubical/columns/parallel_reduction.hpp"
+
+namespace ph::cubical {
+
+/// H1 of three axes: boundaries of the critical squares that are left, reduced to critical edges
+/// that are left. See ParallelReduction; where stars lie in a file, columns are taken along the
+/// grid instead of from old to young.
+/// @tparam Stars StarGrid, whose stars have their marks, or StoredStars.
+template <Field K, class Stars>
+class LoopReduction {
+  using Chain = LoopColumn<K, Stars>;
+  using Reduction = ParallelReduction<K, Chain>;
+
+ public:
+  using Term = typename Reduction::Term;
+  using Column = typename Reduction::Column;
+
+  /// @param squares of which those in the order give birth to nothing.
+  LoopReduction(const Stars& grid, const FreeEdges& free, const CriticalCells& squares,
+                const K& field, const RunContext& context)
+      : grid_(grid),
+        free_(free),
+        squares_(squares),
+        field_(field),
+        context_(context),
+        owners_(free.count(), nullptr, &context.memory),
+        reduction_(squares.order.size(), field, context) {}
+
+  void run(PairSink& sink) {
+    // Threads that come and go would take longer than a few columns do.
+    constexpr std::size_t few = 1024, piece = 64;
+    reduce_all(squares_.order.size() < few ? few : piece);
+    for_each_class([&](const StarCell& edge, const StarCell& square, const Term&,
+                       std::span<const Term>) { sink.pair(1, edge, square); },
+                   [&](const StarCell& square) { sink.essential(2, square); },
+                   [&](const StarCell& edge) { sink.essential(1, edge); });
+  }
+
+  /// Reduces by one thread, so that what columns hold does not depend on who came first.
+  void reduce_in_order() { reduce_all(std::max<std::size_t>(1, squares_.order.size())); }
+  /// Calls `on_pair(edge, square, pivot, rest of the cycle)` for each loop that dies,
+  /// `on_surface(square)` for each column that is zero, `on_loop(edge)` for each loop that never
+  /// dies.
+  template <class OnPair, class OnSurface, class OnLoop>
+  void for_each_class(OnPair&& on_pair, OnSurface&& on_surface, OnLoop&& on_loop);
+
+ private:
+  static constexpr bool kInFile = !std::same_as<Stars, StarGrid>;
+
+  // @param piece columns that a thread takes at a time.
+  void reduce_all(std::size_t piece) {
+    reduction_.run(
+        "loops", piece, [&] { return Chain(grid_, field_, context_); },
+        [&](Chain& column, std::uint32_t i) {
+          const auto [v, square] = squares_.cells[squares_.order[i].cell];
+          column.assign_boundary(v, static_cast<int>(square));
+        },
+        [&](const LoopEdge& pivot) -> const Column*& {
+          return owners_[free_.number(pivot.voxel(), edge_of(pivot))];
+        },
+        [&](const LoopEdge& pivot) { free_.prefetch(pivot.voxel()); },
+        [&](std::span<std::uint32_t> round) {
+          if (kInFile) std::ranges::sort(round, {}, [&](auto i) { return squares_.order[i].cell; });
+        });
+  }
+  int edge_of(const LoopEdge& edge) const {
+    return grid_.tables(edge.voxel()).edge_order().at(edge.rank());
+  }
+
+  const Stars& grid_;
+  const FreeEdges& free_;
+  const CriticalCells& squares_;
+  const K& field_;
+  const RunContext& context_;
+  std::pmr::vector<const Column*> owners_;  // by free edge that is a pivot
+  Reduction reduction_;                     // columns in the order of the squares
+};
+
+template <Field K, class Stars>
+template <class OnPair, class OnSurface, class OnLoop>
+void LoopReduction<K, Stars>::for_each_class(OnPair&& on_pair, OnSurface&& on_surface,
+                                             OnLoop&& on_loop) {
+  const auto columns = reduction_.columns();
+  Ticker ticker(context_, "bars of loops", columns.size());
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    ticker.tick();
+    const auto [value, cell] = squares_.order[i];
+    const StarCell square{squares_.cells[cell].voxel, kSquares[squares_.cells[cell].number], value};
+    if (const Column* const column = columns[i]) {
+      const LoopEdge& edge = column->pivot().cell;
+      on_pair(StarCell{edge.voxel(), kEdges[edge_of(edge)], edge.value()}, square, column->pivot(),
+              column->below());
+    } else {
+      on_surface(square);
+    }
+  }
+  // Free edges that nobody has: loops that never die.
+  auto owner = owners_.begin();
+  free_.for_each([&](std::uint32_t v, unsigned edges) {
+    ticker.work();
+    for (; edges != 0; edges &= edges - 1, ++owner)
+      if (*owner == nullptr) on_loop(StarCell{v, kEdges[std::countr_zero(edges)], grid_.value(v)});
+  });
+}
+
+}  // namespace ph::cubical

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <memory_resource>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "cubical/graphs/basins.hpp"
+#include "cubical/stars/critical_cells.hpp"
+#include "cubical/graphs/elder_forest.hpp"
+#include "ph/detail/raw_vector.hpp"
+
+namespace ph::cubical {
+
+/// When an item is in a component that dies: if it is there at a value before that of the death, or
+/// before the death in the order of the filtration.
+enum class Before { value, order };
+
+/// Persistent components of one of the two graphs of a grid, as `ComponentPairing` has them, with
+/// what it forgets: into which component each of them goes. A component is called by the basin of
+/// the root that is its oldest.
+template <class Graph>
+class ComponentTree {
+ public:
+  struct Merge {
+    std::uint32_t bridge;      ///< in the cells of the bridges
+    std::uint32_t dies, into;  ///< basins
+  };
+
+  /// @param bridges critical cells; those in their order are looked at, and those that join
+  ///        something taken out of it.
+  ComponentTree(const StarGrid& grid, const Graph& graph, CriticalCells& bridges,
+                const RunContext& context)
+      : grid_(grid),
+        graph_(graph),
+        bridges_(bridges.cells),
+        basins_(grid, graph, context),
+        merges_(&context.memory),
+        nodes_(basins_.endless() + basins_.roots().size(), &context.memory) {
+    join(bridges, context);
+  }
+
+  const StarGrid& grid() const { return grid_; }
+  const Graph& graph() const { return graph_; }
+  std::uint32_t basin_count() const { return static_cast<std::uint32_t>(nodes_.size()); }
+  /// In which basin a node is. Several threads may ask.
+  std::uint32_t basin_of(std::uint32_t node) { return basins_.basin_of(node); }
+  /// Whether the component has always been there.
+  bool is_endless(std::uint32_t basin) const { return basin < basins_.endless(); }
+  bool dies(std::uint32_t basin) const { return nodes_[basin].parent != basin; }
+  /// Into which one a component goes; itself if into none.
+  std::uint32_t parent(std::uint32_t basin) const { return nodes_[basin].parent; }
+  double death_value(std::uint32_t basin) const { return nodes_[basin].death; }
+  /// In the order in which they happen.
+  std::span<const Merge> merges() const { return merges_; }
+
+  /// The component that holds an item from where it enters on: the first one, from that of the
+  /// basin upwards, whose death does not come before.
+  std::uint32_t holder(std::uint32_t basin, double value, std::uint32_t voxel,
+                       Before before) const {
+    const auto holds = [&](std::uint32_t b) {
+      const Node& node = nodes_[b];
+      if (node.parent == b) return true;
+      if (node.death != value) return Graph::kBackwards ? node.death < value : node.death > value;
+      if (before == Before::value) return false;
+      return Graph::kBackwards ? node.death_voxel <= voxel : node.death_voxel >= voxel;
+    };
+    while (!holds(basin)) {
+      const std::uint32_t far = nodes_[basin].jump;
+      basin = holds(far) ? nodes_[basin].parent : far;
+    }
+    return basin;
+  }
+
+  /// Precondition: the component has not always been there.
+  StarCell root_cell(std::uint32_t basin) {
+    const auto [voxel, number] = basins_.roots()[basin - basins_.endless()];
+    return {voxel, graph_.root_direction(number), grid_.value(voxel)};
+  }
+  StarCell bridge_cell(std::uint32_t bridge) const {
+    const auto [voxel, number] = bridges_[bridge];
+    return {voxel, graph_.bridge_direction(number), grid_.value(voxel)};
+  }
+  /// The two nodes that a bridge joins.
+  std::array<std::uint32_t, 2> ends(std::uint32_t bridge) const {
+    return graph_.ends(bridges_[bridge].voxel, bridges_[bridge].number);
+  }
+
+ private:
+  struct Node {
+    double death;
+    std::uint32_t death_voxel;
+    std::uint32_t parent;       // itself if it never dies
+    std::uint32_t jump, depth;  // far up (Myers, An applicative random-access stack, 1983)
+  };
+
+  void join(CriticalCells& bridges, const RunContext& context) {
+    ElderForest<Graph::kBackwards> forest(
+        basins_.endless(), basins_.roots().size(),
+        [&](std::size_t i) { return grid_.value(basins_.roots()[i].voxel); }, context);
+    for (std::uint32_t b = 0; b < nodes_.size(); ++b) nodes_[b] = {0, 0, b, b, 0};
+    auto& order = bridges.order;
+    Ticker ticker(context, "components", order.size());
+    const std::size_t size = order.size();
+    const auto place = [size](std::size_t i) { return Graph::kBackwards ? size - 1 - i : i; };
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      ticker.tick();
+      const CriticalCells::Place bridge = order[place(i)];
+      const auto [from, to] = ends(bridge.cell);
+      const std::uint32_t a = forest.find(basin_of(from)), b = forest.find(basin_of(to));
+      if (a == b) {
+        order[place(kept++)] = bridge;
+        continue;
+      }
+      const std::uint32_t dies = forest.join(a, b), into = dies == a ? b : a;
+      merges_.push_back({bridge.cell, dies, into});
+      Node& node = nodes_[dies];
+      node.death = bridge.value;
+      node.death_voxel = bridges_[bridge.cell].voxel;
+      node.parent = into;
+    }
+    if (Graph::kBackwards)
+      order.erase(order.begin(), order.end() - static_cast<std::ptrdiff_t>(kept));
+    else
+      order.resize(kept);
+    for (std::size_t i = merges_.size(); i-- > 0;) {  // who dies later comes first
+      Node& node = nodes_[merges_[i].dies];
+      const Node &up = nodes_[node.parent], &far = nodes_[up.jump];
+      node.depth = up.depth + 1;
+      node.jump =
+          up.depth - far.depth == far.depth - nodes_[far.jump].depth ? far.jump : node.parent;
+    }
+  }
+
+  const StarGrid& grid_;
+  const Graph& graph_;
+  const std::pmr::vector<NumberedCell>& bridges_;
+  Basins<Graph> basins_;
+  std::pmr::vector<Merge> merges_;
+  RawVector<Node> nodes_;
+};
+
+}  // namespace ph::cubical

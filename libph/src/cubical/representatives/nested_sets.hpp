@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "cubical/representatives/component_tree.hpp"
+#include "ph/detail/parallel.hpp"
+#include "ph/detail/raw_vector.hpp"
+
+namespace ph::cubical {
+
+/// What the components of a tree consist of when they die. One set holds another or has nothing in
+/// common with it, so all of them are slices of one array: a component's own items, then the sets
+/// of those that went into it before.
+class NestedSets {
+ public:
+  static constexpr std::uint32_t kNone = UINT32_MAX;
+
+  struct Range {
+    std::size_t begin = 0, end = 0;
+  };
+
+  /// @param holder_of(item) the component that holds an item, see `ComponentTree::holder`, or
+  ///        kNone; asked by several threads.
+  /// @param name(item) what is kept of it.
+  template <class Graph, class HolderOf, class Name>
+  NestedSets(const ComponentTree<Graph>& tree, Before before, std::uint32_t items,
+             HolderOf&& holder_of, Name&& name, const RunContext& context)
+      : holders_(items, &context.memory),
+        ranges_(tree.basin_count(), &context.memory),
+        items_(&context.memory) {
+    constexpr std::size_t piece = 1 << 14;
+    for_each_piece("sets", items, piece, context, [&](std::size_t i, std::size_t end) {
+      for (; i < end; ++i) {
+        std::uint32_t holder = holder_of(static_cast<std::uint32_t>(i));
+        // What has always been there and never dies belongs to no bar.
+        if (holder != kNone && tree.is_endless(holder) && !tree.dies(holder)) holder = kNone;
+        holders_[i] = holder;
+      }
+    });
+    std::pmr::vector<std::uint32_t> own(ranges_.size(), 0, &context.memory);
+    Ticker ticker(context, "sets", 2 * std::uint64_t{items});
+    for (const std::uint32_t holder : holders_) {
+      ticker.tick();
+      if (holder != kNone) ++own[holder];
+    }
+    arrange(tree, before, own, context);
+    std::pmr::vector<std::uint32_t> filled(ranges_.size(), 0, &context.memory);
+    for (std::uint32_t i = 0; i < items; ++i) {
+      ticker.tick();
+      if (const std::uint32_t holder = holders_[i]; holder != kNone)
+        items_[ranges_[holder].begin + filled[holder]++] = name(i);
+    }
+  }
+
+  std::span<const std::uint32_t> items() const { return items_; }
+  /// The set of a component.
+  Range range(std::uint32_t basin) const { return ranges_[basin]; }
+  std::span<const std::uint32_t> set(std::uint32_t basin) const {
+    const auto [begin, end] = ranges_[basin];
+    return std::span(items_).subspan(begin, end - begin);
+  }
+  /// Whether a set holds an item. Not to be asked after `forget_holders`.
+  bool contains(std::uint32_t basin, std::uint32_t item) const {
+    const std::uint32_t holder = holders_[item];
+    if (holder == kNone) return false;
+    const std::size_t place = ranges_[holder].begin;  // of its first own item
+    return place >= ranges_[basin].begin && place < ranges_[basin].end;
+  }
+  /// Gives their memory back.
+  void forget_holders() { RawVector<std::uint32_t>(holders_.get_allocator()).swap(holders_); }
+
+ private:
+  template <class Graph>
+  void arrange(const ComponentTree<Graph>& tree, Before before,
+               const std::pmr::vector<std::uint32_t>& own, const RunContext& context) {
+    const auto merges = tree.merges();
+    std::pmr::vector<std::uint32_t> above(ranges_.size(), kNone, &context.memory);
+    for (std::size_t i = merges.size(); i-- > 0;) {
+      const auto [bridge, dies, into] = merges[i];
+      // Those that die at one value have nothing to do with each other before it.
+      const bool together = before == Before::value && tree.dies(into) &&
+                            tree.death_value(into) == tree.death_value(dies);
+      above[dies] = together ? above[into] : into;
+    }
+    std::pmr::vector<std::size_t> total(own.begin(), own.end(), &context.memory);
+    for (const auto& merge : merges) total[above[merge.dies]] += total[merge.dies];
+    std::size_t next = 0;
+    std::pmr::vector<std::size_t> free(ranges_.size(), 0, &context.memory);
+    const auto place = [&](std::uint32_t basin, std::size_t begin) {
+      ranges_[basin] = {begin, begin + total[basin]};
+      free[basin] = begin + own[basin];
+      return begin + total[basin];
+    };
+    for (std::uint32_t b = 0; b < ranges_.size(); ++b)
+      if (!tree.dies(b)) next = place(b, next);
+    items_.resize(next);
+    for (std::size_t i = merges.size(); i-- > 0;) {
+      std::size_t& begin = free[above[merges[i].dies]];
+      begin = place(merges[i].dies, begin);
+    }
+  }
+
+  RawVector<std::uint32_t> holders_;  // by item
+  std::pmr::vector<Range> ranges_;    // by basin
+  RawVector<std::uint32_t> items_;
+};
+
+}  // namespace ph::cubical

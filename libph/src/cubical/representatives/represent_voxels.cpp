@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: MIT
+#include "cubical/representatives/represent_voxels.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <type_traits>
+
+#include "cubical/representatives/component_tree.hpp"
+#include "cubical/loops/dual_loop_reduction.hpp"
+#include "cubical/representatives/forest_closing.hpp"
+#include "cubical/loops/loop_reduction.hpp"
+#include "cubical/representatives/nested_sets.hpp"
+#include "complex/voxels_in_use.hpp"
+#include "cubical/representatives/represented_pairs.hpp"
+#include "cubical/representatives/separating_cycles.hpp"
+#include "cubical/representatives/torus_surfaces.hpp"
+
+namespace ph::cubical {
+namespace {
+
+/// Whether its nodes are the top cells.
+template <class Graph>
+constexpr bool kIsDual = std::is_same_v<Graph, TopGraph>;
+
+/// The components of a line as V has them, by voxels; in one dimension they are those of T.
+class LineComponents {
+ public:
+  LineComponents(const CubicalImage& image, const RunContext& context)
+      : grid_(with_vertices(image), context),
+        graph_(grid_),
+        edges_(critical_cells(grid_, 1, context)),
+        tree_(grid_, graph_, edges_, context),
+        sets_(
+            tree_, Before::value, grid_.size(),
+            [&](std::uint32_t v) {
+              if (!grid_.enters(v)) return NestedSets::kNone;
+              return tree_.holder(tree_.basin_of(v), grid_.value(v), v, Before::value);
+            },
+            [](std::uint32_t v) { return v; }, context) {}
+
+  const NestedSets& sets() const { return sets_; }
+  /// The component of which a voxel is the oldest one.
+  std::uint32_t born_at(std::uint32_t voxel) { return tree_.basin_of(voxel); }
+
+ private:
+  static CubicalImage with_vertices(CubicalImage image) {
+    image.voxels_are_vertices = true;
+    return image;
+  }
+  StarGrid grid_;
+  VoxelGraph graph_;
+  CriticalCells edges_;
+  ComponentTree<VoxelGraph> tree_;
+  NestedSets sets_;
+};
+
+template <Field K>
+class Representing {
+ public:
+  Representing(const CubicalImage& image, const K& field, int max_dim, Representatives kind,
+               const RunContext& context, const RepresentativeSink& sink)
+      : image_(image),
+        field_(field),
+        context_(context),
+        sink_(sink),
+        only_components_(max_dim == 0),
+        grid_(image, context),
+        pairs_(grid_, field, kind, context, sink) {}
+
+  void run() {
+    if (grid_.top_dim() == 3)
+      run_three_axes();
+    else
+      run_few_axes();
+  }
+
+ private:
+  using Rep = Representation<K>;
+  using Fill = typename RepresentedPairs<K>::Fill;
+
+  void run_few_axes() {
+    CriticalCells edges = critical_cells(grid_, 1, context_);
+    const int top = grid_.top_dim();
+    const bool turned_around = grid_.relative();
+    const VoxelGraph voxels(grid_);
+    if (top < 2) {
+      // The only graph is that of the voxels: of T it is the dual one, with the homology of both.
+      ComponentTree<VoxelGraph> tree(grid_, voxels, edges, context_);
+      if (turned_around) return add_line(tree, edges);
+      add_components(tree);
+      return close_left(tree, edges);
+    }
+    const TopGraph tops(grid_);
+    if (turned_around) {
+      ComponentTree<TopGraph> components(grid_, tops, edges, context_);
+      add_components(components);
+      if (only_components_) return;
+      add_hollows(ComponentTree<VoxelGraph>(grid_, voxels, edges, context_));
+      close_left(components, edges);
+    } else {
+      ComponentTree<VoxelGraph> components(grid_, voxels, edges, context_);
+      add_components(components);
+      if (only_components_) return;
+      add_hollows(ComponentTree<TopGraph>(grid_, tops, edges, context_));
+      close_left(components, edges);
+    }
+  }
+
+  void run_three_axes() {
+    const VoxelGraph voxels(grid_);
+    const TopGraph tops(grid_);
+    CriticalCells edges(&context_.memory), squares(&context_.memory);
+    const bool turned_around = grid_.relative();
+    if (!turned_around || !only_components_) edges = critical_cells(grid_, 1, context_);
+    if (turned_around || !only_components_) squares = critical_cells(grid_, 2, context_);
+    if (turned_around) {
+      ComponentTree<TopGraph> components(grid_, tops, squares, context_);
+      add_components(components);
+      if (only_components_) return;
+      add_hollows(ComponentTree<VoxelGraph>(grid_, voxels, edges, context_));
+      add_loops(components, edges, squares);
+    } else {
+      ComponentTree<VoxelGraph> components(grid_, voxels, edges, context_);
+      add_components(components);
+      if (only_components_) return;
+      add_hollows(ComponentTree<TopGraph>(grid_, tops, squares, context_));
+      mark_paired(grid_, edges);
+      add_loops(components, squares);
+    }
+  }
+
+  // Pairs as `pair_vertices_with_edges` and `pair_facets_with_top_cells` give them.
+  template <class Graph>
+  void add_merge(ComponentTree<Graph>& tree, const ComponentTree<Graph>::Merge& merge,
+                 const Fill& fill) {
+    const StarCell bridge = tree.bridge_cell(merge.bridge);
+    const int top = grid_.top_dim();
+    if (tree.is_endless(merge.dies))
+      pairs_.essential(kIsDual<Graph> ? top - 1 : 1, bridge, fill);
+    else if (kIsDual<Graph>)
+      pairs_.pair(top - 1, bridge, tree.root_cell(merge.dies), fill);
+    else
+      pairs_.pair(0, tree.root_cell(merge.dies), bridge, fill);
+  }
+  template <class Graph, class FillOf>
+  void add_survivors(ComponentTree<Graph>& tree, FillOf&& fill_of) {
+    for (std::uint32_t b = 0; b < tree.basin_count(); ++b)
+      if (!tree.is_endless(b) && !tree.dies(b))
+        pairs_.essential(kIsDual<Graph> ? grid_.top_dim() : 0, tree.root_cell(b), fill_of(b));
+  }
+
+  // H0: of V by the voxels, of T by the top cells of the stars' grid, its vertices.
+  template <class Graph>
+  void add_components(ComponentTree<Graph>& tree) {
+    std::optional<NestedSets> sets;
+    std::size_t stored = 0;
+    if (pairs_.wants_sets()) stored = make_sets(tree, false, sets);
+    Ticker ticker(context_, "bars of components", tree.merges().size());
+    for (const auto& merge : tree.merges()) {
+      ticker.tick();
+      add_merge(tree, merge, [&](Rep& rep) {
+        if (rep.as_set) return give_set(*sets, stored, merge.dies, rep);
+        rep.chain.emplace_back(tree.root_cell(merge.dies), field_.from_int(1));
+        rep.chain.emplace_back(tree.root_cell(merge.into), field_.from_int(-1));
+      });
+    }
+    add_survivors(tree, [&](std::uint32_t b) {
+      return [&, b](Rep& rep) {
+        if (rep.as_set) return give_set(*sets, stored, b, rep);
+        rep.chain.emplace_back(tree.root_cell(b), field_.from_int(1));
+      };
+    });
+  }
+
+  // The highest dimension less one, and the highest: by the dual graph.
+  template <class Graph>
+  void add_hollows(ComponentTree<Graph>&& tree) {
+    std::optional<NestedSets> sets;
+    std::size_t stored = 0;
+    if (pairs_.wants_hollows()) stored = make_sets(tree, true, sets);
+    // What separates is asked for by few bars if sets are wanted.
+    std::unique_ptr<SeparatingCycles<Graph, K>> cycles;
+    const auto separating = [&]() -> SeparatingCycles<Graph, K>& {
+      if (!cycles) cycles = std::make_unique<SeparatingCycles<Graph, K>>(tree, field_, context_);
+      return *cycles;
+    };
+    Ticker ticker(context_, "bars of hollows", tree.merges().size());
+    for (const auto& merge : tree.merges()) {
+      ticker.tick();
+      add_merge(tree, merge, [&](Rep& rep) {
+        if (rep.as_set) give_set(*sets, stored, merge.dies, rep);
+        // No voxel lies towards an end where all that are there are in the way.
+        if (rep.voxels.begin != rep.voxels.end) return;
+        separating().append(merge.dies, rep.chain);
+      });
+    }
+    add_survivors(tree, [&](std::uint32_t b) {
+      return [&, b](Rep& rep) { separating().append_all(b, rep.chain); };
+    });
+  }
+
+  // Sets of voxels by value. @return where they begin among all that are kept.
+  template <class Graph>
+  std::size_t make_sets(ComponentTree<Graph>& tree, bool with_absent,
+                        std::optional<NestedSets>& sets) {
+    Direction up{};
+    for (int a = 0; a < 3; ++a) up[a] = grid_.has_axis(a) ? 1 : 0;
+    const auto holder_of = [&](std::uint32_t v) {
+      if (!with_absent && !grid_.enters(v)) return NestedSets::kNone;
+      // All top cells around a voxel are together as soon as it is there.
+      std::uint32_t node = v;
+      if constexpr (kIsDual<Graph>) node = tree.graph().node(v, up);
+      return tree.holder(tree.basin_of(node), grid_.value(v), v, Before::value);
+    };
+    sets.emplace(
+        tree, Before::value, grid_.size(), holder_of,
+        [&](std::uint32_t v) { return grid_.place(v); }, context_);
+    sets->forget_holders();
+    return sink_.store(sets->items());
+  }
+  static void give_set(const NestedSets& sets, std::size_t stored, std::uint32_t basin, Rep& rep) {
+    const auto [begin, end] = sets.range(basin);
+    rep.voxels = {stored + begin, stored + end};
+  }
+
+  // T of one axis, or of none: the graph of the voxels is that of the hollows, which are what lies
+  // between components. The components as voxels are those of V.
+  void add_line(ComponentTree<VoxelGraph>& tree, const CriticalCells& edges) {
+    SeparatingCycles<VoxelGraph, K> cycles(tree, field_, context_);
+    std::optional<LineComponents> line;
+    if (pairs_.wants_sets()) line.emplace(image_, context_);
+    const std::size_t stored = line ? sink_.store(line->sets().items()) : 0;
+    const auto give = [&](const StarCell& birth, Rep& rep) {
+      give_set(line->sets(), stored, line->born_at(grid_.place(birth.voxel)), rep);
+    };
+    for (const auto& merge : tree.merges())
+      add_merge(tree, merge, [&](Rep& rep) {
+        if (rep.as_set) return give(tree.bridge_cell(merge.bridge), rep);
+        cycles.append(merge.dies, rep.chain);
+      });
+    add_survivors(tree, [&](std::uint32_t b) {
+      return [&, b](Rep& rep) {
+        if (rep.as_set && grid_.top_dim() == 0) return give(tree.root_cell(b), rep);
+        cycles.append_all(b, rep.chain);
+      };
+    });
+    // Around a periodic axis.
+    for (const auto& [value, cell] : edges.order) {
+      const StarCell edge{edges.cells[cell].voxel, kEdges[edges.cells[cell].number], value};
+      pairs_.essential(1, edge, [&](Rep& rep) {
+        if (rep.as_set) return give(edge, rep);
+        rep.chain.emplace_back(edge, field_.from_int(1));
+      });
+    }
+  }
+
+  // Classes around periodic axes, if there are two axes at most: edges that are left.
+  template <class Graph>
+  void close_left(ComponentTree<Graph>& tree, const CriticalCells& edges) {
+    if (edges.order.empty() || only_components_) return;
+    ForestClosing<Graph, K> closing(tree, field_, context_);
+    for (const auto& [value, cell] : edges.order) {
+      const StarCell edge{edges.cells[cell].voxel, kEdges[edges.cells[cell].number], value};
+      pairs_.essential(1, edge, [&](Rep& rep) {
+        rep.chain.emplace_back(edge, field_.from_int(1));
+        closing.close(rep.chain);
+      });
+    }
+  }
+
+  // H1 of V, and what is left of H2.
+  void add_loops(ComponentTree<VoxelGraph>& tree, const CriticalCells& squares) {
+    using Reduction = LoopReduction<K, StarGrid>;
+    const FreeEdges free = free_edges(grid_, context_);
+    Reduction reduction(grid_, free, squares, field_, context_);
+    reduction.reduce_in_order();
+    const auto cell_of = [&](const typename Reduction::Term& term) {
+      const std::uint32_t v = term.cell.voxel();
+      return StarCell{v, kEdges[grid_.tables(v).edge_order().at(term.cell.rank())], 0};
+    };
+    add_classes(tree, reduction, cell_of, 2);
+  }
+  // H1 of T.
+  void add_loops(ComponentTree<TopGraph>& tree, const CriticalCells& edges,
+                 const CriticalCells& squares) {
+    DualLoopReduction<K> reduction(grid_, edges, squares, field_, context_);
+    reduction.reduce();
+    const auto cell_of = [&](const typename DualLoopReduction<K>::Term& term) {
+      return reduction.cell(term.cell);
+    };
+    add_classes(tree, reduction, cell_of, 1);
+  }
+  // @param surface the dimension of surfaces in the stars' grid.
+  template <class Graph, class Reduction, class CellOf>
+  void add_classes(ComponentTree<Graph>& tree, Reduction& reduction, CellOf&& cell_of,
+                   int surface) {
+    ForestClosing<Graph, K> closing(tree, field_, context_);
+    const TorusSurfaces<K> surfaces(grid_, field_, context_);
+    reduction.for_each_class(
+        [&](const StarCell& edge, const StarCell& square, const auto& pivot, auto below) {
+          pairs_.pair(1, edge, square, [&](Rep& rep) {
+            rep.chain.emplace_back(cell_of(pivot), pivot.coefficient());
+            for (const auto& term : below)
+              rep.chain.emplace_back(cell_of(term), term.coefficient());
+            closing.close(rep.chain);
+          });
+        },
+        [&](const StarCell& birth) {
+          pairs_.essential(surface, birth, [&](Rep& rep) { surfaces.append(birth, rep.chain); });
+        },
+        [&](const StarCell& birth) {
+          pairs_.essential(3 - surface, birth, [&](Rep& rep) {
+            rep.chain.emplace_back(birth, field_.from_int(1));
+            closing.close(rep.chain);
+          });
+        });
+  }
+
+  const CubicalImage& image_;
+  const K& field_;
+  const RunContext& context_;
+  const RepresentativeSink& sink_;
+  const bool only_components_;
+  StarGrid grid_;
+  RepresentedPairs<K> pairs_;
+};
+
+}  // namespace
+
+bool can_represent_voxels(const CubicalImage& grid) { return GridFrame::can_hold(grid); }
+
+template <Field K>
+void represent_voxels(const CubicalImage& grid, const K& field, int max_dim, Representatives kind,
+                      const RunContext& context, const RepresentativeSink& sink) {
+  const VoxelsInUse voxels_are_read(grid, context);
+  Representing<K>(grid, field, max_dim, kind, context, sink).run();
+}
+
+template void represent_voxels(const CubicalImage&, const Z2&, int, Representatives,
+                               const RunContext&, const RepresentativeSink&);
+template void represent_voxels(const CubicalImage&, const Zp&, int, Representatives,
+                               const RunContext&, const RepresentativeSink&);
+
+}  // namespace ph::cubical

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <memory_resource>
+#include <tuple>
+#include <vector>
+
+#include "cubical/loops/loop_reduction.hpp"
+#include "ph/detail/radix_sort.hpp"
+#include "cubical/stars/stored_stars.hpp"
+
+namespace ph::cubical {
+
+/// What is kept of slabs of three axes for loops: the stars, and the critical edges and squares
+/// that neither graph takes, as they come.
+class SlabLoops {
+ public:
+  SlabLoops(const GridFrame& frame, const RunContext& context)
+      : context_(context), stars_(frame), edges_(&context.memory), squares_(&context.memory) {}
+
+  void add_stars(const StarGrid& slab, std::uint32_t first) { stars_.add(slab, first); }
+  void add_edge(const NumberedCell& edge) { edges_.push_back(edge); }
+  void add_square(double value, const NumberedCell& square) { squares_.push_back({value, square}); }
+  /// The bars of loops, when all slabs have come. @throws Error (resource) if columns do not fit.
+  template <Field K>
+  void pair(const K& field, PairSink& pairs) {
+    const FreeEdges free = free_edges();
+    stars_.mark_all_but(free, context_);
+    const CriticalCells squares = sorted_squares();
+    // A third of what is left for stars and voxels, the rest for columns.
+    const MemoryClaim pages(context_.memory, context_.memory.left() / 3);
+    stars_.let_stay(pages.bytes());
+    LoopReduction<K, StoredStars>(stars_, free, squares, field, context_).run(pairs);
+  }
+
+ private:
+  struct Square {
+    double value;
+    NumberedCell cell;
+  };
+
+  FreeEdges free_edges() {
+    std::ranges::sort(edges_, {}, &NumberedCell::voxel);
+    FreeEdges free(stars_, context_);
+    for (std::size_t i = 0; i < edges_.size();) {
+      const std::uint32_t v = edges_[i].voxel;
+      unsigned numbers = 0;
+      for (; i < edges_.size() && edges_[i].voxel == v; ++i) numbers |= 1U << edges_[i].number;
+      free.add(v, numbers);
+    }
+    free.finish();
+    edges_ = decltype(edges_)(&context_.memory);
+    return free;
+  }
+  CriticalCells sorted_squares() {
+    std::ranges::sort(squares_, {}, [&](const Square& square) {
+      const auto [voxel, number] = square.cell;
+      return std::tuple(voxel, stars_.tables(voxel).square_order().rank(static_cast<int>(number)));
+    });
+    CriticalCells result(&context_.memory);
+    result.cells.reserve(squares_.size());
+    result.order.reserve(squares_.size());
+    for (const auto& [value, cell] : squares_) {
+      result.order.push_back({value, static_cast<std::uint32_t>(result.cells.size())});
+      result.cells.push_back(cell);
+    }
+    squares_ = decltype(squares_)(&context_.memory);
+    radix_sort_by_value(
+        result.order, [](const CriticalCells::Place& place) { return place.value; }, context_);
+    return result;
+  }
+
+  const RunContext& context_;
+  StoredStars stars_;
+  std::pmr::vector<NumberedCell> edges_;
+  std::pmr::vector<Square> squares_;
+};
+
+}  // namespace ph::cubical

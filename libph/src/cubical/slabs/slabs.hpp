@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory_resource>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "ph/detail/file_pages.hpp"
+#include "cubical/stars/star_grid.hpp"
+
+namespace ph::cubical {
+
+/// A grid in slabs of some layers each; the last one may have fewer. If the slowest axis is
+/// periodic, slabs make a ring: there are two at least, and the first and the last one are
+/// neighbours, too.
+class Slabs {
+ public:
+  static bool can_cut(const GridFrame& frame) { return frame.top_dim() >= 2; }
+  /// Precondition: can_cut(frame), layers > 0.
+  Slabs(const GridFrame& frame, std::uint32_t layers, const RunContext& context)
+      : frame_(frame),
+        layers_(std::min(layers, is_ring() ? depth() - 1 : depth())),
+        cube_pairs_(cube_pair_memos(frame, context)),
+        around_(&context.memory),
+        context_(context) {}
+
+  const GridFrame& frame() const { return frame_; }
+  std::uint32_t count() const { return (depth() - 1) / layers_ + 1; }
+  /// The first voxel of the grid of a slab, ghosts included; of the first slab of a ring it would
+  /// be one layer before zero (modulo 2^32).
+  std::uint32_t first_voxel(std::uint32_t slab) const {
+    return (is_first_of_ring(slab) ? std::uint32_t{0} - 1 : begin(slab)) * frame_.layer_size();
+  }
+  /// The stars of a slab, with the layers beside it as ghosts, until it is forgotten.
+  StarGrid stars(std::uint32_t slab) {
+    const CubicalImage part = image(slab);
+    read_.reset();
+    read_.emplace(context_.memory, part.is_in_file ? part.size() * bytes_of(part.type) : 0);
+    return {part,
+            context_,
+            {.is_first = slab == 0,
+             .is_last = slab + 1 == count(),
+             .is_in_ring = is_ring(),
+             .cube_pairs = cube_pairs_}};
+  }
+  /// What was read of the image for a slab may leave the memory.
+  void forget(std::uint32_t slab) {
+    around_ = decltype(around_)(around_.get_allocator());
+    const CubicalImage part = frame_.layers(begin(slab), end(slab));
+    if (part.is_in_file) {
+      // The system maps what lies around a page that is read, too: pages of slabs that are done.
+      constexpr std::ptrdiff_t kMappedAround = 64 << 10;
+      const CubicalImage all = frame_.layers(0, depth());
+      const auto* const begin_of_all = static_cast<const char*>(all.voxels);
+      const auto* const voxels = static_cast<const char*>(part.voxels);
+      const auto bytes = [](const CubicalImage& image) {
+        return static_cast<std::ptrdiff_t>(image.size() * bytes_of(image.type));
+      };
+      const std::ptrdiff_t at = voxels - begin_of_all;
+      const std::ptrdiff_t from = std::max<std::ptrdiff_t>(at - kMappedAround, 0);
+      const std::ptrdiff_t to = std::min(at + bytes(part) + kMappedAround, bytes(all));
+      forget_file_pages(begin_of_all + from, static_cast<std::size_t>(to - from));
+    }
+    read_.reset();
+  }
+
+ private:
+  bool is_ring() const { return frame_.is_periodic(frame_.layer_axis()); }
+  bool is_first_of_ring(std::uint32_t slab) const { return is_ring() && slab == 0; }
+  bool is_last_of_ring(std::uint32_t slab) const { return is_ring() && slab + 1 == count(); }
+  std::uint32_t depth() const { return frame_.extent(frame_.layer_axis()); }
+  // Layers that follow each other.
+  std::uint32_t begin(std::uint32_t slab) const {
+    return std::max(slab * layers_, std::uint32_t{1}) - 1;
+  }
+  std::uint32_t end(std::uint32_t slab) const {
+    return slab + 1 == count() ? depth() : (slab + 1) * layers_ + 1;
+  }
+  // At the ends of a ring what lies together there does not do so in the image: it is copied.
+  CubicalImage image(std::uint32_t slab) {
+    const bool goes_before = is_first_of_ring(slab), goes_after = is_last_of_ring(slab);
+    if (!goes_before && !goes_after) return frame_.layers(begin(slab), end(slab));
+    struct Part {
+      std::uint32_t begin, end;
+    };
+    const Part own{begin(slab), end(slab)}, first{0, 1}, last{depth() - 1, depth()};
+    std::array<Part, 2> parts{goes_before ? last : own, goes_before ? own : first};
+    if (frame_.relative()) std::swap(parts[0], parts[1]);  // as they lie in memory
+    around_.clear();
+    for (const Part& part : parts) {
+      const CubicalImage image = frame_.layers(part.begin, part.end);
+      const std::size_t bytes = image.size() * bytes_of(image.type), before = around_.size();
+      around_.resize(before + bytes);
+      std::memcpy(around_.data() + before, image.voxels, bytes);
+    }
+    CubicalImage image = frame_.layers_of(around_.data(), own.end - own.begin + 1);
+    image.is_in_file = false;
+    return image;
+  }
+
+  const GridFrame& frame_;
+  std::uint32_t layers_;
+  CubePairMemos cube_pairs_;
+  std::pmr::vector<std::byte> around_;
+  const RunContext& context_;
+  std::optional<MemoryClaim> read_;  // of a slab's voxels in a file: in memory while it is seen
+};
+
+}  // namespace ph::cubical

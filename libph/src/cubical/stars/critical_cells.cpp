@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "cubical/stars/critical_cells.hpp"
+
+#include "ph/detail/radix_sort.hpp"
+
+namespace ph::cubical {
+
+CriticalCells critical_cells(const StarGrid& grid, int dim, const RunContext& context) {
+  CriticalCells critical(&context.memory);
+  critical.cells.reserve(grid.critical().size());  // one each, about
+  Ticker ticker(context, {});
+  for (const std::uint32_t v : grid.critical()) {
+    ticker.work();
+    const StarTables& tables = grid.tables(v);
+    const auto add = [&](int number) {
+      critical.cells.push_back({v, static_cast<std::uint32_t>(number)});
+    };
+    if (dim == 1)
+      tables.edge_order().for_each(tables.critical_edges(grid.star(v)), add);
+    else
+      tables.square_order().for_each(tables.critical_squares(grid.star(v), grid.pair_cubes(v)),
+                                     add);
+  }
+  critical.order.resize(critical.cells.size());
+  for (std::uint32_t i = 0; i < critical.cells.size(); ++i)
+    critical.order[i] = {grid.value(critical.cells[i].voxel), i};
+  radix_sort_by_value(
+      critical.order, [](const CriticalCells::Place& place) { return place.value; }, context);
+  return critical;
+}
+
+void mark_paired(StarGrid& grid, const CriticalCells& edges) {
+  std::pmr::vector<bool> is_left(edges.cells.size(), false, edges.cells.get_allocator());
+  for (const CriticalCells::Place& place : edges.order) is_left[place.cell] = true;
+  for (std::size_t i = 0; i < is_left.size(); ++i) {
+    if (is_left[i]) continue;
+    const auto [v, number] = edges.cells[i];
+    grid.mark(v, grid.tables(v).taken_mark(static_cast<int>(number)));
+  }
+}
+
+FreeEdges free_edges(const StarGrid& grid, const RunContext& context) {
+  FreeEdges free(grid, context);
+  for (const std::uint32_t v : grid.critical())
+    free.add(v, grid.tables(v).free_edges(grid.star(v)));
+  free.finish();
+  return free;
+}
+
+}  // namespace ph::cubical

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "cubical/stars/free_edges.hpp"
+#include "ph/run_context.hpp"
+#include "cubical/stars/star_grid.hpp"
+
+namespace ph::cubical {
+
+/// A cell by the star that it is in: the number of its direction there.
+struct NumberedCell {
+  std::uint32_t voxel, number;
+};
+
+/// The cells of one dimension that are not paired inside their stars.
+struct CriticalCells {
+  struct Place {
+    double value;        ///< in the order of the stars
+    std::uint32_t cell;  ///< in `cells`
+  };
+  std::pmr::vector<NumberedCell> cells;  ///< in the order of the grid
+  std::pmr::vector<Place> order;         ///< those in no pair yet, by (value, place in the grid)
+
+  explicit CriticalCells(std::pmr::memory_resource* memory) : cells(memory), order(memory) {}
+};
+
+/// @param dim 1 or 2.
+CriticalCells critical_cells(const StarGrid& grid, int dim, const RunContext& context);
+/// Marks in the stars of three axes the edges that are no longer in the order.
+void mark_paired(StarGrid& grid, const CriticalCells& edges);
+/// Those of the stars whose other edges are marked.
+FreeEdges free_edges(const StarGrid& grid, const RunContext& context);
+
+}  // namespace ph::cubical

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+#include "cubical/stars/star_grid.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <mutex>
+
+#include "ph/detail/parallel.hpp"
+
+namespace ph::cubical {
+namespace {
+
+constexpr std::uint32_t kBlock = 4096;     // voxels of a row that are looked at together
+constexpr std::uint32_t kPiece = 1 << 16;  // voxels that a thread takes at a time, about
+
+// Whether u is older than v, which is not absent: with and without equality, which the places
+// decide. An absent voxel, NaN, is younger than all in the V-construction and older than all in the
+// T-construction, in which what never enters has always been there.
+template <bool descending, bool absent_is_older>
+struct VoxelAges {
+  template <class T>
+  static bool is_older(T u, T v) {
+    if constexpr (absent_is_older) return descending ? !(u <= v) : !(u >= v);
+    return descending ? u > v : u < v;
+  }
+  template <class T>
+  static bool is_not_younger(T u, T v) {
+    if constexpr (absent_is_older) return descending ? !(u < v) : !(u > v);
+    return descending ? u >= v : u <= v;
+  }
+};
+
+}  // namespace
+
+StarGrid::StarGrid(const CubicalImage& grid, const RunContext& context, const SlabPlace& slab)
+    : GridFrame(grid),
+      context_(context),
+      slab_(slab),
+      stars_(&context.memory),
+      cube_pairs_(slab.cube_pairs),
+      critical_(&context.memory) {
+  if (slab.is_in_ring) be_part_of_ring(slab.is_first ? 1 : UINT32_MAX);
+  if (cube_pairs_ == nullptr) cube_pairs_ = cube_pair_memos(*this, context);
+  stars_.resize(size_);
+  with_voxels(grid.type, grid.voxels, [&]<class T>(const T* voxels) {
+    // The T-construction runs backwards.
+    if (relative_)
+      grid.superlevel ? find_stars<VoxelAges<false, true>>(voxels)
+                      : find_stars<VoxelAges<true, true>>(voxels);
+    else
+      grid.superlevel ? find_stars<VoxelAges<true, false>>(voxels)
+                      : find_stars<VoxelAges<false, false>>(voxels);
+  });
+}
+
+CubePairMemos cube_pair_memos(const GridFrame& frame, const RunContext& context) {
+  auto memos = std::make_shared<std::pmr::vector<CubePairMemo>>(&context.memory);
+  if (frame.top_dim() == 3)
+    for (unsigned wraps = 0; wraps < (frame.any_periodic() ? 8U : 1U); ++wraps)
+      memos->emplace_back(star_tables(wraps), &context.memory);
+  return memos;
+}
+
+template <class Ages, class T>
+std::uint32_t StarGrid::find_one(const T* voxels, std::uint32_t v) const {
+  const auto at = [&](std::uint32_t u) { return voxels[relative_ ? size_ - 1 - u : u]; };
+  std::uint32_t star = 0;
+  const T value = at(v);
+  const auto look = [&](const Direction& d) {
+    std::uint32_t u = v;
+    for (int a = 0; a < 3; ++a) {
+      if (d[a] == 0) continue;
+      if (!axes_[a].exists) return;
+      if (u != kOutside) u = step(u, a, d[a]);
+    }
+    const bool older = u == kOutside        ? relative_
+                       : comes_before(u, v) ? Ages::is_not_younger(at(u), value)
+                                            : Ages::is_older(at(u), value);
+    if (older) star |= star_bit(d);
+  };
+  for (const Direction& d : kEdges) look(d);
+  for (const Direction& d : kSquares) look(d);
+  for (const Direction& d : kCubes) look(d);
+  return star;
+}
+
+// The stars of a part of a row. Inside the row neighbours are at fixed distances: no test, one
+// comparison each, which compilers do for several voxels at a time.
+template <class Ages, class T>
+void StarGrid::find_block(const T* voxels, const Block& block, std::uint32_t* stars) const {
+  const Axis &deep = axes_[0], &high = axes_[1];
+  const std::uint32_t n = axes_[2].extent, first = block.z * deep.stride + block.y * high.stride;
+  const std::uint32_t count = block.end - block.begin;
+  std::fill_n(stars, count, 0U);
+  // From here on x runs as the memory does; in the T-construction that is backwards.
+  const auto block_at = [&](std::uint32_t row) {
+    return relative_ ? voxels + (size_ - row - block.end) : voxels + (row + block.begin);
+  };
+  const T* center = block_at(first);
+  const bool from_border = (relative_ ? block.end == n : block.begin == 0);
+  const bool to_border = (relative_ ? block.begin == 0 : block.end == n);
+  const std::uint32_t x_begin = from_border ? 1 : 0, x_end = count - (to_border ? 1 : 0);
+  const int forward = relative_ ? -1 : 1;
+  for (int dz = -1; dz <= 1; ++dz) {
+    if (dz != 0 && !deep.exists) continue;
+    for (int dy = -1; dy <= 1; ++dy) {
+      if (dy != 0 && !high.exists) continue;
+      std::array<std::uint32_t, 3> bits{};  // by x - 1, x, x + 1 in memory
+      for (int dx = -1; dx <= 1; ++dx)
+        if (const Direction d{dz, dy, dx * forward}; dimension_of(d) != 0)
+          bits[dx + 1] = star_bit(d);
+      std::uint32_t row = first;
+      bool outside = false;
+      const auto move = [&](const Axis& axis, std::uint32_t x, int by) {
+        if (by == 0) return;
+        const bool leaves = by > 0 ? x + 1 == axis.extent : x == 0;
+        outside = outside || (leaves && !axis.periodic);
+        const std::uint32_t to = by > 0 ? (leaves ? 0 : x + 1) : (leaves ? axis.extent : x) - 1;
+        row += (to - x) * axis.stride;  // unsigned, also where it goes down
+      };
+      move(deep, block.z, dz);
+      move(high, block.y, dy);
+      if (outside) {
+        if (relative_)
+          for (std::uint32_t x = 0; x < count; ++x) stars[x] |= bits[0] | bits[1] | bits[2];
+        continue;
+      }
+      const T* other = block_at(row);
+      const auto compare = [&](auto&& is_older_below, auto&& is_older_above) {
+        const std::uint32_t below = bits[0], beside = bits[1], above = bits[2];
+        for (std::uint32_t x = x_begin; x < x_end; ++x) {
+          const T v = center[x];
+          stars[x] |= (is_older_below(other[std::ptrdiff_t{x} - 1], v) ? below : 0U) |
+                      (is_older_above(other[x], v) ? beside : 0U) |
+                      (is_older_above(other[x + 1], v) ? above : 0U);
+        }
+      };
+      // Voxels that come before v are older if they are equal.
+      const auto older = [](T u, T v) { return Ages::is_older(u, v); };
+      const auto not_younger = [](T u, T v) { return Ages::is_not_younger(u, v); };
+      if (row == first) {
+        relative_ ? compare(older, not_younger) : compare(not_younger, older);
+      } else {
+        comes_before(row, first) ? compare(not_younger, not_younger) : compare(older, older);
+      }
+    }
+  }
+  if (relative_) std::reverse(stars, stars + count);
+  if (block.begin == 0) stars[0] = find_one<Ages>(voxels, first);
+  if (block.end == n) stars[count - 1] = find_one<Ages>(voxels, first + n - 1);
+}
+
+template <class Ages, class T>
+void StarGrid::find_stars(const T* voxels) {
+  const std::uint32_t n = axes_[2].extent, high = axes_[1].extent;
+  const std::uint32_t blocks_a_row = (n - 1) / kBlock + 1;
+  const std::size_t blocks = std::size_t{size_ / n} * blocks_a_row;
+  const std::size_t blocks_a_piece = std::max<std::size_t>(1, kPiece / std::min(n, kBlock));
+  // What enters: value <= limit, with the sign that superlevel sets have.
+  const bool superlevel = grid_.superlevel;
+  const double limit = grid_.limit;
+  const bool some_may_not = std::is_floating_point_v<T> || limit < std::numeric_limits<int>::max();
+  const auto enters = [&](T x) {
+    return (superlevel ? -static_cast<double>(x) : static_cast<double>(x)) <= limit;
+  };
+  struct Piece {
+    std::size_t begin;
+    std::pmr::vector<std::uint32_t> found;
+  };
+  std::mutex mutex;
+  std::vector<Piece> pieces;
+  for_each_piece(
+      "stars", blocks, blocks_a_piece, context_, [&](std::size_t begin, std::size_t end) {
+        std::pmr::vector<std::uint32_t> found(&context_.memory);
+        bool all = true;
+        for (std::size_t i = begin; i < end; ++i) {
+          const auto row = static_cast<std::uint32_t>(i / blocks_a_row);
+          const auto x = static_cast<std::uint32_t>(i % blocks_a_row) * kBlock;
+          const Block block{row / high, row % high, x, std::min(n, x + kBlock)};
+          const std::uint32_t first = row * n + block.begin, count = block.end - block.begin;
+          std::uint32_t* stars = stars_.data() + first;
+          const bool is_ghost = this->is_ghost(first);
+          if (is_ghost)
+            std::fill_n(stars, count, 0U);
+          else
+            find_block<Ages>(voxels, block, stars);
+          if (some_may_not) {
+            const T* there = relative_ ? voxels + (size_ - first - count) : voxels + first;
+            bool block_enters = true;
+            for (std::uint32_t k = 0; k < count; ++k) block_enters &= enters(there[k]);
+            if (!block_enters)
+              for (std::uint32_t k = 0; k < count; ++k)
+                if (!enters(there[k])) stars[relative_ ? count - 1 - k : k] = kAbsent;
+            all = all && block_enters;
+          }
+          if (is_ghost) continue;
+          // Written first, counted afterwards: which voxels are critical cannot be foretold.
+          std::size_t next = found.size();
+          found.resize(next + count);
+          for (std::uint32_t k = 0; k < count; ++k) {
+            if (stars[k] == kAbsent) continue;
+            const StarTables& tables = this->tables(first + k);
+            stars[k] = tables.closed(stars[k]);
+            found[next] = first + k;
+            next += tables.has_critical(stars[k]) ? 1 : 0;
+          }
+          found.resize(next);
+          context_.poll();
+        }
+        const std::lock_guard lock(mutex);
+        all_enter_ = all_enter_ && all;
+        pieces.push_back({begin, std::move(found)});
+      });
+  std::ranges::sort(pieces, {}, &Piece::begin);
+  std::size_t count = 0;
+  for (const Piece& piece : pieces) count += piece.found.size();
+  critical_.reserve(count);
+  for (Piece& piece : pieces) {
+    critical_.insert(critical_.end(), piece.found.begin(), piece.found.end());
+    piece.found = std::pmr::vector<std::uint32_t>(&context_.memory);
+  }
+}
+
+}  // namespace ph::cubical

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <cstring>
+
+#include "cubical/stars/free_edges.hpp"
+#include "ph/detail/file_pages.hpp"
+#include "cubical/slabs/slabs.hpp"
+
+namespace ph::cubical {
+
+/// The stars of a grid in a temporary file, to be looked at anywhere once they are all there.
+class StoredStars : public GridFrame {
+ public:
+  explicit StoredStars(const GridFrame& frame)
+      : GridFrame(frame), file_(std::size_t{size()} * sizeof(std::uint32_t)) {}
+
+  /// Keeps the stars of a slab, but for its ghosts. @param first its first voxel, ghosts included.
+  void add(const StarGrid& slab, std::uint32_t first) {
+    std::uint32_t begin = 0, end = slab.size();
+    while (begin < end && slab.is_ghost(begin)) begin += layer_size();
+    while (begin < end && slab.is_ghost(end - 1)) end -= layer_size();
+    std::uint32_t* const to = stars() + (first + begin);  // modulo 2^32
+    std::memcpy(to, slab.stars().data() + begin, std::size_t{end - begin} * sizeof(*to));
+    forget_file_pages(to, std::size_t{end - begin} * sizeof(*to));
+  }
+  /// Marks the critical edges that are not free: they kill a component.
+  void mark_all_but(const FreeEdges& free, const RunContext& context) {
+    Ticker ticker(context, "marks", size());
+    constexpr std::uint32_t block = 1 << 20;
+    for (std::uint32_t v = 0; v < size(); ++v) {
+      ticker.tick();
+      if (v % block == 0) forget_file_pages(file_.data(), file_.size());
+      std::uint32_t& star = stars()[v];
+      if (star == kAbsent) continue;
+      const StarTables& tables = this->tables(v);
+      const unsigned critical = tables.critical_edges(star);
+      if (critical == 0) continue;
+      tables.edge_order().for_each(critical & ~free.edges(v),
+                                   [&](int edge) { star |= tables.taken_mark(edge); });
+    }
+  }
+  /// Bytes of files that may be in memory, about, while stars and voxels are looked at.
+  void let_stay(std::size_t bytes) { most_ = resident_.bytes() + bytes; }
+
+  std::uint32_t star(std::uint32_t v) const { return stars()[v]; }
+  void expect_star(std::uint32_t v) const { __builtin_prefetch(stars() + v); }
+  bool enters(std::uint32_t v) const { return star(v) != kAbsent; }
+  /// To be called now and then, by any thread: what has come into memory may have to leave.
+  void tidy() const {
+    if (resident_.bytes() <= most_) return;
+    forget_file_pages(file_.data(), file_.size());
+    if (grid_.is_in_file) forget_file_pages(grid_.voxels, grid_.size() * bytes_of(grid_.type));
+  }
+
+ private:
+  std::uint32_t* stars() { return reinterpret_cast<std::uint32_t*>(file_.data()); }
+  const std::uint32_t* stars() const {
+    return reinterpret_cast<const std::uint32_t*>(file_.data());
+  }
+
+  ScratchFile file_;
+  ResidentFiles resident_;
+  std::size_t most_ = SIZE_MAX;
+};
+
+}  // namespace ph::cubical

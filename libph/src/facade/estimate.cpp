@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "ph/estimate.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "rips/clique_count.hpp"
+#include "facade/memory_forecast.hpp"
+#include "ph/edge_collapse.hpp"
+#include "facade/choice.hpp"
+
+namespace ph {
+namespace {
+
+// An estimate may collapse that many edges: beyond, the collapse takes more than a second or so.
+constexpr std::size_t kFewEdges = 300'000;
+
+template <Filtration F>
+std::vector<double> cells_of(const F& filtration, int top, const RunContext& context) {
+  prepare_cells(filtration, context);
+  std::vector<double> cells;
+  for (int d = 0; d <= std::min(top, filtration.top_dim()); ++d) {
+    double count = 0;
+    filtration.for_each_cell(d, [&](const auto&) { ++count; });
+    cells.push_back(count);
+  }
+  return cells;
+}
+
+/// What the complex holds when the engine is at work.
+double stored_bytes(const Cubical& cubical, Engine engine) {
+  const auto voxels = static_cast<double>(cubical.cubical_image().size());
+  const auto held = static_cast<double>(cubical.voxel_bytes());
+  if (cubical.slot_count() == 0 || engine == Engine::arrows) return held;
+  return held + 4 * static_cast<double>(cubical.slot_count()) + 8 * voxels;
+}
+double stored_bytes(const ExplicitComplex& complex, Engine) {
+  double entries = 0;
+  for (int d = 1; d <= complex.top_dim(); ++d) {
+    complex.for_each_cell(d, [&](const auto& c) {
+      complex.for_each_facet(d, c, [&](const auto&, int) { ++entries; });
+    });
+  }
+  return 44 * static_cast<double>(complex.size()) + 16 * entries;
+}
+
+detail::MemoryForecast forecast_voxels(const Cubical& cubical, double held,
+                                       const cubical::WantedBars& wanted, bool with_representatives,
+                                       const RunContext& context) {
+  if (cubical.slot_count() == 0) return detail::forecast_voxels(held, 0, 0, with_representatives);
+  const CubicalImage grid = cubical.cubical_image();
+  detail::MemoryForecast forecast = detail::forecast_voxels(
+      held + cubical::bytes_to_pair_voxels(grid), static_cast<double>(grid.size()),
+      static_cast<double>(cubical.slot_count()), with_representatives);
+  const double left = static_cast<double>(context.memory.left());
+  const bool is_short = forecast.high - held > left || context.slab_layers > 0;
+  if (!is_short || with_representatives) return forecast;
+  forecast.low = held + cubical::least_bytes_to_pair_voxels(grid);
+  constexpr double bytes_of_bars = 8;  // a voxel, of noise
+  if (cubical::can_pair_by_layers(grid, wanted))
+    forecast.high = std::max(std::min(forecast.high, held + left),
+                             forecast.low + bytes_of_bars * static_cast<double>(grid.size()));
+  return forecast;
+}
+
+RunPlan plan_of(const detail::Plan& plan) {
+  RunPlan result;
+  result.engine = plan.choice.engine;
+  result.reason = plan.choice.reason;
+  result.max_dim = plan.max_dim;
+  return result;
+}
+
+template <class Complex>
+RunPlan plan_one(const Complex& complex, const Options& options, const RunContext&) {
+  return plan_of(detail::plan<AllEngines>(complex, options));
+}
+RunPlan plan_one(const Rips& rips, const Options& options, const RunContext& context) {
+  Options rips_options = options;
+  rips_options.max_dim = detail::rips_max_dim(rips, options);
+  const detail::CollapseChoice choice = detail::choose_collapse(rips, rips_options, context);
+  RunPlan result;
+  if (choice.collapses) {
+    result.engine = choice.engine.engine;
+    result.reason = choice.engine.reason;
+    result.max_dim = *rips_options.max_dim;  // the top dimension is not known before the collapse
+  } else {
+    result = rips.with_filtration(*rips_options.max_dim, [&](const auto& f) {
+      return plan_of(detail::plan<AllEngines>(f, rips_options));
+    });
+  }
+  if (rips.has_only_components()) result.reason += "; a spanning forest knows them";
+  result.collapses = choice.collapses;
+  result.collapse_reason = choice.reason;
+  return result;
+}
+
+template <class Complex>
+Estimate estimate_one(const Complex& complex, const Options& options, const RunContext& context) {
+  Estimate e;
+  static_cast<RunPlan&>(e) = plan_one(complex, options, context);
+  e.bytes_held = stored_bytes(complex, e.engine);
+  detail::MemoryForecast forecast;
+  if (e.engine == Engine::arrows) {
+    if constexpr (std::same_as<Complex, Cubical>)
+      forecast = forecast_voxels(complex, e.bytes_held, {options.min_dim, e.max_dim},
+                                 options.representatives != Representatives::none, context);
+  } else {
+    e.cells = cells_of(complex, detail::listed_dim(e.engine, e.max_dim), context);
+    forecast = detail::forecast_cells(e.bytes_held, e.cells);
+  }
+  e.counted_dims = static_cast<int>(e.cells.size());
+  const auto [low, high] = forecast;
+  e.bytes_low = low;
+  e.bytes_high = high;
+  return e;
+}
+
+Estimate estimate_one(const Rips& rips, const Options& options, const RunContext& context) {
+  Estimate e;
+  static_cast<RunPlan&>(e) = plan_one(rips, options, context);
+  const double edges = e.bytes_held = 16 * static_cast<double>(rips.edge_count());
+  double collapse = 0;
+  std::optional<Rips> collapsed;
+  if (e.collapses) {
+    collapse = collapse_bytes(rips.graph()) + edges;
+    if (rips.edge_count() <= kFewEdges) {
+      collapsed = collapse_edges(rips, context);
+      collapse += 64 * static_cast<double>(collapsed->edge_count());
+    } else {
+      e.cells_at_most = true;
+    }
+  }
+  const Rips& complex = collapsed ? *collapsed : rips;
+  const CliqueCounts cliques =
+      count_cliques(complex.graph(), detail::listed_dim(e.engine, e.max_dim), context);
+  e.cells = cliques.counts;
+  e.counted_dims = std::min(cliques.counted_dims, static_cast<int>(e.cells.size()));
+  if (collapsed)  // no cells, no homology
+    e.max_dim = std::min(e.max_dim, std::max(0, static_cast<int>(e.cells.size()) - 1));
+  Options settled = with_plan(options, e);
+  settled.collapse = Collapse::off;
+  const auto [low, high] = detail::forecast_rips(complex, e.cells, settled, context);
+  // The edges before a collapse stay until the end.
+  const double before = collapsed ? edges : 0;
+  e.bytes_low = e.cells_at_most ? collapse : std::max(collapse, low + before);
+  e.bytes_high = std::max(collapse, before + high);
+  return e;
+}
+
+}  // namespace
+
+RunPlan plan(const AnyComplex& complex, const Options& options, const RunContext& context) {
+  return std::visit([&](const auto& c) { return plan_one(c, options, context); }, complex);
+}
+
+Options with_plan(const Options& options, const RunPlan& plan) {
+  Options settled = options;
+  settled.engine = plan.engine;
+  settled.max_dim = plan.max_dim;
+  settled.collapse = plan.collapses ? Collapse::on : Collapse::off;
+  return settled;
+}
+
+Estimate estimate(const AnyComplex& complex, const Options& options, const RunContext& context) {
+  return std::visit([&](const auto& c) { return estimate_one(c, options, context); }, complex);
+}
+
+}  // namespace ph

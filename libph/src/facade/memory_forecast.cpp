@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+#include "facade/memory_forecast.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include "rips/clique_count.hpp"
+#include "facade/all_engines.hpp"
+#include "rips/sweep/lens_graph.hpp"
+
+namespace ph::detail {
+namespace {
+
+// A bar while bars are sorted; its cells, vertex and edge or edge and triangle, come on top.
+constexpr double kBytesPerBar = 24 + 24, kBytesPerCells = 32 + 5 * 8 + 48;
+double bytes_per_bar(const Options& options) {
+  return kBytesPerBar + (options.cells ? kBytesPerCells : 0);
+}
+
+// What small containers, the allocator and the pages of the program's own code come to.
+constexpr double kAlways = 4 << 20;
+// Cells that the engine lists in the larger part that it computes: enough to show how memory grows,
+// few enough for a fraction of the time of the whole, and for seconds.
+constexpr double kPilotEdges = 40'000, kPilotCells = 60'000, kPilotShare = 0.125;
+constexpr double kMostPilotEdges = 4e6, kMostPilotCells = 250'000;
+// Measured: memory grows in leaps, and faster on the whole than from part to part, unless the
+// whole is many such parts side by side.
+constexpr double kMargin = 3, kPowerMargin = 0.35, kPowerMarginOfLocal = 0.1;
+
+double sum(std::span<const double> counts) {
+  return std::accumulate(counts.begin(), counts.end(), 0.0);
+}
+
+/// What does not depend on how the homology turns out, but for the edges: bit rows, adjacency.
+double structure(const Rips& rips, Engine engine) {
+  const auto vertices = static_cast<double>(rips.size());
+  switch (engine) {
+    case Engine::union_find:
+      return 16 * vertices;
+    case Engine::lens:
+      return LensGraph::bytes(static_cast<std::size_t>(rips.size()), rips.edge_count());
+    default:
+      return rips.graph().is_dense() ? 4 * vertices * vertices
+                                     : 16 * static_cast<double>(rips.edge_count()) + 8 * vertices;
+  }
+}
+
+/// A part of a complex: the vertices chosen, all edges between them.
+Rips induced(const Rips& rips, std::span<const std::uint32_t> vertices, const RunContext& context) {
+  constexpr std::uint32_t none = UINT32_MAX;
+  std::pmr::vector<std::uint32_t> number(static_cast<std::size_t>(rips.size()), none,
+                                         &context.memory);
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    number[vertices[i]] = static_cast<std::uint32_t>(i);
+  std::pmr::vector<WeightedEdge> edges(&context.memory);
+  const BinnedEdges& all = rips.graph().binned_edges();
+  all.with_bins(0, all.bin_count(), [&](std::span<const FlagEdge> unsorted) {
+    for (const FlagEdge& e : unsorted) {
+      const std::uint32_t u = number[e.u], v = number[e.v];
+      if (u != none && v != none) edges.push_back({Index{u}, Index{v}, e.value});
+    }
+  });
+  std::vector<double> births;
+  if (!rips.graph().births().empty())
+    for (const std::uint32_t v : vertices) births.push_back(rips.graph().birth(v));
+  // The values of the edges know the births already.
+  const VertexWeights weights(births, WeightExponent::infinity);
+  return Rips(RipsGraph::of_edges(static_cast<Index>(vertices.size()), edges, std::nullopt, context,
+                                  weights));
+}
+
+/// What the engine took in a part beyond `structure` and the bars of H0, and how much it listed.
+struct Pilot {
+  double listed = 0, extra = 0;
+};
+Pilot run_pilot(const Rips& part, double listed, const Options& options,
+                const RunContext& context) {
+  RunContext own;
+  own.stop = context.stop;
+  own.on_progress = context.on_progress;
+  own.threads = 1;
+  own.memory.set_limit(context.memory.limit() -
+                       std::min(context.memory.used(), context.memory.limit()));
+  const Rips copy(RipsGraph::with_edges(
+      part.graph(),
+      FlagEdges(part.graph().edges().begin(), part.graph().edges().end(), &own.memory), own));
+  const Barcode barcode = persistence(copy, options, own);
+  double bars = 0;
+  for (std::size_t i = 0; i < barcode.size(); ++i) bars += barcode[i].dim > 0 ? 1 : 0;
+  const double known =
+      16 * static_cast<double>(copy.edge_count()) + structure(copy, options.engine);
+  return {listed, std::max(0.0, static_cast<double>(own.memory.peak()) - known) +
+                      bytes_per_bar(options) * bars};
+}
+
+double listed_of(const Rips& part, const Options& options, const RunContext& context) {
+  return sum(
+      count_cliques(part.graph(), listed_dim(options.engine, *options.max_dim), context).counts);
+}
+
+/// Orders the vertices so that each beginning of the order is a part like the whole: at random
+/// where most pairs are edges, else around a vertex, breadth first.
+std::vector<std::uint32_t> order_of(const Rips& rips, std::uint64_t seed) {
+  std::vector<std::uint32_t> order(static_cast<std::size_t>(rips.size()));
+  std::iota(order.begin(), order.end(), 0U);
+  std::mt19937_64 random(seed);
+  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
+  if (rips.graph().is_dense()) return order;
+  const RipsAdjacency& adjacency = rips.graph().adjacency();
+  std::vector<std::uint32_t> ball;
+  std::vector<bool> is_in(order.size(), false);
+  std::size_t next = 0;
+  for (const std::uint32_t start : order) {
+    if (is_in[start]) continue;
+    is_in[start] = true;
+    ball.push_back(start);
+    for (; next < ball.size(); ++next)
+      for (const auto& neighbour : adjacency.neighbours(ball[next])) {
+        if (is_in[neighbour.vertex]) continue;
+        is_in[neighbour.vertex] = true;
+        ball.push_back(neighbour.vertex);
+      }
+  }
+  return ball;
+}
+
+/// A beginning of the order in which the engine lists about `wanted` cells, `listed` in all.
+std::size_t pilot_size(const Rips& rips, std::span<const std::uint32_t> order, double listed,
+                       double wanted, const Options& options, const RunContext& context) {
+  std::size_t size = order.size();
+  const int vertices_of_cell = 1 + listed_dim(options.engine, *options.max_dim);
+  while (size > 8 && listed > 1.25 * wanted) {
+    const double step = std::pow(wanted / listed, 1.0 / vertices_of_cell);
+    size = std::max<std::size_t>(
+        8, static_cast<std::size_t>(static_cast<double>(size) * std::clamp(step, 0.1, 0.9)));
+    const Rips part = induced(rips, order.first(size), context);
+    listed = listed_of(part, options, context);
+  }
+  return size;
+}
+
+}  // namespace
+
+int listed_dim(Engine engine, int max_dim) {
+  int dim = max_dim;
+  for_each_engine([&](auto e) {
+    if (e.id == engine) dim = e.listed_dim(max_dim);
+  });
+  return dim;
+}
+
+MemoryForecast forecast_rips(const Rips& rips, std::span<const double> cells,
+                             const Options& options, const RunContext& context) {
+  const double listed = sum(cells);
+  const double edges = 16 * static_cast<double>(rips.edge_count());
+  const double known = edges + structure(rips, options.engine);
+  const double most = known + bytes_per_bar(options) * static_cast<double>(rips.size()) + kAlways;
+  // The lens sweep stops where nothing happens any more; lists are not full by then.
+  const double least = options.engine == Engine::lens ? edges : known;
+  if (rips.has_only_components() || rips.size() < 2) return {least, most};
+  const bool lists_edges_only = listed_dim(options.engine, *options.max_dim) < 2;
+  const double wanted = lists_edges_only
+                            ? std::clamp(kPilotShare * listed, kPilotEdges, kMostPilotEdges)
+                            : std::clamp(kPilotShare * listed, kPilotCells, kMostPilotCells);
+  const auto pilot = [&](std::uint64_t seed, double cells_wanted) {
+    const auto order = order_of(rips, seed);
+    const std::size_t size = pilot_size(rips, order, listed, cells_wanted, options, context);
+    const Rips part = induced(rips, std::span(order).first(size), context);
+    return run_pilot(part, listed_of(part, options, context), options, context);
+  };
+  const Pilot large = pilot(1, wanted);
+  if (large.listed >= listed) return {least, most + 1.25 * large.extra};
+  // extra = listed^power, as smaller parts say; two of them, since storage grows in leaps.
+  Pilot small;
+  for (const std::uint64_t seed : {1, 2}) {
+    const Pilot one = pilot(seed, wanted / 4);
+    small.listed += one.listed / 2;
+    small.extra += one.extra / 2;
+  }
+  double power = 1;
+  if (small.extra > 0 && large.listed > small.listed && small.listed > 0)
+    power = std::log(large.extra / small.extra) / std::log(large.listed / small.listed);
+  power =
+      std::clamp(power, 0.8, 1.6) + (rips.graph().is_dense() ? kPowerMargin : kPowerMarginOfLocal);
+  const double factor = listed / std::max(1.0, large.listed);
+  return {least, most + kMargin * large.extra * std::pow(factor, power)};
+}
+
+MemoryForecast forecast_voxels(double stored, double voxels, double cells,
+                               bool with_representatives) {
+  // Measured: critical cells with their columns, and bars, of noise; these with long chains.
+  const double bytes_per_cell = with_representatives ? 90 : 20;
+  constexpr double least_cells_per_voxel = 8;
+  return {stored,
+          stored + bytes_per_cell * std::max(least_cells_per_voxel * voxels, cells) + kAlways};
+}
+
+MemoryForecast forecast_cells(double stored, std::span<const double> cells) {
+  // A column with its place in the table of pivots and in the list to reduce, or the pair of a
+  // cell; fill-in comes on top.
+  constexpr double bytes_per_column = 128;
+  return {stored, stored + bytes_per_column * sum(cells) + kAlways};
+}
+
+}  // namespace ph::detail

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "ph/merge_tree.hpp"
+
+#include <algorithm>
+#include <concepts>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "ph/cubical.hpp"
+#include "ph/explicit.hpp"
+#include "ph/filtered_graph.hpp"
+#include "ph/rips.hpp"
+#include "ph/barcode.hpp"
+#include "ph/detail/disjoint_sets.hpp"
+#include "ph/error.hpp"
+#include "ph/detail/radix_sort.hpp"
+#include "ph/detail/one_skeleton.hpp"
+
+namespace ph {
+namespace {
+
+// `number` by vertex of the graph: its place among the `size` vertices of the input.
+void renumber(MergeTree& tree, std::span<const Index> number, std::size_t size) {
+  std::vector<double> births(size, kInfinity);
+  for (std::size_t v = 0; v < number.size(); ++v)
+    births[static_cast<std::size_t>(number[v])] = tree.births[v];
+  tree.births = std::move(births);
+  for (Merge& m : tree.merges)
+    for (Index* v : {&m.u, &m.v, &m.elder, &m.younger}) *v = number[static_cast<std::size_t>(*v)];
+}
+
+template <GraphFiltration F>
+MergeTree tree_of(const F& f, const RunContext& context) {
+  const OneSkeleton<F> graph(f, context);
+  MergeTree tree;
+  tree.births.reserve(graph.vertices.size());
+  for (const auto& v : graph.vertices) tree.births.push_back(f.value(v));
+  std::vector<Index> sizes(graph.vertices.size(), 1);
+  join_by_elder_rule(
+      graph.age, graph.ends, context,
+      [&](std::size_t edge, std::uint32_t elder, std::uint32_t younger) {
+        tree.merges.push_back({f.value(graph.edges[edge]), graph.ends[edge].u, graph.ends[edge].v,
+                               elder, younger, sizes[elder], sizes[younger], tree.births[elder],
+                               tree.births[younger]});
+        sizes[elder] += sizes[younger];
+      });
+  // Vertices that never enter keep their numbers.
+  if constexpr (requires { f.vertex_number(graph.vertices[0]); }) {
+    std::vector<Index> number;
+    number.reserve(graph.vertices.size());
+    for (const auto& v : graph.vertices) number.push_back(static_cast<Index>(f.vertex_number(v)));
+    renumber(tree, number, f.vertex_count());
+  }
+  return tree;
+}
+
+}  // namespace
+
+std::vector<Index> MergeTree::components(double value) const {
+  std::vector<Index> parent(births.size());
+  for (std::size_t v = 0; v < births.size(); ++v)
+    parent[v] = births[v] <= value && births[v] < kInfinity ? static_cast<Index>(v) : -1;
+  for (const Merge& m : merges) {
+    if (m.value > value) break;
+    parent[static_cast<std::size_t>(m.younger)] = m.elder;
+  }
+  // A parent was born before its child: follow to the root, halving the path for those to come.
+  for (std::size_t v = 0; v < parent.size(); ++v) {
+    for (Index root = parent[v]; root >= 0;) {
+      Index& up = parent[static_cast<std::size_t>(root)];
+      if (up == root) {
+        parent[v] = root;
+        break;
+      }
+      up = parent[static_cast<std::size_t>(up)];
+      root = up;
+    }
+  }
+  return parent;
+}
+
+std::vector<Index> MergeTree::basins(double min_persistence, Index min_size) const {
+  DisjointSets sets(births.size(), std::pmr::get_default_resource());
+  for (const Merge& m : merges) {
+    if (m.separates(min_persistence, min_size)) continue;
+    sets.link(sets.find(static_cast<std::uint32_t>(m.u)),
+              sets.find(static_cast<std::uint32_t>(m.v)));
+  }
+  std::vector<Index> basins(births.size(), -1);
+  for (std::uint32_t v = 0; v < births.size(); ++v)
+    if (births[v] < kInfinity) basins[v] = sets.find(v);
+  return basins;
+}
+
+std::vector<MergeTree::Class> MergeTree::classes() const {
+  std::vector<Class> classes;
+  classes.reserve(births.size());
+  std::vector<bool> dead(births.size());
+  for (const Merge& m : merges) {
+    classes.push_back({m.younger_birth, m.value, m.younger, static_cast<Index>(classes.size())});
+    dead[static_cast<std::size_t>(m.younger)] = true;
+  }
+  for (std::size_t v = 0; v < births.size(); ++v)
+    if (!dead[v] && births[v] < kInfinity)
+      classes.push_back({births[v], kInfinity, static_cast<Index>(v), -1});
+  // The merges are in the order of deaths, which the sort by birth keeps.
+  radix_sort_by_value(classes, [](const Class& c) { return c.birth + 0.0; });
+  for (auto begin = classes.begin(), end = begin; begin != classes.end(); begin = end) {
+    end = std::find_if(begin, classes.end(), [&](const Class& c) {
+      return c.birth != begin->birth || c.death != begin->death;
+    });
+    std::sort(begin, end, [](const Class& a, const Class& b) { return a.vertex < b.vertex; });
+  }
+  return classes;
+}
+
+std::vector<Branch> MergeTree::branches() const {
+  std::vector<Branch> branches;
+  std::vector<Index> place(births.size(), -1);
+  for (std::size_t v = 0; v < births.size(); ++v) {
+    if (births[v] == kInfinity) continue;
+    place[v] = static_cast<Index>(branches.size());
+    branches.push_back({births[v], kInfinity, -1});
+  }
+  const auto place_of = [&](Index vertex) { return place[static_cast<std::size_t>(vertex)]; };
+  for (const Merge& m : merges) {
+    Branch& younger = branches[static_cast<std::size_t>(place_of(m.younger))];
+    younger.death = m.value;
+    younger.elder = place_of(m.elder);
+  }
+  return branches;
+}
+
+std::vector<LinkageRow> linkage(const MergeTree& tree) {
+  std::vector<Index> cluster(tree.births.size());  // by the vertex that gave birth to it
+  std::iota(cluster.begin(), cluster.end(), Index{0});
+  std::vector<LinkageRow> rows;
+  rows.reserve(tree.merges.size());
+  for (const Merge& m : tree.merges) {
+    Index& elder = cluster[static_cast<std::size_t>(m.elder)];
+    const auto [first, second] = std::minmax({elder, cluster[static_cast<std::size_t>(m.younger)]});
+    rows.push_back({first, second, m.value, m.elder_size + m.younger_size});
+    elder = tree.size() + static_cast<Index>(rows.size()) - 1;
+  }
+  return rows;
+}
+
+MergeTree merge_tree(const Rips& rips, const RunContext& context) {
+  if (rips.graph().has_names())
+    throw Error(ErrorKind::usage,
+                "the merge tree needs all points: do not merge equal ones, choose none of them and "
+                "let the threshold reach all births");
+  return rips.with_filtration(0, [&](const auto& f) { return tree_of(f, context); });
+}
+
+MergeTree merge_tree(const Cubical& cubical, const RunContext& context) {
+  return tree_of(cubical, context);
+}
+
+MergeTree merge_tree(const FilteredGraph& graph, const RunContext& context) {
+  return tree_of(graph, context);
+}
+
+MergeTree merge_tree(const ExplicitComplex& complex, const RunContext& context) {
+  if (!complex.edges_join_vertices()) {
+    throw Error(ErrorKind::usage, "a merge tree needs edges that join two vertices");
+  }
+  return tree_of(complex, context);
+}
+
+}  // namespace ph

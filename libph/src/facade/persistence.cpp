@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "facade/choice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ph/edge_collapse.hpp"
+
+namespace ph {
+namespace {
+
+std::string describe(const Bar& bar) {
+  return fmt::format("H{} [{}, {})", bar.dim, bar.birth, bar.death);
+}
+
+}  // namespace
+
+void detail::check(const Options& options) {
+  const auto at_least_0 = [](std::string_view name, int dim) {
+    if (dim < 0)
+      throw Error(ErrorKind::usage, fmt::format("{}: found {}, expected >= 0", name, dim));
+  };
+  at_least_0("highest dimension", options.max_dim.value_or(0));
+  at_least_0("lowest dimension", options.min_dim);
+  if (std::isnan(options.min_persistence))
+    throw Error(ErrorKind::usage, "least persistence: found nan, expected a number");
+}
+
+int detail::rips_max_dim(const Rips& rips, const Options& options) {
+  const bool only_components = rips.has_only_components();
+  check(options);
+  const int max_dim = options.max_dim.value_or(only_components ? 0 : 1);
+  if (only_components && max_dim > 0) {
+    throw Error(ErrorKind::usage,
+                fmt::format("highest dimension: found {}, expected 0: of this Rips filtration only "
+                            "the components are there",
+                            max_dim));
+  }
+  return max_dim;
+}
+
+Barcode persistence(const Rips& rips, const Options& options, const RunContext& context) {
+  Options rips_options = options;
+  rips_options.max_dim = detail::rips_max_dim(rips, options);
+  const detail::CollapseChoice choice = detail::choose_collapse(rips, rips_options, context);
+  rips_options.collapse = Collapse::off;  // done here or not at all
+  const auto compute = [&](const Rips& complex) {
+    return complex.with_filtration(*rips_options.max_dim, [&](const auto& filtration) {
+      return detail::compute<AllEngines>(filtration, rips_options, context);
+    });
+  };
+  if (!choice.collapses) return compute(rips);
+  rips_options.engine = choice.engine.engine;
+  return compute(collapse_edges(rips, context));
+}
+
+Barcode persistence(const Cubical& cubical, const Options& options, const RunContext& context) {
+  return detail::compute<AllEngines>(cubical, options, context);
+}
+
+Barcode persistence(const ExplicitComplex& complex, const Options& options,
+                    const RunContext& context) {
+  if (!complex.has_incidences() && options.field != 2) {
+    throw Error(ErrorKind::usage,
+                fmt::format("field {}: this boundary matrix has no incidence numbers, which allows "
+                            "field 2 only",
+                            options.field));
+  }
+  return detail::compute<AllEngines>(complex, options, context);
+}
+
+Barcode persistence(const FilteredGraph& graph, const Options& options, const RunContext& context) {
+  return detail::compute<AllEngines>(graph, options, context);
+}
+
+Barcode persistence(const AnyComplex& complex, const Options& options, const RunContext& context) {
+  return std::visit([&](const auto& c) { return persistence(c, options, context); }, complex);
+}
+
+std::string first_difference(const Barcode& a, const Barcode& b) {
+  const auto before = [](const Bar& x, const Bar& y) {
+    return std::tie(x.dim, x.birth, x.death) < std::tie(y.dim, y.birth, y.death);
+  };
+  const auto [x, y] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  if (x == a.end() && y == b.end()) return "";
+  if (y == b.end() || (x != a.end() && before(*x, *y)))
+    return describe(*x) + " is in the first barcode only";
+  return describe(*y) + " is in the second barcode only";
+}
+
+}  // namespace ph

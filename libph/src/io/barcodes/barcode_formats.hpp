@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "ph/io/write.hpp"
+
+namespace ph {
+
+// One function a format; see BarcodeFormat.
+void write_barcode_csv(OutputFile& file, const Barcode& barcode);
+void write_barcode_pers(OutputFile& file, const Barcode& barcode);
+void write_barcode_ripser(OutputFile& file, const Barcode& barcode, int max_dim);
+void write_barcode_json(OutputFile& file, const Barcode& barcode, const BarcodeInfo& info);
+void write_barcode_dipha(OutputFile& file, const Barcode& barcode,
+                         const std::optional<double>& threshold);
+void write_barcode_npy(OutputFile& file, const Barcode& barcode);
+
+}  // namespace ph

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "io/barcodes/barcode_formats.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ph {
+
+std::string shortest(double value) {
+  return fmt::format("{}", value == 0 ? 0.0 : value);  // -0.0 is 0
+}
+
+namespace {
+
+/// As Ripser prints: six significant digits; -0 is 0.
+std::string six_digits(double value) { return fmt::format("{:g}", value == 0 ? 0.0 : value); }
+
+}  // namespace
+
+void write_barcode_csv(OutputFile& file, const Barcode& barcode) {
+  file.write("dim,birth,death\n");
+  for (const Bar& bar : barcode)
+    file.write(fmt::format("{},{},{}\n", bar.dim, shortest(bar.birth), shortest(bar.death)));
+}
+
+void write_barcode_pers(OutputFile& file, const Barcode& barcode) {
+  for (const Bar& bar : barcode)
+    file.write(fmt::format("{} {} {}\n", bar.dim, shortest(bar.birth), shortest(bar.death)));
+}
+
+void write_barcode_ripser(OutputFile& file, const Barcode& barcode, int max_dim) {
+  for (const Bar& bar : barcode) max_dim = std::max(max_dim, bar.dim);
+  for (int dim = 0; dim <= max_dim; ++dim) {
+    file.write(fmt::format("persistence intervals in dim {}:\n", dim));
+    // Ripser prints the infinite ones last.
+    for (const Bar& bar : barcode.bars(dim))
+      if (!bar.is_infinite())
+        file.write(fmt::format(" [{},{})\n", six_digits(bar.birth), six_digits(bar.death)));
+    for (const Bar& bar : barcode.bars(dim))
+      if (bar.is_infinite()) file.write(fmt::format(" [{}, )\n", six_digits(bar.birth)));
+  }
+}
+
+}  // namespace ph

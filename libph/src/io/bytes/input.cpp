@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: MIT
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <memory_resource>
+#include <system_error>
+#include <tuple>
+#include <utility>
+
+#include "ph/detail/reader.hpp"
+#include "io/bytes/unpack.hpp"
+
+namespace ph {
+namespace {
+
+// Files up to this size are copied: cheaper than page faults, and safe against a file that shrinks.
+constexpr std::size_t kMapFrom = std::size_t{16} << 20;
+constexpr std::size_t kFirstChunk = std::size_t{64} << 10;
+constexpr std::size_t kNulProbe = std::size_t{1} << 20;  // of a stream: so many NULs are no data
+constexpr int kPollMilliseconds = 50;  // how soon a waiting read sees a stop request
+
+std::string reason(int error) { return std::generic_category().message(error); }
+
+// Closes what it opened, not standard input.
+class Descriptor {
+ public:
+  Descriptor(int number, bool owned) : number_(number), owned_(owned) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (owned_ && number_ >= 0) ::close(number_);
+  }
+  int get() const { return number_; }
+
+ private:
+  int number_;
+  bool owned_;
+};
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string result = path.extension().string();
+  for (char& c : result) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return result;
+}
+
+std::size_t half_of_memory() {
+  const long pages = ::sysconf(_SC_PHYS_PAGES);
+  const long page_size = ::sysconf(_SC_PAGESIZE);
+  if (pages <= 0 || page_size <= 0) return std::numeric_limits<std::size_t>::max();
+  return static_cast<std::size_t>(pages) / 2 * static_cast<std::size_t>(page_size);
+}
+
+// Length of a well-formed UTF-8 sequence at the start of `s`, 0 if there is none.
+std::size_t utf8_length(std::string_view s) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(s[i]); };
+  const unsigned lead = byte(0);
+  const std::size_t length = lead < 0x80   ? 1
+                             : lead < 0xC2 ? 0
+                             : lead < 0xE0 ? 2
+                             : lead < 0xF0 ? 3
+                             : lead < 0xF5 ? 4
+                                           : 0;
+  if (length == 0 || length > s.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xC0) != 0x80) return 0;
+  }
+  if (length == 2 && lead == 0xC2 && byte(1) < 0xA0) return 0;  // C1 control characters
+  if (lead == 0xE0 && byte(1) < 0xA0) return 0;                 // overlong
+  if (lead == 0xED && byte(1) >= 0xA0) return 0;                // surrogates
+  if (lead == 0xF0 && byte(1) < 0x90) return 0;                 // overlong
+  if (lead == 0xF4 && byte(1) >= 0x90) return 0;                // above U+10FFFF
+  // Line separators and marks that reorder text would let a name rewrite the message around it.
+  if (lead == 0xE2 && byte(1) == 0x80 && byte(2) >= 0xA8 && byte(2) <= 0xAE) return 0;
+  return length;
+}
+
+std::string message_of(const std::string& place, const Fault& fault) {
+  std::string message = place + ": " + fault.what;
+  if (!fault.found.empty()) message += ", found " + fault.found;
+  if (!fault.expected.empty()) message += ", expected " + fault.expected;
+  if (!fault.hint.empty()) message += "; " + fault.hint;
+  return message;
+}
+
+}  // namespace
+
+std::pair<std::filesystem::path, std::string> split_member(const std::filesystem::path& path) {
+  const std::string& name = path.native();
+  std::error_code ignored;
+  for (const std::string_view suffix : {".npz:", ".ply:"}) {
+    const std::size_t mark = name.rfind(suffix);
+    if (mark == std::string::npos || std::filesystem::exists(path, ignored)) continue;
+    return {name.substr(0, mark + suffix.size() - 1), name.substr(mark + suffix.size())};
+  }
+  return {path, {}};
+}
+
+std::string printable(std::string_view bytes, std::size_t max_bytes) {
+  std::string result;
+  while (!bytes.empty()) {
+    if (result.size() >= max_bytes) return result + "...";
+    const std::size_t length = utf8_length(bytes);
+    const auto c = static_cast<unsigned char>(bytes[0]);
+    if (length == 0 || c < 0x20 || c == 0x7F) {
+      if (c == '\n') {
+        result += "\\n";
+      } else if (c == '\t') {
+        result += "\\t";
+      } else if (c == '\r') {
+        result += "\\r";
+      } else {
+        result += fmt::format("\\x{:02X}", c);
+      }
+      bytes.remove_prefix(1);
+    } else {
+      result += bytes.substr(0, length);
+      bytes.remove_prefix(length);
+    }
+  }
+  return result;
+}
+
+// The bytes behind an Input: a buffer of the run's memory resource, a mapped file, a vector or a
+// temporary file.
+struct Input::Storage {
+  explicit Storage(std::pmr::memory_resource* resource) : memory(resource) {}
+  explicit Storage(std::pmr::vector<char> bytes)
+      : memory(bytes.get_allocator().resource()), held(std::move(bytes)) {}
+  explicit Storage(ScratchFile file) : memory(nullptr), scratch(std::move(file)), exceeds(true) {}
+  Storage(const Storage&) = delete;
+  Storage& operator=(const Storage&) = delete;
+  ~Storage() {
+    if (mapped) {
+      ::munmap(data, capacity);
+    } else if (data != nullptr) {
+      memory->deallocate(data, capacity, alignof(std::max_align_t));
+    }
+  }
+
+  void grow_to(std::size_t bytes) {
+    char* larger = static_cast<char*>(memory->allocate(bytes, alignof(std::max_align_t)));
+    if (data != nullptr) {
+      std::memcpy(larger, data, used);
+      memory->deallocate(data, capacity, alignof(std::max_align_t));
+    }
+    data = larger;
+    capacity = bytes;
+  }
+
+  std::pmr::memory_resource* memory;
+  std::pmr::vector<char> held;
+  std::optional<ScratchFile> scratch;
+  char* data = nullptr;
+  std::size_t capacity = 0;
+  std::size_t used = 0;
+  bool mapped = false;
+  std::optional<MemoryClaim> claim;  // if mapped
+  bool exceeds = false;              // the budget: stays in a file, not counted
+};
+
+Input::Input() = default;
+Input::Input(Input&&) noexcept = default;
+Input& Input::operator=(Input&&) noexcept = default;
+Input::~Input() = default;
+
+Input Input::view(std::string_view bytes, std::string name) {
+  Input input;
+  input.text_ = bytes;
+  input.extension_ = lower_extension(name);
+  input.name_ = printable(name);
+  return input;
+}
+
+Input Input::hold(std::pmr::vector<char> bytes, std::string name, const RunContext* context) {
+  Input input = view({}, std::move(name));
+  input.storage_ = std::make_shared<Storage>(std::move(bytes));
+  input.text_ = std::string_view(input.storage_->held.data(), input.storage_->held.size());
+  input.context_ = context;
+  return input;
+}
+
+Input Input::hold(ScratchFile bytes, std::string name, const RunContext* context) {
+  Input input = view({}, std::move(name));
+  input.storage_ = std::make_shared<Storage>(std::move(bytes));
+  input.text_ = std::string_view(input.storage_->scratch->data(), input.storage_->scratch->size());
+  input.context_ = context;
+  return input;
+}
+
+Input Input::open(const std::filesystem::path& whole_path, const RunContext* context,
+                  Excess excess) {
+  Input input;
+  std::filesystem::path path;
+  std::tie(path, input.member_) = split_member(whole_path);
+  const bool standard_input = path == "-";
+  input.name_ = standard_input ? "<stdin>" : printable(path.native());
+  if (!standard_input) input.extension_ = lower_extension(path);
+  input.context_ = context;
+
+  // Without O_NONBLOCK, opening a FIFO nobody writes to could not be stopped.
+  const Descriptor file(standard_input
+                            ? STDIN_FILENO
+                            : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK),
+                        !standard_input);
+  struct stat status {};
+  if (file.get() < 0 || ::fstat(file.get(), &status) != 0) {
+    throw Error(ErrorKind::no_input, input.name_ + ": cannot open: " + reason(errno));
+  }
+  if (S_ISDIR(status.st_mode)) {
+    throw Error(ErrorKind::no_input, input.name_ + ": cannot read: it is a directory");
+  }
+
+  auto storage = std::make_shared<Storage>(
+      context != nullptr ? static_cast<std::pmr::memory_resource*>(&context->memory)
+                         : std::pmr::new_delete_resource());
+  const bool sized = S_ISREG(status.st_mode) && status.st_size > 0 &&
+                     (!standard_input || ::lseek(file.get(), 0, SEEK_CUR) == 0);
+  const auto file_size = sized ? static_cast<std::size_t>(status.st_size) : 0;
+  const bool exceeds = excess == Excess::stays_in_file && context != nullptr &&
+                       file_size > kFirstChunk && file_size > context->memory.left() / 3;
+  if (file_size > kMapFrom || exceeds) {
+    storage->exceeds = exceeds;
+    // Its pages are taken from memory while they are read.
+    if (context != nullptr && !exceeds) storage->claim.emplace(context->memory, file_size);
+    void* address = ::mmap(nullptr, file_size, PROT_READ, MAP_PRIVATE, file.get(), 0);
+    if (address != MAP_FAILED) {
+      ::madvise(address, file_size, MADV_SEQUENTIAL);
+      storage->data = static_cast<char*>(address);
+      storage->capacity = storage->used = file_size;
+      storage->mapped = true;
+    } else {
+      storage->claim.reset();
+      storage->exceeds = false;
+    }
+  }
+  const std::size_t limit =
+      sized ? file_size
+      : context != nullptr && context->memory.limit() != MemoryBudget::kUnlimited
+          ? context->memory.limit()
+          : half_of_memory();
+  bool probed = sized;
+  while (!storage->mapped) {
+    input.poll();
+    if (storage->used == storage->capacity) {
+      if (sized && storage->used == file_size) break;
+      const std::size_t more = sized ? file_size : std::max(kFirstChunk, 2 * storage->capacity);
+      if (more > limit - std::min(limit, storage->capacity)) {  // both are there while it grows
+        throw Error(ErrorKind::resource,
+                    fmt::format("{}: longer than the memory limit allows: {} MiB were read",
+                                input.name_, storage->used >> 20));
+      }
+      storage->grow_to(more);
+    }
+    pollfd waiting{file.get(), POLLIN, 0};
+    const int ready = ::poll(&waiting, 1, kPollMilliseconds);
+    if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
+    const ssize_t got = ::read(file.get(), storage->data + storage->used,
+                               std::min(storage->capacity - storage->used, std::size_t{1} << 24));
+    if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+    if (got < 0) throw Error(ErrorKind::io, input.name_ + ": cannot read: " + reason(errno));
+    if (got == 0) {
+      if (!sized) break;
+      throw Error(ErrorKind::io, fmt::format("{}: it shrank while it was read: {} of {} bytes",
+                                             input.name_, storage->used, file_size));
+    }
+    storage->used += static_cast<std::size_t>(got);
+    if (!probed && storage->used >= kNulProbe) {
+      probed = true;
+      if (std::all_of(storage->data, storage->data + kNulProbe, [](char c) { return c == 0; })) {
+        input.fail_at_byte(0, {"not data", "a stream of NUL bytes", "data within the first MiB",
+                               "if they are meant, save them to a file first"});
+      }
+    }
+  }
+  input.text_ = std::string_view(storage->data, storage->used);
+  input.storage_ = std::move(storage);
+  if (!detail::is_gzip(input.text_)) return input;
+
+  const std::size_t most = context != nullptr && context->memory.limit() != MemoryBudget::kUnlimited
+                               ? context->memory.limit()
+                               : half_of_memory();
+  const bool is_large = excess == Excess::stays_in_file && context != nullptr &&
+                        detail::stated_size(input.text()) > context->memory.left() / 3;
+  Input unpacked = is_large ? hold(detail::gunzip_to_file(input), {}, context)
+                            : hold(detail::gunzip(input, most), {}, context);
+  unpacked.name_ = input.name_;
+  unpacked.member_ = input.member_;
+  unpacked.extension_ = input.extension_ == ".gz" ? lower_extension(path.stem()) : input.extension_;
+  return unpacked;
+}
+
+bool Input::stays_in_file() const { return storage_ != nullptr && storage_->exceeds; }
+
+void Input::take_memory() const {
+  if (!stays_in_file()) return;
+  if (context_ != nullptr) storage_->claim.emplace(context_->memory, size());
+  storage_->exceeds = false;
+}
+
+void Input::done_with(std::size_t offset, std::size_t size) const {
+  if (stays_in_file()) forget_file_pages(text_.data() + offset, size);
+}
+
+std::shared_ptr<const void> Input::keep_in_file() const {
+  if (storage_ == nullptr || !(storage_->mapped || storage_->scratch)) return nullptr;
+  storage_->claim.reset();
+  storage_->exceeds = true;
+  return storage_;
+}
+
+void Input::require_memory(std::size_t bytes) const {
+  if (context_ != nullptr) context_->memory.require(bytes);
+}
+
+void Input::poll(std::size_t done) const {
+  if (context_ == nullptr) return;
+  context_->poll();
+  context_->report({"read", done, size()});
+}
+
+void Input::fail(const Fault& fault) const {
+  throw Error(ErrorKind::bad_data, message_of(name_, fault));
+}
+
+void Input::fail_at(std::size_t line, std::size_t column, const Fault& fault) const {
+  throw Error(ErrorKind::bad_data, message_of(fmt::format("{}:{}:{}", name_, line, column), fault));
+}
+
+void Input::fail_at_byte(std::size_t offset, const Fault& fault) const {
+  throw Error(ErrorKind::bad_data, message_of(fmt::format("{}: byte {}", name_, offset), fault));
+}
+
+}  // namespace ph

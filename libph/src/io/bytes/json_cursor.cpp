@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include "io/bytes/json_cursor.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+namespace ph::detail {
+namespace {
+
+constexpr int kMostDepth = 64;  // of nested values that are skipped
+
+void append_utf8(std::string& text, std::uint32_t code) {
+  const auto put = [&](std::uint32_t byte) { text += static_cast<char>(byte); };
+  if (code < 0x80) {
+    put(code);
+  } else if (code < 0x800) {
+    put(0xC0 | code >> 6);
+    put(0x80 | (code & 0x3F));
+  } else {
+    if (code < 0x10000) {
+      put(0xE0 | code >> 12);
+    } else {
+      put(0xF0 | code >> 18);
+      put(0x80 | (code >> 12 & 0x3F));
+    }
+    put(0x80 | (code >> 6 & 0x3F));
+    put(0x80 | (code & 0x3F));
+  }
+}
+
+}  // namespace
+
+void JsonCursor::fail(std::size_t place, Fault fault) const {
+  const std::string_view before = text_.substr(0, place);
+  const auto line = static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1;
+  const std::size_t start = before.rfind('\n');
+  input_.fail_at(line, start == std::string_view::npos ? place + 1 : place - start, fault);
+}
+
+std::string JsonCursor::found() {
+  return peek() == '\0' && at_ == text_.size() ? "the end of the file"
+                                               : '\'' + printable(text_.substr(at_, 1)) + '\'';
+}
+
+char JsonCursor::peek() {
+  while (at_ < text_.size() &&
+         (text_[at_] == ' ' || text_[at_] == '\n' || text_[at_] == '\r' || text_[at_] == '\t')) {
+    ++at_;
+  }
+  return at_ < text_.size() ? text_[at_] : '\0';
+}
+
+bool JsonCursor::accept(char mark) {
+  if (peek() != mark || at_ == text_.size()) return false;
+  ++at_;
+  return true;
+}
+
+void JsonCursor::expect(char mark) {
+  if (!accept(mark)) fail(at_, {"JSON", found(), fmt::format("'{}'", mark), {}});
+}
+
+bool JsonCursor::accept_null() {
+  peek();
+  if (text_.substr(at_, 4) != "null") return false;
+  at_ += 4;
+  return true;
+}
+
+bool JsonCursor::next_member(bool& first, std::string& name) {
+  if (accept('}')) return false;
+  if (!first) expect(',');
+  first = false;
+  name = string();
+  expect(':');
+  return true;
+}
+
+bool JsonCursor::next_element(bool& first) {
+  if (accept(']')) return false;
+  if (!first) expect(',');
+  first = false;
+  return true;
+}
+
+std::uint32_t JsonCursor::hex4() {
+  std::uint32_t code = 0;
+  const std::string_view digits = text_.substr(at_, 4);
+  const auto [stop, error] =
+      std::from_chars(digits.data(), digits.data() + digits.size(), code, 16);
+  if (digits.size() != 4 || error != std::errc{} || stop != digits.data() + 4) {
+    fail(at_, {"JSON string", printable(digits), "four hexadecimal digits", {}});
+  }
+  at_ += 4;
+  return code;
+}
+
+std::string JsonCursor::string() {
+  expect('"');
+  const std::size_t begin = at_;
+  std::string result;
+  while (at_ < text_.size() && text_[at_] != '"') {
+    const char c = text_[at_++];
+    if (static_cast<unsigned char>(c) < 0x20) {
+      fail(at_ - 1, {"JSON string", "a control character", "a closing quote", {}});
+    }
+    if (c != '\\' || at_ == text_.size()) {
+      result += c;
+      continue;
+    }
+    const char escape = text_[at_++];
+    constexpr std::string_view kFrom = "\"\\/bfnrt", kTo = "\"\\/\b\f\n\r\t";
+    if (const std::size_t known = kFrom.find(escape); known != std::string_view::npos) {
+      result += kTo[known];
+    } else if (escape == 'u') {
+      std::uint32_t code = hex4();
+      if (code >= 0xD800 && code < 0xDC00 && text_.substr(at_, 2) == "\\u") {
+        at_ += 2;
+        code = 0x10000 + ((code & 0x3FF) << 10) + (hex4() & 0x3FF);
+      }
+      append_utf8(result, code);
+    } else {
+      fail(at_ - 1, {"JSON string", "an unknown escape", "one of \" \\ / b f n r t u", {}});
+    }
+  }
+  if (at_ == text_.size()) fail(begin, {"JSON string", "no closing quote", "one", {}});
+  ++at_;
+  return result;
+}
+
+std::string_view JsonCursor::number_word() {
+  peek();
+  const std::size_t stop = std::min(text_.find_first_not_of("+-0123456789.eE", at_), text_.size());
+  const std::string_view word = text_.substr(at_, stop - at_);
+  if (word.empty() || word[0] == '+') fail(at_, {"JSON", found(), "a number", {}});
+  return word;
+}
+
+double JsonCursor::number() {
+  const std::string_view word = number_word();
+  double value = 0;
+  const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc{} || stop != word.data() + word.size()) {
+    fail(at_, {error == std::errc::result_out_of_range ? "number out of range" : "not a number",
+               printable(word, 40),
+               "a number",
+               {}});
+  }
+  at_ += word.size();
+  return value + 0.0;
+}
+
+std::int64_t JsonCursor::integer(std::int64_t least, std::int64_t most, const char* what) {
+  const std::string_view word = number_word();
+  std::int64_t value = 0;
+  const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc{} || stop != word.data() + word.size() || value < least || value > most) {
+    fail(at_, {fmt::format("{} out of range", what),
+               printable(word, 40),
+               fmt::format("an integer of {} to {}", least, most),
+               {}});
+  }
+  at_ += word.size();
+  return value;
+}
+
+void JsonCursor::skip_value(int depth) {
+  if (depth > kMostDepth) {
+    fail(at_, {"JSON", "values nested too deeply", fmt::format("at most {}", kMostDepth), {}});
+  }
+  bool first = true;
+  std::string name;
+  if (accept('{')) {
+    while (next_member(first, name)) skip_value(depth + 1);
+  } else if (accept('[')) {
+    while (next_element(first)) skip_value(depth + 1);
+  } else if (peek() == '"') {
+    string();
+  } else if (!accept_null()) {
+    for (const std::string_view word : {"true", "false"}) {
+      if (text_.substr(at_, word.size()) != word) continue;
+      at_ += word.size();
+      return;
+    }
+    number();
+  }
+}
+
+void JsonCursor::expect_end() {
+  if (peek() != '\0' || at_ != text_.size()) {
+    fail(at_, {"trailing data", found(), "the end of the file", {}});
+  }
+}
+
+}  // namespace ph::detail

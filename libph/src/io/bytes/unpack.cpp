@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#include "io/bytes/unpack.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <new>
+
+namespace ph::detail {
+namespace {
+
+constexpr std::size_t kStep = std::size_t{1} << 20;  // bytes unpacked between two looks around
+
+// zlib's state with the bytes of an input that it reads.
+class Inflater {
+ public:
+  /// @param window_bits as inflateInit2 takes them: 31 for gzip, -15 for raw deflate.
+  Inflater(std::string_view packed, int window_bits) : packed_(packed) {
+    if (inflateInit2(&stream_, window_bits) != Z_OK) throw std::bad_alloc();
+  }
+  Inflater(const Inflater&) = delete;
+  Inflater& operator=(const Inflater&) = delete;
+  ~Inflater() { inflateEnd(&stream_); }
+
+  /// Unpacks at most `size` bytes; how many it were. Fewer: see `ended`, `damage`, or truncated.
+  std::size_t unpack(char* to, std::size_t size) {
+    std::size_t done = 0;
+    while (done < size && !ended_ && damage_.empty()) {
+      // zlib counts in 32 bits
+      const std::size_t in = std::min(packed_.size() - used_, std::size_t{1} << 30);
+      const std::size_t out = std::min(size - done, std::size_t{1} << 30);
+      stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed_.data() + used_));
+      stream_.avail_in = static_cast<uInt>(in);
+      stream_.next_out = reinterpret_cast<Bytef*>(to + done);
+      stream_.avail_out = static_cast<uInt>(out);
+      const int code = inflate(&stream_, Z_NO_FLUSH);
+      const std::size_t taken = in - stream_.avail_in, given = out - stream_.avail_out;
+      used_ += taken;
+      done += given;
+      if (code == Z_STREAM_END) {
+        ended_ = true;
+      } else if (code == Z_MEM_ERROR) {
+        throw std::bad_alloc();
+      } else if (code != Z_OK && code != Z_BUF_ERROR) {
+        damage_ = stream_.msg != nullptr ? stream_.msg : "not deflate data";
+      } else if (taken == 0 && given == 0) {
+        break;  // it wants bytes that are not there
+      }
+    }
+    return done;
+  }
+  /// Goes on with the next member of a gzip file.
+  void restart() {
+    inflateReset(&stream_);
+    ended_ = false;
+  }
+
+  std::size_t used() const { return used_; }
+  bool ended() const { return ended_; }
+  const std::string& damage() const { return damage_; }
+
+ private:
+  std::string_view packed_;
+  std::size_t used_ = 0;
+  bool ended_ = false;
+  std::string damage_;
+  z_stream stream_{};
+};
+
+// A buffer that is a temporary file; pages that were written leave the memory.
+class FileBuffer {
+ public:
+  explicit FileBuffer(std::size_t bytes) : file_(bytes) {}
+  char* data() { return file_.data(); }
+  std::size_t size() const { return size_; }
+  std::size_t capacity() const { return file_.size(); }
+  void resize(std::size_t bytes) {
+    if (bytes > capacity()) file_.resize(std::max(bytes, capacity() + capacity() / 2));
+    constexpr std::size_t many = std::size_t{1} << 24;
+    if (bytes >= written_ + many) {
+      forget_file_pages(file_.data() + written_, size_ - written_);
+      written_ = size_;
+    }
+    size_ = bytes;
+  }
+  ScratchFile take() {
+    file_.resize(size_);
+    return std::move(file_);
+  }
+
+ private:
+  ScratchFile file_;
+  std::size_t size_ = 0, written_ = 0;
+};
+
+}  // namespace
+
+bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1F\x8B"); }
+
+std::pmr::memory_resource* memory_of(const Input& input) {
+  return input.context() != nullptr ? &input.context()->memory : std::pmr::new_delete_resource();
+}
+
+std::size_t stated_size(std::string_view packed) {
+  if (packed.size() < 18) return 0;
+  const auto* trailer = reinterpret_cast<const std::byte*>(packed.data() + packed.size() - 4);
+  return load<std::uint32_t>(trailer, std::endian::little);
+}
+
+namespace {
+
+template <class Buffer>
+void gunzip_into(Buffer& bytes, const Input& input, std::size_t most) {
+  const std::string_view packed = input.text();
+  const std::size_t reasonable =
+      std::max(kMostFree, checked_product(packed.size(), kMostExpansion).value_or(SIZE_MAX));
+  const std::size_t stated = stated_size(packed);
+  Inflater inflater(packed, 15 + 16);
+  for (;;) {
+    input.poll();
+    const std::size_t before = bytes.size();
+    // What has grown so much and says that it goes on is not unpacked to see whether that is true.
+    const bool goes_on = stated > reasonable && before / kMostExpansion > inflater.used();
+    if (before >= reasonable || goes_on) {
+      input.fail_at_byte(inflater.used(),
+                         {"compressed data expand too much",
+                          fmt::format("more than {} MiB", (goes_on ? stated : before) >> 20),
+                          fmt::format("at most {} times {} bytes", kMostExpansion, packed.size()),
+                          "if that is right, unpack it first"});
+    }
+    if (before >= most) {
+      throw Error(ErrorKind::resource,
+                  fmt::format("{}: unpacks to more than the memory limit allows, {} MiB",
+                              input.name(), most >> 20));
+    }
+    const std::size_t room = std::max(std::min(bytes.capacity() - before, kStep), std::size_t{1});
+    bytes.resize(before + std::min(room == 1 ? kStep : room, most - before));
+    const std::size_t wanted = bytes.size() - before;
+    const std::size_t done = inflater.unpack(bytes.data() + before, wanted);
+    bytes.resize(before + done);
+    if (!inflater.damage().empty()) {
+      input.fail_at_byte(inflater.used(),
+                         {"damaged gzip data", inflater.damage(), "gzip data", {}});
+    }
+    if (!inflater.ended()) {
+      if (done == wanted) continue;
+      input.fail_at_byte(packed.size(), {"truncated gzip data",
+                                         fmt::format("the end after {} bytes", packed.size()),
+                                         "the end of the compressed stream",
+                                         {}});
+    }
+    const std::string_view rest = packed.substr(inflater.used());
+    if (rest.empty()) return;
+    if (!is_gzip(rest)) {
+      input.fail_at_byte(inflater.used(), {"trailing data after gzip data",
+                                           fmt::format("{} bytes more", rest.size()),
+                                           "the end of the file or another member",
+                                           {}});
+    }
+    inflater.restart();
+  }
+}
+
+// What to begin with: a lie costs at most what deflate could give.
+std::size_t likely_size(std::string_view packed) {
+  return std::clamp(stated_size(packed), kStep, std::max(4 * packed.size(), kStep)) + 1;
+}
+
+}  // namespace
+
+std::pmr::vector<char> gunzip(const Input& input, std::size_t most) {
+  std::pmr::vector<char> bytes(memory_of(input));
+  bytes.reserve(std::min(likely_size(input.text()), most));
+  gunzip_into(bytes, input, most);
+  return bytes;
+}
+
+ScratchFile gunzip_to_file(const Input& input) {
+  FileBuffer bytes(likely_size(input.text()));
+  gunzip_into(bytes, input, SIZE_MAX);
+  return bytes.take();
+}
+
+std::pmr::vector<char> inflate_raw(const Input& input, std::size_t offset, std::size_t packed_size,
+                                   std::size_t size) {
+  Inflater inflater(input.text().substr(offset, packed_size), -15);
+  std::pmr::vector<char> bytes(memory_of(input));
+  // One byte more than promised, to see whether there are more. It grows with what is there.
+  for (;;) {
+    input.poll();
+    const std::size_t before = bytes.size();
+    const std::size_t wanted = std::min(std::max(before, kStep), size + 1 - before);
+    if (before + wanted > size) bytes.reserve(size + 1);
+    bytes.resize(before + wanted);
+    const std::size_t done = inflater.unpack(bytes.data() + before, wanted);
+    bytes.resize(before + done);
+    if (!inflater.damage().empty()) {
+      input.fail_at_byte(offset + inflater.used(),
+                         {"damaged deflate data", inflater.damage(), "deflate data", {}});
+    }
+    if (inflater.ended() || done < wanted || bytes.size() > size) break;
+  }
+  if (!inflater.ended() || bytes.size() != size || inflater.used() != packed_size) {
+    input.fail_at_byte(offset, {"sizes of compressed data do not hold",
+                                fmt::format("{} bytes from {}", bytes.size(), inflater.used()),
+                                fmt::format("{} bytes from {}", size, packed_size),
+                                {}});
+  }
+  return bytes;
+}
+
+std::uint32_t checksum(std::span<const char> bytes) {
+  return static_cast<std::uint32_t>(
+      crc32_z(crc32_z(0, nullptr, 0), reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
+}  // namespace ph::detail

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "io/bytes/json_cursor.hpp"
+#include "ph/error.hpp"
+#include "ph/io/camera.hpp"
+#include "io/bytes/yaml_words.hpp"
+
+namespace ph {
+namespace {
+
+using detail::YamlWords;
+
+constexpr Index kMostPixels = 1 << 20;  // along one axis
+constexpr std::string_view kWhatItIs =
+    "a camera_info YAML of ROS has image_width, image_height and camera_matrix";
+
+/// A calibration while it is read.
+class CameraYaml {
+ public:
+  explicit CameraYaml(const Input& input) : yaml_(input) {}
+
+  Camera camera() const {
+    Camera camera;
+    camera.width = whole({"image_width", "width"}, 1, kMostPixels);
+    camera.height = whole({"image_height", "height"}, 1, kMostPixels);
+    camera.intrinsics = intrinsics();
+    camera.lens = lens();
+    take_part(camera);
+    return camera;
+  }
+
+ private:
+  using Names = std::initializer_list<std::string_view>;
+
+  [[noreturn]] void fail(const YamlWords::Word& word, std::string what,
+                         std::string expected) const {
+    yaml_.input().fail_at(
+        word.line, word.column,
+        {std::move(what), '"' + printable(word.text, 40) + '"', std::move(expected), {}});
+  }
+  [[noreturn]] void fail(const YamlWords::Value& value, Fault fault) const {
+    yaml_.input().fail_at(value.line, value.column, fault);
+  }
+
+  /// The first of these that is there; null if none is.
+  const YamlWords::Value* find(Names names) const {
+    for (const std::string_view name : names)
+      if (const YamlWords::Value* value = yaml_.find(name);
+          value != nullptr && !value->words.empty())
+        return value;
+    return nullptr;
+  }
+  const YamlWords::Value& require(Names names) const {
+    const YamlWords::Value* value = find(names);
+    if (value == nullptr) {
+      yaml_.input().fail({fmt::format("no {}", *names.begin()),
+                          {},
+                          "a camera's calibration",
+                          std::string(kWhatItIs)});
+    }
+    return *value;
+  }
+
+  double number(const YamlWords::Word& word) const {
+    double number = 0;
+    std::string_view text = word.text;
+    if (text.starts_with('+')) text.remove_prefix(1);
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc{} || stop != text.data() + text.size() || !std::isfinite(number))
+      fail(word, "not a number", "a finite decimal number");
+    return number;
+  }
+  std::vector<double> numbers(const YamlWords::Value& value) const {
+    std::vector<double> result;
+    for (const YamlWords::Word& word : value.words) result.push_back(number(word));
+    return result;
+  }
+  Index whole(const YamlWords::Value& value, Index least, Index most) const {
+    const YamlWords::Word& word = value.words.front();
+    const double found = number(word);
+    if (value.words.size() != 1 || found != std::floor(found) ||
+        found < static_cast<double>(least) || found > static_cast<double>(most))
+      fail(word, "not a number of pixels",
+           fmt::format("a whole number from {} to {}", least, most));
+    return static_cast<Index>(found);
+  }
+  Index whole(Names names, Index least, Index most) const {
+    return whole(require(names), least, most);
+  }
+  Index whole_or(std::string_view name, Index other, Index most) const {
+    const YamlWords::Value* value = find({name});
+    return value == nullptr ? other : whole(*value, 0, most);
+  }
+
+  Intrinsics intrinsics() const {
+    const YamlWords::Value& value = require({"camera_matrix.data", "camera_matrix", "k"});
+    const std::vector<double> k = numbers(value);
+    if (k.size() != 9) {
+      fail(value, {"camera matrix", fmt::format("{} numbers", k.size()), "9, row by row", {}});
+    }
+    if (!(k[0] > 0 && k[4] > 0)) {
+      fail(value, {"focal lengths", fmt::format("{} and {}", k[0], k[4]), "numbers above 0",
+                   "a camera that is not calibrated has 0"});
+    }
+    if (k[1] != 0 || k[3] != 0 || k[6] != 0 || k[7] != 0 || k[8] != 1) {
+      fail(value, {"camera matrix",
+                   fmt::format("{}", fmt::join(k, ", ")),
+                   "fx, 0, cx, 0, fy, cy, 0, 0, 1",
+                   {}});
+    }
+    return {k[0], k[4], k[2], k[5]};
+  }
+
+  Lens lens() const {
+    const YamlWords::Value* value =
+        find({"distortion_coefficients.data", "distortion_coefficients", "d"});
+    const std::vector<double> d = value == nullptr ? std::vector<double>{} : numbers(*value);
+    if (std::ranges::all_of(d, [](double c) { return c == 0; })) return {};
+    const YamlWords::Value* named = find({"distortion_model"});
+    // A file of OpenCV has no name; the number of coefficients tells.
+    const std::string_view name = named == nullptr ? d.size() == 8 ? "rational_polynomial"
+                                                     : d.size() == 4 || d.size() == 5 ? "plumb_bob"
+                                                                                      : ""
+                                                   : named->words.front().text;
+    Lens lens;
+    std::size_t least = 0, most = 0;
+    if (name == "plumb_bob") {
+      lens.model = Lens::Model::polynomial;
+      least = 4;
+      most = 5;
+    } else if (name == "rational_polynomial") {
+      lens.model = Lens::Model::polynomial;
+      least = most = 8;
+    } else if (name == "equidistant" || name == "fisheye") {
+      lens.model = Lens::Model::equidistant;
+      least = most = 4;
+    } else {
+      fail(named == nullptr ? *value : *named,
+           {"model of the lens",
+            named == nullptr ? fmt::format("none, and {} coefficients", d.size())
+                             : '"' + printable(name, 40) + '"',
+            "plumb_bob, rational_polynomial or equidistant",
+            "rectify the image, and take a camera without distortion"});
+    }
+    if (d.size() < least || d.size() > most) {
+      fail(*value, {fmt::format("coefficients of {}", name),
+                    fmt::format("{}", d.size()),
+                    least == most ? fmt::format("{}", most) : fmt::format("{} or {}", least, most),
+                    {}});
+    }
+    std::ranges::copy(d, lens.coefficients.begin());
+    return lens;
+  }
+
+  /// The image may be a part of what the calibration is of, with some pixels as one.
+  void take_part(Camera& camera) const {
+    const Index left = whole_or("roi.x_offset", 0, camera.width);
+    const Index top = whole_or("roi.y_offset", 0, camera.height);
+    if (const Index width = whole_or("roi.width", 0, camera.width); width > 0) camera.width = width;
+    if (const Index height = whole_or("roi.height", 0, camera.height); height > 0)
+      camera.height = height;
+    const Index across = std::max<Index>(1, whole_or("binning_x", 1, camera.width));
+    const Index down = std::max<Index>(1, whole_or("binning_y", 1, camera.height));
+    camera.width /= across;
+    camera.height /= down;
+    Intrinsics& k = camera.intrinsics;
+    k = {k.fx / static_cast<double>(across), k.fy / static_cast<double>(down),
+         (k.cx - static_cast<double>(left)) / static_cast<double>(across),
+         (k.cy - static_cast<double>(top)) / static_cast<double>(down)};
+  }
+
+  YamlWords yaml_;
+};
+
+/// The members of an object of Open3D whose '{' was taken.
+void read_members(detail::JsonCursor& json, Camera& camera, bool& has_matrix, bool inside = false) {
+  bool first = true;
+  for (std::string name; json.next_member(first, name);) {
+    if (name == "width" || name == "height") {
+      (name == "width" ? camera.width : camera.height) = json.integer(1, kMostPixels, name.c_str());
+    } else if (name == "intrinsic_matrix") {
+      json.peek();
+      const std::size_t place = json.place();
+      std::vector<double> k;
+      json.expect('[');
+      for (bool first_number = true; json.next_element(first_number);) k.push_back(json.number());
+      if (k.size() != 9 || !(k[0] > 0) || !(k[4] > 0) || k[1] != 0 || k[2] != 0 || k[3] != 0 ||
+          k[5] != 0 || k[8] != 1) {
+        json.fail(place, {"intrinsic_matrix",
+                          fmt::format("[{}]", fmt::join(k, ", ")),
+                          "[fx, 0, 0, 0, fy, 0, cx, cy, 1], column by column",
+                          {}});
+      }
+      camera.intrinsics = {k[0], k[4], k[6], k[7]};
+      has_matrix = true;
+    } else if (name == "intrinsic" && !inside) {
+      json.expect('{');
+      read_members(json, camera, has_matrix, true);
+    } else {
+      json.skip_value();
+    }
+  }
+}
+
+Camera read_json(const Input& input) {
+  detail::JsonCursor json(input);
+  Camera camera;
+  bool has_matrix = false;
+  json.expect('{');
+  read_members(json, camera, has_matrix);
+  json.expect_end();
+  if (!has_matrix || camera.width == 0 || camera.height == 0) {
+    input.fail({"not a camera of Open3D",
+                fmt::format("{} intrinsic_matrix, width {}, height {}", has_matrix ? "an" : "no",
+                            camera.width, camera.height),
+                "all three",
+                {}});
+  }
+  return camera;
+}
+
+}  // namespace
+
+Camera read_camera(const Input& input) {
+  const std::string_view text = input.text();
+  constexpr std::size_t most = 1 << 20;
+  if (text.size() > most) {
+    input.fail({"not a camera", fmt::format("{} bytes", text.size()),
+                fmt::format("at most {}", most), std::string(kWhatItIs)});
+  }
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first != text.npos && text[first] == '{') return read_json(input);
+  return CameraYaml(input).camera();
+}
+
+Camera read_camera(const std::filesystem::path& path, const RunContext* context) {
+  return read_camera(Input::open(path, context));
+}
+
+}  // namespace ph

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "io/clouds/field_access.hpp"
+#include "io/bytes/lzf.hpp"
+#include "io/clouds/pcd.hpp"
+#include "ph/io/cloud_io.hpp"
+#include "io/readers.hpp"
+
+namespace ph {
+namespace {
+
+using detail::PcdHeader;
+
+void read_binary(const Input& input, PcdHeader& header) {
+  const std::size_t there = input.size() - header.offset;
+  if (there != header.bytes) {
+    const std::size_t complete = there / header.cloud.stride;
+    input.fail_at_byte(
+        there < header.bytes ? input.size() : header.offset + header.bytes,
+        {there < header.bytes ? fmt::format("truncated: {} of {} points", complete, header.points)
+                              : std::string("trailing data"),
+         fmt::format("{} bytes of data", there),
+         fmt::format("{}", header.bytes),
+         {}});
+  }
+  input.require_memory(header.bytes);
+  const auto data = input.bytes().subspan(header.offset);
+  header.cloud.data.assign(data.begin(), data.end());
+}
+
+// PCL pads compressed files with zeros towards a whole page; other trailing data is an error.
+void expect_padding(BinaryCursor& cursor) {
+  constexpr std::size_t kLargestPage = std::size_t{1} << 16;
+  if (cursor.remaining() >= kLargestPage) cursor.expect_end();
+  const BinaryCursor at_padding = cursor;
+  const auto padding = cursor.take(cursor.remaining(), "padding");
+  if (std::any_of(padding.begin(), padding.end(), [](std::byte b) { return b != std::byte{0}; })) {
+    at_padding.expect_end();
+  }
+}
+
+// Takes the data of a compressed file, field after field, and puts them record after record.
+class Interleaver {
+ public:
+  /// @param points at least 1.
+  Interleaver(Cloud& cloud, std::size_t points) : cloud_(cloud), points_(points) { start_field(); }
+
+  void take(std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+      const std::size_t size = std::min(bytes.size(), points_ * width_ - position_);
+      put(bytes.first(size));
+      bytes = bytes.subspan(size);
+      position_ += size;
+      if (position_ == points_ * width_ && ++field_ < cloud_.fields.size()) start_field();
+    }
+  }
+
+ private:
+  void start_field() {
+    width_ = cloud_.fields[field_].count * size_of(cloud_.fields[field_].type);
+    position_ = 0;
+  }
+
+  // Bytes of the current field only; a piece may begin and end inside a point.
+  void put(std::span<const std::byte> bytes) {
+    std::byte* record =
+        cloud_.data.data() + position_ / width_ * cloud_.stride + cloud_.fields[field_].offset;
+    const std::byte* from = bytes.data();
+    const std::byte* const end = from + bytes.size();
+    if (const std::size_t inside = position_ % width_; inside != 0) {
+      const std::size_t rest = std::min(width_ - inside, bytes.size());
+      std::memcpy(record + inside, from, rest);
+      from += rest;
+      record += cloud_.stride;
+    }
+    const std::size_t stride = cloud_.stride;
+    if (width_ == 4) {  // nearly always; a constant length is a single move
+      for (; end - from >= 4; from += 4, record += stride) std::memcpy(record, from, 4);
+    } else {
+      const auto width = static_cast<std::ptrdiff_t>(width_);
+      for (; end - from >= width; from += width, record += stride)
+        std::memcpy(record, from, width_);
+    }
+    if (from != end) std::memcpy(record, from, static_cast<std::size_t>(end - from));
+  }
+
+  Cloud& cloud_;
+  std::size_t points_;
+  std::size_t field_ = 0;
+  std::size_t width_ = 0;     // bytes of the field in a point
+  std::size_t position_ = 0;  // bytes of the field taken so far
+};
+
+void read_compressed(const Input& input, PcdHeader& header) {
+  BinaryCursor cursor(input, std::endian::little, header.offset);
+  const std::size_t compressed = cursor.read<std::uint32_t>("compressed size");
+  const std::size_t uncompressed = cursor.read<std::uint32_t>("uncompressed size");
+  if (uncompressed != header.bytes) {
+    input.fail_at_byte(header.offset + 4, {"uncompressed size",
+                                           fmt::format("{}", uncompressed),
+                                           fmt::format("{}: {} points of {} bytes", header.bytes,
+                                                       header.points, header.cloud.stride),
+                                           {}});
+  }
+  if (compressed > cursor.remaining()) {
+    input.fail_at_byte(input.size(), {"truncated: compressed data",
+                                      fmt::format("{} bytes", cursor.remaining()),
+                                      fmt::format("{}", compressed),
+                                      {}});
+  }
+  if (uncompressed / detail::kLzfMaxExpansion > compressed) {
+    input.fail_at_byte(header.offset,
+                       {"compressed size",
+                        fmt::format("{}", compressed),
+                        fmt::format("at least {}", uncompressed / detail::kLzfMaxExpansion),
+                        {}});
+  }
+  const std::size_t start = cursor.offset();
+  const auto packed = cursor.take(compressed, "compressed data");
+  expect_padding(cursor);
+
+  input.require_memory(header.bytes);
+  header.cloud.data.resize(header.bytes);
+  if (header.points == 0 && packed.empty()) return;
+  if (header.points == 0) input.fail_at_byte(start, {"compressed data for no points", {}, {}, {}});
+  Interleaver interleaver(header.cloud, header.points);
+  const auto fault = detail::lzf_decompress(
+      packed, header.bytes, [&](std::span<const std::byte> piece) { interleaver.take(piece); });
+  if (fault.reason != nullptr) {
+    input.fail_at_byte(start + fault.offset, {"damaged compressed data", fault.reason, {}, {}});
+  }
+}
+
+template <class T>
+T read_cell(Cells& cells) {
+  if constexpr (std::is_floating_point_v<T>) {
+    return cells.floating<T>(Allow::any);
+  } else if constexpr (std::is_same_v<T, std::uint64_t>) {
+    return cells.unsigned64("value");
+  } else {
+    return static_cast<T>(
+        cells.integer(std::numeric_limits<T>::min(), std::numeric_limits<T>::max(), "value"));
+  }
+}
+
+void read_ascii(const Input& input, PcdHeader& header) {
+  Cloud& cloud = header.cloud;
+  std::size_t cells_a_point = 0;
+  for (const CloudField& field : cloud.fields) cells_a_point += field.count;
+  const auto cells_in_all = checked_product(header.points, cells_a_point);
+  // A cell takes two bytes; the last line may have no line end.
+  if (!cells_in_all || *cells_in_all > (input.size() - header.offset + 1) / 2) {
+    input.fail({"truncated",
+                fmt::format("{} bytes of data", input.size() - header.offset),
+                fmt::format("{} points of {} numbers", header.points, cells_a_point),
+                {}});
+  }
+  input.require_memory(header.bytes);
+  cloud.data.resize(header.bytes);
+  TextLines lines(input, header.offset, header.lines);
+  Cells cells(lines);
+  std::byte* record = cloud.data.data();
+  for (std::size_t i = 0; i < header.points; ++i, record += cloud.stride) {
+    if (!lines.next()) {
+      input.fail({fmt::format("truncated: {} of {} points", i, header.points), {}, {}, {}});
+    }
+    cells.start();
+    for (const CloudField& field : cloud.fields) {
+      std::byte* to = record + field.offset;
+      detail::visit_type(field.type, [&]<class T>(T) {
+        for (std::size_t k = 0; k < field.count; ++k, to += sizeof(T)) {
+          if (!cells.more()) {
+            lines.fail(lines.line().data() + lines.line().size(),
+                       {fmt::format("point {} is incomplete", i),
+                        "the end of the line",
+                        fmt::format("{} numbers", cells_a_point),
+                        {}});
+          }
+          const T value = read_cell<T>(cells);
+          std::memcpy(to, &value, sizeof(T));
+        }
+      });
+    }
+    cells.expect_end("the end of the point");
+  }
+  if (lines.next()) {
+    lines.fail(lines.line().data(), {"trailing data",
+                                     "another line",
+                                     fmt::format("{} points, as the header says", header.points),
+                                     {}});
+  }
+}
+
+}  // namespace
+
+Cloud read_pcd(const Input& input, const ReadOptions& options) {
+  PcdHeader header = detail::read_pcd_header(input);
+  switch (header.data) {
+    case PcdData::ascii:
+      read_ascii(input, header);
+      break;
+    case PcdData::binary:
+      read_binary(input, header);
+      break;
+    case PcdData::binary_compressed:
+      read_compressed(input, header);
+      break;
+  }
+  if (header.data != PcdData::ascii) detail::to_native(header.cloud);
+  if (header.points == 0 && !options.allow_empty) {
+    input.fail({"no points", {}, "at least one", "--allow-empty accepts an empty cloud"});
+  }
+  return std::move(header.cloud);
+}
+
+}  // namespace ph

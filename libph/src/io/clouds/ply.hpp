@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <bit>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ph/io/cloud.hpp"
+#include "ph/detail/reader.hpp"
+#include "io/readers.hpp"
+
+namespace ph::detail {
+
+struct PlyProperty {
+  std::string name;
+  FieldType type = FieldType::float32;
+  std::optional<FieldType> length_type;  ///< of a list; a scalar has none
+};
+
+struct PlyElement {
+  std::string name;
+  std::size_t count = 0;
+  std::vector<PlyProperty> properties;
+};
+
+struct PlyHeader {
+  bool ascii = false;
+  std::endian order = std::endian::little;
+  std::vector<PlyElement> elements;
+  std::size_t offset = 0;  ///< of the data in the file
+  std::size_t lines = 0;   ///< before the data
+};
+
+/// @throws Error (bad_data).
+PlyHeader read_ply_header(const Input& input);
+
+/// The values after a header, one after the other, as text or binary.
+class PlyBody {
+ public:
+  /// Keeps references to both.
+  PlyBody(const Input& input, const PlyHeader& header);
+
+  /// Checks the element's count against the bytes that follow. Elements come in the file's order.
+  void start_element(const PlyElement& element);
+  void start_row(std::size_t row);
+  void end_row();
+  /// One value, stored at `to` in this machine's byte order.
+  void scalar(FieldType type, std::byte* to);
+  double number(FieldType type);
+  std::size_t list_length(const PlyProperty& property);
+  void skip_list(const PlyProperty& property);
+  void skip_element();
+  /// Bytes of several rows at once; binary files only.
+  std::span<const std::byte> raw_rows(std::size_t bytes);
+  /// @throws Error (bad_data) on trailing data.
+  void expect_end();
+
+ private:
+  const Input& input_;
+  const PlyHeader& header_;
+  TextLines lines_;
+  Cells cells_;
+  BinaryCursor cursor_;
+  const PlyElement* element_ = nullptr;
+};
+
+}  // namespace ph::detail

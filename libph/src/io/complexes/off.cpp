@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include "ph/io/read.hpp"
+#include "io/readers.hpp"
+
+namespace ph {
+namespace {
+
+constexpr std::int64_t kMost = std::int64_t{1} << 40;
+
+// Goes to the next line of data, which must be there.
+void need_line(TextLines& lines, const char* what, std::size_t have, std::size_t all) {
+  if (!lines.next()) {
+    lines.input().fail({fmt::format("truncated: too few {}", what),
+                        fmt::format("{}", have),
+                        fmt::format("{}, as line 1 says", all),
+                        {}});
+  }
+}
+
+void need_cell(const TextLines& lines, const Cells& cells, const char* expected) {
+  if (!cells.more()) {
+    lines.fail(lines.line().data() + lines.line().size(),
+               {"line too short", "the end of the line", expected, {}});
+  }
+}
+
+}  // namespace
+
+namespace detail {
+
+bool is_off(const Input& input) {
+  const std::string_view text = input.text();
+  return text.starts_with("OFF") && (text.size() == 3 || text[3] == ' ' || text[3] == '\n' ||
+                                     text[3] == '\r' || text[3] == '\t');
+}
+
+}  // namespace detail
+
+Mesh read_off(const Input& input, const ReadOptions& options) {
+  TextLines lines(input);
+  Cells cells(lines);
+  if (!lines.next() || (cells.start(), cells.word() != "OFF")) {
+    input.fail_at(1, 1, {"not an OFF file", "another first word", "OFF", {}});
+  }
+  if (!cells.more()) {
+    need_line(lines, "counts", 0, 3);
+    cells.start();
+  }
+  const auto vertices = static_cast<std::size_t>(cells.integer(0, kMost, "number of vertices"));
+  need_cell(lines, cells, "the number of faces");
+  const auto faces = static_cast<std::size_t>(cells.integer(0, kMost, "number of faces"));
+  if (cells.more()) cells.integer(0, kMost, "number of edges");
+  // A vertex takes at least six bytes ("0 0 0\n"), a face two.
+  const std::size_t rest = input.size() - lines.offset() + 1;
+  if (vertices > rest / 6 || faces > rest / 2) {
+    lines.fail(lines.line().data(), {"truncated: the counts do not fit the file",
+                                     fmt::format("{} vertices and {} faces", vertices, faces),
+                                     fmt::format("no more than {} bytes hold", rest),
+                                     {}});
+  }
+  input.require_memory(vertices * 3 * sizeof(double) + faces * sizeof(std::size_t));
+  Mesh mesh;
+  mesh.vertices.resize(static_cast<Index>(vertices), 3);
+  for (std::size_t i = 0; i < vertices; ++i) {
+    need_line(lines, "vertices", i, vertices);
+    cells.start();
+    for (Index k = 0; k < 3; ++k) {
+      need_cell(lines, cells, "x y z");
+      mesh.vertices(static_cast<Index>(i), k) = cells.number();
+    }
+    while (cells.more()) cells.number();  // colours
+  }
+  for (std::size_t i = 0; i < faces; ++i) {
+    need_line(lines, "faces", i, faces);
+    cells.start();
+    const Index corners =
+        cells.integer(1, static_cast<Index>(lines.line().size()), "number of corners");
+    for (Index k = 0; k < corners; ++k) {
+      need_cell(lines, cells, "a vertex for each corner");
+      detail::require_growth(input, mesh.corners);
+      mesh.corners.push_back(cells.integer(0, static_cast<Index>(vertices) - 1, "vertex"));
+    }
+    while (cells.more()) cells.number();  // colours
+    mesh.offsets.push_back(mesh.corners.size());
+  }
+  if (lines.next()) {
+    lines.fail(lines.line().data(), {"trailing data", "another line", "the end of the file", {}});
+  }
+  if (vertices == 0 && !options.allow_empty) {
+    input.fail({"no vertices", {}, "at least one", "--allow-empty accepts an empty mesh"});
+  }
+  return mesh;
+}
+
+Mesh read_off(const std::filesystem::path& path, const ReadOptions& options) {
+  return read_off(Input::open(path, options.context), options);
+}
+
+}  // namespace ph

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#include "ph/io/read.hpp"
+#include "io/readers.hpp"
+
+namespace ph {
+
+Image read_image(const Input& input, const ReadOptions& options) {
+  if (detail::is_png(input) || detail::is_pgm(input) || detail::is_npz(input)) input.take_memory();
+  if (detail::is_png(input)) return detail::read_png_image(input, options);
+  if (detail::is_pgm(input)) return detail::read_pgm_image(input);
+  if (detail::is_dipha(input)) return detail::read_dipha_image(input, options);
+  if (detail::is_nifti(input)) return read_nifti(input, options);
+  return read_npy_image(input, options);
+}
+
+Image read_image(const std::filesystem::path& path, const ReadOptions& options) {
+  return read_image(Input::open(path, options.context, Input::Excess::stays_in_file), options);
+}
+
+}  // namespace ph

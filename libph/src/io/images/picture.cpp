@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// One number a pixel of a PNG, which may have up to four.
+#include <fmt/format.h>
+
+#include <array>
+
+#include "ph/detail/png.hpp"
+#include "io/readers.hpp"
+
+namespace ph::detail {
+namespace {
+
+constexpr std::array<std::string_view, 5> kKinds{"", "grey", "grey + alpha", "RGB", "RGB + alpha"};
+constexpr std::array<std::string_view, 6> kChannels{"", "grey", "red", "green", "blue", "alpha"};
+
+// Luma of ITU-R BT.601, to the nearest integer, halves up.
+std::uint16_t luma(const std::uint16_t* pixel) {
+  return static_cast<std::uint16_t>((299U * pixel[0] + 587U * pixel[1] + 114U * pixel[2] + 500U) /
+                                    1000U);
+}
+
+// Whether colours and opacity say nothing that grey does not.
+bool is_grey(const Raster& raster) {
+  const auto channels = static_cast<std::size_t>(raster.channels);
+  const bool has_alpha = channels % 2 == 0;
+  const auto opaque = static_cast<std::uint16_t>((1U << raster.bits) - 1U);
+  for (std::size_t at = 0; at < raster.samples.size(); at += channels) {
+    const std::uint16_t* const pixel = raster.samples.data() + at;
+    if (has_alpha && pixel[channels - 1] != opaque) return false;
+    if (channels >= 3 && (pixel[0] != pixel[1] || pixel[0] != pixel[2])) return false;
+  }
+  return true;
+}
+
+// Place of a channel among the samples of a pixel; nothing: it is made of three.
+std::optional<std::size_t> place_of(Channel channel, const Raster& raster, const Input& input) {
+  const auto channels = static_cast<std::size_t>(raster.channels);
+  const bool has_colours = channels >= 3, has_alpha = channels % 2 == 0;
+  switch (channel) {
+    case Channel::automatic:
+    case Channel::grey:
+      if (has_colours) return std::nullopt;
+      return 0;
+    case Channel::alpha:
+      if (has_alpha) return channels - 1;
+      break;
+    default:
+      if (has_colours)
+        return static_cast<std::size_t>(channel) - static_cast<std::size_t>(Channel::red);
+  }
+  input.fail({fmt::format("no channel {}", kChannels[static_cast<std::size_t>(channel)]),
+              std::string(kKinds[channels]),
+              "a picture that has it",
+              {}});
+}
+
+}  // namespace
+
+Image read_png_image(const Input& input, const ReadOptions& options) {
+  return image_of(read_png(input), input, options);
+}
+
+Image image_of(Raster raster, const Input& input, const ReadOptions& options) {
+  const std::vector<Index> extents{raster.height, raster.width};
+  const auto channels = static_cast<std::size_t>(raster.channels);
+  const std::size_t count = raster.samples.size() / channels;
+  std::optional<std::size_t> place = place_of(options.channel, raster, input);
+  if (options.channel == Channel::automatic && channels > 1) {
+    if (!is_grey(raster)) {
+      input.fail({"not a grey picture", fmt::format("{} channels, {}", channels, kKinds[channels]),
+                  "1",
+                  channels == 2 ? "--channel grey or alpha takes one"
+                                : fmt::format("--channel grey, red, green{} takes one",
+                                              channels == 4 ? ", blue or alpha" : " or blue")});
+    }
+    place = 0;
+    note(options, fmt::format("{} channels, {}, that say no more than grey: read as grey", channels,
+                              kKinds[channels]));
+  }
+  if (raster.bits > 8 && channels == 1) return {extents, std::move(raster.samples)};
+  const auto pick = [&](auto& values) {
+    input.require_memory(count * sizeof(values[0]));
+    values.resize(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::uint16_t* const pixel = raster.samples.data() + k * channels;
+      values[k] =
+          static_cast<std::decay_t<decltype(values[0])>>(place ? pixel[*place] : luma(pixel));
+    }
+  };
+  if (raster.bits > 8) {
+    std::vector<std::uint16_t> words;
+    pick(words);
+    return {extents, std::move(words)};
+  }
+  std::vector<std::uint8_t> bytes;
+  pick(bytes);
+  return {extents, std::move(bytes)};
+}
+
+}  // namespace ph::detail

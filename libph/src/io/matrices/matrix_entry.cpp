@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "io/matrices/matrix_entry.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ph/barcode.hpp"
+#include "io/readers.hpp"
+#include "io/points/table.hpp"
+
+namespace ph::detail {
+namespace {
+
+constexpr const char* kCorrelations = "--from-correlation reads a correlation matrix";
+
+}  // namespace
+
+void MatrixEntries::look_at(double distance) {
+  if (distance > largest_ && std::isfinite(distance)) largest_ = distance;
+}
+
+void MatrixEntries::doubt(Kind kind, const Doubt& doubt) {
+  if (doubt.size > worst_[kind].size) worst_[kind] = doubt;
+}
+
+double MatrixEntries::rounding() const {
+  return kRounding * (options_.from_correlation ? 1 : largest_);  // of r, not of 1 - r
+}
+
+Fault MatrixEntries::fault_of(double raw, bool on_diagonal) const {
+  if (std::isnan(raw)) {
+    if (options_.nan == NanPolicy::error)
+      return {"not a distance", "NaN", "0 or more", "--nan drop never joins such a pair"};
+  } else if (options_.from_correlation) {
+    if (on_diagonal && !(std::abs(raw - 1) <= kRounding))
+      return {"diagonal of a correlation matrix", fmt::format("{}", raw), "1", {}};
+    if (std::abs(raw) > 1 + kRounding)
+      return {"not a correlation", fmt::format("{}", raw), "-1 to 1", {}};
+  } else if (on_diagonal && options_.births_on_diagonal) {
+    if (!(raw >= 0 && raw < kInfinity))
+      return {"not a birth", fmt::format("{} on the diagonal", raw), "a finite number >= 0", {}};
+  }
+  return {};
+}
+
+double MatrixEntries::distance_of(double raw, const EntryPlace& place) {
+  const bool on_diagonal = place.row == place.column;
+  if (std::isnan(raw)) return on_diagonal ? 0 : kInfinity;
+  if (options_.from_correlation) return 1 - std::clamp(raw, -1.0, 1.0);
+  if (on_diagonal && options_.births_on_diagonal) return raw;
+  doubt(on_diagonal ? kDiagonal : kNegative, {std::abs(raw), raw, 0, place});
+  return 0;
+}
+
+double MatrixEntries::merged(double upper, double lower, const EntryPlace& place) {
+  switch (options_.symmetrise) {
+    case Symmetrise::max:
+      return std::max(upper, lower);
+    case Symmetrise::min:
+      return std::min(upper, lower);
+    case Symmetrise::lower:
+      return lower;
+    case Symmetrise::none:
+      break;
+  }
+  if (upper != lower) doubt(kAsymmetric, {std::abs(upper - lower), lower, upper, place});
+  return lower;
+}
+
+Fault MatrixEntries::fault_of(Kind kind, const Doubt& doubt) const {
+  const auto [i, j, byte] = doubt.place;
+  const std::string slack =
+      rounding() > 0 ? fmt::format(", or rounding: at most {:.2g}", rounding()) : "";
+  if (kind == kNegative)
+    return {"negative distance", fmt::format("{}", doubt.value), "0 or more",
+            doubt.value >= -1 ? kCorrelations : ""};
+  if (kind == kAsymmetric)
+    return {"asymmetric matrix",
+            fmt::format("d({},{}) = {} but d({},{}) = {}", i, j, doubt.value, j, i, doubt.other),
+            "both equal", "--symmetrise max, min or lower accepts it"};
+  const bool is_one = std::abs(doubt.value - 1) <= kRounding;
+  return {"non-zero diagonal", fmt::format("{}", doubt.value), "0" + slack,
+          is_one            ? kCorrelations
+          : doubt.value > 0 ? "--diagonal births takes it for the births of the points"
+                            : ""};
+}
+
+void MatrixEntries::finish(const std::function<void(const EntryPlace&, const Fault&)>& fail) const {
+  for (const Kind kind : {kNegative, kAsymmetric, kDiagonal})
+    if (const Doubt& doubt = worst_[kind]; doubt.size > rounding())
+      fail(doubt.place, fault_of(kind, doubt));
+  const auto tell = [&](Kind kind, std::string_view what) {
+    if (worst_[kind].size > 0)
+      note(options_,
+           fmt::format("{} for rounding, at most {:.2g}: taken as 0", what, worst_[kind].size));
+  };
+  tell(kNegative, "distances are 0 or more but");
+  tell(kDiagonal, "the diagonal is 0 but");
+}
+
+void fail_in_text(const Input& input, std::size_t byte, const Fault& fault) {
+  const std::string_view before = input.text().substr(0, byte);
+  const std::size_t start = before.rfind('\n') + 1;  // npos + 1 is 0
+  const auto line = static_cast<std::size_t>(std::ranges::count(before, '\n')) + 1;
+  input.fail_at(line, byte - start + 1, fault);
+}
+
+}  // namespace ph::detail

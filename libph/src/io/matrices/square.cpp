@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// What square tables of numbers look like.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "io/points/table.hpp"
+
+namespace ph::detail {
+
+SquareKind kind_of_square(std::span<const double> block, std::size_t side) {
+  double largest = 0;
+  for (const double value : block)
+    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  const double rounding = kRounding * largest;
+  bool symmetric = true, positive = true, in_one = true;
+  for (std::size_t i = 0; i < side; ++i) {
+    for (std::size_t j = 0; j < side; ++j) {
+      const double value = block[i * side + j], other = block[j * side + i];
+      in_one = in_one && !(std::abs(value) > 1 + kRounding);
+      if (i == j || std::isnan(value)) {
+        symmetric = symmetric && (i == j || std::isnan(other));
+        continue;
+      }
+      positive = positive && value >= -rounding;
+      symmetric = symmetric && (value == other || std::abs(value - other) <= rounding);
+    }
+  }
+  bool zeros = true, ones = true, known = false;
+  for (std::size_t i = 0; i < side; ++i) {
+    const double value = block[i * side + i];
+    if (std::isnan(value)) continue;
+    known = true;
+    zeros = zeros && std::abs(value) <= rounding;
+    ones = ones && std::abs(value - 1) <= kRounding;
+  }
+  if (known && zeros) return symmetric && positive ? SquareKind::distances : SquareKind::zeros;
+  if (!symmetric) return SquareKind::nothing;
+  return known && ones && in_one ? SquareKind::correlations : SquareKind::symmetric;
+}
+
+bool is_mostly_zero(std::span<const double> block, std::size_t side) {
+  std::size_t zeros = 0;
+  for (std::size_t i = 0; i < side; ++i)
+    for (std::size_t j = 0; j < side; ++j) zeros += i != j && block[i * side + j] == 0 ? 1 : 0;
+  return 2 * zeros > side * (side - 1);
+}
+
+TableShape shape_of(const Input& input, const TableLayout& layout) {
+  const std::size_t n = layout.columns.size(), side = std::min(n, kMostLookedAt);
+  std::vector<double> block(side * side, std::numeric_limits<double>::quiet_NaN());
+  const std::vector<bool> taken = layout.taken();
+  const bool has_names = layout.names_rows && layout.header.size() == layout.width;
+  TableShape shape{.same_names = has_names};
+  TextLines lines(input);
+  Cells cells(lines);
+  std::size_t rows = 0;
+  for (bool more = layout.start(lines); more && rows <= n; more = lines.next(), ++rows) {
+    if (rows >= side) continue;
+    std::size_t length = 0, column = 0;
+    for (cells.start(); cells.more() && length < layout.width; ++length) {
+      const std::string_view cell = cells.skip();
+      if (length == 0)
+        shape.same_names = shape.same_names && without_quotes(cell) == layout.header[rows + 1];
+      if (taken[length] && column < side) {
+        double& entry = block[rows * side + column++];
+        entry = number_in(cell).value_or(entry);
+      }
+    }
+    const bool is_short =
+        length != layout.width && !(length + 1 == layout.width && ends_empty(lines.line()));
+    if (is_short || cells.more()) return {};
+  }
+  shape.rows = rows;
+  if (n >= 2 && rows == n) shape.square = kind_of_square(block, side);
+  return shape;
+}
+
+}  // namespace ph::detail

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "ph/detail/file_pages.hpp"
+#include "ph/image.hpp"
+#include "ph/detail/reader.hpp"
+
+namespace ph::detail {
+
+/// A kind of number that arrays are stored as.
+struct ElementType {
+  std::size_t size = 0;  ///< bytes
+  /// The number at an address; sets its last argument to false if double cannot hold it.
+  double (*load)(const std::byte*, std::endian, bool&) = nullptr;
+  VoxelType stored = VoxelType::float64;  ///< the smallest type of voxels that holds them all
+  bool is_native = false;  ///< whether that is the type itself, but for the order of its bytes
+};
+
+/// By NumPy's letter and size in bytes: b1 u1 u2 u4 u8 i1 i2 i4 i8 f2 f4 f8.
+std::optional<ElementType> element_type(std::string_view kind);
+
+/// How an array lies in a file.
+struct ArrayLayout {
+  ElementType type;
+  std::endian order = std::endian::little;
+  bool first_axis_fastest = false;  ///< as in Fortran, DIPHA and NIfTI; else the last one
+  std::size_t offset = 0;           ///< of the first element
+};
+
+/// What the header of an NPY file says.
+struct NpyLayout {
+  ArrayLayout array;
+  std::vector<Index> shape;
+  char kind = 'f';        ///< NumPy's letter of the type: b, u, i or f
+  std::size_t count = 0;  ///< of elements, all there
+};
+/// @throws Error (bad_data) on what is no NPY file, or has not as many elements as it says.
+NpyLayout npy_layout(const Input& input);
+
+/// Whether so many bytes that are made of an input are better left in a file: more than a third of
+/// the memory that is left, or of an input that stays in one itself.
+bool stays_in_file(const Input& input, std::size_t bytes);
+
+/// The number of elements of an array that must reach from its offset to the end of the input.
+/// @throws Error (bad_data) "truncated" or "trailing data".
+std::size_t count_elements(const Input& input, const ArrayLayout& layout,
+                           const std::vector<Index>& extents);
+
+/// Reads an array whose elements are there (see count_elements); the result is in C order.
+/// @param excess stays_in_file: voxels that `stays_in_file` stay in the input's file, or in a
+///        temporary one if they are stored in another way.
+/// @throws Error (bad_data) at an integer that double cannot hold; Error (resource); Error (io).
+Image load_array(const Input& input, const ArrayLayout& layout, std::vector<Index> extents,
+                 Input::Excess excess = Input::Excess::refused);
+
+/// Numbers in a temporary file, zero at first: `fill(std::span<T>)` writes them.
+template <VoxelNumber T, class Fill>
+Voxels voxels_in_file(VoxelType type, std::size_t count, Fill&& fill) {
+  auto file = std::make_shared<ScratchFile>(count * sizeof(T));
+  fill(std::span<T>(reinterpret_cast<T*>(file->data()), count));
+  forget_file_pages(file->data(), file->size());
+  return Voxels(VoxelsInFile{type, file, file->data(), count});
+}
+
+/// Places in C order of the elements of an array, visited with the first axis fastest.
+class FirstAxisFastest {
+ public:
+  explicit FirstAxisFastest(const std::vector<Index>& extents);
+  std::size_t place() const { return place_; }
+  void next();
+
+ private:
+  struct Axis {
+    std::size_t extent, stride, at;
+  };
+  std::vector<Axis> axes_;
+  std::size_t place_ = 0;
+};
+
+}  // namespace ph::detail

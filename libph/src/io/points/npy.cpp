@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <ostream>
+
+#include "io/points/array.hpp"
+#include "ph/io/cloud_io.hpp"
+#include "io/readers.hpp"
+
+namespace ph {
+namespace {
+
+constexpr std::string_view kMagic = "\x93NUMPY";
+
+struct Header {
+  std::string descr;
+  bool fortran_order = false;
+  std::vector<Index> shape;
+  std::size_t offset = 0;  // of the data
+};
+
+// The header is a Python dictionary with three known keys; nothing else of Python is read.
+class HeaderParser {
+ public:
+  HeaderParser(const Input& input, std::size_t begin, std::size_t end)
+      : input_(input), position_(begin), end_(end) {}
+
+  Header parse() {
+    Header header;
+    bool descr = false, order = false, shape = false;
+    expect('{');
+    while (!accept('}')) {
+      const std::size_t at = position_;
+      const std::string key = string();
+      expect(':');
+      if (key == "descr" && !descr) {
+        header.descr = string();
+        descr = true;
+      } else if (key == "fortran_order" && !order) {
+        header.fortran_order = boolean();
+        order = true;
+      } else if (key == "shape" && !shape) {
+        header.shape = tuple();
+        shape = true;
+      } else {
+        fail(at, "unknown key", printable(key, 40), "descr, fortran_order and shape, once each");
+      }
+      if (!accept(',') && peek() != '}') fail(position_, "NPY header", found(), "',' or '}'");
+    }
+    if (!descr || !order || !shape) {
+      fail(position_, "incomplete NPY header", "", "descr, fortran_order and shape");
+    }
+    skip();
+    if (position_ != end_) fail(position_, "NPY header", found(), "its end");
+    return header;
+  }
+
+ private:
+  [[noreturn]] void fail(std::size_t at, std::string what, std::string what_found,
+                         std::string expected) const {
+    input_.fail_at_byte(at, {std::move(what), std::move(what_found), std::move(expected), {}});
+  }
+  std::string found() const {
+    return position_ < end_ ? printable(input_.text().substr(position_, 1)) : "its end";
+  }
+  void skip() {
+    while (position_ < end_ &&
+           std::string_view(" \t\r\n").find(input_.text()[position_]) != std::string_view::npos) {
+      ++position_;
+    }
+  }
+  char peek() {
+    skip();
+    return position_ < end_ ? input_.text()[position_] : '\0';
+  }
+  bool accept(char c) {
+    if (peek() != c || position_ == end_) return false;
+    ++position_;
+    return true;
+  }
+  void expect(char c) {
+    if (!accept(c)) fail(position_, "NPY header", found(), fmt::format("'{}'", c));
+  }
+  std::string string() {
+    const char quote = peek();
+    if (quote != '\'' && quote != '"') {
+      fail(position_, "NPY header", found(), "a quoted word (structured arrays are not read)");
+    }
+    const std::size_t begin = ++position_;
+    while (position_ < end_ && input_.text()[position_] != quote) ++position_;
+    if (position_ == end_) fail(begin, "NPY header", "no closing quote", "one");
+    return std::string(input_.text().substr(begin, position_++ - begin));
+  }
+  bool boolean() {
+    skip();
+    for (const bool value : {false, true}) {
+      const std::string_view word = value ? "True" : "False";
+      if (input_.text().substr(position_, std::min(word.size(), end_ - position_)) == word) {
+        position_ += word.size();
+        return value;
+      }
+    }
+    fail(position_, "fortran_order", found(), "True or False");
+  }
+  std::vector<Index> tuple() {
+    std::vector<Index> shape;
+    expect('(');
+    while (!accept(')')) {
+      skip();
+      Index extent = 0;
+      const char* begin = input_.text().data() + position_;
+      const auto [stop, error] = std::from_chars(begin, input_.text().data() + end_, extent);
+      if (error != std::errc{} || extent < 0) {
+        fail(position_, "shape",
+             error == std::errc::result_out_of_range ? "a number above 2^63"
+             : extent < 0                            ? fmt::format("{}", extent)
+                                                     : found(),
+             "sizes of 0 or more");
+      }
+      position_ += static_cast<std::size_t>(stop - begin);
+      shape.push_back(extent);
+      if (!accept(',') && peek() != ')') fail(position_, "shape", found(), "',' or ')'");
+    }
+    return shape;
+  }
+
+  const Input& input_;
+  std::size_t position_;
+  std::size_t end_;
+};
+
+Header read_header(const Input& input) {
+  BinaryCursor cursor(input, std::endian::little);
+  const auto magic = cursor.take(kMagic.size(), "NPY magic number");
+  if (std::memcmp(magic.data(), kMagic.data(), kMagic.size()) != 0) {
+    input.fail_at_byte(0, {"not an NPY file", "another magic number", "\\x93NUMPY", {}});
+  }
+  const auto major = cursor.read<std::uint8_t>("NPY version");
+  cursor.read<std::uint8_t>("NPY version");
+  if (major < 1 || major > 3) {
+    input.fail_at_byte(6, {"NPY version", fmt::format("{}", major), "1, 2 or 3", {}});
+  }
+  const std::size_t length = major == 1 ? cursor.read<std::uint16_t>("header length")
+                                        : cursor.read<std::uint32_t>("header length");
+  const std::size_t begin = cursor.offset();
+  cursor.take(length, "NPY header");
+  Header header = HeaderParser(input, begin, begin + length).parse();
+  header.offset = begin + length;
+  return header;
+}
+
+}  // namespace
+
+namespace detail {
+
+bool is_npy(const Input& input) { return input.text().starts_with(kMagic); }
+
+bool is_npy_of_floats(const Input& input) {
+  const std::string descr = read_header(input).descr;
+  return descr.size() > 1 && descr[1] == 'f';
+}
+
+NpyLayout npy_layout(const Input& input) {
+  Header header = read_header(input);
+  const char mark = header.descr.empty() ? '\0' : header.descr[0];
+  const auto type = mark == '<' || mark == '>' || mark == '|' || mark == '='
+                        ? element_type(std::string_view(header.descr).substr(1))
+                        : std::nullopt;
+  if (!type || (mark == '|' && type->size != 1)) {
+    input.fail({"NPY element type",
+                printable(header.descr, 40),
+                "booleans, integers or floats of at most 8 bytes",
+                {}});
+  }
+  NpyLayout npy{{*type, mark == '>' ? std::endian::big : std::endian::little, header.fortran_order,
+                 header.offset},
+                std::move(header.shape),
+                header.descr[1]};
+  npy.count = count_elements(input, npy.array, npy.shape);
+  return npy;
+}
+
+Image read_npy_array(const Input& input, Input::Excess excess) {
+  if (is_npz(input)) return read_npy_array(read_npz_member(input));
+  NpyLayout npy = npy_layout(input);
+  for (std::size_t k = 0; npy.kind == 'b' && k < npy.count; ++k) {
+    const auto value = std::to_integer<int>(input.bytes()[npy.array.offset + k]);
+    if (value > 1) {
+      input.fail_at_byte(npy.array.offset + k,
+                         {"not a boolean", fmt::format("{}", value), "0 or 1", {}});
+    }
+  }
+  return load_array(input, npy.array, std::move(npy.shape), excess);
+}
+
+namespace {
+
+std::string place_of(std::size_t voxel, const std::vector<Index>& extents) {
+  std::vector<Index> place(extents.size());
+  auto rest = static_cast<Index>(voxel);
+  for (std::size_t axis = place.size(); axis-- > 0;) {
+    place[axis] = rest % extents[axis];
+    rest /= extents[axis];
+  }
+  return fmt::format("{}", fmt::join(place, ", "));
+}
+
+// Calls `use(begin, end)` for blocks of the numbers; what lies behind may leave the memory.
+template <class T, class Use>
+void for_each_block(std::span<const T> all, bool in_file, const Input& input, Use&& use) {
+  constexpr std::size_t block = 1 << 20;
+  for (std::size_t begin = 0; begin < all.size(); begin += block) {
+    input.poll();
+    const std::span<const T> part = all.subspan(begin, std::min(all.size() - begin, block));
+    use(begin, begin + part.size());
+    if (in_file) forget_file_pages(part.data(), part.size_bytes());
+  }
+}
+
+template <class T>
+std::size_t count_nan(std::span<const T> all, bool in_file, const Input& input) {
+  std::size_t count = 0;
+  for_each_block(all, in_file, input, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) count += all[k] != all[k] ? 1 : 0;
+  });
+  return count;
+}
+
+}  // namespace
+
+Image without_nan_pixels(Image image, const Input& input, const ReadOptions& options) {
+  Voxels& values = image.values;
+  const bool in_file = values.is_in_file();
+  std::size_t masked = 0;
+  with_voxels(values.type(), values.data(), [&]<class T>(const T* first) {
+    if constexpr (std::is_floating_point_v<T>) {
+      const std::span<const T> all(first, values.size());
+      masked = count_nan(all, in_file, input);
+      if (masked == 0) return;
+      const auto is_nan = [](T value) { return std::isnan(value); };
+      if (options.nan == NanPolicy::error) {
+        const auto at = static_cast<std::size_t>(std::ranges::find_if(all, is_nan) - all.begin());
+        input.fail({fmt::format("value at [{}]", place_of(at, image.extents)), "NaN", "a number",
+                    "--nan drop masks such voxels"});
+      }
+    }
+  });
+  image.masked = masked > 0;
+  if (image.masked) note(options, fmt::format("{} voxels are NaN: masked", masked));
+  if (image.values.empty() && !options.allow_empty) {
+    input.fail({"no voxels", fmt::format("shape ({})", fmt::join(image.extents, ", ")),
+                "at least one", "--allow-empty accepts an empty image"});
+  }
+  return image;
+}
+
+}  // namespace detail
+
+Image read_npy_image(const Input& input, const ReadOptions& options) {
+  Image image = detail::read_npy_array(input, Input::Excess::stays_in_file);
+  if (image.extents.empty()) image.extents.push_back(1);  // a single number
+  return detail::without_nan_pixels(std::move(image), input, options);
+}
+
+void write_npy(std::ostream& out, std::span<const std::uint32_t> labels, Index width,
+               Index height) {
+  const bool is_size = width >= 0 && height >= 0;
+  if (!is_size || checked_product(static_cast<std::size_t>(width),
+                                  static_cast<std::size_t>(height)) != labels.size()) {
+    throw Error(ErrorKind::bad_data,
+                fmt::format("labels: found {}, expected {} x {}", labels.size(), width, height));
+  }
+  const std::string shape =
+      height > 1 ? fmt::format("({}, {})", height, width) : fmt::format("({},)", width);
+  std::string header =
+      fmt::format("{{'descr': '<u4', 'fortran_order': False, 'shape': {}, }}", shape);
+  // The data start at a multiple of 64; the header ends in a line feed.
+  const std::size_t before = kMagic.size() + 4;
+  header.resize((before + header.size() + 1 + 63) / 64 * 64 - before - 1, ' ');
+  header += '\n';
+  out.write(kMagic.data(), static_cast<std::streamsize>(kMagic.size()));
+  const char lead[] = {1, 0, static_cast<char>(header.size() & 0xFF),
+                       static_cast<char>(header.size() >> 8)};
+  out.write(lead, sizeof(lead));
+  out.write(header.data(), static_cast<std::streamsize>(header.size()));
+  std::string block;
+  constexpr std::size_t kBlock = 1 << 14;
+  for (std::size_t begin = 0; begin < labels.size(); begin += kBlock) {
+    block.clear();
+    for (const std::uint32_t label :
+         labels.subspan(begin, std::min(kBlock, labels.size() - begin))) {
+      for (int shift = 0; shift < 32; shift += 8) {
+        block += static_cast<char>((label >> shift) & 0xFF);
+      }
+    }
+    out.write(block.data(), static_cast<std::streamsize>(block.size()));
+  }
+  if (!out) throw Error(ErrorKind::io, "cannot write labels");
+}
+
+}  // namespace ph

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: MIT
+#include "io/readers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ph/io/cloud_io.hpp"
+#include "io/points/table.hpp"
+
+namespace ph {
+
+namespace {
+
+// Whether a column counts the rows, from 0 or from 1.
+bool counts_rows(const Points& points, Index column) {
+  for (Index i = 0; i < points.rows(); ++i)
+    if (points(i, column) != points(0, column) + static_cast<double>(i)) return false;
+  return points(0, column) == 0 || points(0, column) == 1;
+}
+
+// Whether the first point may be a header of numbers: 0, 1, 2, … or 1, 2, 3, …. Of two whole
+// numbers among others that says nothing.
+bool may_be_header(const Points& rows) {
+  const Index columns = rows.cols();
+  if (rows.rows() < 2 || columns < 2 || (rows(0, 0) != 0 && rows(0, 0) != 1)) return false;
+  for (Index k = 1; k < columns; ++k)
+    if (rows(0, k) != rows(0, 0) + static_cast<double>(k)) return false;
+  const auto next = rows.middleRows(1, std::min<Index>(rows.rows() - 1, 8)).array();
+  return columns > 2 || (next != next.floor()).any();
+}
+
+// The numbers of a table, without those of its index.
+detail::TextTable table_of_points(const Input& input, const ReadOptions& options) {
+  constexpr Index kFewest = 8;  // rows that hardly count by chance
+  ReadOptions as_points = options;
+  as_points.array = ArrayMeaning::points;
+  const detail::TableLayout layout = detail::table_layout(input, as_points);
+  detail::TextTable table = detail::read_text_table(
+      input, options.nan == NanPolicy::drop ? Allow::missing : Allow::finite, options, false,
+      &layout);
+  const Points& rows = table.rows;
+  if (layout.header.empty() && options.columns.empty() && rows.rows() >= kFewest &&
+      rows.cols() > 1 && counts_rows(rows, 0)) {
+    detail::note(options,
+                 fmt::format("the first column counts the rows and is read as a coordinate; "
+                             "--columns 2-{} leaves it out",
+                             rows.cols()));
+  }
+  if (layout.header.empty() && options.columns.empty() && may_be_header(rows))
+    detail::note(options,
+                 "the first row counts the columns and is read as a point; take it out if it is a "
+                 "header");
+  return table;
+}
+
+// The columns of an array that were asked for.
+Points chosen_of(Points points, const Input& input, const ReadOptions& options) {
+  if (options.columns.empty()) return points;
+  const auto columns =
+      detail::chosen_columns(options.columns, {}, static_cast<std::size_t>(points.cols()), input);
+  Points chosen(points.rows(), static_cast<Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    chosen.col(static_cast<Index>(k)) = points.col(static_cast<Index>(columns[k]));
+  return chosen;
+}
+
+}  // namespace
+
+namespace detail {
+
+TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& options, bool counted,
+                          const TableLayout* layout) {
+  TextTable table;
+  TextLines lines(input);
+  Cells cells(lines, layout != nullptr ? cell_hints(options) : CellHints());
+  bool more = layout != nullptr ? layout->start(lines) : lines.next();
+  std::size_t said = 0;
+  if (counted) {
+    if (!more) input.fail({"no number of points", "nothing", "it on the first line", {}});
+    cells.start();
+    const auto most = static_cast<std::int64_t>(input.size());  // a point takes a few bytes
+    said = static_cast<std::size_t>(cells.integer(0, most, "number of points"));
+    cells.expect_end("the number of points alone");
+    more = lines.next();
+  } else if (layout != nullptr) {
+    table.header = layout->header;
+    layout->tell(options);
+  } else if (more) {
+    table.header = header_names(lines.line());
+    if (!table.header.empty()) {
+      note(options, fmt::format("line {} is a header: skipped", lines.number()));
+      more = lines.next();
+    }
+  }
+  const auto check_count = [&](std::size_t count) {
+    if (!counted || count == said) return;
+    input.fail({count < said ? "truncated" : "trailing data",
+                fmt::format("{} points", count),
+                fmt::format("{}, as the first line says", said),
+                {}});
+  };
+  if (!more) {
+    check_count(0);
+    return table;
+  }
+
+  const std::size_t first_line = lines.number();
+  const std::size_t width = layout != nullptr ? layout->width : count_cells(lines);
+  const std::vector<bool> taken =
+      layout != nullptr ? layout->taken() : std::vector<bool>(width, true);
+  const auto columns = static_cast<std::size_t>(std::ranges::count(taken, true));
+
+  // No more rows than lines. A row takes a byte a cell, its separator or the line end, for cells
+  // may be empty: memory is at most eight times the file, whatever it holds.
+  const std::string_view rest = input.text().substr(lines.offset());
+  const std::size_t by_lines =
+      static_cast<std::size_t>(std::count(rest.begin(), rest.end(), '\n')) + 2;
+  const std::size_t most = std::min(by_lines, rest.size() / width + 2);
+  input.require_memory(most * columns * sizeof(double));
+  table.rows.resize(static_cast<Index>(most), static_cast<Index>(columns));
+  double* value = table.rows.data();
+  std::size_t count = 0;
+  do {
+    cells.start();
+    std::size_t k = 0;
+    for (; k < width && cells.more(); ++k) {
+      if (taken[k]) {
+        *value++ = cells.number(allow);
+      } else {
+        cells.skip();
+      }
+    }
+    if (k + 1 == width && (allow == Allow::missing || !taken[k]) && ends_empty(lines.line())) {
+      if (taken[k]) *value++ = std::numeric_limits<double>::quiet_NaN();
+      ++k;
+    }
+    if (k != width || cells.more()) {
+      for (; cells.more(); ++k) cells.skip();
+      lines.fail(lines.line().data(),
+                 {"ragged row", fmt::format("{} cell{}", k, k == 1 ? "" : "s"),
+                  fmt::format("{}, as in line {}", width, first_line),
+                  k < width && lines.offset() == input.size() ? "is the file truncated?"
+                  : options.array == ArrayMeaning::image      ? "an image has rows of one length"
+                                                              : ""});
+    }
+    ++count;
+  } while (lines.next());
+  check_count(count);
+  table.rows.conservativeResize(static_cast<Index>(count), Eigen::NoChange);
+  const bool names_rows = layout != nullptr && layout->names_rows;
+  if (!table.header.empty() && table.header.size() != width && width > 1 &&
+      table.header.size() > 1 && !names_rows) {
+    note(options,
+         fmt::format("the header has {} names for {} columns", table.header.size(), width));
+  }
+  return table;
+}
+
+Points without_nan_rows(Points points, const Input& input, const ReadOptions& options, bool holes) {
+  const Index columns = points.cols();
+  Index kept = 0;
+  for (Index i = 0; i < points.rows(); ++i) {
+    double* row = points.data() + i * columns;
+    bool hole = false;
+    for (Index k = 0; k < columns; ++k) {
+      if (std::isinf(row[k])) {
+        input.fail({fmt::format("infinite coordinate {} of point {}", k, i),
+                    row[k] > 0 ? "inf" : "-inf",
+                    "a finite number",
+                    {}});
+      }
+      if (!std::isnan(row[k])) continue;
+      hole = true;
+      if (!holes && options.nan == NanPolicy::error) {
+        input.fail({fmt::format("coordinate {} of point {}", k, i), "NaN", "a finite number",
+                    "--nan drop leaves such points out"});
+      }
+    }
+    if (hole) {
+      if (options.dropped != nullptr) options.dropped->push_back(i);
+    } else {
+      if (kept != i) std::copy(row, row + columns, points.data() + kept * columns);
+      ++kept;
+    }
+  }
+  if (kept != points.rows()) {
+    note(options, fmt::format("{} of {} points have a NaN coordinate: left out",
+                              points.rows() - kept, points.rows()));
+    points.conservativeResize(kept, Eigen::NoChange);
+  }
+  return points;
+}
+
+}  // namespace detail
+
+Points read_points(const Input& input, const ReadOptions& options) {
+  Points points;
+  if (detail::is_npy(input) || detail::is_npz(input)) {
+    const Image array = detail::read_npy_array(input);
+    if (array.dim() != 2) {
+      input.fail({"not a set of points", fmt::format("an array of {} dimensions", array.dim()),
+                  "2: a point a row", array.dim() == 1 ? "a[:, None] has a number a row" : ""});
+    }
+    if (array.values.empty() && array.extents[0] > 0) {
+      input.fail({"points without coordinates",
+                  fmt::format("shape ({}, 0)", array.extents[0]),
+                  "one column at least",
+                  {}});
+    }
+    // Both are there for a while, and no budget counts the array.
+    input.require_memory(array.values.bytes() + array.values.size() * sizeof(double));
+    points.resize(array.extents[0], array.extents[1]);
+    with_voxels(array.values.type(), array.values.data(), [&](const auto* numbers) {
+      constexpr std::size_t block = 1 << 16;  // numbers between two looks at the stop token
+      for (std::size_t k = 0; k < array.values.size(); k += block) {
+        input.poll(input.size());
+        const std::size_t count = std::min(block, array.values.size() - k);
+        std::copy_n(numbers + k, count, points.data() + k);
+      }
+    });
+    points = chosen_of(std::move(points), input, options);
+    points = detail::without_nan_rows(std::move(points), input, options, false);
+  } else if (detail::is_pcd(input) || detail::is_ply(input)) {
+    detail::refuse_columns(options, detail::is_pcd(input) ? "PCD" : "PLY");
+    points = detail::without_nan_rows(
+        points_of(read_cloud(input, {.allow_empty = true, .context = options.context})), input,
+        options, true);
+  } else {
+    points = table_of_points(input, options).rows;
+    if (options.nan == NanPolicy::drop)
+      points = detail::without_nan_rows(std::move(points), input, options, false);
+  }
+  if (points.rows() == 0 && !options.allow_empty) {
+    input.fail({"no points", {}, "one point a line", "--allow-empty accepts an empty set"});
+  }
+  return points;
+}
+
+namespace detail {
+
+Image read_grid(const Input& input, const ReadOptions& options) {
+  ReadOptions as_image = options;
+  as_image.array = ArrayMeaning::image;
+  const TableLayout layout = table_layout(input, as_image);
+  const Allow allow = options.nan == NanPolicy::drop ? Allow::missing : Allow::infinite;
+  Points rows = read_text_table(input, allow, options, false, &layout).rows;
+  Image image;
+  if (rows.rows() > 0) image.extents = {rows.rows(), rows.cols()};
+  if (rows.rows() == 1 || rows.cols() == 1) image.extents = {rows.size()};
+  if (rows.size() == 0) image.extents = {0};
+  input.require_memory(static_cast<std::size_t>(rows.size()) * sizeof(double));
+  image.values = std::vector<double>(rows.data(), rows.data() + rows.size());
+  return without_nan_pixels(std::move(image), input, options);
+}
+
+}  // namespace detail
+
+Points read_points(const std::filesystem::path& path, const ReadOptions& options) {
+  return read_points(Input::open(path, options.context), options);
+}
+
+}  // namespace ph

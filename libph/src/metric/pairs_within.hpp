@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <functional>
+
+#include "ph/run_context.hpp"
+#include "ph/metric.hpp"
+
+namespace ph {
+
+/// Calls `visit(i, j, distance)` once for each pair i < j of points at Euclidean distance <=
+/// radius, in an order that depends on the input alone. In up to three dimensions by cubes of the
+/// size of the radius, above by a k-d tree, or all pairs where points are few: O(n log n + pairs)
+/// unless most points lie within a billionth of the largest coordinate.
+/// @param points one point a row, finite. @param radius in units of the coordinates.
+/// @throws Error (usage) if the radius is negative or NaN; Error (bad_data) as PointMetric;
+///         Error (cancelled) on a stop request.
+void for_each_pair_within(const Points& points, double radius,
+                          const std::function<void(Index, Index, double)>& visit,
+                          const RunContext& context = default_context());
+
+}  // namespace ph

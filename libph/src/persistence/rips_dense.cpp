@@ -1,9 +1,0 @@
-// SPDX-License-Identifier: MIT
-#include "persistence/all_engines.hpp"
-
-namespace ph::detail {
-
-template Barcode compute<AllEngines>(const RipsFiltration<RipsLayout::dense, 1>&, const Options&,
-                                     const RunContext&);
-
-}  // namespace ph::detail

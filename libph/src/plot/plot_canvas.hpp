@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "ph/barcode.hpp"
+#include "ph/detail/png.hpp"
+#include "ph/io/svg_plot.hpp"
+
+namespace ph::plot {
+
+/// 0x00RRGGBB.
+using Colour = std::uint32_t;
+
+inline constexpr double kWidth = 250;   // points: 88 mm, a column of a paper
+inline constexpr Index kPixels = 1040;  // across a PNG: 300 dots an inch
+inline constexpr double kDotsPerInch = 300;
+inline constexpr double kHalo = 1.6;  // width of a line around text, half of it outside
+inline constexpr Colour kInk = 0x222222, kGrey = 0x767676, kGrid = 0xe4e4e4, kWhite = 0xffffff;
+
+/// Okabe and Ito's colours, told apart with every kind of colour vision.
+Colour colour_of_dim(int dim);
+/// "H" and a dimension in Unicode's subscript digits; the same for any other letter.
+std::string with_subscript(std::string_view letter, int number);
+/// "12,345"
+std::string grouped(std::size_t number);
+/// The characters of a text in UTF-8, those that XML cannot hold replaced by U+FFFD.
+std::vector<std::string> characters_of(std::string_view text);
+
+/// Lines, open or closed, and circles.
+class Outline {
+ public:
+  enum class Verb : std::uint8_t {
+    move_to,
+    line_to,
+    line_by,
+    horizontal_to,  // x only
+    horizontal_by,
+    vertical_to,  // y only
+    vertical_by,
+    circle_by,  // one that begins and ends here, x wide, to the right
+    close
+  };
+  struct Step {
+    Verb verb;
+    double x, y;
+  };
+
+  Outline& move_to(double x, double y) { return add({Verb::move_to, x, y}); }
+  Outline& line_to(double x, double y) { return add({Verb::line_to, x, y}); }
+  Outline& line_by(double x, double y) { return add({Verb::line_by, x, y}); }
+  Outline& horizontal_to(double x) { return add({Verb::horizontal_to, x, 0}); }
+  Outline& horizontal_by(double x) { return add({Verb::horizontal_by, x, 0}); }
+  Outline& vertical_to(double y) { return add({Verb::vertical_to, 0, y}); }
+  Outline& vertical_by(double y) { return add({Verb::vertical_by, 0, y}); }
+  Outline& circle(double x, double y, double radius) {
+    return move_to(x - radius, y).add({Verb::circle_by, 2 * radius, 0});
+  }
+  Outline& close() { return add({Verb::close, 0, 0}); }
+
+  bool empty() const { return steps_.empty(); }
+  const std::vector<Step>& steps() const { return steps_; }
+  Outline& add(const Step& step) {
+    steps_.push_back(step);
+    return *this;
+  }
+
+ private:
+  std::vector<Step> steps_;
+};
+
+enum class Anchor { start, middle, end };
+enum class Look {
+  plain,
+  bold,
+  upwards,  ///< turned, from below to above
+  haloed    ///< bold, white around it
+};
+enum class Stroke { solid, dashed };
+
+/// How an outline is drawn. What overlaps of one outline is one area.
+struct Style {
+  std::optional<Colour> fill = {}, stroke = {};
+  double stroke_width = 1;  ///< round where two lines meet
+  double fill_opacity = 1;
+  bool crisp = false;  ///< no smooth edges: areas that touch have no seam
+};
+
+// What a picture consists of.
+struct Line {
+  double x1, y1, x2, y2;
+  Colour colour;
+  double width;
+  Stroke stroke;
+};
+struct Rectangle {
+  double x, y, width, height;
+  Colour colour;
+  double opacity;
+};
+struct Shape {
+  Outline outline;
+  Style style;
+};
+struct Text {
+  double x, y;  // of its baseline
+  std::string content;
+  Anchor anchor;
+  double size;
+  Colour colour;
+  Look look;
+};
+struct Picture {
+  double x, y, width, height;
+  const Raster* raster;
+};
+using Element = std::variant<Line, Rectangle, Shape, Text, Picture>;
+
+/// A whole picture on white. Formats are made of it: to_svg, to_raster.
+struct Drawing {
+  double height = 0, width = kWidth;  // points
+  std::optional<PlotSize> size = {};  // empty: 88 mm wide, kPixels
+  std::string title, description;     // for those who cannot see it
+  std::vector<Element> elements;
+};
+
+/// Collects the elements of one picture.
+class Canvas {
+ public:
+  void line(double x1, double y1, double x2, double y2, Colour colour, double width,
+            Stroke stroke = Stroke::solid);
+  void rect(double x, double y, double width, double height, Colour colour, double opacity = 1);
+  /// Nothing is drawn of an empty outline.
+  void shape(Outline outline, const Style& style);
+  void text(double x, double y, std::string_view content, Anchor anchor = Anchor::start,
+            double size = 7, Colour colour = kInk, Look look = Look::plain);
+  /// @param raster outlives the drawing.
+  void picture(double x, double y, double width, double height, const Raster& raster);
+  /// The title above everything; cut in its middle if it is too long.
+  void title(const std::string& title);
+  /// The whole; the canvas is empty then.
+  Drawing finish(double height, std::string_view title, std::string_view description);
+
+ private:
+  std::vector<Element> elements_;
+};
+
+/// The least and the largest finite value; 0 and 1 if there is none, 1 and 10 of logarithms.
+struct Range {
+  double low = 0;
+  double high = 1;
+};
+
+/// Maps the finite values of a barcode to positions and says where the ticks are. Safe for values
+/// of any size: it computes in units of a power of ten.
+class Axis {
+ public:
+  /// @param range values at the ends, which the options may replace; widened if they are equal.
+  /// @throws Error (usage) if the options leave no room.
+  Axis(const Range& range, const PlotOptions& options, double from, double to);
+
+  double from() const { return from_; }
+  double to() const { return to_; }
+  /// Position of a value; an infinite one, or one beyond the ends, lies at the end.
+  double at(double value) const;
+
+  struct Tick {
+    double position;
+    std::string label;
+  };
+  /// About `count` ticks at round numbers.
+  std::vector<Tick> ticks(int count) const;
+  /// "×10⁻⁶" if the labels are in such units, else empty.
+  std::string unit() const;
+  /// Draws gridlines between `top` and `bottom`, ticks, labels and the axis' name below `bottom`.
+  void draw_below(Canvas& canvas, double top, double bottom, const std::string& name) const;
+
+ private:
+  std::vector<Tick> powers_of_ten(int count) const;
+  std::string label_of(double value, int decimals) const;
+  /// A value in the units of low_ and high_. Of negated data the logarithm is that of their own.
+  double in_scale(double value) const;
+
+  double low_ = 0, high_ = 1;  // in units of 10^exponent_; of a logarithmic axis the logarithms
+  double from_, to_;
+  int exponent_ = 0;
+  bool shows_unit_ = false, logarithmic_ = false, negated_ = false;
+};
+
+/// The limits of the axis as values of the bars: of negated data they change places.
+PlotAxis limits_of(const PlotOptions& options);
+/// Of what has a place on the axis; of none one that says nothing.
+Range finite_range(const Barcode& barcode, const PlotOptions& options);
+Range finite_range(std::span<const Branch> tree, const std::vector<std::size_t>& classes,
+                   const PlotOptions& options);
+/// Whether a class has a place on the axis. @param limits see limits_of.
+bool is_shown(double birth, double death, const PlotAxis& limits);
+/// The bars that are drawn, without cells. @param beyond how many are not, for the axis.
+Barcode shown_of(const Barcode& barcode, const PlotOptions& options, std::size_t& beyond);
+/// What is not drawn, at the left, beside the name of the axis.
+void explain_beyond(Canvas& canvas, std::size_t beyond, double bottom);
+/// The drawing in the middle of a picture of that size.
+Drawing fitted(Drawing drawing, const PlotOptions& options);
+/// The dimensions that have bars, ascending.
+std::vector<int> dims_of(const Barcode& barcode);
+/// "214 bars in H₀, 3 in H₁"
+std::string description_of(const Barcode& barcode);
+
+// Of what is shown of a barcode. @param beyond how many bars are not, for the axis.
+Drawing draw_barcode(const Barcode& barcode, std::size_t beyond, const PlotOptions& options);
+Drawing draw_diagram(const Barcode& barcode, std::size_t beyond, const PlotOptions& options);
+Drawing draw_betti(const Barcode& barcode, std::size_t beyond, const PlotOptions& options);
+Drawing draw_tree(std::span<const Branch> tree, const PlotOptions& options);
+Drawing draw_coloured(const ColouredPicture& picture, const PlotOptions& options);
+/// Of any of the kinds. @throws Error (internal) on an unknown one.
+Drawing draw(const Barcode& barcode, const PlotOptions& options);
+
+std::string to_svg(const Drawing& drawing);
+
+}  // namespace ph::plot

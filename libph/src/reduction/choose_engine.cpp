@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "ph/detail/choose_engine.hpp"
+
+#include <fmt/format.h>
+
+namespace ph::detail {
+namespace {
+
+std::string_view asked_beside(const Task& task) {
+  switch (task.representatives) {
+    case Representatives::cycles:
+      return " with cycles";
+    case Representatives::voxels:
+      return " with sets of voxels";
+    case Representatives::cocycles:
+      return " with cocycles";
+    case Representatives::none:
+      break;
+  }
+  return {};
+}
+
+}  // namespace
+
+void refuse(Engine asked, const Task& task) {
+  if (asked != Engine::automatic)
+    throw Error(ErrorKind::usage,
+                fmt::format("engine {} cannot compute homology up to dimension {} of this complex{}"
+                            "{}",
+                            engine_name(asked), task.max_dim, asked_beside(task),
+                            task.zero_length ? ", zero-length bars included" : ""));
+  if (!task.wants_no_sets())
+    throw Error(ErrorKind::usage,
+                "sets of voxels need an image of at most three axes that have more than one voxel, "
+                "and bars of positive length");
+  throw Error(ErrorKind::usage, "cocycles need a complex that lists cofacets");
+}
+
+}  // namespace ph::detail

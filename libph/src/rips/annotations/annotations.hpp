@@ -1,0 +1,412 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <concepts>
+#include <cstdint>
+#include <cstdlib>
+#include <memory_resource>
+#include <span>
+#include <unordered_set>
+#include <vector>
+
+#include "ph/detail/chain.hpp"
+#include "ph/error.hpp"
+#include "ph/detail/field.hpp"
+#include "core/flat_map.hpp"
+#include "rips/sweep/active_edges.hpp"
+#include "rips/annotations/dead_generators.hpp"
+#include "rips/annotations/id_set.hpp"
+#include "rips/sweep/sorted_terms.hpp"
+
+namespace ph {
+
+/// The classes of edges under the living generators of H^1: each generator is a cocycle, and the
+/// annotation of an edge (Busaryev, Cabello, Chen, Dey, Wang, Annotating simplices with a homology
+/// basis) is the vector of their values on it. Edges of one class share one vector; an edge that
+/// was never annotated has the zero vector. a(u,v) = -a(v,u).
+///
+/// A class learns what generators died when it is next asked for. Two classes that became equal may
+/// be two until then, and edges of a class that became zero still be active.
+template <Field K>
+class Annotations {
+ public:
+  using Generator = typename DeadGenerators<K>::Generator;
+  using Term = typename DeadGenerators<K>::Term;
+  using Vector = typename DeadGenerators<K>::Vector;
+
+  /// A class up to sign; of two vectors +-a one is stored. 0 is the zero class.
+  struct Class {
+    std::uint32_t id = 0;
+    bool negated = false;
+    bool is_zero() const { return id == 0; }
+    Class operator-() const { return {id, !std::same_as<K, Z2> && id != 0 && !negated}; }
+    friend bool operator==(const Class&, const Class&) = default;
+  };
+
+  /// @param edges outlives this: those of non-zero class, none in the beginning. @param
+  /// keeps_values whether for_each_value will be asked for.
+  Annotations(const K& field, ActiveEdges& edges, bool keeps_values,
+              std::pmr::memory_resource* memory)
+      : field_(field),
+        edges_(edges),
+        keeps_values_(keeps_values),
+        vectors_(memory),
+        hashes_(memory),
+        members_(memory),
+        links_(memory),
+        seen_(memory),
+        fresh_(memory),
+        unused_(memory),
+        dead_(field, memory),
+        holders_(memory),
+        sums_(memory),
+        known_(16, Hash{this}, Equal{this}, memory),
+        scratch_(memory),
+        merged_(memory) {
+    add_class();  // the zero class
+    unused_.clear();
+  }
+  Annotations(const Annotations&) = delete;
+  Annotations& operator=(const Annotations&) = delete;
+
+  /// An edge as the caller knows it.
+  struct Edge {
+    std::uint32_t u, v;      ///< u > v
+    std::uint32_t position;  ///< any number
+  };
+
+  /// A generator whose value on a new edge is one and zero on all others.
+  Generator add_generator(const Edge& edge) {
+    const Generator g = generators_++;
+    if (keeps_values_) holders_.emplace_back();
+    scratch_.clear();
+    scratch_.emplace_back(g, field_.from_int(1));
+    assign(edge, intern());
+    return g;
+  }
+
+  /// Generators of the next numbers that no edge has yet.
+  void add_generators(std::size_t count);
+  /// A sum of generators.
+  Class class_of(std::span<const Term> sum) {
+    scratch_.assign(sum.begin(), sum.end());
+    dead_.eliminate_from(scratch_);
+    return intern();
+  }
+  /// Calls `visit(edge, terms)` for edges of non-zero class.
+  template <class Visit>
+  void for_each_edge(Visit&& visit);
+
+  /// a(u,v).
+  Class of(std::uint32_t u, std::uint32_t v) {
+    if (edges_.degree(u) > edges_.degree(v)) return -of(v, u);
+    ActiveEdges::Label* label = edges_.find(u, v);
+    if (label == nullptr) return {};
+    const Class a = resolve({*label / 2, *label % 2 != 0});
+    if (!a.is_zero()) *label = label_of(a);  // else the edge is active no more
+    return a;
+  }
+  /// Annotates an edge for the first time: a(u,v), which is not zero.
+  void assign(const Edge& edge, Class a) {
+    members_[a.id].push_back(edge);
+    edges_.insert(edge.u, edge.v, label_of(a), label_of(-a));
+  }
+
+  /// Needs classes, here and below, that came from here after the last call of `kill`.
+  Class sum(Class a, Class b);
+  /// The value of a generator in a class.
+  typename K::Element value(Class a, Generator g) const {
+    const Term* term = find(vectors_[a.id], g);
+    if (term == nullptr) return field_.from_int(0);
+    return a.negated ? field_.negate(term->coefficient()) : term->coefficient();
+  }
+  /// Calls `visit(generator, value)` for those that are not zero in a class.
+  template <class Visit>
+  void for_each_generator(Class a, Visit&& visit) const {
+    for (const Term& t : vectors_[a.id])
+      visit(t.cell, a.negated ? field_.negate(t.coefficient()) : t.coefficient());
+  }
+  Generator youngest(Class a) const { return vectors_[a.id].back().cell; }
+
+  /// Makes a class zero: its youngest generator becomes a combination of the others.
+  void kill(Class relation);
+
+  /// The edges on which a living generator is not zero, with its values: a cocycle. Calls
+  /// `visit(edge, value)`.
+  template <class Visit>
+  void for_each_value(Generator g, Visit&& visit);
+
+ private:
+  struct Hash {
+    const Annotations* self;
+    std::size_t operator()(std::uint32_t id) const { return self->hashes_[id]; }
+  };
+  struct Equal {
+    const Annotations* self;
+    bool operator()(std::uint32_t a, std::uint32_t b) const {
+      const Vector &x = self->vectors_[a], &y = self->vectors_[b];
+      const bool opposite = self->are_opposite(a, b);
+      return std::ranges::equal(x, y, [&](const Term& s, const Term& t) {
+        const auto c = opposite ? self->field_.negate(t.coefficient()) : t.coefficient();
+        return s.cell == t.cell && s.coefficient() == c;
+      });
+    }
+  };
+
+  static constexpr std::size_t kMostClasses = INT32_MAX;  // labels have a bit for a sign
+  static ActiveEdges::Label label_of(Class a) { return a.id << 1 | (a.negated ? 1U : 0U); }
+  /// Of two classes equal up to sign: whether they are not equal.
+  bool are_opposite(std::uint32_t a, std::uint32_t b) const {
+    return vectors_[a].back().coefficient() != vectors_[b].back().coefficient();
+  }
+  /// What a class is by now.
+  Class resolve(Class a);
+  /// Follows the links of classes that became equal to others.
+  Class follow(Class a);
+  /// Lets a class learn of all deaths.
+  void update(std::uint32_t id);
+  /// The class has become zero.
+  void erase(std::uint32_t id);
+  /// The class has become equal to another one, up to sign.
+  void join(std::uint32_t id, std::uint32_t other);
+  /// The class had these terms.
+  void change_holders(std::uint32_t id, const Vector& before);
+  /// The class of scratch_.
+  Class intern();
+  /// Room for another one.
+  void add_class();
+  /// Forgets the sums since the last call that no edge has got.
+  void forget_fresh();
+  /// The hash of a vector is the sum of those of its terms as vectors over Z/2, the same for +-a.
+  std::size_t hash(const Term& t) const {
+    const auto size = static_cast<std::uint64_t>(std::abs(field_.to_int(t.coefficient())));
+    const std::uint64_t h = (t.cell ^ size << 32) * 0x9E3779B97F4A7C15U;
+    return (h ^ h >> 29) * 0xBF58476D1CE4E5B9U;
+  }
+  std::size_t hash(const Vector& v) const {
+    std::size_t sum = 0;
+    for (const Term& t : v) sum ^= hash(t);
+    return sum;
+  }
+  template <class T>
+  static void release(T& vector) {
+    T(vector.get_allocator()).swap(vector);
+  }
+  /// The term of a generator; null if it is zero.
+  const Term* find(const Vector& v, Generator g) const {
+    const auto it = std::ranges::lower_bound(v, g, {}, &Term::cell);
+    return it != v.end() && it->cell == g ? &*it : nullptr;
+  }
+
+  const K& field_;
+  ActiveEdges& edges_;
+  const bool keeps_values_;
+  Generator generators_ = 0;
+  std::pmr::vector<Vector> vectors_;                  // by class
+  std::pmr::vector<std::size_t> hashes_;              // by class
+  std::pmr::vector<std::pmr::vector<Edge>> members_;  // by class
+  std::pmr::vector<Class> links_;           // by class: what it became; itself while it is one
+  std::pmr::vector<std::uint32_t> seen_;    // by class: how many deaths it has learnt of
+  std::pmr::vector<std::uint32_t> fresh_;   // classes made since the last kill
+  std::pmr::vector<std::uint32_t> unused_;  // numbers of classes that may be given again
+  DeadGenerators<K> dead_;
+  std::pmr::vector<IdSet> holders_;  // by generator: classes it occurs in, if values are kept
+  FlatMap<Class> sums_;              // of two classes, until the next kill
+  std::pmr::unordered_set<std::uint32_t, Hash, Equal> known_;
+  Vector scratch_, merged_;
+};
+
+template <Field K>
+void Annotations<K>::add_generators(std::size_t count) {
+  generators_ += static_cast<Generator>(count);
+  if (keeps_values_) holders_.resize(generators_);
+}
+
+template <Field K>
+template <class Visit>
+void Annotations<K>::for_each_edge(Visit&& visit) {
+  for (std::uint32_t id = 1; id < vectors_.size(); ++id) {
+    if (links_[id].id == id) resolve({id});  // may join classes
+  }
+  for (std::uint32_t id = 1; id < vectors_.size(); ++id)
+    for (const Edge& edge : members_[id]) visit(edge, std::span<const Term>(vectors_[id]));
+}
+
+template <Field K>
+auto Annotations<K>::resolve(Class a) -> Class {
+  a = follow(a);
+  if (seen_[a.id] == dead_.count() || a.is_zero()) return a;
+  update(a.id);
+  return follow(a);
+}
+
+template <Field K>
+auto Annotations<K>::follow(Class a) -> Class {
+  while (links_[a.id].id != a.id) {
+    const Class up = links_[a.id];
+    const Class further = links_[up.id];
+    links_[a.id] = up.negated ? -further : further;  // halves the path
+    const Class next = links_[a.id];
+    a = a.negated ? -next : next;
+  }
+  return a;
+}
+
+template <Field K>
+auto Annotations<K>::intern() -> Class {
+  if (scratch_.empty()) return {};
+  if (unused_.empty()) add_class();
+  const std::uint32_t fresh = unused_.back();
+  vectors_[fresh].assign(scratch_.begin(), scratch_.end());
+  hashes_[fresh] = hash(scratch_);
+  const auto [it, is_new] = known_.insert(fresh);
+  if (!is_new) return {*it, are_opposite(fresh, *it)};
+  unused_.pop_back();
+  links_[fresh] = {fresh, false};
+  seen_[fresh] = dead_.count();
+  fresh_.push_back(fresh);
+  change_holders(fresh, {});
+  return {fresh, false};
+}
+
+template <Field K>
+void Annotations<K>::add_class() {
+  if (vectors_.size() > kMostClasses)
+    throw Error(ErrorKind::resource, "too many classes of edges are alive; lower the threshold");
+  unused_.push_back(static_cast<std::uint32_t>(vectors_.size()));
+  vectors_.emplace_back();
+  hashes_.push_back(0);
+  members_.emplace_back();
+  links_.push_back({});
+  seen_.push_back(0);
+}
+
+template <Field K>
+void Annotations<K>::forget_fresh() {
+  for (const std::uint32_t id : fresh_) {
+    if (links_[id].id != id || !members_[id].empty()) continue;
+    known_.erase(id);
+    scratch_.assign(vectors_[id].begin(), vectors_[id].end());
+    vectors_[id].clear();
+    change_holders(id, scratch_);
+    unused_.push_back(id);
+  }
+  fresh_.clear();
+}
+
+template <Field K>
+void Annotations<K>::update(std::uint32_t id) {
+  seen_[id] = dead_.count();
+  Vector& vector = vectors_[id];
+  if (!dead_.occur_in(vector)) return;
+  auto node = known_.extract(id);
+  if constexpr (std::same_as<K, Z2>) {
+    dead_.eliminate_from(vector);  // kill changes all holders at once
+  } else {
+    if (keeps_values_) scratch_.assign(vector.begin(), vector.end());
+    dead_.eliminate_from(vector);
+    change_holders(id, scratch_);
+  }
+  hashes_[id] = hash(vector);
+  if (vector.empty())
+    erase(id);
+  else if (const auto met = known_.insert(std::move(node)); !met.inserted)
+    join(id, *met.position);
+}
+
+template <Field K>
+void Annotations<K>::erase(std::uint32_t id) {
+  links_[id] = {};
+  for (const Edge& edge : members_[id]) edges_.erase(edge.u, edge.v);
+  release(members_[id]);
+}
+
+template <Field K>
+void Annotations<K>::join(std::uint32_t id, std::uint32_t other) {
+  links_[id] = {other, are_opposite(id, other)};
+  auto &from = members_[id], &to = members_[other];
+  if (to.size() < from.size()) to.swap(from);
+  to.insert(to.end(), from.begin(), from.end());
+  release(from);
+  scratch_.assign(vectors_[id].begin(), vectors_[id].end());
+  release(vectors_[id]);
+  change_holders(id, scratch_);
+}
+
+template <Field K>
+void Annotations<K>::change_holders(std::uint32_t id, const Vector& before) {
+  if (!keeps_values_) return;
+  const Vector& now = vectors_[id];
+  const auto differ = [](const Vector& a, const Vector& b, auto&& use) {
+    auto y = b.begin();
+    for (const Term& x : a) {
+      while (y != b.end() && y->cell < x.cell) ++y;
+      if (y == b.end() || y->cell != x.cell) use(x.cell);
+    }
+  };
+  differ(now, before, [&](Generator g) { holders_[g].insert(id); });
+  differ(before, now, [&](Generator g) {
+    if (!dead_.contains(g)) holders_[g].erase(id);
+  });
+}
+
+template <Field K>
+auto Annotations<K>::sum(Class a, Class b) -> Class {
+  if (a.is_zero()) return b;
+  if (b.is_zero()) return a;
+  if (a == -b) return {};
+  if (a.id > b.id) std::swap(a, b);
+  const bool flipped = a.negated;
+  if (flipped) {
+    a = -a;
+    b = -b;
+  }
+  const std::uint64_t pair = std::uint64_t{a.id} << 32 | label_of(b);
+  const auto [sum, is_new] = sums_.try_emplace(pair);
+  if (is_new) {
+    scratch_.assign(vectors_[a.id].begin(), vectors_[a.id].end());
+    add_sorted_terms<K>(scratch_, vectors_[b.id], field_.from_int(b.negated ? -1 : 1), field_,
+                        merged_);
+    *sum = intern();
+  }
+  return flipped ? -*sum : *sum;
+}
+
+template <Field K>
+void Annotations<K>::kill(Class relation) {
+  const std::uint32_t id = relation.id;
+  const Generator g = youngest(relation);
+  sums_.clear();
+  known_.erase(id);
+  if (members_[id].empty()) unused_.push_back(id);
+  erase(id);
+  forget_fresh();
+  scratch_.assign(vectors_[id].begin(), vectors_[id].end());
+  dead_.add(scratch_);
+  release(vectors_[id]);
+  if (!keeps_values_) return;
+  const IdSet holders = std::move(holders_[g]);
+  if constexpr (std::same_as<K, Z2>) {
+    for (const Term& t : scratch_)
+      if (t.cell != g) holders_[t.cell].add(holders);
+  } else {
+    change_holders(id, scratch_);
+  }
+  holders.for_each([&](std::uint32_t holder) {
+    if (holder != id) update(holder);
+  });
+}
+
+template <Field K>
+template <class Visit>
+void Annotations<K>::for_each_value(Generator g, Visit&& visit) {
+  holders_[g].for_each([&](std::uint32_t id) {
+    const Term* term = find(vectors_[id], g);
+    for (const Edge& edge : members_[id]) {
+      const bool negated = of(edge.u, edge.v).negated;
+      visit(edge, negated ? field_.negate(term->coefficient()) : term->coefficient());
+    }
+  });
+}
+
+}  // namespace ph

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <bit>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "ph/detail/bit_matrix.hpp"
+#include "ph/detail/chain.hpp"
+#include "ph/detail/field.hpp"
+
+namespace ph {
+
+/// What became of generators that died: each is a combination of older ones, some of which may have
+/// died later. A vector in terms of generators learns of deaths when it is looked at, of all since
+/// it was last looked at in one pass; most vectors never learn of most deaths.
+template <Field K>
+class DeadGenerators {
+ public:
+  using Generator = std::uint32_t;  ///< numbered by birth: the youngest has the largest number
+  using Term = Entry<Generator, K>;
+  using Vector = std::pmr::vector<Term>;  ///< ascending generators, no zeros
+
+  DeadGenerators(const K& field, std::pmr::memory_resource* memory)
+      : field_(field),
+        combinations_(memory),
+        bits_(memory),
+        dead_(memory),
+        for_vectors_(memory),
+        for_combinations_(memory) {}
+
+  /// How many have died.
+  std::uint32_t count() const { return count_; }
+  bool contains(Generator g) const { return (dead_word(g / 64) >> (g % 64) & 1) != 0; }
+  bool occur_in(std::span<const Term> vector) const {
+    return std::ranges::any_of(vector, [&](const Term& t) { return contains(t.cell); });
+  }
+  /// @param relation zero from now on: its youngest generator dies. The others are alive.
+  void add(std::span<const Term> relation);
+  /// Puts in what became of the dead ones, which may leave nothing.
+  void eliminate_from(Vector& vector);
+
+ private:
+  using Word = bits::Word;
+  using Element = typename K::Element;
+  static constexpr bool kIsZ2 = std::same_as<K, Z2>;
+  static constexpr std::uint32_t kNone = UINT32_MAX;
+
+  /// What became of a dead generator.
+  struct Combination {
+    using allocator_type = std::pmr::polymorphic_allocator<>;
+    explicit Combination(allocator_type allocator) : terms(allocator) {}
+    Combination(Combination&&) noexcept = default;
+    Combination(Combination&& other, allocator_type allocator)
+        : terms(std::move(other.terms), allocator), bits(other.bits), seen(other.seen) {}
+    Vector terms;                // none if it has bits
+    std::uint32_t bits = kNone;  // in bits_
+    std::uint32_t seen = 0;      // how many deaths it has learnt of
+  };
+  /// A vector over Z/2 of many terms as a bit for each generator: it is added sooner like this.
+  struct Bits {
+    using allocator_type = std::pmr::polymorphic_allocator<>;
+    explicit Bits(allocator_type allocator) : words(allocator) {}
+    Bits(Bits&&) noexcept = default;
+    Bits(Bits&& other, allocator_type allocator)
+        : words(std::move(other.words), allocator), begin(other.begin) {}
+    std::pmr::vector<Word> words;
+    std::size_t begin = 0;  // which word is the first
+  };
+  /// A vector that others are added to in any order.
+  struct Row {
+    explicit Row(std::pmr::memory_resource* memory) : met(memory), values(memory) {}
+    std::pmr::vector<Word> met;        // a bit for each generator; all zero between uses
+    std::pmr::vector<Element> values;  // by generator, zero where none was met; none over Z/2
+    std::size_t begin = 0, end = 0;    // of the words of those met
+
+    /// @param words of those that will be added.
+    void reset(std::size_t words) {
+      begin = end = words;
+      if (met.size() >= words) return;
+      met.resize(words, 0);
+      if constexpr (!kIsZ2) values.resize(words * 64, 0);
+    }
+    void add(std::span<const Term> terms, Element scale, const K& field) {
+      if (terms.empty()) return;
+      begin = std::min<std::size_t>(begin, terms.front().cell / 64);
+      for (const Term& t : terms) {
+        Word& word = met[t.cell / 64];
+        const Word bit = Word{1} << (t.cell % 64);
+        if constexpr (kIsZ2) {
+          word ^= bit;
+        } else {
+          word |= bit;
+          values[t.cell] = field.add(values[t.cell], field.multiply(scale, t.coefficient()));
+        }
+      }
+    }
+    void add(const Bits& other) {
+      begin = std::min(begin, other.begin);
+      bits::add(met.data() + other.begin, other.words.data(), other.words.size());
+    }
+    /// The value of one that was met, which may be zero.
+    Element take(Generator g) {
+      if constexpr (kIsZ2)
+        return true;
+      else
+        return std::exchange(values[g], 0);
+    }
+    std::span<const Word> words() const { return std::span(met).subspan(begin, end - begin); }
+    std::size_t count() const {
+      return bits::count_common(words().data(), words().data(), words().size());
+    }
+    void clear() {
+      std::fill(met.begin() + static_cast<std::ptrdiff_t>(begin),
+                met.begin() + static_cast<std::ptrdiff_t>(end), Word{0});
+    }
+  };
+
+  Word dead_word(std::size_t k) const { return k < dead_.size() ? dead_[k] : 0; }
+  bool occur_in(const Combination& c) const;
+  /// row += scale * combination.
+  void add(Row& row, const Combination& c, Element scale) const {
+    if (kIsZ2 && c.bits != kNone)
+      row.add(bits_[c.bits]);
+    else
+      row.add(c.terms, scale, field_);
+  }
+  /// The combination of a dead generator. It learns of deaths since: whoever needs it next finds
+  /// hardly any dead ones in it.
+  const Combination& updated(Generator g);
+  /// @param combination_of what a dead generator is replaced by.
+  template <class Find>
+  void eliminate(Row& row, Find&& combination_of);
+  /// What a row has, which is empty then. A combination that has bits keeps them.
+  void take_terms(Row& row, Vector& terms);
+  void take(Row& row, Combination& c);
+
+  const K& field_;
+  std::uint32_t count_ = 0;
+  std::pmr::vector<Combination> combinations_;  // by generator; of those that live none
+  std::pmr::vector<Bits> bits_;
+  std::pmr::vector<Word> dead_;         // a bit for each generator
+  Row for_vectors_, for_combinations_;  // a combination is updated while a vector is
+};
+
+template <Field K>
+void DeadGenerators<K>::add(std::span<const Term> relation) {
+  const Term youngest = relation.back();
+  const auto scale = field_.negate(field_.inverse(youngest.coefficient()));
+  const Generator g = youngest.cell;
+  if (combinations_.size() <= g) {
+    combinations_.resize(g + 1);
+    dead_.resize(g / 64 + 1, 0);
+  }
+  dead_[g / 64] |= Word{1} << (g % 64);
+  Row& row = for_combinations_;
+  row.reset(g / 64 + 1);
+  row.add(relation.first(relation.size() - 1), scale, field_);
+  take(row, combinations_[g]);
+  combinations_[g].seen = ++count_;
+}
+
+template <Field K>
+void DeadGenerators<K>::eliminate_from(Vector& vector) {
+  if (vector.empty()) return;
+  Row& row = for_vectors_;
+  row.reset(vector.back().cell / 64 + 1);
+  row.add(vector, field_.from_int(1), field_);
+  eliminate(row, [&](Generator g) -> const Combination& { return updated(g); });
+  take_terms(row, vector);
+}
+
+template <Field K>
+bool DeadGenerators<K>::occur_in(const Combination& c) const {
+  if (!kIsZ2 || c.bits == kNone) return occur_in(c.terms);
+  const Bits& b = bits_[c.bits];
+  if (b.begin >= dead_.size()) return false;
+  const std::size_t words = std::min(b.words.size(), dead_.size() - b.begin);
+  return bits::any_common(b.words.data(), dead_.data() + b.begin, words);
+}
+
+template <Field K>
+auto DeadGenerators<K>::updated(Generator g) -> const Combination& {
+  Combination& c = combinations_[g];
+  if (std::exchange(c.seen, count_) == count_ || !occur_in(c)) return c;
+  Row& row = for_combinations_;
+  row.reset(g / 64 + 1);
+  add(row, c, field_.from_int(1));
+  eliminate(row, [&](Generator other) -> const Combination& { return combinations_[other]; });
+  take(row, c);
+  return c;
+}
+
+template <Field K>
+template <class Find>
+void DeadGenerators<K>::eliminate(Row& row, Find&& combination_of) {
+  Word* const met = row.met.data();
+  // From the youngest down: what comes in is older.
+  for (std::size_t k = std::min(row.end, dead_.size()); k-- > row.begin;)
+    while (const Word dead = met[k] & dead_[k]) {
+      const auto bit = static_cast<std::size_t>(std::bit_width(dead)) - 1;
+      met[k] ^= Word{1} << bit;
+      const auto g = static_cast<Generator>(k * 64 + bit);
+      const Element value = row.take(g);
+      if (!field_.is_zero(value)) add(row, combination_of(g), value);
+    }
+}
+
+template <Field K>
+void DeadGenerators<K>::take_terms(Row& row, Vector& terms) {
+  terms.clear();
+  terms.reserve(row.count());
+  bits::for_each(row.met.data(), row.begin, row.end, [&](std::size_t g) {
+    const Element value = row.take(static_cast<Generator>(g));
+    if (!field_.is_zero(value)) terms.emplace_back(static_cast<Generator>(g), value);
+  });
+  row.clear();
+}
+
+template <Field K>
+void DeadGenerators<K>::take(Row& row, Combination& c) {
+  constexpr std::size_t many = 16;  // for fewer it is not worth a block of memory more
+  const auto words = row.words();
+  if (kIsZ2 && c.bits == kNone && row.count() >= std::max(many, words.size())) {
+    c.bits = static_cast<std::uint32_t>(bits_.size());
+    bits_.emplace_back();
+    Vector(c.terms.get_allocator()).swap(c.terms);
+  }
+  if (!kIsZ2 || c.bits == kNone) return take_terms(row, c.terms);
+  bits_[c.bits].words.assign(words.begin(), words.end());
+  bits_[c.bits].begin = row.begin;
+  row.clear();
+}
+
+}  // namespace ph

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "ph/detail/bit_matrix.hpp"
+
+namespace ph {
+
+/// A set of small numbers that are handed out in ascending order: a list in no particular order
+/// while it is short, then a row of bits, which stays one.
+class IdSet {
+ public:
+  using Id = std::uint32_t;
+  using allocator_type = std::pmr::polymorphic_allocator<>;
+
+  explicit IdSet(allocator_type allocator) : list_(allocator), bits_(allocator) {}
+  IdSet(IdSet&&) noexcept = default;
+  IdSet(IdSet&& other, allocator_type allocator)
+      : list_(std::move(other.list_), allocator), bits_(std::move(other.bits_), allocator) {}
+
+  /// Adds a number that is absent.
+  void insert(Id id) {
+    if (bits_.empty()) {
+      list_.push_back(id);
+      if (list_.size() > kMostListed && list_.size() * kLeastShare > id) use_bits();
+    } else {
+      set(id);
+    }
+  }
+  /// Takes a number out that is there.
+  void erase(Id id) {
+    if (bits_.empty()) {
+      *std::ranges::find(list_, id) = list_.back();
+      list_.pop_back();
+    } else {
+      bits_[id / 64] &= ~(Word{1} << (id % 64));
+    }
+  }
+  /// Inserts the numbers of another set that are absent, erases those that are there.
+  void add(const IdSet& other) {
+    if (bits_.size() < other.bits_.size() && !bits_.empty()) bits_.resize(other.bits_.size());
+    if (!bits_.empty() && !other.bits_.empty()) {
+      for (std::size_t k = 0; k < other.bits_.size(); ++k) bits_[k] ^= other.bits_[k];
+    } else {
+      other.for_each([&](Id id) { has(id) ? erase(id) : insert(id); });
+    }
+  }
+  bool has(Id id) const {
+    if (bits_.empty()) return std::ranges::find(list_, id) != list_.end();
+    return id / 64 < bits_.size() && (bits_[id / 64] >> (id % 64) & 1) != 0;
+  }
+  /// Calls `visit(id)` for each number; the set must not change meanwhile.
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    for (const Id id : list_) visit(id);
+    bits::for_each(bits_.data(), 0, bits_.size(),
+                   [&](std::size_t id) { visit(static_cast<Id>(id)); });
+  }
+
+ private:
+  using Word = bits::Word;
+  // A list is searched from its beginning. Bits take at most 16 times the memory of the list.
+  static constexpr std::size_t kMostListed = 64, kLeastShare = 512;
+
+  void set(Id id) {
+    if (id / 64 >= bits_.size()) bits_.resize(id / 64 + 1);
+    bits_[id / 64] |= Word{1} << (id % 64);
+  }
+  void use_bits() {
+    for (const Id id : list_) set(id);
+    std::pmr::vector<Id>(list_.get_allocator()).swap(list_);
+  }
+
+  std::pmr::vector<Id> list_;
+  std::pmr::vector<Word> bits_;  // empty: there is a list
+};
+
+}  // namespace ph

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "rips/annotations/relation_matrix.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "core/for_each_target.hpp"
+
+namespace ph {
+namespace {
+
+using Word = bits::Word;
+using Row = RelationMatrix::Row;
+
+struct Reduced {
+  std::size_t column;  // SIZE_MAX if nothing is left
+  std::size_t added;
+};
+
+// Adds rows of a matrix to `row` until its first column is nobody's.
+// @param words of a row, whole cache lines. @param row_of by column. @param added takes the rows.
+PH_FOR_EACH_TARGET
+Reduced reduce_row(Word* row, const Word* matrix, std::size_t words, const Row* row_of,
+                   Row* added) {
+  constexpr std::size_t line = 8;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < words;) {
+    if (row[k] == 0) {
+      ++k;
+      continue;
+    }
+    const std::size_t column = k * 64 + static_cast<std::size_t>(std::countr_zero(row[k]));
+    const Row other = row_of[column];
+    if (other == RelationMatrix::kNone) return {column, count};
+    added[count++] = other;
+    const Word* from = matrix + other * words;
+    for (std::size_t i = k / line * line; i < words; i += line)
+      for (std::size_t j = i; j < i + line; ++j) row[j] ^= from[j];
+  }
+  return {SIZE_MAX, count};
+}
+
+// Eight squares of 64 x 64 bits side by side.
+using Squares = std::array<std::array<Word, 8>, 64>;
+
+// Swaps the blocks of bits above and below the diagonals, from 32 x 32 down to single bits.
+PH_FOR_EACH_TARGET
+void transpose(Squares& squares) {
+  Word mask = 0x00000000FFFFFFFF;
+  for (std::size_t size = 32; size != 0; size /= 2, mask ^= mask << size)
+    for (std::size_t k = 0; k < 64; k = (k + size + 1) & ~size)
+      for (std::size_t j = 0; j < 8; ++j) {
+        Word &above = squares[k][j], &below = squares[k + size][j];
+        const Word differs = (above >> size ^ below) & mask;
+        above ^= differs << size;
+        below ^= differs;
+      }
+}
+
+}  // namespace
+
+void RelationMatrix::begin_block(std::size_t rows, std::size_t columns, const Word* relations,
+                                 std::size_t words) {
+  living_ += rows - is_dead_.size();
+  is_dead_.resize(rows, 0);
+  lines_ = (columns + 511) / 512;
+  cells_.assign(rows * lines_, Line());
+  row_of_.assign(columns, kNone);
+  transpose(relations, words);
+}
+
+void RelationMatrix::transpose(const Word* relations, std::size_t words) {
+  const std::size_t columns = row_of_.size();
+  Squares squares;
+  for (std::size_t line = 0; line < lines_; ++line)
+    for (std::size_t k = 0; k * 64 < row_count(); ++k) {
+      for (std::size_t i = 0; i < squares.size(); ++i)
+        for (std::size_t j = 0; j < squares[i].size(); ++j) {
+          const std::size_t column = (line * 8 + j) * 64 + i;
+          squares[i][j] = column < columns ? relations[column * words + k] : 0;
+        }
+      ph::transpose(squares);
+      const std::size_t rows = std::min<std::size_t>(64, row_count() - k * 64);
+      for (std::size_t i = 0; i < rows; ++i)
+        cells_[(k * 64 + i) * lines_ + line].words = squares[i];
+    }
+}
+
+void RelationMatrix::reduce() {
+  if (row_of_.empty()) return;
+  const std::size_t words = lines_ * 8;
+  for (std::size_t s = 0; s < steps_.size(); ++s)
+    for (std::size_t i = steps_[s].begin; i < end_of(s); ++i)
+      bits::add(row_begin(steps_[s].to), row_begin(added_[i]), words);
+  more_.resize(row_of_.size());
+  for (auto row = static_cast<Row>(row_count()); row-- > 0;) {
+    if (is_dead(row)) continue;
+    const auto [column, added] =
+        reduce_row(row_begin(row), row_begin(0), words, row_of_.data(), more_.data());
+    if (added != 0) steps_.push_back({row, added_.size()});
+    added_.insert(added_.end(), more_.begin(), more_.begin() + static_cast<std::ptrdiff_t>(added));
+    if (column == SIZE_MAX) continue;
+    row_of_[column] = row;
+    is_dead_[row] = 1;
+    --living_;
+  }
+}
+
+void RelationMatrix::substitute(Word* vectors, std::size_t words) const {
+  // A living row is a sum of rows that is zero, and what it stands for goes to each of them.
+  for (std::size_t s = steps_.size(); s-- > 0;)
+    for (std::size_t i = steps_[s].begin; i < end_of(s); ++i)
+      bits::add(vectors + added_[i] * words, vectors + steps_[s].to * words, words);
+}
+
+}  // namespace ph

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "ph/detail/bit_matrix.hpp"
+
+namespace ph {
+
+/// Relations between generators over Z/2 that came one after the other, and the generator that each
+/// of them killed: the youngest one left when those that died before are put in.
+///
+/// A row for each generator, from the oldest to the youngest, a column for each relation. Rows are
+/// reduced from the youngest up: younger rows are added to a row until its first column is that of
+/// no younger row; that relation killed the generator. These are the pairs that columns would have
+/// (de Silva, Morozov, Vejdemo-Johansson, Dualities in persistent (co)homology), but a relation
+/// that follows from those before costs nothing: here most do.
+///
+/// Relations come in blocks. What was added to what is kept for the blocks to come, and for
+/// `substitute`.
+class RelationMatrix {
+ public:
+  using Word = bits::Word;
+  using Row = std::uint32_t;
+  static constexpr Row kNone = UINT32_MAX;
+
+  RelationMatrix(std::size_t rows, std::pmr::memory_resource* memory)
+      : cells_(memory),
+        row_of_(memory),
+        is_dead_(rows, 0, memory),
+        living_(rows),
+        steps_(memory),
+        added_(memory),
+        more_(memory) {}
+
+  /// What a block takes, in bytes.
+  static double bytes(std::size_t rows, std::size_t columns) {
+    return static_cast<double>(rows) * static_cast<double>(columns) / 8;
+  }
+  /// Begins a block of relations. @param rows at least as many as before: the new ones are those of
+  /// younger generators. @param relations the columns, each of so many words: a bit for each
+  /// generator.
+  void begin_block(std::size_t rows, std::size_t columns, const Word* relations, std::size_t words);
+  /// Finds the generators that the block's relations killed.
+  void reduce();
+  /// By column of the block; kNone where a relation followed from others.
+  Row killed_by(std::size_t column) const { return row_of_[column]; }
+
+  std::size_t row_count() const { return is_dead_.size(); }
+  bool is_dead(Row row) const { return is_dead_[row] != 0; }
+  std::size_t living_count() const { return living_; }
+  /// How many additions are kept.
+  std::size_t additions() const { return added_.size(); }
+  /// Puts in what became of the dead generators. @param vectors of so many words for each
+  /// generator: on entry what the living ones are, and zero for the dead.
+  void substitute(Word* vectors, std::size_t words) const;
+
+ private:
+  struct alignas(64) Line {
+    std::array<Word, 8> words{};
+  };
+  /// Rows were added to `to`: those from `begin` on, up to the next step, in this order.
+  struct Step {
+    Row to;
+    std::size_t begin;
+  };
+
+  void transpose(const Word* relations, std::size_t words);
+  Word* row_begin(std::size_t row) { return cells_[row * lines_].words.data(); }
+  std::size_t end_of(std::size_t step) const {
+    return step + 1 < steps_.size() ? steps_[step + 1].begin : added_.size();
+  }
+
+  std::size_t lines_ = 0;  // of a row
+  std::pmr::vector<Line> cells_;
+  std::pmr::vector<Row> row_of_;  // by column
+  std::pmr::vector<std::uint8_t> is_dead_;
+  std::size_t living_;
+  std::pmr::vector<Step> steps_;
+  std::pmr::vector<Row> added_, more_;
+};
+
+}  // namespace ph

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "ph/rips.hpp"
+
+#include <fmt/format.h>
+
+#include "metric/distinct_points.hpp"
+#include "ph/error.hpp"
+
+namespace ph {
+namespace {
+
+/// @param weights of the points, which all become vertices.
+RipsGraph graph_of_all_points(const Points& points, const RipsOptions& options,
+                              const VertexWeights& weights, const RunContext& context) {
+  const bool is_weighted = !weights.births().empty();
+  if (options.approximation) {
+    const GreedyPermutation order =
+        greedy_permutation(points, {}, options.distance, options.minkowski_p, context);
+    return sparse_rips_graph(PointMetric(points, options.distance, options.minkowski_p), order,
+                             *options.approximation, options.threshold, context);
+  }
+  if (options.only_components && !is_weighted &&
+      has_fast_spanning_forest(points, options.distance)) {
+    return RipsGraph::forest_of_points(points, options.distance, options.minkowski_p,
+                                       options.threshold, context);
+  }
+  if (!options.only_components && options.distance == PointDistance::euclidean &&
+      options.threshold && points.cols() <= 32) {
+    return RipsGraph::of_points_within(points, *options.threshold, context, weights);
+  }
+  const PointMetric metric(points, options.distance, options.minkowski_p);
+  return options.only_components
+             ? RipsGraph::forest_of_metric(metric, options.threshold, context, weights)
+             : RipsGraph::of_metric(metric, options.threshold, context, weights);
+}
+
+RipsGraph graph_of_distinct_points(const Points& points, const RipsOptions& options,
+                                   const VertexWeights& weights, const RunContext& context) {
+  // Copies with births would be one vertex with the first of them: not worth the code.
+  if (options.merge_equal_points && weights.births().empty()) {
+    const PointMetric checked(points, options.distance, options.minkowski_p);
+    const std::pmr::vector<std::uint32_t> firsts =
+        distinct_points(first_equal_points(checked.points(), context), context);
+    if (static_cast<Index>(firsts.size()) < points.rows()) {
+      const Points distinct = points(firsts, Eigen::all);
+      RipsGraph graph = graph_of_all_points(distinct, options, weights, context);
+      graph.name_vertices(firsts, context);
+      return graph;
+    }
+  }
+  return graph_of_all_points(points, options, weights, context);
+}
+
+void check_together(const RipsOptions& options) {
+  if (!options.approximation) return;
+  if (options.only_components || !options.births.empty()) {
+    throw Error(ErrorKind::usage,
+                fmt::format("sparse Rips filtrations have no {}",
+                            options.only_components ? "spanning forest" : "births of vertices"));
+  }
+}
+
+RipsGraph graph_of_points(const Points& points, const RipsOptions& options,
+                          const RunContext& context) {
+  RipsGraph::check_size(points.rows());
+  check_together(options);
+  const RipsVertices vertices(points.rows(), options.vertices, options.births,
+                              options.weight_exponent, options.threshold, context);
+  if (vertices.are_all())
+    return graph_of_distinct_points(points, options, vertices.weights(), context);
+  const PointMetric checked(points, options.distance, options.minkowski_p);
+  const Points chosen = checked.points()(vertices.members(), Eigen::all);
+  RipsGraph graph = graph_of_distinct_points(chosen, options, vertices.weights(), context);
+  graph.name_vertices(vertices.members(), context);
+  return graph;
+}
+
+RipsGraph graph_of_sparse(const SparseDistances& distances, const RipsOptions& options,
+                          const RunContext& context) {
+  if (options.approximation)
+    throw Error(ErrorKind::usage, "sparse Rips filtrations need all distances, found some of them");
+  const auto build = options.only_components ? RipsGraph::forest_of_edges : RipsGraph::of_edges;
+  const RipsVertices vertices(distances.size(), options.vertices, options.births,
+                              options.weight_exponent, options.threshold, context);
+  if (vertices.are_all())
+    return build(distances.size(), distances.edges(), options.threshold, context,
+                 vertices.weights());
+  const std::pmr::vector<std::uint32_t>& members = vertices.members();
+  std::pmr::vector<Index> number(static_cast<std::size_t>(distances.size()), -1, &context.memory);
+  for (std::size_t v = 0; v < members.size(); ++v) number[members[v]] = static_cast<Index>(v);
+  std::pmr::vector<WeightedEdge> edges(&context.memory);
+  for (const WeightedEdge& e : distances.edges()) {
+    const Index u = number[static_cast<std::size_t>(e.u)],
+                v = number[static_cast<std::size_t>(e.v)];
+    if (u >= 0 && v >= 0) edges.push_back({u, v, e.value});
+  }
+  RipsGraph graph = build(static_cast<Index>(members.size()), edges, options.threshold, context,
+                          vertices.weights());
+  graph.name_vertices(members, context);
+  return graph;
+}
+
+RipsOptions with_births_of(const DistanceMatrix& distances, RipsOptions options) {
+  if (options.births.empty()) options.births = distances.births();
+  return options;
+}
+
+}  // namespace
+
+void Rips::check_together(const RipsOptions& options) { ph::check_together(options); }
+
+Rips::Rips(const Points& points, const RipsOptions& options, const RunContext& context)
+    : graph_(std::make_shared<const RipsGraph>(graph_of_points(points, options, context))) {}
+
+Rips::Rips(const DistanceMatrix& distances, const RipsOptions& options, const RunContext& context)
+    : graph_(std::make_shared<const RipsGraph>(
+          graph_of_metric(distances, with_births_of(distances, options), context))) {}
+
+Rips::Rips(const SparseDistances& distances, const RipsOptions& options, const RunContext& context)
+    : graph_(std::make_shared<const RipsGraph>(graph_of_sparse(distances, options, context))) {}
+
+}  // namespace ph

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "ph/filtration.hpp"
+#include "rips/annotations/field_rows.hpp"
+#include "rips/sweep/lens_cover.hpp"
+#include "rips/sweep/lens_forest.hpp"
+#include "rips/sweep/lens_graph.hpp"
+#include "rips/surfaces/triangle_cocycles.hpp"
+
+namespace ph {
+
+/// The living classes of H2 near a new edge (u,v), and what they become on its star: for each class
+/// h a potential p on the lens, p(w) = phi_h(u,v,w), such that p(y) - p(x) = gamma(x,y) :=
+/// phi_h(u,x,y) - phi_h(v,x,y) on the edges xy of the lens. Vertices have their numbers in the
+/// lens.
+template <Field K>
+class LensExtensions {
+ public:
+  using Vertex = std::uint32_t;
+  using Element = typename K::Element;
+  using Word = bits::Word;
+  using Cocycles = TriangleCocycles<K>;
+  using Cochain = typename Cocycles::Cochain;
+  using Generator = typename Cocycles::Generator;
+  using Row = FieldRow<K>;
+  using Unit = typename Row::Unit;
+
+  struct Extension {
+    Generator generator;
+    const Cochain* cocycle;
+    /// The lists of u and v, unless the cocycle is dense.
+    typename Cochain::Terms at_u = {}, at_v = {};
+    typename RowPool<K>::Id potential = 0;
+    /// p(x) + gamma(x,y) - p(y) where y is the vertex that came last; zero between vertices. Only
+    /// for those obstructed.
+    typename RowPool<K>::Id mismatch = 0;
+    std::size_t first = 0, last = 0;  ///< its part of terms_
+    bool is_obstructed = false;       ///< no potential fits
+    bool is_flat = true;              ///< the potential is zero so far
+    bool is_mismatched = false;
+  };
+
+  LensExtensions(const Cocycles& cocycles, const LensGraph& graph, const K& field,
+                 std::pmr::memory_resource* memory)
+      : cocycles_(cocycles),
+        graph_(graph),
+        field_(field),
+        all_(memory),
+        rows_((graph.vertex_count() + 63) / 64, memory),
+        gamma_((graph.vertex_count() + 63) / 64 * Row::kUnitsPerBlock, 0, memory),
+        terms_(memory) {}
+
+  /// By ascending generator.
+  std::pmr::vector<Extension>& all() { return all_; }
+  void clear();
+  void remove(Extension* x);
+
+  /// Finds the classes whose gamma is not zero on the lens, with potentials. Calls `prepare` before
+  /// the first one for a cover of the lens. @return whether there are some without a potential; of
+  /// these potentials and mismatches are zero.
+  template <class Prepare>
+  bool find(const FlagEdge& e, Prepare&& prepare);
+  /// Cocycles have changed: finds gamma anew for those obstructed.
+  void refresh(const FlagEdge& e);
+
+  Unit* potential(const Extension& x) { return rows_[x.potential]; }
+  Unit* mismatch(const Extension& x) { return rows_[x.mismatch]; }
+  /// Extends a class to the next vertex of a forest: the first edge to each part decides.
+  /// @return whether another edge asks for something else; then see `mismatch`.
+  bool extend_to(Extension& x, const FlagEdge& e, Vertex y, const LensForest& forest);
+
+ private:
+  using Term = typename Cochain::Term;
+
+  /// to += scale * a cocycle's row on the lens, in the first words.
+  void add_row(Unit* to, const Unit* row, Element scale, std::size_t words) const;
+  /// Finds the potential on a lens with an apex.
+  void extend_over_cone(Extension& x, const FlagEdge& e, Vertex apex);
+  /// Finds the potential in the order of a cover. @return false if there is none.
+  bool extend_over(Extension& x, const FlagEdge& e, const LensCover& cover);
+  /// Copies what lists say of gamma on the lens into terms_, from both ends of each pair.
+  void collect_terms(Extension& x);
+  /// gamma_ = gamma(., y) on a set, in the first words. @return whether that is not zero.
+  bool find_gamma(const Extension& x, const FlagEdge& e, Vertex y, const Word* set,
+                  std::size_t words);
+
+  const Cocycles& cocycles_;
+  const LensGraph& graph_;
+  const K& field_;
+  std::pmr::vector<Extension> all_;
+  RowPool<K> rows_;
+  std::pmr::vector<Unit> gamma_;
+  std::pmr::vector<Term> terms_;  // of a pair (y,x) of either order: gamma(x,y)
+};
+
+template <Field K>
+void LensExtensions<K>::clear() {
+  while (!all_.empty()) remove(&all_.back());
+  terms_.clear();
+}
+
+template <Field K>
+void LensExtensions<K>::remove(Extension* x) {
+  rows_.give(x->potential);
+  if (x->is_obstructed) rows_.give(x->mismatch);
+  all_.erase(all_.begin() + (x - all_.data()));
+}
+
+template <Field K>
+template <class Prepare>
+bool LensExtensions<K>::find(const FlagEdge& e, Prepare&& prepare) {
+  clear();
+  const LensCover* cover = nullptr;
+  bool is_obstructed = false;
+  const auto at_u = cocycles_.at(e.u), at_v = cocycles_.at(e.v);
+  auto i = at_u.begin(), j = at_v.begin();
+  while (i != at_u.end() || j != at_v.end()) {
+    const bool is_at_u = i != at_u.end() && (j == at_v.end() || i->generator <= j->generator);
+    const bool is_at_v = j != at_v.end() && (i == at_u.end() || j->generator <= i->generator);
+    const Generator h = is_at_u ? i->generator : j->generator;
+    const Cochain& cocycle = cocycles_[h];
+    Extension found{.generator = h, .cocycle = &cocycle};
+    if (is_at_u) found.at_u = cocycles_.terms(*i++);
+    if (is_at_v) found.at_v = cocycles_.terms(*j++);
+    if (!(is_at_u && cocycle.touches(e.u, found.at_u, graph_)) &&
+        !(is_at_v && cocycle.touches(e.v, found.at_v, graph_)))
+      continue;
+    if (cover == nullptr) cover = &prepare();
+    found.potential = rows_.take();
+    all_.push_back(found);
+    Extension& x = all_.back();
+    if (cover->size() == 1) {
+      extend_over_cone(x, e, (*cover)[0].vertex);
+    } else {
+      collect_terms(x);
+      if (!extend_over(x, e, *cover)) {
+        is_obstructed = x.is_obstructed = x.is_flat = true;
+        std::fill_n(potential(x), gamma_.size(), Unit{});
+        x.mismatch = rows_.take();
+      }
+    }
+    if (x.is_flat && !x.is_obstructed) remove(&x);
+  }
+  return is_obstructed;
+}
+
+template <Field K>
+void LensExtensions<K>::refresh(const FlagEdge& e) {
+  terms_.clear();
+  for (Extension& x : all_) {
+    if (!x.is_obstructed) continue;
+    x.at_u = x.cocycle->terms(e.u, cocycles_.shared());
+    x.at_v = x.cocycle->terms(e.v, cocycles_.shared());
+    collect_terms(x);
+  }
+}
+
+template <Field K>
+void LensExtensions<K>::add_row(Unit* to, const Unit* row, Element scale, std::size_t words) const {
+  if (graph_.keeps_numbers()) return Row::add(to, row, scale, field_, words);
+  bits::for_each(graph_.lens(), 0, words, [&](std::size_t w) {
+    const Element a = Row::value(row, graph_.global(static_cast<Vertex>(w)));
+    Row::add_at(to, w, field_.multiply(scale, a), field_);
+  });
+}
+
+template <Field K>
+void LensExtensions<K>::extend_over_cone(Extension& x, const FlagEdge& e, Vertex apex) {
+  // p(w) = gamma(apex,w)
+  Unit* p = potential(x);
+  const Vertex own = graph_.global(apex);
+  for (const bool at_v : {false, true}) {
+    const Vertex end = at_v ? e.v : e.u;
+    if (x.cocycle->is_dense()) {
+      if (const Unit* row = x.cocycle->row(end, own, cocycles_.shared()))
+        add_row(p, row, field_.from_int(at_v == (end < own) ? -1 : 1), graph_.words());
+      continue;
+    }
+    for (const Term& t : at_v ? x.at_v : x.at_u) {
+      const bool is_larger = Cochain::larger(t) == own;
+      if (!is_larger && Cochain::smaller(t) != own) continue;
+      const Vertex w = graph_.local(is_larger ? Cochain::smaller(t) : Cochain::larger(t));
+      if (w == LensGraph::kNone) continue;
+      Row::add_at(p, w, is_larger != at_v ? field_.negate(t.coefficient()) : t.coefficient(),
+                  field_);
+    }
+  }
+  x.is_flat = !Row::restrict(p, graph_.lens(), graph_.words());
+}
+
+template <Field K>
+void LensExtensions<K>::collect_terms(Extension& x) {
+  x.first = x.last = terms_.size();
+  if (x.cocycle->is_dense()) return;
+  const auto add = [&](std::uint32_t at, Element a) {
+    const Vertex larger = graph_.local(at >> 16), smaller = graph_.local(at & 0xFFFF);
+    if (field_.is_zero(a) || larger == LensGraph::kNone || smaller == LensGraph::kNone) return;
+    terms_.emplace_back(Cochain::pair(larger, smaller), a);
+    terms_.emplace_back(Cochain::pair(smaller, larger), field_.negate(a));
+  };
+  auto i = x.at_u.begin(), j = x.at_v.begin();
+  while (i != x.at_u.end() || j != x.at_v.end()) {
+    if (j == x.at_v.end() || (i != x.at_u.end() && i->cell < j->cell)) {
+      add(i->cell, i->coefficient());
+      ++i;
+    } else if (i == x.at_u.end() || j->cell < i->cell) {
+      add(j->cell, field_.negate(j->coefficient()));
+      ++j;
+    } else {
+      add(i->cell, field_.add(i->coefficient(), field_.negate(j->coefficient())));
+      ++i;
+      ++j;
+    }
+  }
+  x.last = terms_.size();
+  std::sort(terms_.begin() + static_cast<std::ptrdiff_t>(x.first), terms_.end(),
+            [](const Term& a, const Term& b) { return a.cell < b.cell; });
+}
+
+template <Field K>
+bool LensExtensions<K>::find_gamma(const Extension& x, const FlagEdge& e, Vertex y, const Word* set,
+                                   std::size_t words) {
+  bool is_clear = false;
+  const auto clear = [&] {
+    if (!is_clear) std::fill_n(gamma_.begin(), words * Row::kUnitsPerBlock, Unit{});
+    is_clear = true;
+  };
+  if (x.cocycle->is_dense()) {
+    const Vertex own = graph_.global(y);
+    for (const bool at_v : {false, true}) {
+      const Vertex end = at_v ? e.v : e.u;
+      // The row of an edge ab, a < b, holds phi(a,b,.) = -phi(a,.,b).
+      if (const Unit* row = x.cocycle->row(end, own, cocycles_.shared())) {
+        clear();
+        add_row(gamma_.data(), row, field_.from_int(at_v == (end < own) ? 1 : -1), words);
+      }
+    }
+  } else {
+    const auto last = terms_.begin() + static_cast<std::ptrdiff_t>(x.last);
+    auto t = std::lower_bound(terms_.begin() + static_cast<std::ptrdiff_t>(x.first), last,
+                              Cochain::pair(y, 0),
+                              [](const Term& term, std::uint32_t at) { return term.cell < at; });
+    for (; t != last && Cochain::larger(*t) == y && Cochain::smaller(*t) < 64 * words; ++t) {
+      clear();
+      Row::add_at(gamma_.data(), Cochain::smaller(*t), t->coefficient(), field_);
+    }
+  }
+  return is_clear && Row::restrict(gamma_.data(), set, words);
+}
+
+template <Field K>
+bool LensExtensions<K>::extend_over(Extension& x, const FlagEdge& e, const LensCover& cover) {
+  if (!x.cocycle->is_dense() && x.first == x.last) return true;
+  const std::size_t words = graph_.words();
+  Unit* p = potential(x);
+  for (std::size_t i = 0; i < cover.size(); ++i) {
+    const auto [y, is_hub] = cover[i];
+    const Word* neighbours = cover.neighbours(i);
+    const bool is_zero = !find_gamma(x, e, y, neighbours, words);
+    if (is_zero && (is_hub || x.is_flat)) continue;
+    if (is_hub) {  // p(w) = gamma(hub,w)
+      Row::assign(p, gamma_.data(), field_.from_int(0), neighbours, field_, words);
+      x.is_flat = false;
+      continue;
+    }
+    if (is_zero) std::fill_n(gamma_.begin(), words * Row::kUnitsPerBlock, Unit{});
+    const std::size_t w = bits::first_common(neighbours, neighbours, words);
+    const Element value = field_.add(Row::value(p, w), Row::value(gamma_.data(), w));
+    if (!Row::is_sum(value, p, gamma_.data(), neighbours, field_, words)) return false;
+    if (field_.is_zero(value)) continue;
+    Row::add_at(p, y, value, field_);
+    x.is_flat = false;
+  }
+  return true;
+}
+
+template <Field K>
+bool LensExtensions<K>::extend_to(Extension& x, const FlagEdge& e, Vertex y,
+                                  const LensForest& forest) {
+  // An edge wy asks that p(y) be p(w) + gamma(w,y).
+  const std::size_t words = LensForest::words_to(y);
+  if (!find_gamma(x, e, y, forest.neighbours(), words)) {
+    if (x.is_flat) return false;
+    std::fill_n(gamma_.begin(), words * Row::kUnitsPerBlock, Unit{});
+  }
+  Unit* p = potential(x);
+  const auto& meetings = forest.meetings();
+  const auto asked_at = [&](Vertex w) {
+    return field_.add(Row::value(p, w), Row::value(gamma_.data(), w));
+  };
+  const Element value = asked_at(meetings.front().at);
+  for (std::size_t i = 0; i < meetings.size(); ++i) {
+    const Element here = asked_at(meetings[i].at);
+    if (Row::difference(mismatch(x), p, gamma_.data(), here, forest.neighbours(i), field_, words))
+      x.is_mismatched = true;
+    if (here == value) continue;
+    Row::shift(p, forest.part(meetings[i]), field_.add(value, field_.negate(here)), field_, words);
+    x.is_flat = false;
+  }
+  if (!field_.is_zero(value)) {
+    Row::add_at(p, y, value, field_);
+    x.is_flat = false;
+  }
+  return x.is_mismatched;
+}
+
+}  // namespace ph

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <iterator>
+#include <memory_resource>
+#include <vector>
+
+#include "ph/filtration.hpp"
+#include "ph/run_context.hpp"
+#include "rips/sweep/lens_components.hpp"
+#include "rips/sweep/lens_cover.hpp"
+#include "rips/surfaces/lens_extensions.hpp"
+#include "rips/sweep/lens_forest.hpp"
+#include "rips/sweep/lens_graph.hpp"
+#include "rips/sweep/lens_observer.hpp"
+#include "rips/surfaces/triangle_cocycles.hpp"
+
+namespace ph {
+
+/// H2 of a Vietoris-Rips filtration edge by edge: the part of the lens sweep above H1.
+///
+/// An edge e = (u,v) enters with its star, glued to what is there along the suspension of its link,
+/// the flag complex of the lens. So a class of H2 is born with each component of the lens but one
+/// (if that component kills no class of H1) and dies with a loop of the link. Each living class h
+/// is held by a cocycle phi_h. It extends to the new triangles by a potential, p(w) = phi_h(u,v,w):
+/// p(y) - p(x) = gamma(x,y) := phi_h(u,x,y) - phi_h(v,x,y) for each edge xy of the lens. Where
+/// there is none, a class dies. See docs/algorithms.md.
+template <Field K>
+class LensSurfaces {
+ public:
+  using Vertex = std::uint32_t;
+  using Position = std::uint32_t;
+  using Element = typename K::Element;
+  using Word = bits::Word;
+  using Observer = LensObserver<K>;
+  using Triangle = typename Observer::Triangle;
+
+  /// @param graph the edges so far, which outlive this.
+  LensSurfaces(LensGraph& graph, const K& field, LensWanted wanted, Observer& observer,
+               const RunContext& context)
+      : graph_(graph),
+        field_(field),
+        wanted_(wanted),
+        observer_(observer),
+        cocycles_(graph.vertex_count(), field, wanted.tuning.most_terms, context),
+        births_(&context.memory),
+        cover_(graph, &context.memory),
+        forest_(graph, &context.memory),
+        extensions_(cocycles_, graph, field, &context.memory),
+        partners_(&context.memory),
+        star_((graph.vertex_count() + 63) / 64 * Row::kUnitsPerBlock, 0, &context.memory),
+        own_star_(star_.size(), 0, &context.memory),
+        cocycle_(&context.memory) {}
+
+  /// Extends the living classes to the star of an edge, the one of the graph's lens; kills those
+  /// that cannot be.
+  void extend(Position position, const FlagEdge& e, LensComponents& components);
+  /// A class is born with a component of an edge's lens.
+  void give_birth(Triangle birth, const FlagEdge& e, const Word* component);
+  /// Reports what never dies.
+  void finish();
+  bool has_living() const { return cocycles_.shared().living > 0; }
+  StarWriter<K>& stars() { return cocycles_.stars(); }
+  const StarWriter<K>& stars() const { return cocycles_.shared().stars; }
+
+ private:
+  using Cocycles = TriangleCocycles<K>;
+  using Generator = typename Cocycles::Generator;
+  using Extension = typename LensExtensions<K>::Extension;
+  using Row = FieldRow<K>;
+  using Unit = typename Row::Unit;
+
+  static constexpr Position kDead = UINT32_MAX;
+
+  /// Goes through a lens in the order of its tetrahedra: classes that are obstructed die or become
+  /// others that are not.
+  /// @param is_extended whether nothing but pairs of length zero are to be found.
+  void sweep(Position position, const FlagEdge& e, bool is_extended);
+  void kill_mismatched(Position position, const FlagEdge& e, Vertex y);
+  /// What an extension asks for at w beyond what it has for the last vertex.
+  Element mismatch_of(const Extension& x, Vertex w);
+  /// Adds younger classes to those mismatched at w, so that only the youngest of them, the dying
+  /// one, remains so. @param words of rows that are in use.
+  void correct_others(std::size_t dying, Vertex w, std::size_t words);
+  /// @param tetrahedron joins two parts of the lens, of which one has these vertices.
+  void report_zero_length(const FlagEdge& e, Vertex root, const Word* part,
+                          typename Observer::Tetrahedron tetrahedron);
+  void store(const Extension& x, const FlagEdge& e, const LensComponents& components);
+  /// phi(u,v,.) += a star, given on the lens.
+  void add_star(Generator h, const FlagEdge& e, const Unit* star);
+  void find_cocycle(Generator h);
+  /// @param star phi(u,v,.), in the first words.
+  void add_star_to_cocycle(const FlagEdge& e, const Unit* star, std::size_t words);
+
+  LensGraph& graph_;
+  const K& field_;
+  LensWanted wanted_;
+  Observer& observer_;
+  Cocycles cocycles_;
+  std::pmr::vector<Triangle> births_;  // by generator; edge = kDead once it died
+  // While an edge is added.
+  LensCover cover_;
+  LensForest forest_;
+  LensExtensions<K> extensions_;
+  std::pmr::vector<std::size_t> partners_;  // by extension: what is to be added to it
+  std::pmr::vector<Unit> star_;             // on the lens
+  std::pmr::vector<Unit> own_star_;         // on all vertices; zero between uses
+  std::pmr::vector<typename Observer::TriangleValue> cocycle_;
+};
+
+template <Field K>
+void LensSurfaces<K>::give_birth(Triangle birth, const FlagEdge& e, const Word* component) {
+  const Generator h = cocycles_.add_generator();
+  births_.push_back(birth);
+  std::fill_n(star_.begin(), graph_.words() * Row::kUnitsPerBlock, Unit{});
+  Row::shift(star_.data(), component, field_.from_int(1), field_, graph_.words());
+  add_star(h, e, star_.data());
+}
+
+template <Field K>
+void LensSurfaces<K>::add_star(Generator h, const FlagEdge& e, const Unit* star) {
+  if (graph_.keeps_numbers()) return cocycles_.add_star(h, e.u, e.v, star);
+  const auto own = [&](std::size_t w) { return graph_.global(static_cast<Vertex>(w)); };
+  Row::for_each(star, graph_.words(), [&](std::size_t w, Element a) {
+    Row::add_at(own_star_.data(), own(w), a, field_);
+  });
+  cocycles_.add_star(h, e.u, e.v, own_star_.data());
+  Row::for_each(star, graph_.words(), [&](std::size_t w, Element a) {
+    Row::add_at(own_star_.data(), own(w), field_.negate(a), field_);
+  });
+}
+
+template <Field K>
+void LensSurfaces<K>::finish() {
+  for (Generator h = 0; h < births_.size(); ++h) {
+    if (births_[h].edge == kDead) continue;
+    find_cocycle(h);
+    observer_.on_essential(births_[h], cocycle_);
+  }
+}
+
+template <Field K>
+void LensSurfaces<K>::extend(Position position, const FlagEdge& e, LensComponents& components) {
+  const bool is_obstructed = extensions_.find(e, [&]() -> const LensCover& {
+    if (!components.has_apex() && components.count() == 1) components.find_apex(e);
+    cover_.find(components);
+    return cover_;
+  });
+  if (is_obstructed) sweep(position, e, false);
+  if (wanted_.zero_length) sweep(position, e, true);
+  for (const Extension& x : extensions_.all()) store(x, e, components);
+  extensions_.clear();
+}
+
+template <Field K>
+void LensSurfaces<K>::sweep(Position position, const FlagEdge& e, bool is_extended) {
+  const Word* lens = graph_.lens();
+  forest_.clear();
+  bits::for_each(lens, 0, graph_.words(), [&](std::size_t vertex) {
+    const auto y = static_cast<Vertex>(vertex);
+    forest_.meet(y, lens);
+    bool is_mismatched = false;
+    if (!is_extended && !forest_.meetings().empty())
+      for (Extension& x : extensions_.all())
+        if (x.is_obstructed) is_mismatched |= extensions_.extend_to(x, e, y, forest_);
+    if (is_mismatched) kill_mismatched(position, e, y);
+    forest_.join(y, [&](Vertex root, const Word* part, Vertex w) {
+      if (is_extended)
+        report_zero_length(e, root, part, {position, graph_.global(y), graph_.global(w)});
+    });
+  });
+}
+
+template <Field K>
+auto LensSurfaces<K>::mismatch_of(const Extension& x, Vertex w) -> Element {
+  return x.is_mismatched ? Row::value(extensions_.mismatch(x), w) : field_.from_int(0);
+}
+
+template <Field K>
+void LensSurfaces<K>::kill_mismatched(Position position, const FlagEdge& e, Vertex y) {
+  const std::size_t words = LensForest::words_to(y);
+  auto& all = extensions_.all();
+  for (Vertex from = 0;;) {
+    // The first tetrahedron over which a class does not extend kills the youngest such class.
+    std::size_t first = bits::kNone;
+    for (const Extension& x : all)
+      if (x.is_mismatched)
+        first = std::min(first, Row::first(extensions_.mismatch(x), from, words));
+    if (first == bits::kNone) break;
+    const auto w = static_cast<Vertex>(first);
+    from = w + 1;
+    const auto dying = std::prev(std::ranges::find_if(all.rbegin(), all.rend(), [&](const auto& x) {
+                                   return !field_.is_zero(mismatch_of(x, w));
+                                 }).base());
+    const Generator h = dying->generator;
+    find_cocycle(h);
+    if (wanted_.cocycles) add_star_to_cocycle(e, extensions_.potential(*dying), words);
+    observer_.on_death(births_[h], {position, graph_.global(y), graph_.global(w)}, cocycle_);
+    births_[h].edge = kDead;
+    correct_others(static_cast<std::size_t>(dying - all.begin()), w, words);
+    cocycles_.erase(h);
+    extensions_.remove(&*dying);
+    extensions_.refresh(e);
+  }
+  for (Extension& x : all) x.is_mismatched = false;
+}
+
+template <Field K>
+void LensSurfaces<K>::correct_others(std::size_t dying, Vertex w, std::size_t words) {
+  // Each of the others takes the smallest of the younger ones, all as they are now.
+  auto& all = extensions_.all();
+  partners_.assign(dying, dying);
+  std::size_t partner = dying;
+  for (std::size_t i = dying; i-- > 0;) {
+    partners_[i] = partner;
+    const auto size_of = [&](std::size_t k) { return cocycles_[all[k].generator].size(); };
+    if (!field_.is_zero(mismatch_of(all[i], w)) && size_of(i) < size_of(partner)) partner = i;
+  }
+  for (std::size_t i = 0; i < dying; ++i) {
+    Extension &x = all[i], &y = all[partners_[i]];
+    const Element a = mismatch_of(x, w);
+    if (field_.is_zero(a)) continue;
+    const Element scale = field_.negate(field_.multiply(a, field_.inverse(mismatch_of(y, w))));
+    cocycles_.add(x.generator, y.generator, scale);
+    Row::add(extensions_.potential(x), extensions_.potential(y), scale, field_, words);
+    Row::add(extensions_.mismatch(x), extensions_.mismatch(y), scale, field_, words);
+    x.is_flat = false;
+  }
+}
+
+template <Field K>
+void LensSurfaces<K>::report_zero_length(const FlagEdge& e, Vertex root, const Word* part,
+                                         typename Observer::Tetrahedron tetrahedron) {
+  cocycle_.clear();
+  if (wanted_.cocycles) {
+    std::fill_n(star_.begin(), graph_.words() * Row::kUnitsPerBlock, Unit{});
+    Row::shift(star_.data(), part, field_.from_int(1), field_, graph_.words());
+    add_star_to_cocycle(e, star_.data(), graph_.words());
+  }
+  observer_.on_death({tetrahedron.edge, graph_.global(root)}, tetrahedron, cocycle_);
+}
+
+template <Field K>
+void LensSurfaces<K>::store(const Extension& x, const FlagEdge& e,
+                            const LensComponents& components) {
+  // A constant on a component changes the class by younger ones at most: few values are stored.
+  Unit* p = extensions_.potential(x);
+  const std::size_t words = graph_.words();
+  for (std::size_t i = 0; i < components.count(); ++i) {
+    const Word* set = components.count() == 1 ? graph_.lens() : components.vertices(i);
+    const Element most = Row::majority(p, set, field_, words);
+    if (!field_.is_zero(most)) Row::shift(p, set, field_.negate(most), field_, words);
+  }
+  if (!Row::is_zero(p, words)) add_star(x.generator, e, p);
+}
+
+template <Field K>
+void LensSurfaces<K>::find_cocycle(Generator h) {
+  cocycle_.clear();
+  if (wanted_.cocycles)
+    cocycles_[h].for_each_triangle(cocycles_.shared(),
+                                   [&](Vertex a, Vertex b, Vertex c, Element value) {
+                                     cocycle_.push_back({{a, b, c}, value});
+                                   });
+}
+
+template <Field K>
+void LensSurfaces<K>::add_star_to_cocycle(const FlagEdge& e, const Unit* star, std::size_t blocks) {
+  Row::for_each(star, blocks, [&](std::size_t apex, Element a) {
+    std::array<Vertex, 3> vertices{e.v, e.u, graph_.global(static_cast<Vertex>(apex))};
+    // phi(u,v,w): an odd number of swaps away from (v,u,w)
+    const bool is_odd = vertices[2] > e.u || vertices[2] < e.v;
+    std::ranges::sort(vertices);
+    cocycle_.push_back({vertices, is_odd ? field_.negate(a) : a});
+  });
+}
+
+extern template class LensSurfaces<Z2>;
+extern template class LensSurfaces<Zp>;
+
+}  // namespace ph

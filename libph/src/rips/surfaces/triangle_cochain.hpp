@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "ph/detail/chain.hpp"
+#include "ph/detail/field.hpp"
+#include "rips/annotations/field_rows.hpp"
+#include "rips/sweep/lens_graph.hpp"
+#include "rips/annotations/list_pool.hpp"
+#include "rips/sweep/sorted_terms.hpp"
+#include "rips/sweep/star_writer.hpp"
+
+namespace ph {
+
+/// A 2-cochain phi of a flag complex, an alternating function of three vertices, stored where it is
+/// not zero: few triangles are sorted lists, each triangle in those of its three corners; many are
+/// rows, one for each edge (a,b), a < b, with the values phi(a,b,.).
+template <Field K>
+class TriangleCochain {
+ public:
+  using Vertex = std::uint32_t;
+  using Element = typename K::Element;
+  using Row = FieldRow<K>;
+  using Unit = typename Row::Unit;
+  using Word = bits::Word;
+  /// In the list of a vertex a: a pair of other vertices, named by `pair`, with phi(a, smaller,
+  /// larger).
+  using Term = Entry<std::uint32_t, K>;
+  using Terms = std::span<const Term>;
+  using ListId = typename ListPool<Term>::Id;
+
+  /// Pairs ascend by the larger vertex, then by the smaller one.
+  static std::uint32_t pair(Vertex larger, Vertex smaller) { return larger << 16 | smaller; }
+  static Vertex larger(const Term& t) { return t.cell >> 16; }
+  static Vertex smaller(const Term& t) { return t.cell & 0xFFFF; }
+  /// 16 bits for each vertex.
+  static constexpr std::size_t kMostVertices = 1 << 16;
+
+  /// What all cochains of a complex share.
+  struct Shared {
+    Shared(const K& field_, std::size_t vertices, std::size_t most_terms_,
+           std::pmr::memory_resource* memory)
+        : field(field_),
+          blocks((vertices + 63) / 64),
+          most_terms(most_terms_ * Row::kUnitsPerBlock * sizeof(Unit) / sizeof(Word)),
+          rows(blocks, memory),
+          stars(rows, field_, vertices, blocks, memory),
+          lists(memory),
+          merged(memory),
+          star(memory),
+          own(memory) {}
+    const K& field;
+    std::size_t blocks;
+    std::size_t most_terms;  // in lists; more become rows, later where these are wider than bits
+    std::size_t living = 0;  // cochains in use
+    RowPool<K> rows;
+    StarWriter<K> stars;
+    ListPool<Term> lists;
+    std::pmr::vector<Term> merged, star;
+    std::pmr::vector<ListId> own;  // lists that others are about to be added to
+  };
+
+  explicit TriangleCochain(std::pmr::memory_resource* memory) : lists_(memory), at_(memory) {}
+
+  bool is_dense() const { return !at_.empty(); }
+  /// The list of a vertex, unless it is dense.
+  Terms terms(Vertex a, const Shared& shared) const {
+    const auto at = std::ranges::lower_bound(lists_, a, {}, &ListAt::vertex);
+    return at != lists_.end() && at->vertex == a ? Terms(shared.lists[at->list]) : Terms();
+  }
+  /// Whether a triangle at a, the other two vertices in a lens, may have a value; no false "no".
+  /// @param terms those of a.
+  bool touches(Vertex a, Terms terms, const LensGraph& graph) const;
+  /// If it is dense: phi(a,b,.) if a < b, -phi(a,b,.) otherwise; null if that is zero.
+  const Unit* row(Vertex a, Vertex b, const Shared& shared) const {
+    if (!has_row(a, b)) return nullptr;
+    shared.stars.finish_row(a, b);
+    return shared.rows[at_[a].rows[b]];
+  }
+  /// What it costs to add it to another one, more or less.
+  std::size_t size() const { return is_dense() ? row_count_ * at_.size() : term_count_; }
+
+  /// += scale * other. Calls `on_enter(a, list)`, `on_leave(a)` for vertices of triangles, perhaps,
+  /// that were not, are no longer.
+  template <class OnEnter, class OnLeave>
+  void add(const TriangleCochain& other, Element scale, Shared& shared, OnEnter&& on_enter,
+           OnLeave&& on_leave);
+  /// phi(u,v,w) += star(w) for all w; u > v, and no such triangle has a value yet.
+  template <class OnEnter>
+  void add_star(Vertex u, Vertex v, const Unit* star, Shared& shared, OnEnter&& on_enter);
+  /// Makes it zero and gives back what it held. Calls `on_leave(a)` as `add` does.
+  template <class OnLeave>
+  void clear(Shared& shared, OnLeave&& on_leave);
+
+  /// Calls `visit(a, b, c, phi(a,b,c))` for a < b < c.
+  template <class Visit>
+  void for_each_triangle(const Shared& shared, Visit&& visit) const;
+
+ private:
+  struct ListAt {
+    Vertex vertex;
+    ListId list;
+  };
+  /// The edges at a vertex that have a row.
+  struct RowsAt {
+    explicit RowsAt(std::pmr::memory_resource* memory) : present(memory), rows(memory) {}
+    std::pmr::vector<Word> present;                  // by the other end
+    std::pmr::vector<typename RowPool<K>::Id> rows;  // by the other end
+  };
+
+  bool has_row(Vertex a, Vertex b) const {
+    const auto& present = at_[a].present;
+    return !present.empty() && (present[b / 64] >> (b % 64) & 1) != 0;
+  }
+  /// Of an edge.
+  Unit* made_row(Vertex a, Vertex b, Shared& shared) {
+    if (!has_row(a, b)) make_row(a, b, shared);
+    return shared.rows[at_[a].rows[b]];
+  }
+  template <class OnEnter>
+  void enter(Vertex a, const Shared& shared, OnEnter&& on_enter) {
+    if (!at_[a].present.empty()) return;
+    at_[a].present.resize(shared.blocks);
+    on_enter(a, 0);
+  }
+  void make_row(Vertex a, Vertex b, Shared& shared);
+  /// phi(a,b,c) += value, in the row of ab.
+  void add_to_row(Vertex a, Vertex b, Vertex c, Element value, Shared& shared) {
+    Row::add_at(made_row(a, b, shared), c, a < b ? value : shared.field.negate(value),
+                shared.field);
+  }
+  /// += scale * other, both in lists.
+  template <class OnEnter, class OnLeave>
+  void add_lists(const TriangleCochain& other, Element scale, Shared& shared, OnEnter&& on_enter,
+                 OnLeave&& on_leave);
+  /// phi(a,.,.) += scale * terms.
+  template <class OnEnter, class OnLeave>
+  void add_terms(Vertex a, Terms terms, Element scale, Shared& shared, OnEnter&& on_enter,
+                 OnLeave&& on_leave);
+  /// Makes it dense if it is large.
+  void adapt(Shared& shared) {
+    // Rows of many cochains push each other out of the caches.
+    constexpr std::size_t many = 16;
+    const std::size_t most = shared.living < many ? shared.most_terms : 2 * shared.most_terms;
+    if (!is_dense() && term_count_ > most) make_dense(shared);
+  }
+  void make_dense(Shared& shared);
+  template <class OnEnter>
+  void add_star_to_rows(Vertex u, Vertex v, const Unit* star, Shared& shared, OnEnter&& on_enter);
+  void drop_zero_rows(Shared& shared);
+  /// Calls `visit(a)` for the vertices of its triangles, ascending, and perhaps some more.
+  template <class Visit>
+  void for_each_vertex(Visit&& visit) const;
+  /// Calls `visit(a, b, row id)` for a < b.
+  template <class Visit>
+  void for_each_row(Visit&& visit) const;
+
+  std::pmr::vector<ListAt> lists_;  // ascending; empty if it is dense
+  std::size_t term_count_ = 0;
+  std::pmr::vector<RowsAt> at_;  // by vertex; empty unless it is dense
+  std::size_t row_count_ = 0;
+};
+
+template <Field K>
+bool TriangleCochain<K>::touches(Vertex a, Terms terms, const LensGraph& graph) const {
+  const auto contains = [&](Vertex v) { return graph.local(v) != LensGraph::kNone; };
+  if (!is_dense())
+    return std::ranges::any_of(
+        terms, [&](const Term& t) { return contains(larger(t)) && contains(smaller(t)); });
+  const auto& present = at_[a].present;
+  if (present.empty()) return false;
+  if (graph.keeps_numbers())
+    return bits::first_common(present.data(), graph.lens(), present.size()) != bits::kNone;
+  bool touches = false;
+  bits::for_each(graph.lens(), 0, graph.words(), [&](std::size_t w) {
+    touches = touches || has_row(a, graph.global(static_cast<Vertex>(w)));
+  });
+  return touches;
+}
+
+template <Field K>
+void TriangleCochain<K>::make_row(Vertex a, Vertex b, Shared& shared) {
+  if (shared.rows.is_full()) shared.stars.finish();
+  const auto id = shared.rows.take();
+  ++row_count_;
+  for (const auto& [one, other] : {std::pair{a, b}, std::pair{b, a}}) {
+    at_[one].present.resize(shared.blocks);
+    at_[one].present[other / 64] |= Word{1} << (other % 64);
+    at_[one].rows.resize(at_.size());
+    at_[one].rows[other] = id;
+  }
+}
+
+template <Field K>
+void TriangleCochain<K>::make_dense(Shared& shared) {
+  const auto memory = lists_.get_allocator().resource();
+  at_.reserve(64 * shared.blocks);
+  for (std::size_t a = 0; a < 64 * shared.blocks; ++a) at_.emplace_back(memory);
+  for (const auto& [a, list] : lists_) {
+    for (const Term& t : shared.lists[list])
+      add_to_row(smaller(t), larger(t), a, t.coefficient(), shared);
+    shared.lists.give(list);
+  }
+  std::pmr::vector<ListAt>(memory).swap(lists_);
+}
+
+template <Field K>
+template <class OnEnter, class OnLeave>
+void TriangleCochain<K>::add_terms(Vertex a, Terms terms, Element scale, Shared& shared,
+                                   OnEnter&& on_enter, OnLeave&& on_leave) {
+  auto at = std::ranges::lower_bound(lists_, a, {}, &ListAt::vertex);
+  if (at == lists_.end() || at->vertex != a) {
+    at = lists_.insert(at, {a, shared.lists.take()});
+    on_enter(a, at->list);
+  }
+  auto& list = shared.lists[at->list];
+  term_count_ -= list.size();
+  add_sorted_terms<K>(list, terms, scale, shared.field, shared.merged);
+  term_count_ += list.size();
+  if (!list.empty()) return;
+  shared.lists.give(at->list);
+  lists_.erase(at);
+  on_leave(a);
+}
+
+template <Field K>
+template <class OnEnter, class OnLeave>
+void TriangleCochain<K>::add_lists(const TriangleCochain& other, Element scale, Shared& shared,
+                                   OnEnter&& on_enter, OnLeave&& on_leave) {
+  // Lists are anywhere in memory: all are asked for before the first is waited for.
+  auto& lists = shared.lists;
+  auto& own = shared.own;
+  own.clear();
+  auto at = lists_.begin();
+  for (const auto& [a, list] : other.lists_) {
+    at = std::ranges::lower_bound(at, lists_.end(), a, {}, &ListAt::vertex);
+    if (at == lists_.end() || at->vertex != a) {
+      at = lists_.insert(at, {a, lists.take()});
+      on_enter(a, at->list);
+    }
+    own.push_back(at->list);
+    for (const ListId id : {list, at->list}) lists.prefetch(id);
+  }
+  for (std::size_t i = 0; i < own.size(); ++i)
+    for (const ListId id : {other.lists_[i].list, own[i]}) lists.prefetch_terms(id);
+  bool is_any_zero = false;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    auto& list = lists[own[i]];
+    term_count_ -= list.size();
+    add_sorted_terms<K>(list, Terms(lists[other.lists_[i].list]), scale, shared.field,
+                        shared.merged);
+    term_count_ += list.size();
+    is_any_zero |= list.empty();
+  }
+  if (!is_any_zero) return;
+  std::erase_if(lists_, [&](const ListAt& mine) {
+    if (!lists[mine.list].empty()) return false;
+    lists.give(mine.list);
+    on_leave(mine.vertex);
+    return true;
+  });
+}
+
+template <Field K>
+template <class OnEnter, class OnLeave>
+void TriangleCochain<K>::add(const TriangleCochain& other, Element scale, Shared& shared,
+                             OnEnter&& on_enter, OnLeave&& on_leave) {
+  adapt(shared);
+  if (!is_dense() && other.is_dense()) make_dense(shared);
+  if (!is_dense()) return add_lists(other, scale, shared, on_enter, on_leave);
+  shared.stars.finish();
+  other.for_each_vertex([&](Vertex a) { enter(a, shared, on_enter); });
+  for (const auto& [a, list] : other.lists_) {
+    for (const Term& t : shared.lists[list])
+      add_to_row(smaller(t), larger(t), a, shared.field.multiply(scale, t.coefficient()), shared);
+  }
+  if (!other.is_dense()) return;
+  other.for_each_row([&](Vertex a, Vertex b, typename RowPool<K>::Id id) {
+    Unit* to = made_row(a, b, shared);
+    Row::add(to, shared.rows[id], scale, shared.field, shared.blocks);
+  });
+  drop_zero_rows(shared);
+}
+
+template <Field K>
+template <class OnEnter>
+void TriangleCochain<K>::add_star_to_rows(Vertex u, Vertex v, const Unit* star, Shared& shared,
+                                          OnEnter&& on_enter) {
+  enter(u, shared, on_enter);
+  enter(v, shared, on_enter);
+  Row::add(made_row(v, u, shared), star, shared.field.from_int(-1), shared.field, shared.blocks);
+  Row::for_each(star, shared.blocks, [&](std::size_t apex, Element) {
+    const auto w = static_cast<Vertex>(apex);
+    enter(w, shared, on_enter);
+    if (!has_row(u, w)) make_row(u, w, shared);
+    if (!has_row(v, w)) make_row(v, w, shared);
+  });
+  shared.stars.write({u, v, at_[u].rows.data(), at_[v].rows.data()}, star);
+}
+
+template <Field K>
+template <class OnEnter>
+void TriangleCochain<K>::add_star(Vertex u, Vertex v, const Unit* star, Shared& shared,
+                                  OnEnter&& on_enter) {
+  const K& field = shared.field;
+  const Element one = field.from_int(1);
+  // phi(u,v,w) = phi(w,u,v) = phi(v,w,u)
+  adapt(shared);
+  if (is_dense()) return add_star_to_rows(u, v, star, shared, on_enter);
+  const auto on_leave = [](Vertex) {};  // nothing cancels
+  auto& terms = shared.star;
+  for (const auto& [end, other] : {std::pair{u, v}, std::pair{v, u}}) {
+    terms.clear();
+    Row::for_each(star, shared.blocks, [&](std::size_t apex, Element a) {
+      const auto w = static_cast<Vertex>(apex);
+      terms.emplace_back(pair(std::max(other, w), std::min(other, w)),
+                         (end == u) == (other < w) ? a : field.negate(a));
+    });
+    add_terms(end, terms, one, shared, on_enter, on_leave);
+  }
+  Row::for_each(star, shared.blocks, [&](std::size_t apex, Element a) {
+    const Term only(pair(u, v), field.negate(a));
+    add_terms(static_cast<Vertex>(apex), {&only, 1}, one, shared, on_enter, on_leave);
+  });
+}
+
+template <Field K>
+template <class Visit>
+void TriangleCochain<K>::for_each_row(Visit&& visit) const {
+  for (std::size_t a = 0; a < at_.size(); ++a)
+    bits::for_each(at_[a].present.data(), a / 64, at_[a].present.size(), [&](std::size_t b) {
+      if (a < b) visit(static_cast<Vertex>(a), static_cast<Vertex>(b), at_[a].rows[b]);
+    });
+}
+
+template <Field K>
+void TriangleCochain<K>::drop_zero_rows(Shared& shared) {
+  for_each_row([&](Vertex a, Vertex b, typename RowPool<K>::Id id) {
+    if (!Row::is_zero(shared.rows[id], shared.blocks)) return;
+    shared.rows.give(id);
+    --row_count_;
+    at_[a].present[b / 64] &= ~(Word{1} << (b % 64));
+    at_[b].present[a / 64] &= ~(Word{1} << (a % 64));
+  });
+}
+
+template <Field K>
+template <class OnLeave>
+void TriangleCochain<K>::clear(Shared& shared, OnLeave&& on_leave) {
+  if (is_dense()) shared.stars.finish();
+  for_each_vertex(on_leave);
+  for (const ListAt& at : lists_) shared.lists.give(at.list);
+  for_each_row([&](Vertex, Vertex, auto id) { shared.rows.give(id); });
+  *this = TriangleCochain(lists_.get_allocator().resource());
+}
+
+template <Field K>
+template <class Visit>
+void TriangleCochain<K>::for_each_vertex(Visit&& visit) const {
+  for (const ListAt& at : lists_) visit(at.vertex);
+  for (std::size_t a = 0; a < at_.size(); ++a)
+    if (!at_[a].present.empty()) visit(static_cast<Vertex>(a));
+}
+
+template <Field K>
+template <class Visit>
+void TriangleCochain<K>::for_each_triangle(const Shared& shared, Visit&& visit) const {
+  shared.stars.finish();
+  for (const auto& [a, list] : lists_)
+    for (const Term& t : shared.lists[list])
+      if (a < smaller(t)) visit(a, smaller(t), larger(t), t.coefficient());
+  for_each_row([&](Vertex a, Vertex b, auto id) {
+    Row::for_each(shared.rows[id], shared.blocks, [&](std::size_t c, Element value) {
+      if (b < c) visit(a, b, static_cast<Vertex>(c), value);
+    });
+  });
+}
+
+}  // namespace ph

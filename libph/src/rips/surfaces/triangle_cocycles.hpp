@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "ph/run_context.hpp"
+#include "rips/surfaces/triangle_cochain.hpp"
+
+namespace ph {
+
+/// Living classes of H^2 by their cocycles, and at each vertex those with triangles there.
+template <Field K>
+class TriangleCocycles {
+ public:
+  using Generator = std::uint32_t;  ///< numbered by birth
+  using Vertex = std::uint32_t;
+  using Cochain = TriangleCochain<K>;
+  using Element = typename K::Element;
+  using Unit = typename FieldRow<K>::Unit;
+  using ListId = typename Cochain::ListId;
+  /// A generator with triangles at a vertex, perhaps, and their list, unless its cocycle is dense.
+  struct At {
+    Generator generator;
+    ListId list;
+  };
+
+  /// @param most_terms of a cocycle's lists, by vertex on average; those with more become rows.
+  TriangleCocycles(std::size_t vertices, const K& field, std::size_t most_terms,
+                   const RunContext& context)
+      : context_(context),
+        shared_(field, vertices, most_terms * vertices, &context.memory),
+        cochains_(&context.memory),
+        at_(vertices, &context.memory) {}
+
+  Generator add_generator() {
+    cochains_.emplace_back(&context_.memory);
+    ++shared_.living;
+    return static_cast<Generator>(cochains_.size() - 1);
+  }
+  void erase(Generator g);
+  /// to += scale * from.
+  void add(Generator to, Generator from, Element scale);
+  /// phi(u,v,w) += star(w) for all w; u > v, and no such triangle has a value yet.
+  void add_star(Generator g, Vertex u, Vertex v, const Unit* star);
+
+  /// By ascending generator.
+  std::span<const At> at(Vertex a) const { return at_[a]; }
+  /// What the list holds; nothing if the cocycle is dense.
+  typename Cochain::Terms terms(const At& at) const {
+    using Terms = typename Cochain::Terms;
+    return cochains_[at.generator].is_dense() ? Terms() : Terms(shared_.lists[at.list]);
+  }
+  const Cochain& operator[](Generator g) const { return cochains_[g]; }
+  const typename Cochain::Shared& shared() const { return shared_; }
+  StarWriter<K>& stars() { return shared_.stars; }
+
+ private:
+  auto place(Generator g, Vertex a) {
+    return std::ranges::lower_bound(at_[a], g, {}, &At::generator);
+  }
+  void enter(Generator g, Vertex a, ListId list) { at_[a].insert(place(g, a), At{g, list}); }
+  void leave(Generator g, Vertex a) { at_[a].erase(place(g, a)); }
+
+  const RunContext& context_;
+  typename Cochain::Shared shared_;
+  std::pmr::vector<Cochain> cochains_;
+  std::pmr::vector<std::pmr::vector<At>> at_;
+};
+
+template <Field K>
+void TriangleCocycles<K>::erase(Generator g) {
+  cochains_[g].clear(shared_, [&](Vertex a) { leave(g, a); });
+  --shared_.living;
+}
+
+template <Field K>
+void TriangleCocycles<K>::add(Generator to, Generator from, Element scale) {
+  context_.poll();  // a large cocycle takes long
+  cochains_[to].add(
+      cochains_[from], scale, shared_, [&](Vertex a, ListId list) { enter(to, a, list); },
+      [&](Vertex a) { leave(to, a); });
+}
+
+template <Field K>
+void TriangleCocycles<K>::add_star(Generator g, Vertex u, Vertex v, const Unit* star) {
+  cochains_[g].add_star(u, v, star, shared_, [&](Vertex a, ListId list) { enter(g, a, list); });
+}
+
+}  // namespace ph

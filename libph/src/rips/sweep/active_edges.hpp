@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "ph/detail/bit_matrix.hpp"
+
+namespace ph {
+
+/// Some edges of a graph, at each of their ends in no particular order, and a label for each end:
+/// what is known of the edge from there. Few at a vertex: a label is found by looking at all of
+/// them.
+class ActiveEdges {
+ public:
+  using Vertex = std::uint32_t;
+  using Label = std::uint32_t;
+
+  /// @param has_rows whether to keep them as rows of bits, too: a bit for each pair of vertices.
+  ActiveEdges(std::size_t vertices, bool has_rows, std::pmr::memory_resource* memory)
+      : at_(memory),
+        degrees_(vertices, 0, memory),
+        rows_(has_rows ? vertices : 0, vertices, memory) {
+    at_.resize(vertices);
+  }
+
+  std::size_t vertex_count() const { return at_.size(); }
+  /// The other ends of the edges at a vertex. Needs !has_rows().
+  std::span<const Vertex> neighbours(Vertex v) const { return at_[v].neighbours; }
+  std::size_t degree(Vertex v) const { return degrees_[v]; }
+  bool has_rows() const { return rows_.rows() != 0; }
+  /// The same as bits. Needs has_rows().
+  const bits::Word* row(Vertex v) const { return rows_.row(v); }
+  std::size_t words() const { return rows_.words(); }  ///< of a row
+  /// The label that the edge has at u; null if the edge is absent. Valid until the next change.
+  Label* find(Vertex u, Vertex v);
+  /// Adds an edge that never was there. @param at_u, at_v its labels.
+  void insert(Vertex u, Vertex v, Label at_u, Label at_v);
+  /// Takes all out.
+  void clear();
+  /// Takes an edge out that is there.
+  void erase(Vertex u, Vertex v);
+
+ private:
+  struct Ends {
+    using allocator_type = std::pmr::polymorphic_allocator<>;
+    explicit Ends(allocator_type allocator) : neighbours(allocator), labels(allocator) {}
+    Ends(Ends&&) noexcept = default;
+    Ends(Ends&& other, allocator_type allocator)
+        : neighbours(std::move(other.neighbours), allocator),
+          labels(std::move(other.labels), allocator) {}
+    std::pmr::vector<Vertex> neighbours;
+    std::pmr::vector<Label> labels;
+  };
+  void erase_at(Vertex u, Vertex v);
+
+  // By vertex. Where there are rows some of the ends may be those of edges that are gone: to look
+  // for each of them would take longer than to drop half of a list now and then.
+  std::pmr::vector<Ends> at_;
+  // By vertex: most have none, and that is asked for more often than anything else.
+  std::pmr::vector<std::uint32_t> degrees_;
+  BitMatrix rows_;
+};
+
+}  // namespace ph

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <memory_resource>
+#include <vector>
+
+#include "ph/barcode.hpp"
+#include "ph/detail/chain.hpp"
+#include "ph/filtration.hpp"
+#include "ph/detail/component_representatives.hpp"
+#include "ph/engine.hpp"
+#include "rips/sweep/lens_sweep.hpp"
+
+namespace ph {
+
+/// H0, H1 and H2 of Vietoris-Rips filtrations by the lens sweep, see lens_sweep.hpp: the graph, as
+/// n^2 bits or as lists, and the classes alive, neither columns of triangles nor of tetrahedra.
+struct LensEngine {
+  static constexpr Engine id = Engine::lens;
+  static constexpr const char* name = "lens";
+  template <Filtration F>
+  static bool can_run(const F& f, const Task& task) {
+    if constexpr (FlagFiltration<F>)
+      return task.wants_no_sets() &&
+             (task.max_dim < 2 ||
+              (task.max_dim == 2 && task.representatives != Representatives::cycles &&
+               f.vertex_count() <= kMostVerticesOfSurfaces));
+    else
+      return false;
+  }
+  template <Filtration F>
+  static Suitability suitability(const F&, const Task&) {
+    return {4, "H1 and H2 of a Rips complex need no triangles"};
+  }
+  static constexpr int listed_dim(int) { return 1; }
+  static constexpr bool goes_by_edges = true, is_oracle = false;
+
+  template <Filtration F, Field K>
+  static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context,
+                  const LensTuning& tuning = {}) {
+    if constexpr (FlagFiltration<F>) {
+      Reporter<F, K> reporter(f, field, bars, context);
+      const LensWanted wanted{.surfaces = bars.max_dim() >= 2,
+                              .cycles = bars.representatives() == Representatives::cycles,
+                              .cocycles = bars.representatives() == Representatives::cocycles,
+                              .zero_length = bars.wants_zero_length(),
+                              .tuning = tuning};
+      LensSweep<K>(f.vertex_count(), f.vertex_births(), f.binned_edges(), field, wanted, reporter,
+                   context)
+          .run();
+      reporter.report_components();
+    }
+  }
+
+ private:
+  static constexpr std::size_t kMostVerticesOfSurfaces = TriangleCochain<Z2>::kMostVertices;
+
+  /// Turns what the sweep tells into bars.
+  template <class F, Field K>
+  class Reporter final : public LensObserver<K> {
+   public:
+    using Observer = LensObserver<K>;
+    using Vertex = typename Observer::Vertex;
+    using Position = typename Observer::Position;
+    using Triangle = typename Observer::Triangle;
+    using Tetrahedron = typename Observer::Tetrahedron;
+    using EdgeValues = std::span<const typename Observer::EdgeValue>;
+    using TriangleValues = std::span<const typename Observer::TriangleValue>;
+
+    Reporter(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context)
+        : f_(f),
+          field_(field),
+          bars_(bars),
+          is_dead_(f.vertex_count(), false, &context.memory),
+          components_(is_dead_.size(), field, bars, &context.memory),
+          terms_(&context.memory) {}
+
+    void on_join(Vertex elder, Vertex younger, Position edge) override {
+      is_dead_[younger] = true;
+      if (bars_.add_pair(0, f_.vertex_cell(younger), f_.edge_cell(edge)))
+        components_.give(younger, elder, cell_of_vertex());
+      components_.join(elder, younger);
+    }
+    Position position_of(Vertex u, Vertex v) const override { return f_.edge_position(u, v); }
+    void on_death(Position birth, Triangle death, EdgeValues representative) override {
+      if (bars_.add_pair(1, f_.edge_cell(birth), f_.triangle_cell(death.edge, death.apex)))
+        give(representative);
+    }
+    void on_death(Triangle birth, Tetrahedron death, TriangleValues cocycle) override {
+      if (bars_.add_pair(2, f_.triangle_cell(birth.edge, birth.apex),
+                         f_.tetrahedron_cell(death.edge, death.larger, death.smaller)))
+        give(cocycle);
+    }
+    void on_essential(Position birth, EdgeValues representative) override {
+      if (bars_.add_essential(1, f_.edge_cell(birth))) give(representative);
+    }
+    void on_essential(Triangle birth, TriangleValues cocycle) override {
+      if (bars_.add_essential(2, f_.triangle_cell(birth.edge, birth.apex))) give(cocycle);
+    }
+
+    void report_components() {
+      for (Vertex v = 0; v < is_dead_.size(); ++v)
+        if (!is_dead_[v] && bars_.add_essential(0, f_.vertex_cell(v)))
+          components_.give(v, std::nullopt, cell_of_vertex());
+    }
+
+   private:
+    auto cell_of_vertex() const {
+      return [this](Vertex v) { return f_.vertex_cell(v); };
+    }
+    void give(EdgeValues representative) {
+      if (bars_.representatives() == Representatives::none) return;
+      terms_.clear();
+      for (const auto& [edge, value] : representative)
+        terms_.emplace_back(f_.edge_cell(edge), value);
+      bars_.add_representative(1, terms_, field_);
+    }
+    void give(TriangleValues cocycle) {
+      if (bars_.representatives() == Representatives::none) return;
+      terms_.clear();
+      for (const auto& [v, value] : cocycle)
+        terms_.emplace_back(f_.triangle_cell_of(v[0], v[1], v[2]), value);
+      bars_.add_representative(2, terms_, field_);
+    }
+
+    const F& f_;
+    const K& field_;
+    BarcodeBuilder<F>& bars_;
+    std::pmr::vector<bool> is_dead_;
+    ComponentRepresentatives<F, K> components_;
+    std::pmr::vector<Entry<typename F::Cell, K>> terms_;
+  };
+};
+
+}  // namespace ph

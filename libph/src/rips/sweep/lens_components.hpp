@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "ph/filtration.hpp"
+#include "rips/sweep/lens_graph.hpp"
+
+namespace ph {
+
+/// What somebody found out about the lens of an edge. Vertices have their own numbers.
+struct LensHint {
+  using Vertex = std::uint32_t;
+  enum class Kind : std::uint32_t {
+    unknown,
+    connected,  ///< one component with this vertex
+    cone,       ///< over this vertex, the apex
+    hub,        ///< one component, no cone, and LensCover would begin with this vertex
+  };
+  Kind kind = Kind::unknown;
+  Vertex vertex = 0;
+};
+
+/// The connected components of a lens, in its own numbers of vertices. Most lenses are cones: one
+/// vertex, the apex, is joined to all others; it often serves the next edge at the same vertex too.
+class LensComponents {
+ public:
+  using Vertex = std::uint32_t;
+  using Word = bits::Word;
+  static constexpr Vertex kNone = UINT32_MAX;
+
+  /// @param graph outlives this.
+  LensComponents(LensGraph& graph, std::pmr::memory_resource* memory)
+      : graph_(graph),
+        last_apex_(graph.vertex_count(), kNone, memory),
+        roots_(memory),
+        sets_(memory),
+        rest_(memory) {}
+
+  /// Of the graph's lens, which is not empty and that of e.
+  void find(const FlagEdge& e);
+  /// The same with what is known of it.
+  void find(const FlagEdge& e, const LensHint& hint);
+  /// Roots alone, of any lens: soon if it has few vertices.
+  void find_roots(const FlagEdge& e);
+  /// Looks for an apex where `find` has met none. @return whether there is one.
+  bool find_apex(const FlagEdge& e);
+
+  /// Ascending roots.
+  std::size_t count() const { return roots_.size(); }
+  /// A component's smallest vertex; any vertex if it is the only component.
+  Vertex root(std::size_t i) const { return roots_[i]; }
+  /// A component's vertices, unless it is the only one.
+  const Word* vertices(std::size_t i) const { return sets_.data() + i * graph_.words(); }
+  bool has_apex() const { return apex_ != kNone; }
+  Vertex apex() const { return apex_; }
+  /// Where a cover of the only component begins; kNone if that is not known.
+  Vertex hub() const { return hub_; }
+
+ private:
+  bool is_apex(Vertex v) const {
+    return bits::first_missing(graph_.lens(), graph_.row(v), v, graph_.words()) == bits::kNone;
+  }
+  void set_apex(const FlagEdge& e, Vertex apex) {
+    apex_ = apex;
+    last_apex_[e.u] = last_apex_[e.v] = graph_.global(apex);
+  }
+  /// Moves a vertex's component from rest_ to the end of sets_. @return whether more is left.
+  bool take_component(Vertex first);
+  void sort_components();
+
+  LensGraph& graph_;
+  std::pmr::vector<Vertex> last_apex_;  // by end of an edge; its own number
+  std::pmr::vector<Vertex> roots_;
+  std::pmr::vector<Word> sets_;  // a row for each component
+  std::pmr::vector<Word> rest_;
+  Vertex apex_ = kNone, hub_ = kNone;
+};
+
+}  // namespace ph

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "rips/sweep/lens_components.hpp"
+#include "rips/sweep/lens_graph.hpp"
+
+namespace ph {
+
+/// An order in which potentials spread over a lens: in each component first from a hub to all of
+/// its neighbours, then to the others one by one. The hub and its neighbours span a cone, on which
+/// every cocycle has a potential; each further vertex has to agree with all of its neighbours
+/// before it.
+class LensCover {
+ public:
+  using Vertex = std::uint32_t;
+  using Word = bits::Word;
+  struct Step {
+    Vertex vertex;
+    bool is_hub;
+  };
+
+  /// @param graph outlives this.
+  LensCover(LensGraph& graph, std::pmr::memory_resource* memory)
+      : graph_(graph), steps_(memory), sets_(memory), rest_(memory), reached_(memory) {}
+
+  /// Of the graph's lens.
+  void find(const LensComponents& components);
+
+  /// Where to begin: among a few vertices of a component, the given one and a sample, the one with
+  /// most neighbours.
+  Vertex find_hub(const Word* component, Vertex first);
+
+  std::size_t size() const { return steps_.size(); }
+  const Step& operator[](std::size_t i) const { return steps_[i]; }
+  /// The neighbours of a hub; of another vertex those that come before it, at least one.
+  const Word* neighbours(std::size_t i) const { return sets_.data() + i * graph_.words(); }
+
+ private:
+  void cover(const Word* component, Vertex hub);
+  /// Appends a step. @return its row: the neighbours in a set.
+  Word* add_step(const Step& step, const Word* set);
+
+  LensGraph& graph_;
+  std::pmr::vector<Step> steps_;
+  std::pmr::vector<Word> sets_;  // a row for each step
+  std::pmr::vector<Word> rest_, reached_;
+};
+
+}  // namespace ph

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <memory_resource>
+#include <utility>
+#include <vector>
+
+#include "ph/detail/field.hpp"
+#include "rips/annotations/annotations.hpp"
+#include "rips/sweep/lens_graph.hpp"
+
+namespace ph {
+
+/// Cycles for the classes of H1 in a lens sweep: to each generator of H^1 belongs the edge that
+/// gave birth to it, closed by a path of fewest older edges.
+///
+/// On this cycle z_g the generator g is one, younger ones are zero, and older ones may be anything;
+/// so a class of homology, given by its values under the generators, is a combination of the z_g
+/// that is found from the youngest down, and enters with its youngest. See docs/algorithms.md.
+template <Field K>
+class LensCycles {
+ public:
+  using Vertex = LensGraph::Vertex;
+  using Generator = typename Annotations<K>::Generator;
+  using Element = typename K::Element;
+
+  /// @param graph, annotations outlive this.
+  LensCycles(const LensGraph& graph, Annotations<K>& annotations, const K& field,
+             std::pmr::memory_resource* memory)
+      : graph_(graph),
+        annotations_(annotations),
+        field_(field),
+        paths_(memory),
+        unvisited_((graph.vertex_count() + 63) / 64, 0, memory),
+        before_(graph.vertex_count(), 0, memory),
+        queue_(memory),
+        values_(memory),
+        terms_(memory) {}
+
+  /// Generators come in the order of their numbers. @param u, v the edge, which is not in the graph
+  /// yet, from where the generator is one to the other end; they are connected.
+  void add(Vertex u, Vertex v) { paths_.push_back(shortest_path(v, u)); }
+  /// A dead generator's cycle is not needed any more.
+  void erase(Generator g) { paths_[g] = Path(paths_.get_allocator()); }
+
+  /// A cycle on which each generator has its value in `values`, not zero: calls
+  /// `visit(larger end, smaller end, coefficient)` once for each edge.
+  template <class Visit>
+  void for_each_term(typename Annotations<K>::Class values, Visit&& visit);
+  /// The cycle of one generator.
+  template <class Visit>
+  void for_each_term(Generator g, Visit&& visit) {
+    terms_.clear();
+    add_terms(g, field_.from_int(1));
+    visit_terms(visit);
+  }
+
+ private:
+  using Path = std::pmr::vector<Vertex>;
+  template <class Key>
+  using Sums = std::pmr::map<Key, Element>;
+
+  Path shortest_path(Vertex from, Vertex to);
+  /// @param from, to consecutive vertices of the cycle of g, which starts with its own edge.
+  template <class Visit>
+  void for_each_step(Generator g, Visit&& visit) const {
+    const Path& path = paths_[g];
+    visit(path.back(), path.front());
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) visit(path[i], path[i + 1]);
+  }
+  void add_terms(Generator g, Element scale) {
+    for_each_step(g, [&](Vertex from, Vertex to) {
+      if (from > to)
+        add(terms_, std::pair{from, to}, scale);
+      else
+        add(terms_, std::pair{to, from}, field_.negate(scale));
+    });
+  }
+  template <class Visit>
+  void visit_terms(Visit&& visit) const {
+    for (const auto& [edge, value] : terms_) visit(edge.first, edge.second, value);
+  }
+  template <class Key>
+  void add(Sums<Key>& sums, const Key& key, Element value) {
+    const auto [it, is_new] = sums.try_emplace(key, value);
+    if (is_new) return;
+    it->second = field_.add(it->second, value);
+    if (field_.is_zero(it->second)) sums.erase(it);
+  }
+
+  const LensGraph& graph_;
+  Annotations<K>& annotations_;
+  const K& field_;
+  std::pmr::vector<Path> paths_;  // by generator, from the end of its edge to the beginning
+  std::pmr::vector<LensGraph::Word> unvisited_;
+  std::pmr::vector<Vertex> before_;  // by vertex: who was visited before
+  std::pmr::vector<Vertex> queue_;
+  Sums<Generator> values_;
+  Sums<std::pair<Vertex, Vertex>> terms_;
+};
+
+template <Field K>
+auto LensCycles<K>::shortest_path(Vertex from, Vertex to) -> Path {
+  std::ranges::fill(unvisited_, ~LensGraph::Word{0});
+  const auto visit = [&](Vertex v, Vertex before) {
+    unvisited_[v / 64] &= ~(LensGraph::Word{1} << (v % 64));
+    before_[v] = before;
+    queue_.push_back(v);
+  };
+  queue_.clear();
+  visit(to, to);
+  for (std::size_t next = 0; queue_[next] != from; ++next) {
+    const Vertex v = queue_[next];
+    graph_.for_each_neighbour(v, unvisited_.data(), [&](Vertex w) { visit(w, v); });
+  }
+  Path path(paths_.get_allocator());
+  for (Vertex v = from; v != to; v = before_[v]) path.push_back(v);
+  path.push_back(to);
+  return path;
+}
+
+template <Field K>
+template <class Visit>
+void LensCycles<K>::for_each_term(typename Annotations<K>::Class values, Visit&& visit) {
+  terms_.clear();
+  values_.clear();
+  const auto add_values = [&](typename Annotations<K>::Class a, Element scale) {
+    annotations_.for_each_generator(
+        a, [&](Generator g, Element value) { add(values_, g, field_.multiply(scale, value)); });
+  };
+  add_values(values, field_.from_int(1));
+  while (!values_.empty()) {
+    const auto [g, value] = *values_.rbegin();
+    add_terms(g, value);
+    for_each_step(
+        g, [&](Vertex u, Vertex v) { add_values(annotations_.of(u, v), field_.negate(value)); });
+  }
+  visit_terms(visit);
+}
+
+}  // namespace ph

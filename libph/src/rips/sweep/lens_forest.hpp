@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <memory_resource>
+#include <utility>
+#include <vector>
+
+#include "rips/sweep/lens_graph.hpp"
+
+namespace ph {
+
+/// The components of a growing graph: vertices come one by one, ascending, each with its edges to
+/// those that came before. In the order of the filtration these edges are the tetrahedra over an
+/// edge whose lens the graph is.
+class LensForest {
+ public:
+  using Vertex = std::uint32_t;
+  using Word = bits::Word;
+
+  /// A part that the next vertex is joined to, first at a vertex.
+  struct Meeting {
+    std::size_t part;
+    Vertex at;
+  };
+
+  /// @param graph outlives this.
+  LensForest(LensGraph& graph, std::pmr::memory_resource* memory)
+      : graph_(graph),
+        roots_(memory),
+        parts_(memory),
+        meetings_(memory),
+        shared_(memory),
+        before_(memory) {}
+
+  void clear() {
+    roots_.clear();
+    parts_.clear();
+  }
+  /// Finds which parts the next vertex of a set is joined to.
+  void meet(Vertex y, const Word* set);
+  /// In the order of the edges from y; until the next `meet`.
+  const std::pmr::vector<Meeting>& meetings() const { return meetings_; }
+  /// The neighbours of y in a part; words up to y's are valid.
+  const Word* neighbours(std::size_t meeting) const {
+    return shared_.data() + meeting * graph_.words();
+  }
+  /// The neighbours of y before y; words up to y's are valid.
+  const Word* neighbours() const { return before_.data(); }
+  const Word* part(const Meeting& m) const { return parts_.data() + m.part * graph_.words(); }
+
+  /// Takes the vertex in. Calls `on_join(younger root, its vertices, w)` for each edge wy that
+  /// joins two parts, y alone being one at first.
+  template <class OnJoin>
+  void join(Vertex y, OnJoin&& on_join);
+
+  /// How many words hold the vertices up to y.
+  static std::size_t words_to(Vertex y) { return y / 64 + 1; }
+
+ private:
+  Word* set_of(std::size_t part) { return parts_.data() + part * graph_.words(); }
+  void start_part(Vertex y);
+  /// Moves one part into another.
+  void unite(std::size_t from, std::size_t to);
+
+  LensGraph& graph_;
+  std::pmr::vector<Vertex> roots_;  // of each part its smallest vertex
+  std::pmr::vector<Word> parts_;    // a row each; empty once united with another
+  std::pmr::vector<Meeting> meetings_;
+  std::pmr::vector<Word> shared_;  // a row for each meeting
+  std::pmr::vector<Word> before_;
+};
+
+template <class OnJoin>
+void LensForest::join(Vertex y, OnJoin&& on_join) {
+  start_part(y);
+  std::size_t all = roots_.size() - 1;
+  for (const auto& [part, at] : meetings_) {
+    const bool is_elder = roots_[part] < roots_[all];
+    const std::size_t younger = is_elder ? all : part, elder = is_elder ? part : all;
+    on_join(roots_[younger], set_of(younger), at);
+    unite(younger, elder);
+    all = elder;
+  }
+}
+
+}  // namespace ph

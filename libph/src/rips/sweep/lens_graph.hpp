@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "ph/detail/binned_edges.hpp"
+#include "ph/detail/bit_matrix.hpp"
+#include "ph/filtration.hpp"
+#include "ph/run_context.hpp"
+#include "rips/sweep/active_edges.hpp"
+#include "rips/sweep/neighbour_lists.hpp"
+
+namespace ph {
+
+/// How a lens sweep keeps the edges so far.
+enum class LensLayout {
+  automatic,  ///< whichever is faster and affordable
+  rows,       ///< two bits for each pair of vertices, one for each order
+  lists,      ///< the neighbours of each vertex: two or four bytes for each end of an edge
+};
+
+/// The edges so far of a flag filtration, and the lens of a new edge: the common neighbours of its
+/// ends, with the graph on them as rows of bits. In that graph vertices have numbers of their own,
+/// in the same order: with lists the lens is numbered 0, 1, …, so that a row is a word or two; with
+/// rows the numbers are those of all vertices and nothing is copied.
+class LensGraph {
+ public:
+  using Vertex = std::uint32_t;
+  using Word = bits::Word;
+  static constexpr Vertex kNone = UINT32_MAX;
+
+  /// @param active edges that are there; outlives this. With lists it has no rows. @param edges
+  /// that may be added. @param layout rows or lists.
+  LensGraph(const ActiveEdges& active, const BinnedEdges& edges, LensLayout layout,
+            std::pmr::memory_resource* memory);
+
+  /// What is faster among what is affordable.
+  static LensLayout choose_layout(std::size_t vertices, std::size_t edges);
+  /// What it holds in the end in that layout, more or less.
+  static double bytes(std::size_t vertices, std::size_t edges);
+
+  std::size_t vertex_count() const { return active_.vertex_count(); }
+  void add(const FlagEdge& e);
+  /// Adds many edges, on several threads.
+  void add_all(std::span<const FlagEdge> edges, const RunContext& context);
+
+  /// Calls `visit(w)` for each neighbour in a set. @param set a bit for each vertex; `visit` may
+  /// take vertices out.
+  template <class Visit>
+  void for_each_neighbour(Vertex v, const Word* set, Visit&& visit) const {
+    if (layout_ == LensLayout::lists) {
+      with_lists([&](const auto& lists) {
+        for (const Vertex w : lists[v])
+          if ((set[w / 64] >> (w % 64) & 1) != 0) visit(w);
+      });
+      return;
+    }
+    const Word* row = joined_.row(v);
+    for (std::size_t k = 0; k < joined_.words(); ++k)
+      for (Word rest = row[k] & set[k]; rest != 0; rest &= rest - 1)
+        visit(static_cast<Vertex>(k * 64 + static_cast<std::size_t>(std::countr_zero(rest))));
+  }
+  /// Whether two vertices have a common neighbour.
+  bool has_lens(Vertex u, Vertex v) const {
+    return (layout_ == LensLayout::rows && (landmarks_at_[u] & landmarks_at_[v]) != 0) ||
+           has_lens_anywhere(u, v);
+  }
+  /// Whether the ends of each edge have one; on several threads.
+  bool have_lenses(std::span<const FlagEdge> edges, const RunContext& context) const;
+  struct Lens {
+    bool is_empty;
+    bool touches_active;
+  };
+  /// Looks at the lens of an edge that is not there yet: whether it is empty, and whether an active
+  /// edge joins it to an end of the edge. What follows is about this lens, if active edges touch it
+  /// or `wants_graph` is set.
+  Lens find_lens(const FlagEdge& e, bool wants_graph);
+
+  std::size_t words() const { return words_; }  ///< of a row
+  const Word* lens() const { return lens_.data(); }
+  /// The neighbours of a vertex of the lens; those outside of it may be among them.
+  const Word* row(Vertex v) {
+    if (keeps_numbers()) return joined_.row(v);
+    if (!is_row_made_[v]) make_row(v);
+    return local_rows_.data() + v * words_;
+  }
+  /// Whether vertices have the same numbers in the lens.
+  bool keeps_numbers() const { return layout_ == LensLayout::rows; }
+  /// From the number of a vertex in the lens to its own.
+  Vertex global(Vertex v) const { return keeps_numbers() ? v : vertices_[v]; }
+  /// And back; kNone if it is not in the lens.
+  Vertex local(Vertex v) const {
+    if (!keeps_numbers()) return local_[v];
+    return lens_[v / 64] >> (v % 64) & 1 ? v : kNone;
+  }
+  /// The smallest of the vertices.
+  Vertex first() const { return static_cast<Vertex>(bits::first_common(lens(), lens(), words_)); }
+
+ private:
+  static constexpr std::size_t kMostShort = std::size_t{UINT16_MAX} + 1;  // vertices
+  template <class Use>
+  decltype(auto) with_lists(Use&& use) const {
+    return vertex_count() <= kMostShort ? use(short_lists_) : use(lists_);
+  }
+  void add_to_row(Vertex u, Vertex v) {
+    joined_.set(u, v);
+    landmarks_at_[u] |= landmark_[v];
+  }
+  bool has_lens_anywhere(Vertex u, Vertex v) const;
+  Lens find_lens_in_rows(const FlagEdge& e, bool wants_graph);
+  Lens find_lens_in_lists(const FlagEdge& e, bool wants_graph);
+  /// Whether `in_lens(v, w)` for an active edge from u to w, or the other way round.
+  template <class InLens>
+  bool touches_active(const FlagEdge& e, InLens&& in_lens) const;
+  bool touches_active_in_rows(const FlagEdge& e) const;
+  void number_lens();
+  void make_row(Vertex v);
+
+  const ActiveEdges& active_;
+  LensLayout layout_;
+  // rows
+  BitMatrix joined_;
+  // Landmarks are up to 64 vertices here and there: most lenses have one of them. By vertex: its
+  // bit if it is one, and the bits of those that are its neighbours.
+  std::pmr::vector<Word> landmark_, landmarks_at_;
+  // lists: short numbers where they suffice
+  NeighbourLists<std::uint16_t> short_lists_;
+  NeighbourLists<Vertex> lists_;
+  std::pmr::vector<std::uint8_t> marks_;  // by vertex; zero between uses
+  // The lens.
+  std::size_t words_;
+  std::pmr::vector<Word> lens_;
+  std::pmr::vector<Vertex> vertices_;  // by number in the lens
+  std::pmr::vector<Vertex> local_;     // by own number; kNone outside of the lens
+  std::pmr::vector<Word> local_rows_;
+  std::pmr::vector<std::uint8_t> is_row_made_;
+};
+
+}  // namespace ph

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <concepts>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "ph/detail/chain.hpp"
+#include "ph/detail/field.hpp"
+
+namespace ph {
+
+/// list += scale * terms, both by ascending cell, each cell once and none with zero.
+/// @param terms are not part of the list. @param merged scratch; what it holds is lost.
+template <Field K>
+void add_sorted_terms(std::pmr::vector<Entry<std::uint32_t, K>>& list,
+                      std::span<const Entry<std::uint32_t, K>> terms, typename K::Element scale,
+                      const K& field, std::pmr::vector<Entry<std::uint32_t, K>>& merged) {
+  using Term = Entry<std::uint32_t, K>;
+  using Element = typename K::Element;
+  if (8 * terms.size() < list.size()) {  // most of it stays where it is
+    auto at = list.begin();
+    for (const Term& t : terms) {
+      at = std::lower_bound(at, list.end(), t.cell,
+                            [](const Term& a, std::uint32_t cell) { return a.cell < cell; });
+      Element value = field.multiply(scale, t.coefficient());
+      if (at == list.end() || at->cell != t.cell) {
+        at = list.insert(at, Term(t.cell, value));
+        continue;
+      }
+      value = field.add(value, at->coefficient());
+      if (field.is_zero(value))
+        at = list.erase(at);
+      else
+        *at = Term(t.cell, value);
+    }
+    return;
+  }
+  merged.resize(list.size() + terms.size());
+  const Term *i = list.data(), *const end = i + list.size();
+  const Term *j = terms.data(), *const last = j + terms.size();
+  Term* out = merged.data();
+  while (i != end && j != last) {
+    if constexpr (std::same_as<K, Z2>) {  // which comes first is anyone's guess: no branches
+      const std::uint32_t a = i->cell, b = j->cell;
+      *out = a < b ? *i : *j;
+      out += a != b ? 1 : 0;
+      i += a <= b ? 1 : 0;
+      j += b <= a ? 1 : 0;
+    } else if (i->cell < j->cell) {
+      *out++ = *i++;
+    } else {
+      Element value = field.multiply(scale, j->coefficient());
+      if (i->cell == j->cell) value = field.add(value, (i++)->coefficient());
+      if (!field.is_zero(value)) *out++ = Term(j->cell, value);
+      ++j;
+    }
+  }
+  out = std::copy(i, end, out);
+  for (; j != last; ++j) *out++ = Term(j->cell, field.multiply(scale, j->coefficient()));
+  list.assign(merged.data(), out);
+}
+
+}  // namespace ph

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <pcl/ModelCoefficients.h>
+#include <pcl/PointIndices.h>
+#include <pcl/pcl_base.h>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
+#include <Eigen/Core>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "ph/error.hpp"
+#include "ph/segment.hpp"
+
+/// Clouds of the Point Cloud Library in, its indices and labels out. Data are copied: PCL's types
+/// stay here.
+namespace ph::pcl {
+
+/// The x, y, z of all points, a hole for each that is not in `indices`.
+/// @throws Error (bad_data) on an index beyond the cloud.
+template <class PointT>
+std::vector<float> coordinates(const ::pcl::PointCloud<PointT>& cloud,
+                               const ::pcl::Indices* indices = nullptr) {
+  std::vector<float> xyz(3 * cloud.size(), std::numeric_limits<float>::quiet_NaN());
+  const auto take = [&](std::size_t i) {
+    const PointT& p = cloud[i];
+    xyz[3 * i] = p.x;
+    xyz[3 * i + 1] = p.y;
+    xyz[3 * i + 2] = p.z;
+  };
+  if (!indices) {
+    for (std::size_t i = 0; i < cloud.size(); ++i) take(i);
+    return xyz;
+  }
+  for (const auto i : *indices) {
+    if (i < 0 || static_cast<std::size_t>(i) >= cloud.size()) {
+      throw Error(ErrorKind::bad_data, "index " + std::to_string(i) + " of a cloud of " +
+                                           std::to_string(cloud.size()) + " points");
+    }
+    take(static_cast<std::size_t>(i));
+  }
+  return xyz;
+}
+
+/// Where the cloud says that its sensor stood.
+template <class PointT>
+segment::Vec3 viewpoint(const ::pcl::PointCloud<PointT>& cloud) {
+  const auto& origin = cloud.sensor_origin_;
+  return {double{origin[0]}, double{origin[1]}, double{origin[2]}};
+}
+
+/// What the pipeline reads of a cloud, with its rows and columns if they hold all points.
+/// @param xyz its `coordinates`, which live as long as the view.
+template <class PointT>
+segment::CloudView cloud_view(const ::pcl::PointCloud<PointT>& cloud,
+                              const std::vector<float>& xyz) {
+  segment::CloudView view{xyz, viewpoint(cloud)};
+  if (cloud.width > 0 && std::size_t{cloud.width} * cloud.height == cloud.size()) {
+    view.width = static_cast<Index>(cloud.width);
+    view.height = static_cast<Index>(cloud.height);
+  }
+  return view;
+}
+
+/// ph::segment::segment on a PCL cloud.
+template <class PointT>
+segment::Segmentation segment_cloud(const ::pcl::PointCloud<PointT>& cloud,
+                                    const segment::SegmentOptions& options = {},
+                                    const RunContext& context = default_context()) {
+  const std::vector<float> xyz = coordinates(cloud);
+  return segment::segment(cloud_view(cloud, xyz), options, context);
+}
+
+/// The points of each segment, by label, as PCL's segmentations give them.
+inline std::vector<::pcl::PointIndices> point_indices(const segment::SceneCut& segmentation,
+                                                      const ::pcl::PCLHeader& header = {}) {
+  std::vector<::pcl::PointIndices> clusters(segmentation.segments.size());
+  for (std::size_t k = 0; k < clusters.size(); ++k) {
+    clusters[k].header = header;
+    clusters[k].indices.reserve(static_cast<std::size_t>(segmentation.segments[k].points));
+  }
+  for (std::size_t i = 0; i < segmentation.labels.size(); ++i) {
+    const std::uint32_t label = segmentation.labels[i];
+    if (label != 0) clusters[label - 1].indices.push_back(static_cast<::pcl::index_t>(i));
+  }
+  return clusters;
+}
+
+/// The same points in the same order and organisation as another type: x, y, z, and what `paint`
+/// adds to point i.
+template <class To, class PointT, class Paint>
+::pcl::PointCloud<To> converted(const ::pcl::PointCloud<PointT>& cloud,
+                                const std::vector<std::uint32_t>& labels, Paint&& paint) {
+  if (labels.size() != cloud.size()) {
+    throw Error(ErrorKind::usage, "found " + std::to_string(labels.size()) + " labels, expected " +
+                                      std::to_string(cloud.size()) + ", one a point");
+  }
+  ::pcl::PointCloud<To> result;
+  result.header = cloud.header;
+  result.width = cloud.width;
+  result.height = cloud.height;
+  result.is_dense = cloud.is_dense;
+  result.sensor_origin_ = cloud.sensor_origin_;
+  result.sensor_orientation_ = cloud.sensor_orientation_;
+  result.points.resize(cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    To& p = result.points[i];
+    p.x = cloud[i].x;
+    p.y = cloud[i].y;
+    p.z = cloud[i].z;
+    paint(i, p);
+  }
+  return result;
+}
+
+/// The points with their labels.
+template <class PointT>
+::pcl::PointCloud<::pcl::PointXYZL> labelled_cloud(const ::pcl::PointCloud<PointT>& cloud,
+                                                   const std::vector<std::uint32_t>& labels) {
+  return converted<::pcl::PointXYZL>(
+      cloud, labels, [&](std::size_t i, ::pcl::PointXYZL& p) { p.label = labels[i]; });
+}
+
+/// The points in the colours of their segments, the rest in grey.
+template <class PointT>
+::pcl::PointCloud<::pcl::PointXYZRGB> coloured_cloud(const ::pcl::PointCloud<PointT>& cloud,
+                                                     const segment::SceneCut& cut) {
+  constexpr std::uint32_t grey = 0x606060;
+  const std::vector<std::uint32_t> colours = segment::label_colours(cut);
+  return converted<::pcl::PointXYZRGB>(
+      cloud, cut.labels, [&](std::size_t i, ::pcl::PointXYZRGB& p) {
+        const std::uint32_t colour = cut.labels[i] == 0 ? grey : colours[cut.labels[i] - 1];
+        p.r = static_cast<std::uint8_t>(colour >> 16 & 0xFF);
+        p.g = static_cast<std::uint8_t>(colour >> 8 & 0xFF);
+        p.b = static_cast<std::uint8_t>(colour & 0xFF);
+      });
+}
+
+/// The pipeline with the manners of PCL's segmentations: setInputCloud, setIndices, segment. All
+/// lengths are metres; no option is an angle. Each default is that of segment::SegmentOptions.
+template <class PointT>
+class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
+ public:
+  using Ptr = ::pcl::shared_ptr<PersistenceSegmentation<PointT>>;
+  using ConstPtr = ::pcl::shared_ptr<const PersistenceSegmentation<PointT>>;
+  using Method = segment::Method;
+
+  /// All options at once.
+  void setOptions(const segment::SegmentOptions& options) { options_ = options; }
+  const segment::SegmentOptions& getOptions() const { return options_; }
+
+  /// What decides which voxels belong together: surface (default), paper or supervoxels.
+  void setMethod(Method method) { options_.method = method; }
+  Method getMethod() const { return options_.method; }
+  /// Points farther from the viewpoint are left out; metres, may be infinite.
+  void setMaxRange(double metres) { options_.max_range = metres; }
+  double getMaxRange() const { return options_.max_range; }
+  /// Only points inside this box count.
+  void setCropBox(const Eigen::Vector3f& min, const Eigen::Vector3f& max) {
+    options_.crop = segment::Box{{min[0], min[1], min[2]}, {max[0], max[1], max[2]}};
+  }
+  void unsetCropBox() { options_.crop.reset(); }
+  /// Without one all of space: from -infinity to infinity.
+  void getCropBox(Eigen::Vector3f& min, Eigen::Vector3f& max) const {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    min.setConstant(-infinity), max.setConstant(infinity);
+    for (int k = 0; k < 3 && options_.crop; ++k) {
+      min[k] = static_cast<float>(options_.crop->min[static_cast<std::size_t>(k)]);
+      max[k] = static_cast<float>(options_.crop->max[static_cast<std::size_t>(k)]);
+    }
+  }
+  /// Whether the supporting plane and what lies behind it is removed.
+  void setPlaneRemoval(bool remove) { options_.plane = remove; }
+  bool getPlaneRemoval() const { return options_.plane; }
+  /// Half the thickness of the plane, metres.
+  void setPlaneDistance(double metres) { options_.plane_distance = metres; }
+  double getPlaneDistance() const { return options_.plane_margin(); }
+  /// Half of it at a range of one metre, at least, growing with the square of the range; metres.
+  void setPlaneNoise(double metres) { options_.plane_noise = metres; }
+  double getPlaneNoise() const { return options_.plane_noise; }
+  /// Where the sensor stood; else where the rays of the pixels of an organised cloud meet, if that
+  /// can be told, else the origin that the cloud states.
+  void setViewPoint(float x, float y, float z) { options_.viewpoint = segment::Vec3{x, y, z}; }
+  void useSensorOriginAsViewPoint() { options_.viewpoint.reset(); }
+  /// Where the sensor stands, if that was set, else where the input cloud states.
+  void getViewPoint(float& x, float& y, float& z) const {
+    segment::Vec3 point{};
+    if (this->input_) point = viewpoint(*this->input_);
+    if (options_.viewpoint) point = *options_.viewpoint;
+    x = static_cast<float>(point[0]), y = static_cast<float>(point[1]);
+    z = static_cast<float>(point[2]);
+  }
+  /// Edge of a voxel, metres.
+  void setVoxelSize(double metres) { options_.voxel = metres; }
+  double getVoxelSize() const { return options_.voxel_size(); }
+  /// Fewest voxels of a segment.
+  void setMinClusterSize(Index voxels) { options_.min_size = voxels; }
+  Index getMinClusterSize() const { return options_.cut().min_size; }
+  /// Methods surface and supervoxels: least persistence of a part, a mean concavity (0…2) or
+  /// metres.
+  void setMinPersistence(double persistence) { options_.min_persistence = persistence; }
+  double getMinPersistence() const { return options_.part_persistence(); }
+  /// Method supervoxels: how far the surface is from a seed at most, metres.
+  void setSpacing(double metres) { options_.spacing = metres; }
+  double getSpacing() const { return options_.spacing; }
+  /// Methods surface and supervoxels: fewest voxels of a part.
+  void setMinPartSize(Index voxels) { options_.min_part = voxels; }
+  Index getMinPartSize() const { return options_.cut().min_part; }
+  /// Method surface: whether the visible parts of an object are joined.
+  void setObjects(bool join) { options_.objects = join; }
+  bool getObjects() const { return options_.objects; }
+  /// Method paper: maximum distance of the Vietoris-Rips complex, metres.
+  void setDistance(double metres) { options_.distance = metres; }
+  double getDistance() const { return options_.distance; }
+  /// Method paper: levels up to the distance; 0: exact deaths.
+  void setSteps(int steps) { options_.steps = steps; }
+  int getSteps() const { return options_.steps; }
+  /// Whether union-find is compared with boundary-matrix reduction.
+  void setCheck(bool check) { options_.check = check; }
+  bool getCheck() const { return options_.check; }
+
+  /// What stops, watches and bounds `segment` and `cut`; it outlives their calls.
+  void setRunContext(const RunContext& context) { context_ = &context; }
+
+  /// The points of each segment, largest first. Without an input cloud there are none.
+  /// @throws ph::Error as ph::segment::segment does.
+  void segment(std::vector<::pcl::PointIndices>& clusters) {
+    clusters.clear();
+    result_ = segment::Segmentation();
+    if (!this->initCompute()) return;
+    const std::vector<float> xyz = coordinates(*this->input_, this->indices_.get());
+    result_ = ph::segment::segment(cloud_view(*this->input_, xyz), options_, *context_);
+    clusters = point_indices(result_, this->input_->header);
+    this->deinitCompute();
+  }
+  /// A coarser or finer cut of the tree that the last call of `segment` found, in milliseconds; the
+  /// getters below then tell of it. @param value see segment::CutOptions. @throws ph::Error (usage)
+  /// on a value out of its range.
+  void cut(double value, std::vector<::pcl::PointIndices>& clusters) {
+    segment::CutOptions options = result_.first_cut;
+    options.value = value;
+    cut(options, clusters);
+  }
+  void cut(const segment::CutOptions& options, std::vector<::pcl::PointIndices>& clusters) {
+    static_cast<segment::SceneCut&>(result_) = ph::segment::cut(result_, options, *context_);
+    clusters = point_indices(result_, this->input_ ? this->input_->header : ::pcl::PCLHeader());
+  }
+
+  /// Everything the last call found: segments with boxes and neighbours, the tree, times.
+  const segment::Segmentation& result() const { return result_; }
+  const std::vector<segment::Segment>& getSegments() const { return result_.segments; }
+  /// The merge tree with what other cuts need.
+  const segment::SceneTree& getTree() const { return result_; }
+  /// The persistence of each segment; infinite for one that touches no other.
+  std::vector<double> getConfidences() const {
+    std::vector<double> confidences;
+    for (const segment::Segment& s : result_.segments) confidences.push_back(s.persistence);
+    return confidences;
+  }
+  /// The plane that was removed, as SACMODEL_PLANE has it: a x + b y + c z + d = 0. Without one no
+  /// values.
+  void getPlane(::pcl::ModelCoefficients& coefficients) const {
+    coefficients = ::pcl::ModelCoefficients();
+    if (this->input_) coefficients.header = this->input_->header;
+    if (!result_.plane) return;
+    for (const double n : result_.plane->normal)
+      coefficients.values.push_back(static_cast<float>(n));
+    coefficients.values.push_back(static_cast<float>(result_.plane->offset));
+  }
+  /// The box of a segment: its axes are the columns of `rotation`. @param i from 0, below the
+  /// number of segments.
+  void getOrientedBox(std::size_t i, Eigen::Vector3f& centre, Eigen::Matrix3f& rotation,
+                      Eigen::Vector3f& size) const {
+    const segment::OrientedBox& box = result_.segments.at(i).oriented_box;
+    const auto vector = [](const segment::Vec3& v) -> Eigen::Vector3f {
+      return Eigen::Vector3d(v[0], v[1], v[2]).cast<float>();
+    };
+    centre = vector(box.centre);
+    size = vector(box.size);
+    for (int k = 0; k < 3; ++k) rotation.col(k) = vector(box.axes[static_cast<std::size_t>(k)]);
+  }
+  /// The label of each point of the input cloud; 0 for points outside the indices. Empty without
+  /// an input cloud.
+  ::pcl::PointCloud<::pcl::PointXYZL> getLabeledCloud() const {
+    if (!this->input_) return {};
+    return labelled_cloud(*this->input_, result_.labels);
+  }
+  /// The input cloud in the colours of its segments, the rest in grey. Empty without one.
+  typename ::pcl::PointCloud<::pcl::PointXYZRGB>::Ptr getColoredCloud() const {
+    const auto coloured = ::pcl::make_shared<::pcl::PointCloud<::pcl::PointXYZRGB>>();
+    if (this->input_) *coloured = coloured_cloud(*this->input_, result_);
+    return coloured;
+  }
+
+ private:
+  const RunContext* context_ = &default_context();
+  segment::SegmentOptions options_;
+  segment::Segmentation result_;
+};
+
+}  // namespace ph::pcl

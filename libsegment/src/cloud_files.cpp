@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "cloud_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "ph/error.hpp"
+#include "ph/io/cloud_io.hpp"
+#include "ph/detail/output_file.hpp"
+#include "ph/segment.hpp"
+
+namespace ph::segment {
+namespace {
+
+bool ends_with(std::string_view text, std::string_view lower_case_end) {
+  if (text.size() < lower_case_end.size()) return false;
+  return std::ranges::equal(
+      text.substr(text.size() - lower_case_end.size()), lower_case_end, {},
+      [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+}
+
+/// label_in, or, where a cloud went through here before, label_in_2, label_in_3, …
+std::string free_name(const Cloud& cloud) {
+  std::string name = "label_in";
+  for (int i = 2; cloud.find(name); ++i) name = fmt::format("label_in_{}", i);
+  return name;
+}
+
+}  // namespace
+
+CloudFormat cloud_format_of(std::string_view path) {
+  if (path == "-" || ends_with(path, ".pcd")) return CloudFormat::pcd;
+  if (ends_with(path, ".ply")) return CloudFormat::ply;
+  throw Error(ErrorKind::usage,
+              fmt::format("{}: expected a file name that ends in .pcd or .ply", path));
+}
+
+std::string cloud_bytes(const Cloud& cloud, CloudFormat format) {
+  std::ostringstream out;
+  out.exceptions(std::ios::badbit);  // else a stream keeps it to itself that memory ran out
+  if (format == CloudFormat::pcd) {
+    write_pcd(out, cloud);
+  } else {
+    write_ply(out, cloud);
+  }
+  return std::move(out).str();
+}
+
+Cloud read_cloud(const std::filesystem::path& path) { return ph::read_cloud(path); }
+
+Cloud with_labels(const Cloud& cloud, std::span<const std::uint32_t> labels) {
+  cloud.check();
+  if (static_cast<Index>(labels.size()) != cloud.size()) {
+    throw Error(ErrorKind::usage, fmt::format("found {} labels, expected {}, one a point",
+                                              labels.size(), cloud.size()));
+  }
+  Cloud result = cloud;
+  for (CloudField& field : result.fields) {
+    if (field.name == "label") field.name = free_name(cloud);
+  }
+  const std::size_t field = result.add_field("label", FieldType::uint32);
+  result.set_uint32(field, {labels.begin(), labels.end()});
+  return result;
+}
+
+void write_cloud(const std::filesystem::path& path, const Cloud& cloud,
+                 std::span<const std::uint32_t> labels) {
+  const CloudFormat format = cloud_format_of(path.string());
+  write_file(path.string(), cloud_bytes(with_labels(cloud, labels), format));
+}
+
+}  // namespace ph::segment

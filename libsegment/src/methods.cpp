@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "methods.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "surface/concavity.hpp"
+#include "plane/foot.hpp"
+#include "voxels/rips_graph.hpp"
+#include "surface/seeds.hpp"
+#include "voxels/voxel_pairs.hpp"
+
+namespace ph::segment {
+
+void StageClock::finish(std::string_view name, Index points) {
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start_;
+  const auto known = std::ranges::find(stages_, name, &Stage::name);
+  Stage& stage = known == stages_.end() ? stages_.emplace_back() : *known;
+  stage = {name, points, stage.seconds + took.count()};
+  if (context_.on_progress) context_.on_progress({name, stages_.size(), 0});
+  context_.poll();
+  start_ = std::chrono::steady_clock::now();
+}
+
+namespace {
+
+/// Lengths in voxels. A neighbourhood is far enough to see how the surface bends, near enough not
+/// to see over a thin object.
+constexpr double kNeighbourhood = 3, kOfNormals = 2.4, kSquareOfFoot = 0.6;
+constexpr double kAdjacent = 1.79;  // corners touch; sqrt(3) and a little
+
+/// Whether voxels are so small that the points of a surface do not even touch: with fewer adjacent
+/// voxels on average than a plane that is sampled as coarsely as the grid has. That alone may be a
+/// thin thing, a pen or a cable: voxels of half the edge tell whether there are more points than
+/// voxels, and do so whatever points are there twice. Of a line they are twice as many, of a plane
+/// four times, of single points as many, of random points with too few adjacent voxels up to 1.45
+/// times.
+bool is_too_fine(const Scene& scene, Index voxels, const VoxelPairs& pairs, double voxel) {
+  constexpr double fewest = 6, of_half = 1.6;
+  const auto adjacent = std::ranges::count_if(
+      pairs, [&](const VoxelPair& pair) { return are_adjacent(pair, voxel); });
+  if (2 * static_cast<double>(adjacent) >= fewest * static_cast<double>(voxels)) return false;
+  const VoxelGrid half = voxel_grid(scene.cloud, scene.points.beyond, voxel / 2);
+  return static_cast<double>(half.cells.size()) < of_half * static_cast<double>(voxels);
+}
+
+}  // namespace
+
+VoxelPairs near_voxels(const VoxelGrid& grid, double voxel, const RunContext& context) {
+  return close_voxels(grid, voxel, kNeighbourhood, &context.memory);
+}
+
+bool are_adjacent(const VoxelPair& pair, double voxel) { return pair.distance < kAdjacent * voxel; }
+
+VoxelFiltration surface_filtration(const Scene& scene, const SegmentOptions& options,
+                                   const RunContext& context, StageClock& clock) {
+  constexpr double coarser = 1.5;
+  constexpr int most_times = 4;  // to five times the edge
+  double voxel = options.voxel_size();
+  std::vector<Index> points;
+  VoxelGrid grid;
+  VoxelPairs pairs(&context.memory);
+  for (int times = 0;; ++times, voxel *= coarser) {
+    points = scene.points.beyond;
+    grid = voxel_grid(scene.cloud, points, voxel);
+    if (scene.plane) {
+      adopt_feet(scene.cloud, scene.points.strip, *scene.plane, scene.margin, kSquareOfFoot * voxel,
+                 points, grid);
+    }
+    clock.finish("voxel grid", grid.centroids.rows());
+    pairs = near_voxels(grid, voxel, context);
+    clock.finish("neighbours", grid.centroids.rows());
+    if (options.voxel || times == most_times ||
+        !is_too_fine(scene, grid.centroids.rows(), pairs, voxel))
+      break;
+  }
+  const Index voxels = grid.centroids.rows();
+  Points normals =
+      surface_normals(grid.centroids, pairs, kOfNormals * voxel, scene.cloud.viewpoint);
+  clock.finish("normals", voxels);
+  std::vector<double> values =
+      smoothed(concavity(grid.centroids, normals, pairs), pairs, kAdjacent * voxel);
+  std::vector<WeightedEdge> edges;
+  edges.reserve(pairs.size() / 2);
+  for_each_within(pairs, kAdjacent * voxel, [&](const VoxelPair& p) {
+    edges.push_back({p.v, p.u, p.distance});
+  });
+  if (options.method == Method::supervoxels)
+    values = distance_to_seeds(grid.centroids, edges, values, options.spacing, context);
+  FilteredGraph graph = FilteredGraph::lower_star(values, edges, context);
+  clock.finish("complex", voxels);
+  return {voxel,
+          std::move(grid),
+          std::move(points),
+          std::move(graph),
+          {std::move(normals), std::move(pairs), scene.cloud.viewpoint, scene.plane}};
+}
+
+VoxelFiltration rips_filtration(const Scene& scene, const SegmentOptions& options,
+                                const RunContext& context, StageClock& clock) {
+  // Assumption 1: "points in the space are approximated (downsampled) with their centroid"
+  VoxelGrid grid = voxel_grid(scene.cloud, scene.points.beyond, options.voxel_size());
+  clock.finish("voxel grid", grid.centroids.rows());
+  // Alg. 1 (V.A) and the filtration of V.B: the 1-skeleton of the Vietoris-Rips complex
+  FilteredGraph rips = rips_graph(grid.centroids, options.distance, options.steps, context);
+  clock.finish("complex", rips.size());
+  return {options.voxel_size(), std::move(grid), scene.points.beyond, std::move(rips), {}};
+}
+
+}  // namespace ph::segment

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <chrono>
+#include <string_view>
+#include <vector>
+
+#include "objects/objects.hpp"
+#include "ph/filtered_graph.hpp"
+#include "ph/segment.hpp"
+#include "plane/plane.hpp"
+#include "voxels/voxel_grid.hpp"
+
+namespace ph::segment {
+
+/// Writes the stage table and, between stages, reports progress and obeys a stop request. A stage
+/// that comes again is the same one: its times add up, and what it left behind last counts.
+class StageClock {
+ public:
+  StageClock(const RunContext& context, std::vector<Stage>& stages)
+      : context_(context), stages_(stages) {}
+  void finish(std::string_view name, Index points);
+
+ private:
+  const RunContext& context_;
+  std::vector<Stage>& stages_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// What stands before the supporting plane, or everything in range (as beyond) if there is none.
+struct Scene {
+  CloudView cloud;
+  std::optional<Plane> plane;
+  PlaneMargin margin;
+  Cleared points;
+};
+
+/// What a method makes of a scene; `grid` and `points` belong together.
+struct VoxelFiltration {
+  double voxel;  ///< edge of a voxel of the grid, metres
+  VoxelGrid grid;
+  std::vector<Index> points;
+  FilteredGraph graph;  ///< on the voxels
+  Surface surface;      ///< empty if the method does not look at it
+};
+
+/// Method surface: the pairs of voxels in each other's neighbourhood, see Surface.
+VoxelPairs near_voxels(const VoxelGrid& grid, double voxel, const RunContext& context);
+/// Whether an edge of the graph of method surface joins them.
+bool are_adjacent(const VoxelPair& pair, double voxel);
+
+/// Voxels enter with the concavity of the surface around them (supervoxels: with their distance to
+/// the seeds), edges between adjacent ones with the later of their ends.
+VoxelFiltration surface_filtration(const Scene& scene, const SegmentOptions& options,
+                                   const RunContext& context, StageClock& clock);
+/// The 1-skeleton of the Vietoris-Rips complex of the voxels.
+VoxelFiltration rips_filtration(const Scene& scene, const SegmentOptions& options,
+                                const RunContext& context, StageClock& clock);
+
+}  // namespace ph::segment

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "objects/objects.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory_resource>
+#include <utility>
+
+#include "objects/close_boxes.hpp"
+#include "surface/concavity.hpp"
+#include "surface/parts.hpp"
+#include "ph/detail/disjoint_sets.hpp"
+#include "plane/rims.hpp"
+#include "plane/view.hpp"
+
+namespace ph::segment {
+namespace {
+
+constexpr std::uint32_t kSmall = Parts::kSmall;
+
+/// Calls `join(p, q)` for parts that meet, but not in a seam.
+template <class Join>
+void join_without_seam(const VoxelGrid& grid, const Surface& surface, const Parts& parts,
+                       Join&& join) {
+  constexpr double least_seam = 0.05;  // mean rise; seams between objects have 0.12 to 0.7
+  constexpr int fewest = 3;            // pairs of voxels that tell
+  struct Contact {
+    double sum = 0;
+    int count = 0;
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Contact> contacts;
+  for (const VoxelPair& pair : surface.pairs) {
+    const std::uint32_t p = parts.of[pair.u], q = parts.of[pair.v];
+    if (p == q || p == kSmall || q == kSmall) continue;
+    const double value = rise(grid.centroids, surface.normals, pair);
+    if (!std::isfinite(value)) continue;
+    Contact& contact = contacts[std::minmax(p, q)];
+    contact.sum += value;
+    ++contact.count;
+  }
+  for (const auto& [both, contact] : contacts)
+    if (contact.count >= fewest && contact.sum < least_seam * contact.count)
+      join(both.first, both.second);
+}
+
+/// Finds parts whose surfaces go on behind an occluder.
+class HiddenJoins {
+  /// A voxel next to an occluder.
+  struct BorderVoxel {
+    std::uint32_t number;
+    Eigen::Vector3d place, normal;
+  };
+  using Border = std::vector<BorderVoxel>;
+
+  double nearer() const { return 2 * voxel_; }
+  auto kind() const {
+    return [this](std::uint32_t v) { return parts_.of[v]; };
+  }
+
+ public:
+  HiddenJoins(const VoxelGrid& grid, const Surface& surface, double voxel, const Parts& parts)
+      : voxel_(voxel),
+        parts_(parts),
+        view_(grid.centroids, voxel, surface.viewpoint),
+        borders_(parts.count()) {
+    for (std::uint32_t v = 0; v < parts.of.size(); ++v)
+      if (parts.of[v] != kSmall && std::isfinite(surface.normals(v, 0)) &&
+          view_.is_at_occluder(v, nearer(), kind()))
+        borders_[parts.of[v]].push_back({v, grid.centroids.row(v), surface.normals.row(v)});
+    for (Border& border : borders_) thin_out(border);
+  }
+
+  template <class Join>
+  void find(const RunContext& context, Join&& join) const {
+    constexpr double least_of_each = 0.1, least_of_both = 0.34;  // shares of the borders
+    std::vector<PartBox<3>> boxes;
+    for (std::uint32_t p = 0; p < borders_.size(); ++p)
+      if (!borders_[p].empty()) boxes.push_back({p, box_of(borders_[p])});
+    for_each_close_pair(
+        boxes, [](const PartBox<3>&) { return kLongestGap; }, context,
+        [&](std::uint32_t p, std::uint32_t q) {
+          const double a = share_that_goes_on(p, q);
+          if (a < least_of_each) return;
+          const double b = share_that_goes_on(q, p);
+          if (b >= least_of_each && a + b >= least_of_both) join(p, q);
+        });
+  }
+
+ private:
+  static constexpr double kLongestGap = 0.15;  // metres; what hides more leaves only a guess
+
+  /// A bounded number, spread over all: what is told of parts is a share anyway.
+  static void thin_out(Border& border) {
+    constexpr std::size_t fewest = 5, most = 60;
+    if (border.size() < fewest) border.clear();
+    const std::size_t step = border.size() / most + 1;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < border.size(); i += step) border[kept++] = border[i];
+    border.erase(border.begin() + static_cast<std::ptrdiff_t>(kept), border.end());
+  }
+  static Eigen::AlignedBox3d box_of(const Border& border) {
+    Eigen::AlignedBox3d box;
+    for (const BorderVoxel& v : border) box.extend(v.place);
+    return box;
+  }
+  double share_that_goes_on(std::uint32_t p, std::uint32_t q) const {
+    const auto count = std::ranges::count_if(borders_[p], [&](const BorderVoxel& a) {
+      return std::ranges::any_of(borders_[q], [&](const BorderVoxel& b) { return goes_on(a, b); });
+    });
+    return static_cast<double>(count) / static_cast<double>(borders_[p].size());
+  }
+  /// Whether one smooth surface through both voxels is hidden between them.
+  bool goes_on(const BorderVoxel& a, const BorderVoxel& b) const {
+    constexpr double cosine = 0.966;  // 15 degrees between the normals
+    constexpr double slope = 0.05;
+    if (a.normal.dot(b.normal) < cosine) return false;
+    const Eigen::Vector3d d = b.place - a.place;
+    const double gap = d.norm(), tolerance = 0.6 * voxel_ + slope * gap;
+    if (gap > kLongestGap || std::abs(a.normal.dot(d)) > tolerance ||
+        std::abs(b.normal.dot(d)) > tolerance)
+      return false;
+    constexpr int fewest_cells = 2;
+    constexpr double share = 0.85;
+    const View::Cover cover = view_.cover(a.number, b.number, nearer() / 2, kind());
+    return cover.hidden >= fewest_cells && cover.hidden >= share * cover.cells;
+  }
+
+  double voxel_;
+  const Parts& parts_;
+  View view_;
+  std::vector<Border> borders_;  // by part
+};
+
+}  // namespace
+
+std::vector<Index> join_parts(const VoxelGrid& grid, const Surface& surface, double voxel,
+                              const std::vector<Index>& part_of, Index min_size,
+                              const RunContext& context) {
+  const Parts parts = number_parts(part_of, min_size);
+  if (parts.count() < 2) return part_of;
+  DisjointSets objects(parts.count(), std::pmr::get_default_resource());
+  const auto join = [&](std::uint32_t p, std::uint32_t q) {
+    const std::uint32_t a = objects.find(p), b = objects.find(q);
+    objects.link(std::max(a, b), std::min(a, b));
+  };
+  join_without_seam(grid, surface, parts, join);
+  context.poll();
+  HiddenJoins(grid, surface, voxel, parts).find(context, join);
+  if (surface.support)
+    join_around_rims(grid.centroids, voxel, surface.support->normal, parts, join, context);
+  std::vector<Index> object_of = part_of;
+  for (std::size_t v = 0; v < object_of.size(); ++v)
+    if (parts.of[v] != kSmall) object_of[v] = part_of[parts.example[objects.find(parts.of[v])]];
+  return object_of;
+}
+
+}  // namespace ph::segment

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "options.hpp"
+#include "ph/voxel_image.hpp"
+#include "ph/error.hpp"
+#include "ph/persistence.hpp"
+#include "ph/segment.hpp"
+
+namespace ph::segment {
+
+Barcode signature(const SceneTree& scene, const SceneCut& cut,
+                  std::span<const std::uint32_t> labels, const RunContext& context) {
+  validate(scene, cut);
+  std::vector<bool> wanted(cut.segments.size() + 1);
+  for (const std::uint32_t label : labels) {
+    if (label == 0 || label > cut.segments.size())
+      throw Error(ErrorKind::usage, fmt::format("segment {}: there are the segments 1 to {}", label,
+                                                cut.segments.size()));
+    wanted[label] = true;
+  }
+  const auto is_wanted = [&](std::uint32_t label) { return wanted[label]; };
+  Points voxels(std::ranges::count_if(cut.vertex_labels, is_wanted), 3);
+  if (voxels.rows() == 0) throw Error(ErrorKind::usage, "the signature of no segment");
+  Index row = 0;
+  for (std::size_t v = 0; v < cut.vertex_labels.size(); ++v) {
+    if (!is_wanted(cut.vertex_labels[v])) continue;
+    const auto& [x, y, z] = scene.cells[v];
+    voxels.row(row++) << x, y, z;
+  }
+  // In voxels: the grid of the image is then that of the scene.
+  PointImage image = voxel_image(voxels, 1, VoxelValue::distance, 1, context);
+  const CubicalOptions touching{.construction = CubicalOptions::Construction::cells};
+  const Options options{.max_dim = 2, .min_persistence = 1};
+  const Barcode in_voxels = persistence(Cubical(image.image, touching, context), options, context);
+  Barcode bars(in_voxels.cell_kind());
+  for (std::size_t i = 0; i < in_voxels.size(); ++i) {
+    const Bar& bar = in_voxels[i];
+    const auto death = in_voxels.death_cell(i);
+    bars.add({bar.dim, bar.birth * scene.voxel, bar.death * scene.voxel},
+             in_voxels.birth_cell(i).numbers,
+             death ? std::span<const Index>(death->numbers) : std::span<const Index>());
+  }
+  return bars;
+}
+
+}  // namespace ph::segment

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "options.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "ph/error.hpp"
+#include "voxels/voxel_grid.hpp"
+
+namespace ph::segment {
+namespace {
+
+void require(bool condition, std::string_view name, double found, std::string_view expected) {
+  if (condition) return;
+  throw Error(ErrorKind::usage, fmt::format("{}: found {}, expected {}", name, found, expected));
+}
+
+void require_finite(const Vec3& v, std::string_view name) {
+  for (const double x : v) require(std::isfinite(x), name, x, "finite coordinates");
+}
+
+}  // namespace
+
+void validate(const CloudView& cloud, const SegmentOptions& o) {
+  if (cloud.xyz.size() % 3 != 0) {
+    throw Error(ErrorKind::bad_data,
+                fmt::format("found {} coordinates, expected three a point", cloud.xyz.size()));
+  }
+  const auto points = static_cast<Index>(cloud.xyz.size() / 3);
+  // Divided, for a product might overflow.
+  if (cloud.width < 0 ||
+      (cloud.width > 0 && (points % cloud.width != 0 || points / cloud.width != cloud.height))) {
+    throw Error(ErrorKind::bad_data, fmt::format("found {} points, expected {} rows of {}", points,
+                                                 cloud.height, cloud.width));
+  }
+  constexpr std::string_view kLength = "a positive finite length";
+  const double voxel = o.voxel_size(), margin = o.plane_margin();
+  require(voxel >= kLeastVoxel && voxel <= kMostVoxel, "voxel", voxel,
+          fmt::format("a length from {} to {}", kLeastVoxel, kMostVoxel));
+  require(std::isfinite(o.distance) && o.distance >= 0, "distance", o.distance,
+          "a finite length of at least 0");
+  require(o.steps >= 0, "steps", o.steps, "at least 0");
+  require(o.max_range >= 0, "max_range", o.max_range, "a length of at least 0 or infinity");
+  require(std::isfinite(o.plane_noise) && o.plane_noise >= 0, "plane_noise", o.plane_noise,
+          "a finite length of at least 0");
+  // Nearly every voxel would be a seed: supervoxels of a voxel each.
+  require(o.method != Method::supervoxels || (std::isfinite(o.spacing) && o.spacing >= voxel),
+          "spacing", o.spacing, fmt::format("a finite length of at least a voxel, {}", voxel));
+  const CutOptions cut = o.cut();
+  require(cut.value >= 0, "min_persistence", cut.value, "at least 0");
+  require(cut.min_part >= 1, "min_part", static_cast<double>(cut.min_part), "at least 1");
+  require(cut.min_size >= 1, "min_size", static_cast<double>(cut.min_size), "at least 1");
+  require(std::isfinite(margin) && margin > 0, "plane_distance", margin, kLength);
+  require_finite(o.viewpoint.value_or(cloud.viewpoint), "viewpoint");
+  if (!o.crop) return;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    require(o.crop->min[axis] <= o.crop->max[axis], "crop", o.crop->min[axis],
+            fmt::format("at most {}, the other end", o.crop->max[axis]));
+  }
+}
+
+void validate(const SceneTree& scene) {
+  const auto fail = [](std::string_view what, auto found, auto expected) {
+    throw Error(ErrorKind::bad_data,
+                fmt::format("scene: {}: found {}, expected {}", what, found, expected));
+  };
+  const auto expect = [&](std::string_view what, std::size_t found, std::size_t expected) {
+    if (found != expected) fail(what, found, expected);
+  };
+  const std::size_t vertices = scene.cells.size(), points = scene.points.size();
+  const bool is_paper = scene.method == Method::paper;
+  expect("centroids", static_cast<std::size_t>(scene.vertices.size()), 3 * vertices);
+  expect("coordinates of a centroid", static_cast<std::size_t>(scene.vertices.cols()), 3);
+  expect("numbers of normals", static_cast<std::size_t>(scene.normals.size()),
+         is_paper ? 0 : 3 * vertices);
+  expect("counts", scene.counts.size(), vertices);
+  expect("births", scene.tree.births.size(), vertices);
+  expect("vertices of points", scene.vertex_of_point.size(), points);
+  expect("coordinates", scene.xyz.size(), 3 * points);
+  Index size = 0;
+  if (scene.width < 0 || scene.height < 0 ||
+      __builtin_mul_overflow(scene.width, scene.height, &size))
+    fail("size of the cloud", fmt::format("{} x {}", scene.width, scene.height),
+         "a number of points");
+  for (Index last = -1; const Index i : scene.points) {
+    if (i <= last || i >= size) fail("points", i, fmt::format("ascending, below {}", size));
+    last = i;
+  }
+  for (const std::uint32_t v : scene.vertex_of_point)
+    if (v >= vertices) fail("vertex of a point", v, fmt::format("one below {}", vertices));
+  for (const Merge& m : scene.tree.merges)
+    for (const Index v : {m.u, m.v, m.elder, m.younger})
+      if (v < 0 || std::cmp_greater_equal(v, vertices))
+        fail("vertex of a merge", v, fmt::format("one of {}", vertices));
+}
+
+void validate(const SceneTree& scene, const SceneCut& cut) {
+  validate(scene);
+  const auto expect = [&](std::string_view what, std::size_t found, std::size_t expected) {
+    if (found != expected)
+      throw Error(
+          ErrorKind::bad_data,
+          fmt::format("cut: {}: found {}, expected {}, as in the scene", what, found, expected));
+  };
+  expect("labels", cut.labels.size(), scene.cloud_size());
+  expect("labels of vertices", cut.vertex_labels.size(), scene.cells.size());
+  for (const auto* labels : {&cut.labels, &cut.vertex_labels})
+    for (const std::uint32_t label : *labels)
+      if (label > cut.segments.size())
+        throw Error(ErrorKind::bad_data, fmt::format("cut: label: found {}, expected at most {}",
+                                                     label, cut.segments.size()));
+}
+
+void validate(const SceneTree& scene, const CutOptions& o) {
+  validate(scene);
+  require(o.value >= 0, "cut", o.value, "at least 0");
+  require(scene.method != Method::paper || o.value <= scene.distance, "cut", o.value,
+          fmt::format("at most {}, the distance up to which the tree was made", scene.distance));
+  require(o.min_part >= 1, "min_part", static_cast<double>(o.min_part), "at least 1");
+  require(o.min_size >= 1, "min_size", static_cast<double>(o.min_size), "at least 1");
+}
+
+}  // namespace ph::segment

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// W. J. Beksi and N. Papanikolopoulos, 3D Point Cloud Segmentation Using Topological Persistence,
+// ICRA 2016. Section and algorithm numbers here and in methods.cpp are those of the paper.
+#include <algorithm>
+#include <utility>
+
+#include "voxels/cross_check.hpp"
+#include "tree/cut.hpp"
+#include "plane/hidden_points.hpp"
+#include "methods.hpp"
+#include "options.hpp"
+#include "ph/error.hpp"
+#include "ph/segment.hpp"
+#include "plane/plane.hpp"
+#include "plane/projection_centre.hpp"
+#include "plane/range_filter.hpp"
+
+namespace ph::segment {
+namespace {
+
+/// What all stages hold of a cloud at once, at most: of each point its number in two lists of those
+/// that are left, its voxel, its number, its vertex and its coordinates as the tree has them, these
+/// sorted by segment, its label.
+std::size_t bytes_for_points(const CloudView& cloud) {
+  constexpr std::size_t bytes_per_point = 3 * 8 + 4 + 4 + 12 + 12 + 4;
+  return cloud.xyz.size() / 3 * bytes_per_point;
+}
+
+/// The same of the voxels, without their pairs and the graph, which count themselves: places,
+/// normals and numbers of points, here and in the tree; the tree; the barcode.
+std::size_t bytes_for_voxels(const VoxelGrid& grid) {
+  constexpr std::size_t bytes_per_voxel = 2 * 80 + 80 + 160;
+  return grid.cells.size() * bytes_per_voxel;
+}
+
+Index count(const std::vector<Index>& points) { return static_cast<Index>(points.size()); }
+
+/// What is in range and stands before the supporting plane; the plane goes into the result, too.
+Scene clear_scene(const CloudView& cloud, const SegmentOptions& options, StageClock& clock,
+                  Segmentation& result) {
+  Scene scene;
+  scene.cloud = cloud;
+  scene.margin = {options.plane_margin()};
+
+  // Section VI: "we remove outlying points (background clutter) that are beyond range"
+  std::vector<Index> in_range = range_filter(cloud, options.max_range, options.crop);
+  clock.finish("range filter", count(in_range));
+
+  if (!options.plane) {
+    result.plane_note = "no plane: its removal is switched off";
+    scene.points.beyond = std::move(in_range);
+    return scene;
+  }
+  // Section VI: "we find all points that correspond to a planar model and remove them"
+  PlaneSearch search = find_plane(cloud, in_range, scene.margin.distance);
+  if (options.method != Method::paper && options.plane_noise > 0) {
+    constexpr double deviations = 4;
+    const double noise = deviations * search.noise * search.range * search.range;  // where it lies
+    if (noise > 2 * scene.margin.distance) search = find_plane(cloud, in_range, noise);
+    scene.margin.noise = std::max(options.noise_floor(), deviations * search.noise);
+  }
+  result.plane = scene.plane = search.plane;
+  result.plane_note = std::move(search.note);
+  if (scene.plane) {
+    result.plane_sight = sight_past(cloud, in_range, *scene.plane, scene.margin);
+    scene.points = remove_plane(cloud, in_range, *scene.plane, scene.margin);
+  } else
+    scene.points.beyond = std::move(in_range);
+  clock.finish("plane", count(scene.points.beyond));
+  return scene;
+}
+
+/// The points with their voxels, in the order of the cloud.
+void keep_points(const CloudView& cloud, const VoxelFiltration& filtration, SceneTree& scene) {
+  const std::vector<Index>& points = filtration.points;
+  const std::vector<std::uint32_t>& voxel_of = filtration.grid.voxel_of;
+  // Those beyond the plane, ascending, and behind them those that were won back, ascending.
+  const auto beyond =
+      static_cast<std::size_t>(std::ranges::is_sorted_until(points) - points.begin());
+  if (beyond == points.size()) {
+    scene.points = points;
+    scene.vertex_of_point = voxel_of;
+  } else {
+    scene.points.reserve(points.size());
+    scene.vertex_of_point.reserve(points.size());
+    for (std::size_t next = 0, next_foot = beyond; scene.points.size() < points.size();) {
+      const bool is_foot =
+          next == beyond || (next_foot < points.size() && points[next_foot] < points[next]);
+      const std::size_t from = is_foot ? next_foot++ : next++;
+      scene.points.push_back(points[from]);
+      scene.vertex_of_point.push_back(voxel_of[from]);
+    }
+  }
+  scene.xyz.resize(3 * points.size());
+  for (std::size_t k = 0; k < points.size(); ++k)
+    std::copy_n(&cloud.xyz[3 * static_cast<std::size_t>(scene.points[k])], 3, &scene.xyz[3 * k]);
+}
+
+/// The tree and what a cut needs besides. `plane` is there already.
+void keep_scene(const CloudView& cloud, const VoxelFiltration& filtration,
+                const SegmentOptions& options, SceneTree& scene) {
+  scene.method = options.method;
+  scene.voxel = filtration.voxel;
+  if (options.method == Method::paper) {
+    scene.distance = options.distance;
+    scene.steps = options.steps;
+  }
+  scene.viewpoint = cloud.viewpoint;
+  scene.width = cloud.columns();
+  scene.height = cloud.rows();
+  scene.first_cut = options.cut();
+  keep_points(cloud, filtration, scene);
+  scene.cells = filtration.grid.cells;
+  scene.vertices = filtration.grid.centroids;
+  scene.normals = filtration.surface.normals;
+  scene.counts = filtration.grid.counts;
+  scene.edges = static_cast<Index>(filtration.graph.edge_count());
+}
+
+}  // namespace
+
+Segmentation segment(const CloudView& input, const SegmentOptions& options,
+                     const RunContext& context) {
+  validate(input, options);
+  CloudView cloud = input;
+  cloud.viewpoint = options.viewpoint.value_or(input.viewpoint);
+  const MemoryClaim of_points(context.memory, bytes_for_points(cloud));
+  Segmentation result;
+  StageClock clock(context, result.stages);
+  result.rays_meet_at = centre_elsewhere(cloud);
+  if (result.rays_meet_at && !options.viewpoint) cloud.viewpoint = *result.rays_meet_at;
+  const Scene scene = clear_scene(cloud, options, clock, result);
+  const VoxelFiltration filtration = options.method == Method::paper
+                                         ? rips_filtration(scene, options, context, clock)
+                                         : surface_filtration(scene, options, context, clock);
+
+  const MemoryClaim of_voxels(context.memory, bytes_for_voxels(filtration.grid));
+
+  // Alg. 2: the death times of the zero-dimensional cycles, by the disjoint sets of V.C
+  result.tree = merge_tree(filtration.graph, context);
+  result.barcode = barcode_of(result.tree);
+  clock.finish("persistence", filtration.graph.size());
+
+  keep_scene(cloud, filtration, options, result);
+  static_cast<SceneCut&>(result) =
+      cut_scene(result, filtration.grid, filtration.surface, result.first_cut, context);
+  Index in_segments = 0;
+  for (const Segment& s : result.segments) in_segments += s.voxels;
+  clock.finish("components", in_segments);
+
+  // Section V.B defines persistence by the boundary matrix: the fast path must agree with it.
+  if (options.check) {
+    result.difference = cross_check(filtration.graph, result.barcode, context);
+    result.checked = true;
+    clock.finish("check", in_segments);
+  }
+  return result;
+}
+
+Segmentation segment(const Cloud& cloud, const SegmentOptions& options, const RunContext& context) {
+  const std::vector<float> xyz = cloud.xyz();
+  const MemoryClaim copy(context.memory, xyz.size() * sizeof(float));
+  const auto& [x, y, z, qw, qx, qy, qz] = cloud.viewpoint;
+  return segment(CloudView{xyz, {x, y, z}, cloud.width, cloud.height}, options, context);
+}
+
+}  // namespace ph::segment

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "plane/hidden_points.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace ph::segment {
+namespace {
+
+constexpr std::size_t kSample = 20000;
+constexpr double kCell = 4;         // margins: a square of the plane that a point stands for
+constexpr double kFewBehind = 0.1;  // with fewer nothing else is looked at
+
+/// The squares of a plane.
+class Squares {
+ public:
+  Squares(const Plane& plane, double edge) : edge_(edge) {
+    const Eigen::Vector3d n(plane.normal[0], plane.normal[1], plane.normal[2]);
+    across_ = n.unitOrthogonal();
+    along_ = n.cross(across_);
+  }
+  std::array<double, 2> of(const Eigen::Vector3d& p) const {
+    return {std::floor(across_.dot(p) / edge_), std::floor(along_.dot(p) / edge_)};
+  }
+
+ private:
+  double edge_;
+  Eigen::Vector3d across_, along_;
+};
+
+}  // namespace
+
+PlaneSight sight_past(const CloudView& cloud, const std::vector<Index>& points, const Plane& plane,
+                      const PlaneMargin& margin) {
+  const std::size_t step = std::max<std::size_t>(1, points.size() / kSample);
+  const auto& [vx, vy, vz] = cloud.viewpoint;
+  const Eigen::Vector3d eye(vx, vy, vz);
+  const double eye_height = plane.signed_distance(vx, vy, vz);
+  const Squares squares(plane, kCell * margin.distance);
+  std::vector<const float*> on;
+  std::vector<Eigen::Vector3d>
+      through;  // where the line of sight to a point behind meets the plane
+  std::size_t before = 0;
+  for (std::size_t k = 0; k < points.size(); k += step) {
+    const float* p = &cloud.xyz[3 * static_cast<std::size_t>(points[k])];
+    const double height = plane.signed_distance(p[0], p[1], p[2]);
+    const double limit = margin(cloud, p);
+    if (std::abs(height) <= limit) {
+      on.push_back(p);
+    } else if (height > 0) {
+      ++before;
+    } else {
+      const Eigen::Vector3d place(p[0], p[1], p[2]);
+      through.push_back(eye + (place - eye) * (eye_height / (eye_height - height)));
+    }
+  }
+  const auto off = static_cast<double>(before + through.size());
+  PlaneSight sight;
+  if (through.empty()) return sight;
+  sight.behind = static_cast<double>(through.size()) / off;
+  if (sight.behind < kFewBehind) return sight;
+  std::set<std::array<double, 2>> covered;
+  for (const float* p : on) covered.insert(squares.of({p[0], p[1], p[2]}));
+  const auto hidden = std::ranges::count_if(
+      through, [&](const Eigen::Vector3d& p) { return covered.contains(squares.of(p)); });
+  sight.hidden = static_cast<double>(hidden) / off;
+  return sight;
+}
+
+}  // namespace ph::segment

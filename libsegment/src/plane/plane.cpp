@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+#include "plane/plane.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <tuple>
+
+namespace ph::segment {
+namespace {
+
+constexpr std::size_t kSample = 4096;  // points that take part in the refits
+constexpr std::size_t kScored = 1024;  // points that score a hypothesis
+constexpr int kHypotheses = 500;       // finds a plane of a quarter of the points with 99.96 %
+constexpr int kRefits = 4;
+constexpr double kSmallestShare = 0.1;  // a plane with fewer of the points supports nothing
+
+/// Mixes the bits of a word (the finaliser of splitmix64, Steele, Lea & Flood 2014).
+std::uint64_t mix(std::uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+  return x ^ (x >> 31);
+}
+
+/// A hash of the sign and the mantissa of each coordinate: the same after scaling by 2^k. Strongly
+/// universal in its upper half (multiply-shift of vectors; M. Thorup, High speed hashing for
+/// integers and strings, 2015).
+std::uint64_t hash_of(const float* p) {
+  const auto word = [](float x) -> std::uint64_t {
+    constexpr std::uint32_t no_exponent = 0x807fffffU;
+    return std::bit_cast<std::uint32_t>(x + 0.0F) & no_exponent;
+  };
+  return word(p[0]) * 0x9e3779b97f4a7c15ULL + word(p[1]) * 0xbf58476d1ce4e5b9ULL +
+         word(p[2]) * 0x94d049bb133111ebULL + 0xd6e8feb86659fd93ULL;
+}
+
+/// Some of the points, as columns, so that the compiler can vectorise over them.
+struct Sample {
+  std::vector<double> x, y, z;
+  std::size_t size() const { return x.size(); }
+  Eigen::Vector3d operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+};
+
+/// The kSample distinct points of smallest hash (all, if there are fewer), by hash: a random sample
+/// in random order that is a function of the set of points alone.
+Sample draw_sample(const CloudView& cloud, const std::vector<Index>& points) {
+  struct Drawn {
+    std::uint64_t hash;
+    float x, y, z;
+    auto key() const { return std::tie(hash, x, y, z); }
+  };
+  std::vector<Drawn> drawn;
+  const double wanted = 1.25 * kSample;
+  for (double share = wanted / static_cast<double>(points.size());; share *= 8) {
+    const bool all = share >= 1;
+    const auto limit = all ? UINT64_MAX : static_cast<std::uint64_t>(std::ldexp(share, 64));
+    drawn.clear();
+    for (const Index i : points) {
+      const float* p = &cloud.xyz[3 * static_cast<std::size_t>(i)];
+      const std::uint64_t hash = hash_of(p);
+      if (hash <= limit) drawn.push_back({hash, p[0], p[1], p[2]});
+    }
+    std::ranges::sort(drawn, [](const Drawn& a, const Drawn& b) { return a.key() < b.key(); });
+    const auto same = std::ranges::unique(
+        drawn, [](const Drawn& a, const Drawn& b) { return a.key() == b.key(); });
+    drawn.erase(same.begin(), same.end());
+    if (drawn.size() >= kSample || all) break;
+  }
+  if (drawn.size() > kSample) drawn.resize(kSample);
+  Sample sample;
+  for (const Drawn& d : drawn) {
+    sample.x.push_back(d.x);
+    sample.y.push_back(d.y);
+    sample.z.push_back(d.z);
+  }
+  return sample;
+}
+
+struct Candidate {
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  double offset = 0;
+};
+
+/// The sum of squared distances of the first `count` points, each in units of `distance` and cut
+/// at one (the score of MSAC): small is good. Only a lower bound once that is `enough`.
+double cost_of(const Candidate& plane, const Sample& sample, std::size_t count, double distance,
+               double enough) {
+  const double nx = plane.normal.x() / distance, ny = plane.normal.y() / distance;
+  const double nz = plane.normal.z() / distance, d = plane.offset / distance;
+  double cost = 0;
+  constexpr std::size_t block = 128;
+  for (std::size_t begin = 0; begin < count && cost < enough; begin += block) {
+    for (std::size_t i = begin; i < std::min(count, begin + block); ++i) {
+      const double r = nx * sample.x[i] + ny * sample.y[i] + nz * sample.z[i] + d;
+      cost += std::min(r * r, 1.0);
+    }
+  }
+  return cost;
+}
+
+/// The best of kHypotheses planes through three points of the sample; nothing if all are collinear.
+std::optional<Candidate> best_hypothesis(const Sample& sample, double distance) {
+  const std::size_t scored = std::min(sample.size(), kScored);
+  std::uint64_t state = 0;  // a fixed seed: the same input gives the same plane
+  const auto any = [&] {
+    state += 0x9e3779b97f4a7c15ULL;
+    return sample[static_cast<std::size_t>(mix(state) % sample.size())];
+  };
+  std::optional<Candidate> best;
+  double best_cost = static_cast<double>(scored);
+  for (int i = 0; i < kHypotheses; ++i) {
+    const Eigen::Vector3d a = any(), b = any(), c = any();
+    const Eigen::Vector3d normal = (b - a).cross(c - a);
+    const double area = normal.norm();
+    // Thinner than the plane: its direction would be noise.
+    if (!(area > distance * (b - a).norm()) || !(area > distance * (c - a).norm())) continue;
+    const Candidate plane{normal / area, -normal.dot(a) / area};
+    const double cost = cost_of(plane, sample, scored, distance, best_cost);
+    if (cost < best_cost) {
+      best_cost = cost;
+      best = plane;
+    }
+  }
+  return best;
+}
+
+/// The least-squares plane of the points within `distance` of a plane; nothing if they are
+/// collinear. Adds in the order of the sample, so the sum is repeatable.
+std::optional<Candidate> refit(const Candidate& plane, const Sample& sample, double distance) {
+  std::vector<std::size_t> inliers;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < sample.size(); ++i) {
+    if (std::abs(plane.normal.dot(sample[i]) + plane.offset) > distance) continue;
+    inliers.push_back(i);
+    mean += sample[i];
+  }
+  if (inliers.size() < 3) return std::nullopt;
+  mean /= static_cast<double>(inliers.size());
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const std::size_t i : inliers) {
+    const Eigen::Vector3d r = sample[i] - mean;
+    scatter += r * r.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
+  const Eigen::Vector3d& spread = solver.eigenvalues();
+  if (!(spread[1] > 1e-9 * spread[2])) return std::nullopt;
+  const Eigen::Vector3d normal = solver.eigenvectors().col(0);
+  return Candidate{normal, -normal.dot(mean)};
+}
+
+double share_of(const Candidate& plane, const Sample& sample, double distance) {
+  std::size_t inliers = 0;
+  for (std::size_t i = 0; i < sample.size(); ++i) {
+    inliers += std::abs(plane.normal.dot(sample[i]) + plane.offset) <= distance;
+  }
+  return static_cast<double>(inliers) / static_cast<double>(sample.size());
+}
+
+/// 0 of nothing.
+double median(std::vector<double>& values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// See PlaneSearch::range. @param distance half the thickness of the plane.
+double range_of(const Plane& plane, const Sample& sample, const Vec3& viewpoint, double distance) {
+  const Eigen::Vector3d eye(viewpoint[0], viewpoint[1], viewpoint[2]);
+  std::vector<double> ranges;
+  for (std::size_t i = 0; i < sample.size(); ++i)
+    if (std::abs(plane.signed_distance(sample.x[i], sample.y[i], sample.z[i])) <= distance)
+      ranges.push_back((sample[i] - eye).norm());
+  return median(ranges);
+}
+
+/// See PlaneSearch::noise. @param reach what lies farther behind is another surface.
+double noise_of(const Plane& plane, const Sample& sample, const Vec3& viewpoint, double reach) {
+  constexpr std::size_t fewest = 30;
+  constexpr double median_of_half_normal = 0.6745;  // in standard deviations
+  const Eigen::Vector3d eye(viewpoint[0], viewpoint[1], viewpoint[2]);
+  std::vector<double> depths;
+  for (std::size_t i = 0; i < sample.size(); ++i) {
+    const double depth = -plane.signed_distance(sample.x[i], sample.y[i], sample.z[i]);
+    if (depth > 0 && depth < reach) depths.push_back(depth / (sample[i] - eye).squaredNorm());
+  }
+  if (depths.size() < fewest) return 0;
+  return median(depths) / median_of_half_normal;
+}
+
+}  // namespace
+
+PlaneSearch find_plane(const CloudView& cloud, const std::vector<Index>& points, double distance) {
+  if (points.size() < 3) return {std::nullopt, "no plane: fewer than three points in range"};
+  const Sample sample = draw_sample(cloud, points);
+  // Twice the thickness while searching: three noisy points seldom give the plane to a millimetre.
+  std::optional<Candidate> found = best_hypothesis(sample, 2 * distance);
+  if (!found) return {std::nullopt, "no plane: the points in range lie on a line or in a spot"};
+  for (int i = 0; i < kRefits; ++i) {
+    const std::optional<Candidate> better = refit(*found, sample, i == 0 ? 2 * distance : distance);
+    if (better) found = better;
+  }
+  const double share = share_of(*found, sample, distance);
+  if (share < kSmallestShare) {
+    return {std::nullopt,
+            fmt::format("no plane: the largest one holds {:.1f} % of the points in range, less "
+                        "than {:.0f} %",
+                        100 * share, 100 * kSmallestShare)};
+  }
+  const auto& [vx, vy, vz] = cloud.viewpoint;
+  if (found->normal.dot(Eigen::Vector3d(vx, vy, vz)) + found->offset < 0) {
+    found->normal = -found->normal;
+    found->offset = -found->offset;
+  }
+  const Eigen::Vector3d& n = found->normal;
+  const Plane plane{{n.x(), n.y(), n.z()}, found->offset, share};
+  constexpr double margins = 6;  // that noise may reach
+  return {plane, "", noise_of(plane, sample, cloud.viewpoint, margins * distance),
+          range_of(plane, sample, cloud.viewpoint, distance)};
+}
+
+Cleared remove_plane(const CloudView& cloud, const std::vector<Index>& points, const Plane& plane,
+                     const PlaneMargin& margin) {
+  constexpr double lowest_share = 0.2;  // of the margin
+  const double lowest = lowest_share * margin.distance;
+  Cleared cleared{std::vector<Index>(points.size()), {}};
+  std::size_t beyond = 0;
+  for (const Index i : points) {
+    const float* p = &cloud.xyz[3 * static_cast<std::size_t>(i)];
+    const double height = plane.signed_distance(p[0], p[1], p[2]);
+    if (height <= lowest) continue;  // most points, and those that come next, too
+    const double limit = margin(cloud, p);
+    if (height > limit)
+      cleared.beyond[beyond++] = i;
+    else if (height > lowest_share * limit)
+      cleared.strip.push_back(i);
+  }
+  cleared.beyond.resize(beyond);
+  return cleared;
+}
+
+}  // namespace ph::segment

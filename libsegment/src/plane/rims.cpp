@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "plane/rims.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <bitset>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "objects/close_boxes.hpp"
+
+namespace ph::segment {
+namespace {
+
+/// The upper end of a part, seen from above.
+struct Rim {
+  double top = 0;                       // height
+  std::vector<Eigen::Vector2d> points;  // within a few voxels of the top
+};
+
+Rim rim_of(const std::vector<Eigen::Vector3d>& part, double depth) {
+  constexpr std::size_t outliers = 50;  // one of so many may be higher
+  std::vector<double> heights;
+  for (const auto& p : part) heights.push_back(p.z());
+  const auto top = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / outliers);
+  std::ranges::nth_element(heights, top, std::greater<>());
+  Rim rim{*top, {}};
+  for (const auto& p : part)
+    if (p.z() > rim.top - depth) rim.points.emplace_back(p.head<2>());
+  return rim;
+}
+
+struct Circle {
+  Eigen::Vector2d centre;
+  double radius = 0;
+};
+
+/// Least squares of |p|² = 2 c·p + (r² - |c|²) (I. Kåsa, A circle fitting procedure and its error
+/// analysis, 1976), both rims with the same weight.
+Circle fit_circle(const Rim& a, const Rim& b) {
+  const Eigen::Vector2d origin = a.points.front();
+  Eigen::Matrix3d left = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (const Rim* rim : {&a, &b}) {
+    const double weight = 1.0 / static_cast<double>(rim->points.size());
+    for (const auto& point : rim->points) {
+      const Eigen::Vector2d p = point - origin;
+      const Eigen::Vector3d row(p.x(), p.y(), 1);
+      left += weight * row * row.transpose();
+      right += weight * p.squaredNorm() * row;
+    }
+  }
+  const Eigen::Vector3d solution = left.ldlt().solve(right);
+  const Eigen::Vector2d centre = solution.head<2>() / 2;
+  return {origin + centre, std::sqrt(solution.z() + centre.squaredNorm())};
+}
+
+constexpr std::size_t kSectors = 36;
+using Sectors = std::bitset<kSectors>;
+constexpr std::size_t kFewestOfEach = 9;
+
+/// The sectors of the circle in which a rim has points; nothing if it is not on the circle.
+std::optional<Sectors> arc(const Circle& circle, const Rim& rim, double tolerance) {
+  double squares = 0;
+  for (const auto& point : rim.points)
+    squares += std::pow((point - circle.centre).norm() - circle.radius, 2);
+  // Not "larger than": a circle through points on a line is not a number.
+  if (!(squares <= tolerance * tolerance * static_cast<double>(rim.points.size())))
+    return std::nullopt;
+  Sectors sectors;
+  for (const auto& point : rim.points) {
+    const Eigen::Vector2d p = point - circle.centre;
+    const double turn = std::atan2(p.y(), p.x()) / (2 * std::numbers::pi) + 0.5;
+    sectors.set(static_cast<std::size_t>(turn * kSectors) % kSectors);
+  }
+  return sectors;
+}
+
+bool share_a_rim(const Rim& a, const Rim& b, double voxel) {
+  constexpr double height = 2, of_voxel = 1.6, of_radius = 0.1;
+  constexpr std::size_t all = 29, of_both = 2;  // sectors of 10 degrees
+  if (std::abs(a.top - b.top) > height * voxel) return false;
+  const Circle circle = fit_circle(a, b);
+  const double tolerance = std::min(of_voxel * voxel, of_radius * circle.radius);
+  const auto p = arc(circle, a, tolerance), q = arc(circle, b, tolerance);
+  return p && q && p->count() >= kFewestOfEach && q->count() >= kFewestOfEach &&
+         (*p & *q).count() <= of_both && (*p | *q).count() >= all;
+}
+
+}  // namespace
+
+void join_around_rims(const Points& centroids, double voxel, const Vec3& up, const Parts& parts,
+                      const std::function<void(std::uint32_t, std::uint32_t)>& join,
+                      const RunContext& context) {
+  constexpr double depth = 2.4;  // voxels
+  const Eigen::Vector3d normal(up[0], up[1], up[2]);
+  Eigen::Matrix3d upright;
+  upright.row(0) = normal.unitOrthogonal();
+  upright.row(1) = normal.cross(upright.row(0));
+  upright.row(2) = normal;
+  std::vector<std::vector<Eigen::Vector3d>> points(parts.count());
+  for (std::size_t v = 0; v < parts.of.size(); ++v)
+    if (parts.of[v] != Parts::kSmall)
+      points[parts.of[v]].emplace_back(upright * centroids.row(static_cast<Index>(v)).transpose());
+  std::vector<Rim> rims;
+  std::vector<PartBox<2>> boxes;
+  for (std::uint32_t p = 0; p < points.size(); ++p) {
+    rims.push_back(rim_of(points[p], depth * voxel));
+    if (rims[p].points.size() < kFewestOfEach) continue;  // in so many sectors there are none
+    boxes.push_back({p, {}});
+    for (const Eigen::Vector2d& point : rims[p].points) boxes.back().box.extend(point);
+  }
+  // An arc of so many sectors is longer than a third of the diameter: no rim is farther from it.
+  const auto reach = [](const PartBox<2>& b) { return 4 * b.box.diagonal().norm(); };
+  for_each_close_pair(boxes, reach, context, [&](std::uint32_t p, std::uint32_t q) {
+    if (share_a_rim(rims[p], rims[q], voxel)) join(p, q);
+  });
+}
+
+}  // namespace ph::segment

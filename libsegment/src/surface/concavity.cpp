@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "surface/concavity.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace ph::segment {
+namespace {
+
+/// The sum of some vectors and of their squares.
+struct Moments {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+  int count = 1;  // the voxel itself, from where the others are seen: zero
+
+  void add(double x, double y, double z) {
+    sum += Eigen::Vector3d(x, y, z);
+    xx += x * x;
+    xy += x * y;
+    xz += x * z;
+    yy += y * y;
+    yz += y * z;
+    zz += z * z;
+    ++count;
+  }
+  Eigen::Matrix3d scatter() const {
+    Eigen::Matrix3d squares;
+    squares << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+    return squares - sum * sum.transpose() / count;
+  }
+};
+
+/// Scatters of some voxels, next to each other so that the compiler can vectorise over them.
+constexpr std::size_t kLanes = 8;
+using Lanes = std::array<double, kLanes>;
+
+/// The smallest eigenvalues of positive semi-definite matrices of trace one, given by the sum of
+/// their principal minors and the determinant. On the left of its smallest root the characteristic
+/// polynomial is concave: Newton's method goes up to that root from zero and never beyond.
+Lanes smallest_eigenvalues(const Lanes& minors, const Lanes& determinants) {
+  constexpr int most_steps = 20;  // of a double root it takes many, and is then exact enough
+  constexpr double least_step = 1e-15;
+  Lanes x{};
+  std::array<std::int64_t, kLanes> goes_on;  // as wide as what it is about
+  goes_on.fill(1);
+  for (int step = 0; step < most_steps; ++step) {
+    std::int64_t any = 0;
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const double value = ((x[k] - 1) * x[k] + minors[k]) * x[k] - determinants[k];
+      const double slope = (3 * x[k] - 2) * x[k] + minors[k];
+      const double next = x[k] - value / slope;
+      goes_on[k] &=
+          static_cast<std::int64_t>((value < 0) & (slope > 0) & !(next - x[k] < least_step));
+      x[k] = goes_on[k] != 0 ? next : x[k];
+      any |= goes_on[k];
+    }
+    if (any == 0) break;
+  }
+  return x;
+}
+
+/// The sum of the principal minors of two rows.
+double principal_minors(const Eigen::Matrix3d& a) {
+  return a(0, 0) * a(1, 1) - a(0, 1) * a(0, 1) + a(0, 0) * a(2, 2) - a(0, 2) * a(0, 2) +
+         a(1, 1) * a(2, 2) - a(1, 2) * a(1, 2);
+}
+
+/// The direction in which vectors with this scatter spread least, unit length; any of these
+/// directions if they all lie on a line.
+/// @param a the scatter, of trace one. @param eigenvalue the smallest one.
+Eigen::Vector3d direction_of_least_spread(const Eigen::Matrix3d& a, double eigenvalue) {
+  const Eigen::Matrix3d rest = a - eigenvalue * Eigen::Matrix3d::Identity();
+  // Orthogonal to all rows: the longest of the products is the one with the least rounding.
+  Eigen::Vector3d best = rest.col(0).cross(rest.col(1));
+  for (const Eigen::Vector3d& other : {Eigen::Vector3d(rest.col(0).cross(rest.col(2))),
+                                       Eigen::Vector3d(rest.col(1).cross(rest.col(2)))})
+    if (other.squaredNorm() > best.squaredNorm()) best = other;
+  constexpr double parallel = 1e-20;
+  if (best.squaredNorm() > parallel) return best.normalized();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(a);
+  return solver.eigenvectors().col(0);
+}
+
+Eigen::Vector3d row(const Points& points, std::uint32_t i) { return points.row(i).transpose(); }
+
+}  // namespace
+
+Points surface_normals(const Points& centroids, std::span<const VoxelPair> pairs, double radius,
+                       const Vec3& viewpoint) {
+  std::vector<Moments> moments(static_cast<std::size_t>(centroids.rows()));
+  for_each_within(pairs, radius, [&](const VoxelPair& p) {
+    const Eigen::Vector3d d = row(centroids, p.v) - row(centroids, p.u);
+    moments[p.u].add(d.x(), d.y(), d.z());
+    moments[p.v].add(-d.x(), -d.y(), -d.z());
+  });
+  Points normals = Points::Constant(centroids.rows(), 3, std::numeric_limits<double>::quiet_NaN());
+  const Eigen::Vector3d eye(viewpoint[0], viewpoint[1], viewpoint[2]);
+  std::array<Eigen::Matrix3d, kLanes> scatters;
+  for (std::size_t first = 0; first < moments.size(); first += kLanes) {
+    const std::size_t count = std::min(kLanes, moments.size() - first);
+    Lanes minors{}, determinants{};
+    for (std::size_t k = 0; k < count; ++k) {
+      const Eigen::Matrix3d scatter = moments[first + k].scatter();
+      scatters[k] = scatter / scatter.trace();
+      minors[k] = principal_minors(scatters[k]);
+      determinants[k] = scatters[k].determinant();
+    }
+    const Lanes eigenvalues = smallest_eigenvalues(minors, determinants);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t v = first + k;
+      if (moments[v].count < 3) continue;
+      const Eigen::Vector3d n = direction_of_least_spread(scatters[k], eigenvalues[k]);
+      const auto at = static_cast<Index>(v);
+      const Eigen::Vector3d to_eye = eye - centroids.row(at).transpose();
+      normals.row(at) = (n.dot(to_eye) < 0 ? -n : n).transpose();
+    }
+  }
+  return normals;
+}
+
+double rise(const Points& centroids, const Points& normals, const VoxelPair& pair) {
+  return (row(normals, pair.u) - row(normals, pair.v))
+             .dot(row(centroids, pair.v) - row(centroids, pair.u)) /
+         pair.distance;
+}
+
+std::vector<double> concavity(const Points& centroids, const Points& normals,
+                              std::span<const VoxelPair> pairs) {
+  struct Mean {
+    double sum = 0;
+    int count = 0;
+    void add(double value) {
+      sum += value;
+      ++count;
+    }
+  };
+  std::vector<Mean> means(static_cast<std::size_t>(centroids.rows()));
+  for (const VoxelPair& p : pairs) {
+    const double value = rise(centroids, normals, p);
+    if (!std::isfinite(value)) continue;
+    means[p.u].add(value);
+    means[p.v].add(value);
+  }
+  std::vector<double> values(means.size());
+  for (std::size_t v = 0; v < means.size(); ++v)
+    if (means[v].count > 0) values[v] = std::max(0.0, means[v].sum / means[v].count);
+  return values;
+}
+
+std::vector<double> smoothed(const std::vector<double>& values, std::span<const VoxelPair> pairs,
+                             double radius) {
+  std::vector<double> sums = values;
+  std::vector<int> counts(values.size(), 1);
+  for_each_within(pairs, radius, [&](const VoxelPair& p) {
+    sums[p.u] += values[p.v];
+    sums[p.v] += values[p.u];
+    ++counts[p.u];
+    ++counts[p.v];
+  });
+  for (std::size_t v = 0; v < sums.size(); ++v) sums[v] /= counts[v];
+  return sums;
+}
+
+}  // namespace ph::segment

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "ph/metric.hpp"
+
+namespace ph::segment {
+
+/// Parts that are large enough, numbered in the order of their first voxels.
+struct Parts {
+  static constexpr std::uint32_t kSmall = UINT32_MAX;  ///< of what stays by itself
+
+  std::vector<std::uint32_t> of;       ///< by voxel: number of its part, or kSmall
+  std::vector<std::uint32_t> example;  ///< by part: its first voxel
+
+  std::size_t count() const { return example.size(); }
+};
+
+/// @param part_of each voxel: one of the voxels of its part.
+inline Parts number_parts(const std::vector<Index>& part_of, Index min_size) {
+  std::vector<Index> sizes(part_of.size());
+  for (const Index p : part_of) ++sizes[static_cast<std::size_t>(p)];
+  std::vector<std::uint32_t> number(part_of.size(), Parts::kSmall);
+  Parts parts;
+  for (std::uint32_t v = 0; v < part_of.size(); ++v) {
+    const auto p = static_cast<std::size_t>(part_of[v]);
+    if (sizes[p] >= min_size && number[p] == Parts::kSmall) {
+      number[p] = static_cast<std::uint32_t>(parts.count());
+      parts.example.push_back(v);
+    }
+    parts.of.push_back(number[p]);
+  }
+  return parts;
+}
+
+}  // namespace ph::segment

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "tree/cut.hpp"
+
+#include <algorithm>
+
+#include "voxels/components.hpp"
+#include "surface/meetings.hpp"
+#include "methods.hpp"
+#include "options.hpp"
+#include "metric/pairs_within.hpp"
+#include "voxels/rips_graph.hpp"
+
+namespace ph::segment {
+namespace {
+
+/// Where segments meet first. There may be many edges between them: none is kept.
+Contacts contacts_of(const SceneTree& scene, const Surface& surface, const CutOptions& options,
+                     const SceneCut& cut, const RunContext& context) {
+  Contacts contacts(&context.memory);
+  const auto are_apart = [&](std::size_t u, std::size_t v) {
+    const std::uint32_t a = cut.vertex_labels[u], b = cut.vertex_labels[v];
+    return a != b && a != 0 && b != 0;
+  };
+  const auto meet = [&](std::size_t u, std::size_t v, double value) {
+    const auto labels = std::minmax(cut.vertex_labels[u], cut.vertex_labels[v]);
+    const auto [known, is_new] = contacts.try_emplace(labels, value);
+    if (!is_new) known->second = std::min(known->second, value);
+  };
+  if (scene.method != Method::paper) {
+    for (const VoxelPair& p : surface.pairs)
+      if (are_apart(p.u, p.v) && are_adjacent(p, scene.voxel))
+        meet(p.u, p.v, std::max(scene.tree.births[p.u], scene.tree.births[p.v]));
+  } else if (options.value < scene.distance) {  // else all that have an edge are one
+    for_each_pair_within(
+        scene.vertices, scene.distance,
+        [&](Index i, Index j, double length) {
+          const auto u = static_cast<std::size_t>(i), v = static_cast<std::size_t>(j);
+          if (are_apart(u, v)) meet(u, v, filtration_value(length, scene.distance, scene.steps));
+        },
+        context);
+  }
+  return contacts;
+}
+
+}  // namespace
+
+SceneCut cut_scene(const SceneTree& scene, const VoxelGrid& grid, const Surface& surface,
+                   const CutOptions& options, const RunContext& context) {
+  std::vector<Index> component_of;
+  if (scene.method == Method::paper) {
+    // Section V.C: the sets joined to 0-simplices of infinite persistence. At the distance of the
+    // complex every merge is done.
+    component_of = scene.tree.components(options.value);
+  } else {
+    component_of = scene.tree.basins(options.value, options.min_part);
+    if (options.objects && scene.method == Method::surface) {
+      component_of =
+          join_parts(grid, surface, scene.voxel, component_of, options.min_size, context);
+    }
+  }
+  SceneCut result = extract_components(scene, component_of, options.min_size);
+  find_neighbours(scene.tree, contacts_of(scene, surface, options, result, context), result);
+  return result;
+}
+
+SceneCut cut(const SceneTree& scene, const CutOptions& options, const RunContext& context) {
+  validate(scene, options);
+  context.poll();
+  if (scene.method == Method::paper) return cut_scene(scene, {}, {}, options, context);
+  const VoxelGrid grid{scene.cells, scene.vertices, scene.counts, {}};
+  const Surface surface{scene.normals, near_voxels(grid, scene.voxel, context), scene.viewpoint,
+                        scene.plane};
+  return cut_scene(scene, grid, surface, options, context);
+}
+
+}  // namespace ph::segment

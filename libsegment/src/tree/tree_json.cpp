@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "tree/json_text.hpp"
+#include "options.hpp"
+#include "tree/tree_file.hpp"
+
+namespace ph::segment {
+namespace {
+
+using namespace json;
+
+std::string row(const Points& points, Index i) {
+  return numbers({points(i, 0), points(i, 1), points(i, 2)});
+}
+
+std::string vertices_of(const SceneTree& scene) {
+  return lines(scene.counts, [&, v = Index{0}](Index count) mutable {
+    const Index i = v++;
+    const bool has_normal = i < scene.normals.rows() && std::isfinite(scene.normals(i, 0));
+    return object({{"centroid", row(scene.vertices, i)},
+                   {"normal", has_normal ? row(scene.normals, i) : "null"},
+                   {"points", integer(count)},
+                   {"birth", number(scene.tree.births[static_cast<std::size_t>(i)])}});
+  });
+}
+
+std::string merges_of(const MergeTree& tree) {
+  return lines(tree.merges, [](const Merge& m) {
+    return object({{"value", number(m.value)},
+                   {"edge", fmt::format("[{}, {}]", m.u, m.v)},
+                   {"elder", integer(m.elder)},
+                   {"younger", integer(m.younger)},
+                   {"elder_size", integer(m.elder_size)},
+                   {"younger_size", integer(m.younger_size)},
+                   {"elder_birth", number(m.elder_birth)},
+                   {"younger_birth", number(m.younger_birth)}});
+  });
+}
+
+std::string vertex_of_point(const SceneTree& scene) {
+  std::string text;
+  for_each_point(scene, [&](std::optional<std::uint32_t> vertex) {
+    if (!text.empty()) text += ", ";
+    if (vertex)
+      fmt::format_to(std::back_inserter(text), "{}", *vertex);
+    else
+      text += "-1";
+  });
+  return "[" + text + "]";
+}
+
+std::string plane_of(const std::optional<Plane>& plane) {
+  if (!plane) return "null";
+  return object({{"normal", numbers(plane->normal)},
+                 {"offset", number(plane->offset)},
+                 {"share", number(plane->share)}});
+}
+
+}  // namespace
+
+std::string tree_json(const SceneTree& scene) {
+  validate(scene);
+  const bool paper = scene.method == Method::paper;
+  return document({{"format", json_string("ph-segment-tree")},
+                   {"version", "1"},
+                   {"method", method(scene.method)},
+                   {"width", integer(scene.width)},
+                   {"height", integer(scene.height)},
+                   {"voxel", number(scene.voxel)},
+                   {"distance", paper ? number(scene.distance) : "null"},
+                   {"steps", !paper             ? "null"
+                             : scene.steps == 0 ? json_string("exact")
+                                                : integer(scene.steps)},
+                   {"viewpoint", numbers(scene.viewpoint)},
+                   {"plane", plane_of(scene.plane)},
+                   {"cut", cut(scene.first_cut)},
+                   {"edges", integer(scene.edges)},
+                   {"vertices", vertices_of(scene)},
+                   {"merges", merges_of(scene.tree)},
+                   {"vertex_of_point", vertex_of_point(scene)}});
+}
+
+}  // namespace ph::segment

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "voxels/cross_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "ph/detail/twist.hpp"
+
+namespace ph::segment {
+namespace {
+
+std::string in_words(const Barcode& barcode, std::size_t i) {
+  const Bar& bar = barcode[i];
+  const Index vertex = barcode.birth_cell(i).numbers[0];
+  const std::optional<InputCell> edge = barcode.death_cell(i);
+  if (!edge) return fmt::format("[{}, inf) of vertex {}", bar.birth, vertex);
+  return fmt::format("[{}, {}) of vertex {} and edge {}-{}", bar.birth, bar.death, vertex,
+                     edge->numbers[0], edge->numbers[1]);
+}
+
+bool same_cells(const std::optional<InputCell>& a, const std::optional<InputCell>& b) {
+  if (!a || !b) return !a && !b;
+  return std::ranges::equal(a->numbers, b->numbers);
+}
+
+}  // namespace
+
+Barcode barcode_of(const MergeTree& tree) {
+  Barcode barcode(CellKind::vertices);
+  for (const auto& [birth, death, vertex, merge] : tree.classes()) {
+    std::array<Index, 2> edge{};
+    if (merge >= 0) {
+      const Merge& m = tree.merges[static_cast<std::size_t>(merge)];
+      edge = {std::min(m.u, m.v), std::max(m.u, m.v)};
+    }
+    barcode.add({0, birth, death}, {&vertex, 1},
+                std::span<const Index>(edge).first(merge < 0 ? 0 : 2));
+  }
+  return barcode;
+}
+
+std::string cross_check(const FilteredGraph& graph, const Barcode& barcode,
+                        const RunContext& context) {
+  BarcodeBuilder<FilteredGraph> bars(graph, 0, -1);  // zero-length bars, too
+  TwistEngine::run(graph, Z2{}, bars, context);
+  const Barcode other = bars.finish();
+  if (barcode.size() != other.size()) {
+    return fmt::format("{} bars by union-find, {} by boundary-matrix reduction", barcode.size(),
+                       other.size());
+  }
+  for (std::size_t i = 0; i < barcode.size(); ++i) {
+    if (barcode[i] == other[i] && same_cells(barcode.birth_cell(i), other.birth_cell(i)) &&
+        same_cells(barcode.death_cell(i), other.death_cell(i))) {
+      continue;
+    }
+    return fmt::format("{} by union-find, {} by boundary-matrix reduction", in_words(barcode, i),
+                       in_words(other, i));
+  }
+  return {};
+}
+
+}  // namespace ph::segment

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <string>
+
+#include "ph/filtered_graph.hpp"
+#include "ph/barcode.hpp"
+#include "ph/merge_tree.hpp"
+
+namespace ph::segment {
+
+/// The barcode of H0 that a merge tree stands for: a bar a vertex, zero-length bars included.
+Barcode barcode_of(const MergeTree& tree);
+
+/// Computes H0 of the filtration a second time, by reduction of its boundary matrix, and compares:
+/// every bar with the vertex that gave birth to it and the edge that killed it; hence the
+/// components, too, for the killing edges are a spanning forest.
+/// @param barcode what union-find found. @return the first difference in words; empty if none.
+std::string cross_check(const FilteredGraph& graph, const Barcode& barcode,
+                        const RunContext& context = default_context());
+
+}  // namespace ph::segment

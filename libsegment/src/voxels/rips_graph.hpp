@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "ph/filtered_graph.hpp"
+#include "ph/metric.hpp"
+
+namespace ph::segment {
+
+/// The 1-skeleton of the Vietoris-Rips filtration of points in space: all that H0 needs (Section
+/// V.A of the paper). Vertices enter at 0, edges at their length. The same filtration as ph::Rips,
+/// without what higher dimensions would need.
+/// @param points one point of R^3 a row, finite. @param distance longest edge, >= 0, inclusive.
+/// @param steps levels up to `distance` to which lengths are rounded up; 0: exact lengths.
+/// O(points log points + edges) for voxels not much smaller than `distance`.
+/// @throws Error (resource) beyond 2^32 - 2 cells or the memory limit.
+FilteredGraph rips_graph(const Points& points, double distance, int steps,
+                         const RunContext& context = default_context());
+
+/// A value of the filtration: the smallest of the levels 0, distance/steps, 2*distance/steps, …,
+/// distance that is not below `length`; `length` itself if `steps` is 0.
+/// @param length from 0 to `distance`.
+double filtration_value(double length, double distance, int steps);
+
+}  // namespace ph::segment

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "voxels/voxel_pairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace ph::segment {
+namespace {
+
+/// Voxels that differ in x alone, one after the other in the grid.
+struct Row {
+  double y, z;  // in voxels
+  std::uint32_t begin, end;
+};
+
+std::vector<Row> rows_of(const VoxelGrid& grid) {
+  std::vector<Row> rows;
+  for (std::uint32_t v = 0; v < grid.cells.size(); ++v) {
+    const auto& [x, y, z] = grid.cells[v];
+    if (rows.empty() || rows.back().y != y || rows.back().z != z) rows.push_back({y, z, v, v});
+    rows.back().end = v + 1;
+  }
+  return rows;
+}
+
+/// How far a row lies from the one that looks for pairs: before it, or itself. Rows look in the
+/// order of the grid and meet those at one offset in that order: none is looked for again.
+struct Offset {
+  double y, z;
+  double reach;          // how far along x a voxel of the other row can be near
+  std::size_t next = 0;  // row
+};
+
+std::vector<Offset> offsets_within(double radius) {
+  const double most = std::ceil(radius);
+  // Centroids of voxels k rows apart may be as near as k - 1.
+  const auto square_of_gap = [&](double k) { return std::pow(std::max(0.0, std::abs(k) - 1), 2); };
+  std::vector<Offset> offsets;
+  for (double z = -most; z <= 0; ++z) {
+    for (double y = -most; y <= (z < 0 ? most : 0); ++y) {
+      double reach = most;
+      while (reach >= 0 &&
+             square_of_gap(reach) + square_of_gap(y) + square_of_gap(z) >= radius * radius)
+        --reach;
+      if (reach >= 0) offsets.push_back({y, z, reach});
+    }
+  }
+  return offsets;
+}
+
+bool comes_before(const Row& row, double y, double z) { return row.z != z ? row.z < z : row.y < y; }
+
+/// What the search reads of a voxel, without what lies between in the grid.
+struct Place {
+  double x, y, z;  // centroid
+  double cell;     // along x
+};
+
+std::vector<Place> places_of(const VoxelGrid& grid) {
+  std::vector<Place> places;
+  places.reserve(grid.cells.size());
+  for (Index v = 0; v < grid.centroids.rows(); ++v)
+    places.push_back({grid.centroids(v, 0), grid.centroids(v, 1), grid.centroids(v, 2),
+                      grid.cells[static_cast<std::size_t>(v)][0]});
+  return places;
+}
+
+/// Pairs of a voxel of `row` and one of `other`, which is not behind it, written to `to`.
+/// Precondition: there is room for all that are within reach, and one more. @return their end.
+VoxelPair* write_pairs(const std::vector<Place>& places, const Row& row, const Row& other,
+                       double reach, double square_of_radius, VoxelPair* to) {
+  std::uint32_t first = other.begin;
+  for (std::uint32_t v = row.begin; v < row.end; ++v) {
+    const Place p = places[v];
+    while (first < other.end && places[first].cell < p.cell - reach) ++first;
+    if (first == other.end) break;
+    const std::uint32_t end = std::min(other.end, v);
+    for (std::uint32_t u = first; u < end && places[u].cell <= p.cell + reach; ++u) {
+      const Place& q = places[u];
+      const double x = p.x - q.x, y = p.y - q.y, z = p.z - q.z;
+      const double square = x * x + y * y + z * z;
+      // Written first: whether it is near is anyone's guess.
+      *to = {u, v, std::sqrt(static_cast<float>(square))};
+      to += square < square_of_radius ? 1 : 0;
+    }
+  }
+  return to;
+}
+
+}  // namespace
+
+VoxelPairs close_voxels(const VoxelGrid& grid, double voxel, double reach,
+                        std::pmr::memory_resource* memory) {
+  // Beyond, the row behind another one may be the same number: the search would not come to an end.
+  require_exact_cells(grid, voxel);
+  const std::vector<Row> rows = rows_of(grid);
+  const std::vector<Place> places = places_of(grid);
+  std::vector<Offset> offsets = offsets_within(reach);
+  const double square_of_radius = std::pow(reach * voxel, 2);
+  VoxelPairs pairs(memory);
+  // Those of a surface that bends, half of the disk around each voxel and a third more: growing
+  // would copy them all, and touch three times the memory.
+  const double disk = 4.0 / 3 * std::numbers::pi * reach * reach;
+  pairs.reserve(static_cast<std::size_t>(disk / 2 * static_cast<double>(grid.cells.size())));
+  const auto most_of_voxel = static_cast<std::size_t>(2 * std::ceil(reach) + 1);
+  for (const Row& row : rows) {
+    for (Offset& offset : offsets) {
+      const double y = row.y + offset.y, z = row.z + offset.z;
+      while (offset.next < rows.size() && comes_before(rows[offset.next], y, z)) ++offset.next;
+      if (offset.next == rows.size()) continue;
+      const Row& other = rows[offset.next];
+      if (other.y != y || other.z != z) continue;
+      const std::size_t size = pairs.size();
+      pairs.resize(size + most_of_voxel * (row.end - row.begin) + 1);
+      const VoxelPair* const end =
+          write_pairs(places, row, other, offset.reach, square_of_radius, pairs.data() + size);
+      pairs.resize(static_cast<std::size_t>(end - pairs.data()));
+    }
+  }
+  return pairs;
+}
+
+}  // namespace ph::segment

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "ph/detail/raw_vector.hpp"
+#include "voxels/voxel_grid.hpp"
+
+namespace ph::segment {
+
+/// Two voxels near each other.
+struct VoxelPair {
+  std::uint32_t u, v;  ///< u < v
+  float distance;      ///< of their centroids, metres
+};
+
+using VoxelPairs = RawVector<VoxelPair>;
+
+/// All pairs of voxels whose centroids are closer than a number of voxels, in an order that depends
+/// on the voxels alone. O(rows * reach^2 + pairs): no tree, no hash.
+/// @param voxel edge of a voxel of the grid, metres. @param reach in voxels, > 0; small, for it is
+/// counted through. @throws Error (usage) as require_exact_cells.
+VoxelPairs close_voxels(const VoxelGrid& grid, double voxel, double reach,
+                        std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+
+/// Calls `use` for the pairs with distance < `radius`, in their order. They are picked some at a
+/// time: whether a pair is as near is anyone's guess, and a branch for each would be the wrong one
+/// every third time.
+template <class Use>
+void for_each_within(std::span<const VoxelPair> pairs, double radius, Use&& use) {
+  constexpr std::size_t some = 256;
+  std::array<VoxelPair, some> near;
+  for (; !pairs.empty(); pairs = pairs.subspan(std::min(some, pairs.size()))) {
+    std::size_t count = 0;
+    for (const VoxelPair& p : pairs.first(std::min(some, pairs.size()))) {
+      near[count] = p;
+      count += p.distance < radius ? 1 : 0;
+    }
+    for (const VoxelPair& p : std::span(near).first(count)) use(p);
+  }
+}
+
+}  // namespace ph::segment
