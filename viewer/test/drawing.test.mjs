@@ -259,3 +259,46 @@ test("a dimension with few bars has high rows beside one with many", async () =>
   // Where there is room for all of them they are equally high.
   assert.deepEqual(layOut([2, 10], [2, 10], 270), { rows: [2, 10], heights: [14, 14], row: 14 });
 });
+
+const { isWholeMesh, kBirthColour, kDeathColour, shapesOf } =
+  await importSource("representatives.ts");
+const { dimColour, greyOf, ramp, segmentColour } = await importSource("palette.ts");
+
+test("no colour of values, segments or dimensions is that of a birth cell", () => {
+  const rgbOf = (colour) => [1, 3, 5].map((i) => parseInt(colour.slice(i, i + 2), 16));
+  const others = [rgbOf(kDeathColour)];
+  for (let k = 0; k <= 100; ++k) others.push(ramp(k / 100), greyOf(k / 100));
+  for (let k = 0; k < 7; ++k) others.push(segmentColour(k));
+  for (let dim = 0; dim < 6; ++dim)
+    for (const dark of [false, true]) others.push(rgbOf(dimColour(dim, { dark })));
+  const mark = rgbOf(kBirthColour);
+  for (const other of others)
+    assert.ok(Math.hypot(...other.map((c, k) => c - mark[k])) > 100, `${other}`);
+});
+
+test("a death cell is an outline, a chain that is the whole mesh is not drawn", () => {
+  const positions = Float32Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1);
+  const faces = [0, 1, 2, 0, 1, 3, 0, 2, 3, 1, 2, 3];
+  const columns = {
+    dim: Uint8Array.of(1, 2),
+    birth: Float64Array.of(0, 2),
+    death: Float64Array.of(1, Infinity),
+    birthCells: Uint32Array.of(0, 1, 1, 2, 3),
+    deathCells: Uint32Array.of(0, 1, 2),
+  };
+  const report = {
+    bars: new Bars([columns], [{ name: "", cells: "vertices" }], 0),
+    cloud: { positions },
+    elements: { count: 4 },
+    triangles: { corners: faces, values: [0, 1, 1, 2] },
+    chains: { ofBar: new Map([[1, 0]]), start: [0, 4], cells: faces, first: [0, 12] },
+  };
+  const shapes = (bar) => shapesOf({ report, theme: {}, focus: { bar }, selection: [] });
+  const death = shapes(0).find((shape) => shape.colour === kDeathColour).geometry;
+  assert.deepEqual([death.triangles.length, death.segments.length], [0, 18]);
+  assert.ok(isWholeMesh(report, 1));
+  const triangles = (shape) => shape.surface && shape.geometry.triangles.length;
+  assert.ok(!shapes(1).some(triangles));
+  report.chains.start = [0, 3]; // three of its four faces
+  assert.ok(shapes(1).some(triangles));
+});
