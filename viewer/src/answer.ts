@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What stands out among the bars, and the sentence above the views that says so. docs/report.md has
 // the criterion in words.
-import { kLeastShare, kMostAbove } from "./gaps";
+import { kLeastShare, kMostAbove, suggestedCut } from "./gaps";
 import { counted, homology, short } from "./numbers";
 import { capital, holes, intervalText, inWords, kindOfSegment, listed, shownValue, times } from "./words";
 import type { Bars } from "./bars";
@@ -12,7 +12,7 @@ export interface Answer {
   dim: number; // of the bars that stand out, or of the longest one; -1: there is none
   bars: number[]; // that stand out, the most persistent first: selected at first
   sentence: string;
-  components: boolean; // several components stand out: the merge tree says something
+  components: boolean; // something is said of them: the cut and the merge tree show it
 }
 
 /// How far the longest bars of a dimension are from the others.
@@ -22,7 +22,8 @@ export interface Gap {
 }
 
 const kLeastRatio = 2, // of a gap that makes bars stand out
-  kLeastAlone = 1 / 3, // of the longest bar of H1 and higher: what bars need with none below them
+  kWideAmongFew = 4, // of a gap that parts bars where there are so few that all may stand out
+  kLeastAlone = 1 / 3, // of the longest bar of H1 and higher: what bars with none below them reach
   kHardly = 1.05,
   kMostKnown = 4 * kMostAbove, // bars of a dimension
   kMostSelected = 1000,
@@ -30,15 +31,17 @@ const kLeastRatio = 2, // of a gap that makes bars stand out
 
 /// The widest gap, as a ratio, between neighbours of finite lengths > 0 that descend. Lengths below
 /// a tenth of the first and all after the 64th are not at the upper end of it.
-/// @param alike as many lengths are a gap by themselves, if there is none and nothing is below them.
+/// @param alike as many lengths are a gap by themselves, if nothing is below them and no gap among
+/// them is much wider than chance makes it.
 /// @param least so many of them are no lower end of a gap.
 export function widestGap(lengths: ArrayLike<number>, alike = kFew, least = 1): Gap {
   const gap: Gap = { count: 0, ratio: 1 };
+  const apart = lengths.length <= alike ? kWideAmongFew : kLeastRatio;
   for (let n = Math.max(1, least); n <= Math.min(lengths.length, kMostAbove); ++n) {
     if (lengths[n - 1]! < kLeastShare * lengths[0]!) break;
     const next = lengths[n];
     const ratio = next === undefined ? (n <= alike ? Infinity : 0) : lengths[n - 1]! / next;
-    const isEnd = next === undefined && gap.ratio >= kLeastRatio;
+    const isEnd = next === undefined && gap.ratio >= apart;
     if (ratio > gap.ratio && !isEnd) [gap.count, gap.ratio] = [n, ratio];
   }
   return gap;
@@ -48,6 +51,7 @@ export function widestGap(lengths: ArrayLike<number>, alike = kFew, least = 1): 
 interface Lengths {
   dim: number;
   endless: number[]; // bars of infinite length
+  reach: number; // the longest of all, endless ones up to where the values end
   isEndless: boolean; // one of them never ends: others have no beginning
   finite: number[]; // bars, the longest first
   lengths: number[]; // of them; of a bar that is alive at the threshold what is known of it
@@ -56,7 +60,15 @@ interface Lengths {
 
 /// @param threshold where the complex was cut: bars alive there are at least that long.
 function lengthsOf(bars: Bars, dim: number, threshold: number | undefined): Lengths {
-  const result: Lengths = { dim, endless: [], isEndless: false, finite: [], lengths: [], alive: 0 };
+  const result: Lengths = {
+    dim,
+    endless: [],
+    reach: 0,
+    isEndless: false,
+    finite: [],
+    lengths: [],
+    alive: 0,
+  };
   const cut = dim > 0 ? threshold : undefined;
   const known: [bar: number, length: number][] = [],
     alive: typeof known = [];
@@ -77,6 +89,10 @@ function lengthsOf(bars: Bars, dim: number, threshold: number | undefined): Leng
   known.unshift(...longer.sort((a, b) => b[1] - a[1]));
   result.finite = known.map(([bar]) => bar);
   result.lengths = known.map(([, length]) => length);
+  const seen = result.endless
+    .map((bar) => bars.high - bars.birth[bar]!)
+    .filter((length) => length < Infinity);
+  result.reach = seen.reduce((a, b) => Math.max(a, b), result.lengths[0] ?? 0);
   return result;
 }
 
@@ -87,13 +103,14 @@ function outstanding(found: Lengths, scale: number, range: number): { bars: numb
   const gap = widestGap(found.lengths, found.dim === 0 ? 1 : kFew, found.alive);
   const shortest = found.lengths[gap.count - 1] ?? 0;
   const few = found.finite.length <= kFew && shortest < kLeastShare * range;
-  const share = gap.ratio === Infinity ? kLeastAlone : kLeastShare;
-  const stands = gap.ratio >= kLeastRatio && shortest >= share * scale && !few;
+  const alone = gap.ratio === Infinity && found.lengths[0]! < kLeastAlone * scale;
+  const isLong = shortest >= kLeastShare * scale && !few && !alone;
+  const stands = gap.ratio >= kLeastRatio && isLong;
   const above = stands ? found.finite.slice(0, gap.count) : [];
   // One component is always there: it is none that stands out among others.
-  const alone =
+  const only =
     found.dim === 0 && found.endless.length === 1 && found.isEndless && above.length === 0;
-  return { bars: alone ? [] : [...found.endless, ...above], gap };
+  return { bars: only ? [] : [...found.endless, ...above], gap };
 }
 
 export function answerOf(report: Report): Answer {
@@ -103,12 +120,14 @@ export function answerOf(report: Report): Answer {
   const threshold = meta.provenance.threshold ?? undefined;
   const dims = [...bars.dims].reverse();
   const found = dims.map((dim) => lengthsOf(bars, dim, threshold));
-  const scale = Math.max(0, ...found.filter((f) => f.dim > 0).map((f) => f.lengths[0] ?? 0));
+  const scale = Math.max(0, ...found.filter((f) => f.dim > 0).map((f) => f.reach));
   const range = bars.high - bars.low;
   const out = found.map((f) => ({ found: f, ...outstanding(f, f.dim > 0 ? scale : 0, range) }));
-  const first = out.find((o) => o.bars.length > 0);
-  if (!first) return plain(dims[0] ?? -1, nothing(found, report));
-  const others = out.filter((o) => o !== first && o.bars.length > 0);
+  const some = out.filter((o) => o.bars.length > 0);
+  // Whatever the values are, a closed surface has a void that never ends: others say more.
+  const first = some.find((o) => !isWhole(o.found, o.bars)) ?? some[0];
+  if (!first) return nothingOf(dims[0] ?? -1, found, report);
+  const others = some.filter((o) => o !== first);
   const names = others.map(
     (o) => `${inWords(o.bars.length).toLowerCase()} ${holes(o.found.dim, o.bars.length)}`,
   );
@@ -121,6 +140,11 @@ export function answerOf(report: Report): Answer {
     components: out.some((o) => o.found.dim === 0 && o.bars.length > 0),
     sentence: `${sentenceOf(first.found, first.bars, first.gap, report)}.${also}`,
   };
+}
+
+/// Whether a dimension has just one bar, which never ends: that of the whole space.
+function isWhole({ dim, isEndless, finite }: Lengths, out: number[]): boolean {
+  return dim > 1 && isEndless && out.length === 1 && finite.length === 0;
 }
 
 function sentenceOf(found: Lengths, out: number[], gap: Gap, { meta, bars }: Report): string {
@@ -154,15 +178,35 @@ function fate(found: Lengths, many: number, meta: Meta, all: boolean): string {
   return `are apart ${meta.value.negated ? "down" : "up"} to ${short(shownValue(meta, threshold))}`;
 }
 
-/// "No loop stands out: the longest is 1.1 times as long as the next."
-function nothing(found: Lengths[], { bars, image }: Report): string {
+/// Nothing is selected. Where the components are spoken of, the page still suggests a cut.
+function nothingOf(dim: number, found: Lengths[], report: Report): Answer {
+  const sentence = nothing(found, report);
+  const gap = toldOf(found, report).some((f) => f.dim === 0) ? gapOfCuts(report) : "";
+  if (!gap) return plain(dim, sentence);
+  return { ...plain(dim, sentence.replace(/\.$/, `; ${gap}.`)), components: true };
+}
+
+/// "the widest gap leaves 24 basins": what the cut panel says; nothing if it leaves all in one.
+function gapOfCuts({ tree, meta }: Report): string {
+  const at = tree && suggestedCut(tree, meta.tree?.from ?? 0, meta.tree?.to ?? Infinity);
+  const left = at === undefined ? 0 : tree!.cut(at, false).segments.length;
+  return left > 1 ? `the widest gap leaves ${counted(left, kindOfSegment(meta))}` : "";
+}
+
+/// The dimensions of which is said why none stands out.
+function toldOf(found: Lengths[], { image }: Report): Lengths[] {
   const some = found.filter((f) => f.finite.length > 0 || f.endless.length > 0);
-  if (bars.size === 0) return "There are no bars.";
-  if (some.length === 0) return "No bar stands out: all have length 0.";
   // Components of points say little where there are holes to speak of.
-  const told = (
-    !image && some.some((f) => f.dim > 0) ? some.filter((f) => f.dim > 0) : some
-  ).slice(0, 3);
+  const isImage = image || some.every((f) => f.dim === 0);
+  return (isImage ? some : some.filter((f) => f.dim > 0)).slice(0, 3);
+}
+
+/// "No loop stands out: the longest is 1.1 times as long as the next."
+function nothing(found: Lengths[], report: Report): string {
+  const { bars } = report;
+  const told = toldOf(found, report);
+  if (bars.size === 0) return "There are no bars.";
+  if (told.length === 0) return "No bar stands out: all have length 0.";
   if (told.length === 1) {
     const f = told[0]!;
     if (f.dim === 0 && f.finite.length === 0) return "All is one component: there is no other bar.";
@@ -176,7 +220,9 @@ function nothing(found: Lengths[], { bars, image }: Report): string {
     "or",
   );
   const alike = told.every((f) => f.alive === 0 && f.lengths[0]! / f.lengths[1]! < kHardly);
-  if (alike) return `No ${names} stands out: of each the longest is hardly longer than the next.`;
+  const where = told.length === 2 ? "both" : "all";
+  if (alike)
+    return `No ${names} stands out: in ${where}, the longest bar is hardly longer than the next.`;
   return `No ${names} stands out: ${listed(each)}.`;
 }
 
@@ -242,6 +288,7 @@ function comparisonOf({ meta, bars, matching }: Report): Answer {
       most.dim,
       `In ${name} different numbers of bars never end: the bottleneck distance is infinite.${rest}`,
     );
-  const sentence = `The barcodes differ most in ${name}: ends of bars have to move by ${short(most.value)}, the bottleneck distance.${rest}`;
+  const distance = `the bottleneck distance is ${short(most.value)}`;
+  const sentence = `The barcodes differ most in ${name}: ${distance}.${rest}`;
   return { ...plain(most.dim, sentence), bars: matching?.widest(bars, most.dim) ?? [] };
 }

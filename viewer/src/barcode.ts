@@ -4,6 +4,17 @@
 // of them live.
 import { Axis } from "./axis";
 import { BarChart } from "./bar_chart";
+import {
+  asManyAsFit,
+  closeTogether,
+  drawChosen,
+  drawLine,
+  kNumber,
+  reachOf,
+  thicknessOf,
+  type Item,
+} from "./bar_line";
+import { kStrip, layOut, rowsIn, withRows } from "./barcode_rows";
 import { clipped, grouped, homology } from "./numbers";
 import { dimColour } from "./palette";
 import type { Pen } from "./pen";
@@ -12,22 +23,14 @@ import type { Change, Session } from "./session";
 
 const kLeft = 34,
   kRight = 32,
+  kRightOfNumbers = 46,
   kTop = 8,
   kBottom = 38,
   kGap = 10,
-  kStrip = 12,
-  kLeastRow = 2.5,
   kRowsOfNoNote = 12,
-  kMostRow = 14,
+  kDigit = 5.5,
   kMostRedrawn = 50_000; // bars; more are not drawn anew at each cut
 
-interface Item {
-  bar: number;
-  x1: number;
-  x2: number;
-  y: number; // upper end of its row
-  row: number; // height
-}
 interface Band {
   dim: number;
   barcode: number;
@@ -40,9 +43,11 @@ export class Barcode extends BarChart {
   private items: Item[] = [];
   private rowsFor: Map<number, string> | undefined; // bars that had to have a row
   private axes: Axis[] = [];
+  private readonly right: number; // room for arrows, and for numbers if bars may have some
 
   constructor(session: Session) {
     super(session, "barcode", "Barcode", "");
+    this.right = session.report.tree ? kRightOfNumbers : kRight;
     this.over.addEventListener("pointermove", (event) =>
       this.session.setFocus({ bar: this.barAt(event) }),
     );
@@ -83,7 +88,7 @@ export class Barcode extends BarChart {
     });
     const label = clipped(meta.value.label.toLowerCase(), 40);
     pen.text(
-      (kLeft + size.width - kRight) / 2,
+      (kLeft + size.width - this.right) / 2,
       size.height - 7,
       unit ? `${label} (${unit})` : label,
       small,
@@ -102,48 +107,43 @@ export class Barcode extends BarChart {
     const isQuick = bars.size <= kMostRedrawn;
     if (isQuick && this.rowsFor !== this.session.tintedBars()) return this.refresh();
     this.drawTinted(pen);
-    for (const item of this.items) {
-      const focused = item.bar === focus.bar;
-      if (!focused && !this.session.isSelected(item.bar)) continue;
-      const colour = focused ? theme.ink : theme.accent;
-      const thick = Math.max(5, 0.75 * item.row),
-        y = item.y + item.row / 2;
-      pen.rect(item.x1 - 1.5, y - thick / 2 - 1.5, item.x2 - item.x1 + 3, thick + 3, colour);
-      pen.rect(
-        item.x1,
-        y - thick / 2,
-        Math.max(1, item.x2 - item.x1),
-        thick,
-        this.session.colourOfBar(item.bar),
-      );
-    }
+    for (const item of this.items)
+      if (item.bar === focus.bar || this.session.isSelected(item.bar)) {
+        const outline = item.bar === focus.bar ? theme.ink : theme.accent;
+        drawChosen(pen, item, this.session.colourOfBar(item.bar), outline);
+      }
+    this.drawNumbers(pen);
   }
   private drawTinted(pen: Pen): void {
     const tints = this.session.tintedBars();
-    if (tints.size === 0) return;
+    for (const item of this.items) {
+      const colour = tints.get(item.bar);
+      if (colour) drawLine(pen, item, Math.max(1.5, thicknessOf(item.row)), colour);
+    }
+  }
+  /// After all bars, none of which may lie on them. Neighbours whose rows are lower than a number
+  /// have one text, at the end of the longest of them.
+  private drawNumbers(pen: Pen): void {
     const numbers = this.session.numbers();
-    let free = -Infinity; // where the next number has room
-    for (const { bar, x1, x2, y, row } of this.items) {
-      const colour = tints.get(bar);
-      if (!colour) continue;
-      const thick = row > 5 ? 0.62 * row : Math.max(1.5, row);
-      pen.rect(x1, y + (row - thick) / 2, Math.max(1, x2 - x1), thick, colour);
-      const number = numbers.get(bar);
-      if (number === undefined || y + row / 2 < free) continue;
-      pen.text(x2 + (this.session.report.bars.isInfinite(bar) ? 4 : 3), y + row / 2 + 3.5, String(number), {
+    const numbered = this.items.filter((item) => numbers.has(item.bar));
+    for (const group of closeTogether(numbered)) {
+      const x = 3 + Math.max(...group.map((item) => item.x2 + reachOf(item)));
+      const y = group[0]!.y + group[0]!.row / 2; // the next group is far enough from it
+      const own = group.map((item) => numbers.get(item.bar)!);
+      pen.text(x, y + 3.5, asManyAsFit(own, (this.size.width - x) / kDigit), {
         colour: this.session.theme.muted,
-        size: 9.5,
+        size: kNumber,
+        halo: this.session.theme.panel,
       });
-      free = y + row / 2 + 9.5;
     }
   }
 
   private makeAxes(size: Size): Axis[] {
     const { bars, meta } = this.session.report;
     const n = meta.barcodes.length;
-    const width = (size.width - kLeft - kRight * n) / n;
+    const width = (size.width - kLeft - this.right * n) / n;
     return meta.barcodes.map((_, i) => {
-      const from = kLeft + i * (width + kRight);
+      const from = kLeft + i * (width + this.right);
       return new Axis(bars.low, bars.high, from, from + width, meta.value.negated);
     });
   }
@@ -156,26 +156,18 @@ export class Barcode extends BarChart {
     const dims = this.session.dimsInOrder().filter((dim) => !this.session.hiddenDims.has(dim));
     if (dims.length === 0) return;
     const room = bottom - top - kGap * dims.length;
-    // Components that say nothing leave the room to the others.
-    const few = this.session.answer.dim !== 0 && this.session.tintedBars().size === 0;
+    // Components that say nothing leave the room to the others; those with colours say something.
+    const few = this.session.answer.dim !== 0;
+    const tinted = 2 * this.session.tintedBars().size;
     const counts = dims.map((dim) => Math.max(...meta.barcodes.map((_, i) => bars.count(dim, i))));
     const others = counts.reduce((sum, n, i) => sum + (dims[i] === 0 ? 0 : n), 0);
-    const rest = Math.max(kRowsOfNoNote, Math.floor(room / kMostRow) - others);
+    const rest = Math.max(tinted, kRowsOfNoNote, rowsIn(room) - others);
     const wishes = counts.map((n, i) => (few && dims[i] === 0 ? Math.min(n, rest) : n));
-    const rows = shared(wishes, Math.floor((room - kStrip * dims.length) / kLeastRow));
-    const needsStrip = counts.map((count, i) => count > rows[i]!);
-    const strips = needsStrip.filter(Boolean).length * kStrip;
-    const row = Math.min(
-      kMostRow,
-      (room - strips) /
-        Math.max(
-          1,
-          rows.reduce((a, b) => a + b, 0),
-        ),
-    );
+    const { rows, heights } = layOut(counts, wishes, room);
     let y = top + kGap / 2;
     dims.forEach((dim, i) => {
-      const height = rows[i]! * row + (needsStrip[i] ? kStrip : 0);
+      const row = heights[i]!;
+      const height = rows[i]! * row + (counts[i]! > rows[i]! ? kStrip : 0);
       pen.text(kLeft - 8, y + Math.min(height / 2 + 4, height), homology(dim), {
         colour: dimColour(dim, theme),
         size: 12,
@@ -213,18 +205,13 @@ export class Barcode extends BarChart {
     const { bars } = this.session.report;
     const axis = this.axes[band.barcode]!,
       colour = this.session.colourOfDim(band.dim);
-    const thick = row > 5 ? 0.62 * row : row > 3.2 ? row - 1.2 : row - 0.6;
     for (const bar of band.bars) {
       const x1 = bars.birth[bar] === -Infinity ? axis.from - 6 : axis.at(bars.birth[bar]!);
-      const infinite = bars.isInfinite(bar),
-        x2 = infinite ? axis.to + 6 : axis.at(bars.death[bar]!);
-      pen.rect(x1, y + (row - thick) / 2, Math.max(1, x2 - x1), thick, colour);
-      if (infinite) {
-        const r = Math.min(5, Math.max(2.5, row / 2)),
-          middle = y + row / 2;
-        pen.polygon([x2, middle - r, x2 + 1.6 * r, middle, x2, middle + r], colour);
-      }
-      this.items.push({ bar, x1, x2: x2 + (infinite ? 6 : 0), y, row });
+      const endless = bars.isInfinite(bar),
+        x2 = endless ? axis.to + 6 : axis.at(bars.death[bar]!);
+      const item = { bar, x1, x2, y, row, endless };
+      drawLine(pen, item, thicknessOf(row), colour);
+      this.items.push(item);
       y += row;
     }
     if (band.rest.length > 0) this.drawStrip(pen, band, axis, y);
@@ -265,42 +252,10 @@ export class Barcode extends BarChart {
     let best = -1,
       nearest = 5;
     for (const item of this.items) {
-      if (x < item.x1 - 4 || x > item.x2 + 8) continue;
+      if (x < item.x1 - 4 || x > item.x2 + reachOf(item) + 8) continue;
       const distance = Math.abs(y - item.y - item.row / 2);
       if (distance < nearest) [best, nearest] = [item.bar, distance];
     }
     return best;
   }
-}
-
-/// Bars with a row, the last of them replaced by `most` of those that want one at most.
-function withRows(bars: Uint32Array, wanted: number[], most: number): Uint32Array {
-  const present = new Set(bars),
-    wants = new Set(wanted);
-  const missing = wanted.filter((bar) => !present.has(bar)).slice(0, most);
-  const result = bars.slice();
-  for (let i = result.length - 1; i >= 0 && missing.length > 0; --i)
-    if (!wants.has(result[i]!)) result[i] = missing.pop()!;
-  return result;
-}
-
-/// Shares rows among bands: none gets more than it needs, what is left over goes to the others.
-function shared(needs: number[], rows: number): number[] {
-  const given = needs.map(() => 0);
-  let open = needs.map((_, i) => i),
-    left = Math.max(needs.length, rows);
-  while (open.length > 0) {
-    const share = Math.max(1, Math.floor(left / open.length));
-    const content = open.filter((i) => needs[i]! <= share);
-    if (content.length === 0) {
-      for (const i of open) given[i] = share;
-      break;
-    }
-    for (const i of content) {
-      given[i] = needs[i]!;
-      left -= needs[i]!;
-    }
-    open = open.filter((i) => needs[i]! > share);
-  }
-  return given;
 }

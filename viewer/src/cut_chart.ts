@@ -146,7 +146,7 @@ export class CutChart extends Chart {
   private shortcuts(own: number): HTMLButtonElement[] {
     const to = (text: string, value: number) =>
       button(text, () => this.session.setCut(value), {
-        class: "quiet",
+        class: "quiet shortcut",
         title: `cut at ${exact(value)}`,
       });
     return [

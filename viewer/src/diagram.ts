@@ -39,7 +39,7 @@ export class Diagram extends BarChart {
     const [first, second] = session.report.meta.barcodes;
     const hint = second
       ? `filled: ${first!.name}, hollow: ${second.name}`
-      : "drag a lasso to select";
+      : "lasso to select";
     super(session, "diagram", "Persistence diagram", hint);
     this.hint = hint;
     this.x = new Float32Array(session.report.bars.size);
@@ -142,36 +142,28 @@ export class Diagram extends BarChart {
     const most = session.selection.length > 5000 ? 1 : 2;
     for (const bar of session.selection.slice(0, 5000)) {
       if (!session.isShown(bar)) continue;
-      drawMarker(
-        pen,
-        bars.dim[bar]!,
-        this.x[bar]!,
-        this.y[bar]!,
-        3 + most,
-        session.colourOfBar(bar),
-        1,
-        theme.accent,
-        most,
-      );
+      this.drawChosen(pen, bar, 3 + most, theme.accent, most);
     }
     const bar = session.focus.bar;
     if (bar >= 0 && session.isShown(bar)) {
       const x = this.x[bar]!,
         y = this.y[bar]!;
-      drawMarker(
-        pen,
-        bars.dim[bar]!,
-        x,
-        y,
-        6.5,
-        session.colourOfBar(bar),
-        1,
-        theme.ink,
-        1.5,
-      );
+      this.drawChosen(pen, bar, 6.5, theme.ink, 1.5);
       this.drawLabel(pen, x, y, `${homology(bars.dim[bar]!)} ${intervalOf(session, bar)}`);
     }
     if (this.lasso.length >= 4) pen.polygon(this.lasso, theme.accent, 0.12, theme.muted, 1);
+  }
+
+  /// A selected bar, or the one under the pointer. One of a second barcode stays hollow: its
+  /// outline is around a ring of its colour.
+  private drawChosen(pen: Pen, bar: number, r: number, edge: string, width: number): void {
+    const { bars } = this.session.report;
+    const colour = this.session.colourOfBar(bar);
+    const draw = (size: number, fill: string, stroke: string, line: number) =>
+      drawMarker(pen, bars.dim[bar]!, this.x[bar]!, this.y[bar]!, size, fill, 1, stroke, line);
+    if (bars.barcodeOf(bar) === 0) return draw(r, colour, edge, width);
+    draw(r + 1, this.session.theme.panel, edge, width);
+    draw(r - 1, "none", colour, 1.6);
   }
 
   private drawLabel(pen: Pen, x: number, y: number, text: string): void {

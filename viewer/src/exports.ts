@@ -57,12 +57,14 @@ export function pictureSvg(session: Session, views: Views, page: HTMLElement): s
   if (picture) {
     const at = place(views.data!.stage!.renderer.domElement);
     pen.image(at.x, at.y, at.width, at.height, picture);
+    const isOnData = views.data!.panel.querySelector(".numbers")!.classList.contains("on-data");
+    const [colour, halo] = isOnData ? ["#14181d", "#fff"] : [theme.ink, theme.panel];
     for (const word of views.data!.panel.querySelectorAll(".numbers text"))
       pen.text(
         at.x + Number(word.getAttribute("x")),
         at.y + Number(word.getAttribute("y")),
         word.textContent ?? "",
-        { colour: "#14181d", size: 12, bold: true, anchor: "middle", halo: "#fff" },
+        { colour, size: 12, bold: true, anchor: "middle", halo },
       );
     drawLegend(pen, views.data!.panel.querySelector(".legend")!, place, session);
   }

@@ -33,6 +33,10 @@ export class Labels {
     private readonly stage: Stage,
     private readonly cloud: PointCloud | undefined,
   ) {
+    // On voxels or a surface letters are dark with a light edge, whatever the colours of the page.
+    const { report } = session;
+    const isOnData = !!report.triangles || !!cloud?.isSurface || report.image?.shape[0] === 1;
+    this.element.classList.toggle("on-data", isOnData);
     session.onChange((changes) => {
       const any = (["cut", "colour", "selection", "slice"] as const).some((c) => changes.has(c));
       if (any) this.find();

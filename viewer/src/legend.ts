@@ -4,9 +4,9 @@
 import { kOutermost, type Colouring, type Range } from "./colouring";
 import { el, svg } from "./dom";
 import { counted, grouped, homology, inRange } from "./numbers";
-import { dimColour, greyOf, hex, ramp } from "./palette";
+import { dimColour, greyOf, hex, ramp, type Rgb } from "./palette";
 import { kindOfSegment } from "./words";
-import { barsInView, kBirthColour, kDeathColour } from "./representatives";
+import { barsInView, isWholeMesh, kBirthColour, kDeathColour } from "./representatives";
 import type { Session } from "./session";
 
 const kMostRows = 200;
@@ -101,17 +101,7 @@ export class Legend {
       class: "ramp",
       "aria-hidden": "true",
     });
-    const steps = 50;
-    for (let i = 0; i < steps; ++i)
-      bar.append(
-        svg("rect", {
-          x: 0,
-          y: 98 - (100 * i) / steps,
-          width: 14,
-          height: 2.2,
-          fill: hex((colour === "grey" ? greyOf : ramp)(i / (steps - 1))),
-        }),
-      );
+    bar.append(...steps(colour === "grey" ? greyOf : ramp));
     const ticks = (high > low ? [high, (low + high) / 2, low] : [low]).map((v) =>
       el("span", {}, inRange(v, high - low || 1)),
     );
@@ -134,9 +124,8 @@ export class Legend {
     const rows: HTMLElement[] = [];
     const mark = (colour: string, text: string) =>
       rows.push(el("p", { class: "row" }, swatch(colour), el("span", { class: "name" }, text)));
-    const chained = new Set(
-      shown.filter((bar) => chains?.ofBar.has(bar)).map((bar) => bars.dim[bar]!),
-    );
+    const hasChain = (bar: number) => !!chains?.ofBar.has(bar) && !isWholeMesh(session.report, bar);
+    const chained = new Set(shown.filter(hasChain).map((bar) => bars.dim[bar]!));
     const kind = meta.barcodes[0]!.representatives?.replace(/s$/, "") ?? "representative";
     const what = kind === "voxel" ? "cycle" : kind;
     for (const dim of [...chained].sort((a, b) => a - b))
@@ -148,17 +137,43 @@ export class Legend {
       mark(dimColour(dim, session.theme), `${homology(dim)} ${dim === 0 ? "component" : "hollow"}`);
     if (shown.some((bar) => bars.cell(bar, 0).length > 0)) mark(kBirthColour, "birth cell");
     if (shown.some((bar) => bars.cell(bar, 1).length > 0)) mark(kDeathColour, "death cell");
-    if (rows.length === 0 && shown.some((bar) => bars.dim[bar] !== 0 || !tree))
-      rows.push(
-        el(
-          "p",
-          { class: "note" },
-          "No cells of this bar are in the report: --representatives cycles adds them.",
-        ),
-      );
+    const note = (text: string) => {
+      // The name of an option breaks at no hyphen of its own.
+      const parts = text.split(/(--\w+)/).map((part, i) => (i % 2 === 0 ? part : unbroken(part)));
+      rows.push(el("p", { class: "note" }, ...parts));
+    };
+    if (shown.some((bar) => isWholeMesh(session.report, bar)))
+      note("The cycle of this bar is the whole mesh.");
+    // A cell or two say where a bar begins and ends, not what it goes around.
+    const isAsked = meta.barcodes[0]!.representatives !== undefined;
+    if (!isAsked && shown.some((bar) => bars.dim[bar] !== 0 || !tree))
+      note(noteOf(shown.length, session.report.image ? "voxels" : "cycles"));
     this.marks.replaceChildren(...rows);
   }
 }
+
+const kSteps = 50;
+
+/// From the colour of the largest value, above, to that of the least one. Each goes down to the
+/// end, the next on it: colours that only met would have stripes where they meet within a pixel.
+function steps(map: (part: number) => Rgb): SVGElement[] {
+  return Array.from({ length: kSteps }, (_, i) => {
+    const y = (100 * i) / kSteps;
+    const fill = hex(map(1 - i / (kSteps - 1)));
+    return svg("rect", { y, width: 14, height: 100 - y, fill });
+  });
+}
+
+/// How to see more of the bars than where they begin and end.
+function noteOf(count: number, kind: "voxels" | "cycles"): string {
+  const bars = count === 1 ? "this bar" : "these bars";
+  if (kind === "voxels")
+    return `The report has no voxels of ${bars}: --representatives voxels adds them.`;
+  const [cycles, them] = count === 1 ? ["cycle", "it"] : ["cycles", "them"];
+  return `The report has no ${cycles} of ${bars}: --representatives cycles adds ${them}.`;
+}
+
+const unbroken = (text: string) => el("span", { class: "unbroken" }, text);
 
 export function swatch(colour: string): SVGSVGElement {
   return svg(

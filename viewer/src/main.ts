@@ -105,9 +105,11 @@ function statusLine(session: Session): HTMLElement {
   const reading = el("output", { class: "reading", "aria-live": "polite" });
   const selection = el("span", { class: "selection" });
   const clear = button("clear", () => session.select([]), { class: "quiet" });
+  const hint = matchMedia("(hover: none)").matches
+    ? "Tap a bar, a branch or a point to select it."
+    : "Hover over a bar, a branch or a point; click selects it.";
   const show = () => {
-    reading.textContent =
-      readingOf(session) || "Hover over a bar, a branch or a point; click selects it.";
+    reading.textContent = readingOf(session) || hint;
     selection.textContent = selectionOf(session);
     clear.disabled = session.selection.length === 0;
   };

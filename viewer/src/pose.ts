@@ -39,7 +39,7 @@ export function firstPose(report: Report, axis = 0): Pose {
   if (cloud!.dims < 3) return poseOf(sample, new Vector3(0, 0, 1), new Vector3(0, 1, 0), true);
   const eye = meta.cloud?.viewpoint;
   const known = meta.cloud?.up ?? (eye && [0, -1, 0]);
-  const up = known ? new Vector3(...(known as Triple)).normalize() : standing(sample);
+  const up = known ? new Vector3(...(known as Triple)).normalize() : standing(sample, !!report.triangles);
   const around = poseOf(sample, broadside(sample, up), up, false);
   if (!eye) return around;
   const sensor = new Vector3(...(eye.map((c, k) => c - cloud!.origin[k]!) as Triple));
@@ -49,12 +49,15 @@ export function firstPose(report: Report, axis = 0): Pose {
 
 const kBase = 0.01, // of an extent
   kLeastOnBase = 0.02, // of the points
-  kMoreThanElsewhere = 4;
+  kMoreThanElsewhere = 4,
+  kFlat = 1 / 3; // of both other extents
 
-/// Upwards where nothing says so: away from a flat base, which has many points right at one end of an
-/// axis and at no other; z if there is none.
-function standing(sample: number[]): Vector3 {
+/// Upwards where nothing says so: away from a flat base, which has many points right at one end of
+/// an axis and at no other. If there is none, z; of a mesh y, as in OBJ, glTF and most scans that
+/// are passed on as OFF or PLY, but z of a relief, which is flat along it.
+function standing(sample: number[], isMesh: boolean): Vector3 {
   const count = sample.length / 3;
+  const extents: number[] = [];
   const shares: { axis: number; sign: number; share: number }[] = [];
   for (let axis = 0; axis < 3; ++axis) {
     let low = Infinity,
@@ -64,6 +67,7 @@ function standing(sample: number[]): Vector3 {
       high = Math.max(high, sample[i]!);
     }
     const near = kBase * (high - low);
+    extents.push(high - low);
     let below = 0,
       above = 0;
     for (let i = axis; i < sample.length; i += 3) {
@@ -74,7 +78,8 @@ function standing(sample: number[]): Vector3 {
   }
   shares.sort((a, b) => b.share - a.share);
   const [base, next] = shares as [(typeof shares)[0], (typeof shares)[0]];
-  const up = new Vector3(0, 0, 1);
+  const isRelief = extents[2]! < kFlat * Math.min(extents[0]!, extents[1]!);
+  const up = isMesh && !isRelief ? new Vector3(0, 1, 0) : new Vector3(0, 0, 1);
   if (base.share >= kLeastOnBase && base.share >= kMoreThanElsewhere * next.share)
     up.set(0, 0, 0).setComponent(base.axis, base.sign);
   return up;

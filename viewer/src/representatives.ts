@@ -2,6 +2,7 @@
 // Where the selected bars are: their representatives and the cells of their birth and death.
 import { CellGeometry, emptyGeometry, type Geometry } from "./cell_geometry";
 import { dimColour } from "./palette";
+import type { Report } from "./report";
 import type { Session } from "./session";
 import { surfaceOfBar } from "./voxel_sets";
 
@@ -18,7 +19,9 @@ const kMostChains = 100,
   kMostCorners = 1_200_000, // of the surfaces around voxels
   kMostOutlined = 4000; // cells of a surface: the edges of more are a tangle
 
-export const kBirthColour = "#f0e442",
+// No other colours of the page are close to that of the births: neither those of values, which are
+// drawn on the same surface, nor those of segments or dimensions.
+export const kBirthColour = "#e6007e",
   kDeathColour = "#cc79a7";
 
 /// The bars whose cells are shown: the one under the pointer, or the most persistent selected ones.
@@ -31,6 +34,14 @@ export function barsInView(session: Session): number[] {
     if (session.isSelected(bar)) found.push(bar);
   }
   return found;
+}
+
+/// Whether the representative of a bar is the entire mesh, as of the void of a closed surface:
+/// drawn it would hide the data and show nothing.
+export function isWholeMesh({ chains, triangles, bars }: Report, bar: number): boolean {
+  const chain = chains?.ofBar.get(bar);
+  if (chain === undefined || !triangles || bars.dim[bar] !== 2) return false;
+  return chains!.start[chain + 1]! - chains!.start[chain]! >= triangles.values.length;
 }
 
 export function shapesOf(session: Session): Shape[] {
@@ -56,7 +67,7 @@ export function shapesOf(session: Session): Shape[] {
       hulls.push(surfaceShape({ ...emptyGeometry(), triangles }, dimColour(dim, theme)));
     }
     const chain = chains?.ofBar.get(bar);
-    if (chain === undefined || !chains) continue;
+    if (chain === undefined || !chains || isWholeMesh(report, bar)) continue;
     const arity = bars.arity(bar, 0);
     let geometry = byDim.get(dim);
     if (!geometry) byDim.set(dim, (geometry = emptyGeometry()));
@@ -67,6 +78,7 @@ export function shapesOf(session: Session): Shape[] {
     )
       cells.add(geometry, chains.cells, at, arity);
   }
+  const outline = { ...deaths, triangles: [] }; // filled it would lie on what is seen
   return [
     ...hulls,
     ...[...byDim].map(([dim, geometry]) =>
@@ -74,7 +86,7 @@ export function shapesOf(session: Session): Shape[] {
         ? surfaceShape(geometry, dimColour(dim, theme))
         : { geometry, colour: dimColour(dim, theme), width: 3.5, opacity: 0.3, surface: false },
     ),
-    { geometry: deaths, colour: kDeathColour, width: 2.5, opacity: 0.45, surface: false },
+    { geometry: outline, colour: kDeathColour, width: 2.5, opacity: 0.45, surface: false },
     { geometry: births, colour: kBirthColour, width: 5, opacity: 0.5, surface: false },
   ];
 }

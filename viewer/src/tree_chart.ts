@@ -78,7 +78,9 @@ export class TreeChart extends Chart {
       pen.line(kLeft, tick.at, size.width - kRight, tick.at, theme.grid);
       pen.text(kLeft - 6, tick.at + 3.5, tick.label, { ...small, anchor: "end" });
     }
-    pen.text(12, size.height / 2, unit ? `value (${unit})` : "value", {
+    // The word of the barcode's axis, which has the same values.
+    const label = clipped(meta.value.label.toLowerCase(), 24);
+    pen.text(12, size.height / 2, unit ? `${label} (${unit})` : label, {
       ...small,
       anchor: "middle",
       upwards: true,

@@ -37,9 +37,25 @@ test("the widest gap", () => {
   assert.deepEqual(widestGap([10, 9, 8, 7, 6, 0.9, 1e-9]), { count: 5, ratio: 6 / 0.9 });
   assert.deepEqual(widestGap([3]), { count: 1, ratio: Infinity });
   assert.deepEqual(widestGap([3, 3]), { count: 2, ratio: Infinity });
-  assert.deepEqual(widestGap([3, 1]), { count: 1, ratio: 3 });
+  // Of so few all may stand out, unless the gap is much wider than chance makes it.
+  assert.deepEqual(widestGap([3, 1]), { count: 2, ratio: Infinity });
+  assert.deepEqual(widestGap([3, 0.5]), { count: 1, ratio: 6 });
+  assert.deepEqual(widestGap([3, 1], 1), { count: 1, ratio: 3 });
   assert.equal(widestGap([]).count, 0);
   assert.equal(widestGap([2, 2, 2, 2, 2, 2]).ratio, 1);
+});
+
+test("a few loops and no noise: all of them", () => {
+  const points = [[0, 0, kNever], ...noise(0, [0.14, 0.13, 0.12], 0)];
+  const two = answer([...points, [1, 0.153, 1.657], [1, 0.107, 0.82]]);
+  assert.equal(
+    two.sentence,
+    "Two loops stand out: there are no others, and the shorter is [0.107, 0.82).",
+  );
+  assert.deepEqual(two.bars, [4, 5]);
+  // Shorter than a third of the longest, but no speck.
+  assert.equal(answer([...points, [1, 0, 1], [1, 0.3, 0.6], [1, 0.3, 0.55]]).bars.length, 3);
+  assert.equal(answer([...points, [1, 0, 1], [1, 0.3, 0.38]]).bars.length, 1);
 });
 
 test("one loop, and how long it is", () => {
@@ -101,6 +117,35 @@ test("honest where nothing stands out", () => {
   assert.ok(outstanding < 10, `${outstanding} of 200`);
 });
 
+/// A tree of which a cut leaves as many basins as have a level above it, and the oldest one.
+function treeOf(levels, rule = "persistence") {
+  const cut = (at) => ({ segments: [0, ...levels.filter((level) => level >= at)] });
+  return { arrays: { rule, levels: Float64Array.from(levels) }, cut };
+}
+
+test("where nothing stands out the sentence names the gap that the page cuts at", () => {
+  // The widest gap has a ratio below two, and is the one that the page suggests.
+  const levels = [90, 89, 60, 59, 58, 57, 56];
+  const bars = [[0, 0, kNever], ...noise(0, levels, 0), ...noise(1, [50, 49.9, 49, 48, 47], 0)];
+  const meta = { image: {}, tree: treeOf(levels) };
+  const found = answer(bars, meta);
+  assert.equal(
+    found.sentence,
+    "No loop or component stands out: in both, the longest bar is hardly longer than the next; " +
+      "the widest gap leaves 3 segments.",
+  );
+  assert.ok(found.components, "the cut is open");
+  assert.deepEqual(found.bars, []);
+  // Of points nothing is said of components where there are loops.
+  assert.ok(!answer(bars, { tree: treeOf(levels) }).components);
+  // All levels alike: the cut has nothing to say.
+  const fives = [5, 5, 5, 5, 5];
+  const more = { image: {}, tree: treeOf(fives) };
+  const alike = answer([[0, 0, kNever], ...noise(0, fives, 0)], more);
+  assert.ok(!alike.components);
+  assert.equal(alike.sentence, "No other component stands out: all are equally long.");
+});
+
 test("components: one is always there, several are an answer", () => {
   const three = [[0, 0, kNever], [0, 0, 1.9], [0, 0, 1.6], ...noise(0, [0.17, 0.16, 0.1], 0)];
   const found = answer(three);
@@ -155,13 +200,30 @@ test("the page cuts where the sentence has its gap", () => {
 
 test("bars that never end", () => {
   const { sentence, bars } = answer([[0, -3, kNever], [1, -1, kNever], [1, 1, kNever], [2, 3, kNever]]);
-  assert.equal(sentence, "One void never ends: [3, ∞). Two loops stand out, too.");
-  assert.deepEqual(bars, [3]);
+  assert.equal(sentence, "Two loops never end: [−1, ∞) and [1, ∞). One void stands out, too.");
+  assert.deepEqual(bars, [1, 2]);
   // Alive where the complex was cut: at least that long.
   const cut = [[0, 0, kNever], [1, 0.1, kNever], ...noise(1, [0.1, 0.09, 0.08, 0.08])];
   assert.equal(answer(cut, { threshold: 0.9 }).sentence, "One loop stands out: [0.1, ∞), at least 8.0 times as long as the next.");
   // Born right before the cut: nothing is known of it.
   assert.deepEqual(answer([[0, 0, kNever], [1, 0.88, kNever], ...noise(1, [0.1, 0.09, 0.08, 0.08])], { threshold: 0.9 }).bars, []);
+});
+
+test("specks are as short beside bars that never end as beside others", () => {
+  const loops = [-0.43, -0.4, -0.36, -0.33].map((birth) => [1, birth, kNever]);
+  const specks = [0.02, 0.02, 0.015, 0.012, 0.001].map((length) => [1, -0.2, -0.2 + length]);
+  const { sentence } = answer([[0, -0.6, kNever], [0, -0.5, -0.06], ...loops, ...specks]);
+  assert.match(sentence, /^Four loops never end/);
+});
+
+test("the void of a closed surface leads only if there is nothing else", () => {
+  const sphere = [[0, -3, kNever], [2, 3, kNever]];
+  assert.equal(answer(sphere).sentence, "One void never ends: [3, ∞).");
+  const legs = [[0, -2, 2], [0, -2, 1.9], ...noise(0, [0.2, 0.1, 0.1, 0.1], 0)];
+  const last = /^Three components stand out.* One void stands out, too\.$/;
+  assert.match(answer([...sphere, ...legs]).sentence, last);
+  // One that ends is a hollow of the values, no matter of course.
+  assert.match(answer([...sphere, [2, -1, 2], ...legs]).sentence, /^Two voids/);
 });
 
 test("of superlevel sets the values of the data", () => {
@@ -175,7 +237,7 @@ test("two barcodes: where they differ most, and the pair that decides", () => {
   const distances = [{ dim: 0, bottleneck: 0 }, { dim: 1, bottleneck: 0.5 }];
   const pairs = Uint32Array.of(0, 3, 1, 4);
   const found = answer(a, { second: b, distances, pairs });
-  assert.equal(found.sentence, "The barcodes differ most in H₁: ends of bars have to move by 0.5, the bottleneck distance.");
+  assert.equal(found.sentence, "The barcodes differ most in H₁: the bottleneck distance is 0.5.");
   assert.equal(found.dim, 1);
   assert.deepEqual(found.bars, [1, 4]);
   assert.match(answer(a, { second: a, distances: [{ dim: 1, bottleneck: 0 }] }).sentence, /are equal/);

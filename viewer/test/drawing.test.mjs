@@ -153,6 +153,24 @@ test("the first view has an upright axis and an eye for any direction upwards", 
   }
 });
 
+test("a mesh stands along y, a relief along z, either on a flat base if it has one", () => {
+  const next = random(5);
+  const upOf = (size, more = {}) => {
+    const positions = Float32Array.from({ length: 3000 }, (_, i) => size[i % 3] * next());
+    return firstPose({ meta: {}, cloud: { dims: 3, origin: [0, 0, 0], positions }, ...more }).up;
+  };
+  const triangles = { corners: [], values: [] };
+  assert.deepEqual(upOf([1, 1.2, 0.9], { triangles }).toArray(), [0, 1, 0]);
+  assert.deepEqual(upOf([1, 1.2, 0.2], { triangles }).toArray(), [0, 0, 1]);
+  assert.deepEqual(upOf([1, 1.2, 0.9]).toArray(), [0, 0, 1], "points");
+  // A fifth of the vertices lie right at the lower end of x.
+  const positions = Float32Array.from({ length: 3000 }, (_, i) =>
+    i % 15 === 0 ? 0 : next(),
+  );
+  const cloud = { dims: 3, origin: [0, 0, 0], positions };
+  assert.deepEqual(firstPose({ meta: {}, cloud, triangles }).up.toArray(), [1, 0, 0]);
+});
+
 test("numbers keep apart, larger ones more", () => {
   const small = new Spots(9.5),
     large = new Spots(24);
@@ -160,4 +178,145 @@ test("numbers keep apart, larger ones more", () => {
   assert.ok(small.take(0, 12, "12"));
   assert.ok(!large.take(0, 12, "12"));
   assert.ok(!small.take(3, 0, "7"));
+});
+
+/// Marks that a diagram or a barcode draws over itself. @param fields of the chart.
+async function drawnOver(module, name, fields) {
+  const { [name]: Chart } = await importSource(module);
+  const marks = [];
+  const log = (kind) => (...mark) => marks.push({ kind, mark });
+  const kinds = ["line", "rect", "polygon", "circle", "text"];
+  const pen = Object.fromEntries(kinds.map((kind) => [kind, log(kind)]));
+  Object.assign(Object.create(Chart.prototype), fields).drawOver(pen);
+  return marks;
+}
+const kTheme = { panel: "panel", accent: "accent", ink: "ink", muted: "muted" };
+/// A session of bars [dim, birth, death] of each barcode.
+function sessionOf(barcodes, { selection = [], focus = -1, tints = [], numbers = [] } = {}) {
+  const columns = barcodes.map((bars) => ({
+    dim: Uint8Array.from(bars, (b) => b[0]),
+    birth: Float64Array.from(bars, (b) => b[1]),
+    death: Float64Array.from(bars, (b) => b[2]),
+  }));
+  const names = barcodes.map((_, i) => ({ name: `${i}` }));
+  const tinted = new Map(tints);
+  return {
+    theme: kTheme,
+    selection,
+    focus: { bar: focus },
+    report: { bars: new Bars(columns, names, 0), meta: { value: {}, barcodes: names } },
+    isShown: () => true,
+    isSelected: (bar) => selection.includes(bar),
+    tintedBars: () => tinted,
+    numbers: () => new Map(numbers),
+    colourOfBar: (bar) => tinted.get(bar) ?? "colour",
+  };
+}
+
+test("in a comparison a chosen dot of the second barcode stays hollow", async () => {
+  for (const [bar, isHollow] of [[0, false], [1, true]])
+    for (const chosen of [{ selection: [bar] }, { focus: bar }]) {
+      const session = sessionOf([[[1, 0, 4]], [[1, 1, 4]]], chosen);
+      const size = { width: 400, height: 300 };
+      const fields = { session, x: [10, 20], y: [10, 20], lasso: [], size };
+      const marks = await drawnOver("diagram.ts", "Diagram", fields);
+      const fills = marks.filter((m) => m.kind === "polygon").map((m) => m.mark[1]);
+      assert.equal(fills.includes("colour"), !isHollow, JSON.stringify([bar, chosen]));
+      assert.ok(marks.some((m) => m.mark.includes("colour")));
+    }
+});
+
+/// Bars in thin rows, one below the other. @param ends their right ends, Infinity: an arrow.
+function rowsOf(ends, row) {
+  return ends.map((end, i) => {
+    const endless = end === Infinity;
+    return { bar: i, x1: 10, x2: endless ? 106 : end, y: row * i, row, endless };
+  });
+}
+const overBarcode = (items, options) => {
+  const bars = items.map(({ x2, endless }) => [0, 10, endless ? Infinity : x2]);
+  const session = sessionOf([bars], options);
+  const size = { width: 150, height: 300 };
+  const fields = { session, items, rowsFor: session.tintedBars(), size };
+  return drawnOver("barcode.ts", "Barcode", fields);
+};
+
+test("a selected bar covers no other one and keeps its arrow", async () => {
+  for (const row of [2.6, 3, 5.5, 8.5, 14]) {
+    const items = rowsOf([90, Infinity, 80], row);
+    const marks = await overBarcode(items, { selection: [1], tints: [[1, "tint"]] });
+    for (const { mark } of marks.filter((m) => m.kind === "rect"))
+      assert.ok(mark[1] > row - 0.3 && mark[1] + mark[3] < 2 * row + 0.3, `row ${row}: ${mark}`);
+    const arrows = marks.filter((m) => m.kind === "polygon").map((m) => m.mark[1]);
+    assert.deepEqual(arrows, ["tint", "accent", "tint"]);
+  }
+});
+
+test("numbers at bars are drawn last, those of close ones together", async () => {
+  const items = rowsOf([Infinity, 60, 70, 80, 20, 20, 20, 50], 4);
+  const numbers = [[1, 2], [2, 3], [3, 4], [7, 1]];
+  const marks = await overBarcode(items, { tints: numbers.map(([bar]) => [bar, "tint"]), numbers });
+  const texts = marks.slice(-2).map((m) => m.mark);
+  assert.deepEqual(texts.map((text) => text[2]), ["2, 3, 4", "1"]);
+  assert.ok(texts[0][0] > 80, "beyond the longest of them");
+  assert.equal(texts[0][3].halo, "panel");
+  const narrow = rowsOf([Infinity, Infinity, Infinity], 3);
+  const all = [[0, 1], [1, 12], [2, 3]];
+  const tints = all.map(([bar]) => [bar, "tint"]);
+  const [text] = (await overBarcode(narrow, { tints, numbers: all })).slice(-1);
+  assert.equal(text.mark[2], "1, …");
+});
+
+test("a dimension with few bars has high rows beside one with many", async () => {
+  const { layOut } = await importSource("barcode_rows.ts");
+  const { rows, heights } = layOut([2, 96], [2, 96], 270);
+  assert.equal(rows[0], 2);
+  assert.ok(heights[0] >= 9 && heights[1] >= 2.5, `${heights}`);
+  const strips = rows[1] < 96 ? 12 : 0;
+  assert.ok(rows[0] * heights[0] + rows[1] * heights[1] + strips <= 270);
+  // Where there is room for all of them they are equally high.
+  assert.deepEqual(layOut([2, 10], [2, 10], 270), { rows: [2, 10], heights: [14, 14], row: 14 });
+});
+
+const { isWholeMesh, kBirthColour, kDeathColour, shapesOf } =
+  await importSource("representatives.ts");
+const { dimColour, greyOf, ramp, segmentColour } = await importSource("palette.ts");
+
+test("no colour of values, segments or dimensions is that of a birth cell", () => {
+  const rgbOf = (colour) => [1, 3, 5].map((i) => parseInt(colour.slice(i, i + 2), 16));
+  const others = [rgbOf(kDeathColour)];
+  for (let k = 0; k <= 100; ++k) others.push(ramp(k / 100), greyOf(k / 100));
+  for (let k = 0; k < 7; ++k) others.push(segmentColour(k));
+  for (let dim = 0; dim < 6; ++dim)
+    for (const dark of [false, true]) others.push(rgbOf(dimColour(dim, { dark })));
+  const mark = rgbOf(kBirthColour);
+  for (const other of others)
+    assert.ok(Math.hypot(...other.map((c, k) => c - mark[k])) > 100, `${other}`);
+});
+
+test("a death cell is an outline, a chain that is the whole mesh is not drawn", () => {
+  const positions = Float32Array.of(0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1);
+  const faces = [0, 1, 2, 0, 1, 3, 0, 2, 3, 1, 2, 3];
+  const columns = {
+    dim: Uint8Array.of(1, 2),
+    birth: Float64Array.of(0, 2),
+    death: Float64Array.of(1, Infinity),
+    birthCells: Uint32Array.of(0, 1, 1, 2, 3),
+    deathCells: Uint32Array.of(0, 1, 2),
+  };
+  const report = {
+    bars: new Bars([columns], [{ name: "", cells: "vertices" }], 0),
+    cloud: { positions },
+    elements: { count: 4 },
+    triangles: { corners: faces, values: [0, 1, 1, 2] },
+    chains: { ofBar: new Map([[1, 0]]), start: [0, 4], cells: faces, first: [0, 12] },
+  };
+  const shapes = (bar) => shapesOf({ report, theme: {}, focus: { bar }, selection: [] });
+  const death = shapes(0).find((shape) => shape.colour === kDeathColour).geometry;
+  assert.deepEqual([death.triangles.length, death.segments.length], [0, 18]);
+  assert.ok(isWholeMesh(report, 1));
+  const triangles = (shape) => shape.surface && shape.geometry.triangles.length;
+  assert.ok(!shapes(1).some(triangles));
+  report.chains.start = [0, 3]; // three of its four faces
+  assert.ok(shapes(1).some(triangles));
 });

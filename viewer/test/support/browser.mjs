@@ -35,8 +35,9 @@ let written = 0;
 // A process for each page takes longer than most tests: what a test closes the next one opens.
 const free = new WeakMap();
 
-async function pageOf(browser, scripts) {
+async function pageOf(browser, scripts, touch) {
   if (!scripts) return (await browser.newContext({ javaScriptEnabled: false })).newPage();
+  if (touch) return (await browser.newContext({ hasTouch: true, isMobile: true })).newPage();
   if (!free.has(browser)) free.set(browser, { context: browser.newContext(), pages: [] });
   const { context, pages } = free.get(browser);
   return pages.pop() ?? (await context).newPage();
@@ -53,13 +54,21 @@ async function release(browser, page) {
 export async function open(
   browser,
   report,
-  { width = 1280, height = 800, dark = false, hash = "", reducedMotion = null, scripts = true } = {},
+  {
+    width = 1280,
+    height = 800,
+    dark = false,
+    hash = "",
+    reducedMotion = null,
+    scripts = true,
+    touch = false,
+  } = {},
 ) {
   const path = join(folder, `${++written}.html`);
   const html =
     typeof report === "string" ? report : reportHtml(template(), report.meta, report.arrays);
   writeFileSync(path, html);
-  const page = await pageOf(browser, scripts);
+  const page = await pageOf(browser, scripts, touch);
   await page.setViewportSize({ width, height });
   await page.emulateMedia({ media: null, colorScheme: dark ? "dark" : "light", reducedMotion });
   const problems = [];
@@ -95,7 +104,7 @@ export async function open(
     bytes: html.length,
     firstFrame,
     wall: performance.now() - start,
-    close: () => release(browser, page),
+    close: () => (touch ? page.context().close() : release(browser, page)),
   };
 }
 
