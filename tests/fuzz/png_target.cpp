@@ -5,7 +5,7 @@
 #include "ph/io/cloud_io.hpp"
 #include "round_trip.hpp"
 #include "targets.hpp"
-#include "unpack.hpp"
+#include "io/bytes/unpack.hpp"
 #include "violation.hpp"
 
 namespace ph::fuzz {

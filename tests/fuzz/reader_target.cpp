@@ -6,7 +6,7 @@
 #include "heap_meter.hpp"
 #include "readers.hpp"
 #include "targets.hpp"
-#include "unpack.hpp"
+#include "io/bytes/unpack.hpp"
 #include "violation.hpp"
 
 namespace ph::fuzz {

@@ -1,0 +1,138 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Which room may include which, and how large a folder may be: layering.py ROOT.
+
+Rooms are the folders of libph/src, libsegment and apps. Public headers and those in ph/detail
+belong to the room that HEADERS names. Exit code 0 if nothing is out of order.
+"""
+import re
+import sys
+from pathlib import Path
+
+# The rooms that each may look into, beside itself.
+MAY_INCLUDE = {
+    "core": "",
+    "metric": "core",
+    "image": "core",
+    "components": "core",
+    "reduction": "core components",
+    "complex": "core metric image components",
+    "rips": "core metric components reduction complex",
+    "cubical": "core image components reduction",
+    "diagram": "core",
+    "facade": "core metric image components reduction complex rips cubical loops",
+    "loops": "core metric complex components reduction rips facade",
+    "io": "core metric image complex",
+    "plot": "core components io",
+    "segment": "core metric image components complex rips facade io plot",
+    "report": "core metric image components complex rips facade io",
+    "common": "core metric image complex rips facade io plot report",
+    "barcode": "core metric image components complex rips cubical facade loops diagram io plot report "
+               "common",
+    "segment_program": "core metric image components complex rips facade io plot segment report common",
+}
+
+# Headers in include/ph by room; those in ph/io are of io.
+HEADERS = {
+    "core": "barcode engine error filtration loop run_context detail/bit_matrix detail/chain "
+            "detail/field detail/file_pages detail/parallel detail/polled_sort detail/radix_sort "
+            "detail/raw_vector",
+    "metric": "distance_matrix distance_to_measure greedy_permutation metric points "
+              "sparse_distances detail/row_distances detail/spanning_forest",
+    "image": "image detail/cubical_image",
+    "components": "detail/branch detail/component_representatives detail/disjoint_sets "
+                  "detail/elder_rule detail/one_skeleton detail/union_find detail/cell_map",
+    "reduction": "detail/apparent_pairs detail/cohomology detail/cohomology_reduction "
+                 "detail/homology_reduction detail/pivot_table detail/standard detail/twist "
+                 "detail/working_column",
+    "complex": "cubical explicit filtered_graph lower_star voxel_image detail/cubical_cells",
+    "rips": "edge_collapse rips detail/binned_edges detail/packed_vertices detail/rips_adjacency "
+            "detail/rips_filtration detail/rips_graph detail/rips_groups detail/rips_vertices "
+            "detail/sparse_rips detail/vertex_weights",
+    "diagram": "bottleneck",
+    "facade": "custom estimate loops merge_tree persistence ph detail/choose_engine "
+              "detail/generic_engines",
+    "io": "detail/output_file detail/png detail/reader",
+    "plot": "io/plot io/png_plot io/svg_plot",
+    "segment": "label_tracker pcl scene_tree segment",
+}
+ROOM_OF = {name: room for room, names in HEADERS.items() for name in names.split()}
+
+FOLDERS = (("libph/src/", None), ("libsegment/", "segment"), ("apps/segment/", "segment_program"),
+           ("apps/", None))
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<((?:ph|pcl|CGAL)/[^>]+)>)', re.M)
+MOST_FILES = 20
+# Folders that are larger: each is to become smaller, none may grow.
+LARGER = {"libph/include/ph": 27, "libph/include/ph/detail": 42, "libph/src/rips/sweep": 21,
+          "apps/segment": 30, "apps/barcode": 35, "apps/common": 31, "apps/report": 24}
+
+
+def room_of_header(path):
+    """@param path below include/, as ph/detail/chain.hpp. @return None: in no room."""
+    name = str(path)[len("ph/"):].rsplit(".", 1)[0]
+    return ROOM_OF.get(name) or ("io" if name.startswith("io/") else None)
+
+
+def room_of(file):
+    """@param file below ROOT."""
+    text = str(file)
+    if "/include/" in text:
+        return room_of_header(text.split("/include/", 1)[1])
+    for folder, room in FOLDERS:
+        if text.startswith(folder):
+            return room or text[len(folder):].split("/")[0]
+    return None
+
+
+def target_of(root, file, include):
+    """The file of ours that is meant, below ROOT; None if it is somebody else's."""
+    for base in (file.parent, Path("libph/include"), Path("libph/src"), Path("libsegment/include"),
+                 Path("libsegment/pcl/include"), Path("libsegment/src"), Path("apps/common"),
+                 Path("apps")):
+        if (root / base / include).is_file():
+            return (root / base / include).resolve().relative_to(root)
+    return None
+
+
+def violations_of(root, file):
+    room = room_of(file)
+    if room not in MAY_INCLUDE:
+        yield f"{file}: found in no room, expected one of {', '.join(MAY_INCLUDE)}"
+        return
+    for match in INCLUDE.finditer((root / file).read_text()):
+        include = match[1] or match[2]
+        if include.startswith(("pcl/", "CGAL/")):
+            if not str(file).startswith("libsegment/pcl/"):
+                yield f"{file}: {include}: PCL and CGAL stay out"
+            continue
+        target = target_of(root, file, include)
+        if target is None:
+            continue
+        other = room_of(target)
+        if other != room and other not in MAY_INCLUDE[room].split():
+            yield f"{file}: {include}: {room} may include {MAY_INCLUDE[room] or 'nothing else'}, " \
+                  f"found {other}"
+        if str(target).startswith("libph/src") and "/include/" in str(file):
+            yield f"{file}: {include}: a header that is installed includes one that is not"
+
+
+def too_large(root):
+    for folder in sorted(p for top in ("libph", "libsegment", "apps") for p in (root / top).rglob("*")
+                         if p.is_dir()):
+        count = sum(p.is_file() for p in folder.iterdir())
+        most = LARGER.get(str(folder.relative_to(root)), MOST_FILES)
+        if count > most:
+            yield f"{folder.relative_to(root)}: found {count} files, expected at most {most}"
+
+
+def main():
+    root = Path(sys.argv[1]).resolve()
+    files = sorted(p.relative_to(root) for top in ("libph", "libsegment", "apps")
+                   for p in (root / top).rglob("*") if p.suffix in (".hpp", ".ipp", ".cpp"))
+    found = [v for file in files for v in violations_of(root, file)] + list(too_large(root))
+    print(*found, f"{len(files)} files looked at, {len(found)} violations", sep="\n")
+    return 1 if found or not files else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
