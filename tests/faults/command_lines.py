@@ -91,6 +91,8 @@ BARCODE = [
     (50, ["--treshold", "2"], "did you mean '--threshold'"),
     (50, ["--max-dims=2"], "did you mean '--max-dim'"),
     (50, ["-max-dim", "2"], "did you mean '--max-dim'"),
+    (50, ["--dim", "2"], "did you mean '--max-dim'"),
+    (50, ["--maxdim", "2"], "did you mean '--max-dim'"),
     (50, ["--no-such-thing-at-all"], "--no-such-thing-at-all"),
     (50, ["--plot-title", "x"], "did you mean '--title'"),
     (50, ["--plot-range", "x"], "'--plot-range'; --help lists the options"),
