@@ -126,8 +126,10 @@ void add_input_options(CLI::App& app, Arguments& a) {
          "the matrix holds correlations r; distances are 1 - r")
       ->group(group);
   add_choice(app, "--diagonal", {"zero", "births"},
-             "what the diagonal of a distance matrix has: 0 (default), or when each point enters",
+             "what the diagonal of a distance matrix has: 0, whatever stands there, or when each "
+             "point enters (default: 0, else an error)",
              [&a](std::size_t i) {
+               a.read.zeros_on_diagonal = i == 0;
                a.read.births_on_diagonal = i == 1;
                a.read.array = ArrayMeaning::distances;
              })
