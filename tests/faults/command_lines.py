@@ -173,6 +173,7 @@ SEGMENT = [
     (49, ["--intrinsics", "1,1,0,0"], "--intrinsics"),
     (49, ["--intrinsics", "1,1,0"], "--intrinsics"),
     (49, ["--depth-scale", "0"], "--depth-scale"),
+    (49, ["--depth-scale", "0.001"], "1 / 0.001 = 1000"),
     (49, ["--labels", "x.txt"], "--labels"),
     (49, ["--labels", "x.png"], "unorganised"),
     (49, ["--picture", "x.png"], "unorganised"),
