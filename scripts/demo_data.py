@@ -111,10 +111,11 @@ def write_table(path):
 def main():
     folder = pathlib.Path(sys.argv[1])
     folder.mkdir(parents=True, exist_ok=True)
+    # First what needs no other package: the others stop where theirs is not there.
+    write_table(folder / "table.npy")
     write_kitten(folder / "kitten.csv")
     write_skull(folder / "skull.npy")
     write_motorcycle(folder)
-    write_table(folder / "table.npy")
 
 
 if __name__ == "__main__":

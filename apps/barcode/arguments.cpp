@@ -126,8 +126,10 @@ void add_input_options(CLI::App& app, Arguments& a) {
          "the matrix holds correlations r; distances are 1 - r")
       ->group(group);
   add_choice(app, "--diagonal", {"zero", "births"},
-             "what the diagonal of a distance matrix has: 0 (default), or when each point enters",
+             "what the diagonal of a distance matrix has: 0, whatever stands there, or when each "
+             "point enters (default: 0, else an error)",
              [&a](std::size_t i) {
+               a.read.zeros_on_diagonal = i == 0;
                a.read.births_on_diagonal = i == 1;
                a.read.array = ArrayMeaning::distances;
              })
@@ -218,6 +220,15 @@ void add_homology_options(CLI::App& app, Arguments& a) {
 
 constexpr std::array<std::string_view, 4> kPlotKinds{"barcode", "diagram", "betti", "tree"};
 
+constexpr int kAnyNumber = 1 << 20;
+
+void take_compared(Arguments& a, const std::vector<std::string>& paths) {
+  if (paths.size() != 2)
+    throw Error(ErrorKind::usage,
+                fmt::format("--compare: expected two barcodes, found {}", paths.size()));
+  a.compare = paths;
+}
+
 void add_output_options(CLI::App& app, Arguments& a, app::PlotArguments& plots) {
   const std::string group = "Output";
   add_value(
@@ -247,12 +258,12 @@ void add_output_options(CLI::App& app, Arguments& a, app::PlotArguments& plots) 
             [&a](const std::string& path) { take_report(a, path); })
       ->group(group);
   app.add_option_function<std::vector<std::string>>(
-         "--compare", [&a](const std::vector<std::string>& paths) { a.compare = paths; },
+         "--compare", [&a](const std::vector<std::string>& paths) { take_compared(a, paths); },
          "compute nothing but the distances of two barcode files, dimension by dimension: text, or "
          "--output-format csv or json; with --report also side by side in a page")
       ->type_name("A B")
       ->type_size(1)
-      ->expected(2)
+      ->expected(1, kAnyNumber)  // take_compared() says what is wrong
       ->group(group);
 }
 
@@ -269,30 +280,40 @@ std::string built_in() {
 }
 
 /// `ph-barcode plot BARS… -o FILE.svg`: pictures of stored barcodes.
-void take_word(Arguments& a, app::PlotArguments& plots) {
-  if (a.inputs.empty() || a.inputs.front() != "plot") return;
+/// @return whether the first of the plots is that of -o.
+bool take_word(Arguments& a, app::PlotArguments& plots) {
+  if (a.inputs.empty() || a.inputs.front() != "plot") return false;
   // A file of that name alone is an input; beside others it is ./plot.
-  if (a.inputs.size() == 1 && std::filesystem::exists("plot")) return;
+  if (a.inputs.size() == 1 && std::filesystem::exists("plot")) return false;
   a.stored = true;
   a.inputs.erase(a.inputs.begin());
   if (a.inputs.empty())
     throw Error(ErrorKind::usage, "plot: INPUT is missing, expected barcode files");
   const bool wants_bars = a.output_format.value_or(BarcodeFormat::none) != BarcodeFormat::none;
-  const app::Plot picture{a.output, {}};
+  const app::Plot picture{.path = a.output, .kind = {}};
   if (wants_bars && (picture.is_svg() || picture.is_png()))
     throw Error(
         ErrorKind::usage,
         fmt::format("--output-format: found {0} with the picture -o {1}; expected --plot {1} "
                     "for it and -o for the barcode",
                     barcode_format_name(*a.output_format), a.output));
+  const auto bars = barcode_format_of_path(a.output);
+  const bool has_others = !plots.paths.empty() || !a.report.empty();
+  if (bars && !wants_bars && !has_others)
+    throw Error(ErrorKind::usage,
+                fmt::format("plot: found -o {}, expected FILE.svg or FILE.png; --output-format {} "
+                            "writes the barcode there",
+                            printable(a.output), barcode_format_name(*bars)));
   // What is named like a barcode is one, converted.
-  if (a.output != "-" && !wants_bars && !barcode_format_of_path(a.output)) {
+  const bool is_picture = a.output != "-" && !wants_bars && !bars;
+  if (is_picture) {
     plots.paths.insert(plots.paths.begin(), a.output);
     a.output = "-";
   }
   if (a.output == "-" && !a.output_format) a.output_format = BarcodeFormat::none;
   if (plots.paths.empty() && a.report.empty() && a.output_format == BarcodeFormat::none)
     throw Error(ErrorKind::usage, "plot: expected -o FILE.svg or -o FILE.png");
+  return is_picture;
 }
 
 /// What no single option can see.
@@ -383,12 +404,18 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv,
   if (auto answer = app::parse_command_line(app, arguments.common, argc, argv, built_in()))
     return answer;
   if (list_formats) return formats_table();
-  take_word(arguments, plots);
+  const bool is_first_of_output = take_word(arguments, plots);
   arguments.plots = plots.together(kPlotKinds.front());
+  if (is_first_of_output) arguments.plots.front().option = "--output";
   arguments.look = plots.look;
   for (const app::Plot& plot : arguments.plots) app::require_known_format(plot);
   arguments.given = app::given_scopes(app, option_scopes());
   check_together(arguments);
+  if (arguments.compare.empty() && !arguments.is_batch() && app::is_folder(arguments.inputs[0]))
+    throw Error(ErrorKind::no_input,
+                fmt::format("{}: it is a directory, a batch: give a folder for its results, -o "
+                            "FOLDER/, --plot FOLDER/ or --report FOLDER/",
+                            printable(arguments.inputs[0])));
   if (!arguments.report.empty()) arguments.command = app::typed_command("ph-barcode", argc, argv);
   return std::nullopt;
 }

@@ -22,6 +22,12 @@ namespace {
 
 BarcodeFormat format_of(const Arguments& arguments, app::Session& session) {
   if (arguments.output_format) return *arguments.output_format;
+  if (const app::Plot picture{.path = arguments.output, .kind = {}};
+      picture.is_svg() || picture.is_png())
+    throw Error(ErrorKind::usage,
+                fmt::format("--output: found '{0}', expected a barcode; --plot {0} draws it, "
+                            "--output-format says what else it is",
+                            printable(arguments.output)));
   // Pictures of several inputs need no barcodes beside them.
   const bool has_others = !arguments.plots.empty() || !arguments.report.empty();
   if (arguments.is_batch() && arguments.output == "-" && has_others) return BarcodeFormat::none;
@@ -127,7 +133,7 @@ std::vector<Job> jobs_of(const Arguments& arguments, const std::vector<std::stri
 /// Creates the folders of a batch.
 void prepare_folders(const Arguments& arguments, BarcodeFormat format) {
   if (format != BarcodeFormat::none) app::prepare_outputs("--output", arguments.output);
-  for (const app::Plot& plot : arguments.plots) app::prepare_outputs("--plot", plot.path);
+  for (const app::Plot& plot : arguments.plots) app::prepare_outputs(plot.option, plot.path);
   app::prepare_outputs("--report", arguments.report);
 }
 
@@ -149,7 +155,7 @@ void require_separate(const std::vector<Job>& jobs, const Arguments& arguments,
     inputs.add(job.input);
     if (arguments.dry_run) continue;
     if (job.format != BarcodeFormat::none) outputs.push_back({"--output", job.output});
-    for (const app::Plot& plot : job.plots) outputs.push_back({"--plot", plot.path});
+    for (const app::Plot& plot : job.plots) outputs.push_back({plot.option, plot.path});
     if (!job.report.empty()) outputs.push_back({"--report", job.report});
   }
   if (arguments.dry_run) outputs.push_back({"--dry-run", "-"});
@@ -165,7 +171,8 @@ void explain_unwritten(const Arguments& arguments, BarcodeFormat format, app::Se
   if (is_named && (arguments.dry_run || format == BarcodeFormat::none))
     unwritten.push_back("--output " + arguments.output);
   if (arguments.dry_run) {
-    for (const app::Plot& plot : arguments.plots) unwritten.push_back("--plot " + plot.path);
+    for (const app::Plot& plot : arguments.plots)
+      unwritten.push_back(plot.option + " " + plot.path);
     if (!arguments.report.empty()) unwritten.push_back("--report " + arguments.report);
     if (arguments.check) unwritten.emplace_back("--check");
     const Options& options = arguments.options;

@@ -18,7 +18,7 @@ constexpr std::string_view kOfRips = "Rips complexes of points and distances";
 constexpr std::string_view kOfAllPairs = "points and distance matrices";
 constexpr std::string_view kOfMatrices = "full distance matrices (--format distance)";
 constexpr std::string_view kOfDistances = "distances (--format distance)";
-constexpr std::string_view kOfInputs = "what a barcode is computed of";
+constexpr std::string_view kOfInputs = "a computation";
 
 constexpr std::array kScopes{
     OptionScope{"format", kComputed, kOfInputs},

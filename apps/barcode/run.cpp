@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <filesystem>
 #include <memory>
 #include <new>
 #include <optional>
@@ -92,9 +94,55 @@ std::string_view why_no_nan(const ReadResult& read) {
   return type == VoxelType::float32 || type == VoxelType::float64 ? "" : "no whole number is NaN";
 }
 
+/// Whether all rows may be dimension, birth and death: bars that a file does not say it has.
+bool may_be_bars(const ReadResult& read) {
+  constexpr double most = 9;  // dimensions
+  const auto is_bar = [](double dim, double birth, double death) {
+    return dim >= 0 && dim <= most && dim == std::floor(dim) && birth < death;
+  };
+  if (const auto* points = std::get_if<Points>(&read.data)) {
+    if (points->cols() != 3 || points->rows() == 0) return false;
+    for (Index i = 0; i < points->rows(); ++i)
+      if (!is_bar((*points)(i, 0), (*points)(i, 1), (*points)(i, 2))) return false;
+    return true;
+  }
+  const auto* image = std::get_if<Image>(&read.data);
+  const bool is_table = image && read.format == Format::npy && image->extents.size() == 2 &&
+                        image->extents[0] > 0 && image->extents[1] == 3;
+  if (!is_table) return false;
+  for (std::size_t k = 0; k < image->values.size(); k += 3)
+    if (!is_bar(image->values[k], image->values[k + 1], image->values[k + 2])) return false;
+  return true;
+}
+
+/// What could not be read as data, with a hint if it can be read as bars.
+[[noreturn]] void fail_to_read(const Job& job, const Error& error, Format format,
+                               const RunContext& context) {
+  bool has_bars = false;
+  // A pipe cannot be read again.
+  const bool is_guessed = error.kind() == ErrorKind::bad_data && format == Format::automatic;
+  std::error_code ignored;
+  if (is_guessed && std::filesystem::is_regular_file(job.input, ignored)) {
+    try {
+      has_bars = read_stored_barcode(Input::open(job.input, &context)).bars.size() > 0;
+    } catch (const std::exception&) {  // it cannot, either
+    }
+  }
+  if (!has_bars) throw;
+  throw Error(error.kind(), fmt::format("{}; is it a barcode? ph-barcode plot {} -o FILE.svg draws "
+                                        "it",
+                                        error.what(), printable(job.input)));
+}
+
 Loaded load(const Job& job, std::optional<Input>& input, const Arguments& arguments,
             app::Session& session, Stopwatch& watch) {
-  NamedData data = read_input(*input, arguments, session.context());
+  NamedData data = [&] {
+    try {
+      return read_input(*input, arguments, session.context());
+    } catch (const Error& error) {
+      fail_to_read(job, error, arguments.format, session.context());
+    }
+  }();
   input.reset();
   const auto& [name, read, dropped, sha256] = data;
   // Scanners mark holes by NaN: they are no error unless somebody says so.
@@ -109,6 +157,11 @@ Loaded load(const Job& job, std::optional<Input>& input, const Arguments& argume
   else
     session.explain(what);
   for (const std::string& note : read.notes) session.note(fmt::format("{}: {}", name, note));
+  if (arguments.format == Format::automatic && arguments.read.columns.empty() && may_be_bars(read))
+    session.note(
+        fmt::format("{}: its rows may be dimension, birth and death; ph-barcode plot {} "
+                    "-o FILE.svg draws them as bars",
+                    name, printable(job.input)));
   watch.lap("read");
   auto claim = std::make_unique<MemoryClaim>(session.context().memory, size_of(read));
   std::string description = read.description;
@@ -159,15 +212,6 @@ void explain_slabs(const BuiltComplex& built, const RunPlan& plan, const Argumen
         fmt::format("slabs of {}", count_of(static_cast<std::size_t>(layers), "layer")));
 }
 
-/// How plots look: those of superlevel sets name the values of the image.
-PlotOptions look_of(const Arguments& arguments) {
-  PlotOptions look = arguments.look;
-  if (!arguments.cubical.superlevel) return look;
-  look.negated = true;
-  look.value_label = "Value, falling";
-  return look;
-}
-
 /// The files of the plots of the merge tree, in their order, before bars are computed, which may
 /// take long: there may be no tree. @throws Error (usage) if there is none.
 std::vector<std::string> pictures_of_tree(const Loaded& loaded, const Job& job,
@@ -184,7 +228,9 @@ std::vector<std::string> pictures_of_tree(const Loaded& loaded, const Job& job,
   std::vector<std::string> pictures;
   for (const app::Plot& plot : job.plots)
     if (plot.kind == "tree")
-      pictures.push_back(app::drawn(plot, std::span(branches), look_of(arguments), context));
+      pictures.push_back(app::drawn(plot, std::span(branches),
+                                    look_of(arguments.look, arguments.cubical.superlevel),
+                                    context));
   return pictures;
 }
 
@@ -310,6 +356,8 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   info.vertex_weights = built.vertex_weights;
   info.subsample = built.subsample;
   info.voxels = built.voxels;
+  if (const auto* cubical = std::get_if<Cubical>(&built.complex))
+    info.superlevel = cubical->cubical_image().superlevel;
   info.approximation = arguments.rips.approximation;
   info.loops = loops_of_bars;
   info.engine = engine_name(planned.engine);
@@ -318,8 +366,10 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   for (const auto& [stage, seconds] : watch.laps())
     session.explain(fmt::format("{} {:.3f} s", stage, seconds));
   session.explain("memory " + app::format_size(static_cast<double>(session.memory_taken())));
+  note_absent_dims(barcode, arguments.look, session);
   const app::BarHold results_are_written(session);
-  outputs->write(barcode, info, look_of(arguments), trees, session.context());
+  outputs->write(barcode, info, look_of(arguments.look, arguments.cubical.superlevel), trees,
+                 session.context());
   if (data) {
     const Shown shown{barcode, info, *data, built, std::move(warnings)};
     write_report(outputs->report().file(), shown, arguments, session);
@@ -332,6 +382,21 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
 
 std::string count_of(std::size_t count, std::string_view what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+PlotOptions look_of(PlotOptions look, bool superlevel) {
+  if (!superlevel) return look;
+  look.negated = true;
+  look.value_label = "Value, falling";
+  return look;
+}
+
+void note_absent_dims(const Barcode& bars, const PlotOptions& look, app::Session& session) {
+  for (const int dim : look.dims) {
+    bool is_there = false;
+    for (std::size_t i = 0; i < bars.size() && !is_there; ++i) is_there = bars[i].dim == dim;
+    if (!is_there) session.note(fmt::format("--dims {}: there are no bars of this dimension", dim));
+  }
 }
 
 Outputs::Outputs(const Job& job) : job_(job) {

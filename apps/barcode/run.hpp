@@ -60,6 +60,12 @@ class Outputs {
   std::vector<app::Output> plots_;
 };
 
+/// How plots look: those of superlevel sets name the values of the image.
+PlotOptions look_of(PlotOptions look, bool superlevel);
+
+/// Says which dimensions that plots were asked to show have no bars.
+void note_absent_dims(const Barcode& bars, const PlotOptions& look, app::Session& session);
+
 /// "57 bars"
 std::string count_of(std::size_t count, std::string_view what);
 

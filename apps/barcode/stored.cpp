@@ -16,11 +16,12 @@ namespace ph::barcode {
 namespace {
 
 void write_stored_report(app::Output& output, const Input& input, const Barcode& barcode,
-                         const BarcodeInfo& info, const Arguments& arguments,
+                         const BarcodeInfo& info, bool superlevel, const Arguments& arguments,
                          app::Session& session) {
   report::Metadata meta;
   meta.title = report::title_of(info.input);
-  meta.value_label = "Filtration value";
+  meta.value_label = superlevel ? "Value" : "Filtration value";
+  meta.negated = superlevel;
   meta.barcodes.push_back({meta.title, barcode.cell_kind(), barcode.representatives()});
   meta.provenance.command = arguments.command;
   meta.provenance.has_homology = false;
@@ -57,12 +58,15 @@ Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, const A
   info.input = job.input;
   info.input_description = description;
   info.peak_memory = app::peak_memory();
+  note_absent_dims(barcode, arguments.look, session);
   const app::BarHold results_are_written(session);
   // Who computed the bars is not who converts them.
   const bool is_known = !origin.program.empty();
-  outputs.write(barcode, is_known ? origin : info, arguments.look, {}, session.context());
+  outputs.write(barcode, is_known ? origin : info, look_of(arguments.look, origin.superlevel), {},
+                session.context());
   if (!job.report.empty())
-    write_stored_report(outputs.report(), input, barcode, info, arguments, session);
+    write_stored_report(outputs.report(), input, barcode, info, origin.superlevel, arguments,
+                        session);
   return {app::kOk, description};
 }
 

@@ -34,7 +34,13 @@ std::vector<std::string> long_names(const CLI::App& app) {
   const std::vector<std::string_view> views(known.begin(), known.end());
   // One dash where there should be two: find the name all the same.
   const std::string dashed = name.starts_with("--") ? name : "-" + name;
-  const auto near = nearest_name(dashed, views);
+  // One letter away from another name, but what is meant is the dimension.
+  const std::string_view word = std::string_view(dashed).substr(2);
+  const bool is_dimension = word == "dim" || word == "maxdim" || word == "dimension";
+  const auto most = std::ranges::find_if(
+      views, [](std::string_view known_name) { return known_name.ends_with("max-dim"); });
+  const auto near =
+      is_dimension && most != views.end() ? std::optional(*most) : nearest_name(dashed, views);
   throw Error(ErrorKind::usage, fmt::format("unknown option '{}'; {}", name,
                                             near ? fmt::format("did you mean '{}'?", *near)
                                                  : "--help lists the options"));

@@ -32,12 +32,12 @@ bool Plot::is_svg() const { return ends_in(path, ".svg"); }
 void require_known_format(const Plot& plot) {
   if (plot.is_png() && png_plot_support().empty())
     throw Error(ErrorKind::not_built_in,
-                fmt::format("--plot {}: PNG plots are not built in; use .svg", plot.path));
+                fmt::format("{} {}: PNG plots are not built in; use .svg", plot.option, plot.path));
   const bool is_place = plot.path.ends_with('/') || is_folder(plot.path);
   if (!plot.is_png() && !plot.is_svg() && !is_place)
-    throw Error(
-        ErrorKind::usage,
-        fmt::format("--plot: found '{}', expected a name that ends in .svg or .png", plot.path));
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: found '{}', expected a name that ends in .svg or .png",
+                            plot.option, plot.path));
 }
 
 namespace {
@@ -95,7 +95,8 @@ std::vector<Plot> PlotArguments::together(std::string_view usual) const {
       throw Error(ErrorKind::usage,
                   fmt::format("--plot: found '{}' twice, expected a file for each", paths[i]));
     plots.push_back(
-        {paths[i], kinds.empty() ? std::string(usual) : kinds[std::min(i, kinds.size() - 1)]});
+        {.path = paths[i],
+         .kind = kinds.empty() ? std::string(usual) : kinds[std::min(i, kinds.size() - 1)]});
   }
   for (const PlotLook& wanted : looks)
     if (std::ranges::none_of(plots, wanted.fits))

@@ -14,7 +14,8 @@ namespace ph::app {
 /// A static picture to draw.
 struct Plot {
   std::string path;
-  std::string kind;  ///< a word of --plot-kind
+  std::string kind;               ///< a word of --plot-kind
+  std::string option = "--plot";  ///< that named the path
 
   /// Whether its name ends in .png; what ends in nothing known is SVG.
   bool is_png() const;

@@ -31,6 +31,17 @@ std::vector<std::string_view> names_of_presets() {
   return names;
 }
 
+/// Units a metre: of the pixels of a depth image.
+double depth_scale(const std::string& text) {
+  const double scale = length("--depth-scale", text);
+  if (scale < 1)
+    throw Error(ErrorKind::usage,
+                fmt::format("--depth-scale: found {0}, expected units a metre, at least 1; if a "
+                            "unit is {0} m: 1 / {0} = {1:.6g}",
+                            text, 1 / scale));
+  return scale;
+}
+
 void add_input_options(CLI::App& app, Arguments& a) {
   app.add_option(
       "INPUT", a.inputs,
@@ -65,7 +76,7 @@ void add_input_options(CLI::App& app, Arguments& a) {
       ->excludes(intrinsics);
   add_value(app, "--depth-scale", "S",
             "depth units a metre (default: 1000, millimetres; floats: 1, metres)",
-            [&a](const std::string& v) { a.image.scale = length("--depth-scale", v); });
+            [&a](const std::string& v) { a.image.scale = depth_scale(v); });
   app.add_flag("--allow-empty", a.allow_empty,
                "a cloud without points is an empty result (default: an error)");
 }
@@ -114,6 +125,11 @@ void require_consistent(const Arguments& a) {
   if (!depth && !a.image.colour.empty()) {
     throw Error(ErrorKind::usage, "--color: expected --depth with it");
   }
+  if (!depth && !a.is_stream() && app::is_folder(a.inputs.front()))
+    throw Error(ErrorKind::no_input,
+                fmt::format("{}: it is a directory, a stream of frames: give an output for each of "
+                            "them, such as -o FOLDER/, or --json FILE with a line a frame",
+                            printable(a.inputs.front())));
   if (!depth && !a.is_stream() && !may_be_image(a.inputs.front())) {
     if (a.image.has_camera())
       throw Error(ErrorKind::usage, fmt::format("{}: expected a depth image, found a cloud",

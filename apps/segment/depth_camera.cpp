@@ -2,9 +2,14 @@
 #include "depth_camera.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <string_view>
+#include <vector>
 
+#include "choices.hpp"
 #include "ph/error.hpp"
 
 namespace ph::segment {
@@ -21,6 +26,15 @@ void load_camera(DepthInput& image, app::Session& session) {
                     preset->name, preset->images));
     return;
   }
+  if (!std::filesystem::exists(image.calibration)) {
+    std::vector<std::string_view> names;
+    for (const CameraPreset& known : presets) names.push_back(known.name);
+    const auto near = app::nearest_name(image.calibration, names);
+    throw Error(ErrorKind::no_input,
+                fmt::format("--camera: found '{}', expected a file that is there or one of {}{}",
+                            printable(image.calibration), fmt::join(names, ", "),
+                            near ? fmt::format("; did you mean '{}'?", *near) : ""));
+  }
   image.camera = read_camera(image.calibration, &session.context());
   if (image.camera->lens.model != Lens::Model::none) {
     session.note(
@@ -36,8 +50,9 @@ Camera camera_for(const DepthInput& image, Index width, Index height, app::Sessi
   try {
     result = camera.scaled_to(width, height);
   } catch (const Error& error) {
-    throw Error(error.kind(),
-                fmt::format("--camera {}: {}", printable(image.calibration), error.what()));
+    std::string_view what = error.what();
+    if (what.starts_with("camera: ")) what.remove_prefix(8);
+    throw Error(error.kind(), fmt::format("--camera {}: {}", printable(image.calibration), what));
   }
   if (camera.width != 0 && (camera.width != width || camera.height != height)) {
     const Intrinsics& k = result.intrinsics;

@@ -37,7 +37,10 @@ std::string about_units(const Arguments& a, const Cloud& cloud, const Segmentati
     return fmt::format(
         "no point within {} m of the viewpoint{}, the nearest is at {:.3g} m; {}",
         a.options.max_range, a.options.crop ? " and inside the crop box" : "", nearest,
-        nearest > room ? fmt::format("{}: are these millimetres?", unit) : "see --max-range");
+        nearest > room       ? fmt::format("{}: are these millimetres?", unit)
+        : a.is_depth_image() ? "see --max-range, or --depth-scale if that is too far: how many "
+                               "units a metre has"
+                             : "see --max-range");
   }
   if (farthest >= crumb) return {};
   return fmt::format("all points are within {:.3g} m of the viewpoint; {}", farthest, unit);

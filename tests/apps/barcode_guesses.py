@@ -95,6 +95,36 @@ class Matrices(Guesses):
             self.assertAlmostEqual(points[0], components(distances_of(self.r))[0])
         self.check(self.of_r, "r.csv", "--from-correlation", "--symmetrise", "max")
 
+    def test_a_pair_that_differs(self):
+        for size in (1e-4, 0.3):
+            r = [row[:] for row in self.r]
+            r[4][3] += size if r[4][3] < 0 else -size
+            self.write("one.csv", csv(r))
+            self.write("one.npy", files.array((20, 20), flat(r)))
+            for name in ("one.csv", "one.npy"):
+                self.refused(65, ["nearly symmetric", "--from-correlation", "--format points"],
+                             name)
+                self.refused(65, ["--symmetrise"], name, "--from-correlation")
+        covariance = [[3 * x for x in row] for row in r]
+        self.write("c.csv", csv(covariance))
+        self.check(distances_of(covariance), "c.csv", note="nearly symmetric: read as points")
+
+    def test_advice_is_of_use(self):
+        names = [f"v{i}" for i in range(20)]
+        self.write("named.csv", "," + ",".join(names) + "\n" + "".join(
+            f"{names[i]}," + csv([self.r[i]]) for i in range(20)))
+        self.check(self.of_r, "named.csv", "--from-correlation", note="left out",
+                   silent=["takes it, too"])
+        self.write("large.csv", csv([[1.2 * x for x in row] for row in self.r]))
+        self.h0("large.csv", note="--format distance --diagonal zero reads distances",
+                silent=["--from-correlation"])
+        d = [[math.sqrt(max(0, 2 - 2 * x)) if i != j else 1.2 for j, x in enumerate(row)]
+             for i, row in enumerate(self.r)]
+        self.write("d.csv", csv(d))
+        self.h0("d.csv", note="--diagonal zero reads distances")
+        self.check({(i, j): d[i][j] for i in range(20) for j in range(i)}, "d.csv", "--format",
+                   "distance", "--diagonal", "zero", note="taken as 0")
+
     def test_names(self):
         names = [f"v{i}" for i in range(20)]
         header = "," + ",".join(names) + "\n"
@@ -158,7 +188,16 @@ class Matrices(Guesses):
             self.write("edge.npy", files.array((20, 20), flat(d)))
             self.expect(code, "edge.csv", "--format", "distance", "--quiet")
             self.expect(code, "edge.npy", "--format", "distance", "--quiet")
-        self.refused(65, ["edge.csv:8:", "non-zero diagonal"], "edge.csv", "--format", "distance")
+        self.refused(65, ["edge.csv:8:", "non-zero diagonal", "--diagonal zero",
+                          "--diagonal births"], "edge.csv", "--format", "distance")
+        d[7][7] = 1e-4 * largest
+        d[5][5] = -0.25 * largest
+        self.write("zero.csv", csv(d))
+        self.write("zero.npy", files.array((20, 20), flat(d)))
+        for name in ("zero.csv", "zero.npy"):
+            self.check(pairs, name, "--diagonal", "zero",
+                       note=f"diagonal has entries up to {0.25 * largest:.2g}, taken as 0")
+            self.refused(65, ["--diagonal zero"], name, "--format", "distance")
 
     def test_what_is_no_matrix(self):
         points = [[self.rng.random(), self.rng.random()] for _ in range(9)]
@@ -205,7 +244,17 @@ class Arrays(Guesses):
         self.h0("u.npy", note="read as an image; --complex rips")
         self.assertEqual(len(self.h0("u.npy", "--complex", "rips", silent=["image"])), 24)
         self.write("wide.npy", files.array((11, 3), flat(self.points[:11])))
-        self.h0("wide.npy", note="image of 11 x 3", silent=["point"])
+        self.h0("wide.npy", note="image of 11 x 3")
+        for rows, columns in ((30, 64), (30, 10), (100, 17), (10, 3)):
+            values = [math.sin(k * k) for k in range(rows * columns)]
+            for form in ("<f8", "<f4"):
+                self.write("f.npy", files.array((rows, columns), values, form))
+                self.h0("f.npy", note=f"{rows} x {columns} array: read as an image; --complex rips")
+            self.h0("f.npy", "--complex", "cubical", silent=["array"])
+            self.h0("f.npy", "--superlevel", silent=["array"])
+            self.assertEqual(len(self.h0("f.npy", "--complex", "rips", silent=["image"])), rows)
+        self.write("u.npy", files.array((5, 6), list(range(30)), "|u1"))
+        self.h0("u.npy", silent=["array"])
         self.write("one.npy", files.array((72,), flat(self.points)))
         self.h0("one.npy", note="signal of 72 values")
         self.write("batch.npy", files.array((2, 12, 3), flat(self.points)))
@@ -248,6 +297,49 @@ class Tables(Guesses):
         self.check(with_index, "t.csv", note="counts the rows and is read as a coordinate")
         self.write("t.csv", self.table("id,x,y", lambda i: i * i + 3))
         self.h0("t.csv", note="id, is taken as numbers; --columns 2-3")
+        for name in ("sample_id", "n", "point", "obs", "subject", "sample", "row id"):
+            self.write("t.csv", self.table(f"{name},x,y", lambda i: i + 1))
+            self.h0("t.csv", note=f"{name}, counts the rows and is read as a coordinate; "
+                                  "--columns 2-3")
+            self.check(self.pairs, "t.csv", "--columns", "2-3", silent=["counts"])
+
+    def test_an_index_of_a_cloud(self):
+        cloud = [[*p, k % 3 / 2] for k, p in enumerate(self.points)]
+        pairs = distances_of(cloud)
+        for header, lead in ((",x,y,z", str), ("x,y,z", str), ("id,x,y,z", lambda i: str(i + 1)),
+                             ('"","x","y","z"', lambda i: f'"r{i}"')):
+            self.write("c.xyz", header + "\n" + "".join(
+                f"{lead(i)},{csv([p])}" for i, p in enumerate(cloud)))
+            self.check(pairs, "c.xyz", note="left out", silent=["--columns"])
+        self.write("c.xyz", "id,x,y,z\n" + "".join(f"7,{csv([p])}" for p in cloud))
+        self.check(pairs, "c.xyz", silent=["left out", "--columns"])
+
+    def test_missing_values(self):
+        text = "x,y,z\n0,0,1\nNA,1,1\n1,\"NA\",0\n3,1,\n2,2,2\n"
+        self.write("na.csv", text)
+        self.assertEqual(len(self.h0("na.csv", "--nan", "drop", note="3 of 5 points")), 2)
+        self.refused(65, ["na.csv:3:1:", "--nan drop"], "na.csv")
+        self.write("last.csv", "x,y,z\n0,0,1\n3,1,\n2,2,2\n")
+        self.refused(65, ["last.csv:3:", "--nan drop"], "last.csv")
+        self.write("first.csv", "x,y,z\n3,1,\n0,0,1\n2,2,2\n")
+        self.refused(65, ["--nan drop"], "first.csv")
+        self.write("ragged.csv", "x,y,z\n0,0,1\n3,1\n2,2,2\n")
+        self.assertNotIn("--nan", self.expect(65, "ragged.csv").stderr)
+
+    def test_no_rows(self):
+        for text in ("", "# nothing\n", "x,y\n"):
+            self.write("empty.csv", text)
+            self.refused(65, ["no points"], "empty.csv")
+
+    def test_bars(self):
+        self.write("bars.csv", "0,0,1\n0,0,2\n1,1,2\n")
+        self.h0("bars.csv", note="dimension, birth and death; ph-barcode plot bars.csv")
+        self.write("bars.npy", files.array((3, 3), [0, 0, 1, 0, 0, 2, 1, 1, 2]))
+        self.h0("bars.npy", note="ph-barcode plot bars.npy")
+        self.write("endless.csv", "0,0,inf\n0,0,2\n")
+        self.refused(65, ["ph-barcode plot endless.csv"], "endless.csv")
+        self.write("p.csv", "0,0,1\n0.5,0,2\n1,1,2\n")
+        self.h0("p.csv", silent=["death"])
 
     def test_columns(self):
         self.write("t.csv", self.table("name,x,y", lambda i: f"p{i}"))
@@ -367,6 +459,10 @@ class Pictures(Guesses):
                 ("x.png", b"\xff\xd8\xff\xe0" + bytes(90), ["JPEG", "convert it to PNG"]),
                 ("x.tif", b"II*\0" + bytes(90), ["TIFF"]), ("x.tiff", b"MM\0*" + bytes(90), ["TIFF"]),
                 ("x.webp", b"RIFF\x10\0\0\0WEBPVP8 " + bytes(40), ["WebP"]),
+                ("x.obj", b"# a mesh\nmtllib m.mtl\no cube\nv 0 0 1\nv 1 0 0\nf 1 2 1\n",
+                 ["OBJ mesh", "OFF or PLY"]),
+                ("x.stl", b"solid a\nfacet normal 0 0 1\nouter loop\n", ["STL mesh", "OFF or PLY"]),
+                ("y.stl", bytes(80) + b"\2\0\0\0" + bytes(100), ["STL mesh", "OFF or PLY"]),
                 ("x.h5", b"\x89HDF\r\n\x1a\n" + bytes(90), ["HDF5", ".npy"])):
             self.write(name, content)
             self.refused(65, [name, *words], name)

@@ -60,7 +60,8 @@ class Stored(ProgramTest):
         self.store()
         for source in ("csv", "json", "pers", "dipha", "npy"):
             for form in ("csv", "pers", "dipha", "npy"):
-                self.expect(0, "plot", f"bars.{source}", "-o", f"again.{form}")
+                self.expect(0, "plot", f"bars.{source}", "-o", f"again.{form}", "--output-format",
+                            form)
                 with open(self.path(f"again.{form}"), "rb") as a, \
                         open(self.path(f"bars.{form}"), "rb") as b:
                     self.assertEqual(a.read(), b.read(), (source, form))
@@ -106,8 +107,15 @@ class Stored(ProgramTest):
                 (("plot", "bars.csv", "-o", "x.svg", "--plot-kind", "tree"), "tree"),
                 (("plot", "bars.csv", "-o", "x.svg", "--output-format", "json"), "--plot x.svg"),
                 (("plot", "bars.csv", "-o", "x.png", "--output-format", "csv"), "--plot x.png"),
-                (("plot", "bars.csv", "-o", "x.gif"), ".svg or .png")):
+                (("plot", "bars.csv", "-o", "x.gif"), "--output: found 'x.gif'"),
+                (("plot", "bars.csv", "-o", "q.csv"), "expected FILE.svg or FILE.png"),
+                (("square.txt", "-o", "x.svg"), "--plot x.svg draws it"),
+                (("square.txt", "-o", "x.PNG"), "--plot x.PNG draws it"),
+                (("--compare", "bars.csv"), "--compare: expected two barcodes, found 1"),
+                (("--compare", *["bars.csv"] * 3), "--compare: expected two barcodes, found 3"),
+                (("bars.csv", "--max-dim", "1"), "makes sense for a computation only")):
             self.assertIn(what, self.expect(64, *arguments).stderr)
+        self.assertNotIn("--plot", self.expect(64, "plot", "bars.csv", "-o", "x.gif").stderr)
         self.expect(65, "plot", "square.txt", "-o", "x.svg")
         self.assertNotIn("x.svg", self.files())
 
@@ -155,7 +163,9 @@ class Stored(ProgramTest):
         self.assertEqual(sorted(os.listdir(self.path("out"))), ["a.csv", "b.csv", "c.csv"])
         os.mkdir(self.path("empty"))
         self.assertIn("a folder without", self.expect(66, "empty", "-o", "out/").stderr)
-        self.assertIn("it is a directory", self.expect(66, "in").stderr)
+        run = self.expect(66, "in")
+        for words in ("in: it is a directory", "-o FOLDER/", "--plot FOLDER/"):
+            self.assertIn(words, run.stderr)
 
     def test_compare(self):
         self.write("a.csv", "dim,birth,death\n0,0,1\n0,0,inf\n1,1,2\n")
@@ -198,6 +208,8 @@ class Stored(ProgramTest):
         self.assertEqual([t for t in self.texts("x.svg") if t.startswith("H")], ["H₁"])
         self.assertIn('a < b & "c"', self.texts("x.svg"))
         self.assertIn("a &lt; b &amp; &quot;c&quot;", self.read("x.svg"))
+        self.assertNotIn("--dims", self.expect(0, *draw, "--dims", "0,1").stderr)
+        self.assertIn("--dims 3: there are no bars", self.expect(0, *draw, "--dims", "1,3").stderr)
         self.expect(0, *draw, "--axis", "0,2")
         self.assertIn("2.0", self.texts("x.svg"))
         self.assertIn("1 beyond", self.texts("x.svg"))  # [5, 6)
@@ -229,6 +241,22 @@ class Stored(ProgramTest):
             self.assertFalse([t for t in self.texts("x.svg") if "−" in t], kind)
             axis = [n for n in numbers if n % 5 == 0][:4]
             self.assertEqual(axis, sorted(axis, reverse=True), kind)
+
+    def test_json_says_that_it_is_of_superlevel_sets(self):
+        self.write("row.npy", files.array((5,), [50, 10, 40, 10, 30]))
+        for options in ([], ["--axis", "10,50"]):
+            for kind in ("barcode", "diagram", "betti"):
+                look = ["--plot-kind", kind, *options]
+                self.expect(0, "row.npy", "--superlevel", "-o", "a.json", "--plot", "direct.svg",
+                            *look)
+                self.expect(0, "a.json", "-o", "b.json")
+                for name in ("a.json", "b.json"):
+                    self.assertIs(json.loads(self.read(name))["superlevel"], True)
+                    self.expect(0, "plot", name, "-o", "again.svg", *look)
+                    self.assertEqual(self.read("again.svg"), self.read("direct.svg"),
+                                     (kind, options))
+        self.expect(0, "row.npy", "-o", "a.json")
+        self.assertNotIn("superlevel", json.loads(self.read("a.json")))
 
     def test_the_axis_of_superlevel_sets_is_of_the_image(self):
         self.write("row.npy", files.array((5,), [50, 10, 40, 10, 30]))

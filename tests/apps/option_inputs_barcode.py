@@ -40,7 +40,7 @@ def rows(Row):
         "--complex": Row("--complex", "cubical", unfit=IMAGE),
         "--threshold": Row("--threshold", "0.9"),
         "--metric": Row("--metric", "manhattan", unfit=POINTS),
-        "--construction": Row("--construction", "cells", unfit=IMAGE),
+        "--construction": Row("--construction", "cells", unfit=IMAGE, lost="read as an image"),
         "--superlevel": Row("--superlevel", unfit=IMAGE),
         "--periodic": Row("--periodic", "all", unfit=IMAGE),
         "--slab-layers": Row("--slab-layers", "1", sign="slabs of 1 layer", unfit=IMAGE),
@@ -141,7 +141,7 @@ def inputs(Input, program):
         if threshold is not None:
             given["--threshold"] = row("--threshold", str(threshold))
         if threshold is not None and name not in LISTED:  # an image
-            given["--complex"] = row("--complex", "rips", unfit=POINTS)
+            given["--complex"] = row("--complex", "rips", unfit=POINTS, lost="read as an image")
         if {"--format", "--raw-shape"} & set(arguments):  # what is read is not said then
             given["--quiet"] = row("--quiet", lost="ph-barcode: ",
                                    beside=["-o", "x.csv", "--output-format", "none"])

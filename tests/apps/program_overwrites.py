@@ -119,14 +119,16 @@ class Overwrites(unittest.TestCase):
     def test_two_outputs(self):
         self.write("p.csv", POINTS)
         for alias in ("x.svg", "./x.svg", "folder/../x.svg"):
-            self.refused(BARCODE, "x.svg", ["p.csv"], "p.csv", "-o", "x.svg", "--plot", alias)
+            self.refused(BARCODE, "x.svg", ["p.csv"], "p.csv", "-o", "x.svg",
+                         "--output-format", "csv", "--plot", alias)
             self.refused(BARCODE, "x.svg", ["p.csv"], "p.csv", "--plot", "x.svg", "--plot", alias,
                          "--force")
         self.assertFalse(os.path.exists(os.path.join(self.folder, "x.svg")))
         # In a folder that is not there yet.
         for arguments in (["--plot", "new/", "--plot-kind", "barcode", "--plot", "new/*.svg",
                            "--plot-kind", "diagram"],
-                          ["-o", "new/*.svg", "--plot", "folder/../new/*.svg"]):
+                          ["-o", "new/*.svg", "--output-format", "csv", "--plot",
+                           "folder/../new/*.svg"]):
             self.refused(BARCODE, "p.svg", ["p.csv"], "p.csv", "link-p.csv", *arguments)
         self.assertFalse(os.path.exists(os.path.join(self.folder, "new")))
         # What keeps nothing may be written twice.

@@ -245,6 +245,24 @@ std::string npy(const std::string& descr, const std::string& shape, const std::v
   return bytes;
 }
 
+TEST(ReadXyz, LeavesAnIndexOut) {
+  std::vector<std::string> notes;
+  const ReadOptions options{.note = [&](const std::string& text) { notes.push_back(text); }};
+  for (const std::string text : {",x,y,z\n0,1,2,3\n1,4,5,NA\n", "x y z\n1 1 2 3\n2 4 5 nan\n",
+                                 "\"\",\"x\",\"y\",\"z\"\n\"a\",1,2,3\n\"b\",4,5,nan\n"}) {
+    notes.clear();
+    const Cloud cloud = read_xyz(Input::view(text, "c.csv"), options);
+    EXPECT_EQ(cloud.fields.size(), 3U) << text;
+    EXPECT_EQ(cloud.size(), 2) << text;
+    EXPECT_EQ(cloud.xyz()[1], 2) << text;
+    EXPECT_TRUE(std::isnan(cloud.xyz()[5])) << text;
+    ASSERT_EQ(notes.size(), 2U) << text;
+    EXPECT_TRUE(contains(notes[1], "left out")) << text;
+    EXPECT_FALSE(contains(notes[1], "--")) << text;
+  }
+  EXPECT_EQ(read_xyz(Input::view("id,x,y,z\n7,1,2,3\n", "c.csv")).fields.size(), 4U);
+}
+
 TEST(ReadNpyCloud, TakesPointsAndOrganisedPoints) {
   const auto cloud = [](const std::string& bytes) {
     return read_cloud(Input::view(bytes, "c.npy"));

@@ -108,7 +108,7 @@ TEST_F(DepthImages, CamerasByFile) {
   EXPECT_FALSE(notes("rays")) << err();
   EXPECT_EQ(run("d.png --camera other.yaml"), 64);
   EXPECT_TRUE(
-      notes("--camera other.yaml: camera: found an image of 320 x 240 pixels, expected 320 "
+      notes("--camera other.yaml: found an image of 320 x 240 pixels, expected 320 "
             "x 248"))
       << err();
   EXPECT_EQ(run("d.png --camera odd.yaml"), 65);

@@ -50,6 +50,17 @@ TEST_F(Notes, DepthImages) {
   EXPECT_EQ(std::ranges::count(err(), '\n'), 1) << err();
   ASSERT_EQ(run("d.png " + camera), 0) << err();  // the same
   EXPECT_TRUE(notes("2 segments")) << err();
+  ASSERT_EQ(run("d.png --depth-scale 200 " + camera), 0);
+  EXPECT_TRUE(notes("see --max-range, or --depth-scale")) << err();
+  EXPECT_EQ(run("d.png --depth-scale 0.00025 " + camera), 64);
+  EXPECT_TRUE(notes("1 / 0.00025 = 4000")) << err();
+  for (const char* part : {"kinect-v", "d435", "xtoin"}) {
+    EXPECT_EQ(run(std::string("d.png --camera ") + part), 66);
+    EXPECT_TRUE(notes("did you mean '")) << err();
+    EXPECT_TRUE(notes("realsense-d415, realsense-d435")) << err();
+  }
+  EXPECT_EQ(run("d.png --camera no.yaml"), 66);
+  EXPECT_FALSE(notes("did you mean")) << err();
   ASSERT_EQ(run("d.png --depth-scale 1 " + camera), 0);
   EXPECT_TRUE(notes("--depth-scale: are these millimetres?")) << err();
   ASSERT_EQ(run("d.png --depth-scale 1000000 " + camera), 0);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
+#include <cstdint>
 
 #include "io/readers.hpp"
 #include "io/points/table.hpp"
@@ -17,6 +19,7 @@ struct Magic {
 
 constexpr std::string_view kToPng = "convert it to PNG";
 constexpr std::string_view kToNpy = "save the array as .npy";
+constexpr std::string_view kToMesh = "convert it to OFF or PLY";
 constexpr std::string_view kUnpack = "unpack it first, or use gzip";
 
 constexpr std::array kMagics{
@@ -65,9 +68,41 @@ bool is_ppm(std::string_view bytes) {
          is_size(line.substr(blank + 1));
 }
 
+// An OBJ mesh has lines "v 1 2 3", behind others that begin with a word that it knows.
+bool is_obj(std::string_view bytes) {
+  constexpr std::array<std::string_view, 6> kWords{"v ", "vn ", "vt ", "o ", "g ", "mtllib "};
+  for (bool is_first = true; !bytes.empty();) {
+    const std::string_view line = bytes.substr(0, bytes.find('\n'));
+    bytes.remove_prefix(std::min(line.size() + 1, bytes.size()));
+    if (line.empty() || line[0] == '#' || line[0] == '\r') continue;
+    const bool is_known =
+        std::ranges::any_of(kWords, [&](std::string_view word) { return line.starts_with(word); });
+    if (is_first && !is_known) return false;
+    is_first = false;
+    const std::size_t number = line.find_first_not_of(' ', 2);
+    if (line.starts_with("v ") && number != std::string_view::npos &&
+        std::string_view("0123456789+-.").find(line[number]) != std::string_view::npos)
+      return true;
+  }
+  return false;
+}
+
+// Binary STL has a header of 80 bytes, then the number of triangles.
+bool is_stl(std::string_view bytes, std::size_t size) {
+  if (bytes.starts_with("solid") && bytes.find("facet normal") != std::string_view::npos)
+    return true;
+  constexpr std::size_t header = 84, triangle = 50;
+  if (bytes.size() < header || is_text(bytes)) return false;
+  std::uint32_t count = 0;
+  for (std::size_t k = 4; k-- > 0;)
+    count = count << 8 | static_cast<unsigned char>(bytes[header - 4 + k]);
+  return count > 0 && size == header + std::uint64_t{triangle} * count;
+}
+
 }  // namespace
 
 std::optional<ForeignKind> foreign_kind(std::string_view bytes) {
+  const std::size_t size = bytes.size();
   bytes = bytes.substr(0, kProbe);
   const bool may_be_numbers = is_text(bytes);
   for (const Magic& magic : kMagics) {
@@ -76,6 +111,8 @@ std::optional<ForeignKind> foreign_kind(std::string_view bytes) {
       return magic.kind;
   }
   if (is_ppm(bytes)) return ForeignKind{"a PPM picture", kToPng};
+  if (is_obj(bytes)) return ForeignKind{"an OBJ mesh", kToMesh};
+  if (is_stl(bytes, size)) return ForeignKind{"an STL mesh", kToMesh};
   // A bitmap has its own length behind its two letters.
   if (bytes.starts_with("BM") && bytes.size() > 14 && bytes.substr(6, 4) == "\0\0\0\0"sv)
     return ForeignKind{"a BMP picture", kToPng};

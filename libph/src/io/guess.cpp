@@ -104,6 +104,9 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
       input.done_with(0, input.size());
     }
     const SquareKind kind = kind_of_square(block, side);
+    const bool is_nearly =
+        kind == SquareKind::nearly_correlations || kind == SquareKind::nearly_symmetric;
+    const std::string_view symmetric = is_nearly ? "nearly symmetric" : "symmetric";
     const std::string_view instead =
         is_rips ? "--format points reads a point a row" : "--complex cubical reads an image";
     if (n < 3) {
@@ -129,23 +132,30 @@ ArrayGuess guess_array(const Input& input, const ReadOptions& options) {
                           "distances",
                           shape)};
     }
-    if (kind == SquareKind::correlations) {
+    if (kind == SquareKind::correlations || kind == SquareKind::nearly_correlations) {
       input.fail({"correlations, points or an image",
-                  fmt::format("a symmetric {} from -1 to 1 with ones on its diagonal", shape),
+                  fmt::format("a {} {} from -1 to 1 with ones on its diagonal", symmetric, shape),
                   "an option that says which",
                   "--from-correlation takes distances 1 - r; --complex cubical reads an image, "
                   "--format points a point a row"});
     }
-    if (kind == SquareKind::distances || kind == SquareKind::symmetric) {
+    if (kind == SquareKind::distances || kind == SquareKind::symmetric ||
+        kind == SquareKind::nearly_symmetric) {
       return {otherwise.meaning,
-              fmt::format("{}, symmetric: read as {}; --format distance reads distances", shape,
-                          is_rips ? "points, one a row" : "an image")};
+              fmt::format("{}, {}: read as {}; --format distance{} reads distances", shape,
+                          symmetric, is_rips ? "points, one a row" : "an image",
+                          kind == SquareKind::distances ? "" : " --diagonal zero")};
     }
   }
+  if (is_rips) return otherwise;
   const bool is_slender = columns <= kMostCoordinates && rows >= kSlender * columns;
-  if (!is_slender || is_rips) return otherwise;
   // Pictures and maps of labels have small integers, coordinates hardly ever.
   const bool is_of_pixels = npy.array.type.size <= 2 && npy.kind != 'f';
+  if (!is_slender) {
+    if (is_of_pixels || rows < 2 || columns < 2) return otherwise;
+    return {ArrayMeaning::image,
+            fmt::format("{}: read as an image; --complex rips reads a point a row", shape)};
+  }
   if (is_of_pixels)
     return {
         ArrayMeaning::image,

@@ -59,23 +59,32 @@ Format format_of_text(const Input& input, const ReadOptions& options) {
   if (guess.columns == 1 && guess.table.rows > 1 && options.array == ArrayMeaning::automatic)
     detail::note(options, "a number a line: points of a line; --complex cubical reads a signal");
   const std::string size = fmt::format("{} x {} numbers", guess.table.rows, guess.columns);
-  const char* const choices =
-      "--format distance reads distances, --from-correlation correlations, --format points a point "
-      "a row";
+  const bool is_nearly = guess.table.square == SquareKind::nearly_correlations ||
+                         guess.table.square == SquareKind::nearly_symmetric;
+  const bool is_of_ones = guess.table.square == SquareKind::correlations ||
+                          guess.table.square == SquareKind::nearly_correlations;
+  const std::string_view symmetric = is_nearly ? "nearly symmetric" : "symmetric";
+  const std::string choices =
+      fmt::format("{}, --format points a point a row",
+                  is_of_ones ? "--format distance reads distances, --from-correlation correlations"
+                  : guess.table.square == SquareKind::distances
+                      ? "--format distance reads distances"
+                      : "--format distance --diagonal zero reads distances");
   if (guess.format == Format::distance) {
     detail::note(options,
                  "square with a zero diagonal: read as distances; --format points reads points");
-  } else if (guess.table.rows > 2 && guess.table.square == SquareKind::correlations) {
+  } else if (guess.table.rows > 2 && is_of_ones) {
     input.fail({"correlations or points",
-                fmt::format("{}, symmetric, from -1 to 1 with ones on the diagonal", size),
+                fmt::format("{}, {}, from -1 to 1 with ones on the diagonal", size, symmetric),
                 "an option that says which",
                 "--from-correlation takes distances 1 - r, --format points a point a row"});
-  } else if (guess.table.square == SquareKind::symmetric && guess.table.same_names) {
+  } else if (guess.table.same_names && (guess.table.square == SquareKind::symmetric ||
+                                        guess.table.square == SquareKind::nearly_symmetric)) {
     input.fail({"distances, correlations or points",
                 fmt::format("{}, rows and columns of the same names, no zero diagonal", size),
                 "an option that says which", choices});
   } else if (guess.table.square != SquareKind::nothing && guess.table.square != SquareKind::zeros) {
-    detail::note(options, fmt::format("{}, symmetric: read as points; {}", size, choices));
+    detail::note(options, fmt::format("{}, {}: read as points; {}", size, symmetric, choices));
   }
   return guess.format;
 }

@@ -36,7 +36,8 @@ std::optional<Meeting> first_meeting(const SceneTree& scene, const SceneCut& cut
     if (label == 0 || label > cut.segments.size())
       throw Error(ErrorKind::usage, fmt::format("segment {}: there are the segments 1 to {}", label,
                                                 cut.segments.size()));
-  if (a == b) throw Error(ErrorKind::usage, fmt::format("segment {}: found it twice", a));
+  if (a == b)
+    throw Error(ErrorKind::usage, fmt::format("found segment {} twice, expected two segments", a));
   // The parts of a segment are one from the beginning.
   DisjointSets sets(cut.vertex_labels.size(), std::pmr::get_default_resource());
   const auto join = [&](std::uint32_t u, std::uint32_t v) {

@@ -67,6 +67,7 @@ struct ReadOptions {
   Symmetrise symmetrise = Symmetrise::none;      ///< of square matrices
   bool from_correlation = false;                 ///< d = 1 - r; the diagonal must be 1
   bool births_on_diagonal = false;               ///< of square matrices; else it must be 0
+  bool zeros_on_diagonal = false;                ///< of square matrices: it is read as 0
   NanPolicy nan = NanPolicy::error;              ///< see NanPolicy
   ArrayMeaning array = ArrayMeaning::automatic;  ///< used by read_any
   std::vector<std::string> columns = {};         ///< of tables: names, "3", "2-5"; empty: all

@@ -52,6 +52,7 @@ struct BarcodeInfo {
     std::string value;          ///< "distance", "occupancy" or "density"
   };
   std::optional<VoxelGrid> voxels;
+  bool superlevel = false;              ///< values are minus those of the image
   std::optional<double> approximation;  ///< epsilon of a sparse Rips filtration
   /// By bar of the barcode that is written, as ph::loops gives them: they stand beside the cycles.
   /// Empty: there are none.

@@ -212,6 +212,7 @@ void write_barcode_json(OutputFile& file, const Barcode& barcode, const BarcodeI
                            json_number(info.voxels->voxel), first,
                            json_string(info.voxels->value)));
   }
+  if (info.superlevel) file.write("  \"superlevel\": true,\n");
   if (info.approximation)
     file.write(fmt::format("  \"approximation\": {},\n", json_number(*info.approximation)));
   const bool with_chains = barcode.representatives() != Representatives::none;

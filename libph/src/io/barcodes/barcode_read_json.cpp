@@ -61,6 +61,9 @@ class InfoReader {
       read_subsample();
     } else if (name == "voxels") {
       read_voxels();
+    } else if (name == "superlevel") {
+      info_.superlevel = json_.peek() == 't';
+      json_.skip_value();
     } else if (name == "approximation") {
       info_.approximation = number();
     } else if (name == "engine") {

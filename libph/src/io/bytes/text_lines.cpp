@@ -111,7 +111,7 @@ TextLines::TextLines(const Input& input) : TextLines(input, 0, 0) {
   const std::size_t nul = probe.find('\0');
   // Which formats there are the caller knows: programs that read clouds alone have no --format.
   const std::string hint = "save it as UTF-8";
-  if (const auto foreign = detail::foreign_kind(probe)) {
+  if (const auto foreign = detail::foreign_kind(input.text())) {
     input.fail_at_byte(
         0, {"not plain text", std::string(foreign->name), "UTF-8", std::string(foreign->advice)});
   }
@@ -217,10 +217,13 @@ T Cells::floating(Allow allow) {
   const auto [last, error] = std::from_chars(digits, end_, value);
   const char* stop = last;
   if (in_quotes && stop != end_ && *stop == '"') ++stop;
-  if (allow == Allow::missing && error == std::errc::invalid_argument &&
-      is_empty_cell(begin, stop)) {
-    after_cell(stop);
-    return std::numeric_limits<T>::quiet_NaN();
+  if (allow >= Allow::any && error == std::errc::invalid_argument) {
+    const char* const end = end_of_cell(begin);
+    const bool is_missing = allow == Allow::missing && is_empty_cell(begin, stop);
+    if (is_missing || detail::is_missing_value({begin, static_cast<std::size_t>(end - begin)})) {
+      after_cell(is_missing ? stop : end);
+      return std::numeric_limits<T>::quiet_NaN();
+    }
   }
   if (error == std::errc::invalid_argument || (stop != end_ && !ends_cell(*stop)) ||
       (in_quotes && stop == last)) {
@@ -351,8 +354,11 @@ void Cells::reject(const char* begin, const char* stop, std::string what, std::s
                          std::move(expected), std::string(hints_.missing)});
   }
   const std::string why = hint_for(cell);
-  lines_->fail(begin, {std::move(what), quoted(cell), std::move(expected),
-                       why.empty() ? std::string(cell == "\"\"" ? hints_.missing : hint) : why});
+  lines_->fail(begin,
+               {std::move(what), quoted(cell), std::move(expected),
+                !why.empty()                                       ? why
+                : cell == "\"\"" || detail::is_missing_value(cell) ? std::string(hints_.missing)
+                                                                   : std::string(hint)});
 }
 
 }  // namespace ph

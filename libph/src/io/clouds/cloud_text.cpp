@@ -7,6 +7,7 @@
 
 #include "io/clouds/cloud_rows.hpp"
 #include "ph/io/cloud_io.hpp"
+#include "io/points/table.hpp"
 #include "io/readers.hpp"
 
 namespace ph {
@@ -148,6 +149,17 @@ bool is_counted(const Input& input) {
 }  // namespace detail
 
 Cloud read_xyz(const Input& input, const ReadOptions& options) {
+  ReadOptions as_points = options;
+  as_points.array = ArrayMeaning::points;
+  as_points.columns.clear();
+  detail::TableLayout layout = detail::table_layout(input, as_points);
+  if (layout.names_rows) {
+    // Programs that read clouds alone have no --columns.
+    for (std::string& text : layout.notes) text.resize(std::min(text.find("; "), text.size()));
+    detail::TextTable table = detail::read_text_table(input, Allow::any, options, false, &layout);
+    if (table.header.size() == layout.width) table.header.erase(table.header.begin());
+    return detail::cloud_of_rows(table, input, options, detail::RowSource::text);
+  }
   return detail::cloud_of_rows(detail::read_text_table(input, Allow::any, options), input, options,
                                detail::RowSource::text);
 }

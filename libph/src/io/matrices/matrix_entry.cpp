@@ -83,21 +83,29 @@ Fault MatrixEntries::fault_of(Kind kind, const Doubt& doubt) const {
   const bool is_one = std::abs(doubt.value - 1) <= kRounding;
   return {"non-zero diagonal", fmt::format("{}", doubt.value), "0" + slack,
           is_one            ? kCorrelations
-          : doubt.value > 0 ? "--diagonal births takes it for the births of the points"
-                            : ""};
+          : doubt.value > 0 ? "--diagonal zero takes it for 0, --diagonal births for the births of "
+                              "the points"
+                            : "--diagonal zero takes it for 0"};
 }
 
 void MatrixEntries::finish(const std::function<void(const EntryPlace&, const Fault&)>& fail) const {
+  const auto is_accepted = [&](Kind kind) {
+    return worst_[kind].size <= rounding() || (kind == kDiagonal && options_.zeros_on_diagonal);
+  };
   for (const Kind kind : {kNegative, kAsymmetric, kDiagonal})
-    if (const Doubt& doubt = worst_[kind]; doubt.size > rounding())
-      fail(doubt.place, fault_of(kind, doubt));
+    if (!is_accepted(kind)) fail(worst_[kind].place, fault_of(kind, worst_[kind]));
   const auto tell = [&](Kind kind, std::string_view what) {
     if (worst_[kind].size > 0)
       note(options_,
            fmt::format("{} for rounding, at most {:.2g}: taken as 0", what, worst_[kind].size));
   };
   tell(kNegative, "distances are 0 or more but");
-  tell(kDiagonal, "the diagonal is 0 but");
+  const Doubt& diagonal = worst_[kDiagonal];
+  if (diagonal.size > rounding())
+    note(options_, fmt::format("--diagonal zero: the diagonal has entries up to {:.2g}, taken as 0",
+                               diagonal.size));
+  else
+    tell(kDiagonal, "the diagonal is 0 but");
 }
 
 void fail_in_text(const Input& input, std::size_t byte, const Fault& fault) {

@@ -5,27 +5,41 @@
 #include <limits>
 
 #include "io/points/table.hpp"
+#include "ph/barcode.hpp"
 
 namespace ph::detail {
+namespace {
+
+constexpr double kLittle = 0.01;  // between correlations that were meant to be equal
+
+}  // namespace
 
 SquareKind kind_of_square(std::span<const double> block, std::size_t side) {
   double largest = 0;
   for (const double value : block)
     if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
   const double rounding = kRounding * largest;
-  bool symmetric = true, positive = true, in_one = true;
+  bool positive = true, in_one = true;
+  double most_apart = 0;   // the two entries of a pair
+  std::size_t uneven = 0;  // such places, two a pair
   for (std::size_t i = 0; i < side; ++i) {
     for (std::size_t j = 0; j < side; ++j) {
       const double value = block[i * side + j], other = block[j * side + i];
       in_one = in_one && !(std::abs(value) > 1 + kRounding);
       if (i == j || std::isnan(value)) {
-        symmetric = symmetric && (i == j || std::isnan(other));
+        if (i != j && !std::isnan(other)) {
+          ++uneven;
+          most_apart = kInfinity;
+        }
         continue;
       }
       positive = positive && value >= -rounding;
-      symmetric = symmetric && (value == other || std::abs(value - other) <= rounding);
+      if (value == other || std::abs(value - other) <= rounding) continue;
+      ++uneven;
+      most_apart = std::isnan(other) ? kInfinity : std::max(most_apart, std::abs(value - other));
     }
   }
+  const bool symmetric = uneven == 0;
   bool zeros = true, ones = true, known = false;
   for (std::size_t i = 0; i < side; ++i) {
     const double value = block[i * side + i];
@@ -35,8 +49,13 @@ SquareKind kind_of_square(std::span<const double> block, std::size_t side) {
     ones = ones && std::abs(value - 1) <= kRounding;
   }
   if (known && zeros) return symmetric && positive ? SquareKind::distances : SquareKind::zeros;
-  if (!symmetric) return SquareKind::nothing;
-  return known && ones && in_one ? SquareKind::correlations : SquareKind::symmetric;
+  const bool is_of_ones = known && ones && in_one;
+  if (symmetric) return is_of_ones ? SquareKind::correlations : SquareKind::symmetric;
+  // Zeros are equal in any picture of a few things.
+  if (is_mostly_zero(block, side)) return SquareKind::nothing;
+  const bool is_nearly = 10 * uneven <= side * (side - 1);
+  if (is_of_ones && (is_nearly || most_apart <= kLittle)) return SquareKind::nearly_correlations;
+  return is_nearly ? SquareKind::nearly_symmetric : SquareKind::nothing;
 }
 
 bool is_mostly_zero(std::span<const double> block, std::size_t side) {

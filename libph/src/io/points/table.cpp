@@ -111,10 +111,7 @@ void leave_counts_out(const Input& input, const TextLines& first, const ReadOpti
   const TableLayout rest{.width = n, .columns = range(1, n), .names_rows = true};
   if (first_column(input, rest, n).counts && is_matrix(rest)) {
     layout.names_rows = true;
-    layout.notes.push_back(
-        fmt::format("the first column counts the rows of a symmetric matrix: left out; --columns "
-                    "1-{} takes it, too",
-                    n));
+    layout.notes.emplace_back("the first column counts the rows of a symmetric matrix: left out");
   }
 }
 
@@ -127,6 +124,16 @@ std::size_t width_of(const TextLines& lines, const TableLayout& layout,
   return count + (is_last_missing ? 1 : 0);
 }
 
+// How to read the first column, too; nothing of a square matrix, which it would make none.
+std::string way_to_take_it(const Input& input, const TableLayout& layout) {
+  const TableLayout rest{.header = layout.header,
+                         .width = layout.width,
+                         .columns = range(1, layout.width),
+                         .names_rows = true};
+  const bool is_square = shape_of(input, rest).rows == rest.columns.size();
+  return is_square ? "" : fmt::format("; --columns 1-{} takes it, too", layout.width);
+}
+
 // Whether the first column has names, or counts the rows; says why in a note.
 bool leads_with_names(const Input& input, TableLayout& layout, std::string_view first_cell) {
   if (layout.width < 2) return false;
@@ -134,9 +141,8 @@ bool leads_with_names(const Input& input, TableLayout& layout, std::string_view 
   const bool is_one_short = layout.header.size() + 1 == layout.width;  // as R writes it
   if (is_full && layout.header[0].empty()) {
     layout.notes.push_back(
-        fmt::format("the first column has no name, as an index of the rows: left out; --columns "
-                    "1-{} takes it, too",
-                    layout.width));
+        fmt::format("the first column has no name, as an index of the rows: left out{}",
+                    number_in(first_cell) ? way_to_take_it(input, layout) : ""));
     return true;
   }
   const bool is_index = is_full && is_name_of_index(layout.header[0]);
@@ -149,9 +155,8 @@ bool leads_with_names(const Input& input, TableLayout& layout, std::string_view 
   if (!is_index && !is_one_short) return false;
   const std::string name = is_index ? fmt::format(", {},", printable(layout.header[0], 40)) : "";
   if (first_column(input, layout).counts) {
-    layout.notes.push_back(
-        fmt::format("the first column{} counts the rows: left out; --columns 1-{} takes it, too",
-                    name, layout.width));
+    layout.notes.push_back(fmt::format("the first column{} counts the rows: left out{}", name,
+                                       way_to_take_it(input, layout)));
     return true;
   }
   if (is_index)
@@ -272,7 +277,10 @@ std::string_view without_quotes(std::string_view cell) {
   return cell;
 }
 
+bool is_missing_value(std::string_view cell) { return without_quotes(cell) == "NA"; }
+
 std::optional<double> number_in(std::string_view cell) {
+  if (is_missing_value(cell)) return std::numeric_limits<double>::quiet_NaN();
   cell = without_quotes(cell);
   if (cell.starts_with('+')) cell.remove_prefix(1);
   double value = std::numeric_limits<double>::quiet_NaN();

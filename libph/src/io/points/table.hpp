@@ -33,6 +33,8 @@ TableLayout table_layout(const Input& input, const ReadOptions& options);
 
 /// The number that a cell holds, NaN if double cannot hold it; nothing if it holds no number.
 std::optional<double> number_in(std::string_view cell);
+/// Whether a cell is NA, as R writes a value that is not there.
+bool is_missing_value(std::string_view cell);
 /// A cell without the double quotes around it.
 std::string_view without_quotes(std::string_view cell);
 /// Cells of a line of names, without the quotes around them and without an empty last one.
@@ -56,11 +58,13 @@ std::vector<std::size_t> chosen_columns(const std::vector<std::string>& wanted,
 
 /// What a square table of numbers looks like.
 enum class SquareKind {
-  nothing,       ///< no symmetric matrix
-  zeros,         ///< a diagonal of zeros, but not symmetric, or with negative entries
-  distances,     ///< symmetric, not negative, with a diagonal of zeros
-  correlations,  ///< symmetric, from -1 to 1, with a diagonal of ones
-  symmetric,     ///< symmetric only
+  nothing,              ///< no symmetric matrix
+  zeros,                ///< a diagonal of zeros, but not symmetric, or with negative entries
+  distances,            ///< symmetric, not negative, with a diagonal of zeros
+  correlations,         ///< symmetric, from -1 to 1, with a diagonal of ones
+  symmetric,            ///< symmetric only
+  nearly_correlations,  ///< the same but for one pair of ten at most, or for little
+  nearly_symmetric,     ///< symmetric but for one pair of ten at most
 };
 
 /// Most rows of a submatrix that `kind_of_square` is asked about.
@@ -109,7 +113,7 @@ struct ForeignKind {
   std::string_view name;
   std::string_view advice;
 };
-/// By magic number; nothing if it is not known.
+/// By the first bytes of a file, of STL also by its size; nothing if it is not known.
 std::optional<ForeignKind> foreign_kind(std::string_view bytes);
 
 /// @throws Error (usage) if options.columns were given for what has none to choose.

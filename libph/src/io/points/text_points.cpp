@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "ph/io/cloud_io.hpp"
@@ -18,6 +19,13 @@ bool counts_rows(const Points& points, Index column) {
   for (Index i = 0; i < points.rows(); ++i)
     if (points(i, column) != points(0, column) + static_cast<double>(i)) return false;
   return points(0, column) == 0 || points(0, column) == 1;
+}
+
+// Whether the name of a column says that its numbers are meant: a place, or a time.
+bool names_coordinate(std::string_view name) {
+  constexpr std::array<std::string_view, 10> kNames{"x", "y", "z", "X",    "Y",
+                                                    "Z", "t", "T", "time", "Time"};
+  return std::ranges::find(kNames, name) != kNames.end();
 }
 
 // Whether the first point may be a header of numbers: 0, 1, 2, … or 1, 2, 3, …. Of two whole
@@ -41,12 +49,17 @@ detail::TextTable table_of_points(const Input& input, const ReadOptions& options
       input, options.nan == NanPolicy::drop ? Allow::missing : Allow::finite, options, false,
       &layout);
   const Points& rows = table.rows;
-  if (layout.header.empty() && options.columns.empty() && rows.rows() >= kFewest &&
-      rows.cols() > 1 && counts_rows(rows, 0)) {
-    detail::note(options,
-                 fmt::format("the first column counts the rows and is read as a coordinate; "
-                             "--columns 2-{} leaves it out",
-                             rows.cols()));
+  const bool has_name = !layout.header.empty() && layout.header.size() == layout.width;
+  const bool may_be_index =
+      !layout.names_rows && !(has_name && names_coordinate(layout.header.front()));
+  if (may_be_index && options.columns.empty() && rows.rows() >= kFewest && rows.cols() > 1 &&
+      counts_rows(rows, 0)) {
+    detail::note(
+        options,
+        fmt::format("the first column{} counts the rows and is read as a coordinate; "
+                    "--columns 2-{} leaves it out",
+                    has_name ? fmt::format(", {},", printable(layout.header.front(), 40)) : "",
+                    rows.cols()));
   }
   if (layout.header.empty() && options.columns.empty() && may_be_header(rows))
     detail::note(options,
@@ -74,7 +87,8 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
                           const TableLayout* layout) {
   TextTable table;
   TextLines lines(input);
-  Cells cells(lines, layout != nullptr ? cell_hints(options) : CellHints());
+  // Clouds are read by programs that have none of these options.
+  Cells cells(lines, layout != nullptr && allow != Allow::any ? cell_hints(options) : CellHints());
   bool more = layout != nullptr ? layout->start(lines) : lines.next();
   std::size_t said = 0;
   if (counted) {
@@ -138,12 +152,21 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
     }
     if (k != width || cells.more()) {
       for (; cells.more(); ++k) cells.skip();
-      lines.fail(lines.line().data(),
-                 {"ragged row", fmt::format("{} cell{}", k, k == 1 ? "" : "s"),
-                  fmt::format("{}, as in line {}", width, first_line),
-                  k < width && lines.offset() == input.size() ? "is the file truncated?"
-                  : options.array == ArrayMeaning::image      ? "an image has rows of one length"
-                                                              : ""});
+      // Of this row, or of the one that the width is from.
+      const bool is_last_missing = layout != nullptr && allow != Allow::any &&
+                                   options.nan == NanPolicy::error &&
+                                   ((k + 1 == width && ends_empty(lines.line())) ||
+                                    (k == width + 1 && k == layout->header.size()));
+      lines.fail(
+          lines.line().data(),
+          {"ragged row", fmt::format("{} cell{}", k, k == 1 ? "" : "s"),
+           fmt::format("{}, as in line {}", width, first_line),
+           k < width && lines.offset() == input.size()
+               ? is_last_missing ? "is the file truncated? else --nan drop accepts the empty cell"
+                                 : "is the file truncated?"
+           : is_last_missing                      ? "--nan drop accepts an empty last cell"
+           : options.array == ArrayMeaning::image ? "an image has rows of one length"
+                                                  : ""});
     }
     ++count;
   } while (lines.next());
