@@ -19,5 +19,5 @@ done
 
 # What only writes is not counted.
 gcovr --root . --object-directory "$build" --filter libph/src/io/ \
-  --exclude 'libph/src/io/(svg_plot.*|output_file|cloud_write|barcode_(io|json|binary|text))\.[ch]pp' \
+  --exclude 'libph/src/io/(bytes/output_file|clouds/cloud_write|barcodes/barcode_(io|json|binary|text))\.[ch]pp' \
   --fail-under-line "$least"

@@ -7,11 +7,11 @@
 #include "command_line.hpp"
 #include "option_scope.hpp"
 #include "ph/cubical.hpp"
+#include "ph/io/formats.hpp"
+#include "ph/io/write.hpp"
+#include "ph/persistence.hpp"
 #include "ph/rips.hpp"
 #include "ph/voxel_image.hpp"
-#include "ph/io/write.hpp"
-#include "ph/io/formats.hpp"
-#include "ph/persistence.hpp"
 #include "plot_arguments.hpp"
 
 namespace ph::barcode {

@@ -8,11 +8,11 @@
 #include <cmath>
 #include <limits>
 
-#include "option_scopes.hpp"
 #include "complex/listed_cubes.hpp"
+#include "option_scopes.hpp"
+#include "ph/distance_to_measure.hpp"
 #include "ph/lower_star.hpp"
 #include "ph/voxel_image.hpp"
-#include "ph/distance_to_measure.hpp"
 
 namespace ph::barcode {
 namespace {

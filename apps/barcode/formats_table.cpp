@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "ph/io/write.hpp"
 #include "ph/io/formats.hpp"
+#include "ph/io/write.hpp"
 
 namespace ph::barcode {
 namespace {

@@ -10,8 +10,8 @@
 #include <map>
 #include <system_error>
 
-#include "ph/error.hpp"
 #include "ph/detail/reader.hpp"
+#include "ph/error.hpp"
 
 namespace ph::app {
 namespace {

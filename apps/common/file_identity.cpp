@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <system_error>
 
-#include "ph/error.hpp"
 #include "ph/detail/reader.hpp"
+#include "ph/error.hpp"
 
 namespace ph::app {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "command_line.hpp"
 #include "memory_limit.hpp"
-#include "ph/run_context.hpp"
 #include "ph/detail/output_file.hpp"
+#include "ph/run_context.hpp"
 #include "progress.hpp"
 
 namespace ph::app {

@@ -11,8 +11,8 @@
 #include <new>
 
 #include "base64.hpp"
-#include "ph/error.hpp"
 #include "ph/detail/file_pages.hpp"
+#include "ph/error.hpp"
 #include "ph/io/write.hpp"
 
 namespace ph::report {

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "ph/run_context.hpp"
 #include "ph/detail/output_file.hpp"
+#include "ph/run_context.hpp"
 
 namespace ph::report {
 

@@ -8,8 +8,8 @@
 #include "array_block.hpp"
 #include "metadata.hpp"
 #include "ph/detail/cubical_image.hpp"
-#include "ph/run_context.hpp"
 #include "ph/detail/output_file.hpp"
+#include "ph/run_context.hpp"
 
 namespace ph::report {
 

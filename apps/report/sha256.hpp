@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
-#include "ph/run_context.hpp"
 #include "ph/detail/reader.hpp"
+#include "ph/run_context.hpp"
 
 namespace ph::report {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "complex/place_runs.hpp"
+#include "image/place_runs.hpp"
 
 namespace ph::report {
 

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "pictures/cloud_picture.hpp"
 #include "command_line.hpp"
 #include "file_identity.hpp"
 #include "option_scope.hpp"
 #include "output_paths.hpp"
 #include "ph/io/cloud_io.hpp"
 #include "ph/segment.hpp"
+#include "pictures/cloud_picture.hpp"
 
 namespace ph::segment {
 

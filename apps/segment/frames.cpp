@@ -9,8 +9,8 @@
 #include <iostream>
 
 #include "batch_names.hpp"
-#include "ph/error.hpp"
 #include "ph/detail/reader.hpp"
+#include "ph/error.hpp"
 
 namespace ph::segment {
 namespace {

@@ -8,10 +8,10 @@
 #include <sstream>
 
 #include "cloud_files.hpp"
-#include "pictures/cloud_legend.hpp"
-#include "pictures/colouring.hpp"
 #include "ph/error.hpp"
 #include "ph/io/write.hpp"
+#include "pictures/cloud_legend.hpp"
+#include "pictures/colouring.hpp"
 #include "report.hpp"
 #include "summary.hpp"
 

@@ -9,17 +9,17 @@
 #include <span>
 
 #include "arguments.hpp"
-#include "voxels/cross_check.hpp"
 #include "depth_camera.hpp"
 #include "exit_code.hpp"
 #include "idle_options.hpp"
 #include "option_scopes.hpp"
 #include "outputs.hpp"
-#include "ph/error.hpp"
 #include "ph/detail/output_file.hpp"
+#include "ph/error.hpp"
 #include "report/sha256.hpp"
 #include "stream.hpp"
 #include "summary.hpp"
+#include "voxels/cross_check.hpp"
 #include "warnings.hpp"
 
 namespace ph::segment {

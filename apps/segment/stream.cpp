@@ -10,11 +10,11 @@
 
 #include "exit_code.hpp"
 #include "frames.hpp"
-#include "tree/json_text.hpp"
 #include "ph/error.hpp"
 #include "ph/label_tracker.hpp"
 #include "program.hpp"
 #include "run.hpp"
+#include "tree/json_text.hpp"
 
 namespace ph::segment {
 namespace {

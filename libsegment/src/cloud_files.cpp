@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <sstream>
 
+#include "ph/detail/output_file.hpp"
 #include "ph/error.hpp"
 #include "ph/io/cloud_io.hpp"
-#include "ph/detail/output_file.hpp"
 #include "ph/segment.hpp"
 
 namespace ph::segment {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "surface/concavity.hpp"
 #include "plane/foot.hpp"
-#include "voxels/rips_graph.hpp"
+#include "surface/concavity.hpp"
 #include "surface/seeds.hpp"
+#include "voxels/rips_graph.hpp"
 #include "voxels/voxel_pairs.hpp"
 
 namespace ph::segment {

@@ -4,16 +4,16 @@
 #include <algorithm>
 #include <utility>
 
-#include "voxels/cross_check.hpp"
-#include "tree/cut.hpp"
-#include "plane/hidden_points.hpp"
 #include "methods.hpp"
 #include "options.hpp"
 #include "ph/error.hpp"
 #include "ph/segment.hpp"
+#include "plane/hidden_points.hpp"
 #include "plane/plane.hpp"
 #include "plane/projection_centre.hpp"
 #include "plane/range_filter.hpp"
+#include "tree/cut.hpp"
+#include "voxels/cross_check.hpp"
 
 namespace ph::segment {
 namespace {

@@ -14,12 +14,12 @@
 #include <new>
 #include <sstream>
 
-#include "ph/merge_tree.hpp"
-#include "ph/io/write.hpp"
 #include "ph/io/cloud_io.hpp"
 #include "ph/io/formats.hpp"
 #include "ph/io/png_plot.hpp"
 #include "ph/io/svg_plot.hpp"
+#include "ph/io/write.hpp"
+#include "ph/merge_tree.hpp"
 #include "ph/persistence.hpp"
 #include "ph/segment.hpp"
 

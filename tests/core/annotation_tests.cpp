@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "rips/sweep/active_edges.hpp"
 #include "rips/annotations/dead_generators.hpp"
 #include "rips/annotations/id_set.hpp"
+#include "rips/sweep/active_edges.hpp"
 #include "support/for_each_seed.hpp"
 
 namespace ph::test {

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "ph/error.hpp"
 #include "ph/bottleneck.hpp"
+#include "ph/error.hpp"
 
 namespace ph {
 namespace {

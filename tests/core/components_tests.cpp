@@ -2,8 +2,8 @@
 // Spanning forests: H0 without the graph of all edges, held to the oracle on the whole filtration.
 #include <limits>
 
-#include "ph/merge_tree.hpp"
 #include "ph/estimate.hpp"
+#include "ph/merge_tree.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"

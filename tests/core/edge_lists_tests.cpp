@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "ph/detail/binned_edges.hpp"
-#include "rips/sweep/neighbour_lists.hpp"
 #include "ph/persistence.hpp"
+#include "rips/sweep/neighbour_lists.hpp"
 #include "support/conformance.hpp"
 #include "support/known_spaces.hpp"
 

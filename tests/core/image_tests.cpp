@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "ph/voxel_image.hpp"
 #include "ph/error.hpp"
 #include "ph/persistence.hpp"
+#include "ph/voxel_image.hpp"
 
 namespace ph {
 namespace {

@@ -6,12 +6,12 @@
 #include <limits>
 #include <memory>
 
-#include "ph/filtered_graph.hpp"
 #include "complex/listed_cubes.hpp"
-#include "ph/lower_star.hpp"
-#include "ph/voxel_image.hpp"
 #include "ph/detail/file_pages.hpp"
+#include "ph/filtered_graph.hpp"
+#include "ph/lower_star.hpp"
 #include "ph/merge_tree.hpp"
+#include "ph/voxel_image.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"

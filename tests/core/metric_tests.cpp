@@ -2,10 +2,10 @@
 // Distances: values by hand, the ends of the range of double, near pairs against all pairs.
 #include <limits>
 
-#include "ph/distance_matrix.hpp"
 #include "metric/pairs_within.hpp"
-#include "ph/points.hpp"
 #include "ph/detail/row_distances.hpp"
+#include "ph/distance_matrix.hpp"
+#include "ph/points.hpp"
 #include "ph/sparse_distances.hpp"
 #include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"

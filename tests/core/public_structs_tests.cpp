@@ -6,13 +6,13 @@
 #include <climits>
 #include <limits>
 
-#include "ph/lower_star.hpp"
-#include "ph/voxel_image.hpp"
 #include "ph/bottleneck.hpp"
-#include "ph/estimate.hpp"
 #include "ph/distance_to_measure.hpp"
+#include "ph/estimate.hpp"
 #include "ph/greedy_permutation.hpp"
+#include "ph/lower_star.hpp"
 #include "ph/persistence.hpp"
+#include "ph/voxel_image.hpp"
 #include "support/wrong_values.hpp"
 
 namespace ph::test {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "ph/io/write.hpp"
 #include "ph/io/cloud_io.hpp"
 #include "ph/io/formats.hpp"
+#include "ph/io/write.hpp"
 #include "ph/scene_tree.hpp"
 
 namespace ph::fuzz {

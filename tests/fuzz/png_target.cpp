@@ -2,10 +2,10 @@
 // Checksums stop nearly every change of a PNG before it reaches a decoder: here they are set right.
 #include <vector>
 
+#include "io/bytes/unpack.hpp"
 #include "ph/io/cloud_io.hpp"
 #include "round_trip.hpp"
 #include "targets.hpp"
-#include "io/bytes/unpack.hpp"
 #include "violation.hpp"
 
 namespace ph::fuzz {

@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "heap_meter.hpp"
+#include "io/bytes/unpack.hpp"
 #include "readers.hpp"
 #include "targets.hpp"
-#include "io/bytes/unpack.hpp"
 #include "violation.hpp"
 
 namespace ph::fuzz {

@@ -3,8 +3,8 @@
 // right.
 #include <string>
 
-#include "tree/tree_file.hpp"
 #include "targets.hpp"
+#include "tree/tree_file.hpp"
 
 namespace ph::fuzz {
 

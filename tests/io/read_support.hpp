@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "ph/detail/reader.hpp"
 #include "ph/error.hpp"
 #include "ph/image.hpp"
 #include "ph/io/formats.hpp"
-#include "ph/detail/reader.hpp"
 
 namespace ph::test {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "ph/io/formats.hpp"
 #include "ph/detail/png.hpp"
+#include "ph/io/formats.hpp"
 #include "read_support.hpp"
 
 namespace ph::test {

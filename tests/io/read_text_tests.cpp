@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "ph/io/write.hpp"
 #include "ph/io/formats.hpp"
+#include "ph/io/write.hpp"
 #include "read_support.hpp"
 
 namespace ph::test {

@@ -26,10 +26,10 @@ from program_mutants import MUTANTS as PROGRAM_MUTANTS
 ROOT = Path(__file__).resolve().parents[2]
 TIME_LIMIT = 90  # seconds a test program may run
 
-SOURCES = ["core", "metric", "complex", "cubical", "engine", "persistence", "loops"]  # folders of libph/src
+SOURCES = ["core", "metric", "complex", "rips", "cubical", "facade", "diagram", "loops"]  # rooms of libph/src
 NINJA = """\
 cxx = {compiler}
-flags = -std=c++20 -O1 -Ilibph/include -Itests '-DPH_SHARED_DIR=""' {includes}
+flags = -std=c++20 -O1 -Ilibph/include -Ilibph/src -Itests '-DPH_SHARED_DIR=""' {includes}
 rule compile
   command = $cxx $flags -MMD -MF $out.d -c $in -o $out
   depfile = $out.d
@@ -57,8 +57,8 @@ def write_build(tree, programs):
     text = NINJA.format(compiler=os.environ.get("CXX", "c++"), includes=" ".join(includes),
                         libraries=" ".join(libraries + ["-lpthread"]))
     library = []
-    sources = [p.relative_to(tree) for f in SOURCES for p in (tree / "libph/src" / f).glob("*.cpp")]
-    sources += [Path("libph/src/facade/persistence.cpp"), Path("libph/src/facade/loops.cpp")]
+    sources = [p.relative_to(tree) for f in SOURCES
+               for p in (tree / "libph/src" / f).rglob("*.cpp") if p.name != "estimate.cpp"]
     for source in sorted(sources):
         library.append(f"o/{source.parent.name}_{source.stem}.o")
         text += f"build {library[-1]}: compile {source}\n"

@@ -7,14 +7,14 @@
 #include <map>
 #include <random>
 
-#include "voxels/components.hpp"
-#include "voxels/cross_check.hpp"
-#include "ph/rips.hpp"
 #include "ph/error.hpp"
 #include "ph/persistence.hpp"
+#include "ph/rips.hpp"
 #include "plane/range_filter.hpp"
-#include "voxels/rips_graph.hpp"
 #include "scenery.hpp"
+#include "voxels/components.hpp"
+#include "voxels/cross_check.hpp"
+#include "voxels/rips_graph.hpp"
 #include "voxels/voxel_grid.hpp"
 
 namespace ph::segment {

@@ -11,11 +11,11 @@
 #include <numbers>
 #include <random>
 
-#include "surface/concavity.hpp"
 #include "objects/objects.hpp"
-#include "ph/filtered_graph.hpp"
 #include "ph/error.hpp"
+#include "ph/filtered_graph.hpp"
 #include "scenery.hpp"
+#include "surface/concavity.hpp"
 #include "voxels/voxel_pairs.hpp"
 
 namespace ph::segment {

@@ -8,10 +8,10 @@
 #include <set>
 #include <vector>
 
+#include "ph/barcode.hpp"
 #include "ph/cubical.hpp"
 #include "ph/explicit.hpp"
 #include "ph/rips.hpp"
-#include "ph/barcode.hpp"
 
 namespace ph::test {
 

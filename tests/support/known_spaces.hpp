@@ -9,10 +9,10 @@
 #include <set>
 #include <vector>
 
-#include "ph/lower_star.hpp"
-#include "ph/rips.hpp"
 #include "ph/barcode.hpp"
 #include "ph/image.hpp"
+#include "ph/lower_star.hpp"
+#include "ph/rips.hpp"
 
 namespace ph::test {
 

@@ -12,8 +12,8 @@
 
 #include "ph/detail/cubical_image.hpp"
 #include "ph/filtration.hpp"
-#include "ph/run_context.hpp"
 #include "ph/image.hpp"
+#include "ph/run_context.hpp"
 
 namespace ph {
 

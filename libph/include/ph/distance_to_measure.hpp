@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "ph/run_context.hpp"
 #include "ph/metric.hpp"
 #include "ph/points.hpp"
+#include "ph/run_context.hpp"
 
 namespace ph {
 

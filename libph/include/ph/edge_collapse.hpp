@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "ph/rips.hpp"
 #include "ph/detail/rips_graph.hpp"
+#include "ph/rips.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {

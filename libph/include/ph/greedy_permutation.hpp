@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "ph/run_context.hpp"
 #include "ph/metric.hpp"
 #include "ph/points.hpp"
+#include "ph/run_context.hpp"
 
 namespace ph {
 

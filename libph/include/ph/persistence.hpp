@@ -5,13 +5,13 @@
 #include <variant>
 #include <vector>
 
+#include "ph/barcode.hpp"
 #include "ph/cubical.hpp"
+#include "ph/engine.hpp"
 #include "ph/explicit.hpp"
 #include "ph/filtered_graph.hpp"
 #include "ph/rips.hpp"
-#include "ph/barcode.hpp"
 #include "ph/run_context.hpp"
-#include "ph/engine.hpp"
 
 namespace ph {
 

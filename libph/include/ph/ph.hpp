@@ -2,13 +2,13 @@
 #pragma once
 // The umbrella: complexes, engines, barcodes; and, where ph::io is linked, files.
 #include "ph/cubical.hpp"
+#include "ph/distance_to_measure.hpp"
+#include "ph/estimate.hpp"
 #include "ph/explicit.hpp"
 #include "ph/filtered_graph.hpp"
+#include "ph/loops.hpp"
 #include "ph/lower_star.hpp"
+#include "ph/merge_tree.hpp"
+#include "ph/persistence.hpp"
 #include "ph/rips.hpp"
 #include "ph/voxel_image.hpp"
-#include "ph/merge_tree.hpp"
-#include "ph/estimate.hpp"
-#include "ph/loops.hpp"
-#include "ph/distance_to_measure.hpp"
-#include "ph/persistence.hpp"

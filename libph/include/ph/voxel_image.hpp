@@ -2,9 +2,9 @@
 #pragma once
 #include <vector>
 
-#include "ph/run_context.hpp"
 #include "ph/image.hpp"
 #include "ph/metric.hpp"
+#include "ph/run_context.hpp"
 
 namespace ph {
 

@@ -10,10 +10,10 @@
 #include <optional>
 #include <thread>
 
-#include "ph/error.hpp"
+#include "image/voxels_in_use.hpp"
 #include "ph/detail/file_pages.hpp"
 #include "ph/detail/radix_sort.hpp"
-#include "complex/voxels_in_use.hpp"
+#include "ph/error.hpp"
 
 namespace ph {
 namespace {

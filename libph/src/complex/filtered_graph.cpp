@@ -8,8 +8,8 @@
 #include <numeric>
 
 #include "ph/barcode.hpp"
-#include "ph/error.hpp"
 #include "ph/detail/radix_sort.hpp"
+#include "ph/error.hpp"
 
 namespace ph {
 

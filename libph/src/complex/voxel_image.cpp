@@ -8,8 +8,8 @@
 #include <memory_resource>
 #include <utility>
 
-#include "ph/cubical.hpp"
 #include "ph/barcode.hpp"
+#include "ph/cubical.hpp"
 #include "ph/error.hpp"
 
 namespace ph {

@@ -7,9 +7,9 @@
 #include <string>
 #include <tuple>
 
-#include "ph/error.hpp"
 #include "ph/detail/polled_sort.hpp"
 #include "ph/detail/radix_sort.hpp"
+#include "ph/error.hpp"
 
 namespace ph {
 namespace {

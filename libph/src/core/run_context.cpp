@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <utility>
 
-#include "ph/error.hpp"
 #include "core/system/pages.hpp"
+#include "ph/error.hpp"
 
 namespace ph {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "ph/barcode.hpp"
 #include "cubical/pair_voxels.hpp"
 #include "cubical/representatives/represent_voxels.hpp"
+#include "ph/barcode.hpp"
 #include "ph/engine.hpp"
 
 namespace ph {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "ph/barcode.hpp"
 #include "cubical/pair_voxels.hpp"
+#include "ph/barcode.hpp"
 
 namespace ph::cubical {
 

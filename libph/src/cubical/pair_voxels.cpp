@@ -5,12 +5,12 @@
 #include <bit>
 #include <mutex>
 
-#include "cubical/loops/loop_reduction.hpp"
 #include "cubical/any_axes/pair_cells.hpp"
-#include "cubical/slabs/pair_in_slabs.hpp"
-#include "ph/detail/parallel.hpp"
-#include "complex/voxels_in_use.hpp"
 #include "cubical/graphs/two_graphs.hpp"
+#include "cubical/loops/loop_reduction.hpp"
+#include "cubical/slabs/pair_in_slabs.hpp"
+#include "image/voxels_in_use.hpp"
+#include "ph/detail/parallel.hpp"
 
 namespace ph::cubical {
 

@@ -2,8 +2,8 @@
 #pragma once
 #include <tuple>
 
-#include "ph/custom.hpp"
 #include "cubical/arrows.hpp"
+#include "ph/custom.hpp"
 #include "rips/sweep/lens.hpp"
 
 namespace ph {

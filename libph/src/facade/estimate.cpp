@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <optional>
 
-#include "rips/clique_count.hpp"
+#include "facade/choice.hpp"
 #include "facade/memory_forecast.hpp"
 #include "ph/edge_collapse.hpp"
-#include "facade/choice.hpp"
+#include "rips/clique_count.hpp"
 
 namespace ph {
 namespace {

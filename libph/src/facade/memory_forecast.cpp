@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "rips/clique_count.hpp"
 #include "facade/all_engines.hpp"
+#include "rips/clique_count.hpp"
 #include "rips/sweep/lens_graph.hpp"
 
 namespace ph::detail {

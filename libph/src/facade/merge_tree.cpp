@@ -7,15 +7,15 @@
 #include <span>
 #include <utility>
 
+#include "ph/barcode.hpp"
 #include "ph/cubical.hpp"
+#include "ph/detail/disjoint_sets.hpp"
+#include "ph/detail/one_skeleton.hpp"
+#include "ph/detail/radix_sort.hpp"
+#include "ph/error.hpp"
 #include "ph/explicit.hpp"
 #include "ph/filtered_graph.hpp"
 #include "ph/rips.hpp"
-#include "ph/barcode.hpp"
-#include "ph/detail/disjoint_sets.hpp"
-#include "ph/error.hpp"
-#include "ph/detail/radix_sort.hpp"
-#include "ph/detail/one_skeleton.hpp"
 
 namespace ph {
 namespace {

@@ -3,8 +3,8 @@
 #include <array>
 #include <cstdint>
 
-#include "io/readers.hpp"
 #include "io/points/table.hpp"
+#include "io/readers.hpp"
 
 namespace ph::detail {
 namespace {

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <array>
 
-#include "ph/io/cloud_io.hpp"
-#include "io/readers.hpp"
 #include "io/points/table.hpp"
+#include "io/readers.hpp"
+#include "ph/io/cloud_io.hpp"
 
 namespace ph {
 namespace {

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "io/points/array.hpp"
-#include "io/readers.hpp"
 #include "io/points/table.hpp"
+#include "io/readers.hpp"
 
 namespace ph::detail {
 namespace {

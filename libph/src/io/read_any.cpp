@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "ph/io/formats.hpp"
-#include "io/readers.hpp"
 #include "io/points/table.hpp"
+#include "io/readers.hpp"
+#include "ph/io/formats.hpp"
 
 namespace ph {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "ph/io/cloud.hpp"
 #include "ph/detail/png.hpp"
+#include "ph/io/cloud.hpp"
 #include "ph/io/read.hpp"
 
 namespace ph::detail {

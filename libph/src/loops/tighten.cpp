@@ -11,9 +11,9 @@
 #include "loops/cover_search.hpp"
 #include "loops/early_graph.hpp"
 #include "loops/edge_cocycles.hpp"
-#include "ph/error.hpp"
-#include "ph/custom.hpp"
 #include "loops/shortcuts.hpp"
+#include "ph/custom.hpp"
+#include "ph/error.hpp"
 
 namespace ph::detail {
 namespace {

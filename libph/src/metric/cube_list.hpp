@@ -8,8 +8,8 @@
 #include <tuple>
 #include <vector>
 
-#include "ph/run_context.hpp"
 #include "ph/metric.hpp"
+#include "ph/run_context.hpp"
 
 namespace ph {
 

@@ -7,9 +7,9 @@
 #include <numeric>
 
 #include "metric/neighbour_search.hpp"
-#include "ph/error.hpp"
 #include "ph/detail/parallel.hpp"
 #include "ph/detail/spanning_forest.hpp"
+#include "ph/error.hpp"
 
 namespace ph {
 

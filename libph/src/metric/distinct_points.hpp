@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "ph/run_context.hpp"
 #include "ph/metric.hpp"
+#include "ph/run_context.hpp"
 
 namespace ph {
 

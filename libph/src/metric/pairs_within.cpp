@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "metric/cube_list.hpp"
+#include "ph/detail/row_distances.hpp"
 #include "ph/error.hpp"
 #include "ph/points.hpp"
-#include "ph/detail/row_distances.hpp"
 
 namespace ph {
 namespace {

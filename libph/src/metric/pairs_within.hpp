@@ -2,8 +2,8 @@
 #pragma once
 #include <functional>
 
-#include "ph/run_context.hpp"
 #include "ph/metric.hpp"
+#include "ph/run_context.hpp"
 
 namespace ph {
 

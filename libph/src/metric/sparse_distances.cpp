@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "ph/error.hpp"
 #include "metric/pairs_within.hpp"
+#include "ph/error.hpp"
 
 namespace ph {
 namespace {

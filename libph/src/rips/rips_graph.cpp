@@ -5,9 +5,9 @@
 
 #include <cmath>
 
+#include "metric/pairs_within.hpp"
 #include "ph/detail/disjoint_sets.hpp"
 #include "ph/error.hpp"
-#include "metric/pairs_within.hpp"
 
 namespace ph {
 

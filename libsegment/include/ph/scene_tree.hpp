@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "ph/barcode.hpp"
-#include "ph/run_context.hpp"
-#include "ph/merge_tree.hpp"
 #include "ph/detail/reader.hpp"
+#include "ph/merge_tree.hpp"
 #include "ph/metric.hpp"
+#include "ph/run_context.hpp"
 
 /// The merge tree of a scene, and the cuts of it. All lengths are metres.
 namespace ph::segment {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "ph/barcode.hpp"
-#include "ph/run_context.hpp"
 #include "ph/io/cloud.hpp"
+#include "ph/run_context.hpp"
 #include "ph/scene_tree.hpp"
 
 /// Segmentation of RGB-D scenes by persistent homology. All lengths are metres. Method paper knows

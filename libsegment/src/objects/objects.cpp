@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "objects/close_boxes.hpp"
-#include "surface/concavity.hpp"
-#include "surface/parts.hpp"
 #include "ph/detail/disjoint_sets.hpp"
 #include "plane/rims.hpp"
 #include "plane/view.hpp"
+#include "surface/concavity.hpp"
+#include "surface/parts.hpp"
 
 namespace ph::segment {
 namespace {

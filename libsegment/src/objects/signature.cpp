@@ -4,10 +4,10 @@
 #include <algorithm>
 
 #include "options.hpp"
-#include "ph/voxel_image.hpp"
 #include "ph/error.hpp"
 #include "ph/persistence.hpp"
 #include "ph/segment.hpp"
+#include "ph/voxel_image.hpp"
 
 namespace ph::segment {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "pictures/cloud_picture.hpp"
 #include "ph/io/svg_plot.hpp"
+#include "pictures/cloud_picture.hpp"
 
 namespace ph::segment {
 

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "ph/run_context.hpp"
-#include "ph/io/cloud.hpp"
 #include "ph/detail/png.hpp"
+#include "ph/io/cloud.hpp"
+#include "ph/run_context.hpp"
 #include "ph/segment.hpp"
 
 namespace ph::segment {

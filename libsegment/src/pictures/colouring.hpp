@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "ph/io/cloud.hpp"
 #include "ph/detail/png.hpp"
+#include "ph/io/cloud.hpp"
 #include "ph/segment.hpp"
 
 namespace ph::segment {

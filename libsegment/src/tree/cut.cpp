@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include "voxels/components.hpp"
-#include "surface/meetings.hpp"
 #include "methods.hpp"
-#include "options.hpp"
 #include "metric/pairs_within.hpp"
+#include "options.hpp"
+#include "surface/meetings.hpp"
+#include "voxels/components.hpp"
 #include "voxels/rips_graph.hpp"
 
 namespace ph::segment {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "tree/json_text.hpp"
 #include "options.hpp"
+#include "tree/json_text.hpp"
 #include "tree/tree_file.hpp"
 
 namespace ph::segment {

@@ -2,8 +2,8 @@
 #pragma once
 #include <string>
 
-#include "ph/filtered_graph.hpp"
 #include "ph/barcode.hpp"
+#include "ph/filtered_graph.hpp"
 #include "ph/merge_tree.hpp"
 
 namespace ph::segment {

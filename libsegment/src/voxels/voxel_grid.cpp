@@ -10,8 +10,8 @@
 #include <numeric>
 #include <tuple>
 
-#include "ph/error.hpp"
 #include "ph/detail/radix_sort.hpp"
+#include "ph/error.hpp"
 
 namespace ph::segment {
 namespace {

@@ -2,8 +2,8 @@
 #pragma once
 #include <algorithm>
 
-#include "ph/error.hpp"
 #include "ph/detail/generic_engines.hpp"
+#include "ph/error.hpp"
 #include "ph/persistence.hpp"
 
 namespace ph::detail {

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "ph/detail/cohomology_reduction.hpp"
-#include "ph/engine.hpp"
 #include "ph/detail/homology_reduction.hpp"
 #include "ph/detail/union_find.hpp"
+#include "ph/engine.hpp"
 
 namespace ph {
 

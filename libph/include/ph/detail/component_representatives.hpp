@@ -7,9 +7,9 @@
 
 #include "ph/barcode.hpp"
 #include "ph/detail/chain.hpp"
+#include "ph/detail/elder_rule.hpp"
 #include "ph/detail/field.hpp"
 #include "ph/filtration.hpp"
-#include "ph/detail/elder_rule.hpp"
 
 namespace ph {
 

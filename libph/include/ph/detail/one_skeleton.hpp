@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "ph/filtration.hpp"
-#include "ph/detail/polled_sort.hpp"
-#include "ph/detail/radix_sort.hpp"
-#include "ph/run_context.hpp"
 #include "ph/detail/cell_map.hpp"
 #include "ph/detail/elder_rule.hpp"
+#include "ph/detail/polled_sort.hpp"
+#include "ph/detail/radix_sort.hpp"
+#include "ph/filtration.hpp"
+#include "ph/run_context.hpp"
 
 namespace ph {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "ph/filtration.hpp"
 #include "ph/detail/reader.hpp"
+#include "ph/filtration.hpp"
 
 namespace ph {
 

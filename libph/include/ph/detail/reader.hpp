@@ -16,8 +16,8 @@
 #include <utility>
 #include <vector>
 
-#include "ph/error.hpp"
 #include "ph/detail/file_pages.hpp"
+#include "ph/error.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {

@@ -13,15 +13,15 @@
 #include <utility>
 #include <vector>
 
-#include "ph/detail/rips_adjacency.hpp"
-#include "ph/detail/vertex_weights.hpp"
 #include "ph/detail/binned_edges.hpp"
-#include "ph/filtration.hpp"
 #include "ph/detail/parallel.hpp"
-#include "ph/run_context.hpp"
-#include "ph/metric.hpp"
+#include "ph/detail/rips_adjacency.hpp"
 #include "ph/detail/row_distances.hpp"
 #include "ph/detail/spanning_forest.hpp"
+#include "ph/detail/vertex_weights.hpp"
+#include "ph/filtration.hpp"
+#include "ph/metric.hpp"
+#include "ph/run_context.hpp"
 #include "ph/sparse_distances.hpp"
 
 namespace ph {

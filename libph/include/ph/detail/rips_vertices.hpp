@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "ph/detail/vertex_weights.hpp"
-#include "ph/run_context.hpp"
 #include "ph/metric.hpp"
+#include "ph/run_context.hpp"
 
 namespace ph {
 

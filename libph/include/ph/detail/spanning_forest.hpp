@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "ph/filtration.hpp"
-#include "ph/run_context.hpp"
 #include "ph/metric.hpp"
 #include "ph/points.hpp"
+#include "ph/run_context.hpp"
 
 namespace ph {
 

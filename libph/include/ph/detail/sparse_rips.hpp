@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "ph/detail/rips_graph.hpp"
-#include "ph/run_context.hpp"
 #include "ph/greedy_permutation.hpp"
 #include "ph/metric.hpp"
+#include "ph/run_context.hpp"
 
 namespace ph {
 

@@ -7,8 +7,8 @@
 
 #include "ph/barcode.hpp"
 #include "ph/detail/field.hpp"
-#include "ph/run_context.hpp"
 #include "ph/engine.hpp"
+#include "ph/run_context.hpp"
 
 namespace ph {
 

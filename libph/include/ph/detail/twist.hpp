@@ -2,8 +2,8 @@
 #pragma once
 #include <algorithm>
 
-#include "ph/engine.hpp"
 #include "ph/detail/homology_reduction.hpp"
+#include "ph/engine.hpp"
 
 namespace ph {
 

@@ -5,11 +5,11 @@
 
 #include "ph/barcode.hpp"
 #include "ph/detail/chain.hpp"
-#include "ph/error.hpp"
-#include "ph/detail/field.hpp"
 #include "ph/detail/component_representatives.hpp"
-#include "ph/engine.hpp"
+#include "ph/detail/field.hpp"
 #include "ph/detail/one_skeleton.hpp"
+#include "ph/engine.hpp"
+#include "ph/error.hpp"
 
 namespace ph {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <string_view>
 
-#include "ph/filtration.hpp"
 #include "ph/detail/reader.hpp"
+#include "ph/filtration.hpp"
 
 namespace ph {
 

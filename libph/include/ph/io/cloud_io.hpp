@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "ph/detail/png.hpp"
 #include "ph/image.hpp"
 #include "ph/io/camera.hpp"
 #include "ph/io/cloud.hpp"
-#include "ph/detail/png.hpp"
 #include "ph/io/read.hpp"
 
 namespace ph {

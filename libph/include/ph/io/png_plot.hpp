@@ -3,8 +3,8 @@
 #include <span>
 #include <string>
 
-#include "ph/run_context.hpp"
 #include "ph/io/svg_plot.hpp"
+#include "ph/run_context.hpp"
 
 namespace ph {
 

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "ph/explicit.hpp"
-#include "ph/run_context.hpp"
-#include "ph/image.hpp"
 #include "ph/detail/reader.hpp"
 #include "ph/distance_matrix.hpp"
+#include "ph/explicit.hpp"
+#include "ph/image.hpp"
 #include "ph/metric.hpp"
+#include "ph/run_context.hpp"
 #include "ph/sparse_distances.hpp"
 
 namespace ph {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "ph/barcode.hpp"
-#include "ph/loop.hpp"
 #include "ph/detail/output_file.hpp"
 #include "ph/detail/reader.hpp"
+#include "ph/loop.hpp"
 
 namespace ph {
 

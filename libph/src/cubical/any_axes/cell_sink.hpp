@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "cubical/bar_blocks.hpp"
 #include "cubical/any_axes/cell_grid.hpp"
+#include "cubical/bar_blocks.hpp"
 
 namespace ph::cubical {
 

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include "cubical/columns/boundary_reduction.hpp"
 #include "cubical/any_axes/cell_components.hpp"
 #include "cubical/any_axes/cell_sink.hpp"
-#include "complex/voxels_in_use.hpp"
+#include "cubical/columns/boundary_reduction.hpp"
 #include "cubical/stars/star_matcher.hpp"
+#include "image/voxels_in_use.hpp"
 
 namespace ph::cubical {
 namespace {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "cubical/columns/boundary_column.hpp"
 #include "cubical/any_axes/cell_sink.hpp"
+#include "cubical/columns/boundary_column.hpp"
 #include "cubical/columns/parallel_reduction.hpp"
 
 namespace ph::cubical {

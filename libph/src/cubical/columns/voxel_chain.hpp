@@ -4,9 +4,9 @@
 #include <tuple>
 #include <vector>
 
+#include "cubical/stars/star_grid.hpp"
 #include "ph/detail/chain.hpp"
 #include "ph/detail/field.hpp"
-#include "cubical/stars/star_grid.hpp"
 
 namespace ph::cubical {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "cubical/graphs/basins.hpp"
-#include "cubical/stars/critical_cells.hpp"
 #include "cubical/graphs/elder_forest.hpp"
+#include "cubical/stars/critical_cells.hpp"
 #include "ph/detail/parallel.hpp"
 #include "ph/detail/raw_vector.hpp"
 

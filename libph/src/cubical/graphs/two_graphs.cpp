@@ -2,9 +2,9 @@
 #include "cubical/graphs/two_graphs.hpp"
 
 #include "cubical/graphs/pair_components.hpp"
-#include "ph/detail/parallel.hpp"
 #include "cubical/graphs/top_graph.hpp"
 #include "cubical/graphs/voxel_graph.hpp"
+#include "ph/detail/parallel.hpp"
 
 namespace ph::cubical {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "cubical/stars/critical_cells.hpp"
 #include "cubical/pair_sink.hpp"
 #include "cubical/pair_voxels.hpp"
+#include "cubical/stars/critical_cells.hpp"
 #include "cubical/stars/star_grid.hpp"
 
 namespace ph::cubical {

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "cubical/columns/chain_heap.hpp"
+#include "cubical/stars/star_grid.hpp"
 #include "ph/detail/chain.hpp"
 #include "ph/detail/field.hpp"
 #include "ph/detail/radix_sort.hpp"
 #include "ph/run_context.hpp"
-#include "cubical/stars/star_grid.hpp"
 
 namespace ph::cubical {
 

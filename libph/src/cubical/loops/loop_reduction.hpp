@@ -8,11 +8,11 @@
 #include <span>
 #include <vector>
 
-#include "cubical/stars/critical_cells.hpp"
-#include "cubical/stars/free_edges.hpp"
+#include "cubical/columns/parallel_reduction.hpp"
 #include "cubical/loops/loop_column.hpp"
 #include "cubical/pair_sink.hpp"
-#include "cubical/columns/parallel_reduction.hpp"
+#include "cubical/stars/critical_cells.hpp"
+#include "cubical/stars/free_edges.hpp"
 
 namespace ph::cubical {
 

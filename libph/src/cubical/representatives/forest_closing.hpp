@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "cubical/representatives/component_tree.hpp"
-#include "cubical/graphs/forest_steps.hpp"
-#include "ph/detail/radix_sort.hpp"
 #include "cubical/columns/voxel_chain.hpp"
+#include "cubical/graphs/forest_steps.hpp"
+#include "cubical/representatives/component_tree.hpp"
+#include "ph/detail/radix_sort.hpp"
 
 namespace ph::cubical {
 

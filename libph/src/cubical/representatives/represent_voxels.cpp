@@ -5,15 +5,15 @@
 #include <memory>
 #include <type_traits>
 
-#include "cubical/representatives/component_tree.hpp"
 #include "cubical/loops/dual_loop_reduction.hpp"
-#include "cubical/representatives/forest_closing.hpp"
 #include "cubical/loops/loop_reduction.hpp"
+#include "cubical/representatives/component_tree.hpp"
+#include "cubical/representatives/forest_closing.hpp"
 #include "cubical/representatives/nested_sets.hpp"
-#include "complex/voxels_in_use.hpp"
 #include "cubical/representatives/represented_pairs.hpp"
 #include "cubical/representatives/separating_cycles.hpp"
 #include "cubical/representatives/torus_surfaces.hpp"
+#include "image/voxels_in_use.hpp"
 
 namespace ph::cubical {
 namespace {

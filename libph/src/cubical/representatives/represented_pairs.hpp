@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "cubical/columns/voxel_chain.hpp"
 #include "cubical/pair_sink.hpp"
 #include "cubical/representatives/represent_voxels.hpp"
-#include "cubical/columns/voxel_chain.hpp"
 
 namespace ph::cubical {
 

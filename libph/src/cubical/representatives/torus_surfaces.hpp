@@ -5,9 +5,9 @@
 #include <memory_resource>
 #include <vector>
 
+#include "cubical/columns/voxel_chain.hpp"
 #include "cubical/stars/facet_search.hpp"
 #include "ph/detail/raw_vector.hpp"
-#include "cubical/columns/voxel_chain.hpp"
 
 namespace ph::cubical {
 

@@ -9,12 +9,12 @@
 #include <string>
 #include <utility>
 
-#include "ph/error.hpp"
-#include "cubical/slabs/slab_components.hpp"
-#include "cubical/slabs/slab_loops.hpp"
 #include "cubical/graphs/top_graph.hpp"
 #include "cubical/graphs/two_graphs.hpp"
 #include "cubical/graphs/voxel_graph.hpp"
+#include "cubical/slabs/slab_components.hpp"
+#include "cubical/slabs/slab_loops.hpp"
+#include "ph/error.hpp"
 
 namespace ph::cubical {
 namespace {

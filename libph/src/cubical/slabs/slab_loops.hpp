@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cubical/loops/loop_reduction.hpp"
-#include "ph/detail/radix_sort.hpp"
 #include "cubical/stars/stored_stars.hpp"
+#include "ph/detail/radix_sort.hpp"
 
 namespace ph::cubical {
 

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "ph/detail/file_pages.hpp"
 #include "cubical/stars/star_grid.hpp"
+#include "ph/detail/file_pages.hpp"
 
 namespace ph::cubical {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "cubical/stars/free_edges.hpp"
-#include "ph/run_context.hpp"
 #include "cubical/stars/star_grid.hpp"
+#include "ph/run_context.hpp"
 
 namespace ph::cubical {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "ph/detail/cubical_image.hpp"
 #include "cubical/stars/star_tables.hpp"
+#include "ph/detail/cubical_image.hpp"
 
 namespace ph::cubical {
 

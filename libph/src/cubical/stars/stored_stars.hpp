@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <cstring>
 
+#include "cubical/slabs/slabs.hpp"
 #include "cubical/stars/free_edges.hpp"
 #include "ph/detail/file_pages.hpp"
-#include "cubical/slabs/slabs.hpp"
 
 namespace ph::cubical {
 

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "image/place_runs.hpp"
 #include "io/barcodes/barcode_formats.hpp"
-#include "complex/place_runs.hpp"
 
 namespace ph {
 namespace {

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "io/readers.hpp"
 #include "io/points/table.hpp"
+#include "io/readers.hpp"
 
 namespace ph {
 namespace {

@@ -13,8 +13,8 @@
 #include <tuple>
 #include <utility>
 
-#include "ph/detail/reader.hpp"
 #include "io/bytes/unpack.hpp"
+#include "ph/detail/reader.hpp"
 
 namespace ph {
 namespace {

@@ -9,8 +9,8 @@
 #include <new>
 #include <ostream>
 
-#include "io/readers.hpp"
 #include "io/points/table.hpp"
+#include "io/readers.hpp"
 
 namespace ph {
 namespace {

@@ -5,8 +5,8 @@
 #include <charconv>
 #include <cmath>
 
-#include "ph/detail/reader.hpp"
 #include "io/points/table.hpp"
+#include "ph/detail/reader.hpp"
 
 namespace ph {
 namespace {

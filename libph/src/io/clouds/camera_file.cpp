@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "io/bytes/json_cursor.hpp"
+#include "io/bytes/yaml_words.hpp"
 #include "ph/error.hpp"
 #include "ph/io/camera.hpp"
-#include "io/bytes/yaml_words.hpp"
 
 namespace ph {
 namespace {

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "io/clouds/field_access.hpp"
-#include "ph/io/cloud_io.hpp"
 #include "io/readers.hpp"
+#include "ph/io/cloud_io.hpp"
 
 namespace ph {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "io/clouds/cloud_rows.hpp"
-#include "ph/io/cloud_io.hpp"
 #include "io/points/table.hpp"
 #include "io/readers.hpp"
+#include "ph/io/cloud_io.hpp"
 
 namespace ph {
 namespace {

@@ -7,10 +7,10 @@
 #include <ostream>
 #include <set>
 
-#include "io/clouds/field_access.hpp"
 #include "io/bytes/lzf.hpp"
-#include "ph/io/cloud_io.hpp"
+#include "io/clouds/field_access.hpp"
 #include "io/readers.hpp"
+#include "ph/io/cloud_io.hpp"
 
 namespace ph {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "ph/io/cloud_io.hpp"
 #include "io/readers.hpp"
+#include "ph/io/cloud_io.hpp"
 
 namespace ph {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "io/clouds/cloud_rows.hpp"
-#include "ph/io/cloud_io.hpp"
 #include "io/readers.hpp"
+#include "ph/io/cloud_io.hpp"
 
 namespace ph {
 

@@ -6,11 +6,11 @@
 #include <array>
 #include <charconv>
 
-#include "io/clouds/field_access.hpp"
 #include "io/bytes/lzf.hpp"
+#include "io/clouds/field_access.hpp"
 #include "io/clouds/pcd.hpp"
-#include "ph/io/cloud_io.hpp"
 #include "io/readers.hpp"
+#include "ph/io/cloud_io.hpp"
 
 namespace ph {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "ph/io/cloud.hpp"
-#include "ph/detail/reader.hpp"
 #include "io/readers.hpp"
+#include "ph/detail/reader.hpp"
+#include "ph/io/cloud.hpp"
 
 namespace ph::detail {
 

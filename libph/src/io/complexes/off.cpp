@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include "ph/io/read.hpp"
 #include "io/readers.hpp"
+#include "ph/io/read.hpp"
 
 namespace ph {
 namespace {

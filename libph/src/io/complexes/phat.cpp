@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ph/io/read.hpp"
 #include "io/readers.hpp"
+#include "ph/io/read.hpp"
 
 namespace ph {
 namespace {

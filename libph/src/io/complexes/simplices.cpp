@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "ph/io/read.hpp"
 #include "io/readers.hpp"
+#include "ph/io/read.hpp"
 
 namespace ph {
 

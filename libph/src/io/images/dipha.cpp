@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/points/array.hpp"
 #include "io/matrices/matrix_entry.hpp"
+#include "io/points/array.hpp"
+#include "io/readers.hpp"
 #include "ph/barcode.hpp"
 #include "ph/io/read.hpp"
-#include "io/readers.hpp"
 
 // All numbers of a DIPHA file have eight bytes, little endian: int64 or float64.
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "ph/io/read.hpp"
 #include "io/readers.hpp"
+#include "ph/io/read.hpp"
 
 namespace ph {
 

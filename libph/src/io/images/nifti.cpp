@@ -7,8 +7,8 @@
 #include <concepts>
 
 #include "io/points/array.hpp"
-#include "ph/io/read.hpp"
 #include "io/readers.hpp"
+#include "ph/io/read.hpp"
 
 namespace ph {
 namespace {

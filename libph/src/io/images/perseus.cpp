@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "io/points/array.hpp"
+#include "io/readers.hpp"
 #include "ph/barcode.hpp"
 #include "ph/io/read.hpp"
-#include "io/readers.hpp"
 
 namespace ph {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <array>
 
-#include "ph/detail/png.hpp"
 #include "io/readers.hpp"
+#include "ph/detail/png.hpp"
 
 namespace ph::detail {
 namespace {

@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "io/matrices/distance_rows.hpp"
-#include "io/readers.hpp"
 #include "io/points/table.hpp"
+#include "io/readers.hpp"
 
 namespace ph {
 namespace {

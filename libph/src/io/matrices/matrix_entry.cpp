@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ph/barcode.hpp"
-#include "io/readers.hpp"
 #include "io/points/table.hpp"
+#include "io/readers.hpp"
+#include "ph/barcode.hpp"
 
 namespace ph::detail {
 namespace {

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "io/matrices/matrix_entry.hpp"
-#include "ph/io/read.hpp"
 #include "io/readers.hpp"
+#include "ph/io/read.hpp"
 
 namespace ph {
 namespace {

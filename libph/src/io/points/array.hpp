@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "ph/detail/file_pages.hpp"
-#include "ph/image.hpp"
 #include "ph/detail/reader.hpp"
+#include "ph/image.hpp"
 
 namespace ph::detail {
 

@@ -8,8 +8,8 @@
 #include <ostream>
 
 #include "io/points/array.hpp"
-#include "ph/io/cloud_io.hpp"
 #include "io/readers.hpp"
+#include "ph/io/cloud_io.hpp"
 
 namespace ph {
 namespace {

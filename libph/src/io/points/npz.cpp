@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "io/readers.hpp"
 #include "io/bytes/unpack.hpp"
+#include "io/readers.hpp"
 
 // An NPZ is a zip archive of NPY files. The central directory at the end of the file says what
 // there is; local headers are only followed to the data.

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "io/points/array.hpp"
-#include "ph/io/read.hpp"
 #include "io/readers.hpp"
+#include "ph/io/read.hpp"
 
 namespace ph {
 

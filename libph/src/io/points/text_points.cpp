@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 
-#include "ph/io/cloud_io.hpp"
 #include "io/points/table.hpp"
+#include "ph/io/cloud_io.hpp"
 
 namespace ph {
 

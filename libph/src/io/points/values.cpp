@@ -7,9 +7,9 @@
 #include <cstring>
 
 #include "io/clouds/field_access.hpp"
+#include "io/readers.hpp"
 #include "ph/io/cloud_io.hpp"
 #include "ph/io/read.hpp"
-#include "io/readers.hpp"
 
 namespace ph {
 namespace {

@@ -9,13 +9,13 @@
 #include <unordered_set>
 #include <vector>
 
-#include "ph/detail/chain.hpp"
-#include "ph/error.hpp"
-#include "ph/detail/field.hpp"
 #include "core/flat_map.hpp"
-#include "rips/sweep/active_edges.hpp"
+#include "ph/detail/chain.hpp"
+#include "ph/detail/field.hpp"
+#include "ph/error.hpp"
 #include "rips/annotations/dead_generators.hpp"
 #include "rips/annotations/id_set.hpp"
+#include "rips/sweep/active_edges.hpp"
 #include "rips/sweep/sorted_terms.hpp"
 
 namespace ph {

@@ -10,9 +10,9 @@
 
 #include "ph/detail/field.hpp"
 #include "rips/annotations/formal_sums.hpp"
-#include "rips/sweep/lens_observer.hpp"
 #include "rips/annotations/pair_labels.hpp"
 #include "rips/annotations/sum_rows.hpp"
+#include "rips/sweep/lens_observer.hpp"
 
 namespace ph {
 

@@ -8,10 +8,10 @@
 
 #include "ph/filtration.hpp"
 #include "rips/annotations/field_rows.hpp"
+#include "rips/surfaces/triangle_cocycles.hpp"
 #include "rips/sweep/lens_cover.hpp"
 #include "rips/sweep/lens_forest.hpp"
 #include "rips/sweep/lens_graph.hpp"
-#include "rips/surfaces/triangle_cocycles.hpp"
 
 namespace ph {
 

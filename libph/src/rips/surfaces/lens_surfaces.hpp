@@ -10,13 +10,13 @@
 
 #include "ph/filtration.hpp"
 #include "ph/run_context.hpp"
+#include "rips/surfaces/lens_extensions.hpp"
+#include "rips/surfaces/triangle_cocycles.hpp"
 #include "rips/sweep/lens_components.hpp"
 #include "rips/sweep/lens_cover.hpp"
-#include "rips/surfaces/lens_extensions.hpp"
 #include "rips/sweep/lens_forest.hpp"
 #include "rips/sweep/lens_graph.hpp"
 #include "rips/sweep/lens_observer.hpp"
-#include "rips/surfaces/triangle_cocycles.hpp"
 
 namespace ph {
 

@@ -10,8 +10,8 @@
 #include "ph/detail/chain.hpp"
 #include "ph/detail/field.hpp"
 #include "rips/annotations/field_rows.hpp"
-#include "rips/sweep/lens_graph.hpp"
 #include "rips/annotations/list_pool.hpp"
+#include "rips/sweep/lens_graph.hpp"
 #include "rips/sweep/sorted_terms.hpp"
 #include "rips/sweep/star_writer.hpp"
 

@@ -5,9 +5,9 @@
 
 #include "ph/barcode.hpp"
 #include "ph/detail/chain.hpp"
-#include "ph/filtration.hpp"
 #include "ph/detail/component_representatives.hpp"
 #include "ph/engine.hpp"
+#include "ph/filtration.hpp"
 #include "rips/sweep/lens_sweep.hpp"
 
 namespace ph {

@@ -9,19 +9,19 @@
 #include <vector>
 
 #include "ph/detail/binned_edges.hpp"
+#include "ph/detail/elder_rule.hpp"
 #include "ph/detail/field.hpp"
-#include "ph/filtration.hpp"
 #include "ph/detail/parallel.hpp"
+#include "ph/filtration.hpp"
 #include "ph/run_context.hpp"
 #include "rips/annotations/annotations.hpp"
-#include "ph/detail/elder_rule.hpp"
 #include "rips/annotations/formal_annotations.hpp"
+#include "rips/surfaces/lens_surfaces.hpp"
 #include "rips/sweep/lens_components.hpp"
 #include "rips/sweep/lens_cycles.hpp"
 #include "rips/sweep/lens_graph.hpp"
 #include "rips/sweep/lens_helper.hpp"
 #include "rips/sweep/lens_observer.hpp"
-#include "rips/surfaces/lens_surfaces.hpp"
 
 namespace ph {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "ph/detail/binned_edges.hpp"
-#include "ph/filtration.hpp"
 #include "ph/detail/raw_vector.hpp"
+#include "ph/filtration.hpp"
 
 namespace ph {
 

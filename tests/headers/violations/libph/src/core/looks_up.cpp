@@ -1,3 +1,3 @@
 // SPDX-License-Identifier: MIT
+#include "io/bytes/input.hpp"
 #include "ph/rips.hpp"
-#include "ph/core/good.hpp"
