@@ -71,7 +71,7 @@ std::vector<typename F::Cell> sorted_cells(const F& f, int dim) {
   return cells;
 }
 
-/// The contract of core/filtration.hpp, cell by cell up to dimension `top`.
+/// The contract of ph/filtration.hpp, cell by cell up to dimension `top`.
 template <Filtration F>
 void check_contract(const F& f, int top, std::int64_t field) {
   using Cell = typename F::Cell;

@@ -16,7 +16,7 @@
 namespace ph {
 
 /// Whether the edges of a Rips complex are collapsed before its homology is computed: the bars of
-/// positive length stay the same, see complex/edge_collapse.hpp.
+/// positive length stay the same, see ph/edge_collapse.hpp.
 enum class Collapse {
   automatic,  ///< where it is allowed and a sample of the edges says that it pays
   on,

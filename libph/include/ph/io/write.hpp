@@ -39,13 +39,13 @@ struct BarcodeInfo {
   std::optional<double> threshold;
   /// Where vertices enter late: why and how, "dtm 5, exponent 1".
   std::string vertex_weights;
-  /// Of a greedy permutation of the points; see metric/greedy_permutation.hpp.
+  /// Of a greedy permutation of the points; see ph/greedy_permutation.hpp.
   struct Subsample {
     Index points = 0, of = 0;
     double covering_radius = 0;
   };
   std::optional<Subsample> subsample;
-  /// Where points were made an image of; see complex/voxel_image.hpp.
+  /// Where points were made an image of; see ph/voxel_image.hpp.
   struct VoxelGrid {
     double voxel = 0;           ///< edge
     std::vector<double> first;  ///< centre of the voxel at (0, ..., 0), in the points' coordinates

@@ -123,7 +123,7 @@ class CellGrid {
   }
   Name name(std::uint32_t cell) const { return name(cell, coordinates(cell)); }
 
-  /// Calls `visit(facet, its coordinates, incidence)`, incidences as in complex/cubical_cells.ipp.
+  /// Calls `visit(facet, its coordinates, incidence)`, incidences as in ph/detail/cubical_cells.ipp.
   /// @param x the coordinates of the cell.
   template <class Visit>
   void for_each_facet(std::uint32_t cell, Coordinates x, Visit&& visit) const {
