@@ -10,9 +10,9 @@ from run_corpus import named_options, options_of
 
 # What ph-segment reads its inputs with, beside the folders of core/, metric/ and complex/.
 READERS_OF_CLOUDS = re.compile(
-    r"io/(cloud|pcd|ply|png|input|unpack|lzf|text_lines|binary_cursor|output_file)")
+    r"io/(clouds/|bytes/(png|input|unpack|lzf|text_lines|binary_cursor|output_file))")
 # What ph-segment alone reads.
-DEPTH_AND_ARRAYS = re.compile(r"io/(depth|npy_cloud|camera)")
+DEPTH_AND_ARRAYS = re.compile(r"io/clouds/(depth|npy_cloud|camera)")
 STRING = re.compile(r'"((?:[^"\\]|\\.)*)"')
 
 
@@ -37,7 +37,7 @@ def programs_of(path):
     """Which programs print what this file says."""
     if path.startswith("apps/barcode/"):
         return ("ph-barcode",)
-    if path.startswith("apps/segment/") or DEPTH_AND_ARRAYS.search(path):
+    if path.startswith(("apps/segment/", "libsegment/")) or DEPTH_AND_ARRAYS.search(path):
         return ("ph-segment",)
     if path.startswith("libph/") and not READERS_OF_CLOUDS.search(path) and "/io/" in path:
         return ("ph-barcode",)
@@ -49,7 +49,7 @@ def main():
     options = {"ph-barcode": options_of(barcode), "ph-segment": options_of(segment)}
     os.chdir(root)
     looked_at = faults = 0
-    for folder in ("apps", "libph"):
+    for folder in ("apps", "libph", "libsegment"):
         for path in sources(folder):
             for number, text in texts_of(path):
                 for option in named_options(text):
