@@ -9,10 +9,10 @@
 #include <map>
 #include <string_view>
 
+#include "barcode/arguments/option_scopes.hpp"
 #include "batch_names.hpp"
 #include "exit_code.hpp"
 #include "file_identity.hpp"
-#include "option_scopes.hpp"
 #include "program.hpp"
 #include "report.hpp"
 #include "run.hpp"

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "barcode/arguments/option_scopes.hpp"
 #include "complex/listed_cubes.hpp"
-#include "option_scopes.hpp"
 #include "ph/distance_to_measure.hpp"
 #include "ph/lower_star.hpp"
 #include "ph/voxel_image.hpp"
@@ -273,9 +273,9 @@ class Builder {
   }
 
   std::string weights_text() const {
-    std::string source = !arguments_.vertex_weights.empty()   ? "file"
-                         : arguments_.read.births_on_diagonal ? "diagonal"
-                                                              : "";
+    std::string source = !arguments_.vertex_weights.empty()             ? "file"
+                         : arguments_.read.diagonal == Diagonal::births ? "diagonal"
+                                                                        : "";
     if (arguments_.dtm) source = fmt::format("dtm {}", *arguments_.dtm);
     if (source.empty()) return source;
     constexpr std::string_view kExponents[] = {"1", "2", "inf"};

@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "arguments.hpp"
+#include "barcode/arguments/arguments.hpp"
 
 namespace ph::barcode {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "arguments.hpp"
+#include "barcode/arguments/arguments.hpp"
 #include "batch.hpp"
 #include "program.hpp"
 #include "run.hpp"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "arguments.hpp"
+#include "barcode/arguments/arguments.hpp"
 #include "build_complex.hpp"
 #include "run.hpp"
 

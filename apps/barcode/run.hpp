@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "arguments.hpp"
+#include "barcode/arguments/arguments.hpp"
 #include "program.hpp"
 #include "session.hpp"
 

@@ -225,8 +225,8 @@ class WaysOut {
 
   /// The largest of a few samples of the points.
   void subsample() {
-    const bool is_weighted =
-        arguments_.dtm || !arguments_.vertex_weights.empty() || arguments_.read.births_on_diagonal;
+    const bool is_weighted = arguments_.dtm || !arguments_.vertex_weights.empty() ||
+                             arguments_.read.diagonal == Diagonal::births;
     if (arguments_.subsample || is_weighted) return;
     for (const Index divisor : {2, 5, 20, 100, 500}) {
       const Index points = points_ / divisor;

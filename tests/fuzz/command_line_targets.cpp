@@ -2,7 +2,7 @@
 // Any words give options, an answer, or an error that says what is wrong with them.
 #include <vector>
 
-#include "barcode/arguments.hpp"
+#include "barcode/arguments/arguments.hpp"
 #include "segment/arguments.hpp"
 #include "targets.hpp"
 #include "violation.hpp"

@@ -66,7 +66,7 @@ MUTANTS = [
      "if (!is_grey(raster)) {",
      "if (!is_grey(raster) && channels > 9) {",
      ["io_read_tests"], "io_read_tests"),
-    ("options: --from-correlation is dropped by points", "apps/barcode/option_scopes.cpp",
+    ("options: --from-correlation is dropped by points", "apps/barcode/arguments/option_scopes.cpp",
      "OptionScope{\"from-correlation\", kMatrix | kTriangle | kSomePairs, kOfDistances},",
      "OptionScope{\"from-correlation\", kComputed, kOfDistances},",
      ["ph-barcode", "ph-segment"], "option_inputs"),

@@ -16,6 +16,13 @@
 
 namespace ph {
 
+/// What stands on the diagonal of a square matrix of distances.
+enum class Diagonal {
+  zero,    ///< 0, but for rounding: else an error
+  any,     ///< anything, taken for 0
+  births,  ///< when each point enters
+};
+
 /// How an asymmetric square matrix becomes a distance matrix.
 enum class Symmetrise {
   none,   ///< it is an error, if they differ by more than 1e-6 of the largest entry
@@ -66,8 +73,7 @@ struct ReadOptions {
   bool allow_empty = false;                      ///< an input without data is an empty result
   Symmetrise symmetrise = Symmetrise::none;      ///< of square matrices
   bool from_correlation = false;                 ///< d = 1 - r; the diagonal must be 1
-  bool births_on_diagonal = false;               ///< of square matrices; else it must be 0
-  bool zeros_on_diagonal = false;                ///< of square matrices: it is read as 0
+  Diagonal diagonal = Diagonal::zero;            ///< of square matrices
   NanPolicy nan = NanPolicy::error;              ///< see NanPolicy
   ArrayMeaning array = ArrayMeaning::automatic;  ///< used by read_any
   std::vector<std::string> columns = {};         ///< of tables: names, "3", "2-5"; empty: all
@@ -93,7 +99,7 @@ Points read_points(const Input& input, const ReadOptions& options = {});
 
 /// A full square matrix: as many columns as rows, zero diagonal, symmetric (see Symmetrise);
 /// +infinity: never joined. With options.from_correlation a correlation matrix, with
-/// options.births_on_diagonal one that has the births of its points there. Also takes NPY, NPZ and
+/// Diagonal::births one that has the births of its points there. Also takes NPY, NPZ and
 /// DIPHA's distance matrices.
 DistanceMatrix read_distances(const std::filesystem::path& path, const ReadOptions& options = {});
 DistanceMatrix read_distances(const Input& input, const ReadOptions& options = {});

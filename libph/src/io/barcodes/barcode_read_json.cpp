@@ -62,8 +62,7 @@ class InfoReader {
     } else if (name == "voxels") {
       read_voxels();
     } else if (name == "superlevel") {
-      info_.superlevel = json_.peek() == 't';
-      json_.skip_value();
+      info_.superlevel = json_.boolean();
     } else if (name == "approximation") {
       info_.approximation = number();
     } else if (name == "engine") {

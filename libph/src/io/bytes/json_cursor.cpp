@@ -62,11 +62,19 @@ void JsonCursor::expect(char mark) {
   if (!accept(mark)) fail(at_, {"JSON", found(), fmt::format("'{}'", mark), {}});
 }
 
-bool JsonCursor::accept_null() {
+bool JsonCursor::accept_word(std::string_view word) {
   peek();
-  if (text_.substr(at_, 4) != "null") return false;
-  at_ += 4;
+  if (text_.substr(at_, word.size()) != word) return false;
+  at_ += word.size();
   return true;
+}
+
+bool JsonCursor::accept_null() { return accept_word("null"); }
+
+bool JsonCursor::boolean() {
+  if (accept_word("true")) return true;
+  if (accept_word("false")) return false;
+  fail(at_, {"JSON value", found(), "true or false", {}});
 }
 
 bool JsonCursor::next_member(bool& first, std::string& name) {
@@ -178,12 +186,7 @@ void JsonCursor::skip_value(int depth) {
     while (next_element(first)) skip_value(depth + 1);
   } else if (peek() == '"') {
     string();
-  } else if (!accept_null()) {
-    for (const std::string_view word : {"true", "false"}) {
-      if (text_.substr(at_, word.size()) != word) continue;
-      at_ += word.size();
-      return;
-    }
+  } else if (!accept_null() && !accept_word("true") && !accept_word("false")) {
     number();
   }
 }

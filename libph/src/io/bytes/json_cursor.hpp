@@ -27,6 +27,7 @@ class JsonCursor {
   /// The same for the elements of an array whose '[' was taken.
   bool next_element(bool& first);
 
+  bool boolean();
   /// A string without its escapes; \u becomes UTF-8.
   std::string string();
   double number();
@@ -40,6 +41,7 @@ class JsonCursor {
   [[noreturn]] void fail(std::size_t place, Fault fault) const;
 
  private:
+  bool accept_word(std::string_view word);
   std::string found();
   std::string_view number_word();
   std::uint32_t hex4();

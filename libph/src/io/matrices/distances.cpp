@@ -63,7 +63,7 @@ DistanceMatrix read_text_square(const Input& input, const ReadOptions& options) 
     std::size_t k = 0, cell = 0;
     const auto take = [&](double value, const EntryPlace& place) {
       if (k == row) {
-        if (options.births_on_diagonal) births.push_back(value);
+        if (options.diagonal == Diagonal::births) births.push_back(value);
       } else if (k > row) {
         pairs[triangle(k) + row] = value;
       } else {
@@ -129,7 +129,7 @@ DistanceMatrix square_to_distances(const Image& array, const Input& input,
   };
   for (std::size_t i = 0; i < n; ++i) {
     const double on_diagonal = entry(i, i);
-    if (options.births_on_diagonal) births.push_back(on_diagonal);
+    if (options.diagonal == Diagonal::births) births.push_back(on_diagonal);
     for (std::size_t j = 0; j < i; ++j) {
       const double lower = entry(i, j), upper = entry(j, i);
       pairs[triangle(i) + j] = entries.merged(upper, lower, {i, j});

@@ -38,7 +38,7 @@ Fault MatrixEntries::fault_of(double raw, bool on_diagonal) const {
       return {"diagonal of a correlation matrix", fmt::format("{}", raw), "1", {}};
     if (std::abs(raw) > 1 + kRounding)
       return {"not a correlation", fmt::format("{}", raw), "-1 to 1", {}};
-  } else if (on_diagonal && options_.births_on_diagonal) {
+  } else if (on_diagonal && options_.diagonal == Diagonal::births) {
     if (!(raw >= 0 && raw < kInfinity))
       return {"not a birth", fmt::format("{} on the diagonal", raw), "a finite number >= 0", {}};
   }
@@ -49,7 +49,7 @@ double MatrixEntries::distance_of(double raw, const EntryPlace& place) {
   const bool on_diagonal = place.row == place.column;
   if (std::isnan(raw)) return on_diagonal ? 0 : kInfinity;
   if (options_.from_correlation) return 1 - std::clamp(raw, -1.0, 1.0);
-  if (on_diagonal && options_.births_on_diagonal) return raw;
+  if (on_diagonal && options_.diagonal == Diagonal::births) return raw;
   doubt(on_diagonal ? kDiagonal : kNegative, {std::abs(raw), raw, 0, place});
   return 0;
 }
@@ -90,7 +90,8 @@ Fault MatrixEntries::fault_of(Kind kind, const Doubt& doubt) const {
 
 void MatrixEntries::finish(const std::function<void(const EntryPlace&, const Fault&)>& fail) const {
   const auto is_accepted = [&](Kind kind) {
-    return worst_[kind].size <= rounding() || (kind == kDiagonal && options_.zeros_on_diagonal);
+    return worst_[kind].size <= rounding() ||
+           (kind == kDiagonal && options_.diagonal == Diagonal::any);
   };
   for (const Kind kind : {kNegative, kAsymmetric, kDiagonal})
     if (!is_accepted(kind)) fail(worst_[kind].place, fault_of(kind, worst_[kind]));

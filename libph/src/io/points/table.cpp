@@ -315,7 +315,7 @@ void refuse_columns(const ReadOptions& options, std::string_view found) {
 
 std::string_view matrix_option(const ReadOptions& options) {
   if (options.from_correlation) return "--from-correlation";
-  if (options.births_on_diagonal) return "--diagonal births";
+  if (options.diagonal == Diagonal::births) return "--diagonal births";
   if (options.symmetrise != Symmetrise::none) return "--symmetrise";
   return options.array == ArrayMeaning::distances ? "--diagonal" : "";
 }

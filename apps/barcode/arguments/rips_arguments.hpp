@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "arguments.hpp"
+#include "barcode/arguments/arguments.hpp"
 
 namespace ph::barcode {
 

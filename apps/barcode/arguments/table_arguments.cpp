@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "table_arguments.hpp"
+#include "barcode/arguments/table_arguments.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <string_view>
 #include <variant>
 
+#include "barcode/arguments/option_scopes.hpp"
 #include "choices.hpp"
-#include "option_scopes.hpp"
 
 namespace ph::barcode {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rips_arguments.hpp"
+#include "barcode/arguments/rips_arguments.hpp"
 
 #include <fmt/format.h>
 
@@ -84,7 +84,7 @@ void check_rips_arguments(Arguments& a) {
     sources.push_back("--vertex-weights");
   }
   if (a.dtm) sources.push_back("--dtm");
-  if (a.read.births_on_diagonal) sources.push_back("--diagonal births");
+  if (a.read.diagonal == Diagonal::births) sources.push_back("--diagonal births");
   const auto exclude = [](std::string_view one, std::string_view other) {
     throw Error(ErrorKind::usage, fmt::format("{}: excludes {}", one, other));
   };
@@ -94,7 +94,7 @@ void check_rips_arguments(Arguments& a) {
   if (sources.empty()) return;
   if (a.subsample) exclude(sources[0], "--subsample");
   if (a.rips.approximation) exclude(sources[0], "--approximate");
-  if (a.read.births_on_diagonal && a.read.from_correlation)
+  if (a.read.diagonal == Diagonal::births && a.read.from_correlation)
     exclude("--diagonal births", "--from-correlation");
   if (a.vertex_weights == "-" && std::ranges::count(a.inputs, "-") > 0)
     throw Error(ErrorKind::usage, "--vertex-weights: standard input can be read once only");

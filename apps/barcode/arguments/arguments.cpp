@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "arguments.hpp"
+#include "barcode/arguments/arguments.hpp"
 
 #include <fmt/format.h>
 
@@ -8,16 +8,16 @@
 #include <functional>
 #include <string_view>
 
+#include "barcode/arguments/image_arguments.hpp"
+#include "barcode/arguments/option_scopes.hpp"
+#include "barcode/arguments/rips_arguments.hpp"
+#include "barcode/arguments/table_arguments.hpp"
+#include "barcode/formats_table.hpp"
 #include "batch_names.hpp"
 #include "choices.hpp"
-#include "formats_table.hpp"
-#include "image_arguments.hpp"
 #include "numbers.hpp"
-#include "option_scopes.hpp"
 #include "ph/detail/field.hpp"
 #include "report/page_template.hpp"
-#include "rips_arguments.hpp"
-#include "table_arguments.hpp"
 
 namespace ph::barcode {
 namespace {
@@ -129,8 +129,7 @@ void add_input_options(CLI::App& app, Arguments& a) {
              "what the diagonal of a distance matrix has: 0, whatever stands there, or when each "
              "point enters (default: 0, else an error)",
              [&a](std::size_t i) {
-               a.read.zeros_on_diagonal = i == 0;
-               a.read.births_on_diagonal = i == 1;
+               a.read.diagonal = i == 0 ? Diagonal::any : Diagonal::births;
                a.read.array = ArrayMeaning::distances;
              })
       ->group(group);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "image_arguments.hpp"
+#include "barcode/arguments/image_arguments.hpp"
 
 #include <fmt/format.h>
 

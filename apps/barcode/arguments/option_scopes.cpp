@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "option_scopes.hpp"
+#include "barcode/arguments/option_scopes.hpp"
 
 #include <array>
 #include <bit>
