@@ -30,7 +30,7 @@ ph::Points make_points(Shape shape, ph::Index n, ph::Index d) {
   std::uniform_real_distribution<double> uniform;
   std::normal_distribution<double> normal;
   ph::Points points(n, d), centres(100, d);
-  for (double& x : centres.reshaped()) x = uniform(random);
+  for (double& x : centres.coordinates()) x = uniform(random);
   const double side = std::round(std::pow(static_cast<double>(n), 1.0 / static_cast<double>(d)));
   for (ph::Index i = 0; i < n; ++i) {
     const double width = std::ldexp(0.02, -static_cast<int>(random() % 16));

@@ -14,7 +14,7 @@ ph::Points random_points(ph::Index n, ph::Index d) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> uniform;
   ph::Points points(n, d);
-  for (double& x : points.reshaped()) x = uniform(random);
+  for (double& x : points.coordinates()) x = uniform(random);
   return points;
 }
 

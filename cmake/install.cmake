@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/ph)
 
-foreach(component core io plot segment pcl)
+foreach(component core c io plot segment pcl)
   if(NOT TARGET ph_${component})
     continue()
   endif()

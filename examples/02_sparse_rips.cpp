@@ -12,7 +12,7 @@ int main() {
     const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(sphere.rows());
     const double turn = std::numbers::pi * (3 - std::sqrt(5.0)) * static_cast<double>(i);
     const double r = std::sqrt(1 - z * z);
-    sphere.row(i) << r * std::cos(turn), r * std::sin(turn), z;
+    sphere.set_row(i, {r * std::cos(turn), r * std::sin(turn), z});
   }
 
   const ph::SparseDistances near = ph::SparseDistances::within(sphere, 0.3);

@@ -14,7 +14,7 @@ int main() {
   for (ph::Index i = 0; i < points.rows(); ++i) {
     const double t = 1 + static_cast<double>(i / spirals) / 4000;
     const double angle = t + 2 * std::numbers::pi * static_cast<double>(i % spirals) / spirals;
-    points.row(i) << t * std::cos(angle), t * std::sin(angle);
+    points.set_row(i, {t * std::cos(angle), t * std::sin(angle)});
   }
 
   // Only the components: no distance is computed that is not needed for them.

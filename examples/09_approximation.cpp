@@ -23,9 +23,9 @@ int main() {
     const double turn = std::numbers::pi * (3 - std::sqrt(5.0)) * static_cast<double>(i);
     const double r = i < count - outliers ? 1 + 0.05 * std::sin(17 * turn)
                                           : 0.7 * static_cast<double>(count - i) / outliers;
-    points.row(i) << r * std::cos(turn), r * std::sin(turn);
+    points.set_row(i, {r * std::cos(turn), r * std::sin(turn)});
   }
-  const ph::Points circle = points.topRows(count - outliers);
+  const ph::PointsView circle(points.data(), count - outliers, points.cols());
 
   // Bars longer than twice the covering radius are bars of the whole circle, too.
   const ph::GreedyPermutation sample = ph::greedy_permutation(circle, {.points = 100});

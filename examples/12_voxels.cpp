@@ -14,7 +14,7 @@ int main() {
     const double a = turn * static_cast<double>(i / across) / around;
     const double b = turn * static_cast<double>(i % across) / across;
     const double r = 1 + 0.4 * std::cos(b);
-    torus.row(i) << r * std::cos(a), r * std::sin(a), 0.4 * std::sin(b);
+    torus.set_row(i, {r * std::cos(a), r * std::sin(a), 0.4 * std::sin(b)});
   }
   const ph::PointImage distances = ph::voxel_image(torus, 0.05);
   const ph::Barcode bars = ph::persistence(ph::Cubical(distances.image), {.min_persistence = 0.2});

@@ -126,7 +126,7 @@ void add_points(ReportFile& report, const Points& points, const std::vector<Inde
     report::add_positions(report, std::span(points.data(), count * dims), dims, tolerance);
   } else {
     const MemoryClaim copy(report.context().memory, count * dims * sizeof(double));
-    const Points first = points.leftCols(kMostColumns);
+    const Points first(PointsView(points.data(), points.rows(), kMostColumns, points.cols(), 1));
     report::add_positions(report, std::span(first.data(), count * dims), dims, tolerance);
   }
   if (!ids.empty()) {

@@ -2,11 +2,13 @@
 // Spanning forests: H0 without the graph of all edges, held to the oracle on the whole filtration.
 #include <limits>
 
+#include "ph/eigen.hpp"
 #include "ph/estimate.hpp"
 #include "ph/merge_tree.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"
+#include "support/points.hpp"
 
 namespace ph::test {
 namespace {
@@ -42,10 +44,11 @@ TEST(Components, OfPointsAreThoseOfTheWholeFiltration) {
   for_each_seed(12000, [](Generator& random, bool ties, std::int64_t) {
     Points points = random.points(random.integer(0, 22), random.integer(0, 5), ties);
     for (Index i = 1; i < points.rows(); ++i)
-      if (random.integer(0, 4) == 0) points.row(i) = points.row(random.integer(0, int(i) - 1));
+      if (random.integer(0, 4) == 0)
+        copy_point(points, random.integer(0, int(i) - 1), points, i);
     double unit = 1;
     if (random.integer(0, 3) == 0) unit = std::ldexp(1, random.coin() ? 1000 : -1070);
-    points *= unit;
+    points = scaled(points, unit);
     RipsOptions options{.distance = kSearched[random.integer(0, 3)]};
     options.minkowski_p = random.coin() ? 1 + random.real() : 1 + 9 * random.real();
     if (random.coin()) options.threshold = unit * random.value(ties);
@@ -56,7 +59,7 @@ TEST(Components, OfPointsAreThoseOfTheWholeFiltration) {
 TEST(Components, OfManyAxesAndOtherDistances) {
   for_each_seed(1500, [](Generator& random, bool ties, std::int64_t) {
     const Points points = random.points(random.integer(1, 12), random.integer(6, 20), ties);
-    const bool is_cosine = random.coin() && points.rowwise().norm().minCoeff() > 0;
+    const bool is_cosine = random.coin() && as_matrix(points).rowwise().norm().minCoeff() > 0;
     RipsOptions options{.distance =
                             is_cosine ? PointDistance::cosine : kSearched[random.integer(0, 3)]};
     if (random.integer(0, 3) == 0) options.distance = PointDistance::hamming;
@@ -99,13 +102,14 @@ TEST(Components, OfManyPointsAreThoseOfAllPairs) {
     const Index n = random.integer(200, 2500), d = random.integer(1, 5);
     Points points = random.points(n, d, false);
     const int kind = random.integer(0, 3);
-    if (kind == 0) points = (points * 6).array().round();
+    if (kind == 0) points = to_points((as_matrix(points) * 6).array().round());
     if (kind == 1)
       for (Index i = 0; i < n; ++i)
-        points.row(i) = points.row(i) * std::ldexp(1, -random.integer(0, 60)) +
-                        points.row(random.integer(0, 4));
+        as_matrix(points).row(i) =
+            as_matrix(points).row(i) * std::ldexp(1, -random.integer(0, 60)) +
+            as_matrix(points).row(random.integer(0, 4));
     if (kind == 2)
-      for (Index k = 1; k < d; ++k) points.col(k) = points.col(0);
+      for (Index k = 1; k < d; ++k) as_matrix(points).col(k) = as_matrix(points).col(0);
     RipsOptions options{.distance = kSearched[random.integer(0, 3)], .minkowski_p = 3};
     options.only_components = true;
     if (random.coin()) options.threshold = random.real() / 2;
@@ -120,7 +124,7 @@ TEST(Components, OfManyPointsAreThoseOfAllPairs) {
 }
 
 TEST(Components, NothingElseIsThere) {
-  const Rips rips(Points::Random(9, 2), {.only_components = true});
+  const Rips rips(to_points(PointMatrix::Random(9, 2)), {.only_components = true});
   EXPECT_EQ(persistence(rips).size(), 9U);
   expect_error(ErrorKind::usage, "only the components", [&] { persistence(rips, {.max_dim = 1}); });
   expect_error(ErrorKind::usage, "only the components", [&] { estimate(rips, {.max_dim = 2}); });

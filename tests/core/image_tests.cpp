@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "ph/eigen.hpp"
 #include "ph/error.hpp"
 #include "ph/persistence.hpp"
 #include "ph/voxel_image.hpp"
@@ -21,7 +22,9 @@ namespace {
 
 Points random_points(std::mt19937& random, Index rows, Index cols) {
   std::uniform_real_distribution<double> uniform(-1, 1);
-  return Points::NullaryExpr(rows, cols, [&] { return uniform(random); });
+  Points points(rows, cols);
+  for (double& x : points.coordinates()) x = uniform(random);
+  return points;
 }
 
 /// The centre of voxel i.
@@ -49,7 +52,7 @@ TEST(VoxelImage, IsTheDistanceToTheNearestOccupiedVoxel) {
       if (image.image.values[static_cast<std::size_t>(i)] == 0) occupied.push_back(i);
     // Each point lies in an occupied voxel, and each of these has a point.
     const auto has = [&](Index i, Index p) {
-      return ((points.row(p) - centre(image, i)).cwiseAbs().array() <= 0.5 * voxel + 1e-12).all();
+      return ((as_matrix(points).row(p) - centre(image, i)).cwiseAbs().array() <= 0.5 * voxel + 1e-12).all();
     };
     for (Index p = 0; p < points.rows(); ++p)
       EXPECT_TRUE(std::ranges::any_of(occupied, [&](Index i) { return has(i, p); }));
@@ -69,7 +72,7 @@ TEST(VoxelImage, IsTheDistanceToTheNearestOccupiedVoxel) {
 
 TEST(VoxelImage, CountsPointsAndTellsWhereTheyAre) {
   // Two points in the first voxel, one in the last, none in the second of three.
-  const Points points = (Points(3, 1) << 0.1, 0.9, 2.5).finished();
+  const Points points{{0.1}, {0.9}, {2.5}};
   const auto values = [&](VoxelValue value) {
     const PointImage image = voxel_image(points, 1, value, 0);
     EXPECT_EQ(image.image.extents, std::vector<Index>{3});
@@ -103,11 +106,12 @@ TEST(VoxelImage, HasTheHomologyOfTheShape) {
   constexpr double voxel = 0.1;
   Points sphere(3000, 3), circle(400, 3);
   for (Index i = 0; i < sphere.rows(); ++i)
-    sphere.row(i) = Eigen::RowVector3d(gauss(random), gauss(random), gauss(random)).normalized();
+    as_matrix(sphere).row(i) =
+        Eigen::RowVector3d(gauss(random), gauss(random), gauss(random)).normalized();
   for (Index i = 0; i < circle.rows(); ++i) {
     const double a =
         static_cast<double>(i) * 2 * std::acos(-1.0) / static_cast<double>(circle.rows());
-    circle.row(i) = Eigen::RowVector3d(std::cos(a), std::sin(a), 0);
+    circle.set_row(i, {std::cos(a), std::sin(a), 0});
   }
   CubicalOptions cells;
   cells.construction = CubicalOptions::Construction::cells;
@@ -122,7 +126,7 @@ TEST(VoxelImage, HasTheHomologyOfTheShape) {
 }
 
 TEST(VoxelImage, RefusesWhatItCannotDo) {
-  const Points two = (Points(2, 2) << 0, 0, 1, 1).finished();
+  const Points two{{0, 0}, {1, 1}};
   const auto kind = [](auto&&... arguments) {
     try {
       voxel_image(arguments...);
@@ -147,7 +151,7 @@ TEST(VoxelImage, RefusesWhatItCannotDo) {
 
 // An image of one line: what the line takes is as large as the image.
 TEST(VoxelImage, CountsWhatALineTakes) {
-  const Points ends = (Points(2, 1) << 0, 1000).finished();
+  const Points ends{{0}, {1000}};
   const auto with_limit = [&](std::size_t bytes) {
     RunContext context;
     context.memory.set_limit(bytes);
@@ -168,7 +172,7 @@ TEST(VoxelImage, CountsWhatALineTakes) {
 }
 
 TEST(VoxelImage, IsStoppedWithinALine) {
-  const Points ends = (Points(2, 1) << 0, 9).finished();
+  const Points ends{{0}, {9}};
   std::stop_source source;
   RunContext context;
   context.stop = source.get_token();

@@ -2,11 +2,13 @@
 // What must not change a barcode, and what must change it in a known way.
 #include <chrono>
 
+#include "ph/eigen.hpp"
 #include "ph/persistence.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"
 #include "support/generators.hpp"
 #include "support/known_spaces.hpp"
+#include "support/points.hpp"
 
 namespace ph::test {
 namespace {
@@ -26,7 +28,7 @@ Points permuted(Generator& random, const Points& points) {
               order[static_cast<std::size_t>(random.integer(0, static_cast<int>(i) - 1))]);
   Points result(points.rows(), points.cols());
   for (Index i = 0; i < points.rows(); ++i)
-    result.row(i) = points.row(order[static_cast<std::size_t>(i)]);
+    copy_point(points, order[static_cast<std::size_t>(i)], result, i);
   return result;
 }
 
@@ -51,7 +53,7 @@ TEST(Invariance, PowersOfTwoScaleExactly) {
     const double factor = std::ldexp(1.0, random.integer(-100, 100));
     std::vector<Bar> expected = rips_bars(points);
     for (Bar& bar : expected) bar = {bar.dim, bar.birth * factor, bar.death * factor};
-    EXPECT_EQ(rips_bars(points * factor), expected);
+    EXPECT_EQ(rips_bars(scaled(points, factor)), expected);
   });
 }
 
@@ -78,9 +80,9 @@ TEST(Invariance, DuplicatesOnlyAddZeroLengthBars) {
   for_each_cloud([](Generator& random, const Points& points) {
     if (points.rows() == 0) return;
     Points more(points.rows() + 5, points.cols());
-    more.topRows(points.rows()) = points;
+    std::ranges::copy(points.coordinates(), more.data());
     for (Index i = points.rows(); i < more.rows(); ++i)
-      more.row(i) = points.row(random.integer(0, static_cast<int>(points.rows()) - 1));
+      copy_point(points, random.integer(0, static_cast<int>(points.rows()) - 1), more, i);
     EXPECT_EQ(rips_bars(permuted(random, more)), rips_bars(points));
   });
 }
@@ -134,13 +136,15 @@ TEST(Invariance, ARipsComplexIsTheListOfItsSimplices) {
 // ---- degenerate clouds
 
 TEST(DegenerateClouds, AllPointsEqual) {
-  EXPECT_EQ(rips_bars(Points::Constant(60, 3, 1.5)), (std::vector<Bar>{{0, 0, kInf}}));
+  EXPECT_EQ(rips_bars(to_points(PointMatrix::Constant(60, 3, 1.5))), (std::vector<Bar>{{0, 0, kInf}}));
 }
 
 TEST(DegenerateClouds, CollinearPointsHaveNoLoops) {
   Points line(60, 3);
-  for (Index i = 0; i < 60; ++i)
-    line.row(i) = Eigen::RowVector3d(1, 2, -3) * static_cast<double>(i * i);
+  for (Index i = 0; i < 60; ++i) {
+    const auto t = static_cast<double>(i * i);
+    line.set_row(i, {t, 2 * t, -3 * t});
+  }
   const std::vector<Bar> bars = rips_bars(line);
   EXPECT_EQ(bars.size(), 60U);
   for (const Bar& bar : bars) EXPECT_EQ(bar.dim, 0);
@@ -149,7 +153,7 @@ TEST(DegenerateClouds, CollinearPointsHaveNoLoops) {
 TEST(DegenerateClouds, GridsOfSquares) {
   Points grid(64, 2);
   for (Index i = 0; i < 64; ++i)
-    grid.row(i) << static_cast<double>(i / 8), static_cast<double>(i % 8);
+    grid.set_row(i, {static_cast<double>(i / 8), static_cast<double>(i % 8)});
   std::vector<Bar> expected(63, Bar{0, 0, 1});
   expected.push_back({0, 0, kInf});
   expected.insert(expected.end(), 49, Bar{1, 1, std::sqrt(2.0)});
@@ -157,19 +161,18 @@ TEST(DegenerateClouds, GridsOfSquares) {
 }
 
 TEST(DegenerateClouds, SpreadsAtTheEndsOfTheRange) {
-  Points square(4, 2);
-  square << 0, 0, 0, 1, 1, 1, 1, 0;
+  const Points square{{0, 0}, {0, 1}, {1, 1}, {1, 0}};
   for (const double scale : {1e-300, 1e300, 1e-310}) {
-    const Points scaled = square * scale;
-    const std::vector<Bar> bars = rips_bars(scaled);
+    const Points points = scaled(square, scale);
+    const std::vector<Bar> bars = rips_bars(points);
     ASSERT_EQ(bars.size(), 5U) << scale;
     EXPECT_EQ(bars[0], (Bar{0, 0, scale}));
     EXPECT_EQ(bars[4].birth, scale);
     EXPECT_NEAR(bars[4].death / scale, std::sqrt(2.0), 1e-12);
-    EXPECT_EQ(rips_bars(scaled, {.threshold = 2 * scale}), bars) << "near pairs find them too";
+    EXPECT_EQ(rips_bars(points, {.threshold = 2 * scale}), bars) << "near pairs find them too";
   }
-  Points both(6, 2);  // a tiny square and a far pair
-  both << 0, 0, 0, 1e-300, 1e-300, 1e-300, 1e-300, 0, 1e300, 0, 1e300, 1e299;
+  // A tiny square and a far pair.
+  const Points both{{0, 0}, {0, 1e-300}, {1e-300, 1e-300}, {1e-300, 0}, {1e300, 0}, {1e300, 1e299}};
   const std::vector<Bar> bars = rips_bars(both);
   ASSERT_EQ(bars.size(), 7U);
   EXPECT_EQ(bars[4], (Bar{0, 0, 1e300}));
@@ -180,7 +183,7 @@ TEST(DegenerateClouds, SpreadsAtTheEndsOfTheRange) {
 // A million copies of one point are 5 * 10^11 edges: within a budget the answer is an error at
 // once, not a machine brought to its knees.
 TEST(DegenerateClouds, AMillionDuplicatesStayWithinTheBudget) {
-  const Points same = Points::Constant(1000000, 3, 2.0);
+  const Points same = to_points(PointMatrix::Constant(1000000, 3, 2.0));
   RunContext context;
   context.memory.set_limit(64 << 20);
   const auto start = std::chrono::steady_clock::now();
@@ -197,7 +200,7 @@ TEST(DegenerateClouds, AMillionDuplicatesStayWithinTheBudget) {
 // Pairs of equal points, far from all others.
 TEST(DegenerateClouds, ManyPairsOfDuplicatesTakeNearLinearTime) {
   Points pairs(200000, 2);
-  for (Index i = 0; i < pairs.rows(); ++i) pairs.row(i) << static_cast<double>(i / 2), 0.0;
+  for (Index i = 0; i < pairs.rows(); ++i) pairs.set_row(i, {static_cast<double>(i / 2), 0.0});
   for (const double threshold : {0.0, 0.5}) {
     const Barcode barcode = persistence(Rips(pairs, {.threshold = threshold}), {.max_dim = 1});
     EXPECT_EQ(barcode.size(), 100000U);

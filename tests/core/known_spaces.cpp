@@ -109,7 +109,7 @@ TEST(KnownSpaces, RipsOfAFlatKleinBottle) {
 // The vertices +-e_k of R^(d+1): opposite ones are 2 apart, others sqrt(2).
 TEST(KnownSpaces, RipsOfCrossPolytopes) {
   for (int dim = 1; dim <= 4; ++dim) {
-    Points points = Points::Zero(2 * (dim + 1), dim + 1);
+    Points points(2 * (dim + 1), dim + 1);
     for (Index k = 0; k <= dim; ++k) {
       points(2 * k, k) = 1;
       points(2 * k + 1, k) = -1;

@@ -110,7 +110,7 @@ TEST(MaskedImages, AbsentIsNotInfinite) {
 }
 
 TEST(MaskedImages, VoxelsWithoutPointsAreAbsent) {
-  const Points points = (Points(3, 1) << 0.5, 2.5, 2.6).finished();
+  const Points points{{0.5}, {2.5}, {2.6}};
   for (const VoxelValue value : {VoxelValue::occupancy, VoxelValue::density})
     for (const bool superlevel : {false, true}) {
       const PointImage image = voxel_image(points, 1, value);
@@ -147,7 +147,9 @@ TEST(InfiniteBirths, AreNowhere) {
   EXPECT_EQ(bars_of(persistence(FilteredGraph(values, graph))),
             (std::vector<Bar>{{0, 0, kInfinity}, {0, 1, 2}}));
   EXPECT_EQ(bars_of(persistence(FilteredGraph::lower_star(values, graph))), expected);
-  EXPECT_TRUE(persistence(FilteredGraph(std::vector<double>{kInfinity}, {})).empty());
+  const FilteredGraph never(std::vector<double>{kInfinity}, {});
+  EXPECT_TRUE(persistence(never).empty());
+  never.for_each_cell(0, [](std::uint32_t v) { ADD_FAILURE() << v << " enters"; });
   // Vertices that never enter keep their numbers in the tree.
   for (const MergeTree& tree :
        {merge_tree(star), merge_tree(FilteredGraph::lower_star(values, graph))}) {

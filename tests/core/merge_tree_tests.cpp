@@ -229,8 +229,7 @@ TEST(MergeTrees, ThePointsEdgesAreAMinimumSpanningTree) {
 }
 
 TEST(MergeTrees, LinkageNumbersClustersAsTheyAreMade) {
-  Points points(6, 1);
-  points << 0, 1, 10, 12, 1.5, 30;
+  const Points points{{0}, {1}, {10}, {12}, {1.5}, {30}};
   const auto rows = linkage(merge_tree(Rips(points, {.only_components = true})));
   EXPECT_EQ(rows, (std::vector<LinkageRow>{
                       {1, 4, 0.5, 2}, {0, 6, 1, 3}, {2, 3, 2, 2}, {7, 8, 8.5, 5}, {5, 9, 18, 6}}));

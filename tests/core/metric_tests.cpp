@@ -5,11 +5,13 @@
 #include "metric/pairs_within.hpp"
 #include "ph/detail/row_distances.hpp"
 #include "ph/distance_matrix.hpp"
-#include "ph/points.hpp"
+#include "ph/eigen.hpp"
+#include "ph/metric.hpp"
 #include "ph/sparse_distances.hpp"
 #include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"
 #include "support/generators.hpp"
+#include "support/points.hpp"
 
 namespace ph::test {
 namespace {
@@ -159,8 +161,8 @@ TEST(SparseDistanceSets, NearPairsAreThoseOfAllPairs) {
     Generator random(seed);
     const Index n = random.integer(0, 60), d = random.integer(1, 6);
     Points points = random.points(n, d, random.coin());
-    const double scale[] = {1, 1, 1e-3, 1e100, 1e200, 1e307, 1e-200, 1e-310};
-    points *= scale[random.integer(0, 7)];
+    const double units[] = {1, 1, 1e-3, 1e100, 1e200, 1e307, 1e-200, 1e-310};
+    scale(points.coordinates(), units[random.integer(0, 7)]);
     double radius = 0;
     // A radius that is a distance to the last bit is inclusive.
     if (n >= 2 && random.integer(0, 3) != 0)
@@ -179,7 +181,7 @@ TEST(SparseDistanceSets, NearPairsFarFromTheOrigin) {
     Generator random(seed);
     const double far = std::ldexp(1 + random.real(), random.integer(10, 50));
     Points points(40, random.integer(1, 3));
-    for (double& x : points.reshaped()) x = far + random.integer(-12, 12) * 0.25;
+    for (double& x : points.coordinates()) x = far + random.integer(-12, 12) * 0.25;
     for (const double radius : {0.25, 0.5, 1.0, 3.0})
       ASSERT_EQ(SparseDistances::within(points, radius).edges(), all_pairs_within(points, radius))
           << "seed " << seed << " radius " << radius;
@@ -195,8 +197,7 @@ TEST(SparseDistanceSets, NearPairsAtAStepOfRounding) {
     Generator random(seed);
     const double r = 0.5 + random.real() / 2;
     const double middle = std::ldexp(r * (1 + 1e-9), random.integer(20, 29));
-    Points points(2, 1);
-    points << middle - random.real() * 1e-7, 0;
+    Points points{{middle - random.real() * 1e-7}, {0}};
     points(1, 0) = points(0, 0) + r;
     ASSERT_EQ(SparseDistances::within(points, r).edges(), all_pairs_within(points, r)) << seed;
   }
@@ -216,12 +217,12 @@ TEST(SparseDistanceSets, RadiiAtTheEnds) {
 // All pairs would be 5 * 10^9 distances here.
 TEST(SparseDistanceSets, ManyPointsAndFewPairsTakeNearLinearTime) {
   for (const Index d : {2, 4}) {
-    Points line = Points::Constant(100000, d, 7);
+    Points line = to_points(PointMatrix::Constant(100000, d, 7));
     for (Index i = 0; i < line.rows(); ++i) line(i, 0) = static_cast<double>(i / 2);
     for (const double unit : {1.0, 1e-303, 1e303}) {
-      const Points scaled = line * unit;
+      const Points points = scaled(line, unit);
       for (const double radius : {0.0, 1e-300 * unit, 0.5 * unit})
-        EXPECT_EQ(SparseDistances::within(scaled, radius).edges().size(), 50000U) << unit;
+        EXPECT_EQ(SparseDistances::within(points, radius).edges().size(), 50000U) << unit;
     }
   }
 }
@@ -247,7 +248,7 @@ TEST(RowDistancesOf, APointMetricAreItsDistances) {
     const Index n = random.integer(0, 70);
     Points points = random.points(n, random.integer(0, 5), ties);
     const double units[] = {1, 1, 1e-150, 1e-141, 1e120, 1e160};
-    points *= units[random.integer(0, 5)];
+    scale(points.coordinates(), units[random.integer(0, 5)]);
     const PointMetric metric(points,
                              random.coin() ? PointDistance::euclidean : PointDistance::manhattan);
     const RowDistances<PointMetric> rows(metric, std::pmr::new_delete_resource());

@@ -8,6 +8,7 @@
 
 #include "ph/bottleneck.hpp"
 #include "ph/distance_to_measure.hpp"
+#include "ph/eigen.hpp"
 #include "ph/estimate.hpp"
 #include "ph/greedy_permutation.hpp"
 #include "ph/lower_star.hpp"
@@ -46,6 +47,7 @@ TEST(PublicStructs, SimplexList) {
       {"descending", kBad, "ascend", complex_of(simplices({0, 1}, {0, 9, 2}, {0, 0}))},
       {"few values", kBad, "found 1 values, expected 2",
        complex_of(simplices({0, 1}, {0, 1, 2}, {0}))},
+      {"no values", kBad, "found 0 values, expected 1", complex_of(simplices({0}, {0, 1}, {}))},
       {"many values", kBad, "found 3 values, expected 2",
        complex_of(simplices({0, 1}, {0, 1, 2}, {0, 0, 0}))},
       {"an empty simplex", kBad, "without vertices", complex_of(simplices({}, {0, 0}, {0}))},
@@ -177,16 +179,14 @@ TEST(PublicStructs, Distances) {
       {"sparse: twice", kBad, "twice", sparse(2, {{0, 1, 1}, {1, 0, 2}})},
       {"sparse: a loop", kBad, "two different", sparse(2, {{1, 1, 1}})},
       {"within NaN", kUsage, "radius: found nan",
-       [] { SparseDistances::within(Points::Zero(2, 2), kNan); }},
+       [] { SparseDistances::within(Points(2, 2), kNan); }},
       {"within less than 0", kUsage, "radius: found -1",
-       [] { SparseDistances::within(Points::Zero(2, 2), -1); }},
+       [] { SparseDistances::within(Points(2, 2), -1); }},
   });
 }
 
 TEST(PublicStructs, PointsAndRipsOptions) {
-  Points square(4, 2), odd(2, 2);
-  square << 0, 0, 1, 0, 0, 1, 1, 1;
-  odd << 0, 0, kNan, 1;
+  const Points square{{0, 0}, {1, 0}, {0, 1}, {1, 1}}, odd{{0, 0}, {kNan, 1}};
   const auto rips = [&square](RipsOptions options) {
     return [&square, options] { Rips(square, options); };
   };
@@ -223,7 +223,7 @@ TEST(PublicStructs, PointsAndRipsOptions) {
 }
 
 TEST(PublicStructs, LimitsAndNeighbours) {
-  const Points points = Points::Random(5, 2);
+  const Points points = to_points(PointMatrix::Random(5, 2));
   const auto greedy = [&](GreedyLimits limits) {
     return [&points, limits] { greedy_permutation(points, limits); };
   };
@@ -256,7 +256,7 @@ TEST(PublicStructs, LimitsAndNeighbours) {
 // ---- options
 
 TEST(PublicStructs, Options) {
-  const Rips rips(Points(Points::Random(5, 2)));
+  const Rips rips(to_points(PointMatrix::Random(5, 2)));
   const Cubical cubical(image({2, 2}, {1, 2, 3, 4}));
   const ExplicitComplex listed =
       ExplicitComplex::from_boundary({{0, 0, 1}, {0, 0, 0, 2}, {0, 1}, {}, {}});

@@ -40,8 +40,7 @@ TEST(RipsGraphs, TheThresholdIsInclusive) {
   EXPECT_EQ(Rips(d, {.threshold = std::nextafter(2.0, 0.0)}).edge_count(), 1U);
   EXPECT_EQ(Rips(d, {.threshold = 0}).edge_count(), 0U);
   EXPECT_EQ(Rips(SparseDistances(3, {{0, 1, 2}, {1, 2, 3}}), {.threshold = 2}).edge_count(), 1U);
-  Points line(3, 1);
-  line << 0, 1, 3;
+  const Points line{{0}, {1}, {3}};
   EXPECT_EQ(Rips(line, {.threshold = 2}).edge_count(), 2U) << "by the k-d tree";
   EXPECT_EQ(Rips(line, {.threshold = 2, .distance = PointDistance::manhattan}).edge_count(), 2U);
   for (const double bad : {-1.0, kNan, -kInf}) {
@@ -169,8 +168,7 @@ TEST(RipsGraphs, InfiniteDistancesAreNoEdges) {
 }
 
 TEST(RipsGraphs, ADistanceThatOverflowsIsNotTakenForInfinite) {
-  Points far(2, 1);
-  far << -1.7e308, 1.7e308;
+  const Points far{{-1.7e308}, {1.7e308}};
   for (const std::optional<double> threshold : {std::optional<double>(), std::optional(kInf)})
     expect_error(ErrorKind::bad_data, "largest double",
                  [&] { Rips(far, {.threshold = threshold}); });
@@ -251,8 +249,7 @@ TEST(RipsInputs, ABrokenMetricIsRefused) {
 }
 
 TEST(RipsInputs, NamedDistances) {
-  Points square(4, 2);
-  square << 0, 0, 0, 1, 1, 1, 1, 0;
+  const Points square{{0, 0}, {0, 1}, {1, 1}, {1, 0}};
   const auto loop = [&](PointDistance distance) {
     return intervals(persistence(Rips(square, {.distance = distance})), 1);
   };
@@ -268,7 +265,7 @@ TEST(RipsInputs, MergingEqualPointsLosesNothingButBarsOfLengthZero) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     Generator random(seed);
     Points points = random.points(random.integer(0, 14), random.integer(0, 2), true);
-    for (double& x : points.reshaped())
+    for (double& x : points.coordinates())
       if (x == 0 && random.coin()) x = -0.0;
     RipsOptions options;
     if (random.coin()) options.threshold = random.integer(0, 3);
@@ -283,8 +280,7 @@ TEST(RipsInputs, MergingEqualPointsLosesNothingButBarsOfLengthZero) {
 }
 
 TEST(RipsInputs, MergedPointsAreNamedByTheFirstOfThem) {
-  Points points(5, 1);
-  points << 3, 3, 0, 3, 0;
+  Points points{{3}, {3}, {0}, {3}, {0}};
   const Rips merged(points, {.merge_equal_points = true});
   EXPECT_EQ(merged.size(), 2);
   const Barcode barcode = persistence(merged);
@@ -300,7 +296,7 @@ TEST(RipsInputs, MergedPointsAreNamedByTheFirstOfThem) {
 TEST(RipsInputs, AMillionCopiesTakeNearLinearTime) {
   Points points(1000000, 3);
   for (Index i = 0; i < points.rows(); ++i)
-    points.row(i) << static_cast<double>(i % 7), static_cast<double>(i % 3), 1e300;
+    points.set_row(i, {static_cast<double>(i % 7), static_cast<double>(i % 3), 1e300});
   const Rips rips(points, {.merge_equal_points = true});
   EXPECT_EQ(rips.size(), 21);
   const Rips near(points, {.threshold = 1, .merge_equal_points = true});

@@ -4,6 +4,7 @@
 #include <array>
 #include <set>
 
+#include "ph/eigen.hpp"
 #include "support/for_each_seed.hpp"
 #include "support/random_images.hpp"
 #include "support/voxel_sets.hpp"
@@ -117,7 +118,7 @@ TEST(VoxelRepresentatives, APitAndARing) {
 
 TEST(VoxelRepresentatives, OnlyOfImagesWithPositiveLength) {
   const Options voxels{.representatives = Representatives::voxels};
-  EXPECT_THROW(persistence(Rips(Points::Random(4, 2)), voxels), Error);
+  EXPECT_THROW(persistence(Rips(to_points(PointMatrix::Random(4, 2))), voxels), Error);
   const Image deep{{2, 2, 2, 2}, std::vector<double>(16, 0.0)};
   EXPECT_THROW(persistence(Cubical(deep), voxels), Error);
   const Image flat{{2, 2}, {1, 2, 3, 4}};

@@ -247,7 +247,7 @@ TEST(WeightedRips, WhoIsBornBeyondTheThresholdNeverEnters) {
 }
 
 TEST(WeightedRips, RefusesWhatMakesNoSense) {
-  const Points points = Points::Zero(3, 2);
+  const Points points(3, 2);
   for (const double bad : {-1.0, kNan, kInf}) {
     const std::vector<double> births{0, bad, 0};
     expect_error(ErrorKind::bad_data, "vertex 1: found birth",

@@ -18,8 +18,7 @@ int main(int argc, char** argv) try {
   // Their warnings are theirs: this conversion would stop our own build.
   const int three = 3.5;
 #ifdef CORE_ALONE
-  ph::Points points(three + 1, 2);
-  points << 0, 0, 1, 0, 1, 1, 0, 1.25;
+  const ph::Points points{{0, 0}, {1, 0}, {1, 1}, {0, 1.25}};
 #else
   const ph::Points points = ph::read_points(argc > 1 ? argv[1] : "-");
 #endif

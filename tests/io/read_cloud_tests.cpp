@@ -183,7 +183,7 @@ TEST(Cloud, HolesLabelsAndColours) {
   expect_same(pcd(out.str()), cloud);
   std::vector<Index> dropped;
   const Points points = read_points(Input::view(out.str(), "c.pcd"), {.dropped = &dropped});
-  EXPECT_EQ(points, (Points(1, 3) << 1, 2, 3).finished());
+  EXPECT_EQ(points, (Points{{1, 2, 3}}));
   EXPECT_EQ(dropped, std::vector<Index>{0});
   bad_data([] { pcd(header("a b", "4 4", "F F", "1 1", "1", "1", "1", "ascii") + "1 2\n").xyz(); });
   const std::string all_holes =
@@ -227,7 +227,7 @@ TEST(ReadXyz, NamesColumns) {
   const Cloud normals = xyz("1 2 3 0.5 0 1\n");
   EXPECT_EQ(normals.fields[3].name, "field_3");
   const Cloud named = xyz("label,Z,Y,X\n7,3,2,1\n");
-  EXPECT_EQ(points_of(named), (Points(1, 3) << 1, 2, 3).finished());
+  EXPECT_EQ(points_of(named), (Points{{1, 2, 3}}));
   for (const char* text : {"1 2\n", "a,b,c\n1,2,3\n", "1 2 inf\n", "", "1 2 3\n4 5\n",
                            "x,y,z,a,a\n0,0,0,1,2\n", "a,x,y,z\n1,2,3,inf\n"}) {
     bad_data([&] { xyz(text); });

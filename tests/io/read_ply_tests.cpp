@@ -61,7 +61,7 @@ TEST(Ply, ReadsBothByteOrdersListsAndFaces) {
                           body([](auto v) { return be(v); });
   for (const std::string& bytes : {ascii, little, big}) {
     const Mesh mesh = read_ply_mesh(Input::view(bytes, "m.ply"));
-    EXPECT_EQ(mesh.vertices, (Points(3, 3) << 0.1, 1, -1, 1, 2, 3, 4, 5, 6).finished());
+    EXPECT_EQ(mesh.vertices, (Points{{0.1, 1, -1}, {1, 2, 3}, {4, 5, 6}}));
     EXPECT_EQ(mesh.corners, (std::vector<Index>{0, 1, 2, 2, 0}));
     EXPECT_EQ(mesh.offsets, (std::vector<std::size_t>{0, 3, 5}));
     EXPECT_EQ(ply(bytes).size(), 3);

@@ -17,7 +17,7 @@ Points points(const std::string& text, const ReadOptions& options = {}) {
 }
 
 TEST(ReadPoints, AcceptsTheOrdinaryShapes) {
-  const Points expected = (Points(2, 3) << 1, -2.5, 3e-2, 4, 5, 6).finished();
+  const Points expected = Points{{1, -2.5, 3e-2}, {4, 5, 6}};
   for (const std::string text : {
            "1 -2.5 3e-2\n4 5 6\n",
            "1,-2.5,3e-2\n4,5,6",
@@ -117,7 +117,7 @@ TEST(ReadPoints, OptionsDecideAboutDoubtfulInput) {
       points("x y\n1 2\nnan 3\n4 5\n", {.nan = NanPolicy::drop,
                                         .note = [&](std::string s) { notes.push_back(s); },
                                         .dropped = &dropped});
-  EXPECT_EQ(p, (Points(2, 2) << 1, 2, 4, 5).finished());
+  EXPECT_EQ(p, (Points{{1, 2}, {4, 5}}));
   EXPECT_EQ(dropped, std::vector<Index>{1});
   ASSERT_EQ(notes.size(), 2U);
   EXPECT_TRUE(contains(notes[0], "line 1 is a header"));

@@ -175,7 +175,7 @@ MUTANTS = [
      "(end == u) == (other < w) ? a : field.negate(a)", "a", ["conformance_random"]),
     ("surfaces: rows of edges with one sign", TRIANGLES,
      "a < b ? value : shared.field.negate(value)", "value", ["conformance_random"]),
-    ("surfaces: stars are written with one sign", "libph/src/rips/sweep/star_writer.hpp",
+    ("surfaces: stars are written with one sign", TRIANGLES,
      "v, w < u ? a : opposite", "v, a", ["conformance_random"]),
     ("weights: edges forget births", WEIGHTS, "double value = std::max(born, distance);",
      "double value = distance;", ["weighted_rips_tests"]),

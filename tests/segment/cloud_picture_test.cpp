@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "ph/eigen.hpp"
 #include "pictures/cloud_picture.hpp"
 
 #include <gtest/gtest.h>
@@ -33,7 +34,7 @@ class CloudPictures : public testing::Test {
     scene_.width = cloud_.width;
     scene_.voxel = 0.02;
     scene_.counts.assign(1600, 8);
-    scene_.vertices = Points::Constant(1600, 3, 1.0);
+    scene_.vertices = to_points(PointMatrix::Constant(1600, 3, 1.0));
   }
   Raster picture(const ViewTurn& turn = {}) const {
     return cloud_picture(&cloud_, scene_, labels_, kColours, turn, default_context()).raster;

@@ -107,8 +107,7 @@ TEST(OrientedBox, FewPoints) {
   EXPECT_NEAR(line.size[1], 0, 1e-9);
   EXPECT_NEAR(line.size[2], 2, 1e-12);
   expect_frame(box_on_plane(Apart(std::vector<float>(300, 0.25F)), up));
-  Points place(1, 3);
-  place << 1, 2, 3;
+  Points place{{1, 2, 3}};
   EXPECT_TRUE(std::isfinite(principal_axes(place, std::vector<double>{4}, {})[0][0]));
 }
 

@@ -166,8 +166,8 @@ INSTANTIATE_TEST_SUITE_P(DistancesAndSteps, RipsGraphTest,
 TEST(RipsGraph, EqualPointsAndTies) {
   Points grid(27 * 2, 3);  // a 3x3x3 grid of distance 1, each point twice
   for (Index i = 0; i < 54; ++i) {
-    grid.row(i) << static_cast<double>(i / 2 % 3), static_cast<double>(i / 6 % 3),
-        static_cast<double>(i / 18);
+    grid.set_row(i, {static_cast<double>(i / 2 % 3), static_cast<double>(i / 6 % 3),
+                     static_cast<double>(i / 18)});
   }
   const FilteredGraph graph = rips_graph(grid, 1, 0);
   EXPECT_EQ(graph.edge_count(), 27U + 54U * 4U);
@@ -179,8 +179,7 @@ TEST(RipsGraph, EqualPointsAndTies) {
 }
 
 TEST(RipsGraph, FarFromTheOrigin) {
-  Points points(3, 3);
-  points << 1e12, 0, 0, 1e12 + 1, 0, 0, 1e12 + 3, 0, 0;
+  const Points points{{1e12, 0, 0}, {1e12 + 1, 0, 0}, {1e12 + 3, 0, 0}};
   EXPECT_EQ(rips_graph(points, 1, 0).edge_count(), 1U);
   EXPECT_EQ(rips_graph(points, 2, 0).edge_count(), 2U);
 }
@@ -197,8 +196,7 @@ TEST(RipsGraph, KeepsTheMemoryLimit) {
 }
 
 TEST(CrossCheck, FindsADifference) {
-  Points points(3, 3);
-  points << 0, 0, 0, 1, 0, 0, 3, 0, 0;
+  const Points points{{0, 0, 0}, {1, 0, 0}, {3, 0, 0}};
   const FilteredGraph graph = rips_graph(points, 2, 0);
   const MergeTree right = merge_tree(graph);
   EXPECT_EQ(cross_check(graph, barcode_of(right)), "");

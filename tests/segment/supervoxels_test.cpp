@@ -90,7 +90,7 @@ TEST(Spacing, SeedsAreThoseOfAGreedyPermutation) {
   for (const double spacing : {0.02, 0.1, 0.3, 2.0}) {
     Points points(1500, 3);
     for (Index i = 0; i < points.rows(); ++i)
-      points.row(i) << place(random), place(random), 0.1 * place(random);
+      points.set_row(i, {place(random), place(random), 0.1 * place(random)});
     GreedyLimits limits;
     limits.radius = spacing;
     const auto expected = greedy_permutation(points, limits, PointDistance::euclidean, 2);
@@ -106,7 +106,7 @@ TEST(Spacing, SeedsAreThoseOfAGreedyPermutation) {
 TEST(Spacing, DistancesAreThoseAlongTheGraph) {
   // A path of 21 voxels, 1 cm apart, with a seam in the middle of its right half.
   const Index size = 21;
-  Points points = Points::Zero(size, 3);
+  Points points(size, 3);
   std::vector<WeightedEdge> edges;
   for (Index i = 0; i < size; ++i) {
     points(i, 0) = 0.01 * static_cast<double>(i);

@@ -12,6 +12,7 @@
 #include <random>
 
 #include "objects/objects.hpp"
+#include "ph/eigen.hpp"
 #include "ph/error.hpp"
 #include "ph/filtered_graph.hpp"
 #include "scenery.hpp"
@@ -47,7 +48,7 @@ TEST(VoxelPairs, AreAllThatAreClose) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, double> expected;
     for (Index v = 0; v < grid.centroids.rows(); ++v)
       for (Index u = 0; u < v; ++u) {
-        const double d = (grid.centroids.row(u) - grid.centroids.row(v)).norm();
+        const double d = (as_matrix(grid.centroids).row(u) - as_matrix(grid.centroids).row(v)).norm();
         if (d < radius * voxel) expected[{u, v}] = d;
       }
     const VoxelPairs pairs = close_voxels(grid, voxel, radius);
@@ -71,7 +72,7 @@ TEST(VoxelPairs, FarAwayThereAreNoneAndAnError) {
   };
   for (const std::size_t axis : {0U, 1U, 2U}) {
     for (const double sign : {-1.0, 1.0}) {
-      VoxelGrid grid{std::vector<Vec3>(1), Points::Zero(1, 3), {1}, {0}};
+      VoxelGrid grid{std::vector<Vec3>(1), Points(1, 3), {1}, {0}};
       grid.cells[0][axis] = sign * 0x1p52;
       EXPECT_EQ(close_voxels(grid, 0.005, 3).size(), 0U);
       grid.cells[0][axis] = sign * 0x1p53;
@@ -134,7 +135,7 @@ std::vector<VoxelPair> pairs_within(const Points& points, double radius) {
   std::vector<VoxelPair> pairs;
   for (std::uint32_t v = 0; v < points.rows(); ++v)
     for (std::uint32_t u = 0; u < v; ++u)
-      if (const double d = (points.row(u) - points.row(v)).norm(); d < radius)
+      if (const double d = (as_matrix(points).row(u) - as_matrix(points).row(v)).norm(); d < radius)
         pairs.push_back({u, v, static_cast<float>(d)});
   return pairs;
 }
@@ -147,7 +148,7 @@ TEST(Normals, AreTheDirectionsOfLeastSpread) {
     const Eigen::Vector3d sizes(1, std::pow(10, -1.0 * (round % 4)),
                                 std::pow(10, -1.0 * (round % 7)));
     const Eigen::Matrix3d turn = Eigen::Quaterniond::UnitRandom().toRotationMatrix();
-    Points points(3 + round % 20, 3);
+    PointMatrix points(3 + round % 20, 3);
     for (Index i = 0; i < points.rows(); ++i) {
       const Eigen::Vector3d p(gauss(random), gauss(random), gauss(random));
       points.row(i) = (0.01 * (turn * (sizes.array() * p.array()).matrix())).transpose();
@@ -158,8 +159,8 @@ TEST(Normals, AreTheDirectionsOfLeastSpread) {
     std::vector<VoxelPair> pairs;
     for (std::uint32_t v = 1; v < points.rows(); ++v)
       pairs.push_back({0, v, static_cast<float>((points.row(v) - points.row(0)).norm())});
-    const Points normals = surface_normals(points, pairs, 1, {0, 0, 10});
-    const Eigen::Vector3d n = normals.row(0).transpose();
+    const Points normals = surface_normals(to_points(points), pairs, 1, {0, 0, 10});
+    const Eigen::Vector3d n = as_matrix(normals).row(0).transpose();
     ASSERT_NEAR(n.norm(), 1, 1e-12);
     // A direction may be any of many; how little spreads along it may not.
     const double least = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvalues()[0];
@@ -175,7 +176,7 @@ TEST(Concavity, IsLargeInValleysAndZeroOnRidges) {
     const std::vector<double> f = concavity(points, normals, pairs);
     double seam = 0, flat = 0;
     for (Index v = 0; v < points.rows(); ++v) {
-      EXPECT_NEAR(normals.row(v).norm(), 1, 1e-9);
+      EXPECT_NEAR(as_matrix(normals).row(v).norm(), 1, 1e-9);
       EXPECT_GT(normals(v, 2), 0);
       const double value = f[static_cast<std::size_t>(v)];
       EXPECT_GE(value, 0);
@@ -215,8 +216,7 @@ TEST(Objects, PartsJoinOverARidgeAndNotInAValley) {
 }
 
 TEST(Concavity, FewNeighboursHaveNoNormalAndNoValue) {
-  Points points(2, 3);
-  points << 0, 0, 1, 0, 0.01, 1;
+  Points points{{0, 0, 1}, {0, 0.01, 1}};
   const auto pairs = pairs_within(points, 0.02);
   const Points normals = surface_normals(points, pairs, 0.02, {});
   EXPECT_TRUE(std::isnan(normals(0, 0)));

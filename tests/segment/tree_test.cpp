@@ -12,6 +12,7 @@
 #include "ph/error.hpp"
 #include "ph/io/write.hpp"
 #include "scenery.hpp"
+#include "support/points.hpp"
 #include "tree/tree_file.hpp"
 
 namespace ph::segment {
@@ -224,12 +225,12 @@ TEST(DamagedTree, ContentsThatCannotBe) {
     EXPECT_TRUE(says(damaged([&](SceneTree& t) { t.cells.front()[axis] = -0x1p53; }), "at most"));
   }
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.vertices(3, 1) += 1; }), "centroid"));
-  EXPECT_TRUE(says(damaged([](SceneTree& t) { t.normals.row(3) *= 2; }), "normal"));
+  EXPECT_TRUE(says(damaged([](SceneTree& t) { ph::test::scale(t.normals.row(3), 2); }), "normal"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.counts[3] += 1000; }), "points of a voxel"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) { t.tree.births[3] = -1; }), "birth"));
   EXPECT_TRUE(says(damaged([](SceneTree& t) {
                      t.method = Method::paper;  // whose voxels enter at 0
-                     t.normals.resize(0, 3);
+                     t.normals = Points(0, 3);
                      t.distance = 1;
                    }),
                    "birth"));

@@ -17,6 +17,12 @@ inline int seeds(int count) {
   return times ? std::max(1, static_cast<int>(count * std::atof(times))) : count;
 }
 
+/// Whether a random test has met more than `least` of what it is about. Few seeds promise nothing.
+template <class Count>
+bool is_enough(Count count, Count least) {
+  return count > least || seeds(100) < 100;
+}
+
 /// Runs `check(generator, ties, field)` for `seeds(count)` seeds: every other one with heavy ties,
 /// each with one of four fields. Stops at the first failure, which names the seed.
 template <class Check>

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "ph/metric.hpp"
-#include "ph/points.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {
@@ -22,7 +21,7 @@ namespace ph {
 /// @param points one point a row. @param p exponent of PointDistance::minkowski.
 /// @param neighbours k, from 1 to the number of points.
 /// @throws Error (usage) on another k; Error (bad_data) as PointMetric.
-std::vector<double> distance_to_measure(const Points& points, Index neighbours,
+std::vector<double> distance_to_measure(PointsView points, Index neighbours,
                                         PointDistance distance = PointDistance::euclidean,
                                         double p = 2,
                                         const RunContext& context = default_context());

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "ph/metric.hpp"
-#include "ph/points.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {
@@ -48,7 +47,7 @@ struct GreedyPermutation {
 /// Of points: the same permutation as that of the metric.
 /// @param points one point a row. @param p exponent of PointDistance::minkowski.
 /// @throws Error (bad_data) as PointMetric; Error (usage) on limits out of range.
-GreedyPermutation greedy_permutation(const Points& points, const GreedyLimits& limits = {},
+GreedyPermutation greedy_permutation(PointsView points, const GreedyLimits& limits = {},
                                      PointDistance distance = PointDistance::euclidean,
                                      double p = 2, const RunContext& context = default_context());
 

@@ -1,22 +1,62 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <Eigen/Core>
 #include <concepts>
 
 #include "ph/filtration.hpp"
+#include "ph/points.hpp"
 
 namespace ph {
 
-/// Points of R^d, one a row.
-using Points = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
 /// A finite set with a dissimilarity: symmetric, zero on the diagonal, never negative or NaN;
 /// +infinity means that two points are never joined. The triangle inequality is not required.
-/// Several threads may ask at once.
+/// Several threads may ask at once. Points are no metric: they need a distance.
 template <class M>
-concept Metric = requires(const M& m, Index i, Index j) {
+concept Metric = !std::convertible_to<const M&, PointsView> && requires(const M& m, Index i, Index j) {
   { m.size() } -> std::convertible_to<Index>;
   { m(i, j) } -> std::convertible_to<double>;
+};
+
+/// The distances between rows of a matrix that libph knows by name.
+enum class PointDistance {
+  euclidean,
+  manhattan,
+  chebyshev,
+  minkowski,  ///< (sum |x-y|^p)^(1/p), p >= 1
+  cosine,     ///< 1 - cos(angle); a zero row is refused
+  hamming,    ///< the number of coordinates that differ
+};
+
+/// A set of points with one of the named distances. Keeps a view of the points.
+/// Coordinates of any finite size are fine: sums of squares are scaled before they overflow.
+class PointMetric {
+ public:
+  /// @param points one point a row, finite coordinates. @param p exponent of `minkowski`.
+  /// @throws Error (bad_data) on a coordinate that is not finite or a zero row with `cosine`;
+  ///         Error (usage) if p < 1.
+  explicit PointMetric(PointsView points, PointDistance distance = PointDistance::euclidean,
+                       double p = 2);
+
+  Index size() const { return points().rows(); }
+  /// @throws Error (bad_data) if the distance exceeds the largest double.
+  double operator()(Index i, Index j) const;
+  /// Their coordinates lie side by side.
+  PointsView points() const { return points_.view(); }
+  /// Whether distances are square roots of sums of squares, none of which overflows; only a sum
+  /// below the least plain square, zero apart, may have lost digits.
+  bool is_plain_euclidean() const {
+    return distance_ == PointDistance::euclidean && !may_need_scaling_;
+  }
+  static constexpr double kLeastPlainSquare = 1e-280;
+
+ private:
+  double euclidean(Index i, Index j) const;
+  double other(Index i, Index j) const;
+
+  WholeRows points_;
+  PointDistance distance_;
+  double p_;
+  bool may_need_scaling_ =
+      false;  // squares of coordinate differences may leave the range of double
 };
 
 }  // namespace ph

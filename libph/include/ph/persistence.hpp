@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <concepts>
 #include <optional>
 #include <string>
 #include <variant>
@@ -51,6 +52,19 @@ Barcode persistence(const ExplicitComplex& complex, const Options& options = {},
 Barcode persistence(const FilteredGraph& graph, const Options& options = {},
                     const RunContext& context = default_context());
 // For a complex of your own there is a template: ph/custom.hpp.
+
+/// Data that no complex has been chosen for.
+template <class T>
+concept DataWithoutComplex = std::convertible_to<const T&, PointsView> ||
+    std::same_as<T, DistanceMatrix> || std::same_as<T, SparseDistances> || std::same_as<T, Image>;
+/// Does not compile: says which complex to choose.
+template <DataWithoutComplex Data>
+Barcode persistence(const Data&, const Options& = {}, const RunContext& = default_context()) {
+  static_assert(!DataWithoutComplex<Data>,
+                "choose a complex: ph::persistence(ph::Rips(points)) for points or distances, "
+                "ph::persistence(ph::Cubical(image)) for an image");
+  return Barcode(CellKind::vertices);
+}
 
 /// Any of the complexes above, for programs that learn at run time what they have.
 using AnyComplex = std::variant<Rips, Cubical, ExplicitComplex>;

@@ -1,51 +1,165 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <string_view>
+#include <algorithm>
+#include <concepts>
+#include <cstdint>
+#include <cstdlib>
+#include <initializer_list>
+#include <memory>
+#include <new>
+#include <span>
+#include <utility>
 
-#include "ph/metric.hpp"
+#include "ph/error.hpp"
+#include "ph/filtration.hpp"
 
 namespace ph {
 
-/// The distances between rows of a matrix that libph knows by name.
-enum class PointDistance {
-  euclidean,
-  manhattan,
-  chebyshev,
-  minkowski,  ///< (sum |x-y|^p)^(1/p), p >= 1
-  cosine,     ///< 1 - cos(angle); a zero row is refused
-  hamming,    ///< the number of coordinates that differ
+/// A dense matrix of doubles of another library: one of Eigen's, or a Map or Block of one. Strides
+/// are counted in numbers.
+template <class M>
+concept MatrixOfDoubles = requires(const M& m) {
+  { m.data() } -> std::same_as<const double*>;
+  { m.rows() } -> std::convertible_to<Index>;
+  { m.cols() } -> std::convertible_to<Index>;
+  { m.rowStride() } -> std::convertible_to<Index>;
+  { m.colStride() } -> std::convertible_to<Index>;
 };
 
-/// A set of points with one of the named distances. Keeps a reference to the points.
-/// Coordinates of any finite size are fine: sums of squares are scaled before they overflow.
-class PointMetric {
+/// Points of R^d that somebody else holds: a matrix with one point a row. The rows may follow each
+/// other (C order) or the columns (F order), with gaps or backwards: strides say so. Copies are
+/// cheap; the numbers must outlive them.
+class PointsView {
  public:
-  /// @param points one point a row, finite coordinates. @param p exponent of `minkowski`.
-  /// @throws Error (bad_data) on a coordinate that is not finite or a zero row with `cosine`;
-  ///         Error (usage) if p < 1.
-  explicit PointMetric(const Points& points, PointDistance distance = PointDistance::euclidean,
-                       double p = 2);
+  constexpr PointsView() = default;
+  /// @param data rows * columns numbers, row after row.
+  constexpr PointsView(const double* data, Index rows, Index columns)
+      : PointsView(data, rows, columns, columns, 1) {}
+  /// @param data coordinate 0 of point 0.
+  /// @param row_stride numbers from a coordinate to that of the next point; may be negative.
+  /// @param column_stride numbers from a coordinate to the next one of its point.
+  constexpr PointsView(const double* data, Index rows, Index columns, Index row_stride,
+                       Index column_stride)
+      : data_(data),
+        rows_(rows),
+        columns_(columns),
+        row_stride_(row_stride),
+        column_stride_(column_stride) {}
+  template <MatrixOfDoubles M>
+  constexpr PointsView(const M& matrix)
+      : PointsView(matrix.data(), matrix.rows(), matrix.cols(), matrix.rowStride(),
+                   matrix.colStride()) {}
 
-  Index size() const { return points_.rows(); }
-  /// @throws Error (bad_data) if the distance exceeds the largest double.
-  double operator()(Index i, Index j) const;
-  const Points& points() const { return points_; }
-  /// Whether distances are square roots of sums of squares, none of which overflows; only a sum
-  /// below the least plain square, zero apart, may have lost digits.
-  bool is_plain_euclidean() const {
-    return distance_ == PointDistance::euclidean && !may_need_scaling_;
+  constexpr Index rows() const { return rows_; }     ///< points
+  constexpr Index cols() const { return columns_; }  ///< coordinates of each
+  constexpr Index size() const { return rows_ * columns_; }
+  constexpr double operator()(Index i, Index k) const {
+    return data_[i * row_stride_ + k * column_stride_];
   }
-  static constexpr double kLeastPlainSquare = 1e-280;
+  /// Whether the coordinates of each point lie side by side.
+  constexpr bool has_whole_rows() const { return column_stride_ == 1 || columns_ <= 1; }
+  /// The coordinates of a point. Precondition: has_whole_rows().
+  constexpr const double* row(Index i) const { return data_ + i * row_stride_; }
 
  private:
-  double euclidean(Index i, Index j) const;
-  double other(Index i, Index j) const;
-
-  const Points& points_;
-  PointDistance distance_;
-  double p_;
-  bool may_need_scaling_ =
-      false;  // squares of coordinate differences may leave the range of double
+  const double* data_ = nullptr;
+  Index rows_ = 0, columns_ = 0, row_stride_ = 0, column_stride_ = 1;
 };
+
+/// Points of R^d, one a row, row after row. What was moved from is empty.
+class Points {
+ public:
+  Points() = default;
+  /// All coordinates are 0. @throws std::bad_alloc; Error (usage) on a negative size.
+  Points(Index rows, Index columns) : rows_(rows), columns_(columns), data_(zeros(rows, columns)) {}
+  /// One list a point: `Points{{0, 0}, {1, 0}}`. @throws Error (usage) if their lengths differ.
+  Points(std::initializer_list<std::initializer_list<double>> rows);
+  /// A copy.
+  explicit Points(PointsView view) : Points(view.rows(), view.cols()) {
+    fill([&](Index i, Index k) { return view(i, k); });
+  }
+  /// A copy of numbers of any type. Strides as in PointsView.
+  template <class Number>
+  requires std::is_arithmetic_v<Number>
+  static Points of(const Number* data, Index rows, Index columns, Index row_stride,
+                   Index column_stride) {
+    Points points(rows, columns);
+    points.fill([&](Index i, Index k) {
+      return static_cast<double>(data[i * row_stride + k * column_stride]);
+    });
+    return points;
+  }
+  Points(const Points& other) : Points(PointsView(other)) {}
+  Points(Points&& other) noexcept
+      : rows_(std::exchange(other.rows_, 0)),
+        columns_(std::exchange(other.columns_, 0)),
+        data_(std::move(other.data_)) {}
+  Points& operator=(Points other) noexcept {
+    std::swap(rows_, other.rows_);
+    std::swap(columns_, other.columns_);
+    std::swap(data_, other.data_);
+    return *this;
+  }
+  ~Points() = default;
+
+  operator PointsView() const { return {data_.get(), rows_, columns_}; }
+  Index rows() const { return rows_; }     ///< points
+  Index cols() const { return columns_; }  ///< coordinates of each
+  Index size() const { return rows_ * columns_; }
+  double* data() { return data_.get(); }
+  const double* data() const { return data_.get(); }
+  double& operator()(Index i, Index k) { return data_.get()[i * columns_ + k]; }
+  double operator()(Index i, Index k) const { return data_.get()[i * columns_ + k]; }
+  std::span<double> row(Index i) { return {data() + i * columns_, to_size(columns_)}; }
+  std::span<const double> row(Index i) const { return {data() + i * columns_, to_size(columns_)}; }
+  /// @throws Error (usage) unless there are as many coordinates as columns.
+  void set_row(Index i, std::initializer_list<double> coordinates);
+  /// All coordinates, point after point.
+  std::span<double> coordinates() { return {data(), to_size(size())}; }
+  std::span<const double> coordinates() const { return {data(), to_size(size())}; }
+
+  /// Leaves the first `rows` points. Precondition: rows <= rows().
+  void keep_rows(Index rows);
+
+  friend bool operator==(const Points& a, const Points& b) {
+    return a.rows_ == b.rows_ && a.columns_ == b.columns_ &&
+           std::ranges::equal(a.coordinates(), b.coordinates());
+  }
+
+ private:
+  struct Free {
+    void operator()(double* data) const { std::free(data); }
+  };
+  // From calloc: pages that nobody writes to take no memory, and realloc gives back the end.
+  using Data = std::unique_ptr<double, Free>;
+  static Data zeros(Index rows, Index columns);
+  static std::size_t to_size(Index n) { return static_cast<std::size_t>(n); }
+  template <class NumberAt>
+  void fill(NumberAt&& number_at) {
+    for (Index i = 0; i < rows_; ++i)
+      for (Index k = 0; k < columns_; ++k) (*this)(i, k) = number_at(i, k);
+  }
+
+  Index rows_ = 0, columns_ = 0;
+  Data data_;
+};
+
+/// Points whose coordinates lie side by side: those of a view where they do, else a copy.
+class WholeRows {
+ public:
+  explicit WholeRows(PointsView view) : view_(view) {
+    if (view.has_whole_rows()) return;
+    copy_ = std::make_shared<const Points>(view);
+    view_ = *copy_;
+  }
+  PointsView view() const { return view_; }
+
+ private:
+  std::shared_ptr<const Points> copy_;
+  PointsView view_;
+};
+
+/// The largest absolute value of a coordinate; 0 if there is none, ignores NaN.
+double largest_coordinate(PointsView points);
 
 }  // namespace ph

@@ -9,7 +9,6 @@
 #include "ph/detail/sparse_rips.hpp"
 #include "ph/distance_matrix.hpp"
 #include "ph/metric.hpp"
-#include "ph/points.hpp"
 #include "ph/sparse_distances.hpp"
 
 namespace ph {
@@ -60,7 +59,7 @@ class Rips {
   /// points with a threshold. @throws Error (bad_data) as PointMetric; Error (usage) on a NaN or
   /// negative threshold; Error (usage, bad_data) as RipsVertices; Error (resource) if the context's
   /// memory limit would be exceeded.
-  explicit Rips(const Points& points, const RipsOptions& options = {},
+  explicit Rips(PointsView points, const RipsOptions& options = {},
                 const RunContext& context = default_context());
   explicit Rips(const DistanceMatrix& distances, const RipsOptions& options = {},
                 const RunContext& context = default_context());
@@ -68,9 +67,8 @@ class Rips {
                 const RunContext& context = default_context());
   /// Any metric of the user's own: `size()` and `operator()(Index, Index)`.
   template <Metric M>
-  requires(!std::derived_from<M, Eigen::EigenBase<M>>)  // a matrix holds points
-      explicit Rips(const M& metric, const RipsOptions& options = {},
-                    const RunContext& context = default_context())
+  explicit Rips(const M& metric, const RipsOptions& options = {},
+                const RunContext& context = default_context())
       : graph_(std::make_shared<const RipsGraph>(graph_of_metric(metric, options, context))) {}
 
   /// The flag complex of any graph.

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "ph/metric.hpp"
+#include "ph/points.hpp"
 
 namespace ph {
 
@@ -23,7 +23,7 @@ class SparseDistances {
 
   /// All pairs of points at Euclidean distance <= radius: O(n log n + edges). See pairs_within.hpp.
   /// @param points one point a row. @param radius in units of the coordinates, >= 0.
-  static SparseDistances within(const Points& points, double radius);
+  static SparseDistances within(PointsView points, double radius);
 
   Index size() const { return size_; }
   const std::vector<WeightedEdge>& edges() const { return edges_; }

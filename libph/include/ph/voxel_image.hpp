@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "ph/image.hpp"
-#include "ph/metric.hpp"
+#include "ph/points.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {
@@ -39,7 +39,7 @@ enum class VoxelValue {
 /// @throws Error (bad_data) without points or with coordinates that are not finite; Error (usage)
 ///         on another voxel, margin or number of columns; Error (resource) if the image is too
 ///         large, or beyond the memory limit; Error (cancelled) on a stop request.
-PointImage voxel_image(const Points& points, double voxel, VoxelValue value = VoxelValue::distance,
+PointImage voxel_image(PointsView points, double voxel, VoxelValue value = VoxelValue::distance,
                        Index margin = 1, const RunContext& context = default_context());
 
 }  // namespace ph

@@ -63,7 +63,7 @@ class Envelope {
   std::pmr::vector<double> starts_;      // where each is the lowest one from
 };
 
-void check(const Points& points, double voxel, Index margin) {
+void check(PointsView points, double voxel, Index margin) {
   if (!(voxel > 0) || !std::isfinite(voxel))
     throw Error(ErrorKind::usage, fmt::format("voxel: found {}, expected more than 0", voxel));
   if (margin < 0)
@@ -73,19 +73,26 @@ void check(const Points& points, double voxel, Index margin) {
                                               points.cols(), Cubical::kMaxDim));
   }
   if (points.rows() == 0) throw Error(ErrorKind::bad_data, "an image of no points");
-  if (!points.allFinite())
-    throw Error(ErrorKind::bad_data, "points: found a coordinate that is not finite");
+  for (Index i = 0; i < points.rows(); ++i)
+    for (Index k = 0; k < points.cols(); ++k)
+      if (!std::isfinite(points(i, k)))
+        throw Error(ErrorKind::bad_data, "points: found a coordinate that is not finite");
 }
 
 /// A grid around points.
 class Grid {
  public:
-  Grid(const Points& points, double voxel, Index margin)
-      : low_(points.colwise().minCoeff()), voxel_(voxel), margin_(static_cast<double>(margin)) {
-    const Eigen::RowVectorXd high = points.colwise().maxCoeff();
+  Grid(PointsView points, double voxel, Index margin)
+      : voxel_(voxel), margin_(static_cast<double>(margin)) {
     double size = 1;
     for (Index k = 0; k < points.cols(); ++k) {
-      const double extent = std::floor((high[k] - low_[k]) / voxel) + 1 + 2 * margin_;
+      double low = points(0, k), high = low;
+      for (Index i = 1; i < points.rows(); ++i) {
+        low = std::min(low, points(i, k));
+        high = std::max(high, points(i, k));
+      }
+      low_.push_back(low);
+      const double extent = std::floor((high - low) / voxel) + 1 + 2 * margin_;
       size *= extent;
       if (!(size < 4294967295.0))
         throw Error(ErrorKind::resource,
@@ -107,19 +114,18 @@ class Grid {
     for (const double low : low_) centre.push_back(low + (0.5 - margin_) * voxel_);
     return centre;
   }
-  template <class Point>
-  std::size_t voxel_of(const Point& point) const {
+  /// The voxel that holds a point.
+  std::size_t voxel_of(PointsView points, Index point) const {
     std::size_t at = 0;
     for (std::size_t k = 0; k < strides_.size(); ++k) {
-      const auto axis = static_cast<Index>(k);
-      at += static_cast<std::size_t>(std::floor((point[axis] - low_[axis]) / voxel_) + margin_) *
-            strides_[k];
+      const double x = points(point, static_cast<Index>(k));
+      at += static_cast<std::size_t>(std::floor((x - low_[k]) / voxel_) + margin_) * strides_[k];
     }
     return at;
   }
 
  private:
-  Eigen::RowVectorXd low_;
+  std::vector<double> low_;
   double voxel_, margin_;
   std::vector<Index> extents_;
   std::vector<std::size_t> strides_;
@@ -145,7 +151,7 @@ void make_distances(const Grid& grid, double voxel, std::vector<double>& values,
 
 }  // namespace
 
-PointImage voxel_image(const Points& points, double voxel, VoxelValue value, Index margin,
+PointImage voxel_image(PointsView points, double voxel, VoxelValue value, Index margin,
                        const RunContext& context) {
   check(points, voxel, margin);
   const Grid grid(points, voxel, margin);
@@ -160,7 +166,7 @@ PointImage voxel_image(const Points& points, double voxel, VoxelValue value, Ind
   }
   for (Index i = 0; i < points.rows(); ++i) {
     ticker.work();
-    double& found = values[grid.voxel_of(points.row(i))];
+    double& found = values[grid.voxel_of(points, i)];
     if (found == kInfinity) found = 0;
     if (value == VoxelValue::density) --found;
   }

@@ -5,12 +5,12 @@
 
 namespace ph {
 
-CubeList::CubeList(const Points& points, double radius, const RunContext& context)
+CubeList::CubeList(PointsView points, double radius, const RunContext& context)
     : cubes_(&context.memory), points_(&context.memory) {
   // A hair larger than the radius: rounding must not put two points in reach two cubes apart. There
   // are 10^9 cubes an axis at most, so that a coordinate in cubes is off by 10^-7 at most: less
   // than the hair. With no radius at all, any cubes will do in which equal points meet.
-  const double reach = points.size() == 0 ? 0 : points.cwiseAbs().maxCoeff();
+  const double reach = largest_coordinate(points);
   const double edge = std::max(radius * (1 + 1e-6), 1e-9 * reach);
   const double scale = reach > 0 ? 1 / edge : 0;
   const auto size = static_cast<std::size_t>(points.rows());

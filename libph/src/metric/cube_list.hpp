@@ -8,7 +8,7 @@
 #include <tuple>
 #include <vector>
 
-#include "ph/metric.hpp"
+#include "ph/points.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {
@@ -24,7 +24,7 @@ class CubeList {
   };
 
   /// O(points log points).
-  CubeList(const Points& points, double radius, const RunContext& context);
+  CubeList(PointsView points, double radius, const RunContext& context);
 
   /// Calls `visit(p, q)` for each pair of points in the same or in adjacent cubes, in an order that
   /// depends on the points alone. Few of them are further apart than the radius: O(pairs within it)

@@ -29,7 +29,7 @@ double detail::root_mean_square(std::span<const double> distances) {
   return largest * std::sqrt(sum / static_cast<double>(distances.size() + 1));
 }
 
-std::vector<double> distance_to_measure(const Points& points, Index neighbours,
+std::vector<double> distance_to_measure(PointsView points, Index neighbours,
                                         PointDistance distance, double p,
                                         const RunContext& context) {
   const PointMetric checked(points, distance, p);

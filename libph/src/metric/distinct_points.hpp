@@ -5,14 +5,14 @@
 #include <span>
 #include <vector>
 
-#include "ph/metric.hpp"
+#include "ph/points.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {
 
 /// By point: the first one that is equal to it, which may be itself. O(n log n).
 /// @param points fewer than 2^32 of them, finite; -0 equals +0.
-std::pmr::vector<std::uint32_t> first_equal_points(const Points& points, const RunContext& context);
+std::pmr::vector<std::uint32_t> first_equal_points(PointsView points, const RunContext& context);
 
 /// The first point of each class of equal ones, ascending.
 /// @param first_equal from `first_equal_points`.

@@ -21,7 +21,7 @@ constexpr double kSmallestPlainSquare = 1e-280;
 // branches in the loops and no sums across points, which a compiler may not reorder: vectors.
 class Squares {
  public:
-  Squares(const Points& points, const RunContext& context)
+  Squares(PointsView points, const RunContext& context)
       : axes_(points.cols()),
         size_(static_cast<std::size_t>(points.rows())),
         coordinates_(size_ * static_cast<std::size_t>(axes_), &context.memory),
@@ -74,9 +74,9 @@ class Squares {
 };
 
 /// Nothing if squares would lose digits.
-std::optional<GreedyPermutation> by_squares(const Points& points, const GreedyLimits& limits,
+std::optional<GreedyPermutation> by_squares(PointsView points, const GreedyLimits& limits,
                                             const RunContext& context) {
-  const double reach = points.size() == 0 ? 0 : points.cwiseAbs().maxCoeff();
+  const double reach = largest_coordinate(points);
   if (!(kSmallestPlain < reach && reach < kLargestPlain)) return std::nullopt;
   const Index count = std::min(points.rows(), limits.points);
   Squares squares(points, context);
@@ -113,7 +113,7 @@ void detail::check(const GreedyLimits& limits, Index size) {
   }
 }
 
-GreedyPermutation greedy_permutation(const Points& points, const GreedyLimits& limits,
+GreedyPermutation greedy_permutation(PointsView points, const GreedyLimits& limits,
                                      PointDistance distance, double p, const RunContext& context) {
   const PointMetric metric(points, distance, p);
   detail::check(limits, points.rows());

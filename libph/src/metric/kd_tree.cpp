@@ -7,7 +7,7 @@
 
 namespace ph {
 
-KdTree::KdTree(const Points& points, std::span<const std::uint32_t> rows, const RunContext& context)
+KdTree::KdTree(PointsView points, std::span<const std::uint32_t> rows, const RunContext& context)
     : levels_(static_cast<int>(std::bit_width((rows.size() - 1) / kLeafSize))),
       claim_(context.memory,
              rows.size() * static_cast<std::size_t>(points.cols()) * sizeof(double)),
@@ -33,23 +33,23 @@ KdTree::KdTree(const Points& points, std::span<const std::uint32_t> rows, const 
                  [&](std::size_t begin, std::size_t end) {
                    for (std::size_t i = begin; i < end; ++i) {
                      rows_[i] = items[i].row;
-                     points_.row(static_cast<Index>(i)) = points.row(items[i].row);
+                     std::copy_n(points.row(items[i].row), points.cols(), points_.row(static_cast<Index>(i)).data());
                    }
                  });
 }
 
-void KdTree::split_below(Node node, const Points& points, std::span<Item> items) {
+void KdTree::split_below(Node node, PointsView points, std::span<Item> items) {
   split(node, points, items);
   if (is_leaf(node)) return;
   split_below(2 * node, points, items);
   split_below(2 * node + 1, points, items);
 }
 
-void KdTree::split(Node node, const Points& points, std::span<Item> items) {
+void KdTree::split(Node node, PointsView points, std::span<Item> items) {
   const std::span<Item> mine = items.subspan(begin(node), end(node) - begin(node));
   double* const box = boxes_.data() + node * box_size();
   const Index axes = points.cols();
-  const auto coordinates = [&](const Item& item) { return points.data() + Index{item.row} * axes; };
+  const auto coordinates = [&](const Item& item) { return points.row(item.row); };
   for (Index k = 0; k < axes; ++k) box[2 * k] = box[2 * k + 1] = coordinates(mine.front())[k];
   for (const Item& item : mine) {
     const double* const x = coordinates(item);

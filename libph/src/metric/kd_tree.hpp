@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "ph/metric.hpp"
+#include "ph/points.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {
@@ -22,11 +22,11 @@ class KdTree {
 
   /// O(n log n). @param points one point a row, finite, at least one column.
   /// @param rows which of them, fewer than 2^32 - 1 and at least one.
-  KdTree(const Points& points, std::span<const std::uint32_t> rows, const RunContext& context);
+  KdTree(PointsView points, std::span<const std::uint32_t> rows, const RunContext& context);
 
   std::size_t size() const { return rows_.size(); }
   /// The points in the order of the tree.
-  const Points& points() const { return points_; }
+  PointsView points() const { return points_; }
   /// By position: the row of the point.
   std::span<const std::uint32_t> rows() const { return rows_; }
 
@@ -50,8 +50,8 @@ class KdTree {
   }
   std::size_t box_size() const { return 2 * static_cast<std::size_t>(points_.cols()); }
   /// Finds the box of a node and halves its items.
-  void split(Node node, const Points& points, std::span<Item> items);
-  void split_below(Node node, const Points& points, std::span<Item> items);
+  void split(Node node, PointsView points, std::span<Item> items);
+  void split_below(Node node, PointsView points, std::span<Item> items);
 
   int levels_ = 0;
   MemoryClaim claim_;  // of points_

@@ -96,7 +96,7 @@ class Search final : public NeighbourSearch {
     if constexpr (Axes > 0) return Axes;
     return axes_;
   }
-  const double* coordinates(Position p) const { return tree_.points().data() + Index{p} * axes(); }
+  const double* coordinates(Position p) const { return tree_.points().row(Index{p}); }
   double gap_to_point(Position p, Position q) const {
     const double *x = coordinates(p), *y = coordinates(q);
     double sum = 0;
@@ -188,7 +188,7 @@ std::unique_ptr<NeighbourSearch> NeighbourSearch::make(const KdTree& tree,
                                                        PointDistance distance, double p) {
   // The p-norms fall as p grows: the Euclidean one bounds those below 2, the largest coordinate
   // bounds them all, and needs no squares.
-  const double largest = tree.points().cwiseAbs().maxCoeff();
+  const double largest = largest_coordinate(tree.points());
   const bool are_squares_plain = kSmallestPlain < largest && largest < kLargestPlain;
   const bool is_euclidean = distance == PointDistance::euclidean;
   if (distance == PointDistance::manhattan) return make_search<ManhattanGaps>(tree, metric, false);

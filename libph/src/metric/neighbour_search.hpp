@@ -6,7 +6,7 @@
 #include <span>
 
 #include "metric/kd_tree.hpp"
-#include "ph/points.hpp"
+#include "ph/metric.hpp"
 
 namespace ph {
 

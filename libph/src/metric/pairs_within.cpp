@@ -13,7 +13,7 @@
 #include "metric/cube_list.hpp"
 #include "ph/detail/row_distances.hpp"
 #include "ph/error.hpp"
-#include "ph/points.hpp"
+#include "ph/metric.hpp"
 
 namespace ph {
 namespace {
@@ -27,7 +27,7 @@ constexpr double kSmallestPlain = 1e-140, kLargestPlain = 1e150;
 // leave the range of double. That is exact but for digits that do not count beside the largest
 // coordinate.
 struct SearchSpace {
-  const Points& points;
+  PointsView points;
   double radius;
   bool is_scaled;
 };
@@ -36,7 +36,7 @@ constexpr std::uint64_t kPollInterval = 1 << 16;
 
 // The view of the points that nanoflann asks for.
 struct KdPoints {
-  const Points& points;
+  PointsView points;
   const RunContext& context;
   mutable std::uint64_t looks = 0;  // building the tree takes long, and here is where to stop it
   std::size_t kdtree_get_point_count() const { return static_cast<std::size_t>(points.rows()); }
@@ -75,7 +75,7 @@ void visit_by_cubes(const SearchSpace& space, const PointMetric& metric, double 
 
 void visit_by_tree(const SearchSpace& space, const PointMetric& metric, double radius,
                    const Visit& visit, const RunContext& context) {
-  const Points& points = space.points;
+  const PointsView points = space.points;
   const KdPoints view{points, context};
   const KdTree tree(static_cast<int>(points.cols()), view, {16});
   // The tree compares squares, which lose digits to underflow: ask for a hair more and let the
@@ -85,7 +85,7 @@ void visit_by_tree(const SearchSpace& space, const PointMetric& metric, double r
   Ticker ticker(context, "near pairs", static_cast<std::uint64_t>(points.rows()));
   for (Index i = 0; i < points.rows(); ++i) {
     ticker.tick();
-    tree.radiusSearch(points.row(i).data(), ask, found, nanoflann::SearchParams(0, 0, false));
+    tree.radiusSearch(points.row(i), ask, found, nanoflann::SearchParams(0, 0, false));
     for (const auto& [j, squared] : found) {
       if (Index{j} <= i) continue;
       if (const double d = metric(i, j); d <= radius) visit(i, j, d);
@@ -106,7 +106,7 @@ void visit_by_rows(const SearchSpace&, const PointMetric& metric, double radius,
   }
 }
 
-auto visit_for(const Points& points) {
+auto visit_for(PointsView points) {
   // Measured: a tree of so few points takes longer than all pairs, many at a time.
   constexpr Index few = 1 << 14;
   if (points.cols() <= 3) return visit_by_cubes;
@@ -115,13 +115,13 @@ auto visit_for(const Points& points) {
 
 }  // namespace
 
-void for_each_pair_within(const Points& points, double radius, const Visit& visit,
+void for_each_pair_within(PointsView points, double radius, const Visit& visit,
                           const RunContext& context) {
   if (!(radius >= 0)) {
     throw Error(ErrorKind::usage, fmt::format("radius: found {}, expected a number >= 0", radius));
   }
   const PointMetric metric(points);
-  const double reach = points.size() == 0 ? 0 : points.cwiseAbs().maxCoeff();
+  const double reach = largest_coordinate(points);
   const auto visit_in = [&](const SearchSpace& space) {
     visit_for(points)(space, metric, radius, visit, context);
   };
@@ -130,7 +130,8 @@ void for_each_pair_within(const Points& points, double radius, const Visit& visi
   } else {
     const int exponent = -std::ilogb(reach);
     const auto scale = [=](double x) { return std::scalbn(x, exponent); };
-    const Points scaled = points.unaryExpr(scale);
+    Points scaled(points);
+    std::ranges::transform(scaled.coordinates(), scaled.data(), scale);
     // Distances that are denormal themselves were rounded, by half of the least one at most.
     const double reachable = radius + std::numeric_limits<double>::denorm_min();
     visit_in({scaled, std::min(scale(reachable), kLargestPlain), true});

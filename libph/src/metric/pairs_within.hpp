@@ -2,7 +2,7 @@
 #pragma once
 #include <functional>
 
-#include "ph/metric.hpp"
+#include "ph/points.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {
@@ -14,7 +14,7 @@ namespace ph {
 /// @param points one point a row, finite. @param radius in units of the coordinates.
 /// @throws Error (usage) if the radius is negative or NaN; Error (bad_data) as PointMetric;
 ///         Error (cancelled) on a stop request.
-void for_each_pair_within(const Points& points, double radius,
+void for_each_pair_within(PointsView points, double radius,
                           const std::function<void(Index, Index, double)>& visit,
                           const RunContext& context = default_context());
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "ph/points.hpp"
+#include "ph/metric.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -17,10 +18,56 @@ constexpr double kLargestPlain = 1e150;
 constexpr double kSmallestPlain = 1e-140;
 static_assert(PointMetric::kLeastPlainSquare >= kSmallestPlain * kSmallestPlain);
 
+/// The sum of terms 0 … count - 1, four at a time: each of four partial sums waits for itself only.
+template <class Term>
+double sum_in_lanes(Index count, const Term& term) {
+  std::array<double, 4> lanes{};
+  const Index whole = count / 4 * 4;
+  for (Index k = 0; k < whole; k += 4)
+    for (Index l = 0; l < 4; ++l) lanes[static_cast<std::size_t>(l)] += term(k + l);
+  double even = lanes[0] + lanes[2], odd = lanes[1] + lanes[3];
+  Index k = whole;
+  if (k + 2 <= count) {
+    even += term(k);
+    odd += term(k + 1);
+    k += 2;
+  }
+  double sum = even + odd;
+  if (k < count) sum += term(k);
+  return sum;
+}
+
+/// 0 if there is none.
+template <class Term>
+double largest_of(Index count, const Term& term) {
+  double largest = 0;
+  for (Index k = 0; k < count; ++k) largest = std::max(largest, term(k));
+  return largest;
+}
+
+/// A vector of length 1, whatever the size of the one that it is from; that one is not 0.
+class Direction {
+ public:
+  Direction(const double* x, Index d) : x_(x) {
+    const double largest = largest_of(d, [&](Index k) { return std::abs(x[k]); });
+    length_ = std::sqrt(sum_in_lanes(d, [&](Index k) { return (x[k] / largest) * (x[k] / largest); })) *
+              largest;
+  }
+  double operator()(Index k) const { return x_[k] / length_; }
+
+ private:
+  const double* x_;
+  double length_;
+};
+
 }  // namespace
 
-PointMetric::PointMetric(const Points& points, PointDistance distance, double p)
+PointMetric::PointMetric(PointsView points, PointDistance distance, double p)
     : points_(points), distance_(distance), p_(p) {
+  points = points_.view();
+  const auto is_zero = [&](Index i) {
+    return std::all_of(points.row(i), points.row(i) + points.cols(), [](double x) { return x == 0; });
+  };
   if (distance == PointDistance::minkowski && !(p >= 1)) {
     throw Error(ErrorKind::usage, fmt::format("Minkowski exponent: found {}, expected >= 1", p));
   }
@@ -34,7 +81,7 @@ PointMetric::PointMetric(const Points& points, PointDistance distance, double p)
       }
       largest = std::max(largest, std::abs(points(i, k)));
     }
-    if (distance == PointDistance::cosine && points.row(i).isZero(0)) {
+    if (distance == PointDistance::cosine && is_zero(i)) {
       throw Error(ErrorKind::bad_data,
                   fmt::format("point {}: found the zero vector, which has no direction; the cosine "
                               "distance needs one",
@@ -45,9 +92,9 @@ PointMetric::PointMetric(const Points& points, PointDistance distance, double p)
 }
 
 double PointMetric::euclidean(Index i, Index j) const {
-  const double* x = points_.row(i).data();
-  const double* y = points_.row(j).data();
-  const Index d = points_.cols();
+  const double* x = points().row(i);
+  const double* y = points().row(j);
+  const Index d = points().cols();
   if (!may_need_scaling_) {
     double sum = 0;
     for (Index k = 0; k < d; ++k) sum += (x[k] - y[k]) * (x[k] - y[k]);
@@ -84,23 +131,36 @@ double PointMetric::operator()(Index i, Index j) const {
 }
 
 double PointMetric::other(Index i, Index j) const {
-  const auto x = points_.row(i), y = points_.row(j);
+  const double* x = points().row(i);
+  const double* y = points().row(j);
+  const Index d = points().cols();
+  const auto difference = [&](Index k) { return std::abs(x[k] - y[k]); };
   switch (distance_) {
     case PointDistance::manhattan:
-      return (x - y).lpNorm<1>();
+      return sum_in_lanes(d, difference);
     case PointDistance::chebyshev:
-      return points_.cols() == 0 ? 0 : (x - y).lpNorm<Eigen::Infinity>();
+      return largest_of(d, difference);
     case PointDistance::minkowski: {
-      const double largest = points_.cols() == 0 ? 0 : (x - y).cwiseAbs().maxCoeff();
+      const double largest = largest_of(d, difference);
       if (largest == 0) return 0;
-      return largest * std::pow(((x - y).array().abs() / largest).pow(p_).sum(), 1 / p_);
+      double sum = 0;
+      for (Index k = 0; k < d; ++k) sum += std::pow(difference(k) / largest, p_);
+      return largest * std::pow(sum, 1 / p_);
     }
     case PointDistance::cosine: {
       // |x/|x| - y/|y||^2 / 2 is the same number and keeps its digits for small angles.
-      return (x.stableNormalized() - y.stableNormalized()).squaredNorm() / 2;
+      const Direction along_x(x, d), along_y(y, d);
+      return sum_in_lanes(d, [&](Index k) {
+               const double t = along_x(k) - along_y(k);
+               return t * t;
+             }) /
+             2;
     }
-    case PointDistance::hamming:
-      return static_cast<double>((x.array() != y.array()).count());
+    case PointDistance::hamming: {
+      Index count = 0;
+      for (Index k = 0; k < d; ++k) count += x[k] != y[k] ? 1 : 0;
+      return static_cast<double>(count);
+    }
     case PointDistance::euclidean:
       break;
   }

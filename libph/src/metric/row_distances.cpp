@@ -78,7 +78,7 @@ double take_maxima(double* row, Index count, double* of_columns) {
 RowDistances<PointMetric>::RowDistances(const PointMetric& metric,
                                         std::pmr::memory_resource* memory)
     : metric_(metric), blocks_(memory) {
-  const Points& points = metric.points();
+  const PointsView points = metric.points();
   if (!metric.is_plain_euclidean() || points.cols() == 0) return;
   blocks_.resize(static_cast<std::size_t>(row_capacity() * points.cols()));
   for (Index i = 0; i < points.rows(); ++i)

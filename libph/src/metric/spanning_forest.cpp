@@ -219,12 +219,12 @@ class Boruvka {
 
 }  // namespace
 
-bool has_fast_spanning_forest(const Points& points, PointDistance distance) {
+bool has_fast_spanning_forest(PointsView points, PointDistance distance) {
   constexpr Index most_axes = 8;  // above, boxes exclude little: measured
   return points.cols() <= most_axes && NeighbourSearch::can_search(distance);
 }
 
-FlagEdges spanning_forest(const Points& points, PointDistance distance, double p, double limit,
+FlagEdges spanning_forest(PointsView points, PointDistance distance, double p, double limit,
                           const RunContext& context) {
   const PointMetric checked(points, distance, p);
   FlagEdges forest(&context.memory);

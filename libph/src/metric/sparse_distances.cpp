@@ -47,7 +47,7 @@ SparseDistances::SparseDistances(Index size, std::vector<WeightedEdge> edges)
   }
 }
 
-SparseDistances SparseDistances::within(const Points& points, double radius) {
+SparseDistances SparseDistances::within(PointsView points, double radius) {
   std::vector<WeightedEdge> edges;
   for_each_pair_within(points, radius, [&](Index i, Index j, double d) {
     edges.push_back({i, j, d});

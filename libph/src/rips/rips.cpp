@@ -9,8 +9,15 @@
 namespace ph {
 namespace {
 
+Points rows_of(PointsView points, std::span<const std::uint32_t> rows) {
+  Points chosen(static_cast<Index>(rows.size()), points.cols());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    std::copy_n(points.row(rows[i]), points.cols(), chosen.row(static_cast<Index>(i)).data());
+  return chosen;
+}
+
 /// @param weights of the points, which all become vertices.
-RipsGraph graph_of_all_points(const Points& points, const RipsOptions& options,
+RipsGraph graph_of_all_points(PointsView points, const RipsOptions& options,
                               const VertexWeights& weights, const RunContext& context) {
   const bool is_weighted = !weights.births().empty();
   if (options.approximation) {
@@ -34,7 +41,7 @@ RipsGraph graph_of_all_points(const Points& points, const RipsOptions& options,
              : RipsGraph::of_metric(metric, options.threshold, context, weights);
 }
 
-RipsGraph graph_of_distinct_points(const Points& points, const RipsOptions& options,
+RipsGraph graph_of_distinct_points(PointsView points, const RipsOptions& options,
                                    const VertexWeights& weights, const RunContext& context) {
   // Copies with births would be one vertex with the first of them: not worth the code.
   if (options.merge_equal_points && weights.births().empty()) {
@@ -42,7 +49,7 @@ RipsGraph graph_of_distinct_points(const Points& points, const RipsOptions& opti
     const std::pmr::vector<std::uint32_t> firsts =
         distinct_points(first_equal_points(checked.points(), context), context);
     if (static_cast<Index>(firsts.size()) < points.rows()) {
-      const Points distinct = points(firsts, Eigen::all);
+      const Points distinct = rows_of(points, firsts);
       RipsGraph graph = graph_of_all_points(distinct, options, weights, context);
       graph.name_vertices(firsts, context);
       return graph;
@@ -60,7 +67,7 @@ void check_together(const RipsOptions& options) {
   }
 }
 
-RipsGraph graph_of_points(const Points& points, const RipsOptions& options,
+RipsGraph graph_of_points(PointsView points, const RipsOptions& options,
                           const RunContext& context) {
   RipsGraph::check_size(points.rows());
   check_together(options);
@@ -69,7 +76,7 @@ RipsGraph graph_of_points(const Points& points, const RipsOptions& options,
   if (vertices.are_all())
     return graph_of_distinct_points(points, options, vertices.weights(), context);
   const PointMetric checked(points, options.distance, options.minkowski_p);
-  const Points chosen = checked.points()(vertices.members(), Eigen::all);
+  const Points chosen = rows_of(checked.points(), vertices.members());
   RipsGraph graph = graph_of_distinct_points(chosen, options, vertices.weights(), context);
   graph.name_vertices(vertices.members(), context);
   return graph;
@@ -109,7 +116,7 @@ RipsOptions with_births_of(const DistanceMatrix& distances, RipsOptions options)
 
 void Rips::check_together(const RipsOptions& options) { ph::check_together(options); }
 
-Rips::Rips(const Points& points, const RipsOptions& options, const RunContext& context)
+Rips::Rips(PointsView points, const RipsOptions& options, const RunContext& context)
     : graph_(std::make_shared<const RipsGraph>(graph_of_points(points, options, context))) {}
 
 Rips::Rips(const DistanceMatrix& distances, const RipsOptions& options, const RunContext& context)

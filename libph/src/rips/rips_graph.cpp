@@ -39,7 +39,7 @@ void RipsGraph::name_vertices(std::span<const std::uint32_t> points, const RunCo
   names_ = std::move(names);
 }
 
-RipsGraph RipsGraph::of_points_within(const Points& points, double threshold,
+RipsGraph RipsGraph::of_points_within(PointsView points, double threshold,
                                       const RunContext& context, const VertexWeights& weights) {
   check_arguments(points.rows(), threshold);
   EdgeCollector edges(context);
@@ -86,7 +86,7 @@ RipsGraph RipsGraph::with_edges(const RipsGraph& graph, FlagEdges&& edges,
   return result;
 }
 
-RipsGraph RipsGraph::forest_of_points(const Points& points, PointDistance distance, double p,
+RipsGraph RipsGraph::forest_of_points(PointsView points, PointDistance distance, double p,
                                       std::optional<double> threshold, const RunContext& context) {
   check_arguments(points.rows(), threshold);
   const double limit = threshold.value_or(kNoLimit);

@@ -10,6 +10,7 @@
 
 #include "objects/close_boxes.hpp"
 #include "ph/detail/disjoint_sets.hpp"
+#include "ph/eigen.hpp"
 #include "plane/rims.hpp"
 #include "plane/view.hpp"
 #include "surface/concavity.hpp"
@@ -68,7 +69,8 @@ class HiddenJoins {
     for (std::uint32_t v = 0; v < parts.of.size(); ++v)
       if (parts.of[v] != kSmall && std::isfinite(surface.normals(v, 0)) &&
           view_.is_at_occluder(v, nearer(), kind()))
-        borders_[parts.of[v]].push_back({v, grid.centroids.row(v), surface.normals.row(v)});
+        borders_[parts.of[v]].push_back(
+            {v, as_matrix(grid.centroids).row(v), as_matrix(surface.normals).row(v)});
     for (Border& border : borders_) thin_out(border);
   }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ph/detail/raw_vector.hpp"
+#include "ph/eigen.hpp"
 
 namespace ph::segment {
 namespace {
@@ -247,13 +248,13 @@ std::array<Vec3, 3> principal_axes(const Points& places, std::span<const double>
   Vector3d mean = Vector3d::Zero();
   double sum = 0;
   for (Index i = 0; i < places.rows(); ++i) {
-    mean += weights[static_cast<std::size_t>(i)] * Vector3d(places.row(i));
+    mean += weights[static_cast<std::size_t>(i)] * Vector3d(as_matrix(places).row(i));
     sum += weights[static_cast<std::size_t>(i)];
   }
   mean /= sum;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (Index i = 0; i < places.rows(); ++i) {
-    const Vector3d d = Vector3d(places.row(i)) - mean;
+    const Vector3d d = Vector3d(as_matrix(places).row(i)) - mean;
     covariance += weights[static_cast<std::size_t>(i)] * d * d.transpose();
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);  // least first

@@ -27,8 +27,7 @@ Barcode signature(const SceneTree& scene, const SceneCut& cut,
   Index row = 0;
   for (std::size_t v = 0; v < cut.vertex_labels.size(); ++v) {
     if (!is_wanted(cut.vertex_labels[v])) continue;
-    const auto& [x, y, z] = scene.cells[v];
-    voxels.row(row++) << x, y, z;
+    std::ranges::copy(scene.cells[v], voxels.row(row++).begin());
   }
   // In voxels: the grid of the image is then that of the scene.
   PointImage image = voxel_image(voxels, 1, VoxelValue::distance, 1, context);

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "ph/eigen.hpp"
 #include "pictures/colouring.hpp"
 
 namespace ph::segment {
@@ -55,7 +56,8 @@ std::vector<int> lit(const SceneTree& scene) {
   const Vector3d eye = vector(scene.viewpoint);
   std::vector<int> grey(scene.cells.size(), kUsual);
   for (Index v = 0; v < scene.normals.rows(); ++v) {
-    const Vector3d normal = scene.normals.row(v), ray = scene.vertices.row(v).transpose() - eye;
+    const Vector3d normal = as_matrix(scene.normals).row(v),
+                   ray = as_matrix(scene.vertices).row(v).transpose() - eye;
     const double facing = std::abs(normal.dot(ray)) / ray.norm();
     if (std::isfinite(facing))
       grey[static_cast<std::size_t>(v)] = dark + static_cast<int>((255 - dark) * facing);
@@ -175,7 +177,7 @@ class Spacing {
     double points = 0, range = 0;
     for (const Index count : scene.counts) points += static_cast<double>(count);
     for (Index v = 0; v < scene.vertices.rows(); ++v)
-      range += (scene.vertices.row(v).transpose() - viewpoint_).norm();
+      range += (as_matrix(scene.vertices).row(v).transpose() - viewpoint_).norm();
     const auto voxels = static_cast<double>(scene.counts.size());
     if (points > 0) mean_ = scene.voxel / std::sqrt(points / voxels);
     if (range > 0) mean_range_ = range / voxels;

@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "ph/eigen.hpp"
+
 namespace ph::segment {
 namespace {
 
@@ -85,7 +87,7 @@ Eigen::Vector3d direction_of_least_spread(const Eigen::Matrix3d& a, double eigen
   return solver.eigenvectors().col(0);
 }
 
-Eigen::Vector3d row(const Points& points, std::uint32_t i) { return points.row(i).transpose(); }
+Eigen::Vector3d row(const Points& points, std::uint32_t i) { return as_matrix(points).row(i).transpose(); }
 
 }  // namespace
 
@@ -97,7 +99,8 @@ Points surface_normals(const Points& centroids, std::span<const VoxelPair> pairs
     moments[p.u].add(d.x(), d.y(), d.z());
     moments[p.v].add(-d.x(), -d.y(), -d.z());
   });
-  Points normals = Points::Constant(centroids.rows(), 3, std::numeric_limits<double>::quiet_NaN());
+  Points normals(centroids.rows(), 3);
+  as_matrix(normals).setConstant(std::numeric_limits<double>::quiet_NaN());
   const Eigen::Vector3d eye(viewpoint[0], viewpoint[1], viewpoint[2]);
   std::array<Eigen::Matrix3d, kLanes> scatters;
   for (std::size_t first = 0; first < moments.size(); first += kLanes) {
@@ -115,8 +118,8 @@ Points surface_normals(const Points& centroids, std::span<const VoxelPair> pairs
       if (moments[v].count < 3) continue;
       const Eigen::Vector3d n = direction_of_least_spread(scatters[k], eigenvalues[k]);
       const auto at = static_cast<Index>(v);
-      const Eigen::Vector3d to_eye = eye - centroids.row(at).transpose();
-      normals.row(at) = (n.dot(to_eye) < 0 ? -n : n).transpose();
+      const Eigen::Vector3d to_eye = eye - as_matrix(centroids).row(at).transpose();
+      as_matrix(normals).row(at) = (n.dot(to_eye) < 0 ? -n : n).transpose();
     }
   }
   return normals;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "ph/barcode.hpp"
+#include "ph/eigen.hpp"
 
 namespace ph::segment {
 namespace {
@@ -95,6 +96,7 @@ std::vector<std::uint32_t> spread_seeds(const Points& points, double spacing,
                                         const RunContext& context) {
   const auto size = static_cast<std::size_t>(points.rows());
   const Cubes cubes(points, spacing);
+  const auto all_points = as_matrix(points);
   std::vector<double> nearest(size, kInfinity);
   struct Farthest {
     double distance;
@@ -119,7 +121,7 @@ std::vector<std::uint32_t> spread_seeds(const Points& points, double spacing,
     cubes.for_each_near(next.point, next.distance, [&](std::uint32_t k) {
       ticker.work();
       if (nearest[k] > 0)
-        nearest[k] = std::min(nearest[k], (points.row(k) - points.row(next.point)).norm());
+        nearest[k] = std::min(nearest[k], (all_points.row(k) - all_points.row(next.point)).norm());
     });
     ticker.tick();
   }

@@ -150,7 +150,7 @@ class TreeReader {
               scene_.cells[v - 1].rbegin(), scene_.cells[v - 1].rend(), cell.rbegin(), cell.rend()))
         fail("corner of a voxel", "one not behind that before it", "the order of the grid");
     }
-    scene_.vertices.resize(vertices_, 3);
+    scene_.vertices = Points(vertices_, 3);
     for (std::size_t v = 0; v < n; ++v) {
       const Vec3 c = finite("centroid");
       for (std::size_t k = 0; k < 3; ++k) {
@@ -168,14 +168,14 @@ class TreeReader {
   }
 
   void read_normals() {
-    scene_.normals.resize(vertices_, 3);
+    scene_.normals = Points(vertices_, 3);
     for (Index v = 0; v < vertices_; ++v) {
       at_ = cursor_.offset();
       Vec3 normal;
       for (double& n : normal) n = cursor_.read<double>("normal");
       if (!std::ranges::all_of(normal, [](double n) { return std::isnan(n); }))
         require_unit("normal", normal);
-      scene_.normals.row(v) << normal[0], normal[1], normal[2];
+      std::ranges::copy(normal, scene_.normals.row(v).begin());
     }
   }
 

@@ -56,7 +56,8 @@ std::vector<std::array<Vec3, 3>> axes_of(const SceneTree& scene, const SceneCut&
     Points places(static_cast<Index>(of_segment.size()), 3);
     std::vector<double> weights;
     for (const Index v : of_segment) {
-      places.row(static_cast<Index>(weights.size())) = scene.vertices.row(v);
+      std::ranges::copy(scene.vertices.row(v),
+                        places.row(static_cast<Index>(weights.size())).begin());
       weights.push_back(static_cast<double>(scene.counts[static_cast<std::size_t>(v)]));
     }
     axes.push_back(principal_axes(places, weights, scene.viewpoint));

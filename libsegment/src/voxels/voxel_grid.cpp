@@ -176,16 +176,16 @@ VoxelGrid voxel_grid(const CloudView& cloud, const std::vector<Index>& points, d
 
   const std::vector<Voxel>& voxels = table.voxels();
   const std::vector<std::uint32_t> order = in_order_of_grid(voxels);
-  grid.centroids.resize(static_cast<Index>(voxels.size()), 3);
+  grid.centroids = Points(static_cast<Index>(voxels.size()), 3);
   grid.cells.resize(voxels.size());
   grid.counts.resize(voxels.size());
   std::vector<std::uint32_t> rank(voxels.size());
   for (std::uint32_t r = 0; r < order.size(); ++r) {
     const Voxel& v = voxels[order[r]];
     const double n = static_cast<double>(v.count) * kUnits;
-    grid.centroids.row(r) << (v.x + static_cast<double>(v.sum_x) / n) * voxel,
-        (v.y + static_cast<double>(v.sum_y) / n) * voxel,
-        (v.z + static_cast<double>(v.sum_z) / n) * voxel;
+    grid.centroids(r, 0) = (v.x + static_cast<double>(v.sum_x) / n) * voxel;
+    grid.centroids(r, 1) = (v.y + static_cast<double>(v.sum_y) / n) * voxel;
+    grid.centroids(r, 2) = (v.z + static_cast<double>(v.sum_z) / n) * voxel;
     grid.cells[r] = {v.x, v.y, v.z};
     grid.counts[r] = v.count;
     rank[order[r]] = r;

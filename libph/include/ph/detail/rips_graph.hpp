@@ -41,7 +41,7 @@ class RipsGraph {
   static RipsGraph of_metric(const M& metric, std::optional<double> threshold,
                              const RunContext& context, const VertexWeights& weights = {});
   /// Euclidean distances up to the threshold; never n^2 of them.
-  static RipsGraph of_points_within(const Points& points, double threshold,
+  static RipsGraph of_points_within(PointsView points, double threshold,
                                     const RunContext& context, const VertexWeights& weights = {});
   static RipsGraph of_edges(Index size, std::span<const WeightedEdge> edges,
                             std::optional<double> threshold, const RunContext& context,
@@ -57,7 +57,7 @@ class RipsGraph {
   static RipsGraph forest_of_metric(const M& metric, std::optional<double> threshold,
                                     const RunContext& context, const VertexWeights& weights = {});
   /// The same in near-linear time. Precondition: has_fast_spanning_forest(points, distance).
-  static RipsGraph forest_of_points(const Points& points, PointDistance distance, double p,
+  static RipsGraph forest_of_points(PointsView points, PointDistance distance, double p,
                                     std::optional<double> threshold, const RunContext& context);
   static RipsGraph forest_of_edges(Index size, std::span<const WeightedEdge> edges,
                                    std::optional<double> threshold, const RunContext& context,

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "ph/metric.hpp"
-#include "ph/points.hpp"
 
 namespace ph {
 

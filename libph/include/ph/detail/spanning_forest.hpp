@@ -9,7 +9,6 @@
 
 #include "ph/filtration.hpp"
 #include "ph/metric.hpp"
-#include "ph/points.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {
@@ -63,7 +62,7 @@ FlagEdges spanning_forest(Index size, DistanceOf&& distance_of, double limit,
 }
 
 /// Whether `spanning_forest` of points takes less than a look at each pair.
-bool has_fast_spanning_forest(const Points& points, PointDistance distance);
+bool has_fast_spanning_forest(PointsView points, PointDistance distance);
 
 /// Of points, by Borůvka's algorithm (1926) with a k-d tree that finds the nearest point of another
 /// component (March, Ram, Gray, "Fast Euclidean minimum spanning tree", 2010): O(n log n) as a rule
@@ -71,7 +70,7 @@ bool has_fast_spanning_forest(const Points& points, PointDistance distance);
 /// @param points one point a row. @param p exponent of PointDistance::minkowski.
 /// Precondition: has_fast_spanning_forest(points, distance).
 /// @throws Error (bad_data) as PointMetric.
-FlagEdges spanning_forest(const Points& points, PointDistance distance, double p, double limit,
+FlagEdges spanning_forest(PointsView points, PointDistance distance, double p, double limit,
                           const RunContext& context);
 
 }  // namespace ph

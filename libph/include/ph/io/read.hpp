@@ -10,7 +10,7 @@
 #include "ph/distance_matrix.hpp"
 #include "ph/explicit.hpp"
 #include "ph/image.hpp"
-#include "ph/metric.hpp"
+#include "ph/points.hpp"
 #include "ph/run_context.hpp"
 #include "ph/sparse_distances.hpp"
 

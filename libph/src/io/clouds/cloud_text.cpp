@@ -26,7 +26,14 @@ constexpr std::array<std::string_view, 3> kCoordinates{"x", "y", "z"};
 bool is_share(double value) { return value >= 0 && value <= 1; }
 bool is_byte(double value) { return value >= 0 && value <= 255 && value == std::floor(value); }
 
-std::vector<std::string> column_names(const Points& rows, const std::vector<std::string>& header,
+template <class Is>
+bool all_in_column(PointsView rows, std::size_t column, const Is& is) {
+  for (Index i = 0; i < rows.rows(); ++i)
+    if (!is(rows(i, static_cast<Index>(column)))) return false;
+  return true;
+}
+
+std::vector<std::string> column_names(PointsView rows, const std::vector<std::string>& header,
                                       const Input& input, detail::RowSource source) {
   const auto columns = static_cast<std::size_t>(rows.cols());
   std::vector<std::string> names;
@@ -56,8 +63,8 @@ std::vector<std::string> column_names(const Points& rows, const std::vector<std:
   if (intensity) names.emplace_back("intensity");
   const std::size_t first = names.size();
   const auto are = [&](auto* kind) {
-    return columns >= first + 3 &&
-           rows.middleCols(static_cast<Index>(first), 3).unaryExpr(kind).all();
+    return columns >= first + 3 && all_in_column(rows, first, kind) &&
+           all_in_column(rows, first + 1, kind) && all_in_column(rows, first + 2, kind);
   };
   const bool colours = are(&is_byte) || (source == detail::RowSource::array && are(&is_share));
   for (std::size_t k = first; k < columns; ++k) {
@@ -94,12 +101,12 @@ Cloud cloud_of_rows(const TextTable& table, const Input& input, const ReadOption
   bool shares = source == RowSource::array;
   for (std::size_t k = 0; k < names.size(); ++k)
     if (is_colour(names[k]))
-      shares = shares && table.rows.col(static_cast<Index>(k)).unaryExpr(&is_share).all();
+      shares = shares && all_in_column(table.rows, k, is_share);
   std::vector<bool> is_coordinate;
   for (std::size_t k = 0; k < names.size(); ++k) {
     is_coordinate.push_back(std::count(kCoordinates.begin(), kCoordinates.end(), names[k]) > 0);
     const bool bytes = is_colour(names[k]) && !shares &&
-                       table.rows.col(static_cast<Index>(k)).unaryExpr(&is_byte).all();
+                       all_in_column(table.rows, k, is_byte);
     const FieldType type = bytes ? FieldType::uint8 : FieldType::float64;
     cloud.fields.push_back({names[k], type, 1, cloud.stride});
     cloud.stride += size_of(type);

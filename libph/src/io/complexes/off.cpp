@@ -62,7 +62,7 @@ Mesh read_off(const Input& input, const ReadOptions& options) {
   }
   input.require_memory(vertices * 3 * sizeof(double) + faces * sizeof(std::size_t));
   Mesh mesh;
-  mesh.vertices.resize(static_cast<Index>(vertices), 3);
+  mesh.vertices = Points(static_cast<Index>(vertices), 3);
   for (std::size_t i = 0; i < vertices; ++i) {
     need_line(lines, "vertices", i, vertices);
     cells.start();

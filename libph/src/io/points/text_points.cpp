@@ -15,7 +15,7 @@ namespace ph {
 namespace {
 
 // Whether a column counts the rows, from 0 or from 1.
-bool counts_rows(const Points& points, Index column) {
+bool counts_rows(PointsView points, Index column) {
   for (Index i = 0; i < points.rows(); ++i)
     if (points(i, column) != points(0, column) + static_cast<double>(i)) return false;
   return points(0, column) == 0 || points(0, column) == 1;
@@ -30,13 +30,16 @@ bool names_coordinate(std::string_view name) {
 
 // Whether the first point may be a header of numbers: 0, 1, 2, … or 1, 2, 3, …. Of two whole
 // numbers among others that says nothing.
-bool may_be_header(const Points& rows) {
+bool may_be_header(PointsView rows) {
   const Index columns = rows.cols();
   if (rows.rows() < 2 || columns < 2 || (rows(0, 0) != 0 && rows(0, 0) != 1)) return false;
   for (Index k = 1; k < columns; ++k)
     if (rows(0, k) != rows(0, 0) + static_cast<double>(k)) return false;
-  const auto next = rows.middleRows(1, std::min<Index>(rows.rows() - 1, 8)).array();
-  return columns > 2 || (next != next.floor()).any();
+  if (columns > 2) return true;
+  for (Index i = 1; i < std::min<Index>(rows.rows(), 9); ++i)
+    for (Index k = 0; k < columns; ++k)
+      if (rows(i, k) != std::floor(rows(i, k))) return true;
+  return false;
 }
 
 // The numbers of a table, without those of its index.
@@ -74,8 +77,9 @@ Points chosen_of(Points points, const Input& input, const ReadOptions& options) 
   const auto columns =
       detail::chosen_columns(options.columns, {}, static_cast<std::size_t>(points.cols()), input);
   Points chosen(points.rows(), static_cast<Index>(columns.size()));
-  for (std::size_t k = 0; k < columns.size(); ++k)
-    chosen.col(static_cast<Index>(k)) = points.col(static_cast<Index>(columns[k]));
+  for (Index i = 0; i < points.rows(); ++i)
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      chosen(i, static_cast<Index>(k)) = points(i, static_cast<Index>(columns[k]));
   return chosen;
 }
 
@@ -133,7 +137,7 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
       static_cast<std::size_t>(std::count(rest.begin(), rest.end(), '\n')) + 2;
   const std::size_t most = std::min(by_lines, rest.size() / width + 2);
   input.require_memory(most * columns * sizeof(double));
-  table.rows.resize(static_cast<Index>(most), static_cast<Index>(columns));
+  table.rows = Points(static_cast<Index>(most), static_cast<Index>(columns));
   double* value = table.rows.data();
   std::size_t count = 0;
   do {
@@ -171,7 +175,7 @@ TextTable read_text_table(const Input& input, Allow allow, const ReadOptions& op
     ++count;
   } while (lines.next());
   check_count(count);
-  table.rows.conservativeResize(static_cast<Index>(count), Eigen::NoChange);
+  table.rows.keep_rows(static_cast<Index>(count));
   const bool names_rows = layout != nullptr && layout->names_rows;
   if (!table.header.empty() && table.header.size() != width && width > 1 &&
       table.header.size() > 1 && !names_rows) {
@@ -211,7 +215,7 @@ Points without_nan_rows(Points points, const Input& input, const ReadOptions& op
   if (kept != points.rows()) {
     note(options, fmt::format("{} of {} points have a NaN coordinate: left out",
                               points.rows() - kept, points.rows()));
-    points.conservativeResize(kept, Eigen::NoChange);
+    points.keep_rows(kept);
   }
   return points;
 }
@@ -234,7 +238,7 @@ Points read_points(const Input& input, const ReadOptions& options) {
     }
     // Both are there for a while, and no budget counts the array.
     input.require_memory(array.values.bytes() + array.values.size() * sizeof(double));
-    points.resize(array.extents[0], array.extents[1]);
+    points = Points(array.extents[0], array.extents[1]);
     with_voxels(array.values.type(), array.values.data(), [&](const auto* numbers) {
       constexpr std::size_t block = 1 << 16;  // numbers between two looks at the stop token
       for (std::size_t k = 0; k < array.values.size(); k += block) {

@@ -190,7 +190,6 @@ class RowPool {
   }
   void give(Id id) { free_.push_back(id); }
   /// Whether the next row may move where rows are looked up.
-  bool is_full() const { return free_.empty() && chunks_.size() == chunks_.capacity(); }
   Unit* operator[](Id id) {
     return chunks_[id / kRowsPerChunk].data() + id % kRowsPerChunk * units_;
   }

@@ -62,9 +62,6 @@ class LensSurfaces {
   void give_birth(Triangle birth, const FlagEdge& e, const Word* component);
   /// Reports what never dies.
   void finish();
-  bool has_living() const { return cocycles_.shared().living > 0; }
-  StarWriter<K>& stars() { return cocycles_.stars(); }
-  const StarWriter<K>& stars() const { return cocycles_.shared().stars; }
 
  private:
   using Cocycles = TriangleCocycles<K>;

@@ -13,7 +13,6 @@
 #include "rips/annotations/list_pool.hpp"
 #include "rips/sweep/lens_graph.hpp"
 #include "rips/sweep/sorted_terms.hpp"
-#include "rips/sweep/star_writer.hpp"
 
 namespace ph {
 
@@ -49,7 +48,6 @@ class TriangleCochain {
           blocks((vertices + 63) / 64),
           most_terms(most_terms_ * Row::kUnitsPerBlock * sizeof(Unit) / sizeof(Word)),
           rows(blocks, memory),
-          stars(rows, field_, vertices, blocks, memory),
           lists(memory),
           merged(memory),
           star(memory),
@@ -59,7 +57,6 @@ class TriangleCochain {
     std::size_t most_terms;  // in lists; more become rows, later where these are wider than bits
     std::size_t living = 0;  // cochains in use
     RowPool<K> rows;
-    StarWriter<K> stars;
     ListPool<Term> lists;
     std::pmr::vector<Term> merged, star;
     std::pmr::vector<ListId> own;  // lists that others are about to be added to
@@ -78,9 +75,7 @@ class TriangleCochain {
   bool touches(Vertex a, Terms terms, const LensGraph& graph) const;
   /// If it is dense: phi(a,b,.) if a < b, -phi(a,b,.) otherwise; null if that is zero.
   const Unit* row(Vertex a, Vertex b, const Shared& shared) const {
-    if (!has_row(a, b)) return nullptr;
-    shared.stars.finish_row(a, b);
-    return shared.rows[at_[a].rows[b]];
+    return has_row(a, b) ? shared.rows[at_[a].rows[b]] : nullptr;
   }
   /// What it costs to add it to another one, more or less.
   std::size_t size() const { return is_dense() ? row_count_ * at_.size() : term_count_; }
@@ -185,7 +180,6 @@ bool TriangleCochain<K>::touches(Vertex a, Terms terms, const LensGraph& graph) 
 
 template <Field K>
 void TriangleCochain<K>::make_row(Vertex a, Vertex b, Shared& shared) {
-  if (shared.rows.is_full()) shared.stars.finish();
   const auto id = shared.rows.take();
   ++row_count_;
   for (const auto& [one, other] : {std::pair{a, b}, std::pair{b, a}}) {
@@ -273,7 +267,6 @@ void TriangleCochain<K>::add(const TriangleCochain& other, Element scale, Shared
   adapt(shared);
   if (!is_dense() && other.is_dense()) make_dense(shared);
   if (!is_dense()) return add_lists(other, scale, shared, on_enter, on_leave);
-  shared.stars.finish();
   other.for_each_vertex([&](Vertex a) { enter(a, shared, on_enter); });
   for (const auto& [a, list] : other.lists_) {
     for (const Term& t : shared.lists[list])
@@ -300,7 +293,21 @@ void TriangleCochain<K>::add_star_to_rows(Vertex u, Vertex v, const Unit* star, 
     if (!has_row(u, w)) make_row(u, w, shared);
     if (!has_row(v, w)) make_row(v, w, shared);
   });
-  shared.stars.write({u, v, at_[u].rows.data(), at_[v].rows.data()}, star);
+  // Rows are anywhere in memory: all are asked for before the first is waited for.
+  const auto *of_u = at_[u].rows.data(), *of_v = at_[v].rows.data();
+  Row::for_each(star, shared.blocks, [&](std::size_t w, Element) {
+    __builtin_prefetch(of_u + w);
+    __builtin_prefetch(of_v + w);
+  });
+  Row::for_each(star, shared.blocks, [&](std::size_t w, Element) {
+    Row::prefetch(shared.rows[of_u[w]], v);
+    Row::prefetch(shared.rows[of_v[w]], u);
+  });
+  Row::for_each(star, shared.blocks, [&](std::size_t w, Element a) {
+    const Element opposite = shared.field.negate(a);
+    Row::add_at(shared.rows[of_u[w]], v, w < u ? a : opposite, shared.field);
+    Row::add_at(shared.rows[of_v[w]], u, v < w ? a : opposite, shared.field);
+  });
 }
 
 template <Field K>
@@ -352,7 +359,6 @@ void TriangleCochain<K>::drop_zero_rows(Shared& shared) {
 template <Field K>
 template <class OnLeave>
 void TriangleCochain<K>::clear(Shared& shared, OnLeave&& on_leave) {
-  if (is_dense()) shared.stars.finish();
   for_each_vertex(on_leave);
   for (const ListAt& at : lists_) shared.lists.give(at.list);
   for_each_row([&](Vertex, Vertex, auto id) { shared.rows.give(id); });
@@ -370,7 +376,6 @@ void TriangleCochain<K>::for_each_vertex(Visit&& visit) const {
 template <Field K>
 template <class Visit>
 void TriangleCochain<K>::for_each_triangle(const Shared& shared, Visit&& visit) const {
-  shared.stars.finish();
   for (const auto& [a, list] : lists_)
     for (const Term& t : shared.lists[list])
       if (a < smaller(t)) visit(a, smaller(t), larger(t), t.coefficient());

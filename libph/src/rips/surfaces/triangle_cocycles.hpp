@@ -56,7 +56,6 @@ class TriangleCocycles {
   }
   const Cochain& operator[](Generator g) const { return cochains_[g]; }
   const typename Cochain::Shared& shared() const { return shared_; }
-  StarWriter<K>& stars() { return shared_.stars; }
 
  private:
   auto place(Generator g, Vertex a) {

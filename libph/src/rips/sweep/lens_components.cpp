@@ -17,7 +17,7 @@ void LensComponents::find(const FlagEdge& e) {
   const std::size_t words = graph_.words();
   roots_.clear();
   sets_.clear();
-  apex_ = hub_ = kNone;
+  apex_ = kNone;
   Vertex start = kNone;
   for (const Vertex last : {last_apex_[e.u], last_apex_[e.v]}) {
     const Vertex guess = last == kNone ? kNone : graph_.local(last);
@@ -46,16 +46,6 @@ void LensComponents::find(const FlagEdge& e) {
   sort_components();
 }
 
-void LensComponents::find(const FlagEdge& e, const LensHint& hint) {
-  if (hint.kind == LensHint::Kind::unknown) return find(e);
-  const Vertex vertex = graph_.local(hint.vertex);
-  sets_.clear();
-  roots_.assign(1, vertex);
-  apex_ = hub_ = kNone;
-  if (hint.kind == LensHint::Kind::cone) set_apex(e, vertex);
-  if (hint.kind == LensHint::Kind::hub) hub_ = vertex;
-}
-
 void LensComponents::find_roots(const FlagEdge& e) {
   constexpr std::size_t few = 16;
   std::array<Vertex, few> vertices;
@@ -68,7 +58,7 @@ void LensComponents::find_roots(const FlagEdge& e) {
     }
   roots_.clear();
   sets_.clear();
-  apex_ = hub_ = kNone;
+  apex_ = kNone;
   // Bits say which of them have been met, and which of these have yet to look around.
   for (std::uint32_t met = 0, left = 0, i = 0; i < count; ++i) {
     if ((met >> i & 1) != 0) continue;
@@ -126,7 +116,6 @@ void LensComponents::sort_components() {
 }
 
 bool LensComponents::find_apex(const FlagEdge& e) {
-  if (hub_ != kNone) return false;
   // An apex sees every vertex, so also one that a candidate misses.
   const std::size_t words = graph_.words();
   const auto has = [&](std::size_t w) { return (rest_[w / 64] >> (w % 64) & 1) != 0; };

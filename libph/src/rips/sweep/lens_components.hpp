@@ -9,19 +9,6 @@
 
 namespace ph {
 
-/// What somebody found out about the lens of an edge. Vertices have their own numbers.
-struct LensHint {
-  using Vertex = std::uint32_t;
-  enum class Kind : std::uint32_t {
-    unknown,
-    connected,  ///< one component with this vertex
-    cone,       ///< over this vertex, the apex
-    hub,        ///< one component, no cone, and LensCover would begin with this vertex
-  };
-  Kind kind = Kind::unknown;
-  Vertex vertex = 0;
-};
-
 /// The connected components of a lens, in its own numbers of vertices. Most lenses are cones: one
 /// vertex, the apex, is joined to all others; it often serves the next edge at the same vertex too.
 class LensComponents {
@@ -40,8 +27,6 @@ class LensComponents {
 
   /// Of the graph's lens, which is not empty and that of e.
   void find(const FlagEdge& e);
-  /// The same with what is known of it.
-  void find(const FlagEdge& e, const LensHint& hint);
   /// Roots alone, of any lens: soon if it has few vertices.
   void find_roots(const FlagEdge& e);
   /// Looks for an apex where `find` has met none. @return whether there is one.
@@ -55,8 +40,6 @@ class LensComponents {
   const Word* vertices(std::size_t i) const { return sets_.data() + i * graph_.words(); }
   bool has_apex() const { return apex_ != kNone; }
   Vertex apex() const { return apex_; }
-  /// Where a cover of the only component begins; kNone if that is not known.
-  Vertex hub() const { return hub_; }
 
  private:
   bool is_apex(Vertex v) const {
@@ -75,7 +58,7 @@ class LensComponents {
   std::pmr::vector<Vertex> roots_;
   std::pmr::vector<Word> sets_;  // a row for each component
   std::pmr::vector<Word> rest_;
-  Vertex apex_ = kNone, hub_ = kNone;
+  Vertex apex_ = kNone;
 };
 
 }  // namespace ph

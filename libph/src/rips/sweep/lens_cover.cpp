@@ -9,7 +9,6 @@ void LensCover::find(const LensComponents& components) {
   steps_.clear();
   sets_.clear();
   if (components.has_apex()) return cover(graph_.lens(), components.apex());
-  if (components.hub() != LensComponents::kNone) return cover(graph_.lens(), components.hub());
   for (std::size_t i = 0; i < components.count(); ++i) {
     const Word* component = components.count() == 1 ? graph_.lens() : components.vertices(i);
     cover(component, find_hub(component, components.root(i)));

@@ -29,16 +29,15 @@ class LensCover {
   /// Of the graph's lens.
   void find(const LensComponents& components);
 
-  /// Where to begin: among a few vertices of a component, the given one and a sample, the one with
-  /// most neighbours.
-  Vertex find_hub(const Word* component, Vertex first);
-
   std::size_t size() const { return steps_.size(); }
   const Step& operator[](std::size_t i) const { return steps_[i]; }
   /// The neighbours of a hub; of another vertex those that come before it, at least one.
   const Word* neighbours(std::size_t i) const { return sets_.data() + i * graph_.words(); }
 
  private:
+  /// Where to begin: among a few vertices of a component, the given one and a sample, the one with
+  /// most neighbours.
+  Vertex find_hub(const Word* component, Vertex first);
   void cover(const Word* component, Vertex hub);
   /// Appends a step. @return its row: the neighbours in a set.
   Word* add_step(const Step& step, const Word* set);

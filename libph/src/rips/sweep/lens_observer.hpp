@@ -17,7 +17,6 @@ struct LensTuning {
   std::size_t vertices_of_active_rows = 1 << 11;  ///< at most: for more, lists of active edges do
   std::size_t classes_for_formal = 1 << 9;  ///< alive: for fewer of H1 annotations learn of deaths
   std::size_t relations_for_formal = 1 << 10;  ///< solved together, at least
-  std::size_t stars_for_helper = 1 << 12;      ///< in rows, at least; for fewer a thread costs more
 };
 
 /// What a lens sweep is to find.

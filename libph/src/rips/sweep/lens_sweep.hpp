@@ -20,7 +20,6 @@
 #include "rips/sweep/lens_components.hpp"
 #include "rips/sweep/lens_cycles.hpp"
 #include "rips/sweep/lens_graph.hpp"
-#include "rips/sweep/lens_helper.hpp"
 #include "rips/sweep/lens_observer.hpp"
 
 namespace ph {
@@ -84,15 +83,6 @@ class LensSweep {
   bool can_bins_be_idle() const { return !surfaces_ && !wanted_.zero_length && living_ == 0; }
   /// Whether nothing happens at the edges of a bin. They are not added, see first_unadded_bin_.
   bool is_bin_idle(std::size_t bin);
-  /// Whether there is enough to do for another thread, and room for its graph. Lists of neighbours
-  /// make lenses cheap but for their numbering, which cannot be handed over.
-  bool wants_helper(const LensSurfaces<K>& surfaces) const {
-    constexpr double share = 0.25;  // of what memory is left
-    return layout_ == LensLayout::rows && thread_count(context_) > 1 &&
-           surfaces.stars().count() >= wanted_.tuning.stars_for_helper &&
-           LensGraph::bytes(graph_.vertex_count(), edges_.size()) <=
-               share * static_cast<double>(context_.memory.left());
-  }
   /// Adds the edges of idle bins.
   void add_bins_until(std::size_t bin);
   void add_edge(Position position);
@@ -152,7 +142,6 @@ class LensSweep {
   std::optional<LensCycles<K>> cycles_;
   std::pmr::vector<typename Observer::EdgeValue> representative_;
   std::optional<LensSurfaces<K>> surfaces_;
-  std::optional<LensHelper<K>> helper_;  // while it runs
 };
 
 template <Field K>
@@ -165,12 +154,8 @@ void LensSweep<K>::run() {
       continue;
     }
     add_bins_until(bin);
-    if (!helper_ && surfaces_ && wants_helper(*surfaces_))
-      helper_.emplace(surfaces_->stars(), graph_.vertex_count(), edges_, context_);
     edges_.sorted_bins(bin + 1);
-    if (helper_) helper_->scout().go_until(end);
-    const std::size_t busy = helper_ ? 2 : 1;  // threads
-    if (!can_bins_be_idle() && thread_count(context_) > busy) edges_.sort_ahead(bin + 1);
+    if (!can_bins_be_idle() && thread_count(context_) > 1) edges_.sort_ahead(bin + 1);
     for (std::size_t position = begin; position < end; ++position) {
       add_edge(static_cast<Position>(position));
       ticker.tick();
@@ -186,7 +171,6 @@ void LensSweep<K>::run() {
     find_representative(g, g);
     observer_.on_essential(births_[g], representative_);
   }
-  helper_.reset();
   if (surfaces_) surfaces_->finish();
 }
 
@@ -214,13 +198,12 @@ template <Field K>
 void LensSweep<K>::add_edge(Position position) {
   const FlagEdge& e = edges_[position];
   const bool wants_graph = surfaces_ || wanted_.zero_length;
-  const LensHint hint = helper_ ? helper_->scout().hint(position) : LensHint();
   const LensGraph::Lens lens = graph_.find_lens(e, wants_graph || formal_);
   if (lens.is_empty) {
     join_or_give_birth(position, e);
   } else {
     if (wanted_.zero_length) report_zero_length(position, e);
-    if ((lens.touches_active || surfaces_) && !formal_) components_.find(e, hint);
+    if ((lens.touches_active || surfaces_) && !formal_) components_.find(e);
     born_.clear();
     if (formal_)
       annotate_formally(position, e);
@@ -233,7 +216,6 @@ void LensSweep<K>::add_edge(Position position) {
       for (const std::size_t i : born_)
         surfaces_->give_birth({position, graph_.global(components_.root(i))}, e,
                               components_.vertices(i));
-      if (helper_) helper_->scout().expect_classes(surfaces_->has_living());
     }
   }
   graph_.add(e);

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+// Points and matrices of Eigen, without a copy where there need not be one. libph itself does not
+// need Eigen. An Eigen matrix, Map or Block of doubles is a PointsView as it is: no header at all.
+#include <Eigen/Core>
+
+#include "ph/points.hpp"
+
+namespace ph {
+
+/// One point a row.
+using PointMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// The points as a matrix: no copy; they must outlive it.
+inline Eigen::Map<const PointMatrix> as_matrix(const Points& points) {
+  return {points.data(), points.rows(), points.cols()};
+}
+inline Eigen::Map<PointMatrix> as_matrix(Points& points) {
+  return {points.data(), points.rows(), points.cols()};
+}
+
+/// A copy of any matrix or expression.
+template <class Derived>
+Points to_points(const Eigen::DenseBase<Derived>& matrix) {
+  Points points(matrix.rows(), matrix.cols());
+  as_matrix(points) = matrix.derived().template cast<double>();
+  return points;
+}
+
+}  // namespace ph

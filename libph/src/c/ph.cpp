@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+#include "ph/ph.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <future>
+#include <new>
+#include <stop_token>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "ph/error.hpp"
+#include "ph/persistence.hpp"
+
+struct ph_barcode {
+  explicit ph_barcode(ph::Barcode&& all) : bars(std::move(all)) {}
+  ph::Barcode bars;
+};
+
+namespace {
+
+using namespace ph;
+
+// ph_barcode_bars gives out what the barcode holds.
+static_assert(sizeof(ph_bar) == sizeof(Bar) && offsetof(ph_bar, dim) == offsetof(Bar, dim) &&
+              offsetof(ph_bar, birth) == offsetof(Bar, birth) &&
+              offsetof(ph_bar, death) == offsetof(Bar, death));
+
+std::string& last_error() {
+  thread_local std::string message = "no error";
+  return message;
+}
+
+/// Never throws: words that do not fit are left out.
+ph_status fail(ph_status status, const char* message) noexcept {
+  try {
+    last_error() = message;
+  } catch (...) {
+    last_error().clear();
+  }
+  return status;
+}
+
+ph_status status_of(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::usage:
+    case ErrorKind::not_built_in:
+      return PH_USAGE;
+    case ErrorKind::bad_data:
+    case ErrorKind::no_input:
+    case ErrorKind::cannot_create:
+    case ErrorKind::io:
+      return PH_BAD_DATA;
+    case ErrorKind::resource:
+      return PH_RESOURCE;
+    case ErrorKind::cancelled:
+      return PH_CANCELLED;
+    case ErrorKind::internal:
+      break;
+  }
+  return PH_INTERNAL;
+}
+
+template <class Use>
+ph_status guarded(Use&& use) noexcept {
+  try {
+    use();
+    return PH_OK;
+  } catch (const Error& error) {
+    return fail(status_of(error.kind()), error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(PH_RESOURCE, "out of memory");
+  } catch (const std::system_error& error) {  // of std::async
+    return fail(PH_RESOURCE, error.what());
+  } catch (const std::exception& error) {
+    return fail(PH_INTERNAL, error.what());
+  } catch (...) {
+    return fail(PH_INTERNAL, "an unknown exception");
+  }
+}
+
+void require(bool holds, const char* message) {
+  if (!holds) throw Error(ErrorKind::usage, message);
+}
+
+/// What the caller knows of the options, the rest by default.
+ph_options complete(const ph_options* given) {
+  ph_options options;
+  ph_options_init(&options);
+  if (given == nullptr) return options;
+  if (given->size < sizeof(given->size) || given->size > sizeof(options))
+    throw Error(ErrorKind::usage,
+                fmt::format("ph_options: found size {}, expected at most {}: call ph_options_init",
+                            given->size, sizeof(options)));
+  std::memcpy(&options, given, given->size);
+  return options;
+}
+
+template <class Enum>
+Enum choice(std::int32_t value, Enum last, const char* name) {
+  if (value < 0 || value > static_cast<std::int32_t>(last))
+    throw Error(ErrorKind::usage, fmt::format("ph_options::{}: found {}, expected 0 to {}", name,
+                                              value, static_cast<std::int32_t>(last)));
+  return static_cast<Enum>(value);
+}
+
+Options task_of(const ph_options& given) {
+  if (given.max_dim < -1)
+    throw Error(ErrorKind::usage, fmt::format("ph_options::max_dim: found {}, expected -1 or more",
+                                              given.max_dim));
+  Options options;
+  if (given.max_dim >= 0) options.max_dim = given.max_dim;
+  options.min_dim = given.min_dim;
+  options.field = given.field;
+  options.min_persistence = given.min_persistence;
+  options.cells = given.cells != 0;
+  return options;
+}
+
+std::optional<double> threshold_of(const ph_options& given) {
+  return std::isnan(given.threshold) ? std::nullopt : std::optional(given.threshold);
+}
+
+/// Runs `compute` on a thread of its own while the caller's thread asks whether to stop.
+template <class Compute>
+Barcode watched(const ph_options& options, std::stop_source& stop, const Compute& compute) {
+  if (options.cancel == nullptr) return compute();
+  constexpr std::chrono::milliseconds interval(20);
+  std::future<Barcode> bars = std::async(std::launch::async, compute);
+  while (bars.wait_for(interval) != std::future_status::ready)
+    if (options.cancel(options.cancel_user) != 0) stop.request_stop();
+  return bars.get();
+}
+
+/// @param make(options, context) the complex.
+template <class Make>
+ph_status barcode_of(const ph_options* given, ph_barcode** out, const Make& make) {
+  return guarded([&] {
+    require(out != nullptr, "out: found NULL");
+    const ph_options options = complete(given);
+    std::stop_source stop;
+    RunContext context;
+    context.stop = stop.get_token();
+    require(options.threads >= 0, "ph_options::threads: found less than 0");
+    context.threads = options.threads;
+    if (options.memory_limit != 0) context.memory.set_limit(options.memory_limit);
+    *out = new ph_barcode(watched(options, stop, [&] {
+      return persistence(make(options, context), task_of(options), context);
+    }));
+  });
+}
+
+RipsOptions rips_options(const ph_options& given) {
+  RipsOptions options;
+  options.threshold = threshold_of(given);
+  options.distance = choice(given.distance, PointDistance::hamming, "distance");
+  options.minkowski_p = given.minkowski_p;
+  return options;
+}
+
+Image image_of(const void* data, ph_number type, std::int32_t axes, const std::int64_t* extents,
+               const RunContext& context) {
+  if (axes < 1 || axes > Cubical::kMaxDim)
+    throw Error(ErrorKind::usage,
+                fmt::format("axes: found {}, expected 1 to {}", axes, Cubical::kMaxDim));
+  require(extents != nullptr, "extents: found NULL");
+  Image image;
+  std::size_t count = 1;
+  for (std::int32_t k = 0; k < axes; ++k) {
+    constexpr std::size_t most = UINT32_MAX;
+    if (extents[k] < 1 || static_cast<std::uint64_t>(extents[k]) > most / count)
+      throw Error(ErrorKind::usage,
+                  fmt::format("extent {}: found {}, expected at least 1 and fewer than 2^32 voxels",
+                              k, extents[k]));
+    count *= static_cast<std::size_t>(extents[k]);
+    image.extents.push_back(extents[k]);
+  }
+  require(data != nullptr, "data: found NULL");
+  require(type >= PH_UINT8 && type <= PH_FLOAT64, "type: found no ph_number");
+  context.memory.require(count * bytes_of(static_cast<VoxelType>(type)));
+  image.values = with_voxels(static_cast<VoxelType>(type), data, [&]<class T>(const T* first) {
+    return Voxels(std::vector<T>(first, first + count));
+  });
+  return image;
+}
+
+std::size_t numbers_of(std::optional<InputCell> cell, const std::int64_t** numbers) {
+  if (numbers != nullptr) *numbers = cell ? cell->numbers.data() : nullptr;
+  return cell ? cell->numbers.size() : 0;
+}
+
+}  // namespace
+
+int ph_abi_version(void) { return PH_ABI_VERSION; }
+const char* ph_version(void) { return PH_VERSION; }
+const char* ph_last_error(void) { return last_error().c_str(); }
+
+void ph_options_init_sized(ph_options* options, size_t size) {
+  ph_options defaults{};
+  defaults.size = size;
+  defaults.max_dim = -1;
+  defaults.field = 2;
+  defaults.threshold = std::nan("");
+  defaults.cells = 1;
+  defaults.distance = PH_EUCLIDEAN;
+  defaults.minkowski_p = 2;
+  if (options != nullptr) std::memcpy(options, &defaults, std::min(size, sizeof(defaults)));
+}
+
+ph_status ph_rips_points(const double* data, int64_t rows, int64_t columns, int64_t row_stride,
+                         int64_t column_stride, const ph_options* options, ph_barcode** out) {
+  return barcode_of(options, out, [&](const ph_options& o, const RunContext& context) {
+    require(rows >= 0 && columns >= 0, "points: found a negative number of rows or columns");
+    require(data != nullptr || rows == 0 || columns == 0, "data: found NULL");
+    return Rips(PointsView(data, rows, columns, row_stride, column_stride), rips_options(o),
+                context);
+  });
+}
+
+ph_status ph_rips_distances(const double* lower, int64_t size, const ph_options* options,
+                            ph_barcode** out) {
+  return barcode_of(options, out, [&](const ph_options& o, const RunContext& context) {
+    constexpr std::int64_t most = std::int64_t{1} << 31;
+    require(size >= 0 && size <= most, "distances: found a size that is negative or above 2^31");
+    require(lower != nullptr || size < 2, "lower: found NULL");
+    const std::size_t count =
+        size < 2 ? 0 : static_cast<std::size_t>(size) * static_cast<std::size_t>(size - 1) / 2;
+    context.memory.require(count * sizeof(double));
+    return Rips(DistanceMatrix(size, std::vector<double>(lower, lower + count)), rips_options(o),
+                context);
+  });
+}
+
+ph_status ph_cubical_image(const void* data, ph_number type, int32_t axes, const int64_t* extents,
+                           const ph_options* options, ph_barcode** out) {
+  return barcode_of(options, out, [&](const ph_options& o, const RunContext& context) {
+    Image image = image_of(data, type, axes, extents, context);
+    image.masked = o.masked != 0;
+    CubicalOptions cubes;
+    cubes.construction = choice(o.construction, CubicalOptions::Construction::cells, "construction");
+    cubes.superlevel = o.superlevel != 0;
+    cubes.threshold = threshold_of(o);
+    if (o.periodic != nullptr)
+      for (std::int32_t k = 0; k < axes; ++k) cubes.periodic.push_back(o.periodic[k] != 0);
+    return Cubical(image, cubes, context);
+  });
+}
+
+size_t ph_barcode_size(const ph_barcode* bars) { return bars == nullptr ? 0 : bars->bars.size(); }
+const ph_bar* ph_barcode_bars(const ph_barcode* bars) {
+  if (ph_barcode_size(bars) == 0) return nullptr;
+  return reinterpret_cast<const ph_bar*>(&bars->bars[0]);
+}
+size_t ph_barcode_birth_cell(const ph_barcode* bars, size_t i, const int64_t** numbers) {
+  if (i >= ph_barcode_size(bars)) return numbers_of(std::nullopt, numbers);
+  return numbers_of(bars->bars.birth_cell(i), numbers);
+}
+size_t ph_barcode_death_cell(const ph_barcode* bars, size_t i, const int64_t** numbers) {
+  if (i >= ph_barcode_size(bars)) return numbers_of(std::nullopt, numbers);
+  return numbers_of(bars->bars.death_cell(i), numbers);
+}
+void ph_barcode_free(ph_barcode* bars) { delete bars; }

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "ph/points.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace ph {
+
+Points::Points(std::initializer_list<std::initializer_list<double>> rows)
+    : Points(static_cast<Index>(rows.size()),
+             rows.size() == 0 ? 0 : static_cast<Index>(rows.begin()->size())) {
+  Index i = 0;
+  for (const auto& row : rows) set_row(i++, row);
+}
+
+void Points::set_row(Index i, std::initializer_list<double> coordinates) {
+  if (static_cast<Index>(coordinates.size()) != columns_)
+    throw Error(ErrorKind::usage, fmt::format("point {}: found {} coordinates, expected {}", i,
+                                              coordinates.size(), columns_));
+  std::ranges::copy(coordinates, row(i).begin());
+}
+
+Points::Data Points::zeros(Index rows, Index columns) {
+  if (rows < 0 || columns < 0)
+    throw Error(ErrorKind::usage, fmt::format("points: found {} x {} coordinates, expected no "
+                                              "negative number",
+                                              rows, columns));
+  if (rows == 0 || columns == 0) return nullptr;
+  const std::size_t most = std::numeric_limits<std::ptrdiff_t>::max() / sizeof(double);
+  if (to_size(rows) > most / to_size(columns)) throw std::bad_alloc();
+  Data data(static_cast<double*>(std::calloc(to_size(rows) * to_size(columns), sizeof(double))));
+  if (data == nullptr) throw std::bad_alloc();
+  return data;
+}
+
+void Points::keep_rows(Index rows) {
+  rows_ = rows;
+  if (size() == 0) {
+    data_.reset();
+  } else if (void* data = std::realloc(data_.get(), to_size(size()) * sizeof(double))) {
+    static_cast<void>(data_.release());
+    data_.reset(static_cast<double*>(data));
+  }
+}
+
+double largest_coordinate(PointsView points) {
+  double largest = 0;
+  for (Index i = 0; i < points.rows(); ++i)
+    for (Index k = 0; k < points.cols(); ++k) largest = std::max(largest, std::abs(points(i, k)));
+  return largest;
+}
+
+}  // namespace ph

@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: MIT
+# Fails unless LIBRARY defines the functions that HEADER declares and no other symbol.
+execute_process(COMMAND ${NM} --dynamic --defined-only --format=posix ${LIBRARY}
+                OUTPUT_VARIABLE table COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCHALL "[^\n]+" lines "${table}")
+set(defined "")
+foreach(line ${lines})
+  string(REGEX REPLACE " .*" "" name "${line}")
+  list(APPEND defined ${name})
+endforeach()
+file(READ ${HEADER} header)
+string(REGEX MATCHALL "PH_API [^(;]*\\(" declarations "${header}")
+set(declared "")
+foreach(declaration ${declarations})
+  string(REGEX REPLACE ".*[ *]([a-z_]+)\\($" "\\1" name "${declaration}")
+  list(APPEND declared ${name})
+endforeach()
+list(SORT defined)
+list(SORT declared)
+if(NOT declared OR NOT "${defined}" STREQUAL "${declared}")
+  message(FATAL_ERROR "found ${defined}\nexpected ${declared}")
+endif()

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "ph/points.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "ph/distance_to_measure.hpp"
+#include "ph/eigen.hpp"
+#include "ph/greedy_permutation.hpp"
+#include "ph/persistence.hpp"
+#include "ph/voxel_image.hpp"
+#include "support/expect_error.hpp"
+#include "support/for_each_seed.hpp"
+
+namespace ph::test {
+namespace {
+
+TEST(PointsOwner, IsWhatItWasMadeOf) {
+  const Points points{{0, 1}, {2, 3}, {4, 5}};
+  EXPECT_EQ(points.rows(), 3);
+  EXPECT_EQ(points.cols(), 2);
+  EXPECT_EQ(points(2, 1), 5);
+  EXPECT_EQ(points.row(1)[0], 2);
+  EXPECT_TRUE(std::ranges::equal(points.coordinates(), std::array{0, 1, 2, 3, 4, 5}));
+  const Points zero(2, 3);
+  EXPECT_TRUE(std::ranges::all_of(zero.coordinates(), [](double x) { return x == 0; }));
+  EXPECT_EQ(Points().rows(), 0);
+  EXPECT_EQ(Points(0, 3).cols(), 3);
+  EXPECT_EQ(Points(7, 0).rows(), 7);
+  expect_error(ErrorKind::usage, "point 1: found 1 coordinates, expected 2", [] {
+    Points{{0, 1}, {2}};
+  });
+  expect_error(ErrorKind::usage, "no negative number", [] { Points(-1, 2); });
+  EXPECT_THROW(Points(Index{1} << 40, Index{1} << 40), std::bad_alloc);
+}
+
+TEST(PointsOwner, CopiesMovesAndShrinks) {
+  Points points{{0, 1}, {2, 3}, {4, 5}};
+  Points copy = points;
+  copy(0, 0) = 9;
+  EXPECT_EQ(points(0, 0), 0);
+  EXPECT_NE(copy, points);
+  const Points moved = std::move(copy);
+  EXPECT_EQ(moved(0, 0), 9);
+  EXPECT_EQ(copy.rows(), 0);  // NOLINT: what was moved from is empty
+  points.keep_rows(2);
+  EXPECT_EQ(points, (Points{{0, 1}, {2, 3}}));
+  points.keep_rows(0);
+  EXPECT_EQ(points.rows(), 0);
+  points = moved;
+  EXPECT_EQ(points, moved);
+}
+
+TEST(PointsOwner, TakesNumbersOfAnyType) {
+  const std::array<std::uint16_t, 6> shorts{0, 65535, 2, 3, 4, 5};
+  EXPECT_EQ(Points::of(shorts.data(), 3, 2, 2, 1), (Points{{0, 65535}, {2, 3}, {4, 5}}));
+  EXPECT_EQ(Points::of(shorts.data(), 2, 3, 1, 2), (Points{{0, 2, 4}, {65535, 3, 5}}));
+  const std::array<float, 2> floats{0.1F, -1};
+  EXPECT_EQ(Points::of(floats.data(), 2, 1, 1, 1), (Points{{double{0.1F}}, {-1}}));
+}
+
+/// The same points in several layouts: each must give what rows side by side give.
+void expect_same_from(PointsView view, const Points& points, std::int64_t field) {
+  ASSERT_EQ(Points(view), points);
+  for (const PointDistance distance : {PointDistance::euclidean, PointDistance::manhattan}) {
+    const auto bars = [&](PointsView p) {
+      const Barcode all = persistence(Rips(p, {.distance = distance}), {.field = field});
+      const Barcode few = persistence(Rips(p, {.threshold = 0.5, .distance = distance}));
+      const Barcode tree = persistence(
+          Rips(p, {.distance = distance, .only_components = true}), {.max_dim = 0});
+      return std::array{all, few, tree};
+    };
+    const auto expected = bars(points), found = bars(view);
+    for (std::size_t k = 0; k < expected.size(); ++k)
+      EXPECT_EQ(first_difference(expected[k], found[k]), "");
+  }
+  if (points.rows() == 0) return;
+  EXPECT_EQ(greedy_permutation(view).points, greedy_permutation(points).points);
+  EXPECT_EQ(distance_to_measure(view, 1), distance_to_measure(points, 1));
+  EXPECT_EQ(SparseDistances::within(view, 0.7).edges(),
+            SparseDistances::within(points, 0.7).edges());
+  if (points.cols() > 0) {
+    EXPECT_EQ(voxel_image(view, 0.3).image.values, voxel_image(points, 0.3).image.values);
+  }
+}
+
+TEST(PointsViews, AreTheSamePointsInAnyLayout) {
+  for_each_seed(150, [](Generator& random, bool ties, std::int64_t field) {
+    const Points points = random.points(random.integer(0, 9), random.integer(0, 4), ties);
+    const Index n = points.rows(), d = points.cols();
+    const Eigen::MatrixXd by_columns = as_matrix(points);
+    expect_same_from(by_columns, points, field);
+    // Every second row of a matrix, columns 1 to d, in both orders.
+    PointMatrix wide = PointMatrix::Constant(2 * n + 1, d + 2, 77);
+    Eigen::MatrixXd wide_by_columns = wide;
+    for (Index i = 0; i < n; ++i) {
+      wide.row(2 * i).segment(1, d) = as_matrix(points).row(i);
+      wide_by_columns.row(2 * i).segment(1, d) = as_matrix(points).row(i);
+    }
+    expect_same_from(PointsView(wide.data() + 1, n, d, 2 * wide.cols(), 1), points, field);
+    expect_same_from(PointsView(wide_by_columns.data() + wide_by_columns.rows(), n, d, 2,
+                                wide_by_columns.rows()),
+                     points, field);
+    expect_same_from(wide.block(0, 1, n, d)(Eigen::seq(0, n - 1), Eigen::all).eval(),
+                     to_points(wide.block(0, 1, n, d)), field);
+    // Backwards.
+    const PointMatrix reversed = as_matrix(points).colwise().reverse();
+    expect_same_from(PointsView(reversed.data() + (n - 1) * d, n, d, -d, 1), points, field);
+  });
+}
+
+TEST(PointsViews, OfEigenTakeNoCopy) {
+  Points points{{0, 1}, {2, 3}};
+  EXPECT_EQ(as_matrix(points).data(), points.data());
+  as_matrix(points)(1, 0) = 7;
+  EXPECT_EQ(points(1, 0), 7);
+  const PointMatrix matrix = as_matrix(points);
+  EXPECT_EQ(PointsView(matrix).row(0), matrix.data());
+  EXPECT_TRUE(PointsView(matrix).has_whole_rows());
+  EXPECT_EQ(WholeRows(matrix).view().row(0), matrix.data());
+  const Eigen::MatrixXd by_columns = matrix;
+  EXPECT_FALSE(PointsView(by_columns).has_whole_rows());
+  EXPECT_EQ(PointsView(matrix.block(0, 1, 2, 1))(1, 0), 3);
+  EXPECT_EQ(to_points(matrix * 2), (Points{{0, 2}, {14, 6}}));
+}
+
+}  // namespace
+}  // namespace ph::test
