@@ -109,7 +109,7 @@ TEST(CInterface, SaysWhatIsWrong) {
   expect(PH_USAGE, ph_rips_points(points, 2, 1, 1, 1, nullptr, nullptr), "out");
   expect(PH_USAGE, ph_rips_distances(points, -1, nullptr, &bars), "negative");
   const std::int64_t extents[] = {3}, huge[] = {INT64_MAX};
-  expect(PH_BAD_DATA, ph_cubical_image(points, PH_FLOAT64, 1, extents, nullptr, &bars), "NaN");
+  expect(PH_BAD_DATA, ph_cubical_image(points, PH_FLOAT64, 1, extents, nullptr, &bars), "nan");
   expect(PH_USAGE, ph_cubical_image(points, PH_FLOAT64, 9, extents, nullptr, &bars), "axes");
   expect(PH_USAGE, ph_cubical_image(points, PH_FLOAT64, 1, huge, nullptr, &bars), "extent 0");
   expect(PH_USAGE, ph_cubical_image(points, static_cast<ph_number>(7), 1, extents, nullptr, &bars),

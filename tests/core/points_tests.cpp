@@ -105,8 +105,6 @@ TEST(PointsViews, AreTheSamePointsInAnyLayout) {
     expect_same_from(PointsView(wide_by_columns.data() + wide_by_columns.rows(), n, d, 2,
                                 wide_by_columns.rows()),
                      points, field);
-    expect_same_from(wide.block(0, 1, n, d)(Eigen::seq(0, n - 1), Eigen::all).eval(),
-                     to_points(wide.block(0, 1, n, d)), field);
     // Backwards.
     const PointMatrix reversed = as_matrix(points).colwise().reverse();
     expect_same_from(PointsView(reversed.data() + (n - 1) * d, n, d, -d, 1), points, field);

@@ -144,7 +144,8 @@ class Points {
   Data data_;
 };
 
-/// Points whose coordinates lie side by side: those of a view where they do, else a copy.
+/// Points whose coordinates lie side by side: those of a view where they do, else a copy. PointMetric
+/// has one, and what looks at whole rows takes its points.
 class WholeRows {
  public:
   explicit WholeRows(PointsView view) : view_(view) {

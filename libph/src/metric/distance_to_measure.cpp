@@ -33,6 +33,7 @@ std::vector<double> distance_to_measure(PointsView points, Index neighbours,
                                         PointDistance distance, double p,
                                         const RunContext& context) {
   const PointMetric checked(points, distance, p);
+  points = checked.points();  // whose rows are whole
   detail::check_neighbours(neighbours, points.rows());
   const auto others = static_cast<std::size_t>(neighbours - 1);
   // A list of neighbours is kept sorted as it grows: long ones are found sooner in all of them.

@@ -121,6 +121,7 @@ void for_each_pair_within(PointsView points, double radius, const Visit& visit,
     throw Error(ErrorKind::usage, fmt::format("radius: found {}, expected a number >= 0", radius));
   }
   const PointMetric metric(points);
+  points = metric.points();  // whose rows are whole
   const double reach = largest_coordinate(points);
   const auto visit_in = [&](const SearchSpace& space) {
     visit_for(points)(space, metric, radius, visit, context);

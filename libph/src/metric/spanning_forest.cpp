@@ -227,6 +227,7 @@ bool has_fast_spanning_forest(PointsView points, PointDistance distance) {
 FlagEdges spanning_forest(PointsView points, PointDistance distance, double p, double limit,
                           const RunContext& context) {
   const PointMetric checked(points, distance, p);
+  points = checked.points();  // whose rows are whole
   FlagEdges forest(&context.memory);
   const std::pmr::vector<std::uint32_t> first_equal = first_equal_points(points, context);
   // Among copies each is joined to the first; no other edge of theirs precedes that of the first.

@@ -49,7 +49,7 @@ RipsGraph graph_of_distinct_points(PointsView points, const RipsOptions& options
     const std::pmr::vector<std::uint32_t> firsts =
         distinct_points(first_equal_points(checked.points(), context), context);
     if (static_cast<Index>(firsts.size()) < points.rows()) {
-      const Points distinct = rows_of(points, firsts);
+      const Points distinct = rows_of(checked.points(), firsts);
       RipsGraph graph = graph_of_all_points(distinct, options, weights, context);
       graph.name_vertices(firsts, context);
       return graph;
