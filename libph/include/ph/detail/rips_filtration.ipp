@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Apparent pairs of Rips filtrations; see docs/algorithms.md. Included by rips_filtration.hpp.
+// Apparent pairs of Rips filtrations; see docs/algorithms/cohomology.md.
+// Included by rips_filtration.hpp.
 
 namespace ph {
 

@@ -34,7 +34,7 @@ namespace ph {
 /// further component w asks that a(u,w) + a(w,v) be the same: where it is not, the youngest
 /// generator of the difference dies. Almost all edges end sooner: if no edge between u or v and
 /// the lens is active, that is, has an annotation, nothing can happen. Where a further component
-/// kills nothing, a class of H2 is born; see LensSurfaces and docs/algorithms.md.
+/// kills nothing, a class of H2 is born; see LensSurfaces and docs/algorithms/edge-links.md.
 template <Field K>
 class LensSweep {
  public:
