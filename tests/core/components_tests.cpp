@@ -44,8 +44,7 @@ TEST(Components, OfPointsAreThoseOfTheWholeFiltration) {
   for_each_seed(12000, [](Generator& random, bool ties, std::int64_t) {
     Points points = random.points(random.integer(0, 22), random.integer(0, 5), ties);
     for (Index i = 1; i < points.rows(); ++i)
-      if (random.integer(0, 4) == 0)
-        copy_point(points, random.integer(0, int(i) - 1), points, i);
+      if (random.integer(0, 4) == 0) copy_point(points, random.integer(0, int(i) - 1), points, i);
     double unit = 1;
     if (random.integer(0, 3) == 0) unit = std::ldexp(1, random.coin() ? 1000 : -1070);
     points = scaled(points, unit);

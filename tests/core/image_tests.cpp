@@ -52,7 +52,9 @@ TEST(VoxelImage, IsTheDistanceToTheNearestOccupiedVoxel) {
       if (image.image.values[static_cast<std::size_t>(i)] == 0) occupied.push_back(i);
     // Each point lies in an occupied voxel, and each of these has a point.
     const auto has = [&](Index i, Index p) {
-      return ((as_matrix(points).row(p) - centre(image, i)).cwiseAbs().array() <= 0.5 * voxel + 1e-12).all();
+      return ((as_matrix(points).row(p) - centre(image, i)).cwiseAbs().array() <=
+              0.5 * voxel + 1e-12)
+          .all();
     };
     for (Index p = 0; p < points.rows(); ++p)
       EXPECT_TRUE(std::ranges::any_of(occupied, [&](Index i) { return has(i, p); }));

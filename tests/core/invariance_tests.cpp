@@ -136,7 +136,8 @@ TEST(Invariance, ARipsComplexIsTheListOfItsSimplices) {
 // ---- degenerate clouds
 
 TEST(DegenerateClouds, AllPointsEqual) {
-  EXPECT_EQ(rips_bars(to_points(PointMatrix::Constant(60, 3, 1.5))), (std::vector<Bar>{{0, 0, kInf}}));
+  EXPECT_EQ(rips_bars(to_points(PointMatrix::Constant(60, 3, 1.5))),
+            (std::vector<Bar>{{0, 0, kInf}}));
 }
 
 TEST(DegenerateClouds, CollinearPointsHaveNoLoops) {

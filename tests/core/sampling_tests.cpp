@@ -72,7 +72,8 @@ GreedyPermutation greedy_by_definition(const M& metric, const GreedyLimits& limi
 TEST(GreedyPermutations, AreWhatTheyAreByDefinition) {
   for_each_seed(4000, [](Generator& random, bool ties, std::int64_t) {
     Points points = random_points(random, 24, ties);
-    if (random.integer(0, 3) == 0) scale(points.coordinates(), std::ldexp(1, random.coin() ? 1000 : -1070));
+    if (random.integer(0, 3) == 0)
+      scale(points.coordinates(), std::ldexp(1, random.coin() ? 1000 : -1070));
     const PointDistance distance = kMetrics[random.integer(0, 3)];
     const PointMetric metric(points, distance);
     GreedyLimits limits;
@@ -180,7 +181,8 @@ TEST(SparseRipsFiltrations, HaveTheEdgesThatTheySay) {
   std::size_t missing = 0, late = 0;
   for_each_seed(500, [&](Generator& random, bool ties, std::int64_t) {
     Points points = random_points(random, 24, ties);
-    for (Index i = 0; i < points.rows(); ++i) scale(points.row(i), std::ldexp(1, -random.integer(0, 9)));
+    for (Index i = 0; i < points.rows(); ++i)
+      scale(points.row(i), std::ldexp(1, -random.integer(0, 9)));
     const double epsilon = 0.1 + random.real();
     const PointMetric metric(points);
     const GreedyPermutation order = greedy_permutation(points);
@@ -216,7 +218,8 @@ TEST(SparseRipsFiltrations, HaveTheEdgesThatTheySay) {
 TEST(SparseRipsFiltrations, KeepWhatTheyPromiseOnManyScales) {
   for_each_seed(150, [](Generator& random, bool, std::int64_t field) {
     Points points = random.points(random.integer(20, 50), 2, false);
-    for (Index i = 0; i < points.rows(); ++i) scale(points.row(i), std::ldexp(1, -random.integer(0, 9)));
+    for (Index i = 0; i < points.rows(); ++i)
+      scale(points.row(i), std::ldexp(1, -random.integer(0, 9)));
     const double epsilon = std::ldexp(1 + random.real(), random.integer(-3, 1));
     const Options options{.max_dim = 1, .field = field};
     const Barcode early = persistence(Rips(points), options),
@@ -302,7 +305,8 @@ TEST(DistanceToMeasure, OfLargeAndSmallPointsAndBadNumbers) {
 // An outlier between dense parts: without weights it makes a component of its own.
 TEST(DistanceToMeasure, OutliersComeLate) {
   Points points(41, 2);
-  for (Index i = 0; i < 40; ++i) points.set_row(i, {(i < 20 ? 0.0 : 10.0) + 0.01 * double(i % 20), 0});
+  for (Index i = 0; i < 40; ++i)
+    points.set_row(i, {(i < 20 ? 0.0 : 10.0) + 0.01 * double(i % 20), 0});
   points.set_row(40, {5, 0});
   std::vector<double> births = distance_to_measure(points, 5);
   for (double& b : births) b *= 2;

@@ -84,8 +84,7 @@ TEST(ReadTable, CellsOfNothingTakeAByte) {
   const std::string wide = repeated("1,,,,,,,,,2\n", 1000);
   const Points two = std::get<Points>(any(wide, {.columns = {"1", "10"}}).data);
   ASSERT_EQ(two.rows(), 1000);
-  for (Index i = 0; i < two.rows(); ++i)
-    ASSERT_TRUE(two(i, 0) == 1 && two(i, 1) == 2) << i;
+  for (Index i = 0; i < two.rows(); ++i) ASSERT_TRUE(two(i, 0) == 1 && two(i, 1) == 2) << i;
   const std::string holes = "1,2,3,4\n" + repeated(",,,\n", 1000);
   EXPECT_EQ(std::get<Points>(any(holes, {.nan = NanPolicy::drop}).data).rows(), 1);
   const ReadResult grid =

@@ -67,7 +67,8 @@ std::vector<int> flood(const Points& vertices, double distance) {
       for (Index w = 0; w < vertices.rows(); ++w) {
         if (component[static_cast<std::size_t>(w)] >= 0) continue;
         if (std::abs(vertices(v, 2) - vertices(w, 2)) > distance) continue;
-        if (!((as_matrix(vertices).row(v) - as_matrix(vertices).row(w)).norm() <= distance)) continue;
+        if (!((as_matrix(vertices).row(v) - as_matrix(vertices).row(w)).norm() <= distance))
+          continue;
         component[static_cast<std::size_t>(w)] = count;
         open.push_back(w);
       }

@@ -48,7 +48,8 @@ TEST(VoxelPairs, AreAllThatAreClose) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, double> expected;
     for (Index v = 0; v < grid.centroids.rows(); ++v)
       for (Index u = 0; u < v; ++u) {
-        const double d = (as_matrix(grid.centroids).row(u) - as_matrix(grid.centroids).row(v)).norm();
+        const double d =
+            (as_matrix(grid.centroids).row(u) - as_matrix(grid.centroids).row(v)).norm();
         if (d < radius * voxel) expected[{u, v}] = d;
       }
     const VoxelPairs pairs = close_voxels(grid, voxel, radius);

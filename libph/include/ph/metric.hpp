@@ -11,7 +11,8 @@ namespace ph {
 /// +infinity means that two points are never joined. The triangle inequality is not required.
 /// Several threads may ask at once. Points are no metric: they need a distance.
 template <class M>
-concept Metric = !std::convertible_to<const M&, PointsView> && requires(const M& m, Index i, Index j) {
+concept Metric =
+    !std::convertible_to<const M&, PointsView> && requires(const M& m, Index i, Index j) {
   { m.size() } -> std::convertible_to<Index>;
   { m(i, j) } -> std::convertible_to<double>;
 };

@@ -75,8 +75,8 @@ typedef struct ph_options {
   ph_cancel cancel;       /**< may be NULL */
   void* cancel_user;      /**< its argument */
   /* points only */
-  int32_t distance;     /**< a ph_distance */
-  double minkowski_p;   /**< >= 1 */
+  int32_t distance;   /**< a ph_distance */
+  double minkowski_p; /**< >= 1 */
   /* images only */
   int32_t construction; /**< a ph_construction */
   int32_t superlevel;   /**< not 0: superlevel sets of f as sublevel sets of -f, by values of -f */
@@ -119,7 +119,8 @@ PH_API size_t ph_barcode_size(const ph_barcode* bars);
 /** An array of all bars, which lives as long as the handle. */
 PH_API const ph_bar* ph_barcode_bars(const ph_barcode* bars);
 /** The cell that gave birth to bar i, death: that killed it. Points: its vertices, ascending.
- * Images: its doubled grid coordinates, 2k for voxel k and 2k + 1 between k and k + 1 (PH_VERTICES).
+ * Images: its doubled grid coordinates, 2k for voxel k and 2k + 1 between k and k + 1
+ * (PH_VERTICES).
  * @param numbers set to an array that lives as long as the handle. @return how many numbers; 0 for
  * the death of a bar that lives on, without ph_options::cells, or beyond the last bar. */
 PH_API size_t ph_barcode_birth_cell(const ph_barcode* bars, size_t i, const int64_t** numbers);

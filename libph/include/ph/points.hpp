@@ -8,6 +8,7 @@
 #include <memory>
 #include <new>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include "ph/error.hpp"
@@ -144,8 +145,8 @@ class Points {
   Data data_;
 };
 
-/// Points whose coordinates lie side by side: those of a view where they do, else a copy. PointMetric
-/// has one, and what looks at whole rows takes its points.
+/// Points whose coordinates lie side by side: those of a view where they do, else a copy.
+/// PointMetric has one, and what looks at whole rows takes its points.
 class WholeRows {
  public:
   explicit WholeRows(PointsView view) : view_(view) {

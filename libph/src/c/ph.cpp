@@ -112,8 +112,8 @@ Enum choice(std::int32_t value, Enum last, const char* name) {
 
 Options task_of(const ph_options& given) {
   if (given.max_dim < -1)
-    throw Error(ErrorKind::usage, fmt::format("ph_options::max_dim: found {}, expected -1 or more",
-                                              given.max_dim));
+    throw Error(ErrorKind::usage,
+                fmt::format("ph_options::max_dim: found {}, expected -1 or more", given.max_dim));
   Options options;
   if (given.max_dim >= 0) options.max_dim = given.max_dim;
   options.min_dim = given.min_dim;
@@ -243,7 +243,8 @@ ph_status ph_cubical_image(const void* data, ph_number type, int32_t axes, const
     Image image = image_of(data, type, axes, extents, context);
     image.masked = o.masked != 0;
     CubicalOptions cubes;
-    cubes.construction = choice(o.construction, CubicalOptions::Construction::cells, "construction");
+    cubes.construction =
+        choice(o.construction, CubicalOptions::Construction::cells, "construction");
     cubes.superlevel = o.superlevel != 0;
     cubes.threshold = threshold_of(o);
     if (o.periodic != nullptr)

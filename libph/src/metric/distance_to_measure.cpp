@@ -29,9 +29,8 @@ double detail::root_mean_square(std::span<const double> distances) {
   return largest * std::sqrt(sum / static_cast<double>(distances.size() + 1));
 }
 
-std::vector<double> distance_to_measure(PointsView points, Index neighbours,
-                                        PointDistance distance, double p,
-                                        const RunContext& context) {
+std::vector<double> distance_to_measure(PointsView points, Index neighbours, PointDistance distance,
+                                        double p, const RunContext& context) {
   const PointMetric checked(points, distance, p);
   points = checked.points();  // whose rows are whole
   detail::check_neighbours(neighbours, points.rows());

@@ -7,11 +7,9 @@
 
 namespace ph {
 
-std::pmr::vector<std::uint32_t> first_equal_points(PointsView points,
-                                                   const RunContext& context) {
+std::pmr::vector<std::uint32_t> first_equal_points(PointsView points, const RunContext& context) {
   const auto row = [&](std::uint32_t i) {
-    return std::span(points.row(Index{i}),
-                     static_cast<std::size_t>(points.cols()));
+    return std::span(points.row(Index{i}), static_cast<std::size_t>(points.cols()));
   };
   struct Hashed {
     std::uint64_t hash;

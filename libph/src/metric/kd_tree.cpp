@@ -33,7 +33,8 @@ KdTree::KdTree(PointsView points, std::span<const std::uint32_t> rows, const Run
                  [&](std::size_t begin, std::size_t end) {
                    for (std::size_t i = begin; i < end; ++i) {
                      rows_[i] = items[i].row;
-                     std::copy_n(points.row(items[i].row), points.cols(), points_.row(static_cast<Index>(i)).data());
+                     std::copy_n(points.row(items[i].row), points.cols(),
+                                 points_.row(static_cast<Index>(i)).data());
                    }
                  });
 }

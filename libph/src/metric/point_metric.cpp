@@ -50,8 +50,9 @@ class Direction {
  public:
   Direction(const double* x, Index d) : x_(x) {
     const double largest = largest_of(d, [&](Index k) { return std::abs(x[k]); });
-    length_ = std::sqrt(sum_in_lanes(d, [&](Index k) { return (x[k] / largest) * (x[k] / largest); })) *
-              largest;
+    length_ =
+        std::sqrt(sum_in_lanes(d, [&](Index k) { return (x[k] / largest) * (x[k] / largest); })) *
+        largest;
   }
   double operator()(Index k) const { return x_[k] / length_; }
 
@@ -66,7 +67,8 @@ PointMetric::PointMetric(PointsView points, PointDistance distance, double p)
     : points_(points), distance_(distance), p_(p) {
   points = points_.view();
   const auto is_zero = [&](Index i) {
-    return std::all_of(points.row(i), points.row(i) + points.cols(), [](double x) { return x == 0; });
+    return std::all_of(points.row(i), points.row(i) + points.cols(),
+                       [](double x) { return x == 0; });
   };
   if (distance == PointDistance::minkowski && !(p >= 1)) {
     throw Error(ErrorKind::usage, fmt::format("Minkowski exponent: found {}, expected >= 1", p));
@@ -150,10 +152,11 @@ double PointMetric::other(Index i, Index j) const {
     case PointDistance::cosine: {
       // |x/|x| - y/|y||^2 / 2 is the same number and keeps its digits for small angles.
       const Direction along_x(x, d), along_y(y, d);
-      return sum_in_lanes(d, [&](Index k) {
-               const double t = along_x(k) - along_y(k);
-               return t * t;
-             }) /
+      return sum_in_lanes(d,
+                          [&](Index k) {
+                            const double t = along_x(k) - along_y(k);
+                            return t * t;
+                          }) /
              2;
     }
     case PointDistance::hamming: {

@@ -104,7 +104,8 @@ void join_around_rims(const Points& centroids, double voxel, const Vec3& up, con
   std::vector<std::vector<Eigen::Vector3d>> points(parts.count());
   for (std::size_t v = 0; v < parts.of.size(); ++v)
     if (parts.of[v] != Parts::kSmall)
-      points[parts.of[v]].emplace_back(upright * as_matrix(centroids).row(static_cast<Index>(v)).transpose());
+      points[parts.of[v]].emplace_back(upright *
+                                       as_matrix(centroids).row(static_cast<Index>(v)).transpose());
   std::vector<Rim> rims;
   std::vector<PartBox<2>> boxes;
   for (std::uint32_t p = 0; p < points.size(); ++p) {

@@ -24,7 +24,9 @@ View::View(const Points& centroids, double voxel, const Vec3& viewpoint)
   constexpr double voxels_a_cell = 1.3;    // fewer leave gaps between neighbours
   constexpr double smallest_cosine = 0.2;  // 78 degrees
   const Eigen::Vector3d eye(viewpoint[0], viewpoint[1], viewpoint[2]);
-  const auto ray = [&](Voxel v) -> Eigen::Vector3d { return as_matrix(centroids).row(v).transpose() - eye; };
+  const auto ray = [&](Voxel v) -> Eigen::Vector3d {
+    return as_matrix(centroids).row(v).transpose() - eye;
+  };
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();
   double sum = 0;
   for (Voxel v = 0; v < ranges_.size(); ++v) {

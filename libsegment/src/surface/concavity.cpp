@@ -87,7 +87,9 @@ Eigen::Vector3d direction_of_least_spread(const Eigen::Matrix3d& a, double eigen
   return solver.eigenvectors().col(0);
 }
 
-Eigen::Vector3d row(const Points& points, std::uint32_t i) { return as_matrix(points).row(i).transpose(); }
+Eigen::Vector3d row(const Points& points, std::uint32_t i) {
+  return as_matrix(points).row(i).transpose();
+}
 
 }  // namespace
 

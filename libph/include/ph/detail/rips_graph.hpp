@@ -41,8 +41,8 @@ class RipsGraph {
   static RipsGraph of_metric(const M& metric, std::optional<double> threshold,
                              const RunContext& context, const VertexWeights& weights = {});
   /// Euclidean distances up to the threshold; never n^2 of them.
-  static RipsGraph of_points_within(PointsView points, double threshold,
-                                    const RunContext& context, const VertexWeights& weights = {});
+  static RipsGraph of_points_within(PointsView points, double threshold, const RunContext& context,
+                                    const VertexWeights& weights = {});
   static RipsGraph of_edges(Index size, std::span<const WeightedEdge> edges,
                             std::optional<double> threshold, const RunContext& context,
                             const VertexWeights& weights = {});

@@ -100,13 +100,11 @@ Cloud cloud_of_rows(const TextTable& table, const Input& input, const ReadOption
   // Colours of an array may be shares of full brightness; black and white are then 0 and 1.
   bool shares = source == RowSource::array;
   for (std::size_t k = 0; k < names.size(); ++k)
-    if (is_colour(names[k]))
-      shares = shares && all_in_column(table.rows, k, is_share);
+    if (is_colour(names[k])) shares = shares && all_in_column(table.rows, k, is_share);
   std::vector<bool> is_coordinate;
   for (std::size_t k = 0; k < names.size(); ++k) {
     is_coordinate.push_back(std::count(kCoordinates.begin(), kCoordinates.end(), names[k]) > 0);
-    const bool bytes = is_colour(names[k]) && !shares &&
-                       all_in_column(table.rows, k, is_byte);
+    const bool bytes = is_colour(names[k]) && !shares && all_in_column(table.rows, k, is_byte);
     const FieldType type = bytes ? FieldType::uint8 : FieldType::float64;
     cloud.fields.push_back({names[k], type, 1, cloud.stride});
     cloud.stride += size_of(type);
