@@ -14,8 +14,8 @@ struct MemoryForecast {
 /// The highest dimension of which an engine lists cells.
 int listed_dim(Engine engine, int max_dim);
 
-/// What the homology of a Rips complex takes beside its edges. The engine computes two small parts
-/// of the complex; what it takes there beyond its bit rows or adjacency is extrapolated.
+/// What the homology of a Rips complex takes beside its edges. The engine computes three small
+/// parts of the complex; what it takes there beyond its bit rows or adjacency is extrapolated.
 /// @param cells by dimension, up to listed_dim. @param options with engine and dimension; no
 /// collapse.
 MemoryForecast forecast_rips(const Rips& rips, std::span<const double> cells,
