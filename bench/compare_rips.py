@@ -196,7 +196,7 @@ def parse():
                         help="build folder, with ph-barcode, bench_run and bench_rips_limit")
     parser.add_argument("--peer", type=peer, action="append", default=[], help="NAME = COMMAND, repeatable")
     parser.add_argument("--choice", action="append", default=[], metavar="WORDS",
-                        help="also measure ph-barcode with these options, such as '--engine lens'; repeatable")
+                        help="also measure ph-barcode with these options, such as '--engine edge-links'; repeatable")
     parser.add_argument("--data", type=pathlib.Path, default=pathlib.Path("../shared/data"),
                         help="folder of the inputs that are not generated (default: ../shared/data)")
     parser.add_argument("--made", type=pathlib.Path, help="folder for generated inputs (default: a temporary one)")

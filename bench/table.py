@@ -74,8 +74,8 @@ def engines(arguments, folder):
         path = folder / f"{name}.npy"
         numpy.save(path, values)
         theirs = arguments.gudhi_python and measure_gudhi(arguments.gudhi_python, path, arguments.repeat)
-        row(f"cubical H0–H2, 64³ {name} (T), `arrows`",
-            ours(path, "--engine", "arrows", "--construction", "cells"), theirs, "GUDHI")
+        row(f"cubical H0–H2, 64³ {name} (T), `gradient`",
+            ours(path, "--engine", "gradient", "--construction", "cells"), theirs, "GUDHI")
 
 
 def readers(arguments):

@@ -233,6 +233,7 @@ int run_one(const Job& job, const Arguments& arguments, app::Session& session) {
 }  // namespace
 
 int run_all(const Arguments& given, app::Session& session) {
+  for (const std::string& note : given.notes) session.note(note);
   if (!given.compare.empty()) {
     app::require_in_scope(given.given, kComparison, name_of(kComparison));
     app::InputFiles inputs;

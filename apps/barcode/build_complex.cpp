@@ -17,8 +17,6 @@
 namespace ph::barcode {
 namespace {
 
-constexpr std::string_view kComplexNames[] = {"auto", "rips", "cubical", "explicit", "lower-star"};
-
 /// Builds from each kind of data the complexes that make sense of it.
 class Builder {
  public:
@@ -96,12 +94,14 @@ class Builder {
     const bool is_free = arguments_.complex == ComplexKind::automatic;
     const ComplexKind kind = is_free ? *kinds.begin() : arguments_.complex;
     if (std::ranges::find(kinds, kind) == kinds.end()) {
-      const auto name = [](ComplexKind k) { return kComplexNames[static_cast<int>(k)]; };
-      throw Error(ErrorKind::usage, fmt::format("--complex: found {}, expected {} for {}{}",
-                                                name(kind), name(*kinds.begin()), data,
-                                                kind == ComplexKind::lower_star
-                                                    ? "; --values names the values of the vertices"
-                                                    : ""));
+      const auto name = [](ComplexKind k) { return complex_names()[static_cast<std::size_t>(k)]; };
+      throw Error(ErrorKind::usage,
+                  fmt::format("--complex: found {}, expected {} for {}{}",
+                              arguments_.own_complex ? arguments_.own_complex->name : name(kind),
+                              name(*kinds.begin()), data,
+                              kind == ComplexKind::lower_star
+                                  ? "; --values names the values of the vertices"
+                                  : ""));
     }
     return kind;
   }
@@ -112,7 +112,13 @@ class Builder {
   }
 
   BuiltComplex of_points(const Points& points, std::string_view data) const {
-    const ComplexKind kind = expect(data, {ComplexKind::rips, ComplexKind::cubical});
+    const ComplexKind kind =
+        expect(data, {ComplexKind::rips, ComplexKind::cubical, ComplexKind::own});
+    if (kind == ComplexKind::own) {
+      require_in_scope(kOwn);
+      const OwnComplex& own = *arguments_.own_complex;
+      return stored(own.of_points(points, context_), std::string(own.name));
+    }
     require_in_scope(kind == ComplexKind::rips ? kPoints : kVoxels);
     if (kind == ComplexKind::rips) return rips(points, points.rows() == 0);
     if (!arguments_.voxel)

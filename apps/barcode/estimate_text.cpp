@@ -20,7 +20,7 @@ std::string estimate_text(const Estimate& estimate, const BuiltComplex& built,
   if (built.threshold) text += fmt::format(", values up to {}", shortest(*built.threshold));
   if (!built.vertex_weights.empty())
     text += fmt::format(", vertices enter late ({})", built.vertex_weights);
-  text += fmt::format("\nengine   {} ({})\n", engine_name(estimate.engine), estimate.reason);
+  text += fmt::format("\nengine   {} ({})\n", estimate.engine.name(), estimate.reason);
   if (!estimate.collapse_reason.empty()) text += "collapse " + collapse_text(estimate) + '\n';
   if (const auto* rips = std::get_if<Rips>(&built.complex); rips && estimate.collapses)
     text += fmt::format("edges    {} before the collapse\n", rips->edge_count());

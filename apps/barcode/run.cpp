@@ -40,8 +40,8 @@ void explain_slabs(const BuiltComplex& built, const RunPlan& plan, const Argumen
   const auto does_nothing = [&](std::string_view why) {
     session.note(fmt::format("--slab-layers does nothing: {}", why));
   };
-  if (plan.engine != Engine::arrows)
-    does_nothing(fmt::format("engine {} takes all of them at once", engine_name(plan.engine)));
+  if (facts_of(plan.engine).listed_dim(0) >= 0)
+    does_nothing(fmt::format("engine {} takes all of them at once", plan.engine.name()));
   else if (arguments.options.representatives != Representatives::none)
     does_nothing("representatives need all of them at once");
   else if (const std::size_t axes = cubical->cubical_image().extents.size(); axes < 2 || axes > 3)
@@ -135,7 +135,7 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   }
   const RunPlan planned = plan(built.complex, arguments.options, session.context());
   watch.lap("complex");
-  session.explain(fmt::format("engine {}: {}", engine_name(planned.engine), planned.reason));
+  session.explain(fmt::format("engine {}: {}", planned.engine.name(), planned.reason));
   if (!planned.collapse_reason.empty()) session.explain("collapse " + collapse_text(planned));
 
   explain_slabs(built, planned, arguments, session);
@@ -179,7 +179,7 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
     } else {
       app::print_line(
           fmt::format("ph-barcode: {}: check: engine {} and the reference engine differ: {}",
-                      job.input, engine_name(planned.engine), difference));
+                      job.input, planned.engine.name(), difference));
       warnings.push_back("check: the engine and the reference engine differ: " + difference);
       code = app::kDifference;
     }
@@ -200,7 +200,7 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
     info.superlevel = cubical->cubical_image().superlevel;
   info.approximation = arguments.rips.approximation;
   info.loops = loops_of_bars;
-  info.engine = engine_name(planned.engine);
+  info.engine = planned.engine.name();
   info.timings = watch.laps();
   info.peak_memory = app::peak_memory();
   for (const auto& [stage, seconds] : watch.laps())

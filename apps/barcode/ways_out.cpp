@@ -65,7 +65,7 @@ class WaysOut {
 
   std::vector<std::string> find() {
     const bool is_rips =
-        !arguments_.voxel &&
+        !arguments_.voxel && arguments_.complex != ComplexKind::own &&
         std::visit([&](const auto& data) { return sample(data); }, data_.read.data);
     if (arguments_.options.engine != Engine::automatic) change_engine();
     if (arguments_.options.representatives != Representatives::none) drop_representatives();

@@ -200,7 +200,7 @@ class Allocation : public testing::Test {
 
 TEST_F(Allocation, PointsToRipsByEachEngine) {
   for (const Engine engine : {Engine::standard, Engine::twist, Engine::cohomology}) {
-    SCOPED_TRACE(engine_name(engine));
+    SCOPED_TRACE(engine.name());
     check([&] {
       const RunContext context;
       const Points points = read_points(in("square.csv"), {.context = &context});

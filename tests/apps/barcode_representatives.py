@@ -203,7 +203,7 @@ class Representatives(ProgramTest):
     def test_verbose_names_the_engine(self):
         run = self.expect(0, "square.txt", "--verbose", "--representatives", "cycles",
                           "--output-format", "json")
-        self.assertIn("engine lens: ", run.stderr)
+        self.assertIn("engine edge-links: ", run.stderr)
 
     def test_check_compares_the_bars(self):
         run = self.expect(0, "square.txt", "--representatives", "cycles", "--check", "--verbose",

@@ -63,14 +63,14 @@ class Signals(ProgramTest):
                     self.expect_end(self.start, delay, code, number)
                     self.assertEqual(self.files(), ["many.txt", "square.txt"])
 
-    def test_interrupts_of_the_lens_sweep(self):
+    def test_interrupts_of_the_sweep_of_edge_links(self):
         with open(self.path("many.txt"), "w", encoding="ascii") as file:  # one large cocycle
             for _ in range(2600):
                 x = [random.gauss(0, 1) for _ in range(3)]
                 file.write(" ".join(f"{c / math.hypot(*x):.6f}" for c in x) + "\n")
         for delay in (0.1, 0.4, 0.8, 1.2):
             with self.subTest(delay=delay):
-                self.expect_end(lambda: self.start("--engine", "lens"), delay, 130, signal.SIGINT)
+                self.expect_end(lambda: self.start("--engine", "edge-links"), delay, 130, signal.SIGINT)
 
     def test_a_signal_ends_reading(self):
         def start():

@@ -78,10 +78,10 @@ class RipsComparison(unittest.TestCase):
         self.assertEqual(set(results), {("libph", 1), ("wrong 1.0", 1)})
 
     def test_choices_by_hand_are_ours(self):
-        run = self.compare("--rows", ROW, "--choice=--engine standard", "--choice=--engine union_find")
+        run = self.compare("--rows", ROW, "--choice=--engine standard", "--choice=--engine union-find")
         row, results = self.results()
         self.assertEqual([(name, e["outcome"]) for (name, _), e in results.items()],
-                         [("libph", "ok"), ("libph --engine standard", "ok"), ("libph --engine union_find", "exit 64")])
+                         [("libph", "ok"), ("libph --engine standard", "ok"), ("libph --engine union-find", "exit 64")])
         self.assertEqual(row["bars"], {"libph --engine standard": "equal"})
         self.assertIn("| libph / best choice |", run.stdout)
 

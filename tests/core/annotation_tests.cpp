@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the classes of edges of the lens sweep are kept in.
+// What the classes of edges of the sweep of edge links are kept in.
 #include <array>
 #include <initializer_list>
 #include <map>

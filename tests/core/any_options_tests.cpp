@@ -117,7 +117,7 @@ Cubical random_cubical(Generator& random) {
 TEST(AnyOptions, Rips) {
   for_each_choice([](Generator& random) {
     return agree(random, random_rips(random),
-                 {Engine::automatic, Engine::automatic, Engine::lens, Engine::cohomology,
+                 {Engine::automatic, Engine::automatic, Engine::edge_links, Engine::cohomology,
                   Engine::twist, Engine::union_find},
                  4);
   });
@@ -125,10 +125,10 @@ TEST(AnyOptions, Rips) {
 
 TEST(AnyOptions, Cubical) {
   for_each_choice([](Generator& random) {
-    return agree(
-        random, random_cubical(random),
-        {Engine::automatic, Engine::arrows, Engine::cohomology, Engine::twist, Engine::union_find},
-        4);
+    return agree(random, random_cubical(random),
+                 {Engine::automatic, Engine::gradient, Engine::cohomology, Engine::twist,
+                  Engine::union_find},
+                 4);
   });
 }
 

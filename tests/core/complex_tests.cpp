@@ -123,12 +123,12 @@ TEST(ExplicitComplexes, LensSpaces) {
     m.offsets = {0, 0, 0, 1, 1};
     m.rows = {1};
     m.incidences = {p};
-    const ExplicitComplex lens = ExplicitComplex::from_boundary(m);
+    const ExplicitComplex link = ExplicitComplex::from_boundary(m);
     for (const std::int64_t field : {2, 3, 5, 7}) {
-      check(lens, 3, {field});
+      check(link, 3, {field});
       const std::vector<int> expected =
           field == p ? std::vector<int>{1, 1, 1, 1} : std::vector<int>{1, 0, 0, 1};
-      EXPECT_EQ(betti_at_the_end(persistence(lens, {.field = field}), 3), expected) << p << field;
+      EXPECT_EQ(betti_at_the_end(persistence(link, {.field = field}), 3), expected) << p << field;
     }
   }
 }

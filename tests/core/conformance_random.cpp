@@ -10,13 +10,14 @@
 namespace ph::test {
 namespace {
 
-/// As the lens sweep finds them on the ways that large inputs take.
+/// As the sweep of edge links finds them on the ways that large inputs take.
 template <class F>
-std::vector<Pair> pairs_of_lens(const F& f, int max_dim, std::int64_t field, LensTuning tuning,
-                                double min_persistence) {
+std::vector<Pair> pairs_of_edge_links(const F& f, int max_dim, std::int64_t field,
+                                      SweepTuning tuning, double min_persistence) {
   const RunContext context;
   BarcodeBuilder<F> bars(f, max_dim, min_persistence);
-  detail::with_field(field, [&](const auto& k) { LensEngine::run(f, k, bars, context, tuning); });
+  detail::with_field(field,
+                     [&](const auto& k) { EdgeLinkEngine::run(f, k, bars, context, tuning); });
   return pairs_of(bars.finish());
 }
 
@@ -96,14 +97,14 @@ TEST(RandomConformance, ThreadsOnManyColumns) {
     const Rips rips(random.distances(26, ties));
     rips.with_filtration(2, [&](const auto& f) {
       const auto alone = pairs_of_threads(f, 2, field, 1);
-      EXPECT_EQ(alone, pairs_of(f, 2, field, Engine::lens));
+      EXPECT_EQ(alone, pairs_of(f, 2, field, Engine::edge_links));
       for (const int threads : {2, 3, 8}) EXPECT_EQ(pairs_of_threads(f, 2, field, threads), alone);
     });
   });
 }
 
 // Distances of many magnitudes lie in many bins even if they are few: some are never sorted.
-TEST(RandomConformance, LensStopsWhereNothingHappens) {
+TEST(RandomConformance, LinkStopsWhereNothingHappens) {
   std::size_t late = 0;
   for_each_seed(20000, [&](Generator& random, bool ties, std::int64_t field) {
     const Index n = random.integer(4, 9);
@@ -112,8 +113,8 @@ TEST(RandomConformance, LensStopsWhereNothingHappens) {
     const Rips rips(SparseDistances(n, edges));
     rips.with_filtration(1, [&](const auto& f) {
       std::vector<Pair> found;
-      for (const LensLayout layout : {LensLayout::rows, LensLayout::lists}) {
-        found = pairs_of_lens(f, 1, field, {.layout = layout}, 0);
+      for (const LinkLayout layout : {LinkLayout::rows, LinkLayout::lists}) {
+        found = pairs_of_edge_links(f, 1, field, {.layout = layout}, 0);
         EXPECT_EQ(found, of_positive_length(pairs_of(f, 1, field, Engine::standard)));
       }
       for (const Pair& p : found) late += p.bar.dim == 1 && p.bar.birth > 1e100 ? 1 : 0;
@@ -123,36 +124,37 @@ TEST(RandomConformance, LensStopsWhereNothingHappens) {
 }
 
 // Many classes with long vectors: generators go and come back, and vectors become equal.
-TEST(RandomConformance, LensOfWideClasses) {
+TEST(RandomConformance, LinkOfWideClasses) {
   for_each_seed(60, [](Generator& random, bool ties, std::int64_t field) {
     const Rips rips(random.distances(random.integer(24, 34), ties));
     rips.with_filtration(1, [&](const auto& f) {
       const auto oracle = pairs_of(f, 1, field, Engine::standard);
-      for (const LensLayout layout : {LensLayout::rows, LensLayout::lists})
-        EXPECT_EQ(pairs_of_lens(f, 1, field, {.layout = layout}, -1), oracle);
+      for (const LinkLayout layout : {LinkLayout::rows, LinkLayout::lists})
+        EXPECT_EQ(pairs_of_edge_links(f, 1, field, {.layout = layout}, -1), oracle);
     });
   });
 }
 
 // More vertices than fit a word: rows have several, and not all vertices are landmarks.
-TEST(RandomConformance, LensOfManyVertices) {
+TEST(RandomConformance, LinkOfManyVertices) {
   for_each_seed(60, [](Generator& random, bool ties, std::int64_t field) {
     const Index n = random.integer(65, 200);
     const Rips rips = random.coin() ? Rips(random.points(n, random.integer(2, 4), ties))
                                     : Rips(random.sparse(n, ties, 6 * random.real() / 20));
     rips.with_filtration(1, [&](const auto& f) {
       const auto expected = pairs_of(f, 1, field, Engine::cohomology);
-      for (const LensLayout layout : {LensLayout::rows, LensLayout::lists})
+      for (const LinkLayout layout : {LinkLayout::rows, LinkLayout::lists})
         for (const std::size_t active_rows : {0, 500})
-          EXPECT_EQ(pairs_of_lens(f, 1, field,
+          EXPECT_EQ(
+              pairs_of_edge_links(f, 1, field,
                                   {.layout = layout, .vertices_of_active_rows = active_rows}, -1),
-                    expected);
+              expected);
     });
   });
 }
 
 // Many classes of H1, which a few are here: formal from the first on, and solved at once or later.
-TEST(RandomConformance, LensFormally) {
+TEST(RandomConformance, LinkFormally) {
   std::size_t finite = 0;
   for_each_seed(20000, [&](Generator& random, bool ties, std::int64_t) {
     const Index n = random.integer(4, random.integer(0, 9) == 0 ? 24 : 12);
@@ -162,10 +164,10 @@ TEST(RandomConformance, LensFormally) {
       const auto oracle = pairs_of(f, 1, 2, Engine::standard);
       for (const std::size_t classes : {1, 4})
         for (const std::size_t relations : {1, 5}) {
-          const LensTuning formal{.layout = LensLayout::rows,
-                                  .classes_for_formal = classes,
-                                  .relations_for_formal = relations};
-          EXPECT_EQ(pairs_of_lens(f, 1, 2, formal, -1), oracle);
+          const SweepTuning formal{.layout = LinkLayout::rows,
+                                   .classes_for_formal = classes,
+                                   .relations_for_formal = relations};
+          EXPECT_EQ(pairs_of_edge_links(f, 1, 2, formal, -1), oracle);
         }
       for (const Pair& p : oracle)
         finite += p.bar.dim == 1 && p.bar.persistence() > 0 && !p.death_cell.empty() ? 1 : 0;
@@ -175,24 +177,24 @@ TEST(RandomConformance, LensFormally) {
 }
 
 // The same where classes of edges are many: lists become rows, and more than once.
-TEST(RandomConformance, LensFormallyOfManyPoints) {
+TEST(RandomConformance, LinkFormallyOfManyPoints) {
   for_each_seed(100, [](Generator& random, bool ties, std::int64_t) {
     const Rips rips(random.distances(random.integer(60, 150), ties));
     rips.with_filtration(1, [&](const auto& f) {
-      const LensTuning plain{.layout = LensLayout::rows, .classes_for_formal = SIZE_MAX};
-      const auto expected = pairs_of_lens(f, 1, 2, plain, -1);
+      const SweepTuning plain{.layout = LinkLayout::rows, .classes_for_formal = SIZE_MAX};
+      const auto expected = pairs_of_edge_links(f, 1, 2, plain, -1);
       for (const std::size_t relations : {1, 50, 1000}) {
-        const LensTuning formal{.layout = LensLayout::rows,
-                                .classes_for_formal = 20,
-                                .relations_for_formal = relations};
-        EXPECT_EQ(pairs_of_lens(f, 1, 2, formal, -1), expected);
+        const SweepTuning formal{.layout = LinkLayout::rows,
+                                 .classes_for_formal = 20,
+                                 .relations_for_formal = relations};
+        EXPECT_EQ(pairs_of_edge_links(f, 1, 2, formal, -1), expected);
       }
     });
   });
 }
 
 // Enough points for many classes of H2 to live at once; cocycles are rows at once, later or never.
-TEST(RandomConformance, LensSurfaces) {
+TEST(RandomConformance, LinkSurfaces) {
   std::size_t finite = 0;
   for_each_seed(20000, [&](Generator& random, bool ties, std::int64_t field) {
     const Index n = random.integer(7, random.integer(0, 9) == 0 ? 15 : 10);
@@ -208,12 +210,12 @@ TEST(RandomConformance, LensSurfaces) {
     }();
     rips.with_filtration(2, [&](const auto& f) {
       const auto oracle = pairs_of(f, 2, field, Engine::standard);
-      EXPECT_EQ(pairs_of(f, 2, field, Engine::lens), oracle);
-      for (const LensLayout layout : {LensLayout::rows, LensLayout::lists}) {
-        const LensTuning rows{.layout = layout, .most_terms = 0};
-        const LensTuning both{.layout = layout, .most_terms = 1, .vertices_of_active_rows = 0};
-        EXPECT_EQ(pairs_of_lens(f, 2, field, rows, -1), oracle);
-        EXPECT_EQ(pairs_of_lens(f, 2, field, both, 0), of_positive_length(oracle));
+      EXPECT_EQ(pairs_of(f, 2, field, Engine::edge_links), oracle);
+      for (const LinkLayout layout : {LinkLayout::rows, LinkLayout::lists}) {
+        const SweepTuning rows{.layout = layout, .most_terms = 0};
+        const SweepTuning both{.layout = layout, .most_terms = 1, .vertices_of_active_rows = 0};
+        EXPECT_EQ(pairs_of_edge_links(f, 2, field, rows, -1), oracle);
+        EXPECT_EQ(pairs_of_edge_links(f, 2, field, both, 0), of_positive_length(oracle));
       }
       for (const Pair& p : oracle) {
         finite += p.bar.dim == 2 && p.bar.persistence() > 0 && !p.death_cell.empty() ? 1 : 0;
@@ -234,15 +236,16 @@ Points random_sphere(Generator& random, Index n) {
 }
 
 // One cocycle with many triangles.
-TEST(RandomConformance, LensSurfacesOfSpheres) {
+TEST(RandomConformance, LinkSurfacesOfSpheres) {
   for_each_seed(12, [](Generator& random, bool, std::int64_t field) {
     const Rips rips(random_sphere(random, 120));
     rips.with_filtration(2, [&](const auto& f) {
       const auto expected = pairs_of(f, 2, field, Engine::cohomology);
       for (const std::size_t most_terms : {0, 64})
-        for (const LensLayout layout : {LensLayout::rows, LensLayout::lists})
-          EXPECT_EQ(pairs_of_lens(f, 2, field, {.layout = layout, .most_terms = most_terms}, -1),
-                    expected);
+        for (const LinkLayout layout : {LinkLayout::rows, LinkLayout::lists})
+          EXPECT_EQ(
+              pairs_of_edge_links(f, 2, field, {.layout = layout, .most_terms = most_terms}, -1),
+              expected);
     });
   });
 }

@@ -98,7 +98,7 @@ TEST(EdgeLists, NeighboursAscendWhileTheGraphGrows) {
 }
 
 // More vertices than numbers of 16 bits: a ring, with two chords that cut it into three.
-TEST(EdgeLists, LensOfMoreVerticesThanShortNumbers) {
+TEST(EdgeLists, LinkOfMoreVerticesThanShortNumbers) {
   constexpr Index n = 66'000, far = n / 3;
   std::vector<WeightedEdge> edges;
   for (Index i = 0; i < n; ++i) {
@@ -107,7 +107,7 @@ TEST(EdgeLists, LensOfMoreVerticesThanShortNumbers) {
   }
   edges.push_back({0, far, 3.0});
   edges.push_back({far, 2 * far, 3.5});
-  edges.push_back({1, far, 4.0});  // a lens with the first chord
+  edges.push_back({1, far, 4.0});  // a link with the first chord
   const Rips rips(SparseDistances(n, edges));
   const auto loops = [&](Engine engine) {
     std::vector<Bar> found = bars_of(persistence(rips, {.max_dim = 1, .engine = engine}));
@@ -115,7 +115,7 @@ TEST(EdgeLists, LensOfMoreVerticesThanShortNumbers) {
     return found;
   };
   const std::vector<Bar> expected{{1, 1.0, kInfinity}, {1, 3.0, kInfinity}, {1, 3.5, kInfinity}};
-  EXPECT_EQ(loops(Engine::lens), expected);
+  EXPECT_EQ(loops(Engine::edge_links), expected);
   EXPECT_EQ(loops(Engine::cohomology), expected);
 }
 

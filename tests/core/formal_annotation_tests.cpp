@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the lens sweep keeps the classes of edges in where thousands of classes live.
+// What the sweep of edge links keeps the classes of edges in where thousands of classes live.
 #include <algorithm>
 #include <array>
 #include <map>

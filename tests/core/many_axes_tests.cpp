@@ -52,7 +52,7 @@ TEST(ManyAxes, AgreeWithTheOracleCellByCell) {
         return pairs_of(
             persistence(cubical, {.max_dim = max_dim, .field = field, .engine = engine}));
       };
-      const auto found = bars(Engine::arrows);
+      const auto found = bars(Engine::gradient);
       ASSERT_EQ(found, bars(Engine::standard));
       found_in_all += found.size();
     }
@@ -74,7 +74,7 @@ TEST(ManyAxes, AgreeOnLargerImages) {
       context.threads = threads;
       const Cubical cubical(image, choices, context);
       results.push_back(
-          pairs_of(persistence(cubical, {.field = field, .engine = Engine::arrows}, context)));
+          pairs_of(persistence(cubical, {.field = field, .engine = Engine::gradient}, context)));
     }
     EXPECT_EQ(results[0], results[1]);
     EXPECT_EQ(results[0], results[2]);
@@ -93,7 +93,7 @@ TEST(ManyAxes, KnownSpaces) {
   }
   for (const Construction construction : {Construction::vertices, Construction::cells})
     for (const std::int64_t field : {2, 3}) {
-      const Options options{.field = field, .engine = Engine::arrows};
+      const Options options{.field = field, .engine = Engine::gradient};
       const Cubical shell(Image{{11, 11, 11, 11}, from_sphere}, {.construction = construction});
       EXPECT_EQ(betti_at(persistence(shell, options), 1.1, 4), (std::vector<int>{1, 0, 0, 1, 0}));
       // Circles of 1, 2 and 3 voxels.
@@ -109,9 +109,9 @@ TEST(ManyAxes, KnownSpaces) {
 
 TEST(ManyAxes, AreTakenWhereTheyCan) {
   const Cubical deep(Image{{2, 2, 2, 2}, std::vector<double>(16, 0.0)});
-  EXPECT_EQ(detail::plan<AllEngines>(deep, {}).choice.engine, Engine::arrows);
-  EXPECT_EQ(detail::plan<AllEngines>(deep, {.max_dim = 1}).choice.engine, Engine::arrows);
-  EXPECT_EQ(detail::plan<AllEngines>(deep, {.min_persistence = -1}).choice.engine, Engine::twist);
+  EXPECT_EQ(plan(deep, {}).engine, Engine::gradient);
+  EXPECT_EQ(plan(deep, {.max_dim = 1}).engine, Engine::gradient);
+  EXPECT_EQ(plan(deep, {.min_persistence = -1}).engine, Engine::twist);
   CubicalImage grid = deep.cubical_image();
   grid.periodic.assign(8, false);
   grid.extents.assign(8, 8);  // 15^8 cells
@@ -171,7 +171,7 @@ TEST(ManyAxes, EstimatesHold) {
     const Cubical cubical(Image{{12, 12, 12, 12}, std::move(noise)}, {.construction = construction},
                           context);
     const Estimate said = estimate(cubical, {}, context);
-    EXPECT_EQ(said.engine, Engine::arrows);
+    EXPECT_EQ(said.engine, Engine::gradient);
     persistence(cubical, {}, context);
     const auto peak = static_cast<double>(context.memory.peak());
     EXPECT_GE(peak, said.bytes_low);

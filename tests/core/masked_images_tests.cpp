@@ -74,14 +74,14 @@ TEST(MaskedImages, AreWhatTheDefinitionSays) {
     RunContext context;
     context.slab_layers = random.integer(0, 3);
     const Cubical cubical(stored, options, context);
-    for_each_engine([&](auto engine) {
-      SCOPED_TRACE(engine.name);
-      if (!engine.can_run(cubical, Task{.max_dim = max_dim})) return;
+    for (const auto& engine : detail::engines<Cubical>()) {
+      SCOPED_TRACE(engine.id.name());
+      if (!engine.can_run(cubical, Task{.max_dim = max_dim})) continue;
       for (const bool cells : {false, true}) {
         const Options how{.max_dim = max_dim, .field = field, .engine = engine.id, .cells = cells};
         EXPECT_EQ(first_difference(persistence(cubical, how, context), oracle), "");
       }
-    });
+    }
   });
 }
 
@@ -137,11 +137,11 @@ TEST(InfiniteBirths, AreNowhere) {
   };
   const ExplicitComplex star = lower_star(edges, values);
   for (const int max_dim : {0, 1})
-    for_each_engine([&](auto engine) {
-      if (!engine.can_run(star, Task{.max_dim = max_dim})) return;
+    for (const auto& engine : detail::engines<ExplicitComplex>()) {
+      if (!engine.can_run(star, Task{.max_dim = max_dim})) continue;
       const Barcode bars = persistence(star, {.max_dim = max_dim, .engine = engine.id});
-      EXPECT_EQ(bars_of(bars), expected) << engine.name;
-    });
+      EXPECT_EQ(bars_of(bars), expected) << engine.id.name();
+    }
   EXPECT_EQ(star.size(), 3U);
   const std::vector<WeightedEdge> graph{{0, 1, kInfinity}, {1, 2, kInfinity}, {1, 3, 2}};
   EXPECT_EQ(bars_of(persistence(FilteredGraph(values, graph))),

@@ -66,15 +66,19 @@ TEST(Options, LargeCharacteristics) {
 
 TEST(Registry, NamesAreUniqueAndFound) {
   std::set<std::string_view> names;
-  for_each_engine([&](auto engine) {
-    EXPECT_TRUE(names.insert(engine.name).second);
-    EXPECT_EQ(engine_named(engine.name), engine.id);
-    EXPECT_EQ(engine_name(engine.id), engine.name);
-  });
+  for (const auto& engine : detail::engine_facts()) {
+    EXPECT_TRUE(names.insert(engine.id.name()).second);
+    EXPECT_EQ(engine_named(engine.id.name()), engine.id);
+    EXPECT_EQ(&facts_of(engine.id), &engine);
+  }
   EXPECT_GE(names.size(), 4U);
   EXPECT_EQ(engine_named("auto"), Engine::automatic);
-  EXPECT_EQ(engine_name(Engine::automatic), "auto");
+  EXPECT_EQ(Engine::automatic.name(), "auto");
+  EXPECT_EQ(engine_named("lens"), Engine::edge_links);
+  EXPECT_EQ(engine_named("arrows"), Engine::gradient);
+  EXPECT_EQ(engine_named("union_find"), Engine::union_find);
   EXPECT_EQ(engine_named("ripser"), std::nullopt);
+  expect_error(ErrorKind::usage, "ripser", [] { facts_of(Engine("ripser")); });
   EXPECT_EQ(engine_named(""), std::nullopt);
 }
 
@@ -155,12 +159,13 @@ TEST(Estimates, HoldThePeak) {
     const Rips again(input, {}, own);
     persistence(again, options, own);
     const auto peak = static_cast<double>(own.memory.peak());
-    EXPECT_GE(peak, 0.9 * e.bytes_low) << engine_name(e.engine);
-    EXPECT_LE(peak, e.bytes_high) << engine_name(e.engine);
+    EXPECT_GE(peak, 0.9 * e.bytes_low) << e.engine.name();
+    EXPECT_LE(peak, e.bytes_high) << e.engine.name();
   };
   const Points cloud = random.points(100, 3, false);
   const DistanceMatrix noise = random.distances(60, false);
-  for (const Engine engine : {Engine::automatic, Engine::lens, Engine::cohomology, Engine::twist}) {
+  for (const Engine engine :
+       {Engine::automatic, Engine::edge_links, Engine::cohomology, Engine::twist}) {
     for (const int max_dim : {1, 2}) {
       if (engine == Engine::twist && max_dim == 2) continue;
       check_peak(cloud, {.max_dim = max_dim, .engine = engine});
@@ -171,8 +176,8 @@ TEST(Estimates, HoldThePeak) {
 
 TEST(Estimates, NameTheEngineThatWillRun) {
   const Rips rips(circle(6));
-  EXPECT_EQ(estimate(rips).engine, Engine::lens);
-  EXPECT_EQ(estimate(rips, {.max_dim = 2}).engine, Engine::lens);
+  EXPECT_EQ(estimate(rips).engine, Engine::edge_links);
+  EXPECT_EQ(estimate(rips, {.max_dim = 2}).engine, Engine::edge_links);
   EXPECT_EQ(estimate(rips, {.max_dim = 3}).engine, Engine::cohomology);
   EXPECT_EQ(estimate(rips).max_dim, 1);
   EXPECT_EQ(estimate(rips, {.max_dim = 0}).engine, Engine::union_find);
@@ -183,7 +188,7 @@ TEST(Estimates, NameTheEngineThatWillRun) {
   const ExplicitComplex torus = all_at_once(torus_of_seven_vertices());
   EXPECT_EQ(estimate(torus).max_dim, 2);
   expect_error(ErrorKind::usage, "found -1", [&] { estimate(rips, {.max_dim = -1}); });
-  expect_error(ErrorKind::usage, "union_find",
+  expect_error(ErrorKind::usage, "union-find",
                [&] { estimate(torus, {.engine = Engine::union_find}); });
 }
 

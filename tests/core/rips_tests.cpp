@@ -134,7 +134,7 @@ TEST(RipsGraphs, BinsAreSortedWhenTheyAreNeeded) {
   }
 }
 
-// Enough edges for threads to share their sorting and their lenses.
+// Enough edges for threads to share their sorting and their links.
 TEST(RipsGraphs, ThreadsAgreeOnManyEdges) {
   Generator random(5);
   const Points points = random.points(1400, 8, false);

@@ -44,12 +44,14 @@ TEST(MemoryBudgets, HoldForEveryEngine) {
   Generator random(3);
   const Points points = random.points(24, 3, false);
   const Image image = random.image({9, 8, 7}, false);
-  for_each_engine([&](auto engine) {
-    SCOPED_TRACE(engine.name);
-    const int max_dim = engine.id == Engine::union_find ? 0 : engine.id == Engine::lens ? 1 : 2;
+  for (const auto& engine : detail::engine_facts()) {
+    SCOPED_TRACE(engine.id.name());
+    const int max_dim = engine.id == Engine::union_find   ? 0
+                        : engine.id == Engine::edge_links ? 1
+                                                          : 2;
     const Options options{.max_dim = max_dim, .field = 3, .engine = engine.id};
     const auto run = [&](const RunContext& context) {
-      if (engine.id == Engine::arrows)
+      if (engine.id == Engine::gradient)
         return persistence(Cubical(image, {}, context), options, context);
       return persistence(Rips(points, {}, context), options, context);
     };
@@ -73,7 +75,7 @@ TEST(MemoryBudgets, HoldForEveryEngine) {
       EXPECT_LE(context.memory.peak(), context.memory.limit());
       EXPECT_EQ(context.memory.used(), 0U);
     }
-  });
+  }
 }
 
 TEST(MemoryBudgets, HoldForImages) {
@@ -107,7 +109,7 @@ std::size_t entering(const Image& image) {
 TEST(MemoryBudgets, OfARunBoundsWhatACubicalFiltrationMakesLate) {
   const Image image = Generator(3).image({9, 8, 7}, false);
   for (const Engine engine : kListCells) {
-    SCOPED_TRACE(engine_name(engine));
+    SCOPED_TRACE(engine.name());
     const Options options{.max_dim = 0, .engine = engine};
     RunContext home;
     const Cubical cubical(image, {}, home);
@@ -194,7 +196,7 @@ Points long_job(Engine engine) {
 
 TEST(RunContexts, AStopRequestEndsALongJobSoon) {
   for (const Engine engine : {Engine::standard, Engine::twist, Engine::cohomology}) {
-    SCOPED_TRACE(engine_name(engine));
+    SCOPED_TRACE(engine.name());
     std::stop_source source;
     RunContext context;
     context.stop = source.get_token();
@@ -227,20 +229,20 @@ TEST(RunContexts, AStopRequestedBeforehandStopsEverything) {
   });
   const Rips rips(points);
   const Cubical image(Image{{2}, {0, 1}});
-  for_each_engine([&](auto engine) {
+  for (const auto& engine : detail::engine_facts()) {
     expect_error(ErrorKind::cancelled, "stopped", [&] {
-      if (engine.id == Engine::arrows)
+      if (engine.id == Engine::gradient)
         persistence(image, {.engine = engine.id}, context);
       else
         persistence(rips, {.max_dim = 0, .engine = engine.id}, context);
     });
-  });
+  }
 }
 
 TEST(RunContexts, WhatACubicalFiltrationMakesLateIsStoppedAndReported) {
   const Image image = Generator(3).image({90, 80}, false);
   for (const Engine engine : kListCells) {
-    SCOPED_TRACE(engine_name(engine));
+    SCOPED_TRACE(engine.name());
     RunContext home;
     const Cubical cubical(image, {}, home);
     const std::size_t voxels = home.memory.used();

@@ -17,7 +17,7 @@ std::vector<Pair> bars_in_slabs(const Cubical& cubical, Options options, int lay
   RunContext context;
   context.threads = threads;
   context.slab_layers = layers;
-  options.engine = Engine::arrows;
+  options.engine = Engine::gradient;
   return pairs_of(persistence(cubical, options, context));
 }
 

@@ -43,7 +43,7 @@ inline void check_random_cycles(Generator& random, bool ties, std::int64_t field
   const RandomImage random_image(random, ties, 4);
   const Cubical cubical(random_image.image, random_image.options);
   const int max_dim = random.integer(0, 3);
-  Options options{.max_dim = max_dim, .field = field, .engine = Engine::arrows};
+  Options options{.max_dim = max_dim, .field = field, .engine = Engine::gradient};
   const auto pairs = pairs_of(persistence(cubical, options));
   options.representatives = Representatives::cycles;
   const Barcode bars = persistence(cubical, options);
@@ -58,7 +58,7 @@ inline void check_random_cycles(Generator& random, bool ties, std::int64_t field
 inline void check_sets(const Image& image, const CubicalOptions& cubical_options, int max_dim,
                        std::int64_t field) {
   const Cubical cubical(image, cubical_options);
-  Options options{.max_dim = max_dim, .field = field, .engine = Engine::arrows};
+  Options options{.max_dim = max_dim, .field = field, .engine = Engine::gradient};
   const auto pairs = pairs_of(persistence(cubical, options));
   options.representatives = Representatives::voxels;
   const Barcode bars = persistence(cubical, options);

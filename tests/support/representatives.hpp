@@ -139,9 +139,9 @@ void check_representatives(const F& f, int max_dim, std::int64_t field) {
   const OrderedCells<F> cells(f, max_dim + 1, field);
   const auto oracle = pairs_of(f, max_dim, field, Engine::standard);
   for (const Representatives wanted : {Representatives::cycles, Representatives::cocycles}) {
-    for_each_engine([&](auto engine) {
-      if (!engine.can_run(f, Task{max_dim, wanted, true})) return;
-      SCOPED_TRACE(std::string(engine.name) +
+    for (const auto& engine : detail::engines<F>()) {
+      if (!engine.can_run(f, Task{max_dim, wanted, true})) continue;
+      SCOPED_TRACE(std::string(engine.id.name()) +
                    (wanted == Representatives::cycles ? ", cycles" : ", cocycles"));
       const Barcode bars = persistence(f, Options{.max_dim = max_dim,
                                                   .field = field,
@@ -156,7 +156,7 @@ void check_representatives(const F& f, int max_dim, std::int64_t field) {
         else
           check_cocycle(cells, bars, i);
       }
-    });
+    }
   }
 }
 

@@ -2,7 +2,9 @@
 #include "barcode/arguments/arguments.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <functional>
@@ -64,13 +66,23 @@ void take_metric(Arguments& a, const std::string& text) {
   }
 }
 
-ComplexKind complex_named(const std::string& text) {
-  if (text == "alpha") not_built_in("--complex alpha:");
-  static const Names names{"auto", "rips", "cubical", "explicit", "lower-star"};
-  static constexpr std::array kKinds{ComplexKind::automatic, ComplexKind::rips,
-                                     ComplexKind::cubical, ComplexKind::explicit_cells,
-                                     ComplexKind::lower_star};
-  return kKinds[choose("--complex", text, names)];
+void take_complex(Arguments& a, const std::string& text) {
+  const auto names = complex_names();
+  if (text == "alpha" && std::ranges::find(names, text) == names.end())
+    not_built_in("--complex alpha:");
+  constexpr auto own = static_cast<std::size_t>(ComplexKind::own);
+  const std::size_t place = choose("--complex", text, names);
+  a.complex = static_cast<ComplexKind>(std::min(place, own));
+  a.own_complex = place < own ? nullptr : &own_complexes()[place - own];
+}
+
+void take_engine(Arguments& a, const std::string& text) {
+  const Names names = engine_names();
+  const std::optional<Engine> engine = engine_named(text);
+  a.options.engine = engine ? *engine : Engine(names[choose("--engine", text, names)]);
+  if (a.options.engine.name() != text)
+    a.notes.push_back(
+        fmt::format("--engine: '{}' is called '{}' now", text, a.options.engine.name()));
 }
 
 std::string lower_case(std::string text) {
@@ -141,10 +153,12 @@ void add_input_options(CLI::App& app, Arguments& a) {
 
 void add_complex_options(CLI::App& app, Arguments& a) {
   const std::string group = "Complex";
-  add_value(app, "--complex", "auto|rips|cubical|explicit|lower-star",
-            "what is built (default auto: rips for points and distances, cubical for images, "
-            "explicit for boundary matrices and simplices; points may be cubical, too: --voxel)",
-            [&a](const std::string& text) { a.complex = complex_named(text); })
+  std::string what =
+      "what is built (default auto: rips for points and distances, cubical for images, "
+      "explicit for boundary matrices and simplices; points may be cubical, too: --voxel)";
+  for (const OwnComplex& own : own_complexes()) what += fmt::format("; {}: {}", own.name, own.what);
+  add_value(app, "--complex", fmt::format("{}", fmt::join(complex_names(), "|")), what,
+            [&a](const std::string& text) { take_complex(a, text); })
       ->group(group);
   add_value(app, "--threshold,--max-scale", "T",
             "largest filtration value, in units of the input (default for rips: the enclosing "
@@ -181,10 +195,9 @@ void add_homology_options(CLI::App& app, Arguments& a) {
                                                           text));
             })
       ->group(group);
-  static const Names engines = engine_names();
-  add_choice(app, "--engine", engines,
-             "how it is computed (default auto; standard is the slow reference engine)",
-             [&a](std::size_t i) { a.options.engine = *engine_named(engines[i]); })
+  add_value(app, "--engine", fmt::format("{}", fmt::join(engine_names(), "|")),
+            "how it is computed (default auto; standard is the slow reference engine)",
+            [&a](const std::string& text) { take_engine(a, text); })
       ->group(group);
   app.add_flag("--check", a.check,
                "also run the slow reference engine and compare; a difference is printed and "
@@ -340,7 +353,7 @@ void check_together(Arguments& a) {
     reject(
         fmt::format("--engine: found {}, which gives no representatives; expected auto, twist or "
                     "cohomology",
-                    engine_name(engine)));
+                    engine.name()));
   const bool has_cycles = a.options.representatives == Representatives::cycles ||
                           a.options.representatives == Representatives::voxels;
   if (a.loops && !has_cycles)

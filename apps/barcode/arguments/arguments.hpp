@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "barcode/own_complex.hpp"
 #include "command_line.hpp"
 #include "option_scope.hpp"
 #include "ph/cubical.hpp"
@@ -16,7 +17,8 @@
 
 namespace ph::barcode {
 
-enum class ComplexKind { automatic, rips, cubical, explicit_cells, lower_star };
+/// In the order of complex_names(); `own`: one that the program has added.
+enum class ComplexKind { automatic, rips, cubical, explicit_cells, lower_star, own };
 
 /// Whether bars of H1 that come with cycles come with loops, too.
 enum class LoopChoice { tight, plain, none };
@@ -33,6 +35,7 @@ struct Arguments {
 
   // Which complex is built of it.
   ComplexKind complex = ComplexKind::automatic;
+  const OwnComplex* own_complex = nullptr;  // of ComplexKind::own
   std::optional<double> threshold;
   RipsOptions rips;
   std::optional<GreedyLimits> subsample;
@@ -57,6 +60,7 @@ struct Arguments {
   std::string report;                // path; empty: none
   bool stored = false;               // the inputs are barcodes: `ph-barcode plot BARS…`
   std::vector<std::string> compare;  // two barcode files; empty: a barcode is computed
+  std::vector<std::string> notes;    // on the command line itself, to be said once
   std::vector<std::string> command;  // as it was typed, for the report
   // The options that were given of those that do nothing for some inputs.
   std::vector<const app::OptionScope*> given;

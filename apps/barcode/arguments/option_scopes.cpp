@@ -12,7 +12,7 @@ using app::OptionScope;
 constexpr app::Situations kAllPairs = kPoints | kMatrix | kTriangle, kRips = kAllPairs | kSomePairs,
                           kCubical = kImage | kVoxels,
                           kListed = kSimplices | kLowerStar | kBoundary | kMesh,
-                          kComputed = kRips | kCubical | kListed;
+                          kComputed = kRips | kCubical | kListed | kOwn;
 
 constexpr std::string_view kOfRips = "Rips complexes of points and distances";
 constexpr std::string_view kOfAllPairs = "points and distance matrices";
@@ -27,7 +27,7 @@ constexpr std::array kScopes{
     OptionScope{"symmetrise", kMatrix, kOfMatrices},
     OptionScope{"from-correlation", kMatrix | kTriangle | kSomePairs, kOfDistances},
     OptionScope{"diagonal", kMatrix, kOfMatrices},
-    OptionScope{"nan", kRips | kCubical, "points, distances and images"},
+    OptionScope{"nan", kRips | kCubical | kOwn, "points, distances and images"},
     OptionScope{"raw-shape", kImage, "images"},
     OptionScope{"raw-type", kImage, "images"},
     OptionScope{"raw-big-endian", kImage, "images"},
@@ -72,7 +72,7 @@ constexpr std::array kScopes{
 std::span<const OptionScope> option_scopes() { return kScopes; }
 
 std::string_view name_of(Situation situation) {
-  constexpr std::array<std::string_view, 12> kNames{"points",
+  constexpr std::array<std::string_view, 13> kNames{"points",
                                                     "a full distance matrix",
                                                     "a triangle without its diagonal",
                                                     "some distances only",
@@ -82,6 +82,7 @@ std::string_view name_of(Situation situation) {
                                                     "simplices with --complex lower-star",
                                                     "a boundary matrix",
                                                     "a mesh with values",
+                                                    "points with another complex",
                                                     "a barcode",
                                                     "two barcodes to compare"};
   return kNames[static_cast<std::size_t>(std::countr_zero(app::Situations{situation}))];

@@ -18,8 +18,9 @@ enum Situation : app::Situations {
   kLowerStar = 1 << 7,    ///< simplices with values of the vertices
   kBoundary = 1 << 8,     ///< a boundary matrix
   kMesh = 1 << 9,         ///< with values of the vertices
-  kBarcode = 1 << 10,     ///< a stored one, computed earlier
-  kComparison = 1 << 11,  ///< of two stored ones
+  kOwn = 1 << 10,         ///< points with a complex that the program added
+  kBarcode = 1 << 11,     ///< a stored one, computed earlier
+  kComparison = 1 << 12,  ///< of two stored ones
 };
 
 /// All options that do nothing in some of them.

@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// For a complex of your own: the engines for any filtration, as templates. Costly to compile;
-// whoever uses the complexes of libph needs persistence.hpp only.
+// For a complex or an engine of your own: the engines for any filtration, as templates. Costly to
+// compile; whoever uses the complexes of libph needs persistence.hpp only.
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "ph/detail/choose_engine.hpp"
+#include "ph/error.hpp"
+#include "ph/estimate.hpp"
 
 namespace ph {
 
@@ -10,7 +17,107 @@ namespace ph {
 template <Filtration F>
 Barcode persistence(const F& filtration, const Options& options = {},
                     const RunContext& context = default_context()) {
-  return detail::compute<GenericEngines>(filtration, options, context);
+  return detail::compute(filtration, options, context);
+}
+
+/// How `persistence` will go about it. @throws as `persistence`.
+template <Filtration F>
+RunPlan plan(const F& filtration, const Options& options = {}) {
+  const auto [max_dim, choice] = detail::plan_for(filtration, options);
+  RunPlan plan;
+  plan.engine = choice.engine->id;
+  plan.reason = choice.reason;
+  plan.max_dim = max_dim;
+  return plan;
+}
+
+/// The same complex cell by cell, for all that takes an ExplicitComplex: estimates, merge trees,
+/// loops, the programs. Cells that the complex names by vertices keep their names, others are named
+/// by their place: dimension by dimension, in the complex's order.
+/// @throws Error (bad_data) if the complex breaks the contract; Error (resource) on lack of memory.
+template <Filtration F>
+ExplicitComplex listed(const F& filtration, const RunContext& context = default_context());
+
+// AN ENGINE is a struct of static members that says all about itself:
+//
+//   id                     its name: static constexpr ph::Engine id{"my-engine"}
+//   can_run(f, task)       whether it can do the task; false for complexes that it is not for
+//   suitability(f, task)   how well, where it can: the best of all engines is taken
+//   listed_dim(max_dim)    the highest dimension whose cells it lists; -1: it lists none
+//   run(f, field, bars, context)   computes: tells `bars` each pair and each essential class
+//
+// and, where they are not false or absent, goes_by_edges, stops_early, is_oracle and
+// rips_bytes(vertices, edges), which EngineFacts explains. can_run, suitability and run are
+// templates of the filtration; detail/twist.hpp is a short one to look at.
+
+/// Adds an engine of your own to all complexes of libph, for the rest of the program: Options can
+/// name it, `engine_names` lists it, and it is chosen where it suits best. Add engines before
+/// other threads compute. @throws Error (usage) if its name is taken.
+template <class E>
+void add_engine();
+/// Adds it to a complex of your own as well, which has the engines for any filtration.
+template <class E, Filtration F>
+void add_engine_for();
+
+namespace detail {
+/// @throws Error (usage) if there is an engine of that name.
+void add_facts(const EngineFacts& facts);
+}  // namespace detail
+
+template <Filtration F>
+ExplicitComplex listed(const F& filtration, const RunContext& context) {
+  using Cell = typename F::Cell;
+  const auto precedes = [&](const Cell& a, const Cell& b) { return filtration.precedes(a, b); };
+  SimplexList simplices;
+  BoundaryMatrix matrix;
+  std::vector<Index> numbers;
+  std::vector<Cell> lower, cells;
+  prepare_cells(filtration, context);
+  for (int dim = 0; dim <= filtration.top_dim(); ++dim) {
+    const auto first_lower = static_cast<Index>(matrix.size() - lower.size());
+    cells.clear();
+    filtration.for_each_cell(dim, [&](const Cell& cell) { cells.push_back(cell); });
+    std::sort(cells.begin(), cells.end(), precedes);
+    for (const Cell& cell : cells) {
+      if (filtration.cell_kind() == CellKind::vertices) {
+        numbers.clear();
+        filtration.append_input_cell(dim, cell, numbers);
+        simplices.add(numbers, filtration.value(cell));
+        continue;
+      }
+      filtration.for_each_facet(dim, cell, [&](const Cell& facet, int incidence) {
+        const auto place = std::lower_bound(lower.begin(), lower.end(), facet, precedes);
+        matrix.rows.push_back(first_lower + (place - lower.begin()));
+        matrix.incidences.push_back(incidence);
+      });
+      matrix.dims.push_back(dim);
+      matrix.offsets.push_back(matrix.rows.size());
+      matrix.values.push_back(filtration.value(cell));
+    }
+    std::swap(lower, cells);
+  }
+  if (filtration.cell_kind() == CellKind::vertices)
+    return ExplicitComplex::from_simplices(std::move(simplices), {}, context);
+  return ExplicitComplex::from_boundary(matrix, {}, context);
+}
+
+template <class E, Filtration F>
+void add_engine_for() {
+  auto& list = detail::engines<F>();
+  if (std::ranges::find(list, E::id, &EngineFacts::id) == list.end())
+    list.push_back(detail::engine_for<E, F>());
+}
+
+template <class E>
+void add_engine() {
+  detail::add_facts(detail::facts<E>());
+  add_engine_for<E, Cubical>();
+  add_engine_for<E, ExplicitComplex>();
+  add_engine_for<E, FilteredGraph>();
+  add_engine_for<E, RipsFiltration<RipsLayout::dense, 1>>();
+  add_engine_for<E, RipsFiltration<RipsLayout::sparse, 1>>();
+  add_engine_for<E, RipsFiltration<RipsLayout::any, 2>>();
+  add_engine_for<E, RipsFiltration<RipsLayout::any, 4>>();
 }
 
 }  // namespace ph

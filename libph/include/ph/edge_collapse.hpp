@@ -16,7 +16,7 @@ enum class CollapseLayout {
 /// Fewer edges, some of them later, with the same persistent homology in every dimension: the flag
 /// complexes of the two graphs have the same bars of positive length, over any field.
 ///
-/// An edge is dominated at a value if its lens, the common neighbours of its ends, has a vertex
+/// An edge is dominated at a value if its link, the common neighbours of its ends, has a vertex
 /// joined to all others: then it can be taken out of the flag complex without changing homology
 /// (Boissonnat & Pritam, Edge collapse and persistence of flag complexes, SoCG 2020). From the
 /// longest edge to the shortest, each edge is moved to the first value at which it is not

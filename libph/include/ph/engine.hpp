@@ -8,22 +8,41 @@
 
 namespace ph {
 
-/// The engines a user can ask for; see registry.hpp.
-enum class Engine {
-  automatic,   ///< chosen from the complex and the dimension
-  standard,    ///< the oracle: textbook reduction, slow, any filtration
-  twist,       ///< boundary matrix with clearing
-  cohomology,  ///< coboundary matrix with clearing and shortcuts
-  union_find,  ///< H0 only
-  lens,        ///< Rips, H0 to H2: edge by edge
-  arrows,      ///< images: voxel by voxel
+/// The name of a way to compute a barcode. Those of libph are listed below; a program can add its
+/// own, see add_engine in ph/custom.hpp.
+class Engine {
+ public:
+  constexpr Engine() = default;  ///< Engine::automatic
+  /// @param name that lives as long as the program: words of lower case joined by hyphens.
+  explicit constexpr Engine(std::string_view name) : name_(name) {}
+
+  constexpr std::string_view name() const { return name_; }
+  friend constexpr bool operator==(Engine, Engine) = default;
+
+  static const Engine automatic;   ///< chosen from the complex and the task
+  static const Engine standard;    ///< the oracle: textbook reduction, slow, any filtration
+  static const Engine twist;       ///< boundary matrix with clearing
+  static const Engine cohomology;  ///< coboundary matrix with clearing and shortcuts
+  static const Engine union_find;  ///< H0 only
+  static const Engine edge_links;  ///< Rips, H0 to H2: edge by edge
+  static const Engine gradient;    ///< images: voxel by voxel
+
+ private:
+  std::string_view name_ = "auto";
 };
 
-/// The name of an engine; "auto" for Engine::automatic.
-std::string_view engine_name(Engine engine);
-/// The engine of that name, "auto" included; nothing if there is none.
+inline constexpr Engine Engine::automatic{};
+inline constexpr Engine Engine::standard{"standard"};
+inline constexpr Engine Engine::twist{"twist"};
+inline constexpr Engine Engine::cohomology{"cohomology"};
+inline constexpr Engine Engine::union_find{"union-find"};
+inline constexpr Engine Engine::edge_links{"edge-links"};
+inline constexpr Engine Engine::gradient{"gradient"};
+
+/// The engine of that name, or of that earlier name ("lens", "arrows", "union_find"); nothing if
+/// there is none.
 std::optional<Engine> engine_named(std::string_view name);
-/// The names of all engines, "auto" first.
+/// The names of all engines, "auto" first, those that the program added last.
 std::vector<std::string_view> engine_names();
 
 /// What an engine is asked for.
@@ -35,22 +54,24 @@ struct Task {
   bool wants_no_sets() const { return representatives != Representatives::voxels; }
 };
 
-// AN ENGINE is a struct of static members that says all about itself:
-//
-//   id, name           what it is called
-//   can_run(f, task)   whether it can do the task
-//   suitability(f, task)   how well, where it can: the best of all engines is taken
-//   listed_dim(max_dim)    the highest dimension whose cells it lists
-//   goes_by_edges      whether it looks at nothing but vertices and edges
-//   is_oracle          whether it is what the others are checked with
-//   run(f, field, bars, context)   computes
-//
-// A new one is this and a line in generic_engines.hpp or all_engines.hpp.
-
 /// How well an engine suits a task.
 struct Suitability {
   int rank = 0;             ///< the highest is taken; 0: never unless asked for
   std::string_view reason;  ///< why it is taken, one phrase
 };
+
+/// What an engine says about itself whatever the complex.
+struct EngineFacts {
+  Engine id;
+  bool goes_by_edges = false;  ///< it looks at nothing but vertices and edges
+  bool is_oracle = false;      ///< it is what the others are checked with
+  bool stops_early = false;    ///< it may stop before it has seen the whole complex
+  /// The highest dimension of which it lists cells for homology up to max_dim; -1: of none.
+  int (*listed_dim)(int max_dim) = nullptr;
+  /// Bytes that it takes for a Rips complex, whatever the homology; null: those of its adjacency.
+  double (*rips_bytes)(std::size_t vertices, std::size_t edges) = nullptr;
+};
+/// Those of an engine that is there. @throws Error (usage) if none has that name.
+const EngineFacts& facts_of(Engine engine);
 
 }  // namespace ph

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "facade/all_engines.hpp"
+#include "ph/detail/choose_engine.hpp"
 
 namespace ph::detail {
 
@@ -14,7 +14,8 @@ int rips_max_dim(const Rips& rips, const Options& options);
 struct CollapseChoice {
   bool collapses;
   std::string reason;
-  EngineChoice engine;
+  Engine engine;
+  std::string_view engine_reason;
 };
 /// @throws Error (usage) if a collapse is asked for that would spoil the result, or as
 /// choose_engine.

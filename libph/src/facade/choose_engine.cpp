@@ -27,7 +27,7 @@ void refuse(Engine asked, const Task& task) {
     throw Error(ErrorKind::usage,
                 fmt::format("engine {} cannot compute homology up to dimension {} of this complex{}"
                             "{}",
-                            engine_name(asked), task.max_dim, asked_beside(task),
+                            asked.name(), task.max_dim, asked_beside(task),
                             task.zero_length ? ", zero-length bars included" : ""));
   if (!task.wants_no_sets())
     throw Error(ErrorKind::usage,

@@ -22,7 +22,7 @@ std::string_view obstacle(const Options& options) {
 }
 
 /// Why a collapse is not worth a sample; empty if it may be.
-std::string_view no_need(const EngineChoice& engine) {
+std::string_view no_need(const EngineFacts& engine) {
   if (engine.goes_by_edges) return "the engine goes by edges alone";
   if (engine.is_oracle) return "the reference engine takes the complex as it is";
   return {};
@@ -34,10 +34,11 @@ CollapseChoice choose_collapse(const Rips& rips, const Options& options,
                                const RunContext& context) {
   // Engines are told apart by the kind of a filtration only, not by the size of its cells.
   const RipsFiltration<RipsLayout::sparse, 1> filtration(rips.graph());
-  const EngineChoice engine = choose_engine<AllEngines>(
-      filtration, options.engine, task_of(options, options.max_dim.value_or(1)));
-  const auto decide = [&](bool collapses, std::string_view reason) {
-    return CollapseChoice{collapses, std::string(reason), engine};
+  const auto [engine, engine_reason] =
+      choose_engine(filtration, options.engine, task_of(options, options.max_dim.value_or(1)));
+  const auto decide = [&, engine = engine, engine_reason = engine_reason](bool collapses,
+                                                                          std::string_view reason) {
+    return CollapseChoice{collapses, std::string(reason), engine->id, engine_reason};
   };
   if (options.collapse == Collapse::off) return decide(false, "asked for");
   const std::string_view spoilt = obstacle(options);
@@ -47,7 +48,7 @@ CollapseChoice choose_collapse(const Rips& rips, const Options& options,
     return decide(true, "asked for");
   }
   if (!spoilt.empty()) return decide(false, spoilt);
-  if (const std::string_view reason = no_need(engine); !reason.empty())
+  if (const std::string_view reason = no_need(*engine); !reason.empty())
     return decide(false, reason);
   const double share = dominated_share(rips.graph(), context);
   return decide(share >= kWorthwhileShare,

@@ -3,6 +3,10 @@
 
 namespace ph::detail {
 
-template Barcode compute<AllEngines>(const Cubical&, const Options&, const RunContext&);
+template <>
+std::vector<EngineFor<Cubical>>& engines<Cubical>() {
+  static auto list = all_engines<Cubical>();
+  return list;
+}
 
 }  // namespace ph::detail

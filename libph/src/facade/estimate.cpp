@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "cubical/pair_voxels.hpp"
 #include "facade/choice.hpp"
 #include "facade/memory_forecast.hpp"
 #include "ph/edge_collapse.hpp"
@@ -17,8 +18,8 @@ constexpr std::size_t kFewEdges = 300'000;
 
 template <Filtration F>
 std::vector<double> cells_of(const F& filtration, int top, const RunContext& context) {
-  prepare_cells(filtration, context);
   std::vector<double> cells;
+  if (top >= 0) prepare_cells(filtration, context);
   for (int d = 0; d <= std::min(top, filtration.top_dim()); ++d) {
     double count = 0;
     filtration.for_each_cell(d, [&](const auto&) { ++count; });
@@ -28,13 +29,13 @@ std::vector<double> cells_of(const F& filtration, int top, const RunContext& con
 }
 
 /// What the complex holds when the engine is at work.
-double stored_bytes(const Cubical& cubical, Engine engine) {
+double stored_bytes(const Cubical& cubical, bool lists_cells) {
   const auto voxels = static_cast<double>(cubical.cubical_image().size());
   const auto held = static_cast<double>(cubical.voxel_bytes());
-  if (cubical.slot_count() == 0 || engine == Engine::arrows) return held;
+  if (cubical.slot_count() == 0 || !lists_cells) return held;
   return held + 4 * static_cast<double>(cubical.slot_count()) + 8 * voxels;
 }
-double stored_bytes(const ExplicitComplex& complex, Engine) {
+double stored_bytes(const ExplicitComplex& complex, bool) {
   double entries = 0;
   for (int d = 1; d <= complex.top_dim(); ++d) {
     complex.for_each_cell(d, [&](const auto& c) {
@@ -63,9 +64,10 @@ detail::MemoryForecast forecast_voxels(const Cubical& cubical, double held,
   return forecast;
 }
 
-RunPlan plan_of(const detail::Plan& plan) {
+template <Filtration F>
+RunPlan plan_of(const detail::Plan<F>& plan) {
   RunPlan result;
-  result.engine = plan.choice.engine;
+  result.engine = plan.choice.engine->id;
   result.reason = plan.choice.reason;
   result.max_dim = plan.max_dim;
   return result;
@@ -73,7 +75,7 @@ RunPlan plan_of(const detail::Plan& plan) {
 
 template <class Complex>
 RunPlan plan_one(const Complex& complex, const Options& options, const RunContext&) {
-  return plan_of(detail::plan<AllEngines>(complex, options));
+  return plan_of(detail::plan_for(complex, options));
 }
 RunPlan plan_one(const Rips& rips, const Options& options, const RunContext& context) {
   Options rips_options = options;
@@ -81,12 +83,12 @@ RunPlan plan_one(const Rips& rips, const Options& options, const RunContext& con
   const detail::CollapseChoice choice = detail::choose_collapse(rips, rips_options, context);
   RunPlan result;
   if (choice.collapses) {
-    result.engine = choice.engine.engine;
-    result.reason = choice.engine.reason;
+    result.engine = choice.engine;
+    result.reason = choice.engine_reason;
     result.max_dim = *rips_options.max_dim;  // the top dimension is not known before the collapse
   } else {
     result = rips.with_filtration(*rips_options.max_dim, [&](const auto& f) {
-      return plan_of(detail::plan<AllEngines>(f, rips_options));
+      return plan_of(detail::plan_for(f, rips_options));
     });
   }
   if (rips.has_only_components()) result.reason += "; a spanning forest knows them";
@@ -99,16 +101,14 @@ template <class Complex>
 Estimate estimate_one(const Complex& complex, const Options& options, const RunContext& context) {
   Estimate e;
   static_cast<RunPlan&>(e) = plan_one(complex, options, context);
-  e.bytes_held = stored_bytes(complex, e.engine);
-  detail::MemoryForecast forecast;
-  if (e.engine == Engine::arrows) {
-    if constexpr (std::same_as<Complex, Cubical>)
+  const int listed_dim = facts_of(e.engine).listed_dim(e.max_dim);
+  e.bytes_held = stored_bytes(complex, listed_dim >= 0);
+  e.cells = cells_of(complex, listed_dim, context);
+  detail::MemoryForecast forecast = detail::forecast_cells(e.bytes_held, e.cells);
+  if constexpr (std::same_as<Complex, Cubical>)
+    if (listed_dim < 0)
       forecast = forecast_voxels(complex, e.bytes_held, {options.min_dim, e.max_dim},
                                  options.representatives != Representatives::none, context);
-  } else {
-    e.cells = cells_of(complex, detail::listed_dim(e.engine, e.max_dim), context);
-    forecast = detail::forecast_cells(e.bytes_held, e.cells);
-  }
   e.counted_dims = static_cast<int>(e.cells.size());
   const auto [low, high] = forecast;
   e.bytes_low = low;
@@ -133,7 +133,7 @@ Estimate estimate_one(const Rips& rips, const Options& options, const RunContext
   }
   const Rips& complex = collapsed ? *collapsed : rips;
   const CliqueCounts cliques =
-      count_cliques(complex.graph(), detail::listed_dim(e.engine, e.max_dim), context);
+      count_cliques(complex.graph(), detail::listed_rips_dim(e.engine, e.max_dim), context);
   e.cells = cliques.counts;
   e.counted_dims = std::min(cliques.counted_dims, static_cast<int>(e.cells.size()));
   if (collapsed)  // no cells, no homology

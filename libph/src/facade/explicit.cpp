@@ -3,7 +3,15 @@
 
 namespace ph::detail {
 
-template Barcode compute<AllEngines>(const ExplicitComplex&, const Options&, const RunContext&);
-template Barcode compute<AllEngines>(const FilteredGraph&, const Options&, const RunContext&);
+template <>
+std::vector<EngineFor<ExplicitComplex>>& engines<ExplicitComplex>() {
+  static auto list = all_engines<ExplicitComplex>();
+  return list;
+}
+template <>
+std::vector<EngineFor<FilteredGraph>>& engines<FilteredGraph>() {
+  static auto list = all_engines<FilteredGraph>();
+  return list;
+}
 
 }  // namespace ph::detail

@@ -7,9 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "facade/all_engines.hpp"
 #include "rips/clique_count.hpp"
-#include "rips/sweep/lens_graph.hpp"
 
 namespace ph::detail {
 namespace {
@@ -37,15 +35,10 @@ double sum(std::span<const double> counts) {
 /// What does not depend on how the homology turns out, but for the edges: bit rows, adjacency.
 double structure(const Rips& rips, Engine engine) {
   const auto vertices = static_cast<double>(rips.size());
-  switch (engine) {
-    case Engine::union_find:
-      return 16 * vertices;
-    case Engine::lens:
-      return LensGraph::bytes(static_cast<std::size_t>(rips.size()), rips.edge_count());
-    default:
-      return rips.graph().is_dense() ? 4 * vertices * vertices
-                                     : 16 * static_cast<double>(rips.edge_count()) + 8 * vertices;
-  }
+  const auto edges = static_cast<double>(rips.edge_count());
+  if (const auto bytes_of_engine = facts_of(engine).rips_bytes)
+    return bytes_of_engine(static_cast<std::size_t>(rips.size()), rips.edge_count());
+  return rips.graph().is_dense() ? 4 * vertices * vertices : 16 * edges + 8 * vertices;
 }
 
 /// A part of a complex: the vertices chosen, all edges between them.
@@ -97,8 +90,8 @@ Pilot run_pilot(const Rips& part, double listed, const Options& options,
 }
 
 double listed_of(const Rips& part, const Options& options, const RunContext& context) {
-  return sum(
-      count_cliques(part.graph(), listed_dim(options.engine, *options.max_dim), context).counts);
+  return sum(count_cliques(part.graph(), listed_rips_dim(options.engine, *options.max_dim), context)
+                 .counts);
 }
 
 /// Orders the vertices so that each beginning of the order is a part like the whole: at random
@@ -131,7 +124,7 @@ std::vector<std::uint32_t> order_of(const Rips& rips, std::uint64_t seed) {
 std::size_t pilot_size(const Rips& rips, std::span<const std::uint32_t> order, double listed,
                        double wanted, const Options& options, const RunContext& context) {
   std::size_t size = order.size();
-  const int vertices_of_cell = 1 + listed_dim(options.engine, *options.max_dim);
+  const int vertices_of_cell = 1 + listed_rips_dim(options.engine, *options.max_dim);
   while (size > 8 && listed > 1.25 * wanted) {
     const double step = std::pow(wanted / listed, 1.0 / vertices_of_cell);
     size = std::max<std::size_t>(
@@ -144,12 +137,8 @@ std::size_t pilot_size(const Rips& rips, std::span<const std::uint32_t> order, d
 
 }  // namespace
 
-int listed_dim(Engine engine, int max_dim) {
-  int dim = max_dim;
-  for_each_engine([&](auto e) {
-    if (e.id == engine) dim = e.listed_dim(max_dim);
-  });
-  return dim;
+int listed_rips_dim(Engine engine, int max_dim) {
+  return std::max(0, facts_of(engine).listed_dim(max_dim));
 }
 
 MemoryForecast forecast_rips(const Rips& rips, std::span<const double> cells,
@@ -158,10 +147,10 @@ MemoryForecast forecast_rips(const Rips& rips, std::span<const double> cells,
   const double edges = 16 * static_cast<double>(rips.edge_count());
   const double known = edges + structure(rips, options.engine);
   const double most = known + bytes_per_bar(options) * static_cast<double>(rips.size()) + kAlways;
-  // The lens sweep stops where nothing happens any more; lists are not full by then.
-  const double least = options.engine == Engine::lens ? edges : known;
+  // The link sweep stops where nothing happens any more; lists are not full by then.
+  const double least = options.engine == Engine::edge_links ? edges : known;
   if (rips.has_only_components() || rips.size() < 2) return {least, most};
-  const bool lists_edges_only = listed_dim(options.engine, *options.max_dim) < 2;
+  const bool lists_edges_only = listed_rips_dim(options.engine, *options.max_dim) < 2;
   const double wanted = lists_edges_only
                             ? std::clamp(kPilotShare * listed, kPilotEdges, kMostPilotEdges)
                             : std::clamp(kPilotShare * listed, kPilotCells, kMostPilotCells);

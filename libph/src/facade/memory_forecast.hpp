@@ -11,12 +11,12 @@ struct MemoryForecast {
   double low = 0, high = 0;
 };
 
-/// The highest dimension of which an engine lists cells.
-int listed_dim(Engine engine, int max_dim);
+/// The highest dimension of which an engine lists simplices of a Rips complex.
+int listed_rips_dim(Engine engine, int max_dim);
 
 /// What the homology of a Rips complex takes beside its edges. The engine computes three small
 /// parts of the complex; what it takes there beyond its bit rows or adjacency is extrapolated.
-/// @param cells by dimension, up to listed_dim. @param options with engine and dimension; no
+/// @param cells by dimension, up to listed_rips_dim. @param options with engine and dimension; no
 /// collapse.
 MemoryForecast forecast_rips(const Rips& rips, std::span<const double> cells,
                              const Options& options, const RunContext& context);

@@ -48,16 +48,16 @@ Barcode persistence(const Rips& rips, const Options& options, const RunContext& 
   rips_options.collapse = Collapse::off;  // done here or not at all
   const auto compute = [&](const Rips& complex) {
     return complex.with_filtration(*rips_options.max_dim, [&](const auto& filtration) {
-      return detail::compute<AllEngines>(filtration, rips_options, context);
+      return detail::compute(filtration, rips_options, context);
     });
   };
   if (!choice.collapses) return compute(rips);
-  rips_options.engine = choice.engine.engine;
+  rips_options.engine = choice.engine;
   return compute(collapse_edges(rips, context));
 }
 
 Barcode persistence(const Cubical& cubical, const Options& options, const RunContext& context) {
-  return detail::compute<AllEngines>(cubical, options, context);
+  return detail::compute(cubical, options, context);
 }
 
 Barcode persistence(const ExplicitComplex& complex, const Options& options,
@@ -68,11 +68,11 @@ Barcode persistence(const ExplicitComplex& complex, const Options& options,
                             "field 2 only",
                             options.field));
   }
-  return detail::compute<AllEngines>(complex, options, context);
+  return detail::compute(complex, options, context);
 }
 
 Barcode persistence(const FilteredGraph& graph, const Options& options, const RunContext& context) {
-  return detail::compute<AllEngines>(graph, options, context);
+  return detail::compute(graph, options, context);
 }
 
 Barcode persistence(const AnyComplex& complex, const Options& options, const RunContext& context) {

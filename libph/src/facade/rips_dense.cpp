@@ -3,7 +3,11 @@
 
 namespace ph::detail {
 
-template Barcode compute<AllEngines>(const RipsFiltration<RipsLayout::dense, 1>&, const Options&,
-                                     const RunContext&);
+template <>
+std::vector<EngineFor<RipsFiltration<RipsLayout::dense, 1>>>&
+engines<RipsFiltration<RipsLayout::dense, 1>>() {
+  static auto list = all_engines<RipsFiltration<RipsLayout::dense, 1>>();
+  return list;
+}
 
 }  // namespace ph::detail

@@ -3,7 +3,11 @@
 
 namespace ph::detail {
 
-template Barcode compute<AllEngines>(const RipsFiltration<RipsLayout::any, 2>&, const Options&,
-                                     const RunContext&);
+template <>
+std::vector<EngineFor<RipsFiltration<RipsLayout::any, 2>>>&
+engines<RipsFiltration<RipsLayout::any, 2>>() {
+  static auto list = all_engines<RipsFiltration<RipsLayout::any, 2>>();
+  return list;
+}
 
 }  // namespace ph::detail

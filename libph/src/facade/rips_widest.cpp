@@ -3,7 +3,11 @@
 
 namespace ph::detail {
 
-template Barcode compute<AllEngines>(const RipsFiltration<RipsLayout::any, 4>&, const Options&,
-                                     const RunContext&);
+template <>
+std::vector<EngineFor<RipsFiltration<RipsLayout::any, 4>>>&
+engines<RipsFiltration<RipsLayout::any, 4>>() {
+  static auto list = all_engines<RipsFiltration<RipsLayout::any, 4>>();
+  return list;
+}
 
 }  // namespace ph::detail

@@ -10,7 +10,7 @@ RipsGroups::RipsGroups(const RipsGraph& graph)
       key_(static_cast<Key>(graph.edge_count()) + 1),
       present_(static_cast<std::size_t>(graph.size()), static_cast<std::size_t>(graph.size()),
                graph.memory()),
-      lens_words_(graph.memory()),
+      link_words_(graph.memory()),
       sets_(graph.memory()),
       chosen_(graph.memory()) {
   for (const FlagEdge& e : edges_) {
@@ -39,15 +39,15 @@ bool RipsGroups::go_to(Key key) {
   }
   const FlagEdge& e = edges_[key - 1];
   const Word *u = present_.row(e.u), *v = present_.row(e.v);
-  lens_words_.clear();
+  link_words_.clear();
   sets_.clear();
   for (std::size_t k = 0; k < present_.words(); ++k) {
     if (const Word common = u[k] & v[k]; common != 0) {
-      lens_words_.push_back(static_cast<std::uint32_t>(k));
+      link_words_.push_back(static_cast<std::uint32_t>(k));
       sets_.push_back(common);
     }
   }
-  return lens_words_.empty();
+  return link_words_.empty();
 }
 
 }  // namespace ph

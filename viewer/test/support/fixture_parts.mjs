@@ -29,7 +29,7 @@ export function metaOf(title, more = {}) {
         path: title,
         sha256: "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855",
       },
-      engine: "lens",
+      engine: "edge-links",
       timings: { read: 0.0021, persistence: 0.184, write: 0.02 },
       peak_memory: 41_000_000,
       ...more.provenance,

@@ -73,7 +73,7 @@ export function image(shape = [120, 160]) {
     },
     provenance: {
       complex: "cubical",
-      engine: "arrows",
+      engine: "gradient",
       input: { path: name, description: `image of ${shape.join(" x ")} voxels` },
     },
   });

@@ -135,7 +135,7 @@ export function manyBars(n = 1_000_000) {
       value: { label: "Intensity" },
       provenance: {
         complex: "cubical",
-        engine: "arrows",
+        engine: "gradient",
         input: { description: "image of 181 x 217 x 181 voxels, NIfTI-1" },
       },
     }),

@@ -27,8 +27,8 @@ class BitMatrix {
   std::pmr::vector<Word> bits_;
 };
 
-/// What the inner loops of the lens sweep do to rows of bits; compiled for several instruction
-/// sets, the best of which is chosen at run time.
+/// What the inner loops of the sweep of edge links do to rows of bits; compiled for several
+/// instruction sets, the best of which is chosen at run time.
 namespace bits {
 
 using Word = BitMatrix::Word;

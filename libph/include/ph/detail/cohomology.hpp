@@ -15,7 +15,6 @@ namespace ph {
 /// right.
 struct CohomologyEngine {
   static constexpr Engine id = Engine::cohomology;
-  static constexpr const char* name = "cohomology";
   template <Filtration F>
   static bool can_run(const F&, const Task& task) {
     return CofacetFiltration<F> && task.wants_no_sets();
@@ -25,7 +24,6 @@ struct CohomologyEngine {
     return {2, "cells of the highest dimension are too many to list"};
   }
   static constexpr int listed_dim(int max_dim) { return max_dim; }
-  static constexpr bool goes_by_edges = false, is_oracle = false;
 
   template <Filtration F, Field K>
   static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context) {

@@ -18,7 +18,6 @@ namespace ph {
 /// shares nothing with the other engines and is never optimised: they are right if they agree.
 struct StandardEngine {
   static constexpr Engine id = Engine::standard;
-  static constexpr const char* name = "standard";
   template <Filtration F>
   static bool can_run(const F&, const Task& task) {
     return task.representatives == Representatives::none;
@@ -28,7 +27,7 @@ struct StandardEngine {
     return {};
   }
   static constexpr int listed_dim(int max_dim) { return max_dim + 1; }
-  static constexpr bool goes_by_edges = false, is_oracle = true;
+  static constexpr bool is_oracle = true;
 
   template <Filtration F, Field K>
   static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context) {

@@ -10,7 +10,6 @@ namespace ph {
 /// Persistent homology: boundary columns from the highest dimension down, with clearing.
 struct TwistEngine {
   static constexpr Engine id = Engine::twist;
-  static constexpr const char* name = "twist";
   template <Filtration F>
   static bool can_run(const F&, const Task& task) {
     return task.representatives != Representatives::cocycles && task.wants_no_sets();
@@ -23,7 +22,6 @@ struct TwistEngine {
     return {1, "the complex lists facets only"};
   }
   static constexpr int listed_dim(int max_dim) { return max_dim + 1; }
-  static constexpr bool goes_by_edges = false, is_oracle = false;
 
   template <Filtration F, Field K>
   static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context) {

@@ -47,7 +47,6 @@ void join_components(const F& f, const K& field, BarcodeBuilder<F>& bars, const 
 /// H0 by union-find with the elder rule. See merge_tree.hpp for the whole tree.
 struct UnionFindEngine {
   static constexpr Engine id = Engine::union_find;
-  static constexpr const char* name = "union_find";
   template <Filtration F>
   static bool can_run(const F& f, const Task& task) {
     return task.max_dim == 0 && is_graph_like(f) && task.wants_no_sets();
@@ -57,7 +56,10 @@ struct UnionFindEngine {
     return {5, "only components are asked for"};
   }
   static constexpr int listed_dim(int) { return 1; }
-  static constexpr bool goes_by_edges = true, is_oracle = false;
+  static constexpr bool goes_by_edges = true;
+  static double rips_bytes(std::size_t vertices, std::size_t) {
+    return 16 * static_cast<double>(vertices);
+  }
 
   template <Filtration F, Field K>
   static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context) {

@@ -12,7 +12,7 @@
 #include "rips/annotations/formal_sums.hpp"
 #include "rips/annotations/pair_labels.hpp"
 #include "rips/annotations/sum_rows.hpp"
-#include "rips/sweep/lens_observer.hpp"
+#include "rips/sweep/sweep_observer.hpp"
 
 namespace ph {
 
@@ -27,9 +27,9 @@ namespace ph {
 /// that live, and relations are put aside and solved together, see RelationMatrix.
 class FormalAnnotations {
  public:
-  using Vertex = LensObserver<Z2>::Vertex;
-  using Position = LensObserver<Z2>::Position;
-  using Triangle = LensObserver<Z2>::Triangle;
+  using Vertex = SweepObserver<Z2>::Vertex;
+  using Position = SweepObserver<Z2>::Position;
+  using Triangle = SweepObserver<Z2>::Triangle;
   using Generator = std::uint32_t;  ///< numbered by birth, anew when classes learn of the dead
   using Class = std::uint32_t;      ///< 0 is the zero class
   struct Edge {

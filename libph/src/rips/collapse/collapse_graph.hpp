@@ -14,10 +14,10 @@
 ///
 ///   Set                           a set of vertices, made by make_set()
 ///   enter_until(key)              edges up to that key enter; before anything else
-///   find_lens(e, now, lens)       the common neighbours by now of the ends of e, the edge at hand
+///   find_link(e, now, link)       the common neighbours by now of the ends of e, the edge at hand
 ///   find_arrivals(e, now, out)    those that come later, each with the key at which it does
 ///   are_joined(a, b, now)         whether two vertices are joined by now
-///   first_apart(lens, c, now)     a vertex of the lens other than c not joined to c, or kNone
+///   first_apart(link, c, now)     a vertex of the link other than c not joined to c, or kNone
 ///   keep_neighbours(set, w, now)  takes out of a set what is not joined to w
 ///   move(e, key)                  e enters at a later key, or never
 ///   leave(e, now)                 all edges of its value are done: from now on e comes later

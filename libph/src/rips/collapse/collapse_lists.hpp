@@ -47,10 +47,10 @@ class ListGraph {
   Set make_set() const { return Set(neighbours_.get_allocator().resource()); }
   void enter_until(Key) {}
 
-  void find_lens(const FlagEdge& e, Key now, Set& lens) const {
-    lens.clear();
+  void find_link(const FlagEdge& e, Key now, Set& link) const {
+    link.clear();
     for_each_common(e, [&](Vertex x, Key key) {
-      if (key <= now) lens.push_back(x);
+      if (key <= now) link.push_back(x);
     });
   }
   void find_arrivals(const FlagEdge& e, Key now, std::pmr::vector<Arrival>& arrivals) const {
@@ -74,10 +74,10 @@ class ListGraph {
   }
   static Vertex first(const Set& set) { return set.empty() ? kNone : set.front(); }
 
-  Vertex first_apart(const Set& lens, Vertex c, Key now) const {
+  Vertex first_apart(const Set& link, Vertex c, Key now) const {
     const auto of_c = list(c);
     auto it = of_c.begin();
-    for (const Vertex y : lens) {
+    for (const Vertex y : link) {
       if (y == c) continue;
       while (it != of_c.end() && it->vertex < y) ++it;
       if (it == of_c.end() || it->vertex != y || it->key > now) return y;

@@ -39,10 +39,10 @@ class RowGraph {
     }
   }
 
-  void find_lens(const FlagEdge& e, Key now, Set& lens) {
+  void find_link(const FlagEdge& e, Key now, Set& link) {
     present_key_ = now;
     const auto *u = present_.row(e.u), *v = present_.row(e.v);
-    for (std::size_t k = 0; k < lens.size(); ++k) lens[k] = u[k] & v[k];
+    for (std::size_t k = 0; k < link.size(); ++k) link[k] = u[k] & v[k];
   }
 
   void find_arrivals(const FlagEdge& e, Key, std::pmr::vector<Arrival>& arrivals) const {
@@ -79,12 +79,12 @@ class RowGraph {
     return kNone;
   }
 
-  Vertex first_apart(const Set& lens, Vertex c, Key now) const {
+  Vertex first_apart(const Set& link, Vertex c, Key now) const {
     const auto* row = present_.row(c);
     for (std::size_t k = 0;; ++k) {
-      k = bits::first_outside(lens.data(), row, k, lens.size());
-      if (k == lens.size()) return kNone;
-      for (auto rest = lens[k] & ~row[k]; rest != 0; rest &= rest - 1) {
+      k = bits::first_outside(link.data(), row, k, link.size());
+      if (k == link.size()) return kNone;
+      for (auto rest = link[k] & ~row[k]; rest != 0; rest &= rest - 1) {
         const auto y =
             static_cast<Vertex>(k * 64 + static_cast<std::size_t>(std::countr_zero(rest)));
         if (y != c && !are_joined(c, y, now)) return y;

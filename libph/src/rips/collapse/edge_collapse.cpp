@@ -20,7 +20,7 @@ class EdgeCollapse {
       : input_(input),
         context_(context),
         graph_(input, &context.memory),
-        lens_(graph_.make_set()),
+        link_(graph_.make_set()),
         candidates_(graph_.make_set()),
         arrivals_(&context.memory),
         last_dominator_(static_cast<std::size_t>(input.size()), 0, &context.memory) {}
@@ -59,7 +59,7 @@ class EdgeCollapse {
       Key last = key;
       while (last < count && input_.value(last + 1) == input_.value(key)) ++last;
       graph_.enter_until(last);
-      graph_.find_lens(input_.edge(key), last, lens_);
+      graph_.find_link(input_.edge(key), last, link_);
       dominated += find_dominator(input_.edge(key), last, ticker) != kNone;
       ticker.tick();
     }
@@ -74,10 +74,10 @@ class EdgeCollapse {
 
   /// The first key from `now` on at which the edge is not dominated; kNever if there is none.
   Key first_key_not_dominated(const FlagEdge& e, Key now, Ticker& ticker) {
-    graph_.find_lens(e, now, lens_);
+    graph_.find_link(e, now, link_);
     Vertex dominator = find_dominator(e, now, ticker);
     if (dominator == kNone) return now;
-    // A dominator stays one until a vertex comes to the lens that is not joined to it.
+    // A dominator stays one until a vertex comes to the link that is not joined to it.
     graph_.find_arrivals(e, now, arrivals_);
     std::ranges::make_heap(arrivals_, std::greater{});
     while (!arrivals_.empty()) {
@@ -87,7 +87,7 @@ class EdgeCollapse {
         const Vertex x = arrivals_.front().vertex;
         std::ranges::pop_heap(arrivals_, std::greater{});
         arrivals_.pop_back();
-        graph_.insert(lens_, x);
+        graph_.insert(link_, x);
         dominates = dominates && graph_.are_joined(dominator, x, now);
       }
       if (dominates) continue;
@@ -97,14 +97,14 @@ class EdgeCollapse {
     return kNever;
   }
 
-  /// A vertex of the lens that is joined to all others by now; kNone if there is none.
+  /// A vertex of the link that is joined to all others by now; kNone if there is none.
   Vertex find_dominator(const FlagEdge& e, Key now, Ticker& ticker) {
     Vertex& last = last_dominator_[e.u];
-    Vertex c = graph_.contains(lens_, last) ? last : graph_.first(lens_);
-    candidates_ = lens_;
+    Vertex c = graph_.contains(link_, last) ? last : graph_.first(link_);
+    candidates_ = link_;
     while (c != kNone) {
       ticker.work();
-      const Vertex apart = graph_.first_apart(lens_, c, now);
+      const Vertex apart = graph_.first_apart(link_, c, now);
       if (apart == kNone) return last = c;
       // A dominator is joined to `apart`, which rules out c, `apart` itself and as a rule most.
       graph_.keep_neighbours(candidates_, apart, now);
@@ -127,7 +127,7 @@ class EdgeCollapse {
   const RipsGraph& input_;
   const RunContext& context_;
   Graph graph_;
-  typename Graph::Set lens_, candidates_;
+  typename Graph::Set link_, candidates_;
   std::pmr::vector<Arrival> arrivals_;       // a heap, the next one first
   std::pmr::vector<Vertex> last_dominator_;  // by vertex: of its last edge; a good guess
 };

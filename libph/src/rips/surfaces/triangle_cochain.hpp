@@ -11,7 +11,7 @@
 #include "ph/detail/field.hpp"
 #include "rips/annotations/field_rows.hpp"
 #include "rips/annotations/list_pool.hpp"
-#include "rips/sweep/lens_graph.hpp"
+#include "rips/sweep/link_graph.hpp"
 #include "rips/sweep/sorted_terms.hpp"
 
 namespace ph {
@@ -70,9 +70,9 @@ class TriangleCochain {
     const auto at = std::ranges::lower_bound(lists_, a, {}, &ListAt::vertex);
     return at != lists_.end() && at->vertex == a ? Terms(shared.lists[at->list]) : Terms();
   }
-  /// Whether a triangle at a, the other two vertices in a lens, may have a value; no false "no".
+  /// Whether a triangle at a, the other two vertices in a link, may have a value; no false "no".
   /// @param terms those of a.
-  bool touches(Vertex a, Terms terms, const LensGraph& graph) const;
+  bool touches(Vertex a, Terms terms, const LinkGraph& graph) const;
   /// If it is dense: phi(a,b,.) if a < b, -phi(a,b,.) otherwise; null if that is zero.
   const Unit* row(Vertex a, Vertex b, const Shared& shared) const {
     return has_row(a, b) ? shared.rows[at_[a].rows[b]] : nullptr;
@@ -162,17 +162,17 @@ class TriangleCochain {
 };
 
 template <Field K>
-bool TriangleCochain<K>::touches(Vertex a, Terms terms, const LensGraph& graph) const {
-  const auto contains = [&](Vertex v) { return graph.local(v) != LensGraph::kNone; };
+bool TriangleCochain<K>::touches(Vertex a, Terms terms, const LinkGraph& graph) const {
+  const auto contains = [&](Vertex v) { return graph.local(v) != LinkGraph::kNone; };
   if (!is_dense())
     return std::ranges::any_of(
         terms, [&](const Term& t) { return contains(larger(t)) && contains(smaller(t)); });
   const auto& present = at_[a].present;
   if (present.empty()) return false;
   if (graph.keeps_numbers())
-    return bits::first_common(present.data(), graph.lens(), present.size()) != bits::kNone;
+    return bits::first_common(present.data(), graph.link(), present.size()) != bits::kNone;
   bool touches = false;
-  bits::for_each(graph.lens(), 0, graph.words(), [&](std::size_t w) {
+  bits::for_each(graph.link(), 0, graph.words(), [&](std::size_t w) {
     touches = touches || has_row(a, graph.global(static_cast<Vertex>(w)));
   });
   return touches;

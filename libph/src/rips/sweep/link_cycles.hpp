@@ -9,26 +9,26 @@
 
 #include "ph/detail/field.hpp"
 #include "rips/annotations/annotations.hpp"
-#include "rips/sweep/lens_graph.hpp"
+#include "rips/sweep/link_graph.hpp"
 
 namespace ph {
 
-/// Cycles for the classes of H1 in a lens sweep: to each generator of H^1 belongs the edge that
-/// gave birth to it, closed by a path of fewest older edges.
+/// Cycles for the classes of H1 in a sweep of edge links: to each generator of H^1 belongs the edge
+/// that gave birth to it, closed by a path of fewest older edges.
 ///
 /// On this cycle z_g the generator g is one, younger ones are zero, and older ones may be anything;
 /// so a class of homology, given by its values under the generators, is a combination of the z_g
 /// that is found from the youngest down, and enters with its youngest. See
 /// docs/algorithms/edge-links.md.
 template <Field K>
-class LensCycles {
+class LinkCycles {
  public:
-  using Vertex = LensGraph::Vertex;
+  using Vertex = LinkGraph::Vertex;
   using Generator = typename Annotations<K>::Generator;
   using Element = typename K::Element;
 
   /// @param graph, annotations outlive this.
-  LensCycles(const LensGraph& graph, Annotations<K>& annotations, const K& field,
+  LinkCycles(const LinkGraph& graph, Annotations<K>& annotations, const K& field,
              std::pmr::memory_resource* memory)
       : graph_(graph),
         annotations_(annotations),
@@ -91,11 +91,11 @@ class LensCycles {
     if (field_.is_zero(it->second)) sums.erase(it);
   }
 
-  const LensGraph& graph_;
+  const LinkGraph& graph_;
   Annotations<K>& annotations_;
   const K& field_;
   std::pmr::vector<Path> paths_;  // by generator, from the end of its edge to the beginning
-  std::pmr::vector<LensGraph::Word> unvisited_;
+  std::pmr::vector<LinkGraph::Word> unvisited_;
   std::pmr::vector<Vertex> before_;  // by vertex: who was visited before
   std::pmr::vector<Vertex> queue_;
   Sums<Generator> values_;
@@ -103,10 +103,10 @@ class LensCycles {
 };
 
 template <Field K>
-auto LensCycles<K>::shortest_path(Vertex from, Vertex to) -> Path {
-  std::ranges::fill(unvisited_, ~LensGraph::Word{0});
+auto LinkCycles<K>::shortest_path(Vertex from, Vertex to) -> Path {
+  std::ranges::fill(unvisited_, ~LinkGraph::Word{0});
   const auto visit = [&](Vertex v, Vertex before) {
-    unvisited_[v / 64] &= ~(LensGraph::Word{1} << (v % 64));
+    unvisited_[v / 64] &= ~(LinkGraph::Word{1} << (v % 64));
     before_[v] = before;
     queue_.push_back(v);
   };
@@ -124,7 +124,7 @@ auto LensCycles<K>::shortest_path(Vertex from, Vertex to) -> Path {
 
 template <Field K>
 template <class Visit>
-void LensCycles<K>::for_each_term(typename Annotations<K>::Class values, Visit&& visit) {
+void LinkCycles<K>::for_each_term(typename Annotations<K>::Class values, Visit&& visit) {
   terms_.clear();
   values_.clear();
   const auto add_values = [&](typename Annotations<K>::Class a, Element scale) {

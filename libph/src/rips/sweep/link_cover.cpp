@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "rips/sweep/lens_cover.hpp"
+#include "rips/sweep/link_cover.hpp"
 
 #include <algorithm>
 
 namespace ph {
 
-void LensCover::find(const LensComponents& components) {
+void LinkCover::find(const LinkComponents& components) {
   steps_.clear();
   sets_.clear();
-  if (components.has_apex()) return cover(graph_.lens(), components.apex());
+  if (components.has_apex()) return cover(graph_.link(), components.apex());
   for (std::size_t i = 0; i < components.count(); ++i) {
-    const Word* component = components.count() == 1 ? graph_.lens() : components.vertices(i);
+    const Word* component = components.count() == 1 ? graph_.link() : components.vertices(i);
     cover(component, find_hub(component, components.root(i)));
   }
 }
 
-void LensCover::cover(const Word* component, Vertex hub) {
+void LinkCover::cover(const Word* component, Vertex hub) {
   const std::size_t words = graph_.words();
   const Word* around = add_step({hub, true}, component);
   rest_.resize(words);
@@ -39,7 +39,7 @@ void LensCover::cover(const Word* component, Vertex hub) {
   }
 }
 
-LensCover::Vertex LensCover::find_hub(const Word* component, Vertex first) {
+LinkCover::Vertex LinkCover::find_hub(const Word* component, Vertex first) {
   constexpr std::size_t samples = 12;
   const std::size_t words = graph_.words();
   const std::size_t step =
@@ -57,7 +57,7 @@ LensCover::Vertex LensCover::find_hub(const Word* component, Vertex first) {
   return best;
 }
 
-bits::Word* LensCover::add_step(const Step& step, const Word* set) {
+bits::Word* LinkCover::add_step(const Step& step, const Word* set) {
   const std::size_t words = graph_.words();
   steps_.push_back(step);
   sets_.resize(steps_.size() * words);

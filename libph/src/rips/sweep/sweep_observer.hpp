@@ -6,32 +6,32 @@
 #include <span>
 
 #include "ph/detail/field.hpp"
-#include "rips/sweep/lens_graph.hpp"
+#include "rips/sweep/link_graph.hpp"
 
 namespace ph {
 
-/// When a lens sweep takes which way; results do not depend on it.
-struct LensTuning {
-  LensLayout layout = LensLayout::automatic;
+/// When a sweep of edge links takes which way; results do not depend on it.
+struct SweepTuning {
+  LinkLayout layout = LinkLayout::automatic;
   std::size_t most_terms = 64;  ///< of a cocycle at a vertex, on average: more become rows
   std::size_t vertices_of_active_rows = 1 << 11;  ///< at most: for more, lists of active edges do
   std::size_t classes_for_formal = 1 << 9;  ///< alive: for fewer of H1 annotations learn of deaths
   std::size_t relations_for_formal = 1 << 10;  ///< solved together, at least
 };
 
-/// What a lens sweep is to find.
-struct LensWanted {
+/// What a sweep of edge links is to find.
+struct SweepRequest {
   bool surfaces = false;  ///< H2 too
   bool cycles = false;    ///< of H1
   bool cocycles = false;
   bool zero_length = false;
-  LensTuning tuning = {};
+  SweepTuning tuning = {};
 };
 
-/// Hears what happens in a lens sweep, as it happens. Representatives, cycles or cocycles, are
-/// empty unless they are wanted, and valid during the call.
+/// Hears what happens in a sweep of edge links, as it happens. Representatives, cycles or cocycles,
+/// are empty unless they are wanted, and valid during the call.
 template <Field K>
-class LensObserver {
+class SweepObserver {
  public:
   using Vertex = std::uint32_t;
   using Position = std::uint32_t;  ///< of an edge in the order of the filtration
@@ -57,7 +57,7 @@ class LensObserver {
     typename K::Element value;
   };
 
-  virtual ~LensObserver() = default;
+  virtual ~SweepObserver() = default;
   /// Where an edge so far is in the order; asked for the edges of cycles.
   virtual Position position_of(Vertex u, Vertex v) const = 0;
   /// Two components are joined, named by their oldest vertices.

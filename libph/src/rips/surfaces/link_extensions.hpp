@@ -9,18 +9,18 @@
 #include "ph/filtration.hpp"
 #include "rips/annotations/field_rows.hpp"
 #include "rips/surfaces/triangle_cocycles.hpp"
-#include "rips/sweep/lens_cover.hpp"
-#include "rips/sweep/lens_forest.hpp"
-#include "rips/sweep/lens_graph.hpp"
+#include "rips/sweep/link_cover.hpp"
+#include "rips/sweep/link_forest.hpp"
+#include "rips/sweep/link_graph.hpp"
 
 namespace ph {
 
 /// The living classes of H2 near a new edge (u,v), and what they become on its star: for each class
-/// h a potential p on the lens, p(w) = phi_h(u,v,w), such that p(y) - p(x) = gamma(x,y) :=
-/// phi_h(u,x,y) - phi_h(v,x,y) on the edges xy of the lens. Vertices have their numbers in the
-/// lens.
+/// h a potential p on the link, p(w) = phi_h(u,v,w), such that p(y) - p(x) = gamma(x,y) :=
+/// phi_h(u,x,y) - phi_h(v,x,y) on the edges xy of the link. Vertices have their numbers in the
+/// link.
 template <Field K>
-class LensExtensions {
+class LinkExtensions {
  public:
   using Vertex = std::uint32_t;
   using Element = typename K::Element;
@@ -46,7 +46,7 @@ class LensExtensions {
     bool is_mismatched = false;
   };
 
-  LensExtensions(const Cocycles& cocycles, const LensGraph& graph, const K& field,
+  LinkExtensions(const Cocycles& cocycles, const LinkGraph& graph, const K& field,
                  std::pmr::memory_resource* memory)
       : cocycles_(cocycles),
         graph_(graph),
@@ -61,8 +61,8 @@ class LensExtensions {
   void clear();
   void remove(Extension* x);
 
-  /// Finds the classes whose gamma is not zero on the lens, with potentials. Calls `prepare` before
-  /// the first one for a cover of the lens. @return whether there are some without a potential; of
+  /// Finds the classes whose gamma is not zero on the link, with potentials. Calls `prepare` before
+  /// the first one for a cover of the link. @return whether there are some without a potential; of
   /// these potentials and mismatches are zero.
   template <class Prepare>
   bool find(const FlagEdge& e, Prepare&& prepare);
@@ -73,25 +73,25 @@ class LensExtensions {
   Unit* mismatch(const Extension& x) { return rows_[x.mismatch]; }
   /// Extends a class to the next vertex of a forest: the first edge to each part decides.
   /// @return whether another edge asks for something else; then see `mismatch`.
-  bool extend_to(Extension& x, const FlagEdge& e, Vertex y, const LensForest& forest);
+  bool extend_to(Extension& x, const FlagEdge& e, Vertex y, const LinkForest& forest);
 
  private:
   using Term = typename Cochain::Term;
 
-  /// to += scale * a cocycle's row on the lens, in the first words.
+  /// to += scale * a cocycle's row on the link, in the first words.
   void add_row(Unit* to, const Unit* row, Element scale, std::size_t words) const;
-  /// Finds the potential on a lens with an apex.
+  /// Finds the potential on a link with an apex.
   void extend_over_cone(Extension& x, const FlagEdge& e, Vertex apex);
   /// Finds the potential in the order of a cover. @return false if there is none.
-  bool extend_over(Extension& x, const FlagEdge& e, const LensCover& cover);
-  /// Copies what lists say of gamma on the lens into terms_, from both ends of each pair.
+  bool extend_over(Extension& x, const FlagEdge& e, const LinkCover& cover);
+  /// Copies what lists say of gamma on the link into terms_, from both ends of each pair.
   void collect_terms(Extension& x);
   /// gamma_ = gamma(., y) on a set, in the first words. @return whether that is not zero.
   bool find_gamma(const Extension& x, const FlagEdge& e, Vertex y, const Word* set,
                   std::size_t words);
 
   const Cocycles& cocycles_;
-  const LensGraph& graph_;
+  const LinkGraph& graph_;
   const K& field_;
   std::pmr::vector<Extension> all_;
   RowPool<K> rows_;
@@ -100,13 +100,13 @@ class LensExtensions {
 };
 
 template <Field K>
-void LensExtensions<K>::clear() {
+void LinkExtensions<K>::clear() {
   while (!all_.empty()) remove(&all_.back());
   terms_.clear();
 }
 
 template <Field K>
-void LensExtensions<K>::remove(Extension* x) {
+void LinkExtensions<K>::remove(Extension* x) {
   rows_.give(x->potential);
   if (x->is_obstructed) rows_.give(x->mismatch);
   all_.erase(all_.begin() + (x - all_.data()));
@@ -114,9 +114,9 @@ void LensExtensions<K>::remove(Extension* x) {
 
 template <Field K>
 template <class Prepare>
-bool LensExtensions<K>::find(const FlagEdge& e, Prepare&& prepare) {
+bool LinkExtensions<K>::find(const FlagEdge& e, Prepare&& prepare) {
   clear();
-  const LensCover* cover = nullptr;
+  const LinkCover* cover = nullptr;
   bool is_obstructed = false;
   const auto at_u = cocycles_.at(e.u), at_v = cocycles_.at(e.v);
   auto i = at_u.begin(), j = at_v.begin();
@@ -151,7 +151,7 @@ bool LensExtensions<K>::find(const FlagEdge& e, Prepare&& prepare) {
 }
 
 template <Field K>
-void LensExtensions<K>::refresh(const FlagEdge& e) {
+void LinkExtensions<K>::refresh(const FlagEdge& e) {
   terms_.clear();
   for (Extension& x : all_) {
     if (!x.is_obstructed) continue;
@@ -162,16 +162,16 @@ void LensExtensions<K>::refresh(const FlagEdge& e) {
 }
 
 template <Field K>
-void LensExtensions<K>::add_row(Unit* to, const Unit* row, Element scale, std::size_t words) const {
+void LinkExtensions<K>::add_row(Unit* to, const Unit* row, Element scale, std::size_t words) const {
   if (graph_.keeps_numbers()) return Row::add(to, row, scale, field_, words);
-  bits::for_each(graph_.lens(), 0, words, [&](std::size_t w) {
+  bits::for_each(graph_.link(), 0, words, [&](std::size_t w) {
     const Element a = Row::value(row, graph_.global(static_cast<Vertex>(w)));
     Row::add_at(to, w, field_.multiply(scale, a), field_);
   });
 }
 
 template <Field K>
-void LensExtensions<K>::extend_over_cone(Extension& x, const FlagEdge& e, Vertex apex) {
+void LinkExtensions<K>::extend_over_cone(Extension& x, const FlagEdge& e, Vertex apex) {
   // p(w) = gamma(apex,w)
   Unit* p = potential(x);
   const Vertex own = graph_.global(apex);
@@ -186,21 +186,21 @@ void LensExtensions<K>::extend_over_cone(Extension& x, const FlagEdge& e, Vertex
       const bool is_larger = Cochain::larger(t) == own;
       if (!is_larger && Cochain::smaller(t) != own) continue;
       const Vertex w = graph_.local(is_larger ? Cochain::smaller(t) : Cochain::larger(t));
-      if (w == LensGraph::kNone) continue;
+      if (w == LinkGraph::kNone) continue;
       Row::add_at(p, w, is_larger != at_v ? field_.negate(t.coefficient()) : t.coefficient(),
                   field_);
     }
   }
-  x.is_flat = !Row::restrict(p, graph_.lens(), graph_.words());
+  x.is_flat = !Row::restrict(p, graph_.link(), graph_.words());
 }
 
 template <Field K>
-void LensExtensions<K>::collect_terms(Extension& x) {
+void LinkExtensions<K>::collect_terms(Extension& x) {
   x.first = x.last = terms_.size();
   if (x.cocycle->is_dense()) return;
   const auto add = [&](std::uint32_t at, Element a) {
     const Vertex larger = graph_.local(at >> 16), smaller = graph_.local(at & 0xFFFF);
-    if (field_.is_zero(a) || larger == LensGraph::kNone || smaller == LensGraph::kNone) return;
+    if (field_.is_zero(a) || larger == LinkGraph::kNone || smaller == LinkGraph::kNone) return;
     terms_.emplace_back(Cochain::pair(larger, smaller), a);
     terms_.emplace_back(Cochain::pair(smaller, larger), field_.negate(a));
   };
@@ -224,7 +224,7 @@ void LensExtensions<K>::collect_terms(Extension& x) {
 }
 
 template <Field K>
-bool LensExtensions<K>::find_gamma(const Extension& x, const FlagEdge& e, Vertex y, const Word* set,
+bool LinkExtensions<K>::find_gamma(const Extension& x, const FlagEdge& e, Vertex y, const Word* set,
                                    std::size_t words) {
   bool is_clear = false;
   const auto clear = [&] {
@@ -255,7 +255,7 @@ bool LensExtensions<K>::find_gamma(const Extension& x, const FlagEdge& e, Vertex
 }
 
 template <Field K>
-bool LensExtensions<K>::extend_over(Extension& x, const FlagEdge& e, const LensCover& cover) {
+bool LinkExtensions<K>::extend_over(Extension& x, const FlagEdge& e, const LinkCover& cover) {
   if (!x.cocycle->is_dense() && x.first == x.last) return true;
   const std::size_t words = graph_.words();
   Unit* p = potential(x);
@@ -281,10 +281,10 @@ bool LensExtensions<K>::extend_over(Extension& x, const FlagEdge& e, const LensC
 }
 
 template <Field K>
-bool LensExtensions<K>::extend_to(Extension& x, const FlagEdge& e, Vertex y,
-                                  const LensForest& forest) {
+bool LinkExtensions<K>::extend_to(Extension& x, const FlagEdge& e, Vertex y,
+                                  const LinkForest& forest) {
   // An edge wy asks that p(y) be p(w) + gamma(w,y).
-  const std::size_t words = LensForest::words_to(y);
+  const std::size_t words = LinkForest::words_to(y);
   if (!find_gamma(x, e, y, forest.neighbours(), words)) {
     if (x.is_flat) return false;
     std::fill_n(gamma_.begin(), words * Row::kUnitsPerBlock, Unit{});

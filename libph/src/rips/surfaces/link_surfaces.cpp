@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rips/surfaces/lens_surfaces.hpp"
+#include "rips/surfaces/link_surfaces.hpp"
 
 namespace ph {
 
@@ -7,7 +7,7 @@ template class TriangleCochain<Z2>;
 template class TriangleCochain<Zp>;
 template class TriangleCocycles<Z2>;
 template class TriangleCocycles<Zp>;
-template class LensSurfaces<Z2>;
-template class LensSurfaces<Zp>;
+template class LinkSurfaces<Z2>;
+template class LinkSurfaces<Zp>;
 
 }  // namespace ph

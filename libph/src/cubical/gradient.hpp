@@ -11,9 +11,8 @@ namespace ph {
 /// count), all dimensions, no zero-length pairs: cells are paired voxel by voxel, what is left by
 /// union-find from both ends and by reduction between them. Of three axes with cycles or sets of
 /// voxels, not with cocycles. See docs/algorithms/discrete-gradient.md.
-struct ArrowsEngine {
-  static constexpr Engine id = Engine::arrows;
-  static constexpr const char* name = "arrows";
+struct GradientEngine {
+  static constexpr Engine id = Engine::gradient;
   template <Filtration F>
   static bool can_run(const F& f, const Task& task) {
     if constexpr (VoxelFiltration<F>) {
@@ -29,8 +28,7 @@ struct ArrowsEngine {
   static Suitability suitability(const F&, const Task&) {
     return {6, "an image is paired voxel by voxel"};
   }
-  static constexpr int listed_dim(int) { return 0; }
-  static constexpr bool goes_by_edges = false, is_oracle = false;
+  static constexpr int listed_dim(int) { return -1; }
 
   template <Filtration F, Field K>
   static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context) {

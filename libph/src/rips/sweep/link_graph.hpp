@@ -16,18 +16,18 @@
 
 namespace ph {
 
-/// How a lens sweep keeps the edges so far.
-enum class LensLayout {
+/// How a sweep of edge links keeps the edges so far.
+enum class LinkLayout {
   automatic,  ///< whichever is faster and affordable
   rows,       ///< two bits for each pair of vertices, one for each order
   lists,      ///< the neighbours of each vertex: two or four bytes for each end of an edge
 };
 
-/// The edges so far of a flag filtration, and the lens of a new edge: the common neighbours of its
+/// The edges so far of a flag filtration, and the link of a new edge: the common neighbours of its
 /// ends, with the graph on them as rows of bits. In that graph vertices have numbers of their own,
-/// in the same order: with lists the lens is numbered 0, 1, …, so that a row is a word or two; with
+/// in the same order: with lists the link is numbered 0, 1, …, so that a row is a word or two; with
 /// rows the numbers are those of all vertices and nothing is copied.
-class LensGraph {
+class LinkGraph {
  public:
   using Vertex = std::uint32_t;
   using Word = bits::Word;
@@ -35,11 +35,11 @@ class LensGraph {
 
   /// @param active edges that are there; outlives this. With lists it has no rows. @param edges
   /// that may be added. @param layout rows or lists.
-  LensGraph(const ActiveEdges& active, const BinnedEdges& edges, LensLayout layout,
+  LinkGraph(const ActiveEdges& active, const BinnedEdges& edges, LinkLayout layout,
             std::pmr::memory_resource* memory);
 
   /// What is faster among what is affordable.
-  static LensLayout choose_layout(std::size_t vertices, std::size_t edges);
+  static LinkLayout choose_layout(std::size_t vertices, std::size_t edges);
   /// What it holds in the end in that layout, more or less.
   static double bytes(std::size_t vertices, std::size_t edges);
 
@@ -52,7 +52,7 @@ class LensGraph {
   /// take vertices out.
   template <class Visit>
   void for_each_neighbour(Vertex v, const Word* set, Visit&& visit) const {
-    if (layout_ == LensLayout::lists) {
+    if (layout_ == LinkLayout::lists) {
       with_lists([&](const auto& lists) {
         for (const Vertex w : lists[v])
           if ((set[w / 64] >> (w % 64) & 1) != 0) visit(w);
@@ -65,40 +65,40 @@ class LensGraph {
         visit(static_cast<Vertex>(k * 64 + static_cast<std::size_t>(std::countr_zero(rest))));
   }
   /// Whether two vertices have a common neighbour.
-  bool has_lens(Vertex u, Vertex v) const {
-    return (layout_ == LensLayout::rows && (landmarks_at_[u] & landmarks_at_[v]) != 0) ||
-           has_lens_anywhere(u, v);
+  bool has_link(Vertex u, Vertex v) const {
+    return (layout_ == LinkLayout::rows && (landmarks_at_[u] & landmarks_at_[v]) != 0) ||
+           has_link_anywhere(u, v);
   }
   /// Whether the ends of each edge have one; on several threads.
-  bool have_lenses(std::span<const FlagEdge> edges, const RunContext& context) const;
-  struct Lens {
+  bool have_links(std::span<const FlagEdge> edges, const RunContext& context) const;
+  struct Link {
     bool is_empty;
     bool touches_active;
   };
-  /// Looks at the lens of an edge that is not there yet: whether it is empty, and whether an active
-  /// edge joins it to an end of the edge. What follows is about this lens, if active edges touch it
+  /// Looks at the link of an edge that is not there yet: whether it is empty, and whether an active
+  /// edge joins it to an end of the edge. What follows is about this link, if active edges touch it
   /// or `wants_graph` is set.
-  Lens find_lens(const FlagEdge& e, bool wants_graph);
+  Link find_link(const FlagEdge& e, bool wants_graph);
 
   std::size_t words() const { return words_; }  ///< of a row
-  const Word* lens() const { return lens_.data(); }
-  /// The neighbours of a vertex of the lens; those outside of it may be among them.
+  const Word* link() const { return link_.data(); }
+  /// The neighbours of a vertex of the link; those outside of it may be among them.
   const Word* row(Vertex v) {
     if (keeps_numbers()) return joined_.row(v);
     if (!is_row_made_[v]) make_row(v);
     return local_rows_.data() + v * words_;
   }
-  /// Whether vertices have the same numbers in the lens.
-  bool keeps_numbers() const { return layout_ == LensLayout::rows; }
-  /// From the number of a vertex in the lens to its own.
+  /// Whether vertices have the same numbers in the link.
+  bool keeps_numbers() const { return layout_ == LinkLayout::rows; }
+  /// From the number of a vertex in the link to its own.
   Vertex global(Vertex v) const { return keeps_numbers() ? v : vertices_[v]; }
-  /// And back; kNone if it is not in the lens.
+  /// And back; kNone if it is not in the link.
   Vertex local(Vertex v) const {
     if (!keeps_numbers()) return local_[v];
-    return lens_[v / 64] >> (v % 64) & 1 ? v : kNone;
+    return link_[v / 64] >> (v % 64) & 1 ? v : kNone;
   }
   /// The smallest of the vertices.
-  Vertex first() const { return static_cast<Vertex>(bits::first_common(lens(), lens(), words_)); }
+  Vertex first() const { return static_cast<Vertex>(bits::first_common(link(), link(), words_)); }
 
  private:
   static constexpr std::size_t kMostShort = std::size_t{UINT16_MAX} + 1;  // vertices
@@ -110,32 +110,32 @@ class LensGraph {
     joined_.set(u, v);
     landmarks_at_[u] |= landmark_[v];
   }
-  bool has_lens_anywhere(Vertex u, Vertex v) const;
-  Lens find_lens_in_rows(const FlagEdge& e, bool wants_graph);
-  Lens find_lens_in_lists(const FlagEdge& e, bool wants_graph);
-  /// Whether `in_lens(v, w)` for an active edge from u to w, or the other way round.
-  template <class InLens>
-  bool touches_active(const FlagEdge& e, InLens&& in_lens) const;
+  bool has_link_anywhere(Vertex u, Vertex v) const;
+  Link find_link_in_rows(const FlagEdge& e, bool wants_graph);
+  Link find_link_in_lists(const FlagEdge& e, bool wants_graph);
+  /// Whether `in_link(v, w)` for an active edge from u to w, or the other way round.
+  template <class InLink>
+  bool touches_active(const FlagEdge& e, InLink&& in_link) const;
   bool touches_active_in_rows(const FlagEdge& e) const;
-  void number_lens();
+  void number_link();
   void make_row(Vertex v);
 
   const ActiveEdges& active_;
-  LensLayout layout_;
+  LinkLayout layout_;
   // rows
   BitMatrix joined_;
-  // Landmarks are up to 64 vertices here and there: most lenses have one of them. By vertex: its
+  // Landmarks are up to 64 vertices here and there: most links have one of them. By vertex: its
   // bit if it is one, and the bits of those that are its neighbours.
   std::pmr::vector<Word> landmark_, landmarks_at_;
   // lists: short numbers where they suffice
   NeighbourLists<std::uint16_t> short_lists_;
   NeighbourLists<Vertex> lists_;
   std::pmr::vector<std::uint8_t> marks_;  // by vertex; zero between uses
-  // The lens.
+  // The link.
   std::size_t words_;
-  std::pmr::vector<Word> lens_;
-  std::pmr::vector<Vertex> vertices_;  // by number in the lens
-  std::pmr::vector<Vertex> local_;     // by own number; kNone outside of the lens
+  std::pmr::vector<Word> link_;
+  std::pmr::vector<Vertex> vertices_;  // by number in the link
+  std::pmr::vector<Vertex> local_;     // by own number; kNone outside of the link
   std::pmr::vector<Word> local_rows_;
   std::pmr::vector<std::uint8_t> is_row_made_;
 };

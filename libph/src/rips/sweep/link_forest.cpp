@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "rips/sweep/lens_forest.hpp"
+#include "rips/sweep/link_forest.hpp"
 
 #include <algorithm>
 
 namespace ph {
 
-void LensForest::meet(Vertex y, const Word* set) {
+void LinkForest::meet(Vertex y, const Word* set) {
   const std::size_t words = words_to(y);
   const Word* row = graph_.row(y);
   before_.resize(graph_.words());
@@ -31,13 +31,13 @@ void LensForest::meet(Vertex y, const Word* set) {
   }
 }
 
-void LensForest::start_part(Vertex y) {
+void LinkForest::start_part(Vertex y) {
   roots_.push_back(y);
   parts_.resize(roots_.size() * graph_.words());
   set_of(roots_.size() - 1)[y / 64] |= Word{1} << (y % 64);
 }
 
-void LensForest::unite(std::size_t from, std::size_t to) {
+void LinkForest::unite(std::size_t from, std::size_t to) {
   for (std::size_t k = 0; k < graph_.words(); ++k) {
     set_of(to)[k] |= set_of(from)[k];
     set_of(from)[k] = 0;

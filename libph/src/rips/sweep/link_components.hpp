@@ -5,29 +5,29 @@
 #include <vector>
 
 #include "ph/filtration.hpp"
-#include "rips/sweep/lens_graph.hpp"
+#include "rips/sweep/link_graph.hpp"
 
 namespace ph {
 
-/// The connected components of a lens, in its own numbers of vertices. Most lenses are cones: one
+/// The connected components of a link, in its own numbers of vertices. Most links are cones: one
 /// vertex, the apex, is joined to all others; it often serves the next edge at the same vertex too.
-class LensComponents {
+class LinkComponents {
  public:
   using Vertex = std::uint32_t;
   using Word = bits::Word;
   static constexpr Vertex kNone = UINT32_MAX;
 
   /// @param graph outlives this.
-  LensComponents(LensGraph& graph, std::pmr::memory_resource* memory)
+  LinkComponents(LinkGraph& graph, std::pmr::memory_resource* memory)
       : graph_(graph),
         last_apex_(graph.vertex_count(), kNone, memory),
         roots_(memory),
         sets_(memory),
         rest_(memory) {}
 
-  /// Of the graph's lens, which is not empty and that of e.
+  /// Of the graph's link, which is not empty and that of e.
   void find(const FlagEdge& e);
-  /// Roots alone, of any lens: soon if it has few vertices.
+  /// Roots alone, of any link: soon if it has few vertices.
   void find_roots(const FlagEdge& e);
   /// Looks for an apex where `find` has met none. @return whether there is one.
   bool find_apex(const FlagEdge& e);
@@ -43,7 +43,7 @@ class LensComponents {
 
  private:
   bool is_apex(Vertex v) const {
-    return bits::first_missing(graph_.lens(), graph_.row(v), v, graph_.words()) == bits::kNone;
+    return bits::first_missing(graph_.link(), graph_.row(v), v, graph_.words()) == bits::kNone;
   }
   void set_apex(const FlagEdge& e, Vertex apex) {
     apex_ = apex;
@@ -53,7 +53,7 @@ class LensComponents {
   bool take_component(Vertex first);
   void sort_components();
 
-  LensGraph& graph_;
+  LinkGraph& graph_;
   std::pmr::vector<Vertex> last_apex_;  // by end of an edge; its own number
   std::pmr::vector<Vertex> roots_;
   std::pmr::vector<Word> sets_;  // a row for each component

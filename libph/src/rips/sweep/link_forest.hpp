@@ -5,14 +5,14 @@
 #include <utility>
 #include <vector>
 
-#include "rips/sweep/lens_graph.hpp"
+#include "rips/sweep/link_graph.hpp"
 
 namespace ph {
 
 /// The components of a growing graph: vertices come one by one, ascending, each with its edges to
 /// those that came before. In the order of the filtration these edges are the tetrahedra over an
-/// edge whose lens the graph is.
-class LensForest {
+/// edge whose link the graph is.
+class LinkForest {
  public:
   using Vertex = std::uint32_t;
   using Word = bits::Word;
@@ -24,7 +24,7 @@ class LensForest {
   };
 
   /// @param graph outlives this.
-  LensForest(LensGraph& graph, std::pmr::memory_resource* memory)
+  LinkForest(LinkGraph& graph, std::pmr::memory_resource* memory)
       : graph_(graph),
         roots_(memory),
         parts_(memory),
@@ -62,7 +62,7 @@ class LensForest {
   /// Moves one part into another.
   void unite(std::size_t from, std::size_t to);
 
-  LensGraph& graph_;
+  LinkGraph& graph_;
   std::pmr::vector<Vertex> roots_;  // of each part its smallest vertex
   std::pmr::vector<Word> parts_;    // a row each; empty once united with another
   std::pmr::vector<Meeting> meetings_;
@@ -71,7 +71,7 @@ class LensForest {
 };
 
 template <class OnJoin>
-void LensForest::join(Vertex y, OnJoin&& on_join) {
+void LinkForest::join(Vertex y, OnJoin&& on_join) {
   start_part(y);
   std::size_t all = roots_.size() - 1;
   for (const auto& [part, at] : meetings_) {

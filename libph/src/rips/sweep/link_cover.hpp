@@ -4,16 +4,16 @@
 #include <memory_resource>
 #include <vector>
 
-#include "rips/sweep/lens_components.hpp"
-#include "rips/sweep/lens_graph.hpp"
+#include "rips/sweep/link_components.hpp"
+#include "rips/sweep/link_graph.hpp"
 
 namespace ph {
 
-/// An order in which potentials spread over a lens: in each component first from a hub to all of
+/// An order in which potentials spread over a link: in each component first from a hub to all of
 /// its neighbours, then to the others one by one. The hub and its neighbours span a cone, on which
 /// every cocycle has a potential; each further vertex has to agree with all of its neighbours
 /// before it.
-class LensCover {
+class LinkCover {
  public:
   using Vertex = std::uint32_t;
   using Word = bits::Word;
@@ -23,11 +23,11 @@ class LensCover {
   };
 
   /// @param graph outlives this.
-  LensCover(LensGraph& graph, std::pmr::memory_resource* memory)
+  LinkCover(LinkGraph& graph, std::pmr::memory_resource* memory)
       : graph_(graph), steps_(memory), sets_(memory), rest_(memory), reached_(memory) {}
 
-  /// Of the graph's lens.
-  void find(const LensComponents& components);
+  /// Of the graph's link.
+  void find(const LinkComponents& components);
 
   std::size_t size() const { return steps_.size(); }
   const Step& operator[](std::size_t i) const { return steps_[i]; }
@@ -42,7 +42,7 @@ class LensCover {
   /// Appends a step. @return its row: the neighbours in a set.
   Word* add_step(const Step& step, const Word* set);
 
-  LensGraph& graph_;
+  LinkGraph& graph_;
   std::pmr::vector<Step> steps_;
   std::pmr::vector<Word> sets_;  // a row for each step
   std::pmr::vector<Word> rest_, reached_;

@@ -10,36 +10,36 @@
 
 #include "ph/filtration.hpp"
 #include "ph/run_context.hpp"
-#include "rips/surfaces/lens_extensions.hpp"
+#include "rips/surfaces/link_extensions.hpp"
 #include "rips/surfaces/triangle_cocycles.hpp"
-#include "rips/sweep/lens_components.hpp"
-#include "rips/sweep/lens_cover.hpp"
-#include "rips/sweep/lens_forest.hpp"
-#include "rips/sweep/lens_graph.hpp"
-#include "rips/sweep/lens_observer.hpp"
+#include "rips/sweep/link_components.hpp"
+#include "rips/sweep/link_cover.hpp"
+#include "rips/sweep/link_forest.hpp"
+#include "rips/sweep/link_graph.hpp"
+#include "rips/sweep/sweep_observer.hpp"
 
 namespace ph {
 
-/// H2 of a Vietoris-Rips filtration edge by edge: the part of the lens sweep above H1.
+/// H2 of a Vietoris-Rips filtration edge by edge: the part of the sweep of edge links above H1.
 ///
 /// An edge e = (u,v) enters with its star, glued to what is there along the suspension of its link,
-/// the flag complex of the lens. So a class of H2 is born with each component of the lens but one
+/// the flag complex of the link. So a class of H2 is born with each component of the link but one
 /// (if that component kills no class of H1) and dies with a loop of the link. Each living class h
 /// is held by a cocycle phi_h. It extends to the new triangles by a potential, p(w) = phi_h(u,v,w):
-/// p(y) - p(x) = gamma(x,y) := phi_h(u,x,y) - phi_h(v,x,y) for each edge xy of the lens. Where
+/// p(y) - p(x) = gamma(x,y) := phi_h(u,x,y) - phi_h(v,x,y) for each edge xy of the link. Where
 /// there is none, a class dies. See docs/algorithms/edge-links-h2.md.
 template <Field K>
-class LensSurfaces {
+class LinkSurfaces {
  public:
   using Vertex = std::uint32_t;
   using Position = std::uint32_t;
   using Element = typename K::Element;
   using Word = bits::Word;
-  using Observer = LensObserver<K>;
+  using Observer = SweepObserver<K>;
   using Triangle = typename Observer::Triangle;
 
   /// @param graph the edges so far, which outlive this.
-  LensSurfaces(LensGraph& graph, const K& field, LensWanted wanted, Observer& observer,
+  LinkSurfaces(LinkGraph& graph, const K& field, SweepRequest wanted, Observer& observer,
                const RunContext& context)
       : graph_(graph),
         field_(field),
@@ -55,10 +55,10 @@ class LensSurfaces {
         own_star_(star_.size(), 0, &context.memory),
         cocycle_(&context.memory) {}
 
-  /// Extends the living classes to the star of an edge, the one of the graph's lens; kills those
+  /// Extends the living classes to the star of an edge, the one of the graph's link; kills those
   /// that cannot be.
-  void extend(Position position, const FlagEdge& e, LensComponents& components);
-  /// A class is born with a component of an edge's lens.
+  void extend(Position position, const FlagEdge& e, LinkComponents& components);
+  /// A class is born with a component of an edge's link.
   void give_birth(Triangle birth, const FlagEdge& e, const Word* component);
   /// Reports what never dies.
   void finish();
@@ -66,13 +66,13 @@ class LensSurfaces {
  private:
   using Cocycles = TriangleCocycles<K>;
   using Generator = typename Cocycles::Generator;
-  using Extension = typename LensExtensions<K>::Extension;
+  using Extension = typename LinkExtensions<K>::Extension;
   using Row = FieldRow<K>;
   using Unit = typename Row::Unit;
 
   static constexpr Position kDead = UINT32_MAX;
 
-  /// Goes through a lens in the order of its tetrahedra: classes that are obstructed die or become
+  /// Goes through a link in the order of its tetrahedra: classes that are obstructed die or become
   /// others that are not.
   /// @param is_extended whether nothing but pairs of length zero are to be found.
   void sweep(Position position, const FlagEdge& e, bool is_extended);
@@ -82,34 +82,34 @@ class LensSurfaces {
   /// Adds younger classes to those mismatched at w, so that only the youngest of them, the dying
   /// one, remains so. @param words of rows that are in use.
   void correct_others(std::size_t dying, Vertex w, std::size_t words);
-  /// @param tetrahedron joins two parts of the lens, of which one has these vertices.
+  /// @param tetrahedron joins two parts of the link, of which one has these vertices.
   void report_zero_length(const FlagEdge& e, Vertex root, const Word* part,
                           typename Observer::Tetrahedron tetrahedron);
-  void store(const Extension& x, const FlagEdge& e, const LensComponents& components);
-  /// phi(u,v,.) += a star, given on the lens.
+  void store(const Extension& x, const FlagEdge& e, const LinkComponents& components);
+  /// phi(u,v,.) += a star, given on the link.
   void add_star(Generator h, const FlagEdge& e, const Unit* star);
   void find_cocycle(Generator h);
   /// @param star phi(u,v,.), in the first words.
   void add_star_to_cocycle(const FlagEdge& e, const Unit* star, std::size_t words);
 
-  LensGraph& graph_;
+  LinkGraph& graph_;
   const K& field_;
-  LensWanted wanted_;
+  SweepRequest wanted_;
   Observer& observer_;
   Cocycles cocycles_;
   std::pmr::vector<Triangle> births_;  // by generator; edge = kDead once it died
   // While an edge is added.
-  LensCover cover_;
-  LensForest forest_;
-  LensExtensions<K> extensions_;
+  LinkCover cover_;
+  LinkForest forest_;
+  LinkExtensions<K> extensions_;
   std::pmr::vector<std::size_t> partners_;  // by extension: what is to be added to it
-  std::pmr::vector<Unit> star_;             // on the lens
+  std::pmr::vector<Unit> star_;             // on the link
   std::pmr::vector<Unit> own_star_;         // on all vertices; zero between uses
   std::pmr::vector<typename Observer::TriangleValue> cocycle_;
 };
 
 template <Field K>
-void LensSurfaces<K>::give_birth(Triangle birth, const FlagEdge& e, const Word* component) {
+void LinkSurfaces<K>::give_birth(Triangle birth, const FlagEdge& e, const Word* component) {
   const Generator h = cocycles_.add_generator();
   births_.push_back(birth);
   std::fill_n(star_.begin(), graph_.words() * Row::kUnitsPerBlock, Unit{});
@@ -118,7 +118,7 @@ void LensSurfaces<K>::give_birth(Triangle birth, const FlagEdge& e, const Word* 
 }
 
 template <Field K>
-void LensSurfaces<K>::add_star(Generator h, const FlagEdge& e, const Unit* star) {
+void LinkSurfaces<K>::add_star(Generator h, const FlagEdge& e, const Unit* star) {
   if (graph_.keeps_numbers()) return cocycles_.add_star(h, e.u, e.v, star);
   const auto own = [&](std::size_t w) { return graph_.global(static_cast<Vertex>(w)); };
   Row::for_each(star, graph_.words(), [&](std::size_t w, Element a) {
@@ -131,7 +131,7 @@ void LensSurfaces<K>::add_star(Generator h, const FlagEdge& e, const Unit* star)
 }
 
 template <Field K>
-void LensSurfaces<K>::finish() {
+void LinkSurfaces<K>::finish() {
   for (Generator h = 0; h < births_.size(); ++h) {
     if (births_[h].edge == kDead) continue;
     find_cocycle(h);
@@ -140,8 +140,8 @@ void LensSurfaces<K>::finish() {
 }
 
 template <Field K>
-void LensSurfaces<K>::extend(Position position, const FlagEdge& e, LensComponents& components) {
-  const bool is_obstructed = extensions_.find(e, [&]() -> const LensCover& {
+void LinkSurfaces<K>::extend(Position position, const FlagEdge& e, LinkComponents& components) {
+  const bool is_obstructed = extensions_.find(e, [&]() -> const LinkCover& {
     if (!components.has_apex() && components.count() == 1) components.find_apex(e);
     cover_.find(components);
     return cover_;
@@ -153,12 +153,12 @@ void LensSurfaces<K>::extend(Position position, const FlagEdge& e, LensComponent
 }
 
 template <Field K>
-void LensSurfaces<K>::sweep(Position position, const FlagEdge& e, bool is_extended) {
-  const Word* lens = graph_.lens();
+void LinkSurfaces<K>::sweep(Position position, const FlagEdge& e, bool is_extended) {
+  const Word* link = graph_.link();
   forest_.clear();
-  bits::for_each(lens, 0, graph_.words(), [&](std::size_t vertex) {
+  bits::for_each(link, 0, graph_.words(), [&](std::size_t vertex) {
     const auto y = static_cast<Vertex>(vertex);
-    forest_.meet(y, lens);
+    forest_.meet(y, link);
     bool is_mismatched = false;
     if (!is_extended && !forest_.meetings().empty())
       for (Extension& x : extensions_.all())
@@ -172,13 +172,13 @@ void LensSurfaces<K>::sweep(Position position, const FlagEdge& e, bool is_extend
 }
 
 template <Field K>
-auto LensSurfaces<K>::mismatch_of(const Extension& x, Vertex w) -> Element {
+auto LinkSurfaces<K>::mismatch_of(const Extension& x, Vertex w) -> Element {
   return x.is_mismatched ? Row::value(extensions_.mismatch(x), w) : field_.from_int(0);
 }
 
 template <Field K>
-void LensSurfaces<K>::kill_mismatched(Position position, const FlagEdge& e, Vertex y) {
-  const std::size_t words = LensForest::words_to(y);
+void LinkSurfaces<K>::kill_mismatched(Position position, const FlagEdge& e, Vertex y) {
+  const std::size_t words = LinkForest::words_to(y);
   auto& all = extensions_.all();
   for (Vertex from = 0;;) {
     // The first tetrahedron over which a class does not extend kills the youngest such class.
@@ -206,7 +206,7 @@ void LensSurfaces<K>::kill_mismatched(Position position, const FlagEdge& e, Vert
 }
 
 template <Field K>
-void LensSurfaces<K>::correct_others(std::size_t dying, Vertex w, std::size_t words) {
+void LinkSurfaces<K>::correct_others(std::size_t dying, Vertex w, std::size_t words) {
   // Each of the others takes the smallest of the younger ones, all as they are now.
   auto& all = extensions_.all();
   partners_.assign(dying, dying);
@@ -229,7 +229,7 @@ void LensSurfaces<K>::correct_others(std::size_t dying, Vertex w, std::size_t wo
 }
 
 template <Field K>
-void LensSurfaces<K>::report_zero_length(const FlagEdge& e, Vertex root, const Word* part,
+void LinkSurfaces<K>::report_zero_length(const FlagEdge& e, Vertex root, const Word* part,
                                          typename Observer::Tetrahedron tetrahedron) {
   cocycle_.clear();
   if (wanted_.cocycles) {
@@ -241,13 +241,13 @@ void LensSurfaces<K>::report_zero_length(const FlagEdge& e, Vertex root, const W
 }
 
 template <Field K>
-void LensSurfaces<K>::store(const Extension& x, const FlagEdge& e,
-                            const LensComponents& components) {
+void LinkSurfaces<K>::store(const Extension& x, const FlagEdge& e,
+                            const LinkComponents& components) {
   // A constant on a component changes the class by younger ones at most: few values are stored.
   Unit* p = extensions_.potential(x);
   const std::size_t words = graph_.words();
   for (std::size_t i = 0; i < components.count(); ++i) {
-    const Word* set = components.count() == 1 ? graph_.lens() : components.vertices(i);
+    const Word* set = components.count() == 1 ? graph_.link() : components.vertices(i);
     const Element most = Row::majority(p, set, field_, words);
     if (!field_.is_zero(most)) Row::shift(p, set, field_.negate(most), field_, words);
   }
@@ -255,7 +255,7 @@ void LensSurfaces<K>::store(const Extension& x, const FlagEdge& e,
 }
 
 template <Field K>
-void LensSurfaces<K>::find_cocycle(Generator h) {
+void LinkSurfaces<K>::find_cocycle(Generator h) {
   cocycle_.clear();
   if (wanted_.cocycles)
     cocycles_[h].for_each_triangle(cocycles_.shared(),
@@ -265,7 +265,7 @@ void LensSurfaces<K>::find_cocycle(Generator h) {
 }
 
 template <Field K>
-void LensSurfaces<K>::add_star_to_cocycle(const FlagEdge& e, const Unit* star, std::size_t blocks) {
+void LinkSurfaces<K>::add_star_to_cocycle(const FlagEdge& e, const Unit* star, std::size_t blocks) {
   Row::for_each(star, blocks, [&](std::size_t apex, Element a) {
     std::array<Vertex, 3> vertices{e.v, e.u, graph_.global(static_cast<Vertex>(apex))};
     // phi(u,v,w): an odd number of swaps away from (v,u,w)
@@ -275,7 +275,7 @@ void LensSurfaces<K>::add_star_to_cocycle(const FlagEdge& e, const Unit* star, s
   });
 }
 
-extern template class LensSurfaces<Z2>;
-extern template class LensSurfaces<Zp>;
+extern template class LinkSurfaces<Z2>;
+extern template class LinkSurfaces<Zp>;
 
 }  // namespace ph

@@ -8,15 +8,15 @@
 #include "ph/detail/component_representatives.hpp"
 #include "ph/engine.hpp"
 #include "ph/filtration.hpp"
-#include "rips/sweep/lens_sweep.hpp"
+#include "rips/sweep/edge_link_sweep.hpp"
 
 namespace ph {
 
-/// H0, H1 and H2 of Vietoris-Rips filtrations by the lens sweep, see lens_sweep.hpp: the graph, as
-/// n^2 bits or as lists, and the classes alive, neither columns of triangles nor of tetrahedra.
-struct LensEngine {
-  static constexpr Engine id = Engine::lens;
-  static constexpr const char* name = "lens";
+/// H0, H1 and H2 of Vietoris-Rips filtrations by the sweep of edge links, see edge_link_sweep.hpp:
+/// the graph, as n^2 bits or as lists, and the classes alive, neither columns of triangles nor of
+/// tetrahedra.
+struct EdgeLinkEngine {
+  static constexpr Engine id = Engine::edge_links;
   template <Filtration F>
   static bool can_run(const F& f, const Task& task) {
     if constexpr (FlagFiltration<F>)
@@ -32,20 +32,25 @@ struct LensEngine {
     return {4, "H1 and H2 of a Rips complex need no triangles"};
   }
   static constexpr int listed_dim(int) { return 1; }
-  static constexpr bool goes_by_edges = true, is_oracle = false;
+  static constexpr bool goes_by_edges = true;
+  /// It stops where nothing happens any more; lists are not full by then.
+  static constexpr bool stops_early = true;
+  static double rips_bytes(std::size_t vertices, std::size_t edges) {
+    return LinkGraph::bytes(vertices, edges);
+  }
 
   template <Filtration F, Field K>
   static void run(const F& f, const K& field, BarcodeBuilder<F>& bars, const RunContext& context,
-                  const LensTuning& tuning = {}) {
+                  const SweepTuning& tuning = {}) {
     if constexpr (FlagFiltration<F>) {
       Reporter<F, K> reporter(f, field, bars, context);
-      const LensWanted wanted{.surfaces = bars.max_dim() >= 2,
-                              .cycles = bars.representatives() == Representatives::cycles,
-                              .cocycles = bars.representatives() == Representatives::cocycles,
-                              .zero_length = bars.wants_zero_length(),
-                              .tuning = tuning};
-      LensSweep<K>(f.vertex_count(), f.vertex_births(), f.binned_edges(), field, wanted, reporter,
-                   context)
+      const SweepRequest wanted{.surfaces = bars.max_dim() >= 2,
+                                .cycles = bars.representatives() == Representatives::cycles,
+                                .cocycles = bars.representatives() == Representatives::cocycles,
+                                .zero_length = bars.wants_zero_length(),
+                                .tuning = tuning};
+      EdgeLinkSweep<K>(f.vertex_count(), f.vertex_births(), f.binned_edges(), field, wanted,
+                       reporter, context)
           .run();
       reporter.report_components();
     }
@@ -56,9 +61,9 @@ struct LensEngine {
 
   /// Turns what the sweep tells into bars.
   template <class F, Field K>
-  class Reporter final : public LensObserver<K> {
+  class Reporter final : public SweepObserver<K> {
    public:
-    using Observer = LensObserver<K>;
+    using Observer = SweepObserver<K>;
     using Vertex = typename Observer::Vertex;
     using Position = typename Observer::Position;
     using Triangle = typename Observer::Triangle;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rips/sweep/lens_graph.hpp"
+#include "rips/sweep/link_graph.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -13,7 +13,7 @@ namespace {
 // Edges a thread takes at a time; for fewer it is not worth starting.
 constexpr std::size_t kPiece = 1 << 17;
 
-// The neighbours in a lens of at most 64 vertices.
+// The neighbours in a link of at most 64 vertices.
 template <class Neighbour>
 [[gnu::always_inline]] inline bits::Word find_word(std::span<const Neighbour> neighbours,
                                                    const std::uint32_t* local) {
@@ -41,27 +41,27 @@ NeighbourLists<Vertex> lists_if(bool wanted, std::size_t vertices, const BinnedE
 
 }  // namespace
 
-LensGraph::LensGraph(const ActiveEdges& active, const BinnedEdges& edges, LensLayout layout,
+LinkGraph::LinkGraph(const ActiveEdges& active, const BinnedEdges& edges, LinkLayout layout,
                      std::pmr::memory_resource* memory)
     : active_(active),
       layout_(layout),
-      joined_(layout == LensLayout::rows ? active.vertex_count() : 0, active.vertex_count(),
+      joined_(layout == LinkLayout::rows ? active.vertex_count() : 0, active.vertex_count(),
               memory),
       landmark_(memory),
       landmarks_at_(memory),
       short_lists_(lists_if<std::uint16_t>(
-          layout == LensLayout::lists && active.vertex_count() <= kMostShort, active.vertex_count(),
+          layout == LinkLayout::lists && active.vertex_count() <= kMostShort, active.vertex_count(),
           edges, memory)),
-      lists_(lists_if<Vertex>(layout == LensLayout::lists && active.vertex_count() > kMostShort,
+      lists_(lists_if<Vertex>(layout == LinkLayout::lists && active.vertex_count() > kMostShort,
                               active.vertex_count(), edges, memory)),
       marks_(memory),
-      words_(layout == LensLayout::rows ? joined_.words() : 0),
-      lens_(words_, 0, memory),
+      words_(layout == LinkLayout::rows ? joined_.words() : 0),
+      link_(words_, 0, memory),
       vertices_(memory),
       local_(memory),
       local_rows_(memory),
       is_row_made_(memory) {
-  if (layout == LensLayout::rows) {
+  if (layout == LinkLayout::rows) {
     landmark_.resize(vertex_count(), 0);
     landmarks_at_.resize(vertex_count(), 0);
     const std::size_t step = (vertex_count() + 63) / 64;
@@ -72,22 +72,22 @@ LensGraph::LensGraph(const ActiveEdges& active, const BinnedEdges& edges, LensLa
   local_.resize(vertex_count(), kNone);
 }
 
-LensLayout LensGraph::choose_layout(std::size_t vertices, std::size_t edges) {
+LinkLayout LinkGraph::choose_layout(std::size_t vertices, std::size_t edges) {
   // Measured: rows are faster from a degree of n / 128 on. They take at most four times the memory
   // of the edges then.
   const auto n = static_cast<double>(vertices), m = static_cast<double>(edges);
-  return 2 * m * 128 >= n * n ? LensLayout::rows : LensLayout::lists;
+  return 2 * m * 128 >= n * n ? LinkLayout::rows : LinkLayout::lists;
 }
 
-double LensGraph::bytes(std::size_t vertices, std::size_t edges) {
+double LinkGraph::bytes(std::size_t vertices, std::size_t edges) {
   const auto n = static_cast<double>(vertices), m = static_cast<double>(edges);
-  if (choose_layout(vertices, edges) == LensLayout::rows) return n * n / 8;
+  if (choose_layout(vertices, edges) == LinkLayout::rows) return n * n / 8;
   const double number = vertices <= kMostShort ? sizeof(std::uint16_t) : sizeof(Vertex);
   return 2 * number * m + (sizeof(std::size_t) + 3 * sizeof(Vertex)) * n;
 }
 
-void LensGraph::add(const FlagEdge& e) {
-  if (layout_ == LensLayout::rows) {
+void LinkGraph::add(const FlagEdge& e) {
+  if (layout_ == LinkLayout::rows) {
     add_to_row(e.u, e.v);
     add_to_row(e.v, e.u);
   } else if (vertex_count() <= kMostShort) {
@@ -97,9 +97,9 @@ void LensGraph::add(const FlagEdge& e) {
   }
 }
 
-void LensGraph::add_all(std::span<const FlagEdge> edges, const RunContext& context) {
+void LinkGraph::add_all(std::span<const FlagEdge> edges, const RunContext& context) {
   const std::size_t threads = thread_count(context);
-  if (layout_ == LensLayout::lists || threads == 1 || edges.size() <= kPiece) {
+  if (layout_ == LinkLayout::lists || threads == 1 || edges.size() <= kPiece) {
     for (const FlagEdge& e : edges) add(e);
     return;
   }
@@ -112,8 +112,8 @@ void LensGraph::add_all(std::span<const FlagEdge> edges, const RunContext& conte
   });
 }
 
-bool LensGraph::has_lens_anywhere(Vertex u, Vertex v) const {
-  if (layout_ == LensLayout::rows) return bits::any_common(joined_.row(u), joined_.row(v), words_);
+bool LinkGraph::has_link_anywhere(Vertex u, Vertex v) const {
+  if (layout_ == LinkLayout::rows) return bits::any_common(joined_.row(u), joined_.row(v), words_);
   return with_lists([&](const auto& lists) {
     const auto a = lists[u], b = lists[v];
     auto i = a.begin(), j = b.begin();
@@ -125,29 +125,29 @@ bool LensGraph::has_lens_anywhere(Vertex u, Vertex v) const {
   });
 }
 
-bool LensGraph::have_lenses(std::span<const FlagEdge> edges, const RunContext& context) const {
+bool LinkGraph::have_links(std::span<const FlagEdge> edges, const RunContext& context) const {
   std::atomic<bool> all = true;
   for_each_piece("edges", edges.size(), kPiece, context, [&](std::size_t begin, std::size_t end) {
     if (!all.load(std::memory_order_relaxed)) return;
     const auto piece = edges.subspan(begin, end - begin);
-    if (!std::ranges::all_of(piece, [&](const FlagEdge& e) { return has_lens(e.u, e.v); }))
+    if (!std::ranges::all_of(piece, [&](const FlagEdge& e) { return has_link(e.u, e.v); }))
       all.store(false, std::memory_order_relaxed);
   });
   return all;
 }
 
-LensGraph::Lens LensGraph::find_lens(const FlagEdge& e, bool wants_graph) {
-  return layout_ == LensLayout::rows ? find_lens_in_rows(e, wants_graph)
-                                     : find_lens_in_lists(e, wants_graph);
+LinkGraph::Link LinkGraph::find_link(const FlagEdge& e, bool wants_graph) {
+  return layout_ == LinkLayout::rows ? find_link_in_rows(e, wants_graph)
+                                     : find_link_in_lists(e, wants_graph);
 }
 
-template <class InLens>
-bool LensGraph::touches_active(const FlagEdge& e, InLens&& in_lens) const {
-  return std::ranges::any_of(active_.neighbours(e.u), [&](Vertex w) { return in_lens(e.v, w); }) ||
-         std::ranges::any_of(active_.neighbours(e.v), [&](Vertex w) { return in_lens(e.u, w); });
+template <class InLink>
+bool LinkGraph::touches_active(const FlagEdge& e, InLink&& in_link) const {
+  return std::ranges::any_of(active_.neighbours(e.u), [&](Vertex w) { return in_link(e.v, w); }) ||
+         std::ranges::any_of(active_.neighbours(e.v), [&](Vertex w) { return in_link(e.u, w); });
 }
 
-bool LensGraph::touches_active_in_rows(const FlagEdge& e) const {
+bool LinkGraph::touches_active_in_rows(const FlagEdge& e) const {
   if (active_.degree(e.u) + active_.degree(e.v) == 0) return false;
   if (!active_.has_rows())
     return touches_active(e, [&](Vertex v, Vertex w) { return joined_.test(v, w); });
@@ -157,14 +157,14 @@ bool LensGraph::touches_active_in_rows(const FlagEdge& e) const {
   return sees(e.u, e.v) || sees(e.v, e.u);
 }
 
-LensGraph::Lens LensGraph::find_lens_in_rows(const FlagEdge& e, bool wants_graph) {
+LinkGraph::Link LinkGraph::find_link_in_rows(const FlagEdge& e, bool wants_graph) {
   const bool touches = touches_active_in_rows(e);
   // One common neighbour says enough where nothing can happen.
-  if (!touches && !wants_graph) return {!has_lens(e.u, e.v), false};
-  return {!bits::intersect(joined_.row(e.u), joined_.row(e.v), lens_.data(), words_), touches};
+  if (!touches && !wants_graph) return {!has_link(e.u, e.v), false};
+  return {!bits::intersect(joined_.row(e.u), joined_.row(e.v), link_.data(), words_), touches};
 }
 
-LensGraph::Lens LensGraph::find_lens_in_lists(const FlagEdge& e, bool wants_graph) {
+LinkGraph::Link LinkGraph::find_link_in_lists(const FlagEdge& e, bool wants_graph) {
   for (const Vertex v : vertices_) local_[v] = kNone;
   // Marks take three passes and no branch; which of two sorted lists comes first is anyone's guess.
   constexpr std::uint8_t of_one = 1, of_both = 2;
@@ -183,21 +183,21 @@ LensGraph::Lens LensGraph::find_lens_in_lists(const FlagEdge& e, bool wants_grap
     return found;
   });
   vertices_.resize(count);
-  if (touches || wants_graph) number_lens();
+  if (touches || wants_graph) number_link();
   return {count == 0, touches};
 }
 
-void LensGraph::number_lens() {
+void LinkGraph::number_link() {
   const std::size_t count = vertices_.size();
   words_ = (count + 63) / 64;
-  lens_.assign(words_, ~Word{0});
-  if (count % 64 != 0) lens_.back() = ~Word{0} >> (64 - count % 64);
+  link_.assign(words_, ~Word{0});
+  if (count % 64 != 0) link_.back() = ~Word{0} >> (64 - count % 64);
   is_row_made_.assign(count, 0);
   local_rows_.resize(count * words_);
   for (std::size_t k = 0; k < count; ++k) local_[vertices_[k]] = static_cast<Vertex>(k);
 }
 
-void LensGraph::make_row(Vertex v) {
+void LinkGraph::make_row(Vertex v) {
   is_row_made_[v] = 1;
   Word* row = local_rows_.data() + v * words_;
   std::fill_n(row, words_, Word{0});

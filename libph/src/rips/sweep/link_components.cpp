@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rips/sweep/lens_components.hpp"
+#include "rips/sweep/link_components.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@ void set(bits::Word* row, std::uint32_t v) { row[v / 64] |= bits::Word{1} << (v 
 
 }  // namespace
 
-void LensComponents::find(const FlagEdge& e) {
+void LinkComponents::find(const FlagEdge& e) {
   const std::size_t words = graph_.words();
   roots_.clear();
   sets_.clear();
@@ -31,7 +31,7 @@ void LensComponents::find(const FlagEdge& e) {
   }
   const bool is_guess = start != kNone;  // and no apex
   if (!is_guess) start = graph_.first();
-  rest_.assign(graph_.lens(), graph_.lens() + words);
+  rest_.assign(graph_.link(), graph_.link() + words);
   if (!take_component(start)) {
     roots_.push_back(start);
     if (!is_guess && is_apex(start)) set_apex(e, start);
@@ -46,12 +46,12 @@ void LensComponents::find(const FlagEdge& e) {
   sort_components();
 }
 
-void LensComponents::find_roots(const FlagEdge& e) {
+void LinkComponents::find_roots(const FlagEdge& e) {
   constexpr std::size_t few = 16;
   std::array<Vertex, few> vertices;
   std::size_t count = 0;
   for (std::size_t k = 0; k < graph_.words(); ++k)
-    for (Word rest = graph_.lens()[k]; rest != 0; rest &= rest - 1) {
+    for (Word rest = graph_.link()[k]; rest != 0; rest &= rest - 1) {
       if (count == few) return find(e);
       vertices[count++] =
           static_cast<Vertex>(k * 64 + static_cast<std::size_t>(std::countr_zero(rest)));
@@ -74,7 +74,7 @@ void LensComponents::find_roots(const FlagEdge& e) {
   }
 }
 
-bool LensComponents::take_component(Vertex first) {
+bool LinkComponents::take_component(Vertex first) {
   const std::size_t words = graph_.words();
   sets_.resize(sets_.size() + words);
   Word* component = sets_.data() + sets_.size() - words;
@@ -104,7 +104,7 @@ bool LensComponents::take_component(Vertex first) {
   return is_left;
 }
 
-void LensComponents::sort_components() {
+void LinkComponents::sort_components() {
   // All but the one that a guess began with ascend.
   const std::size_t words = graph_.words();
   for (std::size_t i = 1; i < count() && roots_[i] < roots_[i - 1]; ++i) {
@@ -115,16 +115,16 @@ void LensComponents::sort_components() {
   }
 }
 
-bool LensComponents::find_apex(const FlagEdge& e) {
+bool LinkComponents::find_apex(const FlagEdge& e) {
   // An apex sees every vertex, so also one that a candidate misses.
   const std::size_t words = graph_.words();
   const auto has = [&](std::size_t w) { return (rest_[w / 64] >> (w % 64) & 1) != 0; };
-  rest_.assign(graph_.lens(), graph_.lens() + words);
+  rest_.assign(graph_.link(), graph_.link() + words);
   for (;;) {
     const std::size_t candidate = bits::first_common(rest_.data(), rest_.data(), words);
     if (candidate == bits::kNone) return false;
     const auto v = static_cast<Vertex>(candidate);
-    const std::size_t missed = bits::first_missing(graph_.lens(), graph_.row(v), v, words);
+    const std::size_t missed = bits::first_missing(graph_.link(), graph_.row(v), v, words);
     if (missed == bits::kNone) {
       set_apex(e, v);
       return true;

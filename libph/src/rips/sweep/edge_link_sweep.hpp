@@ -16,46 +16,46 @@
 #include "ph/run_context.hpp"
 #include "rips/annotations/annotations.hpp"
 #include "rips/annotations/formal_annotations.hpp"
-#include "rips/surfaces/lens_surfaces.hpp"
-#include "rips/sweep/lens_components.hpp"
-#include "rips/sweep/lens_cycles.hpp"
-#include "rips/sweep/lens_graph.hpp"
-#include "rips/sweep/lens_observer.hpp"
+#include "rips/surfaces/link_surfaces.hpp"
+#include "rips/sweep/link_components.hpp"
+#include "rips/sweep/link_cycles.hpp"
+#include "rips/sweep/link_graph.hpp"
+#include "rips/sweep/sweep_observer.hpp"
 
 namespace ph {
 
 /// H0, H1 and H2 of a Vietoris-Rips filtration edge by edge; no triangle is ever listed.
 ///
-/// The triangles that enter with an edge e = (u,v) are those over its lens, the vertices joined to
-/// both u and v before. All over one connected component of the lens say the same: one triangle a
+/// The triangles that enter with an edge e = (u,v) are those over its link, the vertices joined to
+/// both u and v before. All over one connected component of the link say the same: one triangle a
 /// component carries H1 (Koyama, Mémoli, Robins, Turner, Faster computation of degree-1 persistent
-/// homology using the reduced Vietoris-Rips filtration). An empty lens lets e join two components
+/// homology using the reduced Vietoris-Rips filtration). An empty link lets e join two components
 /// or give birth to a class. Otherwise the first triangle determines the annotation of e, and each
 /// further component w asks that a(u,w) + a(w,v) be the same: where it is not, the youngest
 /// generator of the difference dies. Almost all edges end sooner: if no edge between u or v and
-/// the lens is active, that is, has an annotation, nothing can happen. Where a further component
-/// kills nothing, a class of H2 is born; see LensSurfaces and docs/algorithms/edge-links.md.
+/// the link is active, that is, has an annotation, nothing can happen. Where a further component
+/// kills nothing, a class of H2 is born; see LinkSurfaces and docs/algorithms/edge-links.md.
 template <Field K>
-class LensSweep {
+class EdgeLinkSweep {
  public:
-  using Observer = LensObserver<K>;
+  using Observer = SweepObserver<K>;
   using Vertex = typename Observer::Vertex;
   using Position = typename Observer::Position;
 
   /// @param births of the vertices; empty: all enter first. @param edges outlive the sweep; those
   /// after which nothing happens are never sorted.
-  LensSweep(std::size_t vertices, std::span<const double> births, const BinnedEdges& edges,
-            const K& field, LensWanted wanted, Observer& observer, const RunContext& context)
+  EdgeLinkSweep(std::size_t vertices, std::span<const double> births, const BinnedEdges& edges,
+                const K& field, SweepRequest wanted, Observer& observer, const RunContext& context)
       : edges_(edges),
         field_(field),
         wanted_(wanted),
         observer_(observer),
         context_(context),
-        layout_(wanted.tuning.layout == LensLayout::automatic
-                    ? LensGraph::choose_layout(vertices, edges.size())
+        layout_(wanted.tuning.layout == LinkLayout::automatic
+                    ? LinkGraph::choose_layout(vertices, edges.size())
                     : wanted.tuning.layout),
         active_(vertices,
-                layout_ == LensLayout::rows && vertices <= wanted.tuning.vertices_of_active_rows,
+                layout_ == LinkLayout::rows && vertices <= wanted.tuning.vertices_of_active_rows,
                 &context.memory),
         graph_(active_, edges, layout_, &context.memory),
         components_(graph_, &context.memory),
@@ -79,7 +79,7 @@ class LensSweep {
 
   static constexpr Position kDead = UINT32_MAX;
 
-  /// Whether an edge does something only if its lens is empty.
+  /// Whether an edge does something only if its link is empty.
   bool can_bins_be_idle() const { return !surfaces_ && !wanted_.zero_length && living_ == 0; }
   /// Whether nothing happens at the edges of a bin. They are not added, see first_unadded_bin_.
   bool is_bin_idle(std::size_t bin);
@@ -88,13 +88,13 @@ class LensSweep {
   void add_edge(Position position);
   void join_or_give_birth(Position position, const FlagEdge& e);
   void report_zero_length(Position position, const FlagEdge& e);
-  /// Gives the edge its class, and each further component of its lens what it causes.
+  /// Gives the edge its class, and each further component of its link what it causes.
   void annotate(Position position, const FlagEdge& e);
   /// The same where many classes live.
   void annotate_formally(Position position, const FlagEdge& e);
   /// Whether there are many, and no more is wanted than when they die.
   bool wants_formal() const {
-    return std::same_as<K, Z2> && living_ >= living_for_formal_ && layout_ == LensLayout::rows &&
+    return std::same_as<K, Z2> && living_ >= living_for_formal_ && layout_ == LinkLayout::rows &&
            !surfaces_ && !wanted_.cycles && !wanted_.cocycles &&
            graph_.vertex_count() <= wanted_.tuning.vertices_of_active_rows &&
            FormalAnnotations::bytes(graph_.vertex_count()) <= most_bytes_for_formal();
@@ -123,13 +123,13 @@ class LensSweep {
 
   const BinnedEdges& edges_;
   const K& field_;
-  LensWanted wanted_;
+  SweepRequest wanted_;
   Observer& observer_;
   const RunContext& context_;
-  const LensLayout layout_;
+  const LinkLayout layout_;
   ActiveEdges active_;         // of non-zero annotation
-  LensGraph graph_;            // edges so far, but for the idle bins from first_unadded_bin_ on
-  LensComponents components_;  // of the graph's lens
+  LinkGraph graph_;            // edges so far, but for the idle bins from first_unadded_bin_ on
+  LinkComponents components_;  // of the graph's link
   std::pmr::vector<std::size_t> born_;  // components with which a class of H2 is born
   std::size_t first_unadded_bin_ = 0;
   std::size_t living_ = 0;               // classes of H1
@@ -139,13 +139,13 @@ class LensSweep {
   std::pmr::vector<Position> births_;          // by generator; kDead once it died
   std::unique_ptr<FormalAnnotations> formal_;  // has both instead, while there are many
   std::size_t living_for_formal_;
-  std::optional<LensCycles<K>> cycles_;
+  std::optional<LinkCycles<K>> cycles_;
   std::pmr::vector<typename Observer::EdgeValue> representative_;
-  std::optional<LensSurfaces<K>> surfaces_;
+  std::optional<LinkSurfaces<K>> surfaces_;
 };
 
 template <Field K>
-void LensSweep<K>::run() {
+void EdgeLinkSweep<K>::run() {
   Ticker ticker(context_, "edges", edges_.size());
   for (std::size_t bin = 0; bin < edges_.bin_count(); ++bin) {
     const std::size_t begin = edges_.bin_begin(bin), end = edges_.bin_begin(bin + 1);
@@ -175,39 +175,39 @@ void LensSweep<K>::run() {
 }
 
 template <Field K>
-bool LensSweep<K>::is_bin_idle(std::size_t bin) {
-  // A lens that is not empty stays so, and its edge joins no components.
+bool EdgeLinkSweep<K>::is_bin_idle(std::size_t bin) {
+  // A link that is not empty stays so, and its edge joins no components.
   if (!can_bins_be_idle()) return false;
-  const auto have_lenses = [&](std::span<const FlagEdge> edges) {
-    return graph_.have_lenses(edges, context_);
+  const auto have_links = [&](std::span<const FlagEdge> edges) {
+    return graph_.have_links(edges, context_);
   };
-  if (edges_.with_bins(bin, bin + 1, have_lenses)) return true;
+  if (edges_.with_bins(bin, bin + 1, have_links)) return true;
   if (first_unadded_bin_ == bin) return false;
   add_bins_until(bin);
-  return edges_.with_bins(bin, bin + 1, have_lenses);
+  return edges_.with_bins(bin, bin + 1, have_links);
 }
 
 template <Field K>
-void LensSweep<K>::add_bins_until(std::size_t bin) {
+void EdgeLinkSweep<K>::add_bins_until(std::size_t bin) {
   edges_.with_bins(first_unadded_bin_, bin,
                    [&](std::span<const FlagEdge> edges) { graph_.add_all(edges, context_); });
   first_unadded_bin_ = bin;
 }
 
 template <Field K>
-void LensSweep<K>::add_edge(Position position) {
+void EdgeLinkSweep<K>::add_edge(Position position) {
   const FlagEdge& e = edges_[position];
   const bool wants_graph = surfaces_ || wanted_.zero_length;
-  const LensGraph::Lens lens = graph_.find_lens(e, wants_graph || formal_);
-  if (lens.is_empty) {
+  const LinkGraph::Link link = graph_.find_link(e, wants_graph || formal_);
+  if (link.is_empty) {
     join_or_give_birth(position, e);
   } else {
     if (wanted_.zero_length) report_zero_length(position, e);
-    if ((lens.touches_active || surfaces_) && !formal_) components_.find(e);
+    if ((link.touches_active || surfaces_) && !formal_) components_.find(e);
     born_.clear();
     if (formal_)
       annotate_formally(position, e);
-    else if (lens.touches_active)
+    else if (link.touches_active)
       annotate(position, e);
     else if (surfaces_)
       for (std::size_t i = 1; i < components_.count(); ++i) born_.push_back(i);
@@ -222,7 +222,7 @@ void LensSweep<K>::add_edge(Position position) {
 }
 
 template <Field K>
-void LensSweep<K>::report_zero_length(Position position, const FlagEdge& e) {
+void EdgeLinkSweep<K>::report_zero_length(Position position, const FlagEdge& e) {
   const Vertex apex = graph_.global(graph_.first());
   representative_.clear();
   if (wanted_.cocycles || wanted_.cycles) representative_.push_back({position, field_.from_int(1)});
@@ -234,7 +234,7 @@ void LensSweep<K>::report_zero_length(Position position, const FlagEdge& e) {
 }
 
 template <Field K>
-void LensSweep<K>::join_or_give_birth(Position position, const FlagEdge& e) {
+void EdgeLinkSweep<K>::join_or_give_birth(Position position, const FlagEdge& e) {
   Vertex elder = sets_.find(e.u), younger = sets_.find(e.v);
   if (elder != younger) {
     if (age_[younger] < age_[elder]) std::swap(elder, younger);
@@ -251,7 +251,7 @@ void LensSweep<K>::join_or_give_birth(Position position, const FlagEdge& e) {
 }
 
 template <Field K>
-void LensSweep<K>::annotate(Position position, const FlagEdge& e) {
+void EdgeLinkSweep<K>::annotate(Position position, const FlagEdge& e) {
   const auto around = [&](Vertex w) {
     return annotations_->sum(annotations_->of(e.u, w), annotations_->of(w, e.v));
   };
@@ -271,8 +271,8 @@ void LensSweep<K>::annotate(Position position, const FlagEdge& e) {
 }
 
 template <Field K>
-void LensSweep<K>::annotate_formally(Position position, const FlagEdge& e) {
-  bits::for_each(graph_.lens(), 0, graph_.words(),
+void EdgeLinkSweep<K>::annotate_formally(Position position, const FlagEdge& e) {
+  bits::for_each(graph_.link(), 0, graph_.words(),
                  [&](std::size_t w) { formal_->prefetch_path(e.u, static_cast<Vertex>(w), e.v); });
   components_.find_roots(e);
   const auto around = [&](std::size_t i) {
@@ -287,7 +287,7 @@ void LensSweep<K>::annotate_formally(Position position, const FlagEdge& e) {
 }
 
 template <Field K>
-void LensSweep<K>::begin_formal() {
+void EdgeLinkSweep<K>::begin_formal() {
   if constexpr (std::same_as<K, Z2>) {
     std::pmr::vector<FormalAnnotations::Generator> numbers(births_.size(), 0, &context_.memory),
         sum(&context_.memory);
@@ -306,14 +306,14 @@ void LensSweep<K>::begin_formal() {
 }
 
 template <Field K>
-void LensSweep<K>::solve_relations() {
+void EdgeLinkSweep<K>::solve_relations() {
   if (!formal_->has_rows() && formal_->bytes_to_solve() > most_bytes_for_formal()) return;
   const bool is_useful = formal_->solve(report_death());
   if (!is_useful || 2 * living_ <= wanted_.tuning.classes_for_formal) end_formal();
 }
 
 template <Field K>
-void LensSweep<K>::end_formal() {
+void EdgeLinkSweep<K>::end_formal() {
   if constexpr (std::same_as<K, Z2>) {
     formal_->make_rows();
     take_births();
@@ -332,13 +332,13 @@ void LensSweep<K>::end_formal() {
 }
 
 template <Field K>
-void LensSweep<K>::take_births() {
+void EdgeLinkSweep<K>::take_births() {
   births_.clear();
   formal_->for_each_birth([&](Position birth) { births_.push_back(birth); });
 }
 
 template <Field K>
-void LensSweep<K>::kill(Class relation, Triangle death, Class of_edge) {
+void EdgeLinkSweep<K>::kill(Class relation, Triangle death, Class of_edge) {
   const auto g = annotations_->youngest(relation);
   find_representative(g, relation);
   if (wanted_.cocycles) {
@@ -354,7 +354,7 @@ void LensSweep<K>::kill(Class relation, Triangle death, Class of_edge) {
 
 template <Field K>
 template <class Values>
-void LensSweep<K>::find_representative(typename Annotations<K>::Generator g, Values of_cycle) {
+void EdgeLinkSweep<K>::find_representative(typename Annotations<K>::Generator g, Values of_cycle) {
   representative_.clear();
   if (wanted_.cocycles)
     annotations_->for_each_value(g, [&](const auto& edge, typename K::Element a) {
@@ -366,7 +366,7 @@ void LensSweep<K>::find_representative(typename Annotations<K>::Generator g, Val
     });
 }
 
-extern template class LensSweep<Z2>;
-extern template class LensSweep<Zp>;
+extern template class EdgeLinkSweep<Z2>;
+extern template class EdgeLinkSweep<Zp>;
 
 }  // namespace ph

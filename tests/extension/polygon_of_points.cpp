@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// What gives the complex to the program.
+#include "barcode/own_complex.hpp"
+#include "polygon.hpp"
+
+namespace {
+
+const bool kIsAdded =
+    (ph::barcode::add_complex({"polygon", "points joined in their order",
+                               [](ph::PointsView points, const ph::RunContext& context) {
+                                 return ph::listed(Polygon(points), context);
+                               }}),
+     true);
+
+}  // namespace
