@@ -2,6 +2,7 @@
 #include "option_scope.hpp"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 

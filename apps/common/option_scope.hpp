@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <span>
 #include <string_view>
 #include <vector>
+
+#include "cli_names.hpp"
 
 namespace ph::app {
 

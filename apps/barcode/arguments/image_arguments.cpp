@@ -2,6 +2,7 @@
 #include "barcode/arguments/image_arguments.hpp"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <array>
 #include <cmath>

@@ -2,6 +2,7 @@
 #include "barcode/arguments/table_arguments.hpp"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>
