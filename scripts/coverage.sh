@@ -15,7 +15,7 @@ find "$build" -name '*.gcda' -delete
 for test in io/io_read_tests io/io_write_tests fuzz/truncation_tests; do
   "$build/tests/$test" --gtest_brief=1 --gtest_filter=-Gzip.BombsEndSoon
 done
-"$build/tests/fuzz/fuzz_replay" tests/fuzz/seeds "$build/tests/fuzz/samples"
+"$build/tests/fuzz/fuzz_replay" tests/corpus "$build/tests/fuzz/samples"
 
 # What only writes is not counted.
 gcovr --root . --object-directory "$build" --filter libph/src/io/ \

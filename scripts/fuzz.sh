@@ -20,7 +20,7 @@ fuzz() {
     [ -f "tests/fuzz/dictionaries/$dictionary.dict" ] && break
   done
   local seeds=("$programs/samples")
-  [ -d "tests/fuzz/seeds/$target" ] && seeds+=("tests/fuzz/seeds/$target")
+  [ -d "tests/corpus/$target" ] && seeds+=("tests/corpus/$target")
   mkdir -p "$build/corpus/$target" "$build/findings/$target"
   ln -sf fuzz "$programs/fuzz_$target"
   "$programs/fuzz_$target" "$build/corpus/$target" "${seeds[@]}" -max_len=4096 -timeout=5 \

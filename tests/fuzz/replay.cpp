@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// fuzz_replay SEEDS SAMPLES: runs the files in SEEDS/<target>/ through their targets, as libFuzzer
-// does, and each sample through all of them: a file of one format is damage to the others. Prints
-// how many runs it were; exits 1 if a property does not hold.
+// fuzz_replay CORPUS SAMPLES: runs the files in CORPUS/<target>/ through their targets, as
+// libFuzzer does, and each sample through all of them: a file of one format is damage to the
+// others. Prints how many runs it were; exits 1 if a property does not hold.
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -48,7 +48,7 @@ class Replay {
 
 int main(int argc, char** argv) {
   if (argc != 3) {
-    std::cerr << "usage: fuzz_replay SEEDS SAMPLES\n";
+    std::cerr << "usage: fuzz_replay CORPUS SAMPLES\n";
     return 64;
   }
   Replay replay;
