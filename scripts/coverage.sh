@@ -12,7 +12,7 @@ cmake --preset coverage -B "$build" >/dev/null
 cmake --build "$build" -j "$(nproc)" --target io_read_tests io_write_tests truncation_tests fuzz_replay
 find "$build" -name '*.gcda' -delete
 # A test of time means nothing in a build without optimisation.
-for test in io/io_read_tests io/io_write_tests fuzz/truncation_tests; do
+for test in libph/io_read_tests libph/io_write_tests fuzz/truncation_tests; do
   "$build/tests/$test" --gtest_brief=1 --gtest_filter=-Gzip.BombsEndSoon
 done
 "$build/tests/fuzz/fuzz_replay" tests/corpus "$build/tests/fuzz/samples"

@@ -26,7 +26,8 @@ from program_mutants import MUTANTS as PROGRAM_MUTANTS
 ROOT = Path(__file__).resolve().parents[2]
 TIME_LIMIT = 90  # seconds a test program may run
 
-SOURCES = ["core", "metric", "complex", "rips", "cubical", "facade", "diagram", "loops"]  # rooms of libph/src
+# Rooms of libph/src.
+SOURCES = ["core", "metric", "image", "complex", "rips", "cubical", "facade", "diagram", "loops"]
 NINJA = """\
 cxx = {compiler}
 flags = -std=c++20 -O1 -Ilibph/include -Ilibph/src -Itests '-DPH_SHARED_DIR=""' {includes}
@@ -64,8 +65,9 @@ def write_build(tree, programs):
         text += f"build {library[-1]}: compile {source}\n"
     text += "build o/estimate.o: compile libph/src/facade/estimate.cpp\n"
     text += f"build o/libph.a: archive {' '.join(library)}\n"
+    tests = {p.stem: p.relative_to(tree) for f in SOURCES for p in (tree / "tests/libph" / f).rglob("*.cpp")}
     for program in programs:
-        text += f"build o/{program}.o: compile tests/core/{program}.cpp\n"
+        text += f"build o/{program}.o: compile {tests[program]}\n"
         asks_for_estimate = program in ("persistence_tests", "components_tests", "public_structs_tests")
         extra = "o/estimate.o" if asks_for_estimate else ""
         text += f"build {program}: link o/{program}.o {extra} o/libph.a\n"
@@ -135,7 +137,7 @@ def main():
 
     with tempfile.TemporaryDirectory(prefix="ph-mutants-") as folder:
         base = Path(folder) / "base"
-        for part in ("libph/include", "libph/src", "tests/core", "tests/support"):
+        for part in ("libph/include", "libph/src", "tests/libph", "tests/support"):
             shutil.copytree(ROOT / part, base / part)
         write_build(base, programs)
         if (result := build(base, programs, arguments.jobs)).returncode != 0:

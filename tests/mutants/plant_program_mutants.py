@@ -39,7 +39,7 @@ def built(tree, targets, jobs):
 
 def tests_pass(tree, tests):
     """@param tests a test program that was built, or the name of a test."""
-    for program in (tree / "build/tests").glob(f"*/{tests}"):
+    for program in (tree / "build/tests").glob(f"**/{tests}"):
         if program.is_file():
             return run(program, "--gtest_fail_fast", "--gtest_brief=1").returncode == 0
     return run("ctest", "--test-dir", tree / "build", "-R", f"^{tests}$", "--no-tests=error").returncode == 0

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "read_support.hpp"
+#include "libph/io/read_support.hpp"
 
 namespace ph::test {
 

@@ -9,10 +9,10 @@
 #include <optional>
 #include <random>
 
+#include "libph/io/read_support.hpp"
 #include "nifti_file.hpp"
 #include "ph/io/formats.hpp"
 #include "ph/io/read.hpp"
-#include "read_support.hpp"
 
 namespace ph::test {
 namespace {

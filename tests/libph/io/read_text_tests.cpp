@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
+#include "libph/io/read_support.hpp"
 #include "ph/io/formats.hpp"
 #include "ph/io/write.hpp"
-#include "read_support.hpp"
 
 namespace ph::test {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
+#include "libph/io/read_support.hpp"
 #include "ph/io/cloud_io.hpp"
 #include "ph/io/formats.hpp"
-#include "read_support.hpp"
 
 #ifndef PH_SHARED_DIR
 #define PH_SHARED_DIR ""

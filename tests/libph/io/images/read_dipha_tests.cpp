@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 
+#include "libph/io/read_support.hpp"
 #include "ph/io/formats.hpp"
-#include "read_support.hpp"
 
 #ifndef PH_SHARED_DIR
 #define PH_SHARED_DIR ""

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "libph/io/read_support.hpp"
 #include "ph/detail/png.hpp"
 #include "ph/io/formats.hpp"
-#include "read_support.hpp"
 
 namespace ph::test {
 namespace {

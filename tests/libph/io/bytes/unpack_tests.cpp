@@ -4,9 +4,9 @@
 #include <chrono>
 #include <cmath>
 
+#include "libph/io/read_support.hpp"
 #include "ph/io/cloud_io.hpp"
 #include "ph/io/formats.hpp"
-#include "read_support.hpp"
 
 namespace ph::test {
 namespace {

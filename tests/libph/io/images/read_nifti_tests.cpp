@@ -6,9 +6,9 @@
 #include <memory_resource>
 #include <thread>
 
+#include "libph/io/read_support.hpp"
 #include "nifti_file.hpp"
 #include "ph/io/formats.hpp"
-#include "read_support.hpp"
 
 namespace ph::test {
 namespace {

@@ -2,8 +2,8 @@
 #include <array>
 #include <cmath>
 
+#include "libph/io/read_support.hpp"
 #include "ph/io/write.hpp"
-#include "read_support.hpp"
 
 namespace ph::test {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "read_support.hpp"
+#include "libph/io/read_support.hpp"
 
 namespace ph::test {
 namespace {

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <limits>
 
+#include "libph/io/read_support.hpp"
 #include "ph/io/cloud_io.hpp"
 #include "ph/io/formats.hpp"
-#include "read_support.hpp"
 
 namespace ph::test {
 namespace {

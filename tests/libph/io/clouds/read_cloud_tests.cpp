@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
 
+#include "libph/io/read_support.hpp"
 #include "motley_cloud.hpp"
 #include "ph/io/cloud_io.hpp"
 #include "ph/io/formats.hpp"
-#include "read_support.hpp"
 
 namespace ph::test {
 namespace {
