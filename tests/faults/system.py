@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Rows 51 to 60 and 77 to 84: files, folders, names and surroundings. What needs closed descriptors,
-limits of the system or a second reader is in tests/apps/barcode_faults.py."""
+limits of the system or a second reader is in tests/apps/barcode/faults.py."""
 import contextlib
 import functools
 import os

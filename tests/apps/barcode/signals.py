@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: MIT
+"""Signals during a long run: it ends at once, with the shell's code, and leaves nothing behind."""
+import math
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../support"))
+import program  # noqa: E402
+from program import ProgramTest, main  # noqa: E402
+
+# 0.2 s are promised; a busy machine of a test may take a little longer to notice, and longer still
+# when it is busy with something else: what was too slow is tried again.
+PATIENCE = 0.2 + 0.3
+TRIES = 3
+
+
+class Signals(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        random.seed(3)
+        self.write("many.txt", "".join(" ".join(f"{random.random():.6f}" for _ in range(6)) + "\n"
+                                       for _ in range(1500)))
+
+    def start(self, *arguments):
+        """A long run, unless the arguments ask for another engine."""
+        return subprocess.Popen([program.PROGRAM, "many.txt", "--quiet", "-o", "out.csv",
+                                 "--max-dim", "2", "--collapse", "off",
+                                 *(arguments or ("--engine", "cohomology"))],
+                                cwd=self.folder, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
+                                stderr=subprocess.PIPE)
+
+    def finish(self, run):
+        begin = time.monotonic()
+        run.wait(10)
+        seconds = time.monotonic() - begin
+        self.assertEqual(run.stderr.read(), b"")
+        run.stderr.close()
+        if run.stdin:
+            run.stdin.close()
+        return run.returncode, seconds
+
+    def expect_end(self, start, delay, code, *numbers):
+        """Sends signals to a run that `start` returns and that must still be there."""
+        for _ in range(TRIES):
+            run = start()
+            time.sleep(delay)
+            self.assertIsNone(run.poll(), "the computation was over too soon")
+            for number in numbers:
+                run.send_signal(number)
+            found, seconds = self.finish(run)
+            self.assertEqual(found, code)
+            if seconds < PATIENCE:
+                return
+        self.fail(f"ended after {seconds:.2f} s, expected less than {PATIENCE} s")
+
+    def test_each_signal_ends_a_computation(self):
+        for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)):
+            for delay in (0.15, 0.8):
+                with self.subTest(signal=number, delay=delay):
+                    self.expect_end(self.start, delay, code, number)
+                    self.assertEqual(self.files(), ["many.txt", "square.txt"])
+
+    def test_interrupts_of_the_sweep_of_edge_links(self):
+        with open(self.path("many.txt"), "w", encoding="ascii") as file:  # one large cocycle
+            for _ in range(2600):
+                x = [random.gauss(0, 1) for _ in range(3)]
+                file.write(" ".join(f"{c / math.hypot(*x):.6f}" for c in x) + "\n")
+        for delay in (0.1, 0.4, 0.8, 1.2):
+            with self.subTest(delay=delay):
+                self.expect_end(lambda: self.start("--engine", "edge-links"), delay, 130, signal.SIGINT)
+
+    def test_a_signal_ends_reading(self):
+        def start():
+            return subprocess.Popen([program.PROGRAM, "-", "--quiet"], stdin=subprocess.PIPE,
+                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        self.expect_end(start, 0.3, 130, signal.SIGINT)
+
+    def test_a_second_signal(self):
+        self.expect_end(self.start, 0.3, 130, signal.SIGINT, signal.SIGINT)
+        self.assertEqual(self.files(), ["many.txt", "square.txt"])
+
+    def test_kill_leaves_no_final_name(self):
+        run = self.start()
+        time.sleep(0.3)
+        run.kill()
+        self.finish(run)
+        left = set(self.files()) - {"many.txt", "square.txt"}
+        self.assertTrue(all(name.startswith(".ph-") for name in left), left)
+
+    def test_ignored_signals_stay_ignored(self):
+        run = subprocess.Popen([program.PROGRAM, "-", "--quiet"], stdin=subprocess.PIPE,
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                               preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+        time.sleep(0.3)
+        run.send_signal(signal.SIGHUP)
+        time.sleep(0.3)
+        self.assertEqual(run.communicate(b"0\n1\n", 20)[0], b"dim,birth,death\n0,0,1\n0,0,inf\n")
+        self.assertEqual(run.returncode, 0)
+
+
+class RandomMoments(ProgramTest):
+    """A short run with a large result, met anywhere: reading, computing, writing, renaming."""
+    MOMENTS = 120
+    ARGUMENTS = ("picture.pgm", "--quiet", "-o", "out.json")
+
+    def setUp(self):
+        super().setUp()
+        random.seed(4)
+        self.write("picture.pgm", b"P5 300 300 255\n" + random.randbytes(90000))
+        start = time.monotonic()
+        self.expect(0, *self.ARGUMENTS)
+        self.seconds = time.monotonic() - start
+        self.complete = self.result()
+
+    def result(self):
+        """What the file holds but for the timings."""
+        return self.read("out.json").partition('"timings"')[0]
+
+    def meet(self, number, delay=None):
+        """Sends a signal at a random moment. @return exit code, seconds until the end."""
+        self.write("out.json", "old")
+        run = subprocess.Popen([program.PROGRAM, *self.ARGUMENTS], cwd=self.folder,
+                               stderr=subprocess.PIPE)
+        time.sleep(random.uniform(0, 1.1 * self.seconds) if delay is None else delay)
+        run.send_signal(number)
+        start = time.monotonic()
+        code = run.wait(10)
+        seconds = time.monotonic() - start
+        self.assertEqual(run.stderr.read(), b"")
+        run.stderr.close()
+        found = self.result()
+        self.assertTrue(found == self.complete or (code != 0 and found == "old"), found[:200])
+        return code, seconds
+
+    def meet_in_time(self, number):
+        """The same; what was too slow is tried again at that moment, as a disk may be busy."""
+        delay = random.uniform(0, 1.1 * self.seconds)
+        for _ in range(TRIES):
+            code, seconds = self.meet(number, delay)
+            if seconds < PATIENCE:
+                break
+        return code, seconds
+
+    def test_interrupts(self):
+        slowest, met = 0, 0
+        while met < self.MOMENTS:
+            code, seconds = self.meet_in_time(signal.SIGINT)
+            self.assertIn(code, (0, 130, -signal.SIGINT))  # the last: before main began
+            self.assertEqual(self.files(), ["out.json", "picture.pgm", "square.txt"])
+            met += code != 0
+            slowest = max(slowest, seconds)
+        print(f"\n{met} interrupted runs, the slowest ended after {slowest * 1000:.0f} ms",
+              file=sys.stderr)
+        self.assertLess(slowest, PATIENCE)
+
+    def test_kills(self):
+        met, left = 0, 0
+        while met < self.MOMENTS:
+            code, _ = self.meet(signal.SIGKILL)
+            met += code != 0
+            for name in set(self.files()) - {"out.json", "picture.pgm", "square.txt"}:
+                self.assertTrue(name.startswith(".ph-"), name)
+                os.remove(self.path(name))
+                left += 1
+        print(f"\n{met} killed runs, {left} left a temporary name, none half a file",
+              file=sys.stderr)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: MIT
+"""ph-segment --report: the page against the other outputs, and its cuts against ph-segment --cut.
+
+    segment_report.py PH_SEGMENT SCENES
+"""
+import csv
+import hashlib
+import json
+import math
+import os
+import random
+import struct
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../support"))
+import report_reader  # noqa: E402
+from program import ProgramTest, main  # noqa: E402
+from report_reader import NONE, Report  # noqa: E402
+
+SCENES = sys.argv.pop(2)
+SCENE = os.path.abspath(os.path.join(SCENES, "test57.pcd"))  # parts that touch, many
+
+
+def table_scene(width=64, height=48):
+    """An organised PCD, binary: a plane with two boxes, a hole, colours and ground truth."""
+    rng = random.Random(1)
+    records = []
+    for v in range(height):
+        for u in range(width):
+            box = 1 if 10 <= u < 26 and 12 <= v < 30 else 2 if 26 <= u < 44 and 16 <= v < 34 else 0
+            z = (1.0, 0.9, 0.86)[box] + 0.0005 * rng.random()
+            if (u, v) == (3, 3):
+                z = math.nan
+            x, y = (u - width / 2) * 0.008 * z, (v - height / 2) * 0.008 * z
+            records.append(struct.pack("<fffIB", x, y, z, u << 16 | v << 8 | box, box))
+    header = ("VERSION 0.7\nFIELDS x y z rgba label\nSIZE 4 4 4 4 1\nTYPE F F F U U\n"
+              f"COUNT 1 1 1 1 1\nWIDTH {width}\nHEIGHT {height}\nVIEWPOINT 0 0 0 1 0 0 0\n"
+              f"POINTS {width * height}\nDATA binary\n")
+    return header.encode() + b"".join(records)
+
+
+class Reports(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.write("scene.pcd", table_scene())
+        if not report_reader.is_built_in(self):
+            run = self.expect(69, "scene.pcd", "--report", "r.html")
+            self.assertIn("not built in", run.stderr)
+            self.skipTest("reports are not built in")
+
+    def labels(self, *arguments):
+        self.expect(0, *arguments, "--labels", "l.csv", "--quiet")
+        return [int(line) for line in self.read("l.csv").split()]
+
+    def expect_cuts(self, scene, options, cuts):
+        """The page's segments of some cuts are the program's, at every point."""
+        own = self.labels(scene, *options, "--report", "r.html")
+        report = Report(self.path("r.html"))
+        tree = report.meta["tree"]
+        self.assertEqual(report.point_labels(tree["cut"], len(own), joined=True), own)
+        counts = set()
+        for cut in cuts:
+            words = [w.replace("{cut}", repr(cut)) for w in tree["command"][1:]]
+            words[-1] = "l.csv"
+            self.expect(0, *words, "--quiet")
+            expected = [int(line) for line in self.read("l.csv").split()]
+            self.assertEqual(report.point_labels(cut, len(own)), expected, f"{options} {cut}")
+            counts.add(max(expected))
+        return report, counts
+
+    def test_every_cut_of_a_small_scene(self):
+        for options in (["--min-part", "5", "--min-size", "3"], ["--method", "paper"],
+                        ["--method", "paper", "--voxel", "0.012", "--distance", "0.03",
+                         "--steps", "exact"],
+                        ["--supervoxels", "0.03", "--min-size", "2"]):
+            cuts = (0.0, 0.005, 0.011, 0.02) if "paper" in options else (0.0, 0.003, 0.05, 0.4)
+            self.expect_cuts("scene.pcd", options, cuts)
+
+    def test_every_cut_of_a_real_scene(self):
+        if not os.path.exists(SCENE):
+            self.skipTest(f"NO SCENES in {SCENES}: cuts of a real scene are not tested")
+        report, counts = self.expect_cuts(SCENE, [], (0.0, 0.02, 0.1, 0.3, 0.6))
+        self.assertGreaterEqual(len(counts), 3)
+        self.assertLess(os.path.getsize(self.path("r.html")), 5_000_000)
+        _, counts = self.expect_cuts(SCENE, ["--method", "paper", "--distance", "0.03"],
+                                     (0.01, 0.02, 0.03))
+        self.assertGreaterEqual(len(counts), 2)
+
+    def test_points_are_those_of_the_input(self):
+        self.expect(0, "scene.pcd", "--report", "r.html", "--json", "s.json")
+        report, scene = Report(self.path("r.html")), table_scene()
+        step = struct.calcsize("<fffIB")
+        start = scene.index(b"DATA binary\n") + 12
+        points = [struct.unpack_from("<fffIB", scene, start + i * step) for i in range(64 * 48)]
+        kept = [i for i, p in enumerate(points) if not math.isnan(p[2])]
+        self.assertEqual(report["points/index"], kept)
+        self.assertEqual(report.arrays["points/rgb"].rows(),
+                         [(points[i][3] >> 16, points[i][3] >> 8 & 255, points[i][3] & 255)
+                          for i in kept])
+        self.assertEqual(report["points/truth"], [points[i][4] for i in kept])
+        for i, place in zip(kept, report.arrays["points/position"].rows()):
+            for a, b in zip(points[i], place):
+                self.assertAlmostEqual(a, b, delta=2e-5)
+        summary = json.loads(self.read("s.json"))
+        self.assertEqual(report.meta["tree"]["min_size"], summary["cut"]["min_size"])
+        self.assertEqual(sum(report["tree/leaf_vertices"]), summary["complex"]["vertices"])
+        self.assertEqual(len(report["points/normal"]), 2 * len(kept))
+
+    def test_bars_are_those_of_a_length(self):
+        self.expect(0, "scene.pcd", "--report", "r.html", "--barcode", "b.csv")
+        bars = [(int(r["dim"]), float(r["birth"]), float(r["death"]))
+                for r in csv.DictReader(self.read("b.csv").splitlines())]
+        report = Report(self.path("r.html"))
+        self.assertEqual(report.bars(), [b for b in bars if b[2] > b[1]])
+        index = set(report["points/index"])
+        self.assertTrue(index.issuperset(report["bars/birth_cells"]))
+        self.assertEqual(len(report["bars/death_cells"]),
+                         2 * sum(b[2] < math.inf for b in report.bars()))
+
+    def test_each_branch_has_its_bar(self):
+        self.expect(0, "scene.pcd", "--report", "r.html", "--min-part", "2")
+        report = Report(self.path("r.html"))
+        bars = report.bars()
+        for bar, value, level in zip(report["tree/merge_bar"], report["tree/merge_value"],
+                                     report["tree/merge_level"]):
+            if level > 0:
+                self.assertEqual((bars[bar][2], bars[bar][2] - bars[bar][1]), (value, level))
+            else:
+                self.assertEqual(bar, NONE)
+        named = [b for b in report["tree/merge_bar"] if b != NONE]
+        named += [b for _, b in report.arrays["tree/leaf_bar"].rows()]
+        self.assertEqual(sorted(named), list(range(len(bars))))
+
+    def test_a_stored_tree_has_a_report_too(self):
+        own = self.labels("scene.pcd", "--tree", "s.tree")
+        self.expect(0, "s.tree", "--report", "r.html", "--quiet")
+        report = Report(self.path("r.html"))
+        self.assertEqual(report.point_labels(report.meta["tree"]["cut"], len(own), joined=True),
+                         own)
+        self.assertEqual(report.meta["tree"]["command"][:2], ["ph-segment", "s.tree"])
+        self.assertNotIn("points/rgb", report)
+
+    def test_where_it_comes_from(self):
+        self.expect(0, "scene.pcd", "--report", "r.html", "--method=paper", "--cut", "0.02",
+                    "--json", "s.json", "--quiet", "--no-check", "--plane", "off")
+        report = Report(self.path("r.html"))
+        self.assertEqual(report.meta["tree"]["command"],
+                         ["ph-segment", "scene.pcd", "--plane", "off", "--method", "paper",
+                          "--no-check", "--cut", "{cut}", "--labels", "labels.npy"])
+        p = report.meta["provenance"]
+        self.assertEqual(p["command"][:4], ["ph-segment", "scene.pcd", "--report", "r.html"])
+        self.assertEqual(p["input"]["sha256"], hashlib.sha256(table_scene()).hexdigest())
+        self.assertEqual(p["input"]["description"], "3072 points, 64 x 48")
+        self.assertEqual(report.meta["tree"]["cut"], 0.02)
+        self.assertEqual(report.meta["tree"]["to"], 0.025)
+        self.assertEqual(p["notes"]["Cross-check"], "skipped")
+        self.assertEqual(report.meta["cloud"]["viewpoint"], [0, 0, 0])
+
+    def test_a_stream_has_a_report_a_frame(self):
+        self.write("other.pcd", table_scene())
+        self.expect(0, "scene.pcd", "other.pcd", "--report", "all/", "--quiet")
+        self.assertEqual(sorted(os.listdir(self.path("all"))), ["other.html", "scene.html"])
+        report = Report(self.path("all/other.html"))
+        self.assertEqual(report.meta["tree"]["command"][1], "other.pcd")
+
+    def test_a_cloud_that_is_empty_or_only_holes(self):
+        self.write("e.xyz", "nan nan nan\nnan nan nan\n")
+        self.expect(0, "e.xyz", "--report", "r.html")
+        report = Report(self.path("r.html"))
+        self.assertEqual(report.bars(), [])
+        self.assertEqual(report.arrays["points/position"].shape, [0, 3])
+
+    def test_what_goes_wrong_leaves_nothing(self):
+        before = self.files()
+        self.expect(64, "scene.pcd", "--report", "r.txt")
+        self.expect(73, "scene.pcd", "--report", "no/such/r.html")
+        self.expect(66, "none.pcd", "--report", "r.html")
+        self.assertEqual(self.files(), before)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: MIT
+// Method paper on small scenes with known answers, and on inputs with nothing in them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "libsegment/scenery.hpp"
+#include "ph/error.hpp"
+
+namespace ph::segment {
+namespace {
+
+using test::kHole;
+using test::TableScene;
+
+const SegmentOptions kPaper{.method = Method::paper};
+const std::vector<std::string_view> kStages = {
+    "range filter", "plane", "voxel grid", "complex", "persistence", "components", "check"};
+
+TEST(Pipeline, TwoBoxesOnATable) {
+  const TableScene scene = TableScene::two_boxes();
+  const Segmentation s = segment(CloudView{scene.xyz(), {}}, kPaper);
+  ASSERT_TRUE(s.plane) << s.plane_note;
+  EXPECT_EQ(s.plane_note, "");
+  EXPECT_TRUE(s.checked);
+  EXPECT_EQ(s.difference, "");
+  ASSERT_EQ(s.segments.size(), 2U);
+  ASSERT_EQ(s.labels.size(), scene.truth().size());
+
+  // Exactly the points of the boxes that stand out of the plane by more than its thickness.
+  std::array<Index, 3> points{};
+  for (std::size_t i = 0; i < s.labels.size(); ++i) {
+    const float* p = &scene.xyz()[3 * i];
+    const bool out = scene.truth()[i] > 0 && s.plane->signed_distance(p[0], p[1], p[2]) > 0.006;
+    EXPECT_EQ(s.labels[i], out ? static_cast<std::uint32_t>(scene.truth()[i]) : 0) << i;
+    ++points[s.labels[i]];
+  }
+  EXPECT_EQ(points[1], s.segments[0].points);
+  EXPECT_EQ(points[2], s.segments[1].points);
+  EXPECT_GT(points[1], points[2]);
+  EXPECT_GT(points[2], 300);
+  EXPECT_LT(s.segments[0].centroid[0], -0.1);
+  EXPECT_GT(s.segments[1].centroid[0], 0.1);
+  EXPECT_TRUE(std::isinf(s.segments[0].persistence));
+
+  // The plane is the table: 45 degrees, one metre away.
+  EXPECT_NEAR(s.plane->normal[1], -std::sqrt(0.5), 1e-3);
+  EXPECT_NEAR(s.plane->offset, std::sqrt(0.5), 1e-3);
+}
+
+TEST(Pipeline, StagesAndComplex) {
+  const TableScene scene = TableScene::two_boxes();
+  const Segmentation s = segment(CloudView{scene.xyz(), {}}, kPaper);
+  ASSERT_EQ(s.stages.size(), kStages.size());
+  for (std::size_t i = 0; i < kStages.size(); ++i) {
+    EXPECT_EQ(s.stages[i].name, kStages[i]);
+    EXPECT_GE(s.stages[i].seconds, 0);
+  }
+  EXPECT_EQ(s.stages[0].points, std::ranges::count_if(scene.truth(), [](int t) { return t >= 0; }));
+  EXPECT_EQ(s.stages[2].points, s.vertices.rows());
+  EXPECT_EQ(s.stages[5].points, s.segments[0].voxels + s.segments[1].voxels);
+  EXPECT_EQ(static_cast<Index>(s.barcode.size()), s.vertices.rows());
+  EXPECT_EQ(s.tree.size(), s.vertices.rows());
+  EXPECT_GT(s.edges, s.vertices.rows());
+  // Every death is one of ten levels.
+  for (const Bar& bar : s.barcode) {
+    if (bar.is_infinite()) continue;
+    const double level = bar.death / 0.025 * 10;
+    EXPECT_NEAR(level, std::round(level), 1e-9);
+  }
+}
+
+TEST(Pipeline, BoxesThatNearlyTouchAreOneSegmentBeyondTheirGap) {
+  // 40 mm apart: apart at 25 mm, one at 60 mm.
+  const TableScene scene(
+      {{{-0.12, -0.05, 0}, {-0.02, 0.05, 0.1}}, {{0.02, -0.05, 0}, {0.12, 0.05, 0.1}}});
+  EXPECT_EQ(segment(CloudView{scene.xyz(), {}}, kPaper).segments.size(), 2U);
+  EXPECT_EQ(segment(CloudView{scene.xyz(), {}}, {.method = Method::paper, .distance = 0.06})
+                .segments.size(),
+            1U);
+}
+
+TEST(Pipeline, StepsChangeTheBarcodeButNotTheSegments) {
+  const TableScene scene = TableScene::two_boxes();
+  const Segmentation ten = segment(CloudView{scene.xyz(), {}}, kPaper);
+  const Segmentation exact =
+      segment(CloudView{scene.xyz(), {}}, {.method = Method::paper, .steps = 0});
+  EXPECT_EQ(ten.labels, exact.labels);
+  ASSERT_EQ(ten.barcode.size(), exact.barcode.size());
+  EXPECT_EQ(ten.edges, exact.edges);
+  for (std::size_t i = 0; i < ten.barcode.size(); ++i) {
+    EXPECT_GE(ten.barcode[i].death, exact.barcode[i].death);
+    if (!ten.barcode[i].is_infinite()) {
+      EXPECT_LE(ten.barcode[i].death, exact.barcode[i].death + 0.0025 + 1e-12);
+    }
+  }
+}
+
+TEST(Pipeline, EverythingPlane) {
+  const TableScene scene(std::vector<test::Block>{});
+  const Segmentation s = segment(CloudView{scene.xyz(), {}}, kPaper);
+  ASSERT_TRUE(s.plane);
+  EXPECT_DOUBLE_EQ(s.plane->share, 1);
+  EXPECT_TRUE(s.segments.empty());
+  EXPECT_EQ(std::ranges::count(s.labels, 0U), static_cast<Index>(s.labels.size()));
+  EXPECT_EQ(s.vertices.rows(), 0);
+  EXPECT_TRUE(s.barcode.empty());
+  EXPECT_TRUE(s.checked);
+}
+
+TEST(Pipeline, WithoutThePlaneTheTableIsASegment) {
+  const TableScene scene = TableScene::two_boxes();
+  const Segmentation s =
+      segment(CloudView{scene.xyz(), {}}, {.method = Method::paper, .plane = false});
+  EXPECT_FALSE(s.plane);
+  EXPECT_NE(s.plane_note, "");
+  ASSERT_EQ(s.stages.size(), kStages.size() - 1);
+  ASSERT_FALSE(s.segments.empty());
+  EXPECT_GT(s.segments[0].points, 8000);
+}
+
+TEST(Pipeline, NothingInIt) {
+  for (const std::size_t n : {std::size_t{0}, std::size_t{1}, std::size_t{12}}) {
+    const std::vector<float> holes(3 * n, kHole);
+    const Segmentation s = segment(CloudView{holes, {}}, kPaper);
+    EXPECT_EQ(s.labels, std::vector<std::uint32_t>(n));
+    EXPECT_TRUE(s.segments.empty());
+    EXPECT_FALSE(s.plane);
+    EXPECT_NE(s.plane_note, "");
+    EXPECT_EQ(s.difference, "");
+  }
+}
+
+TEST(Pipeline, OneValidPixel) {
+  std::vector<float> xyz(3 * 12, kHole);
+  xyz[9] = xyz[10] = 0;
+  xyz[11] = 1;
+  EXPECT_TRUE(segment(CloudView{xyz, {}}, kPaper).segments.empty());
+  const Segmentation s = segment(CloudView{xyz, {}}, {.method = Method::paper, .min_size = 1});
+  ASSERT_EQ(s.segments.size(), 1U);
+  EXPECT_EQ(s.segments[0].points, 1);
+  EXPECT_EQ(s.labels[3], 1U);
+  EXPECT_EQ(s.segments[0].centroid, (Vec3{0, 0, 1}));
+  ASSERT_EQ(s.barcode.size(), 1U);
+  EXPECT_TRUE(s.barcode[0].is_infinite());
+}
+
+TEST(Pipeline, TooFarAwayIsNothing) {
+  const TableScene scene = TableScene::two_boxes();
+  const Segmentation s =
+      segment(CloudView{scene.xyz(), {}}, {.method = Method::paper, .max_range = 0.1});
+  EXPECT_EQ(s.stages[0].points, 0);
+  EXPECT_TRUE(s.segments.empty());
+}
+
+TEST(Pipeline, CropLeavesOneBox) {
+  const TableScene scene = TableScene::two_boxes();
+  const SegmentOptions left{.method = Method::paper, .crop = Box{{-1, -1, 0}, {0, 1, 2}}};
+  const Segmentation s = segment(CloudView{scene.xyz(), {}}, left);
+  ASSERT_EQ(s.segments.size(), 1U);
+  EXPECT_LT(s.segments[0].centroid[0], 0);
+}
+
+TEST(Pipeline, TheViewpointDecidesWhichSideIsKept) {
+  const TableScene scene = TableScene::two_boxes();
+  Cloud cloud = scene.cloud();
+  EXPECT_EQ(segment(cloud, kPaper).segments.size(), 2U);
+  cloud.viewpoint[2] = 2.5;  // below the table
+  const Segmentation told = segment(cloud, {.method = Method::paper, .max_range = 5});
+  EXPECT_EQ(told.segments.size(), 2U) << "the rays of the pixels tell better";
+  EXPECT_TRUE(told.rays_meet_at);
+  EXPECT_LT(told.plane_sight.behind, 0.1);
+  cloud.width = cloud.size();
+  cloud.height = 1;  // no rays
+  const Segmentation below = segment(cloud, {.method = Method::paper, .max_range = 5});
+  EXPECT_EQ(below.segments.size(), 0U);
+  EXPECT_FALSE(below.rays_meet_at);
+  EXPECT_GT(below.plane_sight.behind, 0.9);
+  EXPECT_GT(below.plane_sight.hidden, 0.1);
+  EXPECT_EQ(segment(cloud, {.method = Method::paper, .viewpoint = Vec3{0, 0, 0}}).segments.size(),
+            2U);
+}
+
+TEST(Pipeline, OptionsOutOfRange) {
+  const std::vector<float> xyz = {0, 0, 1};
+  const CloudView cloud{xyz, {}};
+  const double nan = std::nan("");
+  const auto expect_usage = [&](const SegmentOptions& options) {
+    try {
+      segment(cloud, options);
+      FAIL() << "no error";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::usage);
+    }
+  };
+  for (const double bad : {0.0, -1.0, nan, kInfinity}) {
+    expect_usage({.voxel = bad});
+    expect_usage({.plane_distance = bad});
+  }
+  for (const double bad : {-1.0, nan, kInfinity}) expect_usage({.distance = bad});
+  expect_usage({.min_persistence = -1});
+  expect_usage({.min_persistence = nan});
+  expect_usage({.min_part = 0});
+  expect_usage({.steps = -1});
+  for (const double bad : {-1.0, nan, kInfinity}) expect_usage({.plane_noise = bad});
+  for (const double bad : {0.0, 0.001, nan, kInfinity})
+    expect_usage({.method = Method::supervoxels, .spacing = bad});
+  expect_usage({.min_size = 0});
+  expect_usage({.max_range = nan});
+  expect_usage({.crop = Box{{1, 0, 0}, {0, 1, 1}}});
+  expect_usage({.viewpoint = Vec3{nan, 0, 0}});
+  EXPECT_THROW(segment(CloudView{{xyz.data(), 2}, {}}), Error);
+}
+
+TEST(Pipeline, PlainArraysKeepTheirRowsAndColumns) {
+  const TableScene scene = TableScene::two_boxes();
+  const CloudView cloud{scene.xyz(), {}, scene.kWidth, scene.kHeight};
+  for (const Method method : {Method::surface, Method::paper}) {
+    const Segmentation s = segment(cloud, {.method = method});
+    EXPECT_EQ(s.width, scene.kWidth);
+    EXPECT_EQ(s.height, scene.kHeight);
+    EXPECT_EQ(s.labels, segment(scene.cloud(), {.method = method}).labels);
+    const Segmentation row = segment(CloudView{scene.xyz(), {}}, {.method = method});
+    EXPECT_EQ(row.width, scene.kWidth * scene.kHeight);
+    EXPECT_EQ(row.height, 1);
+  }
+  const std::pair<Index, Index> wrong[] = {
+      {320, 239}, {321, 240}, {-320, -240}, {Index{1} << 62, 4}, {320, 0}};
+  for (const auto& [width, height] : wrong) {
+    try {
+      segment(CloudView{scene.xyz(), {}, width, height});
+      ADD_FAILURE() << width << " x " << height;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::bad_data);
+    }
+  }
+}
+
+TEST(Pipeline, ColumnsWithoutRowsAreATreeThatIsReadAgain) {
+  const std::pair<Index, Index> sizes[] = {{5, 0}, {0, 5}, {0, 0}};
+  for (const auto& [width, height] : sizes) {
+    const Segmentation s = segment(CloudView{{}, {}, width, height});
+    EXPECT_EQ(s.width * s.height, 0);
+    const SceneTree again = read_tree(Input::view(tree_bytes(s), "s.tree"));
+    EXPECT_EQ(again.width, s.width);
+    EXPECT_EQ(again.height, 1);
+  }
+}
+
+TEST(Pipeline, WhatIsHeldCountsInTheBudget) {
+  const TableScene scene = TableScene::two_boxes();
+  const std::size_t points = scene.truth().size();
+  for (const Method method : {Method::surface, Method::paper, Method::supervoxels}) {
+    RunContext context;
+    const Segmentation s = segment(CloudView{scene.xyz(), {}}, {.method = method}, context);
+    const auto voxels = static_cast<std::size_t>(s.vertices.rows());
+    EXPECT_GT(context.memory.peak(), 52 * points + 400 * voxels);
+    EXPECT_EQ(context.memory.used(), 0U);
+    RunContext less;
+    less.memory.set_limit(context.memory.peak() - 1);
+    EXPECT_THROW(segment(CloudView{scene.xyz(), {}}, {.method = method}, less), Error);
+  }
+}
+
+TEST(Pipeline, StopsWhenAsked) {
+  const TableScene scene = TableScene::two_boxes();
+  std::stop_source source;
+  RunContext context;
+  context.stop = source.get_token();
+  source.request_stop();
+  try {
+    segment(CloudView{scene.xyz(), {}}, kPaper, context);
+    FAIL() << "did not stop";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::cancelled);
+  }
+}
+
+}  // namespace
+}  // namespace ph::segment

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// Cameras that look straight down on a table: the origin's perpendicular meets the plane inside the
+// picture, so that the coordinates of the plane's squares have both signs and pass through -1.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "libsegment/scenery.hpp"
+#include "plane/foot.hpp"
+#include "support/for_each_seed.hpp"
+#include "top_down_scene.hpp"
+
+namespace ph::segment {
+namespace {
+
+/// A table z = 1 seen from the origin. Its squares are axis-aligned: unitOrthogonal of (0, 0, -1)
+/// is an axis.
+constexpr Plane kTable{{0, 0, -1}, 1, 1};
+
+/// The labels of voxels that points of the strip get from walls, by adopt_feet.
+struct Feet {
+  std::vector<float> xyz;
+  std::vector<Index> walls, strip;
+
+  void add(std::vector<Index>& to, double x, double y, double height) {
+    to.push_back(static_cast<Index>(xyz.size() / 3));
+    for (const double c : {x, y, 1 - height}) xyz.push_back(static_cast<float>(c));
+  }
+  /// By point of the strip: the wall whose voxel it joined, or -1.
+  std::vector<Index> adopted(double side) const {
+    std::vector<Index> points = walls;
+    VoxelGrid grid;
+    for (std::size_t k = 0; k < walls.size(); ++k)  // a voxel a wall
+      grid.voxel_of.push_back(static_cast<std::uint32_t>(k));
+    adopt_feet({xyz, {}}, strip, kTable, {0.005, 0}, side, points, grid);
+    std::vector<Index> of(strip.size(), -1);
+    for (std::size_t k = walls.size(); k < points.size(); ++k)
+      of[static_cast<std::size_t>(std::ranges::find(strip, points[k]) - strip.begin())] =
+          grid.voxel_of[k];
+    return of;
+  }
+};
+
+TEST(AdoptFeet, EachSquareAroundTheOriginHasWallsOfItsOwn) {
+  const double side = 0.01;
+  for (int wall_x = -3; wall_x < 3; ++wall_x) {
+    for (int wall_y = -3; wall_y < 3; ++wall_y) {
+      Feet feet;
+      feet.add(feet.walls, (wall_x + 0.5) * side, (wall_y + 0.5) * side, 0.01);
+      std::vector<Index> expected;
+      for (int x = -3; x < 3; ++x) {
+        for (int y = -3; y < 3; ++y) {
+          feet.add(feet.strip, (x + 0.3) * side, (y + 0.6) * side, 0.003);
+          expected.push_back(x == wall_x && y == wall_y ? 0 : -1);
+        }
+      }
+      EXPECT_EQ(feet.adopted(side), expected) << wall_x << ' ' << wall_y;
+    }
+  }
+}
+
+TEST(AdoptFeet, AWallOnEverySquare) {
+  const double side = 0.01;
+  Feet feet;
+  std::vector<Index> expected;
+  for (int x = -20; x < 20; ++x) {
+    for (int y = -20; y < 20; ++y) {
+      expected.push_back(static_cast<Index>(feet.walls.size()));
+      feet.add(feet.walls, (x + 0.5) * side, (y + 0.5) * side, 0.01);
+      feet.add(feet.strip, (x + 0.3) * side, (y + 0.6) * side, 0.003);
+    }
+  }
+  EXPECT_EQ(feet.adopted(side), expected);
+}
+
+TEST(AdoptFeet, SquaresFarFromTheOriginAreNotTakenForOneAnother) {
+  // Sides of 2^-33 … 2^-20: coordinates of 2^20 … 2^37 squares, of both signs.
+  for (int log = -33; log <= -20; ++log) {
+    const double side = std::ldexp(1, log);
+    for (const double sign : {-1.0, 1.0}) {
+      Feet feet;
+      for (const double x : {1.0, 2.0, 4.0, 16.0}) {
+        feet.add(feet.walls, sign * x, sign * x, 0.005 + side);
+        feet.add(feet.strip, sign * x, sign * x, 0.003);
+        feet.add(feet.strip, sign * x * 1.5, sign * x * 1.5, 0.003);
+      }
+      EXPECT_EQ(feet.adopted(side), (std::vector<Index>{0, -1, 1, -1, 2, -1, 3, -1})) << log;
+    }
+  }
+}
+
+TEST(TopDown, LabelsAreRightAndTreesAreReadBack) {
+  ph::test::for_each_seed(40, [](auto& random, bool, std::int64_t) {
+    const test::TopDownScene scene(random);
+    test::expect_right(scene, Method::surface);
+  });
+  ph::test::for_each_seed(10, [](auto& random, bool, std::int64_t) {
+    const test::TopDownScene scene(random);
+    test::expect_right(scene, Method::paper);
+    test::expect_right(scene, Method::supervoxels);
+  });
+}
+
+/// Two slabs of random points at right angles.
+std::vector<float> slabs(unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> along(-0.5F, 0.5F), across(-0.02F, 0.02F);
+  std::vector<float> xyz;
+  for (int i = 0; i < 4000; ++i)
+    for (const float c : {along(random), along(random), 1 + across(random)}) xyz.push_back(c);
+  for (int i = 0; i < 4000; ++i)
+    for (const float c : {along(random), across(random), 1 + along(random)}) xyz.push_back(c);
+  return xyz;
+}
+
+TEST(TopDown, TreesOfSlabsAtRightAnglesAreReadBack) {
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    SCOPED_TRACE(seed);
+    const std::vector<float> xyz = slabs(seed);
+    for (const double voxel : {0.01, 0.02, 0.05})
+      test::expect_read_back(segment(CloudView{xyz, {}}, {.voxel = voxel}));
+  }
+}
+
+}  // namespace
+}  // namespace ph::segment

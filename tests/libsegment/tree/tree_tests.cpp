@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: MIT
+// Cuts of a scene's merge tree, and the tree as a file.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+
+#include "libsegment/scenery.hpp"
+#include "ph/error.hpp"
+#include "ph/io/write.hpp"
+#include "support/points.hpp"
+#include "tree/tree_file.hpp"
+
+namespace ph::segment {
+namespace {
+
+namespace fs = std::filesystem;
+using test::TableScene;
+
+SceneTree read_again(const std::string& bytes) { return read_tree(Input::view(bytes, "s.tree")); }
+
+void expect_same(const SceneCut& a, const SceneCut& b) {
+  EXPECT_EQ(a.labels, b.labels);
+  EXPECT_EQ(a.vertex_labels, b.vertex_labels);
+  EXPECT_EQ(a.segments, b.segments);
+}
+
+/// A box on a box, and one beside them that is cut in two by a bar before it.
+TableScene stack() {
+  return TableScene({{{-0.2, -0.05, 0}, {0.0, 0.15, 0.08}},
+                     {{-0.14, 0.0, 0.08}, {-0.06, 0.1, 0.2}},
+                     {{0.05, 0.0, 0}, {0.35, 0.1, 0.1}},
+                     {{0.18, -0.1, 0}, {0.22, -0.06, 0.2}}});
+}
+
+class StoredTree : public testing::TestWithParam<Method> {
+ protected:
+  SegmentOptions options() const { return {.method = GetParam()}; }
+  Segmentation segmented(const TableScene& scene) const {
+    return segment(CloudView{scene.xyz(), {}}, options());
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Methods, StoredTree,
+                         testing::Values(Method::surface, Method::paper, Method::supervoxels),
+                         [](const auto& method) {
+                           return std::string(test::name_of(method.param));
+                         });
+
+TEST_P(StoredTree, GivesTheSameSegments) {
+  for (const TableScene& scene : {TableScene::two_boxes(), stack(), TableScene({})}) {
+    const Segmentation s = segmented(scene);
+    const std::string bytes = tree_bytes(s);
+    const SceneTree again = read_again(bytes);
+    EXPECT_EQ(tree_bytes(again), bytes);
+    EXPECT_EQ(again.tree.merges, s.tree.merges);
+    EXPECT_EQ(again.tree.births, s.tree.births);
+    EXPECT_EQ(again.plane, s.plane);
+    EXPECT_EQ(again.first_cut, s.first_cut);
+    expect_same(cut(again, again.first_cut), s);
+    expect_same(cut(s, s.first_cut), s);
+  }
+}
+
+TEST(StoredTreeSurface, OtherCutsAreThoseOfAnotherRun) {
+  const TableScene scene = stack();
+  const CloudView cloud{scene.xyz(), {}};
+  const SceneTree tree = read_again(tree_bytes(segment(cloud)));
+  for (const double value : {0.0, 0.02, 0.3, kInfinity}) {
+    for (const Index min_part : {Index{1}, Index{400}}) {
+      for (const bool objects : {true, false}) {
+        const SegmentOptions o{
+            .min_size = 20, .min_persistence = value, .objects = objects, .min_part = min_part};
+        expect_same(cut(tree, o.cut()), segment(cloud, o));
+      }
+    }
+  }
+}
+
+TEST(StoredTreePaper, OtherCutsAreSingleLinkageAtThatDistance) {
+  const TableScene scene(
+      {{{-0.12, -0.05, 0}, {-0.02, 0.05, 0.1}}, {{0.02, -0.05, 0}, {0.12, 0.05, 0.1}}});
+  const CloudView cloud{scene.xyz(), {}};
+  SegmentOptions o{.method = Method::paper, .distance = 0.06, .steps = 0};
+  const SceneTree tree = read_again(tree_bytes(segment(cloud, o)));
+  for (const double distance : {0.0, 0.011, 0.02, 0.03, 0.05, 0.06}) {
+    o.distance = distance;
+    EXPECT_EQ(cut(tree, {.value = distance}).labels, segment(cloud, o).labels) << distance;
+  }
+  EXPECT_EQ(cut(tree, {.value = 0.03}).segments.size(), 2U);
+  EXPECT_EQ(cut(tree, {.value = 0.06}).segments.size(), 1U);
+}
+
+TEST_P(StoredTree, Explains) {
+  const Segmentation s = segmented(stack());
+  const SceneTree again = read_again(tree_bytes(s));
+  const SceneCut cut_again = cut(again, again.first_cut);
+  for (std::uint32_t a = 1; a <= s.segments.size(); ++a) {
+    for (std::uint32_t b = 1; b < a; ++b) {
+      const auto meeting = first_meeting(s, a, b), same = first_meeting(again, cut_again, a, b);
+      ASSERT_EQ(meeting.has_value(), same.has_value());
+      if (!meeting) continue;
+      EXPECT_EQ(meeting->value, same->value);
+      EXPECT_EQ(meeting->at, same->at);
+    }
+  }
+}
+
+TEST_P(StoredTree, OptionsOutOfRange) {
+  const Segmentation s = segmented(stack());
+  for (const CutOptions& bad : {CutOptions{.value = -1}, CutOptions{.value = std::nan("")},
+                                CutOptions{.min_part = 0}, CutOptions{.min_size = 0}})
+    EXPECT_THROW(cut(s, bad), Error);
+  if (GetParam() == Method::paper) {
+    EXPECT_THROW(cut(s, {.value = 0.026}), Error);
+  }
+}
+
+TEST_P(StoredTree, AsJson) {
+  const Segmentation s = segmented(stack());
+  const std::string json = tree_json(s);
+  const auto has = [&](const std::string& text) { return json.find(text) != std::string::npos; };
+  EXPECT_TRUE(has("\"format\": \"ph-segment-tree\""));
+  EXPECT_TRUE(has(GetParam() == Method::paper ? "\"steps\": 10," : "\"steps\": null,"));
+  const Merge& m = s.tree.merges[7];
+  EXPECT_TRUE(
+      has(fmt::format("\"edge\": [{}, {}], \"elder\": {}, \"younger\": {}, \"elder_size\": {}, "
+                      "\"younger_size\": {}",
+                      m.u, m.v, m.elder, m.younger, m.elder_size, m.younger_size)));
+  EXPECT_TRUE(has(fmt::format("\"centroid\": [{}", shortest(s.vertices(5, 0)))));
+  const auto count = [&](const std::string& text) {
+    std::size_t n = 0;
+    for (auto at = json.find(text); at != json.npos; at = json.find(text, at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(count("\"birth\""), s.counts.size());
+  EXPECT_EQ(count("\"edge\""), s.tree.merges.size());
+  const std::string points = json.substr(json.find("\"vertex_of_point\""));
+  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(points, ',')) + 1, s.labels.size());
+}
+
+// ---- what is refused
+
+std::string with_right_sum(std::string bytes) {
+  const std::uint32_t sum = tree_sum(std::string_view(bytes).substr(0, bytes.size() - kTreeSum));
+  for (std::size_t k = 0; k < kTreeSum; ++k)
+    bytes[bytes.size() - kTreeSum + k] = static_cast<char>(sum >> (8 * k) & 0xFF);
+  return bytes;
+}
+
+/// The message that refuses these bytes.
+std::string refusal(const std::string& bytes) {
+  try {
+    read_again(bytes);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::bad_data) << error.what();
+    return error.what();
+  }
+  ADD_FAILURE() << "accepted";
+  return {};
+}
+
+/// A word of the header, set.
+template <class T>
+std::string with_word(std::string bytes, std::size_t word, T value) {
+  static_assert(sizeof value == kTreeWord);
+  std::memcpy(&bytes[word * kTreeWord], &value, sizeof value);
+  return with_right_sum(std::move(bytes));
+}
+
+TEST(DamagedTree, EveryByteCounts) {
+  const std::vector<float> xyz = {0, 0, 1, 0.004F, 0, 1, 0.02F, 0, 1, 0.5F, 0, 1};
+  const std::string bytes = tree_bytes(segment(CloudView{xyz, {}}, {.min_size = 1}));
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    std::string damaged = bytes;
+    damaged[i] = static_cast<char>(damaged[i] ^ 0x10);
+    EXPECT_NE(refusal(damaged), "") << i;
+    EXPECT_NE(refusal(bytes.substr(0, i)), "") << i;
+  }
+  EXPECT_NE(refusal(bytes + '\0').find("trailing data"), std::string::npos);
+}
+
+TEST(DamagedTree, HeadersThatLie) {
+  const std::string bytes = tree_bytes(segment(CloudView{stack().xyz(), {}}));
+  const double nan = std::nan("");
+  EXPECT_NE(refusal(with_word(bytes, 1, std::int64_t{2})).find("version"), std::string::npos);
+  for (const std::int64_t lie : {std::int64_t{-1}, std::int64_t{1} << 62, std::int64_t{1} << 32}) {
+    for (const std::size_t word : {3U, 4U, 5U, 6U, 7U})  // width, height, vertices, merges, points
+      EXPECT_NE(refusal(with_word(bytes, word, lie)), "") << word << ' ' << lie;
+  }
+  for (const std::size_t word : {9U, 10U, 11U, 12U, 13U, 16U, 17U, 19U, 20U, 21U})
+    EXPECT_NE(refusal(with_word(bytes, word, nan)), "") << word;
+  for (const double voxel : {0.0, 1e-31, 1e31, 6e307})
+    EXPECT_NE(refusal(with_word(bytes, 9, voxel)).find("voxel"), std::string::npos) << voxel;
+  EXPECT_NE(refusal(with_word(bytes, 16, 0.5)).find("normal of the plane"), std::string::npos);
+}
+
+TEST(DamagedTree, SizesThatCannotBe) {
+  const Segmentation s = segment(CloudView{stack().xyz(), {}});
+  const std::string bytes = tree_bytes(s);
+  EXPECT_NE(refusal(with_word(bytes, 4, std::int64_t{0})).find("height"), std::string::npos);
+  const auto n = static_cast<std::int64_t>(s.vertices.rows());
+  for (const std::int64_t lie : {n * (n - 1) / 2 + 1, std::int64_t{1} << 33, INT64_MAX})
+    EXPECT_NE(refusal(with_word(bytes, 8, lie)).find("number of edges"), std::string::npos) << lie;
+  EXPECT_EQ(read_again(with_word(bytes, 8, n * (n - 1) / 2)).edges, n * (n - 1) / 2);
+}
+
+TEST(DamagedTree, ContentsThatCannotBe) {
+  const Segmentation s = segment(CloudView{stack().xyz(), {}});
+  const auto damaged = [&](auto&& damage) {
+    SceneTree tree = s;
+    damage(tree);
+    return refusal(tree_bytes(tree));
+  };
+  const auto says = [](const std::string& message, std::string_view what) {
+    return message.find(what) != std::string::npos;
+  };
+  EXPECT_TRUE(says(damaged([](SceneTree& t) { t.cells[7] = t.cells[6]; }), "order of the grid"));
+  EXPECT_TRUE(says(damaged([](SceneTree& t) { t.cells[7][0] += 0.5; }), "whole number"));
+  for (const std::size_t axis : {0U, 1U, 2U}) {
+    EXPECT_TRUE(says(damaged([&](SceneTree& t) { t.cells.back()[axis] = 0x1p53; }), "at most"));
+    EXPECT_TRUE(says(damaged([&](SceneTree& t) { t.cells.front()[axis] = -0x1p53; }), "at most"));
+  }
+  EXPECT_TRUE(says(damaged([](SceneTree& t) { t.vertices(3, 1) += 1; }), "centroid"));
+  EXPECT_TRUE(says(damaged([](SceneTree& t) { ph::test::scale(t.normals.row(3), 2); }), "normal"));
+  EXPECT_TRUE(says(damaged([](SceneTree& t) { t.counts[3] += 1000; }), "points of a voxel"));
+  EXPECT_TRUE(says(damaged([](SceneTree& t) { t.tree.births[3] = -1; }), "birth"));
+  EXPECT_TRUE(says(damaged([](SceneTree& t) {
+                     t.method = Method::paper;  // whose voxels enter at 0
+                     t.normals = Points(0, 3);
+                     t.distance = 1;
+                   }),
+                   "birth"));
+  EXPECT_TRUE(says(damaged([](SceneTree& t) { t.tree.merges[9].value = kInfinity; }), "merge"));
+  // A tree with such a merge is not written either.
+  const std::size_t first_merge = kTreeHeader / kTreeWord + 11 * s.cells.size();
+  EXPECT_TRUE(
+      says(refusal(with_word(tree_bytes(s), first_merge + 2 * 9 + 1, std::int64_t{1} << 30)),
+           "vertices"));
+  EXPECT_TRUE(says(damaged([](SceneTree& t) { t.tree.merges[9] = t.tree.merges[8]; }), "forest"));
+  EXPECT_TRUE(says(damaged([](SceneTree& t) { std::swap(t.tree.merges[9], t.tree.merges.back()); }),
+                   "forest"));
+  // Nor is one with more coordinates than points.
+  std::string bytes = tree_bytes(s);
+  const std::size_t first_point = (first_merge + 2 * s.tree.merges.size()) * kTreeWord;
+  std::memcpy(&bytes[first_point + sizeof kTreeNoVertex * static_cast<std::size_t>(s.points[0])],
+              &kTreeNoVertex, sizeof kTreeNoVertex);
+  EXPECT_TRUE(says(refusal(with_right_sum(bytes)), "points with a vertex"));
+  EXPECT_TRUE(says(damaged([](SceneTree& t) { t.xyz[0] = test::kHole; }), "coordinate"));
+  // Far from the voxel: aside, high above it, behind the plane; or so few that a point is missing.
+  const Vec3 n = s.plane->normal;
+  for (const double away : {1.0, -1.0, 1e30})
+    EXPECT_TRUE(says(damaged([&](SceneTree& t) {
+                       for (std::size_t k = 0; k < 3; ++k)
+                         t.xyz[k] += static_cast<float>(away * n[k]);
+                     }),
+                     "coordinates"));
+  EXPECT_TRUE(says(damaged([](SceneTree& t) { t.xyz[0] += 0.05F; }), "coordinates"));
+  EXPECT_TRUE(says(damaged([](SceneTree& t) {
+                     for (std::uint32_t& v : t.vertex_of_point)  // all of the first voxel elsewhere
+                       if (v == 0) v = static_cast<std::uint32_t>(t.cells.size() - 1);
+                   }),
+                   "coordinates"));
+}
+
+// ---- real frames
+
+TEST(StoredTreeScenes, CutsOfFramesAreTheirSegmentsAndTakeMilliseconds) {
+  const fs::path folder = fs::path(PH_SHARED_DIR) / "scenes";
+  if (!fs::is_directory(folder)) GTEST_SKIP() << "NO SCENES in " << folder << ": nothing tested";
+  using Clock = std::chrono::steady_clock;
+  const auto milliseconds = [](Clock::duration d) {
+    return std::chrono::duration<double, std::milli>(d).count();
+  };
+  double cutting = 0, worst = 0, reading = 0, bytes_of_all = 0;
+  int frames = 0;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() != ".pcd") continue;
+    SCOPED_TRACE(entry.path().filename());
+    const Cloud cloud = read_cloud(entry.path());
+    for (const Method method : {Method::surface, Method::paper}) {
+      const Segmentation s = segment(cloud, {.method = method, .check = false});
+      const std::string bytes = tree_bytes(s);
+      const auto start = Clock::now();
+      const SceneTree again = read_again(bytes);
+      const auto middle = Clock::now();
+      const SceneCut found = cut(again, again.first_cut);
+      const double took = milliseconds(Clock::now() - middle);
+      expect_same(found, s);
+      if (method == Method::paper) continue;
+      ++frames;
+      reading += milliseconds(middle - start);
+      cutting += took;
+      worst = std::max(worst, took);
+      bytes_of_all += static_cast<double>(bytes.size());
+    }
+  }
+  std::cout << frames << " frames: a cut takes " << cutting / frames << " ms, at most " << worst
+            << " ms; a tree has " << bytes_of_all / frames / 1e6 << " MB and is read in "
+            << reading / frames << " ms\n";
+  EXPECT_LT(cutting / frames, 100);
+}
+
+}  // namespace
+}  // namespace ph::segment

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: MIT
+"""Runs a program in a folder of its own; shared by the tests that drive programs."""
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import files
+
+PROGRAM = None
+SQUARE = "0 0\n1 0\n1 1\n0 1.25\n"
+SQUARE_CSV = ("dim,birth,death\n0,0,1\n0,0,1\n0,0,1.0307764064044151\n0,0,inf\n"
+              "1,1.25,1.4142135623730951\n")
+
+
+class ProgramTest(unittest.TestCase):
+    def setUp(self):
+        self._folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self._folder.cleanup)
+        self.folder = self._folder.name
+        self.write("square.txt", SQUARE)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, content):
+        mode = "wb" if isinstance(content, bytes) else "w"
+        with open(self.path(name), mode) as file:
+            file.write(content)
+        return name
+
+    def read(self, name):
+        with open(self.path(name), encoding="utf-8") as file:
+            return file.read()
+
+    def run_program(self, *arguments, **options):
+        """Runs in the test's folder. Output is text unless text=False is given."""
+        options.setdefault("text", True)
+        options.setdefault("timeout", 60)
+        options.setdefault("stdin", subprocess.DEVNULL)
+        if "input" in options:
+            options.pop("stdin")
+        options.setdefault("stdout", subprocess.PIPE)
+        options.setdefault("stderr", subprocess.PIPE)
+        return subprocess.run([PROGRAM, *arguments], cwd=self.folder, **options)
+
+    def expect(self, code, *arguments, **options):
+        """Runs, checks the exit code, and that an error is one line. @return the run."""
+        run = self.run_program(*arguments, **options)
+        self.assertEqual(run.returncode, code, f"{arguments}: {run.stderr!r}")
+        if code != 0 and isinstance(run.stderr, str):
+            lines = [line for line in run.stderr.splitlines() if ": read " not in line]
+            self.assertLessEqual(len(lines), 1, run.stderr)
+        return run
+
+    def files(self):
+        return sorted(os.listdir(self.folder))
+
+
+def main():
+    global PROGRAM
+    PROGRAM = os.path.abspath(sys.argv.pop(1))
+    # This file is imported under its own name by the tests, so both copies must know.
+    sys.modules["program"].PROGRAM = PROGRAM
+    unittest.main(verbosity=2)
