@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "batch.hpp"
+#include "barcode/batch.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,12 +10,12 @@
 #include <string_view>
 
 #include "barcode/arguments/option_scopes.hpp"
-#include "batch_names.hpp"
-#include "exit_code.hpp"
-#include "file_identity.hpp"
-#include "program.hpp"
-#include "report.hpp"
-#include "run.hpp"
+#include "barcode/output/report.hpp"
+#include "barcode/run.hpp"
+#include "common/files/batch_names.hpp"
+#include "common/files/file_identity.hpp"
+#include "common/run/program.hpp"
+#include "common/terminal/exit_code.hpp"
 
 namespace ph::barcode {
 namespace {

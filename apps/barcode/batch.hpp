@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include "barcode/arguments/arguments.hpp"
-#include "session.hpp"
+#include "common/run/session.hpp"
 
 namespace ph::barcode {
 

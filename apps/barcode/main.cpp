@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "barcode/arguments/arguments.hpp"
-#include "batch.hpp"
-#include "program.hpp"
-#include "run.hpp"
+#include "barcode/batch.hpp"
+#include "barcode/run.hpp"
+#include "common/run/program.hpp"
 
 int main(int argc, char** argv) {
   return ph::app::run_program(ph::barcode::kProgram, [&](std::stop_token stop) {

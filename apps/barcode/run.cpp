@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run.hpp"
+#include "barcode/run.hpp"
 
 #include <fmt/format.h>
 #include <malloc.h>
@@ -12,21 +12,21 @@
 #include <new>
 #include <optional>
 
-#include "adjust.hpp"
 #include "barcode/arguments/option_scopes.hpp"
 #include "barcode/arguments/table_arguments.hpp"
-#include "estimate_text.hpp"
-#include "exit_code.hpp"
-#include "h0_tree.hpp"
-#include "load.hpp"
-#include "messages.hpp"
-#include "numbers.hpp"
+#include "barcode/complex/load.hpp"
+#include "barcode/memory/estimate_text.hpp"
+#include "barcode/memory/ways_out.hpp"
+#include "barcode/output/adjust.hpp"
+#include "barcode/output/h0_tree.hpp"
+#include "barcode/output/report.hpp"
+#include "barcode/output/stored.hpp"
+#include "common/arguments/numbers.hpp"
+#include "common/terminal/exit_code.hpp"
+#include "common/terminal/messages.hpp"
 #include "ph/estimate.hpp"
 #include "ph/loops.hpp"
-#include "report.hpp"
-#include "report/sha256.hpp"
-#include "stored.hpp"
-#include "ways_out.hpp"
+#include "report/encoding/sha256.hpp"
 
 namespace ph::barcode {
 namespace {

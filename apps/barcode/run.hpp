@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "barcode/arguments/arguments.hpp"
-#include "program.hpp"
-#include "session.hpp"
+#include "common/run/program.hpp"
+#include "common/run/session.hpp"
 
 namespace ph::barcode {
 

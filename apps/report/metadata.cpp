@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "metadata.hpp"
+#include "report/metadata.hpp"
 
 #include <fmt/format.h>
 
-#include "json_object.hpp"
+#include "report/encoding/json_object.hpp"
 
 namespace ph::report {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "page_template.hpp"
+#include "report/page_template.hpp"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "report_file.hpp"
+#include "report/report_file.hpp"
 
 #include <limits>
 
-#include "page_template.hpp"
+#include "report/page_template.hpp"
 
 namespace ph::report {
 

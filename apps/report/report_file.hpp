@@ -5,11 +5,11 @@
 #include <string_view>
 #include <vector>
 
-#include "array_block.hpp"
-#include "metadata.hpp"
 #include "ph/detail/cubical_image.hpp"
 #include "ph/detail/output_file.hpp"
 #include "ph/run_context.hpp"
+#include "report/encoding/array_block.hpp"
+#include "report/metadata.hpp"
 
 namespace ph::report {
 

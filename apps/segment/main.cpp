@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "program.hpp"
-#include "run.hpp"
+#include "common/run/program.hpp"
+#include "segment/run.hpp"
 
 int main(int argc, char** argv) {
   return ph::app::run_program(ph::segment::kProgram, [argc, argv](std::stop_token stop) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run.hpp"
+#include "segment/run.hpp"
 
 #include <fmt/format.h>
 
@@ -8,19 +8,19 @@
 #include <optional>
 #include <span>
 
-#include "arguments.hpp"
-#include "depth_camera.hpp"
-#include "exit_code.hpp"
-#include "idle_options.hpp"
-#include "option_scopes.hpp"
-#include "outputs.hpp"
+#include "common/terminal/exit_code.hpp"
 #include "ph/detail/output_file.hpp"
 #include "ph/error.hpp"
-#include "report/sha256.hpp"
-#include "stream.hpp"
-#include "summary.hpp"
+#include "report/encoding/sha256.hpp"
+#include "segment/arguments/arguments.hpp"
+#include "segment/arguments/idle_options.hpp"
+#include "segment/arguments/option_scopes.hpp"
+#include "segment/input/depth_camera.hpp"
+#include "segment/output/outputs.hpp"
+#include "segment/output/summary.hpp"
+#include "segment/output/warnings.hpp"
+#include "segment/stream.hpp"
 #include "voxels/cross_check.hpp"
-#include "warnings.hpp"
 
 namespace ph::segment {
 namespace {

@@ -3,10 +3,10 @@
 #include <stop_token>
 #include <string>
 
-#include "arguments.hpp"
+#include "common/run/program.hpp"
+#include "common/run/session.hpp"
 #include "ph/label_tracker.hpp"
-#include "program.hpp"
-#include "session.hpp"
+#include "segment/arguments/arguments.hpp"
 
 namespace ph::segment {
 

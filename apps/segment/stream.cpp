@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "stream.hpp"
+#include "segment/stream.hpp"
 
 #include <fmt/format.h>
 
@@ -8,12 +8,12 @@
 #include <ctime>
 #include <string_view>
 
-#include "exit_code.hpp"
-#include "frames.hpp"
+#include "common/run/program.hpp"
+#include "common/terminal/exit_code.hpp"
 #include "ph/error.hpp"
 #include "ph/label_tracker.hpp"
-#include "program.hpp"
-#include "run.hpp"
+#include "segment/input/frames.hpp"
+#include "segment/run.hpp"
 #include "tree/json_text.hpp"
 
 namespace ph::segment {

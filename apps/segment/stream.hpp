@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "arguments.hpp"
-#include "session.hpp"
+#include "common/run/session.hpp"
+#include "segment/arguments/arguments.hpp"
 
 namespace ph::segment {
 

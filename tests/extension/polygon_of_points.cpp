@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What gives the complex to the program.
-#include "barcode/own_complex.hpp"
+#include "barcode/complex/own_complex.hpp"
 #include "polygon.hpp"
 
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "barcode/arguments/arguments.hpp"
-#include "segment/arguments.hpp"
+#include "segment/arguments/arguments.hpp"
 #include "targets.hpp"
 #include "violation.hpp"
 

@@ -11,14 +11,14 @@
 #include <functional>
 #include <string_view>
 
+#include "barcode/arguments/formats_table.hpp"
 #include "barcode/arguments/image_arguments.hpp"
 #include "barcode/arguments/option_scopes.hpp"
 #include "barcode/arguments/rips_arguments.hpp"
 #include "barcode/arguments/table_arguments.hpp"
-#include "barcode/formats_table.hpp"
-#include "batch_names.hpp"
-#include "choices.hpp"
-#include "numbers.hpp"
+#include "common/arguments/choices.hpp"
+#include "common/arguments/numbers.hpp"
+#include "common/files/batch_names.hpp"
 #include "ph/detail/field.hpp"
 #include "report/page_template.hpp"
 

@@ -4,16 +4,16 @@
 #include <string>
 #include <vector>
 
-#include "barcode/own_complex.hpp"
-#include "command_line.hpp"
-#include "option_scope.hpp"
+#include "barcode/complex/own_complex.hpp"
+#include "common/arguments/command_line.hpp"
+#include "common/arguments/option_scope.hpp"
+#include "common/arguments/plot_arguments.hpp"
 #include "ph/cubical.hpp"
 #include "ph/io/formats.hpp"
 #include "ph/io/write.hpp"
 #include "ph/persistence.hpp"
 #include "ph/rips.hpp"
 #include "ph/voxel_image.hpp"
-#include "plot_arguments.hpp"
 
 namespace ph::barcode {
 

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "choices.hpp"
-#include "numbers.hpp"
+#include "common/arguments/choices.hpp"
+#include "common/arguments/numbers.hpp"
 
 namespace ph::barcode {
 

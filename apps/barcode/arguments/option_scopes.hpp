@@ -2,7 +2,7 @@
 #pragma once
 #include <string_view>
 
-#include "option_scope.hpp"
+#include "common/arguments/option_scope.hpp"
 
 namespace ph::barcode {
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "numbers.hpp"
+#include "common/arguments/numbers.hpp"
 
 namespace ph::barcode {
 

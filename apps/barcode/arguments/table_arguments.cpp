@@ -10,7 +10,7 @@
 #include <variant>
 
 #include "barcode/arguments/option_scopes.hpp"
-#include "choices.hpp"
+#include "common/arguments/choices.hpp"
 
 namespace ph::barcode {
 

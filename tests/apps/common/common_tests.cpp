@@ -16,14 +16,14 @@
 #include <thread>
 #include <vector>
 
-#include "choices.hpp"
-#include "exit_code.hpp"
-#include "file_identity.hpp"
-#include "memory_limit.hpp"
-#include "messages.hpp"
-#include "numbers.hpp"
-#include "progress.hpp"
-#include "session.hpp"
+#include "common/arguments/choices.hpp"
+#include "common/arguments/numbers.hpp"
+#include "common/files/file_identity.hpp"
+#include "common/run/memory_limit.hpp"
+#include "common/run/progress.hpp"
+#include "common/run/session.hpp"
+#include "common/terminal/exit_code.hpp"
+#include "common/terminal/messages.hpp"
 
 namespace ph::app {
 namespace {

@@ -15,16 +15,16 @@
 #include <string>
 
 #include "ph/error.hpp"
-#include "report/array_block.hpp"
-#include "report/base64.hpp"
+#include "report/arrays/point_arrays.hpp"
+#include "report/arrays/touching_leaves.hpp"
+#include "report/arrays/tree_arrays.hpp"
+#include "report/arrays/voxel_arrays.hpp"
+#include "report/encoding/array_block.hpp"
+#include "report/encoding/base64.hpp"
+#include "report/encoding/sha256.hpp"
 #include "report/metadata.hpp"
 #include "report/page_template.hpp"
-#include "report/point_arrays.hpp"
 #include "report/report_file.hpp"
-#include "report/sha256.hpp"
-#include "report/touching_leaves.hpp"
-#include "report/tree_arrays.hpp"
-#include "report/voxel_arrays.hpp"
 
 namespace ph::report {
 namespace {

@@ -1,0 +1,373 @@
+// SPDX-License-Identifier: MIT
+#include "barcode/complex/build_complex.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "barcode/arguments/option_scopes.hpp"
+#include "complex/listed_cubes.hpp"
+#include "ph/distance_to_measure.hpp"
+#include "ph/lower_star.hpp"
+#include "ph/voxel_image.hpp"
+
+namespace ph::barcode {
+namespace {
+
+/// Builds from each kind of data the complexes that make sense of it.
+class Builder {
+ public:
+  /// @param read what is said of the data; they are visited. @param dropped how many points of the
+  /// input are not among them.
+  Builder(const std::string& name, const Arguments& arguments, const RunContext& context,
+          const ReadResult& read, std::size_t dropped)
+      : name_(name),
+        arguments_(arguments),
+        context_(context),
+        format_(read.format),
+        periodic_(read.periodic),
+        ids_(read.point_ids),
+        dropped_(dropped) {}
+
+  BuiltComplex operator()(const Points& points) const { return of_points(points, "points"); }
+  BuiltComplex operator()(const DistanceMatrix& distances) const {
+    expect("distances", {ComplexKind::rips});
+    const bool is_half = format_ == Format::lower_distance || format_ == Format::upper_distance ||
+                         format_ == Format::binary;
+    require_in_scope(is_half ? kTriangle : kMatrix);
+    return rips(distances, distances.size() == 0);
+  }
+  BuiltComplex operator()(const SparseDistances& distances) const {
+    expect("distances", {ComplexKind::rips});
+    require_in_scope(kSomePairs);
+    return rips(distances, distances.size() == 0);
+  }
+  BuiltComplex operator()(const Image& image) const {
+    expect("an image", {ComplexKind::cubical});
+    require_in_scope(kImage);
+    return cubical(image);
+  }
+  BuiltComplex operator()(SimplicesInput&& input) const {
+    const ComplexKind kind =
+        expect("simplices", {ComplexKind::explicit_cells, ComplexKind::lower_star});
+    require_in_scope(kind == ComplexKind::explicit_cells ? kSimplices : kLowerStar);
+    if (kind == ComplexKind::explicit_cells) {
+      if (!input.vertex_values.empty())
+        throw Error(ErrorKind::usage,
+                    "--values: simplices have values of their own; values of the vertices need "
+                    "--complex lower-star");
+      return stored(
+          ExplicitComplex::from_simplices(std::move(input.simplices), input.namer(), context_),
+          "explicit");
+    }
+    return stored(lower_star(input.simplices, vertex_values(input), input.namer(), context_),
+                  "lower-star");
+  }
+  BuiltComplex operator()(const SimplicesInput& input) const {
+    return (*this)(SimplicesInput(input));
+  }
+  BuiltComplex operator()(const BoundaryInput& input) const {
+    expect("a boundary matrix", {ComplexKind::explicit_cells});
+    require_in_scope(kBoundary);
+    const bool has_incidences = !input.matrix.incidences.empty() || input.matrix.rows.empty();
+    if (!has_incidences && arguments_.options.field != 2)
+      throw Error(ErrorKind::usage,
+                  fmt::format("--field: found {}, expected 2: this boundary matrix has no "
+                              "incidence numbers; simplices have them",
+                              arguments_.options.field));
+    return stored(ExplicitComplex::from_boundary(input.matrix, input.namer(), context_),
+                  "explicit");
+  }
+  BuiltComplex operator()(const Mesh& mesh) const {
+    if (mesh.values.empty()) return of_points(mesh.vertices, "a mesh without values");
+    expect("a mesh with values", {ComplexKind::lower_star});
+    require_in_scope(kMesh);
+    return stored(lower_star(triangles_of(mesh), mesh.values, {}, context_), "lower-star");
+  }
+
+ private:
+  /// The complex to build: the one asked for, or the first that makes sense.
+  ComplexKind expect(std::string_view data, std::initializer_list<ComplexKind> kinds) const {
+    const bool is_free = arguments_.complex == ComplexKind::automatic;
+    const ComplexKind kind = is_free ? *kinds.begin() : arguments_.complex;
+    if (std::ranges::find(kinds, kind) == kinds.end()) {
+      const auto name = [](ComplexKind k) { return complex_names()[static_cast<std::size_t>(k)]; };
+      throw Error(ErrorKind::usage,
+                  fmt::format("--complex: found {}, expected {} for {}{}",
+                              arguments_.own_complex ? arguments_.own_complex->name : name(kind),
+                              name(*kinds.begin()), data,
+                              kind == ComplexKind::lower_star
+                                  ? "; --values names the values of the vertices"
+                                  : ""));
+    }
+    return kind;
+  }
+
+  /// An option that has no effect is a misunderstanding.
+  void require_in_scope(Situation here) const {
+    app::require_in_scope(arguments_.given, here, name_of(here));
+  }
+
+  BuiltComplex of_points(const Points& points, std::string_view data) const {
+    const ComplexKind kind =
+        expect(data, {ComplexKind::rips, ComplexKind::cubical, ComplexKind::own});
+    if (kind == ComplexKind::own) {
+      require_in_scope(kOwn);
+      const OwnComplex& own = *arguments_.own_complex;
+      return stored(own.of_points(points, context_), std::string(own.name));
+    }
+    require_in_scope(kind == ComplexKind::rips ? kPoints : kVoxels);
+    if (kind == ComplexKind::rips) return rips(points, points.rows() == 0);
+    if (!arguments_.voxel)
+      throw Error(ErrorKind::usage,
+                  fmt::format("--complex: found cubical, which needs --voxel X for {}{}", data,
+                              data == "points" ? "; --format grid reads them as an image" : ""));
+    if (points.rows() == 0) return cubical(Image{{0}, {}});
+    PointImage made = voxel_image(points, *arguments_.voxel, arguments_.voxel_value, 1, context_);
+    BuiltComplex built = cubical(made.image);
+    constexpr const char* kValues[] = {"distance", "occupancy", "density"};
+    built.voxels = {made.voxel, std::move(made.first),
+                    kValues[static_cast<int>(arguments_.voxel_value)]};
+    return built;
+  }
+
+  BuiltComplex cubical(const Image& image) const {
+    CubicalOptions options = arguments_.cubical;
+    options.threshold = arguments_.threshold;
+    if (options.periodic.empty()) options.periodic = periodic_;
+    const auto axes = static_cast<std::size_t>(image.dim());
+    const bool all = options.periodic.size() == static_cast<std::size_t>(Cubical::kMaxDim) &&
+                     std::ranges::all_of(options.periodic, [](bool on) { return on; });
+    if (all) options.periodic.assign(axes, true);
+    if (options.periodic.size() > axes)
+      throw Error(ErrorKind::usage, fmt::format("--periodic: found axis {}, expected 0 to {}",
+                                                options.periodic.size() - 1, axes - 1));
+    BuiltComplex built{Cubical(image, options, context_), "cubical", arguments_.threshold,
+                       image.values.empty(), std::nullopt};
+    if (arguments_.check)
+      built.by_definition = [image, options](const RunContext& context) {
+        return listed_cubes(image, options, context);
+      };
+    return built;
+  }
+
+  template <class Data>
+  BuiltComplex rips(const Data& data, bool empty) const {
+    RipsOptions options = arguments_.rips;
+    const Options& wanted = arguments_.options;
+    options.threshold = arguments_.threshold;
+    // The oracle checks the whole filtration; an engine asked for by name has its reasons.
+    options.only_components =
+        wanted.max_dim == 0 && !arguments_.check &&
+        (wanted.engine == Engine::automatic || wanted.engine == Engine::union_find);
+    options.merge_equal_points = !options.only_components && wanted.min_persistence >= 0 &&
+                                 wanted.representatives != Representatives::cocycles;
+    if (options.threshold && *options.threshold < 0)
+      throw Error(ErrorKind::usage, fmt::format("--threshold: found {}, expected a distance, at "
+                                                "least 0",
+                                                *options.threshold));
+    if (options.approximation) options.only_components = false;
+    std::vector<double> weights = read_weights(size_of(data));
+    // Data that no reader can know to be wrong: a point without direction, distances that overflow.
+    try {
+      BuiltComplex built = weighted_or_sampled(data, options, std::move(weights));
+      built.empty = empty;
+      return built;
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::bad_data) throw;
+      throw Error(error.kind(), fmt::format("{}: {}", name_, error.what()));
+    }
+  }
+
+  template <class Data>
+  BuiltComplex weighted_or_sampled(const Data& data, RipsOptions options,
+                                   std::vector<double> births) const {
+    if (arguments_.dtm) births = births_by_measure(data);
+    options.births = births;  // a matrix may have its own
+    std::optional<GreedyPermutation> sample;
+    std::vector<std::uint32_t> vertices;
+    if constexpr (!std::same_as<Data, SparseDistances>) {
+      if (arguments_.subsample) {
+        sample = permutation_of(data, *arguments_.subsample);
+        vertices = sample->ascending();
+        options.vertices = vertices;
+      }
+    }
+    const Rips complex(data, options, context_);
+    const double threshold = complex.threshold();
+    BuiltComplex built{
+        complex, "rips",       std::isfinite(threshold) ? std::optional(threshold) : std::nullopt,
+        false,   std::nullopt, weights_text()};
+    if (sample)
+      built.subsample = {static_cast<Index>(vertices.size()), size_of(data),
+                         sample->covering_radius};
+    built.promise = promise_of(
+        complex, built.subsample,
+        std::same_as<Data, DistanceMatrix> || arguments_.rips.distance == PointDistance::cosine);
+    return built;
+  }
+
+  /// 1 + x, with all digits of x where they would be lost in the sum.
+  static std::string one_and(double x) {
+    constexpr double least = 1e-6;
+    return x < least ? "1 + " + shortest(x) : shortest(1 + x);
+  }
+  /// What an approximation is worth, if there is one.
+  /// @param may_be_no_metric whether the triangle inequality is not certain.
+  std::optional<std::string> promise_of(const Rips& complex,
+                                        const std::optional<BarcodeInfo::Subsample>& sample,
+                                        bool may_be_no_metric) const {
+    std::string text;
+    if (sample) {
+      const double late = 2 * sample->covering_radius;
+      text = fmt::format(
+          "{} of {} points, covering radius {}: bars longer than {} are real and "
+          "come at most so much late",
+          sample->points, sample->of, shortest(sample->covering_radius), shortest(late));
+    }
+    if (arguments_.rips.approximation) {
+      const double n = static_cast<double>(complex.size());
+      text += fmt::format("{}{} of {:.0f} edges: births and deaths are at most {} times too late",
+                          text.empty() ? "" : "; ", complex.edge_count(), n * (n - 1) / 2,
+                          one_and(*arguments_.rips.approximation));
+    }
+    if (text.empty()) return std::nullopt;
+    return name_ + ": " + text +
+           (may_be_no_metric ? ", if the triangle inequality holds" : std::string());
+  }
+
+  /// Births of the points by --dtm.
+  template <class Data>
+  std::vector<double> births_by_measure(const Data& data) const {
+    std::vector<double> births;
+    if constexpr (!std::same_as<Data, SparseDistances>) {
+      if (size_of(data) == 0) return births;
+      if (*arguments_.dtm > size_of(data))
+        throw Error(ErrorKind::usage,
+                    fmt::format("--dtm: found {}, expected at most the number of points, {}",
+                                *arguments_.dtm, size_of(data)));
+      if constexpr (std::same_as<Data, Points>)
+        births = distance_to_measure(data, *arguments_.dtm, arguments_.rips.distance,
+                                     arguments_.rips.minkowski_p, context_);
+      else
+        births = distance_to_measure(data, *arguments_.dtm, context_);
+      for (double& b : births) b *= 2;
+    }
+    return births;
+  }
+
+  /// The births of --vertex-weights, if it is there: the file has one for each point of the input,
+  /// those left out among them.
+  std::vector<double> read_weights(Index points) const {
+    if (arguments_.vertex_weights.empty()) return {};
+    const Input input = Input::open(arguments_.vertex_weights, &context_);
+    const std::vector<double> all =
+        read_values(input, static_cast<std::size_t>(points) + dropped_, arguments_.read, "point");
+    for (std::size_t v = 0; v < all.size(); ++v)
+      if (!(all[v] >= 0 && std::isfinite(all[v])))
+        input.fail({"not a weight",
+                    fmt::format("{} for point {}", shortest(all[v]), v),
+                    "a finite number >= 0",
+                    {}});
+    if (ids_.empty()) return all;
+    std::vector<double> kept;
+    for (const Index id : ids_) kept.push_back(all[static_cast<std::size_t>(id)]);
+    return kept;
+  }
+
+  std::string weights_text() const {
+    std::string source = !arguments_.vertex_weights.empty()             ? "file"
+                         : arguments_.read.diagonal == Diagonal::births ? "diagonal"
+                                                                        : "";
+    if (arguments_.dtm) source = fmt::format("dtm {}", *arguments_.dtm);
+    if (source.empty()) return source;
+    constexpr std::string_view kExponents[] = {"1", "2", "inf"};
+    return fmt::format("{}, exponent {}", source,
+                       kExponents[static_cast<int>(arguments_.rips.weight_exponent)]);
+  }
+
+  GreedyPermutation permutation_of(const Points& points, const GreedyLimits& limits) const {
+    return greedy_permutation(points, limits, arguments_.rips.distance, arguments_.rips.minkowski_p,
+                              context_);
+  }
+  GreedyPermutation permutation_of(const DistanceMatrix& distances,
+                                   const GreedyLimits& limits) const {
+    return greedy_permutation(distances, limits, context_);
+  }
+  static Index size_of(const Points& points) { return points.rows(); }
+  template <class Distances>
+  static Index size_of(const Distances& distances) {
+    return distances.size();
+  }
+
+  BuiltComplex stored(ExplicitComplex complex, std::string name) const {
+    const bool empty = complex.size() == 0;
+    return {std::move(complex), std::move(name), arguments_.threshold, empty, arguments_.threshold};
+  }
+
+  /// Values of the vertices for the lower star of listed simplices: from --values, or from the
+  /// vertices' own lines.
+  std::vector<double> vertex_values(const SimplicesInput& input) const {
+    if (!input.vertex_values.empty()) return input.vertex_values;
+    const SimplexList& list = input.simplices;
+    Index largest = -1;
+    for (const Index v : list.vertices) largest = std::max(largest, v);
+    const auto fail_at = [&](Index v) {
+      throw Error(ErrorKind::bad_data,
+                  fmt::format("{}: vertex {} has no value, expected a line for each vertex; "
+                              "--values gives them in a file",
+                              input.name, v));
+    };
+    // Each vertex needs a line: where ids go beyond the lines, one is missing.
+    if (largest >= static_cast<Index>(list.size())) fail_at(largest);
+    std::vector<double> values(static_cast<std::size_t>(largest + 1),
+                               std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t i = 0; i < list.size(); ++i)
+      if (list.simplex(i).size() == 1)
+        values[static_cast<std::size_t>(list.simplex(i).front())] = list.values[i];
+    for (std::size_t v = 0; v < values.size(); ++v)
+      if (std::isnan(values[v])) fail_at(static_cast<Index>(v));
+    return values;
+  }
+
+  /// Faces as triangles around their first corner.
+  static SimplexList triangles_of(const Mesh& mesh) {
+    SimplexList list;
+    for (std::size_t f = 0; f < mesh.faces(); ++f) {
+      const auto face =
+          std::span(mesh.corners).subspan(mesh.offsets[f], mesh.offsets[f + 1] - mesh.offsets[f]);
+      if (face.size() <= 3) {
+        if (!face.empty()) list.add(face, 0);
+        continue;
+      }
+      for (std::size_t i = 1; i + 1 < face.size(); ++i)
+        list.add(std::array{face[0], face[i], face[i + 1]}, 0);
+    }
+    return list;
+  }
+
+  const std::string& name_;
+  const Arguments& arguments_;
+  const RunContext& context_;
+  const Format format_;
+  const std::vector<bool>& periodic_;  // axes of an image that its file says close up
+  const std::vector<Index>& ids_;      // of the points in the input; empty: all are there
+  const std::size_t dropped_;
+};
+
+}  // namespace
+
+BuiltComplex build_complex(ReadResult&& input, const std::string& name, std::size_t dropped,
+                           const Arguments& arguments, const RunContext& context) {
+  return std::visit(Builder(name, arguments, context, input, dropped), std::move(input.data));
+}
+
+BuiltComplex build_complex(const ReadResult& input, const std::string& name, std::size_t dropped,
+                           const Arguments& arguments, const RunContext& context) {
+  return std::visit(Builder(name, arguments, context, input, dropped), input.data);
+}
+
+}  // namespace ph::barcode

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "barcode/complex/load.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "barcode/arguments/option_scopes.hpp"
+#include "common/terminal/messages.hpp"
+
+namespace ph::barcode {
+namespace {
+
+/// Bytes of what was read that stay while the complex is built.
+std::size_t size_of(const ReadResult& read) {
+  struct Size {
+    std::size_t operator()(const Points& points) const {
+      return static_cast<std::size_t>(points.size()) * sizeof(double);
+    }
+    std::size_t operator()(const DistanceMatrix& distances) const {
+      const auto n = static_cast<std::size_t>(distances.size());
+      return n * (n - std::min<std::size_t>(n, 1)) / 2 * sizeof(double);
+    }
+    std::size_t operator()(const SparseDistances& distances) const {
+      return distances.edges().size() * sizeof(WeightedEdge);
+    }
+    std::size_t operator()(const Image& image) const { return image.values.bytes(); }
+    std::size_t operator()(const SimplicesInput&) const { return 0; }  // becomes the complex
+    std::size_t operator()(const BoundaryInput&) const { return 0; }
+    std::size_t operator()(const Mesh& mesh) const {
+      return (*this)(mesh.vertices) + mesh.corners.size() * sizeof(Index);
+    }
+  };
+  return std::visit(Size{}, read.data);
+}
+
+bool is_given(const Arguments& arguments, std::string_view option) {
+  return std::ranges::any_of(arguments.given,
+                             [&](const auto* scope) { return scope->option == option; });
+}
+
+/// Why there can be no NaN in what was read; empty: there may be some.
+std::string_view why_no_nan(const ReadResult& read) {
+  if (read.format == Format::perseus) return "a Perseus file has none";
+  if (std::holds_alternative<Mesh>(read.data)) return "a mesh has none";
+  const auto* image = std::get_if<Image>(&read.data);
+  if (!image) return {};
+  const VoxelType type = image->values.type();
+  return type == VoxelType::float32 || type == VoxelType::float64 ? "" : "no whole number is NaN";
+}
+
+/// Whether all rows may be dimension, birth and death: bars that a file does not say it has.
+bool may_be_bars(const ReadResult& read) {
+  constexpr double most = 9;  // dimensions
+  const auto is_bar = [](double dim, double birth, double death) {
+    return dim >= 0 && dim <= most && dim == std::floor(dim) && birth < death;
+  };
+  if (const auto* points = std::get_if<Points>(&read.data)) {
+    if (points->cols() != 3 || points->rows() == 0) return false;
+    for (Index i = 0; i < points->rows(); ++i)
+      if (!is_bar((*points)(i, 0), (*points)(i, 1), (*points)(i, 2))) return false;
+    return true;
+  }
+  const auto* image = std::get_if<Image>(&read.data);
+  const bool is_table = image && read.format == Format::npy && image->extents.size() == 2 &&
+                        image->extents[0] > 0 && image->extents[1] == 3;
+  if (!is_table) return false;
+  for (std::size_t k = 0; k < image->values.size(); k += 3)
+    if (!is_bar(image->values[k], image->values[k + 1], image->values[k + 2])) return false;
+  return true;
+}
+
+/// What could not be read as data, with a hint if it can be read as bars.
+[[noreturn]] void fail_to_read(const Job& job, const Error& error, Format format,
+                               const RunContext& context) {
+  bool has_bars = false;
+  // A pipe cannot be read again.
+  const bool is_guessed = error.kind() == ErrorKind::bad_data && format == Format::automatic;
+  std::error_code ignored;
+  if (is_guessed && std::filesystem::is_regular_file(job.input, ignored)) {
+    try {
+      has_bars = read_stored_barcode(Input::open(job.input, &context)).bars.size() > 0;
+    } catch (const std::exception&) {  // it cannot, either
+    }
+  }
+  if (!has_bars) throw;
+  throw Error(error.kind(), fmt::format("{}; is it a barcode? ph-barcode plot {} -o FILE.svg draws "
+                                        "it",
+                                        error.what(), printable(job.input)));
+}
+
+}  // namespace
+
+Loaded load(const Job& job, std::optional<Input>& input, const Arguments& arguments,
+            app::Session& session, Stopwatch& watch) {
+  NamedData data = [&] {
+    try {
+      return read_input(*input, arguments, session.context());
+    } catch (const Error& error) {
+      fail_to_read(job, error, arguments.format, session.context());
+    }
+  }();
+  input.reset();
+  const auto& [name, read, dropped, sha256] = data;
+  // Scanners mark holes by NaN: they are no error unless somebody says so.
+  if (dropped > 0 && is_given(arguments, "nan") && arguments.read.nan == NanPolicy::error)
+    throw Error(ErrorKind::bad_data,
+                fmt::format("{}: {} with NaN, expected numbers; --nan drop leaves them out", name,
+                            count_of(dropped, "point")));
+  const std::string what = fmt::format("read {}: {}", name, read.description);
+  // A batch says it in its one line an input.
+  if (arguments.format == Format::automatic && arguments.inputs == std::vector{job.input})
+    session.note(what);
+  else
+    session.explain(what);
+  for (const std::string& note : read.notes) session.note(fmt::format("{}: {}", name, note));
+  if (arguments.format == Format::automatic && arguments.read.columns.empty() && may_be_bars(read))
+    session.note(
+        fmt::format("{}: its rows may be dimension, birth and death; ph-barcode plot {} "
+                    "-o FILE.svg draws them as bars",
+                    name, printable(job.input)));
+  watch.lap("read");
+  auto claim = std::make_unique<MemoryClaim>(session.context().memory, size_of(read));
+  std::string description = read.description;
+  std::vector<Index> point_ids = read.point_ids;
+  if (const std::string_view why = why_no_nan(read); is_given(arguments, "nan") && !why.empty())
+    session.note(fmt::format("{}: --nan does nothing: {}", name, why));
+  const bool is_shown = (!job.report.empty() || arguments.draws_tree()) && !arguments.dry_run;
+  BuiltComplex built =
+      is_shown ? build_complex(read, name, dropped, arguments, session.context())
+               : build_complex(std::move(data.read), name, dropped, arguments, session.context());
+  if (arguments.read.allow_empty && !built.empty)
+    session.explain("--allow-empty: not needed, the input is not empty");
+  const auto* const cubical = std::get_if<Cubical>(&built.complex);
+  if (cubical && cubical->cubical_image().extents.size() == 1 &&
+      is_given(arguments, "construction") &&
+      arguments.options.representatives == Representatives::none)
+    session.note("--construction does nothing: of one axis both have the same bars");
+  if (built.promise) session.note(*built.promise);
+  if (built.empty && !arguments.read.allow_empty)
+    throw Error(ErrorKind::bad_data,
+                fmt::format("{}: no points; --allow-empty accepts that", name));
+  Loaded loaded{std::move(built), std::move(description), std::move(point_ids)};
+  if (is_shown) {
+    loaded.data = std::move(data);
+    loaded.claim = std::move(claim);
+  }
+  return loaded;
+}
+
+}  // namespace ph::barcode

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "barcode/complex/build_complex.hpp"
+#include "barcode/run.hpp"
+
+namespace ph::barcode {
+
+/// Measures the stages of a run.
+class Stopwatch {
+ public:
+  void lap(std::string stage) {
+    const auto now = std::chrono::steady_clock::now();
+    laps_.emplace_back(std::move(stage), std::chrono::duration<double>(now - last_).count());
+    last_ = now;
+  }
+  const std::vector<std::pair<std::string, double>>& laps() const { return laps_; }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  std::vector<std::pair<std::string, double>> laps_;
+};
+
+/// All that is kept of an input: the complex, and what the results say about it.
+struct Loaded {
+  BuiltComplex built;
+  std::string description;
+  std::vector<Index> point_ids;
+  // For a report or a tree: what is shown, counted in the budget.
+  std::optional<NamedData> data = {};
+  std::unique_ptr<MemoryClaim> claim = {};
+};
+
+/// Reads an input and builds its complex; says what was read, and what it was guessed to be.
+/// @throws Error as the readers and complexes do.
+Loaded load(const Job& job, std::optional<Input>& input, const Arguments& arguments,
+            app::Session& session, Stopwatch& watch);
+
+}  // namespace ph::barcode

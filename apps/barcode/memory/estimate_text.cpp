@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "barcode/memory/estimate_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/arguments/numbers.hpp"
+#include "ph/io/write.hpp"
+
+namespace ph::barcode {
+
+std::string collapse_text(const RunPlan& plan) {
+  return fmt::format("{} ({})", plan.collapses ? "on" : "off", plan.collapse_reason);
+}
+
+std::string estimate_text(const Estimate& estimate, const BuiltComplex& built,
+                          const std::string& description, double taken) {
+  std::string text = fmt::format("input    {}\ncomplex  {}", description, built.name);
+  if (built.threshold) text += fmt::format(", values up to {}", shortest(*built.threshold));
+  if (!built.vertex_weights.empty())
+    text += fmt::format(", vertices enter late ({})", built.vertex_weights);
+  text += fmt::format("\nengine   {} ({})\n", estimate.engine.name(), estimate.reason);
+  if (!estimate.collapse_reason.empty()) text += "collapse " + collapse_text(estimate) + '\n';
+  if (const auto* rips = std::get_if<Rips>(&built.complex); rips && estimate.collapses)
+    text += fmt::format("edges    {} before the collapse\n", rips->edge_count());
+  for (std::size_t dim = 0; dim < estimate.cells.size(); ++dim) {
+    const bool is_counted = static_cast<int>(dim) < estimate.counted_dims;
+    text += fmt::format("cells    dimension {}: {}{:.0f}\n", dim,
+                        estimate.cells_at_most ? "at most "
+                        : is_counted           ? ""
+                                               : "about ",
+                        estimate.cells[dim]);
+  }
+  const int listed = static_cast<int>(estimate.cells.size()) - 1;
+  if (listed < estimate.max_dim + 1)
+    text += fmt::format("cells    dimension {} and above: not listed\n", listed + 1);
+  // Part of what was taken are pages of code, which any input takes.
+  constexpr double code = 2 << 20;
+  const double low = std::max({0.0, taken - code, estimate.bytes_low});
+  // What building gave back may not fit what comes next: at worst nothing of it is used again.
+  const double high =
+      std::max(taken, estimate.bytes_held) + estimate.bytes_high - estimate.bytes_held;
+  return text + fmt::format("memory   {} to {}\n", app::format_size(low), app::format_size(high));
+}
+
+}  // namespace ph::barcode

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "barcode/output/adjust.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <set>
+
+namespace ph::barcode {
+namespace {
+
+using Numbers = std::vector<Index>;
+using KeepCell = std::function<bool(const Numbers&)>;
+using RenameCell = std::function<void(Numbers&)>;
+
+Numbers numbers_of(const InputCell& cell) { return {cell.numbers.begin(), cell.numbers.end()}; }
+
+/// Gives the bar added last the representative of bar i of another barcode.
+void copy_representative(const Barcode& from, std::size_t i, Barcode& to, const KeepCell& keep,
+                         const RenameCell& rename) {
+  if (from.representatives() == Representatives::none) return;
+  const InputChain chain = from.representative(i);
+  Numbers numbers;
+  std::vector<std::int64_t> coefficients;
+  for (std::size_t k = 0; k < chain.size(); ++k) {
+    Numbers cell = numbers_of(chain.cell(k));
+    if (!keep(cell)) continue;
+    rename(cell);
+    numbers.insert(numbers.end(), cell.begin(), cell.end());
+    coefficients.push_back(chain.coefficient(k));
+  }
+  to.set_representative(from.representatives(), numbers, coefficients);
+}
+
+/// The cells beyond a value, dimension by dimension as their number of vertices tells, or by row.
+std::set<Numbers> cells_beyond(const AnyComplex& complex, double threshold) {
+  std::set<Numbers> beyond;
+  const auto collect = [&]<class F>(const F& filtration) {
+    if constexpr (Filtration<F>) {
+      for (int dim = 0; dim <= filtration.top_dim(); ++dim)
+        filtration.for_each_cell(dim, [&](const auto& cell) {
+          if (filtration.value(cell) <= threshold) return;
+          Numbers numbers;
+          filtration.append_input_cell(dim, cell, numbers);
+          beyond.insert(std::move(numbers));
+        });
+    }
+  };
+  std::visit(collect, complex);
+  return beyond;
+}
+
+/// Coordinates of a grid and rows of a matrix are the numbers of no points.
+void require_vertices(CellKind kind) {
+  if (kind != CellKind::vertices)
+    throw Error(ErrorKind::usage,
+                "ids of points: found cells of a grid or rows of a matrix, expected vertices");
+}
+
+Index id_of(Index v, const std::vector<Index>& ids) {
+  if (v < 0 || static_cast<std::size_t>(v) >= ids.size())
+    throw Error(ErrorKind::usage, fmt::format("ids of points: found vertex {}, expected 0 to {}", v,
+                                              static_cast<Index>(ids.size()) - 1));
+  return ids[static_cast<std::size_t>(v)];
+}
+
+}  // namespace
+
+Barcode with_input_ids(const Barcode& barcode, const std::vector<Index>& ids) {
+  require_vertices(barcode.cell_kind());
+  const auto rename = [&](Numbers& numbers) {
+    for (Index& v : numbers) v = id_of(v, ids);
+  };
+  const auto named = [&](const InputCell& cell) {
+    Numbers numbers = numbers_of(cell);
+    rename(numbers);
+    return numbers;
+  };
+  Barcode result(barcode.cell_kind());
+  for (std::size_t i = 0; i < barcode.size(); ++i) {
+    const auto death = barcode.death_cell(i);
+    result.add(barcode[i], named(barcode.birth_cell(i)), death ? named(*death) : Numbers());
+    copy_representative(
+        barcode, i, result, [](const Numbers&) { return true; }, rename);
+  }
+  result.sort();
+  return result;
+}
+
+void name_points(std::vector<BarLoops>& loops, const std::vector<Index>& ids) {
+  for (BarLoops& of_bar : loops)
+    for (Loop& loop : of_bar.loops)
+      for (Index& v : loop.numbers) v = id_of(v, ids);
+}
+
+Barcode cut_at(const Barcode& barcode, const AnyComplex& complex, double threshold,
+               double min_persistence) {
+  // A cycle has no cell after its birth; a cocycle has all kinds.
+  std::set<Numbers> beyond;
+  if (barcode.representatives() == Representatives::cocycles)
+    beyond = cells_beyond(complex, threshold);
+  Barcode result(barcode.cell_kind());
+  for (std::size_t i = 0; i < barcode.size(); ++i) {
+    Bar bar = barcode[i];
+    if (bar.birth > threshold) continue;
+    const auto death = barcode.death_cell(i);
+    const bool lives = bar.death > threshold;
+    if (lives) bar.death = kInfinity;
+    if (!lives && !(bar.persistence() > min_persistence)) continue;
+    result.add(bar, barcode.birth_cell(i).numbers,
+               death && !lives ? death->numbers : std::span<const Index>());
+    copy_representative(
+        barcode, i, result, [&](const Numbers& cell) { return !beyond.contains(cell); },
+        [](Numbers&) {});
+  }
+  result.sort();
+  return result;
+}
+
+}  // namespace ph::barcode

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "barcode/complex/build_complex.hpp"
+#include "ph/run_context.hpp"
+#include "report/report_file.hpp"
+
+namespace ph::barcode {
+
+/// What a page cannot find by the positions of points: when they enter, and the cells that come
+/// first. Vertices have the numbers of the input.
+struct ComplexArrays {
+  std::vector<float> births;  ///< of each point; NaN: it is no vertex. Empty: all enter together
+  std::vector<std::uint32_t> edges, triangles;
+  std::vector<float> edge_values, triangle_values;  ///< ascending
+  /// Edges, triangles from these values on are left out.
+  std::optional<double> missing_from, triangles_missing_from;
+};
+
+/// Of a Rips complex its first edges (the page finds triangles by them), unless only a forest is
+/// held; of a mesh with values its first edges and all triangles, of more than 2 000 000 the first.
+/// @param count of points. @param ids their numbers in the input; empty: all are there.
+/// @throws Error (resource, cancelled).
+ComplexArrays complex_arrays(const AnyComplex& complex, std::size_t count,
+                             const std::vector<Index>& ids, const RunContext& context);
+
+/// Writes points/birth and complex/….
+void add_complex(report::ReportFile& report, const ComplexArrays& arrays);
+
+}  // namespace ph::barcode

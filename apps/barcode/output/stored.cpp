@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// What is done with barcodes that were computed earlier.
+#include "barcode/output/stored.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "common/terminal/exit_code.hpp"
+#include "report/arrays/bar_arrays.hpp"
+#include "report/encoding/sha256.hpp"
+#include "report/report_file.hpp"
+
+namespace ph::barcode {
+namespace {
+
+void write_stored_report(app::Output& output, const Input& input, const Barcode& barcode,
+                         const BarcodeInfo& info, bool superlevel, const Arguments& arguments,
+                         app::Session& session) {
+  report::Metadata meta;
+  meta.title = report::title_of(info.input);
+  meta.value_label = superlevel ? "Value" : "Filtration value";
+  meta.negated = superlevel;
+  meta.barcodes.push_back({meta.title, barcode.cell_kind(), barcode.representatives()});
+  meta.provenance.command = arguments.command;
+  meta.provenance.has_homology = false;
+  meta.provenance.run = info;
+  meta.provenance.sha256 = report::sha256_hex(input, session.context());
+  report::ReportFile report(output.file(), meta, session.context());
+  report::add_pictures(report, std::span(&barcode, 1), meta);
+  // Its cells are those of data that are not here.
+  report::add_bars(report, barcode, "bars", false);
+  report.finish();
+  output.commit();
+}
+
+}  // namespace
+
+Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, const Arguments& arguments,
+                   app::Session& session) {
+  for (const app::Plot& plot : job.plots)
+    if (!plot.shows_bars())
+      throw Error(
+          ErrorKind::usage,
+          fmt::format("--plot-kind {}: makes sense for data only, found a barcode", plot.kind));
+  const auto [barcode, origin, left_out] = read_stored_barcode(input);
+  const std::string description = fmt::format("a barcode, {}", count_of(barcode.size(), "bar"));
+  const std::string what = fmt::format("read {}: {}", input.name(), description);
+  if (arguments.is_batch())
+    session.explain(what);
+  else
+    session.note(what);
+  if (job.format == BarcodeFormat::json && !left_out.empty())
+    session.note(fmt::format("{}: not kept: {}", input.name(), fmt::join(left_out, ", ")));
+  BarcodeInfo info;
+  info.program = app::program_and_version("ph-barcode");
+  info.input = job.input;
+  info.input_description = description;
+  info.peak_memory = app::peak_memory();
+  note_absent_dims(barcode, arguments.look, session);
+  const app::BarHold results_are_written(session);
+  // Who computed the bars is not who converts them.
+  const bool is_known = !origin.program.empty();
+  outputs.write(barcode, is_known ? origin : info, look_of(arguments.look, origin.superlevel), {},
+                session.context());
+  if (!job.report.empty())
+    write_stored_report(outputs.report(), input, barcode, info, origin.superlevel, arguments,
+                        session);
+  return {app::kOk, description};
+}
+
+DistanceFormat distance_format(const Arguments& arguments) {
+  const auto format =
+      arguments.output_format ? arguments.output_format : barcode_format_of_path(arguments.output);
+  if (!format || *format == BarcodeFormat::none) return DistanceFormat::text;
+  if (*format == BarcodeFormat::csv) return DistanceFormat::csv;
+  if (*format == BarcodeFormat::json) return DistanceFormat::json;
+  if (arguments.output_format)
+    throw Error(ErrorKind::usage,
+                fmt::format("--output-format: found {}, expected csv, json or none with --compare; "
+                            "without it they are text",
+                            barcode_format_name(*format)));
+  throw Error(ErrorKind::usage,
+              fmt::format("--output: found {}, expected FILE.csv or FILE.json with --compare; "
+                          "other names are text",
+                          printable(arguments.output)));
+}
+
+std::string distances_file(const std::vector<report::Distance>& distances,
+                           const std::vector<std::string>& left_out, const Arguments& arguments,
+                           DistanceFormat format) {
+  const std::string &first = arguments.compare[0], &second = arguments.compare[1];
+  std::string text;
+  if (format == DistanceFormat::csv) {
+    text = "dim,bottleneck\n";
+    for (const auto& [dim, bottleneck] : distances)
+      text += fmt::format("{},{}\n", dim, shortest(bottleneck));
+    return text;
+  }
+  if (format == DistanceFormat::json) {
+    std::vector<std::string> rows, missing;
+    for (const auto& [dim, bottleneck] : distances)
+      rows.push_back(fmt::format("    {{\"dim\": {}, \"bottleneck\": {}}}", dim,
+                                 std::isfinite(bottleneck) ? shortest(bottleneck) : "null"));
+    for (const std::string& what : left_out) missing.push_back(json_string(what));
+    return fmt::format(
+        "{{\n  \"format\": \"ph-barcode distances\",\n  \"version\": 1,\n"
+        "  \"program\": {},\n  \"inputs\": [{}, {}],\n  \"distances\": [{}{}{}],\n"
+        "  \"left_out\": [{}]\n}}\n",
+        json_string(app::program_and_version("ph-barcode")), json_string(first),
+        json_string(second), rows.empty() ? "" : "\n", fmt::join(rows, ",\n"),
+        rows.empty() ? "" : "\n  ", fmt::join(missing, ", "));
+  }
+  text = fmt::format("bottleneck distance of {} and {}\n", printable(first), printable(second));
+  for (const auto& [dim, bottleneck] : distances)
+    text += fmt::format("H{}  {}\n", dim, shortest(bottleneck));
+  for (const std::string& what : left_out) text += fmt::format("left out: {}\n", what);
+  if (distances.empty() && left_out.empty()) text += "no bars\n";
+  return text;
+}
+
+}  // namespace ph::barcode

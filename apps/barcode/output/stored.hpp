@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "barcode/run.hpp"
+#include "ph/detail/reader.hpp"
+#include "report/metadata.hpp"
+
+namespace ph::barcode {
+
+/// The way out where barcodes are too large for the memory.
+inline constexpr std::string_view kFewerBars = "take fewer bars, or raise --memory-limit";
+
+/// Reads a stored barcode and writes it as a job says: converted, drawn, in a report.
+/// @throws Error (usage) on a plot of anything else; Error as read_barcode and OutputFile.
+Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, const Arguments& arguments,
+                   app::Session& session);
+
+/// The formats of the distances of two barcodes.
+enum class DistanceFormat { text, csv, json };
+/// The distances of two barcodes as a file.
+std::string distances_file(const std::vector<report::Distance>& distances,
+                           const std::vector<std::string>& left_out, const Arguments& arguments,
+                           DistanceFormat format);
+/// As --output-format and the extension of -o say. @throws Error (usage) on any other format.
+DistanceFormat distance_format(const Arguments& arguments);
+
+}  // namespace ph::barcode

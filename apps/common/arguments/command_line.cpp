@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+#include "common/arguments/command_line.hpp"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "common/arguments/choices.hpp"
+#include "common/arguments/numbers.hpp"
+#include "common/terminal/build_information.hpp"
+#include "common/terminal/exit_code.hpp"
+#include "ph/detail/output_file.hpp"
+
+namespace ph::app {
+namespace {
+
+constexpr std::array<std::string_view, 4> kProgressModes{"auto", "bar", "json", "none"};
+constexpr std::string_view kCommon = "Common options";
+
+/// All long names of a program's options, with their dashes.
+std::vector<std::string> long_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+[[noreturn]] void reject_unknown(const CLI::App& app, const std::string& typed) {
+  const std::string name = typed.substr(0, typed.find('='));
+  const std::vector<std::string> known = long_names(app);
+  const std::vector<std::string_view> views(known.begin(), known.end());
+  // One dash where there should be two: find the name all the same.
+  const std::string dashed = name.starts_with("--") ? name : "-" + name;
+  // One letter away from another name, but what is meant is the dimension.
+  const std::string_view word = std::string_view(dashed).substr(2);
+  const bool is_dimension = word == "dim" || word == "maxdim" || word == "dimension";
+  const auto most = std::ranges::find_if(
+      views, [](std::string_view known_name) { return known_name.ends_with("max-dim"); });
+  const auto near =
+      is_dimension && most != views.end() ? std::optional(*most) : nearest_name(dashed, views);
+  throw Error(ErrorKind::usage, fmt::format("unknown option '{}'; {}", name,
+                                            near ? fmt::format("did you mean '{}'?", *near)
+                                                 : "--help lists the options"));
+}
+
+/// What CLI11 says, on one line.
+std::string one_line(std::string text) {
+  for (char& c : text)
+    if (c == '\n') c = ' ';
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text;
+}
+
+/// The same for a missing or a repeated value, in our words and with all names of the option:
+/// "--threshold, --max-scale: the value is missing".
+std::string about_values(const CLI::App& app, const std::string& text) {
+  std::string names = text.substr(0, text.find(':'));
+  if (const CLI::Option* option = app.get_option_no_throw(names)) {
+    names.clear();
+    for (const std::string& name : option->get_lnames())
+      names += (names.empty() ? "--" : ", --") + name;
+  }
+  if (text.find("missing") != text.npos) return names + ": the value is missing";
+  if (text.find("received") != text.npos) return names + ": found more than once, expected once";
+  return one_line(text);
+}
+
+/// Breaks a description into lines that fit beside the names of the options; CLI11 indents them.
+std::string wrapped(const std::string& text) {
+  constexpr std::size_t kColumns = 68;
+  std::string lines;
+  std::size_t column = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    if (column > 0 && column + 1 + word.size() > kColumns) {
+      lines += '\n';
+      column = 0;
+    }
+    if (column > 0) {
+      lines += ' ';
+      ++column;
+    }
+    lines += word;
+    column += word.size();
+    begin = end + 1;
+  }
+  return lines;
+}
+
+}  // namespace
+
+void add_common_options(CLI::App& app, CommonOptions& options) {
+  app.set_help_flag();  // ours comes below: it must not depend on the order of the options
+  const std::string group(kCommon);
+  add_value(app, "--threads", "N", "threads to use (default: one for each core)",
+            [&options](const std::string& text) {
+              options.threads = static_cast<int>(parse_integer("--threads", text, 1, 4096));
+            })
+      ->group(group);
+  add_value(app, "--memory-limit", "SIZE",
+            "bytes the computation may take, such as 4GiB, 500MB or 1e9 (default: 90 % of the "
+            "memory of the machine)",
+            [&options](const std::string& text) {
+              options.memory_limit = parse_size("--memory-limit", text);
+            })
+      ->group(group);
+  add_value(app, "--progress", "auto|bar|json|none",
+            "progress on stderr (default auto: a bar on a terminal, else silent)",
+            [&options](const std::string& text) {
+              options.progress =
+                  static_cast<ProgressMode>(choose("--progress", text, kProgressModes));
+            })
+      ->group(group);
+  app.add_flag("--quiet", options.quiet, "no messages but errors")->group(group);
+  app.add_flag("--verbose", options.verbose, "say what was chosen and why")->group(group);
+  app.add_flag("--force", options.force, "write over an input, which is refused else")
+      ->group(group);
+  app.add_flag("--version", options.version,
+               "print the version and exit; with --verbose also what was built in")
+      ->group(group);
+  app.add_flag("-h,--help", options.help, "print this text and exit")->group(group);
+}
+
+CLI::Option* add_value(CLI::App& app, const std::string& names, const std::string& placeholder,
+                       const std::string& description,
+                       std::function<void(const std::string& value)> take) {
+  CLI::Option* option = app.add_option_function<std::string>(names, std::move(take), description);
+  return option->type_name(placeholder)->type_size(1);
+}
+
+CLI::Option* add_choice(CLI::App& app, const std::string& names,
+                        const std::vector<std::string_view>& choices,
+                        const std::string& description, std::function<void(std::size_t)> take) {
+  std::string placeholder;
+  for (const std::string_view choice : choices)
+    placeholder += (placeholder.empty() ? "" : "|") + std::string(choice);
+  return add_value(app, names, placeholder, description,
+                   [=](const std::string& word) { take(choose(names, word, choices)); });
+}
+
+CLI::Option* add_path(CLI::App& app, const std::string& names, const std::string& placeholder,
+                      const std::string& description, std::string& path) {
+  return add_value(app, names, placeholder, description, [&path, names](const std::string& text) {
+    if (text.empty())
+      throw Error(ErrorKind::usage, fmt::format("{}: found '', expected a path", names));
+    path = text;
+  });
+}
+
+std::vector<std::string> typed_command(std::string_view program, int argc,
+                                       const char* const* argv) {
+  std::vector<std::string> words{std::string(program)};
+  words.insert(words.end(), argv + 1, argv + argc);
+  return words;
+}
+
+std::vector<std::string> given_options(const CLI::App& app,
+                                       std::span<const std::string_view> without) {
+  std::vector<std::string> words;
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->count() == 0 || option->get_lnames().empty() || option->get_group() == kCommon)
+      continue;
+    const std::string& name = option->get_lnames().front();
+    if (std::ranges::find(without, name) != without.end()) continue;
+    words.push_back("--" + name);
+    if (option->get_items_expected_max() > 0)  // else a flag
+      words.insert(words.end(), option->results().begin(), option->results().end());
+  }
+  return words;
+}
+
+std::string program_and_version(const std::string& program) {
+  return fmt::format("{} {}", program, PH_VERSION);
+}
+
+std::optional<std::string> parse_command_line(CLI::App& app, const CommonOptions& options, int argc,
+                                              const char* const* argv,
+                                              const std::string& built_in) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ExtrasError&) {
+    const std::vector<std::string> extras = app.remaining();
+    for (const std::string& word : extras)
+      if (word.starts_with('-')) reject_unknown(app, word);
+    throw Error(ErrorKind::usage,
+                fmt::format("unexpected argument '{}'", extras.empty() ? "" : extras.front()));
+  } catch (const CLI::ArgumentMismatch& error) {
+    throw Error(ErrorKind::usage, about_values(app, error.what()));
+  } catch (const CLI::Error& error) {
+    throw Error(ErrorKind::usage, one_line(error.what()));
+  }
+  if (options.help) {
+    for (CLI::Option* option : app.get_options())
+      option->description(wrapped(option->get_description()));
+    return app.help();
+  }
+  if (options.quiet && options.verbose) throw Error(ErrorKind::usage, "--quiet excludes --verbose");
+  if (options.version) {
+    return program_and_version(app.get_name()) + "\n" +
+           (options.verbose ? build_information() + built_in : "");
+  }
+  return std::nullopt;
+}
+
+int answer_command_line(const std::string& answer) {
+  write_file("-", answer);
+  return kOk;
+}
+
+}  // namespace ph::app

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/arguments/cli_names.hpp"
+#include "ph/io/png_plot.hpp"
+
+namespace ph::app {
+
+/// A static picture to draw.
+struct Plot {
+  std::string path;
+  std::string kind;               ///< a word of --plot-kind
+  std::string option = "--plot";  ///< that named the path
+
+  /// Whether its name ends in .png; what ends in nothing known is SVG.
+  bool is_png() const;
+  bool is_svg() const;  ///< by its name
+  /// Whether it shows bars: a barcode, a diagram, Betti curves.
+  bool shows_bars() const { return plot_kind_named(kind).has_value(); }
+};
+
+/// @throws Error (usage) unless the name ends in .svg or .png, or is that of a folder; Error
+/// (not_built_in) on a PNG that this build cannot draw.
+void require_known_format(const Plot& plot);
+
+/// The file of a plot. @param what a barcode, a merge tree or a coloured picture.
+template <class What>
+std::string drawn(const Plot& plot, const What& what, const PlotOptions& options,
+                  const RunContext& context) {
+  return plot.is_png() ? png_plot(what, options, context) : svg_plot(what, options);
+}
+
+/// An option that says how plots look, and which plots can look so.
+struct PlotLook {
+  std::string option;
+  bool (*fits)(const Plot& plot);
+  std::string meant_for;  ///< "bars": in the message that no plot fits
+};
+
+/// --plot, --plot-kind and how plots look, as they were typed.
+struct PlotArguments {
+  std::vector<std::string> paths, kinds;
+  PlotOptions look;             ///< of all of them: title, size, axis, dimensions
+  std::vector<PlotLook> looks;  ///< the options that said so
+
+  /// Each picture with its kind: in turn, the last kind counts for the rest.
+  /// @param usual kind of all if none is given.
+  /// @throws Error (usage) if there are more kinds than pictures, two pictures in one file, or a
+  /// look that none of them can have.
+  std::vector<Plot> together(std::string_view usual) const;
+};
+
+/// Registers those that all programs have. @param kinds outlives `app`, as `to` does.
+void add_plot_options(CLI::App& app, std::span<const std::string_view> kinds,
+                      const std::string& description, const std::string& group, PlotArguments& to);
+
+/// Registers one more look. @param take puts the text of the option into `to.look`.
+void add_plot_look(CLI::App& app, const PlotLook& look, const std::string& placeholder,
+                   const std::string& what, const std::string& group, PlotArguments& to,
+                   std::function<void(const std::string& text)> take);
+
+}  // namespace ph::app

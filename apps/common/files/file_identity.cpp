@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "common/files/file_identity.hpp"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <system_error>
+
+#include "ph/detail/reader.hpp"
+#include "ph/error.hpp"
+
+namespace ph::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::optional<FileIdentity> identity(const struct stat& status) {
+  // A pipe, a terminal or /dev/null keeps nothing that could be lost.
+  if (!S_ISREG(status.st_mode)) return std::nullopt;
+  return FileIdentity{status.st_dev, status.st_ino, {}};
+}
+
+std::optional<FileIdentity> identity_of(const std::string& path, int standard_descriptor) {
+  struct stat status {};
+  if (path == "-")
+    return fstat(standard_descriptor, &status) == 0 ? identity(status) : std::nullopt;
+  if (stat(path.c_str(), &status) == 0) return identity(status);
+  std::error_code error;
+  const fs::path absolute = fs::absolute(path, error);
+  const fs::path place = fs::weakly_canonical(absolute, error);
+  if (error) return std::nullopt;
+  // A batch creates folders later: the file is known by the nearest one that is there.
+  fs::path folder = place.parent_path();
+  while (stat(folder.c_str(), &status) != 0) {
+    if (folder == folder.parent_path()) return std::nullopt;
+    folder = folder.parent_path();
+  }
+  return FileIdentity{status.st_dev, status.st_ino, place.lexically_relative(folder).string()};
+}
+
+}  // namespace
+
+void InputFiles::add(const std::string& path) {
+  if (path.empty()) return;
+  const std::string whole = split_member(path).first.string();
+  if (auto file = identity_of(whole, STDIN_FILENO); file && file->name.empty())
+    paths_.emplace(std::move(*file), path);
+}
+
+const std::string* InputFiles::replaced_by(const std::string& output) const {
+  const auto file = identity_of(output, STDOUT_FILENO);
+  if (!file) return nullptr;
+  const auto input = paths_.find(*file);
+  return input == paths_.end() ? nullptr : &input->second;
+}
+
+void InputFiles::require_other(const Written& output) const {
+  const std::string* input = replaced_by(output.path);
+  if (!input) return;
+  const auto named = [](const std::string& path, std::string_view standard) {
+    return path == "-" ? std::string(standard) : printable(path);
+  };
+  const std::string in = named(*input, "standard input"),
+                    out = named(output.path, "standard output");
+  throw Error(
+      ErrorKind::usage,
+      fmt::format("{}: {} is {}, expected another file; --force writes over it", output.option, out,
+                  in == out ? std::string("an input") : fmt::format("the input {}", in)));
+}
+
+void require_distinct(std::span<const Written> outputs) {
+  std::map<FileIdentity, const Written*> files;
+  const Written* standard = nullptr;
+  const auto reject = [](const Written& one, const Written& other) {
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("{}: {} is written by {}, too; expected a file for each", one.option,
+                    one.path == "-" ? "standard output" : printable(one.path), other.option));
+  };
+  for (const Written& output : outputs) {
+    // Also of a pipe, which identities do not tell.
+    if (output.path == "-") {
+      if (standard) reject(output, *standard);
+      standard = &output;
+    }
+    auto file = identity_of(output.path, STDOUT_FILENO);
+    if (!file) continue;
+    const auto [other, is_new] = files.emplace(std::move(*file), &output);
+    if (!is_new) reject(output, *other->second);
+  }
+}
+
+bool require_separate(const InputFiles& inputs, std::span<const Written> outputs, bool force) {
+  require_distinct(outputs);
+  bool replaces = false;
+  for (const Written& output : outputs) {
+    if (!force) inputs.require_other(output);
+    replaces = replaces || inputs.replaced_by(output.path) != nullptr;
+  }
+  return replaces;
+}
+
+}  // namespace ph::app

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "common/run/program.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <malloc.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <exception>
+#include <memory>
+#include <new>
+#include <system_error>
+
+#include "common/run/signals.hpp"
+#include "common/terminal/exit_code.hpp"
+#include "common/terminal/messages.hpp"
+#include "ph/detail/output_file.hpp"
+
+namespace ph::app {
+namespace {
+
+/// Occupies the standard descriptors that the caller closed, so that no file we open becomes
+/// "standard output" by accident. Opened the wrong way round: using them is an error, as it should.
+void occupy_standard_descriptors() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(descriptor, F_GETFD) < 0)
+      static_cast<void>(open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+}
+
+/// Keeps freed memory for the next stage. By default each large vector is mapped, faulted in page
+/// by page and given back, which costs a short run a tenth of its time.
+void keep_freed_memory() {
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  mallopt(M_TRIM_THRESHOLD, 256 << 20);
+}
+
+/// What report_current_exception does while there is memory for a message.
+int report_with_memory(std::string_view prefix, std::string_view ways_out) {
+  const auto report = [&](std::string_view what, int code) {
+    print_line(fmt::format("{}: {}", prefix, what));
+    return code;
+  };
+  try {
+    throw;
+  } catch (const BrokenPipe&) {
+    return kIo;
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::cancelled) {
+      const int signal = SignalWatch::received();
+      return signal == 0 ? exit_code(error.kind()) : 128 + signal;
+    }
+    if (error.kind() == ErrorKind::internal)
+      return report(fmt::format("internal error: {}; please report", error.what()), kInternal);
+    if (error.kind() == ErrorKind::resource &&
+        std::string_view(error.what()).find("--memory-limit") == std::string_view::npos)
+      return report(fmt::format("{}; {}", error.what(), ways_out), kResource);
+    return report(error.what(), exit_code(error.kind()));
+  } catch (const std::bad_alloc&) {
+    return report(fmt::format("out of memory; {}", ways_out), kResource);
+  } catch (const std::length_error&) {
+    return report(fmt::format("out of memory: a container would be too large; {}", ways_out),
+                  kResource);
+  } catch (const std::system_error& error) {
+    // What threads throw if the system has no room for another one.
+    if (error.code() == std::errc::resource_unavailable_try_again)
+      return report("cannot create a thread; use fewer (--threads)", kResource);
+    return report(fmt::format("internal error: {}; please report", error.what()), kInternal);
+  } catch (const std::exception& error) {
+    return report(fmt::format("internal error: {}; please report", error.what()), kInternal);
+  } catch (...) {
+    return report("internal error: unknown exception; please report", kInternal);
+  }
+}
+
+}  // namespace
+
+int report_current_exception(const Program& program, std::string_view subject) {
+  try {
+    const std::string prefix =
+        fmt::format("{}{}{}", program.name, subject.empty() ? "" : ": ", subject);
+    return report_with_memory(prefix, program.ways_out);
+  } catch (...) {
+    // Not even a message fits into memory: this one needs none.
+    print_without_memory(program.name, "out of memory");
+    return kResource;
+  }
+}
+
+void take_large_pages() {
+  constexpr std::size_t large_page = 2 << 20;
+  constexpr std::size_t reserve = 30 << 20;  // below the size from which on blocks are mapped
+  void* const block = std::malloc(reserve);  // once free it is the end of the heap
+  if (block == nullptr) return;
+  void* begin = block;
+  std::size_t space = reserve;
+  if (std::align(large_page, large_page, begin, space) != nullptr)
+    madvise(begin, space, MADV_HUGEPAGE);
+  std::free(block);
+}
+
+int run_program(const Program& program, const std::function<int(std::stop_token)>& body) {
+  keep_freed_memory();
+  occupy_standard_descriptors();
+  signal(SIGPIPE, SIG_IGN);  // a write then fails with EPIPE
+  signal(SIGXFSZ, SIG_IGN);  // a write then fails with EFBIG
+  try {
+    const SignalWatch signals;
+    try {
+      return body(signals.token());
+    } catch (...) {
+      return report_current_exception(program);
+    }
+  } catch (...) {
+    return report_current_exception(program);
+  }
+}
+
+}  // namespace ph::app

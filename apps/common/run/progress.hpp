@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <stop_token>
+#include <string_view>
+#include <thread>
+
+#include "common/arguments/command_line.hpp"
+#include "ph/run_context.hpp"
+
+namespace ph::app {
+
+/// Shows progress on stderr: a bar on a terminal, a JSON object a line, or nothing. A bar appears
+/// only after half a second, with the first report, and any message wipes it away. Where a stage
+/// has nothing to report for most of a second (a large array is moved, a file is read in one piece)
+/// what was last reported is shown again, so that a program that computes is heard every second.
+/// Lines of JSON come so from the start, and are never held back.
+class ProgressReporter {
+ public:
+  explicit ProgressReporter(ProgressMode mode, bool quiet);
+  ~ProgressReporter();
+
+  bool active() const { return mode_ == ProgressMode::bar || mode_ == ProgressMode::json; }
+  void report(const Progress& progress);
+  /// Wipes the bar and draws none until as many calls of `release` and another report: the terminal
+  /// belongs to results, or to somebody who types.
+  void hold();
+  void release();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void show();
+  void draw_bar();
+  void repeat(const std::stop_token& stop);
+
+  ProgressMode mode_;
+  Clock::time_point start_;
+  std::mutex mutex_;  // of what follows
+  Progress last_{"start", 0, 0};
+  Clock::time_point last_shown_;
+  bool has_report_ = false;  // since the start or the last hold
+  int holds_ = 0;
+  std::condition_variable_any never_;
+  std::jthread repeater_;
+};
+
+}  // namespace ph::app

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "common/run/session.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <utility>
+
+#include "common/arguments/numbers.hpp"
+#include "common/run/signals.hpp"
+#include "common/terminal/messages.hpp"
+
+namespace ph::app {
+Session::Session(std::string_view program, const CommonOptions& options, std::stop_token stop)
+    : program_(program),
+      options_(options),
+      progress_(options.progress, options.quiet),
+      memory_at_start_(peak_memory()) {
+  context_.stop = std::move(stop);
+  context_.threads = options.threads;
+  context_.slab_layers = options.slab_layers;
+  context_.memory.set_limit(options.memory_limit ? static_cast<std::size_t>(*options.memory_limit)
+                                                 : machine_memory());
+  heap_.bound(context_.memory.limit());
+  if (progress_.active())
+    context_.on_progress = [this](const Progress& progress) { progress_.report(progress); };
+  constexpr std::string_view kModes[] = {"auto", "bar", "json", "none"};
+  if (options.progress != ProgressMode::automatic)
+    explain(fmt::format("progress {}", kModes[static_cast<int>(options.progress)]));
+  if (options.threads > 0) explain(fmt::format("threads {}", options.threads));
+  explain(
+      fmt::format("memory limit {}", format_size(static_cast<double>(context_.memory.limit()))));
+}
+
+Session::~Session() = default;
+
+std::uint64_t Session::memory_taken() const { return peak_memory() - memory_at_start_; }
+
+void Session::note(std::string_view text) {
+  if (options_.quiet) return;
+  print_line(fmt::format("{}: {}", program_, text));
+}
+
+void Session::explain(std::string_view text) {
+  if (options_.verbose) note(text);
+}
+
+BarHold::BarHold(Session& session) : progress_(session.progress_) { progress_.hold(); }
+
+BarHold::~BarHold() { progress_.release(); }
+
+bool is_typed(std::initializer_list<std::string_view> paths) {
+  return std::ranges::count(paths, "-") > 0 && isatty(STDIN_FILENO);
+}
+
+Output::Output(const std::string& path)
+    : file_(path), slot_(remember_temporary(file_.temporary_path())) {}
+
+Output::Output(Output&& other) noexcept
+    : file_(std::move(other.file_)), slot_(std::exchange(other.slot_, -1)) {}
+
+Output::~Output() { forget_temporary(slot_); }
+
+void Output::commit() {
+  file_.sync();  // may take long, and a signal may end it
+  {
+    const SignalsWait until_named;
+    file_.commit();
+  }
+  forget_temporary(std::exchange(slot_, -1));
+}
+
+std::uint64_t peak_memory() {
+  // Not what getrusage says: that includes the program that started this one.
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;)
+    if (std::uint64_t kib = 0; word == "VmHWM:" && status >> kib) return kib * 1024;
+  rusage usage{};
+  return getrusage(RUSAGE_SELF, &usage) == 0 ? static_cast<std::uint64_t>(usage.ru_maxrss) * 1024
+                                             : 0;
+}
+
+}  // namespace ph::app

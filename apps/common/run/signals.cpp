@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "common/run/signals.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+namespace ph::app {
+namespace {
+
+// A handler may touch nothing but lock-free atomics and memory that does not move, hence the
+// globals; they belong to the process as signals do.
+constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
+constexpr std::size_t kSlots = 64;
+constexpr std::size_t kLongestName = 4096;
+
+std::atomic<int> first_signal{0};
+std::atomic<int> wake_descriptor{-1};
+std::atomic<bool> must_wait{false};
+std::array<std::array<char, kLongestName>, kSlots> temporary_names;
+std::array<std::atomic<int>, kSlots> slot_state;  // 0: free, 1: being filled, 2: in use
+
+static_assert(std::atomic<int>::is_always_lock_free);
+
+// Never runs on a thread that is waited for: that one has signals blocked.
+[[noreturn]] void end_at_once(int signal) {
+  while (must_wait.load()) {
+    const timespec millisecond{0, 1'000'000};
+    nanosleep(&millisecond, nullptr);
+  }
+  for (std::size_t i = 0; i < kSlots; ++i)
+    if (slot_state[i].load() == 2) unlink(temporary_names[i].data());
+  _exit(128 + signal);
+}
+
+void on_signal(int signal) {
+  const int saved = errno;
+  int none = 0;
+  const bool is_first = first_signal.compare_exchange_strong(none, signal);
+  if (!is_first || wake_descriptor.load() < 0) end_at_once(signal);
+  const char byte = 1;
+  static_cast<void>(!write(wake_descriptor.load(), &byte, 1));
+  errno = saved;
+}
+
+}  // namespace
+
+SignalWatch::SignalWatch() {
+  if (pipe2(pipe_, O_CLOEXEC) == 0) {
+    try {
+      thread_ = std::thread([this] { watch(); });
+      wake_descriptor = pipe_[1];
+    } catch (const std::system_error&) {
+      // No room for a thread: without a descriptor to wake, the handler ends the process itself.
+    }
+  }
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  for (const int signal : kSignals) {
+    struct sigaction before {};
+    // nohup and shells that put a job into the background ignore signals for us: leave it so.
+    if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
+    sigaction(signal, &action, nullptr);
+  }
+}
+
+SignalWatch::~SignalWatch() {
+  if (!thread_.joinable()) return;
+  const char byte = 0;
+  static_cast<void>(!write(pipe_[1], &byte, 1));
+  thread_.join();
+  // The handler stays installed and may still write one byte: the pipe lives as long as the
+  // process.
+}
+
+int SignalWatch::received() { return first_signal.load(); }
+
+void SignalWatch::watch() {
+  constexpr int kGraceMilliseconds = 60;
+  char byte = 0;
+  ssize_t got = 0;
+  do {
+    got = read(pipe_[0], &byte, 1);
+  } while (got < 0 && errno == EINTR);
+  if (got != 1 || byte == 0) return;
+  stop_.request_stop();
+  // Unwinding normally takes a few milliseconds and ends with the byte 0 of the destructor. What
+  // takes longer is cut short: returning gigabytes to the system takes time too, and the whole
+  // must not take 0.2 s.
+  pollfd done{pipe_[0], POLLIN, 0};
+  int ready = 0;
+  do {
+    ready = poll(&done, 1, kGraceMilliseconds);
+  } while (ready < 0 && errno == EINTR);
+  if (ready == 0) end_at_once(first_signal.load());
+}
+
+SignalsWait::SignalsWait() {
+  sigset_t ours;
+  sigemptyset(&ours);
+  for (const int signal : kSignals) sigaddset(&ours, signal);
+  pthread_sigmask(SIG_BLOCK, &ours, &before_);
+  must_wait = true;
+}
+
+SignalsWait::~SignalsWait() {
+  must_wait = false;
+  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
+
+int remember_temporary(const std::string& path) {
+  if (path.empty() || path.size() >= kLongestName) return -1;
+  for (std::size_t i = 0; i < kSlots; ++i) {
+    int free = 0;
+    if (!slot_state[i].compare_exchange_strong(free, 1)) continue;
+    std::memcpy(temporary_names[i].data(), path.c_str(), path.size() + 1);
+    slot_state[i] = 2;
+    return static_cast<int>(i);
+  }
+  return -1;
+}
+
+void forget_temporary(int slot) {
+  if (slot >= 0) slot_state[static_cast<std::size_t>(slot)] = 0;
+}
+
+}  // namespace ph::app

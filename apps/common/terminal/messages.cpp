@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "common/terminal/messages.hpp"
+
+#include <unistd.h>
+
+#include <mutex>
+#include <string>
+
+#include "ph/detail/reader.hpp"
+
+namespace ph::app {
+namespace {
+
+constexpr std::string_view kWipe = "\r\x1b[K";
+
+// Of the process, as standard error is.
+std::mutex mutex;
+bool status_is_shown = false;
+
+/// The caller holds the mutex.
+void write_all(std::string_view rest) {
+  while (!rest.empty()) {
+    const ssize_t written = ::write(STDERR_FILENO, rest.data(), rest.size());
+    if (written <= 0) return;
+    rest.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+/// The caller holds the mutex.
+void wipe() {
+  if (status_is_shown) write_all(kWipe);
+  status_is_shown = false;
+}
+
+}  // namespace
+
+void print_line(std::string_view line) {
+  // A name of 4096 bytes, each of them escaped, must not hide what comes after it.
+  constexpr std::size_t longest = std::size_t{1} << 15;
+  const std::string text = printable(line, longest) + "\n";
+  const std::scoped_lock lock(mutex);
+  wipe();
+  write_all(text);
+}
+
+void print_without_memory(std::string_view prefix, std::string_view text) {
+  const std::scoped_lock lock(mutex);
+  wipe();
+  for (const std::string_view part : {prefix, std::string_view(": "), text, std::string_view("\n")})
+    write_all(part);
+}
+
+void show_status(std::string_view text) {
+  const std::string line = std::string(kWipe).append(text);
+  const std::scoped_lock lock(mutex);
+  write_all(line);
+  status_is_shown = true;
+}
+
+void wipe_status() {
+  const std::scoped_lock lock(mutex);
+  wipe();
+}
+
+}  // namespace ph::app

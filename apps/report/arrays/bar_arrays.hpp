@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <span>
+#include <string_view>
+
+#include "ph/barcode.hpp"
+#include "report/report_file.hpp"
+
+namespace ph::report {
+
+/// Writes `prefix`/dim, birth, death and, where the barcode has them and `cells`, its cells.
+/// @param prefix "bars", or "bars2" for the second barcode of a comparison.
+/// @throws Error (bad_data) on a bar of dimension 256 or higher; Error (resource, cancelled, io).
+void add_bars(ReportFile& report, const Barcode& barcode, std::string_view prefix = "bars",
+              bool cells = true);
+
+/// Writes pictures for readers without scripts. @param barcodes as many as `meta` names.
+void add_pictures(ReportFile& report, std::span<const Barcode> barcodes, const Metadata& meta);
+
+/// Writes the representatives of a barcode that has them, as chains/….
+void add_chains(ReportFile& report, const Barcode& barcode);
+
+}  // namespace ph::report

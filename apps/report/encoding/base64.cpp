@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "report/encoding/base64.hpp"
+
+#include <string_view>
+
+namespace ph::report {
+namespace {
+
+constexpr std::string_view kDigits =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+}  // namespace
+
+void Base64::append(std::span<const std::uint8_t> bytes, std::string& text) {
+  for (const std::uint8_t byte : bytes) {
+    waiting_ = waiting_ << 8 | byte;
+    if (++count_ < 3) continue;
+    for (const int shift : {18, 12, 6, 0}) text += kDigits[waiting_ >> shift & 63];
+    waiting_ = 0;
+    count_ = 0;
+  }
+}
+
+void Base64::finish(std::string& text) {
+  if (count_ == 0) return;
+  const std::uint32_t bits = waiting_ << 8 * (3 - count_);
+  for (int digit = 0; digit < 4; ++digit)
+    text += digit <= count_ ? kDigits[bits >> (18 - 6 * digit) & 63] : '=';
+  waiting_ = 0;
+  count_ = 0;
+}
+
+}  // namespace ph::report

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+#include "segment/arguments/arguments.hpp"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "common/arguments/numbers.hpp"
+#include "common/files/batch_names.hpp"
+#include "ph/error.hpp"
+#include "report/page_template.hpp"
+#include "segment/arguments/argument_groups.hpp"
+#include "segment/arguments/option_scopes.hpp"
+
+namespace ph::segment {
+namespace {
+
+using app::add_value;
+
+/// What --version --verbose adds.
+constexpr std::string_view kBuiltIn =
+    "methods     {}\n"
+    "reads       pcd ply xyz csv pts npy png pgm tree\n"
+    "writes      pcd ply npy csv png json svg tree\n";
+
+std::vector<std::string_view> names_of_presets() {
+  std::vector<std::string_view> names;
+  for (const CameraPreset& preset : camera_presets()) names.push_back(preset.name);
+  return names;
+}
+
+/// Units a metre: of the pixels of a depth image.
+double depth_scale(const std::string& text) {
+  const double scale = length("--depth-scale", text);
+  if (scale < 1)
+    throw Error(ErrorKind::usage,
+                fmt::format("--depth-scale: found {0}, expected units a metre, at least 1; if a "
+                            "unit is {0} m: 1 / {0} = {1:.6g}",
+                            text, 1 / scale));
+  return scale;
+}
+
+void add_input_options(CLI::App& app, Arguments& a) {
+  app.add_option(
+      "INPUT", a.inputs,
+      "point cloud: .pcd, .ply, .npy, or text: .xyz, .csv, .pts; a stored merge tree (see --tree); "
+      "with --camera or --intrinsics a depth image: .png, .pgm or .npy; - is standard input. "
+      "Several, or a folder, are a stream of frames: its outputs are folders (FOLDER/) or have a * "
+      "for the frame's name, and --json gets one line a frame");
+  app::add_path(app, "--frames-from", "LIST",
+                "a stream of the files that LIST names, one a line; -: standard input, each as "
+                "soon as it is named",
+                a.frames_from);
+  app.add_flag("--stable-labels", a.stable_labels,
+               "stream: an object keeps its label from frame to frame, by overlap in the image; "
+               "clouds without rows and columns are compared in cubes of 1 cm. Labels are then not "
+               "in the order of size");
+  app::add_path(app, "--depth", "D.png",
+                "depth image in place of INPUT: .png, .pgm or .npy; 0 and NaN are holes",
+                a.image.depth);
+  app::add_path(app, "--color,--colour", "C.png", "colour image of the same size", a.image.colour);
+  CLI::Option* intrinsics = add_value(
+      app, "--intrinsics", "FX,FY,CX,CY",
+      "focal lengths and principal point of the depth image, pixels", [&a](const std::string& v) {
+        const auto k = app::parse_numbers("--intrinsics", v, 4);
+        a.image.camera = Camera{{k[0], k[1], k[2], k[3]}};
+      });
+  app::add_path(app, "--camera", "FILE|NAME",
+                fmt::format("the camera of the depth image in place of --intrinsics: a camera_info "
+                            "YAML of ROS, with its lens, an intrinsic JSON of Open3D, or the "
+                            "nominal values of {}",
+                            fmt::join(names_of_presets(), ", ")),
+                a.image.calibration)
+      ->excludes(intrinsics);
+  add_value(app, "--depth-scale", "S",
+            "depth units a metre (default: 1000, millimetres; floats: 1, metres)",
+            [&a](const std::string& v) { a.image.scale = depth_scale(v); });
+  app.add_flag("--allow-empty", a.allow_empty,
+               "a cloud without points is an empty result (default: an error)");
+}
+
+/// Whether an input is a depth image, by its name, where a camera is given.
+bool may_be_image(const std::string& path) {
+  constexpr std::array<std::string_view, 6> extensions = {".png", ".PNG", ".pgm",
+                                                          ".PGM", ".npy", ".NPY"};
+  return std::ranges::any_of(extensions, [&](auto e) { return path.ends_with(e); });
+}
+/// Without one, an array of NumPy is a cloud.
+bool must_be_image(const std::string& path) {
+  return may_be_image(path) && !path.ends_with(".npy") && !path.ends_with(".NPY");
+}
+
+void require_inputs(const Arguments& a) {
+  const bool depth = !a.image.depth.empty(), several = a.is_stream();
+  const auto reject = [](const std::string& what) { throw Error(ErrorKind::usage, what); };
+  if (a.inputs.empty() && a.frames_from.empty() && !depth)
+    reject("expected INPUT or --depth; see --help");
+  if (!a.frames_from.empty() && depth) reject("--frames-from: found --depth beside it");
+  if (!a.inputs.empty() && depth) reject("found both INPUT and --depth, expected one of them");
+  for (const std::string& input : a.inputs) {
+    if (input.empty()) reject("INPUT: found '', expected a path");
+    if (must_be_image(input) && !a.image.has_camera())
+      reject(fmt::format("{}: expected --camera or --intrinsics FX,FY,CX,CY with a depth image",
+                         printable(input)));
+  }
+  if (std::ranges::count(a.inputs, "-") + (a.frames_from == "-") > 1)
+    reject("INPUT: standard input can be read once only");
+  if (several && depth) reject("--depth: several frames need INPUT, a folder or --frames-from");
+  if (a.signatures && a.files.json.empty()) reject("--signatures: expected --json with it");
+  if (several && a.explain) reject("--explain takes one input only");
+  if (!several && a.stable_labels) reject("--stable-labels: expected several frames");
+}
+
+void require_consistent(const Arguments& a) {
+  require_inputs(a);
+  const bool depth = !a.image.depth.empty();
+  if (depth && !a.image.has_camera()) {
+    throw Error(ErrorKind::usage, "--depth: expected --camera or --intrinsics FX,FY,CX,CY with it");
+  }
+  if (a.explain && a.files.to_standard_output()) {
+    throw Error(ErrorKind::usage, "--explain and a result that goes to standard output, too");
+  }
+  if (!depth && !a.image.colour.empty()) {
+    throw Error(ErrorKind::usage, "--color: expected --depth with it");
+  }
+  if (!depth && !a.is_stream() && app::is_folder(a.inputs.front()))
+    throw Error(ErrorKind::no_input,
+                fmt::format("{}: it is a directory, a stream of frames: give an output for each of "
+                            "them, such as -o FOLDER/, or --json FILE with a line a frame",
+                            printable(a.inputs.front())));
+  if (!depth && !a.is_stream() && !may_be_image(a.inputs.front())) {
+    if (a.image.has_camera())
+      throw Error(ErrorKind::usage, fmt::format("{}: expected a depth image, found a cloud",
+                                                a.image.camera ? "--intrinsics" : "--camera"));
+  }
+}
+
+}  // namespace
+
+std::optional<std::string> parse_arguments(int argc, const char* const* argv, Arguments& a) {
+  CLI::App app("Segments a point cloud or a depth image by zero-dimensional persistent homology.",
+               "ph-segment");
+  add_input_options(app, a);
+  add_scene_options(app, a.options);
+  Known known = add_method_options(app, a.options);
+  add_cut_options(app, a.cut, known);
+  app::PlotArguments plots;
+  add_output_options(app, a, plots, known);
+  app::add_common_options(app, a.common);
+  if (auto answer = app::parse_command_line(app, a.common, argc, argv,
+                                            fmt::format(kBuiltIn, fmt::join(kMethodNames, " "))))
+    return answer;
+  if (known.supervoxels->count() > 0) {
+    if (known.method->count() > 0 && a.options.method != Method::supervoxels) {
+      throw Error(ErrorKind::usage,
+                  fmt::format("--supervoxels: found --method {}, expected supervoxels or none",
+                              kMethodNames[static_cast<std::size_t>(a.options.method)]));
+    }
+    a.options.method = Method::supervoxels;
+  }
+  a.given = app::given_scopes(app, option_scopes());
+  require_plane(a.given, a.options.plane);
+  take_plots(a, plots, known);
+  if (!a.files.report.empty()) {
+    report::require_built_in("--report");
+    a.command = app::typed_command("ph-segment", argc, argv);
+    a.scene_options = scene_options(app);
+  }
+  a.options.min_part = a.cut.min_part;
+  a.options.min_size = a.cut.min_size;
+  a.options.objects = a.cut.objects.value_or(a.options.objects);
+  require_consistent(a);
+  if (!a.is_stream() && !a.inputs.empty()) a.input = a.inputs.front();
+  return std::nullopt;
+}
+
+bool Arguments::is_stream() const {
+  if (!frames_from.empty() || inputs.size() > 1) return true;
+  const std::vector<app::Written> outputs = files.of_each_frame();
+  const auto names_frames = [](const app::Written& output) { return app::names_each(output.path); };
+  if (std::ranges::any_of(outputs, names_frames)) return true;
+  // A folder is one only if its results have a place; else it is an input that cannot be read.
+  return files.any() && !inputs.empty() && app::is_folder(inputs.front()) &&
+         std::ranges::all_of(outputs, app::is_folder, &app::Written::path);
+}
+
+bool Arguments::is_depth_image() const {
+  return !image.depth.empty() || (image.has_camera() && may_be_image(input));
+}
+
+std::string DepthInput::calibration_file() const {
+  return std::ranges::count(camera_presets(), calibration, &CameraPreset::name) > 0 ? ""
+                                                                                    : calibration;
+}
+
+app::InputFiles inputs_of(const Arguments& a) {
+  app::InputFiles files;
+  for (const std::string& path : a.inputs) files.add(path);
+  for (const std::string& path :
+       {a.frames_from, a.image.depth, a.image.colour, a.image.calibration_file()})
+    files.add(path);
+  return files;
+}
+
+}  // namespace ph::segment

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <array>
+#include <limits>
+
+#include "common/arguments/choices.hpp"
+#include "common/arguments/numbers.hpp"
+#include "ph/error.hpp"
+#include "segment/arguments/argument_groups.hpp"
+
+namespace ph::segment {
+namespace {
+
+using app::add_value;
+
+Box parse_box(std::string_view option, const std::string& text) {
+  const std::vector<double> v = app::parse_numbers(option, text, 6);
+  const Box box{{v[0], v[2], v[4]}, {v[1], v[3], v[5]}};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (box.min[axis] <= box.max[axis]) continue;
+    throw Error(ErrorKind::usage, fmt::format("{}: found {}…{} on axis {}, expected min <= max",
+                                              option, box.min[axis], box.max[axis], "xyz"[axis]));
+  }
+  return box;
+}
+
+Vec3 parse_point(std::string_view option, const std::string& text) {
+  const std::vector<double> v = app::parse_numbers(option, text, 3);
+  for (const double x : v) {
+    if (x == kInfinity || x == -kInfinity) {
+      throw Error(ErrorKind::usage,
+                  fmt::format("{}: found {}, expected finite coordinates", option, text));
+    }
+  }
+  return {v[0], v[1], v[2]};
+}
+
+bool parse_switch(std::string_view option, const std::string& text) {
+  static constexpr std::array<std::string_view, 2> choices = {"off", "on"};
+  return app::choose(option, text, choices) == 1;
+}
+
+Method parse_method(const std::string& text) {
+  return static_cast<Method>(app::choose("--method", text, kMethodNames));
+}
+
+/// "0.005, paper: 0.01".
+template <class Value>
+std::string defaults_of(Value value_of) {
+  return fmt::format("{}, paper: {}", (SegmentOptions{}.*value_of)(),
+                     (SegmentOptions{.method = Method::paper}.*value_of)());
+}
+
+int parse_steps(const std::string& text) {
+  if (text == "exact") return 0;
+  return static_cast<int>(app::parse_integer("--steps", text, 1, std::numeric_limits<int>::max()));
+}
+
+/// A number of at least 0.
+double at_least_zero(std::string_view option, const std::string& text) {
+  const double value = app::parse_number(option, text);
+  if (!(value >= 0))
+    throw Error(ErrorKind::usage, fmt::format("{}: found {}, expected at least 0", option, text));
+  return value;
+}
+
+}  // namespace
+
+double length(std::string_view option, const std::string& text, bool zero) {
+  const double value = app::parse_number(option, text);
+  if (!(value > 0 || (zero && value == 0)) || value == kInfinity) {
+    throw Error(ErrorKind::usage, fmt::format("{}: found {}, expected a finite length {} 0", option,
+                                              text, zero ? "of at least" : "above"));
+  }
+  return value;
+}
+
+void add_scene_options(CLI::App& app, SegmentOptions& o) {
+  const SegmentOptions d;
+  add_value(app, "--max-range", "M",
+            fmt::format("keep points up to M metres from the viewpoint; inf: all (default: {})",
+                        d.max_range),
+            [&o](const std::string& v) {
+              o.max_range = app::parse_number("--max-range", v);
+              if (o.max_range < 0) length("--max-range", v, true);
+            });
+  add_value(app, "--crop", "XMIN,XMAX,YMIN,YMAX,ZMIN,ZMAX",
+            "keep points inside this box, metres; inf and -inf: no limit (default: all)",
+            [&o](const std::string& v) { o.crop = parse_box("--crop", v); });
+  add_value(app, "--plane", "on|off",
+            "remove the supporting plane and what lies behind it (default: on)",
+            [&o](const std::string& v) { o.plane = parse_switch("--plane", v); });
+  add_value(app, "--plane-distance", "M",
+            fmt::format("half the thickness of the plane, metres (default: {})",
+                        defaults_of(&SegmentOptions::plane_margin)),
+            [&o](const std::string& v) { o.plane_distance = length("--plane-distance", v); });
+  add_value(app, "--plane-noise", "M",
+            fmt::format("surface, supervoxels: least half thickness of the plane at a range of one "
+                        "metre, metres; it grows with the square of the range. A --plane-distance "
+                        "below it replaces it; 0: --plane-distance alone counts (default: {})",
+                        d.plane_noise),
+            [&o](const std::string& v) { o.plane_noise = length("--plane-noise", v, true); });
+  add_value(app, "--viewpoint", "X,Y,Z",
+            "where the sensor stood, metres (default: the file's VIEWPOINT, else 0,0,0; of an "
+            "organised cloud whose pixels' rays meet elsewhere that place, with a note)",
+            [&o](const std::string& v) { o.viewpoint = parse_point("--viewpoint", v); });
+}
+
+Known add_method_options(CLI::App& app, SegmentOptions& o) {
+  const SegmentOptions d;
+  Known known;
+  known.method = add_value(
+      app, "--method", "NAME",
+      "surface: by the shape of the visible surface (default); paper: by distance alone, the "
+      "pipeline of the ICRA 2016 paper; supervoxels: see --supervoxels",
+      [&o](const std::string& v) { o.method = parse_method(v); });
+  known.supervoxels = add_value(
+      app, "--supervoxels", "M",
+      fmt::format("method supervoxels, with seeds so far apart that the surface is nowhere more "
+                  "than M metres from one; no less than a voxel (default: {})",
+                  d.spacing),
+      [&o](const std::string& v) { o.spacing = length("--supervoxels", v); });
+  add_value(app, "--voxel", "M",
+            fmt::format("edge of a voxel, metres (default: {})",
+                        defaults_of(&SegmentOptions::voxel_size)),
+            [&o](const std::string& v) { o.voxel = length("--voxel", v); });
+  known.min_persistence = add_value(
+      app, "--min-persistence", "X",
+      fmt::format("least persistence of a part; one of less joins the neighbour that it meets "
+                  "first. surface: a mean concavity from 0 to 2 (default: {}); supervoxels: metres "
+                  "(default: {})",
+                  d.cut().value, SegmentOptions{.method = Method::supervoxels}.cut().value),
+      [&o](const std::string& v) { o.min_persistence = at_least_zero("--min-persistence", v); });
+  add_value(
+      app, "--distance", "M",
+      fmt::format("paper: maximum distance of the Vietoris-Rips complex, metres (default: {})",
+                  d.distance),
+      [&o](const std::string& v) { o.distance = length("--distance", v, true); });
+  add_value(app, "--steps", "N|exact",
+            fmt::format("paper: filtration steps up to the distance; exact: as many as there are "
+                        "distances (default: {})",
+                        d.steps),
+            [&o](const std::string& v) { o.steps = parse_steps(v); });
+  app.add_flag_callback(
+      "--no-check", [&o] { o.check = false; },
+      "skip the cross-check of union-find against boundary-matrix reduction "
+      "(on by default; a difference exits 1)");
+  return known;
+}
+
+void add_cut_options(CLI::App& app, CutArguments& cut, const Known& known) {
+  const CutOptions d, supervoxels = SegmentOptions{.method = Method::supervoxels}.cut();
+  add_value(app, "--cut", "X",
+            "cut the merge tree here: the same as --min-persistence; paper: segments are "
+            "the components at X metres, at most --distance (default: as the tree was cut)",
+            [&cut](const std::string& v) { cut.value = at_least_zero("--cut", v); })
+      ->excludes(known.min_persistence);
+  add_value(
+      app, "--min-part", "N",
+      fmt::format("fewest voxels of a part; a smaller one joins the neighbour that it meets first "
+                  "(default: {}; supervoxels: {})",
+                  d.min_part, supervoxels.min_part),
+      [&cut](const std::string& v) { cut.min_part = app::parse_integer("--min-part", v, 1); });
+  add_value(
+      app, "--min-size", "N",
+      fmt::format("fewest voxels of a segment (default: {}; supervoxels: {})", d.min_size,
+                  supervoxels.min_size),
+      [&cut](const std::string& v) { cut.min_size = app::parse_integer("--min-size", v, 1); });
+  CLI::Option* objects = app.add_flag_callback(
+      "--objects", [&cut] { cut.objects = true; },
+      "surface: join the visible parts of an object, over a rim or behind what hides its middle "
+      "(default)");
+  app.add_flag_callback(
+         "--parts", [&cut] { cut.objects = false; }, "surface: leave each visible part a segment")
+      ->excludes(objects);
+}
+
+}  // namespace ph::segment

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "common/run/session.hpp"
+#include "segment/arguments/arguments.hpp"
+
+namespace ph::segment {
+
+/// Reads what --camera names, and says what is not in plain sight: nominal values, a lens.
+/// @throws Error as ph::read_camera does.
+void load_camera(DepthInput& image, app::Session& session);
+
+/// The camera of images of this size; says so if its calibration is of another one.
+/// @throws Error (usage) if that is of another shape.
+Camera camera_for(const DepthInput& image, Index width, Index height, app::Session& session);
+
+}  // namespace ph::segment

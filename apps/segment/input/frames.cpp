@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#include "segment/input/frames.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iostream>
+
+#include "common/files/batch_names.hpp"
+#include "ph/detail/reader.hpp"
+#include "ph/error.hpp"
+
+namespace ph::segment {
+namespace {
+
+// Depth images last.
+constexpr std::array<std::string_view, 9> kExtensions = {".pcd", ".ply",  ".xyz", ".xyzrgb", ".csv",
+                                                         ".pts", ".tree", ".png", ".pgm"};
+constexpr std::size_t kImages = 2;
+
+/// The files of a folder that may be frames, by name. Arrays of NumPy may be labels of an earlier
+/// run, and are none.
+std::vector<std::string> frames_in(const std::string& folder, bool depth_images) {
+  std::span<const std::string_view> extensions = kExtensions;
+  if (!depth_images) extensions = extensions.first(extensions.size() - kImages);
+  return app::files_in(folder, extensions, "frames: no file is a cloud");
+}
+
+}  // namespace
+
+FrameSource::FrameSource(const Arguments& a)
+    : patterns_(a.files), has_files_(!a.files.of_each_frame().empty()) {
+  for (const auto& [option, path] : patterns_.of_each_frame()) app::prepare_outputs(option, path);
+  for (const std::string& input : a.inputs) {
+    if (!app::is_folder(input)) {
+      inputs_.push_back(input);
+      continue;
+    }
+    for (std::string& frame : frames_in(input, a.image.has_camera()))
+      inputs_.push_back(std::move(frame));
+  }
+  if (has_files_) take_names();
+  if (a.frames_from == "-") list_ = &std::cin;
+  if (list_ || a.frames_from.empty()) return;
+  file_ = std::make_unique<std::ifstream>(a.frames_from);
+  list_ = file_.get();
+  if (!*list_ || app::is_folder(a.frames_from))
+    throw Error(ErrorKind::no_input,
+                fmt::format("{}: cannot read the list of frames", printable(a.frames_from)));
+}
+
+FrameSource::~FrameSource() = default;
+
+/// Those of the inputs.
+void FrameSource::take_names() {
+  names_ = app::output_names(inputs_);
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    if (taken_.emplace(names_[i], 1).second) continue;
+    const auto other =
+        static_cast<std::size_t>(std::ranges::find(names_, names_[i]) - names_.begin());
+    throw Error(ErrorKind::usage, fmt::format("{} and {} would both be written to files named {}",
+                                              printable(inputs_[other]), printable(inputs_[i]),
+                                              printable(names_[i])));
+  }
+}
+
+bool FrameSource::next_line(std::string& line) {
+  while (list_ && std::getline(*list_, line)) {
+    if (line.ends_with('\r')) line.pop_back();
+    if (!line.empty()) return true;
+  }
+  return false;
+}
+
+void FrameSource::add_known(app::InputFiles& known) {
+  for (const std::string& input : inputs_) known.add(input);
+  if (!list_) return;
+  const std::streampos start = list_->tellg();
+  if (start == std::streampos(-1)) return;
+  for (std::string line; next_line(line);) known.add(line);
+  list_->clear();
+  list_->seekg(start);
+}
+
+std::optional<Frame> FrameSource::next() {
+  if (given_ < inputs_.size()) {
+    const std::size_t i = given_++;
+    return Frame{inputs_[i], has_files_ ? patterns_.filled(names_[i]) : OutputPaths{}};
+  }
+  std::string line;
+  if (!next_line(line)) return std::nullopt;
+  return Frame{line, has_files_ ? patterns_.filled(name_of(line)) : OutputPaths{}};
+}
+
+/// The frames to come are not known: the name without extension, or one with a number behind it.
+std::string FrameSource::name_of(const std::string& input) {
+  const std::string stem = app::output_names({input}).front();
+  const auto [known, is_new] = taken_.emplace(stem, 1);
+  if (is_new) return stem;
+  std::size_t number = known->second;
+  std::string name;
+  do {
+    name = fmt::format("{}-{}", stem, ++number);
+  } while (!taken_.emplace(name, 1).second);
+  taken_[stem] = number;
+  return name;
+}
+
+}  // namespace ph::segment

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "segment/output/outputs.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "cloud_files.hpp"
+#include "ph/error.hpp"
+#include "ph/io/write.hpp"
+#include "pictures/cloud_legend.hpp"
+#include "pictures/colouring.hpp"
+#include "segment/output/report.hpp"
+#include "segment/output/summary.hpp"
+
+namespace ph::segment {
+namespace {
+
+std::string extension_of(std::string_view path) {
+  const std::size_t dot = path.rfind('.');
+  if (dot == std::string_view::npos || path.find('/', dot) != std::string_view::npos) return {};
+  std::string extension(path.substr(dot));
+  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return extension;
+}
+
+/// @throws Error (usage) unless the path ends in what the option can write; "-" is fine.
+void require_extension(const OutputOption& of, const std::string& path) {
+  if (of.extensions.empty() || path == "-") return;
+  if (std::ranges::count(of.extensions, extension_of(path)) > 0) return;
+  if (of.kind == OutputKind::barcode && barcode_format_of_path(path)) return;  // by other names
+  throw Error(ErrorKind::usage, fmt::format("{}: found {}, expected a file name that ends in {}",
+                                            of.option, path, fmt::join(of.extensions, " or ")));
+}
+
+template <class Write>
+std::string text_of(Write&& write) {
+  std::ostringstream out;
+  out.exceptions(std::ios::badbit);  // else a stream keeps it to itself that memory ran out
+  write(out);
+  return std::move(out).str();
+}
+
+std::vector<std::uint32_t> numbers_of(std::span<const std::uint32_t> labels, const RunInfo& info) {
+  std::vector<std::uint32_t> numbers;
+  numbers.reserve(labels.size());
+  for (const std::uint32_t label : labels) numbers.push_back(info.number_of(label));
+  return numbers;
+}
+
+Raster label_image(const SceneTree& scene, std::span<const std::uint32_t> labels) {
+  Raster raster{scene.width, scene.height, 1, 16, {}};
+  for (const std::uint32_t label : labels) {
+    if (label > UINT16_MAX) {
+      throw Error(ErrorKind::bad_data, fmt::format("--labels: a PNG holds labels up to 65535, "
+                                                   "found {}; use .npy",
+                                                   label));
+    }
+    raster.samples.push_back(static_cast<std::uint16_t>(label));
+  }
+  return raster;
+}
+
+std::string label_file(const std::string& path, const SceneTree& scene,
+                       std::span<const std::uint32_t> labels) {
+  const std::string extension = extension_of(path);
+  if (extension == ".npy") {
+    return text_of([&](std::ostream& o) { write_npy(o, labels, scene.width, scene.height); });
+  }
+  if (extension == ".png") {
+    return text_of([&](std::ostream& o) { write_png(o, label_image(scene, labels)); });
+  }
+  std::string text;
+  for (const std::uint32_t label : labels) fmt::format_to(std::back_inserter(text), "{}\n", label);
+  return text;
+}
+
+}  // namespace
+
+BarcodeInfo barcode_info(const Segmentation& s, const RunInfo& info) {
+  BarcodeInfo result;
+  result.program = info.program;
+  result.input = info.input;
+  result.input_description = fmt::format("{} voxel centroids in R^3", s.vertices.rows());
+  const bool paper = s.method == Method::paper;
+  result.complex = paper ? "rips" : "lower-star";
+  if (paper) result.threshold = s.distance;
+  result.engine = "union-find";
+  for (const Stage& stage : s.stages) result.timings.emplace_back(stage.name, stage.seconds);
+  result.peak_memory = app::peak_memory();
+  return result;
+}
+
+Outputs::Outputs(const Arguments& a) : arguments_(a) {
+  a.files.each([](const OutputOption& of, const std::string& path, const app::Plot* plot) {
+    if (!plot) return require_extension(of, path);
+    if (path != "-") app::require_known_format(*plot);
+  });
+  a.files.each([&](const OutputOption& of, const std::string& path, const app::Plot* plot) {
+    files_.push_back({of.kind, app::Output(path), plot});
+  });
+}
+
+void Outputs::require_suitable(Index height) const {
+  const OutputPaths& f = arguments_.files;
+  if (height > 1) return;
+  const auto refuse = [&](std::string_view option, std::string_view hint) {
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("{}: found an unorganised cloud, expected rows and columns; {}", option, hint));
+  };
+  if (extension_of(f.labels) == ".png") refuse("--labels", "use .npy or .csv");
+  if (!f.picture.empty()) refuse("--picture", "use --coloured");
+}
+
+std::vector<std::uint32_t> Outputs::colours(const Cloud* cloud, const Segmentation& segmentation,
+                                            const RunInfo& info) const {
+  if (!info.numbers.empty()) return object_colours(info.numbers);
+  if (!cloud) return label_colours(segmentation);
+  return segment_colours(neighbouring_segments(*cloud, segmentation));
+}
+
+std::string Outputs::plot(const app::Plot& plot, const Cloud* cloud, const Segmentation& s,
+                          const RunInfo& info, const RunContext& context) const {
+  PlotOptions options = arguments_.files.look;
+  if (plot.kind == "cloud") {
+    const std::vector<std::uint32_t> palette = colours(cloud, s, info);
+    CloudPicture seen = cloud_picture(cloud, s, s.labels, palette, arguments_.plot_view, context);
+    return app::drawn(plot, with_legend(std::move(seen), palette, info.numbers), options, context);
+  }
+  options.value_label = s.method == Method::surface ? "Concavity" : "Distance (m)";
+  if (plot.kind == "tree") {
+    const MemoryClaim claim(context.memory, s.tree.births.size() * sizeof(Branch));
+    const std::vector<Branch> branches = s.tree.branches();
+    return app::drawn(plot, std::span(branches), options, context);
+  }
+  options.kind = plot_kind_named(plot.kind).value();
+  return app::drawn(plot, s.barcode, options, context);
+}
+
+void Outputs::write_file(File& file, const Cloud* cloud, const Segmentation& s, const RunInfo& info,
+                         const RunContext& context) const {
+  const OutputPaths& f = arguments_.files;
+  app::Output& out = file.output;
+  switch (file.kind) {
+    case OutputKind::cloud:
+      return out.write(
+          cloud_bytes(with_labels(*cloud, numbers_of(s.labels, info)), cloud_format_of(f.output)));
+    case OutputKind::labels:
+      return out.write(label_file(f.labels, s, numbers_of(s.labels, info)));
+    case OutputKind::json:
+      return out.write(json_summary(arguments_, s, info));
+    case OutputKind::tree:
+      return out.write(extension_of(f.tree) == ".json" ? tree_json(s) : tree_bytes(s));
+    case OutputKind::barcode:
+      return write_barcode(out.file(), s.barcode,
+                           barcode_format_of_path(f.barcode).value_or(BarcodeFormat::csv),
+                           barcode_info(s, info));
+    case OutputKind::plot:
+      return out.write(plot(*file.plot, cloud, s, info, context));
+    case OutputKind::coloured:
+      return out.write(cloud_bytes(coloured_cloud(*cloud, s.labels, colours(cloud, s, info)),
+                                   cloud_format_of(f.coloured)));
+    case OutputKind::picture:
+      return out.write(text_of([&](std::ostream& o) {
+        write_png(o, ph::segment::picture(*cloud, s.labels, colours(cloud, s, info)));
+      }));
+    case OutputKind::report:
+      return write_report(out.file(), cloud, s, info, arguments_, context);
+  }
+}
+
+void Outputs::write(const Cloud* cloud, const Segmentation& segmentation, const RunInfo& info,
+                    const RunContext& context) {
+  for (File& file : files_) write_file(file, cloud, segmentation, info, context);
+  for (File& file : files_) file.output.commit();
+}
+
+}  // namespace ph::segment

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "common/run/session.hpp"
+#include "ph/io/write.hpp"
+#include "segment/arguments/arguments.hpp"
+
+namespace ph::segment {
+
+/// What the files say besides the segmentation.
+struct RunInfo {
+  std::string program;      ///< name and version
+  std::string input;        ///< path of the input
+  double read_seconds = 0;  ///< wall-clock time of reading it
+  bool from_tree = false;   ///< a stored tree was cut
+  /// What each segment is called in the files; empty: by its label.
+  std::vector<std::uint32_t> numbers = {};
+  /// Of each segment, none of one for which there was no memory; empty: not asked for.
+  std::vector<std::optional<Barcode>> signatures = {};
+  // For the report.
+  std::string sha256 = {};                 ///< of the input
+  std::vector<std::string> warnings = {};  ///< what the user was told
+
+  std::uint32_t number_of(std::uint32_t label) const {
+    return label == 0 || numbers.empty() ? label : numbers[label - 1];
+  }
+};
+
+/// Where the barcode of a segmentation came from.
+BarcodeInfo barcode_info(const Segmentation& segmentation, const RunInfo& info);
+
+/// The files that the command line asks for: opened before the computation, complete or absent.
+class Outputs {
+ public:
+  /// @throws Error (usage) on an unknown extension; Error (cannot_create).
+  explicit Outputs(const Arguments& arguments);
+
+  /// @throws Error (usage) if a file asks for rows and columns of an unorganised cloud.
+  void require_suitable(Index height) const;
+  /// @param cloud null: a stored tree was cut.
+  /// Writes and completes all of them.
+  void write(const Cloud* cloud, const Segmentation& segmentation, const RunInfo& info,
+             const RunContext& context);
+
+ private:
+  struct File {
+    OutputKind kind;
+    app::Output output;
+    const app::Plot* plot;  ///< what a plot shows
+  };
+  void write_file(File& file, const Cloud* cloud, const Segmentation& segmentation,
+                  const RunInfo& info, const RunContext& context) const;
+  std::string plot(const app::Plot& plot, const Cloud* cloud, const Segmentation& s,
+                   const RunInfo& info, const RunContext& context) const;
+  std::vector<std::uint32_t> colours(const Cloud* cloud, const Segmentation& segmentation,
+                                     const RunInfo& info) const;
+
+  const Arguments& arguments_;
+  std::vector<File> files_;
+};
+
+}  // namespace ph::segment

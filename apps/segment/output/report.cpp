@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+#include "segment/output/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+
+#include "report/arrays/bar_arrays.hpp"
+#include "report/arrays/point_arrays.hpp"
+#include "report/arrays/touching_leaves.hpp"
+#include "report/arrays/tree_arrays.hpp"
+#include "report/report_file.hpp"
+
+namespace ph::segment {
+namespace {
+
+using report::kNone;
+using report::ReportFile;
+
+constexpr double kStepsAVoxel = 8;  // positions are stored at least as exactly
+
+/// The points that are shown: all of a cloud but its holes.
+struct ShownPoints {
+  std::vector<std::uint32_t> index;   ///< in the cloud
+  std::vector<std::uint32_t> vertex;  ///< of the tree; kNone: none
+  std::vector<float> xyz;
+};
+
+ShownPoints shown_points(const Cloud* cloud, const SceneTree& scene) {
+  const std::vector<float> all = cloud ? cloud->xyz() : std::vector<float>();
+  const std::size_t count = cloud ? all.size() / 3 : scene.points.size();
+  ShownPoints shown;
+  std::size_t next = 0;  // of the points that have a vertex
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = cloud ? k : static_cast<std::size_t>(scene.points[k]);
+    const bool has_vertex = next < scene.points.size() && std::cmp_equal(scene.points[next], i);
+    const float* at = cloud ? &all[3 * i] : &scene.xyz[3 * k];
+    const std::uint32_t vertex = has_vertex ? scene.vertex_of_point[next++] : kNone;
+    if (!(std::isfinite(at[0]) && std::isfinite(at[1]) && std::isfinite(at[2]))) continue;
+    shown.index.push_back(static_cast<std::uint32_t>(i));
+    shown.vertex.push_back(vertex);
+    shown.xyz.insert(shown.xyz.end(), at, at + 3);
+  }
+  return shown;
+}
+
+template <class T>
+std::uint32_t read_as(const std::byte* at) {
+  T value;
+  std::memcpy(&value, at, sizeof(T));
+  if constexpr (std::is_signed_v<T>)
+    if (value < 0) return 0;
+  return static_cast<std::uint32_t>(value);
+}
+
+/// Ground truth of the points that are shown; nothing if the cloud has no field of whole numbers by
+/// the name of label.
+std::vector<std::uint32_t> truth_of(const Cloud& cloud, const ShownPoints& points) {
+  const CloudField* field = cloud.find("label");
+  if (!field || field->count != 1) return {};
+  std::uint32_t (*read)(const std::byte*) = nullptr;
+  switch (field->type) {
+    case FieldType::uint8:
+      read = read_as<std::uint8_t>;
+      break;
+    case FieldType::uint16:
+      read = read_as<std::uint16_t>;
+      break;
+    case FieldType::uint32:
+      read = read_as<std::uint32_t>;
+      break;
+    case FieldType::int32:
+      read = read_as<std::int32_t>;
+      break;
+    default:
+      return {};
+  }
+  std::vector<std::uint32_t> truth;
+  for (const std::uint32_t i : points.index) {
+    truth.push_back(read(cloud.data.data() + i * cloud.stride + field->offset));
+    if (truth.back() >= UINT16_MAX) return {};  // a page has 16 bits for them
+  }
+  return truth;
+}
+
+void add_points(ReportFile& report, const Cloud* cloud, const Segmentation& s,
+                const ShownPoints& points, std::span<const std::uint32_t> leaves) {
+  report::add_positions(report, std::span<const float>(points.xyz), 3, s.voxel / kStepsAVoxel);
+  if (points.index.size() != s.cloud_size())
+    report.add("points/index", points.index, {.delta = true});
+  report::add_labels(report, "points/leaf", leaves, true);
+  if (s.normals.rows() > 0) {
+    std::vector<std::int8_t> normals;
+    for (const std::uint32_t v : points.vertex) {
+      const double none = std::nan("");
+      const auto stored =
+          v == kNone ? report::octahedral(none, none, none)
+                     : report::octahedral(s.normals(v, 0), s.normals(v, 1), s.normals(v, 2));
+      normals.insert(normals.end(), stored.begin(), stored.end());
+    }
+    report.add("points/normal", normals, {.shape = {points.index.size(), 2}, .delta = true});
+  }
+  if (!cloud) return;
+  if (const auto colours = cloud->rgb()) {
+    std::vector<std::uint8_t> rgb;
+    for (const std::uint32_t i : points.index)
+      for (const int shift : {16, 8, 0})
+        rgb.push_back(static_cast<std::uint8_t>((*colours)[i] >> shift));
+    report.add("points/rgb", rgb, {.shape = {points.index.size(), 3}, .delta = true});
+  }
+  if (const auto truth = truth_of(*cloud, points); !truth.empty())
+    report::add_labels(report, "points/truth", truth, false);
+}
+
+/// The bars of a length, in the order of the barcode file. Their cells are points: one of each
+/// voxel, since the page shows no voxels.
+Barcode bars_of(const Segmentation& s) {
+  std::vector<Index> point(s.cells.size(), -1);
+  for (std::size_t k = 0; k < s.points.size(); ++k) {
+    Index& first = point[s.vertex_of_point[k]];
+    if (first < 0) first = s.points[k];
+  }
+  Barcode bars(CellKind::vertices);
+  for (std::size_t i = 0; i < s.barcode.size(); ++i) {
+    if (!(s.barcode[i].persistence() > 0)) continue;
+    std::vector<Index> birth, death;
+    for (const Index v : s.barcode.birth_cell(i).numbers)
+      birth.push_back(point[static_cast<std::size_t>(v)]);
+    if (const auto cell = s.barcode.death_cell(i))
+      for (const Index v : cell->numbers) death.push_back(point[static_cast<std::size_t>(v)]);
+    bars.add(s.barcode[i], birth, death);
+  }
+  return bars;
+}
+
+/// The vertex that gave birth to each of these bars.
+std::vector<std::uint32_t> birth_vertices(const Barcode& barcode) {
+  std::vector<std::uint32_t> vertices;
+  for (std::size_t i = 0; i < barcode.size(); ++i)
+    if (barcode[i].persistence() > 0)
+      vertices.push_back(static_cast<std::uint32_t>(barcode.birth_cell(i).numbers.front()));
+  return vertices;
+}
+
+/// Pairs of leaves that the program made one object of: of each segment its first part and the
+/// others.
+std::vector<std::uint32_t> joins_of(const Segmentation& s,
+                                    const report::ContractedTree& contracted) {
+  std::vector<std::uint32_t> joins;
+  if (s.method != Method::surface || !s.first_cut.objects) return joins;
+  const std::vector<Index> part_of = s.tree.basins(s.first_cut.value, s.first_cut.min_part);
+  std::vector<std::uint32_t> first_leaf(s.segments.size() + 1, kNone);
+  std::vector<bool> seen(part_of.size());
+  for (std::size_t v = 0; v < part_of.size(); ++v) {
+    const std::uint32_t label = s.vertex_labels[v];
+    if (label == 0 || seen[static_cast<std::size_t>(part_of[v])]) continue;
+    seen[static_cast<std::size_t>(part_of[v])] = true;
+    const std::uint32_t leaf = contracted.leaf_of[v];
+    if (first_leaf[label] == kNone)
+      first_leaf[label] = leaf;
+    else
+      joins.insert(joins.end(), {first_leaf[label], leaf});
+  }
+  return joins;
+}
+
+report::TreeMeta tree_meta(const Segmentation& s, const RunInfo& info, const Arguments& a) {
+  report::TreeMeta meta;
+  const bool paper = s.method == Method::paper;
+  meta.rule = paper ? report::CutRule::value : report::CutRule::persistence;
+  meta.label = paper ? "distance" : "least persistence";
+  if (s.method != Method::surface) meta.unit = "m";
+  meta.cut = s.first_cut.value;
+  if (paper) meta.to = s.distance;
+  meta.min_size = s.first_cut.min_size;
+  meta.what = s.method == Method::supervoxels ? "supervoxel" : "segment";
+  meta.command = {"ph-segment"};
+  if (!a.input.empty()) meta.command.push_back(info.input);
+  meta.command.insert(meta.command.end(), a.scene_options.begin(), a.scene_options.end());
+  meta.command.insert(meta.command.end(), {"--cut", "{cut}"});
+  if (s.method == Method::surface) meta.command.push_back("--parts");
+  meta.command.insert(meta.command.end(), {"--labels", "labels.npy"});
+  return meta;
+}
+
+report::Metadata metadata_of(const Segmentation& s, const RunInfo& info, const Arguments& a,
+                             bool organised) {
+  report::Metadata meta;
+  const bool surface = s.method == Method::surface;
+  meta.title = report::title_of(info.input);
+  meta.value_label = surface ? "Concavity" : "Distance";
+  meta.value_unit = surface ? "" : "m";
+  meta.barcodes.push_back({meta.title});
+  report::CloudMeta cloud{.unit = "m", .viewpoint = s.viewpoint};
+  // A camera sees y downwards; what else there may be has z upwards.
+  if (organised)
+    cloud.up = {0, -1, 0};
+  else if (s.plane)
+    cloud.up = s.plane->normal;
+  meta.cloud = cloud;
+  meta.tree = tree_meta(s, info, a);
+  report::Provenance& p = meta.provenance;
+  p.command = a.command;
+  p.sha256 = info.sha256;
+  p.run = barcode_info(s, info);
+  p.run.input_description =
+      s.height > 1 ? fmt::format("{} points, {} x {}", s.cloud_size(), s.width, s.height)
+                   : fmt::format("{} points", s.cloud_size());
+  p.warnings = info.warnings;
+  p.notes.emplace_back("Method", kMethodNames[static_cast<std::size_t>(s.method)]);
+  p.notes.emplace_back("Voxels", fmt::format("{} of {} m", s.vertices.rows(), shortest(s.voxel)));
+  p.notes.emplace_back("Plane", s.plane ? fmt::format("removed, {:.1f} % of the points in range",
+                                                      100 * s.plane->share)
+                                        : s.plane_note);
+  p.notes.emplace_back("Cross-check", !s.checked             ? "skipped"
+                                      : s.difference.empty() ? "equal to boundary-matrix reduction"
+                                                             : s.difference);
+  return meta;
+}
+
+}  // namespace
+
+void write_report(OutputFile& file, const Cloud* cloud, const Segmentation& s, const RunInfo& info,
+                  const Arguments& arguments, const RunContext& context) {
+  const ShownPoints points = shown_points(cloud, s);
+  const MemoryClaim claim(context.memory,
+                          points.index.size() * (2 * sizeof(std::uint32_t) + 3 * sizeof(float)));
+  std::vector<std::uint32_t> points_of_vertex(s.cells.size());
+  for (const std::uint32_t v : s.vertex_of_point) ++points_of_vertex[v];
+
+  const report::Metadata meta = metadata_of(s, info, arguments, s.height > 1);
+  const report::CutRule rule = meta.tree->rule;
+  const Index min_part = s.method == Method::paper ? 1 : s.first_cut.min_part;
+  const auto contracted =
+      report::contracted(s.tree, rule, meta.tree->from, min_part, points_of_vertex, context);
+  const Barcode bars = bars_of(s);
+  ReportFile report(file, meta, context);
+  report::add_pictures(report, std::span(&bars, 1), meta);
+  report::add_bars(report, bars);
+  report::add_tree(report, s.tree, contracted,
+                   report::linked_bars(s.tree, bars, birth_vertices(s.barcode)), rule);
+  const std::vector<std::uint32_t> joins = joins_of(s, contracted);
+  report.add("tree/joins", joins, {.shape = {joins.size() / 2, 2}});
+  std::vector<std::uint32_t> leaves;
+  leaves.reserve(points.vertex.size());
+  for (const std::uint32_t v : points.vertex)
+    leaves.push_back(v == kNone ? kNone : contracted.leaf_of[v]);
+  if (s.height > 1) {
+    const auto touching = report::touching_in_picture(points.index, leaves, s.width);
+    report.add("tree/touching", touching, {.shape = {touching.size() / 2, 2}, .delta = true});
+  }
+  add_points(report, cloud, s, points, leaves);
+  report.finish();
+}
+
+}  // namespace ph::segment

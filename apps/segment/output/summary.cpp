@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include "segment/output/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "tree/json_text.hpp"
+
+namespace ph::segment {
+namespace {
+
+using namespace json;
+
+std::string box_of(const Box& box) {
+  return object({{"min", numbers(box.min)}, {"max", numbers(box.max)}});
+}
+
+std::string input_of(const SceneTree& scene, const RunInfo& info) {
+  return object({{"path", json_string(info.input)},
+                 {"points", integer(scene.width * scene.height)},
+                 {"width", integer(scene.width)},
+                 {"height", integer(scene.height)},
+                 {"organised", boolean(scene.height > 1)}});
+}
+
+std::string options_of(const SegmentOptions& o) {
+  return object({{"max_range", number(o.max_range)},
+                 {"crop", o.crop ? box_of(*o.crop) : "null"},
+                 {"plane", boolean(o.plane)},
+                 {"plane_distance", number(o.plane_margin())},
+                 {"plane_noise", number(o.plane_noise)},
+                 {"viewpoint", o.viewpoint ? numbers(*o.viewpoint) : "null"},
+                 {"voxel", o.voxel ? number(*o.voxel) : "null"},
+                 {"distance", number(o.distance)},
+                 {"steps", o.steps == 0 ? json_string("exact") : integer(o.steps)},
+                 {"spacing", number(o.spacing)},
+                 {"check", boolean(o.check)}});
+}
+
+std::string stages_of(const Segmentation& s) {
+  return lines(s.stages, [](const Stage& stage) {
+    return object({{"name", json_string(stage.name)},
+                   {"points", integer(stage.points)},
+                   {"seconds", number(stage.seconds)}});
+  });
+}
+
+std::string plane_of(const Segmentation& s) {
+  if (!s.plane) return object({{"found", "false"}, {"note", json_string(s.plane_note)}});
+  return object({{"found", "true"},
+                 {"normal", numbers(s.plane->normal)},
+                 {"offset", number(s.plane->offset)},
+                 {"share", number(s.plane->share)}});
+}
+
+std::string oriented_box_of(const OrientedBox& box) {
+  const auto& [first, second, third] = box.axes;
+  return object(
+      {{"centre", numbers(box.centre)},
+       {"axes", fmt::format("[{}, {}, {}]", numbers(first), numbers(second), numbers(third))},
+       {"size", numbers(box.size)}});
+}
+
+std::string neighbours_of(const Segment& segment, const RunInfo& info) {
+  std::string text;
+  for (const Neighbour& n : segment.neighbours) {
+    text += text.empty() ? "" : ", ";
+    text += object({{"label", integer(info.number_of(n.label))}, {"meets_at", number(n.meets_at)}});
+  }
+  return "[" + text + "]";
+}
+
+std::string signature_of(const Segment& segment, const RunInfo& info) {
+  if (info.signatures.empty() || !info.signatures[segment.label - 1]) return "null";
+  const auto bars_of = [&](int dim) {
+    std::string text;
+    for (const Bar& bar : info.signatures[segment.label - 1]->bars(dim)) {
+      text += text.empty() ? "" : ", ";
+      text += "[" + number(bar.birth) + ", " + number(bar.death) + "]";
+    }
+    return "[" + text + "]";
+  };
+  return object({{"h0", bars_of(0)}, {"h1", bars_of(1)}, {"h2", bars_of(2)}});
+}
+
+std::string segments_of(const Segmentation& s, const RunInfo& info) {
+  return lines(s.segments, [&](const Segment& g) {
+    return object({{"label", integer(info.number_of(g.label))},
+                   {"points", integer(g.points)},
+                   {"voxels", integer(g.voxels)},
+                   {"persistence", number(g.persistence)},
+                   {"neighbour", integer(info.number_of(g.neighbour))},
+                   {"meets_at", number(g.meets_at)},
+                   {"centroid", numbers(g.centroid)},
+                   {"box", box_of(g.box)},
+                   {"oriented_box", oriented_box_of(g.oriented_box)},
+                   {"neighbours", neighbours_of(g, info)},
+                   {"signature", signature_of(g, info)}});
+  });
+}
+
+std::string check_of(const Segmentation& s) {
+  if (!s.checked) return object({{"ran", "false"}});
+  if (s.difference.empty()) return object({{"ran", "true"}, {"equal", "true"}});
+  return object({{"ran", "true"}, {"equal", "false"}, {"difference", json_string(s.difference)}});
+}
+
+double seconds_of(const Segmentation& s) {
+  double seconds = 0;
+  for (const Stage& stage : s.stages) seconds += stage.seconds;
+  return seconds;
+}
+
+/// The time that the paper's Table I states: the complex, its homology, the components.
+double table_seconds(const Segmentation& s) {
+  double seconds = 0;
+  for (const Stage& stage : s.stages) {
+    if (stage.name == "complex" || stage.name == "persistence" || stage.name == "components") {
+      seconds += stage.seconds;
+    }
+  }
+  return seconds;
+}
+
+}  // namespace
+
+std::string json_summary(const Arguments& arguments, const Segmentation& s, const RunInfo& info) {
+  const Index vertices = s.vertices.rows();
+  const std::string distance = s.method == Method::paper ? number(s.distance) : "null";
+  return document({{"format", json_string("ph-segment")},
+                   {"version", "1"},
+                   {"program", json_string(info.program)},
+                   {"input", input_of(s, info)},
+                   {"method", method(s.method)},
+                   {"options", info.from_tree ? "null" : options_of(arguments.options)},
+                   {"cut", cut(s.first_cut)},
+                   {"stages", stages_of(s)},
+                   {"viewpoint", numbers(s.viewpoint)},
+                   {"plane", plane_of(s)},
+                   {"voxel", number(s.voxel)},
+                   {"complex", object({{"vertices", integer(vertices)},
+                                       {"edges", integer(s.edges)},
+                                       {"simplices", integer(vertices + s.edges)},
+                                       {"distance", distance}})},
+                   {"table", object({{"points", integer(vertices)},
+                                     {"distance", distance},
+                                     {"complex", integer(vertices + s.edges)},
+                                     {"time", number(table_seconds(s))}})},
+                   {"segments", segments_of(s, info)},
+                   {"check", check_of(s)},
+                   {"timings", object({{"read", number(info.read_seconds)},
+                                       {"segment", number(seconds_of(s))}})},
+                   {"peak_memory", fmt::format("{}", app::peak_memory())}});
+}
+
+std::string text_summary(const Segmentation& s) {
+  std::string text =
+      "label   points  voxels      x/m      y/m      z/m size x/m size y/m size z/m\n";
+  for (const Segment& g : s.segments) {
+    fmt::format_to(std::back_inserter(text), "{:5} {:8} {:7}", g.label, g.points, g.voxels);
+    for (const double c : g.centroid) fmt::format_to(std::back_inserter(text), " {:8.4f}", c);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      fmt::format_to(std::back_inserter(text), " {:8.4f}", g.box.max[axis] - g.box.min[axis]);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string explanation(const Segmentation& s, std::uint32_t a, std::uint32_t b) {
+  const std::optional<Meeting> meeting = first_meeting(s, a, b);
+  if (!meeting) {
+    return fmt::format(
+        "segments {} and {} never join: the graph of voxels has no path between "
+        "them\n",
+        a, b);
+  }
+  const auto& [x, y, z] = meeting->at;
+  return fmt::format("segments {} and {} join at {}, near ({:.4f}, {:.4f}, {:.4f})\n", a, b,
+                     shortest(meeting->value), x, y, z);
+}
+
+std::string one_line_summary(const Segmentation& s) {
+  std::string text = fmt::format("{} points", s.width * s.height);
+  for (const Stage& stage : s.stages) {
+    if (stage.name == "range filter") {
+      fmt::format_to(std::back_inserter(text), ", {} in range", stage.points);
+    } else if (stage.name == "plane" && s.plane) {
+      fmt::format_to(std::back_inserter(text), ", {} before the plane", stage.points);
+    }
+  }
+  fmt::format_to(std::back_inserter(text), ", {} voxels, {} edges, {} segment{}{}; {:.1f} ms",
+                 s.vertices.rows(), s.edges, s.segments.size(), s.segments.size() == 1 ? "" : "s",
+                 s.checked && s.difference.empty() ? ", checked" : "", 1e3 * seconds_of(s));
+  return text;
+}
+
+}  // namespace ph::segment

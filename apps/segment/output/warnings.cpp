@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "segment/output/warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace ph::segment {
+namespace {
+
+/// How far the nearest and the farthest point are, metres; nothing without points.
+std::optional<std::array<double, 2>> distances(const Cloud& cloud, const Vec3& viewpoint) {
+  double nearest = kInfinity, farthest = 0;
+  const std::vector<float> xyz = cloud.xyz();
+  for (std::size_t i = 0; i + 2 < xyz.size(); i += 3) {
+    const double x = xyz[i] - viewpoint[0], y = xyz[i + 1] - viewpoint[1];
+    const double distance = std::hypot(x, y, xyz[i + 2] - viewpoint[2]);
+    if (!std::isfinite(distance)) continue;
+    nearest = std::min(nearest, distance);
+    farthest = std::max(farthest, distance);
+  }
+  if (nearest == kInfinity) return std::nullopt;
+  return std::array{nearest, farthest};
+}
+
+/// Where nothing is found: are the lengths metres?
+std::string about_units(const Arguments& a, const Cloud& cloud, const Segmentation& s) {
+  constexpr double room = 50, crumb = 0.02;  // metres: no table top is as far, or as small
+  const auto found = distances(cloud, s.viewpoint);
+  if (!found)
+    return fmt::format("no point within {} m of the viewpoint: all are holes", a.options.max_range);
+  const auto [nearest, farthest] = *found;
+  const std::string_view unit = a.is_depth_image() ? "see --depth-scale" : "lengths are in metres";
+  if (s.stages.front().points == 0) {
+    return fmt::format(
+        "no point within {} m of the viewpoint{}, the nearest is at {:.3g} m; {}",
+        a.options.max_range, a.options.crop ? " and inside the crop box" : "", nearest,
+        nearest > room       ? fmt::format("{}: are these millimetres?", unit)
+        : a.is_depth_image() ? "see --max-range, or --depth-scale if that is too far: how many "
+                               "units a metre has"
+                             : "see --max-range");
+  }
+  if (farthest >= crumb) return {};
+  return fmt::format("all points are within {:.3g} m of the viewpoint; {}", farthest, unit);
+}
+
+/// A pinhole camera sees between a few degrees and a half circle, and its axis meets the image.
+std::string about_camera(const Arguments& a, const Cloud& cloud) {
+  const Intrinsics camera = a.image.camera->scaled_to(cloud.width, cloud.height).intrinsics;
+  const std::string_view option = a.image.calibration.empty() ? "--intrinsics" : "--camera";
+  constexpr double least = 5, most = 160;  // degrees
+  const auto view = [](Index pixels, double focal_length) {
+    return 360 / std::numbers::pi * std::atan(static_cast<double>(pixels) / 2 / focal_length);
+  };
+  const double across = view(cloud.width, camera.fx), down = view(cloud.height, camera.fy);
+  if (std::max(across, down) > most || std::max(across, down) < least) {
+    return fmt::format("{}: a field of view of {:.3g} x {:.3g} degrees; are FX and FY in pixels?",
+                       option, across, down);
+  }
+  if (camera.cx >= 0 && camera.cy >= 0 && camera.cx < static_cast<double>(cloud.width) &&
+      camera.cy < static_cast<double>(cloud.height))
+    return {};
+  return fmt::format("{}: the principal point {}, {} is outside the image of {} x {}", option,
+                     camera.cx, camera.cy, cloud.width, cloud.height);
+}
+
+/// A plane that no sensor at the viewpoint could see like this.
+std::string about_plane(const Segmentation& s, const std::string& viewpoint) {
+  if (!s.plane) return {};
+  constexpr double too_low = 0.03;  // metres
+  const auto& [x, y, z] = s.viewpoint;
+  if (s.plane->signed_distance(x, y, z) < too_low) {
+    return fmt::format(
+        "the viewpoint {} lies on the plane that was found: are the points in "
+        "another frame? see --viewpoint",
+        viewpoint);
+  }
+  // In their own frames scenes have up to 0.4 behind, past the edge of a table, and 0.03 hidden.
+  constexpr double much_hidden = 0.1, nearly_all = 0.9, some_hidden = 0.01;
+  const auto [behind, hidden] = s.plane_sight;
+  if (hidden < some_hidden || (hidden < much_hidden && behind < nearly_all)) return {};
+  return fmt::format(
+      "{:.0f} % of the points off the plane lie behind it as seen from {}: are they "
+      "in another frame? see --viewpoint",
+      100 * behind, viewpoint);
+}
+
+/// Where the sensor is said to have stood, and did not.
+std::string about_viewpoint(const Arguments& a, const Segmentation& s) {
+  const auto text = [](const Vec3& p) {
+    constexpr double half = 0.0005;
+    const auto shown = [](double x) { return std::abs(x) < half ? 0.0 : x; };  // no -0.000
+    return fmt::format("{:.3f},{:.3f},{:.3f}", shown(p[0]), shown(p[1]), shown(p[2]));
+  };
+  if (!s.rays_meet_at) return about_plane(s, text(s.viewpoint));
+  if (a.options.viewpoint) {
+    return fmt::format("--viewpoint: found {}, but the rays of the pixels meet at {}",
+                       text(*a.options.viewpoint), text(*s.rays_meet_at));
+  }
+  return fmt::format(
+      "the rays of the pixels do not meet at the viewpoint of the input but at {0}, which is "
+      "taken; "
+      "--viewpoint X,Y,Z sets another",
+      text(*s.rays_meet_at));
+}
+
+}  // namespace
+
+std::vector<std::string> warnings(const Arguments& a, const std::optional<Cloud>& cloud,
+                                  const Segmentation& s) {
+  std::vector<std::string> texts;
+  if (!s.difference.empty()) texts.push_back("check: " + s.difference);
+  if (cloud && a.is_depth_image()) texts.push_back(about_camera(a, *cloud));
+  if (cloud) texts.push_back(about_viewpoint(a, s));
+  if (cloud && s.segments.empty() && cloud->size() > 0) texts.push_back(about_units(a, *cloud, s));
+  if (cloud && a.options.plane && !s.plane && s.stages.front().points > 0)
+    texts.push_back(s.plane_note + "; nothing removed");
+  std::erase(texts, "");
+  return texts;
+}
+
+}  // namespace ph::segment
