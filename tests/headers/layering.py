@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Which room may include which, and how large a folder may be: layering.py ROOT.
+"""Which room may include which, how large a folder may be, where tests lie: layering.py ROOT.
 
 Rooms are the folders of libph/src, libsegment and apps. Public headers and those in ph/detail
 belong to the room that HEADERS names. Exit code 0 if nothing is out of order.
@@ -67,6 +67,10 @@ MOST_FILES = 20
 # Folders that are larger: each is to become smaller, none may grow.
 LARGER = {"libph/include/ph": 29, "libph/include/ph/detail": 42, "libph/src/rips/sweep": 21}
 
+# Folders of tests, and whose rooms theirs are.
+TESTS_OF = {"tests/libph": ("libph/src",), "tests/libsegment": ("libsegment/src", "libsegment"),
+            "tests/apps": ("apps",)}
+
 
 def room_of_header(path):
     """@param path below include/, as ph/detail/chain.hpp. @return None: in no room."""
@@ -119,12 +123,26 @@ def violations_of(root, file):
 
 
 def too_large(root):
-    for folder in sorted(p for top in ("libph", "libsegment", "apps") for p in (root / top).rglob("*")
-                         if p.is_dir()):
+    for folder in sorted(p for top in ("libph", "libsegment", "apps", "tests")
+                         for p in (root / top).rglob("*") if p.is_dir()):
+        # Seeds are as many as were found, and what Python caches is not ours.
+        if (root / "tests/corpus") in folder.parents or folder.name == "__pycache__":
+            continue
         count = sum(p.is_file() for p in folder.iterdir())
         most = LARGER.get(str(folder.relative_to(root)), MOST_FILES)
         if count > most:
             yield f"{folder.relative_to(root)}: found {count} files, expected at most {most}"
+
+
+def misplaced_tests(root):
+    for tests, tested in TESTS_OF.items():
+        for path in sorted((root / tests).rglob("*")):
+            name = path.relative_to(root)
+            if path.is_dir() and path.parent == root / tests and \
+                    not any((root / folder / path.name).is_dir() for folder in tested):
+                yield f"{name}: found no such room in {' or '.join(tested)}"
+            if path.suffix == ".cpp" and not path.stem.endswith("_tests"):
+                yield f"{name}: expected a name that ends in _tests.cpp"
 
 
 def room_cycles():
@@ -142,7 +160,7 @@ def main():
     files = sorted(p.relative_to(root) for top in ("libph", "libsegment", "apps")
                    for p in (root / top).rglob("*") if p.suffix in (".hpp", ".ipp", ".cpp"))
     found = [v for file in files for v in violations_of(root, file)]
-    found += [*too_large(root), *room_cycles()]
+    found += [*too_large(root), *misplaced_tests(root), *room_cycles()]
     print(*found, f"{len(files)} files looked at, {len(found)} violations", sep="\n")
     return 1 if found or not files else 0
 
