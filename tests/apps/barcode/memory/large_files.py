@@ -7,7 +7,7 @@ import shutil
 import struct
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../support"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../support"))
 from program import files, main  # noqa: E402
 from under_limit import BESIDE, UnderLimit  # noqa: E402
 

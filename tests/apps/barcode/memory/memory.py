@@ -14,7 +14,7 @@ import subprocess
 import sys
 import time
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../support"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../support"))
 import program  # noqa: E402
 from program import ProgramTest, main  # noqa: E402
 from under_limit import BESIDE, INPUTS, UnderLimit, is_sanitized, peak_of  # noqa: E402
