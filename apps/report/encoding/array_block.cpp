@@ -10,10 +10,10 @@
 #include <cstring>
 #include <new>
 
+#include "io/bytes/base64.hpp"
 #include "ph/detail/file_pages.hpp"
 #include "ph/error.hpp"
 #include "ph/io/write.hpp"
-#include "report/encoding/base64.hpp"
 
 namespace ph::report {
 namespace {
@@ -51,7 +51,8 @@ class DeflatedText {
       if (deflate(&stream_, flush) == Z_STREAM_ERROR)
         throw Error(ErrorKind::internal, "report: zlib lost its state");
       text_.clear();
-      base64_.append(std::span(out_).first(out_.size() - stream_.avail_out), text_);
+      const auto packed = std::span(out_).first(out_.size() - stream_.avail_out);
+      base64_.append(std::as_bytes(packed), text_);
       file_.write(text_);
     } while (stream_.avail_out == 0);
   }
@@ -59,7 +60,7 @@ class DeflatedText {
   OutputFile& file_;
   const RunContext& context_;
   z_stream stream_{};
-  Base64 base64_;
+  detail::Base64 base64_;
   std::array<std::uint8_t, 1 << 15> in_, out_;
   std::size_t filled_ = 0;
   std::string text_;

@@ -5,6 +5,7 @@
 #include <span>
 #include <sstream>
 
+#include "io/bytes/base64.hpp"
 #include "plot/plot_canvas.hpp"
 
 namespace ph::plot {
@@ -84,19 +85,12 @@ std::string path_data(const Outline& outline) {
   return data;
 }
 
-std::string base64(std::span<const char> bytes) {
-  constexpr std::string_view digits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+std::string base64(std::string_view bytes) {
   std::string text;
   text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t bits = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      bits = bits << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += k <= count ? digits[bits >> (18 - 6 * k) & 63U] : '=';
-  }
+  detail::Base64 digits;
+  digits.append(std::as_bytes(std::span(bytes)), text);
+  digits.finish(text);
   return text;
 }
 

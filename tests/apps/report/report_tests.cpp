@@ -14,7 +14,7 @@
 
 #include "ph/error.hpp"
 #include "report/encoding/array_block.hpp"
-#include "report/encoding/base64.hpp"
+#include "io/bytes/base64.hpp"
 #include "report/encoding/sha256.hpp"
 #include "report/metadata.hpp"
 #include "report/page_template.hpp"
@@ -38,7 +38,7 @@ std::string written(Write&& write) {
 }
 
 std::string encoded(std::string_view text, std::size_t piece) {
-  Base64 base64;
+  detail::Base64 base64;
   std::string result;
   for (std::size_t at = 0; at < text.size(); at += piece) {
     const std::string_view part = text.substr(at, piece);

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
 
-namespace ph::report {
+namespace ph::detail {
 
 /// Bytes as text, piece by piece: RFC 4648, padded, without line breaks.
 class Base64 {
  public:
   /// Appends to `text` what these bytes complete; up to two of them wait for more.
-  void append(std::span<const std::uint8_t> bytes, std::string& text);
+  void append(std::span<const std::byte> bytes, std::string& text);
   /// Appends the rest and its padding. What comes next is a text of its own.
   void finish(std::string& text);
 
@@ -19,4 +20,4 @@ class Base64 {
   int count_ = 0;              // bytes of them
 };
 
-}  // namespace ph::report
+}  // namespace ph::detail

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "report/encoding/base64.hpp"
+#include "io/bytes/base64.hpp"
 
 #include <string_view>
 
-namespace ph::report {
+namespace ph::detail {
 namespace {
 
 constexpr std::string_view kDigits =
@@ -11,9 +11,9 @@ constexpr std::string_view kDigits =
 
 }  // namespace
 
-void Base64::append(std::span<const std::uint8_t> bytes, std::string& text) {
-  for (const std::uint8_t byte : bytes) {
-    waiting_ = waiting_ << 8 | byte;
+void Base64::append(std::span<const std::byte> bytes, std::string& text) {
+  for (const std::byte byte : bytes) {
+    waiting_ = waiting_ << 8 | std::to_integer<std::uint32_t>(byte);
     if (++count_ < 3) continue;
     for (const int shift : {18, 12, 6, 0}) text += kDigits[waiting_ >> shift & 63];
     waiting_ = 0;
@@ -30,4 +30,4 @@ void Base64::finish(std::string& text) {
   count_ = 0;
 }
 
-}  // namespace ph::report
+}  // namespace ph::detail
