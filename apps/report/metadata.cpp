@@ -3,87 +3,85 @@
 
 #include <fmt/format.h>
 
-#include "report/encoding/json_object.hpp"
+#include "io/bytes/json_writer.hpp"
 
 namespace ph::report {
 namespace {
 
-std::string texts(const std::vector<std::string>& values) {
-  return json_array(values, [](const std::string& value) { return json_string(value); });
-}
+using json::integer, json::number, json::object;
 
-std::string numbers(const std::optional<std::array<double, 3>>& values) {
-  return values ? json_array(*values, json_number) : std::string();
+// Values that are left out where there is nothing.
+std::string text(std::string_view value) { return value.empty() ? "" : json::string(value); }
+std::string number_if(const std::optional<double>& value) { return value ? number(*value) : ""; }
+std::string point_if(const std::optional<std::array<double, 3>>& values) {
+  return values ? json::numbers(*values) : "";
 }
+template <class Values, class Write>
+std::string list(const Values& values, Write&& write) {
+  return values.empty() ? "" : json::array(values, write);
+}
+std::string texts(const std::vector<std::string>& values) { return list(values, json::string); }
 
 std::string barcode(const BarcodeMeta& meta) {
   constexpr std::string_view kinds[] = {"vertices", "grid", "row"};
   constexpr std::string_view chains[] = {"", "cycles", "cocycles", "voxels"};
-  return JsonObject()
-      .text("name", meta.name)
-      .text("cells", kinds[static_cast<int>(meta.cells)])
-      .text("representatives", chains[static_cast<int>(meta.representatives)])
-      .str();
+  return object({{"name", text(meta.name)},
+                 {"cells", text(kinds[static_cast<int>(meta.cells)])},
+                 {"representatives", text(chains[static_cast<int>(meta.representatives)])}});
 }
 
 std::string cloud(const CloudMeta& meta) {
-  return JsonObject()
-      .text("unit", meta.unit)
-      .add("viewpoint", numbers(meta.viewpoint))
-      .add("up", numbers(meta.up))
-      .text("metric", meta.metric)
-      .add("edges_below", meta.edges_below ? json_number(*meta.edges_below) : "")
-      .add("triangles_below", meta.triangles_below ? json_number(*meta.triangles_below) : "")
-      .text("projection", meta.projection)
-      .str();
+  return object({{"unit", text(meta.unit)},
+                 {"viewpoint", point_if(meta.viewpoint)},
+                 {"up", point_if(meta.up)},
+                 {"metric", text(meta.metric)},
+                 {"edges_below", number_if(meta.edges_below)},
+                 {"triangles_below", number_if(meta.triangles_below)},
+                 {"projection", text(meta.projection)}});
 }
 
 std::string tree(const TreeMeta& meta) {
-  return JsonObject()
-      .text("rule", meta.rule == CutRule::persistence ? "persistence" : "value")
-      .text("label", meta.label)
-      .text("unit", meta.unit)
-      .add("cut", json_number(meta.cut))
-      .add("from", json_number(meta.from))
-      .add("to", meta.to ? json_number(*meta.to) : "")
-      .add("min_size", fmt::format("{}", meta.min_size))
-      .text("what", meta.what)
-      .add("command", texts(meta.command))
-      .str();
+  return object({{"rule", text(meta.rule == CutRule::persistence ? "persistence" : "value")},
+                 {"label", text(meta.label)},
+                 {"unit", text(meta.unit)},
+                 {"cut", number(meta.cut)},
+                 {"from", number(meta.from)},
+                 {"to", number_if(meta.to)},
+                 {"min_size", integer(meta.min_size)},
+                 {"what", text(meta.what)},
+                 {"command", texts(meta.command)}});
 }
 
 std::string distance(const Distance& d) {
-  return JsonObject()
-      .add("dim", fmt::format("{}", d.dim))
-      .add("bottleneck", json_number(d.bottleneck))
-      .str();
+  return object({{"dim", integer(d.dim)}, {"bottleneck", number(d.bottleneck)}});
+}
+
+std::string image(const Metadata& m) {
+  return object({{"construction", text(m.construction)}, {"axes", texts(m.axes)}});
 }
 
 std::string provenance(const Provenance& p) {
-  JsonObject timings, notes;
+  std::string timings, notes;
   for (const auto& [stage, seconds] : p.run.timings)
-    timings.add(stage, fmt::format("{:.6g}", seconds));
-  for (const auto& [name, text] : p.notes) notes.text(name, text);
-  JsonObject object;
-  object.text("version", p.run.program)
-      .add("command", texts(p.command))
-      .add("input", JsonObject()
-                        .text("path", p.run.input)
-                        .text("description", p.run.input_description)
-                        .text("sha256", p.sha256)
-                        .str())
-      .text("complex", p.run.complex);
-  if (p.has_homology) {
-    object.add("field", fmt::format("{}", p.run.field))
-        .add("max_dim", fmt::format("{}", p.run.max_dim))
-        .add("threshold", p.run.threshold ? json_number(*p.run.threshold) : "null");
-  }
-  object.text("engine", p.run.engine);
-  if (!timings.empty()) object.add("timings", timings.str());
-  if (p.run.peak_memory > 0) object.add("peak_memory", fmt::format("{}", p.run.peak_memory));
-  object.add("warnings", texts(p.warnings));
-  if (!notes.empty()) object.add("notes", notes.str());
-  return object.str();
+    json::add_members(timings, {{stage, fmt::format("{:.6g}", seconds)}});
+  for (const auto& [name, note] : p.notes) json::add_members(notes, {{name, text(note)}});
+  const bool has_homology = p.has_homology;
+  return object({{"version", text(p.run.program)},
+                 {"command", texts(p.command)},
+                 {"input", object({{"path", text(p.run.input)},
+                                   {"description", text(p.run.input_description)},
+                                   {"sha256", text(p.sha256)}})},
+                 {"complex", text(p.run.complex)},
+                 {"field", has_homology ? integer(p.run.field) : ""},
+                 {"max_dim", has_homology ? integer(p.run.max_dim) : ""},
+                 {"threshold", !has_homology     ? ""
+                               : p.run.threshold ? number(*p.run.threshold)
+                                                 : "null"},
+                 {"engine", text(p.run.engine)},
+                 {"timings", timings.empty() ? "" : "{" + timings + "}"},
+                 {"peak_memory", p.run.peak_memory > 0 ? integer(p.run.peak_memory) : ""},
+                 {"warnings", texts(p.warnings)},
+                 {"notes", notes.empty() ? "" : "{" + notes + "}"}});
 }
 
 /// "<" is in texts only.
@@ -106,25 +104,19 @@ std::string title_of(const std::string& path) {
 }
 
 std::string metadata_json(const Metadata& m) {
-  JsonObject object;
-  object.text("format", "ph-report")
-      .add("version", "1")
-      .add("title", json_string(m.title))
-      .add("program", json_string(m.provenance.run.program))
-      .add("value", JsonObject()
-                        .add("label", json_string(m.value_label))
-                        .text("unit", m.value_unit)
-                        .add("negated", m.negated ? "true" : "")
-                        .str())
-      .add("barcodes", json_array(m.barcodes, barcode));
-  if (m.cloud) object.add("cloud", cloud(*m.cloud));
-  if (!m.construction.empty())
-    object.add("image",
-               JsonObject().text("construction", m.construction).add("axes", texts(m.axes)).str());
-  if (m.tree) object.add("tree", tree(*m.tree));
-  object.add("distances", json_array(m.distances, distance));
-  object.add("provenance", provenance(m.provenance));
-  return without_tags(object.str());
+  return without_tags(object({{"format", text("ph-report")},
+                              {"version", "1"},
+                              {"title", json::string(m.title)},
+                              {"program", json::string(m.provenance.run.program)},
+                              {"value", object({{"label", json::string(m.value_label)},
+                                                {"unit", text(m.value_unit)},
+                                                {"negated", m.negated ? "true" : ""}})},
+                              {"barcodes", list(m.barcodes, barcode)},
+                              {"cloud", m.cloud ? cloud(*m.cloud) : ""},
+                              {"image", m.construction.empty() ? "" : image(m)},
+                              {"tree", m.tree ? tree(*m.tree) : ""},
+                              {"distances", list(m.distances, distance)},
+                              {"provenance", provenance(m.provenance)}}));
 }
 
 }  // namespace ph::report

@@ -10,11 +10,11 @@
 
 #include "common/run/program.hpp"
 #include "common/terminal/exit_code.hpp"
+#include "io/bytes/json_writer.hpp"
 #include "ph/error.hpp"
 #include "ph/label_tracker.hpp"
 #include "segment/input/frames.hpp"
 #include "segment/run.hpp"
-#include "tree/json_text.hpp"
 
 namespace ph::segment {
 namespace {
@@ -34,9 +34,9 @@ std::string one_line(std::string_view text) {
 }
 
 std::string failure_line(const std::string& input, int code) {
-  return one_line(json::object({{"format", json_string("ph-segment")},
+  return one_line(json::object({{"format", json::string("ph-segment")},
                                 {"version", "1"},
-                                {"input", json::object({{"path", json_string(input)}})},
+                                {"input", json::object({{"path", json::string(input)}})},
                                 {"exit_code", json::integer(code)}}));
 }
 

@@ -5,9 +5,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cmath>
+#include <array>
 
 #include "common/terminal/exit_code.hpp"
+#include "io/bytes/json_writer.hpp"
 #include "report/arrays/bar_arrays.hpp"
 #include "report/encoding/sha256.hpp"
 #include "report/report_file.hpp"
@@ -99,18 +100,16 @@ std::string distances_file(const std::vector<report::Distance>& distances,
     return text;
   }
   if (format == DistanceFormat::json) {
-    std::vector<std::string> rows, missing;
-    for (const auto& [dim, bottleneck] : distances)
-      rows.push_back(fmt::format("    {{\"dim\": {}, \"bottleneck\": {}}}", dim,
-                                 std::isfinite(bottleneck) ? shortest(bottleneck) : "null"));
-    for (const std::string& what : left_out) missing.push_back(json_string(what));
-    return fmt::format(
-        "{{\n  \"format\": \"ph-barcode distances\",\n  \"version\": 1,\n"
-        "  \"program\": {},\n  \"inputs\": [{}, {}],\n  \"distances\": [{}{}{}],\n"
-        "  \"left_out\": [{}]\n}}\n",
-        json_string(app::program_and_version("ph-barcode")), json_string(first),
-        json_string(second), rows.empty() ? "" : "\n", fmt::join(rows, ",\n"),
-        rows.empty() ? "" : "\n  ", fmt::join(missing, ", "));
+    const auto distance = [](const report::Distance& d) {
+      return json::object(
+          {{"dim", json::integer(d.dim)}, {"bottleneck", json::number(d.bottleneck)}});
+    };
+    return json::document({{"format", json::string("ph-barcode distances")},
+                           {"version", "1"},
+                           {"program", json::string(app::program_and_version("ph-barcode"))},
+                           {"inputs", json::array(std::array{first, second}, json::string)},
+                           {"distances", json::lines(distances, distance)},
+                           {"left_out", json::array(left_out, json::string)}});
   }
   text = fmt::format("bottleneck distance of {} and {}\n", printable(first), printable(second));
   for (const auto& [dim, bottleneck] : distances)

@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "common/terminal/messages.hpp"
-#include "ph/io/write.hpp"
+#include "io/bytes/json_writer.hpp"
 
 namespace ph::app {
 namespace {
@@ -65,9 +65,10 @@ void ProgressReporter::show() {
   last_shown_ = Clock::now();
   if (mode_ == ProgressMode::json) {
     const double seconds = std::chrono::duration<double>(last_shown_ - start_).count();
-    print_line(fmt::format("{{\"stage\": {}, \"done\": {}, \"total\": {}, \"seconds\": {:.3f}}}",
-                           json_string(last_.stage), last_.done,
-                           last_.total == 0 ? "null" : std::to_string(last_.total), seconds));
+    print_line(json::object({{"stage", json::string(last_.stage)},
+                             {"done", json::integer(last_.done)},
+                             {"total", last_.total == 0 ? "null" : json::integer(last_.total)},
+                             {"seconds", fmt::format("{:.3f}", seconds)}}));
   } else if (mode_ == ProgressMode::bar && has_report_ && holds_ == 0 &&
              last_shown_ - start_ >= kPatience) {
     draw_bar();

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <string_view>
 
+#include "ph/io/write.hpp"
 #include "tree/json_text.hpp"
 
 namespace ph::segment {
@@ -17,7 +19,7 @@ std::string box_of(const Box& box) {
 }
 
 std::string input_of(const SceneTree& scene, const RunInfo& info) {
-  return object({{"path", json_string(info.input)},
+  return object({{"path", json::string(info.input)},
                  {"points", integer(scene.width * scene.height)},
                  {"width", integer(scene.width)},
                  {"height", integer(scene.height)},
@@ -33,21 +35,21 @@ std::string options_of(const SegmentOptions& o) {
                  {"viewpoint", o.viewpoint ? numbers(*o.viewpoint) : "null"},
                  {"voxel", o.voxel ? number(*o.voxel) : "null"},
                  {"distance", number(o.distance)},
-                 {"steps", o.steps == 0 ? json_string("exact") : integer(o.steps)},
+                 {"steps", o.steps == 0 ? json::string("exact") : integer(o.steps)},
                  {"spacing", number(o.spacing)},
                  {"check", boolean(o.check)}});
 }
 
 std::string stages_of(const Segmentation& s) {
   return lines(s.stages, [](const Stage& stage) {
-    return object({{"name", json_string(stage.name)},
+    return object({{"name", json::string(stage.name)},
                    {"points", integer(stage.points)},
                    {"seconds", number(stage.seconds)}});
   });
 }
 
 std::string plane_of(const Segmentation& s) {
-  if (!s.plane) return object({{"found", "false"}, {"note", json_string(s.plane_note)}});
+  if (!s.plane) return object({{"found", "false"}, {"note", json::string(s.plane_note)}});
   return object({{"found", "true"},
                  {"normal", numbers(s.plane->normal)},
                  {"offset", number(s.plane->offset)},
@@ -55,31 +57,23 @@ std::string plane_of(const Segmentation& s) {
 }
 
 std::string oriented_box_of(const OrientedBox& box) {
-  const auto& [first, second, third] = box.axes;
-  return object(
-      {{"centre", numbers(box.centre)},
-       {"axes", fmt::format("[{}, {}, {}]", numbers(first), numbers(second), numbers(third))},
-       {"size", numbers(box.size)}});
+  return object({{"centre", numbers(box.centre)},
+                 {"axes", array(box.axes, numbers<Vec3>)},
+                 {"size", numbers(box.size)}});
 }
 
 std::string neighbours_of(const Segment& segment, const RunInfo& info) {
-  std::string text;
-  for (const Neighbour& n : segment.neighbours) {
-    text += text.empty() ? "" : ", ";
-    text += object({{"label", integer(info.number_of(n.label))}, {"meets_at", number(n.meets_at)}});
-  }
-  return "[" + text + "]";
+  return array(segment.neighbours, [&](const Neighbour& n) {
+    return object({{"label", integer(info.number_of(n.label))}, {"meets_at", number(n.meets_at)}});
+  });
 }
 
 std::string signature_of(const Segment& segment, const RunInfo& info) {
   if (info.signatures.empty() || !info.signatures[segment.label - 1]) return "null";
   const auto bars_of = [&](int dim) {
-    std::string text;
-    for (const Bar& bar : info.signatures[segment.label - 1]->bars(dim)) {
-      text += text.empty() ? "" : ", ";
-      text += "[" + number(bar.birth) + ", " + number(bar.death) + "]";
-    }
-    return "[" + text + "]";
+    return array(info.signatures[segment.label - 1]->bars(dim), [](const Bar& bar) {
+      return numbers(std::array{bar.birth, bar.death});
+    });
   };
   return object({{"h0", bars_of(0)}, {"h1", bars_of(1)}, {"h2", bars_of(2)}});
 }
@@ -103,7 +97,7 @@ std::string segments_of(const Segmentation& s, const RunInfo& info) {
 std::string check_of(const Segmentation& s) {
   if (!s.checked) return object({{"ran", "false"}});
   if (s.difference.empty()) return object({{"ran", "true"}, {"equal", "true"}});
-  return object({{"ran", "true"}, {"equal", "false"}, {"difference", json_string(s.difference)}});
+  return object({{"ran", "true"}, {"equal", "false"}, {"difference", json::string(s.difference)}});
 }
 
 double seconds_of(const Segmentation& s) {
@@ -128,13 +122,13 @@ double table_seconds(const Segmentation& s) {
 std::string json_summary(const Arguments& arguments, const Segmentation& s, const RunInfo& info) {
   const Index vertices = s.vertices.rows();
   const std::string distance = s.method == Method::paper ? number(s.distance) : "null";
-  return document({{"format", json_string("ph-segment")},
+  return document({{"format", json::string("ph-segment")},
                    {"version", "1"},
-                   {"program", json_string(info.program)},
+                   {"program", json::string(info.program)},
                    {"input", input_of(s, info)},
-                   {"method", method(s.method)},
+                   {"method", json_of(s.method)},
                    {"options", info.from_tree ? "null" : options_of(arguments.options)},
-                   {"cut", cut(s.first_cut)},
+                   {"cut", json_of(s.first_cut)},
                    {"stages", stages_of(s)},
                    {"viewpoint", numbers(s.viewpoint)},
                    {"plane", plane_of(s)},
@@ -151,7 +145,7 @@ std::string json_summary(const Arguments& arguments, const Segmentation& s, cons
                    {"check", check_of(s)},
                    {"timings", object({{"read", number(info.read_seconds)},
                                        {"segment", number(seconds_of(s))}})},
-                   {"peak_memory", fmt::format("{}", app::peak_memory())}});
+                   {"peak_memory", integer(app::peak_memory())}});
 }
 
 std::string text_summary(const Segmentation& s) {

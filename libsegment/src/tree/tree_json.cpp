@@ -1,4 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <iterator>
+
 #include "options.hpp"
 #include "tree/json_text.hpp"
 #include "tree/tree_file.hpp"
@@ -9,7 +15,7 @@ namespace {
 using namespace json;
 
 std::string row(const Points& points, Index i) {
-  return numbers({points(i, 0), points(i, 1), points(i, 2)});
+  return numbers(Vec3{points(i, 0), points(i, 1), points(i, 2)});
 }
 
 std::string vertices_of(const SceneTree& scene) {
@@ -26,7 +32,7 @@ std::string vertices_of(const SceneTree& scene) {
 std::string merges_of(const MergeTree& tree) {
   return lines(tree.merges, [](const Merge& m) {
     return object({{"value", number(m.value)},
-                   {"edge", fmt::format("[{}, {}]", m.u, m.v)},
+                   {"edge", array(std::array{m.u, m.v}, integer<Index>)},
                    {"elder", integer(m.elder)},
                    {"younger", integer(m.younger)},
                    {"elder_size", integer(m.elder_size)},
@@ -60,19 +66,19 @@ std::string plane_of(const std::optional<Plane>& plane) {
 std::string tree_json(const SceneTree& scene) {
   validate(scene);
   const bool paper = scene.method == Method::paper;
-  return document({{"format", json_string("ph-segment-tree")},
+  return document({{"format", json::string("ph-segment-tree")},
                    {"version", "1"},
-                   {"method", method(scene.method)},
+                   {"method", json_of(scene.method)},
                    {"width", integer(scene.width)},
                    {"height", integer(scene.height)},
                    {"voxel", number(scene.voxel)},
                    {"distance", paper ? number(scene.distance) : "null"},
                    {"steps", !paper             ? "null"
-                             : scene.steps == 0 ? json_string("exact")
+                             : scene.steps == 0 ? json::string("exact")
                                                 : integer(scene.steps)},
                    {"viewpoint", numbers(scene.viewpoint)},
                    {"plane", plane_of(scene.plane)},
-                   {"cut", cut(scene.first_cut)},
+                   {"cut", json_of(scene.first_cut)},
                    {"edges", integer(scene.edges)},
                    {"vertices", vertices_of(scene)},
                    {"merges", merges_of(scene.tree)},

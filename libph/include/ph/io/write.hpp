@@ -112,7 +112,5 @@ bool is_barcode(const Input& input);
 
 /// The shortest text that reads back to the same double; `inf`, `-inf`, `nan`; -0 as 0.
 std::string shortest(double value);
-/// A JSON string with its quotes. Bytes that are not UTF-8 become U+FFFD.
-std::string json_string(std::string_view text);
 
 }  // namespace ph

@@ -3,38 +3,20 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "image/place_runs.hpp"
 #include "io/barcodes/barcode_formats.hpp"
+#include "io/bytes/json_writer.hpp"
 
 namespace ph {
 namespace {
 
-/// Length of the UTF-8 sequence at the start of `text`; 0 if it is none (overlong forms,
-/// surrogates and code points beyond U+10FFFF are none).
-std::size_t utf8_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char first = byte(0);
-  if (first < 0x80) return 1;
-  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
-  if (first < 0xc2 || first > 0xf4 || text.size() < length) return 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if ((byte(i) & 0xc0) != 0x80) return 0;
-  if (first == 0xe0 && byte(1) < 0xa0) return 0;
-  if (first == 0xed && byte(1) > 0x9f) return 0;
-  if (first == 0xf0 && byte(1) < 0x90) return 0;
-  if (first == 0xf4 && byte(1) > 0x8f) return 0;
-  return length;
-}
-
-/// JSON knows no infinities: one that dies never is null, any other is its name as a string.
-std::string json_number(double value) {
-  if (std::isfinite(value)) return shortest(value);
-  return value > 0 ? "null" : "\"-inf\"";
+/// What dies never has a death of null, so minus infinity is a string.
+std::string json_value(double value) {
+  return value == -kInfinity ? "\"-inf\"" : json::number(value);
 }
 
 /// The cell without its braces: `"vertices": [0, 1]`.
@@ -128,7 +110,7 @@ void write_loops(OutputFile& file, const BarLoops& of_bar, const InputCell& edge
       file.write(is_grid ? "[" + text + "]" : text);
     }
     file.write(fmt::format("], \"coefficient\": {}", loop.coefficient));
-    if (loop.length) file.write(fmt::format(", \"length\": {}", json_number(*loop.length)));
+    if (loop.length) file.write(fmt::format(", \"length\": {}", json_value(*loop.length)));
     file.write(fmt::format(", \"tight\": \"{}\"}}", tightness_name(of_bar.tightness)));
     between = ", ";
   }
@@ -157,76 +139,64 @@ void write_voxels(OutputFile& file, const Barcode& barcode, std::size_t i) {
 
 std::string json_timings(const BarcodeInfo& info) {
   std::string text;
-  for (const auto& [stage, seconds] : info.timings) {
-    if (!text.empty()) text += ", ";
-    text += fmt::format("{}: {:.6g}", json_string(stage), seconds);
-  }
+  for (const auto& [stage, seconds] : info.timings)
+    json::add_members(text, {{stage, fmt::format("{:.6g}", seconds)}});
   return "{" + text + "}";
+}
+
+/// What the file says before the bars: the members of an object.
+std::string json_heading(const Barcode& barcode, const BarcodeInfo& info) {
+  // Left out where there is nothing.
+  const auto text = [](std::string_view value) { return value.empty() ? "" : json::string(value); };
+  const auto value = [](const std::optional<double>& x) { return x ? json_value(*x) : ""; };
+  const bool has_complex = !info.complex.empty();
+  const bool has_chains = barcode.representatives() != Representatives::none;
+  std::string subsample, voxels;
+  if (info.subsample)
+    subsample = json::object({{"points", json::integer(info.subsample->points)},
+                              {"of", json::integer(info.subsample->of)},
+                              {"covering_radius", json_value(info.subsample->covering_radius)}});
+  if (info.voxels)
+    voxels = json::object({{"edge", json_value(info.voxels->voxel)},
+                           {"first", json::array(info.voxels->first, json_value)},
+                           {"value", json::string(info.voxels->value)}});
+  std::string heading;
+  json::add_members(
+      heading,
+      {{"format", json::string("ph-barcode")},
+       {"version", "1"},
+       {"program", json::string(info.program)},
+       {"input", json::object({{"path", json::string(info.input)},
+                               {"description", json::string(info.input_description)}})},
+       {"complex", text(info.complex)},
+       {"field", has_complex ? json::integer(info.field) : ""},
+       {"max_dim", has_complex ? json::integer(info.max_dim) : ""},
+       {"threshold", !has_complex     ? ""
+                     : info.threshold ? value(info.threshold)
+                                      : "null"},
+       {"vertex_weights", text(info.vertex_weights)},
+       {"subsample", subsample},
+       {"voxels", voxels},
+       {"superlevel", info.superlevel ? "true" : ""},
+       {"approximation", value(info.approximation)},
+       {"engine", text(info.engine)},
+       {"representatives",
+        has_chains ? json::string(representatives_name(barcode.representatives())) : ""}},
+      ",\n  ");
+  return heading;
 }
 
 }  // namespace
 
-std::string json_string(std::string_view text) {
-  std::string out = "\"";
-  while (!text.empty()) {
-    const std::size_t length = utf8_length(text);
-    const char c = text.front();
-    if (length == 0) {
-      out += "\xef\xbf\xbd";  // U+FFFD
-    } else if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (c == '\n') {
-      out += "\\n";
-    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    } else {
-      out += text.substr(0, length);
-    }
-    text.remove_prefix(length == 0 ? 1 : length);
-  }
-  return out + "\"";
-}
-
 void write_barcode_json(OutputFile& file, const Barcode& barcode, const BarcodeInfo& info) {
   check_loops(barcode, info.loops);
-  file.write("{\n  \"format\": \"ph-barcode\",\n  \"version\": 1,\n");
-  file.write(fmt::format("  \"program\": {},\n", json_string(info.program)));
-  file.write(fmt::format("  \"input\": {{\"path\": {}, \"description\": {}}},\n",
-                         json_string(info.input), json_string(info.input_description)));
-  if (!info.complex.empty())
-    file.write(fmt::format(
-        "  \"complex\": {},\n  \"field\": {},\n  \"max_dim\": {},\n  \"threshold\": {},\n",
-        json_string(info.complex), info.field, info.max_dim,
-        info.threshold ? json_number(*info.threshold) : "null"));
-  if (!info.vertex_weights.empty())
-    file.write(fmt::format("  \"vertex_weights\": {},\n", json_string(info.vertex_weights)));
-  if (info.subsample)
-    file.write(fmt::format(
-        "  \"subsample\": {{\"points\": {}, \"of\": {}, \"covering_radius\": {}}},\n",
-        info.subsample->points, info.subsample->of, json_number(info.subsample->covering_radius)));
-  if (info.voxels) {
-    std::string first;
-    for (const double x : info.voxels->first) first += (first.empty() ? "" : ", ") + json_number(x);
-    file.write(fmt::format("  \"voxels\": {{\"edge\": {}, \"first\": [{}], \"value\": {}}},\n",
-                           json_number(info.voxels->voxel), first,
-                           json_string(info.voxels->value)));
-  }
-  if (info.superlevel) file.write("  \"superlevel\": true,\n");
-  if (info.approximation)
-    file.write(fmt::format("  \"approximation\": {},\n", json_number(*info.approximation)));
   const bool with_chains = barcode.representatives() != Representatives::none;
-  if (!info.engine.empty())
-    file.write(fmt::format("  \"engine\": {},\n", json_string(info.engine)));
-  if (with_chains)
-    file.write(fmt::format("  \"representatives\": \"{}\",\n",
-                           representatives_name(barcode.representatives())));
-  file.write("  \"bars\": [");
+  file.write(fmt::format("{{\n  {},\n  \"bars\": [", json_heading(barcode, info)));
   for (std::size_t i = 0; i < barcode.size(); ++i) {
     const Bar& bar = barcode[i];
     file.write(i == 0 ? "\n" : ",\n");
     file.write(fmt::format("    {{\"dim\": {}, \"birth\": {}, \"death\": {}, ", bar.dim,
-                           json_number(bar.birth), json_number(bar.death)));
+                           json_value(bar.birth), json_value(bar.death)));
     file.write(fmt::format("\"birth_cell\": {}, \"death_cell\": {}",
                            json_cell(barcode.birth_cell(i)), json_cell(barcode.death_cell(i))));
     if (barcode.representatives() == Representatives::voxels) {
@@ -240,9 +210,8 @@ void write_barcode_json(OutputFile& file, const Barcode& barcode, const BarcodeI
     file.write("}");
   }
   file.write(barcode.empty() ? "],\n" : "\n  ],\n");
-  file.write(fmt::format("  \"timings\": {},\n", json_timings(info)));
-  file.write(info.peak_memory == 0 ? "  \"peak_memory\": null\n}\n"
-                                   : fmt::format("  \"peak_memory\": {}\n}}\n", info.peak_memory));
+  file.write(fmt::format("  \"timings\": {},\n  \"peak_memory\": {}\n}}\n", json_timings(info),
+                         info.peak_memory == 0 ? "null" : json::integer(info.peak_memory)));
 }
 
 }  // namespace ph

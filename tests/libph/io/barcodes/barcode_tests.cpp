@@ -9,6 +9,7 @@
 #include <limits>
 #include <sstream>
 
+#include "io/bytes/json_writer.hpp"
 #include "ph/io/write.hpp"
 
 namespace ph {
@@ -123,10 +124,10 @@ TEST_F(BarcodeIo, FormatsByName) {
 }
 
 TEST_F(BarcodeIo, JsonStringsAreUtf8) {
-  EXPECT_EQ(json_string("\x01\x7f"), "\"\\u0001\\u007f\"");
-  EXPECT_EQ(json_string("ü ∞ 😀"), "\"ü ∞ 😀\"");
-  EXPECT_EQ(json_string("\xc0\xaf"), "\"\xef\xbf\xbd\xef\xbf\xbd\"");  // overlong
-  EXPECT_EQ(json_string("\xe2\x88"), "\"\xef\xbf\xbd\xef\xbf\xbd\"");  // cut off
+  EXPECT_EQ(json::string("\x01\x7f"), "\"\\u0001\\u007f\"");
+  EXPECT_EQ(json::string("ü ∞ 😀"), "\"ü ∞ 😀\"");
+  EXPECT_EQ(json::string("\xc0\xaf"), "\"\xef\xbf\xbd\xef\xbf\xbd\"");  // overlong
+  EXPECT_EQ(json::string("\xe2\x88"), "\"\xef\xbf\xbd\xef\xbf\xbd\"");  // cut off
 }
 
 TEST_F(BarcodeIo, FileAppearsOnCommit) {
