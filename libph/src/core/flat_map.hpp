@@ -20,7 +20,14 @@ class FlatMap {
 
   explicit FlatMap(std::pmr::memory_resource* memory) : slots_(memory) {}
 
-  /// Null if the key is absent. Valid until the next insertion.
+  /// Makes room for so many keys at once.
+  void reserve(std::size_t keys) {
+    const std::size_t slots = std::bit_ceil(2 * (keys + 1));
+    if (slots > slots_.size()) rehash(std::max(kSmall, slots));
+  }
+  /// Asks for what `find` will read. Needs a map that is not empty, or a call of `reserve`.
+  void prefetch(Key key) const { __builtin_prefetch(&slots_[start(key)]); }
+  /// Null if the key is absent. Valid until the next insertion. Several threads may ask.
   Value* find(Key key) {
     if (key == kFree) [[unlikely]]
       return has_last_ ? &last_ : nullptr;
@@ -32,7 +39,7 @@ class FlatMap {
   std::pair<Value*, bool> try_emplace(Key key) {
     if (key == kFree) [[unlikely]]
       return {&last_, !std::exchange(has_last_, true)};
-    if (2 * (size_ + 1) > slots_.size()) grow();
+    if (2 * (size_ + 1) > slots_.size()) rehash(std::max(kSmall, 2 * slots_.size()));
     Slot& slot = slot_of(key);
     const bool is_new = slot.key == kFree;
     if (is_new) {
@@ -63,16 +70,19 @@ class FlatMap {
   };
   static constexpr std::size_t kSmall = 64;
 
+  std::size_t mask() const { return slots_.size() - 1; }
+  /// Fibonacci hashing: the upper bits of the product are well mixed.
+  std::size_t start(Key key) const {
+    return key * 0x9E3779B97F4A7C15U >> (64 - std::bit_width(mask()));
+  }
   /// Where a key is, or would be.
   Slot& slot_of(Key key) {
-    const std::size_t mask = slots_.size() - 1;
-    // Fibonacci hashing: the upper bits of the product are well mixed.
-    std::size_t i = key * 0x9E3779B97F4A7C15U >> (64 - std::bit_width(mask));
-    while (slots_[i].key != key && slots_[i].key != kFree) i = (i + 1) & mask;
+    std::size_t i = start(key);
+    while (slots_[i].key != key && slots_[i].key != kFree) i = (i + 1) & mask();
     return slots_[i];
   }
-  void grow() {
-    std::pmr::vector<Slot> old(std::max(kSmall, 2 * slots_.size()), Slot{}, slots_.get_allocator());
+  void rehash(std::size_t slots) {
+    std::pmr::vector<Slot> old(slots, Slot{}, slots_.get_allocator());
     old.swap(slots_);
     for (Slot& slot : old)
       if (slot.key != kFree) slot_of(slot.key) = std::move(slot);

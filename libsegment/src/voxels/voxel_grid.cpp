@@ -36,7 +36,7 @@ struct Voxel {
 };
 
 /// Open addressing with linear probing; the load stays below a quarter, for every second look at a
-/// slot is a guess.
+/// slot is a guess. No FlatMap: the key is three doubles, which the voxel has: a slot is 4 bytes.
 class VoxelTable {
  public:
   VoxelTable() : slots_(kFirstCapacity, kEmpty) {}

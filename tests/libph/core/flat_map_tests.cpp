@@ -70,6 +70,8 @@ TEST(FlatMap, EqualsASlowOne) {
         map.clear();
         slow.clear();
       }
+      if (random.integer(0, 499) == 0)
+        map.reserve(static_cast<std::size_t>(random.integer(0, 2 * most)));
     }
   });
 }

@@ -12,6 +12,8 @@ namespace ph {
 
 /// A map from the cells of one dimension to 32-bit numbers: an array where the filtration numbers
 /// its cells, else a hash table with linear probing. Allocates through the given resource.
+///
+/// No FlatMap, whose keys are 64 bits: a cell may be wider, and hashes itself.
 template <Filtration F>
 class CellMap {
  public:

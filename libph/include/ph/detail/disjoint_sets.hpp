@@ -14,6 +14,11 @@ class DisjointSets {
   DisjointSets(std::size_t size, std::pmr::memory_resource* memory) : parent_(size, memory) {
     std::iota(parent_.begin(), parent_.end(), 0U);
   }
+  /// One more set. @return its only member.
+  std::uint32_t add() {
+    parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
+    return parent_.back();
+  }
   std::uint32_t find(std::uint32_t v) {
     while (parent_[v] != v) {
       parent_[v] = parent_[parent_[v]];

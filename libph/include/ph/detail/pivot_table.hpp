@@ -31,6 +31,8 @@ struct ReducedColumn {
 /// slot only fall, and each slot keeps its cell. A reader that finds in a slot a column which by
 /// now has another pivot looks at the slot again: it has changed before that column was published
 /// again.
+///
+/// No FlatMap: several threads insert and replace at once, by compare-and-swap.
 template <CofacetFiltration F, Field K>
 class PivotTable {
  public:

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <bit>
 #include <cstdint>
-#include <memory_resource>
 #include <optional>
 #include <span>
-#include <vector>
 
+#include "core/flat_map.hpp"
 #include "cubical/any_axes/cell_sink.hpp"
 #include "cubical/columns/boundary_column.hpp"
 #include "cubical/columns/parallel_reduction.hpp"
@@ -31,7 +29,7 @@ class BoundaryReduction {
         names_(columns),
         field_(field),
         context_(context),
-        rows_(std::bit_ceil(2 * rows.size() + 1), Row{}, &context.memory),
+        owners_(&context.memory),
         reduction_(columns.size(), field, context) {
     enter_rows(rows);
   }
@@ -44,7 +42,7 @@ class BoundaryReduction {
         "boundaries", piece, [&] { return Chain(grid_, field_, context_); },
         [&](Chain& column, std::uint32_t i) { column.assign_boundary(CellGrid::cell(names_[i])); },
         [&](Name pivot) -> const Column*& { return owner_of(pivot); },
-        [&](Name pivot) { __builtin_prefetch(&rows_[start(CellGrid::cell(pivot))]); },
+        [&](Name pivot) { owners_.prefetch(CellGrid::cell(pivot)); },
         [](std::span<std::uint32_t>) {});
     for (std::size_t i = 0; i < names_.size(); ++i) {
       const Column* const column = reduction_.columns()[i];
@@ -55,40 +53,22 @@ class BoundaryReduction {
   bool is_pivot(Name row) { return owner_of(row) != nullptr; }
 
  private:
-  static constexpr std::uint32_t kNone = UINT32_MAX;
-  struct Row {
-    std::uint32_t cell = kNone;
-    const Column* owner = nullptr;
-  };
-
   void enter_rows(std::span<const Name> rows) {
+    owners_.reserve(rows.size());
     Ticker ticker(context_, "rows", rows.size());
     for (const Name name : rows) {
-      Row* row = &rows_[start(CellGrid::cell(name))];
-      while (row->cell != kNone) row = after(row);
-      row->cell = CellGrid::cell(name);
+      owners_.try_emplace(CellGrid::cell(name));
       ticker.tick();
     }
   }
-  std::size_t start(std::uint32_t cell) const {
-    return (cell * 0x9E3779B97F4A7C15U >> 20) & (rows_.size() - 1);
-  }
-  template <class Pointer>
-  Pointer after(Pointer row) const {
-    return row == &rows_.back() ? row - (rows_.size() - 1) : row + 1;
-  }
   // Where the column is noted that has its pivot there. Precondition: `row` is one.
-  const Column*& owner_of(Name row) {
-    Row* found = &rows_[start(CellGrid::cell(row))];
-    while (found->cell != CellGrid::cell(row)) found = after(found);
-    return found->owner;
-  }
+  const Column*& owner_of(Name row) { return *owners_.find(CellGrid::cell(row)); }
 
   const CellGrid& grid_;
   std::span<const Name> names_;  // of the columns
   const K& field_;
   const RunContext& context_;
-  std::pmr::vector<Row> rows_;  // a hash table, at most half full
+  FlatMap<const Column*> owners_;  // by row; null: it is no pivot
   Reduction reduction_;
 };
 

@@ -11,7 +11,8 @@
 namespace ph::cubical {
 
 /// Disjoint sets of nodes, each a tree that begins as arrows: a node's parent is where its arrow
-/// leads until paths are halved and roots are linked. Roots have numbers.
+/// leads until paths are halved and roots are linked. Roots have numbers. No DisjointSets: parents
+/// are asked for only when met, by several threads, and a root has its number in their place.
 /// @tparam Graph `size()` nodes; `arrow(node)`: the node that it points to. Arrows make no circles
 /// and end at roots.
 template <class Graph>

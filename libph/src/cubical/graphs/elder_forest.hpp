@@ -10,7 +10,8 @@
 namespace ph::cubical {
 
 /// Disjoint sets of basins that know which one is older. What has always been there is older than
-/// all else; of others the value decides, then the number.
+/// all else; of others the value decides, then the number. No DisjointSets: parents and values lie
+/// anywhere in memory, and side by side they come in one cache line.
 /// @tparam backwards whether high values and numbers are old.
 template <bool backwards>
 class ElderForest {

@@ -4,12 +4,12 @@
 #include <array>
 #include <cstdint>
 #include <memory_resource>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "cubical/graphs/basins.hpp"
+#include "ph/detail/disjoint_sets.hpp"
 
 namespace ph::cubical {
 
@@ -53,7 +53,6 @@ class SlabBasins {
         context_(context),
         forest_(graph, context),
         same_(roots.size(), &context.memory) {
-    std::iota(same_.begin(), same_.end(), 0U);
     follow_inner_arrows(grid, graph, forest_, context);
     for (const int part : {0, 1})
       forest_.set_root(graph.outside(part), outside[static_cast<std::size_t>(part)]);
@@ -71,10 +70,7 @@ class SlabBasins {
   /// Which root a node hangs under. Several threads may ask until `unite` may be called.
   std::uint32_t number(std::uint32_t node) { return forest_.number_of_root(forest_.find(node)); }
   /// The number that stands for a root and all that turned out to be the same.
-  std::uint32_t same(std::uint32_t number) {
-    while (same_[number] != number) number = same_[number] = same_[same_[number]];
-    return number;
-  }
+  std::uint32_t same(std::uint32_t number) { return same_.find(number); }
   /// The roots of the nodes shared with what comes before it or after it.
   std::pmr::vector<std::uint32_t> seam(bool after) {
     const auto [begin, count] = graph_.seam(after);
@@ -87,8 +83,7 @@ class SlabBasins {
  private:
   std::uint32_t add(const SlabRoot& root) {
     roots_.push_back(root);
-    same_.push_back(static_cast<std::uint32_t>(same_.size()));
-    return same_.back();
+    return same_.add();
   }
   // The nodes of the seam after the last slab of a ring are those before the first one.
   static SlabRoot::Kind open_kind(bool after, const SlabPlace& slab) {
@@ -120,7 +115,7 @@ class SlabBasins {
     const Kind kind = roots_[a].kind, other = roots_[b].kind;
     const bool a_stays =
         kind != other ? kind < other : (kind == Kind::open_to_next ? a > b : a < b);
-    same_[a_stays ? b : a] = a_stays ? a : b;
+    same_.link(a_stays ? b : a, a_stays ? a : b);
   }
   void join_endless() {
     Ticker ticker(context_, "holes", grid_.size());
@@ -167,7 +162,7 @@ class SlabBasins {
   std::pmr::vector<SlabRoot>& roots_;
   const RunContext& context_;
   ArrowForest<Graph> forest_;
-  std::pmr::vector<std::uint32_t> same_;
+  DisjointSets same_;  // of roots
 };
 
 }  // namespace ph::cubical

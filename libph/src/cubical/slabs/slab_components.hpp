@@ -6,13 +6,13 @@
 #include <iterator>
 #include <limits>
 #include <memory_resource>
-#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "cubical/graphs/elder_forest.hpp"
 #include "cubical/slabs/slab_basins.hpp"
+#include "ph/detail/disjoint_sets.hpp"
 
 namespace ph::cubical {
 
@@ -54,12 +54,7 @@ class SlabComponents {
         context_);
     std::pmr::vector<double> reached = when_reached(graph);
     // Roots that are one for all that comes: (the root that stands for it).
-    std::pmr::vector<std::uint32_t> merged(roots_.size(), &context_.memory);
-    std::iota(merged.begin(), merged.end(), 0U);
-    const auto merged_into = [&](std::uint32_t i) {
-      while (merged[i] != i) i = merged[i] = merged[merged[i]];
-      return i;
-    };
+    DisjointSets merged(roots_.size(), &context_.memory);
     // Whether a component may have been joined with another one in a later slab by then.
     const auto may_change = [&](std::uint32_t root, double by) {
       return !is_last &&
@@ -87,7 +82,7 @@ class SlabComponents {
       // The closed one has been merged into one root; from now on it is where the bridge leads.
       const auto [closed, other] = (dies == a) == is_closed ? std::pair{bridge.from, bridge.to}
                                                             : std::pair{bridge.to, bridge.from};
-      merged[merged_into(closed)] = merged_into(other);
+      merged.link(merged.find(closed), merged.find(other));
       on_merge(bridge.place(), dies < endless ? nullptr : &roots_[dies]);
     }
     for (std::uint32_t i = endless; i < roots_.size(); ++i)
@@ -95,10 +90,10 @@ class SlabComponents {
     if (is_last) return;
     if (Graph::kBackwards) std::ranges::reverse(kept_);
     for (Bridge& bridge : kept_) {
-      bridge.from = merged_into(bridge.from);
-      bridge.to = merged_into(bridge.to);
+      bridge.from = merged.find(bridge.from);
+      bridge.to = merged.find(bridge.to);
     }
-    for_each_in_seams([&](std::uint32_t& root) { root = merged_into(root); });
+    for_each_in_seams([&](std::uint32_t& root) { root = merged.find(root); });
     forget_closed();
   }
 

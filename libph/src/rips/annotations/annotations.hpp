@@ -161,7 +161,7 @@ class Annotations {
   }
   /// What a class is by now.
   Class resolve(Class a);
-  /// Follows the links of classes that became equal to others.
+  /// Follows the links of classes that became equal to others. No DisjointSets: a link has a sign.
   Class follow(Class a);
   /// Lets a class learn of all deaths.
   void update(std::uint32_t id);
