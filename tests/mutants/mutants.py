@@ -165,7 +165,7 @@ MUTANTS = [
      "for (const Term& t : at_v ? x.at_v : x.at_u) {", "for (const Term& t : x.at_u) {",
      ["conformance_random_tests"]),
     ("surfaces: mismatches are only looked for in the first part", EXTENSIONS,
-     "if (Row::difference(mismatch(x), p,", "if (i == 0 && Row::difference(mismatch(x), p,",
+     "if (Function::difference(mismatch(x), p,", "if (i == 0 && Row::difference(mismatch(x), p,",
      ["conformance_random_tests"]),
     ("surfaces: parts keep their constants", EXTENSIONS,
      "if (here == value) continue;", "continue;", ["conformance_random_tests"]),

@@ -10,13 +10,13 @@ namespace ph::segment {
 namespace {
 
 /// Voxels that differ in x alone, one after the other in the grid.
-struct Row {
+struct VoxelRow {
   double y, z;  // in voxels
   std::uint32_t begin, end;
 };
 
-std::vector<Row> rows_of(const VoxelGrid& grid) {
-  std::vector<Row> rows;
+std::vector<VoxelRow> rows_of(const VoxelGrid& grid) {
+  std::vector<VoxelRow> rows;
   for (std::uint32_t v = 0; v < grid.cells.size(); ++v) {
     const auto& [x, y, z] = grid.cells[v];
     if (rows.empty() || rows.back().y != y || rows.back().z != z) rows.push_back({y, z, v, v});
@@ -50,7 +50,9 @@ std::vector<Offset> offsets_within(double radius) {
   return offsets;
 }
 
-bool comes_before(const Row& row, double y, double z) { return row.z != z ? row.z < z : row.y < y; }
+bool comes_before(const VoxelRow& row, double y, double z) {
+  return row.z != z ? row.z < z : row.y < y;
+}
 
 /// What the search reads of a voxel, without what lies between in the grid.
 struct Place {
@@ -69,7 +71,7 @@ std::vector<Place> places_of(const VoxelGrid& grid) {
 
 /// Pairs of a voxel of `row` and one of `other`, which is not behind it, written to `to`.
 /// Precondition: there is room for all that are within reach, and one more. @return their end.
-VoxelPair* write_pairs(const std::vector<Place>& places, const Row& row, const Row& other,
+VoxelPair* write_pairs(const std::vector<Place>& places, const VoxelRow& row, const VoxelRow& other,
                        double reach, double square_of_radius, VoxelPair* to) {
   std::uint32_t first = other.begin;
   for (std::uint32_t v = row.begin; v < row.end; ++v) {
@@ -95,7 +97,7 @@ VoxelPairs close_voxels(const VoxelGrid& grid, double voxel, double reach,
                         std::pmr::memory_resource* memory) {
   // Beyond, the row behind another one may be the same number: the search would not come to an end.
   require_exact_cells(grid, voxel);
-  const std::vector<Row> rows = rows_of(grid);
+  const std::vector<VoxelRow> rows = rows_of(grid);
   const std::vector<Place> places = places_of(grid);
   std::vector<Offset> offsets = offsets_within(reach);
   const double square_of_radius = std::pow(reach * voxel, 2);
@@ -105,12 +107,12 @@ VoxelPairs close_voxels(const VoxelGrid& grid, double voxel, double reach,
   const double disk = 4.0 / 3 * std::numbers::pi * reach * reach;
   pairs.reserve(static_cast<std::size_t>(disk / 2 * static_cast<double>(grid.cells.size())));
   const auto most_of_voxel = static_cast<std::size_t>(2 * std::ceil(reach) + 1);
-  for (const Row& row : rows) {
+  for (const VoxelRow& row : rows) {
     for (Offset& offset : offsets) {
       const double y = row.y + offset.y, z = row.z + offset.z;
       while (offset.next < rows.size() && comes_before(rows[offset.next], y, z)) ++offset.next;
       if (offset.next == rows.size()) continue;
-      const Row& other = rows[offset.next];
+      const VoxelRow& other = rows[offset.next];
       if (other.y != y || other.z != z) continue;
       const std::size_t size = pairs.size();
       pairs.resize(size + most_of_voxel * (row.end - row.begin) + 1);

@@ -127,7 +127,7 @@ void TopGraph::for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_r
   const auto words_of = [&](std::uint32_t r) { return &words[std::size_t{r % kept} * width]; };
   for (std::uint32_t number = first_row - std::min(first_row, kept - 1); number < end_row;
        ++number) {
-    const StarGrid::Row row = grid_.row(number);
+    const StarGrid::VoxelRow row = grid_.row(number);
     std::uint32_t* const own = words_of(number);
     for (std::uint32_t x = 0; x < width; ++x) own[x] = word_of(row.first + x);
     if (number < first_row) continue;

@@ -36,7 +36,7 @@ class VoxelGraph {
       offset[edges] = kEdges[e][axis] > 0 ? grid_.stride(axis) : 0 - grid_.stride(axis);
     }
     for (std::uint32_t number = first_row; number < end_row; ++number) {
-      const StarGrid::Row row = grid_.row(number);
+      const StarGrid::VoxelRow row = grid_.row(number);
       if (row.is_at_border) continue;
       const std::uint32_t end = row.first + grid_.extent(2) - 1;
       for (std::uint32_t v = row.first + 1; v < end; ++v)

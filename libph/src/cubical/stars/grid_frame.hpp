@@ -84,12 +84,12 @@ class GridFrame {
   }
 
   /// Voxels along the last axis.
-  struct Row {
+  struct VoxelRow {
     std::uint32_t z, y, first;
     bool is_at_border;  ///< at an end of one of the other axes
   };
   std::uint32_t row_count() const { return size_ / extent(2); }
-  Row row(std::uint32_t number) const {
+  VoxelRow row(std::uint32_t number) const {
     const std::uint32_t z = number / extent(1), y = number % extent(1);
     return {z, y, number * extent(2), is_at_end(0, z) || is_at_end(1, y)};
   }

@@ -73,8 +73,8 @@ class DeadGenerators {
     std::size_t begin = 0;  // which word is the first
   };
   /// A vector that others are added to in any order.
-  struct Row {
-    explicit Row(std::pmr::memory_resource* memory) : met(memory), values(memory) {}
+  struct Accumulator {
+    explicit Accumulator(std::pmr::memory_resource* memory) : met(memory), values(memory) {}
     std::pmr::vector<Word> met;        // a bit for each generator; all zero between uses
     std::pmr::vector<Element> values;  // by generator, zero where none was met; none over Z/2
     std::size_t begin = 0, end = 0;    // of the words of those met
@@ -123,29 +123,29 @@ class DeadGenerators {
 
   Word dead_word(std::size_t k) const { return k < dead_.size() ? dead_[k] : 0; }
   bool occur_in(const Combination& c) const;
-  /// row += scale * combination.
-  void add(Row& row, const Combination& c, Element scale) const {
+  /// sum += scale * combination.
+  void add(Accumulator& sum, const Combination& c, Element scale) const {
     if (kIsZ2 && c.bits != kNone)
-      row.add(bits_[c.bits]);
+      sum.add(bits_[c.bits]);
     else
-      row.add(c.terms, scale, field_);
+      sum.add(c.terms, scale, field_);
   }
   /// The combination of a dead generator. It learns of deaths since: whoever needs it next finds
   /// hardly any dead ones in it.
   const Combination& updated(Generator g);
   /// @param combination_of what a dead generator is replaced by.
   template <class Find>
-  void eliminate(Row& row, Find&& combination_of);
-  /// What a row has, which is empty then. A combination that has bits keeps them.
-  void take_terms(Row& row, Vector& terms);
-  void take(Row& row, Combination& c);
+  void eliminate(Accumulator& sum, Find&& combination_of);
+  /// What a sum has, which is empty then. A combination that has bits keeps them.
+  void take_terms(Accumulator& sum, Vector& terms);
+  void take(Accumulator& sum, Combination& c);
 
   const K& field_;
   std::uint32_t count_ = 0;
   std::pmr::vector<Combination> combinations_;  // by generator; of those that live none
   std::pmr::vector<Bits> bits_;
-  std::pmr::vector<Word> dead_;         // a bit for each generator
-  Row for_vectors_, for_combinations_;  // a combination is updated while a vector is
+  std::pmr::vector<Word> dead_;                 // a bit for each generator
+  Accumulator for_vectors_, for_combinations_;  // a combination is updated while a vector is
 };
 
 template <Field K>
@@ -158,21 +158,21 @@ void DeadGenerators<K>::add(std::span<const Term> relation) {
     dead_.resize(g / 64 + 1, 0);
   }
   dead_[g / 64] |= Word{1} << (g % 64);
-  Row& row = for_combinations_;
-  row.reset(g / 64 + 1);
-  row.add(relation.first(relation.size() - 1), scale, field_);
-  take(row, combinations_[g]);
+  Accumulator& sum = for_combinations_;
+  sum.reset(g / 64 + 1);
+  sum.add(relation.first(relation.size() - 1), scale, field_);
+  take(sum, combinations_[g]);
   combinations_[g].seen = ++count_;
 }
 
 template <Field K>
 void DeadGenerators<K>::eliminate_from(Vector& vector) {
   if (vector.empty()) return;
-  Row& row = for_vectors_;
-  row.reset(vector.back().cell / 64 + 1);
-  row.add(vector, field_.from_int(1), field_);
-  eliminate(row, [&](Generator g) -> const Combination& { return updated(g); });
-  take_terms(row, vector);
+  Accumulator& sum = for_vectors_;
+  sum.reset(vector.back().cell / 64 + 1);
+  sum.add(vector, field_.from_int(1), field_);
+  eliminate(sum, [&](Generator g) -> const Combination& { return updated(g); });
+  take_terms(sum, vector);
 }
 
 template <Field K>
@@ -188,53 +188,53 @@ template <Field K>
 auto DeadGenerators<K>::updated(Generator g) -> const Combination& {
   Combination& c = combinations_[g];
   if (std::exchange(c.seen, count_) == count_ || !occur_in(c)) return c;
-  Row& row = for_combinations_;
-  row.reset(g / 64 + 1);
-  add(row, c, field_.from_int(1));
-  eliminate(row, [&](Generator other) -> const Combination& { return combinations_[other]; });
-  take(row, c);
+  Accumulator& sum = for_combinations_;
+  sum.reset(g / 64 + 1);
+  add(sum, c, field_.from_int(1));
+  eliminate(sum, [&](Generator other) -> const Combination& { return combinations_[other]; });
+  take(sum, c);
   return c;
 }
 
 template <Field K>
 template <class Find>
-void DeadGenerators<K>::eliminate(Row& row, Find&& combination_of) {
-  Word* const met = row.met.data();
+void DeadGenerators<K>::eliminate(Accumulator& sum, Find&& combination_of) {
+  Word* const met = sum.met.data();
   // From the youngest down: what comes in is older.
-  for (std::size_t k = std::min(row.end, dead_.size()); k-- > row.begin;)
+  for (std::size_t k = std::min(sum.end, dead_.size()); k-- > sum.begin;)
     while (const Word dead = met[k] & dead_[k]) {
       const auto bit = static_cast<std::size_t>(std::bit_width(dead)) - 1;
       met[k] ^= Word{1} << bit;
       const auto g = static_cast<Generator>(k * 64 + bit);
-      const Element value = row.take(g);
-      if (!field_.is_zero(value)) add(row, combination_of(g), value);
+      const Element value = sum.take(g);
+      if (!field_.is_zero(value)) add(sum, combination_of(g), value);
     }
 }
 
 template <Field K>
-void DeadGenerators<K>::take_terms(Row& row, Vector& terms) {
+void DeadGenerators<K>::take_terms(Accumulator& sum, Vector& terms) {
   terms.clear();
-  terms.reserve(row.count());
-  bits::for_each(row.met.data(), row.begin, row.end, [&](std::size_t g) {
-    const Element value = row.take(static_cast<Generator>(g));
+  terms.reserve(sum.count());
+  bits::for_each(sum.met.data(), sum.begin, sum.end, [&](std::size_t g) {
+    const Element value = sum.take(static_cast<Generator>(g));
     if (!field_.is_zero(value)) terms.emplace_back(static_cast<Generator>(g), value);
   });
-  row.clear();
+  sum.clear();
 }
 
 template <Field K>
-void DeadGenerators<K>::take(Row& row, Combination& c) {
+void DeadGenerators<K>::take(Accumulator& sum, Combination& c) {
   constexpr std::size_t many = 16;  // for fewer it is not worth a block of memory more
-  const auto words = row.words();
-  if (kIsZ2 && c.bits == kNone && row.count() >= std::max(many, words.size())) {
+  const auto words = sum.words();
+  if (kIsZ2 && c.bits == kNone && sum.count() >= std::max(many, words.size())) {
     c.bits = static_cast<std::uint32_t>(bits_.size());
     bits_.emplace_back();
     Vector(c.terms.get_allocator()).swap(c.terms);
   }
-  if (!kIsZ2 || c.bits == kNone) return take_terms(row, c.terms);
+  if (!kIsZ2 || c.bits == kNone) return take_terms(sum, c.terms);
   bits_[c.bits].words.assign(words.begin(), words.end());
-  bits_[c.bits].begin = row.begin;
-  row.clear();
+  bits_[c.bits].begin = sum.begin;
+  sum.clear();
 }
 
 }  // namespace ph

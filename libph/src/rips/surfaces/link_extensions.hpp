@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "ph/filtration.hpp"
-#include "rips/annotations/field_rows.hpp"
+#include "rips/annotations/vertex_functions.hpp"
 #include "rips/surfaces/triangle_cocycles.hpp"
 #include "rips/sweep/link_cover.hpp"
 #include "rips/sweep/link_forest.hpp"
@@ -28,8 +28,8 @@ class LinkExtensions {
   using Cocycles = TriangleCocycles<K>;
   using Cochain = typename Cocycles::Cochain;
   using Generator = typename Cocycles::Generator;
-  using Row = FieldRow<K>;
-  using Unit = typename Row::Unit;
+  using Function = VertexFunction<K>;
+  using Unit = typename Function::Unit;
 
   struct Extension {
     Generator generator;
@@ -53,7 +53,7 @@ class LinkExtensions {
         field_(field),
         all_(memory),
         rows_((graph.vertex_count() + 63) / 64, memory),
-        gamma_((graph.vertex_count() + 63) / 64 * Row::kUnitsPerBlock, 0, memory),
+        gamma_((graph.vertex_count() + 63) / 64 * Function::kUnitsPerBlock, 0, memory),
         terms_(memory) {}
 
   /// By ascending generator.
@@ -163,10 +163,10 @@ void LinkExtensions<K>::refresh(const FlagEdge& e) {
 
 template <Field K>
 void LinkExtensions<K>::add_row(Unit* to, const Unit* row, Element scale, std::size_t words) const {
-  if (graph_.keeps_numbers()) return Row::add(to, row, scale, field_, words);
+  if (graph_.keeps_numbers()) return Function::add(to, row, scale, field_, words);
   bits::for_each(graph_.link(), 0, words, [&](std::size_t w) {
-    const Element a = Row::value(row, graph_.global(static_cast<Vertex>(w)));
-    Row::add_at(to, w, field_.multiply(scale, a), field_);
+    const Element a = Function::value(row, graph_.global(static_cast<Vertex>(w)));
+    Function::add_at(to, w, field_.multiply(scale, a), field_);
   });
 }
 
@@ -187,11 +187,11 @@ void LinkExtensions<K>::extend_over_cone(Extension& x, const FlagEdge& e, Vertex
       if (!is_larger && Cochain::smaller(t) != own) continue;
       const Vertex w = graph_.local(is_larger ? Cochain::smaller(t) : Cochain::larger(t));
       if (w == LinkGraph::kNone) continue;
-      Row::add_at(p, w, is_larger != at_v ? field_.negate(t.coefficient()) : t.coefficient(),
-                  field_);
+      Function::add_at(p, w, is_larger != at_v ? field_.negate(t.coefficient()) : t.coefficient(),
+                       field_);
     }
   }
-  x.is_flat = !Row::restrict(p, graph_.link(), graph_.words());
+  x.is_flat = !Function::restrict(p, graph_.link(), graph_.words());
 }
 
 template <Field K>
@@ -228,7 +228,7 @@ bool LinkExtensions<K>::find_gamma(const Extension& x, const FlagEdge& e, Vertex
                                    std::size_t words) {
   bool is_clear = false;
   const auto clear = [&] {
-    if (!is_clear) std::fill_n(gamma_.begin(), words * Row::kUnitsPerBlock, Unit{});
+    if (!is_clear) std::fill_n(gamma_.begin(), words * Function::kUnitsPerBlock, Unit{});
     is_clear = true;
   };
   if (x.cocycle->is_dense()) {
@@ -248,10 +248,10 @@ bool LinkExtensions<K>::find_gamma(const Extension& x, const FlagEdge& e, Vertex
                               [](const Term& term, std::uint32_t at) { return term.cell < at; });
     for (; t != last && Cochain::larger(*t) == y && Cochain::smaller(*t) < 64 * words; ++t) {
       clear();
-      Row::add_at(gamma_.data(), Cochain::smaller(*t), t->coefficient(), field_);
+      Function::add_at(gamma_.data(), Cochain::smaller(*t), t->coefficient(), field_);
     }
   }
-  return is_clear && Row::restrict(gamma_.data(), set, words);
+  return is_clear && Function::restrict(gamma_.data(), set, words);
 }
 
 template <Field K>
@@ -265,16 +265,16 @@ bool LinkExtensions<K>::extend_over(Extension& x, const FlagEdge& e, const LinkC
     const bool is_zero = !find_gamma(x, e, y, neighbours, words);
     if (is_zero && (is_hub || x.is_flat)) continue;
     if (is_hub) {  // p(w) = gamma(hub,w)
-      Row::assign(p, gamma_.data(), field_.from_int(0), neighbours, field_, words);
+      Function::assign(p, gamma_.data(), field_.from_int(0), neighbours, field_, words);
       x.is_flat = false;
       continue;
     }
-    if (is_zero) std::fill_n(gamma_.begin(), words * Row::kUnitsPerBlock, Unit{});
+    if (is_zero) std::fill_n(gamma_.begin(), words * Function::kUnitsPerBlock, Unit{});
     const std::size_t w = bits::first_common(neighbours, neighbours, words);
-    const Element value = field_.add(Row::value(p, w), Row::value(gamma_.data(), w));
-    if (!Row::is_sum(value, p, gamma_.data(), neighbours, field_, words)) return false;
+    const Element value = field_.add(Function::value(p, w), Function::value(gamma_.data(), w));
+    if (!Function::is_sum(value, p, gamma_.data(), neighbours, field_, words)) return false;
     if (field_.is_zero(value)) continue;
-    Row::add_at(p, y, value, field_);
+    Function::add_at(p, y, value, field_);
     x.is_flat = false;
   }
   return true;
@@ -287,24 +287,26 @@ bool LinkExtensions<K>::extend_to(Extension& x, const FlagEdge& e, Vertex y,
   const std::size_t words = LinkForest::words_to(y);
   if (!find_gamma(x, e, y, forest.neighbours(), words)) {
     if (x.is_flat) return false;
-    std::fill_n(gamma_.begin(), words * Row::kUnitsPerBlock, Unit{});
+    std::fill_n(gamma_.begin(), words * Function::kUnitsPerBlock, Unit{});
   }
   Unit* p = potential(x);
   const auto& meetings = forest.meetings();
   const auto asked_at = [&](Vertex w) {
-    return field_.add(Row::value(p, w), Row::value(gamma_.data(), w));
+    return field_.add(Function::value(p, w), Function::value(gamma_.data(), w));
   };
   const Element value = asked_at(meetings.front().at);
   for (std::size_t i = 0; i < meetings.size(); ++i) {
     const Element here = asked_at(meetings[i].at);
-    if (Row::difference(mismatch(x), p, gamma_.data(), here, forest.neighbours(i), field_, words))
+    if (Function::difference(mismatch(x), p, gamma_.data(), here, forest.neighbours(i), field_,
+                             words))
       x.is_mismatched = true;
     if (here == value) continue;
-    Row::shift(p, forest.part(meetings[i]), field_.add(value, field_.negate(here)), field_, words);
+    Function::shift(p, forest.part(meetings[i]), field_.add(value, field_.negate(here)), field_,
+                    words);
     x.is_flat = false;
   }
   if (!field_.is_zero(value)) {
-    Row::add_at(p, y, value, field_);
+    Function::add_at(p, y, value, field_);
     x.is_flat = false;
   }
   return x.is_mismatched;

@@ -51,7 +51,7 @@ class LinkSurfaces {
         forest_(graph, &context.memory),
         extensions_(cocycles_, graph, field, &context.memory),
         partners_(&context.memory),
-        star_((graph.vertex_count() + 63) / 64 * Row::kUnitsPerBlock, 0, &context.memory),
+        star_((graph.vertex_count() + 63) / 64 * Function::kUnitsPerBlock, 0, &context.memory),
         own_star_(star_.size(), 0, &context.memory),
         cocycle_(&context.memory) {}
 
@@ -67,8 +67,8 @@ class LinkSurfaces {
   using Cocycles = TriangleCocycles<K>;
   using Generator = typename Cocycles::Generator;
   using Extension = typename LinkExtensions<K>::Extension;
-  using Row = FieldRow<K>;
-  using Unit = typename Row::Unit;
+  using Function = VertexFunction<K>;
+  using Unit = typename Function::Unit;
 
   static constexpr Position kDead = UINT32_MAX;
 
@@ -112,8 +112,8 @@ template <Field K>
 void LinkSurfaces<K>::give_birth(Triangle birth, const FlagEdge& e, const Word* component) {
   const Generator h = cocycles_.add_generator();
   births_.push_back(birth);
-  std::fill_n(star_.begin(), graph_.words() * Row::kUnitsPerBlock, Unit{});
-  Row::shift(star_.data(), component, field_.from_int(1), field_, graph_.words());
+  std::fill_n(star_.begin(), graph_.words() * Function::kUnitsPerBlock, Unit{});
+  Function::shift(star_.data(), component, field_.from_int(1), field_, graph_.words());
   add_star(h, e, star_.data());
 }
 
@@ -121,12 +121,12 @@ template <Field K>
 void LinkSurfaces<K>::add_star(Generator h, const FlagEdge& e, const Unit* star) {
   if (graph_.keeps_numbers()) return cocycles_.add_star(h, e.u, e.v, star);
   const auto own = [&](std::size_t w) { return graph_.global(static_cast<Vertex>(w)); };
-  Row::for_each(star, graph_.words(), [&](std::size_t w, Element a) {
-    Row::add_at(own_star_.data(), own(w), a, field_);
+  Function::for_each(star, graph_.words(), [&](std::size_t w, Element a) {
+    Function::add_at(own_star_.data(), own(w), a, field_);
   });
   cocycles_.add_star(h, e.u, e.v, own_star_.data());
-  Row::for_each(star, graph_.words(), [&](std::size_t w, Element a) {
-    Row::add_at(own_star_.data(), own(w), field_.negate(a), field_);
+  Function::for_each(star, graph_.words(), [&](std::size_t w, Element a) {
+    Function::add_at(own_star_.data(), own(w), field_.negate(a), field_);
   });
 }
 
@@ -173,7 +173,7 @@ void LinkSurfaces<K>::sweep(Position position, const FlagEdge& e, bool is_extend
 
 template <Field K>
 auto LinkSurfaces<K>::mismatch_of(const Extension& x, Vertex w) -> Element {
-  return x.is_mismatched ? Row::value(extensions_.mismatch(x), w) : field_.from_int(0);
+  return x.is_mismatched ? Function::value(extensions_.mismatch(x), w) : field_.from_int(0);
 }
 
 template <Field K>
@@ -185,7 +185,7 @@ void LinkSurfaces<K>::kill_mismatched(Position position, const FlagEdge& e, Vert
     std::size_t first = bits::kNone;
     for (const Extension& x : all)
       if (x.is_mismatched)
-        first = std::min(first, Row::first(extensions_.mismatch(x), from, words));
+        first = std::min(first, Function::first(extensions_.mismatch(x), from, words));
     if (first == bits::kNone) break;
     const auto w = static_cast<Vertex>(first);
     from = w + 1;
@@ -222,8 +222,8 @@ void LinkSurfaces<K>::correct_others(std::size_t dying, Vertex w, std::size_t wo
     if (field_.is_zero(a)) continue;
     const Element scale = field_.negate(field_.multiply(a, field_.inverse(mismatch_of(y, w))));
     cocycles_.add(x.generator, y.generator, scale);
-    Row::add(extensions_.potential(x), extensions_.potential(y), scale, field_, words);
-    Row::add(extensions_.mismatch(x), extensions_.mismatch(y), scale, field_, words);
+    Function::add(extensions_.potential(x), extensions_.potential(y), scale, field_, words);
+    Function::add(extensions_.mismatch(x), extensions_.mismatch(y), scale, field_, words);
     x.is_flat = false;
   }
 }
@@ -233,8 +233,8 @@ void LinkSurfaces<K>::report_zero_length(const FlagEdge& e, Vertex root, const W
                                          typename Observer::Tetrahedron tetrahedron) {
   cocycle_.clear();
   if (wanted_.cocycles) {
-    std::fill_n(star_.begin(), graph_.words() * Row::kUnitsPerBlock, Unit{});
-    Row::shift(star_.data(), part, field_.from_int(1), field_, graph_.words());
+    std::fill_n(star_.begin(), graph_.words() * Function::kUnitsPerBlock, Unit{});
+    Function::shift(star_.data(), part, field_.from_int(1), field_, graph_.words());
     add_star_to_cocycle(e, star_.data(), graph_.words());
   }
   observer_.on_death({tetrahedron.edge, graph_.global(root)}, tetrahedron, cocycle_);
@@ -248,10 +248,10 @@ void LinkSurfaces<K>::store(const Extension& x, const FlagEdge& e,
   const std::size_t words = graph_.words();
   for (std::size_t i = 0; i < components.count(); ++i) {
     const Word* set = components.count() == 1 ? graph_.link() : components.vertices(i);
-    const Element most = Row::majority(p, set, field_, words);
-    if (!field_.is_zero(most)) Row::shift(p, set, field_.negate(most), field_, words);
+    const Element most = Function::majority(p, set, field_, words);
+    if (!field_.is_zero(most)) Function::shift(p, set, field_.negate(most), field_, words);
   }
-  if (!Row::is_zero(p, words)) add_star(x.generator, e, p);
+  if (!Function::is_zero(p, words)) add_star(x.generator, e, p);
 }
 
 template <Field K>
@@ -266,7 +266,7 @@ void LinkSurfaces<K>::find_cocycle(Generator h) {
 
 template <Field K>
 void LinkSurfaces<K>::add_star_to_cocycle(const FlagEdge& e, const Unit* star, std::size_t blocks) {
-  Row::for_each(star, blocks, [&](std::size_t apex, Element a) {
+  Function::for_each(star, blocks, [&](std::size_t apex, Element a) {
     std::array<Vertex, 3> vertices{e.v, e.u, graph_.global(static_cast<Vertex>(apex))};
     // phi(u,v,w): an odd number of swaps away from (v,u,w)
     const bool is_odd = vertices[2] > e.u || vertices[2] < e.v;

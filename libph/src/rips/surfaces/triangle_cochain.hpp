@@ -9,8 +9,8 @@
 
 #include "ph/detail/chain.hpp"
 #include "ph/detail/field.hpp"
-#include "rips/annotations/field_rows.hpp"
 #include "rips/annotations/list_pool.hpp"
+#include "rips/annotations/vertex_functions.hpp"
 #include "rips/sweep/link_graph.hpp"
 #include "rips/sweep/sorted_terms.hpp"
 
@@ -24,8 +24,8 @@ class TriangleCochain {
  public:
   using Vertex = std::uint32_t;
   using Element = typename K::Element;
-  using Row = FieldRow<K>;
-  using Unit = typename Row::Unit;
+  using Function = VertexFunction<K>;
+  using Unit = typename Function::Unit;
   using Word = bits::Word;
   /// In the list of a vertex a: a pair of other vertices, named by `pair`, with phi(a, smaller,
   /// larger).
@@ -46,7 +46,7 @@ class TriangleCochain {
            std::pmr::memory_resource* memory)
         : field(field_),
           blocks((vertices + 63) / 64),
-          most_terms(most_terms_ * Row::kUnitsPerBlock * sizeof(Unit) / sizeof(Word)),
+          most_terms(most_terms_ * Function::kUnitsPerBlock * sizeof(Unit) / sizeof(Word)),
           rows(blocks, memory),
           lists(memory),
           merged(memory),
@@ -126,8 +126,8 @@ class TriangleCochain {
   void make_row(Vertex a, Vertex b, Shared& shared);
   /// phi(a,b,c) += value, in the row of ab.
   void add_to_row(Vertex a, Vertex b, Vertex c, Element value, Shared& shared) {
-    Row::add_at(made_row(a, b, shared), c, a < b ? value : shared.field.negate(value),
-                shared.field);
+    Function::add_at(made_row(a, b, shared), c, a < b ? value : shared.field.negate(value),
+                     shared.field);
   }
   /// += scale * other, both in lists.
   template <class OnEnter, class OnLeave>
@@ -275,7 +275,7 @@ void TriangleCochain<K>::add(const TriangleCochain& other, Element scale, Shared
   if (!other.is_dense()) return;
   other.for_each_row([&](Vertex a, Vertex b, typename RowPool<K>::Id id) {
     Unit* to = made_row(a, b, shared);
-    Row::add(to, shared.rows[id], scale, shared.field, shared.blocks);
+    Function::add(to, shared.rows[id], scale, shared.field, shared.blocks);
   });
   drop_zero_rows(shared);
 }
@@ -286,8 +286,9 @@ void TriangleCochain<K>::add_star_to_rows(Vertex u, Vertex v, const Unit* star, 
                                           OnEnter&& on_enter) {
   enter(u, shared, on_enter);
   enter(v, shared, on_enter);
-  Row::add(made_row(v, u, shared), star, shared.field.from_int(-1), shared.field, shared.blocks);
-  Row::for_each(star, shared.blocks, [&](std::size_t apex, Element) {
+  Function::add(made_row(v, u, shared), star, shared.field.from_int(-1), shared.field,
+                shared.blocks);
+  Function::for_each(star, shared.blocks, [&](std::size_t apex, Element) {
     const auto w = static_cast<Vertex>(apex);
     enter(w, shared, on_enter);
     if (!has_row(u, w)) make_row(u, w, shared);
@@ -295,18 +296,18 @@ void TriangleCochain<K>::add_star_to_rows(Vertex u, Vertex v, const Unit* star, 
   });
   // Rows are anywhere in memory: all are asked for before the first is waited for.
   const auto *of_u = at_[u].rows.data(), *of_v = at_[v].rows.data();
-  Row::for_each(star, shared.blocks, [&](std::size_t w, Element) {
+  Function::for_each(star, shared.blocks, [&](std::size_t w, Element) {
     __builtin_prefetch(of_u + w);
     __builtin_prefetch(of_v + w);
   });
-  Row::for_each(star, shared.blocks, [&](std::size_t w, Element) {
-    Row::prefetch(shared.rows[of_u[w]], v);
-    Row::prefetch(shared.rows[of_v[w]], u);
+  Function::for_each(star, shared.blocks, [&](std::size_t w, Element) {
+    Function::prefetch(shared.rows[of_u[w]], v);
+    Function::prefetch(shared.rows[of_v[w]], u);
   });
-  Row::for_each(star, shared.blocks, [&](std::size_t w, Element a) {
+  Function::for_each(star, shared.blocks, [&](std::size_t w, Element a) {
     const Element opposite = shared.field.negate(a);
-    Row::add_at(shared.rows[of_u[w]], v, w < u ? a : opposite, shared.field);
-    Row::add_at(shared.rows[of_v[w]], u, v < w ? a : opposite, shared.field);
+    Function::add_at(shared.rows[of_u[w]], v, w < u ? a : opposite, shared.field);
+    Function::add_at(shared.rows[of_v[w]], u, v < w ? a : opposite, shared.field);
   });
 }
 
@@ -323,14 +324,14 @@ void TriangleCochain<K>::add_star(Vertex u, Vertex v, const Unit* star, Shared& 
   auto& terms = shared.star;
   for (const auto& [end, other] : {std::pair{u, v}, std::pair{v, u}}) {
     terms.clear();
-    Row::for_each(star, shared.blocks, [&](std::size_t apex, Element a) {
+    Function::for_each(star, shared.blocks, [&](std::size_t apex, Element a) {
       const auto w = static_cast<Vertex>(apex);
       terms.emplace_back(pair(std::max(other, w), std::min(other, w)),
                          (end == u) == (other < w) ? a : field.negate(a));
     });
     add_terms(end, terms, one, shared, on_enter, on_leave);
   }
-  Row::for_each(star, shared.blocks, [&](std::size_t apex, Element a) {
+  Function::for_each(star, shared.blocks, [&](std::size_t apex, Element a) {
     const Term only(pair(u, v), field.negate(a));
     add_terms(static_cast<Vertex>(apex), {&only, 1}, one, shared, on_enter, on_leave);
   });
@@ -348,7 +349,7 @@ void TriangleCochain<K>::for_each_row(Visit&& visit) const {
 template <Field K>
 void TriangleCochain<K>::drop_zero_rows(Shared& shared) {
   for_each_row([&](Vertex a, Vertex b, typename RowPool<K>::Id id) {
-    if (!Row::is_zero(shared.rows[id], shared.blocks)) return;
+    if (!Function::is_zero(shared.rows[id], shared.blocks)) return;
     shared.rows.give(id);
     --row_count_;
     at_[a].present[b / 64] &= ~(Word{1} << (b % 64));
@@ -380,7 +381,7 @@ void TriangleCochain<K>::for_each_triangle(const Shared& shared, Visit&& visit) 
     for (const Term& t : shared.lists[list])
       if (a < smaller(t)) visit(a, smaller(t), larger(t), t.coefficient());
   for_each_row([&](Vertex a, Vertex b, auto id) {
-    Row::for_each(shared.rows[id], shared.blocks, [&](std::size_t c, Element value) {
+    Function::for_each(shared.rows[id], shared.blocks, [&](std::size_t c, Element value) {
       if (b < c) visit(a, b, static_cast<Vertex>(c), value);
     });
   });

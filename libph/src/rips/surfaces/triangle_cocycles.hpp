@@ -20,7 +20,7 @@ class TriangleCocycles {
   using Vertex = std::uint32_t;
   using Cochain = TriangleCochain<K>;
   using Element = typename K::Element;
-  using Unit = typename FieldRow<K>::Unit;
+  using Unit = typename VertexFunction<K>::Unit;
   using ListId = typename Cochain::ListId;
   /// A generator with triangles at a vertex, perhaps, and their list, unless its cocycle is dense.
   struct At {

@@ -14,7 +14,7 @@ namespace ph {
 /// Functions from vertices to a field, as arrays of fixed length: 64 vertices to a block. The
 /// caller owns the units; masks are rows of bits. Functions take the number of blocks to look at.
 template <Field K>
-struct FieldRow {
+struct VertexFunction {
   using Unit = typename K::Element;
   using Element = typename K::Element;
   using Word = bits::Word;
@@ -102,7 +102,7 @@ struct FieldRow {
 };
 
 template <>
-struct FieldRow<Z2> {
+struct VertexFunction<Z2> {
   using Unit = bits::Word;
   using Element = Z2::Element;
   using Word = bits::Word;
@@ -171,11 +171,11 @@ struct FieldRow<Z2> {
 template <Field K>
 class RowPool {
  public:
-  using Unit = typename FieldRow<K>::Unit;
+  using Unit = typename VertexFunction<K>::Unit;
   using Id = std::uint32_t;
 
   RowPool(std::size_t blocks, std::pmr::memory_resource* memory)
-      : units_(blocks * FieldRow<K>::kUnitsPerBlock), chunks_(memory), free_(memory) {}
+      : units_(blocks * VertexFunction<K>::kUnitsPerBlock), chunks_(memory), free_(memory) {}
 
   Id take() {
     if (free_.empty()) {
