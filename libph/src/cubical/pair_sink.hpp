@@ -22,21 +22,22 @@ class PairSink {
   /// unless both have the same value.
   void pair(int dim, const StarCell& birth, const StarCell& death) {
     if (birth.value == death.value) return;
-    if (grid_.relative())  // turned around
+    if (grid_.is_t_construction())  // turned around
       add({grid_.top_dim() - dim - 1, value(death), value(birth)}, death, &birth);
     else
       add({dim, value(birth), value(death)}, birth, &death);
   }
   /// A class that never dies.
   void essential(int dim, const StarCell& birth) {
-    add({grid_.relative() ? grid_.top_dim() - dim : dim, value(birth), kInfinity}, birth, nullptr);
+    add({grid_.is_t_construction() ? grid_.top_dim() - dim : dim, value(birth), kInfinity}, birth,
+        nullptr);
   }
   /// Hands over what it still holds.
   void finish() { blocks_.finish(); }
 
  private:
   double value(const StarCell& cell) const {
-    return (grid_.relative() ? -cell.value : cell.value) + 0.0;
+    return (grid_.is_t_construction() ? -cell.value : cell.value) + 0.0;
   }
   void add(const Bar& bar, const StarCell& birth, const StarCell* death) {
     blocks_.add(bar,

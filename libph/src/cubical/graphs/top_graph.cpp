@@ -6,7 +6,7 @@ namespace ph::cubical {
 TopGraph::TopGraph(const StarGrid& grid) : grid_(grid) {
   for (int a = 2; a >= 0; --a) {
     // With a border around the voxels there is one more cell than voxels along an axis.
-    border_[a] = grid.relative() && grid.has_axis(a) && !grid.is_periodic(a) ? 1 : 0;
+    border_[a] = grid.is_t_construction() && grid.has_axis(a) && !grid.is_periodic(a) ? 1 : 0;
     extent_[a] = grid.extent(a) + border_[a];
     stride_[a] = count_;
     by_extent_[a] = Divisor(extent_[a]);
@@ -102,7 +102,7 @@ std::optional<double> TopGraph::seam_value(std::uint32_t node) const {
   std::optional<double> youngest;
   for_each_corner(node, [&](std::uint32_t v, const Direction&) {
     // In the T-construction what never enters has always been there.
-    if (grid_.enters(v) || !grid_.relative())
+    if (grid_.enters(v) || !grid_.is_t_construction())
       youngest = std::max(youngest.value_or(grid_.value(v)), grid_.value(v));
     return false;
   });

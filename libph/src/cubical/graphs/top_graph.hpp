@@ -37,7 +37,7 @@ class TopGraph {
   template <class Use>
   void for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_row, Use&& use) const;
   /// Whether anything but the outside has always been there.
-  bool has_endless() const { return !grid_.relative() && !grid_.all_enter(); }
+  bool has_endless() const { return !grid_.is_t_construction() && !grid_.all_enter(); }
   /// Calls `use(node)` for what hangs together because a voxel never enters: all top cells around
   /// it.
   template <class Use>

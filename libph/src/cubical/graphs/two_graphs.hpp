@@ -24,11 +24,11 @@ inline bool wants_lowest(const GridFrame& frame, const WantedBars& wanted) {
 }
 /// Whether bars are wanted that come from the graph of voxels: H0; turned around the highest ones.
 inline bool wants_vertices(const GridFrame& frame, const WantedBars& wanted) {
-  return frame.relative() ? wanted.max_dim > 0 : wants_lowest(frame, wanted);
+  return frame.is_t_construction() ? wanted.max_dim > 0 : wants_lowest(frame, wanted);
 }
 /// The same for the graph of top cells.
 inline bool wants_top_cells(const GridFrame& frame, const WantedBars& wanted) {
-  return frame.relative() ? wants_lowest(frame, wanted) : wanted.max_dim > 0;
+  return frame.is_t_construction() ? wants_lowest(frame, wanted) : wanted.max_dim > 0;
 }
 
 /// How many of two tasks a thread takes: both where a thread would cost more than it saves.

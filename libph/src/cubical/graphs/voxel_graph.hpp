@@ -45,7 +45,7 @@ class VoxelGraph {
     }
   }
   /// Whether anything but the outside has always been there.
-  bool has_endless() const { return grid_.relative() && !grid_.all_enter(); }
+  bool has_endless() const { return grid_.is_t_construction() && !grid_.all_enter(); }
   /// Calls `use(node)` for what has always been there and hangs together because a voxel never
   /// enters.
   template <class Use>
@@ -71,7 +71,7 @@ class VoxelGraph {
   }
   /// The value of a node of a seam, in the order of the stars; nothing if it never counts.
   std::optional<double> seam_value(std::uint32_t v) const {
-    if (!grid_.enters(v) && !grid_.relative()) return std::nullopt;
+    if (!grid_.enters(v) && !grid_.is_t_construction()) return std::nullopt;
     return grid_.value(v);
   }
   /// Whether the slab knows where a node of a seam leads.

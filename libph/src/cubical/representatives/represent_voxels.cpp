@@ -81,7 +81,7 @@ class Representing {
   void run_few_axes() {
     CriticalCells edges = critical_cells(grid_, 1, context_);
     const int top = grid_.top_dim();
-    const bool turned_around = grid_.relative();
+    const bool turned_around = grid_.is_t_construction();
     const VoxelGraph voxels(grid_);
     if (top < 2) {
       // The only graph is that of the voxels: of T it is the dual one, with the homology of both.
@@ -110,7 +110,7 @@ class Representing {
     const VoxelGraph voxels(grid_);
     const TopGraph tops(grid_);
     CriticalCells edges(&context_.memory), squares(&context_.memory);
-    const bool turned_around = grid_.relative();
+    const bool turned_around = grid_.is_t_construction();
     if (!turned_around || !only_components_) edges = critical_cells(grid_, 1, context_);
     if (turned_around || !only_components_) squares = critical_cells(grid_, 2, context_);
     if (turned_around) {

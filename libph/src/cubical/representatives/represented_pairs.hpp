@@ -42,7 +42,8 @@ class RepresentedPairs {
   bool wants_hollows() const { return wants_sets() && grid_.loop_count() == 0; }
   /// See PairSink. @param fill is called for a set, for a chain, for both or never.
   void pair(int dim, const StarCell& birth, const StarCell& death, const Fill& fill) {
-    begin(grid_.relative() ? death : birth, grid_.relative() ? &birth : &death, fill);
+    begin(grid_.is_t_construction() ? death : birth, grid_.is_t_construction() ? &birth : &death,
+          fill);
     pairs_.pair(dim, birth, death);
   }
   void essential(int dim, const StarCell& birth, const Fill& fill) {

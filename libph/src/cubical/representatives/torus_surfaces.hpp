@@ -60,7 +60,7 @@ class TorusSurfaces {
     const std::uint32_t x = grid_.coordinate(node, axis), last = grid_.extent(axis) - 1;
     const int turn = sign > 0 ? (x == last ? 1 : 0) : (x == 0 ? -1 : 0);
     Direction d{};
-    if (grid_.relative()) {  // top cells are voxels
+    if (grid_.is_t_construction()) {  // top cells are voxels
       d[axis] = sign;
       return {axis, node, d, turn};
     }
@@ -84,8 +84,8 @@ class TorusSurfaces {
   bool is_open(const StarCell& birth, const Step& step) const {
     const auto facet = in_its_star(grid_, step.voxel, step.facet);
     if (!facet) return true;
-    return grid_.relative() ? comes_before(grid_, *facet, birth)
-                            : comes_before(grid_, birth, *facet);
+    return grid_.is_t_construction() ? comes_before(grid_, *facet, birth)
+                                     : comes_before(grid_, birth, *facet);
   }
 
   static Turns jump(const RawVector<Turns>& at, std::uint32_t from, std::uint32_t to,

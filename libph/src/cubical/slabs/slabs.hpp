@@ -90,7 +90,7 @@ class Slabs {
     };
     const Part own{begin(slab), end(slab)}, first{0, 1}, last{depth() - 1, depth()};
     std::array<Part, 2> parts{goes_before ? last : own, goes_before ? own : first};
-    if (frame_.relative()) std::swap(parts[0], parts[1]);  // as they lie in memory
+    if (frame_.is_t_construction()) std::swap(parts[0], parts[1]);  // as they lie in memory
     around_.clear();
     for (const Part& part : parts) {
       const CubicalImage image = frame_.layers(part.begin, part.end);

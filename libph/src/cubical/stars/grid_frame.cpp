@@ -27,7 +27,7 @@ bool GridFrame::can_hold(const CubicalImage& grid) {
 GridFrame::GridFrame(const CubicalImage& grid)
     : grid_(grid),
       size_(static_cast<std::uint32_t>(grid.size())),
-      relative_(!grid.voxels_are_vertices) {
+      is_t_construction_(!grid.voxels_are_vertices) {
   int axis = 3;
   std::uint32_t stride = 1;
   for (std::size_t k = grid.extents.size(); k-- > 0;) {
@@ -62,14 +62,15 @@ void GridFrame::append_numbers(const StarCell& cell, unsigned loops,
     const Index n = axes_[a].extent;
     Index x = 2 * Index{coordinate(cell.voxel, a)} + cell.direction[a];
     if (x < 0 && axes_[a].periodic) x = 2 * n - 1;
-    numbers[base + static_cast<std::size_t>(input_axis_[a])] = relative_ ? 2 * n - 1 - x : x;
+    numbers[base + static_cast<std::size_t>(input_axis_[a])] =
+        is_t_construction_ ? 2 * n - 1 - x : x;
   }
   for (std::size_t i = 0; i < loops_.size(); ++i)
     numbers[base + loops_[i]] = static_cast<Index>(loops >> i & 1U);
 }
 
 CubicalImage GridFrame::layers(std::uint32_t begin, std::uint32_t end) const {
-  const std::size_t first = relative_ ? extent(layer_axis()) - end : begin;
+  const std::size_t first = is_t_construction_ ? extent(layer_axis()) - end : begin;
   return layers_of(
       static_cast<const std::byte*>(grid_.voxels) + first * layer_size() * bytes_of(grid_.type),
       end - begin);

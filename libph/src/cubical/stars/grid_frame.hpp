@@ -38,7 +38,7 @@ class Divisor {
 /// Both constructions are seen as one. The T-construction of f is the V-construction of -f turned
 /// around: reversed in value, with all axes running backwards, a border of voxels that have always
 /// been there around it, and dimension k in place of top - k; what has always been there is no cell
-/// ("relative").
+/// (homology relative to it).
 class GridFrame {
  public:
   /// Three axes at most that have more than one voxel (V) or are not closed up at one (T), and no
@@ -47,8 +47,8 @@ class GridFrame {
   /// Precondition: can_hold(grid).
   explicit GridFrame(const CubicalImage& grid);
 
-  int top_dim() const { return top_dim_; }      ///< of the stars' grid
-  bool relative() const { return relative_; }   ///< T-construction
+  int top_dim() const { return top_dim_; }  ///< of the stars' grid
+  bool is_t_construction() const { return is_t_construction_; }
   std::uint32_t size() const { return size_; }  ///< voxels
   bool has_axis(int axis) const { return axes_[axis].exists; }
   bool is_periodic(int axis) const { return axes_[axis].periodic; }
@@ -69,10 +69,10 @@ class GridFrame {
 
   /// The value in the order of the stars.
   double value(std::uint32_t v) const {
-    return relative_ ? -grid_.value(size_ - 1 - v) : grid_.value(v);
+    return is_t_construction_ ? -grid_.value(size_ - 1 - v) : grid_.value(v);
   }
   /// Where a voxel is in the input.
-  std::uint32_t place(std::uint32_t v) const { return relative_ ? size_ - 1 - v : v; }
+  std::uint32_t place(std::uint32_t v) const { return is_t_construction_ ? size_ - 1 - v : v; }
   std::uint32_t coordinate(std::uint32_t v, int axis) const {
     const Axis& a = axes_[axis];
     const std::uint32_t layer = a.by_stride.divide(v);
@@ -109,7 +109,7 @@ class GridFrame {
   /// in such a direction leaves the grid.
   std::uint32_t step_in_star(std::uint32_t v, int edge) const {
     const int axis = axis_of_edge(edge), sign = kEdges[edge][axis];
-    if (relative_ || any_periodic_) return step(v, axis, sign);
+    if (is_t_construction_ || any_periodic_) return step(v, axis, sign);
     return sign > 0 ? v + axes_[axis].stride : v - axes_[axis].stride;
   }
 
@@ -156,7 +156,7 @@ class GridFrame {
   CubicalImage grid_;
   std::array<Axis, 3> axes_;  // the last one is the fastest
   std::uint32_t size_ = 0;
-  bool relative_ = false, any_periodic_ = false;
+  bool is_t_construction_ = false, any_periodic_ = false;
 
  private:
   const StarTables& plain_tables_ = star_tables(0);

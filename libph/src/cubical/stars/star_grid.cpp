@@ -44,7 +44,7 @@ StarGrid::StarGrid(const CubicalImage& grid, const RunContext& context, const Sl
   stars_.resize(size_);
   with_voxels(grid.type, grid.voxels, [&]<class T>(const T* voxels) {
     // The T-construction runs backwards.
-    if (relative_)
+    if (is_t_construction_)
       grid.superlevel ? find_stars<VoxelAges<false, true>>(voxels)
                       : find_stars<VoxelAges<true, true>>(voxels);
     else
@@ -63,7 +63,7 @@ CubePairMemos cube_pair_memos(const GridFrame& frame, const RunContext& context)
 
 template <class Ages, class T>
 std::uint32_t StarGrid::find_one(const T* voxels, std::uint32_t v) const {
-  const auto at = [&](std::uint32_t u) { return voxels[relative_ ? size_ - 1 - u : u]; };
+  const auto at = [&](std::uint32_t u) { return voxels[is_t_construction_ ? size_ - 1 - u : u]; };
   std::uint32_t star = 0;
   const T value = at(v);
   const auto look = [&](const Direction& d) {
@@ -73,7 +73,7 @@ std::uint32_t StarGrid::find_one(const T* voxels, std::uint32_t v) const {
       if (!axes_[a].exists) return;
       if (u != kOutside) u = step(u, a, d[a]);
     }
-    const bool older = u == kOutside        ? relative_
+    const bool older = u == kOutside        ? is_t_construction_
                        : comes_before(u, v) ? Ages::is_not_younger(at(u), value)
                                             : Ages::is_older(at(u), value);
     if (older) star |= star_bit(d);
@@ -94,13 +94,13 @@ void StarGrid::find_block(const T* voxels, const Block& block, std::uint32_t* st
   std::fill_n(stars, count, 0U);
   // From here on x runs as the memory does; in the T-construction that is backwards.
   const auto block_at = [&](std::uint32_t row) {
-    return relative_ ? voxels + (size_ - row - block.end) : voxels + (row + block.begin);
+    return is_t_construction_ ? voxels + (size_ - row - block.end) : voxels + (row + block.begin);
   };
   const T* center = block_at(first);
-  const bool from_border = (relative_ ? block.end == n : block.begin == 0);
-  const bool to_border = (relative_ ? block.begin == 0 : block.end == n);
+  const bool from_border = (is_t_construction_ ? block.end == n : block.begin == 0);
+  const bool to_border = (is_t_construction_ ? block.begin == 0 : block.end == n);
   const std::uint32_t x_begin = from_border ? 1 : 0, x_end = count - (to_border ? 1 : 0);
-  const int forward = relative_ ? -1 : 1;
+  const int forward = is_t_construction_ ? -1 : 1;
   for (int dz = -1; dz <= 1; ++dz) {
     if (dz != 0 && !deep.exists) continue;
     for (int dy = -1; dy <= 1; ++dy) {
@@ -121,7 +121,7 @@ void StarGrid::find_block(const T* voxels, const Block& block, std::uint32_t* st
       move(deep, block.z, dz);
       move(high, block.y, dy);
       if (outside) {
-        if (relative_)
+        if (is_t_construction_)
           for (std::uint32_t x = 0; x < count; ++x) stars[x] |= bits[0] | bits[1] | bits[2];
         continue;
       }
@@ -139,13 +139,13 @@ void StarGrid::find_block(const T* voxels, const Block& block, std::uint32_t* st
       const auto older = [](T u, T v) { return Ages::is_older(u, v); };
       const auto not_younger = [](T u, T v) { return Ages::is_not_younger(u, v); };
       if (row == first) {
-        relative_ ? compare(older, not_younger) : compare(not_younger, older);
+        is_t_construction_ ? compare(older, not_younger) : compare(not_younger, older);
       } else {
         comes_before(row, first) ? compare(not_younger, not_younger) : compare(older, older);
       }
     }
   }
-  if (relative_) std::reverse(stars, stars + count);
+  if (is_t_construction_) std::reverse(stars, stars + count);
   if (block.begin == 0) stars[0] = find_one<Ages>(voxels, first);
   if (block.end == n) stars[count - 1] = find_one<Ages>(voxels, first + n - 1);
 }
@@ -185,12 +185,12 @@ void StarGrid::find_stars(const T* voxels) {
           else
             find_block<Ages>(voxels, block, stars);
           if (some_may_not) {
-            const T* there = relative_ ? voxels + (size_ - first - count) : voxels + first;
+            const T* there = is_t_construction_ ? voxels + (size_ - first - count) : voxels + first;
             bool block_enters = true;
             for (std::uint32_t k = 0; k < count; ++k) block_enters &= enters(there[k]);
             if (!block_enters)
               for (std::uint32_t k = 0; k < count; ++k)
-                if (!enters(there[k])) stars[relative_ ? count - 1 - k : k] = kAbsent;
+                if (!enters(there[k])) stars[is_t_construction_ ? count - 1 - k : k] = kAbsent;
             all = all && block_enters;
           }
           if (is_ghost) continue;
