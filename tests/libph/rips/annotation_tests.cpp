@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "rips/annotations/dead_generators.hpp"
-#include "rips/annotations/id_set.hpp"
+#include "rips/annotations/number_set.hpp"
 #include "rips/sweep/active_edges.hpp"
 #include "support/for_each_seed.hpp"
 
 namespace ph::test {
 namespace {
 
-std::vector<std::uint32_t> numbers_of(const IdSet& set) {
+std::vector<std::uint32_t> numbers_of(const NumberSet& set) {
   std::vector<std::uint32_t> numbers;
   set.for_each([&](std::uint32_t id) { numbers.push_back(id); });
   std::ranges::sort(numbers);
@@ -24,11 +24,11 @@ std::vector<std::uint32_t> numbers_of(const IdSet& set) {
 }
 
 // Against std::set; small sets stay lists, large ones become bits, and both are added to both.
-TEST(IdSet, IsASet) {
+TEST(NumberSet, IsASet) {
   for_each_seed(300, [](Generator& random, bool, std::int64_t) {
     std::pmr::memory_resource* memory = std::pmr::get_default_resource();
     const auto size = random.integer(1, random.coin() ? 60 : 300);
-    std::vector<IdSet> sets;
+    std::vector<NumberSet> sets;
     for (int k = 0; k < 3; ++k) sets.emplace_back(memory);
     std::array<std::set<std::uint32_t>, 3> expected;
     for (int step = 0; step < 4 * size; ++step) {

@@ -29,7 +29,7 @@ class NestedSets {
   template <class Graph, class HolderOf, class Name>
   NestedSets(const ComponentTree<Graph>& tree, Before before, std::uint32_t items,
              HolderOf&& holder_of, Name&& name, const RunContext& context)
-      : holders_(items, &context.memory),
+      : component_of_(items, &context.memory),
         ranges_(tree.basin_count(), &context.memory),
         items_(&context.memory) {
     constexpr std::size_t piece = 1 << 14;
@@ -38,12 +38,12 @@ class NestedSets {
         std::uint32_t holder = holder_of(static_cast<std::uint32_t>(i));
         // What has always been there and never dies belongs to no bar.
         if (holder != kNone && tree.is_endless(holder) && !tree.dies(holder)) holder = kNone;
-        holders_[i] = holder;
+        component_of_[i] = holder;
       }
     });
     std::pmr::vector<std::uint32_t> own(ranges_.size(), 0, &context.memory);
     Ticker ticker(context, "sets", 2 * std::uint64_t{items});
-    for (const std::uint32_t holder : holders_) {
+    for (const std::uint32_t holder : component_of_) {
       ticker.tick();
       if (holder != kNone) ++own[holder];
     }
@@ -51,7 +51,7 @@ class NestedSets {
     std::pmr::vector<std::uint32_t> filled(ranges_.size(), 0, &context.memory);
     for (std::uint32_t i = 0; i < items; ++i) {
       ticker.tick();
-      if (const std::uint32_t holder = holders_[i]; holder != kNone)
+      if (const std::uint32_t holder = component_of_[i]; holder != kNone)
         items_[ranges_[holder].begin + filled[holder]++] = name(i);
     }
   }
@@ -63,15 +63,17 @@ class NestedSets {
     const auto [begin, end] = ranges_[basin];
     return std::span(items_).subspan(begin, end - begin);
   }
-  /// Whether a set holds an item. Not to be asked after `forget_holders`.
+  /// Whether a set holds an item. Not to be asked after `forget_components`.
   bool contains(std::uint32_t basin, std::uint32_t item) const {
-    const std::uint32_t holder = holders_[item];
+    const std::uint32_t holder = component_of_[item];
     if (holder == kNone) return false;
     const std::size_t place = ranges_[holder].begin;  // of its first own item
     return place >= ranges_[basin].begin && place < ranges_[basin].end;
   }
   /// Gives their memory back.
-  void forget_holders() { RawVector<std::uint32_t>(holders_.get_allocator()).swap(holders_); }
+  void forget_components() {
+    RawVector<std::uint32_t>(component_of_.get_allocator()).swap(component_of_);
+  }
 
  private:
   template <class Graph>
@@ -104,8 +106,8 @@ class NestedSets {
     }
   }
 
-  RawVector<std::uint32_t> holders_;  // by item
-  std::pmr::vector<Range> ranges_;    // by basin
+  RawVector<std::uint32_t> component_of_;  // by item
+  std::pmr::vector<Range> ranges_;         // by basin
   RawVector<std::uint32_t> items_;
 };
 

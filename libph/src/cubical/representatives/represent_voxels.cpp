@@ -215,7 +215,7 @@ class Representing {
     sets.emplace(
         tree, Before::value, grid_.size(), holder_of,
         [&](std::uint32_t v) { return grid_.place(v); }, context_);
-    sets->forget_holders();
+    sets->forget_components();
     return sink_.store(sets->items());
   }
   static void give_set(const NestedSets& sets, std::size_t stored, std::uint32_t basin, Rep& rep) {

@@ -14,7 +14,7 @@
 #include "ph/detail/field.hpp"
 #include "ph/error.hpp"
 #include "rips/annotations/dead_generators.hpp"
-#include "rips/annotations/id_set.hpp"
+#include "rips/annotations/number_set.hpp"
 #include "rips/sweep/active_edges.hpp"
 #include "rips/sweep/sorted_terms.hpp"
 
@@ -58,7 +58,7 @@ class Annotations {
         fresh_(memory),
         unused_(memory),
         dead_(field, memory),
-        holders_(memory),
+        occurrences_(memory),
         sums_(memory),
         known_(16, Hash{this}, Equal{this}, memory),
         scratch_(memory),
@@ -78,7 +78,7 @@ class Annotations {
   /// A generator whose value on a new edge is one and zero on all others.
   Generator add_generator(const Edge& edge) {
     const Generator g = generators_++;
-    if (keeps_values_) holders_.emplace_back();
+    if (keeps_values_) occurrences_.emplace_back();
     scratch_.clear();
     scratch_.emplace_back(g, field_.from_int(1));
     assign(edge, intern());
@@ -170,7 +170,7 @@ class Annotations {
   /// The class has become equal to another one, up to sign.
   void join(std::uint32_t id, std::uint32_t other);
   /// The class had these terms.
-  void change_holders(std::uint32_t id, const Vector& before);
+  void change_occurrences(std::uint32_t id, const Vector& before);
   /// The class of scratch_.
   Class intern();
   /// Room for another one.
@@ -210,8 +210,9 @@ class Annotations {
   std::pmr::vector<std::uint32_t> fresh_;   // classes made since the last kill
   std::pmr::vector<std::uint32_t> unused_;  // numbers of classes that may be given again
   DeadGenerators<K> dead_;
-  std::pmr::vector<IdSet> holders_;  // by generator: classes it occurs in, if values are kept
-  FlatMap<Class> sums_;              // of two classes, until the next kill
+  // By generator: the classes that it occurs in, if values are kept.
+  std::pmr::vector<NumberSet> occurrences_;
+  FlatMap<Class> sums_;  // of two classes, until the next kill
   std::pmr::unordered_set<std::uint32_t, Hash, Equal> known_;
   Vector scratch_, merged_;
 };
@@ -219,7 +220,7 @@ class Annotations {
 template <Field K>
 void Annotations<K>::add_generators(std::size_t count) {
   generators_ += static_cast<Generator>(count);
-  if (keeps_values_) holders_.resize(generators_);
+  if (keeps_values_) occurrences_.resize(generators_);
 }
 
 template <Field K>
@@ -265,7 +266,7 @@ auto Annotations<K>::intern() -> Class {
   links_[fresh] = {fresh, false};
   seen_[fresh] = dead_.count();
   fresh_.push_back(fresh);
-  change_holders(fresh, {});
+  change_occurrences(fresh, {});
   return {fresh, false};
 }
 
@@ -288,7 +289,7 @@ void Annotations<K>::forget_fresh() {
     known_.erase(id);
     scratch_.assign(vectors_[id].begin(), vectors_[id].end());
     vectors_[id].clear();
-    change_holders(id, scratch_);
+    change_occurrences(id, scratch_);
     unused_.push_back(id);
   }
   fresh_.clear();
@@ -301,11 +302,11 @@ void Annotations<K>::update(std::uint32_t id) {
   if (!dead_.occur_in(vector)) return;
   auto node = known_.extract(id);
   if constexpr (std::same_as<K, Z2>) {
-    dead_.eliminate_from(vector);  // kill changes all holders at once
+    dead_.eliminate_from(vector);  // kill changes all occurrences at once
   } else {
     if (keeps_values_) scratch_.assign(vector.begin(), vector.end());
     dead_.eliminate_from(vector);
-    change_holders(id, scratch_);
+    change_occurrences(id, scratch_);
   }
   hashes_[id] = hash(vector);
   if (vector.empty())
@@ -330,11 +331,11 @@ void Annotations<K>::join(std::uint32_t id, std::uint32_t other) {
   release(from);
   scratch_.assign(vectors_[id].begin(), vectors_[id].end());
   release(vectors_[id]);
-  change_holders(id, scratch_);
+  change_occurrences(id, scratch_);
 }
 
 template <Field K>
-void Annotations<K>::change_holders(std::uint32_t id, const Vector& before) {
+void Annotations<K>::change_occurrences(std::uint32_t id, const Vector& before) {
   if (!keeps_values_) return;
   const Vector& now = vectors_[id];
   const auto differ = [](const Vector& a, const Vector& b, auto&& use) {
@@ -344,9 +345,9 @@ void Annotations<K>::change_holders(std::uint32_t id, const Vector& before) {
       if (y == b.end() || y->cell != x.cell) use(x.cell);
     }
   };
-  differ(now, before, [&](Generator g) { holders_[g].insert(id); });
+  differ(now, before, [&](Generator g) { occurrences_[g].insert(id); });
   differ(before, now, [&](Generator g) {
-    if (!dead_.contains(g)) holders_[g].erase(id);
+    if (!dead_.contains(g)) occurrences_[g].erase(id);
   });
 }
 
@@ -385,22 +386,22 @@ void Annotations<K>::kill(Class relation) {
   dead_.add(scratch_);
   release(vectors_[id]);
   if (!keeps_values_) return;
-  const IdSet holders = std::move(holders_[g]);
+  const NumberSet occurrences = std::move(occurrences_[g]);
   if constexpr (std::same_as<K, Z2>) {
     for (const Term& t : scratch_)
-      if (t.cell != g) holders_[t.cell].add(holders);
+      if (t.cell != g) occurrences_[t.cell].add(occurrences);
   } else {
-    change_holders(id, scratch_);
+    change_occurrences(id, scratch_);
   }
-  holders.for_each([&](std::uint32_t holder) {
-    if (holder != id) update(holder);
+  occurrences.for_each([&](std::uint32_t other) {
+    if (other != id) update(other);
   });
 }
 
 template <Field K>
 template <class Visit>
 void Annotations<K>::for_each_value(Generator g, Visit&& visit) {
-  holders_[g].for_each([&](std::uint32_t id) {
+  occurrences_[g].for_each([&](std::uint32_t id) {
     const Term* term = find(vectors_[id], g);
     for (const Edge& edge : members_[id]) {
       const bool negated = of(edge.u, edge.v).negated;

@@ -12,14 +12,14 @@ namespace ph {
 
 /// A set of small numbers that are handed out in ascending order: a list in no particular order
 /// while it is short, then a row of bits, which stays one.
-class IdSet {
+class NumberSet {
  public:
   using Id = std::uint32_t;
   using allocator_type = std::pmr::polymorphic_allocator<>;
 
-  explicit IdSet(allocator_type allocator) : list_(allocator), bits_(allocator) {}
-  IdSet(IdSet&&) noexcept = default;
-  IdSet(IdSet&& other, allocator_type allocator)
+  explicit NumberSet(allocator_type allocator) : list_(allocator), bits_(allocator) {}
+  NumberSet(NumberSet&&) noexcept = default;
+  NumberSet(NumberSet&& other, allocator_type allocator)
       : list_(std::move(other.list_), allocator), bits_(std::move(other.bits_), allocator) {}
 
   /// Adds a number that is absent.
@@ -41,7 +41,7 @@ class IdSet {
     }
   }
   /// Inserts the numbers of another set that are absent, erases those that are there.
-  void add(const IdSet& other) {
+  void add(const NumberSet& other) {
     if (bits_.size() < other.bits_.size() && !bits_.empty()) bits_.resize(other.bits_.size());
     if (!bits_.empty() && !other.bits_.empty()) {
       for (std::size_t k = 0; k < other.bits_.size(); ++k) bits_[k] ^= other.bits_[k];
