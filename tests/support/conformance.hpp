@@ -170,10 +170,10 @@ void check_apparent_pairs(const F& f, int top) {
   for (int dim = 0; dim <= std::min(top, f.top_dim()); ++dim) {
     std::vector<Cell> unmatched, found;
     for (const Cell& c : sorted_cells(f, dim)) {
-      const auto killer = searched.killer_of(dim, c), victim = searched.victim_of(dim, c);
-      ASSERT_EQ(f.apparent_cofacet(dim, c), killer);
-      ASSERT_EQ(f.apparent_facet(dim, c), victim);
-      if (!killer && !victim) unmatched.push_back(c);
+      const auto death = searched.death_cell_of(dim, c), birth = searched.birth_cell_of(dim, c);
+      ASSERT_EQ(f.apparent_cofacet(dim, c), death);
+      ASSERT_EQ(f.apparent_facet(dim, c), birth);
+      if (!death && !birth) unmatched.push_back(c);
     }
     if (dim == 0) continue;
     std::reverse(unmatched.begin(), unmatched.end());

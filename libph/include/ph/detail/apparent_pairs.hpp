@@ -18,8 +18,8 @@ class ApparentPairs {
 
   ApparentPairs(const F& filtration, const K& field) : filtration_(filtration), field_(field) {}
 
-  /// The cofacet with which `cell` (of dimension `dim`) is an apparent pair.
-  std::optional<Cell> killer_of(int dim, const Cell& cell) const {
+  /// The cofacet with which `cell` (of dimension `dim`) is an apparent pair: where its class dies.
+  std::optional<Cell> death_cell_of(int dim, const Cell& cell) const {
     if constexpr (ApparentFiltration<F>) {
       return filtration_.apparent_cofacet(dim, cell);
     } else if constexpr (CofacetFiltration<F>) {
@@ -31,8 +31,9 @@ class ApparentPairs {
     return std::nullopt;
   }
 
-  /// The facet with which `cell` (of dimension `dim`) is an apparent pair.
-  std::optional<Cell> victim_of(int dim, const Cell& cell) const {
+  /// The facet with which `cell` (of dimension `dim`) is an apparent pair: where that class is
+  /// born.
+  std::optional<Cell> birth_cell_of(int dim, const Cell& cell) const {
     if constexpr (ApparentFiltration<F>) {
       return filtration_.apparent_facet(dim, cell);
     } else if constexpr (CofacetFiltration<F>) {

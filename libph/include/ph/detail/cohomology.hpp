@@ -37,10 +37,10 @@ struct CohomologyEngine {
       int dim = 0;
       if constexpr (GraphFiltration<F>) {
         if (bars.representatives() == Representatives::none && is_graph_like(f)) {
-          CellMap<F> killers(f, &context.memory);
+          CellMap<F> death_cells(f, &context.memory);
           join_components(f, field, bars, context,
-                          [&](const auto& edge) { killers.insert(edge, 0); });
-          reduction.set_cleared(std::move(killers));
+                          [&](const auto& edge) { death_cells.insert(edge, 0); });
+          reduction.set_cleared(std::move(death_cells));
           dim = 1;
         }
       }
@@ -64,7 +64,7 @@ struct CohomologyEngine {
       cohomology.reduce_dimension(dim);
       columns.insert(columns.end(), cohomology.essential().begin(), cohomology.essential().end());
       homology.reduce_columns(dim, columns);
-      columns.assign(cohomology.killers().begin(), cohomology.killers().end());
+      columns.assign(cohomology.death_cells().begin(), cohomology.death_cells().end());
     }
     homology.reduce_columns(top + 1, columns);
   }

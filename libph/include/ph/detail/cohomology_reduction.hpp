@@ -51,7 +51,7 @@ class CohomologyReduction {
         context_(context),
         apparent_(filtration, field),
         cleared_(filtration, &context.memory),
-        killers_(&context.memory),
+        death_cells_(&context.memory),
         essential_(&context.memory),
         to_reduce_(&context.memory),
         schedule_(schedule),
@@ -60,7 +60,7 @@ class CohomologyReduction {
   /// Reduces all columns of dimension `dim`. Call with ascending dimensions.
   void reduce_dimension(int dim) {
     dim_ = dim;
-    killers_.clear();
+    death_cells_.clear();
     essential_.clear();
     to_reduce_.clear();
     collect_columns();
@@ -77,7 +77,7 @@ class CohomologyReduction {
   }
   /// The cells of dimension dim + 1 that killed a class of the dimension reduced last (those of
   /// apparent pairs only if zero-length bars are wanted), and the births of its infinite bars.
-  std::span<const Cell> killers() const { return killers_; }
+  std::span<const Cell> death_cells() const { return death_cells_; }
   std::span<const Cell> essential() const { return essential_; }
 
   /// The cells of dimension `dim` that are pivots of the dimension before: for the first call to
@@ -138,7 +138,7 @@ class CohomologyReduction {
   ApparentPairs<F, K> apparent_;
   int dim_ = 0;
   CellMap<F> cleared_;  // pivots of the dimension before
-  std::pmr::vector<Cell> killers_, essential_;
+  std::pmr::vector<Cell> death_cells_, essential_;
   std::pmr::vector<Cell> to_reduce_;  // youngest first; a column's number is its position
   std::optional<PivotTable<F, K>> pivots_;
   std::vector<std::unique_ptr<Worker>> workers_;
@@ -158,11 +158,11 @@ void CohomologyReduction<F, K>::collect_columns() {
   f_.for_each_cell(dim_, [&](const Cell& cell) {
     ticker.tick();
     if (cleared_.find(cell) != CellMap<F>::kAbsent) return;
-    if (apparent_.victim_of(dim_, cell)) return;  // a pivot of the dimension below
-    if (const auto killer = apparent_.killer_of(dim_, cell)) {
+    if (apparent_.birth_cell_of(dim_, cell)) return;  // a pivot of the dimension below
+    if (const auto death = apparent_.death_cell_of(dim_, cell)) {
       if (!bars_.wants_zero_length()) return;
-      killers_.push_back(*killer);
-      if (bars_.add_pair(dim_, cell, *killer)) give_cocycle(cell, {});
+      death_cells_.push_back(*death);
+      if (bars_.add_pair(dim_, cell, *death)) give_cocycle(cell, {});
       return;
     }
     to_reduce_.push_back(cell);
@@ -255,7 +255,7 @@ void CohomologyReduction<F, K>::report_pairs() {
     const Column* column = pivots_->column(i);
     bool is_kept;
     if (column && !field_.is_zero(column->coefficient)) {
-      killers_.push_back(column->pivot);
+      death_cells_.push_back(column->pivot);
       cleared_.insert(column->pivot, 0);
       is_kept = bars_.add_pair(dim_, cell, column->pivot);
     } else {
@@ -287,8 +287,8 @@ bool CohomologyReduction<F, K>::start_column(std::uint32_t number, Worker& worke
     if (!worker.working.append(cofacet, a)) return true;
     if (looks_for_pivot && f_.key(cofacet) == f_.key(cell)) {
       looks_for_pivot = false;
-      found =
-          pivots_->owner_of(cofacet).number >= number && !apparent_.victim_of(dim_ + 1, cofacet);
+      found = pivots_->owner_of(cofacet).number >= number &&
+              !apparent_.birth_cell_of(dim_ + 1, cofacet);
       if (found) pivot = Term(cofacet, a);
     }
     return !found;
@@ -343,7 +343,7 @@ bool CohomologyReduction<F, K>::cancel_pivot(std::uint32_t number, const Term& p
   if (owner.number < number)
     return cancel(to_reduce_[owner.number], owner.column->chain, owner.column->coefficient);
   if (owner.column) return false;  // a column that has to give way
-  const std::optional<Cell> partner = apparent_.victim_of(dim_ + 1, pivot.cell);
+  const std::optional<Cell> partner = apparent_.birth_cell_of(dim_ + 1, pivot.cell);
   if (!partner) return false;
   auto a = field_.from_int(1);
   if constexpr (!std::same_as<K, Z2>) {

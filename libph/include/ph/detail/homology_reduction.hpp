@@ -56,8 +56,8 @@ class HomologyReduction {
   void reduce_columns(int dim, std::span<const Cell> cells) {
     start_dimension(dim);
     for (const Cell& cell : cells) {
-      if (const auto victim = apparent_.victim_of(dim, cell))
-        report_plain(cell, *victim);
+      if (const auto birth = apparent_.birth_cell_of(dim, cell))
+        report_plain(cell, *birth);
       else
         to_reduce_.push_back(cell);
     }
@@ -143,9 +143,9 @@ void HomologyReduction<F, K>::collect_columns() {
     ticker.tick();
     if (previous_pivots_.find(cell) != CellMap<F>::kAbsent) return;
     // A pivot of the dimension above; if that dimension is not wanted its cells stay unseen.
-    if (dim_ <= bars_.max_dim() && apparent_.killer_of(dim_, cell)) return;
-    if (const auto victim = apparent_.victim_of(dim_, cell)) {
-      if (bars_.wants_zero_length()) report_plain(cell, *victim);
+    if (dim_ <= bars_.max_dim() && apparent_.death_cell_of(dim_, cell)) return;
+    if (const auto birth = apparent_.birth_cell_of(dim_, cell)) {
+      if (bars_.wants_zero_length()) report_plain(cell, *birth);
       return;
     }
     to_reduce_.push_back(cell);
@@ -175,7 +175,7 @@ void HomologyReduction<F, K>::cancel_pivot(const Term& pivot, const Column& owne
 template <Filtration F, Field K>
 auto HomologyReduction<F, K>::owner_of(const Cell& cell) -> const Column* {
   if (const auto at = pivots_.find(cell); at != CellMap<F>::kAbsent) return &columns_[at];
-  const auto partner = apparent_.killer_of(dim_ - 1, cell);
+  const auto partner = apparent_.death_cell_of(dim_ - 1, cell);
   if (!partner) return nullptr;
   apparent_owner_ = {*partner, field_.from_int(1), {}, {}};
   if constexpr (!std::same_as<K, Z2>) {

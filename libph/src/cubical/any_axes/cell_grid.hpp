@@ -24,7 +24,7 @@ class CellMark {
     return CellMark(kKilled + static_cast<unsigned>(direction), upper);
   }
   /// One that kills a facet.
-  static CellMark killer_of(int direction, unsigned upper) {
+  static CellMark killing(int direction, unsigned upper) {
     return CellMark(kKiller + static_cast<unsigned>(direction), upper);
   }
   /// The same cell, that kills something far away.
@@ -123,7 +123,8 @@ class CellGrid {
   }
   Name name(std::uint32_t cell) const { return name(cell, coordinates(cell)); }
 
-  /// Calls `visit(facet, its coordinates, incidence)`, incidences as in ph/detail/cubical_cells.ipp.
+  /// Calls `visit(facet, its coordinates, incidence)`, incidences as in
+  /// ph/detail/cubical_cells.ipp.
   /// @param x the coordinates of the cell.
   template <class Visit>
   void for_each_facet(std::uint32_t cell, Coordinates x, Visit&& visit) const {

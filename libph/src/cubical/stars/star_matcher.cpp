@@ -228,7 +228,7 @@ void StarMatcher::mark_cells(std::uint32_t voxel) {
     const Step& step =
         steps_[static_cast<std::size_t>(std::countr_zero(c.steps ^ cells_[c.partner].steps))];
     const int to_partner = upper ? step.direction ^ 1 : int{step.direction};
-    grid_.set_mark(c.cell, upper == is_v ? CellMark::killer_of(to_partner, shape.down)
+    grid_.set_mark(c.cell, upper == is_v ? CellMark::killing(to_partner, shape.down)
                                          : CellMark::killed_by(to_partner, shape.down));
   }
 }
