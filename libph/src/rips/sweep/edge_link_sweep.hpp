@@ -80,10 +80,10 @@ class EdgeLinkSweep {
   static constexpr Position kDead = UINT32_MAX;
 
   /// Whether an edge does something only if its link is empty.
-  bool can_bins_be_idle() const { return !surfaces_ && !wanted_.zero_length && living_ == 0; }
+  bool can_skip_bins() const { return !surfaces_ && !wanted_.zero_length && living_ == 0; }
   /// Whether nothing happens at the edges of a bin. They are not added, see first_unadded_bin_.
-  bool is_bin_idle(std::size_t bin);
-  /// Adds the edges of idle bins.
+  bool can_skip_bin(std::size_t bin);
+  /// Adds the edges of skipped bins.
   void add_bins_until(std::size_t bin);
   void add_edge(Position position);
   void join_or_give_birth(Position position, const FlagEdge& e);
@@ -128,7 +128,7 @@ class EdgeLinkSweep {
   const RunContext& context_;
   const LinkLayout layout_;
   ActiveEdges active_;         // of non-zero annotation
-  LinkGraph graph_;            // edges so far, but for the idle bins from first_unadded_bin_ on
+  LinkGraph graph_;            // edges so far, but for the skipped bins from first_unadded_bin_ on
   LinkComponents components_;  // of the graph's link
   std::pmr::vector<std::size_t> born_;  // components with which a class of H2 is born
   std::size_t first_unadded_bin_ = 0;
@@ -149,13 +149,13 @@ void EdgeLinkSweep<K>::run() {
   Ticker ticker(context_, "edges", edges_.size());
   for (std::size_t bin = 0; bin < edges_.bin_count(); ++bin) {
     const std::size_t begin = edges_.bin_begin(bin), end = edges_.bin_begin(bin + 1);
-    if (is_bin_idle(bin)) {
+    if (can_skip_bin(bin)) {
       ticker.tick(end - begin);
       continue;
     }
     add_bins_until(bin);
     edges_.sorted_bins(bin + 1);
-    if (!can_bins_be_idle() && thread_count(context_) > 1) edges_.sort_ahead(bin + 1);
+    if (!can_skip_bins() && thread_count(context_) > 1) edges_.sort_ahead(bin + 1);
     for (std::size_t position = begin; position < end; ++position) {
       add_edge(static_cast<Position>(position));
       ticker.tick();
@@ -175,9 +175,9 @@ void EdgeLinkSweep<K>::run() {
 }
 
 template <Field K>
-bool EdgeLinkSweep<K>::is_bin_idle(std::size_t bin) {
+bool EdgeLinkSweep<K>::can_skip_bin(std::size_t bin) {
   // A link that is not empty stays so, and its edge joins no components.
-  if (!can_bins_be_idle()) return false;
+  if (!can_skip_bins()) return false;
   const auto have_links = [&](std::span<const FlagEdge> edges) {
     return graph_.have_links(edges, context_);
   };
