@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "plane/foot.hpp"
+#include "plane/base_points.hpp"
 #include "surface/concavity.hpp"
 #include "surface/seeds.hpp"
 #include "voxels/rips_graph.hpp"
@@ -26,7 +26,7 @@ namespace {
 
 /// Lengths in voxels. A neighbourhood is far enough to see how the surface bends, near enough not
 /// to see over a thin object.
-constexpr double kNeighbourhood = 3, kOfNormals = 2.4, kSquareOfFoot = 0.6;
+constexpr double kNeighbourhood = 3, kOfNormals = 2.4, kSquareOfBase = 0.6;
 constexpr double kAdjacent = 1.79;  // corners touch; sqrt(3) and a little
 
 /// Whether voxels are so small that the points of a surface do not even touch: with fewer adjacent
@@ -64,8 +64,8 @@ VoxelFiltration surface_filtration(const Scene& scene, const SegmentOptions& opt
     points = scene.points.beyond;
     grid = voxel_grid(scene.cloud, points, voxel);
     if (scene.plane) {
-      adopt_feet(scene.cloud, scene.points.strip, *scene.plane, scene.margin, kSquareOfFoot * voxel,
-                 points, grid);
+      assign_base_points(scene.cloud, scene.points.strip, *scene.plane, scene.margin,
+                         kSquareOfBase * voxel, points, grid);
     }
     clock.finish("voxel grid", grid.centroids.rows());
     pairs = near_voxels(grid, voxel, context);

@@ -83,10 +83,10 @@ void keep_points(const CloudView& cloud, const VoxelFiltration& filtration, Scen
   } else {
     scene.points.reserve(points.size());
     scene.vertex_of_point.reserve(points.size());
-    for (std::size_t next = 0, next_foot = beyond; scene.points.size() < points.size();) {
-      const bool is_foot =
-          next == beyond || (next_foot < points.size() && points[next_foot] < points[next]);
-      const std::size_t from = is_foot ? next_foot++ : next++;
+    for (std::size_t next = 0, next_base = beyond; scene.points.size() < points.size();) {
+      const bool is_base =
+          next == beyond || (next_base < points.size() && points[next_base] < points[next]);
+      const std::size_t from = is_base ? next_base++ : next++;
       scene.points.push_back(points[from]);
       scene.vertex_of_point.push_back(voxel_of[from]);
     }

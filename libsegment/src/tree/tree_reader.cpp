@@ -245,9 +245,9 @@ class TreeReader {
       }
       if (is_inside(point, scene_.cells[v]))
         ++inside[v];
-      else if (!may_be_foot(point, v))
+      else if (!may_be_base(point, v))
         fail("coordinates", fmt::format("({}, {}, {})", point[0], point[1], point[2]),
-             "a point of its voxel, or of the plane at its foot");
+             "a point of its voxel, or of the plane at its base");
     }
     for (std::uint32_t v = 0; v < n; ++v)
       if (inside[v] < scene_.counts[v])
@@ -261,7 +261,7 @@ class TreeReader {
   }
   /// Whether it may have been won back from the plane for this voxel: in the strip below it. Of the
   /// margin, which the tree does not have, it is known only that the voxel is beyond it.
-  bool may_be_foot(const Vec3& point, std::uint32_t v) const {
+  bool may_be_base(const Vec3& point, std::uint32_t v) const {
     if (!scene_.plane || scene_.method == Method::paper) return false;
     constexpr double aside = 3, up = 4;  // voxels; as high as the voxel, roughly
     const Vec3 c{scene_.vertices(v, 0), scene_.vertices(v, 1), scene_.vertices(v, 2)};

@@ -115,8 +115,8 @@ class TopDownScene {
         hit = k + 1;
       }
     }
-    // Of a sum of uniform numbers, 0.8 mm: a tenth of the table lies in the strip that feet are won
-    // back from.
+    // Of a sum of uniform numbers, 0.8 mm: a tenth of the table lies in the strip that bases are
+    // won back from.
     const double noise = random.real() + random.real() + random.real() - 1.5;
     const double depth = nearest + 0.0016 * noise;
     truth_.push_back(hit);
@@ -141,7 +141,7 @@ inline void expect_read_back(const Segmentation& s) {
 inline void expect_right(const TopDownScene& scene, Method method) {
   const Segmentation s = segment(CloudView{scene.xyz(), {}}, {.method = method});
   ASSERT_TRUE(s.plane);
-  const double beside = 2 * s.voxel + 0.005;  // so far a box may win its foot back from the table
+  const double beside = 2 * s.voxel + 0.005;  // so far a box may win its base back from the table
   std::map<std::uint32_t, std::size_t> box_of_label;
   std::vector<std::map<std::uint32_t, Index>> labels_of_box(scene.box_count() + 1);
   for (std::size_t i = 0; i < s.labels.size(); ++i) {

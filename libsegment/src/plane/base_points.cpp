@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plane/foot.hpp"
+#include "plane/base_points.hpp"
 
 #include <Eigen/Geometry>
 #include <bit>
@@ -55,9 +55,9 @@ struct Wall {
 
 }  // namespace
 
-void adopt_feet(const CloudView& cloud, const std::vector<Index>& strip, const Plane& plane,
-                const PlaneMargin& margin, double side, std::vector<Index>& points,
-                VoxelGrid& grid) {
+void assign_base_points(const CloudView& cloud, const std::vector<Index>& strip, const Plane& plane,
+                        const PlaneMargin& margin, double side, std::vector<Index>& points,
+                        VoxelGrid& grid) {
   constexpr double squares_up = 2;  // how far beyond the margin a wall may begin
   const auto point = [&](Index i) { return &cloud.xyz[3 * static_cast<std::size_t>(i)]; };
   Squares square(plane, side);
