@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "image/place_runs.hpp"
+#include "image/voxel_runs.hpp"
 
 namespace ph::report {
 
@@ -29,7 +29,7 @@ VoxelSets voxel_sets(const Barcode& barcode, const RunContext& context, VoxelBud
     if (fits) {
       budget.voxels -= places.size();
       std::size_t count = 0;
-      for_each_run(places, [&](std::uint64_t first, std::uint64_t length) {
+      for_each_voxel_run(places, [&](std::uint64_t first, std::uint64_t length) {
         if (++count > budget.runs) return;
         sets.runs.push_back(static_cast<std::uint32_t>(first));
         sets.runs.push_back(static_cast<std::uint32_t>(length));

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "image/place_runs.hpp"
+#include "image/voxel_runs.hpp"
 #include "io/barcodes/barcode_formats.hpp"
 #include "io/bytes/json_writer.hpp"
 
@@ -130,7 +130,7 @@ void write_voxels(OutputFile& file, const Barcode& barcode, std::size_t i) {
   }
   file.write(", \"voxels\": [");
   std::string_view between;
-  for_each_run(barcode.voxels(i), [&](std::uint64_t first, std::uint64_t count) {
+  for_each_voxel_run(barcode.voxels(i), [&](std::uint64_t first, std::uint64_t count) {
     file.write(fmt::format("{}[{}, {}]", between, first, count));
     between = ", ";
   });
