@@ -293,7 +293,7 @@ Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
   const std::string peak = app::format_size(static_cast<double>(session.memory_taken()));
   if (is_stored)
     throw Error(ErrorKind::resource, fmt::format("{}; peak {}; {}", what, peak, kFewerBars));
-  if (const std::string changes = ways_out(job, arguments, session); !changes.empty())
+  if (const std::string changes = alternatives(job, arguments, session); !changes.empty())
     throw Error(ErrorKind::resource,
                 fmt::format("{}; peak {}; what would fit: {}; or raise --memory-limit", what, peak,
                             changes));

@@ -22,7 +22,7 @@
 namespace ph::barcode {
 namespace {
 
-constexpr std::size_t kMostWaysOut = 3;
+constexpr std::size_t kMostAlternatives = 3;
 // An estimate counts the pages of the code and small containers; the limit does not.
 constexpr double kBesideLimit = 4 << 20;
 // CPU time after which no trial begins, and after twice of which none goes on: who waits for an
@@ -58,9 +58,9 @@ std::vector<double> sample_of(const SparseDistances& distances) {
   return sample;
 }
 
-class WaysOut {
+class Alternatives {
  public:
-  WaysOut(const NamedData& data, const Arguments& arguments, const RunContext& context)
+  Alternatives(const NamedData& data, const Arguments& arguments, const RunContext& context)
       : data_(data), arguments_(arguments), context_(context) {}
 
   std::vector<std::string> find() {
@@ -113,7 +113,7 @@ class WaysOut {
     return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   }
   bool is_enough() const {
-    return found_.size() == kMostWaysOut || seconds_since(start_) > kPatience;
+    return found_.size() == kMostAlternatives || seconds_since(start_) > kPatience;
   }
 
   /// Keeps a change of the command line if the run fits with it. @return whether it does.
@@ -261,12 +261,12 @@ class WaysOut {
 
 }  // namespace
 
-std::string ways_out(const Job& job, const Arguments& arguments, app::Session& session) {
+std::string alternatives(const Job& job, const Arguments& arguments, app::Session& session) {
   if (job.input == "-") return "";  // was read and is gone
   try {
     const Input input = Input::open(job.input, &session.context(), Input::Excess::stays_in_file);
     const NamedData data = read_input(input, arguments, session.context());
-    const auto found = WaysOut(data, arguments, session.context()).find();
+    const auto found = Alternatives(data, arguments, session.context()).find();
     return fmt::format("{}", fmt::join(found, "; "));
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::cancelled) throw;

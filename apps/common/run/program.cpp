@@ -38,7 +38,7 @@ void keep_freed_memory() {
 }
 
 /// What report_current_exception does while there is memory for a message.
-int report_with_memory(std::string_view prefix, std::string_view ways_out) {
+int report_with_memory(std::string_view prefix, std::string_view memory_advice) {
   const auto report = [&](std::string_view what, int code) {
     print_line(fmt::format("{}: {}", prefix, what));
     return code;
@@ -56,12 +56,12 @@ int report_with_memory(std::string_view prefix, std::string_view ways_out) {
       return report(fmt::format("internal error: {}; please report", error.what()), kInternal);
     if (error.kind() == ErrorKind::resource &&
         std::string_view(error.what()).find("--memory-limit") == std::string_view::npos)
-      return report(fmt::format("{}; {}", error.what(), ways_out), kResource);
+      return report(fmt::format("{}; {}", error.what(), memory_advice), kResource);
     return report(error.what(), exit_code(error.kind()));
   } catch (const std::bad_alloc&) {
-    return report(fmt::format("out of memory; {}", ways_out), kResource);
+    return report(fmt::format("out of memory; {}", memory_advice), kResource);
   } catch (const std::length_error&) {
-    return report(fmt::format("out of memory: a container would be too large; {}", ways_out),
+    return report(fmt::format("out of memory: a container would be too large; {}", memory_advice),
                   kResource);
   } catch (const std::system_error& error) {
     // What threads throw if the system has no room for another one.
@@ -81,7 +81,7 @@ int report_current_exception(const Program& program, std::string_view subject) {
   try {
     const std::string prefix =
         fmt::format("{}{}{}", program.name, subject.empty() ? "" : ": ", subject);
-    return report_with_memory(prefix, program.ways_out);
+    return report_with_memory(prefix, program.memory_advice);
   } catch (...) {
     // Not even a message fits into memory: this one needs none.
     print_without_memory(program.name, "out of memory");

@@ -10,7 +10,7 @@ namespace ph::app {
 /// A program as its messages have it.
 struct Program {
   std::string_view name;
-  std::string_view ways_out;  ///< what helps where memory runs out: options that it has
+  std::string_view memory_advice;  ///< what helps where memory runs out: options that it has
 };
 
 /// Runs the body of a program and turns whatever happens into an exit code and at most one line on

@@ -135,9 +135,9 @@ class Limits(UnderLimit):
         self.assertGreater(ends[75], ends[0], "most limits are too small for their input")
 
 
-class WaysOut(UnderLimit):
+class Alternatives(UnderLimit):
     """What a run that was stopped says would fit, does."""
-    ROWS = (("space.txt", 10, 3, "--max-dim", "2"),  # name, limit in MiB, ways out at least
+    ROWS = (("space.txt", 10, 3, "--max-dim", "2"),  # name, limit in MiB, alternatives at least
             ("space.txt", 12, 3),
             ("space.txt", 60, 1, "--max-dim", "2", "--engine", "twist",
              "--collapse", "off"),
