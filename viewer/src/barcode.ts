@@ -18,7 +18,7 @@ import { kStrip, layOut, rowsIn, withRows } from "./barcode_rows";
 import { clipped, grouped, homology } from "./numbers";
 import { dimColour } from "./palette";
 import type { Pen } from "./pen";
-import type { Size } from "./chart";
+import type { Size } from "./dom";
 import type { Change, Session } from "./session";
 
 const kLeft = 34,

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What all charts have in common: a panel with a title, two canvases (the chart, and what changes
 // with the pointer), a table in place of the chart, and the keyboard.
-import { button, el } from "./dom";
+import { button, el, type Size } from "./dom";
 import { CanvasPen, type Pen } from "./pen";
 import type { Change, Session } from "./session";
-
-export interface Size {
-  width: number;
-  height: number;
-}
 
 export abstract class Chart {
   readonly panel: HTMLElement;

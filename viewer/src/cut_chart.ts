@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The live cut: a slider over the number of segments at every cut. A wide step is a gap between
 // persistences; the widest suggests where to cut.
-import { Chart, type Size } from "./chart";
-import { button, el, table } from "./dom";
+import { Chart } from "./chart";
+import { button, el, table, type Size } from "./dom";
 import { CutScale, segmentCounts } from "./gaps";
 import { counted, exact, grouped, short } from "./numbers";
 import { kindOfSegment } from "./words";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The rows beneath the data: which slice of a volume, and up to which value the complex is shown.
 import { el, select } from "./dom";
-import { axisNames } from "./slice_view";
+import { axisNames } from "./volume_axes";
 import type { Session } from "./session";
 
 export function sliceControls(session: Session, shape: number[]): HTMLElement {

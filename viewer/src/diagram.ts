@@ -12,7 +12,7 @@ import { drawMatching } from "./matching_lines";
 import { shownValue } from "./words";
 import { clipped, grouped, homology, short } from "./numbers";
 import type { Pen } from "./pen";
-import type { Size } from "./chart";
+import type { Size } from "./dom";
 import type { Change, Session } from "./session";
 
 const kLeft = 50,

@@ -2,6 +2,12 @@
 // Elements without markup: every text goes through textContent, so that no name of a file or a
 // field can become HTML.
 
+/// Of an element, pixels.
+export interface Size {
+  width: number;
+  height: number;
+}
+
 type Attributes = Record<string, string | number | boolean | undefined>;
 type Child = Node | string | undefined;
 

@@ -3,7 +3,7 @@
 // the axes of a volume.
 import { placeInImage } from "./cell_geometry";
 import { svg } from "./dom";
-import { axisNames } from "./slice_view";
+import { axisNames } from "./volume_axes";
 import { Spots } from "./spots";
 import type { PointCloud } from "./point_cloud";
 import type { Report } from "./report";

@@ -8,7 +8,7 @@ import { suggestedCut } from "./gaps";
 import type { Cut } from "./merge_tree";
 import { kNone, type Numbers } from "./payload";
 import type { Report } from "./report";
-import { firstAxis } from "./slice_view";
+import { firstAxis } from "./volume_axes";
 import { touchingInImage, touchingInSpace } from "./touching";
 
 export type Change =

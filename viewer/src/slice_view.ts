@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a volume lies: what its axes are called, and from where a slice across each is seen upright.
+// From where a slice across each axis of a volume is seen upright.
 import { Vector3 } from "three";
 import type { Meta } from "./meta";
 
@@ -21,11 +21,6 @@ const kOfArrays: View[] = [
     { towards: [1, 0, 0], up: [0, -1, 0] }, // across z: x to the right, y up
   ];
 
-/// What the axes are called, in the order of the array.
-export function axisNames(meta: Meta): string[] {
-  return meta.image?.axes ?? ["axis 0", "axis 1", "axis 2"];
-}
-
 /// Axes with names lie in space, x to the right and z up; without them an array is seen as it is
 /// printed.
 export function sliceView(meta: Meta, axis: number): { towards: Vector3; up: Vector3 } {
@@ -35,9 +30,4 @@ export function sliceView(meta: Meta, axis: number): { towards: Vector3; up: Vec
   const right = new Vector3().crossVectors(up, towards);
   // A little from the side: it is a volume.
   return { towards: towards.addScaledVector(right, 0.4).addScaledVector(up, 0.3), up };
-}
-
-/// The slice that is shown first: across z, or the first axis.
-export function firstAxis(meta: Meta): number {
-  return meta.image?.axes ? 2 : 0;
 }

@@ -11,7 +11,7 @@ import {
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import type { Size } from "./chart";
+import type { Size } from "./dom";
 import { EyeDome } from "./eye_dome";
 import type { Pose } from "./pose";
 

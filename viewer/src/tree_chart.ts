@@ -3,8 +3,8 @@
 // an elder one. Where branches are many, the most persistent ones.
 import { Axis } from "./axis";
 import { nameOfBar } from "./bar_chart";
-import { Chart, type Size } from "./chart";
-import { table } from "./dom";
+import { Chart } from "./chart";
+import { table, type Size } from "./dom";
 import { clipped, counted, grouped, short } from "./numbers";
 import { hex } from "./palette";
 import type { Pen } from "./pen";
