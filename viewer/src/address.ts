@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The state of the page in its address, so that a link shows the same.
 import type { DataView } from "./data_view";
-import { exact } from "./numbers";
+import { exact } from "./number_format";
 import { prefersDark, themeOf } from "./palette";
 import type { ColourMode } from "./colour_modes";
 import type { Session } from "./session";

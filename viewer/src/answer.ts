@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What stands out among the bars, and the sentence above the views that says so. docs/report.md has
 // the criterion in words.
-import { kLeastShare, kMostAbove, suggestedCut } from "./gaps";
-import { counted, homology, short } from "./numbers";
+import { kLeastShare, kMostAbove, suggestedCut } from "./cuts";
+import { counted, homology, short } from "./number_format";
 import { capital, holes, intervalText, inWords, kindOfSegment, listed, shownValue, times } from "./words";
 import type { Bars } from "./bars";
 import type { Meta } from "./meta";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // From values to pixels, with ticks at round numbers. Very large and very small values share one
 // power of ten, which stands beside the name of the axis.
-import { superscript } from "./numbers";
+import { superscript } from "./number_format";
 
 export interface Tick {
   at: number; // pixels

@@ -2,7 +2,7 @@
 // Charts whose items are bars: diagram and barcode. Keyboard, table and description are the same.
 import { Chart } from "./chart";
 import { table } from "./dom";
-import { counted, homology, short } from "./numbers";
+import { counted, homology, short } from "./number_format";
 import { intervalText, shownValue } from "./words";
 import type { Session } from "./session";
 

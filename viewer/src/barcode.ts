@@ -15,7 +15,7 @@ import {
   type Item,
 } from "./bar_line";
 import { kStrip, layOut, rowsIn, withRows } from "./barcode_rows";
-import { clipped, grouped, homology } from "./numbers";
+import { clipped, grouped, homology } from "./number_format";
 import { dimColour } from "./palette";
 import type { Pen } from "./pen";
 import type { Size } from "./dom";

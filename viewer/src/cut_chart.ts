@@ -3,8 +3,8 @@
 // persistences; the widest suggests where to cut.
 import { Chart } from "./chart";
 import { button, el, table, type Size } from "./dom";
-import { CutScale, segmentCounts } from "./gaps";
-import { counted, exact, grouped, short } from "./numbers";
+import { CutScale, segmentCounts } from "./cuts";
+import { counted, exact, grouped, short } from "./number_format";
 import { kindOfSegment } from "./words";
 import type { Pen } from "./pen";
 import type { Change, Session } from "./session";

@@ -6,7 +6,7 @@ import { button, el, select } from "./dom";
 import { ImageSlice } from "./image_slice";
 import { Labels } from "./labels";
 import { Legend } from "./legend";
-import { counted, grouped, homology, short } from "./numbers";
+import { counted, grouped, homology, short } from "./number_format";
 import { Overlay, thinLines, veil } from "./overlay";
 import { PointCloud } from "./point_cloud";
 import { firstPose, type Pose } from "./pose";

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What can be taken along: the page as a picture, the selection as numbers.
-import { commandLine } from "./command";
+import { commandLine } from "./command_line";
 import type { DataView } from "./data_view";
 import type { Chart } from "./chart";
-import { clipped, counted, exact, homology } from "./numbers";
+import { clipped, counted, exact, homology } from "./number_format";
 import { dimColour } from "./palette";
 import { SvgPen } from "./pen";
 import type { Session } from "./session";

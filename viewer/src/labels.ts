@@ -4,7 +4,7 @@
 import { placeInImage } from "./cell_geometry";
 import { svg } from "./dom";
 import { axisNames } from "./volume_axes";
-import { Spots } from "./spots";
+import { LabelPlaces } from "./label_places";
 import type { PointCloud } from "./point_cloud";
 import type { Report } from "./report";
 import type { Session } from "./session";
@@ -60,7 +60,7 @@ export class Labels {
     this.looking = window.setTimeout(() => this.look(), kPatience);
   }
   private show(): void {
-    const spots = new Spots(kSize);
+    const labelPlaces = new LabelPlaces(kSize);
     const { width, height } = this.stage.shown;
     this.element.replaceChildren(
       ...this.labels.flatMap((label) => {
@@ -69,7 +69,7 @@ export class Labels {
         if (!at) return [];
         const [x, y] = at,
           isIn = x >= 0 && x <= width && y >= 0 && y <= height;
-        if (!isIn || !spots.take(x, y, label.text)) return [];
+        if (!isIn || !labelPlaces.take(x, y, label.text)) return [];
         return [svg("text", { x: x.toFixed(1), y: (y + 4).toFixed(1) }, label.text)];
       }),
     );

@@ -3,7 +3,7 @@
 // a selection.
 import { kOutermost, type Colouring, type Range } from "./colouring";
 import { el, svg } from "./dom";
-import { counted, grouped, homology, inRange } from "./numbers";
+import { counted, grouped, homology, inRange } from "./number_format";
 import { dimColour, greyOf, hex, ramp, type Rgb } from "./palette";
 import { kindOfSegment } from "./words";
 import { barsInView, isWholeMesh, kBirthColour, kDeathColour } from "./representatives";

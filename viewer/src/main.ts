@@ -8,7 +8,7 @@ import { button, el } from "./dom";
 import { cutSays, foldable } from "./folding";
 import { prefersDark, themeOf } from "./palette";
 import { readPayload } from "./payload";
-import { readingOf, selectionOf } from "./reading";
+import { readingOf, selectionOf } from "./status_text";
 import { reportOf } from "./report";
 import { Session } from "./session";
 import { Toolbar } from "./toolbar";

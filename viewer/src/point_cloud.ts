@@ -11,7 +11,7 @@ import {
   Vector2,
   Vector3,
 } from "three";
-import { spacingOf } from "./spacing";
+import { spacingOf } from "./point_spacing";
 import type { Pose } from "./pose";
 import type { Stage } from "./stage";
 

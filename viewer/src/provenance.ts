@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Where the page comes from: everything needed to make it again.
-import { commandLine } from "./command";
+import { commandLine } from "./command_line";
 import { button, el } from "./dom";
-import { bytes, counted, exact, grouped, homology, seconds, short } from "./numbers";
+import { bytes, counted, exact, grouped, homology, seconds, short } from "./number_format";
 import type { Meta } from "./meta";
 import type { Session } from "./session";
 

@@ -4,12 +4,12 @@
 import { answerOf, type Answer } from "./answer";
 import { colourModesOf, type ColourMode } from "./colour_modes";
 import { coloursApart, dimColour, hex, segmentColour, themeOf, type Rgb, type Theme } from "./palette";
-import { suggestedCut } from "./gaps";
+import { suggestedCut } from "./cuts";
 import type { Cut } from "./merge_tree";
 import { kNone, type Numbers } from "./payload";
 import type { Report } from "./report";
 import { firstAxis } from "./volume_axes";
-import { touchingInImage, touchingInSpace } from "./touching";
+import { touchingInImage, touchingInSpace } from "./touching_leaves";
 
 export type Change =
   "focus" | "selection" | "cut" | "colour" | "dims" | "scale" | "slice" | "theme" | "view";

@@ -2,7 +2,7 @@
 // The complex up to a filtration value: the edges that the program wrote, or, of a Vietoris-Rips
 // complex of points that are all here, the pairs within that distance; and its triangles.
 import { elementOf } from "./cell_geometry";
-import { shortestPairs, trianglesOf, type SortedPairs } from "./pairs_within";
+import { shortestPairs, trianglesOf, type SortedPairs } from "./near_pairs";
 import type { Numbers } from "./payload";
 import type { Report } from "./report";
 

@@ -12,7 +12,7 @@ import {
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { Size } from "./dom";
-import { EyeDome } from "./eye_dome";
+import { EyeDome } from "./eye_dome_lighting";
 import type { Pose } from "./pose";
 
 // Colours are what the screen shows; nothing is lit.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The line above the views: what this is, dimensions to show and hide, export, theme, help.
-import { commandLine } from "./command";
+import { commandLine } from "./command_line";
 import { button, download, el, svg } from "./dom";
 import { pictureSvg, picturePng, selectionCsv, selectionJson, type Views } from "./exports";
-import { counted, grouped, homology } from "./numbers";
+import { counted, grouped, homology } from "./number_format";
 import { dimColour, themeOf } from "./palette";
 import { distancesOf, helpDialog, provenanceDialog } from "./provenance";
 import type { Report } from "./report";

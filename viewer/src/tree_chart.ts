@@ -5,12 +5,12 @@ import { Axis } from "./axis";
 import { nameOfBar } from "./bar_chart";
 import { Chart } from "./chart";
 import { table, type Size } from "./dom";
-import { clipped, counted, grouped, short } from "./numbers";
+import { clipped, counted, grouped, short } from "./number_format";
 import { hex } from "./palette";
 import type { Pen } from "./pen";
 import { kNone } from "./payload";
 import type { MergeTree } from "./merge_tree";
-import { Spots } from "./spots";
+import { LabelPlaces } from "./label_places";
 import { shownValue } from "./words";
 import type { Change, Session } from "./session";
 
@@ -112,11 +112,11 @@ export class TreeChart extends Chart {
   /// Numbers follow the selection where only what is selected has one.
   private drawNumbers(pen: Pen): void {
     const numbers = this.session.numbers(),
-      spots = new Spots();
+      labelPlaces = new LabelPlaces();
     for (const d of this.drawn) {
       const number = numbers.get(this.barOf(d.branch));
       if (number === undefined || this.isMerged(d.branch)) continue;
-      if (spots.take(d.x, d.y1 + 11, String(number)))
+      if (labelPlaces.take(d.x, d.y1 + 11, String(number)))
         pen.text(d.x, Math.min(d.y1 + 11, this.size.height - 2), String(number), {
           colour: this.session.theme.muted,
           size: 10.5,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Holes and intervals in words. Of superlevel sets a report holds minus the values; what a reader
 // sees are the values themselves, which fall from birth to death.
-import { grouped, homology, short } from "./numbers";
+import { grouped, homology, short } from "./number_format";
 import type { Meta } from "./meta";
 
 /// "loop", "loops": what a bar of a dimension is.

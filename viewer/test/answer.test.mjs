@@ -6,7 +6,7 @@ import { random } from "./support/random.mjs";
 import { importSource } from "./support/import_source.mjs";
 
 const { answerOf, widestGap } = await importSource("answer.ts");
-const { suggestedCut } = await importSource("gaps.ts");
+const { suggestedCut } = await importSource("cuts.ts");
 const { Bars } = await importSource("bars.ts");
 const { Matching } = await importSource("matching.ts");
 

@@ -5,14 +5,14 @@ import test from "node:test";
 import { importSource } from "./support/import_source.mjs";
 import { random } from "./support/random.mjs";
 
-const { fanOut } = await importSource("fan.ts");
+const { fanOut } = await importSource("fanned_dots.ts");
 const { drawMatching } = await importSource("matching_lines.ts");
 const { Matching } = await importSource("matching.ts");
 const { Bars } = await importSource("bars.ts");
 const { drawDensity } = await importSource("diagram_density.ts");
-const { spacingOf } = await importSource("spacing.ts");
+const { spacingOf } = await importSource("point_spacing.ts");
 const { firstPose } = await importSource("pose.ts");
-const { Spots } = await importSource("spots.ts");
+const { LabelPlaces } = await importSource("label_places.ts");
 
 const kLeft = 50,
   kRight = 348;
@@ -172,9 +172,9 @@ test("a mesh stands along y, a relief along z, either on a flat base if it has o
 });
 
 test("numbers keep apart, larger ones more", () => {
-  const small = new Spots(9.5),
-    large = new Spots(24);
-  for (const spots of [small, large]) assert.ok(spots.take(0, 0, "12"));
+  const small = new LabelPlaces(9.5),
+    large = new LabelPlaces(24);
+  for (const places of [small, large]) assert.ok(places.take(0, 0, "12"));
   assert.ok(small.take(0, 12, "12"));
   assert.ok(!large.take(0, 12, "12"));
   assert.ok(!small.take(3, 0, "7"));

@@ -6,7 +6,7 @@ import { importSource } from "./support/import_source.mjs";
 import { random } from "./support/random.mjs";
 
 const { surfaceOf } = await importSource("voxel_sets.ts");
-const { shortestPairs, trianglesOf } = await importSource("pairs_within.ts");
+const { shortestPairs, trianglesOf } = await importSource("near_pairs.ts");
 
 function runsOfMask(mask) {
   const runs = [];

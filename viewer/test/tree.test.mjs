@@ -7,7 +7,7 @@ import { importSource } from "./support/import_source.mjs";
 import { random } from "./support/random.mjs";
 
 const { MergeTree } = await importSource("merge_tree.ts");
-const { segmentCounts, suggestedCut, CutScale } = await importSource("gaps.ts");
+const { segmentCounts, suggestedCut, CutScale } = await importSource("cuts.ts");
 
 function pageTree(arrays, rule, minSize, more = {}) {
   return new MergeTree({

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 import { nameOfBar } from "./bar_chart";
-import { counted, exact, grouped, short } from "./numbers";
+import { counted, exact, grouped, short } from "./number_format";
 import { kindOfSegment } from "./words";
 import type { Session } from "./session";
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 /// Where numbers already stand: one that would lie on another is left out.
-export class Spots {
+export class LabelPlaces {
   private readonly taken: [x: number, y: number, halfWidth: number][] = [];
 
   /// @param size of the text, pixels.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The command line that gives what is on the screen.
-import { exact } from "./numbers";
+import { exact } from "./number_format";
 import type { Session } from "./session";
 
 /// A word as a POSIX shell reads it.
