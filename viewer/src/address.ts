@@ -20,7 +20,7 @@ export function addressOf(session: Session, data: DataView | undefined): string 
   if (report.image) parts.set("slice", `${session.sliceAxis},${session.slice}`);
   if (session.theme.dark !== prefersDark())
     parts.set("theme", session.theme.dark ? "dark" : "light");
-  if (!session.selectsTheAnswer && selection.length <= kMostBars) parts.set("bars", selection.join(","));
+  if (!session.selectsTheFinding && selection.length <= kMostBars) parts.set("bars", selection.join(","));
   if (data?.stage?.moved) parts.set("view", data.stage.view.join(","));
   return [...parts].map(([name, value]) => `${name}=${value}`).join("&");
 }

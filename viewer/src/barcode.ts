@@ -157,7 +157,7 @@ export class Barcode extends BarChart {
     if (dims.length === 0) return;
     const room = bottom - top - kGap * dims.length;
     // Components that say nothing leave the room to the others; those with colours say something.
-    const few = this.session.answer.dim !== 0;
+    const few = this.session.finding.dim !== 0;
     const tinted = 2 * this.session.tintedBars().size;
     const counts = dims.map((dim) => Math.max(...meta.barcodes.map((_, i) => bars.count(dim, i))));
     const others = counts.reduce((sum, n, i) => sum + (dims[i] === 0 ? 0 : n), 0);

@@ -31,7 +31,7 @@ export function pictureSvg(session: Session, views: Views, page: HTMLElement): s
     size: 16,
     bold: true,
   });
-  pen.text(margin, margin + 36, session.answer.sentence, { colour: theme.ink, size: 13 });
+  pen.text(margin, margin + 36, session.finding.sentence, { colour: theme.ink, size: 13 });
   bars.dims.forEach((dim, i) =>
     pen.text(
       width - margin - 90 * (bars.dims.length - 1 - i),

@@ -32,7 +32,7 @@ export function foldable(panel: HTMLElement, title: string, folded: boolean): ()
 export function cutSays(session: Session, counts: number[]): boolean {
   const { tree } = session.report;
   if (!tree || tree.merges === 0) return false;
-  if (session.answer.components) return true;
+  if (session.finding.components) return true;
   const coloured = session.colour === "segment" && session.cut!.segments.length > 1;
   return (coloured || !session.report.elements) && new Set(counts).size > 1;
 }

@@ -62,7 +62,7 @@ async function start(app: HTMLElement): Promise<void> {
     el("div", { class: "column right" }, diagram.panel, barcode.panel),
   );
   const toolbar = new Toolbar(session, views, page).element;
-  app.replaceChildren(toolbar, answerLine(session, diagram), page, statusLine(session));
+  app.replaceChildren(toolbar, findingLine(session, diagram), page, statusLine(session));
 
   document.addEventListener("keydown", (event) => {
     if (event.key === "Escape" && !document.querySelector("dialog[open]")) session.select([]);
@@ -88,17 +88,17 @@ function followTheme(session: Session): void {
 }
 
 /// What stands out, in one sentence; a click selects it again.
-function answerLine(session: Session, diagram: Diagram): HTMLElement {
-  const { sentence, bars } = session.answer;
+function findingLine(session: Session, diagram: Diagram): HTMLElement {
+  const { sentence, bars } = session.finding;
   const select = () => {
     session.select(bars);
     diagram.takeFocus(); // the button hides itself
   };
   const again = button("select", select, { class: "quiet", title: "select these bars" });
-  const show = () => (again.hidden = bars.length === 0 || session.selectsTheAnswer);
+  const show = () => (again.hidden = bars.length === 0 || session.selectsTheFinding);
   session.onChange((changes) => changes.has("selection") && show());
   show();
-  return el("p", { class: "answer" }, el("span", {}, sentence), again);
+  return el("p", { class: "finding" }, el("span", {}, sentence), again);
 }
 
 function statusLine(session: Session): HTMLElement {

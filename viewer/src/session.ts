@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the reader is looking at: one state for all views. A view changes it through the methods
 // here and draws again when it hears of a change; no view knows another one.
-import { answerOf, type Answer } from "./answer";
+import { findingOf, type Finding } from "./finding";
 import { colourModesOf, type ColourMode } from "./colour_modes";
 import { coloursApart, dimColour, hex, segmentColour, themeOf, type Rgb, type Theme } from "./palette";
 import { suggestedCut } from "./cuts";
@@ -38,7 +38,7 @@ export class Session {
   scale: number | undefined; // filtration value up to which the complex is shown
   sliceAxis = 0;
   slice: number;
-  readonly answer: Answer;
+  readonly finding: Finding;
   private selected: Uint8Array;
   private leafColours: number[] = [];
   private readonly listeners: ((changes: Set<Change>) => void)[] = [];
@@ -54,8 +54,8 @@ export class Session {
     this.slice = Math.floor((report.image?.shape[this.sliceAxis] ?? 1) / 2);
     if (report.tree) this.recut();
     this.colour = this.colourModes()[0]![0];
-    this.answer = answerOf(report);
-    this.select(this.answer.bars);
+    this.finding = findingOf(report);
+    this.select(this.finding.bars);
   }
 
   // Changes.
@@ -96,9 +96,9 @@ export class Session {
     if (this.colour === "grey") this.tints = undefined;
     this.changed("selection");
   }
-  /// Whether just the bars of the answer are selected, as at first.
-  get selectsTheAnswer(): boolean {
-    const { bars } = this.answer;
+  /// Whether just the bars of the finding are selected, as at first.
+  get selectsTheFinding(): boolean {
+    const { bars } = this.finding;
     return this.selection.length === bars.length && bars.every((bar) => this.isSelected(bar));
   }
   isSelected(bar: number): boolean {
@@ -261,10 +261,10 @@ export class Session {
     return !this.hiddenDims.has(this.report.bars.dim[bar]!);
   }
 
-  /// The dimension that the answer is about, then the others, the highest first.
+  /// The dimension that the finding is about, then the others, the highest first.
   dimsInOrder(): number[] {
     const { dims } = this.report.bars,
-      { dim } = this.answer;
+      { dim } = this.finding;
     return [...dims.filter((d) => d === dim), ...dims.filter((d) => d !== dim).reverse()];
   }
 

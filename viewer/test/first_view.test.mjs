@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a reader sees before the first click: the answer, a cloud without holes whose back is hidden,
-// an image as it is, panels that say something, all of it on a telephone.
+// What a reader sees before the first click: the finding, a cloud without holes whose back is
+// hidden, an image as it is, panels that say something, all of it on a telephone.
 import assert from "node:assert/strict";
 import test from "node:test";
 import { barArrays, metaOf } from "./support/fixture_parts.mjs";
@@ -72,12 +72,12 @@ test("the first view", { timeout: 300_000 }, async (t) => {
   await t.test("what stands out is said and selected; the address keeps another selection", async () => {
     const first = await open(browser, torus());
     assert.equal(
-      await first.page.textContent(".answer span"),
+      await first.page.textContent(".finding span"),
       "One void stands out: [0.52, 1.36), the only one. Two loops stand out, too.",
     );
     assert.match(await selection(first.page), /^H₂ \[0\.52, 1\.36\)/);
     assert.ok((await tintedPixels(first.page, ".stage", kGreen)) > 15_000, "its cycle is drawn");
-    assert.ok(!(await first.page.locator(".answer button").isVisible()));
+    assert.ok(!(await first.page.locator(".finding button").isVisible()));
     assert.equal(await first.page.textContent(".chips .chip >> nth=0"), "H₂1");
     await first.page.waitForTimeout(250);
     assert.equal(new URL(first.page.url()).hash, "");
@@ -85,7 +85,7 @@ test("the first view", { timeout: 300_000 }, async (t) => {
     await first.page.waitForFunction(() => location.hash.includes("bars="));
     assert.equal(await selection(first.page), "nothing selected");
     const hash = new URL(first.page.url()).hash;
-    await first.page.click(".answer button");
+    await first.page.click(".finding button");
     // The button is gone; the keyboard goes on from the bars.
     assert.ok(await first.page.evaluate(() => document.activeElement.matches(".diagram canvas")));
     await frame(first.page);
@@ -222,7 +222,7 @@ test("the first view", { timeout: 300_000 }, async (t) => {
         "image/values": [values, { shape: [side, side] }],
       },
     });
-    assert.match(await page.textContent(".answer"), /\[180, 60\)/);
+    assert.match(await page.textContent(".finding"), /\[180, 60\)/);
     assert.match(await page.textContent(".scrubber"), /^value down to/);
     const ticks = await page.$$eval(".legend .ticks span", (all) => all.map((e) => e.textContent));
     assert.equal(ticks[0], "250");
@@ -271,7 +271,7 @@ test("the first view", { timeout: 300_000 }, async (t) => {
     // All of them are in a picture, with the sentence.
     const svg = (await downloaded(page, "Picture, SVG")).toString();
     const words = [...svg.matchAll(/<text [^>]*>([^<]*)</g)].map(([, text]) => text);
-    assert.ok(words.includes(await page.textContent(".answer span")));
+    assert.ok(words.includes(await page.textContent(".finding span")));
     for (const row of rows) assert.ok(words.filter((w) => w === row).length >= 4, `${row} in legend, data, charts`);
     // What the reader folds stays so.
     await page.click(".tree .fold");
@@ -422,12 +422,12 @@ test("the first view", { timeout: 300_000 }, async (t) => {
 async function assertNothingIsCutOff(page, name) {
   const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
   assert.ok(wide <= 0, `${name} is ${wide} pixels too wide`);
-  const cut = await page.$$eval(".top *, .answer *, .panel > header *, .panel > .row *, .legend *, .status *", (all) =>
+  const cut = await page.$$eval(".top *, .finding *, .panel > header *, .panel > .row *, .legend *, .status *", (all) =>
     all
       .filter((e) => e.checkVisibility() && !e.closest("svg, .menu .items, dialog, option"))
       .filter((e) => {
         const box = e.getBoundingClientRect(),
-          panel = e.closest(".panel, .top, .status, .answer").getBoundingClientRect();
+          panel = e.closest(".panel, .top, .status, .finding").getBoundingClientRect();
         const ends = box.right > Math.min(390, panel.right) + 0.5 || box.left < -0.5;
         return ends || (e.children.length === 0 && e.scrollWidth > e.clientWidth + 1 && e.clientWidth > 0);
       })

@@ -8,7 +8,7 @@ import type { Bars } from "./bars";
 import type { Meta } from "./meta";
 import type { Report } from "./report";
 
-export interface Answer {
+export interface Finding {
   dim: number; // of the bars that stand out, or of the longest one; -1: there is none
   bars: number[]; // that stand out, the most persistent first: selected at first
   sentence: string;
@@ -113,7 +113,7 @@ function outstanding(found: Lengths, scale: number, range: number): { bars: numb
   return { bars: only ? [] : [...found.endless, ...above], gap };
 }
 
-export function answerOf(report: Report): Answer {
+export function findingOf(report: Report): Finding {
   const { bars, meta } = report;
   if (meta.barcodes.length > 1) return comparisonOf(report);
   if (report.tree && meta.tree?.command) return segmentsOf(report);
@@ -179,7 +179,7 @@ function fate(found: Lengths, many: number, meta: Meta, all: boolean): string {
 }
 
 /// Nothing is selected. Where the components are spoken of, the page still suggests a cut.
-function nothingOf(dim: number, found: Lengths[], report: Report): Answer {
+function nothingOf(dim: number, found: Lengths[], report: Report): Finding {
   const sentence = nothing(found, report);
   const gap = toldOf(found, report).some((f) => f.dim === 0) ? gapOfCuts(report) : "";
   if (!gap) return plain(dim, sentence);
@@ -245,12 +245,12 @@ function lengthsInWords({ dim, lengths, alive, endless }: Lengths, named: boolea
 }
 
 /// Nothing is selected.
-function plain(dim: number, sentence: string): Answer {
+function plain(dim: number, sentence: string): Finding {
   return { dim, bars: [], sentence, components: false };
 }
 
 /// What ph-segment found is no single bar.
-function segmentsOf({ tree, meta, bars }: Report): Answer {
+function segmentsOf({ tree, meta, bars }: Report): Finding {
   const { cut: at } = meta.tree!,
     what = kindOfSegment(meta);
   const { segments } = tree!.cut(at, tree!.hasJoins);
@@ -263,7 +263,7 @@ function segmentsOf({ tree, meta, bars }: Report): Answer {
   return plain(dim, `${inWords(segments.length)} ${what}s: ${ends}.`);
 }
 
-function comparisonOf({ meta, bars, matching }: Report): Answer {
+function comparisonOf({ meta, bars, matching }: Report): Finding {
   const distances = (meta.distances ?? []).map((d) => ({
     dim: d.dim,
     value: d.bottleneck ?? Infinity,

@@ -5,7 +5,7 @@ import test from "node:test";
 import { random } from "./support/random.mjs";
 import { importSource } from "./support/import_source.mjs";
 
-const { answerOf, widestGap } = await importSource("answer.ts");
+const { findingOf, widestGap } = await importSource("finding.ts");
 const { suggestedCut } = await importSource("cuts.ts");
 const { Bars } = await importSource("bars.ts");
 const { Matching } = await importSource("matching.ts");
@@ -18,9 +18,9 @@ const columns = (bars) => ({
 });
 
 /// @param bars [dim, birth, death] each, of one barcode, or of two.
-function answer(bars, { threshold = null, value = {}, second, distances, pairs, ...more } = {}) {
+function finding(bars, { threshold = null, value = {}, second, distances, pairs, ...more } = {}) {
   const barcodes = (second ? [bars, second] : [bars]).map((_, i) => ({ name: `${i}` }));
-  return answerOf({
+  return findingOf({
     bars: new Bars((second ? [bars, second] : [bars]).map(columns), barcodes, 0),
     meta: { barcodes, value: { label: "", ...value }, provenance: { threshold }, distances },
     matching: pairs && new Matching(pairs),
@@ -47,50 +47,50 @@ test("the widest gap", () => {
 
 test("a few loops and no noise: all of them", () => {
   const points = [[0, 0, kNever], ...noise(0, [0.14, 0.13, 0.12], 0)];
-  const two = answer([...points, [1, 0.153, 1.657], [1, 0.107, 0.82]]);
+  const two = finding([...points, [1, 0.153, 1.657], [1, 0.107, 0.82]]);
   assert.equal(
     two.sentence,
     "Two loops stand out: there are no others, and the shorter is [0.107, 0.82).",
   );
   assert.deepEqual(two.bars, [4, 5]);
   // Shorter than a third of the longest, but no speck.
-  assert.equal(answer([...points, [1, 0, 1], [1, 0.3, 0.6], [1, 0.3, 0.55]]).bars.length, 3);
-  assert.equal(answer([...points, [1, 0, 1], [1, 0.3, 0.38]]).bars.length, 1);
+  assert.equal(finding([...points, [1, 0, 1], [1, 0.3, 0.6], [1, 0.3, 0.55]]).bars.length, 3);
+  assert.equal(finding([...points, [1, 0, 1], [1, 0.3, 0.38]]).bars.length, 1);
 });
 
 test("one loop, and how long it is", () => {
   const bars = [[0, 0, kNever], ...noise(0, [0.2, 0.19, 0.18], 0), [1, 0.184, 1.465], ...noise(1, [0.064, 0.06, 0.05, 0.04])];
-  const { dim, bars: chosen, sentence } = answer(bars);
+  const { dim, bars: chosen, sentence } = finding(bars);
   assert.equal(sentence, "One loop stands out: [0.184, 1.465), 20 times as long as the next.");
   assert.deepEqual([dim, chosen], [1, [4]]);
 });
 
 test("the highest dimension in which some stand out is chosen, others are told", () => {
   const bars = [[0, 0, kNever], [1, 0.3, 1.3], [1, 0.3, 2.3], ...noise(1, [0.1, 0.09, 0.08, 0.08]), [2, 0.5, 1.4], ...noise(2, [0.1, 0.09, 0.08, 0.08], 1)];
-  const { dim, bars: chosen, sentence } = answer(bars);
+  const { dim, bars: chosen, sentence } = finding(bars);
   assert.deepEqual([dim, chosen], [2, [7]]);
   assert.equal(sentence, "One void stands out: [0.5, 1.4), 9.0 times as long as the next. Two loops stand out, too.");
-  const higher = answer([...bars, [3, 1, 3], ...noise(3, [0.1, 0.1, 0.1, 0.1])]);
+  const higher = finding([...bars, [3, 1, 3], ...noise(3, [0.1, 0.1, 0.1, 0.1])]);
   assert.match(higher.sentence, /^One H₃ class stands out: \[1, 3\), 20 times .* One void and two loops stand out, too\.$/);
 });
 
-test("noise of a higher dimension is no answer", () => {
+test("noise of a higher dimension is no finding", () => {
   const loop = [[0, 0, kNever], [1, 0.2, 1.5], ...noise(1, [0.06, 0.05, 0.05, 0.05])];
   for (const voids of [[0.02], [0.02, 0.001], [0.09, 0.04, 0.03, 0.03, 0.02]]) {
-    const { dim } = answer([...loop, ...noise(2, voids, 1)]);
+    const { dim } = finding([...loop, ...noise(2, voids, 1)]);
     assert.equal(dim, 1, `${voids}`);
   }
   // One alone has nothing below it to stand out from.
-  assert.equal(answer([[0, 0, kNever], [1, 0, 1], ...noise(1, [0.1, 0.1, 0.1]), [2, 0.5, 0.65]]).dim, 1);
+  assert.equal(finding([[0, 0, kNever], [1, 0, 1], ...noise(1, [0.1, 0.1, 0.1]), [2, 0.5, 0.65]]).dim, 1);
   // Nothing but one short bar.
-  const { bars, sentence } = answer([[0, 0, kNever], [1, 1, 1.05]]);
+  const { bars, sentence } = finding([[0, 0, kNever], [1, 1, 1.05]]);
   assert.deepEqual(bars, []);
   assert.equal(sentence, "No loop stands out: there is one, and it is short.");
 });
 
 test("honest where nothing stands out", () => {
   const told = (bars, more) => {
-    const found = answer(bars, more);
+    const found = finding(bars, more);
     assert.deepEqual(found.bars, []);
     return found.sentence;
   };
@@ -113,7 +113,7 @@ test("honest where nothing stands out", () => {
   const next = random(3);
   let outstanding = 0;
   for (let round = 0; round < 200; ++round)
-    outstanding += answer(noise(1, Array.from({ length: 200 }, () => -Math.log(1 - next())))).bars.length > 0;
+    outstanding += finding(noise(1, Array.from({ length: 200 }, () => -Math.log(1 - next())))).bars.length > 0;
   assert.ok(outstanding < 10, `${outstanding} of 200`);
 });
 
@@ -128,7 +128,7 @@ test("where nothing stands out the sentence names the gap that the page cuts at"
   const levels = [90, 89, 60, 59, 58, 57, 56];
   const bars = [[0, 0, kNever], ...noise(0, levels, 0), ...noise(1, [50, 49.9, 49, 48, 47], 0)];
   const meta = { image: {}, tree: treeOf(levels) };
-  const found = answer(bars, meta);
+  const found = finding(bars, meta);
   assert.equal(
     found.sentence,
     "No loop or component stands out: in both, the longest bar is hardly longer than the next; " +
@@ -137,54 +137,54 @@ test("where nothing stands out the sentence names the gap that the page cuts at"
   assert.ok(found.components, "the cut is open");
   assert.deepEqual(found.bars, []);
   // Of points nothing is said of components where there are loops.
-  assert.ok(!answer(bars, { tree: treeOf(levels) }).components);
+  assert.ok(!finding(bars, { tree: treeOf(levels) }).components);
   // All levels alike: the cut has nothing to say.
   const fives = [5, 5, 5, 5, 5];
   const more = { image: {}, tree: treeOf(fives) };
-  const alike = answer([[0, 0, kNever], ...noise(0, fives, 0)], more);
+  const alike = finding([[0, 0, kNever], ...noise(0, fives, 0)], more);
   assert.ok(!alike.components);
   assert.equal(alike.sentence, "No other component stands out: all are equally long.");
 });
 
-test("components: one is always there, several are an answer", () => {
+test("components: one is always there, several are a finding", () => {
   const three = [[0, 0, kNever], [0, 0, 1.9], [0, 0, 1.6], ...noise(0, [0.17, 0.16, 0.1], 0)];
-  const found = answer(three);
+  const found = finding(three);
   assert.equal(found.sentence, "Three components stand out: the shortest, [0, 1.6), is 9.4 times as long as the next.");
   assert.ok(found.components);
   assert.deepEqual(found.bars, [0, 1, 2]);
-  const apart = answer([[0, 0, kNever], [0, 0, kNever], ...noise(0, [0.2, 0.19, 0.18, 0.17, 0.16], 0)]);
+  const apart = finding([[0, 0, kNever], [0, 0, kNever], ...noise(0, [0.2, 0.19, 0.18, 0.17, 0.16], 0)]);
   assert.equal(apart.sentence, "Two components never merge: [0, ∞) and [0, ∞).");
-  assert.ok(!answer([[0, 0, kNever], ...noise(0, [0.2, 0.19, 0.18, 0.17, 0.16], 0)]).components);
-  const begun = answer([[0, -Infinity, 3]]);
+  assert.ok(!finding([[0, 0, kNever], ...noise(0, [0.2, 0.19, 0.18, 0.17, 0.16], 0)]).components);
+  const begun = finding([[0, -Infinity, 3]]);
   assert.equal(begun.sentence, "One component has no beginning: [−∞, 3).");
   // So many are said, but not selected.
-  const dust = answer(Array(70_001).fill([0, 0, kNever]));
+  const dust = finding(Array(70_001).fill([0, 0, kNever]));
   assert.deepEqual([dust.sentence, dust.bars], ["70,001 components never merge.", []]);
 });
 
 test("beyond the threshold nobody has looked", () => {
   const two = [[0, 0, kNever], [0, 0, kNever], ...noise(0, [0.2, 0.19, 0.18, 0.17, 0.16], 0)];
-  assert.equal(answer(two, { threshold: 0.5 }).sentence, "Two components are apart up to 0.5: [0, ∞) and [0, ∞).");
+  assert.equal(finding(two, { threshold: 0.5 }).sentence, "Two components are apart up to 0.5: [0, ∞) and [0, ∞).");
   const negated = two.map(([dim, birth, death]) => [dim, birth - 3, death - 3]);
   assert.match(
-    answer(negated, { threshold: -2.5, value: { negated: true } }).sentence,
+    finding(negated, { threshold: -2.5, value: { negated: true } }).sentence,
     /^Two components are apart down to 2\.5/,
   );
   // Alive at 1, and known to be 0.9, 0.3 long: both may be longer, so that no gap is between them.
   const loops = [[0, 0, kNever], [1, 0.1, kNever], [1, 0.7, kNever], ...noise(1, [0.1, 0.1, 0.09, 0.08])];
   assert.equal(
-    answer(loops, { threshold: 1 }).sentence,
+    finding(loops, { threshold: 1 }).sentence,
     "Two loops stand out: the shorter, [0.7, ∞), is at least 3.0 times as long as the next.",
   );
   // The gap is among the dead ones, whose lengths are known.
   const dead = [[0, 0, kNever], [1, 0.1, kNever], ...noise(1, [0.6, 0.05, 0.05, 0.04, 0.04])];
   assert.equal(
-    answer(dead, { threshold: 1 }).sentence,
+    finding(dead, { threshold: 1 }).sentence,
     "Two loops stand out: the shorter, [0.1, 0.7), is 12 times as long as the next.",
   );
   const alike = [[0, 0, kNever], ...[0.1, 0.12].map((b) => [1, b, kNever]), ...noise(1, [0.8, 0.7, 0.6, 0.5])];
   assert.equal(
-    answer(alike, { threshold: 1 }).sentence,
+    finding(alike, { threshold: 1 }).sentence,
     "No loop stands out: the shortest alive at the threshold is at least 1.1 times as long as the next.",
   );
 });
@@ -194,40 +194,40 @@ test("the page cuts where the sentence has its gap", () => {
   const levels = [0.0001, 0.009, 0.01, 0.5, 1];
   const cut = suggestedCut({ arrays: { rule: "value", levels: Float64Array.from(levels) } }, 0, Infinity);
   const bars = [[0, 0, kNever], ...[...levels].reverse().map((death) => [0, 0, death])];
-  assert.equal(answer(bars).bars.length, bars.filter(([, , death]) => death > cut).length);
+  assert.equal(finding(bars).bars.length, bars.filter(([, , death]) => death > cut).length);
   assert.ok(cut > 0.01 && cut < 0.5, `${cut}`);
 });
 
 test("bars that never end", () => {
-  const { sentence, bars } = answer([[0, -3, kNever], [1, -1, kNever], [1, 1, kNever], [2, 3, kNever]]);
+  const { sentence, bars } = finding([[0, -3, kNever], [1, -1, kNever], [1, 1, kNever], [2, 3, kNever]]);
   assert.equal(sentence, "Two loops never end: [−1, ∞) and [1, ∞). One void stands out, too.");
   assert.deepEqual(bars, [1, 2]);
   // Alive where the complex was cut: at least that long.
   const cut = [[0, 0, kNever], [1, 0.1, kNever], ...noise(1, [0.1, 0.09, 0.08, 0.08])];
-  assert.equal(answer(cut, { threshold: 0.9 }).sentence, "One loop stands out: [0.1, ∞), at least 8.0 times as long as the next.");
+  assert.equal(finding(cut, { threshold: 0.9 }).sentence, "One loop stands out: [0.1, ∞), at least 8.0 times as long as the next.");
   // Born right before the cut: nothing is known of it.
-  assert.deepEqual(answer([[0, 0, kNever], [1, 0.88, kNever], ...noise(1, [0.1, 0.09, 0.08, 0.08])], { threshold: 0.9 }).bars, []);
+  assert.deepEqual(finding([[0, 0, kNever], [1, 0.88, kNever], ...noise(1, [0.1, 0.09, 0.08, 0.08])], { threshold: 0.9 }).bars, []);
 });
 
 test("specks are as short beside bars that never end as beside others", () => {
   const loops = [-0.43, -0.4, -0.36, -0.33].map((birth) => [1, birth, kNever]);
   const specks = [0.02, 0.02, 0.015, 0.012, 0.001].map((length) => [1, -0.2, -0.2 + length]);
-  const { sentence } = answer([[0, -0.6, kNever], [0, -0.5, -0.06], ...loops, ...specks]);
+  const { sentence } = finding([[0, -0.6, kNever], [0, -0.5, -0.06], ...loops, ...specks]);
   assert.match(sentence, /^Four loops never end/);
 });
 
 test("the void of a closed surface leads only if there is nothing else", () => {
   const sphere = [[0, -3, kNever], [2, 3, kNever]];
-  assert.equal(answer(sphere).sentence, "One void never ends: [3, ∞).");
+  assert.equal(finding(sphere).sentence, "One void never ends: [3, ∞).");
   const legs = [[0, -2, 2], [0, -2, 1.9], ...noise(0, [0.2, 0.1, 0.1, 0.1], 0)];
   const last = /^Three components stand out.* One void stands out, too\.$/;
-  assert.match(answer([...sphere, ...legs]).sentence, last);
+  assert.match(finding([...sphere, ...legs]).sentence, last);
   // One that ends is a hollow of the values, no matter of course.
-  assert.match(answer([...sphere, [2, -1, 2], ...legs]).sentence, /^Two voids/);
+  assert.match(finding([...sphere, [2, -1, 2], ...legs]).sentence, /^Two voids/);
 });
 
 test("of superlevel sets the values of the data", () => {
-  const { sentence } = answer([[0, -200, kNever], [1, -96, -80], ...noise(1, [2, 2, 1, 1], -10)], { value: { negated: true } });
+  const { sentence } = finding([[0, -200, kNever], [1, -96, -80], ...noise(1, [2, 2, 1, 1], -10)], { value: { negated: true } });
   assert.match(sentence, /^One loop stands out: \[96, 80\), 8.0 times/);
 });
 
@@ -236,12 +236,12 @@ test("two barcodes: where they differ most, and the pair that decides", () => {
     b = [[0, 0, kNever], [1, 0, 3.5], [1, 2, 2.1]];
   const distances = [{ dim: 0, bottleneck: 0 }, { dim: 1, bottleneck: 0.5 }];
   const pairs = Uint32Array.of(0, 3, 1, 4);
-  const found = answer(a, { second: b, distances, pairs });
+  const found = finding(a, { second: b, distances, pairs });
   assert.equal(found.sentence, "The barcodes differ most in H₁: the bottleneck distance is 0.5.");
   assert.equal(found.dim, 1);
   assert.deepEqual(found.bars, [1, 4]);
-  assert.match(answer(a, { second: a, distances: [{ dim: 1, bottleneck: 0 }] }).sentence, /are equal/);
-  const left = answer(a, { second: a, distances: [{ dim: 0, bottleneck: 0 }] }).sentence;
+  assert.match(finding(a, { second: a, distances: [{ dim: 1, bottleneck: 0 }] }).sentence, /are equal/);
+  const left = finding(a, { second: a, distances: [{ dim: 0, bottleneck: 0 }] }).sentence;
   assert.equal(left, "The two barcodes are equal in H₀: every bottleneck distance is 0. H₁ was not compared.");
-  assert.match(answer(a, { second: b, distances: [{ dim: 1, bottleneck: null }] }).sentence, /never end: .* infinite/);
+  assert.match(finding(a, { second: b, distances: [{ dim: 1, bottleneck: null }] }).sentence, /never end: .* infinite/);
 });
