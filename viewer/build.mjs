@@ -25,12 +25,12 @@ async function bundle(entry, options) {
   return result.outputFiles[0].text.trim();
 }
 
-const script = await bundle("src/main.ts", {
+const script = await bundle("src/page/main.ts", {
   format: "iife",
   target: "es2022",
   legalComments: "inline",
 });
-const style = await bundle("src/style.css", {});
+const style = await bundle("src/page/style.css", {});
 for (const [what, text, end] of [
   ["script", script, "</script"],
   ["style", style, "</style"],
@@ -50,7 +50,7 @@ const policy = [
 ].join("; ");
 
 // Replacements by function: the text of a bundle may contain `$&`.
-const page = readFileSync(join(here, "src/page.html"), "utf8")
+const page = readFileSync(join(here, "src/page/page.html"), "utf8")
   .replace("{{policy}}", () => policy)
   .replace("{{style}}", () => style)
   .replace("{{script}}", () => script);

@@ -5,14 +5,14 @@ import test from "node:test";
 import { importSource } from "./support/import_source.mjs";
 import { random } from "./support/random.mjs";
 
-const { fanOut } = await importSource("fanned_dots.ts");
-const { drawMatching } = await importSource("matching_lines.ts");
-const { Matching } = await importSource("matching.ts");
-const { Bars } = await importSource("bars.ts");
-const { drawDensity } = await importSource("diagram_density.ts");
-const { spacingOf } = await importSource("point_spacing.ts");
-const { firstPose } = await importSource("pose.ts");
-const { LabelPlaces } = await importSource("label_places.ts");
+const { fanOut } = await importSource("charts/fanned_dots.ts");
+const { drawMatching } = await importSource("charts/matching_lines.ts");
+const { Matching } = await importSource("model/matching.ts");
+const { Bars } = await importSource("model/bars.ts");
+const { drawDensity } = await importSource("charts/diagram_density.ts");
+const { spacingOf } = await importSource("geometry/point_spacing.ts");
+const { firstPose } = await importSource("scene/pose.ts");
+const { LabelPlaces } = await importSource("common/label_places.ts");
 
 const kLeft = 50,
   kRight = 348;
@@ -219,7 +219,7 @@ test("in a comparison a chosen dot of the second barcode stays hollow", async ()
       const session = sessionOf([[[1, 0, 4]], [[1, 1, 4]]], chosen);
       const size = { width: 400, height: 300 };
       const fields = { session, x: [10, 20], y: [10, 20], lasso: [], size };
-      const marks = await drawnOver("diagram.ts", "Diagram", fields);
+      const marks = await drawnOver("charts/diagram.ts", "Diagram", fields);
       const fills = marks.filter((m) => m.kind === "polygon").map((m) => m.mark[1]);
       assert.equal(fills.includes("colour"), !isHollow, JSON.stringify([bar, chosen]));
       assert.ok(marks.some((m) => m.mark.includes("colour")));
@@ -238,7 +238,7 @@ const overBarcode = (items, options) => {
   const session = sessionOf([bars], options);
   const size = { width: 150, height: 300 };
   const fields = { session, items, rowsFor: session.tintedBars(), size };
-  return drawnOver("barcode.ts", "Barcode", fields);
+  return drawnOver("charts/barcode.ts", "Barcode", fields);
 };
 
 test("a selected bar covers no other one and keeps its arrow", async () => {
@@ -268,7 +268,7 @@ test("numbers at bars are drawn last, those of close ones together", async () =>
 });
 
 test("a dimension with few bars has high rows beside one with many", async () => {
-  const { layOut } = await importSource("barcode_rows.ts");
+  const { layOut } = await importSource("charts/barcode_rows.ts");
   const { rows, heights } = layOut([2, 96], [2, 96], 270);
   assert.equal(rows[0], 2);
   assert.ok(heights[0] >= 9 && heights[1] >= 2.5, `${heights}`);
@@ -279,8 +279,8 @@ test("a dimension with few bars has high rows beside one with many", async () =>
 });
 
 const { isWholeMesh, kBirthColour, kDeathColour, shapesOf } =
-  await importSource("representatives.ts");
-const { dimColour, greyOf, ramp, segmentColour } = await importSource("palette.ts");
+  await importSource("scene/representatives.ts");
+const { dimColour, greyOf, ramp, segmentColour } = await importSource("common/palette.ts");
 
 test("no colour of values, segments or dimensions is that of a birth cell", () => {
   const rgbOf = (colour) => [1, 3, 5].map((i) => parseInt(colour.slice(i, i + 2), 16));

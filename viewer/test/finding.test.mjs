@@ -5,10 +5,10 @@ import test from "node:test";
 import { random } from "./support/random.mjs";
 import { importSource } from "./support/import_source.mjs";
 
-const { findingOf, widestGap } = await importSource("finding.ts");
-const { suggestedCut } = await importSource("cuts.ts");
-const { Bars } = await importSource("bars.ts");
-const { Matching } = await importSource("matching.ts");
+const { findingOf, widestGap } = await importSource("model/finding.ts");
+const { suggestedCut } = await importSource("model/cuts.ts");
+const { Bars } = await importSource("model/bars.ts");
+const { Matching } = await importSource("model/matching.ts");
 
 const kNever = Infinity;
 const columns = (bars) => ({

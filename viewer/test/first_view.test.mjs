@@ -20,7 +20,7 @@ import {
   vividPixels,
 } from "./support/browser.mjs";
 
-const { kPitch } = await importSource("fanned_dots.ts");
+const { kPitch } = await importSource("charts/fanned_dots.ts");
 
 const selection = (page) => page.textContent(".status .selection");
 const kOrange = [230, 159, 0],

@@ -5,8 +5,8 @@ import test from "node:test";
 import { importSource } from "./support/import_source.mjs";
 import { random } from "./support/random.mjs";
 
-const { surfaceOf } = await importSource("voxel_sets.ts");
-const { shortestPairs, trianglesOf } = await importSource("near_pairs.ts");
+const { surfaceOf } = await importSource("geometry/voxel_sets.ts");
+const { shortestPairs, trianglesOf } = await importSource("geometry/near_pairs.ts");
 
 function runsOfMask(mask) {
   const runs = [];

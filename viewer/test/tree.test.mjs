@@ -6,8 +6,8 @@ import { contracted, cutOf, mergeTree } from "./support/reference_tree.mjs";
 import { importSource } from "./support/import_source.mjs";
 import { random } from "./support/random.mjs";
 
-const { MergeTree } = await importSource("merge_tree.ts");
-const { segmentCounts, suggestedCut, CutScale } = await importSource("cuts.ts");
+const { MergeTree } = await importSource("model/merge_tree.ts");
+const { segmentCounts, suggestedCut, CutScale } = await importSource("model/cuts.ts");
 
 function pageTree(arrays, rule, minSize, more = {}) {
   return new MergeTree({

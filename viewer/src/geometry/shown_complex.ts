@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// The complex up to a filtration value: the edges that the program wrote, or, of a Vietoris-Rips
+// complex of points that are all here, the pairs within that distance; and its triangles.
+import { elementOf } from "./cell_geometry";
+import { shortestPairs, trianglesOf, type SortedPairs } from "./near_pairs";
+import type { Numbers } from "../model/payload";
+import type { Report } from "../model/report";
+
+const kMostEdges = 40_000,
+  kMostTriangles = 40_000,
+  kMostPoints = 50_000;
+
+export interface ShownPart {
+  ends: Uint32Array; // places in the picture, two an edge
+  corners: Uint32Array | undefined; // three a triangle; undefined: too many to draw
+  moreEdges: boolean; // than the budget has
+  moreTriangles: boolean; // than the report has
+}
+
+export class ShownComplex {
+  readonly available: boolean;
+  private readonly computed: boolean;
+  private pairs: SortedPairs | undefined;
+
+  constructor(private readonly report: Report) {
+    const { cloud, meta, edges } = report;
+    this.computed =
+      !edges &&
+      !!cloud &&
+      meta.provenance.complex === "rips" &&
+      meta.cloud?.metric === "euclidean" &&
+      !meta.cloud.projection &&
+      cloud.positions.length / 3 <= kMostPoints;
+    this.available = !!cloud && (!!edges || this.computed);
+  }
+  upTo(value: number): ShownPart {
+    this.pairs ??= this.computed ? this.nearest() : this.written();
+    const { ends, values, missingFrom } = this.pairs;
+    const shown = ends.subarray(0, 2 * countUpTo(values, value));
+    return {
+      ends: shown,
+      corners: this.trianglesUpTo(value, shown),
+      moreEdges: reaches(value, missingFrom),
+      moreTriangles: reaches(value, this.report.meta.cloud?.triangles_below),
+    };
+  }
+  /// x, y, z of each.
+  places(elements: Uint32Array): Float32Array {
+    const to = new Float32Array(3 * elements.length);
+    const { positions } = this.report.cloud!;
+    for (let i = 0; i < elements.length; ++i)
+      for (let k = 0; k < 3; ++k) to[3 * i + k] = positions[3 * elements[i]! + k]!;
+    return to;
+  }
+
+  /// The vertices that lie in no triangle of a mesh.
+  outside(): Uint32Array {
+    const isIn = new Uint8Array(this.report.elements!.count);
+    for (const element of this.surface ?? []) isIn[element] = 1;
+    let count = 0;
+    const found = new Uint32Array(isIn.length);
+    for (let i = 0; i < isIn.length; ++i) if (isIn[i] === 0) found[count++] = i;
+    return found.subarray(0, count);
+  }
+  /// The triangles of a mesh, three places each, ascending by value; undefined: it is none.
+  get surface(): Uint32Array | undefined {
+    const { triangles } = this.report;
+    return triangles && this.available ? this.elementsOf(triangles.corners) : undefined;
+  }
+
+  /// Those that the program wrote, or, of a flag complex, those whose edges are there.
+  private trianglesUpTo(value: number, edges: Uint32Array): Uint32Array | undefined {
+    const { triangles, meta } = this.report;
+    if (triangles) {
+      const count = countUpTo(triangles.values, value);
+      return this.elementsOf(triangles.corners).subarray(0, 3 * count);
+    }
+    const isFlag = meta.provenance.complex === "rips";
+    return isFlag ? trianglesOf(edges, kMostTriangles) : new Uint32Array();
+  }
+  private nearest(): SortedPairs {
+    return shortestPairs(this.report.cloud!.positions, this.report.bars.high, kMostEdges);
+  }
+  private written(): SortedPairs {
+    const { edges, meta } = this.report;
+    const ends = this.elementsOf(edges!.ends);
+    for (let i = 0; i < ends.length; i += 2) ends.subarray(i, i + 2).sort(); // for triangles
+    return {
+      ends,
+      values: Float64Array.from(edges!.values),
+      missingFrom: meta.cloud?.edges_below ?? Infinity,
+    };
+  }
+  private readonly found = new Map<Numbers, Uint32Array>();
+  /// Vertices of cells as places in the picture.
+  private elementsOf(vertices: Numbers): Uint32Array {
+    let elements = this.found.get(vertices);
+    if (elements) return elements;
+    elements = new Uint32Array(vertices.length);
+    for (let i = 0; i < elements.length; ++i)
+      elements[i] = elementOf(this.report, vertices[i]!) ?? 0;
+    this.found.set(vertices, elements);
+    return elements;
+  }
+}
+
+/// Whether there is a value from which on cells are missing, and another one is not below it.
+function reaches(value: number, missingFrom = Infinity): boolean {
+  return missingFrom < Infinity && value >= missingFrom;
+}
+
+/// How many of ascending values lie up to another one. Values and positions are float32.
+function countUpTo(values: ArrayLike<number>, value: number): number {
+  const limit = value + 1e-6 * Math.abs(value);
+  let low = 0,
+    high = values.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (values[middle]! <= limit) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
+
+/// How many bars of each dimension live at a value.
+export function bettiAt(report: Report, value: number): number[] {
+  const { bars } = report;
+  const betti = new Array<number>((bars.dims.at(-1) ?? -1) + 1).fill(0);
+  const end = bars.first[1]!;
+  for (let i = 0; i < end; ++i)
+    if (bars.birth[i]! <= value && value < bars.death[i]!) ++betti[bars.dim[i]!]!;
+  return betti;
+}

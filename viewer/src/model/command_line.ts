@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// The command line that gives what is on the screen.
+import { exact } from "../common/number_format";
+import type { Session } from "./session";
+
+/// A word as a POSIX shell reads it.
+function quoted(word: string): string {
+  return /^[A-Za-z0-9_@%+=:,./-]+$/.test(word) ? word : `'${word.replace(/'/g, `'\\''`)}'`;
+}
+
+/// The run as it was, or, at another cut, the one that makes that cut.
+export function commandLine(session: Session): string {
+  const { tree, provenance } = session.report.meta;
+  const words =
+    tree?.command && session.cutValue !== tree.cut
+      ? tree.command.map((word) => word.replaceAll("{cut}", exact(session.cutValue)))
+      : (provenance.command ?? []);
+  return words.map(quoted).join(" ");
+}

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+// What the reader is looking at: one state for all views. A view changes it through the methods
+// here and draws again when it hears of a change; no view knows another one.
+import { findingOf, type Finding } from "./finding";
+import { colourModesOf, type ColourMode } from "./colour_modes";
+import { coloursApart, dimColour, hex, segmentColour, themeOf, type Rgb, type Theme } from "../common/palette";
+import { suggestedCut } from "./cuts";
+import type { Cut } from "./merge_tree";
+import { kNone, type Numbers } from "./payload";
+import type { Report } from "./report";
+import { firstAxis } from "./volume_axes";
+import { touchingInImage, touchingInSpace } from "./touching_leaves";
+
+export type Change =
+  "focus" | "selection" | "cut" | "colour" | "dims" | "scale" | "slice" | "theme" | "view";
+
+/// What the pointer or the keyboard is on.
+export interface Focus {
+  bar: number; // -1: none
+  segment: number; // 0: none
+  element: number; // -1: none
+}
+const kNoTints = new Map<number, string>();
+const kMostTinted = 200, // segments whose bars have their colours
+  kMostNumbered = 30;
+const kNothing: Focus = { bar: -1, segment: 0, element: -1 };
+
+export class Session {
+  focus: Focus = kNothing;
+  selection: number[] = []; // bars, ascending
+  colour: ColourMode;
+  hiddenDims = new Set<number>();
+  theme: Theme = themeOf(false);
+  cutValue: number;
+  cut: Cut | undefined;
+  segmentColours: Rgb[] = [];
+  beside = false; // ground truth beside
+  scale: number | undefined; // filtration value up to which the complex is shown
+  sliceAxis = 0;
+  slice: number;
+  readonly finding: Finding;
+  private selected: Uint8Array;
+  private leafColours: number[] = [];
+  private readonly listeners: ((changes: Set<Change>) => void)[] = [];
+  private pending = new Set<Change>();
+  private cutMilliseconds = 0;
+  private shown: (milliseconds: number) => void = () => {};
+
+  constructor(readonly report: Report) {
+    this.selected = new Uint8Array(report.bars.size);
+    this.cutValue = report.meta.tree?.cut ?? 0;
+    const isVolume = (report.image?.shape[0] ?? 1) > 1;
+    if (isVolume) this.sliceAxis = firstAxis(report.meta);
+    this.slice = Math.floor((report.image?.shape[this.sliceAxis] ?? 1) / 2);
+    if (report.tree) this.recut();
+    this.colour = this.colourModes()[0]![0];
+    this.finding = findingOf(report);
+    this.select(this.finding.bars);
+  }
+
+  // Changes.
+
+  onChange(listener: (changes: Set<Change>) => void): void {
+    this.listeners.push(listener);
+  }
+  /// Tells the views once a frame, however many changes there are.
+  changed(...changes: Change[]): void {
+    if (this.pending.size === 0) requestAnimationFrame(() => this.flush());
+    for (const change of changes) this.pending.add(change);
+  }
+  private flush(): void {
+    const changes = this.pending;
+    this.pending = new Set();
+    const start = performance.now();
+    for (const listener of this.listeners) listener(changes);
+    if (changes.has("cut")) this.shown(this.cutMilliseconds + performance.now() - start);
+  }
+  /// Hears how long a cut took until every view was told.
+  onShown(listener: (milliseconds: number) => void): void {
+    this.shown = listener;
+  }
+
+  setFocus(focus: Partial<Focus>): void {
+    const next = { ...kNothing, ...focus };
+    const old = this.focus;
+    if (next.bar === old.bar && next.segment === old.segment && next.element === old.element)
+      return;
+    this.focus = next;
+    this.changed("focus");
+  }
+  select(bars: Iterable<number>, how: "replace" | "add" | "toggle" = "replace"): void {
+    if (how === "replace") this.selected.fill(0);
+    for (const bar of bars) this.selected[bar] = how === "toggle" ? 1 - this.selected[bar]! : 1;
+    this.selection = [];
+    for (let i = 0; i < this.selected.length; ++i) if (this.selected[i]) this.selection.push(i);
+    if (this.colour === "grey") this.tints = undefined;
+    this.changed("selection");
+  }
+  /// Whether just the bars of the finding are selected, as at first.
+  get selectsTheFinding(): boolean {
+    const { bars } = this.finding;
+    return this.selection.length === bars.length && bars.every((bar) => this.isSelected(bar));
+  }
+  isSelected(bar: number): boolean {
+    return this.selected[bar] === 1;
+  }
+  setCut(value: number): void {
+    this.cutValue = value;
+    this.recut();
+    this.changed("cut");
+  }
+  set<K extends "colour" | "scale" | "beside" | "slice" | "sliceAxis" | "theme">(
+    what: K,
+    value: this[K],
+    change: Change,
+  ): void {
+    (this as Session)[what] = value;
+    if (change === "colour") this.tints = undefined;
+    this.changed(change);
+  }
+  toggleDim(dim: number): void {
+    if (!this.hiddenDims.delete(dim)) this.hiddenDims.add(dim);
+    this.changed("dims");
+  }
+
+  // The cut.
+
+  /// Whether parts of objects are joined: only at the cut at which the program itself did so.
+  get isJoined(): boolean {
+    const tree = this.report.tree;
+    return !!tree?.hasJoins && this.cutValue === this.report.meta.tree!.cut;
+  }
+  private recut(): void {
+    const start = performance.now();
+    const tree = this.report.tree!;
+    this.cut = tree.cut(this.cutValue, this.isJoined);
+    if (this.focus.segment > this.cut.segments.length) this.focus = kNothing;
+    this.segmentColours = this.coloursOf(this.cut);
+    this.tints = undefined;
+    this.cutMilliseconds = performance.now() - start;
+  }
+  private coloursOf(cut: Cut): Rgb[] {
+    const pairs = this.touchingLeaves();
+    const none = new Set<number>();
+    const touching = cut.segments.map(() => (pairs.length > 0 ? new Set<number>() : none));
+    for (let k = 0; k + 1 < pairs.length; k += 2) {
+      const a = cut.labelOfLeaf[pairs[k]!]!,
+        b = cut.labelOfLeaf[pairs[k + 1]!]!;
+      if (a === b || a === 0 || b === 0) continue;
+      touching[a - 1]!.add(b - 1);
+      touching[b - 1]!.add(a - 1);
+    }
+    // A segment keeps the colour that its oldest leaf had before.
+    const wish = cut.segments.map((s) => this.leafColours[s.oldestLeaf] ?? -1);
+    const choice = coloursApart(touching, wish);
+    cut.segments.forEach((s, i) => (this.leafColours[s.oldestLeaf] = choice[i]!));
+    return choice.map(segmentColour);
+  }
+  private touching: Numbers | undefined;
+  private touchingLeaves(): Numbers {
+    const { tree, elements, image, cloud } = this.report;
+    if (tree!.arrays.touching) return tree!.arrays.touching;
+    // Of very many leaves each is a speck, whose colour says nothing.
+    const few = elements?.leaf && tree!.leaves <= 20_000;
+    this.touching ??= !few
+      ? new Uint32Array()
+      : image
+        ? touchingInImage(elements.leaf!, image.shape, tree!.leaves)
+        : touchingInSpace(elements.leaf!, cloud!.positions, tree!.leaves);
+    return this.touching;
+  }
+  suggestion(): number | undefined {
+    const { tree, meta } = this.report;
+    return tree && suggestedCut(tree, meta.tree?.from ?? 0, meta.tree?.to ?? Infinity);
+  }
+
+  // What belongs to what.
+
+  leafOf(element: number): number {
+    const leaf = this.report.elements?.leaf?.[element] ?? kNone;
+    return leaf < (this.report.tree?.leaves ?? 0) ? leaf : -1;
+  }
+  segmentOf(element: number): number {
+    const leaf = this.leafOf(element);
+    return leaf < 0 ? 0 : (this.cut?.labelOfLeaf[leaf] ?? 0);
+  }
+  /// The bar of the branch that an element belongs to; without a tree, of the most persistent
+  /// representative through it. -1: none.
+  barOf(element: number): number {
+    const leaf = this.leafOf(element);
+    if (leaf >= 0) {
+      const bar = this.report.tree!.barOf[this.report.tree!.branchAt(leaf, this.cutValue)]!;
+      return bar === kNone ? -1 : bar;
+    }
+    return this.report.tree ? -1 : (this.barsThrough().get(element) ?? -1);
+  }
+  barOfSegment(label: number): number {
+    const segment = this.cut?.segments[label - 1];
+    if (!segment) return -1;
+    const tree = this.report.tree!;
+    const bar = tree.barOf[tree.branchAt(segment.oldestLeaf, this.cutValue)]!;
+    return bar === kNone ? -1 : bar;
+  }
+  /// The leaves to bring out, as a mask; undefined: none in particular.
+  highlightedLeaves(): Uint8Array | undefined {
+    const tree = this.report.tree;
+    if (!tree) return undefined;
+    const mask = new Uint8Array(tree.leaves);
+    let any = false;
+    const { segment, bar } = this.focus;
+    if (segment > 0) {
+      for (let leaf = 0; leaf < tree.leaves; ++leaf)
+        if (this.cut!.labelOfLeaf[leaf] === segment) mask[leaf] = 1;
+      return mask;
+    }
+    for (const b of bar >= 0 ? [bar] : this.selection) {
+      const branch = tree.branchOf(b);
+      if (branch === undefined) continue;
+      tree.markBranch(branch, this.cutValue, mask);
+      any = true;
+    }
+    return any ? mask : undefined;
+  }
+  private tints: Map<number, string> | undefined;
+  /// The bars of the largest segments with the colours that these have in the data, if they have
+  /// them there; else none. A grey image has those of the selected ones.
+  tintedBars(): Map<number, string> {
+    const isGrey = this.colour === "grey";
+    if ((this.colour !== "segment" && !isGrey) || !this.cut) return kNoTints;
+    this.tints ??= new Map(
+      this.cut.segments
+        .slice(0, kMostTinted)
+        .map((s) => [this.barOfSegment(s.label), hex(this.segmentColours[s.label - 1]!)] as const)
+        .filter(([bar]) => bar >= 0 && !(isGrey && !this.isSelected(bar))),
+    );
+    return this.tints;
+  }
+  /// The segments that have a number in every view: the largest of those with a colour, by bar.
+  numbers(): Map<number, number> {
+    const numbers = new Map<number, number>();
+    const tints = this.tintedBars();
+    if ((this.cut?.segments.length ?? 0) < 2) return numbers;
+    for (const { label } of this.cut!.segments) {
+      if (numbers.size >= kMostNumbered || label > kMostTinted) break;
+      const bar = this.barOfSegment(label);
+      if (tints.has(bar)) numbers.set(bar, label);
+    }
+    return numbers;
+  }
+  /// What a bar is drawn with.
+  colourOfBar(bar: number): string {
+    return this.tintedBars().get(bar) ?? this.colourOfDim(this.report.bars.dim[bar]!);
+  }
+  /// What bars are drawn with that have no colour of their own: where segments have some those of H0
+  /// are grey, as in the tree.
+  colourOfDim(dim: number): string {
+    const grey = dim === 0 && this.colour === "segment";
+    return grey ? this.theme.faint : dimColour(dim, this.theme);
+  }
+  isShown(bar: number): boolean {
+    return !this.hiddenDims.has(this.report.bars.dim[bar]!);
+  }
+
+  /// The dimension that the finding is about, then the others, the highest first.
+  dimsInOrder(): number[] {
+    const { dims } = this.report.bars,
+      { dim } = this.finding;
+    return [...dims.filter((d) => d === dim), ...dims.filter((d) => d !== dim).reverse()];
+  }
+
+  private through: Map<number, number> | undefined;
+  private barsThrough(): Map<number, number> {
+    if (this.through) return this.through;
+    this.through = new Map();
+    const { chains, bars, cloud } = this.report;
+    if (!chains || !cloud) return this.through;
+    for (const bar of bars.byPersistence) {
+      const chain = chains.ofBar.get(bar);
+      if (chain === undefined || bars.dim[bar] === 0) continue;
+      for (let i = chains.first[chain]!; i < chains.first[chain + 1]!; ++i)
+        if (!this.through.has(chains.cells[i]!)) this.through.set(chains.cells[i]!, bar);
+    }
+    return this.through;
+  }
+
+  /// The ways to colour that this report has, the default first.
+  colourModes(): [ColourMode, string][] {
+    this.modes ??= colourModesOf(this.report);
+    return this.modes;
+  }
+  private modes: [ColourMode, string][] | undefined;
+}

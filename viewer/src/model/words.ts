@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Holes and intervals in words. Of superlevel sets a report holds minus the values; what a reader
+// sees are the values themselves, which fall from birth to death.
+import { grouped, homology, short } from "../common/number_format";
+import type { Meta } from "./meta";
+
+/// "loop", "loops": what a bar of a dimension is.
+export function holes(dim: number, count = 1): string {
+  const many = count !== 1;
+  if (dim > 2) return `${homology(dim)} class${many ? "es" : ""}`;
+  return ["component", "loop", "void"][dim]! + (many ? "s" : "");
+}
+
+const kWords = "No One Two Three Four Five Six Seven Eight Nine Ten Eleven Twelve".split(" ");
+
+/// "Two", at the beginning of a sentence; "13".
+export function inWords(count: number): string {
+  return kWords[count] ?? grouped(count);
+}
+
+export function capital(text: string): string {
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}
+
+/// "20 times", "1.1 times".
+export function times(ratio: number): string {
+  if (ratio >= 1000) return "more than 1,000 times";
+  return `${ratio >= 9.95 ? Math.round(ratio) : ratio.toFixed(1)} times`;
+}
+
+/// "a, b and c"
+export function listed(words: string[], last = "and"): string {
+  if (words.length < 2) return words.join("");
+  return `${words.slice(0, -1).join(", ")} ${last} ${words.at(-1)}`;
+}
+
+/// What a part of the cut is called.
+export function kindOfSegment(meta: Meta): string {
+  return meta.tree?.what ?? "segment";
+}
+
+/// A filtration value as a reader knows it.
+export function shownValue(meta: Meta, value: number): number {
+  return meta.value.negated ? 0 - value : value;
+}
+
+/// "[0.184, 1.465)"; of superlevel sets from the larger value to the smaller one.
+export function intervalText(meta: Meta, birth: number, death: number): string {
+  const [from, to] = [birth, death].map((v) => short(shownValue(meta, v)));
+  return `[${from}, ${to})`;
+}

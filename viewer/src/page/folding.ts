@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Panels that say nothing about these data are folded away: their title stays, and a button that
+// opens them.
+import { button } from "../common/dom";
+import type { Session } from "../model/session";
+
+/// Adds the button. @param folded how the panel begins.
+/// @return opens it, unless the reader has decided.
+export function foldable(panel: HTMLElement, title: string, folded: boolean): () => void {
+  let isDecided = false;
+  const act = () => {
+    isDecided = true;
+    show(!panel.classList.contains("folded"));
+  };
+  const toggle = button("", act, { class: "quiet fold" });
+  const show = (fold: boolean) => {
+    panel.classList.toggle("folded", fold);
+    toggle.textContent = fold ? "show" : "hide";
+    toggle.setAttribute("aria-expanded", String(!fold));
+    toggle.setAttribute("aria-label", `${fold ? "show" : "hide"}: ${title}`);
+  };
+  panel.querySelector("header")!.append(toggle);
+  show(folded);
+  return () => {
+    if (!isDecided) show(false);
+  };
+}
+
+/// Whether a cut of the tree says something: there are components that stand out, or the data begin
+/// with the colours of several segments and another cut has other ones.
+/// @param counts of segments at cuts all along the slider.
+export function cutSays(session: Session, counts: number[]): boolean {
+  const { tree } = session.report;
+  if (!tree || tree.merges === 0) return false;
+  if (session.finding.components) return true;
+  const coloured = session.colour === "segment" && session.cut!.segments.length > 1;
+  return (coloured || !session.report.elements) && new Set(counts).size > 1;
+}

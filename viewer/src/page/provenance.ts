@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// Where the page comes from: everything needed to make it again.
+import { commandLine } from "../model/command_line";
+import { button, el } from "../common/dom";
+import { bytes, counted, exact, grouped, homology, seconds, short } from "../common/number_format";
+import type { Meta } from "../model/meta";
+import type { Session } from "../model/session";
+
+export function provenanceDialog(session: Session): HTMLDialogElement {
+  const { meta, bars, elements, tree, payloadBytes } = session.report;
+  const p = meta.provenance;
+  const command = el("code", { class: "command" });
+  const list = el("dl", {});
+  const entry = (name: string, value: string | number | Node | null | undefined) => {
+    if (value === undefined || value === null || value === "") return;
+    list.append(
+      el("dt", {}, name),
+      el("dd", {}, typeof value === "number" ? String(value) : value),
+    );
+  };
+  entry("Program", p.version ?? meta.program);
+  entry(
+    "Command",
+    p.command &&
+      el(
+        "span",
+        {},
+        command,
+        button("copy", () => void navigator.clipboard?.writeText(command.textContent ?? ""), {
+          class: "quiet",
+        }),
+      ),
+  );
+  entry("Input", p.input?.path);
+  entry("Read as", p.input?.description);
+  entry("SHA-256", p.input?.sha256);
+  entry("Complex", p.complex);
+  entry("Field", p.field && (p.field === 2 ? "Z/2" : `Z/${p.field}`));
+  entry("Highest dimension", p.max_dim);
+  entry("Threshold", typeof p.threshold === "number" ? exact(p.threshold) : undefined);
+  entry("Engine", p.engine);
+  entry(
+    "Bars",
+    bars.dims.map((dim) => `${grouped(bars.count(dim, 0))} in dimension ${dim}`).join(", ") ||
+      "none",
+  );
+  entry("Distances", distancesOf(meta).join("\n"));
+  if (tree)
+    entry(
+      "Merge tree",
+      `${counted(tree.leaves, "leaf").replace("leafs", "leaves")}, ${counted(tree.merges, "merge")}`,
+    );
+  entry(
+    "Times",
+    Object.entries(p.timings ?? {})
+      .map(([stage, s]) => `${stage} ${seconds(s)}`)
+      .join(", "),
+  );
+  entry("Peak memory", typeof p.peak_memory === "number" ? bytes(p.peak_memory) : undefined);
+  for (const [name, text] of Object.entries(p.notes ?? {})) entry(name, text);
+  for (const warning of p.warnings ?? []) entry("Warning", warning);
+  if (elements)
+    entry(
+      "In this page",
+      `${counted(elements.count, session.report.image ? "voxel" : "point")}, ${bytes(payloadBytes)} of data`,
+    );
+  const dialog = el(
+    "dialog",
+    { class: "about", "aria-label": "About this report" },
+    el("h2", {}, "About this report"),
+    list,
+    button("close", () => dialog.close(), { class: "close" }),
+  );
+  dialog.addEventListener("click", (event) => event.target === dialog && dialog.close());
+  const show = () => (command.textContent = commandLine(session));
+  session.onChange((changes) => changes.has("cut") && show());
+  show();
+  return dialog;
+}
+
+/// "H₁ bottleneck 0.05", one a dimension.
+export function distancesOf(meta: Meta): string[] {
+  return (meta.distances ?? []).map(
+    ({ dim, bottleneck }) => `${homology(dim)} bottleneck ${short(bottleneck ?? Infinity)}`,
+  );
+}
+
+export function helpDialog(): HTMLDialogElement {
+  const rows: [string, string][] = [
+    ["hover, or arrow keys", "bring out a bar, a branch, a segment or a point in every view"],
+    ["click, or Enter", "select it; with Shift, add it or take it away"],
+    ["drag in the diagram", "select all bars inside the lasso"],
+    ["Shift + arrow keys there", "select bar after bar, the most persistent first"],
+    ["drag, wheel", "turn and zoom the cloud; with the right button, move it"],
+    ["arrows, + − 0", "the same where the cloud has the focus; 0 shows everything"],
+    ["Tab", "go from control to control; charts can be turned into tables"],
+    ["Escape", "select nothing"],
+  ];
+  const dialog = el(
+    "dialog",
+    { class: "about", "aria-label": "Help" },
+    el("h2", {}, "How to read and use this page"),
+    el(
+      "p",
+      {},
+      "A bar [birth, death) is a hole: H₀ components, H₁ loops, H₂ voids. What is far above the diagonal, or long, is there to stay. All views show the same bars; the address of the page keeps what you see.",
+    ),
+    el("dl", {}, ...rows.flatMap(([key, text]) => [el("dt", {}, key), el("dd", {}, text)])),
+    button("close", () => dialog.close(), { class: "close" }),
+  );
+  dialog.addEventListener("click", (event) => event.target === dialog && dialog.close());
+  return dialog;
+}
