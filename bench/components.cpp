@@ -12,7 +12,7 @@
 
 #include "metric/kd_tree.hpp"
 #include "metric/neighbour_search.hpp"
-#include "ph/detail/parallel.hpp"
+#include "ph/detail/core/parallel.hpp"
 #include "ph/ph.hpp"
 
 namespace {

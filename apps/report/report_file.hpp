@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "ph/detail/cubical_image.hpp"
-#include "ph/detail/output_file.hpp"
+#include "ph/detail/image/cubical_image.hpp"
+#include "ph/detail/io/output_file.hpp"
 #include "ph/run_context.hpp"
 #include "report/encoding/array_block.hpp"
 #include "report/metadata.hpp"

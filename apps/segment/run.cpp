@@ -9,7 +9,7 @@
 #include <span>
 
 #include "common/terminal/exit_code.hpp"
-#include "ph/detail/output_file.hpp"
+#include "ph/detail/io/output_file.hpp"
 #include "ph/error.hpp"
 #include "report/encoding/sha256.hpp"
 #include "segment/arguments/arguments.hpp"

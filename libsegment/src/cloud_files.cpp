@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "ph/detail/output_file.hpp"
+#include "ph/detail/io/output_file.hpp"
 #include "ph/error.hpp"
 #include "ph/io/cloud_io.hpp"
 #include "ph/segment.hpp"

@@ -1,22 +1,22 @@
 # SPDX-License-Identifier: MIT
 """The faults that plant_mutants.py plants."""
 
-CUBES = "libph/include/ph/detail/cubical_cells.ipp"
+CUBES = "libph/include/ph/detail/complex/cubical_cells.ipp"
 CUBICAL = "libph/src/complex/cubical.cpp"
-RIPS = "libph/include/ph/detail/rips_filtration.hpp"
-GRAPH = "libph/include/ph/detail/rips_graph.hpp"
+RIPS = "libph/include/ph/detail/rips/rips_filtration.hpp"
+GRAPH = "libph/include/ph/detail/rips/rips_graph.hpp"
 GRAPH_CPP = "libph/src/rips/rips_graph.cpp"
 FOREST = "libph/src/metric/spanning_forest.cpp"
-FOREST_PRIM = "libph/include/ph/detail/spanning_forest.hpp"
+FOREST_PRIM = "libph/include/ph/detail/metric/spanning_forest.hpp"
 SEARCH = "libph/src/metric/neighbour_search.cpp"
 ANNOTATIONS = "libph/src/rips/annotations/annotations.hpp"
 DEAD_GENERATORS = "libph/src/rips/annotations/dead_generators.hpp"
 EXTENSIONS = "libph/src/rips/surfaces/link_extensions.hpp"
 SURFACES = "libph/src/rips/surfaces/link_surfaces.hpp"
 TRIANGLES = "libph/src/rips/surfaces/triangle_cochain.hpp"
-HOMOLOGY = "libph/include/ph/detail/homology_reduction.hpp"
-COHOMOLOGY = "libph/include/ph/detail/cohomology_reduction.hpp"
-GROUPS = "libph/include/ph/detail/rips_groups.hpp"
+HOMOLOGY = "libph/include/ph/detail/reduction/homology_reduction.hpp"
+COHOMOLOGY = "libph/include/ph/detail/reduction/cohomology_reduction.hpp"
+GROUPS = "libph/include/ph/detail/rips/rips_groups.hpp"
 WEIGHTS = "libph/src/rips/vertex_weights.cpp"
 COLLAPSE = "libph/src/rips/collapse/edge_collapse.cpp"
 COLLAPSE_ROWS = "libph/src/rips/collapse/collapse_rows.hpp"
@@ -41,7 +41,7 @@ MUTANTS = [
      ": static_cast<double>(x)) <= limit;", ": static_cast<double>(x)) < limit;", ["known_images_tests"]),
     ("cubical, by stars: what is absent is young in both constructions", "libph/src/cubical/stars/star_grid.cpp",
      "return descending ? !(u <= v) : !(u >= v);", "return descending ? u > v : u < v;", ["masked_images_tests"]),
-    ("cubical: what is absent has a sign", "libph/include/ph/detail/cubical_image.hpp",
+    ("cubical: what is absent has a sign", "libph/include/ph/detail/image/cubical_image.hpp",
      "if (v != v) return std::numeric_limits<double>::infinity();",
      "if (v != v) return (superlevel ? -1 : 1) * std::numeric_limits<double>::infinity();",
      ["masked_images_tests"]),
@@ -198,9 +198,9 @@ MUTANTS = [
     ("sparse: balls stop at half their size", "libph/src/rips/sparse_rips.cpp",
      "2 * order.radii[k] * (1 + 1 / epsilon)", "order.radii[k] * (1 + 1 / epsilon)",
      ["sampling_tests"]),
-    ("sparse: edges come as if balls still grew", "libph/include/ph/detail/sparse_rips.hpp",
+    ("sparse: edges come as if balls still grew", "libph/include/ph/detail/rips/sparse_rips.hpp",
      "distance + (distance - small);", "distance;", ["sampling_tests"]),
-    ("sparse: edges go too early", "libph/include/ph/detail/sparse_rips.hpp",
+    ("sparse: edges go too early", "libph/include/ph/detail/rips/sparse_rips.hpp",
      "value <= (1 + epsilon_) * small", "value <= small", ["sampling_tests"]),
     ("collapse: a dominator stays one whatever comes", COLLAPSE,
      "dominates = dominates && graph_.are_joined(dominator, x, now);", "(void)x;",
@@ -267,7 +267,7 @@ MUTANTS = [
      ["persistence_tests"]),
     ("cohomology: no clearing", COHOMOLOGY, "cleared_.insert(column->pivot, 0);", "",
      ["conformance_random_tests"]),
-    ("cohomology: a zero coefficient is kept", "libph/include/ph/detail/working_column.hpp",
+    ("cohomology: a zero coefficient is kept", "libph/include/ph/detail/reduction/working_column.hpp",
      "if (!field.is_zero(sum)) chain[kept++] = Term(cell, sum);", "chain[kept++] = Term(cell, sum);",
      ["representatives_random_tests"]),
     ("cohomology: every first equal cofacet is an emergent pair", COHOMOLOGY,
@@ -276,18 +276,18 @@ MUTANTS = [
     ("cohomology: a column that was driven out is left alone", COHOMOLOGY,
      "if (other == PivotTable<F, K>::kNone) return;", "if (other != number) return;",
      ["conformance_random_tests"]),
-    ("pivots: the first to come stays", "libph/include/ph/detail/pivot_table.hpp",
+    ("pivots: the first to come stays", "libph/include/ph/detail/reduction/pivot_table.hpp",
      "if (found.owner.number != kNone && found.owner.number < i) return i;",
      "if (found.owner.number != kNone) return i;", ["conformance_random_tests"]),
     ("rips: any link is a cone", GROUPS, "return missed == 0;\n  }", "return true;\n  }",
      ["conformance_random_tests"]),
     ("rips: the least vertex is like the others", GROUPS, "if (x == lowest) return;", "",
      ["conformance_random_tests"]),
-    ("rips: any common neighbour makes an apparent pair", "libph/include/ph/detail/rips_filtration.ipp",
+    ("rips: any common neighbour makes an apparent pair", "libph/include/ph/detail/rips/rips_filtration.ipp",
      "if (lead.vertex >= below) break;", "", ["conformance_random_tests"]),
-    ("apparent pairs: only one side looked at", "libph/include/ph/detail/apparent_pairs.hpp",
+    ("apparent pairs: only one side looked at", "libph/include/ph/detail/reduction/apparent_pairs.hpp",
      "if (facet && *facet == cell) return cofacet;", "return cofacet;", ["conformance_random_tests"]),
-    ("elder rule reversed", "libph/include/ph/detail/elder_rule.hpp",
+    ("elder rule reversed", "libph/include/ph/detail/components/elder_rule.hpp",
      "if (age[younger] < age[elder])", "if (age[younger] > age[elder])", ["merge_tree_tests"]),
     ("field: inverse without its sign", "libph/src/core/field.cpp",
      "s0 < 0 ? s0 + p_ : s0", "s0 < 0 ? -s0 : s0", ["core_tests"]),

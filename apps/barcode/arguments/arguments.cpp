@@ -19,7 +19,7 @@
 #include "common/arguments/choices.hpp"
 #include "common/arguments/numbers.hpp"
 #include "common/files/batch_names.hpp"
-#include "ph/detail/field.hpp"
+#include "ph/detail/core/field.hpp"
 #include "report/page_template.hpp"
 
 namespace ph::barcode {

@@ -14,7 +14,7 @@
 #include "barcode/output/stored.hpp"
 #include "common/terminal/exit_code.hpp"
 #include "ph/bottleneck.hpp"
-#include "ph/detail/file_pages.hpp"
+#include "ph/detail/core/file_pages.hpp"
 #include "report/arrays/bar_arrays.hpp"
 #include "report/arrays/point_arrays.hpp"
 #include "report/arrays/voxel_arrays.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "barcode/run.hpp"
-#include "ph/detail/reader.hpp"
+#include "ph/detail/io/reader.hpp"
 #include "report/metadata.hpp"
 
 namespace ph::barcode {

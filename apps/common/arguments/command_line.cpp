@@ -13,7 +13,7 @@
 #include "common/arguments/numbers.hpp"
 #include "common/terminal/build_information.hpp"
 #include "common/terminal/exit_code.hpp"
-#include "ph/detail/output_file.hpp"
+#include "ph/detail/io/output_file.hpp"
 
 namespace ph::app {
 namespace {

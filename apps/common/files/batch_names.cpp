@@ -10,7 +10,7 @@
 #include <map>
 #include <system_error>
 
-#include "ph/detail/reader.hpp"
+#include "ph/detail/io/reader.hpp"
 #include "ph/error.hpp"
 
 namespace ph::app {

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "ph/detail/reader.hpp"
+#include "ph/detail/io/reader.hpp"
 #include "ph/error.hpp"
 
 namespace ph::app {

@@ -17,7 +17,7 @@
 #include "common/run/signals.hpp"
 #include "common/terminal/exit_code.hpp"
 #include "common/terminal/messages.hpp"
-#include "ph/detail/output_file.hpp"
+#include "ph/detail/io/output_file.hpp"
 
 namespace ph::app {
 namespace {

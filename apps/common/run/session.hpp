@@ -8,7 +8,7 @@
 #include "common/arguments/command_line.hpp"
 #include "common/run/memory_limit.hpp"
 #include "common/run/progress.hpp"
-#include "ph/detail/output_file.hpp"
+#include "ph/detail/io/output_file.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph::app {

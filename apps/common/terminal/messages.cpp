@@ -6,7 +6,7 @@
 #include <mutex>
 #include <string>
 
-#include "ph/detail/reader.hpp"
+#include "ph/detail/io/reader.hpp"
 
 namespace ph::app {
 namespace {

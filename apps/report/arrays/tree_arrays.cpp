@@ -5,7 +5,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "ph/detail/disjoint_sets.hpp"
+#include "ph/detail/components/disjoint_sets.hpp"
 
 namespace ph::report {
 namespace {

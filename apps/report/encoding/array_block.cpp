@@ -11,7 +11,7 @@
 #include <new>
 
 #include "io/bytes/base64.hpp"
-#include "ph/detail/file_pages.hpp"
+#include "ph/detail/core/file_pages.hpp"
 #include "ph/error.hpp"
 #include "ph/io/write.hpp"
 

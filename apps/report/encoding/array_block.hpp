@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ph/detail/output_file.hpp"
+#include "ph/detail/io/output_file.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph::report {
@@ -36,7 +36,7 @@ struct RawArray {
   std::string_view type;  ///< "f64"
   std::size_t width;      ///< bytes a number, in the order of this machine
   std::span<const std::byte> bytes;
-  bool is_in_file = false;  ///< see ph/detail/file_pages.hpp
+  bool is_in_file = false;  ///< see ph/detail/core/file_pages.hpp
 };
 
 /// Writes an array as docs/report-format.md says: filters, zlib, base64, in an element of its own.

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "ph/detail/reader.hpp"
+#include "ph/detail/io/reader.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph::report {

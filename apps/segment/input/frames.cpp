@@ -9,7 +9,7 @@
 #include <iostream>
 
 #include "common/files/batch_names.hpp"
-#include "ph/detail/reader.hpp"
+#include "ph/detail/io/reader.hpp"
 #include "ph/error.hpp"
 
 namespace ph::segment {

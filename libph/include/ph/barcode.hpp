@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "ph/detail/field.hpp"
+#include "ph/detail/core/field.hpp"
 #include "ph/filtration.hpp"
 #include "ph/run_context.hpp"
 

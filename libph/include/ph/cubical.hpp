@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "ph/detail/cubical_image.hpp"
+#include "ph/detail/image/cubical_image.hpp"
 #include "ph/filtration.hpp"
 #include "ph/image.hpp"
 #include "ph/run_context.hpp"
@@ -142,4 +142,4 @@ struct std::hash<ph::Cubical::Cell> {
   std::size_t operator()(const ph::Cubical::Cell& c) const { return c.index; }
 };
 
-#include "ph/detail/cubical_cells.ipp"
+#include "ph/detail/complex/cubical_cells.ipp"

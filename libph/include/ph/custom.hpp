@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "ph/detail/choose_engine.hpp"
+#include "ph/detail/facade/choose_engine.hpp"
 #include "ph/error.hpp"
 #include "ph/estimate.hpp"
 
@@ -48,7 +48,7 @@ ExplicitComplex listed(const F& filtration, const RunContext& context = default_
 //
 // and, where they are not false or absent, goes_by_edges, stops_early, is_oracle and
 // rips_bytes(vertices, edges), which EngineFacts explains. can_run, suitability and run are
-// templates of the filtration; detail/twist.hpp is a short one to look at.
+// templates of the filtration; detail/reduction/twist.hpp is a short one to look at.
 
 /// Adds an engine of your own to all complexes of libph, for the rest of the program: Options can
 /// name it, `engine_names` lists it, and it is chosen where it suits best. Add engines before

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "ph/detail/raw_vector.hpp"
+#include "ph/detail/core/raw_vector.hpp"
 
 namespace ph {
 
@@ -77,7 +77,7 @@ concept CofacetFiltration =
       { F::first_equal_cofacet_is_oldest } -> std::convertible_to<bool>;
     };
 
-/// Capability: knows its apparent pairs (ph/detail/apparent_pairs.hpp) without going through facets
+/// Capability: knows its apparent pairs (ph/detail/reduction/apparent_pairs.hpp) without going through facets
 /// and cofacets. They must be the ones that a search of all facets and cofacets finds.
 template <class F>
 concept ApparentFiltration =

@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-#include "ph/detail/cubical_image.hpp"
+#include "ph/detail/image/cubical_image.hpp"
 
 namespace ph {
 
@@ -25,7 +25,7 @@ concept VoxelNumber = std::same_as<T, std::uint8_t> || std::same_as<T, std::uint
 /// Numbers of an image that stay in a mapped file.
 struct VoxelsInFile {
   VoxelType type;
-  std::shared_ptr<const void> file;  ///< keeps it mapped; see ph/detail/file_pages.hpp
+  std::shared_ptr<const void> file;  ///< keeps it mapped; see ph/detail/core/file_pages.hpp
   const void* data;                  ///< the first number, aligned
   std::size_t count;
 };

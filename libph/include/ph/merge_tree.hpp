@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "ph/detail/branch.hpp"
+#include "ph/detail/components/branch.hpp"
 #include "ph/filtration.hpp"
 #include "ph/run_context.hpp"
 

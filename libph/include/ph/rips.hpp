@@ -3,10 +3,10 @@
 #include <memory>
 #include <optional>
 
-#include "ph/detail/rips_filtration.hpp"
-#include "ph/detail/rips_graph.hpp"
-#include "ph/detail/rips_vertices.hpp"
-#include "ph/detail/sparse_rips.hpp"
+#include "ph/detail/rips/rips_filtration.hpp"
+#include "ph/detail/rips/rips_graph.hpp"
+#include "ph/detail/rips/rips_vertices.hpp"
+#include "ph/detail/rips/sparse_rips.hpp"
 #include "ph/distance_matrix.hpp"
 #include "ph/metric.hpp"
 #include "ph/sparse_distances.hpp"

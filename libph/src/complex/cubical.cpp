@@ -11,8 +11,8 @@
 #include <thread>
 
 #include "image/voxels_in_use.hpp"
-#include "ph/detail/file_pages.hpp"
-#include "ph/detail/radix_sort.hpp"
+#include "ph/detail/core/file_pages.hpp"
+#include "ph/detail/core/radix_sort.hpp"
 #include "ph/error.hpp"
 
 namespace ph {

@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "ph/barcode.hpp"
-#include "ph/detail/radix_sort.hpp"
+#include "ph/detail/core/radix_sort.hpp"
 #include "ph/error.hpp"
 
 namespace ph {

@@ -7,8 +7,8 @@
 #include <string>
 #include <tuple>
 
-#include "ph/detail/polled_sort.hpp"
-#include "ph/detail/radix_sort.hpp"
+#include "ph/detail/core/polled_sort.hpp"
+#include "ph/detail/core/radix_sort.hpp"
 #include "ph/error.hpp"
 
 namespace ph {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/detail/bit_matrix.hpp"
+#include "ph/detail/core/bit_matrix.hpp"
 
 #include "core/for_each_target.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/detail/field.hpp"
+#include "ph/detail/core/field.hpp"
 
 #include <string>
 #include <utility>

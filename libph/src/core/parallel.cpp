@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/detail/parallel.hpp"
+#include "ph/detail/core/parallel.hpp"
 
 #include <algorithm>
 #include <atomic>

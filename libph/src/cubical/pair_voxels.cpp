@@ -10,7 +10,7 @@
 #include "cubical/loops/loop_reduction.hpp"
 #include "cubical/slabs/pair_in_slabs.hpp"
 #include "image/voxels_in_use.hpp"
-#include "ph/detail/parallel.hpp"
+#include "ph/detail/core/parallel.hpp"
 
 namespace ph::cubical {
 

@@ -4,8 +4,8 @@
 #include <span>
 
 #include "ph/barcode.hpp"
-#include "ph/detail/cubical_image.hpp"
-#include "ph/detail/field.hpp"
+#include "ph/detail/core/field.hpp"
+#include "ph/detail/image/cubical_image.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph::cubical {

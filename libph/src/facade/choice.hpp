@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "ph/detail/choose_engine.hpp"
+#include "ph/detail/facade/choose_engine.hpp"
 
 namespace ph::detail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/detail/choose_engine.hpp"
+#include "ph/detail/facade/choose_engine.hpp"
 
 #include <fmt/format.h>
 

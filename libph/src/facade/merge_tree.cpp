@@ -9,9 +9,9 @@
 
 #include "ph/barcode.hpp"
 #include "ph/cubical.hpp"
-#include "ph/detail/disjoint_sets.hpp"
-#include "ph/detail/one_skeleton.hpp"
-#include "ph/detail/radix_sort.hpp"
+#include "ph/detail/components/disjoint_sets.hpp"
+#include "ph/detail/components/one_skeleton.hpp"
+#include "ph/detail/core/radix_sort.hpp"
 #include "ph/error.hpp"
 #include "ph/explicit.hpp"
 #include "ph/filtered_graph.hpp"

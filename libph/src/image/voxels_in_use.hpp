@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "ph/detail/cubical_image.hpp"
-#include "ph/detail/file_pages.hpp"
+#include "ph/detail/core/file_pages.hpp"
+#include "ph/detail/image/cubical_image.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "ph/detail/png.hpp"
+#include "ph/detail/io/png.hpp"
 #include "ph/io/cloud.hpp"
 #include "ph/io/read.hpp"
 

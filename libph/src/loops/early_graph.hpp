@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "ph/detail/rips_graph.hpp"
+#include "ph/detail/rips/rips_graph.hpp"
 
 namespace ph::detail {
 

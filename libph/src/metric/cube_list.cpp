@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "metric/cube_list.hpp"
 
-#include "ph/detail/polled_sort.hpp"
+#include "ph/detail/core/polled_sort.hpp"
 
 namespace ph {
 

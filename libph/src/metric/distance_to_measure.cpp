@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "metric/neighbour_search.hpp"
-#include "ph/detail/parallel.hpp"
-#include "ph/detail/spanning_forest.hpp"
+#include "ph/detail/core/parallel.hpp"
+#include "ph/detail/metric/spanning_forest.hpp"
 #include "ph/error.hpp"
 
 namespace ph {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "ph/detail/parallel.hpp"
+#include "ph/detail/core/parallel.hpp"
 
 namespace ph {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "metric/cube_list.hpp"
-#include "ph/detail/row_distances.hpp"
+#include "ph/detail/metric/row_distances.hpp"
 #include "ph/error.hpp"
 #include "ph/metric.hpp"
 

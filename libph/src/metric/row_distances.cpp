@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/detail/row_distances.hpp"
+#include "ph/detail/metric/row_distances.hpp"
 
 #include <algorithm>
 #include <bit>

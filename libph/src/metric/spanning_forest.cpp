@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "ph/detail/spanning_forest.hpp"
+#include "ph/detail/metric/spanning_forest.hpp"
 
 #include <array>
 #include <atomic>
 
 #include "metric/distinct_points.hpp"
 #include "metric/neighbour_search.hpp"
-#include "ph/detail/disjoint_sets.hpp"
-#include "ph/detail/parallel.hpp"
+#include "ph/detail/components/disjoint_sets.hpp"
+#include "ph/detail/core/parallel.hpp"
 
 namespace ph {
 namespace {

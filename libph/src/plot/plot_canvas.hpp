@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "ph/barcode.hpp"
-#include "ph/detail/png.hpp"
+#include "ph/detail/io/png.hpp"
 #include "ph/io/svg_plot.hpp"
 
 namespace ph::plot {

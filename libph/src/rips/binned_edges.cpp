@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/detail/binned_edges.hpp"
+#include "ph/detail/rips/binned_edges.hpp"
 
 #include <bit>
 #include <iterator>
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/system/pages.hpp"
-#include "ph/detail/parallel.hpp"
+#include "ph/detail/core/parallel.hpp"
 
 namespace ph {
 namespace {

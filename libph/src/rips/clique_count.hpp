@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "ph/detail/rips_graph.hpp"
+#include "ph/detail/rips/rips_graph.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {

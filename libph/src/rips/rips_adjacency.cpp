@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/detail/rips_adjacency.hpp"
+#include "ph/detail/rips/rips_adjacency.hpp"
 
 #include <numeric>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "ph/detail/rips_graph.hpp"
+#include "ph/detail/rips/rips_graph.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "metric/pairs_within.hpp"
-#include "ph/detail/disjoint_sets.hpp"
+#include "ph/detail/components/disjoint_sets.hpp"
 #include "ph/error.hpp"
 
 namespace ph {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/detail/rips_groups.hpp"
+#include "ph/detail/rips/rips_groups.hpp"
 
 #include <algorithm>
 

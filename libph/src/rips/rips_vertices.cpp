@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/detail/rips_vertices.hpp"
+#include "ph/detail/rips/rips_vertices.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/detail/sparse_rips.hpp"
+#include "ph/detail/rips/sparse_rips.hpp"
 
 #include <fmt/format.h>
 

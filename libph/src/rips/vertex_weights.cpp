@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/detail/vertex_weights.hpp"
+#include "ph/detail/rips/vertex_weights.hpp"
 
 #include <fmt/format.h>
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "ph/barcode.hpp"
-#include "ph/detail/reader.hpp"
+#include "ph/detail/io/reader.hpp"
 #include "ph/merge_tree.hpp"
 #include "ph/metric.hpp"
 #include "ph/run_context.hpp"

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "objects/close_boxes.hpp"
-#include "ph/detail/disjoint_sets.hpp"
+#include "ph/detail/components/disjoint_sets.hpp"
 #include "ph/eigen.hpp"
 #include "plane/rims.hpp"
 #include "plane/view.hpp"

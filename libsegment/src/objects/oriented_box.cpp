@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "ph/detail/raw_vector.hpp"
+#include "ph/detail/core/raw_vector.hpp"
 #include "ph/eigen.hpp"
 
 namespace ph::segment {

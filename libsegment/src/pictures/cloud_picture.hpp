@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "ph/detail/png.hpp"
+#include "ph/detail/io/png.hpp"
 #include "ph/io/cloud.hpp"
 #include "ph/run_context.hpp"
 #include "ph/segment.hpp"

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "options.hpp"
-#include "ph/detail/disjoint_sets.hpp"
+#include "ph/detail/components/disjoint_sets.hpp"
 #include "ph/error.hpp"
 
 namespace ph::segment {

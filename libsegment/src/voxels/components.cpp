@@ -5,7 +5,7 @@
 #include <span>
 
 #include "objects/oriented_box.hpp"
-#include "ph/detail/raw_vector.hpp"
+#include "ph/detail/core/raw_vector.hpp"
 
 namespace ph::segment {
 namespace {

@@ -7,7 +7,7 @@
 #include <array>
 #include <span>
 
-#include "ph/detail/twist.hpp"
+#include "ph/detail/reduction/twist.hpp"
 
 namespace ph::segment {
 namespace {

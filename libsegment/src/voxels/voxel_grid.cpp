@@ -10,7 +10,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "ph/detail/radix_sort.hpp"
+#include "ph/detail/core/radix_sort.hpp"
 #include "ph/error.hpp"
 
 namespace ph::segment {

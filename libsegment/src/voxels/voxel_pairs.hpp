@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "ph/detail/raw_vector.hpp"
+#include "ph/detail/core/raw_vector.hpp"
 #include "voxels/voxel_grid.hpp"
 
 namespace ph::segment {

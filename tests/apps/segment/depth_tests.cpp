@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "ph/detail/png.hpp"
+#include "ph/detail/io/png.hpp"
 #include "program_fixture.hpp"
 
 namespace ph::segment {

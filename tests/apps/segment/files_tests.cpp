@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <map>
 
-#include "ph/detail/png.hpp"
+#include "ph/detail/io/png.hpp"
 #include "ph/io/png_plot.hpp"
 #include "program_fixture.hpp"
 

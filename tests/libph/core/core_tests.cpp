@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "ph/barcode.hpp"
-#include "ph/detail/field.hpp"
-#include "ph/detail/radix_sort.hpp"
+#include "ph/detail/core/field.hpp"
+#include "ph/detail/core/radix_sort.hpp"
 #include "ph/persistence.hpp"
 #include "support/expect_error.hpp"
 #include "support/generators.hpp"

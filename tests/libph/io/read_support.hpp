@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "ph/detail/reader.hpp"
+#include "ph/detail/io/reader.hpp"
 #include "ph/error.hpp"
 #include "ph/image.hpp"
 #include "ph/io/formats.hpp"

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "metric/pairs_within.hpp"
-#include "ph/detail/row_distances.hpp"
+#include "ph/detail/metric/row_distances.hpp"
 #include "ph/distance_matrix.hpp"
 #include "ph/eigen.hpp"
 #include "ph/metric.hpp"

@@ -3,7 +3,7 @@
 #include <limits>
 #include <numeric>
 
-#include "ph/detail/sparse_rips.hpp"
+#include "ph/detail/rips/sparse_rips.hpp"
 #include "ph/distance_to_measure.hpp"
 #include "ph/eigen.hpp"
 #include "ph/greedy_permutation.hpp"

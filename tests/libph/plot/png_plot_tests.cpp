@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-#include "ph/detail/png.hpp"
+#include "ph/detail/io/png.hpp"
 #include "plot_support.hpp"
 #include "support/expect_error.hpp"
 

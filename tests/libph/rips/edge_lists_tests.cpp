@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "ph/detail/binned_edges.hpp"
+#include "ph/detail/rips/binned_edges.hpp"
 #include "ph/persistence.hpp"
 #include "rips/sweep/neighbour_lists.hpp"
 #include "support/conformance.hpp"

@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-#include "ph/detail/reader.hpp"
+#include "ph/detail/io/reader.hpp"
 #include "ph/filtration.hpp"
 
 namespace ph {

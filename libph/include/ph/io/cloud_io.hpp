@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "ph/detail/png.hpp"
+#include "ph/detail/io/png.hpp"
 #include "ph/image.hpp"
 #include "ph/io/camera.hpp"
 #include "ph/io/cloud.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "ph/detail/reader.hpp"
+#include "ph/detail/io/reader.hpp"
 #include "ph/distance_matrix.hpp"
 #include "ph/explicit.hpp"
 #include "ph/image.hpp"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "ph/barcode.hpp"
-#include "ph/detail/branch.hpp"
-#include "ph/detail/png.hpp"
+#include "ph/detail/components/branch.hpp"
+#include "ph/detail/io/png.hpp"
 
 namespace ph {
 

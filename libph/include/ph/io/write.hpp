@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "ph/barcode.hpp"
-#include "ph/detail/output_file.hpp"
-#include "ph/detail/reader.hpp"
+#include "ph/detail/io/output_file.hpp"
+#include "ph/detail/io/reader.hpp"
 #include "ph/loop.hpp"
 
 namespace ph {

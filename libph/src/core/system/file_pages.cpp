@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/detail/file_pages.hpp"
+#include "ph/detail/core/file_pages.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

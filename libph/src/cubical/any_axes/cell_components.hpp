@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cubical/any_axes/cell_grid.hpp"
-#include "ph/detail/disjoint_sets.hpp"
+#include "ph/detail/components/disjoint_sets.hpp"
 
 namespace ph::cubical {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <span>
 
-#include "ph/detail/radix_sort.hpp"
+#include "ph/detail/core/radix_sort.hpp"
 
 namespace ph::cubical {
 namespace {

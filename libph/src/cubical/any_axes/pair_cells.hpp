@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include "cubical/pair_voxels.hpp"
-#include "ph/detail/field.hpp"
+#include "ph/detail/core/field.hpp"
 
 namespace ph::cubical {
 

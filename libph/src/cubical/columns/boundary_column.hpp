@@ -9,8 +9,8 @@
 
 #include "cubical/any_axes/cell_grid.hpp"
 #include "cubical/columns/chain_heap.hpp"
-#include "ph/detail/chain.hpp"
-#include "ph/detail/field.hpp"
+#include "ph/detail/core/chain.hpp"
+#include "ph/detail/core/field.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph::cubical {

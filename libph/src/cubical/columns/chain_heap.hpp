@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "ph/detail/field.hpp"
+#include "ph/detail/core/field.hpp"
 
 namespace ph::cubical {
 

@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include "ph/detail/field.hpp"
-#include "ph/detail/parallel.hpp"
+#include "ph/detail/core/field.hpp"
+#include "ph/detail/core/parallel.hpp"
 
 namespace ph::cubical {
 

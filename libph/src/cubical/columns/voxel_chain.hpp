@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "cubical/stars/star_grid.hpp"
-#include "ph/detail/chain.hpp"
-#include "ph/detail/field.hpp"
+#include "ph/detail/core/chain.hpp"
+#include "ph/detail/core/field.hpp"
 
 namespace ph::cubical {
 

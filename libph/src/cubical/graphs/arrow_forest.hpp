@@ -4,8 +4,8 @@
 #include <atomic>
 #include <cstdint>
 
-#include "ph/detail/parallel.hpp"
-#include "ph/detail/raw_vector.hpp"
+#include "ph/detail/core/parallel.hpp"
+#include "ph/detail/core/raw_vector.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph::cubical {

@@ -8,7 +8,7 @@
 
 #include "cubical/graphs/arrow_forest.hpp"
 #include "cubical/stars/critical_cells.hpp"
-#include "ph/detail/parallel.hpp"
+#include "ph/detail/core/parallel.hpp"
 
 namespace ph::cubical {
 

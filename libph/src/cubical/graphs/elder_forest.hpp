@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "ph/detail/raw_vector.hpp"
+#include "ph/detail/core/raw_vector.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph::cubical {

@@ -4,7 +4,7 @@
 #include "cubical/graphs/pair_components.hpp"
 #include "cubical/graphs/top_graph.hpp"
 #include "cubical/graphs/voxel_graph.hpp"
-#include "ph/detail/parallel.hpp"
+#include "ph/detail/core/parallel.hpp"
 
 namespace ph::cubical {
 namespace {

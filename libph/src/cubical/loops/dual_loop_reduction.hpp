@@ -11,9 +11,9 @@
 #include "cubical/columns/chain_heap.hpp"
 #include "cubical/stars/critical_cells.hpp"
 #include "cubical/stars/facet_search.hpp"
-#include "ph/detail/chain.hpp"
-#include "ph/detail/field.hpp"
-#include "ph/detail/radix_sort.hpp"
+#include "ph/detail/core/chain.hpp"
+#include "ph/detail/core/field.hpp"
+#include "ph/detail/core/radix_sort.hpp"
 
 namespace ph::cubical {
 

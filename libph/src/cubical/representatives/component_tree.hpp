@@ -10,7 +10,7 @@
 #include "cubical/graphs/basins.hpp"
 #include "cubical/graphs/elder_forest.hpp"
 #include "cubical/stars/critical_cells.hpp"
-#include "ph/detail/raw_vector.hpp"
+#include "ph/detail/core/raw_vector.hpp"
 
 namespace ph::cubical {
 

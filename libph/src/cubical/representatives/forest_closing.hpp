@@ -10,7 +10,7 @@
 #include "cubical/columns/voxel_chain.hpp"
 #include "cubical/graphs/forest_steps.hpp"
 #include "cubical/representatives/component_tree.hpp"
-#include "ph/detail/radix_sort.hpp"
+#include "ph/detail/core/radix_sort.hpp"
 
 namespace ph::cubical {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cubical/representatives/component_tree.hpp"
-#include "ph/detail/parallel.hpp"
-#include "ph/detail/raw_vector.hpp"
+#include "ph/detail/core/parallel.hpp"
+#include "ph/detail/core/raw_vector.hpp"
 
 namespace ph::cubical {
 

@@ -7,7 +7,7 @@
 
 #include "cubical/columns/voxel_chain.hpp"
 #include "cubical/stars/facet_search.hpp"
-#include "ph/detail/raw_vector.hpp"
+#include "ph/detail/core/raw_vector.hpp"
 
 namespace ph::cubical {
 

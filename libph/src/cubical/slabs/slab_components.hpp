@@ -12,7 +12,7 @@
 
 #include "cubical/graphs/elder_forest.hpp"
 #include "cubical/slabs/slab_basins.hpp"
-#include "ph/detail/disjoint_sets.hpp"
+#include "ph/detail/components/disjoint_sets.hpp"
 
 namespace ph::cubical {
 

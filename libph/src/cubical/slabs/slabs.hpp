@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "cubical/stars/star_grid.hpp"
-#include "ph/detail/file_pages.hpp"
+#include "ph/detail/core/file_pages.hpp"
 
 namespace ph::cubical {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cubical/stars/critical_cells.hpp"
 
-#include "ph/detail/radix_sort.hpp"
+#include "ph/detail/core/radix_sort.hpp"
 
 namespace ph::cubical {
 

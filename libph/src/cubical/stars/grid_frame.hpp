@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cubical/stars/star_tables.hpp"
-#include "ph/detail/cubical_image.hpp"
+#include "ph/detail/image/cubical_image.hpp"
 
 namespace ph::cubical {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <mutex>
 
-#include "ph/detail/parallel.hpp"
+#include "ph/detail/core/parallel.hpp"
 
 namespace ph::cubical {
 namespace {

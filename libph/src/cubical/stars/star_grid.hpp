@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cubical/stars/grid_frame.hpp"
-#include "ph/detail/raw_vector.hpp"
+#include "ph/detail/core/raw_vector.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph::cubical {

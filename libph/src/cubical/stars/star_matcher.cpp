@@ -7,8 +7,8 @@
 #include <mutex>
 #include <utility>
 
-#include "ph/detail/parallel.hpp"
-#include "ph/detail/polled_sort.hpp"
+#include "ph/detail/core/parallel.hpp"
+#include "ph/detail/core/polled_sort.hpp"
 
 namespace ph::cubical {
 namespace {

@@ -39,10 +39,11 @@ struct StarShapes {
 /// the star if all voxels that it can be reached by are older (V; younger or none: T). Adding a
 /// step turns a cell into a coface (V) or a face (T): both stars are cut out of the same 3^d cells,
 /// and with steps and cells in the order of their places (backwards: T) both have the same pairs.
-/// Apparent ones (ph/detail/apparent_pairs.hpp) first: two cells one step apart such that it is the
-/// first that can be added to the one and the first that the other has. Then as in any discrete
-/// gradient: a cell from which one path alone leads to the youngest cell that can be reached kills
-/// it, and the path is turned around (Forman, Morse theory for cell complexes, section 11).
+/// Apparent ones (ph/detail/reduction/apparent_pairs.hpp) first: two cells one step apart such that
+/// it is the first that can be added to the one and the first that the other has. Then as in any
+/// discrete gradient: a cell from which one path alone leads to the youngest cell that can be
+/// reached kills it, and the path is turned around (Forman, Morse theory for cell complexes,
+/// section 11).
 class StarMatcher {
  public:
   StarMatcher(CellGrid& grid, const StarShapes& shapes, const RunContext& context);

@@ -5,7 +5,7 @@
 
 #include "cubical/slabs/slabs.hpp"
 #include "cubical/stars/free_edges.hpp"
-#include "ph/detail/file_pages.hpp"
+#include "ph/detail/core/file_pages.hpp"
 
 namespace ph::cubical {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "io/barcodes/barcode_formats.hpp"
-#include "ph/detail/reader.hpp"
+#include "ph/detail/io/reader.hpp"
 
 namespace ph {
 

@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "io/bytes/unpack.hpp"
-#include "ph/detail/reader.hpp"
+#include "ph/detail/io/reader.hpp"
 
 namespace ph {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "ph/detail/reader.hpp"
+#include "ph/detail/io/reader.hpp"
 
 namespace ph::detail {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/detail/png.hpp"
+#include "ph/detail/io/png.hpp"
 
 #include <fmt/format.h>
 #include <png.h>

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "io/points/table.hpp"
-#include "ph/detail/reader.hpp"
+#include "ph/detail/io/reader.hpp"
 
 namespace ph {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ph/detail/reader.hpp"
+#include "ph/detail/io/reader.hpp"
 
 namespace ph::detail {
 

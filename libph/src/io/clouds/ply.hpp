@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/readers.hpp"
-#include "ph/detail/reader.hpp"
+#include "ph/detail/io/reader.hpp"
 #include "ph/io/cloud.hpp"
 
 namespace ph::detail {

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "io/readers.hpp"
-#include "ph/detail/png.hpp"
+#include "ph/detail/io/png.hpp"
 
 namespace ph::detail {
 namespace {

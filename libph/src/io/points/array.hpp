@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "ph/detail/file_pages.hpp"
-#include "ph/detail/reader.hpp"
+#include "ph/detail/core/file_pages.hpp"
+#include "ph/detail/io/reader.hpp"
 #include "ph/image.hpp"
 
 namespace ph::detail {

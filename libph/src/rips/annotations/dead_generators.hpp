@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "ph/detail/bit_matrix.hpp"
-#include "ph/detail/chain.hpp"
-#include "ph/detail/field.hpp"
+#include "ph/detail/core/bit_matrix.hpp"
+#include "ph/detail/core/chain.hpp"
+#include "ph/detail/core/field.hpp"
 
 namespace ph {
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "ph/detail/field.hpp"
+#include "ph/detail/core/field.hpp"
 #include "rips/annotations/formal_sums.hpp"
 #include "rips/annotations/pair_labels.hpp"
 #include "rips/annotations/sum_rows.hpp"

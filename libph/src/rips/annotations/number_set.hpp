@@ -6,7 +6,7 @@
 #include <memory_resource>
 #include <vector>
 
-#include "ph/detail/bit_matrix.hpp"
+#include "ph/detail/core/bit_matrix.hpp"
 
 namespace ph {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "ph/detail/bit_matrix.hpp"
+#include "ph/detail/core/bit_matrix.hpp"
 #include "rips/annotations/relation_matrix.hpp"
 
 namespace ph {

@@ -6,8 +6,8 @@
 #include <memory_resource>
 #include <vector>
 
-#include "ph/detail/bit_matrix.hpp"
-#include "ph/detail/field.hpp"
+#include "ph/detail/core/bit_matrix.hpp"
+#include "ph/detail/core/field.hpp"
 
 namespace ph {
 

@@ -3,7 +3,7 @@
 #include <compare>
 #include <cstdint>
 
-#include "ph/detail/rips_graph.hpp"
+#include "ph/detail/rips/rips_graph.hpp"
 
 /// What an edge collapse asks of a graph whose edges may move to later values. Two classes answer,
 /// RowGraph and ListGraph; `EdgeCollapse` in edge_collapse.cpp is a template over them.

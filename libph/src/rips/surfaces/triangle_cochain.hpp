@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "ph/detail/chain.hpp"
-#include "ph/detail/field.hpp"
+#include "ph/detail/core/chain.hpp"
+#include "ph/detail/core/field.hpp"
 #include "rips/annotations/list_pool.hpp"
 #include "rips/annotations/vertex_functions.hpp"
 #include "rips/sweep/link_graph.hpp"

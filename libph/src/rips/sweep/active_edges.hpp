@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "ph/detail/bit_matrix.hpp"
+#include "ph/detail/core/bit_matrix.hpp"
 
 namespace ph {
 

@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "ph/detail/binned_edges.hpp"
-#include "ph/detail/elder_rule.hpp"
-#include "ph/detail/field.hpp"
-#include "ph/detail/parallel.hpp"
+#include "ph/detail/components/elder_rule.hpp"
+#include "ph/detail/core/field.hpp"
+#include "ph/detail/core/parallel.hpp"
+#include "ph/detail/rips/binned_edges.hpp"
 #include "ph/filtration.hpp"
 #include "ph/run_context.hpp"
 #include "rips/annotations/annotations.hpp"

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "ph/barcode.hpp"
-#include "ph/detail/chain.hpp"
-#include "ph/detail/component_representatives.hpp"
+#include "ph/detail/components/component_representatives.hpp"
+#include "ph/detail/core/chain.hpp"
 #include "ph/engine.hpp"
 #include "ph/filtration.hpp"
 #include "rips/sweep/edge_link_sweep.hpp"

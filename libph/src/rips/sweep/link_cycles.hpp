@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "ph/detail/field.hpp"
+#include "ph/detail/core/field.hpp"
 #include "rips/annotations/annotations.hpp"
 #include "rips/sweep/link_graph.hpp"
 

@@ -5,7 +5,7 @@
 #include <atomic>
 
 #include "core/for_each_target.hpp"
-#include "ph/detail/parallel.hpp"
+#include "ph/detail/core/parallel.hpp"
 
 namespace ph {
 namespace {

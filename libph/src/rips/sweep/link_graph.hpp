@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "ph/detail/binned_edges.hpp"
-#include "ph/detail/bit_matrix.hpp"
+#include "ph/detail/core/bit_matrix.hpp"
+#include "ph/detail/rips/binned_edges.hpp"
 #include "ph/filtration.hpp"
 #include "ph/run_context.hpp"
 #include "rips/sweep/active_edges.hpp"

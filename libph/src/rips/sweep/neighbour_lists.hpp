@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "ph/detail/binned_edges.hpp"
-#include "ph/detail/raw_vector.hpp"
+#include "ph/detail/core/raw_vector.hpp"
+#include "ph/detail/rips/binned_edges.hpp"
 #include "ph/filtration.hpp"
 
 namespace ph {

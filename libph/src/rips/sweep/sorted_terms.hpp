@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "ph/detail/chain.hpp"
-#include "ph/detail/field.hpp"
+#include "ph/detail/core/chain.hpp"
+#include "ph/detail/core/field.hpp"
 
 namespace ph {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "ph/detail/field.hpp"
+#include "ph/detail/core/field.hpp"
 #include "rips/sweep/link_graph.hpp"
 
 namespace ph {

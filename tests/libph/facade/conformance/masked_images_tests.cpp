@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "complex/listed_cubes.hpp"
-#include "ph/detail/file_pages.hpp"
+#include "ph/detail/core/file_pages.hpp"
 #include "ph/filtered_graph.hpp"
 #include "ph/lower_star.hpp"
 #include "ph/merge_tree.hpp"

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "libph/io/read_support.hpp"
-#include "ph/detail/png.hpp"
+#include "ph/detail/io/png.hpp"
 #include "ph/io/formats.hpp"
 
 namespace ph::test {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "ph/detail/field.hpp"
+#include "ph/detail/core/field.hpp"
 
 namespace ph {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <algorithm>
 
-#include "ph/detail/homology_reduction.hpp"
+#include "ph/detail/reduction/homology_reduction.hpp"
 #include "ph/engine.hpp"
 
 namespace ph {

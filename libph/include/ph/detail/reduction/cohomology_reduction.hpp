@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "ph/barcode.hpp"
-#include "ph/detail/apparent_pairs.hpp"
-#include "ph/detail/cell_map.hpp"
-#include "ph/detail/parallel.hpp"
-#include "ph/detail/pivot_table.hpp"
-#include "ph/detail/polled_sort.hpp"
-#include "ph/detail/working_column.hpp"
+#include "ph/detail/components/cell_map.hpp"
+#include "ph/detail/core/parallel.hpp"
+#include "ph/detail/core/polled_sort.hpp"
+#include "ph/detail/reduction/apparent_pairs.hpp"
+#include "ph/detail/reduction/pivot_table.hpp"
+#include "ph/detail/reduction/working_column.hpp"
 #include "ph/error.hpp"
 #include "ph/run_context.hpp"
 

@@ -13,12 +13,12 @@
 #include <utility>
 #include <vector>
 
-#include "ph/detail/binned_edges.hpp"
-#include "ph/detail/parallel.hpp"
-#include "ph/detail/rips_adjacency.hpp"
-#include "ph/detail/row_distances.hpp"
-#include "ph/detail/spanning_forest.hpp"
-#include "ph/detail/vertex_weights.hpp"
+#include "ph/detail/core/parallel.hpp"
+#include "ph/detail/metric/row_distances.hpp"
+#include "ph/detail/metric/spanning_forest.hpp"
+#include "ph/detail/rips/binned_edges.hpp"
+#include "ph/detail/rips/rips_adjacency.hpp"
+#include "ph/detail/rips/vertex_weights.hpp"
 #include "ph/filtration.hpp"
 #include "ph/metric.hpp"
 #include "ph/run_context.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ph/barcode.hpp"
-#include "ph/detail/field.hpp"
+#include "ph/detail/core/field.hpp"
 #include "ph/engine.hpp"
 #include "ph/run_context.hpp"
 

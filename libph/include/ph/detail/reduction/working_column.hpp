@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "ph/detail/chain.hpp"
+#include "ph/detail/core/chain.hpp"
 
 namespace ph {
 

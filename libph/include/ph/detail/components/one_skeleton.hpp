@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "ph/detail/cell_map.hpp"
-#include "ph/detail/elder_rule.hpp"
-#include "ph/detail/polled_sort.hpp"
-#include "ph/detail/radix_sort.hpp"
+#include "ph/detail/components/cell_map.hpp"
+#include "ph/detail/components/elder_rule.hpp"
+#include "ph/detail/core/polled_sort.hpp"
+#include "ph/detail/core/radix_sort.hpp"
 #include "ph/filtration.hpp"
 #include "ph/run_context.hpp"
 

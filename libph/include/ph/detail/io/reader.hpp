@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "ph/detail/file_pages.hpp"
+#include "ph/detail/core/file_pages.hpp"
 #include "ph/error.hpp"
 #include "ph/run_context.hpp"
 

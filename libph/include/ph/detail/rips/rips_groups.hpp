@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "ph/detail/bit_matrix.hpp"
-#include "ph/detail/rips_graph.hpp"
+#include "ph/detail/core/bit_matrix.hpp"
+#include "ph/detail/rips/rips_graph.hpp"
 
 namespace ph {
 

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "ph/barcode.hpp"
-#include "ph/detail/chain.hpp"
-#include "ph/detail/component_representatives.hpp"
-#include "ph/detail/field.hpp"
-#include "ph/detail/one_skeleton.hpp"
+#include "ph/detail/components/component_representatives.hpp"
+#include "ph/detail/components/one_skeleton.hpp"
+#include "ph/detail/core/chain.hpp"
+#include "ph/detail/core/field.hpp"
 #include "ph/engine.hpp"
 #include "ph/error.hpp"
 

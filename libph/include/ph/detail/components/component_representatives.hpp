@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "ph/barcode.hpp"
-#include "ph/detail/chain.hpp"
-#include "ph/detail/elder_rule.hpp"
-#include "ph/detail/field.hpp"
+#include "ph/detail/components/elder_rule.hpp"
+#include "ph/detail/core/chain.hpp"
+#include "ph/detail/core/field.hpp"
 #include "ph/filtration.hpp"
 
 namespace ph {

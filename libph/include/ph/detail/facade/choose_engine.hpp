@@ -2,7 +2,7 @@
 #pragma once
 #include <algorithm>
 
-#include "ph/detail/engine_list.hpp"
+#include "ph/detail/facade/engine_list.hpp"
 #include "ph/error.hpp"
 
 namespace ph::detail {

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "ph/barcode.hpp"
-#include "ph/detail/apparent_pairs.hpp"
-#include "ph/detail/cell_map.hpp"
-#include "ph/detail/chain.hpp"
-#include "ph/detail/polled_sort.hpp"
-#include "ph/detail/working_column.hpp"
+#include "ph/detail/components/cell_map.hpp"
+#include "ph/detail/core/chain.hpp"
+#include "ph/detail/core/polled_sort.hpp"
+#include "ph/detail/reduction/apparent_pairs.hpp"
+#include "ph/detail/reduction/working_column.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {

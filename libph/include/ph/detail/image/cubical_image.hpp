@@ -41,7 +41,7 @@ struct CubicalImage {
   std::vector<bool> periodic;  ///< as many as extents
   VoxelType type = VoxelType::float64;
   const void* voxels = nullptr;     ///< null: there are none
-  bool is_in_file = false;          ///< see ph/detail/file_pages.hpp
+  bool is_in_file = false;          ///< see ph/detail/core/file_pages.hpp
   bool voxels_are_vertices = true;  ///< V-construction; else the voxels are top cubes (T)
   bool superlevel = false;          ///< values are those of -f
   /// Values above it never enter; below +infinity.

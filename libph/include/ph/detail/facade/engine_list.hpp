@@ -3,10 +3,10 @@
 #include <tuple>
 #include <vector>
 
-#include "ph/detail/cohomology.hpp"
-#include "ph/detail/standard.hpp"
-#include "ph/detail/twist.hpp"
-#include "ph/detail/union_find.hpp"
+#include "ph/detail/components/union_find.hpp"
+#include "ph/detail/reduction/cohomology.hpp"
+#include "ph/detail/reduction/standard.hpp"
+#include "ph/detail/reduction/twist.hpp"
 #include "ph/engine.hpp"
 #include "ph/persistence.hpp"
 

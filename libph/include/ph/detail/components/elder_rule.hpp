@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "ph/detail/disjoint_sets.hpp"
+#include "ph/detail/components/disjoint_sets.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {

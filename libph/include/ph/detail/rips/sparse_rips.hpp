@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "ph/detail/rips_graph.hpp"
+#include "ph/detail/rips/rips_graph.hpp"
 #include "ph/greedy_permutation.hpp"
 #include "ph/metric.hpp"
 #include "ph/run_context.hpp"

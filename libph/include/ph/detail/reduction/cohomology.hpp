@@ -2,9 +2,9 @@
 #pragma once
 #include <algorithm>
 
-#include "ph/detail/cohomology_reduction.hpp"
-#include "ph/detail/homology_reduction.hpp"
-#include "ph/detail/union_find.hpp"
+#include "ph/detail/components/union_find.hpp"
+#include "ph/detail/reduction/cohomology_reduction.hpp"
+#include "ph/detail/reduction/homology_reduction.hpp"
 #include "ph/engine.hpp"
 
 namespace ph {

@@ -10,9 +10,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "ph/detail/packed_vertices.hpp"
-#include "ph/detail/rips_graph.hpp"
-#include "ph/detail/rips_groups.hpp"
+#include "ph/detail/rips/packed_vertices.hpp"
+#include "ph/detail/rips/rips_graph.hpp"
+#include "ph/detail/rips/rips_groups.hpp"
 #include "ph/error.hpp"
 #include "ph/filtration.hpp"
 
@@ -381,4 +381,4 @@ struct std::hash<ph::RipsCell<Words>> {
   std::size_t operator()(const ph::RipsCell<Words>& c) const { return c.vertices.hash(); }
 };
 
-#include "ph/detail/rips_filtration.ipp"
+#include "ph/detail/rips/rips_filtration.ipp"

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "ph/detail/vertex_weights.hpp"
+#include "ph/detail/rips/vertex_weights.hpp"
 #include "ph/metric.hpp"
 #include "ph/run_context.hpp"
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "ph/detail/chain.hpp"
+#include "ph/detail/core/chain.hpp"
 #include "ph/filtration.hpp"
 
 namespace ph {

@@ -2,7 +2,7 @@
 #pragma once
 #include <optional>
 
-#include "ph/detail/field.hpp"
+#include "ph/detail/core/field.hpp"
 #include "ph/filtration.hpp"
 
 namespace ph {
