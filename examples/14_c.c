@@ -42,7 +42,7 @@ int main(void) {
   const int64_t extents[] = {3, 4};
   ph_options_init(&options);
   options.max_dim = 0;
-  if (ph_cubical_image(image, PH_UINT8, 2, extents, &options, &bars) != PH_OK) {
+  if (ph_cubical_image(image, PH_UINT8, 2, extents, NULL, &options, &bars) != PH_OK) {
     fprintf(stderr, "%s\n", ph_last_error());
     return 1;
   }

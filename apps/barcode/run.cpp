@@ -16,7 +16,7 @@
 #include "barcode/arguments/table_arguments.hpp"
 #include "barcode/complex/load.hpp"
 #include "barcode/memory/estimate_text.hpp"
-#include "barcode/memory/ways_out.hpp"
+#include "barcode/memory/alternatives.hpp"
 #include "barcode/output/adjust.hpp"
 #include "barcode/output/h0_tree.hpp"
 #include "barcode/output/report.hpp"

@@ -22,12 +22,16 @@ template <class T>
 concept VoxelNumber = std::same_as<T, std::uint8_t> || std::same_as<T, std::uint16_t> ||
     std::same_as<T, std::int16_t> || std::same_as<T, float> || std::same_as<T, double>;
 
-/// Numbers of an image that stay in a mapped file.
-struct VoxelsInFile {
+/// Numbers of an image that stay where they are: in an array of the caller's, or in a mapped file.
+struct BorrowedVoxels {
   VoxelType type;
-  std::shared_ptr<const void> file;  ///< keeps it mapped; see ph/detail/core/file_pages.hpp
-  const void* data;                  ///< the first number, aligned
+  const void* data;  ///< the first number, aligned; the others follow it
   std::size_t count;
+  /// Lives until the last copy of the numbers is gone; null: the caller keeps them as long.
+  std::shared_ptr<const void> owner = nullptr;
+  /// Whether they are a mapped file: what was read may leave the memory and come back from the file
+  /// (ph/detail/core/file_pages.hpp). Of an array it would be lost.
+  bool is_file = false;
 };
 
 /// The numbers of an image, stored as they came: a byte stays a byte. Read as doubles. Copies share
@@ -36,7 +40,7 @@ struct VoxelsInFile {
 class Voxels {
   using Numbers =
       std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>, std::vector<std::int16_t>,
-                   std::vector<float>, std::vector<double>, VoxelsInFile>;
+                   std::vector<float>, std::vector<double>, BorrowedVoxels>;
   /// What copies have in common. They are counted here because the last owner, who changes numbers
   /// in place, must see that the others, on their threads, are done reading: an acquiring load says
   /// so, std::shared_ptr::use_count() does not.
@@ -56,7 +60,7 @@ class Voxels {
   Voxels() = default;
   template <VoxelNumber T>
   Voxels(std::vector<T> numbers) : shared_(new Shared{std::move(numbers)}) {}
-  explicit Voxels(VoxelsInFile numbers) : shared_(new Shared{std::move(numbers)}) {}
+  explicit Voxels(BorrowedVoxels numbers) : shared_(new Shared{std::move(numbers)}) {}
   Voxels(std::initializer_list<double> numbers) : Voxels(std::vector<double>(numbers)) {}
   Voxels(const Voxels& other) noexcept : shared_(other.shared_) {
     if (shared_ != nullptr) shared_->owners.fetch_add(1, std::memory_order_relaxed);
@@ -73,8 +77,8 @@ class Voxels {
 
   VoxelType type() const {
     if (shared_ == nullptr) return VoxelType::float64;
-    const VoxelsInFile* in_file = this->in_file();
-    return in_file != nullptr ? in_file->type : static_cast<VoxelType>(shared_->numbers.index());
+    const BorrowedVoxels* borrowed = this->borrowed();
+    return borrowed != nullptr ? borrowed->type : static_cast<VoxelType>(shared_->numbers.index());
   }
   /// The first number, of the type that type() says; the next ones follow it. Null or not to be
   /// read if there is none.
@@ -88,9 +92,11 @@ class Voxels {
   }
   bool empty() const { return size() == 0; }
   /// Whether they stay in a file: they take no memory but while they are read.
-  bool is_in_file() const { return in_file() != nullptr; }
-  /// Memory that they take.
-  std::size_t bytes() const { return is_in_file() ? 0 : size() * bytes_of(type()); }
+  bool is_in_file() const { return is_borrowed() && borrowed()->is_file; }
+  /// Whether they are somebody else's.
+  bool is_borrowed() const { return borrowed() != nullptr; }
+  /// Memory that they take; what is borrowed takes none.
+  std::size_t bytes() const { return is_borrowed() ? 0 : size() * bytes_of(type()); }
   /// Precondition: i < size().
   double operator[](std::size_t i) const {
     return std::visit([i](const auto& all) { return number_of(all, i); }, shared_->numbers);
@@ -105,18 +111,18 @@ class Voxels {
   double back() const { return (*this)[size() - 1]; }
 
   /// Calls `use(std::vector<T>&)` with the numbers, for the type T that they have, to change them.
-  /// Copies them first if they are shared or in a file.
+  /// Copies them first if they are shared or borrowed.
   template <class Use>
   void change(Use&& use) {
     if (shared_ == nullptr)
       *this = Voxels(std::vector<double>());
-    else if (is_in_file() || shared_->owners.load(std::memory_order_acquire) > 1)
+    else if (is_borrowed() || shared_->owners.load(std::memory_order_acquire) > 1)
       *this = visit([]<class T>(std::span<const T> all) {
         return Voxels(std::vector<T>(all.begin(), all.end()));
       });
     std::visit(
         [&]<class All>(All& all) {
-          if constexpr (!std::same_as<All, VoxelsInFile>) use(all);
+          if constexpr (!std::same_as<All, BorrowedVoxels>) use(all);
         },
         shared_->numbers);
   }
@@ -156,25 +162,25 @@ class Voxels {
   }
 
  private:
-  const VoxelsInFile* in_file() const {
-    return shared_ == nullptr ? nullptr : std::get_if<VoxelsInFile>(&shared_->numbers);
+  const BorrowedVoxels* borrowed() const {
+    return shared_ == nullptr ? nullptr : std::get_if<BorrowedVoxels>(&shared_->numbers);
   }
   template <class T>
   static const void* data_of(const std::vector<T>& all) {
     return all.data();
   }
-  static const void* data_of(const VoxelsInFile& all) { return all.data; }
+  static const void* data_of(const BorrowedVoxels& all) { return all.data; }
   template <class T>
   static std::size_t size_of(const std::vector<T>& all) {
     return all.size();
   }
-  static std::size_t size_of(const VoxelsInFile& all) { return all.count; }
+  static std::size_t size_of(const BorrowedVoxels& all) { return all.count; }
 
   template <class T>
   static double number_of(const std::vector<T>& all, std::size_t i) {
     return static_cast<double>(all[i]);
   }
-  static double number_of(const VoxelsInFile& all, std::size_t i) {
+  static double number_of(const BorrowedVoxels& all, std::size_t i) {
     return with_voxels(all.type, all.data,
                        [i](const auto* first) { return static_cast<double>(first[i]); });
   }
@@ -203,5 +209,17 @@ struct Image {
 
   int dim() const { return static_cast<int>(extents.size()); }
 };
+
+/// An image of an array in memory, of any layout: voxel (i, j, …) is
+/// data[i * strides[0] + j * strides[1] + …]. It is borrowed where it lies in C order without gaps,
+/// and copied, in its own type, where it does not. Of borrowed numbers the caller must change none
+/// as long as there is a copy of the image, or of a Cubical of it.
+/// @param strides one an axis, negative ones allowed; empty: C order without gaps.
+/// @param owner keeps the array; null: the caller does.
+/// @throws Error (usage) on a negative extent, on another number of strides than axes, or on more
+/// voxels than a size can count.
+Image image_of_array(VoxelType type, const void* data, std::vector<Index> extents,
+                     std::span<const std::ptrdiff_t> strides = {},
+                     std::shared_ptr<const void> owner = nullptr);
 
 }  // namespace ph

@@ -165,12 +165,11 @@ RipsOptions rips_options(const ph_options& given) {
 }
 
 Image image_of(const void* data, ph_number type, std::int32_t axes, const std::int64_t* extents,
-               const RunContext& context) {
+               const std::int64_t* strides, const RunContext& context) {
   if (axes < 1 || axes > Cubical::kMaxDim)
     throw Error(ErrorKind::usage,
                 fmt::format("axes: found {}, expected 1 to {}", axes, Cubical::kMaxDim));
   require(extents != nullptr, "extents: found NULL");
-  Image image;
   std::size_t count = 1;
   for (std::int32_t k = 0; k < axes; ++k) {
     constexpr std::size_t most = UINT32_MAX;
@@ -179,15 +178,14 @@ Image image_of(const void* data, ph_number type, std::int32_t axes, const std::i
                   fmt::format("extent {}: found {}, expected at least 1 and fewer than 2^32 voxels",
                               k, extents[k]));
     count *= static_cast<std::size_t>(extents[k]);
-    image.extents.push_back(extents[k]);
   }
   require(data != nullptr, "data: found NULL");
   require(type >= PH_UINT8 && type <= PH_FLOAT64, "type: found no ph_number");
-  context.memory.require(count * bytes_of(static_cast<VoxelType>(type)));
-  image.values = with_voxels(static_cast<VoxelType>(type), data, [&]<class T>(const T* first) {
-    return Voxels(std::vector<T>(first, first + count));
-  });
-  return image;
+  const auto voxel = static_cast<VoxelType>(type);
+  if (strides != nullptr) context.memory.require(count * bytes_of(voxel));  // it may be a copy
+  std::vector<std::ptrdiff_t> steps;
+  if (strides != nullptr) steps.assign(strides, strides + axes);
+  return image_of_array(voxel, data, std::vector<Index>(extents, extents + axes), steps);
 }
 
 std::size_t numbers_of(std::optional<InputCell> cell, const std::int64_t** numbers) {
@@ -238,9 +236,9 @@ ph_status ph_rips_distances(const double* lower, int64_t size, const ph_options*
 }
 
 ph_status ph_cubical_image(const void* data, ph_number type, int32_t axes, const int64_t* extents,
-                           const ph_options* options, ph_barcode** out) {
+                           const int64_t* strides, const ph_options* options, ph_barcode** out) {
   return barcode_of(options, out, [&](const ph_options& o, const RunContext& context) {
-    Image image = image_of(data, type, axes, extents, context);
+    Image image = image_of(data, type, axes, extents, strides, context);
     image.masked = o.masked != 0;
     CubicalOptions cubes;
     cubes.construction =

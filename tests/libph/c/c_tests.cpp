@@ -83,7 +83,16 @@ TEST(CInterface, GivesTheBarsOfDistancesAndImages) {
     options.periodic = periodic.data();
     ph_barcode* found = nullptr;
     ASSERT_EQ(ph_cubical_image(values.data(), PH_FLOAT32, static_cast<int>(extents.size()),
-                               extents.data(), &options, &found),
+                               extents.data(), nullptr, &options, &found),
+              PH_OK)
+        << ph_last_error();
+    // The same from the other end, as an array in reverse order has it.
+    std::vector<float> reversed(values.rbegin(), values.rend());
+    std::vector<std::int64_t> strides(extents.size(), -1);
+    for (std::size_t k = extents.size() - 1; k > 0; --k) strides[k - 1] = strides[k] * extents[k];
+    ph_barcode* again = nullptr;
+    ASSERT_EQ(ph_cubical_image(&reversed.back(), PH_FLOAT32, static_cast<int>(extents.size()),
+                               extents.data(), strides.data(), &options, &again),
               PH_OK)
         << ph_last_error();
     CubicalOptions cubes{.construction = options.construction == PH_CELLS
@@ -92,6 +101,7 @@ TEST(CInterface, GivesTheBarsOfDistancesAndImages) {
                          .superlevel = options.superlevel != 0,
                          .periodic = std::vector<bool>(extents.size(), periodic[0] != 0)};
     expect_same(found, persistence(Cubical(Image{extents, values}, cubes), {.field = field}));
+    expect_same(again, persistence(Cubical(Image{extents, values}, cubes), {.field = field}));
   });
 }
 
@@ -109,10 +119,14 @@ TEST(CInterface, SaysWhatIsWrong) {
   expect(PH_USAGE, ph_rips_points(points, 2, 1, 1, 1, nullptr, nullptr), "out");
   expect(PH_USAGE, ph_rips_distances(points, -1, nullptr, &bars), "negative");
   const std::int64_t extents[] = {3}, huge[] = {INT64_MAX};
-  expect(PH_BAD_DATA, ph_cubical_image(points, PH_FLOAT64, 1, extents, nullptr, &bars), "nan");
-  expect(PH_USAGE, ph_cubical_image(points, PH_FLOAT64, 9, extents, nullptr, &bars), "axes");
-  expect(PH_USAGE, ph_cubical_image(points, PH_FLOAT64, 1, huge, nullptr, &bars), "extent 0");
-  expect(PH_USAGE, ph_cubical_image(points, static_cast<ph_number>(7), 1, extents, nullptr, &bars),
+  expect(PH_BAD_DATA, ph_cubical_image(points, PH_FLOAT64, 1, extents, nullptr, nullptr, &bars),
+         "nan");
+  expect(PH_USAGE, ph_cubical_image(points, PH_FLOAT64, 9, extents, nullptr, nullptr, &bars),
+         "axes");
+  expect(PH_USAGE, ph_cubical_image(points, PH_FLOAT64, 1, huge, nullptr, nullptr, &bars),
+         "extent 0");
+  expect(PH_USAGE,
+         ph_cubical_image(points, static_cast<ph_number>(7), 1, extents, nullptr, nullptr, &bars),
          "ph_number");
   const auto with = [&](auto&& change) {
     ph_options options = defaults();

@@ -5,7 +5,10 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <memory>
+#include <numeric>
 #include <random>
 #include <thread>
 #include <type_traits>
@@ -16,6 +19,7 @@
 #include "ph/error.hpp"
 #include "ph/persistence.hpp"
 #include "ph/voxel_image.hpp"
+#include "support/expect_error.hpp"
 
 namespace ph {
 namespace {
@@ -37,6 +41,95 @@ Eigen::RowVectorXd centre(const PointImage& image, Index i) {
     i /= extent;
   }
   return x;
+}
+
+// An array in any layout is what a loop over its voxels reads; in C order it is not copied.
+TEST(ImageOfArray, TakesAnyLayout) {
+  std::mt19937 random(5);
+  int borrowed = 0, copied = 0;
+  for (int round = 0; round < 400; ++round) {
+    const std::size_t axes = 1 + random() % 4;
+    std::vector<Index> extents(axes);
+    for (Index& n : extents) n = static_cast<Index>(random() % 4) + (round % 5 == 0 ? 0 : 1);
+    // Axes in any order of nesting, with gaps and backwards.
+    std::vector<std::size_t> nesting(axes);
+    std::iota(nesting.begin(), nesting.end(), 0U);
+    if (round % 2 == 0) std::shuffle(nesting.begin(), nesting.end(), random);
+    std::vector<std::ptrdiff_t> strides(axes);
+    std::ptrdiff_t stride = 1, first = 0;
+    for (auto k = nesting.rbegin(); k != nesting.rend(); ++k) {
+      const Index n = std::max<Index>(extents[*k], 1);
+      const bool backwards = round % 2 == 0 && random() % 3 == 0;
+      strides[*k] = backwards ? -stride : stride;
+      if (backwards) first += (n - 1) * stride;
+      stride *= n + (round % 2 == 0 ? static_cast<Index>(random() % 2) : 0);
+    }
+    std::vector<std::int16_t> array(static_cast<std::size_t>(stride));
+    for (std::int16_t& x : array) x = static_cast<std::int16_t>(random());
+    const auto before = array;
+    const Image image = image_of_array(VoxelType::int16, array.data() + first, extents, strides);
+    EXPECT_EQ(image.extents, extents);
+    std::vector<double> expected;
+    std::vector<Index> at(axes, 0);
+    const auto visit = [&](auto&& self, std::size_t k, std::ptrdiff_t place) -> void {
+      if (k == axes) return expected.push_back(array[static_cast<std::size_t>(place)]);
+      for (Index i = 0; i < extents[k]; ++i) self(self, k + 1, place + i * strides[k]);
+    };
+    visit(visit, 0, first);
+    EXPECT_EQ(image.values.doubles(), expected);
+    (image.values.is_borrowed() ? borrowed : copied) += 1;
+    if (image.values.is_borrowed()) {
+      EXPECT_EQ(image.values.data(), array.data() + first);
+      EXPECT_EQ(image.values.bytes(), 0U);
+      EXPECT_FALSE(image.values.is_in_file());
+    }
+    if (expected.empty()) continue;
+    // Nothing that is done with it changes the array.
+    Image changed = image;
+    changed.values.change([](auto& all) { all[0] = 7; });
+    const Cubical cubical(image, {.superlevel = true});
+    const Barcode bars = persistence(cubical, {.representatives = Representatives::none});
+    EXPECT_EQ(bars.size(),
+              persistence(Cubical(Image{extents, expected}, {.superlevel = true})).size());
+    EXPECT_EQ(array, before);
+  }
+  EXPECT_GT(borrowed, 100);
+  EXPECT_GT(copied, 100);
+}
+
+TEST(ImageOfArray, KeepsItsOwner) {
+  auto owner = std::make_shared<std::vector<double>>(std::vector<double>{3, 1, 2});
+  Image image = image_of_array(VoxelType::float64, owner->data(), {3}, {}, owner);
+  EXPECT_EQ(owner.use_count(), 2);
+  {
+    const Cubical cubical(image);
+    image = {};
+    EXPECT_EQ(owner.use_count(), 2) << "the complex reads it";
+    EXPECT_EQ(persistence(cubical).size(), 2U);
+  }
+  EXPECT_EQ(owner.use_count(), 1);
+}
+
+TEST(ImageOfArray, OfOddAddressesIsCopied) {
+  const float numbers[] = {0.5F, -2, 7};
+  std::vector<char> bytes(sizeof numbers + 1);
+  std::memcpy(bytes.data() + 1, numbers, sizeof numbers);
+  const Image image = image_of_array(VoxelType::float32, bytes.data() + 1, {3});
+  EXPECT_FALSE(image.values.is_borrowed());
+  EXPECT_EQ(image.values, (Voxels{0.5, -2, 7}));
+}
+
+TEST(ImageOfArray, SaysWhatIsWrong) {
+  const double number = 1;
+  const std::ptrdiff_t stride = 1;
+  const auto fails = [&](std::vector<Index> extents, std::span<const std::ptrdiff_t> strides,
+                         const std::string& words) {
+    test::expect_error(ErrorKind::usage, words,
+                       [&] { image_of_array(VoxelType::float64, &number, extents, strides); });
+  };
+  fails({-1}, {}, "found extents [-1]");
+  fails({1, 1}, {&stride, 1}, "found 1 strides, expected 2");
+  fails({Index{1} << 40, Index{1} << 40}, {}, "too large");
 }
 
 TEST(VoxelImage, IsTheDistanceToTheNearestOccupiedVoxel) {

@@ -189,7 +189,7 @@ Voxels load_as(const Input& input, const ArrayLayout& layout, const std::vector<
     const std::byte* const first = input.bytes().data() + layout.offset;
     const bool is_aligned = reinterpret_cast<std::uintptr_t>(first) % alignof(T) == 0;
     if (auto file = is_aligned ? input.keep_in_file() : nullptr)
-      return Voxels(VoxelsInFile{layout.type.stored, std::move(file), first, count});
+      return Voxels(BorrowedVoxels{layout.type.stored, first, count, std::move(file), true});
   }
   if (is_large) {
     return voxels_in_file<T>(layout.type.stored, count, [&](std::span<T> values) {

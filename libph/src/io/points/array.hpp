@@ -64,7 +64,7 @@ Voxels voxels_in_file(VoxelType type, std::size_t count, Fill&& fill) {
   auto file = std::make_shared<ScratchFile>(count * sizeof(T));
   fill(std::span<T>(reinterpret_cast<T*>(file->data()), count));
   forget_file_pages(file->data(), file->size());
-  return Voxels(VoxelsInFile{type, file, file->data(), count});
+  return Voxels(BorrowedVoxels{type, file->data(), count, file, true});
 }
 
 /// Places in C order of the elements of an array, visited with the first axis fastest.

@@ -53,7 +53,7 @@ Image stored_otherwise(Generator& random, const Image& image) {
     const std::size_t bytes = other.values.size() * bytes_of(other.values.type());
     auto file = std::make_shared<ScratchFile>(bytes);
     std::memcpy(file->data(), other.values.data(), bytes);
-    other.values = Voxels(VoxelsInFile{other.values.type(), file, file->data(), numbers.size()});
+    other.values = Voxels(BorrowedVoxels{other.values.type(), file->data(), numbers.size(), file, true});
   }
   return other;
 }

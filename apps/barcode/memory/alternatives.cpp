@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/memory/ways_out.hpp"
+#include "barcode/memory/alternatives.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
