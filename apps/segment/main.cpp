@@ -4,7 +4,6 @@
 
 int main(int argc, char** argv) {
   return ph::app::run_program(ph::segment::kProgram, [argc, argv](std::stop_token stop) {
-    ph::app::take_large_pages();
     return ph::segment::run(argc, argv, std::move(stop));
   });
 }

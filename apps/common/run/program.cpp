@@ -5,12 +5,10 @@
 #include <fmt/format.h>
 #include <malloc.h>
 #include <signal.h>
-#include <sys/mman.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <exception>
-#include <memory>
 #include <new>
 #include <system_error>
 
@@ -87,18 +85,6 @@ int report_current_exception(const Program& program, std::string_view subject) {
     print_without_memory(program.name, "out of memory");
     return kResource;
   }
-}
-
-void take_large_pages() {
-  constexpr std::size_t large_page = 2 << 20;
-  constexpr std::size_t reserve = 30 << 20;  // below the size from which on blocks are mapped
-  void* const block = std::malloc(reserve);  // once free it is the end of the heap
-  if (block == nullptr) return;
-  void* begin = block;
-  std::size_t space = reserve;
-  if (std::align(large_page, large_page, begin, space) != nullptr)
-    madvise(begin, space, MADV_HUGEPAGE);
-  std::free(block);
 }
 
 int run_program(const Program& program, const std::function<int(std::stop_token)>& body) {

@@ -19,11 +19,6 @@ struct Program {
 /// SIGPIPE is ignored, a broken pipe ends the program quietly.
 int run_program(const Program& program, const std::function<int(std::stop_token)>& body);
 
-/// Lets the first megabytes of the heap come in large pages, where the system has any; to be called
-/// by a body before it allocates. The stages of a frame take a tenth to a quarter less, but each
-/// page may hold 2 MiB for a few bytes.
-void take_large_pages();
-
 /// The exit code of the exception in flight; reports it on stderr as `name: subject: what`, unless
 /// it is a broken pipe or a stop request. For programs that go on with the next input.
 int report_current_exception(const Program& program, std::string_view subject = {});
