@@ -45,9 +45,14 @@ class ParallelReduction {
     std::uint32_t number_, size_;
   };
 
+  static constexpr std::size_t kLanes = 8;
+
   /// @param size columns, from old to young.
-  ParallelReduction(std::size_t size, const K& field, const RunContext& context)
-      : field_(field), context_(context), columns_(size, nullptr, &context.memory) {}
+  /// @param lanes columns that a thread works on in turns. With one, and one piece, columns hold
+  /// what the textbook's do.
+  ParallelReduction(std::size_t size, const K& field, const RunContext& context,
+                    std::size_t lanes = kLanes)
+      : field_(field), context_(context), lanes_(lanes), columns_(size, nullptr, &context.memory) {}
 
   /// @param piece columns that a thread takes at a time.
   /// @param make_chain called for a working column.
@@ -115,7 +120,6 @@ class ParallelReduction {
     const Column** owner = nullptr;  // where the column of the pivot is noted
     const Column* older = nullptr;   // that column
   };
-  static constexpr std::size_t kLanes = 8;
 
   // What a thread has to itself. Columns stay where they are: others read them.
   struct Worker {
@@ -146,7 +150,7 @@ class ParallelReduction {
     const std::lock_guard lock(mutex_);
     if (idle_.empty()) {
       workers_.push_back(std::make_unique<Worker>());
-      for (std::size_t i = 0; i < kLanes; ++i) workers_.back()->lanes.push_back({make_chain()});
+      for (std::size_t i = 0; i < lanes_; ++i) workers_.back()->lanes.push_back({make_chain()});
       return *workers_.back();
     }
     Worker& worker = *idle_.back();
@@ -202,6 +206,7 @@ class ParallelReduction {
 
   const K& field_;
   const RunContext& context_;
+  const std::size_t lanes_;
   std::pmr::vector<const Column*> columns_;
   std::mutex mutex_;  // for what follows
   std::vector<std::unique_ptr<Worker>> workers_;

@@ -283,8 +283,7 @@ class Representing {
   // H1 of T.
   void add_loops(ComponentTree<TopGraph>& tree, const CriticalCells& edges,
                  const CriticalCells& squares) {
-    DualLoopReduction<K> reduction(grid_, edges, squares, field_, context_);
-    reduction.reduce();
+    const DualLoopReduction<K> reduction(grid_, edges, squares, field_, context_);
     const auto cell_of = [&](const typename DualLoopReduction<K>::Term& term) {
       return reduction.cell(term.cell);
     };
@@ -292,7 +291,7 @@ class Representing {
   }
   // @param surface the dimension of surfaces in the stars' grid.
   template <class Graph, class Reduction, class CellOf>
-  void add_classes(ComponentTree<Graph>& tree, Reduction& reduction, CellOf&& cell_of,
+  void add_classes(ComponentTree<Graph>& tree, Reduction&& reduction, CellOf&& cell_of,
                    int surface) {
     ForestClosing<Graph, K> closing(tree, field_, context_);
     const TorusSurfaces<K> surfaces(grid_, field_, context_);

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <memory_resource>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cubical/columns/chain_heap.hpp"
+#include "cubical/stars/critical_cells.hpp"
+#include "cubical/stars/facet_search.hpp"
+#include "ph/detail/core/chain.hpp"
+#include "ph/detail/core/field.hpp"
+#include "ph/detail/core/radix_sort.hpp"
+
+namespace ph::cubical {
+
+/// An edge of the T-construction: a square of the stars' grid, ordered as there, by value, voxel,
+/// rank of the direction.
+struct DualEdge {
+  std::uint64_t key, name;
+  std::uint32_t voxel() const { return static_cast<std::uint32_t>(name >> 4); }
+  int rank() const { return static_cast<int>(name & 15); }
+  friend bool operator==(const DualEdge& a, const DualEdge& b) { return a.name == b.name; }
+  /// The youngest edge of T is the oldest square.
+  static bool is_later(const DualEdge& a, const DualEdge& b) {
+    return a.key != b.key ? a.key > b.key : a.name > b.name;
+  }
+};
+
+/// The edges of T that may give birth to loops: critical squares in no pair of the two graphs.
+class FreeDualEdges {
+ public:
+  /// @param squares those in the order are in no pair; outlives this.
+  FreeDualEdges(const StarGrid& grid, const CriticalCells& squares,
+                std::pmr::memory_resource* memory)
+      : grid_(grid), squares_(squares), is_free_(squares.cells.size(), false, memory) {
+    for (const auto& place : squares.order) is_free_[place.cell] = true;
+  }
+  /// The place of one among the critical squares. Precondition: it is critical.
+  std::uint32_t number(const DualEdge& edge) const {
+    const std::uint32_t v = edge.voxel();
+    const int square = grid_.tables(v).square_order().at(edge.rank());
+    auto at = std::ranges::lower_bound(squares_.cells, v, {}, &NumberedCell::voxel);
+    while (at->number != static_cast<std::uint32_t>(square)) ++at;
+    return static_cast<std::uint32_t>(at - squares_.cells.begin());
+  }
+  bool contains(const DualEdge& edge) const { return is_free_[number(edge)]; }
+
+ private:
+  const StarGrid& grid_;
+  const CriticalCells& squares_;
+  std::pmr::vector<bool> is_free_;  // by critical square
+};
+
+/// A chain of edges of T that is being reduced: what LoopColumn does, seen from the other side and
+/// backwards. The squares of T are the edges of the stars' grid, and its boundary is the coboundary
+/// there.
+template <Field K>
+class DualLoopColumn {
+ public:
+  using Element = typename K::Element;
+  using Term = Entry<DualEdge, K>;
+
+  DualLoopColumn(const StarGrid& grid, const FreeDualEdges& free, const K& field,
+                 const RunContext& context)
+      : grid_(grid), free_(free), field_(field), context_(context), heap_(field, &context.memory) {}
+
+  /// Begins anew with the boundary of a square of T, an edge of the star of v.
+  void assign_boundary(std::uint32_t v, int edge) {
+    heap_.clear();
+    add_coboundary(v, edge, field_.from_int(1), -1);
+  }
+  /// Begins anew with a chain.
+  void assign(std::span<const Term> chain) { heap_.assign(chain); }
+  void add(Element scale, std::span<const Term> chain) {
+    count(chain.size());
+    heap_.add([&](Terms& terms) {
+      for (const Term& term : chain)
+        terms.emplace_back(term.cell, field_.multiply(scale, term.coefficient()));
+    });
+  }
+  /// Takes out the youngest free edge; nothing if none is left.
+  std::optional<Term> take_pivot() {
+    while (const std::optional<Term> term = heap_.take()) {
+      count(1);
+      const std::uint32_t v = term->cell.voxel();
+      const std::uint32_t star = grid_.star(v);
+      const StarTables& tables = grid_.tables(v);
+      const int square = tables.square_order().at(term->cell.rank());
+      if ((tables.edge_squares(star) >> square & 1U) != 0) {
+        const int edge = tables.edge_of(star, square);
+        const Element a = term->coefficient();
+        add_coboundary(v, edge, incidence(edge, square) > 0 ? field_.negate(a) : a, square);
+      } else if (free_.contains(term->cell)) {
+        return term;
+      }
+    }
+    return std::nullopt;
+  }
+  /// What it holds, each edge once; to be assigned before it is used again.
+  std::span<const Term> consolidate() { return heap_.consolidate(); }
+
+ private:
+  using Terms = std::pmr::vector<Term>;
+
+  void count(std::size_t steps) {
+    constexpr std::size_t many = 4096;
+    if ((steps_ += steps) < many) return;
+    steps_ = 0;
+    context_.poll();
+  }
+  // The boundary of an edge is known but for its sign by where a square lies beside it.
+  static int incidence(int edge, int square) {
+    const int along = axis_of_edge(edge);
+    int first = along == 0 ? 1 : 0;
+    const bool beside_first = kSquares[square][first] != 0;
+    const int axis = beside_first ? first : 3 - along - first;
+    // Axes of T run backwards: what lies below in the stars' grid is its upper end.
+    return beside_first ? -kSquares[square][axis] : kSquares[square][axis];
+  }
+  // Adds `scale` times the squares around an edge of the star of v, without the square `skip` of
+  // that star if it is not negative.
+  void add_coboundary(std::uint32_t v, int edge, Element scale, int skip) {
+    heap_.add([&](Terms& terms) {
+      const int along = axis_of_edge(edge);
+      for (int a = 0; a < 3; ++a) {
+        if (a == along) continue;
+        for (const int sign : {-1, 1}) {
+          const Direction d = turned(kEdges[edge], a, sign);
+          const int seen = number_of(d);
+          const auto square = in_its_star(grid_, v, d);
+          if (!square || (square->voxel == v && number_of(square->direction) == skip)) continue;
+          append(*square, incidence(edge, seen) > 0 ? scale : field_.negate(scale), terms);
+        }
+      }
+    });
+  }
+  // Unless the square is an edge of T that joins components inside its star.
+  void append(const StarCell& square, Element coefficient, Terms& terms) {
+    const std::uint32_t v = square.voxel;
+    const int number = number_of(square.direction);
+    if ((grid_.pair_cubes(v).squares() >> number & 1U) != 0) return;
+    const auto rank = static_cast<std::uint64_t>(grid_.tables(v).square_order().rank(number));
+    terms.emplace_back(DualEdge{ordered_bits(square.value + 0.0), std::uint64_t{v} << 4 | rank},
+                       coefficient);
+  }
+
+  const StarGrid& grid_;
+  const FreeDualEdges& free_;
+  const K& field_;
+  const RunContext& context_;
+  ChainHeap<K, Term, &DualEdge::is_later> heap_;
+  std::size_t steps_ = 0;  // since the last look at the stop token
+};
+
+}  // namespace ph::cubical
