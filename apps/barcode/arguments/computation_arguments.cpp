@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "barcode/arguments/computation_arguments.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "common/arguments/choices.hpp"
+#include "common/arguments/numbers.hpp"
+#include "ph/detail/core/field.hpp"
+#include "ph/error.hpp"
+
+namespace ph::barcode {
+namespace {
+
+using app::add_choice;
+using app::add_value;
+using app::choose;
+using app::parse_integer;
+using app::parse_number;
+using Names = std::vector<std::string_view>;
+
+constexpr int kMostDimensions = 1'000'000;  // beyond any simplex that fits a memory
+
+[[noreturn]] void not_built_in(std::string_view what) {
+  throw Error(ErrorKind::not_built_in, fmt::format("{} not built in", what));
+}
+
+void take_metric(Arguments& a, const std::string& text) {
+  static const Names names{"euclidean",   "manhattan", "chebyshev",
+                           "minkowski:P", "cosine",    "hamming"};
+  constexpr std::string_view kMinkowski = "minkowski:";
+  if (text.starts_with(kMinkowski)) {
+    a.rips.distance = PointDistance::minkowski;
+    a.rips.minkowski_p = parse_number("--metric minkowski:P", text.substr(kMinkowski.size()));
+    if (a.rips.minkowski_p < 1)
+      throw Error(ErrorKind::usage, fmt::format("--metric: found '{}', expected P >= 1", text));
+  } else if (text == "minkowski") {
+    throw Error(ErrorKind::usage,
+                "--metric: found 'minkowski', expected minkowski:P with its exponent P");
+  } else {
+    static constexpr std::array kMetrics{PointDistance::euclidean, PointDistance::manhattan,
+                                         PointDistance::chebyshev, PointDistance::minkowski,
+                                         PointDistance::cosine,    PointDistance::hamming};
+    a.rips.distance = kMetrics[choose("--metric", text, names)];
+  }
+}
+
+void take_complex(Arguments& a, const std::string& text) {
+  const auto names = complex_names();
+  if (text == "alpha" && std::ranges::find(names, text) == names.end())
+    not_built_in("--complex alpha:");
+  constexpr auto own = static_cast<std::size_t>(ComplexKind::own);
+  const std::size_t place = choose("--complex", text, names);
+  a.complex = static_cast<ComplexKind>(std::min(place, own));
+  a.own_complex = place < own ? nullptr : &own_complexes()[place - own];
+}
+
+void take_engine(Arguments& a, const std::string& text) {
+  const Names names = engine_names();
+  const std::optional<Engine> engine = engine_named(text);
+  a.options.engine = engine ? *engine : Engine(names[choose("--engine", text, names)]);
+  if (a.options.engine.name() != text)
+    a.notes.push_back(
+        fmt::format("--engine: '{}' is called '{}' now", text, a.options.engine.name()));
+}
+
+}  // namespace
+
+void add_complex_options(CLI::App& app, Arguments& a) {
+  const std::string group = "Complex";
+  std::string what =
+      "what is built (default auto: rips for points and distances, cubical for images, "
+      "explicit for boundary matrices and simplices; points may be cubical, too: --voxel)";
+  for (const OwnComplex& own : own_complexes()) what += fmt::format("; {}: {}", own.name, own.what);
+  add_value(app, "--complex", fmt::format("{}", fmt::join(complex_names(), "|")), what,
+            [&a](const std::string& text) { take_complex(a, text); })
+      ->group(group);
+  add_value(app, "--threshold,--max-scale", "T",
+            "largest filtration value, in units of the input (default for rips: the enclosing "
+            "radius; else none)",
+            [&a](const std::string& text) { a.threshold = parse_number("--threshold", text); })
+      ->group(group);
+  add_value(app, "--metric", "euclidean|manhattan|chebyshev|cosine|minkowski:P|hamming",
+            "distance of points (default euclidean)",
+            [&a](const std::string& text) { take_metric(a, text); })
+      ->group(group);
+}
+
+void add_homology_options(CLI::App& app, Arguments& a) {
+  const std::string group = "Homology";
+  add_value(app, "--max-dim", "D", "highest dimension reported (default: 1 for rips, else all)",
+            [&a](const std::string& text) {
+              a.options.max_dim =
+                  static_cast<int>(parse_integer("--max-dim", text, 0, kMostDimensions));
+            })
+      ->group(group);
+  add_value(app, "--min-dim", "D",
+            "lowest dimension reported (default 0); of volumes 2 saves the work for loops",
+            [&a](const std::string& text) {
+              a.options.min_dim =
+                  static_cast<int>(parse_integer("--min-dim", text, 0, kMostDimensions));
+            })
+      ->group(group);
+  add_value(app, "--field,--modulus", "P", "coefficients modulo the prime P (default 2)",
+            [&a](const std::string& text) {
+              a.options.field = parse_integer("--field", text, 2);
+              if (!is_field_characteristic(a.options.field))
+                throw Error(ErrorKind::usage, fmt::format("--field: found '{}', expected a prime "
+                                                          "below 2^31",
+                                                          text));
+            })
+      ->group(group);
+  add_value(app, "--engine", fmt::format("{}", fmt::join(engine_names(), "|")),
+            "how it is computed (default auto; standard is the slow reference engine)",
+            [&a](const std::string& text) { take_engine(a, text); })
+      ->group(group);
+  app.add_flag("--check", a.check,
+               "also run the slow reference engine and compare; a difference is printed and "
+               "exits 1")
+      ->group(group);
+  add_value(app, "--min-persistence", "X",
+            "omit bars with death - birth <= X (default 0; a negative X keeps bars of length 0)",
+            [&a](const std::string& text) {
+              a.options.min_persistence = parse_number("--min-persistence", text);
+            })
+      ->group(group);
+  add_choice(app, "--representatives", {"none", "cycles", "cocycles", "voxels"},
+             "with each bar, in JSON: a cycle, or a cocycle, as cells of the input with "
+             "coefficients; of images also voxels: components and hollows as sets of voxels, all "
+             "else as cycles (default none)",
+             [&a](std::size_t i) {
+               constexpr std::array kKinds{Representatives::none, Representatives::cycles,
+                                           Representatives::cocycles, Representatives::voxels};
+               a.options.representatives = kKinds[i];
+             })
+      ->group(group);
+  add_choice(app, "--loops", {"tight", "plain", "none"},
+             "with each cycle of edges, in JSON: the closed walks that it consists of, of rips as "
+             "short as is cheap (tight, default) or as found (plain)",
+             [&a](std::size_t i) { a.loops = static_cast<LoopChoice>(i); })
+      ->group(group);
+  app.add_flag("--dry-run", a.dry_run,
+               "read the input, print the estimate of cells and memory and the engine; compute "
+               "nothing")
+      ->group(group);
+}
+
+}  // namespace ph::barcode
