@@ -70,7 +70,7 @@ std::size_t agree(Generator& random, const Complex& complex, const std::vector<E
     forget_cells(expected);
   }
   EXPECT_EQ(found, expected) << "max_dim " << *options.max_dim << " min_dim " << options.min_dim
-                             << " engine " << static_cast<int>(options.engine);
+                             << " engine " << options.engine.name();
   return expected.size();
 }
 
