@@ -40,10 +40,8 @@ std::string written(Write&& write) {
 std::string encoded(std::string_view text, std::size_t piece) {
   detail::Base64 base64;
   std::string result;
-  for (std::size_t at = 0; at < text.size(); at += piece) {
-    const std::string_view part = text.substr(at, piece);
-    base64.append({reinterpret_cast<const std::uint8_t*>(part.data()), part.size()}, result);
-  }
+  for (std::size_t at = 0; at < text.size(); at += piece)
+    base64.append(std::as_bytes(std::span(text.substr(at, piece))), result);
   base64.finish(result);
   return result;
 }
