@@ -26,7 +26,7 @@ TEST(Options, MakeSenseOrAreRefused) {
   refuse("found 0", {.field = 0});
   refuse("found -2", {.field = -2});
   refuse("found 2147483648", {.field = std::int64_t{1} << 31});
-  refuse("union_find cannot compute homology up to dimension 1",
+  refuse("union-find cannot compute homology up to dimension 1",
          {.max_dim = 1, .engine = Engine::union_find});
 }
 
@@ -277,7 +277,7 @@ TEST(UserFiltrations, FacetsAreEnough) {
 TEST(UserFiltrations, EnginesThatNeedMoreSaySo) {
   expect_error(ErrorKind::usage, "engine cohomology cannot",
                [] { persistence(Square{}, {.engine = Engine::cohomology}); });
-  expect_error(ErrorKind::usage, "engine union_find cannot",
+  expect_error(ErrorKind::usage, "engine union-find cannot",
                [] { persistence(Square{}, {.max_dim = 0, .engine = Engine::union_find}); });
 }
 

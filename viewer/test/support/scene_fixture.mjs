@@ -132,7 +132,7 @@ export function scene(width = 640, height = 536, { seeds = 26 } = {}) {
     },
     provenance: {
       version: "ph-segment 0.1.0",
-      engine: "union_find",
+      engine: "union-find",
       command: ["ph-segment", "desk.pcd", "--report", "desk.html"],
       input: { path: "desk.pcd", description: `${n} points, PCD, ${width} x ${height}` },
       notes: {
