@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "ph/detail/rips/rips_filtration.hpp"
 #include "ph/edge_collapse.hpp"
 #include "ph/io/read.hpp"
 #include "ph/ph.hpp"

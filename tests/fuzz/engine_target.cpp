@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The conformance suite on filtrations that the bytes choose.
+#include "ph/detail/rips/rips_filtration.hpp"
 #include "ph/filtered_graph.hpp"
 #include "support/generators.hpp"
 #include "support/representatives.hpp"

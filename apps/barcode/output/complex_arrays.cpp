@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "ph/detail/rips/rips_graph.hpp"
+
 namespace ph::barcode {
 namespace {
 

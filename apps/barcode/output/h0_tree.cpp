@@ -7,6 +7,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "ph/detail/rips/rips_graph.hpp"
+
 namespace ph::barcode {
 namespace {
 

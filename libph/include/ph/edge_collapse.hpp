@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "ph/detail/rips/rips_graph.hpp"
 #include "ph/rips.hpp"
 #include "ph/run_context.hpp"
 

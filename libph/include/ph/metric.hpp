@@ -17,6 +17,32 @@ concept Metric =
   { m(i, j) } -> std::convertible_to<double>;
 };
 
+/// Any metric behind one type, so that what is done with it is compiled once. Keeps a reference.
+class AnyMetric {
+ public:
+  template <Metric M>
+  explicit AnyMetric(const M& metric)
+      : metric_(&metric),
+        size_(metric.size()),
+        distance_([](const void* m, Index i, Index j) {
+          return static_cast<double>((*static_cast<const M*>(m))(i, j));
+        }),
+        row_([](const void* m, Index i, double* out) {
+          for (Index j = 0; j < i; ++j) out[j] = (*static_cast<const M*>(m))(i, j);
+        }) {}
+
+  Index size() const { return size_; }
+  double operator()(Index i, Index j) const { return distance_(metric_, i, j); }
+  /// out[j] = d(i, j) for j < i.
+  void row(Index i, double* out) const { row_(metric_, i, out); }
+
+ private:
+  const void* metric_;
+  Index size_;
+  double (*distance_)(const void*, Index, Index);
+  void (*row_)(const void*, Index, double*);
+};
+
 /// The distances between rows of a matrix that libph knows by name.
 enum class PointDistance {
   euclidean,

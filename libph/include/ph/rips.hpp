@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
+#include <utility>
 
-#include "ph/detail/rips/rips_filtration.hpp"
-#include "ph/detail/rips/rips_graph.hpp"
-#include "ph/detail/rips/rips_vertices.hpp"
-#include "ph/detail/rips/sparse_rips.hpp"
+#include "ph/detail/rips/vertex_weights.hpp"
 #include "ph/distance_matrix.hpp"
 #include "ph/metric.hpp"
+#include "ph/run_context.hpp"
 #include "ph/sparse_distances.hpp"
 
 namespace ph {
+
+/// The edges under a Vietoris-Rips filtration; see ph/custom.hpp.
+class RipsGraph;
 
 /// How a Vietoris-Rips filtration is built.
 struct RipsOptions {
@@ -65,61 +69,37 @@ class Rips {
                 const RunContext& context = default_context());
   explicit Rips(const SparseDistances& distances, const RipsOptions& options = {},
                 const RunContext& context = default_context());
-  /// Any metric of the user's own: `size()` and `operator()(Index, Index)`.
+  /// Any metric of the user's own: `size()` and `operator()(Index, Index)`. Read here, not later.
   template <Metric M>
   explicit Rips(const M& metric, const RipsOptions& options = {},
                 const RunContext& context = default_context())
-      : graph_(std::make_shared<const RipsGraph>(graph_of_metric(metric, options, context))) {}
+      : Rips(AnyMetric(metric), options, context) {}
+  explicit Rips(const AnyMetric& metric, const RipsOptions& options = {},
+                const RunContext& context = default_context());
 
   /// The flag complex of any graph.
-  explicit Rips(RipsGraph&& graph) : graph_(std::make_shared<const RipsGraph>(std::move(graph))) {}
+  explicit Rips(RipsGraph&& graph);
+
+  Index size() const;  ///< vertices
+  /// The largest distance at which two points are joined: the given one or the enclosing radius.
+  double threshold() const;
+  std::size_t edge_count() const;
+  /// As asked for in RipsOptions.
+  bool has_only_components() const;
+
+  // With ph/custom.hpp: what engines see.
 
   const RipsGraph& graph() const { return *graph_; }
-  Index size() const { return graph_->size(); }  ///< vertices
-  /// The largest distance at which two points are joined: the given one or the enclosing radius.
-  double threshold() const { return graph_->threshold(); }
-  std::size_t edge_count() const { return graph_->edge_count(); }
-  /// As asked for in RipsOptions.
-  bool has_only_components() const { return graph_->is_forest(); }
-
   /// Calls `use(filtration)` with the representation whose cells are small enough for homology up
   /// to `max_dim`. @throws Error (resource) if simplices of dimension max_dim + 1 have too many
   /// vertices for any representation.
   template <class Use>
   decltype(auto) with_filtration(int max_dim, Use&& use) const {
-    return with_rips_filtration(*graph_, max_dim, std::forward<Use>(use));
+    return with_rips_filtration(graph(), max_dim, std::forward<Use>(use));
   }
 
  private:
-  template <Metric M>
-  static RipsGraph graph_of_metric(const M& metric, const RipsOptions& options,
-                                   const RunContext& context);
-  /// @throws Error (usage) if options exclude each other.
-  static void check_together(const RipsOptions& options);
-
   std::shared_ptr<const RipsGraph> graph_;
 };
-
-template <Metric M>
-RipsGraph Rips::graph_of_metric(const M& metric, const RipsOptions& options,
-                                const RunContext& context) {
-  RipsGraph::check_size(metric.size());
-  check_together(options);
-  const RipsVertices vertices(metric.size(), options.vertices, options.births,
-                              options.weight_exponent, options.threshold, context);
-  const auto build = [&](const auto& distances) {
-    if (options.approximation)
-      return sparse_rips_graph(distances, greedy_permutation(distances, {}, context),
-                               *options.approximation, options.threshold, context);
-    return options.only_components
-               ? RipsGraph::forest_of_metric(distances, options.threshold, context,
-                                             vertices.weights())
-               : RipsGraph::of_metric(distances, options.threshold, context, vertices.weights());
-  };
-  if (vertices.are_all()) return build(metric);
-  RipsGraph graph = build(SubsetMetric(metric, vertices.members()));
-  graph.name_vertices(vertices.members(), context);
-  return graph;
-}
 
 }  // namespace ph

@@ -2,7 +2,7 @@
 #pragma once
 #include "cubical/pair_voxels.hpp"
 #include "cubical/representatives/represent_voxels.hpp"
-#include "ph/barcode.hpp"
+#include "ph/detail/core/barcode_builder.hpp"
 #include "ph/engine.hpp"
 
 namespace ph {

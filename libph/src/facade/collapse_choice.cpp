@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "facade/choice.hpp"
+#include "ph/detail/rips/rips_graph.hpp"
 #include "ph/edge_collapse.hpp"
 
 namespace ph::detail {

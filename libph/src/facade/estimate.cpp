@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "ph/estimate.hpp"
+#include "ph/detail/rips/rips_filtration.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -9,6 +9,8 @@
 
 #include "rips/clique_count.hpp"
 
+#include "ph/detail/rips/rips_graph.hpp"
+
 namespace ph::detail {
 namespace {
 

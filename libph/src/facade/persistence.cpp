@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ph/detail/rips/rips_filtration.hpp"
 #include "ph/edge_collapse.hpp"
 
 namespace ph {

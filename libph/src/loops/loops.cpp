@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "ph/loops.hpp"
+#include "ph/detail/rips/rips_filtration.hpp"
 
 #include "loops/tighten.hpp"
 

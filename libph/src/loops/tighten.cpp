@@ -13,6 +13,7 @@
 #include "loops/edge_cocycles.hpp"
 #include "loops/shortcuts.hpp"
 #include "ph/custom.hpp"
+#include "ph/detail/rips/rips_filtration.hpp"
 #include "ph/error.hpp"
 
 namespace ph::detail {

@@ -7,6 +7,8 @@
 #include <random>
 #include <span>
 
+#include "ph/detail/rips/rips_graph.hpp"
+
 namespace ph {
 namespace {
 

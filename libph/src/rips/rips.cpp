@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include "metric/distinct_points.hpp"
+#include "ph/detail/rips/rips_graph.hpp"
+#include "ph/detail/rips/rips_vertices.hpp"
+#include "ph/detail/rips/sparse_rips.hpp"
 #include "ph/error.hpp"
 
 namespace ph {
@@ -107,14 +110,33 @@ RipsGraph graph_of_sparse(const SparseDistances& distances, const RipsOptions& o
   return graph;
 }
 
+template <Metric M>
+RipsGraph graph_of_metric(const M& metric, const RipsOptions& options, const RunContext& context) {
+  RipsGraph::check_size(metric.size());
+  check_together(options);
+  const RipsVertices vertices(metric.size(), options.vertices, options.births,
+                              options.weight_exponent, options.threshold, context);
+  const auto build = [&](const auto& distances) {
+    if (options.approximation)
+      return sparse_rips_graph(distances, greedy_permutation(distances, {}, context),
+                               *options.approximation, options.threshold, context);
+    return options.only_components
+               ? RipsGraph::forest_of_metric(distances, options.threshold, context,
+                                             vertices.weights())
+               : RipsGraph::of_metric(distances, options.threshold, context, vertices.weights());
+  };
+  if (vertices.are_all()) return build(metric);
+  RipsGraph graph = build(SubsetMetric(metric, vertices.members()));
+  graph.name_vertices(vertices.members(), context);
+  return graph;
+}
+
 RipsOptions with_births_of(const DistanceMatrix& distances, RipsOptions options) {
   if (options.births.empty()) options.births = distances.births();
   return options;
 }
 
 }  // namespace
-
-void Rips::check_together(const RipsOptions& options) { ph::check_together(options); }
 
 Rips::Rips(PointsView points, const RipsOptions& options, const RunContext& context)
     : graph_(std::make_shared<const RipsGraph>(graph_of_points(points, options, context))) {}
@@ -125,5 +147,15 @@ Rips::Rips(const DistanceMatrix& distances, const RipsOptions& options, const Ru
 
 Rips::Rips(const SparseDistances& distances, const RipsOptions& options, const RunContext& context)
     : graph_(std::make_shared<const RipsGraph>(graph_of_sparse(distances, options, context))) {}
+
+Rips::Rips(const AnyMetric& metric, const RipsOptions& options, const RunContext& context)
+    : graph_(std::make_shared<const RipsGraph>(graph_of_metric(metric, options, context))) {}
+
+Rips::Rips(RipsGraph&& graph) : graph_(std::make_shared<const RipsGraph>(std::move(graph))) {}
+
+Index Rips::size() const { return graph_->size(); }
+double Rips::threshold() const { return graph_->threshold(); }
+std::size_t Rips::edge_count() const { return graph_->edge_count(); }
+bool Rips::has_only_components() const { return graph_->is_forest(); }
 
 }  // namespace ph

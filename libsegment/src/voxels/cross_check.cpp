@@ -7,6 +7,7 @@
 #include <array>
 #include <span>
 
+#include "ph/detail/core/barcode_builder.hpp"
 #include "ph/detail/reduction/twist.hpp"
 
 namespace ph::segment {

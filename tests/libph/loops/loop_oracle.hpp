@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "libph/loops/loop_chains.hpp"
+#include "ph/detail/rips/rips_graph.hpp"
 #include "ph/rips.hpp"
 
 namespace ph::test {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Loops of bars of Rips filtrations against an oracle of their own.
+#include "ph/detail/rips/rips_graph.hpp"
 #include "ph/loops.hpp"
 
 #include <gtest/gtest.h>

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "libsegment/scenery.hpp"
+#include "ph/detail/rips/rips_graph.hpp"
 #include "ph/error.hpp"
 #include "ph/persistence.hpp"
 #include "ph/rips.hpp"

@@ -3,8 +3,8 @@
 #include <memory_resource>
 #include <vector>
 
-#include "ph/barcode.hpp"
 #include "ph/detail/components/component_representatives.hpp"
+#include "ph/detail/core/barcode_builder.hpp"
 #include "ph/detail/core/chain.hpp"
 #include "ph/engine.hpp"
 #include "ph/filtration.hpp"

@@ -3,6 +3,8 @@
 #include "support/for_each_seed.hpp"
 #include "support/representatives.hpp"
 
+#include "ph/detail/rips/rips_filtration.hpp"
+
 namespace ph::test {
 namespace {
 

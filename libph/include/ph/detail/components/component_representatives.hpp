@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "ph/barcode.hpp"
 #include "ph/detail/components/elder_rule.hpp"
+#include "ph/detail/core/barcode_builder.hpp"
 #include "ph/detail/core/chain.hpp"
 #include "ph/detail/core/field.hpp"
 #include "ph/filtration.hpp"

@@ -3,9 +3,9 @@
 #include <memory_resource>
 #include <vector>
 
-#include "ph/barcode.hpp"
 #include "ph/detail/components/component_representatives.hpp"
 #include "ph/detail/components/one_skeleton.hpp"
+#include "ph/detail/core/barcode_builder.hpp"
 #include "ph/detail/core/chain.hpp"
 #include "ph/detail/core/field.hpp"
 #include "ph/engine.hpp"

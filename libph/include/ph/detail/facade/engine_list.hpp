@@ -4,9 +4,11 @@
 #include <vector>
 
 #include "ph/detail/components/union_find.hpp"
+#include "ph/detail/core/barcode_builder.hpp"
 #include "ph/detail/reduction/cohomology.hpp"
 #include "ph/detail/reduction/standard.hpp"
 #include "ph/detail/reduction/twist.hpp"
+#include "ph/detail/rips/rips_filtration.hpp"
 #include "ph/engine.hpp"
 #include "ph/persistence.hpp"
 

@@ -25,6 +25,17 @@ class RowDistances {
 };
 
 template <>
+class RowDistances<AnyMetric> {
+ public:
+  RowDistances(const AnyMetric& metric, std::pmr::memory_resource*) : metric_(metric) {}
+  Index row_capacity() const { return metric_.size(); }
+  void operator()(Index i, double* out) const { metric_.row(i, out); }
+
+ private:
+  const AnyMetric& metric_;
+};
+
+template <>
 class RowDistances<PointMetric> {
  public:
   RowDistances(const PointMetric& metric, std::pmr::memory_resource* memory);

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "ph/barcode.hpp"
 #include "ph/detail/components/cell_map.hpp"
+#include "ph/detail/core/barcode_builder.hpp"
 #include "ph/detail/core/parallel.hpp"
 #include "ph/detail/core/polled_sort.hpp"
 #include "ph/detail/reduction/apparent_pairs.hpp"

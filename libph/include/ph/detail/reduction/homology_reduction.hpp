@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "ph/barcode.hpp"
 #include "ph/detail/components/cell_map.hpp"
+#include "ph/detail/core/barcode_builder.hpp"
 #include "ph/detail/core/chain.hpp"
 #include "ph/detail/core/polled_sort.hpp"
 #include "ph/detail/reduction/apparent_pairs.hpp"

@@ -5,7 +5,7 @@
 #include <memory_resource>
 #include <vector>
 
-#include "ph/barcode.hpp"
+#include "ph/detail/core/barcode_builder.hpp"
 #include "ph/detail/core/field.hpp"
 #include "ph/engine.hpp"
 #include "ph/run_context.hpp"

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "ph/barcode.hpp"
+#include "ph/detail/core/field.hpp"
+#include "ph/run_context.hpp"
+
+namespace ph {
+
+/// Where an engine puts its pairs: turns cells into bars and drops what the user does not want.
+template <Filtration F>
+class BarcodeBuilder {
+ public:
+  using Cell = typename F::Cell;
+
+  /// Keeps bars of dimension <= max_dim with death - birth > min_persistence; a negative
+  /// `min_persistence` keeps the zero-length bars too. What the bars take counts in the budget of
+  /// the context until they are finished.
+  BarcodeBuilder(const F& filtration, int max_dim, double min_persistence,
+                 Representatives representatives = Representatives::none, bool cells = true,
+                 const RunContext& context = default_context())
+      : filtration_(filtration),
+        max_dim_(max_dim),
+        min_persistence_(min_persistence),
+        representatives_(representatives),
+        cells_(cells),
+        context_(context),
+        claim_(context.memory, 0),
+        barcode_(filtration.cell_kind()) {}
+
+  int max_dim() const { return max_dim_; }
+  /// Bars of lower dimensions are dropped, too; an engine may save itself the work.
+  int min_dim() const { return min_dim_; }
+  void set_min_dim(int dim) { min_dim_ = dim; }
+  /// What an engine must hand over with each bar.
+  Representatives representatives() const { return representatives_; }
+  /// Whether bars keep their cells.
+  bool wants_cells() const { return cells_; }
+  /// Whether an engine must report pairs of equal value.
+  bool wants_zero_length() const { return min_persistence_ < 0; }
+
+  /// Says that so many bars may come: a hint.
+  void expect(std::size_t count) { barcode_.reserve_more(count); }
+  /// A class of H_dim born with `birth`, killed by `death` (a cell of dimension dim + 1).
+  /// @return whether the bar is kept: only then is a representative wanted.
+  bool add_pair(int dim, const Cell& birth, const Cell& death) {
+    if (!wants(dim)) return false;
+    const Bar bar{dim, filtration_.value(birth), filtration_.value(death)};
+    if (bar.is_infinite()) return add_essential(dim, birth);
+    if (!(bar.persistence() > min_persistence_)) return false;
+    add(bar, birth, &death);
+    return true;
+  }
+  /// A class of H_dim that never dies. What would be born at infinity never is.
+  bool add_essential(int dim, const Cell& birth) {
+    if (!wants(dim) || filtration_.value(birth) == kInfinity) return false;
+    add(Bar{dim, filtration_.value(birth), kInfinity}, birth, nullptr);
+    return true;
+  }
+  /// A bar whose cells, if they are kept, are known by their numbers; it never dies if its death is
+  /// infinite.
+  bool add_bar(const Bar& bar, std::span<const Index> birth_cell,
+               std::span<const Index> death_cell) {
+    if (!keeps(bar)) return false;
+    barcode_.add(bar, birth_cell, death_cell);
+    claim_.grow_to(barcode_.bytes());
+    return true;
+  }
+  /// Several bars without cells.
+  void add_bars(std::span<const Bar> bars) {
+    barcode_.reserve_more(bars.size());
+    for (const Bar& bar : bars)
+      if (keeps(bar)) barcode_.add(bar);
+    claim_.grow_to(barcode_.bytes());
+  }
+  /// Gives the bar kept last its representative: terms with `cell` and `coefficient()`.
+  template <class Terms, Field K>
+  void add_representative(int dim, const Terms& terms, const K& field) {
+    numbers_.clear();
+    coefficients_.clear();
+    for (const auto& term : terms) {
+      filtration_.append_input_cell(dim, term.cell, numbers_);
+      coefficients_.push_back(field.to_int(term.coefficient()));
+    }
+    barcode_.set_representative(representatives_, numbers_, coefficients_);
+    claim_.grow_to(barcode_.bytes());
+  }
+
+  /// The same in terms of the input.
+  void add_representative(std::span<const Index> numbers,
+                          std::span<const std::int64_t> coefficients) {
+    barcode_.set_representative(representatives_, numbers, coefficients);
+    claim_.grow_to(barcode_.bytes());
+  }
+  /// @return where the places begin among all that are kept.
+  std::size_t store_voxels(std::span<const std::uint32_t> places) {
+    claim_.grow_to(barcode_.bytes() + places.size_bytes());
+    return barcode_.store_voxels(places);
+  }
+  /// Gives the bar kept last, which has a representative, its voxels.
+  void add_voxels(VoxelRange voxels, std::span<const Index> birth_voxel,
+                  std::span<const Index> death_voxel) {
+    barcode_.set_voxels(voxels, birth_voxel, death_voxel);
+    claim_.grow_to(barcode_.bytes());
+  }
+
+  Barcode finish() {
+    barcode_.sort(context_);
+    return std::move(barcode_);
+  }
+
+ private:
+  bool wants(int dim) const { return min_dim_ <= dim && dim <= max_dim_; }
+  bool keeps(const Bar& bar) const {
+    return wants(bar.dim) && bar.birth < kInfinity &&
+           (bar.is_infinite() || bar.persistence() > min_persistence_);
+  }
+  void add(const Bar& bar, const Cell& birth, const Cell* death) {
+    numbers_.clear();
+    if (cells_) filtration_.append_input_cell(bar.dim, birth, numbers_);
+    const std::size_t split = numbers_.size();
+    if (cells_ && death) filtration_.append_input_cell(bar.dim + 1, *death, numbers_);
+    const std::span<const Index> all(numbers_);
+    barcode_.add(bar, all.first(split), all.subspan(split));
+    claim_.grow_to(barcode_.bytes());
+  }
+
+  const F& filtration_;
+  int max_dim_, min_dim_ = 0;
+  double min_persistence_;
+  Representatives representatives_;
+  bool cells_;
+  const RunContext& context_;
+  MemoryClaim claim_;
+  Barcode barcode_;
+  std::vector<Index> numbers_;
+  std::vector<std::int64_t> coefficients_;
+};
+
+}  // namespace ph
