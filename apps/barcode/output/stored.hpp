@@ -10,7 +10,7 @@
 
 namespace ph::barcode {
 
-/// The way out where barcodes are too large for the memory.
+/// What helps where barcodes are too large for the memory.
 inline constexpr std::string_view kFewerBars = "take fewer bars, or raise --memory-limit";
 
 /// Reads a stored barcode and writes it as a job says: converted, drawn, in a report.

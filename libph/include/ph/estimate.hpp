@@ -26,7 +26,7 @@ Options with_plan(const Options& options, const RunPlan& plan);
 /// What a computation will take, before it is done.
 struct Estimate : RunPlan {
   /// Cells by dimension, as far as the engine lists them: the sweep of edge links and union-find
-  /// list vertices and edges, no more, `arrows` none. After the collapse, if there is one.
+  /// list vertices and edges, no more, `gradient` none. After the collapse, if there is one.
   std::vector<double> cells;
   /// The dimensions below it are counted; above, cells are estimated from a sample of them, as a
   /// rule within a few percent.

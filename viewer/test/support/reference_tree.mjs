@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The merge tree with every vertex, its cuts as the programs make them, and its contraction for a
-// report. Written after libph/src/engine/merge_tree.cpp and apps/segment/components.cpp, not after
-// the page.
+// report. Written after libph/src/facade/merge_tree.cpp and libsegment/src/voxels/components.cpp,
+// not after the page.
 
 class DisjointSets {
   constructor(size) {

@@ -5,8 +5,8 @@
 
 namespace ph {
 
-// A simplex is its longest edge e and a clique of the lens of e; m is the least vertex of the
-// clique. Its oldest cofacet of equal key has the least vertex w of the lens that is joined to all
+// A simplex is its longest edge e and a clique of the link of e; m is the least vertex of the
+// clique. Its oldest cofacet of equal key has the least vertex w of the link that is joined to all
 // of the clique. The youngest facet of equal key of that is the simplex if and only if w < m.
 template <RipsLayout Layout, int Words>
 auto RipsFiltration<Layout, Words>::apparent_cofacet(int dim, const Cell& cell) const
@@ -113,16 +113,16 @@ class RipsFiltration<Layout, Words>::UnmatchedCells {
       return;
     }
     const FlagEdge& e = f_.graph_.edge(longest + 1);
-    auto& lens = candidates_[0];
-    lens.clear();
-    f_.smaller_neighbours(e.u, static_cast<std::uint32_t>(f_.vertex_count()), lens);
-    std::erase_if(lens, [&](Neighbour& w) {
+    auto& link = candidates_[0];
+    link.clear();
+    f_.smaller_neighbours(e.u, static_cast<std::uint32_t>(f_.vertex_count()), link);
+    std::erase_if(link, [&](Neighbour& w) {
       const bool is_in = w.key <= longest && f_.adjacency().key_of(e.v, w.vertex) <= longest;
       w.key = 0;
       return !is_in;
     });
     cells_.clear();
-    f_.extend_clique(Cell{}, lens, dim_ - 1, longest, candidates_, [&](const Cell& clique) {
+    f_.extend_clique(Cell{}, link, dim_ - 1, longest, candidates_, [&](const Cell& clique) {
       on_step();
       std::array<std::uint32_t, kMostVertices> others;
       const auto size = static_cast<std::size_t>(dim_ - 1);
