@@ -1,18 +1,41 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Follows each relative link of the Markdown files to a file, and to a heading in it: links.py ROOT."""
+"""Follows each relative link of the Markdown files to a file, and to a heading in it; looks up each path in
+backticks: links.py ROOT."""
+import os
 import re
 import sys
 from pathlib import Path
 
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)|(?:href|src)=\"([^\"]+)\"")
-CODE = re.compile(r"```.*?```|`[^`\n]*`", re.DOTALL)
+BLOCK = re.compile(r"```.*?```", re.DOTALL)
+SPAN = re.compile(r"`([^`\n]*)`")
+PATH = re.compile(r"((?:[\w.+-]+/)*)[\w.+-]+\.(\w+)")
+# A name that ends so is looked up without a folder, too. `ripser.h` is not ours.
+OURS = {"cpp", "hpp", "ipp"}
+# One that ends so is looked up with any folder.
+SOURCES = OURS | {"c", "cmake", "h", "in", "md", "mjs", "py", "sh", "ts"}
+NOT_OURS = {"build", "node_modules", ".git", "violations"}
+# It names files that are gone.
+HISTORY = "CHANGELOG.md"
+
+
+def files_of(root):
+    for folder, folders, names in os.walk(root):
+        folders[:] = [name for name in folders if name not in NOT_OURS]
+        yield from (Path(folder, name) for name in names)
+
+
+def endings_of(files, root):
+    """Each path below the root and its ends: a/b/c, b/c, c."""
+    return {"/".join(file.relative_to(root).parts[first:]) for file in files
+            for first in range(len(file.relative_to(root).parts))}
 
 
 def anchors_of(text):
     """As GitHub makes them of headings."""
     found = set()
-    for heading in re.findall(r"^#+ +(.*?)\s*$", re.sub(r"```.*?```", "", text, flags=re.DOTALL), re.MULTILINE):
+    for heading in re.findall(r"^#+ +(.*?)\s*$", BLOCK.sub("", text), re.MULTILINE):
         words = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading)
         anchor = re.sub(r"[^\w\- ]", "", words.lower()).replace(" ", "-")
         number = 0
@@ -23,7 +46,7 @@ def anchors_of(text):
 
 
 def dead_links(root, page):
-    for match in LINK.finditer(CODE.sub("", page.read_text())):
+    for match in LINK.finditer(SPAN.sub("", BLOCK.sub("", page.read_text()))):
         link = match[1] or match[2]
         if re.match(r"[a-z]+:", link):
             continue
@@ -35,12 +58,31 @@ def dead_links(root, page):
             yield f"{page.relative_to(root)}: {link}: found no such heading"
 
 
+def is_of_source(word, root):
+    """A path of ours. `examples/data/stack.pcd` is one; `out/a.csv` may be an example."""
+    match = PATH.fullmatch(word)
+    if not match:
+        return False
+    folder, end = match.groups()
+    return end in OURS or bool(folder) and (end in SOURCES or (root / folder.split("/")[0]).is_dir())
+
+
+def dead_paths(root, page, endings):
+    """A path may be the end of a longer one, as `ph/rips.hpp`."""
+    for span in SPAN.findall(BLOCK.sub("", page.read_text())):
+        for word in span.split():
+            if is_of_source(word, root) and word not in endings:
+                yield f"{page.relative_to(root)}: `{word}`: found no such file"
+
+
 def main():
     root = Path(sys.argv[1]).resolve()
-    pages = [page for page in sorted(root.rglob("*.md"))
-             if not {"build", "node_modules", ".git"} & set(page.relative_to(root).parts)]
+    files = sorted(files_of(root))
+    endings = endings_of(files, root)
+    pages = [file for file in files if file.suffix == ".md"]
     dead = [line for page in pages for line in dead_links(root, page)]
-    print("\n".join([*dead, f"{len(pages)} pages, {len(dead)} dead links"]))
+    dead += [line for page in pages if page.name != HISTORY for line in dead_paths(root, page, endings)]
+    print("\n".join([*dead, f"{len(pages)} pages, {len(dead)} dead links and paths"]))
     return 1 if dead or not pages else 0
 
 
