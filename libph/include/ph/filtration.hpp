@@ -77,8 +77,9 @@ concept CofacetFiltration =
       { F::first_equal_cofacet_is_oldest } -> std::convertible_to<bool>;
     };
 
-/// Capability: knows its apparent pairs (ph/detail/reduction/apparent_pairs.hpp) without going through facets
-/// and cofacets. They must be the ones that a search of all facets and cofacets finds.
+/// Capability: knows its apparent pairs (ph/detail/reduction/apparent_pairs.hpp) without going
+/// through facets and cofacets. They must be the ones that a search of all facets and cofacets
+/// finds.
 template <class F>
 concept ApparentFiltration =
     CofacetFiltration<F> && requires(const F& f, int dim, const typename F::Cell& cell) {
