@@ -9,6 +9,7 @@
 #include "common/arguments/option_scope.hpp"
 #include "common/arguments/plot_arguments.hpp"
 #include "ph/cubical.hpp"
+#include "ph/greedy_permutation.hpp"
 #include "ph/io/formats.hpp"
 #include "ph/io/write.hpp"
 #include "ph/persistence.hpp"

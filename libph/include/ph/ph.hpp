@@ -6,6 +6,7 @@
 #include "ph/estimate.hpp"
 #include "ph/explicit.hpp"
 #include "ph/filtered_graph.hpp"
+#include "ph/greedy_permutation.hpp"
 #include "ph/loops.hpp"
 #include "ph/lower_star.hpp"
 #include "ph/merge_tree.hpp"
