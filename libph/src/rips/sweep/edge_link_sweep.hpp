@@ -15,7 +15,7 @@
 #include "ph/filtration.hpp"
 #include "ph/run_context.hpp"
 #include "rips/annotations/annotations.hpp"
-#include "rips/annotations/formal_annotations.hpp"
+#include "rips/relations/formal_annotations.hpp"
 #include "rips/surfaces/link_surfaces.hpp"
 #include "rips/sweep/link_components.hpp"
 #include "rips/sweep/link_cycles.hpp"

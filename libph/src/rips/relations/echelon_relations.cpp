@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rips/annotations/echelon_relations.hpp"
+#include "rips/relations/echelon_relations.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rips/annotations/sum_rows.hpp"
+#include "rips/relations/sum_rows.hpp"
 
 #include <algorithm>
 

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "rips/annotations/formal_sums.hpp"
-#include "rips/annotations/pair_labels.hpp"
-#include "rips/annotations/sum_rows.hpp"
+#include "rips/relations/formal_sums.hpp"
+#include "rips/relations/pair_labels.hpp"
+#include "rips/relations/sum_rows.hpp"
 #include "support/for_each_seed.hpp"
 
 namespace ph::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rips/annotations/relation_matrix.hpp"
+#include "rips/relations/relation_matrix.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rips/annotations/formal_annotations.hpp"
+#include "rips/relations/formal_annotations.hpp"
 
 #include <algorithm>
 #include <utility>

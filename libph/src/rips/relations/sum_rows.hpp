@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "ph/detail/core/bit_matrix.hpp"
-#include "rips/annotations/relation_matrix.hpp"
+#include "rips/relations/relation_matrix.hpp"
 
 namespace ph {
 

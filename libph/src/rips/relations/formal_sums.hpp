@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "rips/annotations/echelon_relations.hpp"
+#include "rips/relations/echelon_relations.hpp"
 
 namespace ph {
 

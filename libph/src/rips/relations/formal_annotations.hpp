@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "ph/detail/core/field.hpp"
-#include "rips/annotations/formal_sums.hpp"
-#include "rips/annotations/pair_labels.hpp"
-#include "rips/annotations/sum_rows.hpp"
+#include "rips/relations/formal_sums.hpp"
+#include "rips/relations/pair_labels.hpp"
+#include "rips/relations/sum_rows.hpp"
 #include "rips/sweep/sweep_observer.hpp"
 
 namespace ph {

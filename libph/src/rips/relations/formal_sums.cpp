@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rips/annotations/formal_sums.hpp"
+#include "rips/relations/formal_sums.hpp"
 
 #include <algorithm>
 
