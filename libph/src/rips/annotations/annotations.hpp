@@ -50,6 +50,7 @@ class Annotations {
       : field_(field),
         edges_(edges),
         keeps_values_(keeps_values),
+        births_(memory),
         vectors_(memory),
         hashes_(memory),
         members_(memory),
@@ -76,18 +77,27 @@ class Annotations {
   };
 
   /// A generator whose value on a new edge is one and zero on all others.
-  Generator add_generator(const Edge& edge) {
-    const Generator g = generators_++;
-    if (keeps_values_) occurrences_.emplace_back();
+  void add_generator(const Edge& edge) {
     scratch_.clear();
-    scratch_.emplace_back(g, field_.from_int(1));
+    scratch_.emplace_back(add_generator(edge.position), field_.from_int(1));
     assign(edge, intern());
-    return g;
+  }
+  /// A generator whose value is zero on all edges so far. @param birth the position of its edge.
+  Generator add_generator(std::uint32_t birth) {
+    births_.push_back(birth);
+    if (keeps_values_) occurrences_.emplace_back();
+    return static_cast<Generator>(births_.size() - 1);
+  }
+  std::uint32_t birth(Generator g) const { return births_[g]; }
+  std::size_t living_count() const { return births_.size() - dead_.count(); }
+  /// Calls `visit(generator, birth)` for those that live, from the oldest on.
+  template <class Visit>
+  void for_each_living(Visit&& visit) const {
+    for (Generator g = 0; g < births_.size(); ++g)
+      if (!dead_.contains(g)) visit(g, births_[g]);
   }
 
-  /// Generators of the next numbers that no edge has yet.
-  void add_generators(std::size_t count);
-  /// A sum of generators.
+  /// The class of a sum of generators.
   Class class_of(std::span<const Term> sum) {
     scratch_.assign(sum.begin(), sum.end());
     dead_.eliminate_from(scratch_);
@@ -201,7 +211,7 @@ class Annotations {
   const K& field_;
   ActiveEdges& edges_;
   const bool keeps_values_;
-  Generator generators_ = 0;
+  std::pmr::vector<std::uint32_t> births_;            // by generator
   std::pmr::vector<Vector> vectors_;                  // by class
   std::pmr::vector<std::size_t> hashes_;              // by class
   std::pmr::vector<std::pmr::vector<Edge>> members_;  // by class
@@ -216,12 +226,6 @@ class Annotations {
   std::pmr::unordered_set<std::uint32_t, Hash, Equal> known_;
   Vector scratch_, merged_;
 };
-
-template <Field K>
-void Annotations<K>::add_generators(std::size_t count) {
-  generators_ += static_cast<Generator>(count);
-  if (keeps_values_) occurrences_.resize(generators_);
-}
 
 template <Field K>
 template <class Visit>

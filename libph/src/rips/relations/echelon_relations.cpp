@@ -74,11 +74,15 @@ void EchelonRelations::substitute(Word* vectors, std::size_t generators, std::si
   // The others of a relation are older.
   for (Generator g = 0; g < generators; ++g) {
     if (!is_dead(g)) continue;
-    Word* const to = vectors + g * words;
-    for_each_term(g, [&](Generator h) {
-      if (h != g)
-        for (std::size_t k = 0; k < words; ++k) to[k] ^= vectors[h * words + k];
-    });
+    const auto add = [=, to = vectors + g * words](std::size_t h) {
+      if (h == g) return;
+      for (std::size_t k = 0; k < words; ++k) to[k] ^= vectors[h * words + k];
+    };
+    const Relation& relation = of_[g];
+    if (relation.is_list)
+      std::for_each_n(relation.list, relation.count, add);
+    else
+      bits::for_each(relation.row, 0, words_to(g), add);
   }
 }
 

@@ -51,8 +51,6 @@ class EchelonRelations {
   static Generator eliminate(Word* row, std::size_t words, Relation* of);
   /// What is in row_.
   Relation store(Generator youngest);
-  template <class Visit>
-  void for_each_term(Generator g, Visit&& visit) const;
 
   std::pmr::monotonic_buffer_resource arena_;  // of relations
   std::pmr::vector<Relation> of_;              // by generator: the one that killed it
@@ -60,14 +58,5 @@ class EchelonRelations {
   std::size_t end_ = 0;                        // of its words
   std::size_t dead_count_ = 0;
 };
-
-template <class Visit>
-void EchelonRelations::for_each_term(Generator g, Visit&& visit) const {
-  const Relation& r = of_[g];
-  if (r.is_list)
-    for (std::size_t i = 0; i < r.count; ++i) visit(r.list[i]);
-  else
-    bits::for_each(r.row, 0, words_to(g), [&](std::size_t h) { visit(static_cast<Generator>(h)); });
-}
 
 }  // namespace ph

@@ -59,14 +59,32 @@ void transpose(Squares& squares) {
 
 }  // namespace
 
-void RelationMatrix::begin_block(std::size_t rows, std::size_t columns, const Word* relations,
-                                 std::size_t words) {
+auto RelationMatrix::reduce(std::size_t rows, std::size_t columns, const Word* relations,
+                            std::size_t words) -> std::span<const Row> {
   living_ += rows - is_dead_.size();
   is_dead_.resize(rows, 0);
   lines_ = (columns + 511) / 512;
   cells_.assign(rows * lines_, Line());
   row_of_.assign(columns, kNone);
+  if (columns == 0) return {};
   transpose(relations, words);
+  const std::size_t row_words = lines_ * 8;
+  for (std::size_t s = 0; s < steps_.size(); ++s)
+    for (std::size_t i = steps_[s].begin; i < end_of(s); ++i)
+      bits::add(row_begin(steps_[s].to), row_begin(added_[i]), row_words);
+  more_.resize(row_of_.size());
+  for (auto row = static_cast<Row>(row_count()); row-- > 0;) {
+    if (is_dead(row)) continue;
+    const auto [column, added] =
+        reduce_row(row_begin(row), row_begin(0), row_words, row_of_.data(), more_.data());
+    if (added != 0) steps_.push_back({row, added_.size()});
+    added_.insert(added_.end(), more_.begin(), more_.begin() + static_cast<std::ptrdiff_t>(added));
+    if (column == SIZE_MAX) continue;
+    row_of_[column] = row;
+    is_dead_[row] = 1;
+    --living_;
+  }
+  return row_of_;
 }
 
 void RelationMatrix::transpose(const Word* relations, std::size_t words) {
@@ -84,26 +102,6 @@ void RelationMatrix::transpose(const Word* relations, std::size_t words) {
       for (std::size_t i = 0; i < rows; ++i)
         cells_[(k * 64 + i) * lines_ + line].words = squares[i];
     }
-}
-
-void RelationMatrix::reduce() {
-  if (row_of_.empty()) return;
-  const std::size_t words = lines_ * 8;
-  for (std::size_t s = 0; s < steps_.size(); ++s)
-    for (std::size_t i = steps_[s].begin; i < end_of(s); ++i)
-      bits::add(row_begin(steps_[s].to), row_begin(added_[i]), words);
-  more_.resize(row_of_.size());
-  for (auto row = static_cast<Row>(row_count()); row-- > 0;) {
-    if (is_dead(row)) continue;
-    const auto [column, added] =
-        reduce_row(row_begin(row), row_begin(0), words, row_of_.data(), more_.data());
-    if (added != 0) steps_.push_back({row, added_.size()});
-    added_.insert(added_.end(), more_.begin(), more_.begin() + static_cast<std::ptrdiff_t>(added));
-    if (column == SIZE_MAX) continue;
-    row_of_[column] = row;
-    is_dead_[row] = 1;
-    --living_;
-  }
 }
 
 void RelationMatrix::substitute(Word* vectors, std::size_t words) const {

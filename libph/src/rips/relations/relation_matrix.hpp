@@ -36,18 +36,11 @@ class RelationMatrix {
         added_(memory),
         more_(memory) {}
 
-  /// What a block takes, in bytes.
-  static double bytes(std::size_t rows, std::size_t columns) {
-    return static_cast<double>(rows) * static_cast<double>(columns) / 8;
-  }
-  /// Begins a block of relations. @param rows at least as many as before: the new ones are those of
+  /// Solves a block of relations. @param rows at least as many as before: the new ones are those of
   /// younger generators. @param relations the columns, each of so many words: a bit for each
-  /// generator.
-  void begin_block(std::size_t rows, std::size_t columns, const Word* relations, std::size_t words);
-  /// Finds the generators that the block's relations killed.
-  void reduce();
-  /// By column of the block; kNone where a relation followed from others.
-  Row killed_by(std::size_t column) const { return row_of_[column]; }
+  /// generator. @return by column the generator it killed, or kNone; valid until the next call.
+  std::span<const Row> reduce(std::size_t rows, std::size_t columns, const Word* relations,
+                              std::size_t words);
 
   std::size_t row_count() const { return is_dead_.size(); }
   bool is_dead(Row row) const { return is_dead_[row] != 0; }

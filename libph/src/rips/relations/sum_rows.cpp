@@ -38,6 +38,12 @@ bool SumRows::relate(std::span<const Sum, 4> sums) {
   return any != 0;
 }
 
+auto SumRows::solve() -> std::span<const Generator> {
+  const auto killed = matrix_.reduce(generators_, relation_count(), values_.data(), words_);
+  values_.clear();
+  return killed;
+}
+
 void SumRows::widen() {
   const std::size_t words = words_ + 1;
   for (auto* rows : {&rows_, &values_}) {

@@ -43,10 +43,9 @@ class SumRows {
   /// Puts aside that the sum of these is zero from now on. @return false if it is empty.
   bool relate(std::span<const Sum, 4> sums);
   std::size_t relation_count() const { return values_.size() / words_; }
-  /// Calls `visit(relation, generator)` for those put aside of which a generator dies; they are
-  /// counted from zero. @return how many died.
-  template <class Visit>
-  std::size_t solve(Visit&& visit);
+  /// Solves those put aside. @return for each of them the generator that dies of it, or
+  /// RelationMatrix::kNone; valid until the next call.
+  std::span<const Generator> solve();
   const RelationMatrix& matrix() const { return matrix_; }
 
  private:
@@ -59,16 +58,5 @@ class SumRows {
   std::pmr::vector<Word> values_;  // relations put aside
   RelationMatrix matrix_;          // its rows are the generators
 };
-
-template <class Visit>
-std::size_t SumRows::solve(Visit&& visit) {
-  matrix_.begin_block(generators_, relation_count(), values_.data(), words_);
-  const std::size_t before = matrix_.living_count();
-  matrix_.reduce();
-  for (std::size_t i = 0; i < relation_count(); ++i)
-    if (const Generator g = matrix_.killed_by(i); g != RelationMatrix::kNone) visit(i, g);
-  values_.clear();
-  return before - matrix_.living_count();
-}
 
 }  // namespace ph

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <memory_resource>
+#include <span>
 #include <vector>
 
 #include "ph/filtration.hpp"
@@ -34,6 +35,7 @@ class LinkComponents {
 
   /// Ascending roots.
   std::size_t count() const { return roots_.size(); }
+  std::span<const Vertex> roots() const { return roots_; }
   /// A component's smallest vertex; any vertex if it is the only component.
   Vertex root(std::size_t i) const { return roots_[i]; }
   /// A component's vertices, unless it is the only one.

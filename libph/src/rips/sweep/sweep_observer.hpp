@@ -15,8 +15,8 @@ struct SweepTuning {
   LinkLayout layout = LinkLayout::automatic;
   std::size_t most_terms = 64;  ///< of a cocycle at a vertex, on average: more become rows
   std::size_t vertices_of_active_rows = 1 << 11;  ///< at most: for more, lists of active edges do
-  std::size_t classes_for_formal = 1 << 9;  ///< alive: for fewer of H1 annotations learn of deaths
-  std::size_t relations_for_formal = 1 << 10;  ///< solved together, at least
+  std::size_t classes_for_formal = 1 << 9;        ///< of H1 alive, at least: for RelationSolver
+  std::size_t relations_for_formal = 1 << 10;     ///< solved together, at least
 };
 
 /// What a sweep of edge links is to find.
