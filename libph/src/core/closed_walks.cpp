@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "ph/detail/core/field.hpp"
 #include "ph/error.hpp"
 #include "ph/loop.hpp"
 
