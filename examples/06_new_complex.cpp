@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A complex of your own: five small functions, and every engine that needs no more runs on it.
+// A complex of your own: seven small functions, and every engine that needs no more runs on it.
 // Here: a polygon whose sides appear one by one, and at last the disc inside.
 #include <iostream>
 #include <ph/custom.hpp>

@@ -116,7 +116,6 @@ void add_engine() {
   add_engine_for<E, FilteredGraph>();
   add_engine_for<E, RipsFiltration<RipsLayout::dense, 1>>();
   add_engine_for<E, RipsFiltration<RipsLayout::sparse, 1>>();
-  add_engine_for<E, RipsFiltration<RipsLayout::any, 2>>();
   add_engine_for<E, RipsFiltration<RipsLayout::any, 4>>();
 }
 

@@ -41,7 +41,7 @@ struct GradientEngine {
           },
           [&](std::span<const Bar> some) { bars.add_bars(some); },
           [&](std::size_t count) { bars.expect(count); }};
-      const cubical::WantedBars wanted{bars.min_dim(), bars.max_dim(), bars.wants_cells()};
+      const cubical::BarRequest wanted{bars.min_dim(), bars.max_dim(), bars.wants_cells()};
       cubical::pair_voxels(f.cubical_image(), field, wanted, context, sink);
     }
   }

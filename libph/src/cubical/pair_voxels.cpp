@@ -41,7 +41,7 @@ double least_bytes_to_pair_voxels(const CubicalImage& grid) {
   return may_be_cut(frame) ? kBytesOfVoxel * frame.layer_size() : bytes_to_pair_voxels(grid);
 }
 
-bool can_pair_by_layers(const CubicalImage& grid, const WantedBars& wanted) {
+bool can_pair_by_layers(const CubicalImage& grid, const BarRequest& wanted) {
   if (!GridFrame::can_hold(grid)) return false;
   const GridFrame frame(grid);
   return may_be_cut(frame) && !wants_loops(frame, wanted);
@@ -68,7 +68,7 @@ void pair_all_of_three_axes(StarGrid& grid, const K& field, const RunContext& co
 }
 
 // Bars of all but the loops of three axes.
-void pair_by_components(const StarGrid& grid, const WantedBars& wanted, const RunContext& context,
+void pair_by_components(const StarGrid& grid, const BarRequest& wanted, const RunContext& context,
                         PairSink& pairs) {
   if (grid.top_dim() == 3) {
     if (wants_vertices(grid, wanted)) {
@@ -128,7 +128,7 @@ std::uint32_t layers_that_fit(const GridFrame& frame, const RunContext& context)
 }  // namespace
 
 template <Field K>
-void pair_voxels(const CubicalImage& voxels, const K& field, const WantedBars& wanted,
+void pair_voxels(const CubicalImage& voxels, const K& field, const BarRequest& wanted,
                  const RunContext& context, const BarSink& bars) {
   // Two threads may have some at a time.
   std::mutex mutex;
@@ -168,9 +168,9 @@ void pair_voxels(const CubicalImage& voxels, const K& field, const WantedBars& w
   pairs.finish();
 }
 
-template void pair_voxels(const CubicalImage&, const Z2&, const WantedBars&, const RunContext&,
+template void pair_voxels(const CubicalImage&, const Z2&, const BarRequest&, const RunContext&,
                           const BarSink&);
-template void pair_voxels(const CubicalImage&, const Zp&, const WantedBars&, const RunContext&,
+template void pair_voxels(const CubicalImage&, const Zp&, const BarRequest&, const RunContext&,
                           const BarSink&);
 
 }  // namespace ph::cubical

@@ -22,7 +22,7 @@ struct BarSink {
 };
 
 /// Which bars are wanted, at least.
-struct WantedBars {
+struct BarRequest {
   int min_dim = 0, max_dim = 0;
   bool cells = true;  ///< else bars have none
 };
@@ -38,7 +38,7 @@ double bytes_to_pair_voxels(const CubicalImage& grid);
 double least_bytes_to_pair_voxels(const CubicalImage& grid);
 /// Whether that is enough but for the bars: none are wanted for which all layers are needed at
 /// once. Precondition: it can.
-bool can_pair_by_layers(const CubicalImage& grid, const WantedBars& wanted);
+bool can_pair_by_layers(const CubicalImage& grid, const BarRequest& wanted);
 
 /// The pairs of positive length of the cubical filtration of an image.
 /// Values of bars are those of the filtration. Cells are those of the pairs in the order of
@@ -47,12 +47,12 @@ bool can_pair_by_layers(const CubicalImage& grid, const WantedBars& wanted);
 /// for those between them. Memory: 8 bytes a voxel, of more than three axes 2 a cell besides, and
 /// what critical cells take.
 template <Field K>
-void pair_voxels(const CubicalImage& grid, const K& field, const WantedBars& wanted,
+void pair_voxels(const CubicalImage& grid, const K& field, const BarRequest& wanted,
                  const RunContext& context, const BarSink& sink);
 
-extern template void pair_voxels(const CubicalImage&, const Z2&, const WantedBars&,
+extern template void pair_voxels(const CubicalImage&, const Z2&, const BarRequest&,
                                  const RunContext&, const BarSink&);
-extern template void pair_voxels(const CubicalImage&, const Zp&, const WantedBars&,
+extern template void pair_voxels(const CubicalImage&, const Zp&, const BarRequest&,
                                  const RunContext&, const BarSink&);
 
 }  // namespace ph::cubical

@@ -47,7 +47,7 @@ double stored_bytes(const ExplicitComplex& complex, bool) {
 }
 
 detail::MemoryForecast forecast_voxels(const Cubical& cubical, double held,
-                                       const cubical::WantedBars& wanted, bool with_representatives,
+                                       const cubical::BarRequest& wanted, bool with_representatives,
                                        const RunContext& context) {
   if (cubical.slot_count() == 0) return detail::forecast_voxels(held, 0, 0, with_representatives);
   const CubicalImage grid = cubical.cubical_image();

@@ -4,9 +4,9 @@
 namespace ph::detail {
 
 template <>
-std::vector<EngineFor<RipsFiltration<RipsLayout::any, 2>>>&
-engines<RipsFiltration<RipsLayout::any, 2>>() {
-  static auto list = all_engines<RipsFiltration<RipsLayout::any, 2>>();
+std::vector<EngineFor<RipsFiltration<RipsLayout::any, 4>>>&
+engines<RipsFiltration<RipsLayout::any, 4>>() {
+  static auto list = all_engines<RipsFiltration<RipsLayout::any, 4>>();
   return list;
 }
 

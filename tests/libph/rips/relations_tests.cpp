@@ -126,7 +126,7 @@ TEST(FormalSums, KillWhatColumnsKill) {
 
       const FormalSums::Sum relation[] = {any(), any()};
       const auto killed = oracle.add(expected[relation[0]] + expected[relation[1]]);
-      EXPECT_EQ(sums.relate(relation), killed.value_or(EchelonRelations::kNone));
+      EXPECT_EQ(sums.add_relation(relation), killed.value_or(EchelonRelations::kNone));
       follow += killed ? 0 : 1;
       EXPECT_EQ(sums.relations().dead_count(), oracle.dead_count());
     }
@@ -171,7 +171,7 @@ TEST(SumRows, KillWhatColumnsKill) {
         const std::array<SumRows::Sum, 4> relation{any(), any(), any(), any()};
         Sum total;
         for (const SumRows::Sum c : relation) total = total + expected[c];
-        EXPECT_EQ(sums.relate(relation), !total.empty());
+        EXPECT_EQ(sums.add_relation(relation), !total.empty());
         if (!total.empty()) killed.push_back(oracle.add(total));
         ASSERT_EQ(sums.relation_count(), killed.size());
       }

@@ -42,20 +42,20 @@ class Basins {
         forest_(graph, context),
         roots_(&context.memory) {
     follow_inner_arrows(grid, graph, forest_, context);
-    for (const int part : {0, 1}) forest_.set_root(graph.outside(part), endless_++);
-    if (graph.has_endless()) join_endless();
+    for (const int part : {0, 1}) forest_.set_root(graph.outside(part), outer_count_++);
+    if (graph.has_outer_nodes()) join_outer_nodes();
     Ticker ticker(context, "roots");
     for (const std::uint32_t v : grid.critical()) {
       ticker.work();
       graph.for_each_root(v, [&](std::uint32_t node, std::uint32_t number) {
-        forest_.set_root(node, endless_ + static_cast<std::uint32_t>(roots_.size()));
+        forest_.set_root(node, outer_count_ + static_cast<std::uint32_t>(roots_.size()));
         roots_.push_back({v, number});
       });
     }
   }
 
   /// How many have always been there.
-  std::uint32_t endless() const { return endless_; }
+  std::uint32_t outer_count() const { return outer_count_; }
   /// The cells of the others.
   std::pmr::vector<NumberedCell>& roots() { return roots_; }
   /// In which one a node is. Several threads may ask.
@@ -63,13 +63,13 @@ class Basins {
 
  private:
   // Besides the outside; joined as far as it hangs together.
-  void join_endless() {
+  void join_outer_nodes() {
     Ticker ticker(context_, "holes", grid_.size());
     for (std::uint32_t v = 0; v < grid_.size(); ++v) {
       ticker.tick();
       if (grid_.enters(v)) continue;
       std::optional<std::uint32_t> root;
-      graph_.for_each_endless(v, [&](std::uint32_t node) {
+      graph_.for_each_outer_node(v, [&](std::uint32_t node) {
         if (!forest_.is_known(node)) return;
         const std::uint32_t own = forest_.find(node);
         if (!root) root = own;
@@ -79,12 +79,12 @@ class Basins {
         forest_.link(is_first ? *root : own, is_first ? own : *root);
         if (is_first) root = own;
       });
-      graph_.for_each_endless(v, [&](std::uint32_t node) {
+      graph_.for_each_outer_node(v, [&](std::uint32_t node) {
         if (forest_.is_known(node)) return;
         if (root)
           forest_.link(node, *root);
         else
-          forest_.set_root(*(root = node), endless_++);
+          forest_.set_root(*(root = node), outer_count_++);
       });
     }
   }
@@ -94,7 +94,7 @@ class Basins {
   const RunContext& context_;
   ArrowForest<Graph> forest_;
   std::pmr::vector<NumberedCell> roots_;
-  std::uint32_t endless_ = 0;
+  std::uint32_t outer_count_ = 0;
 };
 
 }  // namespace ph::cubical

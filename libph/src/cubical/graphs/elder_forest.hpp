@@ -18,11 +18,11 @@ class ElderForest {
  public:
   /// @param value_of(i) of the root i of the basins.
   template <class ValueOf>
-  ElderForest(std::uint32_t endless, std::size_t roots, ValueOf&& value_of,
+  ElderForest(std::uint32_t outer_count, std::size_t roots, ValueOf&& value_of,
               const RunContext& context)
-      : endless_(endless), nodes_(endless + roots, &context.memory) {
+      : outer_count_(outer_count), nodes_(outer_count + roots, &context.memory) {
     for (std::uint32_t i = 0; i < nodes_.size(); ++i)
-      nodes_[i] = {i < endless ? 0 : value_of(i - endless), i};
+      nodes_[i] = {i < outer_count ? 0 : value_of(i - outer_count), i};
   }
   std::uint32_t parent(std::uint32_t basin) const { return nodes_[basin].parent; }
   std::uint32_t find(std::uint32_t basin) {
@@ -45,13 +45,13 @@ class ElderForest {
     std::uint32_t parent;  // a root's is itself
   };
   bool is_elder(std::uint32_t a, std::uint32_t b) const {
-    if (a < endless_ || b < endless_) return a < b;
+    if (a < outer_count_ || b < outer_count_) return a < b;
     const double x = value(a), y = value(b);
     if (x != y) return backwards ? x > y : x < y;
     return backwards ? a > b : a < b;
   }
 
-  std::uint32_t endless_;
+  std::uint32_t outer_count_;
   RawVector<Node> nodes_;
 };
 

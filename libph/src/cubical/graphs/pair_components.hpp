@@ -44,10 +44,10 @@ class ComponentPairing {
   template <class OnMerge, class OnSurvivor>
   void run(OnMerge&& on_merge, OnSurvivor&& on_survivor) {
     ElderForest<Graph::kBackwards> forest(
-        endless_, roots_.size(), [&](std::size_t i) { return grid_.value(roots_[i].voxel); },
+        outer_count_, roots_.size(), [&](std::size_t i) { return grid_.value(roots_[i].voxel); },
         context_);
     const auto root = [&](std::uint32_t basin) {
-      return Place{forest.value(basin), basin - endless_};
+      return Place{forest.value(basin), basin - outer_count_};
     };
     auto& order = bridges_.order;
     const std::size_t size = order.size();
@@ -80,7 +80,7 @@ class ComponentPairing {
         continue;
       }
       const std::uint32_t dies = forest.join(a, b);
-      if (dies < endless_) {
+      if (dies < outer_count_) {
         on_merge(bridge, nullptr);
       } else {
         const Place dead = root(dies);
@@ -91,7 +91,7 @@ class ComponentPairing {
       order.erase(order.begin(), order.end() - static_cast<std::ptrdiff_t>(kept));
     else
       order.resize(kept);
-    for (std::uint32_t i = endless_; i < endless_ + roots_.size(); ++i)
+    for (std::uint32_t i = outer_count_; i < outer_count_ + roots_.size(); ++i)
       if (forest.is_root(i)) on_survivor(root(i));
   }
 
@@ -123,7 +123,7 @@ class ComponentPairing {
         ends_[i] = {basins.basin_of(a), basins.basin_of(b)};
       }
     });
-    endless_ = basins.endless();
+    outer_count_ = basins.outer_count();
     roots_ = std::move(basins.roots());
   }
 
@@ -134,7 +134,7 @@ class ComponentPairing {
   const RunContext& context_;
   RawVector<Ends> ends_;
   std::pmr::vector<NumberedCell> roots_;
-  std::uint32_t endless_ = 0;  // basins; the others have a root each
+  std::uint32_t outer_count_ = 0;  // basins; the others have a root each
 };
 
 }  // namespace ph::cubical

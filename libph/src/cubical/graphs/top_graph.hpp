@@ -37,11 +37,11 @@ class TopGraph {
   template <class Use>
   void for_each_inner_arrow(std::uint32_t first_row, std::uint32_t end_row, Use&& use) const;
   /// Whether anything but the outside has always been there.
-  bool has_endless() const { return !grid_.is_t_construction() && !grid_.all_enter(); }
+  bool has_outer_nodes() const { return !grid_.is_t_construction() && !grid_.all_enter(); }
   /// Calls `use(node)` for what hangs together because a voxel never enters: all top cells around
   /// it.
   template <class Use>
-  void for_each_endless(std::uint32_t v, Use&& use) const;
+  void for_each_outer_node(std::uint32_t v, Use&& use) const;
   /// Calls `use(node, number)` for the roots in the star of a voxel, in the order of the grid.
   template <class Use>
   void for_each_root(std::uint32_t v, Use&& use) const;
@@ -162,7 +162,7 @@ std::uint32_t TopGraph::arrow_word(unsigned cells, ExitOf&& exit_of) const {
 }
 
 template <class Use>
-void TopGraph::for_each_endless(std::uint32_t v, Use&& use) const {
+void TopGraph::for_each_outer_node(std::uint32_t v, Use&& use) const {
   for (const Direction& d : kCubes) {
     Direction inside = d;
     bool is_first = true;  // of those that differ along axes that are not there

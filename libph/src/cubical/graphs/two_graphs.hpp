@@ -8,26 +8,26 @@
 namespace ph::cubical {
 
 /// The lowest dimension of pairs that a bar may come from: periodic axes of one voxel raise it.
-inline int lowest_dim(const GridFrame& frame, const WantedBars& wanted) {
+inline int lowest_dim(const GridFrame& frame, const BarRequest& wanted) {
   return wanted.min_dim - static_cast<int>(frame.loop_count());
 }
 /// Whether bars of three axes are wanted that come from neither graph.
-inline bool wants_loops(const GridFrame& frame, const WantedBars& wanted) {
+inline bool wants_loops(const GridFrame& frame, const BarRequest& wanted) {
   // Around periodic axes classes of all dimensions may live for ever.
   return frame.top_dim() == 3 && wanted.max_dim > 0 &&
          (lowest_dim(frame, wanted) <= 1 || frame.any_periodic());
 }
 /// Whether bars are wanted that come from the graph that knows H0: of all others than three axes
 /// any bars.
-inline bool wants_lowest(const GridFrame& frame, const WantedBars& wanted) {
+inline bool wants_lowest(const GridFrame& frame, const BarRequest& wanted) {
   return lowest_dim(frame, wanted) <= 0 || frame.top_dim() < 3;
 }
 /// Whether bars are wanted that come from the graph of voxels: H0; turned around the highest ones.
-inline bool wants_vertices(const GridFrame& frame, const WantedBars& wanted) {
+inline bool wants_vertices(const GridFrame& frame, const BarRequest& wanted) {
   return frame.is_t_construction() ? wanted.max_dim > 0 : wants_lowest(frame, wanted);
 }
 /// The same for the graph of top cells.
-inline bool wants_top_cells(const GridFrame& frame, const WantedBars& wanted) {
+inline bool wants_top_cells(const GridFrame& frame, const BarRequest& wanted) {
   return frame.is_t_construction() ? wants_lowest(frame, wanted) : wanted.max_dim > 0;
 }
 

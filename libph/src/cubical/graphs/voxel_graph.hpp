@@ -45,11 +45,11 @@ class VoxelGraph {
     }
   }
   /// Whether anything but the outside has always been there.
-  bool has_endless() const { return grid_.is_t_construction() && !grid_.all_enter(); }
+  bool has_outer_nodes() const { return grid_.is_t_construction() && !grid_.all_enter(); }
   /// Calls `use(node)` for what has always been there and hangs together because a voxel never
   /// enters.
   template <class Use>
-  void for_each_endless(std::uint32_t v, Use&& use) const {
+  void for_each_outer_node(std::uint32_t v, Use&& use) const {
     use(v);
     for (int e = 0; e < kEdgeCount; ++e) {
       const int axis = axis_of_edge(e);

@@ -38,7 +38,7 @@ class ComponentTree {
         bridges_(bridges.cells),
         basins_(grid, graph, context),
         merges_(&context.memory),
-        nodes_(basins_.endless() + basins_.roots().size(), &context.memory) {
+        nodes_(basins_.outer_count() + basins_.roots().size(), &context.memory) {
     join(bridges, context);
   }
 
@@ -48,7 +48,7 @@ class ComponentTree {
   /// In which basin a node is. Several threads may ask.
   std::uint32_t basin_of(std::uint32_t node) { return basins_.basin_of(node); }
   /// Whether the component has always been there.
-  bool is_endless(std::uint32_t basin) const { return basin < basins_.endless(); }
+  bool is_outer(std::uint32_t basin) const { return basin < basins_.outer_count(); }
   bool dies(std::uint32_t basin) const { return nodes_[basin].parent != basin; }
   /// Into which one a component goes; itself if into none.
   std::uint32_t parent(std::uint32_t basin) const { return nodes_[basin].parent; }
@@ -76,7 +76,7 @@ class ComponentTree {
 
   /// Precondition: the component has not always been there.
   StarCell root_cell(std::uint32_t basin) {
-    const auto [voxel, number] = basins_.roots()[basin - basins_.endless()];
+    const auto [voxel, number] = basins_.roots()[basin - basins_.outer_count()];
     return {voxel, graph_.root_direction(number), grid_.value(voxel)};
   }
   StarCell bridge_cell(std::uint32_t bridge) const {
@@ -98,7 +98,7 @@ class ComponentTree {
 
   void join(CriticalCells& bridges, const RunContext& context) {
     ElderForest<Graph::kBackwards> forest(
-        basins_.endless(), basins_.roots().size(),
+        basins_.outer_count(), basins_.roots().size(),
         [&](std::size_t i) { return grid_.value(basins_.roots()[i].voxel); }, context);
     for (std::uint32_t b = 0; b < nodes_.size(); ++b) nodes_[b] = {0, 0, b, b, 0};
     auto& order = bridges.order;

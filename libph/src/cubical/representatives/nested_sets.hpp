@@ -37,7 +37,7 @@ class NestedSets {
       for (; i < end; ++i) {
         std::uint32_t holder = holder_of(static_cast<std::uint32_t>(i));
         // What has always been there and never dies belongs to no bar.
-        if (holder != kNone && tree.is_endless(holder) && !tree.dies(holder)) holder = kNone;
+        if (holder != kNone && tree.is_outer(holder) && !tree.dies(holder)) holder = kNone;
         component_of_[i] = holder;
       }
     });

@@ -135,7 +135,7 @@ class Representing {
                  const Fill& fill) {
     const StarCell bridge = tree.bridge_cell(merge.bridge);
     const int top = grid_.top_dim();
-    if (tree.is_endless(merge.dies))
+    if (tree.is_outer(merge.dies))
       pairs_.essential(kIsDual<Graph> ? top - 1 : 1, bridge, fill);
     else if (kIsDual<Graph>)
       pairs_.pair(top - 1, bridge, tree.root_cell(merge.dies), fill);
@@ -145,7 +145,7 @@ class Representing {
   template <class Graph, class FillOf>
   void add_survivors(ComponentTree<Graph>& tree, FillOf&& fill_of) {
     for (std::uint32_t b = 0; b < tree.basin_count(); ++b)
-      if (!tree.is_endless(b) && !tree.dies(b))
+      if (!tree.is_outer(b) && !tree.dies(b))
         pairs_.essential(kIsDual<Graph> ? grid_.top_dim() : 0, tree.root_cell(b), fill_of(b));
   }
 

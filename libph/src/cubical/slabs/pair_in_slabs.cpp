@@ -63,7 +63,7 @@ class EdgesInNeither {
 }  // namespace
 
 template <Field K>
-void pair_in_slabs(Slabs& slabs, const K& field, const WantedBars& wanted,
+void pair_in_slabs(Slabs& slabs, const K& field, const BarRequest& wanted,
                    const RunContext& context, PairSink& pairs) {
   const GridFrame& frame = slabs.frame();
   const int top = frame.top_dim();
@@ -156,7 +156,7 @@ void pair_in_slabs(Slabs& slabs, const K& field, const WantedBars& wanted,
   if (too_many_loops) refuse_loops(frame);
 }
 
-template void pair_in_slabs(Slabs&, const Z2&, const WantedBars&, const RunContext&, PairSink&);
-template void pair_in_slabs(Slabs&, const Zp&, const WantedBars&, const RunContext&, PairSink&);
+template void pair_in_slabs(Slabs&, const Z2&, const BarRequest&, const RunContext&, PairSink&);
+template void pair_in_slabs(Slabs&, const Zp&, const BarRequest&, const RunContext&, PairSink&);
 
 }  // namespace ph::cubical

@@ -12,12 +12,12 @@ namespace ph::cubical {
 /// @throws Error (resource) if loops do not fit, after all other bars were handed over; Error (io)
 ///         without room for the file.
 template <Field K>
-void pair_in_slabs(Slabs& slabs, const K& field, const WantedBars& wanted,
+void pair_in_slabs(Slabs& slabs, const K& field, const BarRequest& wanted,
                    const RunContext& context, PairSink& pairs);
 
-extern template void pair_in_slabs(Slabs&, const Z2&, const WantedBars&, const RunContext&,
+extern template void pair_in_slabs(Slabs&, const Z2&, const BarRequest&, const RunContext&,
                                    PairSink&);
-extern template void pair_in_slabs(Slabs&, const Zp&, const WantedBars&, const RunContext&,
+extern template void pair_in_slabs(Slabs&, const Zp&, const BarRequest&, const RunContext&,
                                    PairSink&);
 
 }  // namespace ph::cubical

@@ -16,7 +16,7 @@ namespace ph::cubical {
 /// What arrows end at in a slab: a component that is still to be joined with others.
 struct SlabRoot {
   enum class Kind : std::uint32_t {
-    endless,         ///< has always been there; it has no cell
+    outer,           ///< has always been there; it has no cell
     critical,        ///< a critical cell
     open_to_around,  ///< a node of the seam of a ring from where the arrows go on in the last slab
     open_to_next,    ///< a node of the seam after it from where they go on in the next slab
@@ -59,7 +59,7 @@ class SlabBasins {
     const SlabPlace& slab = grid.slab();
     take_roots(seams.before, false);
     take_roots(seams.around, true);
-    if (graph.has_endless()) join_endless();
+    if (graph.has_outer_nodes()) join_outer_nodes();
     add_critical();
     if (slab.is_first && slab.is_in_ring) add_open(false);
     if (!slab.is_last) add_open(true);
@@ -117,20 +117,20 @@ class SlabBasins {
         kind != other ? kind < other : (kind == Kind::open_to_next ? a > b : a < b);
     same_.link(a_stays ? b : a, a_stays ? a : b);
   }
-  void join_endless() {
+  void join_outer_nodes() {
     Ticker ticker(context_, "holes", grid_.size());
     for (std::uint32_t v = 0; v < grid_.size(); ++v) {
       ticker.tick();
       if (grid_.enters(v) || grid_.is_ghost(v)) continue;
       std::optional<std::uint32_t> root;
-      graph_.for_each_endless(v, [&](std::uint32_t node) {
+      graph_.for_each_outer_node(v, [&](std::uint32_t node) {
         if (!forest_.is_known(node)) return;
         if (root) unite(*root, number(node));
         root = number(node);
       });
-      graph_.for_each_endless(v, [&](std::uint32_t node) {
+      graph_.for_each_outer_node(v, [&](std::uint32_t node) {
         if (forest_.is_known(node)) return;
-        if (!root) root = add({0, {}, SlabRoot::Kind::endless});
+        if (!root) root = add({0, {}, SlabRoot::Kind::outer});
         forest_.set_root(node, *root);
       });
     }

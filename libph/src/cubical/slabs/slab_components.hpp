@@ -30,7 +30,7 @@ class SlabComponents {
 
   explicit SlabComponents(const RunContext& context)
       : context_(context),
-        roots_(outside_.size(), {0, {}, SlabRoot::Kind::endless}, &context.memory),
+        roots_(outside_.size(), {0, {}, SlabRoot::Kind::outer}, &context.memory),
         seam_(&context.memory),
         around_(&context.memory),
         around_values_(&context.memory),
@@ -48,10 +48,10 @@ class SlabComponents {
            OnSurvivor&& on_survivor) {
     const bool is_last = grid.slab().is_last;
     std::pmr::vector<Bridge> bridges = find_bridges(grid, graph, first, cells);
-    const std::uint32_t endless = number_in_age_order(bridges);
+    const std::uint32_t outer_count = number_in_age_order(bridges);
     ElderForest<Graph::kBackwards> forest(
-        endless, roots_.size() - endless, [&](std::size_t i) { return roots_[endless + i].value; },
-        context_);
+        outer_count, roots_.size() - outer_count,
+        [&](std::size_t i) { return roots_[outer_count + i].value; }, context_);
     std::pmr::vector<double> reached = when_reached(graph);
     // Roots that are one for all that comes: (the root that stands for it).
     DisjointSets merged(roots_.size(), &context_.memory);
@@ -73,7 +73,7 @@ class SlabComponents {
       const std::uint32_t dies = forest.join(a, b), stays = dies == a ? b : a;
       // Two that have always been there are equals: it is enough that one is closed.
       const bool is_closed = !may_change(dies, bridge.value);
-      const bool is_certain = is_closed || (dies < endless && !may_change(stays, bridge.value));
+      const bool is_certain = is_closed || (dies < outer_count && !may_change(stays, bridge.value));
       reached[stays] = earlier(reached[stays], reached[dies]);
       if (!is_certain) {
         kept_.push_back(bridge);
@@ -83,9 +83,9 @@ class SlabComponents {
       const auto [closed, other] = (dies == a) == is_closed ? std::pair{bridge.from, bridge.to}
                                                             : std::pair{bridge.to, bridge.from};
       merged.link(merged.find(closed), merged.find(other));
-      on_merge(bridge.place(), dies < endless ? nullptr : &roots_[dies]);
+      on_merge(bridge.place(), dies < outer_count ? nullptr : &roots_[dies]);
     }
-    for (std::uint32_t i = endless; i < roots_.size(); ++i)
+    for (std::uint32_t i = outer_count; i < roots_.size(); ++i)
       if (forest.is_root(i) && (is_last || reached[i] == kNever)) on_survivor(roots_[i]);
     if (is_last) return;
     if (Graph::kBackwards) std::ranges::reverse(kept_);
@@ -159,22 +159,22 @@ class SlabComponents {
   // open last: nothing is taken for younger than that on account of their numbers.
   // @return how many have always been there.
   std::uint32_t number_in_age_order(std::span<Bridge> bridges) {
-    std::uint32_t endless = 0;
+    std::uint32_t outer_count = 0;
     std::pmr::vector<std::uint32_t> number(roots_.size(), kNone, &context_.memory);
     std::pmr::vector<SlabRoot> left(&context_.memory);
     using Kind = SlabRoot::Kind;
     for (const Kind kind :
-         {Kind::endless, Kind::critical, Kind::open_to_around, Kind::open_to_next}) {
+         {Kind::outer, Kind::critical, Kind::open_to_around, Kind::open_to_next}) {
       for (std::uint32_t i = 0; i < roots_.size(); ++i) {
         if (!stands_for_itself_[i] || roots_[i].kind != kind) continue;
         number[i] = static_cast<std::uint32_t>(left.size());
         left.push_back(roots_[i]);
       }
-      if (kind == Kind::endless) endless = static_cast<std::uint32_t>(left.size());
+      if (kind == Kind::outer) outer_count = static_cast<std::uint32_t>(left.size());
     }
     roots_ = std::move(left);
     renumber(number, bridges);
-    return endless;
+    return outer_count;
   }
   void renumber(std::span<const std::uint32_t> number, std::span<Bridge> bridges) {
     for (Bridge& bridge : bridges) {
@@ -199,7 +199,7 @@ class SlabComponents {
       for (std::size_t k = 0; k < seam.size(); ++k) {
         const std::uint32_t root = seam[k];
         if (root == kNone) continue;
-        const bool always = roots_[root].kind == SlabRoot::Kind::endless;
+        const bool always = roots_[root].kind == SlabRoot::Kind::outer;
         reached[root] = earlier(reached[root], always ? -kNever : finite(values[k]));
       }
     };

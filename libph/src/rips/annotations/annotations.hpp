@@ -25,8 +25,8 @@ namespace ph {
 /// basis) is the vector of their values on it. Edges of one class share one vector; an edge that
 /// was never annotated has the zero vector. a(u,v) = -a(v,u).
 ///
-/// A class learns what generators died when it is next asked for. Two classes that became equal may
-/// be two until then, and edges of a class that became zero still be active.
+/// Dead generators are substituted in a class when it is next asked for. Two classes that became
+/// equal may be two until then, and edges of a class that became zero still be active.
 template <Field K>
 class Annotations {
  public:
@@ -173,7 +173,7 @@ class Annotations {
   Class resolve(Class a);
   /// Follows the links of classes that became equal to others. No DisjointSets: a link has a sign.
   Class follow(Class a);
-  /// Lets a class learn of all deaths.
+  /// Substitutes all dead generators in a class.
   void update(std::uint32_t id);
   /// The class has become zero.
   void erase(std::uint32_t id);
@@ -216,7 +216,7 @@ class Annotations {
   std::pmr::vector<std::size_t> hashes_;              // by class
   std::pmr::vector<std::pmr::vector<Edge>> members_;  // by class
   std::pmr::vector<Class> links_;           // by class: what it became; itself while it is one
-  std::pmr::vector<std::uint32_t> seen_;    // by class: how many deaths it has learnt of
+  std::pmr::vector<std::uint32_t> seen_;    // by class: how many deaths are substituted in it
   std::pmr::vector<std::uint32_t> fresh_;   // classes made since the last kill
   std::pmr::vector<std::uint32_t> unused_;  // numbers of classes that may be given again
   DeadGenerators<K> dead_;

@@ -17,8 +17,8 @@
 namespace ph {
 
 /// What became of generators that died: each is a combination of older ones, some of which may have
-/// died later. A vector in terms of generators learns of deaths when it is looked at, of all since
-/// it was last looked at in one pass; most vectors never learn of most deaths.
+/// died later. Dead generators are substituted in a vector when it is looked at, all those since
+/// it was last looked at in one pass; most deaths never reach most vectors.
 template <Field K>
 class DeadGenerators {
  public:
@@ -60,7 +60,7 @@ class DeadGenerators {
         : terms(std::move(other.terms), allocator), bits(other.bits), seen(other.seen) {}
     Vector terms;                // none if it has bits
     std::uint32_t bits = kNone;  // in bits_
-    std::uint32_t seen = 0;      // how many deaths it has learnt of
+    std::uint32_t seen = 0;      // how many deaths are substituted in it
   };
   /// A vector over Z/2 of many terms as a bit for each generator: it is added sooner like this.
   struct Bits {
@@ -130,8 +130,8 @@ class DeadGenerators {
     else
       sum.add(c.terms, scale, field_);
   }
-  /// The combination of a dead generator. It learns of deaths since: whoever needs it next finds
-  /// hardly any dead ones in it.
+  /// The combination of a dead generator. Deaths since are substituted in it: whoever needs it next
+  /// finds hardly any dead ones in it.
   const Combination& updated(Generator g);
   /// @param combination_of what a dead generator is replaced by.
   template <class Find>

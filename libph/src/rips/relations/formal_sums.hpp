@@ -30,7 +30,7 @@ class FormalSums {
 
   /// The sum of these is zero from now on. @return the generator that dies of it, or
   /// EchelonRelations::kNone.
-  Generator relate(std::span<const Sum> sums) {
+  Generator add_relation(std::span<const Sum> sums) {
     for (const Sum a : sums) relations_.add((*this)[a]);
     return relations_.reduce();
   }

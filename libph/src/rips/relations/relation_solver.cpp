@@ -88,8 +88,8 @@ bool RelationSolver::annotate(const Edge& edge, std::span<const Vertex> roots) {
     const std::array<Sum, 4> relation{sums_(edge.u, w), sums_(edge.v, w), a, b};
     const Triangle death{edge.position, w};
     if (has_rows()) {
-      if (rows_->relate(relation)) deaths_.push_back(death);
-    } else if (const Generator g = lists_->relate(relation); g != EchelonRelations::kNone) {
+      if (rows_->add_relation(relation)) deaths_.push_back(death);
+    } else if (const Generator g = lists_->add_relation(relation); g != EchelonRelations::kNone) {
       report_death(g, death);
     }
   }

@@ -26,7 +26,7 @@ auto SumRows::add(Sum a, Sum b) -> Sum {
   return any == 0 ? 0 : static_cast<Sum>(count() - 1);
 }
 
-bool SumRows::relate(std::span<const Sum, 4> sums) {
+bool SumRows::add_relation(std::span<const Sum, 4> sums) {
   const std::size_t size = values_.size();
   values_.resize(size + words_);
   const Word *a = (*this)[sums[0]], *b = (*this)[sums[1]], *c = (*this)[sums[2]],

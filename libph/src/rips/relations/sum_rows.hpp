@@ -12,7 +12,7 @@
 
 namespace ph {
 
-/// Sums of generators over Z/2 as rows of bits, and relations between generators that are put aside
+/// Sums of generators over Z/2 as rows of bits, and relations between generators that are stored
 /// to be solved together. 0 is the empty sum.
 class SumRows {
  public:
@@ -40,10 +40,10 @@ class SumRows {
   Sum append_generator();
   Sum add(Sum a, Sum b);
 
-  /// Puts aside that the sum of these is zero from now on. @return false if it is empty.
-  bool relate(std::span<const Sum, 4> sums);
+  /// Stores that the sum of these is zero from now on. @return false if it is empty.
+  bool add_relation(std::span<const Sum, 4> sums);
   std::size_t relation_count() const { return values_.size() / words_; }
-  /// Solves those put aside. @return for each of them the generator that dies of it, or
+  /// Solves those stored. @return for each of them the generator that dies of it, or
   /// RelationMatrix::kNone; valid until the next call.
   std::span<const Generator> solve();
   const RelationMatrix& matrix() const { return matrix_; }
@@ -55,7 +55,7 @@ class SumRows {
 
   std::size_t words_, generators_;
   std::pmr::vector<Word> rows_;
-  std::pmr::vector<Word> values_;  // relations put aside
+  std::pmr::vector<Word> values_;  // relations stored
   RelationMatrix matrix_;          // its rows are the generators
 };
 

@@ -48,7 +48,6 @@ TEST(RandomConformance, WideRipsCells) {
   for_each_seed(300, [](Generator& random, bool ties, std::int64_t field) {
     const Rips rips(random.sparse(random.integer(1, 8), ties, 0.7));
     const int max_dim = random.integer(0, 3);
-    check(RipsFiltration<RipsLayout::any, 2>(rips.graph()), max_dim, {field});
     check(RipsFiltration<RipsLayout::any, 4>(rips.graph()), max_dim, {field});
   });
 }

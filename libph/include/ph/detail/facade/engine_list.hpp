@@ -78,7 +78,6 @@ PH_WITH_ALL_ENGINES(ExplicitComplex);
 PH_WITH_ALL_ENGINES(FilteredGraph);
 PH_WITH_ALL_ENGINES(RipsFiltration<RipsLayout::dense, 1>);
 PH_WITH_ALL_ENGINES(RipsFiltration<RipsLayout::sparse, 1>);
-PH_WITH_ALL_ENGINES(RipsFiltration<RipsLayout::any, 2>);
 PH_WITH_ALL_ENGINES(RipsFiltration<RipsLayout::any, 4>);
 #undef PH_WITH_ALL_ENGINES
 

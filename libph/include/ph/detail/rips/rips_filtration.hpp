@@ -362,10 +362,8 @@ decltype(auto) with_rips_filtration(const RipsGraph& graph, int max_dim, Use&& u
   using Sparse = RipsFiltration<RipsLayout::sparse, 1>;
   if (fits(std::type_identity<Sparse>()))
     return graph.is_dense() ? use(Dense(graph)) : use(Sparse(graph));
-  using Wide = RipsFiltration<RipsLayout::any, 2>;
-  using Widest = RipsFiltration<RipsLayout::any, 4>;
+  using Wide = RipsFiltration<RipsLayout::any, 4>;
   if (fits(std::type_identity<Wide>())) return use(Wide(graph));
-  if (fits(std::type_identity<Widest>())) return use(Widest(graph));
   throw Error(
       ErrorKind::resource,
       "simplices of " +
