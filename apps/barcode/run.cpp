@@ -13,12 +13,12 @@
 #include <optional>
 
 #include "barcode/arguments/option_scopes.hpp"
-#include "barcode/arguments/table_arguments.hpp"
 #include "barcode/complex/load.hpp"
-#include "barcode/memory/estimate_text.hpp"
 #include "barcode/memory/alternatives.hpp"
+#include "barcode/memory/estimate_text.hpp"
 #include "barcode/output/adjust.hpp"
 #include "barcode/output/h0_tree.hpp"
+#include "barcode/output/outputs.hpp"
 #include "barcode/output/report.hpp"
 #include "barcode/output/stored.hpp"
 #include "common/arguments/numbers.hpp"
@@ -26,7 +26,6 @@
 #include "common/terminal/messages.hpp"
 #include "ph/estimate.hpp"
 #include "ph/loops.hpp"
-#include "report/encoding/sha256.hpp"
 
 namespace ph::barcode {
 namespace {
@@ -222,58 +221,6 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
 
 std::string count_of(std::size_t count, std::string_view what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
-PlotOptions look_of(PlotOptions look, bool superlevel) {
-  if (!superlevel) return look;
-  look.negated = true;
-  look.value_label = "Value, falling";
-  return look;
-}
-
-void note_absent_dims(const Barcode& bars, const PlotOptions& look, app::Session& session) {
-  for (const int dim : look.dims) {
-    bool is_there = false;
-    for (std::size_t i = 0; i < bars.size() && !is_there; ++i) is_there = bars[i].dim == dim;
-    if (!is_there) session.note(fmt::format("--dims {}: there are no bars of this dimension", dim));
-  }
-}
-
-Outputs::Outputs(const Job& job) : job_(job) {
-  if (job.format != BarcodeFormat::none) barcode_.emplace(job.output);
-  for (const app::Plot& plot : job.plots) plots_.emplace_back(plot.path);
-  if (!job.report.empty()) report_.emplace(job.report);
-}
-
-void Outputs::write(const Barcode& bars, const BarcodeInfo& info, const PlotOptions& look,
-                    std::span<const std::string> trees, const RunContext& context) {
-  auto tree = trees.begin();
-  for (std::size_t i = 0; i < plots_.size(); ++i) {
-    const app::Plot& plot = job_.plots[i];
-    const auto kind = plot_kind_named(plot.kind);
-    PlotOptions options = look;
-    options.kind = kind.value_or(options.kind);
-    plots_[i].write(kind ? app::drawn(plot, bars, options, context) : *tree++);
-  }
-  // Pixels may exceed the memory: nothing is complete before all is drawn.
-  if (barcode_) {
-    write_barcode(barcode_->file(), bars, job_.format, info);
-    barcode_->commit();
-  }
-  for (app::Output& plot : plots_) plot.commit();
-}
-
-NamedData read_input(const Input& input, const Arguments& arguments, const RunContext& context) {
-  std::vector<Index> dropped;
-  ReadOptions options = arguments.read;
-  options.context = &context;
-  options.dropped = &dropped;
-  ReadResult read = read_any(input, arguments.format, options, arguments.values);
-  if (std::string note = note_on_mesh(read, arguments); !note.empty())
-    read.notes.push_back(std::move(note));
-  std::string sha256;
-  if (!arguments.report.empty() && !arguments.dry_run) sha256 = report::sha256_hex(input, context);
-  return {input.name(), std::move(read), dropped.size(), std::move(sha256)};
 }
 
 Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
-#include <variant>
 
 #include "barcode/arguments/option_scopes.hpp"
 #include "common/arguments/choices.hpp"
@@ -74,18 +73,6 @@ void check_table_arguments(Arguments& a) {
     meaning = ArrayMeaning::rips;
   else if (is_cubical || is_only_for(kImage | kVoxels))
     meaning = ArrayMeaning::image;
-}
-
-std::string note_on_mesh(const ReadResult& read, const Arguments& a) {
-  const auto* const mesh = std::get_if<Mesh>(&read.data);
-  if (a.complex == ComplexKind::lower_star || mesh == nullptr || mesh->faces() == 0 ||
-      !mesh->values.empty())
-    return {};
-  return fmt::format(
-      "the {} faces are not used, the vertices are points; --values FILE has values of the "
-      "vertices "
-      "and filters the mesh",
-      mesh->faces());
 }
 
 }  // namespace ph::barcode

@@ -10,7 +10,4 @@ void add_table_options(CLI::App& app, Arguments& a);
 /// Decides what a table means where other options leave one reading only.
 void check_table_arguments(Arguments& a);
 
-/// What a result does with a mesh that has no values, as a note; empty: it is no such mesh.
-std::string note_on_mesh(const ReadResult& read, const Arguments& a);
-
 }  // namespace ph::barcode

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "barcode/complex/build_complex.hpp"
+#include "barcode/complex/read_input.hpp"
 #include "barcode/run.hpp"
 
 namespace ph::barcode {

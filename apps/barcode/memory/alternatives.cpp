@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "barcode/complex/build_complex.hpp"
+#include "barcode/complex/read_input.hpp"
 #include "common/arguments/numbers.hpp"
 #include "ph/estimate.hpp"
 

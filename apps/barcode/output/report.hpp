@@ -5,7 +5,8 @@
 
 #include "barcode/arguments/arguments.hpp"
 #include "barcode/complex/build_complex.hpp"
-#include "barcode/run.hpp"
+#include "barcode/complex/read_input.hpp"
+#include "common/run/session.hpp"
 
 namespace ph::barcode {
 

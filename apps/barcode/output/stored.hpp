@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "barcode/output/outputs.hpp"
 #include "barcode/run.hpp"
 #include "ph/detail/io/reader.hpp"
 #include "report/metadata.hpp"

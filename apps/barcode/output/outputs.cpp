@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "barcode/output/outputs.hpp"
+
+#include <fmt/format.h>
+
+namespace ph::barcode {
+
+Outputs::Outputs(const Job& job) : job_(job) {
+  if (job.format != BarcodeFormat::none) barcode_.emplace(job.output);
+  for (const app::Plot& plot : job.plots) plots_.emplace_back(plot.path);
+  if (!job.report.empty()) report_.emplace(job.report);
+}
+
+void Outputs::write(const Barcode& bars, const BarcodeInfo& info, const PlotOptions& look,
+                    std::span<const std::string> trees, const RunContext& context) {
+  auto tree = trees.begin();
+  for (std::size_t i = 0; i < plots_.size(); ++i) {
+    const app::Plot& plot = job_.plots[i];
+    const auto kind = plot_kind_named(plot.kind);
+    PlotOptions options = look;
+    options.kind = kind.value_or(options.kind);
+    plots_[i].write(kind ? app::drawn(plot, bars, options, context) : *tree++);
+  }
+  // Pixels may exceed the memory: nothing is complete before all is drawn.
+  if (barcode_) {
+    write_barcode(barcode_->file(), bars, job_.format, info);
+    barcode_->commit();
+  }
+  for (app::Output& plot : plots_) plot.commit();
+}
+
+PlotOptions look_of(PlotOptions look, bool superlevel) {
+  if (!superlevel) return look;
+  look.negated = true;
+  look.value_label = "Value, falling";
+  return look;
+}
+
+void note_absent_dims(const Barcode& bars, const PlotOptions& look, app::Session& session) {
+  for (const int dim : look.dims) {
+    bool is_there = false;
+    for (std::size_t i = 0; i < bars.size() && !is_there; ++i) is_there = bars[i].dim == dim;
+    if (!is_there) session.note(fmt::format("--dims {}: there are no bars of this dimension", dim));
+  }
+}
+
+}  // namespace ph::barcode
