@@ -135,7 +135,9 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   const RunPlan planned = plan(built.complex, arguments.options, session.context());
   watch.lap("complex");
   session.explain(fmt::format("engine {}: {}", planned.engine.name(), planned.reason));
-  if (!planned.collapse_reason.empty()) session.explain("collapse " + collapse_text(planned));
+  if (!planned.collapse_reason.empty())
+    session.explain(
+        fmt::format("collapse {} ({})", planned.collapses ? "on" : "off", planned.collapse_reason));
 
   explain_slabs(built, planned, arguments, session);
 

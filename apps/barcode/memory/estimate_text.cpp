@@ -10,10 +10,6 @@
 
 namespace ph::barcode {
 
-std::string collapse_text(const RunPlan& plan) {
-  return fmt::format("{} ({})", plan.collapses ? "on" : "off", plan.collapse_reason);
-}
-
 std::string estimate_text(const Estimate& estimate, const BuiltComplex& built,
                           const std::string& description, double taken) {
   std::string text = fmt::format("input    {}\ncomplex  {}", description, built.name);
@@ -21,7 +17,9 @@ std::string estimate_text(const Estimate& estimate, const BuiltComplex& built,
   if (!built.vertex_weights.empty())
     text += fmt::format(", vertices enter late ({})", built.vertex_weights);
   text += fmt::format("\nengine   {} ({})\n", estimate.engine.name(), estimate.reason);
-  if (!estimate.collapse_reason.empty()) text += "collapse " + collapse_text(estimate) + '\n';
+  if (!estimate.collapse_reason.empty())
+    text += fmt::format("collapse {} ({})\n", estimate.collapses ? "on" : "off",
+                        estimate.collapse_reason);
   if (const auto* rips = std::get_if<Rips>(&built.complex); rips && estimate.collapses)
     text += fmt::format("edges    {} before the collapse\n", rips->edge_count());
   for (std::size_t dim = 0; dim < estimate.cells.size(); ++dim) {
