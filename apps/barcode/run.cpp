@@ -48,7 +48,7 @@ void explain_slabs(const BuiltComplex& built, const RunPlan& plan, const Argumen
                              axes == 1 ? "one axis" : "more axes"));
   else
     session.explain(
-        fmt::format("slabs of {}", count_of(static_cast<std::size_t>(layers), "layer")));
+        fmt::format("slabs of {}", app::count_of(static_cast<std::size_t>(layers), "layer")));
 }
 
 /// The files of the plots of the merge tree, in their order, before bars are computed, which may
@@ -216,14 +216,10 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
     write_report(outputs->report().file(), shown, arguments, session);
     outputs->report().commit();
   }
-  return {code, fmt::format("{}: {}", description, count_of(barcode.size(), "bar"))};
+  return {code, fmt::format("{}: {}", description, app::count_of(barcode.size(), "bar"))};
 }
 
 }  // namespace
-
-std::string count_of(std::size_t count, std::string_view what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
 
 Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
   std::string what;

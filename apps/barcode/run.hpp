@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "barcode/arguments/arguments.hpp"
@@ -29,9 +28,6 @@ struct Outcome {
   int code = 0;
   std::string summary;  ///< "1024 points in R^3, CSV: 57 bars"
 };
-
-/// "57 bars"
-std::string count_of(std::size_t count, std::string_view what);
 
 /// Reads one input, computes its barcode and writes it. A stored barcode is there already.
 /// @throws Error.

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "barcode/arguments/option_scopes.hpp"
+#include "common/arguments/numbers.hpp"
 #include "common/terminal/messages.hpp"
 
 namespace ph::barcode {
@@ -108,7 +109,7 @@ Loaded load(const Job& job, std::optional<Input>& input, const Arguments& argume
   if (dropped > 0 && is_given(arguments, "nan") && arguments.read.nan == NanPolicy::error)
     throw Error(ErrorKind::bad_data,
                 fmt::format("{}: {} with NaN, expected numbers; --nan drop leaves them out", name,
-                            count_of(dropped, "point")));
+                            app::count_of(dropped, "point")));
   const std::string what = fmt::format("read {}: {}", name, read.description);
   // A batch says it in its one line an input.
   if (arguments.format == Format::automatic && arguments.inputs == std::vector{job.input})

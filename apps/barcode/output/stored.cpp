@@ -7,6 +7,7 @@
 
 #include <array>
 
+#include "common/arguments/numbers.hpp"
 #include "common/terminal/exit_code.hpp"
 #include "io/bytes/json_writer.hpp"
 #include "report/arrays/bar_arrays.hpp"
@@ -46,7 +47,8 @@ Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, const A
           ErrorKind::usage,
           fmt::format("--plot-kind {}: makes sense for data only, found a barcode", plot.kind));
   const auto [barcode, origin, left_out] = read_stored_barcode(input);
-  const std::string description = fmt::format("a barcode, {}", count_of(barcode.size(), "bar"));
+  const std::string description =
+      fmt::format("a barcode, {}", app::count_of(barcode.size(), "bar"));
   const std::string what = fmt::format("read {}: {}", input.name(), description);
   if (arguments.is_batch())
     session.explain(what);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -25,5 +26,7 @@ std::vector<std::int64_t> parse_integers(std::string_view option, std::string_vi
 std::uint64_t parse_size(std::string_view option, std::string_view text);
 /// Bytes for people: "1.5 GiB".
 std::string format_size(double bytes);
+/// "57 bars"
+std::string count_of(std::size_t count, std::string_view what);
 
 }  // namespace ph::app
