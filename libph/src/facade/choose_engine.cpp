@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace ph::detail {
 namespace {
 
@@ -21,6 +23,17 @@ std::string_view asked_beside(const Task& task) {
 }
 
 }  // namespace
+
+void check(const Options& options) {
+  const auto at_least_0 = [](std::string_view name, int dim) {
+    if (dim < 0)
+      throw Error(ErrorKind::usage, fmt::format("{}: found {}, expected >= 0", name, dim));
+  };
+  at_least_0("highest dimension", options.max_dim.value_or(0));
+  at_least_0("lowest dimension", options.min_dim);
+  if (std::isnan(options.min_persistence))
+    throw Error(ErrorKind::usage, "least persistence: found nan, expected a number");
+}
 
 void refuse(Engine asked, const Task& task) {
   if (asked != Engine::automatic)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include "facade/collapse_choice.hpp"
+
 #include <fmt/format.h>
 
-#include "facade/choice.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
 #include "ph/edge_collapse.hpp"
 
@@ -30,6 +31,19 @@ std::string_view no_need(const EngineFacts& engine) {
 }
 
 }  // namespace
+
+int rips_max_dim(const Rips& rips, const Options& options) {
+  const bool only_components = rips.has_only_components();
+  check(options);
+  const int max_dim = options.max_dim.value_or(only_components ? 0 : 1);
+  if (only_components && max_dim > 0) {
+    throw Error(ErrorKind::usage,
+                fmt::format("highest dimension: found {}, expected 0: of this Rips filtration only "
+                            "the components are there",
+                            max_dim));
+  }
+  return max_dim;
+}
 
 CollapseChoice choose_collapse(const Rips& rips, const Options& options,
                                const RunContext& context) {

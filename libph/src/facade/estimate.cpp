@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "cubical/pair_voxels.hpp"
-#include "facade/choice.hpp"
+#include "facade/collapse_choice.hpp"
 #include "facade/memory_forecast.hpp"
 #include "ph/edge_collapse.hpp"
 #include "rips/clique_count.hpp"

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "facade/choice.hpp"
+#include "ph/persistence.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <tuple>
 
+#include "facade/collapse_choice.hpp"
 #include "ph/detail/rips/rips_filtration.hpp"
 #include "ph/edge_collapse.hpp"
 
@@ -17,30 +18,6 @@ std::string describe(const Bar& bar) {
 }
 
 }  // namespace
-
-void detail::check(const Options& options) {
-  const auto at_least_0 = [](std::string_view name, int dim) {
-    if (dim < 0)
-      throw Error(ErrorKind::usage, fmt::format("{}: found {}, expected >= 0", name, dim));
-  };
-  at_least_0("highest dimension", options.max_dim.value_or(0));
-  at_least_0("lowest dimension", options.min_dim);
-  if (std::isnan(options.min_persistence))
-    throw Error(ErrorKind::usage, "least persistence: found nan, expected a number");
-}
-
-int detail::rips_max_dim(const Rips& rips, const Options& options) {
-  const bool only_components = rips.has_only_components();
-  check(options);
-  const int max_dim = options.max_dim.value_or(only_components ? 0 : 1);
-  if (only_components && max_dim > 0) {
-    throw Error(ErrorKind::usage,
-                fmt::format("highest dimension: found {}, expected 0: of this Rips filtration only "
-                            "the components are there",
-                            max_dim));
-  }
-  return max_dim;
-}
 
 Barcode persistence(const Rips& rips, const Options& options, const RunContext& context) {
   Options rips_options = options;
