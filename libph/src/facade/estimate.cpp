@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "cubical/pair_voxels.hpp"
-#include "facade/collapse_choice.hpp"
 #include "facade/memory_forecast.hpp"
 #include "ph/edge_collapse.hpp"
 #include "rips/clique_count.hpp"
@@ -65,43 +64,11 @@ detail::MemoryForecast forecast_voxels(const Cubical& cubical, double held,
   return forecast;
 }
 
-template <Filtration F>
-RunPlan plan_of(const detail::Plan<F>& plan) {
-  RunPlan result;
-  result.engine = plan.choice.engine->id;
-  result.reason = plan.choice.reason;
-  result.max_dim = plan.max_dim;
-  return result;
-}
-
 template <class Complex>
-RunPlan plan_one(const Complex& complex, const Options& options, const RunContext&) {
-  return plan_of(detail::plan_for(complex, options));
-}
-RunPlan plan_one(const Rips& rips, const Options& options, const RunContext& context) {
-  Options rips_options = options;
-  rips_options.max_dim = detail::rips_max_dim(rips, options);
-  const detail::CollapseChoice choice = detail::choose_collapse(rips, rips_options, context);
-  RunPlan result;
-  if (choice.collapses) {
-    result.engine = choice.engine;
-    result.reason = choice.engine_reason;
-    result.max_dim = *rips_options.max_dim;  // the top dimension is not known before the collapse
-  } else {
-    result = rips.with_filtration(*rips_options.max_dim, [&](const auto& f) {
-      return plan_of(detail::plan_for(f, rips_options));
-    });
-  }
-  if (rips.has_only_components()) result.reason += "; a spanning forest knows them";
-  result.collapses = choice.collapses;
-  result.collapse_reason = choice.reason;
-  return result;
-}
-
-template <class Complex>
-Estimate estimate_one(const Complex& complex, const Options& options, const RunContext& context) {
+Estimate estimate_one(const Complex& complex, const RunPlan& planned, const Options& options,
+                      const RunContext& context) {
   Estimate e;
-  static_cast<RunPlan&>(e) = plan_one(complex, options, context);
+  static_cast<RunPlan&>(e) = planned;
   const int listed_dim = facts_of(e.engine).listed_dim(e.max_dim);
   e.bytes_held = stored_bytes(complex, listed_dim >= 0);
   e.cells = cells_of(complex, listed_dim, context);
@@ -117,9 +84,10 @@ Estimate estimate_one(const Complex& complex, const Options& options, const RunC
   return e;
 }
 
-Estimate estimate_one(const Rips& rips, const Options& options, const RunContext& context) {
+Estimate estimate_one(const Rips& rips, const RunPlan& planned, const Options& options,
+                      const RunContext& context) {
   Estimate e;
-  static_cast<RunPlan&>(e) = plan_one(rips, options, context);
+  static_cast<RunPlan&>(e) = planned;
   const double edges = e.bytes_held = 16 * static_cast<double>(rips.edge_count());
   double collapse = 0;
   std::optional<Rips> collapsed;
@@ -151,20 +119,10 @@ Estimate estimate_one(const Rips& rips, const Options& options, const RunContext
 
 }  // namespace
 
-RunPlan plan(const AnyComplex& complex, const Options& options, const RunContext& context) {
-  return std::visit([&](const auto& c) { return plan_one(c, options, context); }, complex);
-}
-
-Options with_plan(const Options& options, const RunPlan& plan) {
-  Options settled = options;
-  settled.engine = plan.engine;
-  settled.max_dim = plan.max_dim;
-  settled.collapse = plan.collapses ? Collapse::on : Collapse::off;
-  return settled;
-}
-
 Estimate estimate(const AnyComplex& complex, const Options& options, const RunContext& context) {
-  return std::visit([&](const auto& c) { return estimate_one(c, options, context); }, complex);
+  const RunPlan planned = plan(complex, options, context);
+  return std::visit([&](const auto& c) { return estimate_one(c, planned, options, context); },
+                    complex);
 }
 
 }  // namespace ph
