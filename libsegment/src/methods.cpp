@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "plane/base_points.hpp"
 #include "surface/concavity.hpp"
 #include "surface/seeds.hpp"
+#include "voxels/base_points.hpp"
 #include "voxels/rips_graph.hpp"
 #include "voxels/voxel_pairs.hpp"
 

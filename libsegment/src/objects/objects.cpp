@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "objects/close_boxes.hpp"
+#include "objects/rims.hpp"
+#include "objects/view.hpp"
 #include "ph/detail/components/disjoint_sets.hpp"
 #include "ph/eigen.hpp"
-#include "plane/rims.hpp"
-#include "plane/view.hpp"
 #include "surface/concavity.hpp"
 #include "surface/parts.hpp"
 

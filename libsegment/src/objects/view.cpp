@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plane/view.hpp"
+#include "objects/view.hpp"
 
 #include <Eigen/Geometry>
 

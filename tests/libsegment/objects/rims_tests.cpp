@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plane/rims.hpp"
+#include "objects/rims.hpp"
 
 #include <gtest/gtest.h>
 

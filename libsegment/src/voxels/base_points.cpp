@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plane/base_points.hpp"
+#include "voxels/base_points.hpp"
 
 #include <Eigen/Geometry>
 #include <bit>
