@@ -9,12 +9,12 @@
 #include <utility>
 
 #include "objects/close_boxes.hpp"
+#include "objects/parts.hpp"
 #include "objects/rims.hpp"
 #include "objects/view.hpp"
 #include "ph/detail/components/disjoint_sets.hpp"
 #include "ph/eigen.hpp"
 #include "surface/concavity.hpp"
-#include "surface/parts.hpp"
 
 namespace ph::segment {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "methods.hpp"
 #include "metric/pairs_within.hpp"
+#include "objects/components.hpp"
+#include "objects/meetings.hpp"
 #include "options.hpp"
-#include "surface/meetings.hpp"
-#include "voxels/components.hpp"
 #include "voxels/rips_graph.hpp"
 
 namespace ph::segment {

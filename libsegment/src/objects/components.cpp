@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "voxels/components.hpp"
+#include "objects/components.hpp"
 
 #include <algorithm>
 #include <span>

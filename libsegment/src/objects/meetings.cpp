@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "surface/meetings.hpp"
+#include "objects/meetings.hpp"
 
 #include <fmt/format.h>
 
