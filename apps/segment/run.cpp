@@ -20,7 +20,7 @@
 #include "segment/output/summary.hpp"
 #include "segment/output/warnings.hpp"
 #include "segment/stream.hpp"
-#include "voxels/cross_check.hpp"
+#include "tree/tree_barcode.hpp"
 
 namespace ph::segment {
 namespace {

@@ -12,8 +12,9 @@
 #include "plane/plane.hpp"
 #include "plane/projection_centre.hpp"
 #include "plane/range_filter.hpp"
+#include "tree/cross_check.hpp"
 #include "tree/cut.hpp"
-#include "voxels/cross_check.hpp"
+#include "tree/tree_barcode.hpp"
 
 namespace ph::segment {
 namespace {

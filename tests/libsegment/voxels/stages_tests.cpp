@@ -13,7 +13,8 @@
 #include "ph/persistence.hpp"
 #include "ph/rips.hpp"
 #include "plane/range_filter.hpp"
-#include "voxels/cross_check.hpp"
+#include "tree/cross_check.hpp"
+#include "tree/tree_barcode.hpp"
 #include "voxels/rips_graph.hpp"
 #include "voxels/voxel_grid.hpp"
 
@@ -193,22 +194,6 @@ TEST(RipsGraph, KeepsTheMemoryLimit) {
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::resource);
   }
-}
-
-TEST(CrossCheck, FindsADifference) {
-  const Points points{{0, 0, 0}, {1, 0, 0}, {3, 0, 0}};
-  const FilteredGraph graph = rips_graph(points, 2, 0);
-  const MergeTree right = merge_tree(graph);
-  EXPECT_EQ(cross_check(graph, barcode_of(right)), "");
-  MergeTree late = right;
-  late.merges.back().value = 1.5;
-  EXPECT_NE(cross_check(graph, barcode_of(late)), "");
-  MergeTree missing = right;
-  missing.merges.pop_back();
-  EXPECT_NE(cross_check(graph, barcode_of(missing)), "");
-  MergeTree other = right;
-  other.merges.back().u = 0;  // the same bars, another edge
-  EXPECT_NE(cross_check(graph, barcode_of(other)), "");
 }
 
 }  // namespace

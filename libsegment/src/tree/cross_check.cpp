@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "voxels/cross_check.hpp"
+#include "tree/cross_check.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <span>
+#include <optional>
 
 #include "ph/detail/core/barcode_builder.hpp"
 #include "ph/detail/reduction/twist.hpp"
@@ -28,20 +27,6 @@ bool same_cells(const std::optional<InputCell>& a, const std::optional<InputCell
 }
 
 }  // namespace
-
-Barcode barcode_of(const MergeTree& tree) {
-  Barcode barcode(CellKind::vertices);
-  for (const auto& [birth, death, vertex, merge] : tree.classes()) {
-    std::array<Index, 2> edge{};
-    if (merge >= 0) {
-      const Merge& m = tree.merges[static_cast<std::size_t>(merge)];
-      edge = {std::min(m.u, m.v), std::max(m.u, m.v)};
-    }
-    barcode.add({0, birth, death}, {&vertex, 1},
-                std::span<const Index>(edge).first(merge < 0 ? 0 : 2));
-  }
-  return barcode;
-}
 
 std::string cross_check(const FilteredGraph& graph, const Barcode& barcode,
                         const RunContext& context) {

@@ -4,12 +4,8 @@
 
 #include "ph/barcode.hpp"
 #include "ph/filtered_graph.hpp"
-#include "ph/merge_tree.hpp"
 
 namespace ph::segment {
-
-/// The barcode of H0 that a merge tree stands for: a bar a vertex, zero-length bars included.
-Barcode barcode_of(const MergeTree& tree);
 
 /// Computes H0 of the filtration a second time, by reduction of its boundary matrix, and compares:
 /// every bar with the vertex that gave birth to it and the edge that killed it; hence the
