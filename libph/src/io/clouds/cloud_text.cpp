@@ -174,29 +174,4 @@ Cloud read_pts(const Input& input, const ReadOptions& options) {
                                options, detail::RowSource::pts);
 }
 
-Cloud read_cloud(const Input& input, const ReadOptions& options) {
-  if (!input.member().empty()) {
-    input.fail({"a part of a file", printable(input.member(), 40), "the file itself", {}});
-  }
-  const auto read = [&] {
-    if (detail::is_pcd(input) || input.extension() == ".pcd") return read_pcd(input, options);
-    if (detail::is_ply(input) || input.extension() == ".ply") return read_ply(input, options);
-    if (detail::is_npy(input)) return read_npy_cloud(input, options);
-    if (input.extension() == ".pts" && detail::is_counted(input)) return read_pts(input, options);
-    return read_xyz(input, options);
-  };
-  Cloud cloud = read();
-  for (const std::string_view name : kCoordinates) {
-    const CloudField* field = cloud.find(name);
-    if (field == nullptr || field->count != 1) {
-      input.fail({fmt::format("no coordinate {}", name), {}, "fields x, y and z", {}});
-    }
-  }
-  return cloud;
-}
-
-Cloud read_cloud(const std::filesystem::path& path, const ReadOptions& options) {
-  return read_cloud(Input::open(path, options.context), options);
-}
-
 }  // namespace ph
