@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The merge tree with every vertex, its cuts as the programs make them, and its contraction for a
-// report. Written after libph/src/facade/merge_tree.cpp and libsegment/src/voxels/components.cpp,
+// report. Written after libph/src/facade/merge_tree.cpp and libsegment/src/objects/components.cpp,
 // not after the page.
 
 class DisjointSets {
