@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "facade/all_engines.hpp"
+#include "ph/custom.hpp"
 #include "ph/ph.hpp"
 
 namespace {

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "facade/all_engines.hpp"
+#include "ph/custom.hpp"
 
 namespace ph::test {
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ph/detail/facade/choose_engine.hpp"
+#include "ph/detail/facade/generic_engines.hpp"
 #include "ph/error.hpp"
 #include "ph/estimate.hpp"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <thread>
 
-#include "facade/all_engines.hpp"
+#include "ph/custom.hpp"
 #include "support/expect_error.hpp"
 #include "support/generators.hpp"
 #include "support/known_spaces.hpp"

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "ph/filtered_graph.hpp"
+#include "rips/sweep/edge_links.hpp"
 #include "support/conformance.hpp"
 #include "support/for_each_seed.hpp"
 

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <tuple>
+#include <vector>
+
+#include "ph/detail/components/union_find.hpp"
+#include "ph/detail/facade/engine_list.hpp"
+#include "ph/detail/reduction/cohomology.hpp"
+#include "ph/detail/reduction/standard.hpp"
+#include "ph/detail/reduction/twist.hpp"
+
+namespace ph::detail {
+
+/// Calls `use(field)` with the field of the given characteristic. @throws Error (usage) if none.
+template <class Use>
+decltype(auto) with_field(std::int64_t characteristic, Use&& use) {
+  if (characteristic == 2) return use(Z2{});
+  return use(Zp(characteristic));
+}
+
+/// @tparam E what ph/custom.hpp calls an engine.
+template <class E>
+constexpr EngineFacts facts() {
+  EngineFacts facts{.id = E::id, .listed_dim = [](int max_dim) { return E::listed_dim(max_dim); }};
+  if constexpr (requires { E::goes_by_edges; }) facts.goes_by_edges = E::goes_by_edges;
+  if constexpr (requires { E::is_oracle; }) facts.is_oracle = E::is_oracle;
+  if constexpr (requires { E::stops_early; }) facts.stops_early = E::stops_early;
+  if constexpr (requires { E::rips_bytes(std::size_t(), std::size_t()); })
+    facts.rips_bytes = [](std::size_t vertices, std::size_t edges) {
+      return E::rips_bytes(vertices, edges);
+    };
+  return facts;
+}
+
+template <class E, Filtration F>
+constexpr EngineFor<F> engine_for() {
+  return {facts<E>(), [](const F& f, const Task& task) { return E::can_run(f, task); },
+          [](const F& f, const Task& task) { return E::suitability(f, task); },
+          [](const F& f, std::int64_t characteristic, BarcodeBuilder<F>& bars,
+             const RunContext& context) {
+            with_field(characteristic, [&](const auto& field) { E::run(f, field, bars, context); });
+          }};
+}
+
+template <Filtration F, class... E>
+std::vector<EngineFor<F>> engines_of_list(std::tuple<E...>*) {
+  return {engine_for<E, F>()...};
+}
+
+/// The engines for any filtration. Those of one kind of complex beside them: all_engines.hpp.
+using GenericEngines = std::tuple<StandardEngine, TwistEngine, CohomologyEngine, UnionFindEngine>;
+
+template <Filtration F>
+std::vector<EngineFor<F>>& engines() {
+  static auto list = engines_of_list<F>(static_cast<GenericEngines*>(nullptr));
+  return list;
+}
+
+}  // namespace ph::detail
