@@ -63,4 +63,15 @@ class Zp {
 /// Whether `p` can be the characteristic of a field here: a prime below 2^31.
 bool is_field_characteristic(std::int64_t p);
 
+namespace detail {
+
+/// Calls `use(field)` with the field of the given characteristic. @throws Error (usage) if none.
+template <class Use>
+decltype(auto) with_field(std::int64_t characteristic, Use&& use) {
+  if (characteristic == 2) return use(Z2{});
+  return use(Zp(characteristic));
+}
+
+}  // namespace detail
+
 }  // namespace ph

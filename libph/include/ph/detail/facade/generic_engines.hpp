@@ -4,19 +4,13 @@
 #include <vector>
 
 #include "ph/detail/components/union_find.hpp"
+#include "ph/detail/core/field.hpp"
 #include "ph/detail/facade/engine_list.hpp"
 #include "ph/detail/reduction/cohomology.hpp"
 #include "ph/detail/reduction/standard.hpp"
 #include "ph/detail/reduction/twist.hpp"
 
 namespace ph::detail {
-
-/// Calls `use(field)` with the field of the given characteristic. @throws Error (usage) if none.
-template <class Use>
-decltype(auto) with_field(std::int64_t characteristic, Use&& use) {
-  if (characteristic == 2) return use(Z2{});
-  return use(Zp(characteristic));
-}
 
 /// @tparam E what ph/custom.hpp calls an engine.
 template <class E>
