@@ -48,7 +48,7 @@ SIZES = {"2048²": (2048, 2048), "64³": (64, 64, 64), "128³": (128, 128, 128),
 
 ROWS = [Row(f"{size} {kind}", shape, kind, math.prod(shape) <= 2048**2 or (size, kind) == ("256³", "smooth"))
         for size, shape in SIZES.items() for kind in KINDS]
-
+ROWS.append(Row("16³ smooth", (16, 16, 16), "smooth", usual=False))  # for tests
 
 
 def inrimage(content):

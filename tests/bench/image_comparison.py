@@ -18,7 +18,7 @@ except ImportError:
 BUILD = pathlib.Path(sys.argv.pop(1))
 BENCH = pathlib.Path(__file__).resolve().parents[2] / "bench"
 OURS = BUILD / "apps/barcode/ph-barcode"
-ROW = "64³ smooth"
+ROW = "16³ smooth"
 
 
 class ImageComparison(unittest.TestCase):

@@ -39,38 +39,42 @@ def pixels(data):
     step = 3 if kind == 2 else 4
     raw = zlib.decompress(b"".join(content for name, content in parts if name == b"IDAT"))
     assert len(raw) == height * (width * step + 1)
-    rows, above = [], bytearray(width * step)
+    rows, above = [], bytes(width * step)
     for y in range(height):
         start = y * (width * step + 1)
-        line = bytearray(raw[start + 1:start + 1 + width * step])
-        unfilter(raw[start], line, above, step)
-        rows.append([tuple(line[x:x + 3]) for x in range(0, len(line), step)])
-        above = line
+        above = unfiltered(raw[start], raw[start + 1:start + 1 + width * step], above, step)
+        rows.append(list(zip(above[0::step], above[1::step], above[2::step])))
     return width, rows
 
 
-def unfilter(kind, line, above, step):
-    """What a row was before a PNG filter made it shorter, in place."""
+def unfiltered(kind, line, above, step):
+    """@return what a row was before a PNG filter made it shorter."""
+    if not any(line) and kind in (2, 4):  # most rows are white: the one above once more
+        return above
+    if kind == 0:
+        return line
     if kind == 2:
-        for i, up in enumerate(above):
-            line[i] = (line[i] + up) & 255
-    elif kind:
-        for i, up in enumerate(above):
-            left, corner = (line[i - step], above[i - step]) if i >= step else (0, 0)
-            if kind == 1:
-                guess = left
-            elif kind == 3:
-                guess = (left + up) // 2
-            else:
-                away = [abs(up - corner), abs(left - corner), abs(left + up - 2 * corner)]
-                guess = (left, up, corner)[away.index(min(away))]
-            line[i] = (line[i] + guess) & 255
+        return bytes([(byte + up) & 255 for byte, up in zip(line, above)])
+    found = bytearray(step) + line  # and no pixel before the first
+    for i, (byte, up, corner) in enumerate(zip(line, above, bytes(step) + above)):
+        left = found[i]
+        if kind == 1:
+            guess = left
+        elif kind == 3:
+            guess = (left + up) // 2
+        else:
+            a, b, c = abs(up - corner), abs(left - corner), abs(left + up - 2 * corner)
+            guess = left if a <= b and a <= c else up if b <= c else corner
+        found[i + step] = (byte + guess) & 255
+    return bytes(found[step:])
 
 
 def places(rows, colour):
     """@return where a colour is, or nearly is."""
-    return {(x, y) for y, row in enumerate(rows) for x, found in enumerate(row)
-            if max(abs(a - b) for a, b in zip(found, colour)) < 60}
+    alike = {found for found in set().union(*rows)
+             if max(abs(a - b) for a, b in zip(found, colour)) < 60}
+    return {(x, y) for y, row in enumerate(rows) if not alike.isdisjoint(row)
+            for x, found in enumerate(row) if found in alike}
 
 
 class Png(ProgramTest):
