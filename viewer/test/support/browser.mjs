@@ -19,11 +19,12 @@ export function template() {
   return (read ??= readFileSync(built, "utf8"));
 }
 
+/// WebGL is drawn by software, and so are pages, which the software that draws WebGL does slowly.
 export async function launch({ webgl = true } = {}) {
   const args = [
     "--no-sandbox",
     ...(webgl
-      ? ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+      ? ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-gpu-compositing"]
       : ["--disable-gpu", "--disable-3d-apis"]),
   ];
   return chromium.launch({ executablePath: executable, args });
@@ -33,21 +34,29 @@ const folder = mkdtempSync(join(tmpdir(), "ph-report-"));
 let written = 0;
 
 // A process for each page takes longer than most tests: what a test closes the next one opens.
-const free = new WeakMap();
+// A page behind another draws a frame a second: that which was opened last is in front.
+const pagesOf = new WeakMap();
 
 async function pageOf(browser, scripts, touch) {
   if (!scripts) return (await browser.newContext({ javaScriptEnabled: false })).newPage();
   if (touch) return (await browser.newContext({ hasTouch: true, isMobile: true })).newPage();
-  if (!free.has(browser)) free.set(browser, { context: browser.newContext(), pages: [] });
-  const { context, pages } = free.get(browser);
-  return pages.pop() ?? (await context).newPage();
+  if (!pagesOf.has(browser))
+    pagesOf.set(browser, { context: browser.newContext(), free: [], opened: [] });
+  const { context, free, opened } = pagesOf.get(browser);
+  const page = free.pop() ?? (await (await context).newPage());
+  opened.push(page);
+  await page.bringToFront();
+  return page;
 }
 
 async function release(browser, page) {
+  const { free, opened } = pagesOf.get(browser);
   page.removeAllListeners();
   await page.mouse.move(0, 0);
   await page.goto("about:blank");
-  free.get(browser).pages.push(page);
+  opened.splice(opened.indexOf(page), 1);
+  free.push(page);
+  await opened.at(-1)?.bringToFront();
 }
 
 /// Opens a report. `problems` collects console errors, page errors, and every request but the file.

@@ -18,12 +18,14 @@ class DisjointSets {
 
 /// @param births by vertex. @param edges [u, v, value] each. Elder rule; ties by vertex.
 export function mergeTree(births, edges) {
-  const sorted = edges.map((e, i) => [...e, i]).sort((a, b) => a[2] - b[2] || a[3] - b[3]);
+  const values = Float64Array.from(edges, (e) => e[2]);
+  const order = Uint32Array.from(edges, (_, i) => i).sort((i, j) => values[i] - values[j] || i - j);
   const sets = new DisjointSets(births.length),
     size = new Uint32Array(births.length).fill(1);
   const oldest = Uint32Array.from(births, (_, i) => i);
   const merges = [];
-  for (const [u, v, value] of sorted) {
+  for (const i of order) {
+    const [u, v, value] = edges[i];
     let a = sets.find(u),
       b = sets.find(v),
       ends = [u, v];

@@ -4,6 +4,18 @@ import { contracted, cutOf, mergeTree } from "./reference_tree.mjs";
 import { random } from "./random.mjs";
 import { octahedral, quantised } from "./write_report.mjs";
 
+/// The distances of the two nearest spots, and their numbers.
+function twoNearest(spots, x, y) {
+  let first = [Infinity, -1],
+    second = first;
+  for (let k = 0; k < spots.length; ++k) {
+    const distance = Math.hypot(x - spots[k][0], y - spots[k][1]);
+    if (distance < first[0]) [first, second] = [[distance, k], first];
+    else if (distance < second[0]) second = [distance, k];
+  }
+  return [first, second];
+}
+
 /// A scene as ph-segment sees one: an organised cloud of rounded objects on a table, seams between
 /// them, parts of one object that the program joined, ground truth.
 export function scene(width = 640, height = 536, { seeds = 26 } = {}) {
@@ -23,9 +35,7 @@ export function scene(width = 640, height = 536, { seeds = 26 } = {}) {
   for (let i = 0; i < n; ++i) {
     const x = i % width,
       y = Math.floor(i / width);
-    const d = spots
-      .map(([sx, sy], k) => [Math.hypot(x - sx, y - sy), k])
-      .sort((a, b) => a[0] - b[0]);
+    const d = twoNearest(spots, x, y);
     const gap = (d[1][0] - d[0][0]) / width,
       bulge = Math.max(0, 1 - (6 * d[0][0]) / width);
     const z =

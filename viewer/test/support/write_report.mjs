@@ -53,7 +53,7 @@ export function arrayBlock(
     .filter(([, v]) => v !== undefined)
     .map(([k, v]) => ` data-${k}="${attribute(v)}"`)
     .join("");
-  return `<script type="application/x-ph-array"${text}>${deflateSync(bytes, { level: 9 }).toString("base64")}</script>`;
+  return `<script type="application/x-ph-array"${text}>${deflateSync(bytes).toString("base64")}</script>`;
 }
 
 /// @param arrays from a name to numbers, or to [numbers, more].
