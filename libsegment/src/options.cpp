@@ -24,11 +24,20 @@ void require_finite(const Vec3& v, std::string_view name) {
 }  // namespace
 
 void validate(const CloudView& cloud, const SegmentOptions& o) {
-  if (cloud.xyz.size() % 3 != 0) {
+  if (cloud.stride < 3)
+    throw Error(
+        ErrorKind::bad_data,
+        fmt::format("found a stride of {}, expected at least 3 floats a point", cloud.stride));
+  const std::size_t count = cloud.xyz.size();
+  if (count != 0 && (count < 3 || (count - 3) % cloud.stride != 0)) {
     throw Error(ErrorKind::bad_data,
-                fmt::format("found {} coordinates, expected three a point", cloud.xyz.size()));
+                cloud.stride == 3
+                    ? fmt::format("found {} coordinates, expected three a point", count)
+                    : fmt::format("found {} floats, expected {} from point to point and 3 of the "
+                                  "last",
+                                  count, cloud.stride));
   }
-  const auto points = static_cast<Index>(cloud.xyz.size() / 3);
+  const auto points = static_cast<Index>(cloud.size());
   // Divided, for a product might overflow.
   if (cloud.width < 0 ||
       (cloud.width > 0 && (points % cloud.width != 0 || points / cloud.width != cloud.height))) {

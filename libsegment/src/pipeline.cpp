@@ -24,7 +24,7 @@ namespace {
 /// sorted by segment, its label.
 std::size_t bytes_for_points(const CloudView& cloud) {
   constexpr std::size_t bytes_per_point = 3 * 8 + 4 + 4 + 12 + 12 + 4;
-  return cloud.xyz.size() / 3 * bytes_per_point;
+  return cloud.size() * bytes_per_point;
 }
 
 /// The same of the voxels, without their pairs and the graph, which count themselves: places,
@@ -94,7 +94,7 @@ void keep_points(const CloudView& cloud, const VoxelFiltration& filtration, Scen
   }
   scene.xyz.resize(3 * points.size());
   for (std::size_t k = 0; k < points.size(); ++k)
-    std::copy_n(&cloud.xyz[3 * static_cast<std::size_t>(scene.points[k])], 3, &scene.xyz[3 * k]);
+    std::copy_n(cloud.point(static_cast<std::size_t>(scene.points[k])), 3, &scene.xyz[3 * k]);
 }
 
 /// The tree and what a cut needs besides. `plane` is there already.

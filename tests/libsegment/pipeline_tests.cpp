@@ -7,6 +7,7 @@
 
 #include "libsegment/scenery.hpp"
 #include "ph/error.hpp"
+#include "support/expect_error.hpp"
 
 namespace ph::segment {
 namespace {
@@ -180,6 +181,26 @@ TEST(Pipeline, TheViewpointDecidesWhichSideIsKept) {
   EXPECT_GT(below.plane_sight.hidden, 0.1);
   EXPECT_EQ(segment(cloud, {.method = Method::paper, .viewpoint = Vec3{0, 0, 0}}).segments.size(),
             2U);
+}
+
+// Points of other numbers beside the coordinates are read where they are.
+TEST(Pipeline, AnyStride) {
+  const TableScene scene = TableScene::two_boxes();
+  const std::vector<float>& xyz = scene.xyz();
+  const auto expected = segment(CloudView{xyz, {}, TableScene::kWidth, TableScene::kHeight});
+  for (const std::size_t stride : {4U, 7U}) {
+    std::vector<float> wide(xyz.size() / 3 * stride, 0.75F);
+    for (std::size_t i = 0; i < xyz.size(); ++i) wide[i / 3 * stride + i % 3] = xyz[i];
+    const auto last = wide.size() - stride + 3;
+    CloudView cloud{std::span(wide).first(last), {}, TableScene::kWidth, TableScene::kHeight};
+    cloud.stride = stride;
+    EXPECT_EQ(segment(cloud).labels, expected.labels) << stride;
+    cloud.xyz = wide;  // what follows the last z is no part of it
+    ph::test::expect_error(ErrorKind::bad_data, "floats, expected", [&] { segment(cloud); });
+  }
+  CloudView cloud{xyz, {}};
+  cloud.stride = 2;
+  ph::test::expect_error(ErrorKind::bad_data, "found a stride of 2", [&] { segment(cloud); });
 }
 
 TEST(Pipeline, OptionsOutOfRange) {

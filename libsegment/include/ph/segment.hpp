@@ -20,13 +20,18 @@ namespace ph::segment {
 
 /// What the pipeline reads of a cloud: plain arrays, owned by someone else.
 struct CloudView {
-  std::span<const float> xyz;  ///< x, y, z of each point; one not finite: a hole, label 0
-  Vec3 viewpoint{};            ///< where the sensor stood, in the coordinates of the points
+  /// x, y, z of each point, from the first x to the last z; one not finite: a hole, label 0.
+  std::span<const float> xyz;
+  Vec3 viewpoint{};  ///< where the sensor stood, in the coordinates of the points
   Index width = 0;   ///< columns of an organised cloud; 0: it is not organised, all in one row
   Index height = 1;  ///< its rows; width * height is the number of points
+  std::size_t stride = 3;  ///< floats from one point to the next, >= 3
 
+  std::size_t size() const { return xyz.empty() ? 0 : (xyz.size() - 3) / stride + 1; }
+  /// x, y, z of point i.
+  const float* point(std::size_t i) const { return &xyz[i * stride]; }
   bool organised() const { return width > 0 && height > 0; }
-  Index columns() const { return organised() ? width : static_cast<Index>(xyz.size() / 3); }
+  Index columns() const { return organised() ? width : static_cast<Index>(size()); }
   Index rows() const { return organised() ? height : 1; }
 };
 

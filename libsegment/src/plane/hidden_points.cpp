@@ -44,7 +44,7 @@ PlaneSight sight_past(const CloudView& cloud, const std::vector<Index>& points, 
       through;  // where the line of sight to a point behind meets the plane
   std::size_t before = 0;
   for (std::size_t k = 0; k < points.size(); k += step) {
-    const float* p = &cloud.xyz[3 * static_cast<std::size_t>(points[k])];
+    const float* p = cloud.point(static_cast<std::size_t>(points[k]));
     const double height = plane.signed_distance(p[0], p[1], p[2]);
     const double limit = margin(cloud, p);
     if (std::abs(height) <= limit) {

@@ -59,7 +59,7 @@ Sample draw_sample(const CloudView& cloud, const std::vector<Index>& points) {
     const auto limit = all ? UINT64_MAX : static_cast<std::uint64_t>(std::ldexp(share, 64));
     drawn.clear();
     for (const Index i : points) {
-      const float* p = &cloud.xyz[3 * static_cast<std::size_t>(i)];
+      const float* p = cloud.point(static_cast<std::size_t>(i));
       const std::uint64_t hash = hash_of(p);
       if (hash <= limit) drawn.push_back({hash, p[0], p[1], p[2]});
     }
@@ -229,7 +229,7 @@ Cleared remove_plane(const CloudView& cloud, const std::vector<Index>& points, c
   Cleared cleared{std::vector<Index>(points.size()), {}};
   std::size_t beyond = 0;
   for (const Index i : points) {
-    const float* p = &cloud.xyz[3 * static_cast<std::size_t>(i)];
+    const float* p = cloud.point(static_cast<std::size_t>(i));
     const double height = plane.signed_distance(p[0], p[1], p[2]);
     if (height <= lowest) continue;  // most points, and those that come next, too
     const double limit = margin(cloud, p);

@@ -111,7 +111,7 @@ Sightings sightings_of(const CloudView& cloud, Frame& frame) {
   Eigen::Vector2d middle_pixel = Eigen::Vector2d::Zero();
   for (Index row = step / 2; row < rows; row += step) {
     for (Index column = step / 2; column < columns; column += step) {
-      const float* p = &cloud.xyz[3 * static_cast<std::size_t>(row * columns + column)];
+      const float* p = cloud.point(static_cast<std::size_t>(row * columns + column));
       const Sighting s{{p[0], p[1], p[2]}, {static_cast<double>(column), static_cast<double>(row)}};
       if (!s.point.allFinite()) continue;
       frame.middle += s.point;

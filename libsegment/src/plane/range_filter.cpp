@@ -7,14 +7,14 @@ namespace ph::segment {
 
 std::vector<Index> range_filter(const CloudView& cloud, double max_range,
                                 const std::optional<Box>& crop) {
-  const auto size = cloud.xyz.size() / 3;
+  const auto size = cloud.size();
   const auto& [vx, vy, vz] = cloud.viewpoint;
   // Doubles hold the square of any float distance, so nothing overflows on the way.
   const double limit = max_range * max_range;
   std::vector<Index> kept(size);
   std::size_t count = 0;
   for (std::size_t i = 0; i < size; ++i) {
-    const float* p = &cloud.xyz[3 * i];
+    const float* p = cloud.point(i);
     const double dx = p[0] - vx, dy = p[1] - vy, dz = p[2] - vz;
     const double square = dx * dx + dy * dy + dz * dz;
     // A coordinate that is not finite makes the sum NaN or infinite: one test for all three.
@@ -25,7 +25,7 @@ std::vector<Index> range_filter(const CloudView& cloud, double max_range,
   kept.resize(count);
   if (crop) {
     std::erase_if(kept, [&](Index i) {
-      const float* p = &cloud.xyz[3 * static_cast<std::size_t>(i)];
+      const float* p = cloud.point(static_cast<std::size_t>(i));
       for (std::size_t axis = 0; axis < 3; ++axis) {
         if (p[axis] < crop->min[axis] || p[axis] > crop->max[axis]) return true;
       }

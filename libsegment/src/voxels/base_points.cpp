@@ -59,7 +59,7 @@ void assign_base_points(const CloudView& cloud, const std::vector<Index>& strip,
                         const PlaneMargin& margin, double side, std::vector<Index>& points,
                         VoxelGrid& grid) {
   constexpr double squares_up = 2;  // how far beyond the margin a wall may begin
-  const auto point = [&](Index i) { return &cloud.xyz[3 * static_cast<std::size_t>(i)]; };
+  const auto point = [&](Index i) { return cloud.point(static_cast<std::size_t>(i)); };
   Squares square(plane, side);
   FlatMap<Wall> walls(std::pmr::get_default_resource());
   for (std::size_t k = 0; k < points.size(); ++k) {

@@ -153,12 +153,12 @@ VoxelGrid voxel_grid(const CloudView& cloud, const std::vector<Index>& points, d
   for (std::size_t first = 0; first < points.size(); first += located.size()) {
     const std::size_t count = std::min(located.size(), points.size() - first);
     for (std::size_t k = 0; k < count; ++k)
-      located[k] = locate(&cloud.xyz[3 * static_cast<std::size_t>(points[first + k])], voxel);
+      located[k] = locate(cloud.point(static_cast<std::size_t>(points[first + k])), voxel);
     for (std::size_t k = 0; k < count; ++k) {
       const Located& p = located[k];
       if (first + k == 0 || !table[number].is_at(p.cx, p.cy, p.cz)) {
         if (!std::isfinite(p.cx + p.cy + p.cz)) {
-          const float* const at = &cloud.xyz[3 * static_cast<std::size_t>(points[first + k])];
+          const float* const at = cloud.point(static_cast<std::size_t>(points[first + k]));
           throw Error(ErrorKind::usage,
                       fmt::format("a voxel of {} is too small for point {} at ({}, {}, {})", voxel,
                                   points[first + k], at[0], at[1], at[2]));

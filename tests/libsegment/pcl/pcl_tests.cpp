@@ -34,6 +34,10 @@ TYPED_TEST(Adapter, AgreesWithPlainArrays) {
   const TableScene scene = TableScene::two_boxes();
   const auto expected = ph::segment::segment(ph::segment::CloudView{scene.xyz(), {}});
   const auto cloud = cloud_of<TypeParam>(scene);
+  const ph::segment::CloudView view = cloud_view(*cloud);
+  EXPECT_EQ(view.xyz.data(), &(*cloud)[0].x) << "a copy";
+  ASSERT_EQ(view.size(), cloud->size());
+  EXPECT_EQ(view.point(cloud->size() - 1), &cloud->back().x);
   const auto organised = segment_cloud(*cloud);
   EXPECT_EQ(organised.labels, expected.labels);
   EXPECT_EQ(organised.width, scene.kWidth);

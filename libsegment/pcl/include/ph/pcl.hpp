@@ -8,14 +8,15 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "ph/error.hpp"
 #include "ph/segment.hpp"
 
-/// Clouds of the Point Cloud Library in, its indices and labels out. Data are copied: PCL's types
-/// stay here.
+/// Clouds of the Point Cloud Library in, its indices and labels out. Clouds are read where they
+/// are; with indices their coordinates are copied. PCL's types stay here.
 namespace ph::pcl {
 
 /// The x, y, z of all points, a hole for each that is not in `indices`.
@@ -54,8 +55,7 @@ segment::Vec3 viewpoint(const ::pcl::PointCloud<PointT>& cloud) {
 /// What the pipeline reads of a cloud, with its rows and columns if they hold all points.
 /// @param xyz its `coordinates`, which live as long as the view.
 template <class PointT>
-segment::CloudView cloud_view(const ::pcl::PointCloud<PointT>& cloud,
-                              const std::vector<float>& xyz) {
+segment::CloudView cloud_view(const ::pcl::PointCloud<PointT>& cloud, std::span<const float> xyz) {
   segment::CloudView view{xyz, viewpoint(cloud)};
   if (cloud.width > 0 && std::size_t{cloud.width} * cloud.height == cloud.size()) {
     view.width = static_cast<Index>(cloud.width);
@@ -64,13 +64,29 @@ segment::CloudView cloud_view(const ::pcl::PointCloud<PointT>& cloud,
   return view;
 }
 
-/// ph::segment::segment on a PCL cloud.
+/// The same without a copy: the cloud lives as long as the view. x, y, z lie side by side in each
+/// of PCL's own types. @throws Error (usage) if they do not in this one.
+template <class PointT>
+segment::CloudView cloud_view(const ::pcl::PointCloud<PointT>& cloud) {
+  static_assert(sizeof(PointT) % sizeof(float) == 0, "points lie at whole numbers of floats");
+  if (cloud.empty()) return cloud_view(cloud, std::span<const float>());
+  const PointT& first = cloud[0];
+  if (&first.y != &first.x + 1 || &first.z != &first.x + 2)
+    throw Error(ErrorKind::usage,
+                "this type of point has no x, y, z side by side; copy the coordinates");
+  constexpr std::size_t stride = sizeof(PointT) / sizeof(float);
+  segment::CloudView view =
+      cloud_view(cloud, std::span<const float>(&first.x, (cloud.size() - 1) * stride + 3));
+  view.stride = stride;
+  return view;
+}
+
+/// ph::segment::segment on a PCL cloud, read where it is.
 template <class PointT>
 segment::Segmentation segment_cloud(const ::pcl::PointCloud<PointT>& cloud,
                                     const segment::SegmentOptions& options = {},
                                     const RunContext& context = default_context()) {
-  const std::vector<float> xyz = coordinates(cloud);
-  return segment::segment(cloud_view(cloud, xyz), options, context);
+  return segment::segment(cloud_view(cloud), options, context);
 }
 
 /// The points of each segment, by label, as PCL's segmentations give them.
@@ -230,8 +246,11 @@ class PersistenceSegmentation : public ::pcl::PCLBase<PointT> {
     clusters.clear();
     result_ = segment::Segmentation();
     if (!this->initCompute()) return;
-    const std::vector<float> xyz = coordinates(*this->input_, this->indices_.get());
-    result_ = ph::segment::segment(cloud_view(*this->input_, xyz), options_, *context_);
+    std::vector<float> chosen;  // points without an index are holes
+    if (!this->fake_indices_) chosen = coordinates(*this->input_, this->indices_.get());
+    const segment::CloudView cloud =
+        this->fake_indices_ ? cloud_view(*this->input_) : cloud_view(*this->input_, chosen);
+    result_ = ph::segment::segment(cloud, options_, *context_);
     clusters = point_indices(result_, this->input_->header);
     this->deinitCompute();
   }
