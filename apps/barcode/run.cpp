@@ -16,7 +16,6 @@
 #include "barcode/complex/load.hpp"
 #include "barcode/memory/alternatives.hpp"
 #include "barcode/memory/estimate_text.hpp"
-#include "barcode/output/adjust.hpp"
 #include "barcode/output/h0_tree.hpp"
 #include "barcode/output/outputs.hpp"
 #include "barcode/output/report.hpp"
@@ -24,6 +23,7 @@
 #include "common/arguments/numbers.hpp"
 #include "common/terminal/exit_code.hpp"
 #include "common/terminal/messages.hpp"
+#include "facade/adjust.hpp"
 #include "ph/estimate.hpp"
 #include "ph/loops.hpp"
 

@@ -6,12 +6,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
 #include <utility>
 
 #include "common/arguments/numbers.hpp"
 #include "common/run/signals.hpp"
 #include "common/terminal/messages.hpp"
+#include "core/system/machine_memory.hpp"
 
 namespace ph::app {
 Session::Session(std::string_view program, const CommonOptions& options, std::stop_token stop)
@@ -75,9 +75,7 @@ void Output::commit() {
 
 std::uint64_t peak_memory() {
   // Not what getrusage says: that includes the program that started this one.
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;)
-    if (std::uint64_t kib = 0; word == "VmHWM:" && status >> kib) return kib * 1024;
+  if (const auto peak = status_bytes("VmHWM:")) return *peak;
   rusage usage{};
   return getrusage(RUSAGE_SELF, &usage) == 0 ? static_cast<std::uint64_t>(usage.ru_maxrss) * 1024
                                              : 0;

@@ -2,12 +2,8 @@
 // A run: exit codes, limits of memory, progress.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <chrono>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <thread>
 
@@ -31,39 +27,6 @@ TEST(ExitCodes, AreThoseOfSysexits) {
   EXPECT_EQ(exit_code(ErrorKind::io), 74);
   EXPECT_EQ(exit_code(ErrorKind::resource), 75);
   EXPECT_EQ(exit_code(ErrorKind::cancelled), 130);
-}
-
-// A tree of control groups as the kernel shows it.
-class ControlGroups : public testing::Test {
- protected:
-  void SetUp() override {
-    root_ = std::filesystem::temp_directory_path() / std::to_string(getpid());
-    put("memory.max", "max\n");
-    put("a/memory.max", "5000\n");
-    put("a/b/memory.max", "9000\n");
-    put("memory/memory.limit_in_bytes", "9223372036854771712\n");
-    put("memory/c/memory.limit_in_bytes", "7000\n");
-  }
-  void TearDown() override { std::filesystem::remove_all(root_); }
-  void put(const std::string& name, const std::string& content) {
-    std::filesystem::create_directories((root_ / name).parent_path());
-    std::ofstream(root_ / name) << content;
-  }
-  std::optional<std::uint64_t> limit(const std::string& memberships) const {
-    std::istringstream lines(memberships);
-    return control_group_limit(lines, root_.string());
-  }
-  std::filesystem::path root_;
-};
-
-TEST_F(ControlGroups, TheLeastLimitAroundAProcessCounts) {
-  EXPECT_EQ(limit("0::/a/b\n"), 5000u);
-  EXPECT_EQ(limit("0::/\n"), std::nullopt) << "no limit";
-  EXPECT_EQ(limit("0::/nowhere\n"), std::nullopt);
-  EXPECT_EQ(limit("5:cpu,cpuacct:/c\n4:hugetlb,memory:/c\n"), 7000u);
-  EXPECT_EQ(limit("4:memory:/c/d\n0::/a\n"), 5000u);
-  EXPECT_EQ(limit("4:memory:/other\n"), 9223372036854771712u);
-  EXPECT_EQ(limit("garbage\n\n"), std::nullopt);
 }
 
 TEST(Session, PassesOptionsOn) {

@@ -5,7 +5,7 @@
 #include "ph/loop.hpp"
 #include "ph/persistence.hpp"
 
-namespace ph::barcode {
+namespace ph {
 
 /// The barcode with vertices named as in an input of which some points were left out: vertex v
 /// becomes ids[v]. The bars keep their places. Precondition: the ids ascend.
@@ -20,4 +20,4 @@ void name_points(std::vector<BarLoops>& loops, const std::vector<Index>& ids);
 Barcode cut_at(const Barcode& barcode, const AnyComplex& complex, double threshold,
                double min_persistence);
 
-}  // namespace ph::barcode
+}  // namespace ph

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/output/adjust.hpp"
+#include "facade/adjust.hpp"
 
 #include <fmt/format.h>
 
 #include <functional>
 #include <set>
 
-namespace ph::barcode {
+namespace ph {
 namespace {
 
 using Numbers = std::vector<Index>;
@@ -117,4 +117,4 @@ Barcode cut_at(const Barcode& barcode, const AnyComplex& complex, double thresho
   return result;
 }
 
-}  // namespace ph::barcode
+}  // namespace ph
