@@ -65,10 +65,4 @@ foreach(library ZLIB PNG FREETYPE)
   set(${library}_LIBRARY_RELEASE ${PH_ARCHIVE_${library}})
 endforeach()
 
-# Debian has fmt as a shared library and as headers only.
-find_package(fmt 9 REQUIRED)
-add_library(ph_fmt STATIC ${CMAKE_CURRENT_LIST_DIR}/fmt_functions.cpp)
-ph_position_independent(ph_fmt)
-target_compile_options(ph_fmt PRIVATE -w -ffunction-sections -fkeep-inline-functions)
-target_link_libraries(ph_fmt PRIVATE fmt::fmt-header-only)
-set(PH_FMT $<BUILD_INTERFACE:ph_fmt> $<INSTALL_INTERFACE:fmt::fmt>)
+include(${CMAKE_CURRENT_LIST_DIR}/static_fmt.cmake)

@@ -1,0 +1,9 @@
+# SPDX-License-Identifier: MIT
+# Sets PH_FMT, what to link for fmt, to an archive: Debian has fmt as a shared library and as headers
+# only.
+find_package(fmt 9 REQUIRED)
+add_library(ph_fmt STATIC ${CMAKE_CURRENT_LIST_DIR}/fmt_functions.cpp)
+ph_position_independent(ph_fmt)
+target_compile_options(ph_fmt PRIVATE -w -ffunction-sections -fkeep-inline-functions)
+target_link_libraries(ph_fmt PRIVATE fmt::fmt-header-only)
+set(PH_FMT $<BUILD_INTERFACE:ph_fmt> $<INSTALL_INTERFACE:fmt::fmt>)

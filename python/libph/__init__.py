@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: MIT
+"""Persistent homology of points, distances, images, meshes and filtered complexes.
+
+>>> import libph as ph
+>>> bars = ph.rips([[0, 0], [1, 0], [1, 1], [0, 1]])
+>>> bars.dgm(1)
+array([[1.        , 1.41421356]])
+
+Computations release the GIL, and stop on Ctrl-C. All of them take these keywords:
+
+threads : int
+    How many threads to use. Default: one for each core. What is computed does not depend on it.
+memory_limit : int or str
+    Bytes, or "4GiB", that the computation may take; beyond, it ends in a `MemoryLimitError`.
+    Default: 90 % of what the machine, or the control group, has left.
+progress : bool or callable
+    True: a bar, if tqdm is installed. A callable is told ``(stage, done, total)`` at most ten times
+    a second; `total` is 0 where it is not known. What it raises stops the computation.
+timeout : float
+    Seconds; beyond, the computation ends in a `Timeout`.
+stop : threading.Event
+    Once it is set, the computation ends in `Cancelled`.
+
+The data must not change while a computation runs. `limits` sets defaults for a block of code.
+"""
+from ._barcode import Bar, Barcode, Chain, Loop
+from ._compute import boundary, cubical, filtered, lower_star, rips
+from ._core import version as __version__
+from ._diagrams import bottleneck
+from ._errors import (Cancelled, DataError, Error, InternalError, MemoryLimitError,
+                      MissingInputError, NotBuiltIn, OutputError, Timeout, UsageError)
+from ._estimate import Estimate, estimate
+from ._files import Boundary, Mesh, Simplices, read, read_barcode
+from ._points import Subsample, collapse, distance_to_measure, farthest_points, point_image
+from ._requests import PointImage
+from ._run import limits
+from ._trees import MergeTree, merge_tree
+
+__all__ = [
+    "Bar", "Barcode", "Boundary", "Cancelled", "Chain", "DataError", "Error", "Estimate",
+    "InternalError", "Loop", "MemoryLimitError", "MergeTree", "Mesh", "MissingInputError",
+    "NotBuiltIn", "OutputError", "PointImage", "Simplices", "Subsample", "Timeout", "UsageError",
+    "__version__", "bottleneck", "boundary", "collapse", "cubical", "distance_to_measure",
+    "estimate", "farthest_points", "filtered", "limits", "lower_star", "merge_tree", "point_image",
+    "read", "read_barcode", "rips",
+]

@@ -1,0 +1,250 @@
+# SPDX-License-Identifier: MIT
+"""Arrays of users: taken as they are where that can be, converted with checks, or refused in words.
+
+Nothing here writes to what it is given.
+"""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._errors import DataError, UsageError
+
+_LARGEST = 2**53  # all whole numbers up to it are doubles
+_WORDS = {"c": "complex numbers, expected real ones; take .real or abs()",
+          "M": "dates, expected numbers", "m": "times, expected numbers; divide by a unit",
+          "U": "text, expected numbers; .astype(float) reads it",
+          "S": "bytes, expected numbers; .astype(float) reads them",
+          "V": "records of several fields, expected numbers; choose the fields"}
+
+
+def place_of(index: Sequence[int]) -> str:
+    """Where a number stands, in words.
+
+    >>> place_of((3, 1))
+    'row 3, column 1'
+    """
+    if len(index) == 1:
+        return f"entry {index[0]}"
+    if len(index) == 2:
+        return f"row {index[0]}, column {index[1]}"
+    return "index (" + ", ".join(map(str, index)) + ")"
+
+
+def is_sparse(data: Any) -> bool:
+    """Whether it is a matrix or array of scipy.sparse."""
+    return hasattr(data, "tocoo") and hasattr(data, "nnz")
+
+
+def as_array(data: Any, name: str) -> NDArray[Any]:
+    """The data as an array of real numbers, without a copy if they lie in memory as such.
+
+    Takes arrays, whatever has the buffer protocol, `__array__` or DLPack, and nested lists.
+    """
+    if type(data) is np.ndarray:
+        array = data
+    elif is_sparse(data):
+        raise UsageError(f"{name}: found a sparse matrix, expected an array; .toarray() makes one")
+    elif isinstance(data, np.ma.MaskedArray):
+        array = _without_mask(data, name)
+    else:
+        array = _converted(data, name)
+    kind = array.dtype.kind
+    if kind == "O":
+        return _numbers_of_objects(array, name)
+    if kind in _WORDS:
+        raise DataError(f"{name}: found {_WORDS[kind]}")
+    return array
+
+
+def _converted(data: Any, name: str) -> NDArray[Any]:
+    if data is None or isinstance(data, (str, bytes, dict, set, frozenset)):
+        raise UsageError(f"{name}: found {type(data).__name__}, expected an array of numbers")
+    if hasattr(data, "detach") and callable(data.detach):  # a tensor that knows its gradient
+        data = data.detach()
+    try:
+        if not hasattr(data, "__array__") and hasattr(data, "__dlpack__"):
+            return np.from_dlpack(data)
+        array = np.asarray(data)
+    except (KeyboardInterrupt, MemoryError):
+        raise
+    except Exception as error:  # what foreign objects raise
+        raise DataError(f"{name}: {_ragged(data) or f'found no array of numbers: {error}'}") from None
+    if array.dtype.kind == "O" and array.ndim == 0:
+        raise UsageError(f"{name}: found {type(data).__name__}, expected an array of numbers")
+    if array.dtype.kind == "O" and isinstance(data, (list, tuple)) and _ragged(data):
+        raise DataError(f"{name}: {_ragged(data)}")
+    return array
+
+
+def _ragged(data: Any) -> str:
+    """What is ragged about nested lists; empty: nothing."""
+    if not isinstance(data, (list, tuple)):
+        return ""
+    lengths = [len(row) if hasattr(row, "__len__") and not isinstance(row, str) else None
+               for row in data]
+    for i, length in enumerate(lengths):
+        if length != lengths[0]:
+            counts = ["one number" if n is None else f"{n} numbers" for n in (length, lengths[0])]
+            return f"row {i}: found {counts[0]}, expected {counts[1]} as in row 0"
+    return ""
+
+
+def _without_mask(data: np.ma.MaskedArray, name: str) -> NDArray[Any]:
+    """Masked numbers become NaN."""
+    if not np.ma.is_masked(data):
+        return np.ma.getdata(data)
+    if data.dtype.kind not in "biuf":
+        raise DataError(f"{name}: found masked entries of type {data.dtype}, expected numbers")
+    return as_float64(np.ma.getdata(data), name, np.ma.getmaskarray(data))
+
+
+def _numbers_of_objects(array: NDArray[Any], name: str) -> NDArray[np.float64]:
+    """Objects that are real numbers each: Fraction, Decimal, Python's large integers, pandas' NA."""
+    numbers = np.empty(array.shape, dtype=np.float64)
+    for index in np.ndindex(array.shape):
+        value = array[index]
+        try:
+            if isinstance(value, (str, bytes, complex, np.complexfloating)):
+                raise TypeError
+            number = float("nan") if value is None or type(value).__name__ in ("NAType", "NaTType") \
+                else float(value)
+        except OverflowError:
+            raise DataError(f"{name}: {place_of(index)}: found a number beyond the range of "
+                            "float64") from None
+        except Exception:  # what foreign objects raise
+            raise DataError(f"{name}: {place_of(index)}: found {type(value).__name__}, expected a "
+                            "number") from None
+        if isinstance(value, int) and abs(value) > _LARGEST:
+            raise _too_large(name, index, value)
+        numbers[index] = number
+    return numbers
+
+
+def _too_large(name: str, index: Sequence[int], value: Any) -> DataError:
+    return DataError(f"{name}: {place_of(index)}: found {value}, expected whole numbers of at most "
+                     "2**53, which float64 holds exactly; .astype(float) rounds them")
+
+
+def as_float64(array: NDArray[Any], name: str, mask: NDArray[np.bool_] | None = None
+               ) -> NDArray[np.float64]:
+    """The same numbers in float64 of this machine: the array itself where they are.
+
+    Where `mask` is true there will be NaN.
+    """
+    kind, size = array.dtype.kind, array.dtype.itemsize
+    if mask is None and array.dtype == np.float64 and array.dtype.isnative and is_aligned(array):
+        return array
+    if kind in "iu" and size == 8:
+        beyond = array > _LARGEST
+        if kind == "i":
+            beyond |= array < -_LARGEST
+        if mask is not None:
+            beyond &= ~mask
+        if beyond.any():
+            index = np.unravel_index(int(np.argmax(beyond)), array.shape)
+            raise _too_large(name, [int(i) for i in index], array[index])
+    with np.errstate(over="ignore"):
+        numbers = array.astype(np.float64)
+    if kind == "f" and size > 8:
+        lost = np.isinf(numbers) & ~np.isinf(array)
+        if lost.any():
+            index = np.unravel_index(int(np.argmax(lost)), array.shape)
+            raise DataError(f"{name}: {place_of([int(i) for i in index])}: found a number beyond "
+                            "the range of float64")
+    if mask is not None:
+        numbers[mask] = np.nan
+    return numbers
+
+
+def is_aligned(array: NDArray[Any]) -> bool:
+    """Whether all numbers lie as the machine wants them, steps between them included."""
+    return array.flags.aligned and all(step % array.itemsize == 0 for step in array.strides)
+
+
+def as_points(data: Any, name: str = "X") -> NDArray[np.float64]:
+    """Points, one a row."""
+    array = as_array(data, name)
+    if array.ndim != 2:
+        if array.size == 0 and array.ndim == 1:
+            return np.empty((0, 0))
+        hint = {0: "", 1: "; .reshape(-1, 1) makes each number a point, metric='precomputed' "
+                          "reads condensed distances"}.get(array.ndim, "; ph.cubical takes images")
+        raise UsageError(f"{name}: found an array of shape {array.shape}, expected (points, "
+                         f"coordinates){hint}")
+    return as_float64(array, name)
+
+
+def as_distances(data: Any, name: str = "X") -> NDArray[Any]:
+    """Distances in float32 or float64, square or condensed."""
+    array = as_array(data, name)
+    if array.ndim not in (1, 2) or (array.ndim == 2 and array.shape[0] != array.shape[1]):
+        raise UsageError(f"{name}: found an array of shape {array.shape}, expected distances: a "
+                         "square matrix, or n(n-1)/2 numbers as scipy.spatial.distance.pdist gives "
+                         "them")
+    if array.dtype == np.float32 and array.dtype.isnative and is_aligned(array):
+        return array
+    return as_float64(array, name)
+
+
+def as_image(data: Any, name: str = "image") -> NDArray[Any]:
+    """An image in one of the types that libph keeps: uint8, uint16, int16, float32, float64."""
+    array = as_array(data, name)
+    if not 1 <= array.ndim <= 8:
+        raise UsageError(f"{name}: found an array of shape {array.shape}, expected 1 to 8 axes")
+    kind, size = array.dtype.kind, array.dtype.itemsize
+    if kind == "b":
+        return array.view(np.uint8)
+    if (kind, size) in (("u", 1), ("u", 2), ("i", 2), ("f", 4), ("f", 8)):
+        if array.dtype.isnative and is_aligned(array):
+            return array
+        return array.astype(array.dtype.newbyteorder("="))
+    if (kind, size) == ("i", 1):
+        return array.astype(np.int16)
+    if (kind, size) == ("f", 2):
+        return array.astype(np.float32)
+    return as_float64(array, name)
+
+
+def as_values(data: Any, name: str, count: int | None = None, of: str = "number"
+              ) -> NDArray[np.float64]:
+    """Numbers of one axis, side by side; `count` of them."""
+    array = as_array(data, name)
+    if array.ndim != 1 or (count is not None and array.shape[0] != count):
+        expected = "one axis" if count is None else f"{count} numbers, one for each {of}"
+        raise UsageError(f"{name}: found an array of shape {array.shape}, expected {expected}")
+    return np.ascontiguousarray(as_float64(array, name))
+
+
+def as_integers(data: Any, name: str) -> NDArray[np.int64]:
+    """Whole numbers as int64, of any shape, in C order."""
+    array = as_array(data, name)
+    if array.dtype.kind == "f":
+        with np.errstate(invalid="ignore"):
+            numbers = array.astype(np.int64)
+        wrong = (numbers != array) | (np.abs(array) > _LARGEST)
+    elif array.dtype.kind == "u" and array.dtype.itemsize == 8:
+        numbers, wrong = array.astype(np.int64), array > np.uint64(2**63 - 1)
+    elif array.dtype.kind in "iu":
+        return np.ascontiguousarray(array, dtype=np.int64)
+    else:
+        raise DataError(f"{name}: found {array.dtype.name}, expected whole numbers")
+    if wrong.any():
+        index = np.unravel_index(int(np.argmax(wrong)), array.shape)
+        raise DataError(f"{name}: {place_of([int(i) for i in index])}: found {array[index]}, "
+                        "expected a whole number")
+    return np.ascontiguousarray(numbers)
+
+
+def is_mapped_file(array: NDArray[Any]) -> bool:
+    """Whether it lies in a file that is mapped read-only, which may leave the memory meanwhile."""
+    if not isinstance(array, np.memmap) or array.mode != "r":
+        return False
+    import mmap
+    base: Any = array
+    while isinstance(base, np.ndarray):
+        base = base.base
+    return isinstance(base, mmap.mmap)

@@ -1,0 +1,553 @@
+# SPDX-License-Identifier: MIT
+"""Barcodes: the result of persistent homology."""
+from __future__ import annotations
+
+import html
+import os
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _arrays, _core, _options, _run
+from ._errors import UsageError
+
+if TYPE_CHECKING:
+    import pandas
+    from matplotlib.axes import Axes
+
+# As the bars lie in _core.
+_BAR = np.dtype({"names": ["dim", "birth", "death"], "formats": ["i4", "f8", "f8"],
+                 "offsets": [0, 8, 16], "itemsize": 24})
+_STATE_VERSION = 1
+
+
+class Bar(NamedTuple):
+    """A class of H_dim that is born at `birth` and is zero from `death` on."""
+
+    dim: int
+    birth: float
+    death: float
+
+    @property
+    def persistence(self) -> float:
+        """The length of the bar."""
+        return self.death - self.birth if self.birth != self.death else 0.0
+
+
+class Loop(NamedTuple):
+    """A closed walk along edges, the last vertex joined to the first.
+
+    Attributes
+    ----------
+    vertices : ndarray
+        Numbers of points, in order; of images their doubled grid coordinates, a row each.
+    coefficient : int
+        How often the walk counts in the chain.
+    length : float or None
+        The sum of the values of its edges, if they are lengths.
+    """
+
+    vertices: NDArray[np.int64]
+    coefficient: int
+    length: float | None
+
+
+class Chain:
+    """A cycle or cocycle: cells of the input, each with its coefficient.
+
+    Attributes
+    ----------
+    cells : ndarray
+        A cell a row: its vertices, ascending; of images its doubled grid coordinates.
+    coefficients : ndarray
+        Between -p/2 and p/2; always 1 over Z/2.
+    """
+
+    __slots__ = ("_bars", "_found", "_i", "cells", "coefficients")
+
+    def __init__(self, bars: _core.Bars, i: int) -> None:
+        cells, coefficients = bars.chain(i)
+        self.cells: NDArray[np.int64] = np.asarray(cells)
+        self.coefficients: NDArray[np.int64] = np.asarray(coefficients)
+        self._bars, self._i = bars, i
+        self._found: tuple[list[Loop], str] | None = None
+
+    def __len__(self) -> int:
+        return len(self.coefficients)
+
+    def __repr__(self) -> str:
+        return f"Chain({len(self)} cells)"
+
+    def loops(self) -> list[Loop]:
+        """The loops of a cycle of H1: with their coefficients they sum to a cycle of the class.
+
+        Raises
+        ------
+        UsageError
+            If the chain is no cycle of edges.
+        """
+        return self._loops_found()[0]
+
+    @property
+    def tightness(self) -> str:
+        """What is known of the length of its loops: "no", "locally" or "shortest"."""
+        return self._loops_found()[1]
+
+    def _loops_found(self) -> tuple[list[Loop], str]:
+        if self._found is None:
+            if self._bars.representatives == _core.Representatives.cocycles:
+                raise UsageError("loops: found a cocycle, expected representatives='cycles'")
+            if self._bars.cell_kind == "row":
+                raise UsageError("loops: found rows of a boundary matrix, expected edges with "
+                                 "vertices")
+            loops, tightness = self._bars.loops(self._i)
+            of_points = self._bars.cell_kind == "vertices"
+            self._found = [Loop(np.asarray(vertices)[:, 0] if of_points else np.asarray(vertices),
+                                coefficient, length)
+                           for vertices, coefficient, length in loops], tightness
+        return self._found
+
+    def loop(self) -> NDArray[np.int64]:
+        """The vertices of the first loop, in order: of most cycles the only one."""
+        loops = self.loops()
+        if not loops:
+            raise UsageError("loop: found a chain without edges, expected a cycle of H1")
+        return loops[0].vertices
+
+    def to_dense(self, n: int) -> NDArray[np.int64]:
+        """The chain as an array with an axis of `n` vertices for each vertex of a cell.
+
+        The coefficient of the cell [u < v < ...] is at [u, v, ...].
+        """
+        if self._bars.cell_kind != "vertices":
+            raise UsageError("to_dense: found cells of a grid or a matrix, expected vertices")
+        least = int(self.cells.max()) + 1 if self.cells.size else 0
+        dense = np.zeros((_options.whole("n", n, least),) * self.cells.shape[1], dtype=np.int64)
+        dense[tuple(self.cells.T)] = self.coefficients
+        return dense
+
+
+class Meta(Mapping[str, Any]):
+    """Where a barcode comes from: a dictionary that cannot be changed."""
+
+    __slots__ = ("_items",)
+
+    def __init__(self, items: Mapping[str, Any]) -> None:
+        self._items = dict(items)
+
+    def __getitem__(self, name: str) -> Any:
+        return self._items[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._items)
+
+    def __len__(self) -> int:
+        return len(self._items)
+
+    def __hash__(self) -> int:
+        return hash(frozenset(self._items.items()))
+
+    def __repr__(self) -> str:
+        return f"Meta({self._items!r})"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (Meta, (self._items,))
+
+
+class Barcode(Sequence[Bar]):
+    """The result of persistent homology: bars, ordered by dimension, birth and death.
+
+    A sequence of `Bar` that cannot be changed, with arrays of the same. Barcodes are equal if their
+    bars are. Those that never die have the death ``inf``.
+
+    Attributes
+    ----------
+    dims, births, deaths : ndarray
+        Of each bar; read-only.
+    meta : Mapping
+        Where it comes from: `complex`, `field`, `max_dim`, `threshold`, `engine`, and what else is
+        known, as the number of `points` or the `shape` of the image.
+    """
+
+    __slots__ = ("_bars", "_values", "meta", "__weakref__")
+
+    meta: Mapping[str, Any]
+
+    def __init__(self) -> None:
+        raise TypeError("a Barcode is made by ph.rips, ph.cubical and the like, and ph.read_barcode")
+
+    @classmethod
+    def _of(cls, bars: _core.Bars, meta: Mapping[str, Any]) -> Barcode:
+        """With what was found out while they were computed."""
+        facts = bars.facts
+        known = {"max_dim": facts.max_dim, "threshold": facts.threshold, "engine": facts.engine,
+                 "collapsed": facts.collapses or None, "vertices": facts.vertices,
+                 "edges": facts.edges, "covering_radius": facts.covering_radius,
+                 "version": _core.version}
+        return cls._made(bars, {**meta, **{k: v for k, v in known.items() if v is not None}})
+
+    @classmethod
+    def _made(cls, bars: _core.Bars, meta: Mapping[str, Any]) -> Barcode:
+        self = object.__new__(cls)
+        self._bars = bars
+        self._values = None
+        self.meta = meta if isinstance(meta, Meta) else Meta(meta)
+        return self
+
+    # ---- the sequence
+
+    def __len__(self) -> int:
+        return len(self._bars)
+
+    @overload
+    def __getitem__(self, i: int) -> Bar: ...
+    @overload
+    def __getitem__(self, i: slice) -> Barcode: ...
+
+    def __getitem__(self, i: int | slice) -> Bar | Barcode:
+        if isinstance(i, slice):
+            return self._selected(np.sort(np.arange(len(self))[i]))
+        return Bar(*self._records[i].item())
+
+    def __iter__(self) -> Iterator[Bar]:
+        return map(Bar._make, self._records.tolist())
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Barcode):
+            return NotImplemented
+        return bool(len(self) == len(other) and all(
+            np.array_equal(mine, its) for mine, its in zip(self._arrays, other._arrays)))
+
+    def __hash__(self) -> int:
+        return hash(tuple(array.tobytes() for array in self._arrays))
+
+    def __copy__(self) -> Barcode:
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Barcode:
+        return self
+
+    # ---- arrays
+
+    @property
+    def _records(self) -> NDArray[Any]:
+        return np.frombuffer(self._bars, _BAR) if len(self._bars) else np.empty(0, _BAR)
+
+    @property
+    def _arrays(self) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
+        if self._values is None:
+            records = self._records
+            arrays = (records["dim"].astype(np.int64), records["birth"].copy(),
+                      records["death"].copy())
+            for array in arrays:
+                array.flags.writeable = False
+            self._values = arrays
+        return self._values
+
+    @property
+    def dims(self) -> NDArray[np.int64]:
+        """The dimension of each bar."""
+        return self._arrays[0]
+
+    @property
+    def births(self) -> NDArray[np.float64]:
+        """The birth of each bar."""
+        return self._arrays[1]
+
+    @property
+    def deaths(self) -> NDArray[np.float64]:
+        """The death of each bar, inf for one that never dies."""
+        return self._arrays[2]
+
+    def _range(self, dim: int) -> slice:
+        """The places of the bars of a dimension."""
+        first, last = np.searchsorted(self.dims, [dim, dim + 1])
+        return slice(int(first), int(last))
+
+    @property
+    def _top_dim(self) -> int:
+        """The highest dimension that was asked for, or of which there is a bar."""
+        known = self.meta.get("max_dim", -1)
+        return max(known, int(self.dims[-1])) if len(self) else known
+
+    def dgm(self, dim: int) -> NDArray[np.float64]:
+        """The bars of one dimension, a fresh array of rows birth, death.
+
+        >>> ph.rips([[0], [1]]).dgm(0)
+        array([[ 0.,  1.],
+               [ 0., inf]])
+        """
+        places = self._range(_options.whole("dim", dim, 0))
+        rows = np.empty((places.stop - places.start, 2))
+        rows[:, 0] = self.births[places]
+        rows[:, 1] = self.deaths[places]
+        return rows
+
+    def dgms(self) -> list[NDArray[np.float64]]:
+        """The bars of all dimensions, as `dgm`."""
+        return [self.dgm(dim) for dim in range(self._top_dim + 1)]
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
+        if copy is False:
+            raise ValueError("a Barcode becomes an array by a copy")
+        rows = np.column_stack(self._arrays)
+        return rows if dtype is None else rows.astype(dtype, copy=False)
+
+    def to_numpy(self, layout: str = "dim-birth-death") -> Any:
+        """The bars in the layout of another program.
+
+        Parameters
+        ----------
+        layout : {"dim-birth-death", "giotto", "ripser", "gudhi"}
+            Rows dim, birth, death; rows birth, death, dim of giotto-tda; the list of arrays of
+            ripser.py, H0 by death and others by descending birth; the list of (dim, (birth,
+            death)) of GUDHI, dimensions descending, the longest first.
+        """
+        _options.choice("layout", layout, ["dim-birth-death", "giotto", "ripser", "gudhi"])
+        dims, births, deaths = self._arrays
+        if layout == "giotto":
+            return np.column_stack([births, deaths, dims])
+        if layout == "ripser":
+            dgms = self.dgms()
+            return [dgm[np.lexsort((-dgm[:, 1], -dgm[:, 0]) if dim else (dgm[:, 0], dgm[:, 1]))]
+                    for dim, dgm in enumerate(dgms)]
+        if layout == "gudhi":
+            order = np.lexsort((births, births - deaths, -dims))
+            return [(int(dims[i]), (float(births[i]), float(deaths[i]))) for i in order]
+        return np.asarray(self)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table with the columns dim, birth, death."""
+        import pandas
+        return pandas.DataFrame(dict(zip(("dim", "birth", "death"), map(np.array, self._arrays))))
+
+    # ---- cells and chains
+
+    def birth_cells(self, dim: int) -> NDArray[np.int64]:
+        """The cell that gave birth to each bar of a dimension, a row each.
+
+        Vertices, ascending; of images doubled grid coordinates; rows of a boundary matrix.
+        """
+        return np.asarray(self._bars.birth_cells(self._dim_of_cells(dim)))
+
+    def death_cells(self, dim: int) -> NDArray[np.int64]:
+        """The cell that killed each bar of a dimension; -1 in all places if it never dies."""
+        return np.asarray(self._bars.death_cells(self._dim_of_cells(dim)))
+
+    def _dim_of_cells(self, dim: int) -> int:
+        if not self._bars.has_cells:
+            raise UsageError("cells: found none, expected a barcode computed with cells=True")
+        return _options.whole("dim", dim, 0, 2**31 - 2)
+
+    def _place(self, i: Any) -> int:
+        place = _options.whole("i", i, -len(self), len(self) - 1)
+        return place + len(self) if place < 0 else place
+
+    def representative(self, i: int) -> Chain:
+        """The cycle or cocycle of bar i, as asked for by `representatives`.
+
+        Examples
+        --------
+        >>> square = [[0, 0], [1, 0], [1, 1], [0, 1]]
+        >>> bars = ph.rips(square, representatives="cycles")
+        >>> bars.representative(bars.longest(1)).loop()
+        array([0, 1, 2, 3])
+        """
+        if self._bars.representatives == _core.Representatives.none and len(self):
+            raise UsageError("representative: found none, expected a barcode computed with "
+                             "representatives='cycles' or 'cocycles'")
+        return Chain(self._bars, self._place(i))
+
+    def _require_voxels(self) -> tuple[int, ...]:
+        shape = self.meta.get("shape")
+        if self._bars.representatives != _core.Representatives.voxels or shape is None:
+            raise UsageError("voxels: found none, expected a barcode of an image computed with "
+                             "representatives='voxels'")
+        return tuple(shape)
+
+    def voxels(self, i: int) -> NDArray[np.bool_]:
+        """A mask of the image: the component or hollow of bar i.
+
+        Bars of other dimensions have a cycle in its place, and no voxel is true.
+        """
+        mask = np.zeros(self._require_voxels(), dtype=bool)
+        mask.reshape(-1)[np.asarray(self._bars.voxels(self._place(i)))] = True
+        return mask
+
+    def birth_voxel(self, i: int) -> tuple[int, ...]:
+        """The voxel whose value is the birth of bar i."""
+        self._require_voxels()
+        return tuple(np.asarray(self._bars.birth_voxel(self._place(i))).tolist())
+
+    def death_voxel(self, i: int) -> tuple[int, ...] | None:
+        """The voxel whose value is the death of bar i; None if it never dies."""
+        self._require_voxels()
+        return tuple(np.asarray(self._bars.death_voxel(self._place(i))).tolist()) or None
+
+    # ---- selections
+
+    def _selected(self, places: NDArray[Any]) -> Barcode:
+        return Barcode._made(self._bars.selected(np.ascontiguousarray(places, dtype=np.int64)),
+                             self.meta)
+
+    @overload
+    def longest(self, dim: int) -> int: ...
+    @overload
+    def longest(self, dim: int, n: int) -> NDArray[np.int64]: ...
+
+    def longest(self, dim: int, n: int | None = None) -> int | NDArray[np.int64]:
+        """The place of the longest bar of a dimension, or those of the `n` longest.
+
+        Bars that never die come first, then the longest; the first among equals.
+        """
+        places = self._range(_options.whole("dim", dim, 0))
+        births, deaths = self.births[places], self.deaths[places]
+        lengths = np.where(deaths == births, 0, deaths - births)
+        order = np.argsort(-lengths, kind="stable") + places.start
+        if n is not None:
+            return order[:_options.whole("n", n, 0)]
+        if not len(order):
+            raise UsageError(f"longest: found no bar of dimension {dim}")
+        return int(order[0])
+
+    def filter(self, *, dim: int | Iterable[int] | None = None,
+               min_persistence: float | None = None, born_before: float | None = None) -> Barcode:
+        """Some of the bars, with all that belongs to them.
+
+        Parameters
+        ----------
+        dim : int or iterable of int, optional
+            Their dimension, or some.
+        min_persistence : float, optional
+            Bars with death - birth <= this are left out.
+        born_before : float, optional
+            Bars born at this value or later are left out.
+        """
+        dims, births, deaths = self._arrays
+        keep = np.ones(len(self), dtype=bool)
+        if dim is not None:
+            wanted = list(dim) if isinstance(dim, Iterable) else [dim]
+            keep &= np.isin(dims, [_options.whole("dim", d, 0) for d in wanted])
+        if min_persistence is not None:
+            least = _options.real("min_persistence", min_persistence)
+            keep &= np.where(deaths == births, 0, deaths - births) > least
+        if born_before is not None:
+            keep &= births < _options.real("born_before", born_before)
+        return self._selected(np.flatnonzero(keep))
+
+    # ---- summaries
+
+    def betti(self, t: float) -> NDArray[np.int64]:
+        """The Betti numbers at a value: how many bars of each dimension live."""
+        return self.betti_curve([_options.real("t", t)])[:, 0]
+
+    def betti_curve(self, grid: ArrayLike) -> NDArray[np.int64]:
+        """The Betti numbers at each value of a grid, a row for each dimension.
+
+        >>> ph.rips([[0], [1], [3]]).betti_curve([0, 1, 2])
+        array([[3, 2, 1],
+               [0, 0, 0]])
+        """
+        values = _arrays.as_values(grid, "grid")
+        curves = np.empty((self._top_dim + 1, len(values)), dtype=np.int64)
+        for dim in range(self._top_dim + 1):
+            places = self._range(dim)
+            born = np.searchsorted(self.births[places], values, side="right")
+            died = np.searchsorted(np.sort(self.deaths[places]), values, side="right")
+            curves[dim] = born - died
+        return curves
+
+    def entropy(self, dim: int) -> float:
+        """The persistent entropy of a dimension: of the lengths of bars that die, in nats."""
+        places = self._range(_options.whole("dim", dim, 0))
+        lengths = self.deaths[places] - self.births[places]
+        lengths = lengths[np.isfinite(lengths) & (lengths > 0)]
+        if not len(lengths):
+            return 0.0
+        share = lengths / lengths.sum()
+        return float(-(share * np.log(share)).sum())
+
+    # ---- output
+
+    def save(self, path: str | os.PathLike[str], format: str | None = None) -> None:
+        """Writes a file, whole or not at all.
+
+        Parameters
+        ----------
+        path : path
+            Its extension chooses the format: .csv, .json (with cells and chains), .ripser, .pers,
+            .dipha or .npy.
+        format : str, optional
+            "csv", "json", "ripser", "pers", "dipha" or "npy".
+        """
+        from ._files import path_of
+        meta = {**self.meta, "program": f"libph {_core.version}"}
+        _run.run(_core.save, self._bars, path_of(path),
+                 None if format is None else str(format), meta, options={})
+
+    def plot(self, kind: str = "diagram", ax: Axes | None = None, **style: Any) -> Axes:
+        """Draws with matplotlib.
+
+        Parameters
+        ----------
+        kind : {"diagram", "barcode", "betti"}
+            Points birth, death; lines from birth to death; Betti numbers over the value.
+        ax : Axes, optional
+            Where to draw; default: a new figure.
+        **style
+            Passed on to what draws: `scatter`, `hlines` or `step`.
+
+        Returns
+        -------
+        Axes
+        """
+        from ._plots import plot
+        return plot(self, kind, ax, style)
+
+    def __repr__(self) -> str:
+        meta = self.meta
+        name = str(meta.get("complex") or "barcode")
+        if "shape" in meta:
+            name += " of " + " x ".join(map(str, meta["shape"]))
+        elif "points" in meta:
+            name += f" of {_spaced(meta['points'])} points"
+            if "coordinates" in meta:
+                name += f" in R^{meta['coordinates']}"
+        counts = [f"{_spaced(count)} of H{dim}"
+                  for dim, count in zip(*(x.tolist() for x in np.unique(self.dims,
+                                                                        return_counts=True)))]
+        if counts:
+            counts[0] = counts[0].replace(" of", " bar of" if counts[0][:2] == "1 " else " bars of")
+        text = f"Barcode({name}, field {meta.get('field', 2)}: {', '.join(counts) or 'no bars'}"
+        dim = int(self.dims[-1]) if len(self) else 0
+        if dim > 0:
+            bar = self[self.longest(dim)]
+            text += f", longest [{bar.birth:.6g}, {bar.death:.6g})"
+        return text + ")"
+
+    def _repr_html_(self) -> str:
+        svg = _run.run(self._bars.svg, "", bool(self.meta.get("superlevel")), options={})
+        return f"<div>{html.escape(repr(self))}<br>{svg[svg.find('<svg'):]}</div>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        def arrays(value: Any) -> Any:
+            if isinstance(value, tuple):
+                return tuple(map(arrays, value))
+            return np.asarray(value) if isinstance(value, _core.Block) else value
+
+        state = {name: arrays(value) for name, value in self._bars.state().items()}
+        return (_restored, (_STATE_VERSION, state, dict(self.meta)))
+
+
+def _restored(version: int, state: dict[str, Any], meta: dict[str, Any]) -> Barcode:
+    """What pickle calls."""
+    if version != _STATE_VERSION:
+        raise UsageError(f"pickle: found version {version}, expected {_STATE_VERSION}: it was "
+                         "written by another libph")
+    return Barcode._made(_core.Bars.from_state(state), meta)
+
+
+def _spaced(number: int) -> str:
+    return f"{number:,}".replace(",", " ")

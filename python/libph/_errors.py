@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: MIT
+"""What libph raises: these classes and no others, but for Ctrl-C and what a callback raises.
+
+Each is a class of Python's own, too, so that ``except ValueError`` catches bad data.
+"""
+
+
+class Error(Exception):
+    """Anything that libph raises. The message says what, found, expected, and a hint."""
+
+
+class UsageError(Error, ValueError):
+    """An argument or option makes no sense."""
+
+
+class DataError(Error, ValueError):
+    """The data are malformed; the message names row and column."""
+
+
+class MissingInputError(Error, FileNotFoundError):
+    """A file is missing or unreadable."""
+
+
+class OutputError(Error, OSError):
+    """A file cannot be created, or reading or writing it broke off."""
+
+
+class MemoryLimitError(Error, MemoryError):
+    """The memory limit would be exceeded. Nothing is lost but the computation."""
+
+
+class Cancelled(Error):
+    """The computation was stopped by `stop`."""
+
+
+class Timeout(Cancelled, TimeoutError):
+    """The computation was stopped when its `timeout` was over."""
+
+
+class NotBuiltIn(Error, NotImplementedError):
+    """A feature was left out of this build, or is none of libph's."""
+
+
+class InternalError(Error, RuntimeError):
+    """A bug in libph: please report it."""

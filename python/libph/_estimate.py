@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: MIT
+"""What a computation will take, before it is done."""
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from . import _arrays, _core, _options
+from ._compute import cubical, rips
+from ._requests import PointImage, Request, cubical_request, rips_request
+from ._signatures import arguments_of
+
+
+class Estimate(NamedTuple):
+    """What a computation will take; see `estimate`.
+
+    Attributes
+    ----------
+    bytes_low, bytes_high : float
+        Memory of the complex and the computation, as foreseen: at least, and at most.
+    cells : tuple of float
+        Cells by dimension, as far as the engine lists them.
+    counted_dims : int
+        The dimensions below it are counted; above, cells are estimated from a sample.
+    engine : str
+        Which engine will run.
+    reason : str
+        Why.
+    collapses : bool
+        Whether edges are collapsed first.
+    collapse_reason : str
+        Why, or why not.
+    max_dim : int
+        The highest dimension of homology.
+    """
+
+    bytes_low: float
+    bytes_high: float
+    cells: tuple[float, ...]
+    counted_dims: int
+    engine: str
+    reason: str
+    collapses: bool
+    collapse_reason: str
+    max_dim: int
+
+
+def request_of(data: Any, complex: Any, options: dict[str, Any]) -> Request:
+    """What `rips` or `cubical` would compute of the data."""
+    _options.choice("complex", complex, [None, "rips", "cubical"])
+    is_image = complex == "cubical" or (complex is None and (
+        isinstance(data, PointImage) or (not _arrays.is_sparse(data) and _axes_of(data) > 2)))
+    if is_image:
+        return cubical_request(arguments_of(cubical, data, options))
+    return rips_request(arguments_of(rips, data, options))
+
+
+def _axes_of(data: Any) -> int:
+    axes = getattr(data, "ndim", None)
+    if axes is None:
+        try:
+            axes = np.ndim(data)
+        except Exception:  # what foreign objects raise; who takes the data says what is wrong
+            return 0
+    return axes if isinstance(axes, int) else 0
+
+
+def estimate(data: Any, *, complex: str | None = None, **options: Any) -> Estimate:
+    """What `rips` or `cubical` will take: memory, cells, engine.
+
+    Takes a fraction of the time and memory of the computation.
+
+    Parameters
+    ----------
+    data : array_like, sparse matrix or PointImage
+        As of `rips` or `cubical`.
+    complex : {None, "rips", "cubical"}
+        Which of the two. Default: cubical for three axes or more and for a PointImage, else rips.
+    **options
+        All keywords of that function.
+
+    Returns
+    -------
+    Estimate
+
+    Examples
+    --------
+    >>> ph.estimate([[0, 0], [1, 0], [1, 1], [0, 1]], max_dim=1).engine
+    'edge-links'
+    """
+    found = request_of(data, complex, options).run(_core.estimate)
+    return Estimate(found.bytes_low, found.bytes_high, tuple(found.cells), found.counted_dims,
+                    found.engine, found.reason, found.collapses, found.collapse_reason,
+                    found.max_dim)

@@ -1,0 +1,207 @@
+# SPDX-License-Identifier: MIT
+"""Files of data and of barcodes, in all formats of libph."""
+from __future__ import annotations
+
+import logging
+import os
+import re
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+from . import _core, _errors, _options, _run
+from ._barcode import Barcode
+
+if TYPE_CHECKING:
+    from scipy.sparse import csc_array
+    from typing_extensions import Unpack
+
+    from ._run import RunOptions
+
+_LOG = logging.getLogger("libph")
+
+
+class Simplices(NamedTuple):
+    """Simplices of a file: for ``filtered(*simplices)``, or `lower_star` with `vertex_values`."""
+
+    simplices: list[tuple[int, ...]]
+    values: NDArray[np.float64]
+
+
+class Boundary(NamedTuple):
+    """A boundary matrix of a file: for ``boundary(*matrix)``."""
+
+    matrix: csc_array
+    dims: NDArray[np.int64]
+    values: NDArray[np.float64] | None
+
+
+class Mesh(NamedTuple):
+    """A mesh of a file: ``lower_star(mesh.values, mesh.triangles)``, if it has values."""
+
+    vertices: NDArray[np.float64]
+    triangles: NDArray[np.int64]
+    values: NDArray[np.float64] | None
+
+
+def path_of(path: Any) -> str:
+    """The path as _core takes it; "-" is a file of this name."""
+    try:
+        name = os.fsdecode(os.fspath(path))
+    except (TypeError, UnicodeError):
+        raise _options.refuse("path", path, "a path") from None
+    if "\0" in name or not name:
+        raise _options.refuse("path", path, "a path")
+    return os.path.join(".", name) if name == "-" else name
+
+
+def read(path: str | os.PathLike[str], format: str | None = None, *,
+         values: str | os.PathLike[str] | None = None, nan: str = "error",
+         columns: Sequence[str] | None = None, array: str = "auto", symmetrise: str | None = None,
+         from_correlation: bool = False, diagonal: str = "zero", channel: str = "auto",
+         raw_shape: Sequence[int] | None = None, raw_dtype: DTypeLike = "uint8",
+         raw_skip: int = 0, **run: Unpack[RunOptions]) -> Any:
+    """Reads a file of points, distances, an image, simplices, a boundary matrix or a mesh.
+
+    What was assumed about it is told to the logger "libph", level INFO.
+
+    Parameters
+    ----------
+    path : path
+        The file; gzip is unpacked.
+    format : str, optional
+        A name of ``--format`` of the program ph-barcode. Default: by content and extension.
+    values : path, optional
+        Values of the cells of a boundary matrix, or of the vertices of a mesh or of simplices.
+    nan : {"error", "drop"}
+        What a NaN means: an error; or points are left out, pairs never joined, voxels absent.
+    columns : sequence of str, optional
+        Of tables: names, "3", or "2-5".
+    array : {"auto", "rips", "image", "points", "distances"}
+        What an array of two axes holds.
+    symmetrise : {None, "max", "min", "lower"}
+        Which of two unequal entries of a square matrix is taken.
+    from_correlation : bool
+        Distances are 1 - r.
+    diagonal : {"zero", "births", "any"}
+        What stands on the diagonal of a square matrix.
+    channel : {"auto", "grey", "red", "green", "blue", "alpha"}
+        Which number of a pixel is its value.
+    raw_shape : sequence of int, optional
+        Of ``format="raw"``: sizes of the axes, the last one fastest.
+    raw_dtype : dtype
+        Whole numbers or floats, with their byte order: ">i2".
+    raw_skip : int
+        Bytes before the first voxel.
+    **run
+        `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
+
+    Returns
+    -------
+    ndarray, coo_array, Simplices, Boundary or Mesh
+        Points (n, d); distances (n, n); an image; sparse distances.
+    """
+    _run.check_names("read", dict(run))
+    name = "auto" if format is None else _options.choice("format", format, _core.format_names())
+    try:
+        dtype = np.dtype(raw_dtype)
+        if dtype.kind not in "uif" or dtype.itemsize > 8:
+            raise TypeError
+    except TypeError:
+        raise _options.refuse("raw_dtype", raw_dtype, "whole numbers or floats") from None
+    options = {
+        "nan": _options.choice("nan", nan, ["error", "drop"]),
+        "columns": [] if columns is None else [str(column) for column in columns],
+        "array": _options.choice("array", array, ["auto", "rips", "image", "points", "distances"]),
+        "symmetrise": _options.choice("symmetrise", symmetrise,
+                                      [None, "max", "min", "lower"]) or "none",
+        "from_correlation": _options.flag("from_correlation", from_correlation),
+        "diagonal": _options.choice("diagonal", diagonal, ["zero", "births", "any"]),
+        "channel": _options.choice("channel", channel,
+                                   ["auto", "grey", "red", "green", "blue", "alpha"]),
+        "raw_shape": None if raw_shape is None else [
+            _options.whole("raw_shape", extent, 0) for extent in raw_shape],
+        "raw_type": f"{dtype.kind}{dtype.itemsize}",
+        "raw_big_endian": dtype.newbyteorder("=") != dtype,
+        "raw_skip": _options.whole("raw_skip", raw_skip, 0)}
+    if isinstance(columns, str):
+        options["columns"] = columns.split(",")
+    try:
+        found = _run.run(_core.read, path_of(path), name,
+                         "" if values is None else path_of(values), options, options=dict(run))
+    except _errors.Error as error:
+        raise type(error)(_as_keywords(str(error))) from None
+    _LOG.info("%s: %s", os.fspath(path), found["description"])
+    for note in found["notes"]:
+        _LOG.info("%s: %s", os.fspath(path), _as_keywords(note))
+    return _answer(found)
+
+
+def _as_keywords(message: str) -> str:
+    """Options of the program as keywords.
+
+    >>> _as_keywords("found NaN; --nan drop leaves it out, --from-correlation reads r")
+    "found NaN; nan='drop' leaves it out, from_correlation reads r"
+    """
+    message = message.replace("--diagonal zero", "diagonal='any'")
+    values = "drop|max|min|lower|births|zero|any|error|cubical|points|distance|grid"
+    message = re.sub(rf"--([a-z-]+) ({values})\b",
+                     lambda m: f"{m[1].replace('-', '_')}='{m[2]}'", message)
+    return re.sub(r"--([a-z][a-z-]*)", lambda m: m[1].replace("-", "_"), message)
+
+
+def _answer(found: dict[str, Any]) -> Any:
+    kind = found["kind"]
+    if kind in ("points", "distances", "image"):
+        return np.asarray(found[kind])
+    if kind == "sparse":
+        from scipy.sparse import coo_array
+        size = found["size"]
+        return coo_array((np.asarray(found["values"]),
+                          (np.asarray(found["i"]), np.asarray(found["j"]))), shape=(size, size))
+    values = None if found["values"] is None else np.asarray(found["values"])
+    offsets = np.asarray(found["offsets"])
+    if kind == "simplices":
+        vertices = np.asarray(found["vertices"]).tolist()
+        return Simplices([tuple(vertices[a:b]) for a, b in zip(offsets[:-1], offsets[1:])], values)
+    if kind == "boundary":
+        from scipy.sparse import csc_array
+        cells = len(offsets) - 1
+        matrix = csc_array((np.asarray(found["incidences"]), np.asarray(found["rows"]), offsets),
+                           shape=(cells, cells))
+        return Boundary(matrix, np.asarray(found["dims"]).astype(np.int64), values)
+    return Mesh(np.asarray(found["vertices"]), _triangles(np.asarray(found["corners"]), offsets),
+                values)
+
+
+def _triangles(corners: NDArray[np.int64], offsets: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Faces as triangles around their first corner."""
+    fans = [np.column_stack([np.full(b - a - 2, corners[a]), corners[a + 1:b - 1],
+                             corners[a + 2:b]])
+            for a, b in zip(offsets[:-1], offsets[1:]) if b - a > 2]
+    return np.concatenate(fans) if fans else np.empty((0, 3), dtype=np.int64)
+
+
+def read_barcode(path: str | os.PathLike[str], format: str | None = None,
+                 **run: Unpack[RunOptions]) -> Barcode:
+    """Reads a barcode from a file of any format that `Barcode.save` writes.
+
+    Parameters
+    ----------
+    path : path
+        The file. JSON brings cells and chains back.
+    format : str, optional
+        "csv", "json", "ripser", "pers", "dipha" or "npy". Default: by content and extension.
+    **run
+        `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
+
+    Returns
+    -------
+    Barcode
+    """
+    _run.check_names("read_barcode", dict(run))
+    bars, meta = _run.run(_core.read_barcode, path_of(path),
+                          None if format is None else str(format), options=dict(run))
+    return Barcode._made(bars, {k: v for k, v in meta.items() if v not in (None, "", False)})

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: MIT
+"""Values of options, checked once: what is wrong is said in words."""
+from __future__ import annotations
+
+import math
+import numbers
+import operator
+import re
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from ._errors import UsageError
+
+_UNITS = {"": 1, "B": 1, "K": 10**3, "M": 10**6, "G": 10**9, "T": 10**12,
+          "KI": 2**10, "MI": 2**20, "GI": 2**30, "TI": 2**40}
+
+
+def refuse(name: str, value: Any, expected: str) -> UsageError:
+    """The error that says what was found in the place of what.
+
+    >>> str(refuse("max_dim", -1, "at least 0"))
+    'max_dim: found -1, expected at least 0'
+    """
+    found = repr(value)
+    if len(found) > 60:
+        found = f"{type(value).__name__} {found[:50]}…"
+    return UsageError(f"{name}: found {found}, expected {expected}")
+
+
+def whole(name: str, value: Any, least: int, most: int = 2**63 - 1) -> int:
+    """A whole number from `least` to `most`."""
+    try:
+        if isinstance(value, bool):
+            raise TypeError
+        number = operator.index(value)
+    except TypeError:
+        number = least - 1
+    if not least <= number <= most:
+        bounds = f"at least {least}" if most == 2**63 - 1 else f"{least} to {most}"
+        raise refuse(name, value, f"a whole number, {bounds}")
+    return number
+
+
+def real(name: str, value: Any, expected: str = "a number", least: float = -math.inf) -> float:
+    """A number that is not NaN."""
+    try:
+        if isinstance(value, (bool, str, bytes)) or not (
+                isinstance(value, numbers.Real) or hasattr(value, "__float__")):
+            raise TypeError
+        number = float(value)
+    except (TypeError, ValueError, OverflowError, RuntimeError):
+        raise refuse(name, value, expected) from None
+    if not number >= least:
+        raise refuse(name, value, expected)
+    return number
+
+
+def positive(name: str, value: Any) -> float:
+    """A finite number above 0."""
+    number = real(name, value, "a finite number above 0")
+    if not 0 < number < math.inf:
+        raise refuse(name, value, "a finite number above 0")
+    return number
+
+
+def flag(name: str, value: Any) -> bool:
+    """True or False, NumPy's among them."""
+    if isinstance(value, bool):
+        return value
+    if type(value).__name__ in ("bool_", "bool") and hasattr(value, "dtype"):
+        return bool(value)
+    raise refuse(name, value, "True or False")
+
+
+def choice(name: str, value: Any, names: Iterable[Any]) -> Any:
+    """One of a few."""
+    names = list(names)
+    if not (isinstance(value, (str, bool, int, float)) or value is None) or not any(
+            value == known and type(value) is type(known) for known in names):
+        raise refuse(name, value, " or ".join(
+            filter(None, [", ".join(map(repr, names[:-1])), repr(names[-1])])))
+    return value
+
+
+def size(name: str, value: Any) -> int:
+    """Bytes, as a number or as "4GiB".
+
+    >>> size("memory_limit", "1.5 MiB")
+    1572864
+    """
+    expected = "bytes, or a size such as '4GiB', '500MB' or 1e9"
+    if isinstance(value, str):
+        match = re.fullmatch(r"\s*([0-9.]+(?:e[0-9]+)?)\s*([kmgt]i?)?b?\s*", value.lower())
+        try:
+            amount = float(match[1]) * _UNITS[(match[2] or "").upper()] if match else 0.0
+        except ValueError:
+            amount = 0.0
+    else:
+        amount = real(name, value, expected)
+    if not 1 <= amount < 2**63:
+        raise refuse(name, value, expected)
+    return int(amount)
+
+
+def axes(name: str, value: Any, count: int) -> list[bool]:
+    """Some of the axes of an image: their numbers, a bool for each, or True for all.
+
+    >>> axes("periodic", [0, -1], 3)
+    [True, False, True]
+    """
+    expected = f"axes from 0 to {count - 1}, {count} bools, or True"
+    if isinstance(value, bool):
+        return [value] * count
+    if isinstance(value, (str, bytes)):
+        raise refuse(name, value, expected)
+    try:
+        given: Sequence[Any] = list(value) if isinstance(value, Iterable) else [value]
+    except TypeError:
+        raise refuse(name, value, expected) from None
+    if given and all(isinstance(axis, bool) or type(axis).__name__ == "bool_" for axis in given):
+        if len(given) != count:
+            raise refuse(name, value, expected)
+        return [bool(axis) for axis in given]
+    chosen = [False] * count
+    for axis in given:
+        try:
+            chosen[whole(name, axis, -count, count - 1)] = True
+        except UsageError:
+            raise refuse(name, value, expected) from None
+    return chosen

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: MIT
+"""Pictures with matplotlib: they return the Axes and leave global settings alone."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _options
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from ._barcode import Barcode
+
+
+def plot(bars: Barcode, kind: Any, ax: Axes | None, style: dict[str, Any]) -> Axes:
+    """See `Barcode.plot`."""
+    draw = {"diagram": _diagram, "barcode": _lines, "betti": _betti}[
+        _options.choice("kind", kind, ["diagram", "barcode", "betti"])]
+    if ax is None:
+        import matplotlib.pyplot
+        _, ax = matplotlib.pyplot.subplots()
+    draw(bars, ax, style)
+    return ax
+
+
+def _ends(bars: Barcode) -> tuple[float, float, float]:
+    """The least and largest finite value, and where infinity is drawn."""
+    values = np.concatenate([bars.births, bars.deaths])
+    values = values[np.isfinite(values)]
+    low, high = (float(values.min()), float(values.max())) if values.size else (0.0, 1.0)
+    room = (high - low) or 1.0
+    return low, high, high + 0.1 * room
+
+
+def _dims(bars: Barcode) -> list[int]:
+    return [int(dim) for dim in np.unique(bars.dims)]
+
+
+def _label(bars: Barcode) -> str:
+    return "Value of -f" if bars.meta.get("superlevel") else "Filtration value"
+
+
+def _diagram(bars: Barcode, ax: Axes, style: dict[str, Any]) -> None:
+    low, high, infinity = _ends(bars)
+    ax.plot([low, high], [low, high], color="0.7", linewidth=1, zorder=0)
+    if np.isinf(bars.deaths).any():
+        ax.axhline(infinity, color="0.7", linewidth=1, linestyle="--", zorder=0)
+        ax.annotate("∞", (low, infinity), textcoords="offset points", xytext=(0, 3))
+    for dim in _dims(bars):
+        dgm = bars.dgm(dim)
+        deaths = np.where(np.isinf(dgm[:, 1]), infinity, dgm[:, 1])
+        ax.scatter(dgm[:, 0], deaths, **{"s": 16, "label": f"H{dim}", "color": f"C{dim % 10}",
+                                         **style})
+    ax.set_xlabel(f"Birth: {_label(bars).lower()}")
+    ax.set_ylabel("Death")
+    if len(bars):
+        ax.legend()
+
+
+def _lines(bars: Barcode, ax: Axes, style: dict[str, Any]) -> None:
+    infinity = _ends(bars)[2]
+    row = 0
+    for dim in _dims(bars):
+        dgm = bars.dgm(dim)
+        deaths = np.where(np.isinf(dgm[:, 1]), infinity, dgm[:, 1])
+        births = np.where(np.isinf(dgm[:, 0]), _ends(bars)[0], dgm[:, 0])
+        ax.hlines(np.arange(row, row + len(dgm)), births, deaths,
+                  **{"label": f"H{dim}", "color": f"C{dim % 10}", **style})
+        row += len(dgm)
+    ax.set_yticks([])
+    ax.set_xlabel(_label(bars))
+    if len(bars):
+        ax.legend()
+
+
+def _betti(bars: Barcode, ax: Axes, style: dict[str, Any]) -> None:
+    low, high, infinity = _ends(bars)
+    values = np.unique(np.concatenate([bars.births, bars.deaths, [low, infinity]]))
+    values = values[np.isfinite(values)]
+    for dim, curve in enumerate(bars.betti_curve(values)):
+        ax.step(values, curve, where="post", **{"label": f"H{dim}", "color": f"C{dim % 10}",
+                                                **style})
+    ax.set_xlabel(_label(bars))
+    ax.set_ylabel("Betti number")
+    if len(bars):
+        ax.legend()

@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: MIT
+"""Functions of points and distances that need no barcode."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _arrays, _core, _options, _run
+from ._errors import UsageError
+from ._requests import PointImage, rips_request
+from ._sources import source_of
+
+if TYPE_CHECKING:
+    from scipy.sparse import coo_array
+    from typing_extensions import Unpack
+
+    from ._run import RunOptions
+
+
+class Subsample(NamedTuple):
+    """Points in the order of farthest-point sampling; see `farthest_points`.
+
+    Attributes
+    ----------
+    indices : ndarray
+        The points, point 0 first.
+    radii : ndarray
+        Of each its distance to the nearest of those before; inf for the first.
+    covering_radius : float
+        Each point of the whole set is at most so far from one of them.
+    """
+
+    indices: NDArray[np.int64]
+    radii: NDArray[np.float64]
+    covering_radius: float
+
+
+def point_image(X: ArrayLike, voxel: float, *, value: str = "distance", margin: int = 1,
+                **run: Unpack[RunOptions]) -> PointImage:
+    """Points as an image, for `cubical`: at a cost that depends on the volume alone.
+
+    Parameters
+    ----------
+    X : array_like
+        Points of 1 to 8 coordinates, one a row.
+    voxel : float
+        The edge of a voxel, in the unit of the points.
+    value : {"distance", "occupancy", "density"}
+        What a voxel is worth: its distance to the nearest one with a point; 0 where a point is;
+        minus the number of points in it. Of the latter two a voxel without points is absent.
+    margin : int
+        Voxels around the bounding box.
+    **run
+        `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
+
+    Returns
+    -------
+    PointImage
+
+    Examples
+    --------
+    >>> ph.point_image([[0.0], [2.0]], 1.0).image
+    array([1., 0., 1., 0., 1.])
+    """
+    _run.check_names("point_image", run)
+    name = _options.choice("value", value, ["distance", "occupancy", "density"])
+    edge = _options.positive("voxel", voxel)
+    image, first = _run.run(
+        _core.point_image, _arrays.as_points(X), edge, getattr(_core.VoxelValue, name),
+        _options.whole("margin", margin, 0, 2**31), options=dict(run))
+    return PointImage(np.asarray(image), np.asarray(first), edge)
+
+
+def farthest_points(X: Any, n: int | None = None, *, radius: float = 0.0,
+                    metric: Any = "euclidean", minkowski_p: float = 2.0,
+                    **run: Unpack[RunOptions]) -> Subsample:
+    """Farthest-point sampling: after point 0 always the point farthest from all before.
+
+    Parameters
+    ----------
+    X : array_like
+        As of `rips`; all distances must be known.
+    n : int, optional
+        How many points. Default: all, or as many as `radius` needs.
+    radius : float
+        It stops when all points are so close to one of those chosen.
+    metric, minkowski_p
+        As of `rips`.
+    **run
+        `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
+
+    Returns
+    -------
+    Subsample
+
+    Examples
+    --------
+    >>> ph.farthest_points([[0], [1], [10], [11]], 2)
+    Subsample(indices=array([0, 3]), radii=array([inf, 11.]), covering_radius=1.0)
+    """
+    _run.check_names("farthest_points", run)
+    source = _complete(X, metric, minkowski_p)
+    count = 2**62 if n is None else _options.whole("n", n, 1)
+    covering = _options.real("radius", radius, "a finite number, at least 0", 0)
+    if covering == np.inf:
+        raise _options.refuse("radius", radius, "a finite number, at least 0")
+    indices, radii, reached = _run.run(_core.farthest_points, source, count, covering,
+                                       options=dict(run))
+    return Subsample(np.asarray(indices), np.asarray(radii), reached)
+
+
+def distance_to_measure(X: Any, k: int, *, metric: Any = "euclidean", minkowski_p: float = 2.0,
+                        **run: Unpack[RunOptions]) -> NDArray[np.float64]:
+    """Of each point the root of the mean square of the distances to its k nearest points.
+
+    It is one of them itself. Small where points are dense, large at outliers.
+
+    Parameters
+    ----------
+    X : array_like
+        As of `rips`; all distances must be known.
+    k : int
+        How many neighbours, from 1 to the number of points.
+    metric, minkowski_p
+        As of `rips`.
+    **run
+        `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
+
+    Returns
+    -------
+    ndarray
+
+    Examples
+    --------
+    >>> ph.distance_to_measure([[0], [1], [5]], 2)
+    array([0.70710678, 0.70710678, 2.82842712])
+    """
+    _run.check_names("distance_to_measure", run)
+    source = _complete(X, metric, minkowski_p)
+    neighbours = _options.whole("k", k, 1, max(1, source.size))
+    if source.size == 0:
+        return np.empty(0)
+    return np.asarray(_run.run(_core.distance_to_measure, source, neighbours, options=dict(run)))
+
+
+def _complete(X: Any, metric: Any, minkowski_p: Any) -> _core.MetricSpace:
+    space = source_of(X, metric=metric, minkowski_p=minkowski_p).space
+    if not space.is_complete:
+        raise UsageError("X: found some of the distances (a sparse matrix), expected all")
+    return space
+
+
+def collapse(distances: Any, *, threshold: float | None = None, diagonal: str = "zero",
+             symmetrise: str | None = None, **run: Unpack[RunOptions]) -> coo_array:
+    """Fewer edges, some of them later, with the same bars of positive length in every dimension.
+
+    Parameters
+    ----------
+    distances : array_like or sparse matrix
+        As of ``rips(..., metric="precomputed")``.
+    threshold : float, optional
+        The largest distance that is kept. Default: the enclosing radius.
+    diagonal : {"zero", "any"}, symmetrise : {None, "max", "min", "lower"}
+        As of `rips`.
+    **run
+        `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
+
+    Returns
+    -------
+    scipy.sparse.coo_array
+        Each edge once, above the diagonal; what is not stored is never joined.
+
+    Examples
+    --------
+    >>> ph.collapse([[0, 1, 3], [1, 0, 2], [3, 2, 0]]).nnz
+    2
+    """
+    from scipy.sparse import coo_array
+    _options.choice("diagonal", diagonal, ["zero", "any"])
+    from ._compute import rips
+    from ._signatures import arguments_of
+    request = rips_request(arguments_of(rips, distances, {
+        "metric": "precomputed", "threshold": threshold, "diagonal": diagonal,
+        "symmetrise": symmetrise, "merge_equal_points": False, **run}))
+    u, v, values = _run.run(_core.collapsed_edges, request.recipe, options=request.options)
+    n = request.meta["points"]
+    i, j = np.asarray(u), np.asarray(v)
+    return coo_array((np.asarray(values), (np.minimum(i, j), np.maximum(i, j))), shape=(n, n))

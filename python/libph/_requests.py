@@ -1,0 +1,260 @@
+# SPDX-License-Identifier: MIT
+"""From the keywords of a function to what _core computes."""
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _arrays, _core, _options, _run
+from ._errors import UsageError
+from ._simplices import joined_values, simplex_list
+from ._sources import Source, source_of
+
+_MOST_DIMENSIONS = 1_000_000  # beyond any simplex that fits a memory
+_EXPONENTS = {1: "one", 2: "two", math.inf: "infinity"}
+
+
+class PointImage(NamedTuple):
+    """An image of a point cloud; see `point_image`.
+
+    Attributes
+    ----------
+    image : ndarray
+        Axis k is coordinate k. NaN: the voxel is absent.
+    first : ndarray
+        The centre of the voxel at (0, ..., 0), in the coordinates of the points.
+    voxel : float
+        The edge of a voxel.
+    """
+
+    image: NDArray[np.float64]
+    first: NDArray[np.float64]
+    voxel: float
+
+
+class Request(NamedTuple):
+    """A complex to build, what to compute of it, and how."""
+
+    recipe: _core.Recipe
+    task: _core.Task | None
+    options: dict[str, Any]  # of the run
+    meta: dict[str, Any]
+    slab_layers: int = 0
+
+    def run(self, function: Callable[..., Any]) -> Any:
+        """Calls a function of _core."""
+        arguments = (self.recipe,) if self.task is None else (self.recipe, self.task)
+        return _run.run(function, *arguments, options=self.options, slab_layers=self.slab_layers)
+
+
+def _task(max_dim: Any, min_dim: Any, field: Any, engine: Any, collapse: Any, min_persistence: Any,
+          representatives: Any, cells: Any, loops: str) -> _core.Task:
+    known = _core.engine_named(engine) if isinstance(engine, str) else None
+    if known is None:
+        raise _options.refuse("engine", engine, ", ".join(_core.engine_names()))
+    how = {"auto": "automatic", True: "on", False: "off", "on": "on", "off": "off"}[
+        _options.choice("collapse", collapse, ["auto", True, False, "on", "off"])]
+    kind = _options.choice("representatives", representatives,
+                           [None, "none", "cycles", "cocycles", "voxels"]) or "none"
+    return _core.Task(
+        None if max_dim is None else _options.whole("max_dim", max_dim, 0, _MOST_DIMENSIONS),
+        _options.whole("min_dim", min_dim, 0, _MOST_DIMENSIONS),
+        _options.whole("field", field, 2, 2**31 - 1), known, getattr(_core.Collapse, how),
+        _options.real("min_persistence", min_persistence), getattr(_core.Representatives, kind),
+        _options.flag("cells", cells), getattr(_core.LoopChoice, loops))
+
+
+_cached_task = functools.lru_cache(maxsize=64, typed=True)(_task)
+
+
+def _task_of(o: dict[str, Any], loops: str) -> _core.Task:
+    arguments = (o["max_dim"], o["min_dim"], o["field"], o["engine"], o.get("collapse", "auto"),
+                 o["min_persistence"], o["representatives"], o["cells"], loops)
+    try:
+        return _cached_task(*arguments)
+    except TypeError:  # a list, for one, cannot be looked up
+        return _task(*arguments)
+
+
+def _loops_of(o: dict[str, Any], default: str) -> str:
+    loops = _options.choice("loops", o["loops"], [None, "none", "plain", "tight"])
+    if o["representatives"] not in ("cycles", "voxels"):
+        if loops not in (None, "none"):
+            raise UsageError(f"loops: does nothing without representatives='cycles', found "
+                             f"representatives={o['representatives']!r}")
+        return "none"
+    if loops == "tight" and default != "tight":
+        raise UsageError("loops: found 'tight', which is for rips, expected 'plain'")
+    return loops or default
+
+
+def _threshold(o: dict[str, Any], least: float = -math.inf) -> float | None:
+    value = o["threshold"]
+    expected = "a number" if least < 0 else f"a distance, at least {least:g}"
+    return None if value is None else _options.real("threshold", value, expected, least)
+
+
+def _meta(complex_name: str, o: dict[str, Any], **more: Any) -> dict[str, Any]:
+    """What a barcode knows of its origin; what was found out on the way comes later."""
+    meta = {"complex": complex_name, "field": o.get("field", 2), "threshold": o["threshold"], **more}
+    return {name: value for name, value in meta.items() if value is not None}
+
+
+def rips_request(o: dict[str, Any]) -> Request:
+    """Of all keywords of `rips`, and X."""
+    _run.check_names("rips", o["run"])
+    source = source_of(o["X"], metric=o["metric"], minkowski_p=o["minkowski_p"], nan=o["nan"],
+                       diagonal=o["diagonal"], symmetrise=o["symmetrise"])
+    threshold = _threshold(o, 0)
+    births, neighbours, exponent = _weights(o, source)
+    subsample, radius, approximation = o["subsample"], o["subsample_radius"], o["approximation"]
+    if subsample is not None:
+        subsample = _options.whole("subsample", subsample, 1)
+    if radius is not None:
+        radius = _finite("subsample_radius", radius)
+    if approximation is not None:
+        approximation = _options.positive("approximation", approximation)
+    merge = o["merge_equal_points"]
+    if merge is not None:
+        merge = _options.flag("merge_equal_points", merge)
+    for name, value in (("subsample", subsample), ("subsample_radius", radius),
+                        ("approximation", approximation)):
+        if value is None:
+            continue
+        if births is not None or neighbours is not None:
+            raise UsageError(f"{name}: excludes weights")
+        if not source.space.is_complete:
+            raise UsageError(f"{name}: needs all distances, found some of them")
+    task = _task_of(o, _loops_of(o, "tight"))
+    recipe = _core.RipsRecipe(
+        source.space, threshold, births, neighbours, getattr(_core.WeightExponent, exponent),
+        subsample, radius, approximation, merge, source.ids)
+    weights = o["weights"] if isinstance(o["weights"], str) else None if births is None else "given"
+    meta = _meta("rips", o, points=source.points, coordinates=source.coordinates,
+                 metric=o["metric"] if isinstance(o["metric"], str) else "function",
+                 weights=weights, approximation=approximation)
+    return Request(recipe, task, o["run"], meta)
+
+
+def _finite(name: str, value: Any) -> float:
+    number = _options.real(name, value, "a finite number, at least 0", 0)
+    if number == math.inf:
+        raise _options.refuse(name, value, "a finite number, at least 0")
+    return number
+
+
+def _weights(o: dict[str, Any], source: Source
+             ) -> tuple[NDArray[np.float64] | None, int | None, str]:
+    """Births, neighbours of the distance to a measure, exponent."""
+    weights, neighbours, exponent = o["weights"], o["dtm_neighbors"], o["weight_exponent"]
+    is_dtm = isinstance(weights, str)
+    if weights is not None and source.births is not None:
+        raise UsageError("weights: excludes diagonal='births'")
+    if is_dtm:
+        _options.choice("weights", weights, ["dtm"])
+        if neighbours is None:
+            raise UsageError("dtm_neighbors: found none, expected the number of neighbours for "
+                             "weights='dtm'")
+        if not source.space.is_complete:
+            raise UsageError("weights: 'dtm' needs all distances, found some of them")
+        neighbours = _options.whole("dtm_neighbors", neighbours, 1, max(1, source.space.size))
+    elif neighbours is not None:
+        raise UsageError("dtm_neighbors: does nothing without weights='dtm'")
+    births = source.births
+    if weights is not None and not is_dtm:
+        births = _arrays.as_values(weights, "weights", source.points, "point")
+        if source.ids is not None:
+            births = births[source.ids]
+        bad = ~((births >= 0) & (births < np.inf))
+        if bad.any():
+            raise UsageError(f"weights: entry {int(np.argmax(bad))}: found "
+                             f"{births[np.argmax(bad)]}, expected a finite number, at least 0")
+    if exponent is None:
+        return births, neighbours, "one" if is_dtm else "infinity"
+    if births is None and not is_dtm:
+        raise UsageError("weight_exponent: does nothing without weights")
+    number = _options.real("weight_exponent", exponent, "1, 2 or inf")
+    if number not in _EXPONENTS:
+        raise _options.refuse("weight_exponent", exponent, "1, 2 or inf")
+    return births, neighbours, _EXPONENTS[number]
+
+
+def cubical_request(o: dict[str, Any]) -> Request:
+    """Of all keywords of `cubical`, and the image."""
+    _run.check_names("cubical", o["run"])
+    image, nan = o["image"], _options.choice("nan", o["nan"], ["error", "drop"])
+    if isinstance(image, PointImage):
+        image, nan = image.image, "drop"
+    array = _arrays.as_image(image)
+    construction = _options.choice("construction", o["construction"], ["vertices", "cells"])
+    superlevel = _options.flag("superlevel", o["superlevel"])
+    periodic = _options.axes("periodic", o["periodic"], array.ndim)
+    threshold = _threshold(o)
+    slab_layers = o.get("slab_layers")
+    layers = 0 if slab_layers is None else _options.whole("slab_layers", slab_layers, 1, 2**31 - 1)
+    task = _task_of(o, _loops_of(o, "plain"))
+    recipe = _core.cubical_recipe(array, nan == "drop", _arrays.is_mapped_file(image),
+                                  construction == "vertices", superlevel, periodic, threshold)
+    meta = _meta("cubical", o, shape=array.shape, construction=construction, superlevel=superlevel,
+                 periodic=tuple(int(k) for k in np.flatnonzero(periodic)))
+    return Request(recipe, task, o["run"], meta, layers)
+
+
+def lower_star_request(o: dict[str, Any]) -> Request:
+    """Of all keywords of `lower_star`, values and simplices."""
+    _run.check_names("lower_star", o["run"])
+    values = _arrays.as_values(o["values"], "values")
+    cells = simplex_list(o["simplices"])
+    recipe = _core.lower_star_recipe(cells.vertices, cells.offsets, values, _threshold(o))
+    meta = _meta("lower-star", o, points=len(values))
+    return Request(recipe, _task_of(o, _loops_of(o, "plain")), o["run"], meta)
+
+
+def filtered_request(o: dict[str, Any]) -> Request:
+    """Of all keywords of `filtered`, simplices and values."""
+    _run.check_names("filtered", o["run"])
+    cells = simplex_list(o["simplices"])
+    values = joined_values(o["values"], len(cells))
+    recipe = _core.simplices_recipe(cells.vertices, cells.offsets, values, _threshold(o))
+    return Request(recipe, _task_of(o, _loops_of(o, "plain")), o["run"], _meta("explicit", o))
+
+
+def boundary_request(o: dict[str, Any]) -> Request:
+    """Of all keywords of `boundary`, matrix, dims and values."""
+    _run.check_names("boundary", o["run"])
+    matrix = o["matrix"]
+    if not _arrays.is_sparse(matrix):
+        raise UsageError(f"matrix: found {type(matrix).__name__}, expected a sparse matrix of "
+                         "scipy.sparse: column j is the boundary of cell j")
+    if len(matrix.shape) != 2 or matrix.shape[0] != matrix.shape[1]:
+        raise UsageError(f"matrix: found shape {matrix.shape}, expected a square one: a row and a "
+                         "column for each cell")
+    columns = matrix.tocsc(copy=True)
+    columns.sum_duplicates()
+    incidences = _arrays.as_integers(columns.data, "matrix")
+    if o["field"] == 2:
+        incidences = incidences % 2  # signs need not be known
+    columns = type(columns)((incidences, columns.indices, columns.indptr), shape=columns.shape)
+    columns.eliminate_zeros()
+    cells = columns.shape[0]
+    dims = _arrays.as_integers(o["dims"], "dims")
+    if dims.shape != (cells,):
+        raise UsageError(f"dims: found an array of shape {dims.shape}, expected {cells} numbers, one "
+                         "for each cell")
+    most = 2**31 - 1
+    for name, array, least in (("dims", dims, 0), ("matrix", columns.data, -most)):
+        if array.size and (array.min() < least or array.max() > most):
+            raise UsageError(f"{name}: found {array.min()} to {array.max()}, expected whole numbers "
+                             f"from {least} to {most}")
+    signs = np.empty(0) if o["field"] == 2 else columns.data
+    values = np.arange(cells, dtype=np.float64) if o["values"] is None else \
+        _arrays.as_values(o["values"], "values", cells, "cell")
+    recipe = _core.boundary_recipe(
+        dims.astype(np.int32), columns.indptr.astype(np.int64), columns.indices.astype(np.int64),
+        signs.astype(np.int32), values, _threshold(o))
+    return Request(recipe, _task_of(o, "none"), o["run"], _meta("explicit", o))

@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: MIT
+"""How computations are bounded, watched and stopped: the options that all of them have."""
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Iterator
+from contextvars import ContextVar
+from typing import Any, Protocol, TypedDict, Union
+
+from . import _core, _options
+
+Progress = Union[bool, Callable[[str, int, int], object]]
+
+
+class Stop(Protocol):
+    """What can tell to stop: a ``threading.Event``."""
+
+    def is_set(self) -> bool: ...
+
+
+class RunOptions(TypedDict, total=False):
+    """Keywords that each computation takes."""
+
+    threads: int | None
+    memory_limit: int | str | None
+    progress: Progress
+    timeout: float | None
+    stop: Stop | None
+
+
+_NAMES = ("threads", "memory_limit", "progress", "timeout", "stop")
+_DEFAULTS: ContextVar[dict[str, Any]] = ContextVar("libph.limits", default={})
+_PLAIN = _core.RunOptions(0, None, None, None, None, 0)
+
+
+@contextlib.contextmanager
+def limits(*, memory: int | str | None = None, threads: int | None = None,
+           timeout: float | None = None, progress: Progress | None = None) -> Iterator[None]:
+    """Defaults for all computations within a ``with`` block, of this thread or task.
+
+    Parameters
+    ----------
+    memory : int or str, optional
+        The most memory that a computation may take, as `memory_limit`: bytes, or "4GiB".
+    threads : int, optional
+        Threads that a computation may use.
+    timeout : float, optional
+        Seconds that a computation may take.
+    progress : bool or callable, optional
+        Who is told of progress.
+
+    Examples
+    --------
+    >>> with ph.limits(memory="1GiB", threads=1):
+    ...     bars = ph.rips([[0, 0], [1, 0]])
+    """
+    given = {"memory_limit": memory, "threads": threads, "timeout": timeout, "progress": progress}
+    chosen = {name: value for name, value in given.items() if value is not None}
+    _check(chosen)
+    token = _DEFAULTS.set({**_DEFAULTS.get(), **chosen})
+    try:
+        yield
+    finally:
+        _DEFAULTS.reset(token)
+
+
+def run(function: Callable[..., Any], *arguments: Any, options: dict[str, Any],
+        slab_layers: int = 0) -> Any:
+    """Calls a function of _core that takes RunOptions last.
+
+    `options` are the keywords that the user gave.
+    """
+    defaults = _DEFAULTS.get()
+    if not options and not defaults and not slab_layers:
+        return function(*arguments, _PLAIN)
+    given = _check({**defaults, **{k: v for k, v in options.items() if v is not None}})
+    with _reporter(given.get("progress", False)) as progress:
+        return function(*arguments, _core.RunOptions(
+            given.get("threads", 0), given.get("memory_limit"), given.get("timeout"), progress,
+            given.get("stop"), slab_layers))
+
+
+def check_names(function: str, options: dict[str, Any]) -> None:
+    """As Python does for keywords that are written out."""
+    for name in options:
+        if name not in _NAMES:
+            raise TypeError(f"{function}() got an unexpected keyword argument '{name}'")
+
+
+def _check(given: dict[str, Any]) -> dict[str, Any]:
+    """The options as _core takes them."""
+    checked = {}
+    for name, value in given.items():
+        if name == "threads":
+            value = _options.whole(name, value, 1, 4096)
+        elif name == "memory_limit":
+            value = _options.size(name, value)
+        elif name == "timeout":
+            value = _options.positive(name, value)
+        elif name == "stop" and not callable(getattr(value, "is_set", None)):
+            raise _options.refuse(name, value, "a threading.Event")
+        elif name == "progress" and not callable(value):
+            value = _options.flag(name, value)
+        checked[name] = value
+    return checked
+
+
+@contextlib.contextmanager
+def _reporter(progress: Progress) -> Iterator[Callable[[str, int, int], object] | None]:
+    """What is told of progress: of True a bar of tqdm's, if it is installed."""
+    if not isinstance(progress, bool):
+        yield progress
+        return
+    try:
+        from tqdm.auto import tqdm
+    except ImportError:
+        tqdm = None
+    if not progress or tqdm is None:
+        yield None
+        return
+    bar = shown = None
+
+    def report(stage: str, done: int, total: int) -> None:
+        nonlocal bar, shown
+        if stage != shown:
+            if bar is not None:
+                bar.close()
+            bar, shown = tqdm(desc=stage, total=total or None, leave=False), stage
+        bar.update(done - bar.n)
+
+    try:
+        yield report
+    finally:
+        if bar is not None:
+            bar.close()

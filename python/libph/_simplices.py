@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: MIT
+"""Lists of simplices, as arrays by dimension or as tuples of vertices."""
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _arrays
+from ._errors import DataError, UsageError
+
+
+class SimplexList(NamedTuple):
+    """Simplex i has the vertices ``vertices[offsets[i]:offsets[i + 1]]``."""
+
+    vertices: NDArray[np.int64]
+    offsets: NDArray[np.int64]
+
+    def __len__(self) -> int:  # type: ignore[override]
+        return len(self.offsets) - 1
+
+
+def simplex_list(simplices: Any, name: str = "simplices") -> SimplexList:
+    """Takes an array with a simplex a row, a list of such arrays, or a list of vertex tuples."""
+    if isinstance(simplices, SimplexList):
+        return simplices
+    if isinstance(simplices, (str, bytes, dict)) or not isinstance(simplices, Iterable):
+        raise UsageError(f"{name}: found {type(simplices).__name__}, expected an array with a "
+                         "simplex a row, a list of such arrays, or a list of tuples of vertices")
+    if hasattr(simplices, "__array__"):
+        return _joined([_of_array(simplices, name)])
+    items = list(simplices)
+    if items and all(getattr(item, "ndim", 0) == 2 for item in items):
+        return _joined([_of_array(item, f"{name}[{k}]") for k, item in enumerate(items)])
+    return _of_tuples(items, name)
+
+
+def _of_array(array: Any, name: str) -> SimplexList:
+    rows = _arrays.as_integers(array, name)
+    if rows.ndim == 1 and rows.size == 0:
+        rows = rows.reshape(0, 1)
+    if rows.ndim != 2 or rows.shape[1] == 0:
+        raise UsageError(f"{name}: found an array of shape {rows.shape}, expected (simplices, "
+                         "vertices of each)")
+    return SimplexList(rows.ravel(), np.arange(0, rows.size + 1, rows.shape[1], dtype=np.int64))
+
+
+def _of_tuples(items: list[Any], name: str) -> SimplexList:
+    vertices: list[Any] = []
+    offsets = [0]
+    for i, simplex in enumerate(items):
+        try:
+            if isinstance(simplex, (str, bytes)):
+                raise TypeError
+            vertices.extend(simplex)
+        except TypeError:
+            raise DataError(f"{name}: simplex {i}: found {type(simplex).__name__}, expected a tuple "
+                            "of vertices") from None
+        if len(vertices) == offsets[-1]:
+            raise DataError(f"{name}: simplex {i}: found no vertices")
+        offsets.append(len(vertices))
+    try:
+        numbers = _arrays.as_integers(vertices, name) if vertices else np.empty(0, dtype=np.int64)
+    except (DataError, UsageError):
+        for i in range(len(items)):  # which of them it is
+            _arrays.as_integers(vertices[offsets[i]:offsets[i + 1]], f"{name}: simplex {i}")
+        raise
+    if numbers.ndim != 1:
+        raise DataError(f"{name}: found nested vertices, expected whole numbers")
+    return SimplexList(numbers, np.array(offsets, dtype=np.int64))
+
+
+def _joined(parts: list[SimplexList]) -> SimplexList:
+    if len(parts) == 1:
+        return parts[0]
+    ends = np.cumsum([0] + [len(part.vertices) for part in parts])
+    offsets = [part.offsets[1:] + begin for part, begin in zip(parts, ends)]
+    return SimplexList(np.concatenate([part.vertices for part in parts]),
+                       np.concatenate([np.zeros(1, dtype=np.int64), *offsets]))
+
+
+def joined_values(values: Any, count: int, name: str = "values") -> NDArray[np.float64]:
+    """A number for each simplex, of one array or of an array for each of a list of arrays."""
+    if isinstance(values, (list, tuple)) and values and all(
+            getattr(item, "ndim", 0) == 1 for item in values):
+        values = np.concatenate([_arrays.as_values(item, f"{name}[{k}]")
+                                 for k, item in enumerate(values)])
+    return _arrays.as_values(values, name, count, "simplex")

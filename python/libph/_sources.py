@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: MIT
+"""Where distances come from: points, matrices, functions; and what each of them needs of options."""
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _arrays, _core, _options
+from ._errors import DataError, UsageError
+
+METRICS = {"euclidean": "euclidean", "manhattan": "manhattan", "chebyshev": "chebyshev",
+           "minkowski": "minkowski", "cosine": "cosine", "hamming": "hamming",
+           "l2": "euclidean", "l1": "manhattan", "cityblock": "manhattan"}
+_ROUNDING = 1e-6  # of the largest distance, as in the readers of files
+
+
+class Source(NamedTuple):
+    """Distances, and what was found in the data beside them."""
+
+    space: _core.MetricSpace
+    points: int
+    coordinates: int | None = None            # of points
+    births: NDArray[np.float64] | None = None  # on the diagonal
+    ids: NDArray[np.int64] | None = None       # of the points that are left
+
+
+def source_of(X: Any, *, metric: Any = "euclidean", minkowski_p: Any = 2.0, nan: Any = "error",
+              diagonal: Any = "zero", symmetrise: Any = None) -> Source:
+    """A metric space of what the user gave."""
+    if nan != "error":
+        _options.choice("nan", nan, ["error", "drop"])
+    if callable(metric):
+        return _of_function(X, metric)
+    if metric == "precomputed":
+        _options.choice("diagonal", diagonal, ["zero", "births", "any"])
+        _options.choice("symmetrise", symmetrise, [None, "max", "min", "lower"])
+        if _arrays.is_sparse(X):
+            return _of_sparse(X, nan, diagonal, symmetrise)
+        return _of_matrix(X, nan, diagonal, symmetrise)
+    if diagonal != "zero" or symmetrise is not None:
+        name = "diagonal" if diagonal != "zero" else "symmetrise"
+        raise UsageError(f"{name}: does nothing for points; metric='precomputed' reads distances")
+    return _of_points(X, metric, minkowski_p, nan)
+
+
+def _of_points(X: Any, metric: Any, minkowski_p: Any, nan: str) -> Source:
+    name = METRICS.get(metric) if isinstance(metric, str) else None
+    if name is None:
+        raise _options.refuse("metric", metric, ", ".join(METRICS) + ", 'precomputed' or a function "
+                              "of two points")
+    p = _options.real("minkowski_p", minkowski_p, "a number, at least 1", least=1)
+    if p != 2 and name != "minkowski":
+        raise UsageError(f"minkowski_p: does nothing for metric='{metric}', expected 'minkowski'")
+    if _arrays.is_sparse(X):
+        raise UsageError("X: found a sparse matrix; metric='precomputed' reads its entries as "
+                         "distances, .toarray() makes points of it")
+    points = _arrays.as_points(X)
+    count, ids = len(points), None
+    if nan == "drop":
+        whole = ~np.isnan(points).any(axis=1)
+        if not whole.all():
+            ids = np.flatnonzero(whole)
+            points = points[whole]
+    space = _core.MetricSpace.of_points(points, getattr(_core.PointDistance, name), p)
+    return Source(space, count, points.shape[1], None, ids)
+
+
+def _of_matrix(X: Any, nan: str, diagonal: str, symmetrise: str | None) -> Source:
+    array = _arrays.as_distances(X)
+    births = None
+    if array.ndim == 1 and (diagonal == "births" or symmetrise is not None):
+        name = "diagonal" if diagonal == "births" else "symmetrise"
+        raise UsageError(f"{name}: does nothing for condensed distances, expected a square matrix")
+    if diagonal == "births":
+        births = np.array(np.diagonal(array), dtype=np.float64)
+    space = _core.MetricSpace.of_distances(
+        array, getattr(_core.Symmetrise, symmetrise or "none"), getattr(_core.NanPolicy, nan),
+        diagonal == "zero")
+    return Source(space, space.size, None, births)
+
+
+def _of_sparse(X: Any, nan: str, diagonal: str, symmetrise: str | None) -> Source:
+    """Both triangles are read. Zeros that are stored are distances; what is not stored never joins."""
+    if len(X.shape) != 2 or X.shape[0] != X.shape[1]:
+        raise UsageError(f"X: found a sparse matrix of shape {X.shape}, expected a square one")
+    coo = X.tocoo()
+    if coo.data.dtype.kind not in "biuf":
+        raise DataError(f"X: found entries of type {coo.data.dtype}, expected real numbers")
+    row, column = coo.row.astype(np.int64), coo.col.astype(np.int64)
+    values = _arrays.as_float64(coo.data, "X")
+    missing = np.isnan(values)
+    if missing.any():
+        if nan == "error":
+            _fail(row, column, values, missing, "0 or more; nan='drop' never joins such a pair")
+        row, column, values = row[~missing], column[~missing], values[~missing]
+    finite = values[np.isfinite(values)]
+    rounding = _ROUNDING * max(0.0, float(finite.max())) if finite.size else 0.0
+
+    births = None
+    on_diagonal = row == column
+    if on_diagonal.any():
+        if diagonal == "births":
+            births = np.zeros(X.shape[0])
+            births[row[on_diagonal]] = values[on_diagonal]
+        elif diagonal == "zero":
+            wrong = on_diagonal & (np.abs(values) > rounding)
+            if wrong.any():
+                _fail(row, column, values, wrong, "0 on the diagonal; diagonal='births' takes it "
+                      "for the birth of the point, diagonal='any' for 0")
+    keep = ~on_diagonal & (values != np.inf)
+    row, column, values = row[keep], column[keep], values[keep]
+    if (values < -rounding).any():
+        _fail(row, column, values, values < -rounding, "0 or more")
+    i, j, values = _pairs(row, column, np.maximum(values, 0), rounding, symmetrise)
+    return Source(_core.MetricSpace.of_pairs(X.shape[0], i, j, values), X.shape[0], None, births)
+
+
+def _pairs(row: NDArray[np.int64], column: NDArray[np.int64], values: NDArray[np.float64],
+           rounding: float, symmetrise: str | None
+           ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
+    """Each pair once. Entries of one pair must be equal; of those that differ by rounding the one
+    below the diagonal is taken."""
+    i, j = np.minimum(row, column), np.maximum(row, column)
+    order = np.lexsort((row > column, j, i))
+    i, j, values = i[order], j[order], values[order]
+    is_first = np.ones(len(i), dtype=bool)
+    is_first[1:] = (i[1:] != i[:-1]) | (j[1:] != j[:-1])
+    starts = np.flatnonzero(is_first)
+    if len(starts) == len(i):
+        return i, j, values
+    largest, least = (np.maximum.reduceat(values, starts), np.minimum.reduceat(values, starts))
+    if symmetrise is None and (largest - least > rounding).any():
+        k = int(np.argmax(largest - least > rounding))
+        raise DataError(f"X: row {i[starts[k]]}, column {j[starts[k]]} and its mirror image: found "
+                        f"{least[k]} and {largest[k]}, expected both equal; symmetrise='max', "
+                        "'min' or 'lower' accepts it")
+    lower = values[np.append(starts[1:], len(i)) - 1]
+    chosen = {"max": largest, "min": least}.get(symmetrise or "lower", lower)
+    return i[starts], j[starts], chosen
+
+
+def _fail(row: NDArray[np.int64], column: NDArray[np.int64], values: NDArray[np.float64],
+          wrong: NDArray[np.bool_], expected: str) -> None:
+    k = int(np.argmax(wrong))
+    raise DataError(f"X: row {row[k]}, column {column[k]}: found {values[k]}, expected {expected}")
+
+
+def _of_function(X: Any, metric: Callable[[Any, Any], float]) -> Source:
+    """Distances of any things, each pair evaluated once."""
+    things = X if isinstance(X, (list, tuple)) else _arrays.as_array(X, "X")
+    if not isinstance(things, (list, tuple)) and things.ndim == 0:
+        raise UsageError("X: found one number, expected points")
+    n = len(things)
+    distances = np.empty(n * (n - 1) // 2)
+    place = 0
+    for i in range(n):
+        for j in range(i + 1, n):
+            distance = metric(things[i], things[j])
+            try:
+                distances[place] = distance
+            except (TypeError, ValueError):
+                raise DataError(f"metric: of points {i} and {j}: found "
+                                f"{type(distance).__name__}, expected a number") from None
+            place += 1
+    if n == 0:
+        distances = np.empty((0, 0))  # no numbers are the condensed form of one point
+    space = _core.MetricSpace.of_distances(distances, _core.Symmetrise.none, _core.NanPolicy.error,
+                                           True)
+    return Source(space, n)

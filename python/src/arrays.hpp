@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+// Arrays that go in and out, by the buffer protocol alone: the module does not care which NumPy
+// there is.
+#include <pybind11/pybind11.h>
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "ph/error.hpp"
+#include "ph/image.hpp"
+#include "ph/points.hpp"
+#include "ph/run_context.hpp"
+
+namespace ph::python {
+
+namespace py = pybind11;
+
+/// An array that Python gets. Who holds it holds its numbers.
+class Block {
+ public:
+  /// @param shape its product is the number of numbers.
+  template <class T>
+  static Block of(std::vector<T> numbers, std::vector<py::ssize_t> shape) {
+    auto owner = std::make_shared<std::vector<T>>(std::move(numbers));
+    return Block(std::shared_ptr<void>(owner, owner->data()), sizeof(T),
+                 py::format_descriptor<T>::format(), std::move(shape), false);
+  }
+  template <class T>
+  static Block of(std::vector<T> numbers) {
+    const auto size = static_cast<py::ssize_t>(numbers.size());
+    return of(std::move(numbers), {size});
+  }
+  template <class T>
+  static Block copy_of(std::span<const T> numbers) {
+    return of(std::vector<T>(numbers.begin(), numbers.end()));
+  }
+  /// No copy.
+  static Block of(Points&& points);
+  /// No copy: numbers that stay in a file cannot be written.
+  /// @param context that the image was made in, if it may count in the budget of it.
+  static Block of(const Image& image, std::shared_ptr<const RunContext> context = nullptr);
+
+  /// As Python's buffer protocol wants it.
+  py::buffer_info info() const;
+
+ private:
+  Block(std::shared_ptr<void> data, std::size_t item, std::string format,
+        std::vector<py::ssize_t> shape, bool is_read_only)
+      : data_(std::move(data)),
+        item_(static_cast<py::ssize_t>(item)),
+        format_(std::move(format)),
+        shape_(std::move(shape)),
+        is_read_only_(is_read_only) {}
+
+  std::shared_ptr<void> data_;
+  py::ssize_t item_;
+  std::string format_;
+  std::vector<py::ssize_t> shape_;
+  bool is_read_only_;
+};
+
+/// Whether the numbers of an array are of a type.
+template <class T>
+bool holds(const py::buffer_info& array) {
+  if (array.itemsize != sizeof(T) || array.format.size() != 1) return false;
+  const char letter = array.format[0];
+  const std::string_view letters = std::is_floating_point_v<T> ? "fd"
+                                   : std::is_signed_v<T>       ? std::string_view("bhilq")
+                                                               : std::string_view("BHILQ");
+  return letters.find(letter) != std::string_view::npos;
+}
+
+/// The numbers of an array of one axis whose neighbours lie side by side.
+/// @throws Error (internal) on another array: Python has made it so.
+template <class T>
+std::span<const T> numbers_of(const py::buffer_info& array) {
+  if (!holds<T>(array) || array.ndim != 1 || (array.size > 1 && array.strides[0] != array.itemsize))
+    throw Error(ErrorKind::internal, "an array of the wrong type or layout reached _core");
+  return {static_cast<const T*>(array.ptr), static_cast<std::size_t>(array.size)};
+}
+template <class T>
+std::vector<T> vector_of(const py::buffer& array) {
+  const py::buffer_info info = array.request();
+  const std::span<const T> numbers = numbers_of<T>(info);
+  return {numbers.begin(), numbers.end()};
+}
+
+/// Points of a float64 array with a point a row, of any strides that are whole numbers.
+PointsView points_of(const py::buffer_info& array);
+
+}  // namespace ph::python

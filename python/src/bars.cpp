@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "bars.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+#include "arrays.hpp"
+#include "bars_state.hpp"
+#include "bindings.hpp"
+#include "ph/error.hpp"
+#include "ph/io/svg_plot.hpp"
+#include "run.hpp"
+
+namespace ph::python {
+namespace {
+
+std::size_t place_in(const Bars& bars, std::int64_t i) {
+  if (i < 0 || static_cast<std::size_t>(i) >= bars.barcode.size())
+    throw Error(ErrorKind::usage, fmt::format("bar: found {}, expected 0 to {}", i,
+                                              static_cast<std::int64_t>(bars.barcode.size()) - 1));
+  return static_cast<std::size_t>(i);
+}
+
+/// The cells of one dimension of bars, a cell a row; -1 where there is none.
+/// @param cell_of what cell the bar at a place has: its numbers.
+template <class CellOf>
+Block cells_of(const Bars& bars, int dim, std::size_t width, const CellOf& cell_of) {
+  const auto [first, count] = bars.range_of(dim);
+  std::vector<std::int64_t> numbers(count * width, -1);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::span<const Index> cell = cell_of(first + k);
+    std::ranges::copy(cell.first(std::min(width, cell.size())),
+                      numbers.begin() + static_cast<std::ptrdiff_t>(k * width));
+  }
+  return Block::of(std::move(numbers),
+                   {static_cast<py::ssize_t>(count), static_cast<py::ssize_t>(width)});
+}
+
+/// How many numbers name a cell of a dimension.
+std::size_t width_of(const Bars& bars, int dim) {
+  const Barcode& all = bars.barcode;
+  if (all.cell_kind() == CellKind::vertices) return static_cast<std::size_t>(dim + 1);
+  return all.empty() ? 1 : all.birth_cell(0).numbers.size();
+}
+
+Block birth_cells(const Bars& bars, int dim) {
+  return cells_of(bars, dim, width_of(bars, dim),
+                  [&](std::size_t i) { return bars.barcode.birth_cell(i).numbers; });
+}
+
+Block death_cells(const Bars& bars, int dim) {
+  return cells_of(bars, dim, width_of(bars, dim + 1), [&](std::size_t i) {
+    const auto cell = bars.barcode.death_cell(i);
+    return cell ? cell->numbers : std::span<const Index>();
+  });
+}
+
+py::tuple chain(const Bars& bars, std::int64_t i) {
+  const InputChain chain = bars.barcode.representative(place_in(bars, i));
+  std::vector<std::int64_t> numbers, coefficients;
+  for (std::size_t k = 0; k < chain.size(); ++k) {
+    const std::span<const Index> cell = chain.cell(k).numbers;
+    numbers.insert(numbers.end(), cell.begin(), cell.end());
+    coefficients.push_back(chain.coefficient(k));
+  }
+  const auto size = static_cast<py::ssize_t>(chain.size());
+  const auto width = size == 0 ? 0 : static_cast<py::ssize_t>(numbers.size()) / size;
+  return py::make_tuple(Block::of(std::move(numbers), {size, width}),
+                        Block::of(std::move(coefficients)));
+}
+
+/// The loops of a bar: vertices, coefficient, length; and how tight they are.
+py::tuple loops_of(const Bars& bars, std::int64_t i) {
+  const std::size_t place = place_in(bars, i);
+  BarLoops own;
+  if (bars.loops.empty()) own.loops = closed_walks(bars.barcode.representative(place), bars.field);
+  const BarLoops& all = bars.loops.empty() ? own : bars.loops[place];
+  const std::size_t width = bars.barcode.cell_kind() == CellKind::grid ? width_of(bars, 0) : 1;
+  py::list loops;
+  for (const Loop& loop : all.loops) {
+    const auto vertices = static_cast<py::ssize_t>(loop.numbers.size() / width);
+    loops.append(
+        py::make_tuple(Block::of(loop.numbers, {vertices, static_cast<py::ssize_t>(width)}),
+                       loop.coefficient, loop.length));
+  }
+  constexpr const char* kTightness[] = {"no", "locally", "shortest"};
+  return py::make_tuple(loops, kTightness[static_cast<int>(all.tightness)]);
+}
+
+py::buffer_info bytes_of_bars(const Bars& bars) {
+  static_assert(sizeof(Bar) == 24 && offsetof(Bar, birth) == 8 && offsetof(Bar, death) == 16,
+                "libph/_barcode.py knows the layout");
+  const auto size = static_cast<py::ssize_t>(bars.barcode.size() * sizeof(Bar));
+  auto* const first = size == 0 ? nullptr : const_cast<Bar*>(&bars.barcode[0]);
+  return py::buffer_info(reinterpret_cast<unsigned char*>(first), size, true);
+}
+
+std::string svg_of(const Bars& bars, const std::string& title, bool negated,
+                   const RunOptions& options) {
+  PlotOptions look;
+  look.title = title;
+  look.negated = negated;
+  if (negated) look.value_label = "Value, falling";
+  return run(options, true, [&](const RunContext&) { return svg_plot(bars.barcode, look); });
+}
+
+template <class Numbers>
+auto block_of_bar(Numbers&& numbers) {
+  return [numbers](const Bars& bars, std::int64_t i) {
+    return Block::copy_of(std::invoke(numbers, bars.barcode, place_in(bars, i)));
+  };
+}
+
+const char* name_of(CellKind kind) {
+  constexpr const char* kNames[] = {"vertices", "grid", "row"};
+  return kNames[static_cast<int>(kind)];
+}
+
+}  // namespace
+
+Bars::Range Bars::range_of(int dim) const {
+  const auto range = std::ranges::equal_range(barcode.begin(), barcode.end(), dim, {}, &Bar::dim);
+  return {static_cast<std::size_t>(range.begin() - barcode.begin()), range.size()};
+}
+
+void bind_bars(py::module_& m) {
+  py::class_<Facts>(m, "Facts")
+      .def_readonly("engine", &Facts::engine)
+      .def_readonly("max_dim", &Facts::max_dim)
+      .def_readonly("collapses", &Facts::collapses)
+      .def_readonly("threshold", &Facts::threshold)
+      .def_readonly("vertices", &Facts::vertices)
+      .def_readonly("edges", &Facts::edges)
+      .def_readonly("covering_radius", &Facts::covering_radius);
+  py::class_<Bars>(m, "Bars", py::buffer_protocol())
+      .def_buffer(&bytes_of_bars)
+      .def("__len__", [](const Bars& bars) { return bars.barcode.size(); })
+      .def_readonly("facts", &Bars::facts)
+      .def_readonly("field", &Bars::field)
+      .def_property_readonly("cell_kind",
+                             [](const Bars& bars) { return name_of(bars.barcode.cell_kind()); })
+      .def_property_readonly("has_cells",
+                             [](const Bars& bars) {
+                               return bars.barcode.empty() ||
+                                      !bars.barcode.birth_cell(0).numbers.empty();
+                             })
+      .def_property_readonly("representatives",
+                             [](const Bars& bars) { return bars.barcode.representatives(); })
+      .def("birth_cells", &birth_cells, py::arg("dim"))
+      .def("death_cells", &death_cells, py::arg("dim"))
+      .def("chain", &chain, py::arg("i"))
+      .def("loops", &loops_of, py::arg("i"))
+      .def("voxels", block_of_bar(&Barcode::voxels), py::arg("i"))
+      .def("birth_voxel", block_of_bar(&Barcode::birth_voxel), py::arg("i"))
+      .def("death_voxel", block_of_bar(&Barcode::death_voxel), py::arg("i"))
+      .def(
+          "selected",
+          [](const Bars& bars, const py::buffer& places) {
+            return selected(bars, vector_of<std::int64_t>(places));
+          },
+          py::arg("places"))
+      .def("svg", &svg_of, py::arg("title"), py::arg("negated"), py::arg("run"))
+      .def("state", &state_of)
+      .def_static("from_state", &bars_of_state, py::arg("state"));
+}
+
+}  // namespace ph::python

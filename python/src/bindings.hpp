@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+// The parts of the module, one a file, in the order in which they are added.
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+namespace ph::python {
+
+namespace py = pybind11;
+
+void bind_errors();
+void bind_run(py::module_& m);
+void bind_arrays(py::module_& m);
+void bind_metric_spaces(py::module_& m);
+void bind_bars(py::module_& m);
+void bind_complexes(py::module_& m);
+void bind_computations(py::module_& m);
+void bind_merge_trees(py::module_& m);
+void bind_files(py::module_& m);
+
+}  // namespace ph::python

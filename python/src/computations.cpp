@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// What is computed of a recipe: its barcode, an estimate, the collapsed edges.
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "facade/adjust.hpp"
+#include "ph/bottleneck.hpp"
+#include "ph/estimate.hpp"
+#include "ph/loops.hpp"
+#include "recipes.hpp"
+#include "run.hpp"
+
+namespace ph::python {
+namespace {
+
+/// Whether bars of H1 that come with cycles come with loops, too.
+enum class LoopChoice { none, plain, tight };
+
+/// What is computed.
+struct Task {
+  Options options;
+  LoopChoice loops = LoopChoice::none;
+};
+
+Bars compute(const Recipe& recipe, const Task& task, const RunContext& context) {
+  Built built = recipe.build(task.options, context);
+  const RunPlan planned = plan(built.complex, task.options, context);
+  Options options = with_plan(task.options, planned);
+  // A bar that the threshold cuts is infinite, however short it would have been.
+  if (built.cut) options.min_persistence = std::min(options.min_persistence, 0.0);
+
+  Bars bars{persistence(built.complex, options, context)};
+  if (built.cut)
+    bars.barcode = cut_at(bars.barcode, built.complex, *built.cut, task.options.min_persistence);
+  if (task.loops != LoopChoice::none)
+    bars.loops =
+        loops(built.complex, bars.barcode, options, task.loops == LoopChoice::tight, context);
+  if (!recipe.vertex_ids().empty()) {
+    bars.barcode = with_input_ids(bars.barcode, recipe.vertex_ids());
+    name_points(bars.loops, recipe.vertex_ids());
+  }
+  bars.facts = std::move(built.facts);
+  bars.facts.engine = planned.engine.name();
+  bars.facts.collapses = planned.collapses;
+  bars.facts.max_dim = task.options.max_dim.value_or(planned.max_dim);
+  bars.field = task.options.field;
+  return bars;
+}
+
+Bars barcode(const Recipe& recipe, const Task& task, const RunOptions& options) {
+  return run(options, recipe.is_short(task.options),
+             [&](const RunContext& context) { return compute(recipe, task, context); });
+}
+
+Estimate estimate_of(const Recipe& recipe, const Task& task, const RunOptions& options) {
+  return run(options, recipe.is_short(task.options), [&](const RunContext& context) {
+    const Built built = recipe.build(task.options, context);
+    return estimate(built.complex, task.options, context);
+  });
+}
+
+/// The edges that are left: larger end, smaller end, value.
+py::tuple collapsed_edges(const RipsRecipe& recipe, const RunOptions& options) {
+  struct Edges {
+    std::vector<std::int64_t> u, v;
+    std::vector<double> values;
+  };
+  Edges edges = run(options, false, [&](const RunContext& context) {
+    const Rips rips = recipe.collapsed(context);
+    Edges all;
+    for (const FlagEdge& edge : rips.graph().edges()) {
+      all.u.push_back(edge.u);
+      all.v.push_back(edge.v);
+      all.values.push_back(edge.value);
+    }
+    return all;
+  });
+  return py::make_tuple(Block::of(std::move(edges.u)), Block::of(std::move(edges.v)),
+                        Block::of(std::move(edges.values)));
+}
+
+double bottleneck(const py::buffer& a, const py::buffer& b, const RunOptions& options) {
+  const auto bars_of = [](const py::buffer& array) {
+    const py::buffer_info info = array.request();
+    const PointsView rows = points_of(info);
+    std::vector<Bar> bars;
+    for (Index i = 0; i < rows.rows(); ++i) bars.push_back({0, rows(i, 0), rows(i, 1)});
+    return bars;
+  };
+  const std::vector<Bar> bars_of_a = bars_of(a), bars_of_b = bars_of(b);
+  constexpr std::size_t few = 100;
+  return run(options, bars_of_a.size() + bars_of_b.size() < few, [&](const RunContext& context) {
+    return bottleneck_distance(bars_of_a, bars_of_b, context);
+  });
+}
+
+/// @throws Error (usage) if there is none of that name.
+Engine engine_of(const std::string& name) {
+  if (const std::optional<Engine> engine = engine_named(name)) return *engine;
+  throw Error(ErrorKind::usage, "engine: found '" + name + "', expected one of engine_names()");
+}
+
+}  // namespace
+
+void bind_computations(py::module_& m) {
+  py::enum_<Representatives>(m, "Representatives")
+      .value("none", Representatives::none)
+      .value("cycles", Representatives::cycles)
+      .value("cocycles", Representatives::cocycles)
+      .value("voxels", Representatives::voxels);
+  py::enum_<Collapse>(m, "Collapse")
+      .value("automatic", Collapse::automatic)
+      .value("on", Collapse::on)
+      .value("off", Collapse::off);
+  py::enum_<LoopChoice>(m, "LoopChoice")
+      .value("none", LoopChoice::none)
+      .value("plain", LoopChoice::plain)
+      .value("tight", LoopChoice::tight);
+  py::class_<Task>(m, "Task").def(
+      py::init([](std::optional<int> max_dim, int min_dim, std::int64_t field,
+                  const std::string& engine, Collapse collapse, double min_persistence,
+                  Representatives representatives, bool cells, LoopChoice loops) {
+        Task task;
+        task.options = {max_dim,  min_dim,         field,           engine_of(engine),
+                        collapse, min_persistence, representatives, cells};
+        task.loops = loops;
+        return task;
+      }),
+      py::arg("max_dim"), py::arg("min_dim"), py::arg("field"), py::arg("engine"),
+      py::arg("collapse"), py::arg("min_persistence"), py::arg("representatives"), py::arg("cells"),
+      py::arg("loops"));
+  py::class_<Estimate>(m, "Estimate")
+      .def_property_readonly("engine",
+                             [](const Estimate& e) { return std::string(e.engine.name()); })
+      .def_readonly("reason", &Estimate::reason)
+      .def_readonly("collapses", &Estimate::collapses)
+      .def_readonly("collapse_reason", &Estimate::collapse_reason)
+      .def_readonly("max_dim", &Estimate::max_dim)
+      .def_readonly("cells", &Estimate::cells)
+      .def_readonly("counted_dims", &Estimate::counted_dims)
+      .def_readonly("cells_at_most", &Estimate::cells_at_most)
+      .def_readonly("bytes_held", &Estimate::bytes_held)
+      .def_readonly("bytes_low", &Estimate::bytes_low)
+      .def_readonly("bytes_high", &Estimate::bytes_high);
+  m.def("engine_names", [] {
+    const auto names = engine_names();
+    return std::vector<std::string>(names.begin(), names.end());
+  });
+  m.def("engine_named", [](const std::string& name) {
+    const auto engine = engine_named(name);
+    return engine ? std::optional(std::string(engine->name())) : std::nullopt;
+  });
+  m.def("barcode", &barcode, py::arg("recipe"), py::arg("task"), py::arg("run"));
+  m.def("estimate", &estimate_of, py::arg("recipe"), py::arg("task"), py::arg("run"));
+  m.def("collapsed_edges", &collapsed_edges, py::arg("recipe"), py::arg("run"));
+  m.def("bottleneck", &bottleneck, py::arg("a"), py::arg("b"), py::arg("run"));
+}
+
+}  // namespace ph::python

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+// Files of data and of barcodes.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "arrays.hpp"
+#include "bars.hpp"
+#include "bindings.hpp"
+#include "ph/detail/io/output_file.hpp"
+#include "ph/io/formats.hpp"
+#include "ph/io/write.hpp"
+#include "run.hpp"
+
+namespace ph::python {
+namespace {
+
+/// What was read, as arrays and plain values.
+class Answer {
+ public:
+  explicit Answer(SharedContext context) : context_(std::move(context)) {}
+
+  py::dict operator()(Points& points) const {
+    return of("points", {{"points", py::cast(Block::of(std::move(points)))}});
+  }
+  /// Both triangles, births on the diagonal.
+  py::dict operator()(DistanceMatrix& distances) const {
+    const Index n = distances.size();
+    std::vector<double> square;
+    square.reserve(static_cast<std::size_t>(n * n));
+    for (Index i = 0; i < n; ++i)
+      for (Index j = 0; j < n; ++j)
+        square.push_back(i == j && !distances.births().empty()
+                             ? distances.births()[static_cast<std::size_t>(i)]
+                             : distances(i, j));
+    return of("distances", {{"distances", py::cast(Block::of(std::move(square), {n, n}))}});
+  }
+  py::dict operator()(SparseDistances& distances) const {
+    std::vector<std::int64_t> i, j;
+    std::vector<double> values;
+    for (const WeightedEdge& edge : distances.edges()) {
+      i.push_back(edge.u);
+      j.push_back(edge.v);
+      values.push_back(edge.value);
+    }
+    return of("sparse", {{"size", py::cast(distances.size())},
+                         {"i", py::cast(Block::of(std::move(i)))},
+                         {"j", py::cast(Block::of(std::move(j)))},
+                         {"values", py::cast(Block::of(std::move(values)))}});
+  }
+  py::dict operator()(Image& image) const {
+    return of("image", {{"image", py::cast(Block::of(image, context_))}});
+  }
+  py::dict operator()(SimplicesInput& input) const {
+    SimplexList& list = input.simplices;
+    const bool has_own = input.vertex_values.empty();
+    return of("simplices",
+              {{"vertices", py::cast(Block::of(std::move(list.vertices)))},
+               {"offsets", py::cast(offsets_of(list.offsets))},
+               {"values", py::cast(Block::of(has_own ? std::move(list.values)
+                                                     : std::move(input.vertex_values)))},
+               {"are_of_vertices", py::cast(!has_own)}});
+  }
+  py::dict operator()(BoundaryInput& input) const {
+    BoundaryMatrix& matrix = input.matrix;
+    if (matrix.incidences.empty()) matrix.incidences.assign(matrix.rows.size(), 1);
+    const bool has_values = !matrix.values.empty();
+    return of("boundary", {{"dims", py::cast(Block::of(std::move(matrix.dims)))},
+                           {"offsets", py::cast(offsets_of(matrix.offsets))},
+                           {"rows", py::cast(Block::of(std::move(matrix.rows)))},
+                           {"incidences", py::cast(Block::of(std::move(matrix.incidences)))},
+                           {"values", has_values ? py::cast(Block::of(std::move(matrix.values)))
+                                                 : py::none()}});
+  }
+  py::dict operator()(Mesh& mesh) const {
+    const bool has_values = !mesh.values.empty();
+    return of("mesh",
+              {{"vertices", py::cast(Block::of(std::move(mesh.vertices)))},
+               {"corners", py::cast(Block::of(std::move(mesh.corners)))},
+               {"offsets", py::cast(offsets_of(mesh.offsets))},
+               {"values", has_values ? py::cast(Block::of(std::move(mesh.values))) : py::none()}});
+  }
+
+ private:
+  static py::dict of(const char* kind,
+                     std::initializer_list<std::pair<const char*, py::object>> members) {
+    py::dict answer;
+    answer["kind"] = kind;
+    for (const auto& [name, value] : members) answer[name] = value;
+    return answer;
+  }
+  static Block offsets_of(const std::vector<std::size_t>& offsets) {
+    return Block::of(std::vector<std::int64_t>(offsets.begin(), offsets.end()));
+  }
+
+  SharedContext context_;
+};
+
+template <class Enum, std::size_t n>
+Enum choice_of(const py::dict& options, const char* name, const std::array<const char*, n>& names) {
+  const auto given = options[name].cast<std::string>();
+  const auto found = std::ranges::find(names, given);
+  if (found == names.end()) throw Error(ErrorKind::internal, "a choice that is none reached _core");
+  return static_cast<Enum>(found - names.begin());
+}
+
+ReadOptions read_options_of(const py::dict& given) {
+  ReadOptions options;
+  options.allow_empty = true;
+  options.symmetrise =
+      choice_of<Symmetrise>(given, "symmetrise", std::array{"none", "max", "min", "lower"});
+  options.from_correlation = given["from_correlation"].cast<bool>();
+  options.diagonal = choice_of<Diagonal>(given, "diagonal", std::array{"zero", "any", "births"});
+  options.nan = choice_of<NanPolicy>(given, "nan", std::array{"error", "drop"});
+  options.array = choice_of<ArrayMeaning>(
+      given, "array", std::array{"auto", "rips", "image", "points", "distances"});
+  options.columns = given["columns"].cast<std::vector<std::string>>();
+  options.channel = choice_of<Channel>(given, "channel",
+                                       std::array{"auto", "grey", "red", "green", "blue", "alpha"});
+  if (!given["raw_shape"].is_none()) {
+    RawLayout layout;
+    layout.extents = given["raw_shape"].cast<std::vector<Index>>();
+    layout.type = given["raw_type"].cast<std::string>();
+    layout.big_endian = given["raw_big_endian"].cast<bool>();
+    layout.skip = given["raw_skip"].cast<std::size_t>();
+    options.raw = std::move(layout);
+  }
+  return options;
+}
+
+py::dict read(const std::string& path, const std::string& format_name,
+              const std::string& values_path, const py::dict& given, const RunOptions& options) {
+  ReadOptions how = read_options_of(given);
+  const std::optional<Format> format = format_from_name(format_name);
+  if (!format)
+    throw Error(ErrorKind::usage,
+                "format: found '" + format_name + "', expected one of format_names()");
+  std::vector<Index> dropped;
+  how.dropped = &dropped;
+  SharedContext used;  // by what was read, too
+  ReadResult result;
+  run_task(options, false, [&](const SharedContext& context) {
+    used = context;
+    how.context = context.get();
+    result =
+        read_any(std::filesystem::path(path), *format, how, std::filesystem::path(values_path));
+  });
+  py::dict answer = std::visit(Answer(used), result.data);
+  answer["description"] = result.description;
+  answer["notes"] = result.notes;
+  answer["dropped"] = dropped;
+  answer["periodic"] = result.periodic;
+  return answer;
+}
+
+/// What Python knows of a barcode, as far as files say it.
+BarcodeInfo info_of(const py::dict& meta) {
+  const auto take = [&]<class T>(const char* name, T& value) {
+    if (meta.contains(name) && !meta[name].is_none()) value = meta[name].cast<T>();
+  };
+  BarcodeInfo info;
+  take("program", info.program);
+  take("input_description", info.input_description);
+  take("complex", info.complex);
+  take("field", info.field);
+  take("max_dim", info.max_dim);
+  take("vertex_weights", info.vertex_weights);
+  take("superlevel", info.superlevel);
+  take("engine", info.engine);
+  double number = std::numeric_limits<double>::quiet_NaN();
+  take("threshold", number);
+  if (!std::isnan(number)) info.threshold = number;
+  number = std::numeric_limits<double>::quiet_NaN();
+  take("approximation", number);
+  if (!std::isnan(number)) info.approximation = number;
+  if (meta.contains("covering_radius") && !meta["covering_radius"].is_none()) {
+    info.subsample.emplace();
+    take("vertices", info.subsample->points);
+    take("points", info.subsample->of);
+    take("covering_radius", info.subsample->covering_radius);
+  }
+  return info;
+}
+
+py::dict meta_of(const BarcodeInfo& info) {
+  py::dict meta;
+  const auto put = [&](const char* name, const auto& value) { meta[name] = value; };
+  put("complex", info.complex);
+  put("field", info.field);
+  put("max_dim", info.max_dim);
+  put("threshold", info.threshold);
+  put("vertex_weights", info.vertex_weights);
+  put("superlevel", info.superlevel);
+  put("approximation", info.approximation);
+  put("engine", info.engine);
+  put("input_description", info.input_description);
+  if (info.subsample) {
+    put("vertices", info.subsample->points);
+    put("points", info.subsample->of);
+    put("covering_radius", info.subsample->covering_radius);
+  }
+  return meta;
+}
+
+void save(const Bars& bars, const std::string& path, const std::optional<std::string>& format_name,
+          const py::dict& meta, const RunOptions& options) {
+  const auto format =
+      format_name ? barcode_format_named(*format_name) : barcode_format_of_path(path);
+  if (!format || *format == BarcodeFormat::none)
+    throw Error(ErrorKind::usage,
+                "format: found " +
+                    (format_name ? "'" + *format_name + "'" : "none for '" + path + "'") +
+                    ", expected csv, json, ripser, pers, dipha or npy");
+  BarcodeInfo info = info_of(meta);
+  info.loops = bars.loops;
+  run_task(options, false, [&](const SharedContext&) {
+    OutputFile file(path);
+    write_barcode(file, bars.barcode, *format, info);
+    file.commit();
+  });
+}
+
+py::tuple read_bars(const std::string& path, const std::optional<std::string>& format_name,
+                    const RunOptions& options) {
+  const auto format = format_name ? barcode_format_named(*format_name) : std::nullopt;
+  if (format_name && !format)
+    throw Error(ErrorKind::usage, "format: found '" + *format_name +
+                                      "', expected csv, json, ripser, pers, dipha or npy");
+  StoredBarcode stored = run(options, false, [&](const RunContext& context) {
+    return read_stored_barcode(Input::open(std::filesystem::path(path), &context), format);
+  });
+  return py::make_tuple(Bars{std::move(stored.bars), {}, {}, stored.info.field},
+                        meta_of(stored.info));
+}
+
+}  // namespace
+
+void bind_files(py::module_& m) {
+  m.def("format_names", [] {
+    std::vector<std::string> names{"auto"};
+    for (const FormatInfo& format : formats())
+      if (format.read != nullptr) names.emplace_back(format.name);
+    return names;
+  });
+  m.def("read", &read, py::arg("path"), py::arg("format"), py::arg("values_path"),
+        py::arg("options"), py::arg("run"));
+  m.def("save", &save, py::arg("bars"), py::arg("path"), py::arg("format"), py::arg("meta"),
+        py::arg("run"));
+  m.def("read_barcode", &read_bars, py::arg("path"), py::arg("format"), py::arg("run"));
+}
+
+}  // namespace ph::python

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "ph/merge_tree.hpp"
+
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "recipes.hpp"
+#include "run.hpp"
+
+namespace ph::python {
+namespace {
+
+MergeTree merge_tree_of(const Recipe& recipe, const RunOptions& options) {
+  Options components;
+  components.max_dim = 0;
+  components.min_persistence = -1;  // equal points stay apart
+  return run(options, recipe.is_short(components), [&](const RunContext& context) {
+    const Built built = recipe.build(components, context);
+    return std::visit([&](const auto& complex) { return merge_tree(complex, context); },
+                      built.complex);
+  });
+}
+
+/// One member of all merges.
+template <class Number, class Member>
+Block column(const MergeTree& tree, Member Merge::*member) {
+  std::vector<Number> numbers;
+  numbers.reserve(tree.merges.size());
+  for (const Merge& merge : tree.merges) numbers.push_back(merge.*member);
+  return Block::of(std::move(numbers));
+}
+
+/// As SciPy has it: two clusters, the value at which they join, how many vertices they have.
+Block linkage_of(const MergeTree& tree) {
+  const std::vector<LinkageRow> rows = linkage(tree);
+  std::vector<double> numbers;
+  numbers.reserve(4 * rows.size());
+  for (const LinkageRow& row : rows)
+    for (const double number : {static_cast<double>(row.first), static_cast<double>(row.second),
+                                row.value, static_cast<double>(row.size)})
+      numbers.push_back(number);
+  return Block::of(std::move(numbers), {static_cast<py::ssize_t>(rows.size()), 4});
+}
+
+}  // namespace
+
+void bind_merge_trees(py::module_& m) {
+  py::class_<MergeTree>(m, "MergeTree")
+      .def_property_readonly("births",
+                             [](const MergeTree& t) { return Block::of(std::vector(t.births)); })
+      .def_property_readonly("values",
+                             [](const MergeTree& t) { return column<double>(t, &Merge::value); })
+      .def_property_readonly("u", [](const MergeTree& t) { return column<Index>(t, &Merge::u); })
+      .def_property_readonly("v", [](const MergeTree& t) { return column<Index>(t, &Merge::v); })
+      .def_property_readonly("elder",
+                             [](const MergeTree& t) { return column<Index>(t, &Merge::elder); })
+      .def_property_readonly("younger",
+                             [](const MergeTree& t) { return column<Index>(t, &Merge::younger); })
+      .def_property_readonly("linkage", &linkage_of)
+      .def(
+          "components",
+          [](const MergeTree& t, double value) { return Block::of(t.components(value)); },
+          py::arg("value"))
+      .def(
+          "basins",
+          [](const MergeTree& t, double min_persistence, Index min_size) {
+            return Block::of(t.basins(min_persistence, min_size));
+          },
+          py::arg("min_persistence"), py::arg("min_size"));
+  m.def("merge_tree", &merge_tree_of, py::arg("recipe"), py::arg("run"));
+}
+
+}  // namespace ph::python

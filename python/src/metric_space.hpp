@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "array_metric.hpp"
+#include "ph/distance_to_measure.hpp"
+#include "ph/greedy_permutation.hpp"
+#include "ph/metric.hpp"
+#include "ph/run_context.hpp"
+#include "ph/sparse_distances.hpp"
+
+namespace ph::python {
+
+namespace py = pybind11;
+
+/// Points and how far they are apart.
+struct PointSet {
+  PointsView points;
+  PointDistance distance = PointDistance::euclidean;
+  double p = 2;  ///< exponent of PointDistance::minkowski
+
+  Index size() const { return points.rows(); }
+};
+
+inline GreedyPermutation greedy_permutation(const PointSet& set, const GreedyLimits& limits,
+                                            const RunContext& context) {
+  return ph::greedy_permutation(set.points, limits, set.distance, set.p, context);
+}
+inline std::vector<double> distance_to_measure(const PointSet& set, Index neighbours,
+                                               const RunContext& context) {
+  return ph::distance_to_measure(set.points, neighbours, set.distance, set.p, context);
+}
+
+/// A finite set with distances whose numbers are in arrays of Python's, which it keeps: points, all
+/// distances, or some of them. Nobody changes the arrays while a computation runs.
+class MetricSpace {
+ public:
+  /// @param points float64, a point a row.
+  MetricSpace(const py::buffer& points, PointDistance distance, double p);
+  /// @param distances float32 or float64, a square matrix or, with one axis, its condensed form.
+  MetricSpace(const py::buffer& distances, Symmetrise symmetrise, NanPolicy nan,
+              bool has_zero_diagonal);
+  /// Pairs i < j, each once, with their distances.
+  MetricSpace(Index size, const py::buffer& i, const py::buffer& j, const py::buffer& distances);
+
+  Index size() const { return size_; }
+  /// Whether each pair has a distance.
+  bool is_complete() const { return !std::holds_alternative<Pairs>(numbers_); }
+
+  /// Calls `use` with a PointSet, an ArrayMetric or SparseDistances.
+  /// @throws Error (bad_data) on what is no distance.
+  template <class Use>
+  decltype(auto) visit(const RunContext& context, Use&& use) const {
+    if (const auto* points = std::get_if<PointSet>(&numbers_)) return use(*points);
+    if (const auto* pairs = std::get_if<Pairs>(&numbers_)) return use(sparse_distances(*pairs));
+    const auto& array = std::get<DistanceArray>(numbers_);
+    if (is_single_) {
+      check_distances<float>(array, context);
+      return use(ArrayMetric<float>(array));
+    }
+    check_distances<double>(array, context);
+    return use(ArrayMetric<double>(array));
+  }
+
+ private:
+  struct Pairs {
+    std::span<const std::int64_t> i, j;
+    std::span<const double> distances;
+  };
+  SparseDistances sparse_distances(const Pairs& pairs) const;
+
+  std::vector<py::buffer_info> arrays_;  // keep the numbers
+  Index size_ = 0;
+  bool is_single_ = false;  // distances are float32
+  std::variant<PointSet, DistanceArray, Pairs> numbers_;
+};
+
+}  // namespace ph::python

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// The module libph._core: functions that take buffers and plain numbers and return blocks of their
+// own. Shapes, names, words and defaults are the business of the Python around it.
+#include "bindings.hpp"
+
+PYBIND11_MODULE(_core, m) {
+  using namespace ph::python;
+  m.doc() = "What libph has in C++. No interface: use the functions of the package libph.";
+  m.attr("version") = PH_VERSION;
+  bind_errors();
+  bind_run(m);
+  bind_arrays(m);
+  bind_metric_spaces(m);
+  bind_bars(m);
+  bind_complexes(m);
+  bind_computations(m);
+  bind_merge_trees(m);
+  bind_files(m);
+}

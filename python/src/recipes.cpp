@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+#include "recipes.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "ph/edge_collapse.hpp"
+#include "ph/error.hpp"
+#include "ph/lower_star.hpp"
+
+namespace ph::python {
+namespace {
+
+// Cells that any engine is through with in milliseconds.
+constexpr double kFewCells = 50'000;
+
+Rips rips_of(const PointSet& set, RipsOptions options, const RunContext& context) {
+  options.distance = set.distance;
+  options.minkowski_p = set.p;
+  return Rips(set.points, options, context);
+}
+template <class Distances>
+Rips rips_of(const Distances& distances, const RipsOptions& options, const RunContext& context) {
+  return Rips(distances, options, context);
+}
+
+VoxelType voxel_type_of(const py::buffer_info& array) {
+  if (holds<std::uint8_t>(array)) return VoxelType::uint8;
+  if (holds<std::uint16_t>(array)) return VoxelType::uint16;
+  if (holds<std::int16_t>(array)) return VoxelType::int16;
+  if (holds<float>(array)) return VoxelType::float32;
+  if (holds<double>(array)) return VoxelType::float64;
+  throw Error(ErrorKind::internal, "an image of the wrong type reached _core");
+}
+
+bool is_c_contiguous(const py::buffer_info& array) {
+  py::ssize_t stride = array.itemsize;
+  for (auto k = array.ndim; k-- > 0;) {
+    const auto axis = static_cast<std::size_t>(k);
+    if (array.shape[axis] != 1 && array.strides[axis] != stride) return false;
+    stride *= array.shape[axis];
+  }
+  return true;
+}
+
+}  // namespace
+
+const std::vector<Index>& Recipe::vertex_ids() const {
+  static const std::vector<Index> none;
+  return none;
+}
+
+Built RipsRecipe::build(const Options& task, const RunContext& context) const {
+  RipsOptions options;
+  options.threshold = choices_.threshold;
+  options.weight_exponent = choices_.weight_exponent;
+  options.approximation = choices_.approximation;
+  // An engine asked for by name has its reasons.
+  const bool is_free = task.engine == Engine::automatic || task.engine == Engine::union_find;
+  options.only_components = task.max_dim == 0 && is_free && !choices_.approximation;
+  const bool may_merge = !options.only_components && task.min_persistence >= 0 &&
+                         task.representatives != Representatives::cocycles;
+  options.merge_equal_points = choices_.merge_equal_points.value_or(may_merge);
+  return space_->visit(context, [&](const auto& data) { return build(data, options, context); });
+}
+
+template <class Data>
+Built RipsRecipe::build(const Data& data, RipsOptions options, const RunContext& context) const {
+  Facts facts;
+  std::vector<double> births = choices_.births;
+  std::vector<std::uint32_t> vertices;
+  if constexpr (!std::same_as<Data, SparseDistances>) {
+    if (choices_.dtm_neighbours && data.size() > 0) {
+      births = distance_to_measure(data, *choices_.dtm_neighbours, context);
+      for (double& birth : births) birth *= 2;  // diameters
+    }
+    if (choices_.subsample) {
+      const GreedyPermutation sample = greedy_permutation(data, *choices_.subsample, context);
+      vertices = sample.ascending();
+      facts.covering_radius = sample.covering_radius;
+    }
+  }
+  options.births = births;
+  options.vertices = vertices;
+  Rips rips = rips_of(data, options, context);
+  facts.vertices = rips.size();
+  facts.edges = rips.edge_count();
+  if (std::isfinite(rips.threshold())) facts.threshold = rips.threshold();
+  return {std::move(rips), std::move(facts)};
+}
+
+bool RipsRecipe::is_short(const Options& task) const {
+  // A simplex that is listed has max_dim + 2 vertices at most.
+  return task.engine == Engine::automatic &&
+         std::pow(static_cast<double>(space_->size()), task.max_dim.value_or(1) + 2) < kFewCells;
+}
+
+Rips RipsRecipe::collapsed(const RunContext& context) const {
+  const Built built = build(Options{}, context);
+  return collapse_edges(std::get<Rips>(built.complex), context);
+}
+
+CubicalRecipe::CubicalRecipe(const py::buffer& image, bool is_masked, bool is_file,
+                             CubicalOptions options)
+    : array_(image.request()),
+      type_(voxel_type_of(array_)),
+      is_masked_(is_masked),
+      is_file_(is_file && is_c_contiguous(array_)),
+      options_(std::move(options)) {}
+
+Image CubicalRecipe::image(const RunContext& context) const {
+  std::vector<Index> extents(array_.shape.begin(), array_.shape.end());
+  Image image;
+  if (is_file_) {
+    const BorrowedVoxels voxels{type_, array_.ptr, static_cast<std::size_t>(array_.size), nullptr,
+                                true};
+    image = Image{std::move(extents), Voxels(voxels)};
+  } else {
+    std::vector<std::ptrdiff_t> strides;
+    for (const py::ssize_t bytes : array_.strides) strides.push_back(bytes / array_.itemsize);
+    if (!is_c_contiguous(array_))  // a copy
+      context.memory.require(static_cast<std::size_t>(array_.size * array_.itemsize));
+    image = image_of_array(type_, array_.ptr, std::move(extents), strides);
+  }
+  image.masked = is_masked_;
+  return image;
+}
+
+Built CubicalRecipe::build(const Options&, const RunContext& context) const {
+  Facts facts;
+  facts.threshold = options_.threshold;
+  return {Cubical(image(context), options_, context), std::move(facts)};
+}
+
+bool CubicalRecipe::is_short(const Options& task) const {
+  return task.engine == Engine::automatic &&
+         std::ldexp(static_cast<double>(array_.size), static_cast<int>(array_.ndim)) < kFewCells;
+}
+
+Built ListedRecipe::build(const Options&, const RunContext& context) const {
+  Facts facts;
+  facts.threshold = threshold_;
+  return {list_(context), std::move(facts), threshold_};
+}
+
+bool ListedRecipe::is_short(const Options& task) const {
+  // Columns may become as long as there are cells.
+  constexpr std::size_t few = 1000;
+  return task.engine == Engine::automatic && cells_ < few;
+}
+
+namespace {
+
+std::vector<std::size_t> sizes_of(const py::buffer& array) {
+  const std::vector<std::int64_t> numbers = vector_of<std::int64_t>(array);
+  return {numbers.begin(), numbers.end()};
+}
+
+std::unique_ptr<Recipe> simplices(const py::buffer& vertices, const py::buffer& offsets,
+                                  const py::buffer& values, std::optional<double> threshold) {
+  SimplexList list{vector_of<Index>(vertices), sizes_of(offsets), vector_of<double>(values)};
+  const std::size_t cells = list.size();
+  return std::make_unique<ListedRecipe>(
+      [list = std::move(list)](const RunContext& context) {
+        return ExplicitComplex::from_simplices(list, {}, context);
+      },
+      threshold, cells);
+}
+
+std::unique_ptr<Recipe> lower_star_of(const py::buffer& vertices, const py::buffer& offsets,
+                                      const py::buffer& vertex_values,
+                                      std::optional<double> threshold) {
+  SimplexList list{vector_of<Index>(vertices), sizes_of(offsets), {}};
+  list.values.resize(list.size());  // have no say
+  std::vector<double> values = vector_of<double>(vertex_values);
+  const std::size_t cells = values.size() + 4 * list.vertices.size();
+  return std::make_unique<ListedRecipe>(
+      [list = std::move(list), values = std::move(values)](const RunContext& context) {
+        return lower_star(list, values, {}, context);
+      },
+      threshold, cells);
+}
+
+std::unique_ptr<Recipe> boundary(const py::buffer& dims, const py::buffer& offsets,
+                                 const py::buffer& rows, const py::buffer& incidences,
+                                 const py::buffer& values, std::optional<double> threshold) {
+  BoundaryMatrix matrix{vector_of<int>(dims), sizes_of(offsets), vector_of<Index>(rows),
+                        vector_of<int>(incidences), vector_of<double>(values)};
+  const std::size_t cells = matrix.size();
+  return std::make_unique<ListedRecipe>(
+      [matrix = std::move(matrix)](const RunContext& context) {
+        return ExplicitComplex::from_boundary(matrix, {}, context);
+      },
+      threshold, cells);
+}
+
+}  // namespace
+
+void bind_complexes(py::module_& m) {
+  py::enum_<WeightExponent>(m, "WeightExponent")
+      .value("one", WeightExponent::one)
+      .value("two", WeightExponent::two)
+      .value("infinity", WeightExponent::infinity);
+  py::class_<Recipe>(m, "Recipe");
+  py::class_<RipsRecipe, Recipe>(m, "RipsRecipe")
+      .def(py::init([](std::shared_ptr<MetricSpace> space, std::optional<double> threshold,
+                       const std::optional<py::buffer>& births, std::optional<Index> dtm_neighbours,
+                       WeightExponent weight_exponent, std::optional<Index> subsample,
+                       std::optional<double> subsample_radius, std::optional<double> approximation,
+                       std::optional<bool> merge_equal_points,
+                       const std::optional<py::buffer>& ids) {
+             RipsRecipe::Choices choices;
+             choices.threshold = threshold;
+             if (births) choices.births = vector_of<double>(*births);
+             choices.dtm_neighbours = dtm_neighbours;
+             choices.weight_exponent = weight_exponent;
+             if (subsample || subsample_radius) {
+               choices.subsample.emplace();
+               if (subsample) choices.subsample->points = *subsample;
+               if (subsample_radius) choices.subsample->radius = *subsample_radius;
+             }
+             choices.approximation = approximation;
+             choices.merge_equal_points = merge_equal_points;
+             if (ids) choices.ids = vector_of<Index>(*ids);
+             return std::make_unique<RipsRecipe>(std::move(space), std::move(choices));
+           }),
+           py::arg("space"), py::arg("threshold"), py::arg("births"), py::arg("dtm_neighbours"),
+           py::arg("weight_exponent"), py::arg("subsample"), py::arg("subsample_radius"),
+           py::arg("approximation"), py::arg("merge_equal_points"), py::arg("ids"));
+  using Construction = CubicalOptions::Construction;
+  m.def(
+      "cubical_recipe",
+      [](const py::buffer& image, bool is_masked, bool is_file, bool voxels_are_vertices,
+         bool superlevel, std::vector<bool> periodic,
+         std::optional<double> threshold) -> std::unique_ptr<Recipe> {
+        CubicalOptions options;
+        options.construction = voxels_are_vertices ? Construction::vertices : Construction::cells;
+        options.superlevel = superlevel;
+        options.periodic = std::move(periodic);
+        options.threshold = threshold;
+        return std::make_unique<CubicalRecipe>(image, is_masked, is_file, std::move(options));
+      },
+      py::arg("image"), py::arg("is_masked"), py::arg("is_file"), py::arg("voxels_are_vertices"),
+      py::arg("superlevel"), py::arg("periodic"), py::arg("threshold"));
+  m.def("simplices_recipe", &simplices, py::arg("vertices"), py::arg("offsets"), py::arg("values"),
+        py::arg("threshold"));
+  m.def("lower_star_recipe", &lower_star_of, py::arg("vertices"), py::arg("offsets"),
+        py::arg("vertex_values"), py::arg("threshold"));
+  m.def("boundary_recipe", &boundary, py::arg("dims"), py::arg("offsets"), py::arg("rows"),
+        py::arg("incidences"), py::arg("values"), py::arg("threshold"));
+}
+
+}  // namespace ph::python

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+#include "run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <system_error>
+#include <thread>
+
+#include "bindings.hpp"
+#include "core/system/machine_memory.hpp"
+
+namespace ph::python {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
+using Task = std::function<void(const SharedContext&)>;
+
+constexpr std::chrono::milliseconds kLook(20);
+
+/// What the machine has for us, less what this process has already: the arrays of the caller.
+std::size_t memory_left() {
+  static const std::size_t all = machine_memory();  // slow to find out
+  return all - std::min<std::size_t>(all, status_bytes("RssAnon:").value_or(0));
+}
+
+std::shared_ptr<RunContext> new_context(const RunOptions& options) {
+  auto context = std::make_shared<RunContext>();
+  context->threads = options.threads;
+  context->slab_layers = options.slab_layers;
+  if (options.memory_limit) context->memory.set_limit(*options.memory_limit);
+  return context;
+}
+
+struct News {
+  std::string stage;
+  std::uint64_t done = 0, total = 0;
+};
+
+/// A computation on a thread of its own, and what the caller's thread is told of it.
+class Computation {
+ public:
+  Computation(const RunOptions& options, const Task& task)
+      : options_(options), task_(task), context_(new_context(options)) {
+    if (!options.memory_limit) context_->memory.set_limit(memory_left());
+    context_->stop = stop_.get_token();
+    if (!options.progress.is_none())
+      context_->on_progress = [this](const Progress& progress) { tell(progress); };
+  }
+
+  /// Until it is done. Where the system gives no thread, nobody looks after it.
+  void run() {
+    std::jthread worker;
+    std::exception_ptr of_caller;
+    try {
+      worker = std::jthread([this] { compute(); });
+    } catch (const std::system_error&) {
+      compute();
+    }
+    try {
+      watch();
+    } catch (...) {
+      of_caller = std::current_exception();
+      stop_.request_stop();
+    }
+    if (worker.joinable()) worker.join();
+    context_->on_progress = nullptr;  // it may live on
+    if (of_caller) std::rethrow_exception(of_caller);
+    if (error_) rethrow_error();
+  }
+
+ private:
+  // On the computation's thread.
+  void compute() {
+    try {
+      task_(context_);
+    } catch (...) {
+      error_ = std::current_exception();
+    }
+    const std::lock_guard lock(mutex_);
+    is_done_ = true;
+    changed_.notify_one();
+  }
+  void tell(const Progress& progress) {
+    const std::lock_guard lock(mutex_);
+    news_ = {std::string(progress.stage), progress.done, progress.total};
+    changed_.notify_one();
+  }
+
+  // On the caller's thread.
+  void watch() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+      changed_.wait_for(lock, std::clamp(time_left(), Seconds(0), Seconds(kLook)),
+                        [&] { return is_done_ || news_; });
+      if (is_done_) return;
+      const std::optional<News> news = std::exchange(news_, std::nullopt);
+      lock.unlock();
+      look(news);
+      lock.lock();
+      if (time_left() > Seconds(0)) continue;
+      is_late_ = true;
+      stop_.request_stop();
+      return;
+    }
+  }
+  Seconds time_left() const {
+    if (!options_.timeout) return Seconds::max();
+    return Seconds(*options_.timeout) - Seconds(Clock::now() - start_);
+  }
+  void look(const std::optional<News>& news) {
+    const py::gil_scoped_acquire gil;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    if (!options_.stop.is_none() && options_.stop.attr("is_set")().cast<bool>())
+      stop_.request_stop();
+    if (news) options_.progress(news->stage, news->done, news->total);
+  }
+  [[noreturn]] void rethrow_error() const {
+    try {
+      std::rethrow_exception(error_);
+    } catch (const Error& error) {
+      if (is_late_ && error.kind() == ErrorKind::cancelled) throw Timeout(*options_.timeout);
+      throw;
+    }
+  }
+
+  const RunOptions& options_;
+  const Task& task_;
+  const Clock::time_point start_ = Clock::now();
+  std::stop_source stop_;
+  const std::shared_ptr<RunContext> context_;
+  bool is_late_ = false;
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool is_done_ = false;
+  std::optional<News> news_;
+  std::exception_ptr error_;
+};
+
+}  // namespace
+
+Timeout::Timeout(double seconds)
+    : Error(ErrorKind::cancelled,
+            fmt::format("timeout: not done after {} s; a larger timeout, a smaller max_dim or a "
+                        "subsample helps",
+                        seconds)) {}
+
+void run_task(const RunOptions& options, bool is_short, const Task& task) {
+  const py::gil_scoped_release no_gil;
+  if (!is_short || options.is_watched()) {
+    Computation(options, task).run();
+    return;
+  }
+  const std::shared_ptr<RunContext> context = new_context(options);
+  if (options.threads == 0) context->threads = 1;  // a second one would take longer to start
+  task(context);
+}
+
+void bind_run(py::module_& m) {
+  py::class_<RunOptions>(m, "RunOptions")
+      .def(py::init([](int threads, std::optional<std::size_t> memory_limit,
+                       std::optional<double> timeout, py::object progress, py::object stop,
+                       int slab_layers) {
+             return RunOptions{threads,         memory_limit, timeout, std::move(progress),
+                               std::move(stop), slab_layers};
+           }),
+           py::arg("threads"), py::arg("memory_limit"), py::arg("timeout"), py::arg("progress"),
+           py::arg("stop"), py::arg("slab_layers"));
+  m.def("memory_left", &memory_left);
+}
+
+}  // namespace ph::python
