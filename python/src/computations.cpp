@@ -9,6 +9,7 @@
 #include "bindings.hpp"
 #include "facade/adjust.hpp"
 #include "ph/bottleneck.hpp"
+#include "ph/detail/rips/rips_graph.hpp"
 #include "ph/estimate.hpp"
 #include "ph/loops.hpp"
 #include "recipes.hpp"
