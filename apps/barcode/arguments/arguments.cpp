@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "barcode/arguments/arguments.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>

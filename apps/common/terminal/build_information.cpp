@@ -5,8 +5,8 @@
 #include <png.h>
 #include <zlib.h>
 
-#include <CLI/Version.hpp>
 #include <Eigen/src/Core/util/Macros.h>  // the version; all of it takes seconds
+#include <CLI/Version.hpp>
 #include <string_view>
 
 #include "ph/io/png_plot.hpp"

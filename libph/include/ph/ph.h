@@ -108,8 +108,8 @@ PH_API ph_status ph_rips_points(const double* data, int64_t rows, int64_t column
 PH_API ph_status ph_rips_distances(const double* lower, int64_t size, const ph_options* options,
                                    ph_barcode** out);
 
-/** The cubical filtration of an image: voxel (i, j, …) is data[i * strides[0] + j * strides[1] + …].
- * It is read where it is if it is aligned and in C order without gaps, and copied else.
+/** The cubical filtration of an image: voxel (i, j, …) is data[i * strides[0] + j * strides[1] +
+ * …]. It is read where it is if it is aligned and in C order without gaps, and copied else.
  * @param data numbers of type `type`. @param extents `axes` lengths, 1 to 8 of them.
  * @param strides NULL: C order, the last axis the fastest. */
 PH_API ph_status ph_cubical_image(const void* data, ph_number type, int32_t axes,

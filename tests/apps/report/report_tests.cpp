@@ -12,9 +12,9 @@
 #include <sstream>
 #include <string>
 
+#include "io/bytes/base64.hpp"
 #include "ph/error.hpp"
 #include "report/encoding/array_block.hpp"
-#include "io/bytes/base64.hpp"
 #include "report/encoding/sha256.hpp"
 #include "report/metadata.hpp"
 #include "report/page_template.hpp"

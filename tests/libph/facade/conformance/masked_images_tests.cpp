@@ -53,7 +53,8 @@ Image stored_otherwise(Generator& random, const Image& image) {
     const std::size_t bytes = other.values.size() * bytes_of(other.values.type());
     auto file = std::make_shared<ScratchFile>(bytes);
     std::memcpy(file->data(), other.values.data(), bytes);
-    other.values = Voxels(BorrowedVoxels{other.values.type(), file->data(), numbers.size(), file, true});
+    other.values =
+        Voxels(BorrowedVoxels{other.values.type(), file->data(), numbers.size(), file, true});
   }
   return other;
 }

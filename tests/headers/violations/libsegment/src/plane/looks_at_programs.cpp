@@ -1,3 +1,3 @@
 // SPDX-License-Identifier: MIT
-#include "../../../apps/segment/run.hpp"
 #include <pcl/point_cloud.h>
+#include "../../../apps/segment/run.hpp"
