@@ -16,9 +16,20 @@ KdTree::KdTree(PointsView points, std::span<const std::uint32_t> rows, const Run
       boxes_(node_count() * box_size(), &context.memory) {
   std::pmr::vector<Item> items(rows.size(), &context.memory);
   for (std::size_t i = 0; i < items.size(); ++i) items[i].row = rows[i];
-  // The first levels one by one, then whatever hangs below each of their nodes; small trees are not
-  // worth a thread.
-  const int top = items.size() < 1 << 15 ? 0 : 6;
+  const auto put = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      rows_[i] = items[i].row;
+      std::copy_n(points.row(items[i].row), points.cols(),
+                  points_.row(static_cast<Index>(i)).data());
+    }
+  };
+  if (items.size() < 1 << 15) {  // not worth a thread
+    split_below(1, points, items);
+    put(0, items.size());
+    return;
+  }
+  // The first levels one by one, then whatever hangs below each of their nodes.
+  constexpr int top = 6;
   for (int level = 0; level <= top; ++level) {
     const Node first = Node{1} << level;
     for_each_piece("k-d tree", first, 1, context, [&](std::size_t i, std::size_t) {
@@ -29,14 +40,7 @@ KdTree::KdTree(PointsView points, std::span<const std::uint32_t> rows, const Run
         split_below(node, points, items);
     });
   }
-  for_each_piece("k-d tree", items.size(), 1 << 16, context,
-                 [&](std::size_t begin, std::size_t end) {
-                   for (std::size_t i = begin; i < end; ++i) {
-                     rows_[i] = items[i].row;
-                     std::copy_n(points.row(items[i].row), points.cols(),
-                                 points_.row(static_cast<Index>(i)).data());
-                   }
-                 });
+  for_each_piece("k-d tree", items.size(), 1 << 16, context, put);
 }
 
 void KdTree::split_below(Node node, PointsView points, std::span<Item> items) {
@@ -51,13 +55,15 @@ void KdTree::split(Node node, PointsView points, std::span<Item> items) {
   double* const box = boxes_.data() + node * box_size();
   const Index axes = points.cols();
   const auto coordinates = [&](const Item& item) { return points.row(item.row); };
-  for (Index k = 0; k < axes; ++k) box[2 * k] = box[2 * k + 1] = coordinates(mine.front())[k];
-  for (const Item& item : mine) {
-    const double* const x = coordinates(item);
-    for (Index k = 0; k < axes; ++k) {
-      box[2 * k] = std::min(box[2 * k], x[k]);
-      box[2 * k + 1] = std::max(box[2 * k + 1], x[k]);
+  for (Index k = 0; k < axes; ++k) {
+    double low = coordinates(mine.front())[k], high = low;
+    for (const Item& item : mine) {
+      const double x = coordinates(item)[k];
+      low = std::min(low, x);
+      high = std::max(high, x);
     }
+    box[2 * k] = low;
+    box[2 * k + 1] = high;
   }
   if (is_leaf(node)) return;
   Index widest = 0;
