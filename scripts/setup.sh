@@ -3,7 +3,7 @@
 # Installs the Debian packages that are missing: setup.sh [build|page|demo|test|viewer|lint|fuzz|coverage]…
 set -euo pipefail
 
-build=(build-essential cmake ninja-build pkg-config ccache libeigen3-dev libfmt-dev libnanoflann-dev
+build=(build-essential cmake ninja-build pkg-config ccache libeigen3-dev libfmt-dev
        zlib1g-dev libpng-dev libfreetype-dev fonts-dejavu-core libcli11-dev)
 demo=(python3-numpy python3-skimage libcgal-demo)
 # Peers and tools that tests compare with or look through.

@@ -91,7 +91,47 @@ class Search final : public NeighbourSearch {
     return best;
   }
 
+  void pairs_within(double limit, const VisitPair& visit,
+                    const RunContext& context) const override {
+    Ticker ticker(context, "near pairs", tree_.size());
+    visit_pairs(1, 1, {limit, Gaps::reach(limit, slack_), visit, ticker});
+  }
+
  private:
+  struct Pairs {
+    double limit, reach;
+    const VisitPair& visit;
+    Ticker& ticker;
+  };
+  /// Those of a point of `a` and one of `b`, which is at the level of `a` and not before it.
+  void visit_pairs(Node a, Node b, const Pairs& pairs) const {
+    if (a != b && gap_of_boxes(tree_.box(a), tree_.box(b)) > pairs.reach) return;
+    if (tree_.is_leaf(a)) {
+      visit_pairs_of_leaves(a, b, pairs);
+      return;
+    }
+    visit_pairs(2 * a, 2 * b, pairs);
+    visit_pairs(2 * a, 2 * b + 1, pairs);
+    if (a != b) visit_pairs(2 * a + 1, 2 * b, pairs);
+    visit_pairs(2 * a + 1, 2 * b + 1, pairs);
+  }
+  void visit_pairs_of_leaves(Node a, Node b, const Pairs& pairs) const {
+    const Position last = tree_.end(b);
+    for (Position p = tree_.begin(a); p < tree_.end(a); ++p) {
+      for (Position q = a == b ? p + 1 : tree_.begin(b); q < last; ++q) {
+        const double sum = gap_to_point(p, q);
+        if (sum > pairs.reach) continue;
+        const double d = distance(p, q, sum);
+        if (d > pairs.limit) continue;
+        const auto [i, j] = std::minmax(tree_.rows()[p], tree_.rows()[q]);
+        pairs.visit(Index{i}, Index{j}, d);
+      }
+    }
+    if (a == b)
+      pairs.ticker.tick(tree_.end(a) - tree_.begin(a));
+    else
+      pairs.ticker.work(KdTree::kLeafSize);
+  }
   Index axes() const {
     if constexpr (Axes > 0) return Axes;
     return axes_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <span>
@@ -10,8 +11,9 @@
 
 namespace ph {
 
-/// Exact searches for nearest points in a k-d tree. Distances are those of PointMetric to the last
-/// bit; among points at one distance the one of the smaller row is nearer.
+/// Exact searches in a k-d tree: for nearest points, and for all pairs within a distance. Distances
+/// are those of PointMetric to the last bit; among points at one distance the one of the smaller
+/// row is nearer.
 class NeighbourSearch {
  public:
   using Position = KdTree::Position;
@@ -37,6 +39,11 @@ class NeighbourSearch {
                        std::span<Neighbour> found) const = 0;
   /// The nearest point of another part at distance <= limit; kNone if there is none.
   virtual Neighbour nearest_foreign(Position p, const Parts& parts, double limit) const = 0;
+  using VisitPair = std::function<void(Index, Index, double)>;
+  /// Calls `visit(i, j, distance)` once for each pair of rows i < j at distance <= limit, in an
+  /// order that depends on the points alone.
+  virtual void pairs_within(double limit, const VisitPair& visit,
+                            const RunContext& context) const = 0;
 
   /// Whether a k-d tree helps to bound the distance.
   static bool can_search(PointDistance distance) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Distances: values by hand, the ends of the range of double, near pairs against all pairs.
 #include <limits>
+#include <numeric>
 
+#include "metric/neighbour_search.hpp"
 #include "metric/pairs_within.hpp"
 #include "ph/detail/metric/row_distances.hpp"
 #include "ph/distance_matrix.hpp"
@@ -147,13 +149,15 @@ TEST(SparseDistanceSets, RefuseWhatIsNoEdge) {
   refuse({0, 1, 1}, "(0, 1) is there twice");
 }
 
-std::vector<WeightedEdge> all_pairs_within(const Points& points, double radius) {
-  const PointMetric metric(points);
+std::vector<WeightedEdge> all_pairs_within(const PointMetric& metric, double radius) {
   std::vector<WeightedEdge> edges;
-  for (Index i = 0; i < points.rows(); ++i)
-    for (Index j = i + 1; j < points.rows(); ++j)
+  for (Index i = 0; i < metric.size(); ++i)
+    for (Index j = i + 1; j < metric.size(); ++j)
       if (metric(i, j) <= radius) edges.push_back({i, j, metric(i, j)});
   return edges;
+}
+std::vector<WeightedEdge> all_pairs_within(const Points& points, double radius) {
+  return all_pairs_within(PointMetric(points), radius);
 }
 
 TEST(SparseDistanceSets, NearPairsAreThoseOfAllPairs) {
@@ -173,6 +177,38 @@ TEST(SparseDistanceSets, NearPairsAreThoseOfAllPairs) {
     EXPECT_EQ(SparseDistances::within(points, below).edges(), all_pairs_within(points, below));
     EXPECT_EQ(SparseDistances::within(points, above).edges(), all_pairs_within(points, above));
   }
+}
+
+// The tree itself: for_each_pair_within asks it only about more points than are tried here.
+TEST(NearPairsOfATree, AreThoseOfAllPairs) {
+  constexpr PointDistance distances[] = {PointDistance::euclidean, PointDistance::manhattan,
+                                         PointDistance::chebyshev, PointDistance::minkowski};
+  for_each_seed(800, [&](Generator& random, bool ties, std::int64_t) {
+    const int n = random.integer(1, 60);
+    Points points = random.points(n, random.integer(1, 6), ties);
+    const double units[] = {1, 1, 1e-3, 1e100, 1e200, 1e307, 1e-200, 1e-310};
+    scale(points.coordinates(), units[random.integer(0, 7)]);
+    const PointDistance distance = distances[random.integer(0, 3)];
+    const double p = 1 + 3 * random.real();
+    const PointMetric given(points, distance, p);
+    std::vector<std::uint32_t> all(static_cast<std::size_t>(n));
+    std::iota(all.begin(), all.end(), 0U);
+    const KdTree tree(points, all, default_context());
+    const PointMetric metric(tree.points(), distance, p);
+    const auto search = NeighbourSearch::make(tree, metric, distance, p);
+    const double inclusive = given(random.integer(0, n - 1), 0);
+    for (const double radius : {inclusive, std::nextafter(inclusive, 0.0), kInf}) {
+      std::vector<WeightedEdge> edges;
+      search->pairs_within(
+          radius,
+          [&](Index i, Index j, double d) {
+            EXPECT_LT(i, j);
+            edges.push_back({i, j, d});
+          },
+          default_context());
+      EXPECT_EQ(SparseDistances(n, edges).edges(), all_pairs_within(given, radius));
+    }
+  });
 }
 
 // Far from the origin coordinates have few digits left of the point.
@@ -233,8 +269,8 @@ TEST(SparseDistanceSets, TheSearchStopsOnRequest) {
   RunContext context;
   context.stop = stop.get_token();
   Generator random(1);
-  for (const Index d : {2, 5}) {
-    const Points points = random.points(1000, d, false);
+  for (const auto& [n, d] : {std::pair(1000, 2), std::pair(1000, 5), std::pair(20000, 5)}) {
+    const Points points = random.points(n, d, false);
     expect_error(ErrorKind::cancelled, "", [&] {
       for_each_pair_within(
           points, 0.5, [](Index, Index, double) {}, context);
