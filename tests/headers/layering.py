@@ -19,7 +19,7 @@ MAY_INCLUDE = {
     "complex": "core metric image components",
     "rips": "core metric components reduction complex",
     "cubical": "core image components reduction",
-    "diagram": "core",
+    "diagram": "core metric",
     "facade": "core metric image components reduction complex rips cubical",
     "loops": "core metric complex components reduction rips facade",
     "c": "core metric image complex rips cubical facade",

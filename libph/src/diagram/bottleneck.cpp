@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <numeric>
+#include <optional>
 #include <utility>
 
 #include "diagram/near_points.hpp"
@@ -17,12 +17,6 @@ using diagram::NearPoints;
 using diagram::Point;
 
 constexpr std::uint32_t kNone = UINT32_MAX;
-
-std::vector<std::uint32_t> all_of(std::span<const Point> points) {
-  std::vector<std::uint32_t> ids(points.size());
-  std::iota(ids.begin(), ids.end(), 0U);
-  return ids;
-}
 
 /// How far a bar is from the diagonal.
 double to_diagonal(const Point& p) {
@@ -41,16 +35,17 @@ class OneSidedMatching {
         to_(to),
         of_from_(from.size(), kNone),
         of_to_(to.size(), kNone),
-        ticker_(context, "bottleneck distance") {}
+        ticker_(context, "bottleneck distance") {
+    if (!to.empty()) near_.emplace(to, context);
+  }
 
   /// Below this one of the long bars has nobody to be paired with.
   double lower_bound() {
-    const NearPoints near(to_, all_of(to_));
     double bound = 0;
     for (const Point& p : from_) {
       ticker_.work();
       const double alone = to_diagonal(p);
-      if (alone > bound) bound = std::max(bound, near.nearest(p, alone));
+      if (alone > bound) bound = std::max(bound, near_ ? near_->nearest(p, alone) : alone);
     }
     return bound;
   }
@@ -64,8 +59,8 @@ class OneSidedMatching {
       for (std::uint32_t a = 0; a < long_; ++a)
         if (of_from_[a] == kNone) alone.push_back(a);
       if (alone.empty()) return true;
-      std::vector<NearPoints> layers = layers_from(alone, radius);
-      if (layers.empty()) return false;
+      const NearPoints::Label layers = layers_from(alone, radius);
+      if (layers == 0) return false;
       for (const std::uint32_t a : alone) augment(a, layers, radius);
     }
   }
@@ -83,40 +78,39 @@ class OneSidedMatching {
       of_from_[a] = of_to_[b] = kNone;
     }
   }
-  /// Bars of the other diagram by how many pairs lie on the way to them, up to those that the first
-  /// free one is among; none if no free one is reached.
-  std::vector<NearPoints> layers_from(std::vector<std::uint32_t> front, double radius) {
-    NearPoints unseen(to_, all_of(to_));
-    std::vector<NearPoints> layers;
-    bool found = false;
-    while (!found && !front.empty()) {
-      std::vector<std::uint32_t> layer, next;
+  /// Labels the bars of the other diagram by how many pairs lie on the way to them: from 1 up to
+  /// the label that the first free one has. @return that label; 0 if no free one is reached.
+  NearPoints::Label layers_from(std::vector<std::uint32_t> front, double radius) {
+    if (!near_) return 0;
+    near_->label_all(kUnseen);
+    for (NearPoints::Label layer = 1; !front.empty(); ++layer) {
+      bool found = false;
+      std::vector<std::uint32_t> next;
       for (const std::uint32_t a : front) {
         ticker_.work();
-        while (const auto b = unseen.take(from_[a], radius)) {
-          layer.push_back(*b);
+        while (const auto b = near_->relabel(from_[a], radius, kUnseen, layer)) {
           if (of_to_[*b] == kNone)
             found = true;
           else
             next.push_back(of_to_[*b]);
         }
       }
-      layers.emplace_back(to_, std::move(layer));
+      if (found) return layer;
       front = std::move(next);
     }
-    if (!found) layers.clear();
-    return layers;
+    return 0;
   }
-  /// Looks for a way from a bar that is alone to one that is, layer by layer. Whoever was seen is
-  /// taken away: no second way leads through them.
-  void augment(std::uint32_t start, std::vector<NearPoints>& layers, double radius) {
+  /// Looks for a way from a bar that is alone to one that is, layer by layer. Whoever was seen
+  /// loses the label: no second way leads through them.
+  void augment(std::uint32_t start, NearPoints::Label layers, double radius) {
     struct Step {
       std::uint32_t a, b = kNone;
     };
     std::vector<Step> way = {{start}};
     while (!way.empty()) {
       ticker_.work();
-      const auto b = layers[way.size() - 1].take(from_[way.back().a], radius);
+      const auto layer = static_cast<NearPoints::Label>(way.size());
+      const auto b = near_->relabel(from_[way.back().a], radius, layer, NearPoints::kNoLabel);
       if (!b) {
         way.pop_back();
         continue;
@@ -129,13 +123,15 @@ class OneSidedMatching {
         }
         return;
       }
-      if (way.size() < layers.size()) way.push_back({of_to_[*b]});
+      if (layer < layers) way.push_back({of_to_[*b]});
     }
   }
 
   std::span<const Point> from_, to_;
   std::vector<std::uint32_t> of_from_, of_to_;
-  std::uint32_t long_ = 0;  // so many of from_ must be paired
+  static constexpr NearPoints::Label kUnseen = 0;
+  std::optional<NearPoints> near_;  // those of to_, if there are any
+  std::uint32_t long_ = 0;          // so many of from_ must be paired
   Ticker ticker_;
 };
 
@@ -291,7 +287,8 @@ class FiniteBars {
   OneSidedMatching there_, back_;
 };
 
-constexpr std::size_t kBytesABar = 2 * sizeof(Point) + 40 * sizeof(std::uint32_t);
+// Trees count themselves.
+constexpr std::size_t kBytesABar = 2 * sizeof(Point) + 20 * sizeof(std::uint32_t);
 
 /// What infinite bars alone decide.
 double distance_of_infinite(const Parts& a, const Parts& b) {

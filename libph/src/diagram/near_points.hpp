@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
+#include <memory_resource>
 #include <optional>
 #include <span>
 #include <vector>
+
+#include "metric/kd_tree.hpp"
 
 namespace ph::diagram {
 
@@ -18,39 +20,47 @@ inline double distance(const Point& p, const Point& q) {
   return std::max(std::abs(p[0] - q[0]), std::abs(p[1] - q[1]));
 }
 
-/// A k-d tree of points of a diagram, in the maximum metric, from which points are taken away.
-/// Distances are those of `distance`, to the last digit. The points outlive it.
+/// The points of a diagram in the maximum metric, each with a label: a k-d tree that finds points
+/// of one label. Distances are those of `distance`, to the last digit.
 class NearPoints {
  public:
-  /// @param chosen the points that it has, each once.
-  NearPoints(std::span<const Point> points, std::vector<std::uint32_t> chosen);
+  using Label = std::uint32_t;
+  static constexpr Label kNoLabel = UINT32_MAX;  ///< of points that are not looked for any more
 
-  /// Takes a point at a distance of `radius` or less away: which one is not said. Nothing if there
-  /// is none left.
-  std::optional<std::uint32_t> take(const Point& p, double radius) {
-    return ids_.empty() ? std::nullopt : take(0, p, radius);
+  /// @param points at least one. They all get label 0.
+  NearPoints(std::span<const Point> points, const RunContext& context);
+
+  void label_all(Label label);
+  /// Gives the label `to` to a point of label `from` at a distance of `radius` or less: to which
+  /// one is not said. @return its number, or nothing if there is none.
+  std::optional<std::uint32_t> relabel(const Point& p, double radius, Label from, Label to) {
+    return relabel(1, p, radius, from, to);
   }
-  /// The distance of the nearest point that is left, or `limit` if it is nearer.
-  double nearest(const Point& p, double limit) const {
-    return ids_.empty() ? limit : nearest(0, p, limit);
-  }
+  /// The distance of the nearest point, or `limit` if that is less.
+  double nearest(const Point& p, double limit) const { return nearest(1, p, limit); }
 
  private:
-  // Node i has the children 2 i + 1 and 2 i + 2; a leaf keeps its points that are left in front.
-  struct Node {
-    Point low, high;
-    std::uint32_t begin, end, left;  // in ids_; how many are left
-  };
-  bool is_leaf(const Node& node) const { return node.end - node.begin <= kLeaf; }
-  void build(std::size_t i, std::uint32_t begin, std::uint32_t end);
-  std::optional<std::uint32_t> take(std::size_t i, const Point& p, double radius);
-  double nearest(std::size_t i, const Point& p, double limit) const;
+  using Node = KdTree::Node;
+  using Position = KdTree::Position;
+  using Labels = std::uint64_t;  // a set: bit k for all labels that are k modulo 64
 
-  static constexpr std::uint32_t kLeaf = 8;
+  static Labels set_of(Label label) { return label == kNoLabel ? 0 : Labels{1} << (label % 64); }
+  Point point(Position q) const {
+    const double* const x = tree_.points().row(Index{q});
+    return {x[0], x[1]};
+  }
+  /// Rounding keeps the order of distances, so no point in the box is nearer than this.
+  double distance_to_box(const Point& p, Node node) const {
+    const double* const box = tree_.box(node);
+    return std::max({0.0, box[0] - p[0], p[0] - box[1], box[2] - p[1], p[1] - box[3]});
+  }
+  std::optional<std::uint32_t> relabel(Node node, const Point& p, double radius, Label from,
+                                       Label to);
+  double nearest(Node node, const Point& p, double limit) const;
 
-  std::span<const Point> points_;
-  std::vector<std::uint32_t> ids_;
-  std::vector<Node> nodes_;
+  const KdTree tree_;
+  std::pmr::vector<Label> label_;   // by position
+  std::pmr::vector<Labels> below_;  // by node: labels of its points
 };
 
 }  // namespace ph::diagram

@@ -123,6 +123,23 @@ TEST(Bottleneck, IsThatOfGrowingMatchings) {
   }
 }
 
+// Bars in a row, each within reach of two of the other diagram, and the one that is free is at the
+// end: ways between bars that are alone are longer than there are bits in a set of labels.
+TEST(Bottleneck, OfBarsInARow) {
+  std::mt19937 random(6);
+  for (int round = 0; round < 20; ++round) {
+    Bars a, b;
+    for (int i = 0; i < 300; ++i) {
+      a.push_back({1, 0, 1000.0 + i});
+      b.push_back({1, 0, i == 150 ? 999.5 : 1000.5 + i});
+    }
+    std::ranges::shuffle(a, random);
+    std::ranges::shuffle(b, random);
+    ASSERT_EQ(bottleneck_distance(a, b), 0.5) << round;
+    ASSERT_EQ(bottleneck_distance(b, a), 0.5) << round;
+  }
+}
+
 TEST(Bottleneck, OfDiagramsThatAreKnown) {
   const Bars none, one = {{0, 1, 5}}, two = {{0, 1, 5}, {0, 2, 2.5}};
   EXPECT_EQ(bottleneck_distance(none, none), 0);
