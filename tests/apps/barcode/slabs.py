@@ -55,10 +55,12 @@ class Slabs(ProgramTest):
         for least, *image in ((24, "--construction", "vertices"), (24, "--construction", "cells"), (40, "--periodic", "0,2")):
             expected, _ = self.bars("waves.raw", *image)
             self.assertGreater(expected.count("\n"), 100)
-            for options in (("--slab-layers", "1"), ("--slab-layers", "7", "--threads", "1"), ("--slab-layers", "80"),
-                            ("--memory-limit", f"{least}MiB"), ("--memory-limit", f"{least + 8}MiB", "--threads", "2")):
+            plain, both = ("waves.raw",), ("waves.raw", "waves.raw.gz")
+            for names, *options in ((both, "--slab-layers", "1"), (plain, "--slab-layers", "7", "--threads", "1"),
+                                    (plain, "--slab-layers", "80"), (both, "--memory-limit", f"{least}MiB"),
+                                    (plain, "--memory-limit", f"{least + 8}MiB", "--threads", "2")):
                 with self.subTest(image=image, options=options):
-                    for name in ("waves.raw", "waves.raw.gz"):
+                    for name in names:
                         found, peak = self.bars(name, *image, *options)
                         self.assertEqual(found, expected)
                         if options[0] == "--memory-limit":
