@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs the Debian packages that are missing: setup.sh [build|page|demo|test|viewer|lint|fuzz|coverage]…
+# Installs the Debian packages that are missing: setup.sh [build|page|demo|test|python|viewer|lint|fuzz|coverage]…
 set -euo pipefail
 
 build=(build-essential cmake ninja-build pkg-config ccache libeigen3-dev libfmt-dev
@@ -9,6 +9,9 @@ demo=(python3-numpy python3-skimage libcgal-demo)
 # Peers and tools that tests compare with or look through.
 test=(libgtest-dev libbenchmark-dev libpcl-dev ripser python3-gudhi python3-numpy librsvg2-bin git
       locales)
+# The Python package, and what its tests compare with.
+python=(python3-dev pybind11-dev python3-numpy python3-scipy python3-sklearn python3-pandas
+        python3-matplotlib python3-pytest python3-venv)
 # What bundles the page of the reports; Node may be there from elsewhere.
 page=()
 command -v npm >/dev/null || page=(nodejs npm)
@@ -24,11 +27,12 @@ for set in "${@:-build}"; do
     page) wanted+=("${page[@]}") ;;
     demo) wanted+=("${page[@]}" "${demo[@]}") ;;
     test) wanted+=("${test[@]}") ;;
+    python) wanted+=("${build[@]}" "${python[@]}") ;;
     viewer) wanted+=("${viewer[@]}") ;;
     lint) wanted+=("${lint[@]}") ;;
     fuzz) wanted+=("${fuzz[@]}") ;;
     coverage) wanted+=("${coverage[@]}") ;;
-    *) echo "setup.sh: found '$set', expected build, page, demo, test, viewer, lint, fuzz or coverage" >&2; exit 64 ;;
+    *) echo "setup.sh: found '$set', expected build, page, demo, test, python, viewer, lint, fuzz or coverage" >&2; exit 64 ;;
   esac
 done
 

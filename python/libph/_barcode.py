@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import operator
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, overload
@@ -209,7 +210,7 @@ class Barcode(Sequence[Bar]):
     def __getitem__(self, i: int | slice) -> Bar | Barcode:
         if isinstance(i, slice):
             return self._selected(np.sort(np.arange(len(self))[i]))
-        return Bar(*self._records[i].item())
+        return Bar(*self._records[operator.index(i)].item())
 
     def __iter__(self) -> Iterator[Bar]:
         return map(Bar._make, self._records.tolist())
@@ -515,11 +516,10 @@ class Barcode(Sequence[Bar]):
             name += f" of {_spaced(meta['points'])} points"
             if "coordinates" in meta:
                 name += f" in R^{meta['coordinates']}"
-        counts = [f"{_spaced(count)} of H{dim}"
-                  for dim, count in zip(*(x.tolist() for x in np.unique(self.dims,
-                                                                        return_counts=True)))]
-        if counts:
-            counts[0] = counts[0].replace(" of", " bar of" if counts[0][:2] == "1 " else " bars of")
+        counts: list[str] = []
+        for dim, count in zip(*(x.tolist() for x in np.unique(self.dims, return_counts=True))):
+            noun = "" if counts else " bar" if count == 1 else " bars"
+            counts.append(f"{_spaced(count)}{noun} of H{dim}")
         text = f"Barcode({name}, field {meta.get('field', 2)}: {', '.join(counts) or 'no bars'}"
         dim = int(self.dims[-1]) if len(self) else 0
         if dim > 0:

@@ -46,15 +46,15 @@ class Mesh(NamedTuple):
     values: NDArray[np.float64] | None
 
 
-def path_of(path: Any) -> str:
+def path_of(path: Any) -> bytes:
     """The path as _core takes it; "-" is a file of this name."""
     try:
-        name = os.fsdecode(os.fspath(path))
+        name = os.fsencode(path)
     except (TypeError, UnicodeError):
-        raise _options.refuse("path", path, "a path") from None
-    if "\0" in name or not name:
+        name = b""
+    if b"\0" in name or not name:
         raise _options.refuse("path", path, "a path")
-    return os.path.join(".", name) if name == "-" else name
+    return b"./-" if name == b"-" else name
 
 
 def read(path: str | os.PathLike[str], format: str | None = None, *,
@@ -130,7 +130,7 @@ def read(path: str | os.PathLike[str], format: str | None = None, *,
         options["columns"] = columns.split(",")
     try:
         found = _run.run(_core.read, path_of(path), name,
-                         "" if values is None else path_of(values), options, options=dict(run))
+                         b"" if values is None else path_of(values), options, options=dict(run))
     except _errors.Error as error:
         raise type(error)(_as_keywords(str(error))) from None
     _LOG.info("%s: %s", os.fspath(path), found["description"])
@@ -204,4 +204,5 @@ def read_barcode(path: str | os.PathLike[str], format: str | None = None,
     _run.check_names("read_barcode", dict(run))
     bars, meta = _run.run(_core.read_barcode, path_of(path),
                           None if format is None else str(format), options=dict(run))
-    return Barcode._made(bars, {k: v for k, v in meta.items() if v not in (None, "", False)})
+    return Barcode._made(bars, {name: value for name, value in meta.items()
+                                if value is not None and value != "" and value is not False})

@@ -53,14 +53,13 @@ class Request(NamedTuple):
 
 
 def _task(max_dim: Any, min_dim: Any, field: Any, engine: Any, collapse: Any, min_persistence: Any,
-          representatives: Any, cells: Any, loops: str) -> _core.Task:
+          representatives: Any, cells: Any, loops: str, kinds: tuple[str, ...]) -> _core.Task:
     known = _core.engine_named(engine) if isinstance(engine, str) else None
     if known is None:
         raise _options.refuse("engine", engine, ", ".join(_core.engine_names()))
     how = {"auto": "automatic", True: "on", False: "off", "on": "on", "off": "off"}[
         _options.choice("collapse", collapse, ["auto", True, False, "on", "off"])]
-    kind = _options.choice("representatives", representatives,
-                           [None, "none", "cycles", "cocycles", "voxels"]) or "none"
+    kind = _options.choice("representatives", representatives, [None, *kinds]) or "none"
     return _core.Task(
         None if max_dim is None else _options.whole("max_dim", max_dim, 0, _MOST_DIMENSIONS),
         _options.whole("min_dim", min_dim, 0, _MOST_DIMENSIONS),
@@ -72,9 +71,12 @@ def _task(max_dim: Any, min_dim: Any, field: Any, engine: Any, collapse: Any, mi
 _cached_task = functools.lru_cache(maxsize=64, typed=True)(_task)
 
 
-def _task_of(o: dict[str, Any], loops: str) -> _core.Task:
+_CHAINS = ("none", "cycles", "cocycles")
+
+
+def _task_of(o: dict[str, Any], loops: str, kinds: tuple[str, ...] = _CHAINS) -> _core.Task:
     arguments = (o["max_dim"], o["min_dim"], o["field"], o["engine"], o.get("collapse", "auto"),
-                 o["min_persistence"], o["representatives"], o["cells"], loops)
+                 o["min_persistence"], o["representatives"], o["cells"], loops, kinds)
     try:
         return _cached_task(*arguments)
     except TypeError:  # a list, for one, cannot be looked up
@@ -101,7 +103,9 @@ def _threshold(o: dict[str, Any], least: float = -math.inf) -> float | None:
 
 def _meta(complex_name: str, o: dict[str, Any], **more: Any) -> dict[str, Any]:
     """What a barcode knows of its origin; what was found out on the way comes later."""
-    meta = {"complex": complex_name, "field": o.get("field", 2), "threshold": o["threshold"], **more}
+    kind = o["representatives"]
+    meta = {"complex": complex_name, "field": o["field"], "threshold": o["threshold"],
+            "representatives": None if kind == "none" else kind, **more}
     return {name: value for name, value in meta.items() if value is not None}
 
 
@@ -197,7 +201,7 @@ def cubical_request(o: dict[str, Any]) -> Request:
     threshold = _threshold(o)
     slab_layers = o.get("slab_layers")
     layers = 0 if slab_layers is None else _options.whole("slab_layers", slab_layers, 1, 2**31 - 1)
-    task = _task_of(o, _loops_of(o, "plain"))
+    task = _task_of(o, _loops_of(o, "plain"), (*_CHAINS, "voxels"))
     recipe = _core.cubical_recipe(array, nan == "drop", _arrays.is_mapped_file(image),
                                   construction == "vertices", superlevel, periodic, threshold)
     meta = _meta("cubical", o, shape=array.shape, construction=construction, superlevel=superlevel,

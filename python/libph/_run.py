@@ -2,7 +2,9 @@
 """How computations are bounded, watched and stopped: the options that all of them have."""
 from __future__ import annotations
 
+import atexit
 import contextlib
+import os
 from collections.abc import Callable, Iterator
 from contextvars import ContextVar
 from typing import Any, Protocol, TypedDict, Union
@@ -31,6 +33,10 @@ class RunOptions(TypedDict, total=False):
 _NAMES = ("threads", "memory_limit", "progress", "timeout", "stop")
 _DEFAULTS: ContextVar[dict[str, Any]] = ContextVar("libph.limits", default={})
 _PLAIN = _core.RunOptions(0, None, None, None, None, 0)
+
+atexit.register(_core.end_calls)
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_core.forget_calls)
 
 
 @contextlib.contextmanager

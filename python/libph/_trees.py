@@ -107,9 +107,9 @@ def merge_tree(data: Any, *, complex: str | None = None, **options: Any) -> Merg
     >>> tree.components(3)
     array([0, 0, 2, 2])
     >>> tree.linkage
-    array([[ 0.,  1.,  1.,  2.],
-           [ 2.,  3.,  2.,  2.],
-           [ 4.,  5.,  9.,  4.]])
+    array([[0., 1., 1., 2.],
+           [2., 3., 2., 2.],
+           [4., 5., 9., 4.]])
     """
     request = request_of(data, complex, options)
     is_rips = request.meta["complex"] == "rips"

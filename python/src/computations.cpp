@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "arrays.hpp"
 #include "bindings.hpp"
+#include "data/arrays.hpp"
 #include "facade/adjust.hpp"
 #include "ph/bottleneck.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
@@ -143,8 +143,6 @@ void bind_computations(py::module_& m) {
       .def_readonly("max_dim", &Estimate::max_dim)
       .def_readonly("cells", &Estimate::cells)
       .def_readonly("counted_dims", &Estimate::counted_dims)
-      .def_readonly("cells_at_most", &Estimate::cells_at_most)
-      .def_readonly("bytes_held", &Estimate::bytes_held)
       .def_readonly("bytes_low", &Estimate::bytes_low)
       .def_readonly("bytes_high", &Estimate::bytes_high);
   m.def("engine_names", [] {

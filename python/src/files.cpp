@@ -12,12 +12,12 @@
 #include <variant>
 #include <vector>
 
-#include "arrays.hpp"
-#include "bars.hpp"
 #include "bindings.hpp"
+#include "data/arrays.hpp"
 #include "ph/detail/io/output_file.hpp"
 #include "ph/io/formats.hpp"
 #include "ph/io/write.hpp"
+#include "results/bars.hpp"
 #include "run.hpp"
 
 namespace ph::python {

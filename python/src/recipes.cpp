@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "arrays.hpp"
 #include "bindings.hpp"
+#include "data/arrays.hpp"
 #include "ph/edge_collapse.hpp"
 #include "ph/error.hpp"
 #include "ph/lower_star.hpp"

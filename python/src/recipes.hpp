@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "bars.hpp"
-#include "metric_space.hpp"
+#include "data/metric_space.hpp"
 #include "ph/persistence.hpp"
+#include "results/bars.hpp"
 
 namespace ph::python {
 

@@ -12,6 +12,7 @@
 #include <string>
 #include <system_error>
 #include <thread>
+#include <vector>
 
 #include "bindings.hpp"
 #include "core/system/machine_memory.hpp"
@@ -39,6 +40,48 @@ std::shared_ptr<RunContext> new_context(const RunOptions& options) {
   return context;
 }
 
+/// The calls that are under way, guarded by the GIL.
+///
+/// When Python ends, a thread that comes back to it from one would be ended within C++, and the
+/// process with it. So the last thing Python does is to stop them and to wait until they are back.
+class Calls {
+ public:
+  /// One call: as long as it lives. Made and destroyed with the GIL.
+  class Call {
+   public:
+    explicit Call(std::stop_source* stop = nullptr) : stop_(stop) {
+      if (ender_ != std::thread::id() && ender_ != std::this_thread::get_id())
+        throw Error(ErrorKind::cancelled, "Python is at its end");
+      calls_.push_back(this);
+    }
+    ~Call() { std::erase(calls_, this); }
+    Call(const Call&) = delete;
+    Call& operator=(const Call&) = delete;
+
+    void stop() const {
+      if (stop_ != nullptr) stop_->request_stop();
+    }
+
+   private:
+    std::stop_source* stop_;
+  };
+
+  static void end_all() {
+    ender_ = std::this_thread::get_id();
+    while (!calls_.empty()) {
+      for (const Call* call : calls_) call->stop();
+      const py::gil_scoped_release no_gil;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+  /// In a process that was forked: their threads are not there.
+  static void forget_all() { calls_.clear(); }
+
+ private:
+  static inline std::thread::id ender_;  // none: Python goes on
+  static inline std::vector<const Call*> calls_;
+};
+
 struct News {
   std::string stage;
   std::uint64_t done = 0, total = 0;
@@ -49,14 +92,16 @@ class Computation {
  public:
   Computation(const RunOptions& options, const Task& task)
       : options_(options), task_(task), context_(new_context(options)) {
-    if (!options.memory_limit) context_->memory.set_limit(memory_left());
     context_->stop = stop_.get_token();
     if (!options.progress.is_none())
       context_->on_progress = [this](const Progress& progress) { tell(progress); };
   }
 
+  std::stop_source& stop() { return stop_; }
+
   /// Until it is done. Where the system gives no thread, nobody looks after it.
   void run() {
+    if (!options_.memory_limit) context_->memory.set_limit(memory_left());
     std::jthread worker;
     std::exception_ptr of_caller;
     try {
@@ -118,8 +163,7 @@ class Computation {
   void look(const std::optional<News>& news) {
     const py::gil_scoped_acquire gil;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    if (!options_.stop.is_none() && options_.stop.attr("is_set")().cast<bool>())
-      stop_.request_stop();
+    if (!options_.stop.is_none() && py::bool_(options_.stop.attr("is_set")())) stop_.request_stop();
     if (news) options_.progress(news->stage, news->done, news->total);
   }
   [[noreturn]] void rethrow_error() const {
@@ -154,11 +198,15 @@ Timeout::Timeout(double seconds)
                         seconds)) {}
 
 void run_task(const RunOptions& options, bool is_short, const Task& task) {
-  const py::gil_scoped_release no_gil;
   if (!is_short || options.is_watched()) {
-    Computation(options, task).run();
+    Computation computation(options, task);
+    const Calls::Call call(&computation.stop());
+    const py::gil_scoped_release no_gil;
+    computation.run();
     return;
   }
+  const Calls::Call call;
+  const py::gil_scoped_release no_gil;
   const std::shared_ptr<RunContext> context = new_context(options);
   if (options.threads == 0) context->threads = 1;  // a second one would take longer to start
   task(context);
@@ -175,6 +223,8 @@ void bind_run(py::module_& m) {
            py::arg("threads"), py::arg("memory_limit"), py::arg("timeout"), py::arg("progress"),
            py::arg("stop"), py::arg("slab_layers"));
   m.def("memory_left", &memory_left);
+  m.def("end_calls", &Calls::end_all);
+  m.def("forget_calls", &Calls::forget_all);
 }
 
 }  // namespace ph::python

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "metric_space.hpp"
+#include "data/metric_space.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "arrays.hpp"
 #include "bindings.hpp"
+#include "data/arrays.hpp"
 #include "ph/distance_to_measure.hpp"
 #include "ph/error.hpp"
 #include "ph/voxel_image.hpp"

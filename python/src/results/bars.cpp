@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bars.hpp"
+#include "results/bars.hpp"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,11 @@
 #include <functional>
 #include <utility>
 
-#include "arrays.hpp"
-#include "bars_state.hpp"
 #include "bindings.hpp"
+#include "data/arrays.hpp"
 #include "ph/error.hpp"
 #include "ph/io/svg_plot.hpp"
+#include "results/bars_state.hpp"
 #include "run.hpp"
 
 namespace ph::python {

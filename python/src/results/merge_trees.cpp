@@ -5,8 +5,8 @@
 #include <variant>
 #include <vector>
 
-#include "arrays.hpp"
 #include "bindings.hpp"
+#include "data/arrays.hpp"
 #include "recipes.hpp"
 #include "run.hpp"
 

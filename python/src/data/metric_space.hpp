@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "array_metric.hpp"
+#include "data/array_metric.hpp"
 #include "ph/distance_to_measure.hpp"
 #include "ph/greedy_permutation.hpp"
 #include "ph/metric.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "arrays.hpp"
+#include "data/arrays.hpp"
 
 #include "bindings.hpp"
 
@@ -8,8 +8,8 @@ namespace ph::python {
 Block Block::of(Points&& points) {
   const std::vector<py::ssize_t> shape{points.rows(), points.cols()};
   auto owner = std::make_shared<Points>(std::move(points));
-  return Block(std::shared_ptr<void>(owner, owner->data()), sizeof(double),
-               py::format_descriptor<double>::format(), shape, false);
+  return Block(std::shared_ptr<void>(owner, owner->data()), sizeof(double), letter_of<double>(),
+               shape, false);
 }
 
 Block Block::of(const Image& image, std::shared_ptr<const RunContext> context) {
@@ -20,8 +20,7 @@ Block Block::of(const Image& image, std::shared_ptr<const RunContext> context) {
   const auto owner = std::make_shared<const Owner>(Owner{std::move(context), image.values});
   const Voxels& voxels = owner->voxels;
   return with_voxels(voxels.type(), voxels.data(), [&]<class T>(const T* first) {
-    return Block(std::shared_ptr<void>(owner, const_cast<T*>(first)), sizeof(T),
-                 py::format_descriptor<T>::format(),
+    return Block(std::shared_ptr<void>(owner, const_cast<T*>(first)), sizeof(T), letter_of<T>(),
                  std::vector<py::ssize_t>(image.extents.begin(), image.extents.end()),
                  voxels.is_borrowed());
   });

@@ -5,6 +5,7 @@
 #include <pybind11/pybind11.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -22,6 +23,13 @@ namespace ph::python {
 
 namespace py = pybind11;
 
+/// The letter of a number in the buffer protocol; of int64 that of NumPy's own int64.
+template <class T>
+std::string letter_of() {
+  if (std::is_same_v<T, std::int64_t> && sizeof(long) == sizeof(T)) return "l";
+  return py::format_descriptor<T>::format();
+}
+
 /// An array that Python gets. Who holds it holds its numbers.
 class Block {
  public:
@@ -29,8 +37,8 @@ class Block {
   template <class T>
   static Block of(std::vector<T> numbers, std::vector<py::ssize_t> shape) {
     auto owner = std::make_shared<std::vector<T>>(std::move(numbers));
-    return Block(std::shared_ptr<void>(owner, owner->data()), sizeof(T),
-                 py::format_descriptor<T>::format(), std::move(shape), false);
+    return Block(std::shared_ptr<void>(owner, owner->data()), sizeof(T), letter_of<T>(),
+                 std::move(shape), false);
   }
   template <class T>
   static Block of(std::vector<T> numbers) {

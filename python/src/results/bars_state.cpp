@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bars_state.hpp"
+#include "results/bars_state.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
-#include "arrays.hpp"
 #include "bindings.hpp"
+#include "data/arrays.hpp"
 #include "ph/error.hpp"
 
 namespace ph::python {

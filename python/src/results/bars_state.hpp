@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "bars.hpp"
+#include "results/bars.hpp"
 
 namespace ph::python {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "array_metric.hpp"
+#include "data/array_metric.hpp"
 
 #include <fmt/format.h>
 

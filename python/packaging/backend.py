@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: MIT
+"""Builds wheels with CMake: a build backend (PEP 517, PEP 660) on the standard library alone.
+
+So ``pip install .`` needs no network where CMake, a compiler and pybind11 are installed. Settings
+(``pip install . --config-settings NAME=VALUE``):
+
+build-dir
+    An existing build folder, configured with PH_BUILD_PYTHON: it is used as it is.
+cmake-args
+    More arguments for the configuration, separated by blanks.
+"""
+import base64
+import csv
+import hashlib
+import io
+import os
+import re
+import shutil
+import subprocess
+import sys
+import sysconfig
+import tarfile
+import tempfile
+import zipfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+NAME = "libph"
+# What a build needs, and what an archive of the sources has.
+SOURCES = ("CMakeLists.txt", "cmake", "libph", "python", "pyproject.toml", "LICENSE", "README.md",
+           "CHANGELOG.md", "CITATION.cff", "docs/python.md")
+
+
+def version():
+    return re.search(r"VERSION (\d+\.\d+\.\d+)", (ROOT / "CMakeLists.txt").read_text())[1]
+
+
+def metadata():
+    """METADATA. What pyproject.toml says about the project is said again here, without a parser of
+    TOML, which Python 3.9 lacks; tests hold the two together."""
+    return f"""\
+Metadata-Version: 2.1
+Name: {NAME}
+Version: {version()}
+Summary: Persistent homology: barcodes of points, images and filtered complexes
+License: MIT
+Requires-Python: >=3.9
+Requires-Dist: numpy>=1.22
+Provides-Extra: all
+Requires-Dist: scipy; extra == "all"
+Requires-Dist: scikit-learn; extra == "all"
+Requires-Dist: pandas; extra == "all"
+Requires-Dist: matplotlib; extra == "all"
+Requires-Dist: tqdm; extra == "all"
+Description-Content-Type: text/markdown
+
+""" + (ROOT / "docs/python.md").read_text()
+
+
+# ---- hooks
+
+
+def _requirements(settings=None):
+    """Nothing that has to be fetched, if pybind11 is there."""
+    places = (Path(prefix, share, "cmake/pybind11")
+              for prefix in ("/usr", "/usr/local") for share in ("lib", "share"))
+    return [] if any(place.exists() for place in places) else ["pybind11>=2.10"]
+
+
+get_requires_for_build_wheel = get_requires_for_build_editable = _requirements
+
+
+def get_requires_for_build_sdist(config_settings=None):
+    return []
+
+
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    folder = Path(metadata_directory) / dist_info()
+    folder.mkdir()
+    for name, content in dist_info_files().items():
+        (folder / name).write_text(content)
+    return folder.name
+
+
+prepare_metadata_for_build_editable = prepare_metadata_for_build_wheel
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    folder = build(config_settings or {})
+    with tempfile.TemporaryDirectory() as staging:
+        run("cmake", "--install", folder, "--prefix", staging, "--component", "python", "--strip")
+        (package,) = Path(staging).rglob(f"{NAME}/__init__.py")
+        root = package.parents[1]
+        files = {str(path.relative_to(root)): path.read_bytes()
+                 for path in sorted(root.rglob("*")) if path.is_file()}
+    return write_wheel(wheel_directory, files)
+
+
+def build_editable(wheel_directory, config_settings=None, metadata_directory=None):
+    """Python is found where it is written; what is written in C++ has to be installed again."""
+    folder = build(config_settings or {})
+    return write_wheel(wheel_directory, {f"__editable__.{NAME}.pth":
+                                         f"{(folder / 'python').resolve()}\n".encode()})
+
+
+def build_sdist(sdist_directory, config_settings=None):
+    stem = f"{NAME}-{version()}"
+    name = f"{stem}.tar.gz"
+    with tarfile.open(Path(sdist_directory) / name, "w:gz", format=tarfile.PAX_FORMAT) as archive:
+        for source in SOURCES:
+            archive.add(ROOT / source, f"{stem}/{source}", filter=without_caches)
+        content = metadata().encode()
+        info = tarfile.TarInfo(f"{stem}/PKG-INFO")
+        info.size = len(content)
+        archive.addfile(info, io.BytesIO(content))
+    return name
+
+
+# ---- how
+
+
+def without_caches(info):
+    return None if "__pycache__" in info.name or info.name.endswith(".pyc") else info
+
+
+def run(*command):
+    print("+", *command, flush=True)
+    subprocess.run([str(word) for word in command], check=True)
+
+
+def build(settings):
+    """Compiles the module. @return the build folder."""
+    given = settings.get("build-dir")
+    folder = Path(given) if given else ROOT / "build" / f"python-{sys.implementation.cache_tag}"
+    if not given:
+        generator = ["-G", "Ninja"] if shutil.which("ninja") else []
+        run("cmake", "-S", ROOT, "-B", folder, *generator, "-DCMAKE_BUILD_TYPE=Release",
+            "-DPH_BUILD_PYTHON=ON", "-DPH_BUILD_APPS=OFF", "-DPH_BUILD_SEGMENT=OFF",
+            "-DPH_BUILD_TESTS=OFF", "-DPH_BUILD_EXAMPLES=OFF", "-DPH_WITH_FREETYPE=OFF",
+            "-DPH_INSTALL=OFF", "-DPH_WERROR=OFF", f"-DPython3_EXECUTABLE={sys.executable}",
+            *pybind11_folder(), *settings.get("cmake-args", "").split())
+    run("cmake", "--build", folder, "--target", "_core", "--parallel", os.cpu_count() or 1)
+    return folder
+
+
+def pybind11_folder():
+    """Where pip has put pybind11, if it has."""
+    try:
+        import pybind11
+    except ImportError:
+        return []
+    return [f"-Dpybind11_DIR={pybind11.get_cmake_dir()}"]
+
+
+def dist_info():
+    return f"{NAME}-{version()}.dist-info"
+
+
+def dist_info_files():
+    python = f"cp{sys.version_info.major}{sys.version_info.minor}"
+    abi = python + getattr(sys, "abiflags", "")
+    tag = f"{python}-{abi}-{re.sub('[-.]', '_', sysconfig.get_platform())}"
+    return {"METADATA": metadata(), "LICENSE": (ROOT / "LICENSE").read_text(),
+            "WHEEL": f"Wheel-Version: 1.0\nGenerator: {NAME}\nRoot-Is-Purelib: false\nTag: {tag}\n"}
+
+
+def write_wheel(folder, files):
+    """Files by name, and what a wheel has beside them. @return the wheel's name."""
+    information = dist_info_files()
+    tag = re.search("Tag: (.*)", information["WHEEL"])[1]
+    name = f"{NAME}-{version()}-{tag}.whl"
+    files = {**files, **{f"{dist_info()}/{key}": text.encode() for key, text in information.items()}}
+    record = io.StringIO()
+    rows = csv.writer(record, lineterminator="\n")
+    with zipfile.ZipFile(Path(folder) / name, "w", zipfile.ZIP_DEFLATED) as wheel:
+        for path, content in files.items():
+            digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
+            rows.writerow([path, f"sha256={digest}", len(content)])
+            write_member(wheel, path, content)
+        rows.writerow([f"{dist_info()}/RECORD", "", ""])
+        write_member(wheel, f"{dist_info()}/RECORD", record.getvalue().encode())
+    return name
+
+
+def write_member(wheel, path, content):
+    """Always the same bytes: no time, no user's mode."""
+    info = zipfile.ZipInfo(path, (1980, 1, 1, 0, 0, 0))
+    info.compress_type = zipfile.ZIP_DEFLATED
+    info.external_attr = (0o755 if path.endswith(".so") else 0o644) << 16
+    wheel.writestr(info, content)

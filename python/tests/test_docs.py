@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: MIT
+"""Examples in docstrings and in docs/python.md give what they say; each function has one."""
+import doctest
+import importlib
+import inspect
+import os
+import pkgutil
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import libph as ph
+
+FLAGS = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
+MODULES = [importlib.import_module(f"libph.{module.name}")
+           for module in pkgutil.iter_modules(ph.__path__) if module.name != "_core"]
+PUBLIC = [getattr(ph, name) for name in ph.__all__ if callable(getattr(ph, name))]
+FUNCTIONS = [f for f in PUBLIC if inspect.isfunction(f)]
+
+
+@pytest.mark.parametrize("module", [ph, *MODULES], ids=lambda m: m.__name__)
+def test_docstrings(module):
+    names = {"ph": ph, "np": np, **vars(module)}
+    assert doctest.testmod(module, globs=names, optionflags=FLAGS).failed == 0
+
+
+def test_the_page():
+    page = Path(os.environ.get("PH_SOURCE_DIR", Path(__file__).parents[2])) / "docs/python.md"
+    result = doctest.testfile(str(page), module_relative=False, optionflags=FLAGS)
+    assert result.attempted > 10 and result.failed == 0
+
+
+@pytest.mark.parametrize("function", FUNCTIONS, ids=lambda f: f.__name__)
+def test_all_parameters_are_described(function):
+    text = inspect.getdoc(function)
+    described = set()
+    for line in re.search(r"Parameters\n-+\n(.*?)(\n\w+\n---|\Z)", text, re.S)[1].split("\n"):
+        if line and not line.startswith(" "):
+            described |= set(re.findall(r"\*?\*?([a-zA-Z_]\w*)", re.sub(r" : .*", "", line)))
+            described |= set(re.findall(r", (\w+) : ", line))
+    assert set(inspect.signature(function).parameters) <= described
+    for section in ("Returns", "Examples"):
+        if function.__name__ not in ("limits", "read", "read_barcode"):
+            assert f"{section}\n---" in text
+
+
+@pytest.mark.parametrize("thing", PUBLIC, ids=lambda f: f.__name__)
+def test_all_that_is_public_has_a_docstring(thing):
+    assert inspect.getdoc(thing)
+    if inspect.isclass(thing):
+        for name, member in vars(thing).items():
+            if not name.startswith("_") and (callable(member) or isinstance(member, property)):
+                assert inspect.getdoc(member), f"{thing.__name__}.{name}"

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: MIT
+"""Files of data, as arrays."""
+import gzip
+import logging
+
+import numpy as np
+import pytest
+import scipy.sparse as sparse
+
+import libph as ph
+
+POINTS = np.random.default_rng(0).normal(size=(20, 3)).round(3)
+DISTANCES = np.linalg.norm(POINTS[:, None] - POINTS, axis=2)
+
+
+def write(folder, name, text):
+    path = folder / name
+    path.write_text(text)
+    return path
+
+
+def test_points(tmp_path, caplog):
+    np.savetxt(tmp_path / "p.csv", POINTS, delimiter=",", header="x,y,z", comments="")
+    with caplog.at_level(logging.INFO, "libph"):
+        points = ph.read(tmp_path / "p.csv")
+    assert points.dtype == np.float64 and np.array_equal(points, POINTS) and points.flags.writeable
+    assert "20 points in R^3" in caplog.text and "header" in caplog.text
+    assert np.array_equal(ph.read(str(tmp_path / "p.csv"), columns=["y", "1"]), POINTS[:, :2])
+    assert np.array_equal(ph.read(tmp_path / "p.csv", "points", columns="2-3"), POINTS[:, 1:])
+    with gzip.open(tmp_path / "p.csv.gz", "wt") as file:
+        file.write((tmp_path / "p.csv").read_text())
+    assert np.array_equal(ph.read(bytes(tmp_path / "p.csv.gz")), POINTS)
+
+
+def test_distances(tmp_path):
+    np.savetxt(tmp_path / "d.txt", DISTANCES, fmt="%.17g")
+    read = ph.read(tmp_path / "d.txt", "distance")
+    assert np.array_equal(read, DISTANCES)
+    assert ph.rips(read, metric="precomputed") == ph.rips(POINTS)
+    upper = "\n".join(" ".join(map(repr, row[i + 1:].tolist())) for i, row in enumerate(DISTANCES))
+    assert np.array_equal(ph.read(write(tmp_path, "u.txt", upper), "upper-distance"), DISTANCES)
+    births = DISTANCES + np.diag(np.arange(20))
+    np.save(tmp_path / "b.npy", births)
+    assert np.array_equal(ph.read(tmp_path / "b.npy", "distance", diagonal="births"), births)
+    with pytest.raises(ph.DataError, match="diagonal='any'"):
+        ph.read(tmp_path / "b.npy", "distance")
+    assert np.array_equal(ph.read(tmp_path / "b.npy", "distance", diagonal="any"), DISTANCES)
+    correlations = np.corrcoef(POINTS)
+    np.save(tmp_path / "c.npy", correlations)
+    assert np.allclose(ph.read(tmp_path / "c.npy", "distance", from_correlation=True),
+                       1 - correlations)
+
+
+def test_sparse_distances(tmp_path):
+    matrix = ph.read(write(tmp_path, "s.txt", "0 1 1.5\n3 2 0\n"), "sparse")
+    assert isinstance(matrix, sparse.coo_array) and matrix.shape == (4, 4) and matrix.nnz == 2
+    assert ph.rips(matrix, metric="precomputed").dgm(0)[:, 1].tolist() == [1.5, np.inf, np.inf]
+
+
+@pytest.mark.parametrize("dtype", ["u1", "u2", "i2", "f4", "f8"])
+def test_images(tmp_path, dtype):
+    image = np.random.default_rng(0).integers(0, 99, size=(4, 5, 6)).astype(dtype)
+    np.save(tmp_path / "i.npy", image)
+    read = ph.read(tmp_path / "i.npy")
+    assert read.dtype == image.dtype and np.array_equal(read, image)
+    image.astype(np.dtype(dtype).newbyteorder(">")).tofile(tmp_path / "i.raw")
+    assert np.array_equal(ph.read(tmp_path / "i.raw", "raw", raw_shape=image.shape,
+                                  raw_dtype=">" + dtype), image)
+
+
+def test_an_image_beyond_the_memory_stays_in_its_file(tmp_path):
+    image = np.random.default_rng(0).integers(0, 99, size=(100, 100, 100)).astype("u1")
+    image.tofile(tmp_path / "i.raw")
+    read = ph.read(tmp_path / "i.raw", "raw", raw_shape=image.shape, memory_limit="2MiB")
+    assert np.array_equal(read, image)
+    np.save(tmp_path / "i.npy", image)
+    read = ph.read(tmp_path / "i.npy", memory_limit="2MiB")
+    assert np.array_equal(read, image)
+    bars = ph.cubical(read)
+    del read
+    assert bars == ph.cubical(image)
+
+
+def test_pictures(tmp_path):
+    path = write(tmp_path, "p.pgm", "P2 3 2 9\n1 2 3\n4 5 6\n")
+    assert ph.read(path).tolist() == [[1, 2, 3], [4, 5, 6]]
+
+
+def test_complexes(tmp_path):
+    path = write(tmp_path, "s.txt", "0 : 0\n1 : 0.5\n0 1 : 2\n")
+    simplices = ph.read(path, "simplices")
+    assert simplices.simplices == [(0,), (1,), (0, 1)] and simplices.values.tolist() == [0, 0.5, 2]
+    assert list(ph.filtered(*simplices)) == [(0, 0, np.inf), (0, 0.5, 2)]
+    path = write(tmp_path, "b.txt", "0\n0\n1 0 1\n")
+    matrix = ph.read(path, "phat")
+    assert matrix.values is None or list(matrix.values) == [0, 1, 2]
+    assert list(ph.boundary(*matrix)) == [(0, 0, np.inf), (0, 1, 2)]
+    values = write(tmp_path, "v.txt", "1\n2\n7\n")
+    assert list(ph.boundary(*ph.read(path, "phat", values=values))) == [(0, 1, np.inf), (0, 2, 7)]
+
+
+def test_meshes(tmp_path):
+    text = "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n4 0 1 2 3\n"
+    path = write(tmp_path, "m.off", text)
+    mesh = ph.read(path)
+    assert mesh.vertices.shape == (4, 3) and mesh.values is None
+    assert mesh.triangles.tolist() == [[0, 1, 2], [0, 1, 2], [0, 2, 3]]
+    values = write(tmp_path, "v.txt", "0\n1\n2\n3\n")
+    mesh = ph.read(path, values=values)
+    assert list(ph.lower_star(mesh.values, np.unique(mesh.triangles, axis=0))) == [(0, 0, np.inf)]
+
+
+def test_files_that_are_refused(tmp_path):
+    with pytest.raises(ph.MissingInputError):
+        ph.read(tmp_path / "missing.csv")
+    with pytest.raises(ph.MissingInputError):
+        ph.read(tmp_path)
+    with pytest.raises(ph.DataError, match=r"bad.csv:2"):
+        ph.read(write(tmp_path, "bad.csv", "1,2\n3\n"))
+    with pytest.raises(ph.DataError, match="nan='drop'") as caught:
+        ph.read(write(tmp_path, "nan.csv", "1,2\nnan,1\n"), "points")
+    assert "--" not in str(caught.value)
+    with pytest.raises(ph.UsageError, match="format"):
+        ph.read(tmp_path / "bad.csv", "xyzzy")
+    with pytest.raises(ph.UsageError, match="raw_dtype"):
+        ph.read(tmp_path / "bad.csv", "raw", raw_dtype="c16")
+    with pytest.raises(ph.UsageError):
+        ph.read(tmp_path / "bad.csv", array="x")
+    with pytest.raises(TypeError, match="unexpected keyword"):
+        ph.read(tmp_path / "bad.csv", skip=3)
+
+
+def test_a_name_that_is_no_text(tmp_path):
+    name = bytes(tmp_path) + b"/\xff\xfe.csv"
+    with pytest.raises(ph.MissingInputError):
+        ph.read(name)
+    with open(name, "w") as file:
+        file.write("1,2\n3,4\n")
+    assert ph.read(name).tolist() == [[1, 2], [3, 4]]
+    ph.rips([[0], [1]]).save(name, "csv")
+    assert len(ph.read_barcode(name)) == 2

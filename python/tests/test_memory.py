@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: MIT
+"""Memory: inputs are not copied, and a thousand calls leak nothing."""
+import gc
+import subprocess
+import sys
+import textwrap
+
+import numpy as np
+import pytest
+
+import libph as ph
+from libph import _core
+
+MIB = 1 << 20
+
+
+def peak_above_the_data(code):
+    """MiB of a process of its own: the most that is resident beyond what was there before."""
+    script = textwrap.dedent("""
+        import numpy as np, libph as ph
+
+        def status(name):
+            with open("/proc/self/status") as lines:
+                return int(next(line for line in lines if line.startswith(name)).split()[1]) * 1024
+
+        def measured(compute):
+            compute(warm_up=True)
+            with open("/proc/self/clear_refs", "w") as file:
+                file.write("5")  # the peak is what there is now
+            before = status("VmRSS")
+            compute(warm_up=False)
+            print((status("VmHWM") - before) / 2**20)
+
+    """) + textwrap.dedent(code)
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return float(done.stdout)
+
+
+@pytest.mark.parametrize("dtype, layout", [
+    ("f8", "condensed"), ("f4", "condensed"), ("f8", "square"), ("f4", "square"),
+    ("f8", "F order"), ("f8", "backwards")])
+def test_ten_million_distances_are_not_copied(dtype, layout):
+    """76 MiB of distances, condensed, in float64."""
+    taken = peak_above_the_data(f"""
+        n = 4473
+        if "{layout}" == "condensed":
+            distances = np.random.default_rng(0).random(n * (n - 1) // 2).astype("{dtype}") + 1
+            distances[:50] = 0.5
+        else:
+            distances = np.ones((n, n), "{dtype}")
+            np.fill_diagonal(distances, 0)
+            distances[:50, :50] = distances[:50, :50] / 2
+            if "{layout}" == "F order":
+                distances = np.asfortranarray(distances)
+            if "{layout}" == "backwards":
+                distances = distances[::-1, ::-1]
+        def compute(warm_up):
+            few = distances[:10] if distances.ndim == 1 else distances[:5, :5]
+            ph.rips(few if warm_up else distances, metric="precomputed", threshold=0.6)
+        measured(compute)
+    """)
+    assert taken < 24, f"{taken} MiB"
+
+
+@pytest.mark.parametrize("layout", ["points", "points[::-1]", "points[:, ::1]"])
+def test_points_are_not_copied(layout):
+    """73 MiB of points; H0 takes memory for their number only."""
+    taken = peak_above_the_data(f"""
+        points = np.random.default_rng(0).random((1500, 6400))
+        def compute(warm_up):
+            ph.rips(points[:10] if warm_up else {layout}, max_dim=0)
+        measured(compute)
+    """)
+    assert taken < 8, f"{taken} MiB"
+
+
+def test_an_image_is_not_copied():
+    """128 MiB of bytes, looked at four layers at a time."""
+    taken = peak_above_the_data("""
+        image = np.zeros((512, 512, 512), np.uint8)
+        image[::2] = 1
+        def compute(warm_up):
+            ph.cubical(image[:2, :2, :2] if warm_up else image, max_dim=0, cells=False,
+                       slab_layers=4)
+        measured(compute)
+    """)
+    assert taken < 64, f"{taken} MiB"
+
+
+def resident():
+    with open("/proc/self/status") as lines:
+        return int(next(line for line in lines if line.startswith("RssAnon")).split()[1]) * 1024
+
+
+POINTS = np.random.default_rng(0).normal(size=(60, 3))
+IMAGE = np.random.default_rng(0).integers(0, 99, size=(12, 12, 12))
+
+
+@pytest.mark.parametrize("compute", [
+    lambda: ph.rips(POINTS, max_dim=2), lambda: ph.rips(POINTS, timeout=60),
+    lambda: ph.rips(POINTS, representatives="cycles").representative(-1).loops(),
+    lambda: ph.rips(np.abs(np.subtract.outer(POINTS[:, 0], POINTS[:, 0])), metric="precomputed"),
+    lambda: ph.cubical(IMAGE, representatives="voxels").voxels(0),
+    lambda: ph.merge_tree(POINTS).linkage, lambda: ph.farthest_points(POINTS),
+    lambda: ph.rips(POINTS)._repr_html_(), lambda: ph.rips(POINTS).__reduce__(),
+    lambda: ph.rips(POINTS).filter(dim=1).dgms(), lambda: refused(lambda: ph.rips([[np.nan]])),
+    lambda: refused(lambda: ph.rips(POINTS, max_dim=2, memory_limit=1)),
+    lambda: ph.rips(POINTS, progress=lambda *news: None),
+    lambda: ph.bottleneck(ph.rips(POINTS), ph.rips(POINTS + 0.1)),
+    lambda: ph.point_image(POINTS, 0.5), lambda: ph.lower_star(POINTS[:, 0], [[0, 1], [1, 2]])])
+def test_a_thousand_calls_leak_nothing(compute):
+    for _ in range(100):
+        compute()
+    gc.collect()
+    before = resident()
+    objects = len(gc.get_objects())
+    for _ in range(1000):
+        compute()
+    gc.collect()
+    assert resident() - before < 3 * MIB
+    assert len(gc.get_objects()) - objects < 100
+
+
+def refused(compute):
+    with pytest.raises(ph.Error):
+        compute()
+
+
+def test_arrays_outlive_what_they_came_from():
+    bars = ph.rips(POINTS, representatives="cycles")
+    cells, chain = bars.birth_cells(0), bars.representative(0)
+    expected = cells.copy(), chain.cells.copy()
+    del bars
+    gc.collect()
+    [ph.rips(POINTS) for _ in range(20)]
+    assert np.array_equal(cells, expected[0]) and np.array_equal(chain.cells, expected[1])
+    block = np.asarray(_core.point_image(POINTS, 0.5, _core.VoxelValue.distance, 1,
+                                         _core.RunOptions(0, None, None, None, None, 0))[0])
+    total = block.sum()
+    gc.collect()
+    assert block.sum() == total
+
+
+def test_data_live_as_long_as_they_are_needed():
+    """Nobody else holds the array, nor what it was made from."""
+    for _ in range(50):
+        assert len(ph.rips(np.array(POINTS)).dgm(0)) == 60
+        assert len(ph.rips(np.array(POINTS)[::2], timeout=10).dgm(0)) == 30
+        assert ph.cubical(np.array(IMAGE, dtype=np.uint8), timeout=10).births[0] == IMAGE.min()

@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: MIT
+"""The package as such: what it exports, stubs, wheels."""
+import ast
+import os
+import re
+import subprocess
+import sys
+import tarfile
+import zipfile
+from pathlib import Path
+
+import pytest
+
+import libph as ph
+from libph import _core
+
+SOURCE = Path(os.environ.get("PH_SOURCE_DIR", Path(__file__).parents[2]))
+
+
+def test_version():
+    stated = re.search(r"VERSION (\d+\.\d+\.\d+)", (SOURCE / "CMakeLists.txt").read_text())[1]
+    assert ph.__version__ == stated
+
+
+def test_names():
+    assert sorted(ph.__all__) == ph.__all__
+    assert {name for name in vars(ph) if not name.startswith("_")} <= set(ph.__all__)
+    assert (Path(ph.__file__).parent / "py.typed").exists()
+
+
+# ---- the stubs of _core
+
+
+def arguments_of(function):
+    return [a.arg for a in function.args.args if a.arg not in ("self", "cls")]
+
+
+def signature_of(thing):
+    """As pybind11 writes it into the docstring."""
+    text = re.search(r"\((.*?)\) ->", thing.__doc__.split("\n")[0])[1]
+    return [name for name in re.findall(r"(\w+): ", text) if name != "self"]
+
+
+def test_stubs_name_all_that_there_is():
+    tree = ast.parse((SOURCE / "python/libph/_core.pyi").read_text())
+    functions = {n.name: n for n in tree.body if isinstance(n, ast.FunctionDef)}
+    classes = {n.name: n for n in tree.body if isinstance(n, ast.ClassDef)}
+    there = {name for name in dir(_core) if not name.startswith("__")}
+    assert there == {*functions, *classes, "version"}
+    for name, function in functions.items():
+        named = [a for a in signature_of(getattr(_core, name)) if a != "arg0"]
+        assert named in (arguments_of(function), []), name
+    for name, node in classes.items():
+        kind = getattr(_core, name)
+        stated = {m.name for m in node.body if isinstance(m, ast.FunctionDef)} | {
+            target.id for m in node.body if isinstance(m, ast.Assign) for target in m.targets}
+        found = {m for m in vars(kind) if not m.startswith("_")}
+        if hasattr(kind, "__members__"):
+            found = set(kind.__members__)
+        assert {m for m in stated if not m.startswith("__")} == found, name
+        for member in node.body:
+            is_property = isinstance(member, ast.FunctionDef) and any(
+                getattr(d, "id", "") == "property" for d in member.decorator_list)
+            if not isinstance(member, ast.FunctionDef) or is_property or member.name == "__len__":
+                continue
+            assert signature_of(getattr(kind, member.name)) in (
+                arguments_of(member), []), f"{name}.{member.name}"
+
+
+# ---- wheels
+
+
+@pytest.fixture(scope="module")
+def backend():
+    sys.path.insert(0, str(SOURCE / "python/packaging"))
+    try:
+        import backend
+        yield backend
+    finally:
+        sys.path.remove(str(SOURCE / "python/packaging"))
+
+
+def test_metadata_is_said_twice_alike(backend):
+    tomllib = pytest.importorskip("tomllib")
+    project = tomllib.loads((SOURCE / "pyproject.toml").read_text())["project"]
+    text = backend.metadata()
+    for line in (f"Name: {project['name']}", f"Summary: {project['description']}",
+                 f"License: {project['license']['text']}",
+                 f"Requires-Python: {project['requires-python']}",
+                 *(f"Requires-Dist: {need}" for need in project["dependencies"]),
+                 *(f'Requires-Dist: {need}; extra == "all"'
+                   for need in project["optional-dependencies"]["all"])):
+        assert line + "\n" in text, line
+    assert text.count("Requires-Dist") == 1 + len(project["optional-dependencies"]["all"])
+    assert (SOURCE / project["readme"]).read_text() in text
+
+
+def test_an_archive_of_the_sources(backend, tmp_path):
+    name = backend.build_sdist(tmp_path)
+    with tarfile.open(tmp_path / name) as archive:
+        names = {member.split("/", 1)[1] for member in archive.getnames() if "/" in member}
+    for needed in ("PKG-INFO", "pyproject.toml", "CMakeLists.txt", "python/src/module.cpp",
+                   "libph/src/core/barcode.cpp", "python/libph/__init__.py", "LICENSE"):
+        assert needed in names
+    assert not any("__pycache__" in n for n in names)
+
+
+@pytest.fixture(scope="module")
+def environment(tmp_path_factory):
+    """A virtual environment with the package in it, installed by pip without a network."""
+    build = os.environ.get("PH_BUILD_DIR")
+    if not build:
+        pytest.skip("PH_BUILD_DIR names no build folder")
+    folder = tmp_path_factory.mktemp("venv")
+    made = subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", folder],
+                          capture_output=True, text=True)
+    if made.returncode != 0:
+        pytest.skip(f"no virtual environment: {made.stdout}")
+    python = folder / "bin/python"
+    settings = {**os.environ, "PIP_NO_INDEX": "1", "PIP_DISABLE_PIP_VERSION_CHECK": "1"}
+    settings.pop("PYTHONPATH", None)
+    done = subprocess.run([python, "-m", "pip", "install", "--config-settings",
+                           f"build-dir={build}", SOURCE], capture_output=True, text=True,
+                          env=settings, cwd=folder)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return python, settings
+
+
+def run_in(environment, *arguments):
+    python, settings = environment
+    done = subprocess.run([python, *arguments], capture_output=True, text=True, env=settings,
+                          cwd=python.parent)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+def test_pip_install_without_a_network(environment):
+    code = "import libph; print(libph.__file__, len(libph.rips([[0], [1]])))"
+    path, bars = run_in(environment, "-c", code).split()
+    assert bars == "2" and Path(path).is_relative_to(environment[0].parents[1])
+    shown = run_in(environment, "-m", "pip", "show", "-f", "libph")
+    assert f"Version: {ph.__version__}" in shown and "libph/py.typed" in shown
+    assert "_core.pyi" in shown and "tests" not in shown
+
+
+def test_a_wheel_is_whole_and_always_the_same(backend, tmp_path):
+    build = os.environ.get("PH_BUILD_DIR")
+    if not build:
+        pytest.skip("PH_BUILD_DIR names no build folder")
+    wheels = []
+    for name in ("a", "b"):
+        (tmp_path / name).mkdir()
+        wheels.append(tmp_path / name / backend.build_wheel(tmp_path / name, {"build-dir": build}))
+    assert wheels[0].read_bytes() == wheels[1].read_bytes()
+    with zipfile.ZipFile(wheels[0]) as wheel:
+        names = wheel.namelist()
+        (record,) = [n for n in names if n.endswith(".dist-info/RECORD")]
+        rows = [row.split(",")[0] for row in wheel.read(record).decode().splitlines()]
+    assert rows == names and f"libph/__init__.py" in names
+    assert sum(n.endswith(".so") for n in names) == 1
+    editable = tmp_path / backend.build_editable(tmp_path, {"build-dir": build})
+    with zipfile.ZipFile(editable) as wheel:
+        (path,) = [n for n in wheel.namelist() if n.endswith(".pth")]
+        assert Path(wheel.read(path).decode().strip(), "libph/__init__.py").exists()
