@@ -10,8 +10,9 @@ jobs=$(nproc)
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
 export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
 
-scripts/setup.sh build test viewer
-cmake --preset release -DPH_WITH_PCL=ON -DPH_BUILD_TESTS=ON -DPH_BUILD_EXAMPLES=ON -DPH_BUILD_BENCHMARKS=ON
+scripts/setup.sh build test python viewer
+cmake --preset release -DPH_WITH_PCL=ON -DPH_BUILD_TESTS=ON -DPH_BUILD_EXAMPLES=ON -DPH_BUILD_BENCHMARKS=ON \
+  -DPH_BUILD_PYTHON=ON -DPython3_EXECUTABLE=/usr/bin/python3
 cmake --build --preset release -j "$jobs"
 
 # As on a machine without PCL and CGAL: the same objects, found in the compiler cache.

@@ -9,11 +9,13 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 
-from ._errors import DataError, UsageError
+from . import _core
+from ._errors import DataError, MemoryLimitError, UsageError
 
 _LARGEST = 2**53  # all whole numbers up to it are doubles
+_LARGE = 2**24  # bytes
 _WORDS = {"c": "complex numbers, expected real ones; take .real or abs()",
           "M": "dates, expected numbers", "m": "times, expected numbers; divide by a unit",
           "U": "text, expected numbers; .astype(float) reads it",
@@ -148,7 +150,7 @@ def as_float64(array: NDArray[Any], name: str, mask: NDArray[np.bool_] | None = 
             index = np.unravel_index(int(np.argmax(beyond)), array.shape)
             raise _too_large(name, [int(i) for i in index], array[index])
     with np.errstate(over="ignore"):
-        numbers = array.astype(np.float64)
+        numbers = _copied(array, np.float64, name)
     if kind == "f" and size > 8:
         lost = np.isinf(numbers) & ~np.isinf(array)
         if lost.any():
@@ -158,6 +160,16 @@ def as_float64(array: NDArray[Any], name: str, mask: NDArray[np.bool_] | None = 
     if mask is not None:
         numbers[mask] = np.nan
     return numbers
+
+
+def _copied(array: NDArray[Any], dtype: DTypeLike, name: str) -> NDArray[Any]:
+    """A copy of another type. The system promises more memory than it has: a large one is refused
+    before it is made."""
+    needed = array.size * np.dtype(dtype).itemsize
+    if needed > _LARGE and needed > _core.memory_left():
+        raise MemoryLimitError(f"{name}: found {array.size} numbers of type {array.dtype}, whose "
+                               f"copy of type {np.dtype(dtype)} would exceed the memory")
+    return array.astype(dtype)
 
 
 def is_aligned(array: NDArray[Any]) -> bool:
@@ -201,11 +213,11 @@ def as_image(data: Any, name: str = "image") -> NDArray[Any]:
     if (kind, size) in (("u", 1), ("u", 2), ("i", 2), ("f", 4), ("f", 8)):
         if array.dtype.isnative and is_aligned(array):
             return array
-        return array.astype(array.dtype.newbyteorder("="))
+        return _copied(array, array.dtype.newbyteorder("="), name)
     if (kind, size) == ("i", 1):
-        return array.astype(np.int16)
+        return _copied(array, np.int16, name)
     if (kind, size) == ("f", 2):
-        return array.astype(np.float32)
+        return _copied(array, np.float32, name)
     return as_float64(array, name)
 
 

@@ -139,7 +139,8 @@ def build(settings):
             "-DPH_BUILD_TESTS=OFF", "-DPH_BUILD_EXAMPLES=OFF", "-DPH_WITH_FREETYPE=OFF",
             "-DPH_INSTALL=OFF", "-DPH_WERROR=OFF", f"-DPython3_EXECUTABLE={sys.executable}",
             *pybind11_folder(), *settings.get("cmake-args", "").split())
-    run("cmake", "--build", folder, "--target", "_core", "--parallel", os.cpu_count() or 1)
+    jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL") or os.cpu_count() or 1
+    run("cmake", "--build", folder, "--target", "_core", "--parallel", jobs)
     return folder
 
 

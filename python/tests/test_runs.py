@@ -260,6 +260,15 @@ def test_memory_that_the_system_refuses():
     assert run_python(code).stdout == "refused\n"
 
 
+def test_a_copy_beyond_the_memory_is_refused():
+    """Four bytes that look like 16 TiB."""
+    huge = np.broadcast_to(np.float32(0), (2**40, 2))
+    with pytest.raises(ph.MemoryLimitError, match="X: found"):
+        ph.rips(huge)
+    with pytest.raises(ph.MemoryLimitError):
+        ph.cubical(np.broadcast_to(np.int8(0), (2**20, 2**20)))
+
+
 def test_the_default_is_what_the_machine_has_left():
     left = _core.memory_left()
     block = np.ones(100 << 17)  # 100 MiB
