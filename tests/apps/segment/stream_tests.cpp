@@ -121,13 +121,13 @@ TEST_F(Stream, FramesOfOneNameAreNumbered) {
   EXPECT_EQ(run("in/0.pcd other/0.pcd in/0.pcd --json all.json"), 0) << err();
 }
 
-TEST_F(Stream, AThousandsOfFramesTakeNoMoreMemoryThanSome) {
+TEST_F(Stream, AThousandFramesTakeNoMoreMemoryThanSome) {
   const test::TableScene small(std::vector<test::Block>{{{-0.22, -0.05, 0}, {-0.10, 0.07, 0.12}}},
                                0.2);
   const Cloud cloud = test::cloud_of(small.xyz(), 64, 48);
   write_cloud(at("s.pcd"), cloud);
   std::ofstream list(at("list.txt"));
-  constexpr std::size_t frames = 3000;
+  constexpr std::size_t frames = 1200;
   for (std::size_t i = 0; i < frames; ++i) {
     std::string path(2 * 500, '/');  // the same file by a long name, another one each time
     for (std::size_t k = 0; k < path.size(); k += 2) path[k] = '.';
@@ -143,7 +143,7 @@ TEST_F(Stream, AThousandsOfFramesTakeNoMoreMemoryThanSome) {
     return std::stod(line.substr(line.find(key) + key.size()));
   };
   EXPECT_GT(peak(json[300]), 1e6);
-  EXPECT_LT(peak(json.back()) - peak(json[300]), 512 * 1024) << "names of 3 MB were kept";
+  EXPECT_LT(peak(json.back()) - peak(json[300]), 512 * 1024) << "names of 1 MB were kept";
 }
 
 TEST_F(Stream, UsageErrors) {

@@ -280,7 +280,7 @@ TEST(Gradient, ThreadsDoNotMatter) {
   const Image image{{60, 70, 50}, values};
   for (const Construction construction : {Construction::vertices, Construction::cells}) {
     std::vector<std::vector<Pair>> results;
-    for (int threads = 1; threads <= 8; ++threads) {
+    for (const int threads : {1, 2, 3, 5, 8}) {
       RunContext context;
       context.threads = threads;
       const Cubical cubical(image, {.construction = construction}, context);

@@ -70,7 +70,7 @@ std::vector<Pair> pairs_of_threads(const F& f, int max_dim, std::int64_t field, 
 }
 
 TEST(RandomConformance, AnyNumberOfThreads) {
-  for_each_seed(20000, [](Generator& random, bool ties, std::int64_t field) {
+  for_each_seed(6000, [](Generator& random, bool ties, std::int64_t field) {
     const int threads = random.integer(1, 8);
     const auto check_threads = [&](const auto& f, int max_dim) {
       const auto oracle = pairs_of(f, max_dim, field, Engine::standard);
@@ -238,7 +238,7 @@ Points random_sphere(Generator& random, Index n) {
 // One cocycle with many triangles.
 TEST(RandomConformance, LinkSurfacesOfSpheres) {
   for_each_seed(12, [](Generator& random, bool, std::int64_t field) {
-    const Rips rips(random_sphere(random, 120));
+    const Rips rips(random_sphere(random, 100));
     rips.with_filtration(2, [&](const auto& f) {
       const auto expected = pairs_of(f, 2, field, Engine::cohomology);
       for (const std::size_t most_terms : {0, 64})
