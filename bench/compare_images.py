@@ -84,7 +84,7 @@ class Comparison:
     def __init__(self, arguments):
         self._arguments = arguments
         self._meter = Meter(arguments.build / "bench/bench_run", Limits(arguments.time_limit, arguments.memory_limit),
-                            arguments.repeat)
+                            arguments.repeat, arguments.together)
 
     def programs(self, row, construction):
         ours = shlex.quote(str(self._arguments.build / "apps/barcode/ph-barcode"))
@@ -141,6 +141,8 @@ def parse():
     parser.add_argument("--threads", type=lambda text: [int(n) for n in text.split(",")], default=[1],
                         help="numbers of threads, comma-separated (default: 1)")
     parser.add_argument("--repeat", type=int, default=3, help="runs of which the fastest counts (default: 3)")
+    parser.add_argument("--together", type=float, default=0.5, metavar="SECONDS",
+                        help="runs below 50 ms are repeated until they took this long together (default: 0.5)")
     parser.add_argument("--time-limit", type=int, default=600, metavar="SECONDS", help="CPU time of a run")
     parser.add_argument("--memory-limit", type=size, metavar="SIZE", help="private memory of a run, such as 16GiB")
     parser.add_argument("--no-check", dest="check", action="store_false", help="do not compare the bars")

@@ -29,8 +29,8 @@ class ImageComparison(unittest.TestCase):
 
     def compare(self, *arguments, code=0, row=ROW):
         run = subprocess.run([sys.executable, "-B", BENCH / "compare_images.py", BUILD, "--json",
-                              self.folder / "results.json", "--repeat", "1", "--rows", row, "--construction", "cells",
-                              *arguments], capture_output=True, text=True, timeout=120)
+                              self.folder / "results.json", "--repeat", "1", "--together", "0.01", "--rows", row,
+                              "--construction", "cells", *arguments], capture_output=True, text=True, timeout=120)
         self.assertEqual(run.returncode, code, run.stderr)
         row, = json.loads((self.folder / "results.json").read_text())["rows"]
         return row, run.stdout
