@@ -104,7 +104,8 @@ class Signals(ProgramTest):
 
 class RandomMoments(ProgramTest):
     """A short run with a large result, met anywhere: reading, computing, writing, renaming."""
-    INTERRUPTS, KILLS = 60, 120  # an interrupt is heeded while it reads and computes: one run in three
+    INTERRUPTS = 60  # each heeded while the run reads and computes, as one in three is
+    KILLS = 120
     ARGUMENTS = ("picture.pgm", "--quiet", "-o", "out.json")
 
     def setUp(self):
