@@ -156,7 +156,7 @@ TEST(RandomConformance, LinkOfManyVertices) {
 // Many classes of H1, which a few are here: formal from the first on, and solved at once or later.
 TEST(RandomConformance, LinkFormally) {
   std::size_t finite = 0;
-  for_each_seed(20000, [&](Generator& random, bool ties, std::int64_t) {
+  for_each_seed(8000, [&](Generator& random, bool ties, std::int64_t) {
     const Index n = random.integer(4, random.integer(0, 9) == 0 ? 24 : 12);
     const Rips rips = random.coin() ? Rips(random.distances(n, ties))
                                     : Rips(random.sparse(n, ties, random.real()));
@@ -196,7 +196,7 @@ TEST(RandomConformance, LinkFormallyOfManyPoints) {
 // Enough points for many classes of H2 to live at once; cocycles are rows at once, later or never.
 TEST(RandomConformance, LinkSurfaces) {
   std::size_t finite = 0;
-  for_each_seed(20000, [&](Generator& random, bool ties, std::int64_t field) {
+  for_each_seed(10000, [&](Generator& random, bool ties, std::int64_t field) {
     const Index n = random.integer(7, random.integer(0, 9) == 0 ? 15 : 10);
     const Rips rips = [&] {
       switch (random.integer(0, 2)) {
