@@ -28,10 +28,10 @@ void occupy_standard_descriptors() {
       static_cast<void>(open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY));
 }
 
-/// Keeps freed memory for the next stage. By default each large vector is mapped, faulted in page
-/// by page and given back, which costs a short run a tenth of its time.
+/// Freed blocks are kept for the next stage up to a size: to map and fault in each anew costs a short
+/// run a tenth of its time. Beyond it vectors that grow would leave holes that nobody counts.
 void keep_freed_memory() {
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  mallopt(M_MMAP_THRESHOLD, 4 << 20);
   mallopt(M_TRIM_THRESHOLD, 256 << 20);
 }
 

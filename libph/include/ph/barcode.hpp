@@ -137,6 +137,15 @@ class Barcode {
                   std::span<const Index> death_voxel);
   /// Brings the bars into the order stated above. @throws Error (resource, cancelled).
   void sort(const RunContext& context = default_context());
+  /// What has to be moved to make room for more: meanwhile it is there twice.
+  std::size_t bytes_moved_for(std::size_t bars, std::size_t numbers, std::size_t coefficients = 0,
+                              std::size_t voxels = 0) const {
+    const auto moved = [](const auto& all, std::size_t more) {
+      return all.capacity() - all.size() < more ? all.size() * sizeof(all[0]) : 0;
+    };
+    return moved(bars_, bars) + moved(cells_, bars) + moved(numbers_, numbers) +
+           moved(coefficients_, coefficients) + moved(voxels_, voxels);
+  }
   /// What it holds; room for more is not touched yet.
   std::size_t bytes() const {
     return bars_.size() * sizeof(Bar) + cells_.size() * sizeof(Cells) +

@@ -23,20 +23,10 @@ constexpr double kMiB = 1024.0 * 1024.0;
                           static_cast<double>(bytes) / kMiB));
 }
 
-constexpr std::size_t kHugePage = std::size_t{2} << 20;
-
-// What is asked of the system for a block. One that fills huge pages, or nearly, begins and ends
-// where they do; others would leave too much room where memory is short. The budget counts what
-// lies on huge pages as they do: without that, a program in a control group of 64 MiB is ended by
-// the system before it reaches the limit that it took from the group.
-struct Request {
-  std::size_t bytes, alignment;
-};
-Request request_for(std::size_t bytes, std::size_t alignment) {
-  constexpr std::size_t nearly = 5;  // at most a fifth of a block is left over
-  const std::size_t rest = (kHugePage - bytes % kHugePage) % kHugePage;
-  if (rest > bytes / nearly || bytes > SIZE_MAX - rest) return {bytes, alignment};
-  return {bytes + rest, std::max(alignment, kHugePage)};
+// Large blocks come from the system and go back to it at once: the C library would keep them in its
+// heap, with holes that it does not fill again, and no budget knows of holes.
+bool is_large(std::size_t bytes, std::size_t alignment) {
+  return bytes >= std::size_t{1} << 20 && alignment <= kSmallestPage;
 }
 
 }  // namespace
@@ -59,22 +49,26 @@ void MemoryBudget::add(std::size_t bytes) {
 }
 
 void* MemoryBudget::do_allocate(std::size_t bytes, std::size_t alignment) {
-  const Request request = request_for(bytes, alignment);
-  add(request.bytes);
+  const bool is_mapped = is_large(bytes, alignment);
+  const std::size_t taken = is_mapped ? mapped_size(bytes) : bytes;
+  add(taken);
   try {
-    void* const block = std::pmr::new_delete_resource()->allocate(request.bytes, request.alignment);
-    prefer_huge_pages(block, request.bytes);
-    return block;
+    return is_mapped ? map_pages(bytes)
+                     : std::pmr::new_delete_resource()->allocate(bytes, alignment);
   } catch (...) {
-    subtract(request.bytes);
+    subtract(taken);
     throw;
   }
 }
 
 void MemoryBudget::do_deallocate(void* p, std::size_t bytes, std::size_t alignment) {
-  const Request request = request_for(bytes, alignment);
-  std::pmr::new_delete_resource()->deallocate(p, request.bytes, request.alignment);
-  subtract(request.bytes);
+  if (is_large(bytes, alignment)) {
+    unmap_pages(p, bytes);
+    subtract(mapped_size(bytes));
+  } else {
+    std::pmr::new_delete_resource()->deallocate(p, bytes, alignment);
+    subtract(bytes);
+  }
 }
 
 void RunContext::poll() const {

@@ -4,7 +4,9 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <cstdint>
 #include <memory>
+#include <new>
 
 namespace ph {
 namespace {
@@ -18,7 +20,37 @@ void advise(void* block, std::size_t bytes, std::size_t page, int advice) {
   if (std::align(page, page, block, bytes) != nullptr) madvise(block, bytes / page * page, advice);
 }
 
+std::size_t round_up(std::size_t bytes, std::size_t page) {
+  const std::size_t rest = (page - bytes % page) % page;
+  if (bytes > SIZE_MAX - rest) throw std::bad_alloc();
+  return bytes + rest;
+}
+
 }  // namespace
+
+std::size_t mapped_size(std::size_t bytes) {
+  constexpr std::size_t nearly = 5;  // at most a fifth of a block is left over
+  static const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  const std::size_t huge = round_up(bytes, kHugePage);
+  return huge - bytes > bytes / nearly ? round_up(bytes, page) : huge;
+}
+
+void* map_pages(std::size_t bytes) {
+  const std::size_t size = mapped_size(bytes);
+  // A huge page begins where its size divides the address: what lies before and behind goes back.
+  const std::size_t room = size + kHugePage;
+  if (room < size) throw std::bad_alloc();
+  void* const all = mmap(nullptr, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (all == MAP_FAILED) throw std::bad_alloc();
+  const std::size_t before = -reinterpret_cast<std::uintptr_t>(all) % kHugePage;
+  char* const block = static_cast<char*>(all) + before;
+  if (before > 0) munmap(all, before);
+  if (before < kHugePage) munmap(block + size, kHugePage - before);
+  prefer_huge_pages(block, size);
+  return block;
+}
+
+void unmap_pages(void* block, std::size_t bytes) { munmap(block, mapped_size(bytes)); }
 
 void prefer_huge_pages(void* block, std::size_t bytes) {
 #if defined(MADV_HUGEPAGE)

@@ -44,7 +44,10 @@ class BarcodeBuilder {
   bool wants_zero_length() const { return min_persistence_ < 0; }
 
   /// Says that so many bars may come: a hint.
-  void expect(std::size_t count) { barcode_.reserve_more(count); }
+  void expect(std::size_t count) {
+    require_room(count, 0);
+    barcode_.reserve_more(count);
+  }
   /// A class of H_dim born with `birth`, killed by `death` (a cell of dimension dim + 1).
   /// @return whether the bar is kept: only then is a representative wanted.
   bool add_pair(int dim, const Cell& birth, const Cell& death) {
@@ -66,12 +69,14 @@ class BarcodeBuilder {
   bool add_bar(const Bar& bar, std::span<const Index> birth_cell,
                std::span<const Index> death_cell) {
     if (!keeps(bar)) return false;
+    require_room(1, birth_cell.size() + death_cell.size());
     barcode_.add(bar, birth_cell, death_cell);
     claim_.grow_to(barcode_.bytes());
     return true;
   }
   /// Several bars without cells.
   void add_bars(std::span<const Bar> bars) {
+    require_room(bars.size(), 0);
     barcode_.reserve_more(bars.size());
     for (const Bar& bar : bars)
       if (keeps(bar)) barcode_.add(bar);
@@ -86,18 +91,19 @@ class BarcodeBuilder {
       filtration_.append_input_cell(dim, term.cell, numbers_);
       coefficients_.push_back(field.to_int(term.coefficient()));
     }
-    barcode_.set_representative(representatives_, numbers_, coefficients_);
-    claim_.grow_to(barcode_.bytes());
+    add_representative(numbers_, coefficients_);
   }
 
   /// The same in terms of the input.
   void add_representative(std::span<const Index> numbers,
                           std::span<const std::int64_t> coefficients) {
+    require_room(0, numbers.size(), coefficients.size());
     barcode_.set_representative(representatives_, numbers, coefficients);
     claim_.grow_to(barcode_.bytes());
   }
   /// @return where the places begin among all that are kept.
   std::size_t store_voxels(std::span<const std::uint32_t> places) {
+    require_room(0, 0, 0, places.size());
     claim_.grow_to(barcode_.bytes() + places.size_bytes());
     return barcode_.store_voxels(places);
   }
@@ -119,12 +125,19 @@ class BarcodeBuilder {
     return wants(bar.dim) && bar.birth < kInfinity &&
            (bar.is_infinite() || bar.persistence() > min_persistence_);
   }
+  /// @throws Error (resource) if what is moved to make room would exceed the budget meanwhile.
+  void require_room(std::size_t bars, std::size_t numbers, std::size_t coefficients = 0,
+                    std::size_t voxels = 0) const {
+    const std::size_t moved = barcode_.bytes_moved_for(bars, numbers, coefficients, voxels);
+    if (moved > 0) context_.memory.require(moved);
+  }
   void add(const Bar& bar, const Cell& birth, const Cell* death) {
     numbers_.clear();
     if (cells_) filtration_.append_input_cell(bar.dim, birth, numbers_);
     const std::size_t split = numbers_.size();
     if (cells_ && death) filtration_.append_input_cell(bar.dim + 1, *death, numbers_);
     const std::span<const Index> all(numbers_);
+    require_room(1, all.size());
     barcode_.add(bar, all.first(split), all.subspan(split));
     claim_.grow_to(barcode_.bytes());
   }
