@@ -23,7 +23,8 @@ stop : threading.Event
 
 The data must not change while a computation runs. `limits` sets defaults for a block of code.
 """
-from ._barcode import Bar, Barcode, Chain, Loop
+from ._barcode import Bar, Barcode
+from ._chains import Chain, Loop
 from ._compute import boundary, cubical, filtered, lower_star, rips
 from ._core import version as __version__
 from ._diagrams import bottleneck

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _core, _options, _run
+from ._chains import Chain
 from ._errors import UsageError
 
 if TYPE_CHECKING:
@@ -35,99 +36,6 @@ class Bar(NamedTuple):
     def persistence(self) -> float:
         """The length of the bar."""
         return self.death - self.birth if self.birth != self.death else 0.0
-
-
-class Loop(NamedTuple):
-    """A closed walk along edges, the last vertex joined to the first.
-
-    Attributes
-    ----------
-    vertices : ndarray
-        Numbers of points, in order; of images their doubled grid coordinates, a row each.
-    coefficient : int
-        How often the walk counts in the chain.
-    length : float or None
-        The sum of the values of its edges, if they are lengths.
-    """
-
-    vertices: NDArray[np.int64]
-    coefficient: int
-    length: float | None
-
-
-class Chain:
-    """A cycle or cocycle: cells of the input, each with its coefficient.
-
-    Attributes
-    ----------
-    cells : ndarray
-        A cell a row: its vertices, ascending; of images its doubled grid coordinates.
-    coefficients : ndarray
-        Between -p/2 and p/2; always 1 over Z/2.
-    """
-
-    __slots__ = ("_bars", "_found", "_i", "cells", "coefficients")
-
-    def __init__(self, bars: _core.Bars, i: int) -> None:
-        cells, coefficients = bars.chain(i)
-        self.cells: NDArray[np.int64] = np.asarray(cells)
-        self.coefficients: NDArray[np.int64] = np.asarray(coefficients)
-        self._bars, self._i = bars, i
-        self._found: tuple[list[Loop], str] | None = None
-
-    def __len__(self) -> int:
-        return len(self.coefficients)
-
-    def __repr__(self) -> str:
-        return f"Chain({len(self)} cells)"
-
-    def loops(self) -> list[Loop]:
-        """The loops of a cycle of H1: with their coefficients they sum to a cycle of the class.
-
-        Raises
-        ------
-        UsageError
-            If the chain is no cycle of edges.
-        """
-        return self._loops_found()[0]
-
-    @property
-    def tightness(self) -> str:
-        """What is known of the length of its loops: "no", "locally" or "shortest"."""
-        return self._loops_found()[1]
-
-    def _loops_found(self) -> tuple[list[Loop], str]:
-        if self._found is None:
-            if self._bars.representatives == _core.Representatives.cocycles:
-                raise UsageError("loops: found a cocycle, expected representatives='cycles'")
-            if self._bars.cell_kind == "row":
-                raise UsageError("loops: found rows of a boundary matrix, expected edges with "
-                                 "vertices")
-            loops, tightness = self._bars.loops(self._i)
-            of_points = self._bars.cell_kind == "vertices"
-            self._found = [Loop(np.asarray(vertices)[:, 0] if of_points else np.asarray(vertices),
-                                coefficient, length)
-                           for vertices, coefficient, length in loops], tightness
-        return self._found
-
-    def loop(self) -> NDArray[np.int64]:
-        """The vertices of the first loop, in order: of most cycles the only one."""
-        loops = self.loops()
-        if not loops:
-            raise UsageError("loop: found a chain without edges, expected a cycle of H1")
-        return loops[0].vertices
-
-    def to_dense(self, n: int) -> NDArray[np.int64]:
-        """The chain as an array with an axis of `n` vertices for each vertex of a cell.
-
-        The coefficient of the cell [u < v < ...] is at [u, v, ...].
-        """
-        if self._bars.cell_kind != "vertices":
-            raise UsageError("to_dense: found cells of a grid or a matrix, expected vertices")
-        least = int(self.cells.max()) + 1 if self.cells.size else 0
-        dense = np.zeros((_options.whole("n", n, least),) * self.cells.shape[1], dtype=np.int64)
-        dense[tuple(self.cells.T)] = self.coefficients
-        return dense
 
 
 class Meta(Mapping[str, Any]):

@@ -43,3 +43,8 @@ class NotBuiltIn(Error, NotImplementedError):
 
 class InternalError(Error, RuntimeError):
     """A bug in libph: please report it."""
+
+
+for _found in list(globals().values()):
+    if isinstance(_found, type) and issubclass(_found, Error):
+        _found.__module__ = "libph"  # where users find it
