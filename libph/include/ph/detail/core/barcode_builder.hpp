@@ -128,8 +128,9 @@ class BarcodeBuilder {
   /// @throws Error (resource) if what is moved to make room would exceed the budget meanwhile.
   void require_room(std::size_t bars, std::size_t numbers, std::size_t coefficients = 0,
                     std::size_t voxels = 0) const {
+    constexpr std::size_t little = std::size_t{4} << 20;  // as much is beside any budget
     const std::size_t moved = barcode_.bytes_moved_for(bars, numbers, coefficients, voxels);
-    if (moved > 0) context_.memory.require(moved);
+    if (moved > little) context_.memory.require(moved);
   }
   void add(const Bar& bar, const Cell& birth, const Cell* death) {
     numbers_.clear();
