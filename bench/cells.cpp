@@ -5,8 +5,8 @@
 #include <optional>
 #include <string_view>
 
+#include "ph/detail/rips/edge_collapse.hpp"
 #include "ph/detail/rips/rips_filtration.hpp"
-#include "ph/edge_collapse.hpp"
 #include "ph/io/read.hpp"
 #include "ph/ph.hpp"
 

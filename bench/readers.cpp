@@ -7,7 +7,7 @@
 #include <fstream>
 #include <random>
 
-#include "ph/io/cloud_io.hpp"
+#include "ph/io/cloud.hpp"
 #include "ph/io/read.hpp"
 #ifdef PH_WITH_PCL
 #include <pcl/PCLPointCloud2.h>

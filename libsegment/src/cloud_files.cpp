@@ -8,7 +8,7 @@
 
 #include "ph/detail/io/output_file.hpp"
 #include "ph/error.hpp"
-#include "ph/io/cloud_io.hpp"
+#include "ph/io/cloud.hpp"
 #include "ph/segment.hpp"
 
 namespace ph::segment {

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "ph/io/cloud.hpp"
+#include "ph/detail/io/cloud_data.hpp"
 
 namespace ph::segment {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "objects/objects.hpp"
-#include "ph/filtered_graph.hpp"
+#include "ph/detail/complex/filtered_graph.hpp"
 #include "ph/segment.hpp"
 #include "plane/plane.hpp"
 #include "voxels/voxel_grid.hpp"

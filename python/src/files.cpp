@@ -15,7 +15,7 @@
 #include "bindings.hpp"
 #include "data/arrays.hpp"
 #include "ph/detail/io/output_file.hpp"
-#include "ph/io/formats.hpp"
+#include "ph/io/read.hpp"
 #include "ph/io/write.hpp"
 #include "results/bars.hpp"
 #include "run.hpp"

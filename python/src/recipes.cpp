@@ -6,9 +6,9 @@
 
 #include "bindings.hpp"
 #include "data/arrays.hpp"
-#include "ph/edge_collapse.hpp"
+#include "ph/detail/rips/edge_collapse.hpp"
 #include "ph/error.hpp"
-#include "ph/lower_star.hpp"
+#include "ph/explicit.hpp"
 
 namespace ph::python {
 namespace {

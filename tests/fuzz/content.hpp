@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "ph/io/cloud_io.hpp"
-#include "ph/io/formats.hpp"
+#include "ph/io/cloud.hpp"
+#include "ph/io/read.hpp"
 #include "ph/io/write.hpp"
 #include "ph/scene_tree.hpp"
 

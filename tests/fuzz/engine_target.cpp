@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The conformance suite on filtrations that the bytes choose.
+#include "ph/detail/complex/filtered_graph.hpp"
 #include "ph/detail/rips/rips_filtration.hpp"
-#include "ph/filtered_graph.hpp"
 #include "support/generators.hpp"
 #include "support/representatives.hpp"
 #include "targets.hpp"

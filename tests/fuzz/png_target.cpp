@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "io/bytes/unpack.hpp"
-#include "ph/io/cloud_io.hpp"
+#include "ph/io/cloud.hpp"
 #include "round_trip.hpp"
 #include "targets.hpp"
 #include "violation.hpp"

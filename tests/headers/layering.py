@@ -37,16 +37,15 @@ MAY_INCLUDE = {
 # Headers in include/ph by room; those in ph/io are of io, those in ph/detail of the room whose
 # folder they are in.
 HEADERS = {
-    "core": "barcode engine error filtration loop run_context",
-    "metric": "distance_matrix distance_to_measure eigen greedy_permutation metric points "
-              "sparse_distances",
+    "core": "barcode error filtration run_context",
+    "metric": "distance_matrix distance_to_measure eigen greedy_permutation points sparse_distances",
     "image": "image",
-    "complex": "cubical explicit filtered_graph lower_star voxel_image",
-    "rips": "edge_collapse rips",
+    "complex": "cubical explicit voxel_image",
+    "rips": "rips",
     "diagram": "bottleneck",
     "facade": "custom estimate merge_tree persistence",
     "loops": "loops ph",
-    "plot": "io/plot io/png_plot io/svg_plot",
+    "plot": "io/plot",
     "segment": "label_tracker pcl scene_tree segment",
 }
 ROOM_OF = {name: room for room, names in HEADERS.items() for name in names.split()}
@@ -55,8 +54,9 @@ FOLDERS = (("libph/src/", None), ("libsegment/", "segment"), ("apps/segment/", "
            ("apps/", None), ("python/", "python"))
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<((?:ph|pcl|CGAL)/[^>]+)>)', re.M)
 MOST_FILES = 20
-# Folders that are larger: each is to become smaller, none may grow.
-LARGER = {"libph/include/ph": 29}
+# Folders of public headers: what no user includes by itself goes to ph/detail. None may grow.
+MOST_PUBLIC = {"libph/include/ph": 23, "libph/include/ph/io": 4, "libsegment/include/ph": 3,
+               "libsegment/pcl/include/ph": 1}
 
 # Folders of tests, and whose rooms theirs are.
 TESTS_OF = {"tests/libph": ("libph/src",), "tests/libsegment": ("libsegment/src", "libsegment"),
@@ -123,7 +123,7 @@ def too_large(root):
         if (root / "tests/corpus") in folder.parents or folder.name == "__pycache__":
             continue
         count = sum(p.is_file() for p in folder.iterdir())
-        most = LARGER.get(str(folder.relative_to(root)), MOST_FILES)
+        most = MOST_PUBLIC.get(str(folder.relative_to(root)), MOST_FILES)
         if count > most:
             yield f"{folder.relative_to(root)}: found {count} files, expected at most {most}"
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The faults that plant_mutants.py plants."""
 
-CUBES = "libph/include/ph/detail/complex/cubical_cells.ipp"
+CUBES = "libph/include/ph/detail/complex/cubical_cells.hpp"
 CUBICAL = "libph/src/complex/cubical.cpp"
 RIPS = "libph/include/ph/detail/rips/rips_filtration.hpp"
 GRAPH = "libph/include/ph/detail/rips/rips_graph.hpp"
@@ -56,7 +56,8 @@ MUTANTS = [
      ["masked_images_tests"]),
     ("explicit: infinite cells enter", "libph/src/complex/explicit.cpp",
      "  complex.leave_out_what_never_enters();\n", "", ["masked_images_tests"]),
-    ("filtered graph: infinite vertices enter", "libph/include/ph/filtered_graph.hpp",
+    ("filtered graph: infinite vertices enter",
+     "libph/include/ph/detail/complex/filtered_graph.hpp",
      "if (births_[v] < std::numeric_limits<double>::infinity()) visit(v);", "visit(v);",
      ["masked_images_tests"]),
     ("merge tree: vertices that never enter lose their numbers", "libph/src/facade/merge_tree.cpp",
@@ -73,7 +74,7 @@ MUTANTS = [
     ("rips: enclosing radius halved", GRAPH,
      "threshold.value_or(radius);", "threshold.value_or(radius / 2);", ["invariance_tests"]),
     ("rips: threshold exclusive", GRAPH, "if (row[j] <= last)", "if (row[j] < last)", ["invariance_tests"]),
-    ("edges: ties turned round", "libph/include/ph/filtration.hpp",
+    ("edges: ties turned round", "libph/include/ph/detail/core/flag_filtration.hpp",
      "return a.u != b.u ? a.u < b.u : a.v < b.v;", "return a.u != b.u ? a.u > b.u : a.v > b.v;",
      ["rips_tests"]),
     ("edge links: birth of the oldest generator", ANNOTATIONS,

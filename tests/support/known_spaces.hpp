@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "ph/barcode.hpp"
+#include "ph/explicit.hpp"
 #include "ph/image.hpp"
-#include "ph/lower_star.hpp"
 #include "ph/rips.hpp"
 
 namespace ph::test {

@@ -10,7 +10,7 @@
 #include "common/arguments/plot_arguments.hpp"
 #include "ph/cubical.hpp"
 #include "ph/greedy_permutation.hpp"
-#include "ph/io/formats.hpp"
+#include "ph/io/read.hpp"
 #include "ph/io/write.hpp"
 #include "ph/persistence.hpp"
 #include "ph/rips.hpp"

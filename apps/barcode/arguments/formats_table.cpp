@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "ph/io/formats.hpp"
+#include "ph/io/read.hpp"
 #include "ph/io/write.hpp"
 
 namespace ph::barcode {

@@ -11,7 +11,7 @@
 #include "barcode/arguments/option_scopes.hpp"
 #include "complex/listed_cubes.hpp"
 #include "ph/distance_to_measure.hpp"
-#include "ph/lower_star.hpp"
+#include "ph/explicit.hpp"
 #include "ph/voxel_image.hpp"
 
 namespace ph::barcode {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/arguments/cli_names.hpp"
-#include "ph/io/png_plot.hpp"
+#include "ph/io/plot.hpp"
 
 namespace ph::app {
 

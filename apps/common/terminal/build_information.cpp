@@ -9,7 +9,7 @@
 #include <CLI/Version.hpp>
 #include <string_view>
 
-#include "ph/io/png_plot.hpp"
+#include "ph/io/plot.hpp"
 #include "report/page_template.hpp"
 
 namespace ph::app {

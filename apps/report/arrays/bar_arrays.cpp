@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "ph/error.hpp"
-#include "ph/io/svg_plot.hpp"
+#include "ph/io/plot.hpp"
 
 namespace ph::report {
 namespace {

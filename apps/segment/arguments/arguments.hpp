@@ -9,7 +9,7 @@
 #include "common/arguments/command_line.hpp"
 #include "common/arguments/option_scope.hpp"
 #include "common/files/file_identity.hpp"
-#include "ph/io/cloud_io.hpp"
+#include "ph/io/cloud.hpp"
 #include "ph/segment.hpp"
 #include "pictures/cloud_picture.hpp"
 #include "segment/arguments/output_paths.hpp"

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <array>
-#include <atomic>
-#include <bit>
 #include <cstdint>
 #include <memory>
 #include <memory_resource>
-#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -66,9 +63,10 @@ class Cubical {
 
   int top_dim() const { return dim_; }
   std::uint32_t key(const Cell& c) const { return c.key; }
-  /// @throws Error (resource) and (cancelled) if it is the first call and nobody has called
-  ///         `prepare`: it does so itself then, with the context of the construction.
-  double value(const Cell& c) const { return table().values[c.key]; }
+  /// With ph/custom.hpp. @throws Error (resource) and (cancelled) if it is the first call and
+  ///         nobody has called `prepare`: it does so itself then, with the context of the
+  ///         construction.
+  inline double value(const Cell& c) const;
   static bool precedes(const Cell& a, const Cell& b) {
     return a.key != b.key ? a.key < b.key : a.index < b.index;
   }
@@ -86,7 +84,8 @@ class Cubical {
   /// The place of a vertex among them in C order.
   std::size_t vertex_number(const Cell& vertex) const;
 
-  // They throw, and take O(cells) the first time, as `value`.
+  // With ph/custom.hpp, as `value`: what engines see. They throw, and take O(cells) the first time,
+  // as `value`.
   template <class Visit>
   void for_each_cell(int dim, Visit&& visit) const;
   template <class Visit>
@@ -102,19 +101,9 @@ class Cubical {
     bool periodic = false;
   };
   /// What cells are made of.
-  struct Table {
-    std::pmr::vector<std::uint32_t> keys;  // by grid index; kNever: never enters
-    std::pmr::vector<double> values;       // by key
-  };
-  struct Lazy {
-    std::mutex mutex;
-    std::optional<Table> table;
-    std::atomic<const Table*> made{nullptr};
-  };
-  const Table& table() const {
-    if (const Table* made = lazy_->made.load(std::memory_order_acquire)) return *made;
-    return make_table(*context_);
-  }
+  struct Table;
+  struct Lazy;
+  inline const Table& table() const;
   /// Made by whichever thread comes first; the others wait.
   const Table& make_table(const RunContext& context) const;
   Table new_table(const RunContext& context) const;
@@ -132,7 +121,7 @@ class Cubical {
   CubicalImage grid_;  // points into voxels_
   const RunContext* context_;
   std::shared_ptr<const MemoryClaim> claim_;  // of the voxels
-  std::shared_ptr<Lazy> lazy_ = std::make_shared<Lazy>();
+  std::shared_ptr<Lazy> lazy_;
 };
 
 }  // namespace ph
@@ -141,5 +130,3 @@ template <>
 struct std::hash<ph::Cubical::Cell> {
   std::size_t operator()(const ph::Cubical::Cell& c) const { return c.index; }
 };
-
-#include "ph/detail/complex/cubical_cells.ipp"

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "ph/metric.hpp"
+#include "ph/detail/metric/metric.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "ph/metric.hpp"
+#include "ph/detail/metric/metric.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {
@@ -30,11 +30,7 @@ struct GreedyPermutation {
   double covering_radius = 0;
 
   /// The points, ascending: as RipsOptions::vertices wants them.
-  std::vector<std::uint32_t> ascending() const {
-    std::vector<std::uint32_t> sorted = points;
-    std::ranges::sort(sorted);
-    return sorted;
-  }
+  std::vector<std::uint32_t> ascending() const;
 };
 
 // Both take O(n k) distances for k points of n and O(n) memory.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <algorithm>
 #include <atomic>
 #include <concepts>
 #include <cstddef>
@@ -99,12 +98,11 @@ class Voxels {
   std::size_t bytes() const { return is_borrowed() ? 0 : size() * bytes_of(type()); }
   /// Precondition: i < size().
   double operator[](std::size_t i) const {
-    return std::visit([i](const auto& all) { return number_of(all, i); }, shared_->numbers);
+    return with_voxels(type(), data(),
+                       [i](const auto* first) { return static_cast<double>(first[i]); });
   }
   /// A copy, 8 bytes a number.
-  std::vector<double> doubles() const {
-    return visit([](const auto& all) { return std::vector<double>(all.begin(), all.end()); });
-  }
+  std::vector<double> doubles() const;
   /// Precondition: !empty().
   double front() const { return (*this)[0]; }
   /// Precondition: !empty().
@@ -157,9 +155,7 @@ class Voxels {
   Iterator begin() const { return {*this, 0}; }
   Iterator end() const { return {*this, size()}; }
 
-  friend bool operator==(const Voxels& a, const Voxels& b) {
-    return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin());
-  }
+  friend bool operator==(const Voxels& a, const Voxels& b);
 
  private:
   const BorrowedVoxels* borrowed() const {
@@ -175,15 +171,6 @@ class Voxels {
     return all.size();
   }
   static std::size_t size_of(const BorrowedVoxels& all) { return all.count; }
-
-  template <class T>
-  static double number_of(const std::vector<T>& all, std::size_t i) {
-    return static_cast<double>(all[i]);
-  }
-  static double number_of(const BorrowedVoxels& all, std::size_t i) {
-    return with_voxels(all.type, all.data,
-                       [i](const auto* first) { return static_cast<double>(first[i]); });
-  }
 
   template <VoxelType named, class T>
   static constexpr bool kStores =

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "ph/loop.hpp"
+#include "ph/detail/core/loop.hpp"
 #include "ph/persistence.hpp"
 
 namespace ph {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "ph/detail/complex/filtered_graph.hpp"
 #include "ph/detail/components/branch.hpp"
 #include "ph/filtration.hpp"
 #include "ph/run_context.hpp"
@@ -12,7 +13,6 @@ namespace ph {
 class Rips;
 class Cubical;
 class ExplicitComplex;
-class FilteredGraph;
 
 /// Two components become one. The elder lives on: the one born first; among equals the one whose
 /// oldest vertex comes first in the order of the filtration (for points, the smaller number).

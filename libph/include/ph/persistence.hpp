@@ -8,16 +8,16 @@
 
 #include "ph/barcode.hpp"
 #include "ph/cubical.hpp"
-#include "ph/engine.hpp"
+#include "ph/detail/complex/filtered_graph.hpp"
+#include "ph/detail/core/engine.hpp"
 #include "ph/explicit.hpp"
-#include "ph/filtered_graph.hpp"
 #include "ph/rips.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {
 
 /// Whether the edges of a Rips complex are collapsed before its homology is computed: the bars of
-/// positive length stay the same, see ph/edge_collapse.hpp.
+/// positive length stay the same, see docs/algorithms/edge-collapse.md.
 enum class Collapse {
   automatic,  ///< where it is allowed and a sample of the edges says that it pays
   on,

@@ -6,9 +6,9 @@
 #include <span>
 #include <utility>
 
+#include "ph/detail/metric/metric.hpp"
 #include "ph/detail/rips/vertex_weights.hpp"
 #include "ph/distance_matrix.hpp"
-#include "ph/metric.hpp"
 #include "ph/run_context.hpp"
 #include "ph/sparse_distances.hpp"
 

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "image/voxels_in_use.hpp"
+#include "ph/detail/complex/cubical_cells.hpp"
 #include "ph/detail/core/file_pages.hpp"
 #include "ph/detail/core/radix_sort.hpp"
 #include "ph/error.hpp"
@@ -74,7 +75,10 @@ void refuse_nan(const CubicalImage& grid, const RunContext& context) {
 }  // namespace
 
 Cubical::Cubical(const Image& image, const CubicalOptions& options, const RunContext& context)
-    : dim_(image.dim()), voxels_(image.values), context_(&context) {
+    : dim_(image.dim()),
+      voxels_(image.values),
+      context_(&context),
+      lazy_(std::make_shared<Lazy>()) {
   check(image, options);
   const std::size_t count = voxels_.size();
   if (count == 0) return;  // a file may hold an image of no dimension and no voxel

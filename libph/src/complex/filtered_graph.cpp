@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/filtered_graph.hpp"
+#include "ph/detail/complex/filtered_graph.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/lower_star.hpp"
+#include "ph/explicit.hpp"
 
 #include <fmt/format.h>
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "ph/detail/core/field.hpp"
+#include "ph/detail/core/loop.hpp"
 #include "ph/error.hpp"
-#include "ph/loop.hpp"
 
 namespace ph {
 namespace {

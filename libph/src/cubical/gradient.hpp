@@ -3,7 +3,7 @@
 #include "cubical/pair_voxels.hpp"
 #include "cubical/representatives/represent_voxels.hpp"
 #include "ph/detail/core/barcode_builder.hpp"
-#include "ph/engine.hpp"
+#include "ph/detail/core/engine.hpp"
 
 namespace ph {
 

@@ -6,6 +6,8 @@
 #include <functional>
 #include <set>
 
+#include "ph/detail/complex/cubical_cells.hpp"
+
 namespace ph {
 namespace {
 

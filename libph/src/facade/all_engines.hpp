@@ -3,7 +3,8 @@
 #include <tuple>
 
 #include "cubical/gradient.hpp"
-#include "ph/custom.hpp"
+#include "ph/detail/facade/choose_engine.hpp"
+#include "ph/detail/facade/generic_engines.hpp"
 #include "rips/sweep/edge_links.hpp"
 
 namespace ph::detail {

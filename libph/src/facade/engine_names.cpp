@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "facade/all_engines.hpp"
+#include "ph/custom.hpp"
 
 namespace ph {
 namespace {

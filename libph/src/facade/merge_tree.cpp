@@ -10,12 +10,13 @@
 
 #include "ph/barcode.hpp"
 #include "ph/cubical.hpp"
+#include "ph/detail/complex/cubical_cells.hpp"
+#include "ph/detail/complex/filtered_graph.hpp"
 #include "ph/detail/components/disjoint_sets.hpp"
 #include "ph/detail/components/one_skeleton.hpp"
 #include "ph/detail/core/radix_sort.hpp"
 #include "ph/error.hpp"
 #include "ph/explicit.hpp"
-#include "ph/filtered_graph.hpp"
 #include "ph/rips.hpp"
 
 namespace ph {

@@ -7,8 +7,8 @@
 #include <tuple>
 
 #include "facade/collapse_choice.hpp"
+#include "ph/detail/rips/edge_collapse.hpp"
 #include "ph/detail/rips/rips_filtration.hpp"
-#include "ph/edge_collapse.hpp"
 
 namespace ph {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/io/formats.hpp"
+#include "ph/io/read.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,7 +9,7 @@
 
 #include "io/points/table.hpp"
 #include "io/readers.hpp"
-#include "ph/io/cloud_io.hpp"
+#include "ph/io/cloud.hpp"
 
 namespace ph {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "io/points/table.hpp"
 #include "io/readers.hpp"
-#include "ph/io/formats.hpp"
+#include "ph/io/read.hpp"
 
 namespace ph {
 namespace {

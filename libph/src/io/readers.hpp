@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "ph/detail/io/cloud_data.hpp"
 #include "ph/detail/io/png.hpp"
-#include "ph/io/cloud.hpp"
 #include "ph/io/read.hpp"
 
 namespace ph::detail {

@@ -100,6 +100,12 @@ std::optional<GreedyPermutation> by_squares(PointsView points, const GreedyLimit
 
 }  // namespace
 
+std::vector<std::uint32_t> GreedyPermutation::ascending() const {
+  std::vector<std::uint32_t> sorted = points;
+  std::ranges::sort(sorted);
+  return sorted;
+}
+
 void detail::check(const GreedyLimits& limits, Index size) {
   if (size >= Index{UINT32_MAX}) {
     throw Error(

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "metric/kd_tree.hpp"
-#include "ph/metric.hpp"
+#include "ph/detail/metric/metric.hpp"
 
 namespace ph {
 

@@ -11,9 +11,9 @@
 
 #include "metric/cube_list.hpp"
 #include "metric/neighbour_search.hpp"
+#include "ph/detail/metric/metric.hpp"
 #include "ph/detail/metric/row_distances.hpp"
 #include "ph/error.hpp"
-#include "ph/metric.hpp"
 
 namespace ph {
 namespace {

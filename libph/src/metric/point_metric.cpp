@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/metric.hpp"
+#include "ph/detail/metric/metric.hpp"
 
 #include <fmt/format.h>
 

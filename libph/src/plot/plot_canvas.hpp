@@ -10,7 +10,7 @@
 
 #include "ph/barcode.hpp"
 #include "ph/detail/io/png.hpp"
-#include "ph/io/svg_plot.hpp"
+#include "ph/io/plot.hpp"
 
 namespace ph::plot {
 

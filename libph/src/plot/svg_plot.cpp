@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/io/svg_plot.hpp"
+#include "ph/io/plot.hpp"
 
 #include "ph/error.hpp"
 #include "plot/plot_canvas.hpp"

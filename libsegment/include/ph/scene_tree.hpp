@@ -10,8 +10,8 @@
 
 #include "ph/barcode.hpp"
 #include "ph/detail/io/reader.hpp"
+#include "ph/detail/metric/metric.hpp"
 #include "ph/merge_tree.hpp"
-#include "ph/metric.hpp"
 #include "ph/run_context.hpp"
 
 /// The merge tree of a scene, and the cuts of it. All lengths are metres.

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "ph/barcode.hpp"
-#include "ph/io/cloud.hpp"
+#include "ph/detail/io/cloud_data.hpp"
 #include "ph/run_context.hpp"
 #include "ph/scene_tree.hpp"
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "ph/metric.hpp"
+#include "ph/detail/metric/metric.hpp"
 
 namespace ph::segment {
 

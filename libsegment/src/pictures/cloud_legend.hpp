@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "ph/io/svg_plot.hpp"
+#include "ph/io/plot.hpp"
 #include "pictures/cloud_picture.hpp"
 
 namespace ph::segment {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "ph/detail/io/cloud_data.hpp"
 #include "ph/detail/io/png.hpp"
-#include "ph/io/cloud.hpp"
 #include "ph/run_context.hpp"
 #include "ph/segment.hpp"
 

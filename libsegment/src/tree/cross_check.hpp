@@ -3,7 +3,7 @@
 #include <string>
 
 #include "ph/barcode.hpp"
-#include "ph/filtered_graph.hpp"
+#include "ph/detail/complex/filtered_graph.hpp"
 
 namespace ph::segment {
 

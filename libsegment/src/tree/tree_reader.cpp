@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "ph/detail/complex/filtered_graph.hpp"
 #include "ph/error.hpp"
-#include "ph/filtered_graph.hpp"
 #include "ph/scene_tree.hpp"
 #include "tree/tree_file.hpp"
 #include "voxels/voxel_grid.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "ph/filtered_graph.hpp"
-#include "ph/metric.hpp"
+#include "ph/detail/complex/filtered_graph.hpp"
+#include "ph/detail/metric/metric.hpp"
 
 namespace ph::segment {
 

@@ -10,7 +10,7 @@
 #include "bindings.hpp"
 #include "data/arrays.hpp"
 #include "ph/error.hpp"
-#include "ph/io/svg_plot.hpp"
+#include "ph/io/plot.hpp"
 #include "results/bars_state.hpp"
 #include "run.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "ph/loop.hpp"
+#include "ph/detail/core/loop.hpp"
 #include "ph/persistence.hpp"
 
 namespace ph::python {

@@ -14,10 +14,9 @@
 #include <new>
 #include <sstream>
 
-#include "ph/io/cloud_io.hpp"
-#include "ph/io/formats.hpp"
-#include "ph/io/png_plot.hpp"
-#include "ph/io/svg_plot.hpp"
+#include "ph/io/cloud.hpp"
+#include "ph/io/plot.hpp"
+#include "ph/io/read.hpp"
 #include "ph/io/write.hpp"
 #include "ph/merge_tree.hpp"
 #include "ph/persistence.hpp"

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "ph/detail/io/png.hpp"
-#include "ph/io/png_plot.hpp"
+#include "ph/io/plot.hpp"
 #include "program_fixture.hpp"
 
 namespace ph::segment {

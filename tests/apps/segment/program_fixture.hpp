@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "libsegment/scenery.hpp"
-#include "ph/io/cloud_io.hpp"
+#include "ph/io/cloud.hpp"
 
 namespace ph::segment::test {
 

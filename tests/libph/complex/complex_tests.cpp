@@ -2,7 +2,7 @@
 // What the stored complexes refuse, and in which words; how they name their cells.
 #include <limits>
 
-#include "ph/filtered_graph.hpp"
+#include "ph/detail/complex/filtered_graph.hpp"
 #include "ph/persistence.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"

@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-#include "ph/filtered_graph.hpp"
+#include "ph/detail/complex/filtered_graph.hpp"
 #include "ph/persistence.hpp"
 #include "support/expect_error.hpp"
 #include "support/generators.hpp"

@@ -6,10 +6,9 @@
 #include <limits>
 #include <sstream>
 
-#include "ph/io/cloud_io.hpp"
-#include "ph/io/png_plot.hpp"
+#include "ph/io/cloud.hpp"
+#include "ph/io/plot.hpp"
 #include "ph/io/read.hpp"
-#include "ph/io/svg_plot.hpp"
 #include "ph/io/write.hpp"
 #include "support/wrong_values.hpp"
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "libph/io/read_support.hpp"
-#include "ph/io/cloud_io.hpp"
-#include "ph/io/formats.hpp"
+#include "ph/io/cloud.hpp"
+#include "ph/io/read.hpp"
 
 #ifndef PH_SHARED_DIR
 #define PH_SHARED_DIR ""

@@ -14,7 +14,7 @@
 #include "ph/detail/io/reader.hpp"
 #include "ph/error.hpp"
 #include "ph/image.hpp"
-#include "ph/io/formats.hpp"
+#include "ph/io/read.hpp"
 
 namespace ph::test {
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "libph/io/read_support.hpp"
-#include "ph/io/formats.hpp"
+#include "ph/io/read.hpp"
 #include "ph/io/write.hpp"
 
 namespace ph::test {

@@ -5,10 +5,10 @@
 
 #include "metric/neighbour_search.hpp"
 #include "metric/pairs_within.hpp"
+#include "ph/detail/metric/metric.hpp"
 #include "ph/detail/metric/row_distances.hpp"
 #include "ph/distance_matrix.hpp"
 #include "ph/eigen.hpp"
-#include "ph/metric.hpp"
 #include "ph/sparse_distances.hpp"
 #include "support/expect_error.hpp"
 #include "support/for_each_seed.hpp"

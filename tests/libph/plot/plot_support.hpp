@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "ph/io/svg_plot.hpp"
+#include "ph/io/plot.hpp"
 
 namespace ph::test {
 

@@ -10,7 +10,7 @@
 #include <regex>
 
 #include "ph/error.hpp"
-#include "ph/io/svg_plot.hpp"
+#include "ph/io/plot.hpp"
 #include "plot_support.hpp"
 
 namespace ph {

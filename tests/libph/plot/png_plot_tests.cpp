@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/io/png_plot.hpp"
+#include "ph/io/plot.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <limits>
 #include <numeric>
 
-#include "ph/edge_collapse.hpp"
+#include "ph/detail/rips/edge_collapse.hpp"
 #include "ph/merge_tree.hpp"
 #include "ph/persistence.hpp"
 #include "support/conformance.hpp"

@@ -13,9 +13,9 @@
 
 #include "libsegment/scenery.hpp"
 #include "objects/objects.hpp"
+#include "ph/detail/complex/filtered_graph.hpp"
 #include "ph/eigen.hpp"
 #include "ph/error.hpp"
-#include "ph/filtered_graph.hpp"
 #include "surface/concavity.hpp"
 #include "voxels/voxel_pairs.hpp"
 

@@ -1,56 +1,97 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <array>
-#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <iosfwd>
 #include <optional>
-#include <string>
-#include <string_view>
+#include <span>
 #include <vector>
 
-#include "ph/filtration.hpp"
+#include "ph/detail/io/camera.hpp"
+#include "ph/detail/io/cloud_data.hpp"
+#include "ph/detail/io/png.hpp"
+#include "ph/image.hpp"
+#include "ph/io/read.hpp"
 
 namespace ph {
 
-/// Type of a field of a cloud, as PCD and PLY know them.
-enum class FieldType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
-std::size_t size_of(FieldType type);
+// The readers throw as those of read.hpp do. A cloud without points is an error unless
+// options.allow_empty; a NaN coordinate is a hole and no error.
 
-/// One field of each point: `count` numbers of one type, `offset` bytes into the point's record.
-struct CloudField {
-  std::string name;
-  FieldType type = FieldType::float32;
-  std::size_t count = 1;
-  std::size_t offset = 0;
+/// By content (PCD, PLY, NPY), else text: see read_xyz and read_pts. A cloud without the fields x,
+/// y and z is an error.
+Cloud read_cloud(const std::filesystem::path& path, const ReadOptions& options = {});
+Cloud read_cloud(const Input& input, const ReadOptions& options = {});
+
+/// PCD 0.7 (and 0.5, 0.6): ascii, binary, binary_compressed; organised or not; all fields.
+Cloud read_pcd(const Input& input, const ReadOptions& options = {});
+
+/// PLY 1.0: ascii, both byte orders. The vertices with all their scalar properties; lists of a
+/// vertex and all other elements are checked and skipped.
+Cloud read_ply(const Input& input, const ReadOptions& options = {});
+
+/// Text, one point a line: x y z, then more columns. Columns are named by a header line if there is
+/// one; without it columns 4 to 6 are red green blue if all are integers of 0…255, else field_3, ….
+/// Coordinates are kept as float64. "nan" is a hole.
+Cloud read_xyz(const Input& input, const ReadOptions& options = {});
+
+/// PTS: the number of points on the first line, then x y z, with an intensity (4 columns), red
+/// green blue (6) or both (7) behind them.
+Cloud read_pts(const Input& input, const ReadOptions& options = {});
+
+/// The coordinates of all points, holes (NaN) included, in double precision.
+/// @throws Error (bad_data) if x, y or z is missing.
+Points points_of(const Cloud& cloud);
+
+/// Array of NumPy (.npy), floats: shape (n, 3) or more columns, or (rows, columns, 3) or more, an
+/// organised cloud. The columns are those of read_xyz without a header; red green blue may be
+/// numbers of 0…1, too. NaN is a hole.
+Cloud read_npy_cloud(const Input& input, const ReadOptions& options = {});
+
+/// A depth image as its file has it.
+struct DepthImage {
+  Image depth;          ///< two axes: rows, columns
+  double scale = 1000;  ///< depth units a metre where nobody says them: floats are metres, whole
+                        ///< numbers millimetres
+};
+/// A PNG of one channel, PGM, or an array of NumPy (.npy) with two axes. NaN is an absent pixel: a
+/// hole for cloud_from_depth. @throws Error (bad_data) also on more channels or other axes.
+DepthImage read_depth(const Input& input, const ReadOptions& options = {});
+
+/// What became of the pixels of a depth image.
+struct DepthCounts {
+  Index negative = 0;  ///< of a depth below 0: holes
+  Index unseen = 0;    ///< of a depth, but where the lens shows no ray: holes
 };
 
-/// A point cloud as its file has it: every field of every point, bytes untouched, in the file's
-/// order and organisation. Point i is record i of `data`. A point with a NaN coordinate is a hole
-/// that keeps its place.
-struct Cloud {
-  Index width = 0;   ///< columns of an organised cloud; else the number of points
-  Index height = 1;  ///< rows of an organised cloud; 1 if it is not organised
-  std::array<double, 7> viewpoint{0, 0, 0, 1,
-                                  0, 0, 0};  ///< sensor: translation, quaternion w x y z
-  std::vector<CloudField> fields;
-  std::size_t stride = 0;  ///< bytes a point
-  std::vector<std::byte> data;
+/// The organised cloud of a depth image: x right, y down, z forward, metres; fields x y z (float32)
+/// and, with a colour image, rgba (uint32). Depth is along z. One that is not above 0 and finite is
+/// a hole.
+/// @param depth two axes. @param colour grey or RGB(A), of the same size.
+/// @param camera its size is that of the image, or 0.
+/// @param depth_scale depth units a metre: 1000 for millimetres.
+/// @param counts receives what it says; may be null.
+/// @throws Error (bad_data) if the sizes differ; Error (usage) on focal lengths or a scale that are
+///         not positive, or another number of axes.
+Cloud cloud_from_depth(const Image& depth, const std::optional<Raster>& colour,
+                       const Camera& camera, double depth_scale = 1000,
+                       DepthCounts* counts = nullptr);
 
-  Index size() const { return width * height; }
-  bool organised() const { return height > 1; }
-  /// @throws Error (bad_data) unless `data` holds width * height records, and they their fields.
-  /// All that follows does so, too.
-  void check() const;
-  const CloudField* find(std::string_view name) const;
-  /// Appends a field of zeros to every point; its index. Rewrites `data`.
-  std::size_t add_field(std::string name, FieldType type, std::size_t count = 1);
-  /// The x, y, z of every point as float32 triples (3 * size() numbers); NaN where the cloud has a
-  /// hole. @throws Error (bad_data) if x, y or z is missing.
-  std::vector<float> xyz() const;
-  /// Colours as packed 0x00RRGGBB, one a point; nothing if the cloud has none.
-  std::optional<std::vector<std::uint32_t>> rgb() const;
-  /// Sets one number a point in a field of type uint32.
-  void set_uint32(std::size_t field, const std::vector<std::uint32_t>& values);
-};
+enum class PcdData { ascii, binary, binary_compressed };
+enum class PlyData { ascii, little_endian };
+
+/// All fields, bytes unchanged; ascii numbers are the shortest text that reads back the same.
+/// @throws Error (io) if the stream fails.
+void write_pcd(std::ostream& out, const Cloud& cloud, PcdData data = PcdData::binary_compressed);
+
+/// All fields as vertex properties. PLY knows no rgb packed in a float and no 64-bit integers: a
+/// field rgb or rgba becomes red green blue (alpha); fields with a count become name_0, name_1, ….
+/// @throws Error (bad_data) on a 64-bit integer field; Error (io) if the stream fails.
+void write_ply(std::ostream& out, const Cloud& cloud, PlyData data = PlyData::little_endian);
+
+/// One label a point as NPY, uint32 little endian: shape (height, width) if height > 1, else
+/// (width). @throws Error (io) if the stream fails.
+void write_npy(std::ostream& out, std::span<const std::uint32_t> labels, Index width,
+               Index height = 1);
 
 }  // namespace ph

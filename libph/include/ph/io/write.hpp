@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "ph/barcode.hpp"
+#include "ph/detail/core/loop.hpp"
 #include "ph/detail/io/output_file.hpp"
 #include "ph/detail/io/reader.hpp"
-#include "ph/loop.hpp"
 
 namespace ph {
 

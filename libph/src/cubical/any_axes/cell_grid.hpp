@@ -124,7 +124,7 @@ class CellGrid {
   Name name(std::uint32_t cell) const { return name(cell, coordinates(cell)); }
 
   /// Calls `visit(facet, its coordinates, incidence)`, incidences as in
-  /// ph/detail/complex/cubical_cells.ipp.
+  /// ph/detail/complex/cubical_cells.hpp.
   /// @param x the coordinates of the cell.
   template <class Visit>
   void for_each_facet(std::uint32_t cell, Coordinates x, Visit&& visit) const {

@@ -102,7 +102,7 @@ class LoopColumn {
     terms.emplace_back(LoopEdge{ordered_bits(grid_.value(v) + 0.0), name}, coefficient);
   }
   // Appends `scale` times the boundary of a square, without the edge `skip` of its voxel if it is
-  // not negative. Incidences as in ph/detail/complex/cubical_cells.ipp.
+  // not negative. Incidences as in ph/detail/complex/cubical_cells.hpp.
   void append_boundary(std::uint32_t v, int square, Element scale, int skip, Terms& terms) {
     const auto [first, second] = kEdgesOfSquare[square];
     const int a = axis_of_edge(first), b = axis_of_edge(second);

@@ -8,8 +8,8 @@
 
 #include "io/bytes/json_cursor.hpp"
 #include "io/bytes/yaml_words.hpp"
+#include "ph/detail/io/camera.hpp"
 #include "ph/error.hpp"
-#include "ph/io/camera.hpp"
 
 namespace ph {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/io/cloud.hpp"
+#include "ph/detail/io/cloud_data.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 #include "io/clouds/field_access.hpp"
 #include "io/readers.hpp"
-#include "ph/io/cloud_io.hpp"
+#include "ph/io/cloud.hpp"
 
 namespace ph {
 namespace {

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "io/readers.hpp"
-#include "ph/io/cloud_io.hpp"
+#include "ph/io/cloud.hpp"
 
 namespace ph {
 

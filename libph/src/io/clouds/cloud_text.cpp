@@ -8,7 +8,7 @@
 #include "io/clouds/cloud_rows.hpp"
 #include "io/points/table.hpp"
 #include "io/readers.hpp"
-#include "ph/io/cloud_io.hpp"
+#include "ph/io/cloud.hpp"
 
 namespace ph {
 namespace {

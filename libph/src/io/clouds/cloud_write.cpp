@@ -10,7 +10,7 @@
 #include "io/bytes/lzf.hpp"
 #include "io/clouds/field_access.hpp"
 #include "io/readers.hpp"
-#include "ph/io/cloud_io.hpp"
+#include "ph/io/cloud.hpp"
 
 namespace ph {
 namespace {

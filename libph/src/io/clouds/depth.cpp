@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "io/readers.hpp"
-#include "ph/io/cloud_io.hpp"
+#include "ph/io/cloud.hpp"
 
 namespace ph {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <cstdint>
 
-#include "ph/io/cloud.hpp"
+#include "ph/detail/io/cloud_data.hpp"
 
 namespace ph::detail {
 

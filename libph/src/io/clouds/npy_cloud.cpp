@@ -7,7 +7,7 @@
 
 #include "io/clouds/cloud_rows.hpp"
 #include "io/readers.hpp"
-#include "ph/io/cloud_io.hpp"
+#include "ph/io/cloud.hpp"
 
 namespace ph {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "ph/io/cloud_io.hpp"
+#include "ph/io/cloud.hpp"
 
 namespace ph::detail {
 

@@ -7,7 +7,7 @@
 #include <array>
 
 #include "io/clouds/field_access.hpp"
-#include "ph/io/cloud_io.hpp"
+#include "ph/io/cloud.hpp"
 
 namespace ph {
 namespace detail {

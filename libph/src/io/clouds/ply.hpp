@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "io/readers.hpp"
+#include "ph/detail/io/cloud_data.hpp"
 #include "ph/detail/io/reader.hpp"
-#include "ph/io/cloud.hpp"
 
 namespace ph::detail {
 

@@ -9,7 +9,7 @@
 
 #include "io/points/array.hpp"
 #include "io/readers.hpp"
-#include "ph/io/cloud_io.hpp"
+#include "ph/io/cloud.hpp"
 
 namespace ph {
 namespace {

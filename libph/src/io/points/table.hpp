@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "ph/io/formats.hpp"
+#include "ph/io/read.hpp"
 
 // What is what in a table: names, an index, numbers; and what a square one may be.
 

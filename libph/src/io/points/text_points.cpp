@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "io/points/table.hpp"
-#include "ph/io/cloud_io.hpp"
+#include "ph/io/cloud.hpp"
 
 namespace ph {
 

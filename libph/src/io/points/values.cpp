@@ -8,7 +8,7 @@
 
 #include "io/clouds/field_access.hpp"
 #include "io/readers.hpp"
-#include "ph/io/cloud_io.hpp"
+#include "ph/io/cloud.hpp"
 #include "ph/io/read.hpp"
 
 namespace ph {

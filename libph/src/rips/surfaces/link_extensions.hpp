@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "ph/filtration.hpp"
+#include "ph/detail/core/flag_filtration.hpp"
 #include "rips/annotations/vertex_functions.hpp"
 #include "rips/surfaces/triangle_cocycles.hpp"
 #include "rips/sweep/link_cover.hpp"

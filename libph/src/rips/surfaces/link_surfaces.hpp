@@ -8,7 +8,7 @@
 #include <memory_resource>
 #include <vector>
 
-#include "ph/filtration.hpp"
+#include "ph/detail/core/flag_filtration.hpp"
 #include "ph/run_context.hpp"
 #include "rips/surfaces/link_extensions.hpp"
 #include "rips/surfaces/triangle_cocycles.hpp"

@@ -9,9 +9,9 @@
 
 #include "ph/detail/components/elder_rule.hpp"
 #include "ph/detail/core/field.hpp"
+#include "ph/detail/core/flag_filtration.hpp"
 #include "ph/detail/core/parallel.hpp"
 #include "ph/detail/rips/binned_edges.hpp"
-#include "ph/filtration.hpp"
 #include "ph/run_context.hpp"
 #include "rips/surfaces/link_surfaces.hpp"
 #include "rips/sweep/link_components.hpp"

@@ -6,7 +6,8 @@
 #include "ph/detail/components/component_representatives.hpp"
 #include "ph/detail/core/barcode_builder.hpp"
 #include "ph/detail/core/chain.hpp"
-#include "ph/engine.hpp"
+#include "ph/detail/core/engine.hpp"
+#include "ph/detail/core/flag_filtration.hpp"
 #include "ph/filtration.hpp"
 #include "rips/sweep/edge_link_sweep.hpp"
 

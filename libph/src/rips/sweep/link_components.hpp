@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "ph/filtration.hpp"
+#include "ph/detail/core/flag_filtration.hpp"
 #include "rips/sweep/link_graph.hpp"
 
 namespace ph {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "ph/detail/core/bit_matrix.hpp"
+#include "ph/detail/core/flag_filtration.hpp"
 #include "ph/detail/rips/binned_edges.hpp"
-#include "ph/filtration.hpp"
 #include "ph/run_context.hpp"
 #include "rips/sweep/active_edges.hpp"
 #include "rips/sweep/neighbour_lists.hpp"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "ph/detail/core/field.hpp"
-#include "ph/filtration.hpp"
+#include "ph/detail/core/flag_filtration.hpp"
 #include "ph/run_context.hpp"
 #include "rips/annotations/annotations.hpp"
 #include "rips/relations/relation_solver.hpp"

@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "ph/detail/core/flag_filtration.hpp"
 #include "ph/detail/core/raw_vector.hpp"
 #include "ph/detail/rips/binned_edges.hpp"
-#include "ph/filtration.hpp"
 
 namespace ph {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "ph/filtered_graph.hpp"
+#include "ph/detail/complex/filtered_graph.hpp"
 #include "rips/sweep/edge_links.hpp"
 #include "support/conformance.hpp"
 #include "support/for_each_seed.hpp"

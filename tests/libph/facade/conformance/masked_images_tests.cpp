@@ -7,9 +7,9 @@
 #include <memory>
 
 #include "complex/listed_cubes.hpp"
+#include "ph/detail/complex/filtered_graph.hpp"
 #include "ph/detail/core/file_pages.hpp"
-#include "ph/filtered_graph.hpp"
-#include "ph/lower_star.hpp"
+#include "ph/explicit.hpp"
 #include "ph/merge_tree.hpp"
 #include "ph/voxel_image.hpp"
 #include "support/conformance.hpp"

@@ -10,8 +10,8 @@
 #include <thread>
 
 #include "libph/io/read_support.hpp"
-#include "ph/io/cloud_io.hpp"
-#include "ph/io/formats.hpp"
+#include "ph/io/cloud.hpp"
+#include "ph/io/read.hpp"
 
 namespace ph::test {
 namespace {

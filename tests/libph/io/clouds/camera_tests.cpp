@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "ph/io/camera.hpp"
+#include "ph/detail/io/camera.hpp"
 
 #include <gtest/gtest.h>
 

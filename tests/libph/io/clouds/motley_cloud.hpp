@@ -4,7 +4,7 @@
 #include <limits>
 #include <random>
 
-#include "ph/io/cloud_io.hpp"
+#include "ph/io/cloud.hpp"
 
 namespace ph::test {
 

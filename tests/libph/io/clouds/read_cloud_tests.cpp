@@ -3,8 +3,8 @@
 
 #include "libph/io/read_support.hpp"
 #include "motley_cloud.hpp"
-#include "ph/io/cloud_io.hpp"
-#include "ph/io/formats.hpp"
+#include "ph/io/cloud.hpp"
+#include "ph/io/read.hpp"
 
 namespace ph::test {
 namespace {

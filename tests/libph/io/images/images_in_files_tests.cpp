@@ -11,7 +11,6 @@
 
 #include "libph/io/read_support.hpp"
 #include "nifti_file.hpp"
-#include "ph/io/formats.hpp"
 #include "ph/io/read.hpp"
 
 namespace ph::test {

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "libph/io/read_support.hpp"
-#include "ph/io/formats.hpp"
+#include "ph/io/read.hpp"
 
 #ifndef PH_SHARED_DIR
 #define PH_SHARED_DIR ""

@@ -5,7 +5,7 @@
 
 #include "libph/io/read_support.hpp"
 #include "ph/detail/io/png.hpp"
-#include "ph/io/formats.hpp"
+#include "ph/io/read.hpp"
 
 namespace ph::test {
 namespace {

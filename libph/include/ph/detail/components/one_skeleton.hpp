@@ -8,6 +8,7 @@
 
 #include "ph/detail/components/cell_map.hpp"
 #include "ph/detail/components/elder_rule.hpp"
+#include "ph/detail/core/flag_filtration.hpp"
 #include "ph/detail/core/polled_sort.hpp"
 #include "ph/detail/core/radix_sort.hpp"
 #include "ph/filtration.hpp"

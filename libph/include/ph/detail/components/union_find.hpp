@@ -7,8 +7,8 @@
 #include "ph/detail/components/one_skeleton.hpp"
 #include "ph/detail/core/barcode_builder.hpp"
 #include "ph/detail/core/chain.hpp"
+#include "ph/detail/core/engine.hpp"
 #include "ph/detail/core/field.hpp"
-#include "ph/engine.hpp"
 #include "ph/error.hpp"
 
 namespace ph {

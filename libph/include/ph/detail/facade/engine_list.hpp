@@ -2,9 +2,10 @@
 #pragma once
 #include <vector>
 
+#include "ph/detail/complex/cubical_cells.hpp"
 #include "ph/detail/core/barcode_builder.hpp"
+#include "ph/detail/core/engine.hpp"
 #include "ph/detail/rips/rips_filtration.hpp"
-#include "ph/engine.hpp"
 #include "ph/persistence.hpp"
 
 namespace ph::detail {

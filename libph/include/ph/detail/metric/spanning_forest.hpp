@@ -7,8 +7,9 @@
 #include <numeric>
 #include <vector>
 
+#include "ph/detail/core/flag_filtration.hpp"
+#include "ph/detail/metric/metric.hpp"
 #include "ph/filtration.hpp"
-#include "ph/metric.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {

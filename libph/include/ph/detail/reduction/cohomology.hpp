@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "ph/detail/components/union_find.hpp"
+#include "ph/detail/core/engine.hpp"
 #include "ph/detail/reduction/cohomology_reduction.hpp"
 #include "ph/detail/reduction/homology_reduction.hpp"
-#include "ph/engine.hpp"
 
 namespace ph {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "ph/detail/core/barcode_builder.hpp"
+#include "ph/detail/core/engine.hpp"
 #include "ph/detail/core/field.hpp"
-#include "ph/engine.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {

@@ -2,8 +2,8 @@
 #pragma once
 #include <algorithm>
 
+#include "ph/detail/core/engine.hpp"
 #include "ph/detail/reduction/homology_reduction.hpp"
-#include "ph/engine.hpp"
 
 namespace ph {
 

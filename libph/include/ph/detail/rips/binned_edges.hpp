@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "ph/filtration.hpp"
+#include "ph/detail/core/flag_filtration.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {

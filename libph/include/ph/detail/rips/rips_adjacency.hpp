@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "ph/detail/core/flag_filtration.hpp"
 #include "ph/filtration.hpp"
 
 namespace ph {

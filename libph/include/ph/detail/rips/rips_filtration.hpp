@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "ph/detail/core/flag_filtration.hpp"
 #include "ph/detail/rips/packed_vertices.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
 #include "ph/detail/rips/rips_groups.hpp"

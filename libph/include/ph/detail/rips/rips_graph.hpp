@@ -13,14 +13,15 @@
 #include <utility>
 #include <vector>
 
+#include "ph/detail/core/flag_filtration.hpp"
 #include "ph/detail/core/parallel.hpp"
+#include "ph/detail/metric/metric.hpp"
 #include "ph/detail/metric/row_distances.hpp"
 #include "ph/detail/metric/spanning_forest.hpp"
 #include "ph/detail/rips/binned_edges.hpp"
 #include "ph/detail/rips/rips_adjacency.hpp"
 #include "ph/detail/rips/vertex_weights.hpp"
 #include "ph/filtration.hpp"
-#include "ph/metric.hpp"
 #include "ph/run_context.hpp"
 #include "ph/sparse_distances.hpp"
 

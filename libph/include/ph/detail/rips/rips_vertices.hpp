@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "ph/detail/metric/metric.hpp"
 #include "ph/detail/rips/vertex_weights.hpp"
-#include "ph/metric.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {

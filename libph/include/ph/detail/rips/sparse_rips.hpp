@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "ph/detail/metric/metric.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
 #include "ph/greedy_permutation.hpp"
-#include "ph/metric.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {

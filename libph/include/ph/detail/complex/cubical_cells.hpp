@@ -1,8 +1,37 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// How Cubical visits cells, facets and cofacets. Included by cubical.hpp.
+// How Cubical visits cells, facets and cofacets, for who lists them; ph/custom.hpp brings it.
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cstdint>
+#include <memory_resource>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "ph/cubical.hpp"
 
 namespace ph {
+
+struct Cubical::Table {
+  std::pmr::vector<std::uint32_t> keys;  // by grid index; kNever: never enters
+  std::pmr::vector<double> values;       // by key
+};
+
+struct Cubical::Lazy {
+  std::mutex mutex;
+  std::optional<Table> table;
+  std::atomic<const Table*> made{nullptr};
+};
+
+inline const Cubical::Table& Cubical::table() const {
+  if (const Table* made = lazy_->made.load(std::memory_order_acquire)) return *made;
+  return make_table(*context_);
+}
+
+inline double Cubical::value(const Cell& c) const { return table().values[c.key]; }
 
 template <class Visit>
 void Cubical::for_each_cell(int dim, Visit&& visit) const {

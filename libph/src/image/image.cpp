@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
@@ -62,6 +63,14 @@ std::vector<T> copied(const void* data, const std::vector<Index>& extents,
 }
 
 }  // namespace
+
+std::vector<double> Voxels::doubles() const {
+  return visit([](const auto& all) { return std::vector<double>(all.begin(), all.end()); });
+}
+
+bool operator==(const Voxels& a, const Voxels& b) {
+  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin());
+}
 
 Image image_of_array(VoxelType type, const void* data, std::vector<Index> extents,
                      std::span<const std::ptrdiff_t> strides, std::shared_ptr<const void> owner) {

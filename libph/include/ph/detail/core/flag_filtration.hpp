@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <concepts>
+#include <cstdint>
+#include <span>
+
+#include "ph/detail/core/raw_vector.hpp"
+#include "ph/filtration.hpp"
+
+namespace ph {
+
+/// An edge of a flag complex and when it enters; u > v.
+struct FlagEdge {
+  double value;
+  std::uint32_t u, v;
+};
+using FlagEdges = RawVector<FlagEdge>;
+/// The order of edges in a flag filtration: (value, u, v).
+inline bool precedes(const FlagEdge& a, const FlagEdge& b) {
+  if (a.value != b.value) return a.value < b.value;
+  return a.u != b.u ? a.u < b.u : a.v < b.v;
+}
+
+class BinnedEdges;
+
+// clang-format off
+
+/// Capability: the clique complex of a graph with vertices 0 … vertex_count() - 1, in the order of
+/// (birth, number), whose simplices enter with the last of their edges: by (position of that edge,
+/// dimension, vertices read from the largest down).
+template <class F>
+concept FlagFiltration = Filtration<F> && requires(const F& f, std::uint32_t i) {
+  { f.vertex_count() } -> std::convertible_to<std::size_t>;
+  /// By vertex; empty: they all enter first.
+  { f.vertex_births() } -> std::convertible_to<std::span<const double>>;
+  /// All edges in the order of the filtration, sorted as far as they are asked for.
+  { f.binned_edges() } -> std::same_as<const BinnedEdges&>;
+  { f.vertex_cell(i) } -> std::same_as<typename F::Cell>;
+  /// By position in their order.
+  { f.edge_cell(i) } -> std::same_as<typename F::Cell>;
+  /// And back, from its vertices.
+  { f.edge_position(i, i) } -> std::same_as<std::uint32_t>;
+  /// The triangle of the edge at a position and another vertex; the edge is the last of the three.
+  { f.triangle_cell(i, i) } -> std::same_as<typename F::Cell>;
+  /// The tetrahedron of the edge at a position and two other vertices; the edge is its last one.
+  { f.tetrahedron_cell(i, i, i) } -> std::same_as<typename F::Cell>;
+  /// The triangle of three vertices that edges join, descending.
+  { f.triangle_cell_of(i, i, i) } -> std::same_as<typename F::Cell>;
+};
+
+// clang-format on
+
+}  // namespace ph
