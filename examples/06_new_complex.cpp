@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A complex of your own: seven small functions, and every engine that needs no more runs on it.
+// A complex of your own: three small functions, and every engine that needs no more runs on it.
 // Here: a polygon whose sides appear one by one, and at last the disc inside.
 #include <iostream>
 #include <ph/custom.hpp>
@@ -7,15 +7,11 @@
 
 // A polygon of n corners. Cells are numbered 0 … n-1 (corners), n … 2n-1 (side n+i joins corner i
 // to the next), 2n (the disc), and enter at their number.
-class Polygon {
+class Polygon : public ph::CellFiltration<Polygon, 2, int> {
  public:
-  using Cell = int;
-
   explicit Polygon(int corners) : n_(corners) {}
 
-  int top_dim() const { return 2; }
   double value(Cell cell) const { return cell; }
-  bool precedes(Cell a, Cell b) const { return a < b; }
   template <class Visit>
   void for_each_cell(int dim, Visit visit) const {
     for (int i = first(dim); i < first(dim + 1); ++i) visit(i);
@@ -29,10 +25,6 @@ class Polygon {
     }
     if (dim == 2)
       for (int side = n_; side < 2 * n_; ++side) visit(side, +1);
-  }
-  ph::CellKind cell_kind() const { return ph::CellKind::row; }
-  void append_input_cell(int, Cell cell, std::vector<ph::Index>& numbers) const {
-    numbers.push_back(cell);
   }
 
  private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The suite on somebody else's complex; somebody else's engine is in it by itself.
+#include "own_complexes.hpp"
 #include "polygon.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"
@@ -32,6 +33,72 @@ TEST(Extension, TheComplexPassesTheSuite) {
     check(listed(polygon), 1, {field});
     EXPECT_EQ(first_difference(persistence(polygon), persistence(listed(polygon))), "");
   });
+}
+
+TEST(Extension, SimplicesOfAFunctionPassTheSuite) {
+  int dims[5] = {};
+  for_each_seed(400, [&](Generator& random, bool ties, std::int64_t field) {
+    const Index n = random.integer(1, 7);
+    const SimplexList list = random.simplices(n, 3, random.integer(0, 8), ties);
+    const LookedUp simplices(n, list);
+    const auto listed_ones = ExplicitComplex::from_simplices(list);
+    EXPECT_EQ(simplices.top_dim(), listed_ones.top_dim());
+    ++dims[simplices.top_dim() + 1];
+    check(simplices, 3, {field});
+    EXPECT_EQ(first_difference(persistence(simplices, {.field = field}),
+                               persistence(listed_ones, {.field = field})),
+              "");
+  });
+  for (const int count : dims) EXPECT_TRUE(is_enough(count, 5));
+}
+
+TEST(Extension, DiametersAreTheRipsFiltration) {
+  for_each_seed(100, [&](Generator& random, bool ties, std::int64_t field) {
+    const DistanceMatrix distances = random.distances(random.integer(2, 8), ties);
+    const Diameters simplices(distances);
+    check(simplices, 2, {field});
+    // With all simplices: the enclosing radius leaves out bars of length zero only.
+    const Rips rips(distances, {.threshold = 10});
+    const Options options{.max_dim = 2, .field = field};
+    EXPECT_EQ(first_difference(persistence(simplices, options), persistence(rips, options)), "");
+    EXPECT_EQ(plan(simplices, options).engine, Engine::cohomology);
+    EXPECT_EQ(plan(simplices, {.max_dim = 0}).engine, Engine::union_find);
+  });
+}
+
+TEST(Extension, NumberedCellsPassTheSuite) {
+  for_each_seed(200, [](Generator& random, bool ties, std::int64_t field) {
+    const auto cells =
+        ExplicitComplex::from_simplices(random.simplices(7, 3, random.integer(0, 8), ties));
+    const Numbered numbered(cells);
+    EXPECT_EQ(numbered.top_dim(), cells.top_dim());
+    check(numbered, 3, {field});
+    EXPECT_EQ(first_difference(persistence(numbered), persistence(cells)), "");
+  });
+}
+
+struct BadFunction : SimplexFiltration<BadFunction, 2> {
+  double of_edges = 0, of_others = 0;
+  static Index vertex_count() { return 3; }
+  double simplex_value(std::span<const Index> vertices) const {
+    return vertices.size() == 2 ? of_edges : of_others;
+  }
+};
+
+TEST(Extension, AFunctionThatIsNoFiltrationIsRefused) {
+  BadFunction simplices;
+  EXPECT_EQ(persistence(simplices).bars(0).size(), 1U);
+  const auto refuses = [&](const char* words) {
+    for (const Engine engine : {Engine::standard, Engine::twist, Engine::cohomology})
+      expect_error(ErrorKind::bad_data, words,
+                   [&] { persistence(simplices, {.max_dim = 1, .engine = engine}); });
+  };
+  simplices.of_edges = std::numeric_limits<double>::quiet_NaN();
+  refuses(": found value nan, expected a number");
+  simplices.of_edges = 0.1;
+  refuses("simplex 0 1 2: found value 0, expected at least 0.1, the value of its face 0 1; if");
+  simplices.of_edges = -0.1;
+  refuses(": found value -0.1, expected at least 0, the value of its face ");
 }
 
 }  // namespace

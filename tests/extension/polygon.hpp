@@ -7,10 +7,8 @@
 
 /// A complex of somebody else: points joined in their order, the last to the first. Points enter at
 /// 0, sides at their length.
-class Polygon {
+class Polygon : public ph::CellFiltration<Polygon, 1, int> {
  public:
-  using Cell = int;  // a corner, or the side from there to the next; in order of length
-
   explicit Polygon(ph::PointsView points) {
     const auto n = static_cast<int>(points.rows());
     sides_.resize(n < 3 ? 0 : static_cast<std::size_t>(n));
@@ -21,13 +19,9 @@ class Polygon {
                                               points(static_cast<ph::Index>(next(i)), k));
   }
 
-  int top_dim() const { return sides_.empty() ? (corners_ > 0 ? 0 : -1) : 1; }
-  // A cell does not know its dimension: sides come after the corners.
+  // A cell is a corner, or a side to the next corner: sides come after the corners.
   double value(Cell cell) const {
     return cell < corners_ ? 0 : sides_[static_cast<std::size_t>(cell - corners_)];
-  }
-  bool precedes(Cell a, Cell b) const {
-    return value(a) < value(b) || (value(a) == value(b) && a < b);
   }
   template <class Visit>
   void for_each_cell(int dim, Visit&& visit) const {
@@ -43,6 +37,8 @@ class Polygon {
     visit(static_cast<int>(side), -1);
     visit(next(side), 1);
   }
+
+  // Cells are named by corners; without this by their number.
   ph::CellKind cell_kind() const { return ph::CellKind::vertices; }
   void append_input_cell(int dim, Cell cell, std::vector<ph::Index>& numbers) const {
     if (dim == 0) {

@@ -1,18 +1,25 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// For a complex or an engine of your own: the engines for any filtration, as templates. Costly to
-// compile; whoever uses the complexes of libph needs persistence.hpp only.
+// For a complex or an engine of your own: bases for complexes, and the engines for any filtration,
+// as templates. Costly to compile; whoever uses the complexes of libph needs persistence.hpp only.
 #include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "ph/detail/complex/cell_filtration.hpp"
+#include "ph/detail/complex/simplex_filtration.hpp"
 #include "ph/detail/facade/choose_engine.hpp"
 #include "ph/detail/facade/generic_engines.hpp"
 #include "ph/error.hpp"
 #include "ph/estimate.hpp"
 
 namespace ph {
+
+// A COMPLEX is a type that models Filtration (ph/filtration.hpp). With the base SimplexFiltration
+// it has two members: how many vertices, and when a simplex enters. With the base CellFiltration it
+// has three: when a cell enters, all cells, and the facets of a cell. docs/own-complex.md has
+// programs.
 
 /// The barcode of a complex of your own: anything that models Filtration. @throws as the others.
 template <Filtration F>

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <concepts>
+#include <vector>
+
+#include "ph/filtration.hpp"
+
+namespace ph {
+
+/// A base for a complex of your own: it has all members of Filtration but three, which Derived has:
+///
+///   double value(Cell) const                    when a cell enters
+///   void for_each_cell(int dim, visit) const    calls visit(Cell) for each cell of that dimension
+///   void for_each_facet(int dim, Cell, visit) const    calls visit(Cell, int incidence)
+///
+/// as ph/filtration.hpp explains them. The others are as below, unless Derived has them, too.
+/// Members of the other capabilities, edges_join_vertices() say, can be added.
+/// @tparam TopDim no cell has a higher dimension.
+/// @tparam C a cell, with <.
+template <class Derived, int TopDim, std::totally_ordered C = Index>
+class CellFiltration {
+  static_assert(TopDim >= 0);
+
+ public:
+  using Cell = C;
+
+  /// Found by listing cells.
+  int top_dim() const {
+    for (int dim = TopDim; dim >= 0; --dim) {
+      bool has_cell = false;
+      derived().for_each_cell(dim, [&](const Cell&) { has_cell = true; });
+      if (has_cell) return dim;
+    }
+    return -1;
+  }
+  /// By value, and cells of one value by <.
+  bool precedes(const Cell& a, const Cell& b) const {
+    const double x = derived().value(a), y = derived().value(b);
+    return x != y ? x < y : a < b;
+  }
+  static CellKind cell_kind() { return CellKind::row; }
+  /// A cell that is a number is called by it.
+  void append_input_cell(int, const Cell& cell,
+                         std::vector<Index>& numbers) const requires std::integral<Cell> {
+    numbers.push_back(static_cast<Index>(cell));
+  }
+
+ private:
+  const Derived& derived() const { return static_cast<const Derived&>(*this); }
+};
+
+}  // namespace ph
