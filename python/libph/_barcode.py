@@ -9,11 +9,12 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from . import _arrays, _core, _options, _run
+from . import _core, _options, _run
 from ._chains import Chain
 from ._errors import UsageError
+from ._vectors import Summaries
 
 if TYPE_CHECKING:
     import pandas
@@ -65,7 +66,7 @@ class Meta(Mapping[str, Any]):
         return (Meta, (self._items,))
 
 
-class Barcode(Sequence[Bar]):
+class Barcode(Summaries, Sequence[Bar]):
     """The result of persistent homology: bars, ordered by dimension, birth and death.
 
     A sequence of `Bar` that cannot be changed, with arrays of the same. Barcodes are equal if their
@@ -345,38 +346,6 @@ class Barcode(Sequence[Bar]):
         if born_before is not None:
             keep &= births < _options.real("born_before", born_before)
         return self._selected(np.flatnonzero(keep))
-
-    # ---- summaries
-
-    def betti(self, t: float) -> NDArray[np.int64]:
-        """The Betti numbers at a value: how many bars of each dimension live."""
-        return self.betti_curve([_options.real("t", t)])[:, 0]
-
-    def betti_curve(self, grid: ArrayLike) -> NDArray[np.int64]:
-        """The Betti numbers at each value of a grid, a row for each dimension.
-
-        >>> ph.rips([[0], [1], [3]]).betti_curve([0, 1, 2])
-        array([[3, 2, 1],
-               [0, 0, 0]])
-        """
-        values = _arrays.as_values(grid, "grid")
-        curves = np.empty((self._top_dim + 1, len(values)), dtype=np.int64)
-        for dim in range(self._top_dim + 1):
-            places = self._range(dim)
-            born = np.searchsorted(self.births[places], values, side="right")
-            died = np.searchsorted(np.sort(self.deaths[places]), values, side="right")
-            curves[dim] = born - died
-        return curves
-
-    def entropy(self, dim: int) -> float:
-        """The persistent entropy of a dimension: of the lengths of bars that die, in nats."""
-        places = self._range(_options.whole("dim", dim, 0))
-        lengths = self.deaths[places] - self.births[places]
-        lengths = lengths[np.isfinite(lengths) & (lengths > 0)]
-        if not len(lengths):
-            return 0.0
-        share = lengths / lengths.sum()
-        return float(-(share * np.log(share)).sum())
 
     # ---- output
 

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: MIT
+"""Persistent homology in pipelines of scikit-learn.
+
+Of lists of point clouds, distances or images: `RipsPersistence`, `CubicalPersistence`. Of lists of
+diagrams: `PersistenceImage`, `Landscape`, `BettiCurve`, `Entropy`, `Lengths`. Of one cloud, a row a
+sample: `PersistenceClustering`, `DistanceToMeasure`, `FarthestPoints`.
+
+>>> import libph.sklearn
+>>> from sklearn.pipeline import make_pipeline
+>>> clouds = [[[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 0], [2, 0], [2, 2], [0, 2]]]
+>>> steps = make_pipeline(ph.sklearn.RipsPersistence(homology_dimensions=(1,)),
+...                       ph.sklearn.Lengths(count=1))
+>>> steps.fit_transform(clouds).round(3)
+array([[0.414],
+       [0.828]])
+"""
+from ._clustering import PersistenceClustering
+from ._persistence import CubicalPersistence, RipsPersistence
+from ._points import DistanceToMeasure, FarthestPoints
+from ._vectorisers import BettiCurve, Entropy, Landscape, Lengths, PersistenceImage
+
+__all__ = ["BettiCurve", "CubicalPersistence", "DistanceToMeasure", "Entropy", "FarthestPoints",
+           "Landscape", "Lengths", "PersistenceClustering", "PersistenceImage", "RipsPersistence"]

@@ -1,0 +1,242 @@
+# SPDX-License-Identifier: MIT
+"""Clustering by the persistence of a density on a graph of neighbours (ToMATo)."""
+from __future__ import annotations
+
+import warnings
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+from sklearn.base import BaseEstimator, ClusterMixin
+from sklearn.exceptions import ConvergenceWarning
+from sklearn.neighbors import NearestNeighbors
+
+from .. import _arrays, _options
+from .._compute import filtered
+from .._errors import UsageError
+from .._trees import merge_tree
+from ._base import neighbours_wanted, table_of
+from ._points import METRICS
+
+_Integers = NDArray[np.int64]
+_Numbers = NDArray[np.float64]
+
+
+class PersistenceClustering(ClusterMixin, BaseEstimator):
+    """Clusters are the peaks of a density that are high above the passes to higher ones.
+
+    The algorithm is ToMATo [Chazal, Guibas, Oudot & Skraba 2013]. Points are joined to their k
+    nearest points. Each point goes with the densest of those that it is joined to, and so up to a
+    peak. The sublevel sets of f = -log(density) have one bar for each peak: it is born at the peak
+    and dies at the pass to a denser peak. Its length is the logarithm of how many times denser the
+    peak is. Clusters whose bars are short become one with the denser one.
+
+    Parameters
+    ----------
+    k : int
+        To how many points each is joined, itself among them.
+    n_clusters : int, optional
+        How many clusters: those of the longest bars.
+    min_persistence : float, optional
+        Peaks with bars longer than this are clusters. ``log(2)``: a peak is twice as dense as the
+        pass.
+    density : "dtm" or callable
+        "dtm": one over the distance to the measure of the k nearest points. The distance 0, of
+        points with k - 1 copies, counts as the least distance above 0. A function takes X and gives
+        a positive density of each row.
+    metric : str
+        "euclidean", "manhattan", "chebyshev", "cosine", or "precomputed": X is a square matrix of
+        distances.
+    n_jobs : int, optional
+        Threads of the search for neighbours. Default: one.
+
+    Attributes
+    ----------
+    labels_ : ndarray
+        The cluster of each point; cluster 0 has the densest peak, and so on.
+    n_clusters_ : int
+    peaks_ : ndarray
+        The densest point of each cluster.
+    barcode_ : Barcode
+        The bars of f, one for each peak; `barcode_.birth_cells(0)` are the peaks, and the ends of
+        an edge in `barcode_.death_cells(0)` are in the two parts that meet.
+    function_ : ndarray
+        f at each point.
+
+    Notes
+    -----
+    Without `n_clusters` and `min_persistence` their number is guessed: bars are ordered by their
+    length, and the largest gap between neighbours says how many of them stand out. Bars that never
+    die are as long as the range of f there. Look at ``barcode_.plot()`` before you trust it.
+
+    Where the graph falls apart, each part has a cluster at least. If `n_clusters` is smaller than
+    that, parts are joined whose densest points are near each other, with a `ConvergenceWarning`.
+
+    Examples
+    --------
+    >>> X = [[0], [1], [2], [3], [20], [21], [22], [23]]
+    >>> ph.sklearn.PersistenceClustering(k=3, n_clusters=2).fit_predict(X)
+    array([0, 0, 0, 0, 1, 1, 1, 1])
+    """
+
+    def __init__(self, k: int = 10, n_clusters: int | None = None,
+                 min_persistence: float | None = None, density: Any = "dtm",
+                 metric: str = "euclidean", n_jobs: int | None = None) -> None:
+        self.k = k
+        self.n_clusters = n_clusters
+        self.min_persistence = min_persistence
+        self.density = density
+        self.metric = metric
+        self.n_jobs = n_jobs
+
+    def fit(self, X: Any, y: Any = None) -> PersistenceClustering:
+        """Clusters the points.
+
+        Parameters
+        ----------
+        X : array_like
+            Points, one a row, or distances.
+        y : None
+
+        Returns
+        -------
+        self
+        """
+        k = _options.whole("k", self.k, 1)
+        metric = _options.choice("metric", self.metric, [*METRICS, "precomputed"])
+        if self.n_clusters is not None and self.min_persistence is not None:
+            raise UsageError("n_clusters: excludes min_persistence")
+        points = table_of(self, X, reset=True)
+        if metric == "precomputed" and points.shape[0] != points.shape[1]:
+            raise UsageError(f"X: found a matrix of shape {points.shape}, expected a square one of "
+                             "distances")
+        neighbours_wanted(k, len(points))
+        search = NearestNeighbors(n_neighbors=k, metric=metric, n_jobs=self.n_jobs).fit(points)
+        distances, neighbours = search.kneighbors(points)
+        self.function_ = self._function(points, distances)
+        hills = _hills_of(self.function_, neighbours)
+        joins = self._joins(points, hills)
+        self.labels_, self.peaks_ = _clusters_of(hills, joins)
+        self.n_clusters_ = len(self.peaks_)
+        self.barcode_ = filtered(
+            [hills.peaks[:, None], hills.peaks[hills.passes]],
+            [self.function_[hills.peaks], hills.heights], max_dim=0)
+        return self
+
+    def _function(self, points: _Numbers, distances: _Numbers) -> _Numbers:
+        if callable(self.density):
+            density = _arrays.as_values(self.density(points), "density", len(points), "point")
+            wrong = ~((density > 0) & np.isfinite(density))
+            if wrong.any():
+                i = int(np.argmax(wrong))
+                raise UsageError(f"density: of row {i}: found {density[i]}, expected a finite "
+                                 "number above 0")
+            return -np.log(density)
+        _options.choice("density", self.density, ["dtm"])
+        to_measure = np.sqrt(np.mean(distances**2, axis=1))
+        is_zero = to_measure == 0
+        to_measure[is_zero] = to_measure[~is_zero].min() if not is_zero.all() else 1
+        return np.log(to_measure)
+
+    def _joins(self, points: _Numbers, hills: _Hills) -> _Integers:
+        """Pairs of hills that become one."""
+        lengths = hills.lengths
+        parts = len(hills.peaks) - len(lengths)
+        order = np.argsort(-lengths, kind="stable")
+        if self.min_persistence is not None:
+            least = _options.real("min_persistence", self.min_persistence, "a number, at least 0", 0)
+            return hills.passes[lengths <= least]
+        if self.n_clusters is None:
+            span = float(self.function_.max() - self.function_.min())
+            gaps = -np.diff(np.concatenate([[span], lengths[order], [0.0]]))
+            return hills.passes[order[int(np.argmax(gaps)):]]
+        wanted = _options.whole("n_clusters", self.n_clusters, 1)
+        if wanted > len(hills.peaks):
+            warnings.warn(f"n_clusters: found {wanted}, but the density has {len(hills.peaks)} "
+                          "peaks: each is a cluster", ConvergenceWarning, stacklevel=3)
+        if wanted >= parts:
+            return hills.passes[order[wanted - parts:]]
+        warnings.warn(f"n_clusters: found {wanted}, but the graph of neighbours has {parts} parts: "
+                      "those with densest points near each other are joined; a larger k joins them, "
+                      "too", ConvergenceWarning, stacklevel=3)
+        return np.concatenate([hills.passes, self._joined_parts(points, hills, wanted)])
+
+    def _joined_parts(self, points: _Numbers, hills: _Hills, wanted: int) -> _Integers:
+        """Of each part its densest peak; of these single linkage."""
+        is_highest = np.ones(len(hills.peaks), dtype=bool)
+        is_highest[hills.lower] = False
+        highest = np.flatnonzero(is_highest)
+        at = hills.peaks[highest]
+        sample = points[np.ix_(at, at)] if self.metric == "precomputed" else points[at]
+        tree = merge_tree(sample, complex="rips", metric=self.metric, threshold=np.inf)
+        return highest[tree.edges[:len(highest) - wanted]]
+
+    def _more_tags(self) -> dict[str, Any]:
+        return {"pairwise": self.metric == "precomputed"}
+
+    def __sklearn_tags__(self) -> Any:
+        tags = super().__sklearn_tags__()
+        tags.input_tags.pairwise = self.metric == "precomputed"
+        return tags
+
+
+class _Hills(NamedTuple):
+    """The peaks of a density, and the passes between the hills below them."""
+
+    peaks: _Integers    # points, the densest first
+    hill_of: _Integers  # of each point
+    passes: _Integers   # (passes, 2): hills that meet where two parts become one
+    lower: _Integers    # of each pass the hill of the lower peak of the two parts
+    heights: _Numbers   # of each pass the value of the function
+    lengths: _Numbers   # of the bar that dies there
+
+
+def _hills_of(function: _Numbers, neighbours: _Integers) -> _Hills:
+    """Everything is done on the ranks of the points, so that ties are broken by their numbers."""
+    n = len(function)
+    order = np.argsort(function, kind="stable")
+    rank = np.empty(n, dtype=np.int64)
+    rank[order] = np.arange(n)
+    ends = np.repeat(rank, neighbours.shape[1]), rank[neighbours.ravel()]
+    low, high = np.minimum(*ends), np.maximum(*ends)
+
+    up = np.arange(n)  # to the densest point that it is joined to
+    np.minimum.at(up, high, low)
+    while True:
+        farther = up[up]
+        if np.array_equal(farther, up):
+            break
+        up = farther
+    tops, hill_of_rank = np.unique(up, return_inverse=True)
+
+    # Of each two hills that meet the first edge between them.
+    one, other = hill_of_rank[low], hill_of_rank[high]
+    meet = one != other
+    one, other, high = one[meet], other[meet], high[meet]
+    one, other = np.minimum(one, other), np.maximum(one, other)
+    by_age = np.lexsort((high, other, one))
+    one, other, high = one[by_age], other[by_age], high[by_age]
+    first = np.ones(len(one), dtype=bool)
+    first[1:] = (one[1:] != one[:-1]) | (other[1:] != other[:-1])
+    count = len(tops)
+    graph = coo_matrix((high[first].astype(np.float64), (one[first], other[first])),
+                       shape=(count, count))
+    tree = merge_tree(graph, complex="rips", metric="precomputed", weights=tops.astype(np.float64))
+
+    heights = function[order[tree.values.astype(np.int64)]]
+    return _Hills(order[tops], hill_of_rank[rank], tree.edges, tree.younger, heights,
+                  heights - function[order[tops[tree.younger]]])
+
+
+def _clusters_of(hills: _Hills, joins: _Integers) -> tuple[_Integers, _Integers]:
+    """Labels of points, and the densest point of each cluster."""
+    count = len(hills.peaks)
+    graph = coo_matrix((np.ones(len(joins)), (joins[:, 0], joins[:, 1])), shape=(count, count))
+    cluster_of_hill = connected_components(graph, directed=False)[1]
+    # Hills are numbered from the densest on, so their first is its densest.
+    _, first, numbered = np.unique(cluster_of_hill, return_index=True, return_inverse=True)
+    place = np.empty(len(first), dtype=np.int64)
+    place[np.argsort(first)] = np.arange(len(first))
+    return place[numbered][hills.hill_of], hills.peaks[np.sort(first)]

@@ -1,0 +1,318 @@
+# SPDX-License-Identifier: MIT
+"""Barcodes of lists of point clouds, distances and images."""
+from __future__ import annotations
+
+import math
+import threading
+from collections.abc import Iterable, Sequence
+from contextvars import copy_context
+from typing import Any
+
+import numpy as np
+from joblib import Parallel, delayed, effective_n_jobs
+from numpy.typing import NDArray
+from sklearn.base import TransformerMixin
+from sklearn.utils._set_output import _get_output_config
+
+from .. import _arrays, _options, _vectors
+from .._barcode import Barcode
+from .._compute import cubical, rips
+from .._errors import DataError, MemoryLimitError, UsageError
+from ._base import TakesLists
+
+_OUTPUTS = ["list", "giotto", "barcode"]
+
+
+class _Persistence(TransformerMixin, TakesLists, auto_wrap_output_keys=None):
+    """What the barcodes of lists have in common."""
+
+    homology_dimensions: Any
+    output: Any
+    infinity: Any
+    reduced: Any
+    n_jobs: Any
+
+    def fit(self, X: Any, y: Any = None) -> Any:
+        """Checks the parameters. There is nothing to learn.
+
+        Parameters
+        ----------
+        X : list
+            As of `transform`.
+        y : None
+
+        Returns
+        -------
+        self
+        """
+        self._checked()
+        self._samples(X)
+        return self
+
+    def transform(self, X: Any) -> Any:
+        """The diagrams of each sample.
+
+        Parameters
+        ----------
+        X : list
+            As described above.
+
+        Returns
+        -------
+        list of list of ndarray, ndarray or list of Barcode
+            As `output` says.
+        """
+        dims = self._checked()
+        samples = self._samples(X)
+        jobs = effective_n_jobs(self.n_jobs)
+        workers = max(1, min(jobs, len(samples)))
+        threads = max(1, jobs // workers)
+        stop = threading.Event()
+        try:
+            # Threads of joblib would not know of `ph.limits`: they get the context with the sample.
+            bars: list[Barcode] = Parallel(n_jobs=workers, prefer="threads")(
+                delayed(copy_context().run)(self._named, i, sample, max_dim=max(dims),
+                                            min_dim=min(dims), threads=threads, stop=stop)
+                for i, sample in enumerate(samples))
+        finally:
+            stop.set()  # after Ctrl-C, or an error in one sample, for those that still run
+        if self.output == "barcode":
+            return _in_container(self, X, bars, "barcode")
+        rows = [[self._diagram(one, dim) for dim in dims] for one in bars]
+        if self.output == "giotto":
+            return _giotto(rows, dims)
+        if np.ndim(self.homology_dimensions) == 0:
+            return _in_container(self, X, [row[0] for row in rows], "column")
+        return _in_container(self, X, rows, "columns")
+
+    def set_output(self, *, transform: str | None = None) -> Any:
+        """What `transform` returns for ``output="list"`` and ``"barcode"``.
+
+        Parameters
+        ----------
+        transform : {"default", "pandas"}, optional
+            "pandas": a table with a row for each sample and a column for each dimension, whose
+            cells are diagrams, or one column of barcodes.
+
+        Returns
+        -------
+        self
+        """
+        if transform is not None:
+            self._sklearn_output_config = {"transform": transform}
+        return self
+
+    def get_feature_names_out(self, input_features: Any = None) -> NDArray[np.object_]:
+        """The dimensions: H0, H1.
+
+        Parameters
+        ----------
+        input_features : None
+            Ignored: samples have no features.
+
+        Returns
+        -------
+        ndarray of str
+        """
+        names = ["barcode"] if self.output == "barcode" else [f"H{d}" for d in self._checked()]
+        return np.array(names, dtype=object)
+
+    def _checked(self) -> list[int]:
+        """The dimensions; all parameters are as they should be."""
+        given = self.homology_dimensions
+        if isinstance(given, Iterable) and not isinstance(given, (str, bytes)):
+            dims = [_options.whole("homology_dimensions", dim, 0) for dim in given]
+        else:
+            dims = [_options.whole("homology_dimensions", given, 0)]
+        if not dims or len(set(dims)) < len(dims):
+            raise _options.refuse("homology_dimensions", given, "different dimensions")
+        _options.choice("output", self.output, _OUTPUTS)
+        _options.flag("reduced", self.reduced)
+        if self.infinity is not None:
+            _vectors.checked_infinity(self.infinity, may_keep=False)
+        if self.output == "barcode" and (self.infinity is not None or self.reduced):
+            raise UsageError("output: found 'barcode', which is as it was computed; infinity and "
+                             "reduced need 'list' or 'giotto'")
+        return dims
+
+    def _samples(self, X: Any) -> Sequence[Any]:
+        raise NotImplementedError
+
+    def _barcode(self, sample: Any, max_dim: int, **how: Any) -> Barcode:
+        raise NotImplementedError
+
+    def _named(self, i: int, sample: Any, **how: Any) -> Barcode:
+        """Errors say of which sample."""
+        try:
+            return self._barcode(sample, cells=self.output == "barcode", **how)
+        except (DataError, UsageError, MemoryLimitError) as error:
+            raise type(error)(f"sample {i}: {error}") from error
+
+    def _diagram(self, bars: Barcode, dim: int) -> NDArray[np.float64]:
+        dgm = bars.dgm(dim)
+        if self.reduced and dim == 0:
+            endless = np.flatnonzero(dgm[:, 1] == math.inf)
+            dgm = np.delete(dgm, endless[:1], axis=0)
+        return dgm if self.infinity is None else _vectors.settled(dgm, self.infinity, f"H{dim}")
+
+
+def _in_container(estimator: _Persistence, X: Any, rows: list[Any], kind: str) -> Any:
+    """The list, or the table that `set_output` asked for: pandas would take diagrams apart."""
+    if _get_output_config("transform", estimator)["dense"] == "default":
+        return rows
+    import pandas
+    names = list(estimator.get_feature_names_out())
+    cells = np.empty((len(rows), len(names)), dtype=object)
+    for i, row in enumerate(rows):
+        for j, cell in enumerate(row if kind == "columns" else [row]):
+            cells[i, j] = cell
+    return pandas.DataFrame(cells, index=getattr(X, "index", None), columns=names)
+
+
+def _giotto(rows: list[list[NDArray[np.float64]]], dims: list[int]) -> NDArray[np.float64]:
+    """Rows birth, death, dim, as many for each sample: bars of length 0 fill up."""
+    parts = []
+    for dim, dgms in sorted(zip(dims, zip(*rows)), key=lambda pair: pair[0]):
+        births = np.concatenate([dgm[:, 0] for dgm in dgms])
+        part = np.full((len(rows), max(1, *map(len, dgms)), 3), births.min() if len(births) else 0.0)
+        part[:, :, 2] = dim
+        for i, dgm in enumerate(dgms):
+            part[i, :len(dgm), :2] = dgm
+        parts.append(part)
+    return np.concatenate(parts, axis=1) if parts else np.empty((0, len(dims), 3))
+
+
+def _list_of(X: Any, what: str, axes: int) -> Sequence[Any]:
+    """The samples. An array of so many axes is one sample, not a list."""
+    if _arrays.is_sparse(X) or isinstance(X, (str, bytes)) or (
+            isinstance(X, np.ndarray) and X.dtype != object and X.ndim <= axes):
+        found = f"an array of shape {X.shape}" if hasattr(X, "shape") else type(X).__name__
+        raise UsageError(f"X: found {found}, expected a list of {what}; [X] is a list of one")
+    if not isinstance(X, Iterable):
+        raise UsageError(f"X: found {type(X).__name__}, expected a list of {what}")
+    return X if isinstance(X, (list, tuple, np.ndarray)) else list(X)
+
+
+class RipsPersistence(_Persistence):
+    """The barcodes of point clouds or of distances, as of `libph.rips`.
+
+    Samples are point clouds, which may have different numbers of points; with
+    ``metric="precomputed"`` matrices of distances, dense, condensed or sparse.
+
+    Parameters
+    ----------
+    homology_dimensions : int or tuple of int
+        The dimensions. With one number a sample becomes one diagram, otherwise a list of them.
+    metric, minkowski_p, threshold, weights, dtm_neighbors, field, collapse, approximation
+        As of `libph.rips`.
+    subsample : int, optional
+        So many points of each cloud are kept, each the farthest from those before; see `libph.rips`.
+    min_persistence : float
+        Bars with death - birth <= this are left out.
+    output : {"list", "giotto", "barcode"}
+        "list": arrays (k, 2) of rows birth, death. "giotto": one array (samples, bars, 3) of rows
+        birth, death, dimension, filled up with bars of length 0 at the least birth of their
+        dimension, at least one of each. "barcode": a `libph.Barcode` for each sample.
+    infinity : None, "drop", "error" or float
+        What bars that never die become: they stay, are left out, are an error, or die at this
+        value.
+    reduced : bool
+        Whether the component that never dies is left out: of several the eldest.
+    n_jobs : int, optional
+        Samples that are computed at a time, in threads. Processors that are left over go to the
+        samples. Default: one.
+
+    Examples
+    --------
+    >>> square = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    >>> ph.sklearn.RipsPersistence(homology_dimensions=1).fit_transform([square])
+    [array([[1.        , 1.41421356]])]
+    """
+
+    def __init__(self, homology_dimensions: Any = (0, 1), metric: Any = "euclidean",
+                 minkowski_p: float = 2.0, threshold: float | None = None, weights: Any = None,
+                 dtm_neighbors: int | None = None, field: int = 2, collapse: Any = "auto",
+                 subsample: int | None = None, approximation: float | None = None,
+                 min_persistence: float = 0.0, output: str = "list", infinity: Any = None,
+                 reduced: bool = False, n_jobs: int | None = None) -> None:
+        self.homology_dimensions = homology_dimensions
+        self.metric = metric
+        self.minkowski_p = minkowski_p
+        self.threshold = threshold
+        self.weights = weights
+        self.dtm_neighbors = dtm_neighbors
+        self.field = field
+        self.collapse = collapse
+        self.subsample = subsample
+        self.approximation = approximation
+        self.min_persistence = min_persistence
+        self.output = output
+        self.infinity = infinity
+        self.reduced = reduced
+        self.n_jobs = n_jobs
+
+    def _samples(self, X: Any) -> Sequence[Any]:
+        return _list_of(X, "distances" if self.metric == "precomputed" else "clouds", 2)
+
+    def _barcode(self, sample: Any, max_dim: int, **how: Any) -> Barcode:
+        return rips(sample, max_dim=max_dim, metric=self.metric,
+                    minkowski_p=self.minkowski_p, threshold=self.threshold, weights=self.weights,
+                    dtm_neighbors=self.dtm_neighbors, field=self.field, collapse=self.collapse,
+                    subsample=self.subsample, approximation=self.approximation,
+                    min_persistence=self.min_persistence, **how)
+
+
+class CubicalPersistence(_Persistence):
+    """The barcodes of images, as of `libph.cubical`.
+
+    Samples are images, which may have different extents. A dimension has to be below the number of
+    their axes.
+
+    Parameters
+    ----------
+    homology_dimensions : int or tuple of int
+        The dimensions. With one number a sample becomes one diagram, otherwise a list of them.
+    construction, superlevel, periodic, threshold, field, nan
+        As of `libph.cubical`.
+    min_persistence : float
+        Bars with death - birth <= this are left out.
+    output, infinity, reduced, n_jobs
+        As of `RipsPersistence`.
+
+    Examples
+    --------
+    >>> ring = [[9, 9, 9, 9, 9], [9, 1, 1, 1, 9], [9, 1, 7, 1, 9], [9, 1, 1, 1, 9], [9, 9, 9, 9, 9]]
+    >>> ph.sklearn.CubicalPersistence().fit_transform([ring])
+    [[array([[ 1., inf]]), array([[1., 7.]])]]
+    """
+
+    def __init__(self, homology_dimensions: Any = (0, 1), construction: str = "vertices",
+                 superlevel: bool = False, periodic: Any = (), threshold: float | None = None,
+                 field: int = 2, nan: str = "error", min_persistence: float = 0.0,
+                 output: str = "list", infinity: Any = None, reduced: bool = False,
+                 n_jobs: int | None = None) -> None:
+        self.homology_dimensions = homology_dimensions
+        self.construction = construction
+        self.superlevel = superlevel
+        self.periodic = periodic
+        self.threshold = threshold
+        self.field = field
+        self.nan = nan
+        self.min_persistence = min_persistence
+        self.output = output
+        self.infinity = infinity
+        self.reduced = reduced
+        self.n_jobs = n_jobs
+
+    def _samples(self, X: Any) -> Sequence[Any]:
+        return _list_of(X, "images", 1)
+
+    def _barcode(self, sample: Any, max_dim: int, **how: Any) -> Barcode:
+        axes = np.ndim(sample)
+        if max_dim > axes or (max_dim == axes and not self.periodic):
+            raise UsageError(f"homology_dimensions: found {max_dim}, expected less than the "
+                             f"{axes} axes of the image; [X] is a list of one image")
+        return cubical(sample, max_dim=max_dim, construction=self.construction,
+                       superlevel=self.superlevel, periodic=self.periodic,
+                       threshold=self.threshold, field=self.field, nan=self.nan,
+                       min_persistence=self.min_persistence, **how)
