@@ -7,7 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from sklearn.base import BaseEstimator
+from sklearn.utils._set_output import _get_output_config
 
+from .. import _options
 from .._errors import UsageError
 
 try:
@@ -20,6 +22,50 @@ except ImportError:
 def table_of(estimator: BaseEstimator, X: Any, reset: bool) -> NDArray[np.float64]:
     """The rows of one cloud; `reset`: it is the one that the estimator is fitted to."""
     return _validate_data(estimator, X, dtype=np.float64, reset=reset)
+
+
+class MakesTables:
+    """`set_output` for transformers of lists.
+
+    That of scikit-learn 1.2 fails for lists: it takes their method `index` for row names. And pandas
+    would take diagrams apart.
+    """
+
+    def set_output(self, *, transform: str | None = None) -> Any:
+        """What kind of table `transform` returns.
+
+        Parameters
+        ----------
+        transform : {"default", "pandas"}, optional
+            "pandas": a DataFrame with the columns of `get_feature_names_out`, of diagrams and
+            barcodes one whose cells are such.
+
+        Returns
+        -------
+        self
+        """
+        if transform is not None:
+            _options.choice("transform", transform, ["default", "pandas"])
+            self._sklearn_output_config = {"transform": transform}
+        return self
+
+    def _in_table(self, X: Any, rows: Any) -> Any:
+        """The rows, or the DataFrame that `set_output` asked for."""
+        if _get_output_config("transform", self)["dense"] == "default":
+            return rows
+        import pandas
+        index = X.index if hasattr(X, "iloc") else None
+        return pandas.DataFrame(_as_cells(rows), index, self.get_feature_names_out())
+
+
+def _as_cells(rows: Any) -> Any:
+    if isinstance(rows, np.ndarray):
+        return rows
+    rows = [row if isinstance(row, list) else [row] for row in rows]
+    cells = np.empty((len(rows), max(map(len, rows), default=0)), dtype=object)
+    for place in np.ndindex(cells.shape):
+        cells[place] = rows[place[0]][place[1]]
+    return cells
 
 
 class TakesLists(BaseEstimator):

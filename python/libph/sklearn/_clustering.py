@@ -67,9 +67,10 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
 
     Notes
     -----
-    Without `n_clusters` and `min_persistence` their number is guessed: bars are ordered by their
-    length, and the largest gap between neighbours says how many of them stand out. Bars that never
-    die are as long as the range of f there. Look at ``barcode_.plot()`` before you trust it.
+    Without `n_clusters` and `min_persistence` the number of clusters is guessed. Bars are ordered by
+    their lengths, 0 is put at the end, and those before the largest gap are clusters. If the graph
+    is in one piece there are two at least; otherwise a bar that never dies is taken to be as long
+    as the range of f. Look at ``barcode_.plot()`` before you trust it.
 
     Where the graph falls apart, each part has a cluster at least. If `n_clusters` is smaller than
     that, parts are joined whose densest points are near each other, with a `ConvergenceWarning`.
@@ -149,9 +150,7 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
             least = _options.real("min_persistence", self.min_persistence, "a number, at least 0", 0)
             return hills.passes[lengths <= least]
         if self.n_clusters is None:
-            span = float(self.function_.max() - self.function_.min())
-            gaps = -np.diff(np.concatenate([[span], lengths[order], [0.0]]))
-            return hills.passes[order[int(np.argmax(gaps)):]]
+            return hills.passes[order[_before_gap(lengths[order], self.function_, parts):]]
         wanted = _options.whole("n_clusters", self.n_clusters, 1)
         if wanted > len(hills.peaks):
             warnings.warn(f"n_clusters: found {wanted}, but the density has {len(hills.peaks)} "
@@ -228,6 +227,14 @@ def _hills_of(function: _Numbers, neighbours: _Integers) -> _Hills:
     heights = function[order[tree.values.astype(np.int64)]]
     return _Hills(order[tops], hill_of_rank[rank], tree.edges, tree.younger, heights,
                   heights - function[order[tops[tree.younger]]])
+
+
+def _before_gap(lengths: _Numbers, function: _Numbers, parts: int) -> int:
+    """How many of the lengths, which descend, come before the largest gap."""
+    if parts > 1:
+        lengths = np.concatenate([[function.max() - function.min()], lengths])
+    gaps = -np.diff(np.concatenate([lengths, [0.0]]))
+    return int(np.argmax(gaps)) + (parts == 1) if len(gaps) else 0
 
 
 def _clusters_of(hills: _Hills, joins: _Integers) -> tuple[_Integers, _Integers]:

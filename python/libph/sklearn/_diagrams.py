@@ -47,10 +47,14 @@ def _rows_of(samples: Sequence[Any]) -> Samples:
                 for i, bars in enumerate(samples)]
         return Samples(rows, [f"H{dim}" for dim in range(count)])
     rows = []
-    for i, sample in enumerate(samples):
-        parts = _parts_of(sample)
-        rows.append([as_diagram(sample, f"sample {i}")] if parts is None else
-                    [as_diagram(part, f"sample {i}, diagram {j}") for j, part in enumerate(parts)])
+    split = [_parts_of(sample) for sample in samples]
+    are_diagrams = any(parts is None for parts in split)
+    for i, (sample, parts) in enumerate(zip(samples, split)):
+        if parts is None or (are_diagrams and not parts):  # beside diagrams [] is an empty one
+            rows.append([as_diagram(sample, f"sample {i}")])
+        else:
+            rows.append([as_diagram(part, f"sample {i}, diagram {j}")
+                         for j, part in enumerate(parts)])
         if len(rows[i]) != len(rows[0]):
             raise UsageError(f"X: sample {i}: found {len(rows[i])} diagrams, expected "
                              f"{len(rows[0])} as in sample 0")

@@ -12,18 +12,17 @@ import numpy as np
 from joblib import Parallel, delayed, effective_n_jobs
 from numpy.typing import NDArray
 from sklearn.base import TransformerMixin
-from sklearn.utils._set_output import _get_output_config
 
 from .. import _arrays, _options, _vectors
 from .._barcode import Barcode
 from .._compute import cubical, rips
 from .._errors import DataError, MemoryLimitError, UsageError
-from ._base import TakesLists
+from ._base import MakesTables, TakesLists
 
 _OUTPUTS = ["list", "giotto", "barcode"]
 
 
-class _Persistence(TransformerMixin, TakesLists, auto_wrap_output_keys=None):
+class _Persistence(MakesTables, TransformerMixin, TakesLists, auto_wrap_output_keys=None):
     """What the barcodes of lists have in common."""
 
     homology_dimensions: Any
@@ -60,7 +59,7 @@ class _Persistence(TransformerMixin, TakesLists, auto_wrap_output_keys=None):
         Returns
         -------
         list of list of ndarray, ndarray or list of Barcode
-            As `output` says.
+            As `output` says; a table if `set_output` asked for one, but for ``output="giotto"``.
         """
         dims = self._checked()
         samples = self._samples(X)
@@ -77,30 +76,13 @@ class _Persistence(TransformerMixin, TakesLists, auto_wrap_output_keys=None):
         finally:
             stop.set()  # after Ctrl-C, or an error in one sample, for those that still run
         if self.output == "barcode":
-            return _in_container(self, X, bars, "barcode")
+            return self._in_table(X, bars)
         rows = [[self._diagram(one, dim) for dim in dims] for one in bars]
         if self.output == "giotto":
             return _giotto(rows, dims)
         if np.ndim(self.homology_dimensions) == 0:
-            return _in_container(self, X, [row[0] for row in rows], "column")
-        return _in_container(self, X, rows, "columns")
-
-    def set_output(self, *, transform: str | None = None) -> Any:
-        """What `transform` returns for ``output="list"`` and ``"barcode"``.
-
-        Parameters
-        ----------
-        transform : {"default", "pandas"}, optional
-            "pandas": a table with a row for each sample and a column for each dimension, whose
-            cells are diagrams, or one column of barcodes.
-
-        Returns
-        -------
-        self
-        """
-        if transform is not None:
-            self._sklearn_output_config = {"transform": transform}
-        return self
+            rows = [row[0] for row in rows]
+        return self._in_table(X, rows)
 
     def get_feature_names_out(self, input_features: Any = None) -> NDArray[np.object_]:
         """The dimensions: H0, H1.
@@ -156,19 +138,6 @@ class _Persistence(TransformerMixin, TakesLists, auto_wrap_output_keys=None):
         return dgm if self.infinity is None else _vectors.settled(dgm, self.infinity, f"H{dim}")
 
 
-def _in_container(estimator: _Persistence, X: Any, rows: list[Any], kind: str) -> Any:
-    """The list, or the table that `set_output` asked for: pandas would take diagrams apart."""
-    if _get_output_config("transform", estimator)["dense"] == "default":
-        return rows
-    import pandas
-    names = list(estimator.get_feature_names_out())
-    cells = np.empty((len(rows), len(names)), dtype=object)
-    for i, row in enumerate(rows):
-        for j, cell in enumerate(row if kind == "columns" else [row]):
-            cells[i, j] = cell
-    return pandas.DataFrame(cells, index=getattr(X, "index", None), columns=names)
-
-
 def _giotto(rows: list[list[NDArray[np.float64]]], dims: list[int]) -> NDArray[np.float64]:
     """Rows birth, death, dim, as many for each sample: bars of length 0 fill up."""
     parts = []
@@ -193,7 +162,7 @@ def _list_of(X: Any, what: str, axes: int) -> Sequence[Any]:
     return X if isinstance(X, (list, tuple, np.ndarray)) else list(X)
 
 
-class RipsPersistence(_Persistence):
+class RipsPersistence(_Persistence, auto_wrap_output_keys=None):
     """The barcodes of point clouds or of distances, as of `libph.rips`.
 
     Samples are point clouds, which may have different numbers of points; with
@@ -262,7 +231,7 @@ class RipsPersistence(_Persistence):
                     min_persistence=self.min_persistence, **how)
 
 
-class CubicalPersistence(_Persistence):
+class CubicalPersistence(_Persistence, auto_wrap_output_keys=None):
     """The barcodes of images, as of `libph.cubical`.
 
     Samples are images, which may have different extents. A dimension has to be below the number of

@@ -1,0 +1,244 @@
+# SPDX-License-Identifier: MIT
+"""Images, landscapes, curves, entropies and lengths of diagrams, beside plain loops over bars."""
+import math
+import statistics
+
+import numpy as np
+import pytest
+
+import libph as ph
+from libph import _vectors
+
+EMPTY = np.empty((0, 2))
+
+
+@pytest.fixture(params=[0, 1, 7, 40])
+def dgm(request, rng):
+    births = rng.uniform(-1, 1, request.param).round(1)  # many are equal
+    return np.column_stack([births, births + rng.uniform(0, 2, request.param).round(1)])
+
+
+# ---- loops, each by the definition
+
+
+def plain_landscape(dgm, k, t):
+    tents = sorted((max(0.0, min(t - b, d - t)) for b, d in dgm), reverse=True)
+    return tents[k] if k < len(tents) else 0.0
+
+
+def plain_image(dgm, bandwidth, resolution, births, lengths, power):
+    pixels = [[0.0] * resolution[0] for _ in range(resolution[1])]
+    width = (births[1] - births[0]) / resolution[0]
+    height = (lengths[1] - lengths[0]) / resolution[1]
+    for b, d in dgm:
+        along_births = statistics.NormalDist(b, bandwidth).cdf
+        along_lengths = statistics.NormalDist(d - b, bandwidth).cdf
+        for i in range(resolution[1]):
+            low = lengths[0] + i * height
+            for j in range(resolution[0]):
+                left = births[0] + j * width
+                pixels[i][j] += (d - b)**power * (
+                    along_births(left + width) - along_births(left)) * (
+                    along_lengths(low + height) - along_lengths(low))
+    return np.array(pixels)
+
+
+def plain_entropy(dgm):
+    lengths = [d - b for b, d in dgm if d > b]
+    return -sum(x / sum(lengths) * math.log(x / sum(lengths)) for x in lengths)
+
+
+# ---- the functions
+
+
+def test_landscape(dgm):
+    grid = np.linspace(-1.5, 3.5, 41)
+    found = _vectors.landscape(dgm, 4, grid)
+    for k in range(4):
+        for i, t in enumerate(grid):
+            assert found[k, i] == plain_landscape(dgm, k, t)
+
+
+@pytest.mark.parametrize("power", [0, 1, 2.5])
+def test_image(dgm, power):
+    how = 0.3, (5, 4), (-1.5, 1.0), (0.0, 1.8), power
+    expected = plain_image(dgm, *how)
+    assert np.allclose(_vectors.image(dgm, *how), expected, rtol=1e-12, atol=1e-14)
+
+
+def test_image_is_an_integral():
+    """A pixel is the mean of the density over it, times its area."""
+    bar, width = np.array([[0.2, 1.1]]), 0.25
+    (pixel,), = _vectors.image(bar, width, (1, 1), (0.0, 0.5), (0.6, 1.2), 1)
+    x, y = np.meshgrid((np.arange(400) + 0.5) / 800, 0.6 + (np.arange(400) + 0.5) * 0.6 / 400)
+    density = np.exp(-((x - 0.2)**2 + (y - 0.9)**2) / (2 * width**2)) / (2 * math.pi * width**2)
+    assert pixel == pytest.approx(0.9 * density.mean() * 0.5 * 0.6, rel=1e-5)
+
+
+def test_image_far_from_its_bars():
+    """Where the error function is 1 to the last bit nothing is computed."""
+    bars = np.array([[0.0, 1.0], [50.0, 51.0]])
+    pixels = _vectors.image(bars, 0.01, (2, 1), (-50.0, 50.5), (0.0, 2.0), 0)
+    assert pixels.tolist() == [[pytest.approx(1, abs=1e-15), pytest.approx(1, abs=1e-15)]]
+    assert _vectors.image(bars, 0.01, (1, 1), (10.0, 40.0), (0.0, 2.0), 0)[0, 0] == 0
+
+
+def test_betti_curve(dgm):
+    grid = np.linspace(-1.5, 3.5, 51).round(1)  # births and deaths among them
+    expected = [sum(b <= t < d for b, d in dgm) for t in grid]
+    assert _vectors.betti_curve(dgm, grid).tolist() == expected
+
+
+def test_entropy(dgm):
+    assert _vectors.entropy(dgm) == pytest.approx(plain_entropy(dgm), abs=1e-14)
+
+
+def test_longest(dgm):
+    lengths = sorted((d - b for b, d in dgm), reverse=True) + [0.0] * 10
+    assert _vectors.longest(dgm, 10).tolist() == lengths[:10]
+
+
+def test_blocks_do_not_change_what_comes_out(monkeypatch, rng):
+    dgm = np.sort(rng.random((60, 2)), axis=1)
+    grid, how = np.linspace(0, 1, 30), (0.1, (6, 5), (0.0, 1.0), (0.0, 1.0), 1)
+    landscape, image = _vectors.landscape(dgm, 3, grid), _vectors.image(dgm, *how)
+    monkeypatch.setattr(_vectors, "_BLOCK", 100)
+    assert np.array_equal(_vectors.landscape(dgm, 3, grid), landscape)
+    assert np.allclose(_vectors.image(dgm, *how), image, rtol=1e-13, atol=0)
+
+
+# ---- bars that never die
+
+
+ENDLESS = np.array([[0.0, 1.0], [0.5, np.inf]])
+
+
+def test_bars_that_never_die():
+    def settle(infinity):
+        return _vectors.settled(ENDLESS, infinity, "x").tolist()
+
+    assert settle("drop") == [[0, 1]] and settle(2.0) == [[0, 1], [0.5, 2]]
+    assert settle("keep") == ENDLESS.tolist()
+    with pytest.raises(ph.UsageError, match="x: row 1: found a bar that never dies"):
+        settle("error")
+    with pytest.raises(ph.UsageError, match="at least 0.5, the birth"):
+        settle(0.25)
+    assert _vectors.settled(ENDLESS[:1], "error", "x").tolist() == [[0, 1]]
+
+
+def test_a_bar_that_never_dies_on_a_grid():
+    grid = np.array([0, 0.5, 0.75, 5])
+    assert _vectors.betti_curve(ENDLESS, grid).tolist() == [1, 2, 2, 1]
+    assert _vectors.landscape(ENDLESS, 1, grid).tolist() == [[0, 0.5, 0.25, 4.5]]
+
+
+@pytest.mark.parametrize("infinity", ["keep", "all", None, np.nan, np.inf, True])
+def test_words_for_infinity(infinity):
+    with pytest.raises(ph.UsageError, match="infinity: found"):
+        _vectors.checked_infinity(infinity, may_keep=False)
+
+
+# ---- diagrams and ranges
+
+
+@pytest.mark.parametrize("data, words", [
+    ([[1, 0]], "row 0: found birth 1.0 and death 0.0, expected birth <= death"),
+    ([[0, 1], [np.nan, 1]], "row 1: found birth nan"),
+    ([[-np.inf, 1]], "row 0: found birth -inf, expected a finite number"),
+    ([[0, 1, 2]], r"found an array of shape \(1, 3\), expected rows birth, death"),
+    ([0, 1], r"found an array of shape \(2,\)"),
+])
+def test_what_is_no_diagram(data, words):
+    with pytest.raises(ph.Error, match=f"x: {words}"):
+        _vectors.as_diagram(data, "x")
+
+
+def test_ranges():
+    assert _vectors.range_of_values([EMPTY]) == (0, 1)
+    assert _vectors.range_of_values([EMPTY, ENDLESS]) == (0, 1)
+    assert _vectors.range_of_values([np.array([[3.0, 3.0]])]) == (2.5, 3.5)
+    assert _vectors.ranges_of_image([EMPTY], None, None) == ((0, 1), (0, 1))
+    births, lengths = _vectors.ranges_of_image([np.array([[0.0, 1.0], [0.0, 4.0]])], None, None)
+    assert lengths == (0, 4) and births == (-2, 2)  # all born at 0: as wide as the other range
+    assert _vectors.ranges_of_image([np.array([[1.0, 2.0]])], (0, 3), (0, 5)) == ((0, 3), (0, 5))
+    low, high = _vectors.widened(1e300, 1e300)
+    assert low < 1e300 < high
+
+
+@pytest.mark.parametrize("value", [(0, 0), (1, 0), (0, np.inf), (0,), 3, "ab", (0, np.nan)])
+def test_what_is_no_range(value):
+    with pytest.raises(ph.UsageError, match="r: found"):
+        _vectors.checked_range("r", value)
+
+
+# ---- of barcodes
+
+
+@pytest.fixture(scope="module")
+def bars():
+    return ph.rips(np.random.default_rng(3).random((30, 2)))
+
+
+def test_of_a_barcode(bars):
+    dgm = bars.dgm(1)
+    image = bars.image(1, bandwidth=0.1, resolution=(4, 3), birth_range=(0, 0.5),
+                       persistence_range=(0, 0.3), weight_power=2)
+    assert np.allclose(image, plain_image(dgm, 0.1, (4, 3), (0, 0.5), (0, 0.3), 2), rtol=1e-12)
+    landscape = bars.landscape(1, layers=2, resolution=9, range=(0, 1))
+    assert landscape.shape == (2, 9)
+    assert landscape[0, 3] == plain_landscape(dgm, 0, 3 / 8)
+    assert bars.entropy(1) == pytest.approx(plain_entropy(dgm))
+    assert bars.entropy(0) == pytest.approx(plain_entropy(bars.dgm(0)[:-1]))
+
+
+def test_ranges_of_a_barcode_are_its_own(bars):
+    dgm = bars.dgm(1)
+    births = dgm[:, 0].min(), dgm[:, 0].max()
+    lengths = 0, (dgm[:, 1] - dgm[:, 0]).max()
+    width = max(births[1] - births[0], lengths[1]) / 20
+    assert np.array_equal(bars.image(1), bars.image(
+        1, bandwidth=width, birth_range=births, persistence_range=lengths))
+    assert np.array_equal(bars.landscape(1), bars.landscape(1, range=(dgm.min(), dgm.max())))
+    assert not bars.landscape(1)[0, [0, -1]].any() and bars.landscape(1).shape == (5, 100)
+
+
+def test_a_barcode_with_a_bar_that_never_dies(bars):
+    with pytest.raises(ph.UsageError, match="bars: row 29: found a bar that never dies"):
+        bars.image(0)
+    assert bars.image(0, infinity="drop").sum() > 0
+    assert bars.landscape(0, range=(0, 10), resolution=2)[0].tolist() == [0, 10]
+    assert bars.landscape(0, range=(0, 10), resolution=2, infinity="drop")[0].tolist() == [0, 0]
+
+
+@pytest.mark.parametrize("how", [
+    {"bandwidth": 0}, {"bandwidth": -1}, {"resolution": 0}, {"resolution": (1, 2, 3)},
+    {"weight_power": -1}, {"birth_range": (1, 0)}, {"persistence_range": 3}, {"infinity": "keep"}])
+def test_options_of_an_image(bars, how):
+    with pytest.raises(ph.UsageError, match=next(iter(how))):
+        bars.image(1, **how)
+
+
+@pytest.mark.parametrize("how", [{"layers": 0}, {"resolution": 0}, {"range": (0, 0)},
+                                 {"infinity": "all"}])
+def test_options_of_a_landscape(bars, how):
+    with pytest.raises(ph.UsageError, match=next(iter(how))):
+        bars.landscape(1, **how)
+
+
+def test_of_no_bars():
+    none = ph.rips(np.zeros((1, 2)))
+    assert not none.image(1).any() and not none.landscape(1).any()
+
+
+# ---- another program
+
+
+def test_beside_gudhi(dgm):
+    """Its landscapes are ours times the square root of 2."""
+    theirs = pytest.importorskip("gudhi.representations", reason="GUDHI is missing")
+    if not len(dgm):
+        pytest.skip("GUDHI 3.7 fails without bars")
+    grid = np.linspace(-1, 3, 33)
+    landscapes = theirs.Landscape(num_landscapes=3, resolution=33, sample_range=[-1, 3])(dgm)
+    assert np.allclose(landscapes, _vectors.landscape(dgm, 3, grid).ravel() * math.sqrt(2))
+    assert np.isclose(theirs.Entropy()(dgm)[0], _vectors.entropy(dgm))
