@@ -23,6 +23,7 @@ stop : threading.Event
 
 The data must not change while a computation runs. `limits` sets defaults for a block of code.
 """
+from . import gradients
 from ._barcode import Bar, Barcode
 from ._chains import Chain, Loop
 from ._compute import boundary, cubical, filtered, lower_star, rips
@@ -42,6 +43,6 @@ __all__ = [
     "InternalError", "Loop", "MemoryLimitError", "MergeTree", "Mesh", "MissingInputError",
     "NotBuiltIn", "OutputError", "PointImage", "Simplices", "Subsample", "Timeout", "UsageError",
     "__version__", "bottleneck", "boundary", "collapse", "cubical", "distance_to_measure",
-    "estimate", "farthest_points", "filtered", "limits", "lower_star", "merge_tree", "point_image",
-    "read", "read_barcode", "rips",
+    "estimate", "farthest_points", "filtered", "gradients", "limits", "lower_star", "merge_tree",
+    "point_image", "read", "read_barcode", "rips",
 ]

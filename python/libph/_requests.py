@@ -17,6 +17,7 @@ from ._sources import Source, source_of
 
 _MOST_DIMENSIONS = 1_000_000  # beyond any simplex that fits a memory
 _EXPONENTS = {1: "one", 2: "two", math.inf: "infinity"}
+_NUMBERS = {name: number for number, name in _EXPONENTS.items()}
 
 
 class PointImage(NamedTuple):
@@ -141,7 +142,9 @@ def rips_request(o: dict[str, Any]) -> Request:
     weights = o["weights"] if isinstance(o["weights"], str) else None if births is None else "given"
     meta = _meta("rips", o, points=source.points, coordinates=source.coordinates,
                  metric=o["metric"] if isinstance(o["metric"], str) else "function",
-                 weights=weights, approximation=approximation)
+                 minkowski_p=o["minkowski_p"] if o["metric"] == "minkowski" else None,
+                 weights=weights, dtm_neighbors=neighbours, approximation=approximation,
+                 weight_exponent=None if weights is None else _NUMBERS[exponent])
     return Request(recipe, task, o["run"], meta)
 
 
