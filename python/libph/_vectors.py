@@ -189,10 +189,10 @@ def landscape(dgm: Diagram, layers: int, grid: NDArray[np.float64]) -> NDArray[n
         return values
     step = max(1, _BLOCK // len(dgm))
     for first in range(0, len(grid), step):
-        t = grid[first:first + step]
-        tents = np.minimum(t - dgm[:, :1], dgm[:, 1:] - t)
-        largest = np.sort(np.partition(tents, len(dgm) - found, axis=0)[len(dgm) - found:], axis=0)
-        values[:found, first:first + step] = np.maximum(largest[::-1], 0)
+        t = grid[first:first + step, None]
+        tents = np.minimum(t - dgm[:, 0], dgm[:, 1] - t)
+        largest = np.sort(np.partition(tents, len(dgm) - found)[:, len(dgm) - found:])
+        values[:found, first:first + step] = np.maximum(largest[:, ::-1].T, 0)
     return values
 
 

@@ -590,10 +590,24 @@ def test_the_number_of_clusters(rng):
         between = lengths[wanted] if wanted < len(lengths) else 0.0
         same_as = PersistenceClustering(8, min_persistence=between).fit(X)
         assert np.array_equal(found.labels_, same_as.labels_)
-    gaps = lengths[1:] - np.append(lengths[2:], 0)
-    assert base.n_clusters_ == 2 + np.argmax(gaps)
     with pytest.warns(sklearn.exceptions.ConvergenceWarning, match="found 999, but the density has"):
         assert PersistenceClustering(8, n_clusters=999).fit(X).n_clusters_ == len(lengths)
+
+
+@pytest.mark.parametrize("lengths, expected", [
+    ([], 1), ([0.3], 2), ([2.0, 0.5, 0.4], 2), ([2.0, 1.9, 0.5, 0.4], 3),
+    ([0.5, 0.45, 0.4, 0.2, 0.19], 4), ([0.5, 0.4, 0.35, 0.3, 0.28, 0.25, 0.22], 8),
+    ([0.5, 0.38, 0.36, 0.30, 0.25, 0.2, 0.16, 0.11, 0.06], 1)])
+def test_the_number_that_is_guessed(lengths, expected):
+    """Hills in a row, the first the highest, with passes so deep."""
+    values = [0.0, 10.0]
+    for length in lengths:
+        values += [5.0 - length, 5.0]
+    values = np.array(values + [0.0])
+    line = np.abs(np.subtract.outer(np.arange(len(values)), np.arange(len(values)))).astype(float)
+    found = PersistenceClustering(3, density=lambda _: np.exp(values), metric="precomputed").fit(line)
+    assert np.allclose(np.sort(np.diff(found.barcode_.dgm(0))[:, 0])[::-1][1:], lengths)
+    assert found.n_clusters_ == expected
 
 
 def test_moons_that_k_means_cuts():

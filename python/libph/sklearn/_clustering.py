@@ -23,6 +23,8 @@ from ._points import METRICS
 _Integers = NDArray[np.int64]
 _Numbers = NDArray[np.float64]
 
+_STANDS_OUT = 1.5  # times as long as the next bar: the longest of those of noise seldom is
+
 
 class PersistenceClustering(ClusterMixin, BaseEstimator):
     """Clusters are the peaks of a density that are high above the passes to higher ones.
@@ -67,10 +69,10 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
 
     Notes
     -----
-    Without `n_clusters` and `min_persistence` the number of clusters is guessed. Bars are ordered by
-    their lengths, 0 is put at the end, and those before the largest gap are clusters. If the graph
-    is in one piece there are two at least; otherwise a bar that never dies is taken to be as long
-    as the range of f. Look at ``barcode_.plot()`` before you trust it.
+    Without `n_clusters` and `min_persistence` the number of clusters is guessed. Bars that never die
+    are clusters. Those that die are ordered by their lengths, with 0 at the end. If the bar before
+    the largest gap is half as long again as the one after it, it is a cluster, and so are longer
+    ones. Look at ``barcode_.plot()`` before you trust it.
 
     Where the graph falls apart, each part has a cluster at least. If `n_clusters` is smaller than
     that, parts are joined whose densest points are near each other, with a `ConvergenceWarning`.
@@ -150,7 +152,7 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
             least = _options.real("min_persistence", self.min_persistence, "a number, at least 0", 0)
             return hills.passes[lengths <= least]
         if self.n_clusters is None:
-            return hills.passes[order[_before_gap(lengths[order], self.function_, parts):]]
+            return hills.passes[order[_before_gap(lengths[order]):]]
         wanted = _options.whole("n_clusters", self.n_clusters, 1)
         if wanted > len(hills.peaks):
             warnings.warn(f"n_clusters: found {wanted}, but the density has {len(hills.peaks)} "
@@ -229,12 +231,13 @@ def _hills_of(function: _Numbers, neighbours: _Integers) -> _Hills:
                   heights - function[order[tops[tree.younger]]])
 
 
-def _before_gap(lengths: _Numbers, function: _Numbers, parts: int) -> int:
-    """How many of the lengths, which descend, come before the largest gap."""
-    if parts > 1:
-        lengths = np.concatenate([[function.max() - function.min()], lengths])
-    gaps = -np.diff(np.concatenate([lengths, [0.0]]))
-    return int(np.argmax(gaps)) + (parts == 1) if len(gaps) else 0
+def _before_gap(lengths: _Numbers) -> int:
+    """How many of the lengths, which descend, come before the largest gap; 0: it is no large one."""
+    if not len(lengths):
+        return 0
+    below = np.append(lengths[1:], 0.0)
+    count = int(np.argmax(lengths - below)) + 1
+    return count if lengths[count - 1] >= _STANDS_OUT * below[count - 1] else 0
 
 
 def _clusters_of(hills: _Hills, joins: _Integers) -> tuple[_Integers, _Integers]:
