@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: MIT
-"""Examples in docstrings and in docs/python.md give what they say; each function has one."""
+"""Examples in docstrings and on pages give what they say; each function has one."""
 import doctest
 import importlib
 import inspect
 import os
 import pkgutil
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +15,7 @@ import pytest
 
 import libph as ph
 
+SOURCE = Path(os.environ.get("PH_SOURCE_DIR", Path(__file__).parents[2]))
 FLAGS = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
 # Those that need an optional package have their submodules here only where it is installed.
 MODULES = ["libph", *sorted(module.name for module in pkgutil.walk_packages(
@@ -33,10 +36,35 @@ def test_docstrings(name):
     assert doctest.testmod(module, globs=names, optionflags=FLAGS).failed == 0
 
 
-def test_the_page():
-    page = Path(os.environ.get("PH_SOURCE_DIR", Path(__file__).parents[2])) / "docs/python.md"
-    result = doctest.testfile(str(page), module_relative=False, optionflags=FLAGS)
+@pytest.mark.parametrize("name, needed", [
+    ("python", []), ("gradients", []), ("scikit-learn", ["sklearn", "pandas"])])
+def test_pages(name, needed):
+    for package in needed:
+        pytest.importorskip(package, reason=f"{package} is missing, which docs/{name}.md needs")
+    result = doctest.testfile(str(SOURCE / f"docs/{name}.md"), module_relative=False,
+                              optionflags=FLAGS)
     assert result.attempted > 10 and result.failed == 0
+
+
+def test_code_of_torch():
+    """What stands on the page without prompts."""
+    torch = pytest.importorskip("torch", reason="torch is missing, which docs/gradients.md needs")
+    torch.manual_seed(0)
+    page = (SOURCE / "docs/gradients.md").read_text()
+    (code,) = (c for c in re.findall(r"```python\n(.*?)```", page, re.S) if ">>>" not in c)
+    names = {}
+    exec(code, names)
+    length = (names["h1"][:, 1] - names["h1"][:, 0]).max()
+    assert length > 0.3  # it begins at 0.1
+
+
+@pytest.mark.parametrize("name", ["cluster_moons", "grow_loop"])
+def test_examples(name, tmp_path):
+    for package in ("matplotlib", "sklearn"):
+        pytest.importorskip(package, reason=f"{package} is missing, which the examples need")
+    example = SOURCE / f"python/examples/{name}.py"
+    subprocess.run([sys.executable, example, tmp_path / "picture.png"], check=True)
+    assert (tmp_path / "picture.png").read_bytes()[:4] == b"\x89PNG"
 
 
 @pytest.mark.parametrize("function", FUNCTIONS, ids=lambda f: f.__name__)

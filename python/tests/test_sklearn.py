@@ -426,7 +426,7 @@ def labelled_clouds(rng, count):
 
 def test_pipeline_and_grid_search(rng):
     X, y = labelled_clouds(rng, 40)
-    steps = make_pipeline(RipsPersistence(homology_dimensions=(1,)),
+    steps = make_pipeline(RipsPersistence(homology_dimensions=(1,), n_jobs=2),  # threads in threads
                           PersistenceImage(resolution=5, infinity=2.0),
                           RandomForestClassifier(10, random_state=0))
     search = GridSearchCV(steps, {"persistenceimage__bandwidth": [0.05, 0.2],

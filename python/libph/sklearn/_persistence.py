@@ -69,7 +69,7 @@ class _Persistence(MakesTables, TransformerMixin, TakesLists, auto_wrap_output_k
         stop = threading.Event()
         try:
             # Threads of joblib would not know of `ph.limits`: they get the context with the sample.
-            bars: list[Barcode] = Parallel(n_jobs=workers, prefer="threads")(
+            bars: list[Barcode] = Parallel(n_jobs=workers, require="sharedmem")(
                 delayed(copy_context().run)(self._named, i, sample, max_dim=max(dims),
                                             min_dim=min(dims), threads=threads, stop=stop)
                 for i, sample in enumerate(samples))
