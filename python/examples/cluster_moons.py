@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Clusters by the persistence of a density, and the bars that say how many: cluster_moons.py PICTURE."""
+"""Clusters by the persistence of a density, and its bars: cluster_moons.py PICTURE."""
 import sys
 
 import matplotlib
@@ -27,7 +27,8 @@ def picture(path):
     left.scatter(*X[found.peaks_].T, s=120, marker="*", color="black")
     left.set(aspect="equal", title="clusters and their densest points", xticks=[], yticks=[])
     found.barcode_.plot(ax=right)
-    right.set(title="bars of -log(density)", xlabel="birth: at the peak", ylabel="death: at the pass")
+    right.set(title="bars of -log(density)", xlabel="birth: at the peak",
+              ylabel="death: at the pass")
     figure.savefig(path, dpi=80, metadata={"Software": None})
     plt.close(figure)
 

@@ -46,7 +46,7 @@ def as_diagram(data: Any, name: str) -> Diagram:
 
 
 def checked_infinity(infinity: Any, may_keep: bool) -> Infinity:
-    """What becomes of deaths at infinity: "error", "drop", "keep" where that is defined, a number."""
+    """What becomes of deaths at infinity: "error", "drop", "keep" if it is defined, a number."""
     words = ["error", "drop"] + ["keep"] * may_keep
     if isinstance(infinity, str):
         if infinity not in words:

@@ -3,6 +3,7 @@
 import math
 import os
 import pickle
+import signal
 import subprocess
 import sys
 import threading
@@ -59,16 +60,10 @@ def same(a, b):
 # ---- what scikit-learn asks for
 
 
-def checks_of(estimator):
-    return [pytest.param(one, check, id=f"{type(one).__name__}-{check.func.__name__}-{i}")
-            for i, (one, check) in enumerate(
-                estimator_checks.check_estimator(estimator, generate_only=True))]
-
-
 @pytest.mark.filterwarnings("ignore")
-@pytest.mark.parametrize("estimator, check", [
-    *checks_of(PersistenceClustering()), *checks_of(PersistenceClustering(k=4, n_clusters=2)),
-    *checks_of(DistanceToMeasure()), *checks_of(FarthestPoints())])
+@estimator_checks.parametrize_with_checks([
+    PersistenceClustering(), PersistenceClustering(k=4, n_clusters=2), DistanceToMeasure(),
+    FarthestPoints()])
 def test_checks_of_scikit_learn(estimator, check):
     check(estimator)
 
@@ -262,16 +257,35 @@ def test_limits_reach_the_threads(clouds):
         RipsPersistence(n_jobs=2).fit_transform(big)
 
 
-def test_an_error_stops_the_other_samples():
-    """A sample that would take minutes goes on, but for the error in the one beside it."""
-    slow = np.random.default_rng(0).random((1500, 3))
-    begin = time.monotonic()
-    with pytest.raises(ph.DataError, match="sample 1"):
-        RipsPersistence(homology_dimensions=2, n_jobs=2).fit_transform([slow, [[np.nan, 0]]])
-    limit = begin + 20
-    while threading.active_count() > 20 and time.monotonic() < limit:
-        time.sleep(0.1)
-    assert time.monotonic() < limit
+@pytest.fixture
+def slow():
+    """H4 of it takes minutes, so a test that ends did stop it."""
+    return np.random.default_rng(0).random((1000, 8))
+
+
+def threads_that_are_left(before):
+    limit = time.monotonic() + 30
+    while threading.active_count() > before and time.monotonic() < limit:
+        time.sleep(0.05)
+    return threading.active_count() - before
+
+
+def test_an_error_stops_the_other_samples(slow):
+    before, begin = threading.active_count(), time.monotonic()
+    with pytest.raises(ph.DataError, match="sample 1: point 0, coordinate 0: found nan"):
+        RipsPersistence(homology_dimensions=4, n_jobs=2).fit_transform([slow, [[np.nan, 0]]])
+    assert time.monotonic() - begin < 30 and threads_that_are_left(before) <= 0
+    with ph.limits(timeout=0.5), pytest.raises(ph.Timeout):
+        RipsPersistence(homology_dimensions=4, n_jobs=2).fit_transform([slow, slow])
+
+
+def test_ctrl_c_stops_all_samples(slow):
+    before = threading.active_count()
+    timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        RipsPersistence(homology_dimensions=4, n_jobs=2).fit_transform([slow, slow])
+    assert threads_that_are_left(before) <= 0
 
 
 def test_no_samples():

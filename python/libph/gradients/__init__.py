@@ -35,17 +35,17 @@ __all__ = ["deciders", "pullback"]
 
 def pullback(bars: Barcode, X: Any, d_births: ArrayLike | None = None,
              d_deaths: ArrayLike | None = None, *, weights: ArrayLike | None = None) -> Any:
-    """The derivative of a function of births and deaths, with respect to what bars were computed of.
+    """The derivative of a function of births and deaths with respect to the data.
 
-    The vector-Jacobian product: sum over the bars of d_births[i] times the gradient of birth i, plus
-    d_deaths[i] times the gradient of death i.
+    The vector-Jacobian product: the sum over the bars of d_births[i] times the gradient of birth i,
+    plus d_deaths[i] times the gradient of death i.
 
     Parameters
     ----------
     bars : Barcode
         Of `rips`, `cubical`, `lower_star` or `boundary`, with cells; or some of its bars.
     X : array_like or sparse matrix
-        What they were computed of: points, distances, an image, values of vertices, values of cells.
+        What they were computed of: points, distances, an image, values of vertices or of cells.
     d_births, d_deaths : array_like, optional
         Of each bar the derivative of the function with respect to its birth, and to its death.
         Default: 0. With respect to the death of a bar that never dies it has to be 0.
@@ -55,8 +55,8 @@ def pullback(bars: Barcode, X: Any, d_births: ArrayLike | None = None,
     Returns
     -------
     ndarray or sparse matrix
-        Of the shape of X. Of a matrix of distances each of the two entries of a pair has half of the
-        derivative; of a sparse one, with the entries of X, all of it where one entry is stored.
+        Of the shape of X. Of a matrix of distances each of the two entries of a pair has half of
+        the derivative; of a sparse one, with the entries of X, all of it where one is stored.
 
     Raises
     ------

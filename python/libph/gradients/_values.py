@@ -20,7 +20,7 @@ _ROUNDING = 1e-6  # of the largest value; farther apart are values of other data
 
 
 class CellValues:
-    """Of cells, a row each, which thing decides on their value; and a gradient that is summed up."""
+    """Of cells, a row each, what decides on their value; and a gradient that is summed up."""
 
     width: int  # of a row of `deciders`
 
@@ -103,7 +103,7 @@ class VoxelValues(CellValues):
         return self._levels(tuple(self.deciders(dim, cells).T))
 
     def deciders(self, dim: int, cells: Integers) -> Integers:
-        """In the V-construction the largest corner, in the T-construction the least pixel around."""
+        """Of the V-construction the largest corner, of the T-construction the least pixel around."""
         ends = []  # of each axis the two pixels that the cube may touch; -1: there is none
         for axis, count in enumerate(self._shape):
             place = cells[:, axis]

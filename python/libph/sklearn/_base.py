@@ -27,8 +27,8 @@ def table_of(estimator: BaseEstimator, X: Any, reset: bool) -> NDArray[np.float6
 class MakesTables:
     """`set_output` for transformers of lists.
 
-    That of scikit-learn 1.2 fails for lists: it takes their method `index` for row names. And pandas
-    would take diagrams apart.
+    That of scikit-learn 1.2 fails for lists: it takes their method `index` for row names. And
+    pandas would take diagrams apart.
     """
 
     def set_output(self, *, transform: str | None = None) -> Any:
@@ -51,8 +51,11 @@ class MakesTables:
 
     def _in_table(self, X: Any, rows: Any) -> Any:
         """The rows, or the DataFrame that `set_output` asked for."""
-        if _get_output_config("transform", self)["dense"] == "default":
+        kind = _get_output_config("transform", self)["dense"]
+        if kind == "default":
             return rows
+        if kind != "pandas":  # of set_config
+            raise _options.refuse("transform_output", kind, "'default' or 'pandas'")
         import pandas
         index = X.index if hasattr(X, "iloc") else None
         return pandas.DataFrame(_as_cells(rows), index, self.get_feature_names_out())

@@ -69,10 +69,10 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
 
     Notes
     -----
-    Without `n_clusters` and `min_persistence` the number of clusters is guessed. Bars that never die
-    are clusters. Those that die are ordered by their lengths, with 0 at the end. If the bar before
-    the largest gap is half as long again as the one after it, it is a cluster, and so are longer
-    ones. Look at ``barcode_.plot()`` before you trust it.
+    Without `n_clusters` and `min_persistence` the number of clusters is guessed. Bars that never
+    die are clusters. Those that die are ordered by their lengths, with 0 at the end. If the bar
+    before the largest gap is half as long again as the one after it, it is a cluster, and so are
+    longer ones. Look at ``barcode_.plot()`` before you trust it.
 
     Where the graph falls apart, each part has a cluster at least. If `n_clusters` is smaller than
     that, parts are joined whose densest points are near each other, with a `ConvergenceWarning`.
@@ -232,7 +232,7 @@ def _hills_of(function: _Numbers, neighbours: _Integers) -> _Hills:
 
 
 def _before_gap(lengths: _Numbers) -> int:
-    """How many of the lengths, which descend, come before the largest gap; 0: it is no large one."""
+    """How many of the lengths, which descend, come before the largest gap; 0: it is not large."""
     if not len(lengths):
         return 0
     below = np.append(lengths[1:], 0.0)

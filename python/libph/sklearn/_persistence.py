@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import threading
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextvars import copy_context
 from typing import Any
 
@@ -16,10 +16,36 @@ from sklearn.base import TransformerMixin
 from .. import _arrays, _options, _vectors
 from .._barcode import Barcode
 from .._compute import cubical, rips
-from .._errors import DataError, MemoryLimitError, UsageError
+from .._errors import Cancelled, DataError, MemoryLimitError, UsageError
 from ._base import MakesTables, TakesLists
 
 _OUTPUTS = ["list", "giotto", "barcode"]
+
+
+class _Batch:
+    """Samples that are computed at a time: an error in one of them stops the others."""
+
+    def __init__(self) -> None:
+        self.stop = threading.Event()
+        self._errors: list[tuple[int, Exception]] = []
+
+    def run(self, i: int, function: Callable[..., Barcode], *arguments: Any, **how: Any) -> Barcode:
+        """The errors say of which sample."""
+        try:
+            return function(*arguments, stop=self.stop, **how)
+        except Exception as error:
+            if isinstance(error, (DataError, UsageError, MemoryLimitError)):
+                named: Exception = type(error)(f"sample {i}: {error}")
+                named.__cause__ = error
+                error = named
+            if not (isinstance(error, Cancelled) and self.stop.is_set()):
+                self._errors.append((i, error))
+                self.stop.set()
+            raise error
+
+    def first_error(self) -> Exception:
+        """The one that stopped the others."""
+        return min(self._errors, key=lambda pair: pair[0])[1]
 
 
 class _Persistence(MakesTables, TransformerMixin, TakesLists, auto_wrap_output_keys=None):
@@ -66,15 +92,18 @@ class _Persistence(MakesTables, TransformerMixin, TakesLists, auto_wrap_output_k
         jobs = effective_n_jobs(self.n_jobs)
         workers = max(1, min(jobs, len(samples)))
         threads = max(1, jobs // workers)
-        stop = threading.Event()
+        batch = _Batch()
         try:
             # Threads of joblib would not know of `ph.limits`: they get the context with the sample.
             bars: list[Barcode] = Parallel(n_jobs=workers, require="sharedmem")(
-                delayed(copy_context().run)(self._named, i, sample, max_dim=max(dims),
-                                            min_dim=min(dims), threads=threads, stop=stop)
+                delayed(copy_context().run)(batch.run, i, self._barcode, sample, max(dims),
+                                            min_dim=min(dims), threads=threads,
+                                            cells=self.output == "barcode")
                 for i, sample in enumerate(samples))
+        except Cancelled:
+            raise batch.first_error() from None
         finally:
-            stop.set()  # after Ctrl-C, or an error in one sample, for those that still run
+            batch.stop.set()  # after Ctrl-C, for those that still run
         if self.output == "barcode":
             return self._in_table(X, bars)
         rows = [[self._diagram(one, dim) for dim in dims] for one in bars]
@@ -123,13 +152,6 @@ class _Persistence(MakesTables, TransformerMixin, TakesLists, auto_wrap_output_k
     def _barcode(self, sample: Any, max_dim: int, **how: Any) -> Barcode:
         raise NotImplementedError
 
-    def _named(self, i: int, sample: Any, **how: Any) -> Barcode:
-        """Errors say of which sample."""
-        try:
-            return self._barcode(sample, cells=self.output == "barcode", **how)
-        except (DataError, UsageError, MemoryLimitError) as error:
-            raise type(error)(f"sample {i}: {error}") from error
-
     def _diagram(self, bars: Barcode, dim: int) -> NDArray[np.float64]:
         dgm = bars.dgm(dim)
         if self.reduced and dim == 0:
@@ -175,7 +197,7 @@ class RipsPersistence(_Persistence, auto_wrap_output_keys=None):
     metric, minkowski_p, threshold, weights, dtm_neighbors, field, collapse, approximation
         As of `libph.rips`.
     subsample : int, optional
-        So many points of each cloud are kept, each the farthest from those before; see `libph.rips`.
+        So many points of each cloud are kept, each the farthest from those before.
     min_persistence : float
         Bars with death - birth <= this are left out.
     output : {"list", "giotto", "barcode"}
