@@ -69,7 +69,7 @@ def settled(dgm: Diagram, infinity: Infinity, name: str) -> Diagram:
     if infinity == "drop":
         return dgm[~endless]
     latest = float(dgm[endless, 0].max())
-    if latest > infinity:
+    if isinstance(infinity, str) or latest > infinity:
         raise UsageError(f"infinity: found {infinity}, expected at least {latest}, the birth of a "
                          "bar that never dies")
     return np.column_stack([dgm[:, 0], np.where(endless, infinity, dgm[:, 1])])

@@ -31,6 +31,13 @@ class MakesTables:
     pandas would take diagrams apart.
     """
 
+    def __init_subclass__(cls, **how: Any) -> None:
+        super().__init_subclass__(**{"auto_wrap_output_keys": None, **how})
+
+    def get_feature_names_out(self, input_features: Any = None) -> NDArray[np.object_]:
+        """Names of the columns."""
+        raise NotImplementedError
+
     def set_output(self, *, transform: str | None = None) -> Any:
         """What kind of table `transform` returns.
 

@@ -48,7 +48,7 @@ class _Batch:
         return min(self._errors, key=lambda pair: pair[0])[1]
 
 
-class _Persistence(MakesTables, TransformerMixin, TakesLists, auto_wrap_output_keys=None):
+class _Persistence(MakesTables, TransformerMixin, TakesLists):
     """What the barcodes of lists have in common."""
 
     homology_dimensions: Any
@@ -109,9 +109,8 @@ class _Persistence(MakesTables, TransformerMixin, TakesLists, auto_wrap_output_k
         rows = [[self._diagram(one, dim) for dim in dims] for one in bars]
         if self.output == "giotto":
             return _giotto(rows, dims)
-        if np.ndim(self.homology_dimensions) == 0:
-            rows = [row[0] for row in rows]
-        return self._in_table(X, rows)
+        is_one = np.ndim(self.homology_dimensions) == 0
+        return self._in_table(X, [row[0] for row in rows] if is_one else rows)
 
     def get_feature_names_out(self, input_features: Any = None) -> NDArray[np.object_]:
         """The dimensions: H0, H1.
@@ -173,7 +172,7 @@ def _giotto(rows: list[list[NDArray[np.float64]]], dims: list[int]) -> NDArray[n
     return np.concatenate(parts, axis=1) if parts else np.empty((0, len(dims), 3))
 
 
-def _list_of(X: Any, what: str, axes: int) -> Sequence[Any]:
+def _list_of(X: Any, what: str, axes: int) -> Any:
     """The samples. An array of so many axes is one sample, not a list."""
     if _arrays.is_sparse(X) or isinstance(X, (str, bytes)) or (
             isinstance(X, np.ndarray) and X.dtype != object and X.ndim <= axes):
@@ -184,7 +183,7 @@ def _list_of(X: Any, what: str, axes: int) -> Sequence[Any]:
     return X if isinstance(X, (list, tuple, np.ndarray)) else list(X)
 
 
-class RipsPersistence(_Persistence, auto_wrap_output_keys=None):
+class RipsPersistence(_Persistence):
     """The barcodes of point clouds or of distances, as of `libph.rips`.
 
     Samples are point clouds, which may have different numbers of points; with
@@ -253,7 +252,7 @@ class RipsPersistence(_Persistence, auto_wrap_output_keys=None):
                     min_persistence=self.min_persistence, **how)
 
 
-class CubicalPersistence(_Persistence, auto_wrap_output_keys=None):
+class CubicalPersistence(_Persistence):
     """The barcodes of images, as of `libph.cubical`.
 
     Samples are images, which may have different extents. A dimension has to be below the number of

@@ -17,7 +17,7 @@ from ._base import MakesTables, TakesDiagrams
 from ._diagrams import Samples, samples_of
 
 
-class _Vectoriser(MakesTables, TransformerMixin, TakesDiagrams, auto_wrap_output_keys=None):
+class _Vectoriser(MakesTables, TransformerMixin, TakesDiagrams):
     """What the vectors of diagrams have in common."""
 
     _may_keep = False
@@ -126,7 +126,7 @@ def _ranges(name: str, given: Any, count: int) -> list[Range | None]:
     return [_vectors.checked_range(name, given)] * count
 
 
-class PersistenceImage(_Vectoriser, auto_wrap_output_keys=None):
+class PersistenceImage(_Vectoriser):
     """Persistence images [Adams et al. 2017]: diagrams as pictures, smoothed and weighted.
 
     Each bar is a normal distribution around the point (birth, persistence), times a weight. A pixel
@@ -192,7 +192,7 @@ class PersistenceImage(_Vectoriser, auto_wrap_output_keys=None):
         return [f"p{i}_b{j}" for i in range(self._pixels[1]) for j in range(self._pixels[0])]
 
 
-class _OnGrid(_Vectoriser, auto_wrap_output_keys=None):
+class _OnGrid(_Vectoriser):
     """Functions of the filtration value, at the values of a grid."""
 
     _may_keep = True
@@ -206,7 +206,7 @@ class _OnGrid(_Vectoriser, auto_wrap_output_keys=None):
         self.grids_ = [np.linspace(low, high, self._count) for low, high in self.ranges_]
 
 
-class Landscape(_OnGrid, auto_wrap_output_keys=None):
+class Landscape(_OnGrid):
     """Persistence landscapes [Bubenik 2015], exact at the values of a grid.
 
     Layer k at t is the k-th largest of max(0, min(t - birth, death - t)) over the bars.
@@ -256,7 +256,7 @@ class Landscape(_OnGrid, auto_wrap_output_keys=None):
         return [f"layer{k}_{i}" for k in range(self._layers) for i in range(self._count)]
 
 
-class BettiCurve(_OnGrid, auto_wrap_output_keys=None):
+class BettiCurve(_OnGrid):
     """How many bars live at each value of a grid.
 
     Parameters
@@ -296,7 +296,7 @@ class BettiCurve(_OnGrid, auto_wrap_output_keys=None):
         return [f"betti{i}" for i in range(self._count)]
 
 
-class Entropy(_Vectoriser, auto_wrap_output_keys=None):
+class Entropy(_Vectoriser):
     """The persistent entropy of each diagram, in nats [Chintakunta et al. 2015].
 
     The entropy of the shares that bars have in the sum of their lengths; 0 without bars.
@@ -323,7 +323,7 @@ class Entropy(_Vectoriser, auto_wrap_output_keys=None):
         return ["entropy"]
 
 
-class Lengths(_Vectoriser, auto_wrap_output_keys=None):
+class Lengths(_Vectoriser):
     """The largest lengths of bars, descending; 0 where there are no more bars.
 
     Parameters
