@@ -5,6 +5,7 @@ import warnings
 
 import numpy as np
 import pytest
+import scipy.cluster.hierarchy
 import scipy.spatial
 
 import libph as ph
@@ -183,6 +184,22 @@ def test_a_graph_that_falls_apart(rng):
     with pytest.warns(sklearn.exceptions.ConvergenceWarning):
         again = PersistenceClustering(10, n_clusters=2, metric="precomputed").fit_predict(distances)
     assert np.array_equal(two, again)
+
+
+def test_parts_are_joined_by_their_densest_points(rng):
+    at = np.array([[0, 0], [20, 5], [45, 0], [80, 9], [3, 60], [30, 70], [80, 64]])
+    X = np.vstack([rng.uniform(-4, 4, (60, 2)) + a for a in at])
+    part = np.repeat(np.arange(7), 60)
+    function = PersistenceClustering(6).fit(X).function_
+    densest = [np.flatnonzero(part == p)[np.argmin(function[part == p])] for p in range(7)]
+    tree = scipy.cluster.hierarchy.linkage(X[densest], "single")
+    for wanted in range(1, 7):
+        with pytest.warns(sklearn.exceptions.ConvergenceWarning, match="has 7 parts"):
+            found = PersistenceClustering(6, n_clusters=wanted).fit(X)
+        assert len(found.barcode_) > 14  # parts have several hills
+        last = tree[6 - wanted, 2]  # the longest link that is needed
+        expected = scipy.cluster.hierarchy.fcluster(tree, last, "distance")[part]
+        assert adjusted_rand_score(expected, found.labels_) == 1 and found.n_clusters_ == wanted
 
 
 def test_distances_of_points(rng):

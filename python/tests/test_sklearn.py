@@ -183,7 +183,8 @@ def test_rows_birth_death_dimension(clouds):
     assert rows.shape == (3, longest[0] - 1 + longest[1], 3) and rows.dtype == np.float64
     assert (np.diff(rows[:, :, 2]) >= 0).all() and set(rows[:, :, 2].flat) == {0, 1}
     least = min(ph.rips(c).dgm(1)[:, 0].min() for c in clouds[:2])
-    for sample, cloud in zip(rows, clouds[:2]):
+    assert len(ph.rips(clouds[1]).dgm(1)) > 1
+    for sample, cloud in zip(rows, [*clouds[:2], np.zeros((1, 2))]):
         for dim in (0, 1):
             part = sample[sample[:, 2] == dim, :2]
             real = part[part[:, 0] != part[:, 1]]
@@ -342,6 +343,9 @@ def test_layouts(kind, clouds, dgms):
     table = RipsPersistence(reduced=True).set_output(transform="pandas").fit_transform(clouds)
     for other in (list(objects), objects, giotto, table, [tuple(row) for row in dgms]):
         assert np.array_equal(clone(SMALL[kind]).fit_transform(other), expected)
+    if kind is PersistenceImage:  # in which bars of length 0 would count
+        flat = PersistenceImage(weight_power=0, resolution=2)
+        assert np.array_equal(flat.fit_transform(giotto), flat.fit_transform(dgms))
     bars = RipsPersistence(output="barcode").fit_transform(clouds)
     dropped = clone(SMALL[kind]).set_params(infinity="drop").fit(bars)
     assert np.array_equal(dropped.transform(bars), expected)

@@ -245,8 +245,7 @@ def _clusters_of(hills: _Hills, joins: _Integers) -> tuple[_Integers, _Integers]
     count = len(hills.peaks)
     graph = coo_matrix((np.ones(len(joins)), (joins[:, 0], joins[:, 1])), shape=(count, count))
     cluster_of_hill = connected_components(graph, directed=False)[1]
-    # Hills are numbered from the densest on, so their first is its densest.
+    # Hills are numbered from the densest on: the first of a cluster is its densest.
     _, first, numbered = np.unique(cluster_of_hill, return_index=True, return_inverse=True)
-    place = np.empty(len(first), dtype=np.int64)
-    place[np.argsort(first)] = np.arange(len(first))
-    return place[numbered][hills.hill_of], hills.peaks[np.sort(first)]
+    highest, label = np.unique(first[numbered], return_inverse=True)
+    return label[hills.hill_of], hills.peaks[highest]
