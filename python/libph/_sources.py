@@ -29,7 +29,9 @@ class Source(NamedTuple):
 
 def source_of(X: Any, *, metric: Any = "euclidean", minkowski_p: Any = 2.0, nan: Any = "error",
               diagonal: Any = "zero", symmetrise: Any = None) -> Source:
-    """A metric space of what the user gave."""
+    """A metric space of what the user gave; a Source is one already."""
+    if isinstance(X, Source):
+        return X
     if nan != "error":
         _options.choice("nan", nan, ["error", "drop"])
     if callable(metric):
@@ -114,13 +116,14 @@ def _of_sparse(X: Any, nan: str, diagonal: str, symmetrise: str | None) -> Sourc
     row, column, values = row[keep], column[keep], values[keep]
     if (values < -rounding).any():
         _fail(row, column, values, values < -rounding, "0 or more")
-    i, j, values = _pairs(row, column, np.maximum(values, 0), rounding, symmetrise)
+    i, j, values = unique_pairs(row, column, np.maximum(values, 0), rounding, symmetrise,
+                                "; symmetrise='max', 'min' or 'lower' accepts it")
     return Source(_core.MetricSpace.of_pairs(X.shape[0], i, j, values), X.shape[0], None, births)
 
 
-def _pairs(row: NDArray[np.int64], column: NDArray[np.int64], values: NDArray[np.float64],
-           rounding: float, symmetrise: str | None
-           ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
+def unique_pairs(row: NDArray[np.int64], column: NDArray[np.int64], values: NDArray[np.float64],
+                 rounding: float, symmetrise: str | None, hint: str
+                 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
     """Each pair once. Entries of one pair must be equal; of those that differ by rounding the one
     below the diagonal is taken."""
     i, j = np.minimum(row, column), np.maximum(row, column)
@@ -135,8 +138,7 @@ def _pairs(row: NDArray[np.int64], column: NDArray[np.int64], values: NDArray[np
     if symmetrise is None and (largest - least > rounding).any():
         k = int(np.argmax(largest - least > rounding))
         raise DataError(f"X: row {i[starts[k]]}, column {j[starts[k]]} and its mirror image: found "
-                        f"{least[k]} and {largest[k]}, expected both equal; symmetrise='max', "
-                        "'min' or 'lower' accepts it")
+                        f"{least[k]} and {largest[k]}, expected both equal{hint}")
     lower = values[np.append(starts[1:], len(i)) - 1]
     chosen = {"max": largest, "min": least}.get(symmetrise or "lower", lower)
     return i[starts], j[starts], chosen

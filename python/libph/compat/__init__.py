@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: MIT
+"""Drop-ins: the interfaces of other packages over libph.
+
+Each is a module here, as `libph.compat.ripser`. `install` gives them the names of the packages that
+they replace, so that other people's code runs unchanged. docs/coming-from.md says how, and where
+libph answers otherwise on purpose.
+"""
+from __future__ import annotations
+
+import importlib
+import sys
+
+from .. import _options
+from .._errors import UsageError
+
+__all__ = ["install"]
+
+# What each brings along.
+_MODULES = {
+    "ripser": (),
+    "gph": ("gph.modules", "gph.modules.gph_ripser", "gph.modules.gph_collapser"),
+    "persim": (),
+}
+_BESIDE: dict[str, str] = {}
+
+
+def install(*names: str) -> None:
+    """Has `import ripser` and the like import libph's drop-in, in this process.
+
+    Parameters
+    ----------
+    *names : str
+        "ripser", "gph", "cripser" (with "tcripser"), "gudhi", "persim".
+
+    Raises
+    ------
+    UsageError
+        If one of them is imported already: whoever did so keeps what it got.
+
+    Examples
+    --------
+    >>> from libph import compat
+    >>> compat.install("ripser")
+    >>> import ripser
+    >>> ripser.__name__
+    'libph.compat.ripser'
+    """
+    chosen = []
+    for name in names:
+        _options.choice("install", name, _MODULES)
+        chosen += [name, *_MODULES[name]]
+    ours = {name: importlib.import_module(f"{__name__}.{name}") for name in chosen}
+    for name, module in ours.items():
+        there = sys.modules.get(name)
+        if there not in (None, module):
+            raise UsageError(f"install: {name} is imported already, from "
+                             f"{getattr(there, '__file__', 'elsewhere')}; install it before that")
+    sys.modules.update(ours)

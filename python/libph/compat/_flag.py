@@ -1,0 +1,325 @@
+# SPDX-License-Identifier: MIT
+"""What the drop-ins for Vietoris-Rips filtrations share.
+
+A flag filtration is given by distances and by the births of its vertices, which stand on the
+diagonal of a matrix. Of a matrix the entries above the diagonal count.
+
+The programs that are replaced compute with single precision: they round distances first. Here bars
+are computed of the distances as they are, and rounded then. Rounding is monotone, so it maps the
+one filtration to the other, and the barcode with it.
+"""
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+from .. import _arrays, _core, _options
+from .._barcode import Barcode
+from .._compute import rips
+from .._errors import DataError, UsageError
+from .._sources import Source, unique_pairs
+
+_STRIP = 512  # rows of a matrix that are looked at together
+_ROUNDING = 1e-6  # of the largest distance: so far the two entries of a pair may differ
+
+
+class Flag(NamedTuple):
+    """A flag filtration, up to a limit beyond which nothing but components counts."""
+
+    size: int
+    births: NDArray[np.float64]
+    matrix: NDArray[Any] | None  # above the diagonal distances; no number is below 0
+    pairs: tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]] | None  # i < j, value
+    limit: float
+    edges: int  # pairs of at most this value
+
+    def values(self, u: NDArray[np.int64], v: NDArray[np.int64]) -> NDArray[np.float64]:
+        """The distances of pairs u < v; of pairs that are not joined -inf."""
+        if self.matrix is not None:
+            return np.asarray(self.matrix[u, v], dtype=np.float64)
+        assert self.pairs is not None
+        i, j, values = self.pairs
+        keys, wanted = i * self.size + j, u * self.size + v
+        order = np.argsort(keys, kind="stable")
+        if not len(order):
+            return np.full(u.shape, -np.inf)
+        places = order[np.minimum(np.searchsorted(keys, wanted, sorter=order), len(order) - 1)]
+        return np.where(keys[places] == wanted, values[places], -np.inf)
+
+
+class Bars(NamedTuple):
+    """The bars of each dimension as other programs order them."""
+
+    barcode: Barcode
+    dgms: list[NDArray[np.float64]]  # rounded, and none of length zero
+    places: list[NDArray[np.int64]]  # in `barcode`
+
+    def places_in_dim(self, dim: int) -> NDArray[np.int64]:
+        """The places among the bars of a dimension."""
+        return self.places[dim] - np.searchsorted(self.barcode.dims, dim)
+
+
+# ---- numbers
+
+
+def precision(dtype: DTypeLike) -> np.dtype[Any]:
+    """float32 or float64."""
+    try:
+        kind = np.dtype(dtype)
+    except TypeError:
+        kind = np.dtype(object)
+    if kind not in (np.float32, np.float64):
+        raise _options.refuse("dtype", dtype, "numpy.float32 or numpy.float64")
+    return kind
+
+
+def threshold(value: Any) -> float:
+    """The largest distance at which points are joined."""
+    return _options.real("thresh", value)
+
+
+def dimension(value: Any) -> int:
+    """The highest dimension of homology; what is below 0 is 0."""
+    return max(0, _options.whole("maxdim", value, -2**63))
+
+
+def last_rounded_to(limit: float, dtype: np.dtype[Any]) -> float:
+    """The largest double that is at most `limit` once both are rounded.
+
+    >>> last_rounded_to(1.0, np.dtype(np.float32)) - 1.0 == 2.0 ** -24
+    True
+    """
+    if dtype == np.float64 or not np.isfinite(limit):
+        return limit
+    with np.errstate(over="ignore"):
+        low = np.float32(limit)
+        high = np.nextafter(low, np.float32(np.inf))
+        middle = (float(low) + float(high)) / 2 if np.isfinite(high) else float(low)
+        return middle if np.float32(middle) <= low else float(np.nextafter(middle, -np.inf))
+
+
+def rounded(numbers: NDArray[np.float64], dtype: np.dtype[Any]) -> NDArray[np.float64]:
+    """Doubles that the type holds."""
+    if dtype == np.float64:
+        return numbers
+    with np.errstate(over="ignore"):
+        return numbers.astype(np.float32).astype(np.float64)
+
+
+def ordered(dgm: NDArray[np.float64], dim: int, essential_last: bool = False) -> NDArray[np.int64]:
+    """The order of Ripser: H0 by death; others by descending birth, then descending death.
+
+    With `essential_last` bars that never die follow the others.
+    """
+    births, deaths = dgm.T
+    if dim == 0:
+        return np.lexsort((births, deaths))
+    keys = (-deaths, -births)
+    return np.lexsort((*keys, np.isinf(deaths)) if essential_last else keys)
+
+
+# ---- filtrations of matrices
+
+
+def of_dense(matrix: Any, limit: float, dtype: np.dtype[Any], is_symmetric: bool,
+             births: NDArray[np.float64] | None = None) -> Flag:
+    """The filtration of a matrix.
+
+    Parameters
+    ----------
+    matrix : array_like
+        Distances above the diagonal.
+    limit : float
+        The largest distance at which points are joined.
+    is_symmetric : bool
+        Whether the entries below the diagonal have to be the same.
+    births : ndarray, optional
+        Default: what is on the diagonal.
+    """
+    array = _arrays.as_distances(matrix, "X")
+    if array.ndim != 2:
+        raise UsageError(f"X: found an array of shape {array.shape}, expected a square matrix")
+    if births is None:
+        births = np.array(np.diagonal(array), dtype=np.float64)
+    _refuse_nan(births, "X: the diagonal")
+    least, radius = _scan(array, is_symmetric)
+    latest = float(births.max(initial=0.0))
+    if limit == np.inf:
+        # Beyond it all is joined to one point, and there is one component.
+        limit = max(radius, latest) if latest < np.inf else np.inf
+        limit = last_rounded_to(limit, dtype)
+    n = len(array)
+    edges = _count(array, limit)
+    if least >= 0 and births.min(initial=0.0) >= 0 and latest <= limit:
+        return Flag(n, births, array, None, limit, edges)
+    i, j = (np.concatenate(parts) for parts in zip(*_joined(array, limit)))
+    values = np.asarray(array[i, j], dtype=np.float64)
+    return Flag(n, births, None, (i, j, values), limit, edges)
+
+
+def of_sparse(matrix: Any, limit: float, size: int, upper_wins: bool,
+              births: NDArray[np.float64] | None = None) -> Flag:
+    """The filtration of a sparse matrix: what is stored is joined, zeros among it.
+
+    Both triangles are read. Of two entries of a pair the upper one counts; with `upper_wins` they
+    may differ.
+    """
+    coo = matrix.tocoo()
+    if coo.data.dtype.kind not in "biuf":
+        raise DataError(f"X: found entries of type {coo.data.dtype}, expected real numbers")
+    row, column = coo.row.astype(np.int64), coo.col.astype(np.int64)
+    values = _arrays.as_float64(coo.data, "X")
+    missing = np.isnan(values)
+    if missing.any():
+        k = int(np.argmax(missing))
+        raise DataError(f"X: row {row[k]}, column {column[k]}: found nan, expected a number")
+    on_diagonal = row == column
+    if births is None:
+        births = np.zeros(size)
+        births[row[on_diagonal]] = values[on_diagonal]
+    return of_pairs(row[~on_diagonal], column[~on_diagonal], values[~on_diagonal], limit, births,
+                    upper_wins)
+
+
+def of_pairs(row: NDArray[np.int64], column: NDArray[np.int64], values: NDArray[np.float64],
+             limit: float, births: NDArray[np.float64], upper_wins: bool) -> Flag:
+    """The filtration of some pairs."""
+    finite = values[np.isfinite(values)]
+    rounding = _ROUNDING * float(np.abs(finite).max(initial=0.0))
+    # `unique_pairs` prefers what is below the diagonal: of the transpose.
+    with np.errstate(invalid="ignore"):  # two infinite ones
+        i, j, values = unique_pairs(column, row, values, rounding,
+                                    "lower" if upper_wins else None, "")
+    keep = values <= limit
+    edges = int(np.count_nonzero(keep))
+    keep &= values < np.inf
+    return Flag(len(births), births, None, (i[keep], j[keep], values[keep]), limit, edges)
+
+
+def _refuse_nan(numbers: NDArray[Any], name: str) -> None:
+    if np.isnan(numbers).any():
+        raise DataError(f"{name}: entry {int(np.argmax(np.isnan(numbers)))}: found nan, expected a "
+                        "number")
+
+
+def _strips(array: NDArray[Any]) -> Any:
+    """The part above the diagonal, some rows at a time: where they begin and end, the square on
+    the diagonal with the upper triangle in both halves and zeros between them, what is right of
+    it."""
+    for begin in range(0, len(array), _STRIP):
+        end = min(begin + _STRIP, len(array))
+        corner = np.triu(array[begin:end, begin:end], 1)
+        corner += corner.T
+        yield begin, end, corner, array[begin:end, end:]
+
+
+def _scan(array: NDArray[Any], is_symmetric: bool) -> tuple[float, float]:
+    """The least number, at most 0, and the enclosing radius. Refuses NaN and asymmetry."""
+    n = len(array)
+    least = 0.0 if is_symmetric else float(array.min(initial=0.0))
+    farthest = np.zeros(n, dtype=array.dtype)
+    worst = _Unequal(0.0, 0, 0)
+    for begin, end, corner, right in _strips(array):
+        least = min(least, float(corner.min()), float(right.min(initial=0.0)))
+        here = farthest[begin:end]
+        np.maximum(here, corner.max(axis=1), out=here)
+        np.maximum(here, right.max(axis=1, initial=0.0), out=here)
+        np.maximum(farthest[end:], right.max(axis=0, initial=0.0), out=farthest[end:])
+        if is_symmetric:
+            square = array[begin:end, begin:end]
+            worst = max(worst, _unequal(corner, square, begin, begin),
+                        _unequal(right, array[end:, begin:end].T, begin, end))
+    if np.isnan(farthest).any():
+        i = int(np.argmax(np.isnan(farthest)))
+        j = int(np.argmax(np.isnan(array[i, i + 1:]))) + i + 1
+        raise DataError(f"X: row {i}, column {j}: found nan, expected a number")
+    largest = float(farthest[np.isfinite(farthest)].max(initial=0.0))
+    if worst.size > _ROUNDING * max(largest, -least if np.isfinite(least) else 0.0):
+        i, j = worst.i, worst.j
+        raise DataError(f"X: row {i}, column {j}: found {array[i, j]}, but {array[j, i]} in row {j}, "
+                        f"column {i}; expected both equal")
+    return least, float(farthest.min(initial=np.inf)) if n else 0.0
+
+
+class _Unequal(NamedTuple):
+    size: float
+    i: int
+    j: int
+
+
+def _unequal(upper: NDArray[Any], lower: NDArray[Any], row: int, column: int) -> _Unequal:
+    """Where the entries of pairs differ most; the diagonal does not count."""
+    differ = upper != lower
+    if row == column:
+        np.fill_diagonal(differ, False)
+    if not differ.any():
+        return _Unequal(0.0, 0, 0)
+    with np.errstate(invalid="ignore", over="ignore"):
+        sizes = np.where(differ, np.abs(upper - lower), 0)
+    sizes[np.isnan(sizes)] = np.inf
+    i, j = np.unravel_index(int(np.argmax(sizes)), sizes.shape)
+    i, j = sorted((int(i) + row, int(j) + column))
+    return _Unequal(float(sizes.max()), i, j)
+
+
+def _count(array: NDArray[Any], limit: float) -> int:
+    """Pairs of at most that value."""
+    return sum((int(np.count_nonzero(corner <= limit)) - (end - begin) * (limit >= 0)) // 2
+               + int(np.count_nonzero(right <= limit))
+               for begin, end, corner, right in _strips(array))
+
+
+def _joined(array: NDArray[Any], limit: float) -> Any:
+    """Rows and columns of the pairs that are joined, some rows at a time."""
+    yield np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
+    for begin in range(0, len(array), _STRIP):
+        rows = array[begin:begin + _STRIP]
+        i, j = np.nonzero((rows <= limit) & (rows < np.inf))
+        above = j > i + begin
+        yield i[above] + begin, j[above]
+
+
+# ---- bars
+
+
+def compute(flag: Flag, max_dim: int, dtype: np.dtype[Any], essential_last: bool,
+            **options: Any) -> Bars:
+    """The bars of a filtration, those of length zero left out."""
+    levels = None
+    births, limit = flag.births, flag.limit
+    if flag.matrix is not None:
+        # The transpose of the array: what is below its diagonal is read.
+        space = _core.MetricSpace.of_distances(flag.matrix.T, _core.Symmetrise.lower,
+                                               _core.NanPolicy.error, False)
+    else:
+        assert flag.pairs is not None
+        i, j, values = flag.pairs
+        if min(values.min(initial=0.0), births.min(initial=0.0)) < 0:
+            # libph has no distances below 0. Bars depend on the order of values alone.
+            levels, ranks = np.unique(np.concatenate([births, values]), return_inverse=True)
+            ranks = np.where(np.isinf(levels[ranks]) & (levels[ranks] > 0), np.inf, ranks)
+            births, values = np.split(ranks, [len(births)])
+        limit = np.inf
+        space = _core.MetricSpace.of_pairs(flag.size, i, j, np.ascontiguousarray(values))
+    source = Source(space, flag.size, None, births if births.any() else None)
+    barcode = rips(source, max_dim=max_dim, threshold=None if limit == np.inf else limit, **options)
+    return bars_of(barcode, max_dim, dtype, essential_last, levels)
+
+
+def bars_of(barcode: Barcode, max_dim: int, dtype: np.dtype[Any], essential_last: bool = False,
+            levels: NDArray[np.float64] | None = None) -> Bars:
+    """A barcode, rounded and in the order of `ordered`; of ranks of `levels` the levels."""
+    dgms, places = [], []
+    for dim in range(max_dim + 1):
+        dgm = barcode.dgm(dim)
+        if levels is not None:
+            is_finite = np.isfinite(dgm)
+            dgm[is_finite] = levels[dgm[is_finite].astype(np.int64)]
+        dgm = rounded(dgm, dtype)
+        order = ordered(dgm, dim, essential_last)
+        order = order[dgm[order, 0] != dgm[order, 1]]
+        dgms.append(dgm[order])
+        places.append(order + np.searchsorted(barcode.dims, dim))
+    return Bars(barcode, dgms, places)

@@ -1,0 +1,167 @@
+# SPDX-License-Identifier: MIT
+"""giotto-ph's interface over libph.
+
+>>> from libph.compat.gph import ripser_parallel
+>>> ripser_parallel(np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0, 1]]))["dgms"][1]
+array([[1.       , 1.4142135]], dtype=float32)
+
+The numbers are those of giotto-ph: of single precision, in its order. ``dtype=np.float64`` gives
+exact ones. Where libph answers otherwise on purpose is listed in docs/coming-from.md.
+"""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, DTypeLike, NDArray
+
+from ... import _arrays, _options, _run
+from ..._errors import NotBuiltIn, UsageError
+from .. import _flag
+from . import modules
+from ._weights import weighted
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from typing_extensions import Unpack
+
+    from ..._run import RunOptions
+
+__all__ = ["modules", "ripser_parallel"]
+
+
+def ripser_parallel(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int = 2,
+                    metric: Any = "euclidean", metric_params: Mapping[str, Any] = {},
+                    nearest_neighbors_params: Mapping[str, Any] = {},
+                    weights: ArrayLike | str | None = None,
+                    weight_params: Mapping[str, Any] | None = None, collapse_edges: bool = False,
+                    n_threads: int = 1, return_generators: bool = False, *,
+                    dtype: DTypeLike = np.float32, **run: Unpack[RunOptions]) -> dict[str, Any]:
+    """Diagrams of the Vietoris-Rips filtration, as giotto-ph gives them.
+
+    Parameters
+    ----------
+    X : array_like or sparse matrix
+        Points, one a row; with ``metric="precomputed"`` distances, with births on the diagonal. Of
+        a dense matrix what is above the diagonal is read, of a sparse one both triangles; the
+        upper one wins. What is not stored is never joined.
+    maxdim : int
+        The highest dimension of homology.
+    thresh : float
+        The largest distance at which points are joined.
+    coeff : int
+        A prime.
+    metric : str or callable
+        As of scikit-learn's `pairwise_distances`, or "precomputed".
+    metric_params : dict
+        More arguments for the metric.
+    nearest_neighbors_params : dict
+        Arguments for scikit-learn's `NearestNeighbors`, which finds the distances of points up to
+        a finite `thresh`.
+    weights : array_like or "DTM", optional
+        The diameters at which points enter; "DTM": twice the distance to a measure.
+    weight_params : dict, optional
+        "p": how balls grow from the birth of a point on, 1 (default), 2 or inf. For "DTM"
+        "n_neighbors": how many, the point not among them (3), and "r", the exponent of the mean
+        (2).
+    collapse_edges : bool
+        Whether edges are collapsed first whatever it takes. Otherwise they are where that saves
+        time. The bars are the same.
+    n_threads : int
+        -1: one for each core.
+    return_generators : bool
+        Whether the edges come along that give simplices their values.
+    dtype : {float32, float64}
+        The precision of the filtration, and of the diagrams.
+    **run
+        `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
+
+    Returns
+    -------
+    dict
+        `dgms`: a diagram for each dimension. With `return_generators` also `gens`, a tuple: of H0
+        rows vertex of birth, larger and smaller vertex of the edge of death; of each dimension
+        from 1 on rows edge of birth, edge of death; the vertices of bars of H0 that never die; of
+        each dimension from 1 on the edges of bars that never die.
+
+    Raises
+    ------
+    UsageError, DataError
+        Both are a ValueError.
+    NotBuiltIn
+        A NotImplementedError: for `collapse_edges` with `return_generators`, and other p.
+    """
+    _run.check_names("ripser_parallel", run)
+    if collapse_edges and return_generators:
+        raise NotBuiltIn("collapse_edges: found True with return_generators=True, expected one of "
+                         "the two; without collapse_edges edges are collapsed where that helps")
+    kind = _flag.precision(dtype)
+    limit, max_dim = _flag.threshold(thresh), _flag.dimension(maxdim)
+    if "threads" not in run:
+        run["threads"] = None if n_threads == -1 else _options.whole("n_threads", n_threads, 1)
+    distances = _distances(X, limit, metric, metric_params, nearest_neighbors_params,
+                           None if n_threads == -1 else n_threads)
+    births = None
+    if weights is not None:
+        distances, births = weighted(distances, weights, weight_params or {})
+    if _arrays.is_sparse(distances):
+        size = births.size if births is not None else max(distances.shape)
+        flag = _flag.of_sparse(distances, limit, size, upper_wins=True, births=births)
+    else:
+        flag = _flag.of_dense(distances, limit, kind, is_symmetric=False, births=births)
+    bars = _flag.compute(flag, max_dim, kind, True, field=coeff,
+                         collapse=True if collapse_edges else "auto", **run)
+    found: dict[str, Any] = {"dgms": [dgm.astype(kind) for dgm in bars.dgms]}
+    if return_generators:
+        found["gens"] = _generators(flag, bars)
+    return found
+
+
+def _distances(X: Any, limit: float, metric: Any, metric_params: Mapping[str, Any],
+               neighbors_params: Mapping[str, Any], jobs: int | None) -> Any:
+    """A matrix of distances, or a sparse one."""
+    if isinstance(metric, str) and metric == "precomputed":
+        if _arrays.is_sparse(X):
+            return X
+        matrix = _arrays.as_distances(X)
+        if matrix.ndim != 2:
+            raise UsageError(f"X: found an array of shape {matrix.shape}, expected a square matrix")
+        return matrix
+    try:
+        from sklearn.metrics import pairwise_distances
+        from sklearn.neighbors import NearestNeighbors
+    except ImportError:
+        raise NotBuiltIn("ripser_parallel: distances of points are those of scikit-learn, which is "
+                         "not installed; metric='precomputed' takes distances, ph.rips points"
+                         ) from None
+    if limit == np.inf:
+        return pairwise_distances(X, metric=metric, **metric_params)
+    near = NearestNeighbors(radius=limit, metric=metric, metric_params=metric_params, n_jobs=jobs,
+                            **neighbors_params).fit(X)
+    return near.radius_neighbors_graph(mode="distance")
+
+
+def _generators(flag: _flag.Flag, bars: _flag.Bars) -> tuple[Any, ...]:
+    """What stands for the simplices of birth and death: the edge of a simplex that comes last."""
+    finite, essential = [], []
+    for dim, dgm in enumerate(bars.dgms):
+        places = bars.places_in_dim(dim)
+        dies = np.isfinite(dgm[:, 1])
+        born = _edges(flag, bars.barcode.birth_cells(dim)[places])
+        killed = _edges(flag, bars.barcode.death_cells(dim)[places[dies]])
+        finite.append(np.column_stack([born[dies], killed]))
+        essential.append(born[~dies])
+    return finite[0], finite[1:], essential[0][:, 0], essential[1:]
+
+
+def _edges(flag: _flag.Flag, simplices: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Of each simplex the edge of the largest value, its larger vertex first; among equals the one
+    with the smallest larger, then smallest smaller vertex. Vertices stay as they are."""
+    count, vertices = simplices.shape
+    if vertices == 1:
+        return simplices
+    pairs = np.array([(a, b) for b in range(vertices) for a in range(b)])
+    values = flag.values(simplices[:, pairs[:, 0]], simplices[:, pairs[:, 1]])
+    chosen = pairs[np.argmax(values, axis=1)] if count else np.empty((0, 2), dtype=np.int64)
+    return np.take_along_axis(simplices, chosen[:, ::-1], axis=1)

@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: MIT
+"""persim's `plot_diagrams` and `bottleneck` over libph."""
+from __future__ import annotations
+
+import warnings
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .. import _arrays, _diagrams, _options
+from .._errors import NotBuiltIn, UsageError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+__all__ = ["bottleneck", "plot_diagrams"]
+
+
+def bottleneck(dgm1: ArrayLike, dgm2: ArrayLike, matching: bool = False) -> float:
+    """The bottleneck distance of bars that die; others are left out with a warning.
+
+    Parameters
+    ----------
+    dgm1, dgm2 : array_like
+        Rows birth, death; further columns are not looked at.
+    matching : bool
+        Not built in: the distance alone is computed.
+
+    Returns
+    -------
+    float
+    """
+    if _options.flag("matching", matching):
+        raise NotBuiltIn("matching: libph gives the distance alone; persim has the matching")
+    return float(_diagrams.bottleneck(_finite(dgm1, "dgm1"), _finite(dgm2, "dgm2")))
+
+
+def _finite(dgm: ArrayLike, name: str) -> NDArray[np.float64]:
+    rows = _arrays.as_float64(_arrays.as_array(dgm, name), name)
+    if rows.size == 0:
+        return np.empty((0, 2))
+    if rows.ndim != 2 or rows.shape[1] < 2:
+        raise UsageError(f"{name}: found an array of shape {rows.shape}, expected rows birth, death")
+    keep = np.isfinite(rows[:, 1])
+    if not keep.all():
+        warnings.warn(f"{name} has points with non-finite death times;ignoring those points",
+                      stacklevel=3)
+    return np.ascontiguousarray(rows[keep, :2])
+
+
+def plot_diagrams(diagrams: Any, plot_only: Any = None, title: str | None = None,
+                  xy_range: Any = None, labels: Any = None, colormap: str = "default",
+                  size: float = 20, ax_color: Any = "black", diagonal: bool = True,
+                  lifetime: bool = False, legend: bool = True, show: bool = False,
+                  ax: Axes | None = None) -> Axes:
+    """Draws diagrams with matplotlib.
+
+    Parameters
+    ----------
+    diagrams : ndarray or list of ndarray
+        Rows birth, death.
+    plot_only : list of int, optional
+        Which of them.
+    title : str, optional
+    xy_range : list of float, optional
+        The ends of the axes: left, right, bottom, top.
+    labels : str or list of str, optional
+        For the legend.
+    colormap : str
+        A style of matplotlib, for this picture; "default": the current settings.
+    size : float
+        Of the markers.
+    ax_color : color
+        Of the lines.
+    diagonal : bool
+        Whether the diagonal is drawn.
+    lifetime : bool
+        Whether death - birth is drawn in the place of death.
+    legend : bool
+    show : bool
+        Whether `matplotlib.pyplot.show` is called.
+    ax : Axes, optional
+        Where to draw. Default: the current one.
+
+    Returns
+    -------
+    Axes
+    """
+    import matplotlib.pyplot as plt
+    from contextlib import nullcontext
+    dgms = list(diagrams) if isinstance(diagrams, (list, tuple)) else [diagrams]
+    names = [f"$H_{{{k}}}$" for k in range(len(dgms))] if labels is None else labels
+    if plot_only is not None and len(plot_only):
+        dgms = [dgms[k] for k in plot_only]
+        names = [names[k] for k in plot_only] if isinstance(names, list) else names
+    if not isinstance(names, list):
+        names = [names] * len(dgms)
+    rows = [np.array(dgm, dtype=np.float64).reshape(-1, 2) for dgm in dgms]
+    with nullcontext() if colormap == "default" else plt.style.context(colormap):
+        ax = ax or plt.gca()
+        _draw(ax, rows, names, xy_range, size, ax_color, diagonal and not lifetime, lifetime)
+        if title is not None:
+            ax.set_title(title)
+        if legend and rows:
+            ax.legend(loc="lower right")
+    if show:
+        plt.show()
+    return ax
+
+
+def _draw(ax: Axes, dgms: list[NDArray[np.float64]], names: list[str], xy_range: Any, size: float,
+          color: Any, diagonal: bool, lifetime: bool) -> None:
+    numbers = np.concatenate([np.zeros(0), *(dgm.ravel() for dgm in dgms)])
+    finite = numbers[np.isfinite(numbers)]
+    if xy_range:
+        left, right, bottom, top = xy_range
+    else:
+        low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 1.0)
+        room = (high - low) / 5 or 1.0
+        left = bottom = low - room / 2
+        right = top = high + room
+    if lifetime:
+        height = top - bottom
+        bottom, top = -height / 20, height * 19 / 20
+        ax.plot([left, right], [0, 0], color=color)
+        dgms = [np.column_stack([dgm[:, 0], dgm[:, 1] - dgm[:, 0]]) for dgm in dgms]
+    if diagonal:
+        ax.plot([left, right], [left, right], "--", color=color)
+    if np.isinf(numbers).any():
+        infinity = bottom + (top - bottom) * 0.95
+        ax.plot([left, right], [infinity, infinity], "--", color="black", label=r"$\infty$")
+        dgms = [np.where(np.isinf(dgm), infinity, dgm) for dgm in dgms]
+    for dgm, name in zip(dgms, names):
+        ax.scatter(dgm[:, 0], dgm[:, 1], size, label=name, edgecolor="none")
+    ax.set(xlim=(left, right), ylim=(bottom, top), xlabel="Birth",
+           ylabel="Lifetime" if lifetime else "Death")
+    ax.set_aspect("equal", "box")

@@ -1,0 +1,260 @@
+# SPDX-License-Identifier: MIT
+"""ripser.py's interface over libph.
+
+>>> from libph.compat.ripser import ripser
+>>> ripser(np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0, 1]]))["dgms"][1]
+array([[1.        , 1.41421354]])
+
+The numbers are those of ripser.py: rounded to single precision, in its order. ``dtype=np.float64``
+gives exact ones. Where libph answers otherwise on purpose is listed in docs/coming-from.md.
+"""
+from __future__ import annotations
+
+import warnings
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, DTypeLike, NDArray
+
+from .. import _arrays, _run
+from .._compute import cubical
+from .._errors import DataError, NotBuiltIn, UsageError
+from . import _flag
+from .persim import plot_diagrams as plot_dgms
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from .._run import RunOptions
+    from ._ripser_class import Rips
+
+__all__ = ["Rips", "correlation_to_distance", "lower_star_img", "plot_dgms", "ripser"]
+
+
+def __getattr__(name: str) -> Any:
+    if name == "Rips":  # whose base class is scikit-learn's
+        from ._ripser_class import Rips
+        return Rips
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def ripser(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int = 2,
+           distance_matrix: bool = False, do_cocycles: bool = False, metric: Any = "euclidean",
+           n_perm: int | None = None, *, dtype: DTypeLike = np.float32,
+           **run: Unpack[RunOptions]) -> dict[str, Any]:
+    """Diagrams of the Vietoris-Rips filtration, and what ripser.py tells beside them.
+
+    Parameters
+    ----------
+    X : array_like or sparse matrix
+        Points, one a row; or distances, of which those above the diagonal are taken and numbers on
+        the diagonal are births.
+    maxdim : int
+        The highest dimension of homology; below 0: 0.
+    thresh : float
+        The largest distance at which points are joined.
+    coeff : int
+        A prime.
+    distance_matrix : bool
+        Whether X are distances.
+    do_cocycles : bool
+        Whether a cocycle comes with each bar of dimension 1 and above.
+    metric : str or callable
+        As of scikit-learn's `pairwise_distances`.
+    n_perm : int, optional
+        So many points are taken, each the farthest from those before.
+    dtype : {float32, float64}
+        The precision of the filtration.
+    **run
+        `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
+
+    Returns
+    -------
+    dict
+        `dgms`, `cocycles`: a list for each dimension; `num_edges`, `dperm2all`, `idx_perm`,
+        `r_cover`.
+
+    Raises
+    ------
+    UsageError, DataError
+        Both are a ValueError.
+    """
+    _run.check_names("ripser", run)
+    kind = _flag.precision(dtype)
+    if not hasattr(X, "shape"):
+        X = _arrays.as_array(X, "X")
+    if len(X.shape) != 2:
+        raise UsageError(f"X: found an array of shape {X.shape}, expected (points, coordinates), or "
+                         "a square matrix of distances")
+    _look_at_shape(X, distance_matrix, n_perm)
+    limit = _flag.last_rounded_to(_flag.threshold(thresh), kind)
+    max_dim = _flag.dimension(maxdim)
+
+    points = np.arange(X.shape[0])
+    covering = 0.0
+    distances: Any
+    if n_perm and n_perm < X.shape[0]:
+        points, covering, to_all = _farthest_points(X, n_perm, distance_matrix, metric)
+        distances = to_all[:, points]
+    else:
+        distances = to_all = X if distance_matrix else _pairwise(X, metric)
+    if _arrays.is_sparse(distances):
+        flag = _flag.of_sparse(distances, limit, distances.shape[0], upper_wins=False)
+    else:
+        flag = _flag.of_dense(distances, limit, kind, is_symmetric=to_all is X)
+    chains = "cocycles" if do_cocycles and max_dim else None
+    bars = _flag.compute(flag, max_dim, kind, False, field=coeff, representatives=chains, **run)
+    cocycles: list[list[NDArray[np.int64]]] = [[] for _ in bars.dgms]
+    if chains:
+        for dim in range(1, max_dim + 1):
+            cocycles[dim] = [_cocycle(bars, place, coeff, points) for place in bars.places[dim]]
+    return {"dgms": bars.dgms, "cocycles": cocycles, "num_edges": flag.edges, "dperm2all": to_all,
+            "idx_perm": points, "r_cover": covering}
+
+
+def _look_at_shape(X: Any, is_distances: bool, n_perm: int | None) -> None:
+    """ripser.py's warnings and errors."""
+    rows, columns = X.shape
+    if is_distances:
+        if rows != columns:
+            raise UsageError(f"Distance matrix is not square: found shape {X.shape}")
+    elif rows == columns:
+        warnings.warn("The input matrix is square, but the distance_matrix flag is off.  Did you "
+                      "mean to indicate that this was a distance matrix?", stacklevel=3)
+    elif rows < columns:
+        warnings.warn("The input point cloud has more columns than rows; did you mean to "
+                      "transpose?", stacklevel=3)
+    if not n_perm:
+        return
+    if is_distances and _arrays.is_sparse(X):
+        raise UsageError("Greedy permutation is not supported for sparse distance matrices")
+    if n_perm > rows:
+        raise UsageError("Number of points in greedy permutation is greater than number of points "
+                         f"in the point cloud: found {n_perm}, expected at most {rows}")
+    if n_perm < 0:
+        raise UsageError("Should be a strictly positive number of points in the greedy "
+                         f"permutation: found {n_perm}")
+
+
+def _pairwise(X: Any, metric: Any, *others: Any) -> NDArray[Any]:
+    """scikit-learn's distances: its Euclidean ones differ from others in the last digits."""
+    try:
+        from sklearn.metrics import pairwise_distances
+    except ImportError:
+        raise NotBuiltIn("ripser: distances of points are those of scikit-learn, which is not "
+                         "installed; distance_matrix=True takes distances, ph.rips points") from None
+    return pairwise_distances(X, *others, metric=metric)
+
+
+def _farthest_points(X: Any, count: int, is_distances: bool, metric: Any
+                     ) -> tuple[NDArray[np.int64], float, NDArray[Any]]:
+    """Points, their covering radius, and the distances of each to all."""
+    if is_distances:
+        X = _arrays.as_distances(X)
+
+    def row(i: int) -> NDArray[Any]:
+        if is_distances:
+            return X[i]
+        distances = _pairwise(X, metric, X[i:i + 1]).ravel()
+        distances[i] = 0
+        return distances
+
+    points = np.zeros(count, dtype=np.int64)
+    to_all = [row(0)]
+    nearest = to_all[0]
+    for k in range(1, count):
+        points[k] = np.argmax(nearest)
+        to_all.append(row(int(points[k])))
+        nearest = np.minimum(nearest, to_all[-1])
+    return points, nearest.max(), np.array(to_all)
+
+
+def _cocycle(bars: _flag.Bars, place: Any, p: int, points: NDArray[np.int64]) -> NDArray[np.int64]:
+    """A row for each simplex: its vertices, descending, and the coefficient from 0 to p - 1."""
+    chain = bars.barcode.representative(int(place))
+    return np.column_stack([points[chain.cells[:, ::-1]], chain.coefficients % p])
+
+
+def lower_star_img(img: ArrayLike, *, dtype: DTypeLike = np.float32, **run: Unpack[RunOptions]
+                   ) -> NDArray[np.float64]:
+    """H0 of the sublevel sets of a picture, whose pixels have eight neighbours.
+
+    Parameters
+    ----------
+    img : array_like
+        Numbers, of two axes.
+    dtype : {float32, float64}
+        The precision of the filtration.
+    **run
+        `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
+
+    Returns
+    -------
+    ndarray
+        Rows birth, death, by death.
+    """
+    _run.check_names("lower_star_img", run)
+    kind = _flag.precision(dtype)
+    image = _arrays.as_image(img, "img")
+    if image.ndim != 2:
+        raise UsageError(f"img: found an array of shape {image.shape}, expected two axes")
+    barcode = cubical(image, construction="cells", max_dim=0, cells=False, **run)
+    return _flag.bars_of(barcode, 0, kind).dgms[0]
+
+
+def correlation_to_distance(C: ArrayLike, check_input: bool = True) -> NDArray[np.float64]:
+    """Distances of correlations: the root of 2 (1 - c), from 0 to 2, and 0 on the diagonal.
+
+    Parameters
+    ----------
+    C : array_like
+        A symmetric matrix of correlations. What is beyond [-1, 1] is taken for its end.
+    check_input : bool
+        Whether C is looked at first.
+
+    Raises
+    ------
+    UsageError
+        If C is no square matrix.
+    DataError
+        If it is not symmetric, or has an entry below -1.05 or above 1.05, or NaN.
+
+    Warns
+    -----
+    RuntimeWarning
+        If an entry is beyond [-1, 1], or one on the diagonal is not 1.
+    """
+    correlations = _arrays.as_float64(_arrays.as_array(C, "C"), "C")
+    if check_input:
+        _look_at_correlations(correlations)
+    distances = np.clip(correlations, -1, 1)
+    np.subtract(1, distances, out=distances)
+    distances *= 2
+    np.sqrt(distances, out=distances)
+    np.fill_diagonal(distances, 0)
+    return distances
+
+
+def _look_at_correlations(C: NDArray[np.float64]) -> None:
+    if C.ndim != 2:
+        raise UsageError(f"Input must be a 2D matrix: found an array of shape {C.shape}")
+    if C.shape[0] != C.shape[1]:
+        raise UsageError(f"Matrix must be square: found shape {C.shape}")
+    if np.isnan(C).any():
+        i, j = np.argwhere(np.isnan(C))[0]
+        raise DataError(f"C: row {i}, column {j}: found nan, expected a number from -1 to 1")
+    if not np.allclose(C, C.T, rtol=1e-5, atol=1e-5):
+        i, j = np.argwhere(~np.isclose(C, C.T, rtol=1e-5, atol=1e-5))[0]
+        raise DataError(f"Matrix must be symmetric: row {i}, column {j}: found {C[i, j]}, but "
+                        f"{C[j, i]} in row {j}, column {i}")
+    largest = float(np.abs(C).max(initial=0.0))
+    if largest > 1.05:
+        raise DataError("Values are significantly outside the valid correlation bounds [-1,1]: "
+                        f"found {largest} in absolute value; a covariance matrix, or data?")
+    if largest > 1:
+        warnings.warn("Some values are slightly outside the valid correlation bounds [-1,1], "
+                      f"{largest} in absolute value. They are taken for the bounds.",
+                      RuntimeWarning, stacklevel=3)
+    if not np.allclose(np.diagonal(C), 1, atol=1e-3):
+        warnings.warn("The matrix diagonal elements deviate from 1.0. Are these correlations?",
+                      RuntimeWarning, stacklevel=3)
