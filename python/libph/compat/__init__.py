@@ -19,9 +19,9 @@ __all__ = ["install"]
 _MODULES = {
     "ripser": (),
     "gph": ("gph.modules", "gph.modules.gph_ripser", "gph.modules.gph_collapser"),
+    "cripser": ("tcripser",),
     "persim": (),
 }
-_BESIDE: dict[str, str] = {}
 
 
 def install(*names: str) -> None:
@@ -30,7 +30,7 @@ def install(*names: str) -> None:
     Parameters
     ----------
     *names : str
-        "ripser", "gph", "cripser" (with "tcripser"), "gudhi", "persim".
+        "ripser", "gph", "cripser" (with "tcripser"), "persim".
 
     Raises
     ------

@@ -33,7 +33,7 @@ class Flag(NamedTuple):
     matrix: NDArray[Any] | None  # above the diagonal distances; no number is below 0
     pairs: tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]] | None  # i < j, value
     limit: float
-    edges: int  # pairs of at most this value
+    edges: int  # what ripser.py calls num_edges
 
     def values(self, u: NDArray[np.int64], v: NDArray[np.int64]) -> NDArray[np.float64]:
         """The distances of pairs u < v; of pairs that are not joined -inf."""
@@ -146,12 +146,14 @@ def of_dense(matrix: Any, limit: float, dtype: np.dtype[Any], is_symmetric: bool
     _refuse_nan(births, "X: the diagonal")
     least, radius = _scan(array, is_symmetric)
     latest = float(births.max(initial=0.0))
+    edges = _count(array, limit) if limit < np.inf or births.any() else None
     if limit == np.inf:
         # Beyond it all is joined to one point, and there is one component.
         limit = max(radius, latest) if latest < np.inf else np.inf
         limit = last_rounded_to(limit, dtype)
     n = len(array)
-    edges = _count(array, limit)
+    if edges is None:
+        edges = _count(array, limit)
     if least >= 0 and births.min(initial=0.0) >= 0 and latest <= limit:
         return Flag(n, births, array, None, limit, edges)
     i, j = (np.concatenate(parts) for parts in zip(*_joined(array, limit)))

@@ -150,7 +150,7 @@ def _farthest_points(X: Any, count: int, is_distances: bool, metric: Any
                      ) -> tuple[NDArray[np.int64], float, NDArray[Any]]:
     """Points, their covering radius, and the distances of each to all."""
     if is_distances:
-        X = _arrays.as_distances(X)
+        X = _arrays.as_array(X, "X")
 
     def row(i: int) -> NDArray[Any]:
         if is_distances:
@@ -166,7 +166,7 @@ def _farthest_points(X: Any, count: int, is_distances: bool, metric: Any
         points[k] = np.argmax(nearest)
         to_all.append(row(int(points[k])))
         nearest = np.minimum(nearest, to_all[-1])
-    return points, nearest.max(), np.array(to_all)
+    return points, np.float64(nearest.max()), np.array(to_all)
 
 
 def _cocycle(bars: _flag.Bars, place: Any, p: int, points: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -1,0 +1,210 @@
+# SPDX-License-Identifier: MIT
+"""CubicalRipser's interface over libph: the package cripser.
+
+>>> from libph.compat import cripser
+>>> ring = np.array([[9, 9, 9, 9, 9], [9, 1, 1, 1, 9], [9, 1, 7, 1, 9], [9, 1, 1, 1, 9],
+...                  [9, 9, 9, 9, 9.0]])
+>>> cripser.computePH(ring)[1]
+array([1., 1., 7., 3., 2., 0., 2., 2., 0.])
+
+Where libph answers otherwise on purpose is listed in docs/coming-from.md.
+"""
+from __future__ import annotations
+
+import itertools
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .. import _arrays, _options, _run
+from .._compute import cubical
+from .._core import version as __version__
+from .._errors import UsageError
+from ._flag import ordered
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from .._run import RunOptions
+
+__all__ = ["__version__", "computePH", "computePH_T", "compute_ph", "group_by_dim",
+           "to_gudhi_diagrams", "to_gudhi_persistence"]
+
+_NEVER = np.finfo(np.float64).max  # the death of a bar that does not die
+
+
+def computePH(arr: ArrayLike, maxdim: int = 2, top_dim: bool = False, embedded: bool = False,
+              location: str = "yes", **run: Unpack[RunOptions]) -> NDArray[np.float64]:
+    """The barcode of an image whose voxels are vertices.
+
+    Parameters
+    ----------
+    arr : array_like
+        Numbers of voxels, of one to four axes.
+    maxdim : int
+        The highest dimension of homology.
+    top_dim : bool
+        Whether the highest dimension alone is reported: the number of axes less one.
+    embedded : bool
+        Whether the image is negated and surrounded by a layer of -inf. Its barcode is dual to that
+        of the other construction.
+    location : str
+        Has no effect, as in cripser: both locations are always reported.
+    **run
+        `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
+
+    Returns
+    -------
+    ndarray
+        A row for each bar: dimension, birth, death, then the three coordinates of the voxel that
+        has the value of the birth, then those of the death; of images of four axes four each. A bar
+        that never dies has the largest double for its death, and zeros for its coordinates. A birth
+        at -inf is minus that number. Voxels of the layer of `embedded` have coordinates -1, or the
+        extent of the image. H0 by death, others by descending birth.
+    """
+    return _rows("computePH", arr, "vertices", maxdim, top_dim, embedded, run)
+
+
+def computePH_T(arr: ArrayLike, maxdim: int = 2, top_dim: bool = False, embedded: bool = False,
+                location: str = "yes", **run: Unpack[RunOptions]) -> NDArray[np.float64]:
+    """The barcode of an image whose voxels are cubes of the highest dimension.
+
+    Parameters and result are those of `computePH`.
+    """
+    return _rows("computePH", arr, "cells", maxdim, top_dim, embedded, run)
+
+
+def compute_ph(arr: ArrayLike, *, filtration: str = "V", maxdim: int = 3, top_dim: bool = False,
+               embedded: bool = False, location: str = "yes", **run: Unpack[RunOptions]
+               ) -> NDArray[np.float64]:
+    """`computePH` for the filtration "V", `computePH_T` for "T".
+
+    Other parameters and the result are those of `computePH`.
+    """
+    name = _options.choice("filtration", str(filtration).upper(), ["V", "T"])
+    construction = {"V": "vertices", "T": "cells"}[name]
+    return _rows("compute_ph", arr, construction, maxdim, top_dim, embedded, run)
+
+
+def _rows(function: str, arr: ArrayLike, construction: str, maxdim: int, top_dim: bool,
+          embedded: bool, run: Any) -> NDArray[np.float64]:
+    _run.check_names(function, run)
+    image = _arrays.as_image(arr, "arr")
+    axes = image.ndim
+    if axes > 4:
+        raise UsageError(f"arr: found an array of shape {image.shape}, expected 1 to 4 axes; "
+                         "ph.cubical takes up to 8")
+    highest = min(_options.whole("maxdim", maxdim, 0), axes - 1)
+    lowest = axes - 1 if _options.flag("top_dim", top_dim) else 0
+    if lowest:
+        highest = lowest
+    if _options.flag("embedded", embedded):
+        image = np.pad(-_arrays.as_float64(image, "arr"), 1, constant_values=-np.inf)
+    barcode = cubical(image, construction=construction, min_dim=lowest, max_dim=highest, **run)
+    tables = [_table(barcode, dim, image, construction == "vertices", 1 if embedded else 0)
+              for dim in range(lowest, highest + 1)]
+    return np.concatenate(tables)
+
+
+def _table(barcode: Any, dim: int, image: NDArray[Any], is_vertices: bool, margin: int
+           ) -> NDArray[np.float64]:
+    """The rows of a dimension."""
+    dgm = barcode.dgm(dim)
+    order = ordered(dgm, dim)
+    dgm = dgm[order]
+    width = max(3, image.ndim)
+    rows = np.zeros((len(dgm), 3 + 2 * width))
+    rows[:, 0] = dim
+    rows[:, 1:3] = np.clip(dgm, -_NEVER, _NEVER)
+    dies = np.isfinite(dgm[:, 1])
+    born = barcode.birth_cells(dim)[order]
+    killed = barcode.death_cells(dim)[order[dies]]
+    rows[:, 3:3 + image.ndim] = _deciding_voxels(born, image, is_vertices) - margin
+    rows[dies, 3 + width:3 + width + image.ndim] = \
+        _deciding_voxels(killed, image, is_vertices) - margin
+    return rows
+
+
+def _deciding_voxels(cells: NDArray[np.int64], image: NDArray[Any], is_vertices: bool
+                     ) -> NDArray[np.int64]:
+    """Of each cell, in doubled grid coordinates, the voxel whose value it has.
+
+    The largest among its vertices, or the smallest among the cubes around it; the first among
+    equals.
+    """
+    if not len(cells):
+        return np.empty((0, image.ndim), dtype=np.int64)
+    if is_vertices:
+        low, high = cells // 2, (cells + 1) // 2
+    else:
+        extents = np.array(image.shape)
+        low, high = np.maximum((cells - 1) // 2, 0), np.minimum(cells // 2, extents - 1)
+    best, values = low, image[tuple(low.T)]
+    for upper in itertools.product((False, True), repeat=image.ndim):
+        voxels = np.where(upper, high, low)
+        found = image[tuple(voxels.T)]
+        better = found > values if is_vertices else found < values
+        best = np.where(better[:, None], voxels, best)
+        values = np.where(better, found, values)
+    return best
+
+
+# ---- the rows for other programs
+
+
+def _bars_of(ph: ArrayLike, columns: int) -> NDArray[np.float64]:
+    rows = np.asarray(ph, dtype=np.float64)
+    if rows.ndim != 2 or rows.shape[1] < columns:
+        raise UsageError(f"ph: found an array of shape {rows.shape}, expected rows of computePH")
+    return rows
+
+
+def _without_bounds(numbers: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.where(numbers >= _NEVER / 2, np.inf, numbers)
+
+
+def to_gudhi_diagrams(ph: ArrayLike, *, maxdim: int | None = None, include_empty: bool = True
+                      ) -> list[NDArray[np.float64]]:
+    """A diagram for each dimension: rows birth, death, with inf for bars that never die.
+
+    Parameters
+    ----------
+    ph : array_like
+        Rows of `computePH`.
+    maxdim : int, optional
+        The highest dimension. Default: the highest there is.
+    include_empty : bool
+        Whether dimensions without bars have a diagram, too.
+    """
+    rows = _bars_of(ph, 3)
+    if maxdim is None:
+        maxdim = int(rows[:, 0].max(initial=0))
+    dgms = [rows[rows[:, 0] == dim, 1:3] for dim in range(maxdim + 1)]
+    return [np.column_stack([dgm[:, 0], _without_bounds(dgm[:, 1])]) for dgm in dgms
+            if include_empty or len(dgm)]
+
+
+def to_gudhi_persistence(ph: ArrayLike) -> list[tuple[int, tuple[float, float]]]:
+    """The bars as GUDHI lists them: dimension and (birth, death), in the order of the rows.
+
+    Parameters
+    ----------
+    ph : array_like
+        Rows of `computePH`.
+    """
+    rows = _bars_of(ph, 3)
+    return [(int(dim), (birth, death)) for dim, birth, death in
+            zip(rows[:, 0].tolist(), rows[:, 1].tolist(), _without_bounds(rows[:, 2]).tolist())]
+
+
+def group_by_dim(ph: ArrayLike) -> list[NDArray[np.float64]]:
+    """The rows of each dimension.
+
+    Parameters
+    ----------
+    ph : array_like
+        Rows of `computePH`, of 9 or 11 columns.
+    """
+    rows = _bars_of(ph, 9)
+    return [rows[rows[:, 0] == dim] for dim in range(int(rows[:, 0].max(initial=0)) + 1)]

@@ -1,0 +1,6 @@
+# SPDX-License-Identifier: MIT
+"""CubicalRipser's module tcripser over libph: voxels are cubes of the highest dimension."""
+from .._core import version as __version__
+from .cripser import computePH_T as computePH
+
+__all__ = ["__version__", "computePH"]
