@@ -20,6 +20,9 @@ _MODULES = {
     "ripser": (),
     "gph": ("gph.modules", "gph.modules.gph_ripser", "gph.modules.gph_collapser"),
     "cripser": ("tcripser",),
+    "gudhi": ("gudhi.hera", "gudhi.sklearn", "gudhi.flag_filtration",
+              "gudhi.flag_filtration.edge_collapse", "gudhi.dtm_rips_complex",
+              "gudhi.weighted_rips_complex"),
     "persim": (),
 }
 
@@ -30,7 +33,7 @@ def install(*names: str) -> None:
     Parameters
     ----------
     *names : str
-        "ripser", "gph", "cripser" (with "tcripser"), "persim".
+        "ripser", "gph", "cripser" (with "tcripser"), "gudhi", "persim".
 
     Raises
     ------

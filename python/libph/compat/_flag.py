@@ -325,3 +325,20 @@ def bars_of(barcode: Barcode, max_dim: int, dtype: np.dtype[Any], essential_last
         dgms.append(dgm[order])
         places.append(order + np.searchsorted(barcode.dims, dim))
     return Bars(barcode, dgms, places)
+
+
+def youngest_edges(values_of: Any, simplices: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Of each simplex the edge of the largest value, its larger vertex first; among equals the one
+    with the smallest larger, then smallest smaller vertex. Vertices stay as they are.
+
+    `values_of` tells the values of pairs u < v.
+    """
+    count, vertices = simplices.shape
+    if vertices == 1:
+        return simplices
+    if not count:
+        return np.empty((0, 2), dtype=np.int64)
+    pairs = np.array([(a, b) for b in range(vertices) for a in range(b)])
+    values = values_of(simplices[:, pairs[:, 0]], simplices[:, pairs[:, 1]])
+    chosen = pairs[np.argmax(values, axis=1)]
+    return np.take_along_axis(simplices, chosen[:, ::-1], axis=1)

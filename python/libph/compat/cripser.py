@@ -11,7 +11,6 @@ Where libph answers otherwise on purpose is listed in docs/coming-from.md.
 """
 from __future__ import annotations
 
-import itertools
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,6 +21,7 @@ from .._compute import cubical
 from .._core import version as __version__
 from .._errors import UsageError
 from ._flag import ordered
+from ._images import deciding_voxels
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -120,34 +120,10 @@ def _table(barcode: Any, dim: int, image: NDArray[Any], is_vertices: bool, margi
     dies = np.isfinite(dgm[:, 1])
     born = barcode.birth_cells(dim)[order]
     killed = barcode.death_cells(dim)[order[dies]]
-    rows[:, 3:3 + image.ndim] = _deciding_voxels(born, image, is_vertices) - margin
+    rows[:, 3:3 + image.ndim] = deciding_voxels(born, image, is_vertices) - margin
     rows[dies, 3 + width:3 + width + image.ndim] = \
-        _deciding_voxels(killed, image, is_vertices) - margin
+        deciding_voxels(killed, image, is_vertices) - margin
     return rows
-
-
-def _deciding_voxels(cells: NDArray[np.int64], image: NDArray[Any], is_vertices: bool
-                     ) -> NDArray[np.int64]:
-    """Of each cell, in doubled grid coordinates, the voxel whose value it has.
-
-    The largest among its vertices, or the smallest among the cubes around it; the first among
-    equals.
-    """
-    if not len(cells):
-        return np.empty((0, image.ndim), dtype=np.int64)
-    if is_vertices:
-        low, high = cells // 2, (cells + 1) // 2
-    else:
-        extents = np.array(image.shape)
-        low, high = np.maximum((cells - 1) // 2, 0), np.minimum(cells // 2, extents - 1)
-    best, values = low, image[tuple(low.T)]
-    for upper in itertools.product((False, True), repeat=image.ndim):
-        voxels = np.where(upper, high, low)
-        found = image[tuple(voxels.T)]
-        better = found > values if is_vertices else found < values
-        best = np.where(better[:, None], voxels, best)
-        values = np.where(better, found, values)
-    return best
 
 
 # ---- the rows for other programs

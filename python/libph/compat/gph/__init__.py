@@ -18,8 +18,8 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from ... import _arrays, _options, _run
 from ..._errors import NotBuiltIn, UsageError
 from .. import _flag
+from .._weights import weighted
 from . import modules
-from ._weights import weighted
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -148,20 +148,9 @@ def _generators(flag: _flag.Flag, bars: _flag.Bars) -> tuple[Any, ...]:
     for dim, dgm in enumerate(bars.dgms):
         places = bars.places_in_dim(dim)
         dies = np.isfinite(dgm[:, 1])
-        born = _edges(flag, bars.barcode.birth_cells(dim)[places])
-        killed = _edges(flag, bars.barcode.death_cells(dim)[places[dies]])
+        born = _flag.youngest_edges(flag.values, bars.barcode.birth_cells(dim)[places])
+        killed = _flag.youngest_edges(flag.values,
+                                      bars.barcode.death_cells(dim)[places[dies]])
         finite.append(np.column_stack([born[dies], killed]))
         essential.append(born[~dies])
     return finite[0], finite[1:], essential[0][:, 0], essential[1:]
-
-
-def _edges(flag: _flag.Flag, simplices: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Of each simplex the edge of the largest value, its larger vertex first; among equals the one
-    with the smallest larger, then smallest smaller vertex. Vertices stay as they are."""
-    count, vertices = simplices.shape
-    if vertices == 1:
-        return simplices
-    pairs = np.array([(a, b) for b in range(vertices) for a in range(b)])
-    values = flag.values(simplices[:, pairs[:, 0]], simplices[:, pairs[:, 1]])
-    chosen = pairs[np.argmax(values, axis=1)] if count else np.empty((0, 2), dtype=np.int64)
-    return np.take_along_axis(simplices, chosen[:, ::-1], axis=1)

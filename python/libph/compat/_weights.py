@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ... import _arrays, _options
-from ..._errors import DataError, NotBuiltIn, UsageError
+from .. import _arrays, _options
+from .._errors import DataError, NotBuiltIn, UsageError
 
 _STRIP = 512  # rows of a matrix that are computed together
 
@@ -44,11 +44,11 @@ def weighted(distances: Any, weights: ArrayLike | str, params: Mapping[str, Any]
     mirrored = np.triu(distances, 1).astype(np.float64, copy=False)
     mirrored += mirrored.T
     _refuse_negative(mirrored)
-    births = _distance_to_measure(lambda i: mirrored[i], n, params) if isinstance(weights, str) \
+    births = distance_to_measure(lambda i: mirrored[i], n, params) if isinstance(weights, str) \
         else _given(weights, n)
     for begin in range(0, n, _STRIP):
         rows = slice(begin, begin + _STRIP)
-        mirrored[rows] = _meeting(mirrored[rows], births[rows, None], births, p)
+        mirrored[rows] = meeting(mirrored[rows], births[rows, None], births, p)
     return mirrored, births
 
 
@@ -73,10 +73,10 @@ def _of_sparse(matrix: Any, weights: ArrayLike | str, p: float, params: Mapping[
         order = np.argsort(ends, kind="stable")
         begins = np.searchsorted(ends[order], np.arange(n + 1))
         both = both[order]
-        births = _distance_to_measure(lambda k: both[begins[k]:begins[k + 1]], n, params, False)
+        births = distance_to_measure(lambda k: both[begins[k]:begins[k + 1]], n, params, False)
     else:
         births = _given(weights, n)
-    return coo_matrix((_meeting(values, births[i], births[j], p), (i, j)), shape=(n, n)), births
+    return coo_matrix((meeting(values, births[i], births[j], p), (i, j)), shape=(n, n)), births
 
 
 def _refuse_negative(values: NDArray[Any]) -> None:
@@ -93,7 +93,7 @@ def _given(weights: ArrayLike, n: int) -> NDArray[np.float64]:
     return births
 
 
-def _distance_to_measure(distances_of: Any, n: int, params: Mapping[str, Any],
+def distance_to_measure(distances_of: Any, n: int, params: Mapping[str, Any],
                          has_itself: bool = True) -> NDArray[np.float64]:
     """Twice the mean, of exponent r, of the distances to the nearest points and to itself."""
     neighbours = _options.whole("weight_params: n_neighbors", params.get("n_neighbors", 3), 1)
@@ -111,7 +111,7 @@ def _distance_to_measure(distances_of: Any, n: int, params: Mapping[str, Any],
     return births
 
 
-def _meeting(d: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np.float64], p: float
+def meeting(d: NDArray[np.float64], a: NDArray[np.float64], b: NDArray[np.float64], p: float
              ) -> NDArray[np.float64]:
     """When balls meet that are born at a and b: the t with
     2 d = (t**p - a**p)**(1/p) + (t**p - b**p)**(1/p), or the later birth if they meet before it."""

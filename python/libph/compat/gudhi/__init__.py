@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: MIT
+"""A part of GUDHI's interface over libph: Rips and cubical complexes, bottleneck distance.
+
+>>> from libph.compat import gudhi
+>>> tree = gudhi.RipsComplex(points=[[0, 0], [1, 0], [1, 1], [0, 1]]).create_simplex_tree(2)
+>>> tree.persistence(min_persistence=0.4)[0]
+(1, (1.0, 1.4142135623730951))
+
+What is not here raises `NotBuiltIn`. What is answered otherwise on purpose is listed in
+docs/coming-from.md.
+"""
+from __future__ import annotations
+
+from typing import Any, NoReturn
+
+from ..._core import version as __version__
+from ..._errors import NotBuiltIn
+from ._cubical import CubicalComplex, PeriodicCubicalComplex
+from ._trees import DTMRipsComplex, FlagTree, RipsComplex, WeightedRipsComplex
+from .hera import bottleneck_distance as _bottleneck
+
+__all__ = ["CubicalComplex", "DTMRipsComplex", "FlagTree", "PeriodicCubicalComplex", "RipsComplex",
+           "WeightedRipsComplex", "__version__", "bottleneck_distance"]
+
+_ELSEWHERE = {
+    "AlphaComplex", "CoverComplex", "DelaunayCechComplex", "DelaunayComplex",
+    "EuclideanStrongWitnessComplex", "EuclideanWitnessComplex", "SimplexTree",
+    "StrongWitnessComplex", "TangentialComplex", "WitnessComplex", "plot_persistence_barcode",
+    "plot_persistence_density", "plot_persistence_diagram", "read_lower_triangular_matrix_from_csv_file",
+    "read_persistence_intervals_grouped_by_dimension", "read_persistence_intervals_in_dimension",
+    "read_points_from_off_file"}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _ELSEWHERE:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+    def missing(*arguments: Any, **options: Any) -> NoReturn:
+        raise NotBuiltIn(f"{name}: libph has no such thing; GUDHI has it")
+
+    return missing
+
+
+def bottleneck_distance(diagram_1: Any, diagram_2: Any, e: float | None = None) -> float:
+    """The bottleneck distance of two diagrams.
+
+    Parameters
+    ----------
+    diagram_1, diagram_2 : array_like
+        Rows birth, death.
+    e : float, optional
+        The error that is allowed; there is none.
+
+    Returns
+    -------
+    float
+    """
+    return _bottleneck(diagram_1, diagram_2, 0.0 if e is None else e)

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: MIT
+"""What GUDHI's complexes tell of their bars."""
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ... import _options
+from ..._barcode import Barcode
+from ..._errors import UsageError
+
+
+class _OrderError(UsageError, RuntimeError):
+    """GUDHI has a RuntimeError where nothing is computed yet."""
+
+
+class Persistence:
+    """Bars, once they are computed."""
+
+    def __init__(self) -> None:
+        self._found: Barcode | None = None
+        self._dims = 0
+        self._above: NDArray[np.float64] | None = None
+
+    def _keep(self, barcode: Barcode, dims: int, above: NDArray[np.float64] | None = None) -> None:
+        """Bars of so many dimensions; `above`: births of bars that never die, of the last one."""
+        self._found, self._dims, self._above = barcode, dims, above
+
+    def _is_persistence_defined(self) -> bool:
+        return self._found is not None
+
+    def _barcode(self, asked: str) -> Barcode:
+        if self._found is None:
+            raise _OrderError(f"{asked}: compute_persistence() must be called first")
+        return self._found
+
+    def _order(self, dim: int) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+        """The order of the bars of a dimension: by death, those that never die by birth; and which
+        of them die."""
+        births, deaths = self._barcode("order").dgm(dim).T
+        order = np.lexsort((births, deaths))
+        return order, np.isfinite(deaths[order])
+
+    def _dgm(self, dim: int) -> NDArray[np.float64]:
+        if self._above is not None and dim == self._dims - 1:
+            return np.column_stack([self._above, np.full(len(self._above), np.inf)])
+        return self._barcode("dgm").dgm(dim)[self._order(dim)[0]]
+
+    def _listed(self) -> list[tuple[int, tuple[float, float]]]:
+        bars: list[tuple[int, tuple[float, float]]] = []
+        for dim in reversed(range(self._dims)):
+            dgm = self._dgm(dim)
+            longest = np.argsort(dgm[:, 0] - dgm[:, 1], kind="stable")
+            bars += [(dim, (birth, death)) for birth, death in dgm[longest].tolist()]
+        return bars
+
+    def persistence_intervals_in_dimension(self, dimension: int) -> NDArray[np.float64]:
+        """The bars of a dimension: rows birth, death, by death."""
+        self._barcode("persistence_intervals_in_dimension")
+        if not 0 <= _options.whole("dimension", dimension, -2**31) < self._dims:
+            return np.empty((0, 2))
+        return self._dgm(dimension)
+
+    def betti_numbers(self) -> list[int]:
+        """How many bars of each dimension never die."""
+        self._barcode("betti_numbers")
+        return [int(np.isinf(self._dgm(dim)[:, 1]).sum()) for dim in range(self._dims)]
+
+    def persistent_betti_numbers(self, from_value: float, to_value: float) -> list[int]:
+        """How many bars of each dimension are born up to `from_value` and die after `to_value`."""
+        self._barcode("persistent_betti_numbers")
+        born = _options.real("from_value", from_value)
+        alive = _options.real("to_value", to_value)
+        return [int(((dgm[:, 0] <= born) & (dgm[:, 1] > alive)).sum())
+                for dgm in map(self._dgm, range(self._dims))]

@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: MIT
+"""GUDHI's classes for scikit-learn: lists of clouds or images in, lists of diagrams out."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from joblib import Parallel, delayed, effective_n_jobs
+from numpy.typing import NDArray
+from sklearn.base import BaseEstimator, TransformerMixin
+
+from ... import _arrays, _options
+from ..._compute import cubical, rips
+from ..._errors import UsageError
+
+__all__ = ["CubicalPersistence", "RipsPersistence"]
+
+_RIPS_INPUTS = ["point cloud", "full distance matrix", "lower distance matrix",
+                "distance coo_matrix"]
+
+
+class _DiagramsOfEach(TransformerMixin, BaseEstimator):
+    """Takes samples one by one, in threads."""
+
+    homology_dimensions: int | Sequence[int]
+    n_jobs: int | None
+
+    def fit(self, X: Any, y: Any = None) -> Any:
+        """Looks at the parameters; there is nothing to learn."""
+        self._dims()
+        return self
+
+    def transform(self, X: Any, y: Any = None) -> list[Any]:
+        """The diagrams of each sample: one, or a list if `homology_dimensions` is a list."""
+        dims = self._dims()
+        options: dict[str, Any] = {"threads": 1} if effective_n_jobs(self.n_jobs) > 1 else {}
+        found = Parallel(n_jobs=self.n_jobs, prefer="threads")(
+            delayed(self._diagrams)(x, dims, options) for x in X)
+        return [dgms[0] for dgms in found] if np.ndim(self.homology_dimensions) == 0 else found
+
+    def _dims(self) -> list[int]:
+        if np.ndim(self.homology_dimensions) > 1:
+            raise _options.refuse("homology_dimensions", self.homology_dimensions,
+                                  "a dimension, or a list of some")
+        return [_options.whole("homology_dimensions", dim, 0)
+                for dim in np.atleast_1d(np.asarray(self.homology_dimensions)).tolist()]
+
+    def _diagrams(self, x: Any, dims: list[int], options: dict[str, Any]
+                  ) -> list[NDArray[Any]]:
+        raise NotImplementedError
+
+    def get_feature_names_out(self, input_features: Any = None) -> list[str]:
+        """Names of columns: H0, H1, ..."""
+        return [f"H{dim}" for dim in self._dims()]
+
+
+def _by_death(dgm: NDArray[np.float64]) -> NDArray[np.float64]:
+    return dgm[np.lexsort((dgm[:, 0], dgm[:, 1]))]
+
+
+class RipsPersistence(_DiagramsOfEach):
+    """Diagrams of Rips filtrations.
+
+    Parameters
+    ----------
+    homology_dimensions : int or list of int
+        Of one dimension each sample has a diagram, of a list a list.
+    threshold : float
+        The largest distance at which points are joined; not of a "distance coo_matrix".
+    input_type : {"point cloud", "full distance matrix", "lower distance matrix", \
+"distance coo_matrix"}
+        What each sample is. Of a lower matrix the upper triangle is not read; a sparse one has each
+        pair once.
+    num_collapses : int or "auto"
+        0: edges are not collapsed; above: they are.
+    homology_coeff_field : int
+        A prime.
+    n_jobs : int, optional
+        Samples at a time, as of joblib.
+    """
+
+    def __init__(self, homology_dimensions: int | Sequence[int] = 0, threshold: float = np.inf,
+                 input_type: str = "point cloud", num_collapses: int | str = "auto",
+                 homology_coeff_field: int = 11, n_jobs: int | None = None) -> None:
+        self.homology_dimensions = homology_dimensions
+        self.threshold = threshold
+        self.input_type = input_type
+        self.num_collapses = num_collapses
+        self.homology_coeff_field = homology_coeff_field
+        self.n_jobs = n_jobs
+
+    def _diagrams(self, x: Any, dims: list[int], options: dict[str, Any]) -> list[NDArray[Any]]:
+        kind = _options.choice("input_type", self.input_type, _RIPS_INPUTS)
+        if kind != "distance coo_matrix" and self.threshold != np.inf:
+            options = {**options, "threshold": self.threshold}
+        if kind == "point cloud":
+            x = _arrays.as_points(x)
+        else:
+            options = {**options, "metric": "precomputed"}
+            if kind == "lower distance matrix":
+                x = _lower(x)
+        if self.num_collapses != "auto":
+            options["collapse"] = _options.whole("num_collapses", self.num_collapses, 0) > 0
+        barcode = rips(x, max_dim=max(dims), field=self.homology_coeff_field, **options)
+        return [_by_death(barcode.dgm(dim)) for dim in dims]
+
+
+def _lower(x: Any) -> NDArray[np.float64]:
+    """The square of a matrix's lower triangle, or of its rows."""
+    n = len(x)
+    square = np.zeros((n, n))
+    for i in range(n):
+        if len(x[i]) < i:
+            raise UsageError(f"X: row {i}: found {len(x[i])} numbers, expected at least {i}")
+        square[i, :i] = x[i][:i]
+    return square + square.T
+
+
+class CubicalPersistence(_DiagramsOfEach):
+    """Diagrams of images.
+
+    Parameters
+    ----------
+    homology_dimensions : int or list of int
+        Of one dimension each sample has a diagram, of a list a list.
+    input_type : {"top_dimensional_cells", "vertices"}
+        What the values belong to.
+    homology_coeff_field : int
+        A prime.
+    min_persistence : float
+        Bars with death - birth <= this are left out; below 0: none are.
+    n_jobs : int, optional
+        Samples at a time, as of joblib.
+    """
+
+    def __init__(self, homology_dimensions: int | Sequence[int] = 0,
+                 input_type: str = "top_dimensional_cells", homology_coeff_field: int = 11,
+                 min_persistence: float = 0.0, n_jobs: int | None = None) -> None:
+        self.homology_dimensions = homology_dimensions
+        self.input_type = input_type
+        self.homology_coeff_field = homology_coeff_field
+        self.min_persistence = min_persistence
+        self.n_jobs = n_jobs
+
+    def _diagrams(self, x: Any, dims: list[int], options: dict[str, Any]) -> list[NDArray[Any]]:
+        kind = _options.choice("input_type", self.input_type, ["top_dimensional_cells", "vertices"])
+        image = _arrays.as_image(x, "X")
+        barcode = cubical(image, construction="vertices" if kind == "vertices" else "cells",
+                          max_dim=max(dims), field=self.homology_coeff_field,
+                          min_persistence=self.min_persistence, cells=False, **options)
+        dtype = np.float32 if image.dtype == np.float32 else np.float64
+        return [_by_death(barcode.dgm(dim)).astype(dtype, copy=False) for dim in dims]
