@@ -256,7 +256,7 @@ def test_warnings():
     (SQUARE, {"thresh": np.nan}, "thresh: found nan"),
     (SQUARE, {"maxdim": 1.5}, "maxdim: found 1.5"),
     (SQUARE, {"dtype": int}, "dtype: found"),
-    (np.empty((0, 0)), {}, "0 feature"),
+    (np.empty((0, 0)), {}, "0 sample"),
     (np.array([[0.0, 1], [np.nan, 2], [3, 4]]), {}, "NaN"),
     (np.array([[0.0, np.nan], [np.nan, 0]]), {"distance_matrix": True}, "row 0, column 1: found nan"),
     (np.array([[0.0, 1], [2, 0]]), {"distance_matrix": True}, "row 0, column 1: found 1.0, but 2.0"),
