@@ -76,6 +76,9 @@ class FlagTree(Persistence):
                 raise NotBuiltIn("persistence_dim_max: libph has no such bars of a sparse Rips "
                                  "complex; GUDHI has them")
             data, options, above = self._skeleton()
+        if min_persistence < 0 and options["threshold"] is None:
+            # Beyond the enclosing radius there are bars of length zero.
+            options = {**options, "threshold": np.inf}
         barcode = rips(data, max_dim=self._dimension - 1, field=homology_coeff_field,
                        min_persistence=min_persistence, **options)
         self._keep(barcode, self._dimension + (above is not None), above)

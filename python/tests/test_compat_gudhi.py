@@ -1,0 +1,378 @@
+# SPDX-License-Identifier: MIT
+"""The drop-in for a part of GUDHI: by hand, and against GUDHI where that is installed."""
+import itertools
+
+import numpy as np
+import pytest
+import scipy.sparse as sparse
+from scipy.spatial.distance import pdist, squareform
+
+import libph as ph
+from libph.compat import gudhi
+from libph.compat.gudhi.flag_filtration.edge_collapse import reduce_graph
+from reference import INF, Flag, random_distances, same, sorted_rows
+
+SQUARE = [[0, 0], [1, 0], [1, 1], [0, 1]]
+DIAGONAL = float(np.sqrt(2))
+
+
+@pytest.fixture(scope="module")
+def peer():
+    """GUDHI itself."""
+    genuine = pytest.importorskip("gudhi", reason="GUDHI is not installed")
+    if genuine is gudhi:
+        pytest.skip("gudhi is the drop-in")
+    return genuine
+
+
+def by_dim(bars):
+    return sorted((dim, *bar) for dim, bar in bars)
+
+
+# ---- Rips complexes
+
+
+def test_a_tree():
+    tree = gudhi.RipsComplex(points=SQUARE).create_simplex_tree(max_dimension=2)
+    assert not tree._is_persistence_defined() and tree.num_vertices() == 4
+    with pytest.raises(RuntimeError, match="compute_persistence"):
+        tree.betti_numbers()
+    assert tree.persistence() == [(1, (1, DIAGONAL)), (0, (0, INF))] + 3 * [(0, (0, 1))]
+    assert tree.betti_numbers() == [1, 0] and tree.persistent_betti_numbers(0.5, 0.9) == [4, 0]
+    assert tree.persistent_betti_numbers(1, 1.2) == [1, 1]
+    assert tree.persistence_intervals_in_dimension(0).tolist() == 3 * [[0, 1]] + [[0, INF]]
+    assert tree.persistence_intervals_in_dimension(2).shape == (0, 2)
+    assert tree.persistence(min_persistence=0.5) == [(0, (0, INF))] + 3 * [(0, (0, 1))]
+    assert len(tree.persistence(min_persistence=-1)) > 5
+
+
+def test_the_dimension_of_the_complex():
+    """Bars of it come on demand; as nothing is above, they never die."""
+    rips = gudhi.RipsComplex(points=SQUARE)
+    for dim in (0, 1):
+        tree = rips.create_simplex_tree(dim)
+        assert {d for d, _ in tree.persistence()} == {0}
+        assert [bar for d, bar in tree.persistence(persistence_dim_max=True) if d == 1] == [
+            (1, INF), (DIAGONAL, INF), (DIAGONAL, INF)]
+        assert tree.betti_numbers() == [1, 3]
+    tree = rips.create_simplex_tree(3)
+    assert [bar for d, bar in tree.persistence(persistence_dim_max=True) if d == 3] == []
+
+
+def test_distances(rng):
+    distances = random_distances(rng, 7, True)
+    rows = [distances[i, :i + 1].tolist() for i in range(7)]
+    for given in (distances, np.tril(distances), rows, [row[:-1] for row in rows],
+                  np.asfortranarray(distances)):
+        for field, limit in ((11, INF), (2, 2.0)):
+            tree = gudhi.RipsComplex(distance_matrix=given, max_edge_length=limit)
+            tree = tree.create_simplex_tree(3)
+            tree.compute_persistence(homology_coeff_field=field)
+            found = [tree.persistence_intervals_in_dimension(dim) for dim in range(3)]
+            assert same(found, Flag(distances, limit=limit).bars(2, field))
+
+
+def test_weights():
+    """A vertex is born at twice its weight, an edge at its length and both weights."""
+    distances = np.array([[0, 4.0, 9], [4, 0, 2], [9, 2, 0]])
+    weights = np.array([1.0, 2, 6])
+    values = np.maximum(distances + weights[:, None] + weights,
+                        2 * np.maximum(weights[:, None], weights))
+    tree = gudhi.WeightedRipsComplex(distances, weights).create_simplex_tree(2)
+    tree.compute_persistence()
+    expected = Flag(values, 2 * weights).bars(0)[0]
+    assert np.array_equal(sorted_rows(tree.persistence_intervals_in_dimension(0)), expected)
+    assert tree.num_vertices() == 3
+    late = gudhi.WeightedRipsComplex(distances, weights, max_filtration=5).create_simplex_tree(1)
+    assert late.num_vertices() == 2 and late.persistence() == [(0, (2, INF)), (0, (4, INF))]
+
+
+@pytest.mark.parametrize("q", [2, 3])
+def test_distance_to_measure(rng, q):
+    points = rng.random((12, 2))
+    distances = squareform(pdist(points))
+    weights = ((np.sort(distances, axis=1)[:, :4]**q).sum(axis=1) / 4)**(1 / q)
+    expected = gudhi.WeightedRipsComplex(distances, weights).create_simplex_tree(2)
+    for data in ({"points": points}, {"distance_matrix": distances}):
+        tree = gudhi.DTMRipsComplex(**data, k=4, q=q).create_simplex_tree(2)
+        for (dim, bar), (other, its) in zip(tree.persistence(), expected.persistence()):
+            assert dim == other and np.allclose(bar, its)
+    plain = gudhi.DTMRipsComplex(points=points).create_simplex_tree(2)
+    assert plain.persistence() == gudhi.RipsComplex(points=points).create_simplex_tree(2).persistence()
+    assert gudhi.DTMRipsComplex().create_simplex_tree(1).persistence() == []
+
+
+def test_generators(rng):
+    points = rng.random((25, 3))
+    distances = squareform(pdist(points))
+    edge = {round(distances[i, j], 12): [j, i] for i, j in itertools.combinations(range(25), 2)}
+    for data in ({"points": points}, {"distance_matrix": distances}):
+        tree = gudhi.RipsComplex(**data, max_edge_length=0.6).create_simplex_tree(2)
+        with pytest.raises(RuntimeError):
+            tree.flag_persistence_generators()
+        tree.compute_persistence()
+        finite0, finite, essential0, essential = tree.flag_persistence_generators()
+        h0, h1 = map(tree.persistence_intervals_in_dimension, (0, 1))
+        dies = np.isfinite(h0[:, 1])
+        assert [row[1:] for row in finite0.tolist()] == [edge[round(d, 12)] for d in h0[dies, 1]]
+        assert sorted([*finite0[:, 0], *essential0]) == list(range(25))
+        dies = np.isfinite(h1[:, 1])
+        assert len(finite) == len(essential) == 1 and len(h1) > 1
+        assert finite[0].tolist() == [edge[round(b, 12)] + edge[round(d, 12)] for b, d in h1[dies]]
+        assert essential[0].tolist() == [edge[round(b, 12)] for b in h1[~dies, 0]]
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_trees_of_gudhi(peer, seed):
+    rng = np.random.default_rng(seed)
+    points = rng.integers(0, 4, (9, 2)).astype(float) if seed % 2 else rng.random((9, 3))
+    limit = [INF, 0.7 * pdist(points).max()][seed % 3 == 0]
+    data = {"points": points} if seed % 4 else {"distance_matrix": squareform(pdist(points))}
+    trees = [module.RipsComplex(**data, max_edge_length=limit).create_simplex_tree(max_dimension=3)
+             for module in (gudhi, peer)]
+    # Where GUDHI's complex has a lower dimension, it knows no bars of that dimension.
+    top = trees[1].dimension()
+    for options in ({}, {"homology_coeff_field": 3}, {"min_persistence": 0.2},
+                    {"min_persistence": -1}, {"persistence_dim_max": top == 3}):
+        ours, theirs = (by_dim(tree.persistence(**options)) for tree in trees)
+        ours = [bar for bar in ours if bar[0] < top + options.get("persistence_dim_max", False)]
+        assert [bar[0] for bar in ours] == [bar[0] for bar in theirs]
+        assert np.allclose([bar[1:] for bar in ours], [bar[1:] for bar in theirs])
+    assert trees[0].num_vertices() == trees[1].num_vertices()
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_weighted_trees_of_gudhi(peer, seed):
+    from gudhi.dtm_rips_complex import DTMRipsComplex
+    from gudhi.weighted_rips_complex import WeightedRipsComplex
+    rng = np.random.default_rng(seed)
+    points, weights = rng.random((8, 2)), 0.2 * rng.random(8)
+    limit = [INF, 0.9][seed % 2]
+    distances = squareform(pdist(points))
+    pairs = [[weighted(distances, weights, limit), dtm(points, k=3, max_filtration=limit)]
+             for weighted, dtm in ((gudhi.WeightedRipsComplex, gudhi.DTMRipsComplex),
+                                   (WeightedRipsComplex, DTMRipsComplex))]
+    for ours, theirs in zip(*pairs):
+        ours, theirs = (rips.create_simplex_tree(max_dimension=2) for rips in (ours, theirs))
+        assert theirs.dimension() == 2 and ours.num_vertices() == theirs.num_vertices()
+        for options in ({}, {"persistence_dim_max": True}, {"min_persistence": -1}):
+            bars, others = (by_dim(tree.persistence(**options)) for tree in (ours, theirs))
+            assert [bar[0] for bar in bars] == [bar[0] for bar in others]
+            assert np.allclose([bar[1:] for bar in bars], [bar[1:] for bar in others])
+
+
+def test_a_sparse_complex_keeps_its_promise(rng):
+    points = rng.random((120, 2)) + 0.5
+    exact, rough = (gudhi.RipsComplex(points=points, sparse=epsilon).create_simplex_tree(1)
+                    for epsilon in (None, 0.3))
+    deaths = [np.sort([death for _, (_, death) in tree.persistence() if death < INF])
+              for tree in (exact, rough)]
+    assert (deaths[0] <= deaths[1] + 1e-12).all()
+    assert (deaths[1] <= deaths[0] / 0.7 + 1e-12).all() and (deaths[0] != deaths[1]).any()
+
+
+def test_what_is_elsewhere():
+    for call in (lambda: gudhi.AlphaComplex(points=SQUARE), gudhi.SimplexTree,
+                 lambda: gudhi.RipsComplex(points=SQUARE).create_simplex_tree(1).get_filtration(),
+                 lambda: gudhi.RipsComplex(points=SQUARE).create_simplex_tree().insert([0, 1]),
+                 lambda: gudhi.hera.wasserstein_distance([], []),
+                 lambda: gudhi.RipsComplex(points=SQUARE, sparse=0.5).create_simplex_tree().persistence(
+                     persistence_dim_max=True)):
+        with pytest.raises(ph.NotBuiltIn, match="GUDHI"):
+            call()
+    with pytest.raises(AttributeError):
+        gudhi.nothing
+    with pytest.raises(AttributeError):
+        gudhi.RipsComplex(points=SQUARE).create_simplex_tree().nothing
+
+
+@pytest.mark.parametrize("options, text", [
+    ({"distance_matrix": [[0, 1], [2, 0]]}, "asymmetric"), ({"points": SQUARE, "sparse": 1.0}, "sparse"),
+    ({"distance_matrix": np.zeros((2, 3))}, "distance_matrix"),
+    ({"points": SQUARE, "distance_matrix": [[0]]}, "points: exclude"),
+    ({"points": SQUARE, "max_edge_length": -1}, "threshold")])
+def test_errors(options, text):
+    with pytest.raises(ph.Error, match=text):
+        gudhi.RipsComplex(**options).create_simplex_tree(1).persistence()
+
+
+# ---- images
+
+
+def test_images():
+    cells = np.array([[INF, 0, 0], [0, 1, 0], [0, 0, 0]])
+    flat = cells.ravel(order="F")
+    for image in (gudhi.CubicalComplex(top_dimensional_cells=cells),
+                  gudhi.CubicalComplex(top_dimensional_cells=flat, dimensions=[3, 3])):
+        assert not image._is_persistence_defined() and image.dimension() == 2
+        assert image.persistence() == [(1, (0, 1)), (0, (0, INF))]
+        assert image.betti_numbers() == [1, 0, 0] == image.persistent_betti_numbers(0, 1)
+        assert image.persistence_intervals_in_dimension(1).tolist() == [[0, 1]]
+        assert image.persistence_intervals_in_dimension(5).shape == (0, 2)
+        pairs, never = image.cofaces_of_persistence_pairs()
+        assert [p.shape for p in pairs] == [(0, 2), (1, 2)] and pairs[1][0, 1] == 4
+        assert len(never) == 1 and flat[never[0][0]] == 0 == flat[pairs[1][0, 0]]
+        with pytest.raises(RuntimeError, match="expected the other kind"):
+            image.vertices_of_persistence_pairs()
+    torus = gudhi.PeriodicCubicalComplex(top_dimensional_cells=np.arange(9).reshape(3, 3),
+                                         periodic_dimensions=[True, True])
+    assert [b for b in torus.persistence()] == [
+        (2, (8, INF)), (1, (2, INF)), (1, (6, INF)), (0, (0, INF))]
+    assert torus.betti_numbers() == [1, 2, 1]
+
+
+def test_places_have_the_values(rng):
+    for kind, asked in (("top_dimensional_cells", "cofaces_of_persistence_pairs"),
+                        ("vertices", "vertices_of_persistence_pairs")):
+        for trial in range(6):
+            values = rng.random((4, 3, 5)) if trial % 2 else rng.integers(0, 4, (4, 3, 5))
+            flat = np.asarray(values, dtype=float).ravel(order="F")
+            periodic = [trial > 2, False, trial > 3]
+            image = gudhi.PeriodicCubicalComplex(**{kind: values}, periodic_dimensions=periodic)
+            image.compute_persistence()
+            pairs, never = getattr(image, asked)()
+            for dim in range(4):
+                dgm = image.persistence_intervals_in_dimension(dim)
+                dies = np.isfinite(dgm[:, 1])
+                assert np.array_equal(flat[pairs[dim] if dim < len(pairs) else np.empty((0, 2), int)],
+                                      dgm[dies])
+                assert np.array_equal(flat[never[dim] if dim < len(never) else []], dgm[~dies, 0]) or \
+                    not (~dies).any()
+
+
+def test_all_cells(rng):
+    values = rng.random((3, 4))
+    for kind, periodic in itertools.product(("vertices", "top_dimensional_cells"),
+                                            itertools.product((False, True), repeat=2)):
+        image = gudhi.PeriodicCubicalComplex(**{kind: values}, periodic_dimensions=periodic)
+        every = image.all_cells()
+        of_vertices = kind == "vertices"
+        assert every.shape == tuple(2 * n + (0 if closes else -1 if of_vertices else 1)
+                                    for n, closes in zip(values.shape, periodic))
+        assert np.array_equal(getattr(image, kind)(), values)
+        for place in np.ndindex(every.shape):
+            around = []
+            for x, n, closes in zip(place, values.shape, periodic):
+                ends = {x // 2, (x + 1) // 2} if of_vertices else {(x - 1) // 2, x // 2}
+                around.append({e % n if closes else min(max(e, 0), n - 1) for e in ends})
+            found = [values[p] for p in itertools.product(*around)]
+            assert every[place] == (max if of_vertices else min)(found)
+    image.top_dimensional_cells()[0, 0] = 42
+    assert image.all_cells()[1, 1] == 42
+
+
+def test_a_file_of_perseus(tmp_path):
+    path = tmp_path / "image.txt"
+    path.write_text("2\n3\n3\n0\n0\n0\n0\n100\n0\n0\n0\n0\n")
+    image = gudhi.CubicalComplex(perseus_file=str(path))
+    assert image.persistence() == [(1, (0, 100)), (0, (0, INF))]
+    with pytest.raises(RuntimeError, match="nowhere"):
+        gudhi.CubicalComplex(perseus_file="nowhere")
+
+
+@pytest.mark.parametrize("options", [
+    {}, {"vertices": [1], "top_dimensional_cells": [1]}, {"dimensions": [1]},
+    {"dimensions": [1], "perseus_file": "a"}, {"vertices": [1, 2], "dimensions": [3]}])
+def test_errors_of_images(options):
+    with pytest.raises(ValueError, match="expected"):
+        gudhi.CubicalComplex(**options)
+
+
+def test_errors_of_periodic_images():
+    for periodic in (None, [True]):
+        with pytest.raises(ValueError, match="periodic_dimensions"):
+            gudhi.PeriodicCubicalComplex(vertices=[[1, 2]], periodic_dimensions=periodic)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_images_of_gudhi(peer, seed):
+    rng = np.random.default_rng(seed)
+    shape = [(9,), (4, 5), (3, 4, 4), (3, 3, 3, 2)][seed % 4]
+    values = rng.random(shape) if seed % 2 else rng.integers(0, 4, shape).astype(float)
+    periodic = [bool(b) for b in rng.integers(0, 2, len(shape))]
+    pairs = [[module.CubicalComplex(top_dimensional_cells=values),
+              module.PeriodicCubicalComplex(top_dimensional_cells=values,
+                                            periodic_dimensions=periodic)]
+             for module in (gudhi, peer)]
+    for ours, theirs in zip(*pairs):
+        for options in ({}, {"min_persistence": 0.3}, {"homology_coeff_field": 2}):
+            bars = ours.persistence(**options)
+            assert by_dim(bars) == by_dim(theirs.persistence(**options))
+            dims = [dim for dim, _ in bars]
+            lengths = [death - birth for _, (birth, death) in bars]
+            assert list(zip(dims, lengths)) == sorted(zip(dims, lengths), reverse=True)
+        assert ours.betti_numbers() == theirs.betti_numbers()
+        assert ours.persistent_betti_numbers(0.6, 0.8) == theirs.persistent_betti_numbers(0.6, 0.8)
+
+
+# ---- distances, collapse, scikit-learn
+
+
+def test_bottleneck():
+    a = np.array([[2.7, 3.7], [9.6, 14.0], [34.2, 34.974], [3.0, INF]])
+    b = [(2.8, 4.45), (9.5, 14.1), (3.2, INF)]
+    for function in (gudhi.bottleneck_distance, gudhi.hera.bottleneck_distance):
+        assert function(a, b) == 0.75 == function(a - 100, np.array(b) - 100, 0.1)
+        assert function([], []) == 0
+        for wrong, error in (([[], []], TypeError), ([[1.0], [2.0]], TypeError),
+                             ([[1.0], [2.0, 3.0]], ValueError), (np.zeros((2, 3)), TypeError)):
+            with pytest.raises(error):
+                function(wrong, [])
+
+
+def test_bottleneck_of_gudhi(peer, rng):
+    for _ in range(20):
+        a, b = (np.sort(rng.random((int(rng.integers(0, 8)), 2)), axis=1) for _ in range(2))
+        assert np.isclose(gudhi.bottleneck_distance(a, b), peer.bottleneck_distance(a, b))
+
+
+def test_reduce_graph(rng):
+    distances = random_distances(rng, 9, True) - 2  # values below 0 among them
+    i, j = np.tril_indices(9, -1)
+    for dtype in (np.float64, np.float32):
+        given = sparse.coo_matrix((distances[i, j].astype(dtype), (i, j)), shape=(9, 9))
+        found = reduce_graph(given)
+        assert found.dtype == dtype and found.shape == (9, 9) and 0 < found.nnz < given.nnz
+        births = np.full(9, -2.0)
+        fewer = np.full((9, 9), INF)
+        fewer[found.row, found.col] = fewer[found.col, found.row] = found.data
+        assert same(Flag(fewer, births).bars(2), Flag(distances, births).bars(2))
+    assert reduce_graph(given, 0).nnz == given.nnz
+    assert reduce_graph(sparse.coo_matrix((3, 3))).shape == (3, 3)
+
+
+def test_classes_for_scikit_learn(rng):
+    sklearn = pytest.importorskip("sklearn", reason="scikit-learn is not installed")
+    from libph.compat.gudhi.sklearn import CubicalPersistence, RipsPersistence
+    clouds = [rng.random((n, 2)) for n in (20, 30)]
+    expected = [ph.rips(cloud, field=11) for cloud in clouds]
+    squares = [squareform(pdist(cloud)) for cloud in clouds]
+    for kind, data in (("point cloud", clouds), ("full distance matrix", squares),
+                       ("lower distance matrix", [np.tril(s) for s in squares]),
+                       ("lower distance matrix", [[row[:i] for i, row in enumerate(s)]
+                                                  for s in squares]),
+                       ("distance coo_matrix", [sparse.coo_matrix(np.tril(s)) for s in squares])):
+        found = RipsPersistence([0, 1], input_type=kind, n_jobs=2).fit_transform(data)
+        assert len(found) == 2
+        for dgms, bars in zip(found, expected):
+            for dim in (0, 1):
+                assert np.allclose(sorted_rows(dgms[dim]), bars.dgm(dim))
+        single = RipsPersistence(1, input_type=kind, num_collapses=1).fit(data).transform(data)
+        assert [np.allclose(a, b[1]) for a, b in zip(single, found)] == [True, True]
+    short = RipsPersistence(0, threshold=0.1).fit_transform(clouds)[0]
+    assert np.isinf(short[:, 1]).sum() > 1
+    images = [rng.integers(0, 5, (6, 6)), rng.random((5, 4)).astype(np.float32)]
+    for kind, construction in (("vertices", "vertices"), ("top_dimensional_cells", "cells")):
+        found = CubicalPersistence([0, 1], input_type=kind, min_persistence=0.1).fit_transform(images)
+        assert [dgms[0].dtype for dgms in found] == [np.float64, np.float32]
+        for dgms, image in zip(found, images):
+            bars = ph.cubical(image, construction=construction, field=11, min_persistence=0.1)
+            assert [d.tolist() == d[np.argsort(d[:, 1], kind="stable")].tolist() for d in dgms]
+            assert same(dgms, [bars.dgm(0), bars.dgm(1)])
+    for estimator in (RipsPersistence(), CubicalPersistence(2)):
+        assert sklearn.base.clone(estimator).get_params() == estimator.get_params()
+    assert RipsPersistence([0, 2]).get_feature_names_out() == ["H0", "H2"]
+    with pytest.raises(ValueError, match="input_type"):
+        RipsPersistence(0, input_type="nothing").fit_transform(clouds)
+    with pytest.raises(ValueError, match="homology_dimensions"):
+        RipsPersistence([[0]]).fit(clouds)

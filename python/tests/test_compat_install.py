@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: MIT
+"""How the drop-ins are loaded, and the one for persim."""
+import itertools
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import libph as ph
+from libph.compat import persim
+
+INF = np.inf
+
+
+def run(code):
+    """In a process of its own."""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def test_libph_loads_no_drop_in_and_no_other_package():
+    loaded = run("import sys, libph; print(*sys.modules)").split()
+    names = {name.split(".")[0] for name in loaded}
+    assert "libph" in names
+    assert not names & {"sklearn", "scipy", "matplotlib", "pandas", "joblib", "tqdm"}
+    assert not any(name.startswith("libph.compat") for name in loaded)
+
+
+@pytest.mark.parametrize("name", ["ripser", "gph", "cripser", "tcripser", "persim", "gudhi"])
+def test_a_drop_in_loads_no_other_package(name):
+    loaded = run(f"import sys, libph.compat.{name}; print(*sys.modules)").split()
+    assert not {n.split(".")[0] for n in loaded} & {"sklearn", "scipy", "matplotlib", "pandas"}
+
+
+def test_distances_need_no_scikit_learn():
+    code = """if True:
+        import sys
+        sys.modules["sklearn"] = sys.modules["sklearn.metrics"] = None
+        import numpy as np
+        import libph
+        from libph.compat.ripser import ripser, Rips
+        from libph.compat.gph import ripser_parallel
+        d = np.array([[0, 1.0], [1, 0]])
+        print(ripser(d, distance_matrix=True)["dgms"][0].tolist())
+        print(ripser_parallel(d, metric="precomputed")["dgms"][0].tolist())
+        Rips(verbose=False).transform(d, distance_matrix=True)
+        for call in (lambda: ripser(d[:, :1]), lambda: ripser_parallel(d)):
+            try:
+                call()
+            except libph.NotBuiltIn as error:
+                print("scikit-learn" in str(error))
+    """
+    assert run(code).split("\n")[:-1] == 2 * ["[[0.0, 1.0], [0.0, inf]]"] + 2 * ["True"]
+
+
+def test_install():
+    code = """if True:
+        import warnings
+        from libph import compat
+        compat.install("ripser", "gph", "cripser", "gudhi", "persim")
+        compat.install("ripser")
+        import ripser, gph, cripser, tcripser, gudhi, persim
+        from ripser import Rips, ripser as function, lower_star_img
+        from gph.modules import gph_ripser
+        from gph.modules.gph_collapser import flag_complex_collapse_edges_coo
+        from gudhi.sklearn import RipsPersistence
+        from gudhi.flag_filtration.edge_collapse import reduce_graph
+        from gudhi.dtm_rips_complex import DTMRipsComplex
+        from gudhi.weighted_rips_complex import WeightedRipsComplex
+        import gudhi.hera
+        print(ripser.__name__, gph.__name__, cripser.__name__, tcripser.__name__)
+        print(gudhi.__name__, persim.__name__, function.__module__, RipsPersistence.__module__)
+        print(len(function([[0.0], [1.0], [2.0]])["dgms"]), gph_ripser.__name__)
+    """
+    words = run(code).split()
+    assert words == [f"libph.compat.{n}" for n in (
+        "ripser", "gph", "cripser", "tcripser", "gudhi", "persim", "ripser", "gudhi.sklearn")] + [
+        "2", "libph.compat.gph.modules.gph_ripser"]
+
+
+def test_install_refuses():
+    code = """if True:
+        import sys, types
+        sys.modules["ripser"] = types.ModuleType("ripser")
+        import libph
+        from libph import compat
+        for name in ("ripser", "scipy", "flagser"):
+            try:
+                compat.install("gph", name)
+            except libph.UsageError as error:
+                print(str(error).split(",")[0])
+        print("gph" in sys.modules)
+    """
+    assert run(code).split("\n")[:-1] == [
+        "install: ripser is imported already", "install: found 'scipy'", "install: found 'flagser'",
+        "False"]
+
+
+# ---- persim
+
+
+def by_hand(a, b):
+    """The bottleneck distance: the best of all pairings, of few bars."""
+    best = INF
+    for size in range(min(len(a), len(b)) + 1):
+        for some in itertools.combinations(range(len(a)), size):
+            for others in itertools.permutations(range(len(b)), size):
+                costs = [abs(a[i] - b[j]).max() for i, j in zip(some, others)]
+                costs += [(d[i, 1] - d[i, 0]) / 2 for d, taken in ((a, some), (b, others))
+                          for i in range(len(d)) if i not in taken]
+                best = min(best, max(costs, default=0))
+    return best
+
+
+def test_bottleneck(rng):
+    for _ in range(20):
+        a, b = (np.sort(rng.random((int(rng.integers(1, 5)), 2)), axis=1) for _ in range(2))
+        found = persim.bottleneck(a, b)
+        assert type(found) is float and np.isclose(found, by_hand(a, b))
+        assert persim.bottleneck(np.column_stack([a, a]), b.tolist()) == found
+    assert persim.bottleneck(np.array([[]]), [[1, 2]]) == 0.5
+    for name, pair in (("dgm1", ([[0, INF]], [[1, 2]])), ("dgm2", ([[1, 2]], [[0, INF]]))):
+        with pytest.warns(UserWarning, match=f"{name} has points with non-finite death times;ignoring "
+                                             "those points"):
+            assert persim.bottleneck(*pair) == 0.5
+
+
+def test_bottleneck_errors():
+    with pytest.raises(ph.NotBuiltIn, match="persim"):
+        persim.bottleneck([[0, 1]], [[0, 1]], matching=True)
+    with pytest.raises(ph.UsageError, match="dgm2: found an array of shape"):
+        persim.bottleneck([[0, 1]], [[1], [2]])
+    with pytest.raises(ph.DataError, match="birth <= death"):
+        persim.bottleneck([[1, 0]], [[0, 1]])
+
+
+@pytest.fixture
+def pyplot():
+    matplotlib = pytest.importorskip("matplotlib", reason="matplotlib is not installed")
+    matplotlib.use("agg")
+    import matplotlib.pyplot
+    yield matplotlib.pyplot
+    matplotlib.pyplot.close("all")
+
+
+DGMS = [np.array([[0, 1], [0, INF]]), np.array([[0.5, 2.0]])]
+
+
+def points_of(ax):
+    return [np.asarray(dots.get_offsets()).tolist() for dots in ax.collections]
+
+
+def test_plot_diagrams(pyplot):
+    ax = persim.plot_diagrams(DGMS, title="Bars")
+    assert ax is pyplot.gca() and ax.get_title() == "Bars"
+    labels = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert labels == [r"$\infty$", "$H_{0}$", "$H_{1}$"]
+    h0, h1 = points_of(ax)
+    assert h0[0] == [0, 1] and h1 == [[0.5, 2]] and 2 < h0[1][1] < ax.get_ylim()[1]
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("Birth", "Death") and len(ax.lines) == 2
+    low, high = ax.get_xlim()
+    assert low < 0 and high > 2 and ax.get_ylim() == (low, high)
+
+
+def test_plot_options(pyplot):
+    axes = pyplot.subplots(1, 6)[1]
+    before = dict(pyplot.rcParams)
+    ax = persim.plot_diagrams(DGMS, plot_only=[1], labels=["a", "b"], ax=axes[0], legend=False)
+    assert points_of(ax) == [[[0.5, 2]]] and ax.get_legend() is None and len(ax.lines) == 1
+    ax = persim.plot_diagrams(DGMS[1], lifetime=True, ax=axes[1], size=5, ax_color="red")
+    assert points_of(ax) == [[[0.5, 1.5]]] and ax.get_ylabel() == "Lifetime"
+    assert ax.lines[0].get_color() == "red" and ax.collections[0].get_sizes().tolist() == [5]
+    ax = persim.plot_diagrams(DGMS, xy_range=[0, 4, 0, 8], diagonal=False, ax=axes[2])
+    assert ax.get_xlim() == (0, 4) and ax.get_ylim() == (0, 8) and len(ax.lines) == 1
+    ax = persim.plot_diagrams(DGMS, labels="same", colormap="ggplot", ax=axes[3])
+    assert [t.get_text() for t in ax.get_legend().get_texts()][1:] == ["same", "same"]
+    persim.plot_diagrams([np.empty((0, 2))], ax=axes[4])
+    persim.plot_diagrams(np.array([[1.0, 1.0]]), ax=axes[5])
+    assert dict(pyplot.rcParams) == before
+
+
+def test_plots_of_the_class(pyplot):
+    from libph.compat.ripser import Rips, plot_dgms
+    assert plot_dgms is persim.plot_diagrams
+    rips = Rips(verbose=False)
+    rips.transform(np.array([[0.0], [1.0], [3.0]]))
+    assert rips.plot(show=False) is None
+    assert points_of(pyplot.gca())[0][:2] == [[0, 1], [0, 2]]
