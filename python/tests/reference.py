@@ -39,7 +39,8 @@ class Flag:
         place = {s: i for i, (_, _, s) in enumerate(cells)}
         columns, killed_by, positive = {}, {}, set()
         for j, (_, size, s) in enumerate(cells):
-            column = {place[s[:k] + s[k + 1:]]: (-1)**k % p for k in range(size)} if size > 1 else {}
+            faces = [s[:k] + s[k + 1:] for k in range(size)] if size > 1 else []
+            column = {place[face]: (-1)**k % p for k, face in enumerate(faces)}
             while column and max(column) in killed_by:
                 low = max(column)
                 other = columns[killed_by[low]]

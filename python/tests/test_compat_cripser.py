@@ -121,7 +121,8 @@ def test_arrays(rng):
 
 @pytest.mark.parametrize("image, options, text", [
     (np.zeros((2,) * 5), {}, "1 to 4 axes"), ([[0, np.nan]], {}, "nan|NaN"), (3.0, {}, "axes"),
-    (np.empty((0, 3)), {}, "extents 0 x 3"), ([0.0, 1], {"maxdim": -1}, "maxdim"), ([0.0, 1], {"top_dim": 2}, "top_dim")])
+    (np.empty((0, 3)), {}, "extents 0 x 3"), ([0.0, 1], {"maxdim": -1}, "maxdim"),
+    ([0.0, 1], {"top_dim": 2}, "top_dim")])
 def test_errors(image, options, text):
     with pytest.raises(ph.Error, match=text):
         cripser.computePH(image, **options)
@@ -136,7 +137,8 @@ def test_helpers():
     assert [len(d) for d in cripser.to_gudhi_diagrams(rows, maxdim=2)] == [1, 1, 0]
     assert len(cripser.to_gudhi_diagrams(rows, maxdim=2, include_empty=False)) == 2
     assert cripser.to_gudhi_persistence(rows) == [(0, (1.0, np.inf)), (1, (1.0, 7.0))]
-    assert [g.tolist() for g in cripser.group_by_dim(rows)] == [rows[:1].tolist(), rows[1:].tolist()]
+    groups = cripser.group_by_dim(rows)
+    assert [g.tolist() for g in groups] == [rows[:1].tolist(), rows[1:].tolist()]
     assert len(cripser.to_gudhi_diagrams(np.empty((0, 9)))) == 1
     for function in (cripser.to_gudhi_diagrams, cripser.to_gudhi_persistence, cripser.group_by_dim):
         with pytest.raises(ValueError, match="ph: found an array of shape"):

@@ -141,7 +141,7 @@ def test_weights(rng, p, is_sparse):
     data = sparse.coo_matrix(distances) if is_sparse else distances
     found = of_matrix(data, weights=births, weight_params={"p": p}, maxdim=1, dtype=float)["dgms"]
     for dgm, other in zip(found, Flag(meet, births).bars(1)):
-        other = other[other[:, 1] - other[:, 0] > 1e-9]  # of roots that are the same but for rounding
+        other = other[other[:, 1] - other[:, 0] > 1e-9]  # roots are rounded
         assert dgm.shape == other.shape
         assert np.allclose(dgm[np.lexsort(dgm.T[::-1])], other)
 
@@ -221,7 +221,8 @@ def test_the_youngest_edge_of_a_simplex(rng):
 
 
 @pytest.mark.parametrize("options, error, text", [
-    ({"weights": "foo"}, ValueError, "'foo' passed for `weights` but the only allowed string is 'DTM'"),
+    ({"weights": "foo"}, ValueError,
+     "'foo' passed for `weights` but the only allowed string is 'DTM'"),
     ({"weights": "DTM", "weight_params": {"p": 1.2}}, NotImplementedError, "p: found 1.2"),
     ({"weights": "DTM", "weight_params": {"q": 1}}, ValueError, "found 'q'"),
     ({"weights": "DTM", "weight_params": {"n_neighbors": 9}}, ValueError, "n_neighbors"),

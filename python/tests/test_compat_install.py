@@ -122,8 +122,8 @@ def test_bottleneck(rng):
         assert persim.bottleneck(np.column_stack([a, a]), b.tolist()) == found
     assert persim.bottleneck(np.array([[]]), [[1, 2]]) == 0.5
     for name, pair in (("dgm1", ([[0, INF]], [[1, 2]])), ("dgm2", ([[1, 2]], [[0, INF]]))):
-        with pytest.warns(UserWarning, match=f"{name} has points with non-finite death times;ignoring "
-                                             "those points"):
+        text = f"{name} has points with non-finite death times;ignoring those points"
+        with pytest.warns(UserWarning, match=text):
             assert persim.bottleneck(*pair) == 0.5
 
 

@@ -93,7 +93,8 @@ def test_order(rng):
 
 def test_num_edges():
     distances = squareform(pdist(SQUARE))
-    assert ripser(SQUARE, thresh=1)["num_edges"] == 7 == ripser(SQUARE, thresh=1, maxdim=0)["num_edges"]
+    for maxdim in (0, 1):
+        assert ripser(SQUARE, thresh=1, maxdim=maxdim)["num_edges"] == 7
     line = np.array([[0.0], [1.0], [2.0], [10.0], [11.0]])
     assert ripser(line)["num_edges"] == 7  # up to the enclosing radius 9
     assert of_matrix(sparse.csr_matrix(distances), thresh=1)["num_edges"] == 6  # no zero is stored
@@ -230,26 +231,30 @@ def test_zeros_that_are_stored_are_distances():
 
 
 def test_warnings():
-    with pytest.warns(UserWarning, match="The input matrix is square, but the distance_matrix flag is "
-                                         "off.  Did you mean to indicate that this was a distance "
-                                         "matrix?"):
-        ripser(np.eye(3))
-    with pytest.warns(UserWarning, match="The input point cloud has more columns than rows; did you "
-                                         "mean to transpose?"):
-        ripser(np.zeros((2, 3)))
+    square = ("The input matrix is square, but the distance_matrix flag is off.  Did you mean to "
+              "indicate that this was a distance matrix?")
+    wide = "The input point cloud has more columns than rows; did you mean to transpose?"
+    for data, text in ((np.eye(3), square), (np.zeros((2, 3)), wide)):
+        with pytest.warns(UserWarning) as caught:
+            ripser(data)
+        assert [str(warning.message) for warning in caught] == [text]
+        assert caught[0].filename == __file__
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         ripser(SQUARE)
 
 
+DISTANCES = {"distance_matrix": True}
+
+
 @pytest.mark.parametrize("data, options, text", [
-    (np.zeros((2, 3)), {"distance_matrix": True}, "Distance matrix is not square"),
-    (sparse.eye(3).tocsr(), {"distance_matrix": True, "n_perm": 2},
+    (np.zeros((2, 3)), DISTANCES, "Distance matrix is not square"),
+    (sparse.eye(3).tocsr(), {**DISTANCES, "n_perm": 2},
      "Greedy permutation is not supported for sparse distance matrices"),
-    (SQUARE, {"n_perm": 6}, "Number of points in greedy permutation is greater than number of points "
-                            "in the point cloud"),
-    (SQUARE, {"n_perm": -1}, "Should be a strictly positive number of points in the greedy "
-                             "permutation"),
+    (SQUARE, {"n_perm": 6},
+     "Number of points in greedy permutation is greater than number of points in the point cloud"),
+    (SQUARE, {"n_perm": -1},
+     "Should be a strictly positive number of points in the greedy permutation"),
     (np.zeros(4), {}, "X: found an array of shape"),
     (SQUARE, {"coeff": 4}, "4"),
     (SQUARE, {"coeff": 0}, "field: found 0"),
@@ -258,11 +263,11 @@ def test_warnings():
     (SQUARE, {"dtype": int}, "dtype: found"),
     (np.empty((0, 0)), {}, "0 sample"),
     (np.array([[0.0, 1], [np.nan, 2], [3, 4]]), {}, "NaN"),
-    (np.array([[0.0, np.nan], [np.nan, 0]]), {"distance_matrix": True}, "row 0, column 1: found nan"),
-    (np.array([[0.0, 1], [2, 0]]), {"distance_matrix": True}, "row 0, column 1: found 1.0, but 2.0"),
-    (np.array([[np.nan, 1], [1, 0]]), {"distance_matrix": True}, "the diagonal: entry 0: found nan"),
-    (sparse.coo_matrix(([1.0, 2], ([0, 1], [1, 0]))), {"distance_matrix": True}, "expected both equal"),
-    (sparse.coo_matrix(([np.nan], ([0], [1])), shape=(2, 2)), {"distance_matrix": True}, "found nan")])
+    (np.array([[0.0, np.nan], [np.nan, 0]]), DISTANCES, "row 0, column 1: found nan"),
+    (np.array([[0.0, 1], [2, 0]]), DISTANCES, "row 0, column 1: found 1.0, but 2.0"),
+    (np.array([[np.nan, 1], [1, 0]]), DISTANCES, "the diagonal: entry 0: found nan"),
+    (sparse.coo_matrix(([1.0, 2], ([0, 1], [1, 0]))), DISTANCES, "expected both equal"),
+    (sparse.coo_matrix(([np.nan], ([0], [1])), shape=(2, 2)), DISTANCES, "found nan")])
 @pytest.mark.filterwarnings("ignore:The input matrix is square")
 def test_errors(data, options, text):
     with pytest.raises(ValueError, match=text):

@@ -37,7 +37,8 @@ def test_docstrings(name):
 
 
 @pytest.mark.parametrize("name, needed", [
-    ("python", []), ("gradients", []), ("scikit-learn", ["sklearn", "pandas"])])
+    ("python", []), ("gradients", []), ("coming-from", ["sklearn", "scipy"]),
+    ("scikit-learn", ["sklearn", "pandas"])])
 def test_pages(name, needed):
     for package in needed:
         pytest.importorskip(package, reason=f"{package} is missing, which docs/{name}.md needs")

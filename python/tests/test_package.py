@@ -25,7 +25,7 @@ def test_version():
 def test_names():
     assert sorted(ph.__all__) == ph.__all__
     # Modules with other packages in them are there once they are imported.
-    optional = {"sklearn", "torch"}
+    optional = {"compat", "sklearn", "torch"}
     assert {name for name in vars(ph) if not name.startswith("_")} <= set(ph.__all__) | optional
     assert (Path(ph.__file__).parent / "py.typed").exists()
 

@@ -240,8 +240,8 @@ def _scan(array: NDArray[Any], is_symmetric: bool) -> tuple[float, float]:
     largest = float(farthest[np.isfinite(farthest)].max(initial=0.0))
     if worst.size > _ROUNDING * max(largest, -least if np.isfinite(least) else 0.0):
         i, j = worst.i, worst.j
-        raise DataError(f"X: row {i}, column {j}: found {array[i, j]}, but {array[j, i]} in row {j}, "
-                        f"column {i}; expected both equal")
+        raise DataError(f"X: row {i}, column {j}: found {array[i, j]}, but {array[j, i]} in row "
+                        f"{j}, column {i}; expected both equal")
     return least, float(farthest.min(initial=np.inf)) if n else 0.0
 
 

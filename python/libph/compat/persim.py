@@ -41,7 +41,8 @@ def _finite(dgm: ArrayLike, name: str) -> NDArray[np.float64]:
     if rows.size == 0:
         return np.empty((0, 2))
     if rows.ndim != 2 or rows.shape[1] < 2:
-        raise UsageError(f"{name}: found an array of shape {rows.shape}, expected rows birth, death")
+        raise UsageError(f"{name}: found an array of shape {rows.shape}, expected rows birth, "
+                         "death")
     keep = np.isfinite(rows[:, 1])
     if not keep.all():
         warnings.warn(f"{name} has points with non-finite death times;ignoring those points",

@@ -84,8 +84,8 @@ def ripser(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int = 2,
     if not hasattr(X, "shape"):
         X = _arrays.as_array(X, "X")
     if len(X.shape) != 2:
-        raise UsageError(f"X: found an array of shape {X.shape}, expected (points, coordinates), or "
-                         "a square matrix of distances")
+        raise UsageError(f"X: found an array of shape {X.shape}, expected (points, coordinates), "
+                         "or a square matrix of distances")
     _look_at_shape(X, distance_matrix, n_perm)
     limit = _flag.last_rounded_to(_flag.threshold(thresh), kind)
     max_dim = _flag.dimension(maxdim)
@@ -142,7 +142,8 @@ def _pairwise(X: Any, metric: Any, *others: Any) -> NDArray[Any]:
         from sklearn.metrics import pairwise_distances
     except ImportError:
         raise NotBuiltIn("ripser: distances of points are those of scikit-learn, which is not "
-                         "installed; distance_matrix=True takes distances, ph.rips points") from None
+                         "installed; distance_matrix=True takes distances, ph.rips points"
+                         ) from None
     return pairwise_distances(X, *others, metric=metric)
 
 

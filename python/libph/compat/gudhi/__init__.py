@@ -26,7 +26,8 @@ _ELSEWHERE = {
     "AlphaComplex", "CoverComplex", "DelaunayCechComplex", "DelaunayComplex",
     "EuclideanStrongWitnessComplex", "EuclideanWitnessComplex", "SimplexTree",
     "StrongWitnessComplex", "TangentialComplex", "WitnessComplex", "plot_persistence_barcode",
-    "plot_persistence_density", "plot_persistence_diagram", "read_lower_triangular_matrix_from_csv_file",
+    "plot_persistence_density", "plot_persistence_diagram",
+    "read_lower_triangular_matrix_from_csv_file",
     "read_persistence_intervals_grouped_by_dimension", "read_persistence_intervals_in_dimension",
     "read_points_from_off_file"}
 

@@ -64,8 +64,8 @@ class CubicalComplex(Persistence):
         if dimensions is not None:
             extents = tuple(_options.whole("dimensions", n, 0) for n in dimensions)
             if array.ndim != 1 or int(np.prod(extents)) != array.size:
-                raise UsageError(f"dimensions: found {extents} for an array of shape {array.shape}, "
-                                 "expected extents for a flat array")
+                raise UsageError(f"dimensions: found {extents} for an array of shape "
+                                 f"{array.shape}, expected extents for a flat array")
             array = array.reshape(extents, order="F")
         self._image = array
 

@@ -21,8 +21,9 @@ _TREE_METHODS = {
     "get_boundaries", "get_cofaces", "get_filtration", "get_simplices", "get_skeleton", "get_star",
     "initialize_filtration", "insert", "insert_batch", "insert_edges_from_coo_matrix",
     "lower_star_persistence_generators", "make_filtration_non_decreasing", "num_simplices",
-    "persistence_pairs", "prune_above_dimension", "prune_above_filtration", "remove_maximal_simplex",
-    "reset_filtration", "set_dimension", "upper_bound_dimension", "write_persistence_diagram"}
+    "persistence_pairs", "prune_above_dimension", "prune_above_filtration",
+    "remove_maximal_simplex", "reset_filtration", "set_dimension",
+    "upper_bound_dimension", "write_persistence_diagram"}
 
 
 class FlagTree(Persistence):

@@ -37,8 +37,8 @@ def bottleneck_distance(X: Any, Y: Any, delta: float = 0.01) -> float:
     for name, dgm in (("diagram 1", X), ("diagram 2", Y)):
         array = _arrays.as_array(dgm, name)
         if array.shape != (0,) and (array.ndim != 2 or array.shape[1] != 2):
-            raise _WidthError(f"{name}: found an array of shape {array.shape}, expected rows birth, "
-                              "death")
+            raise _WidthError(f"{name}: found an array of shape {array.shape}, expected rows "
+                              "birth, death")
     return float(_diagrams.bottleneck(X, Y))
 
 
