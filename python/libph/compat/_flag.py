@@ -261,8 +261,8 @@ def _unequal(upper: NDArray[Any], lower: NDArray[Any], row: int, column: int) ->
     with np.errstate(invalid="ignore", over="ignore"):
         sizes = np.where(differ, np.abs(upper - lower), 0)
     sizes[np.isnan(sizes)] = np.inf
-    i, j = np.unravel_index(int(np.argmax(sizes)), sizes.shape)
-    i, j = sorted((int(i) + row, int(j) + column))
+    place = np.unravel_index(int(np.argmax(sizes)), sizes.shape)
+    i, j = sorted((int(place[0]) + row, int(place[1]) + column))
     return _Unequal(float(sizes.max()), i, j)
 
 

@@ -91,7 +91,7 @@ def ripser(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int = 2,
     max_dim = _flag.dimension(maxdim)
 
     points = np.arange(X.shape[0])
-    covering = 0.0
+    covering: Any = 0.0
     distances: Any
     if n_perm and n_perm < X.shape[0]:
         points, covering, to_all = _farthest_points(X, n_perm, distance_matrix, metric)
@@ -148,7 +148,7 @@ def _pairwise(X: Any, metric: Any, *others: Any) -> NDArray[Any]:
 
 
 def _farthest_points(X: Any, count: int, is_distances: bool, metric: Any
-                     ) -> tuple[NDArray[np.int64], float, NDArray[Any]]:
+                     ) -> tuple[NDArray[np.int64], Any, NDArray[Any]]:
     """Points, their covering radius, and the distances of each to all."""
     if is_distances:
         X = _arrays.as_array(X, "X")

@@ -258,7 +258,7 @@ class DTMRipsComplex(WeightedRipsComplex):
             lambda i: self._data[i], len(self._data), {"n_neighbors": k - 1, "r": q})
 
 
-def _space(points: ArrayLike, distances: ArrayLike, limit: float
+def _space(points: Any, distances: Any, limit: float
            ) -> tuple[NDArray[np.float64], dict[str, Any]]:
     """Data and keywords for `rips`."""
     options: dict[str, Any] = {
