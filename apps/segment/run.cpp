@@ -9,6 +9,8 @@
 #include <span>
 
 #include "common/terminal/exit_code.hpp"
+#include "depth_scene.hpp"
+#include "notes.hpp"
 #include "ph/detail/io/output_file.hpp"
 #include "ph/error.hpp"
 #include "report/encoding/sha256.hpp"
@@ -18,37 +20,30 @@
 #include "segment/input/depth_camera.hpp"
 #include "segment/output/outputs.hpp"
 #include "segment/output/summary.hpp"
-#include "segment/output/warnings.hpp"
 #include "segment/stream.hpp"
 #include "tree/tree_barcode.hpp"
 
 namespace ph::segment {
 namespace {
 
+Note note_of(app::Session& session) {
+  return [&session](const std::string& text) { session.note(text); };
+}
+
 Cloud read_depth_image(const Input& input, const DepthInput& image, app::Session& session) {
   const RunContext& context = session.context();
   const DepthImage depth = read_depth(input, {.context = &context});
-  const Index rows = depth.depth.extents[0], columns = depth.depth.extents[1];
   std::optional<Raster> colour;
   if (!image.colour.empty()) colour = read_png(image.colour, &context);
-  const Camera camera = camera_for(image, columns, rows, session);
-  DepthCounts counts;
-  Cloud cloud =
-      cloud_from_depth(depth.depth, colour, camera, image.scale.value_or(depth.scale), &counts);
-  if (counts.negative > 0)
-    session.note(fmt::format("{} pixels of a depth below 0: taken as holes", counts.negative));
-  if (counts.unseen > 0) {
-    session.note(
-        fmt::format("{} pixels are where the camera's lens shows no ray: holes", counts.unseen));
-  }
-  return cloud;
+  return cloud_of_depth(depth, colour, *image.camera, image.calibration, image.scale,
+                        note_of(session));
 }
 
 Cloud read_points(const Input& input, bool allow_empty, app::Session& session) {
   ReadOptions options;
   options.context = &session.context();
   options.allow_empty = allow_empty;
-  options.note = [&session](const std::string& text) { session.note(text); };
+  options.note = note_of(session);
   return ph::read_cloud(input, options);
 }
 
@@ -187,12 +182,21 @@ void explain_stages(const Segmentation& s, const Arguments& arguments, app::Sess
       normal[0], normal[1], normal[2], offset, 100 * share));
 }
 
+std::vector<std::string> notes_on(const Result& result, const Arguments& arguments) {
+  const Cloud* cloud = result.cloud ? &*result.cloud : nullptr;
+  if (!cloud || !arguments.is_depth_image())
+    return notes(result.segmentation, arguments.options, cloud, nullptr);
+  const DepthInput& image = arguments.image;
+  const DepthSource depth{*image.camera, image.calibration.empty() ? "--intrinsics" : "--camera"};
+  return notes(result.segmentation, arguments.options, cloud, &depth);
+}
+
 Outcome outcome_of(const Arguments& arguments, app::Session& session, const OfStream* stream) {
   if (!stream) require_separate(arguments, session);
   Outputs outputs(arguments);
   const Result result = result_of(arguments, outputs, session);
   const Segmentation& s = result.segmentation;
-  std::vector<std::string> warned = warnings(arguments, result.cloud, s);
+  std::vector<std::string> warned = notes_on(result, arguments);
   for (const std::string& text : warned) session.note(text);
   explain_stages(s, arguments, session);
 

@@ -9,8 +9,4 @@ namespace ph::segment {
 /// @throws Error as ph::read_camera does.
 void load_camera(DepthInput& image, app::Session& session);
 
-/// The camera of images of this size; says so if its calibration is of another one.
-/// @throws Error (usage) if that is of another shape.
-Camera camera_for(const DepthInput& image, Index width, Index height, app::Session& session);
-
 }  // namespace ph::segment

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "cloud_files.hpp"
+#include "label_files.hpp"
 #include "ph/error.hpp"
 #include "ph/io/write.hpp"
 #include "pictures/cloud_legend.hpp"
@@ -50,31 +51,11 @@ std::vector<std::uint32_t> numbers_of(std::span<const std::uint32_t> labels, con
   return numbers;
 }
 
-Raster label_image(const SceneTree& scene, std::span<const std::uint32_t> labels) {
-  Raster raster{scene.width, scene.height, 1, 16, {}};
-  for (const std::uint32_t label : labels) {
-    if (label > UINT16_MAX) {
-      throw Error(ErrorKind::bad_data, fmt::format("--labels: a PNG holds labels up to 65535, "
-                                                   "found {}; use .npy",
-                                                   label));
-    }
-    raster.samples.push_back(static_cast<std::uint16_t>(label));
-  }
-  return raster;
-}
-
-std::string label_file(const std::string& path, const SceneTree& scene,
-                       std::span<const std::uint32_t> labels) {
+LabelFormat label_format_of(const std::string& path) {
   const std::string extension = extension_of(path);
-  if (extension == ".npy") {
-    return text_of([&](std::ostream& o) { write_npy(o, labels, scene.width, scene.height); });
-  }
-  if (extension == ".png") {
-    return text_of([&](std::ostream& o) { write_png(o, label_image(scene, labels)); });
-  }
-  std::string text;
-  for (const std::uint32_t label : labels) fmt::format_to(std::back_inserter(text), "{}\n", label);
-  return text;
+  return extension == ".npy"   ? LabelFormat::npy
+         : extension == ".png" ? LabelFormat::png
+                               : LabelFormat::csv;
 }
 
 }  // namespace
@@ -149,7 +130,7 @@ void Outputs::write_file(File& file, const Cloud* cloud, const Segmentation& s, 
       return out.write(
           cloud_bytes(with_labels(*cloud, numbers_of(s.labels, info)), cloud_format_of(f.output)));
     case OutputKind::labels:
-      return out.write(label_file(f.labels, s, numbers_of(s.labels, info)));
+      return out.write(label_bytes(s, numbers_of(s.labels, info), label_format_of(f.labels)));
     case OutputKind::json:
       return out.write(json_summary(arguments_, s, info));
     case OutputKind::tree:

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "segment/output/warnings.hpp"
+#include "notes.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace ph::segment {
 namespace {
@@ -26,30 +28,30 @@ std::optional<std::array<double, 2>> distances(const Cloud& cloud, const Vec3& v
 }
 
 /// Where nothing is found: are the lengths metres?
-std::string about_units(const Arguments& a, const Cloud& cloud, const Segmentation& s) {
+std::string about_units(const SegmentOptions& o, bool is_depth, const Cloud& cloud,
+                        const Segmentation& s) {
   constexpr double room = 50, crumb = 0.02;  // metres: no table top is as far, or as small
   const auto found = distances(cloud, s.viewpoint);
   if (!found)
-    return fmt::format("no point within {} m of the viewpoint: all are holes", a.options.max_range);
+    return fmt::format("no point within {} m of the viewpoint: all are holes", o.max_range);
   const auto [nearest, farthest] = *found;
-  const std::string_view unit = a.is_depth_image() ? "see --depth-scale" : "lengths are in metres";
+  const std::string_view unit = is_depth ? "see --depth-scale" : "lengths are in metres";
   if (s.stages.front().points == 0) {
-    return fmt::format(
-        "no point within {} m of the viewpoint{}, the nearest is at {:.3g} m; {}",
-        a.options.max_range, a.options.crop ? " and inside the crop box" : "", nearest,
-        nearest > room       ? fmt::format("{}: are these millimetres?", unit)
-        : a.is_depth_image() ? "see --max-range, or --depth-scale if that is too far: how many "
-                               "units a metre has"
-                             : "see --max-range");
+    return fmt::format("no point within {} m of the viewpoint{}, the nearest is at {:.3g} m; {}",
+                       o.max_range, o.crop ? " and inside the crop box" : "", nearest,
+                       nearest > room ? fmt::format("{}: are these millimetres?", unit)
+                       : is_depth
+                           ? "see --max-range, or --depth-scale if that is too far: how many "
+                             "units a metre has"
+                           : "see --max-range");
   }
   if (farthest >= crumb) return {};
   return fmt::format("all points are within {:.3g} m of the viewpoint; {}", farthest, unit);
 }
 
 /// A pinhole camera sees between a few degrees and a half circle, and its axis meets the image.
-std::string about_camera(const Arguments& a, const Cloud& cloud) {
-  const Intrinsics camera = a.image.camera->scaled_to(cloud.width, cloud.height).intrinsics;
-  const std::string_view option = a.image.calibration.empty() ? "--intrinsics" : "--camera";
+std::string about_camera(const DepthSource& depth, const Cloud& cloud) {
+  const Intrinsics camera = depth.camera.scaled_to(cloud.width, cloud.height).intrinsics;
   constexpr double least = 5, most = 160;  // degrees
   const auto view = [](Index pixels, double focal_length) {
     return 360 / std::numbers::pi * std::atan(static_cast<double>(pixels) / 2 / focal_length);
@@ -57,12 +59,12 @@ std::string about_camera(const Arguments& a, const Cloud& cloud) {
   const double across = view(cloud.width, camera.fx), down = view(cloud.height, camera.fy);
   if (std::max(across, down) > most || std::max(across, down) < least) {
     return fmt::format("{}: a field of view of {:.3g} x {:.3g} degrees; are FX and FY in pixels?",
-                       option, across, down);
+                       depth.option, across, down);
   }
   if (camera.cx >= 0 && camera.cy >= 0 && camera.cx < static_cast<double>(cloud.width) &&
       camera.cy < static_cast<double>(cloud.height))
     return {};
-  return fmt::format("{}: the principal point {}, {} is outside the image of {} x {}", option,
+  return fmt::format("{}: the principal point {}, {} is outside the image of {} x {}", depth.option,
                      camera.cx, camera.cy, cloud.width, cloud.height);
 }
 
@@ -88,16 +90,16 @@ std::string about_plane(const Segmentation& s, const std::string& viewpoint) {
 }
 
 /// Where the sensor is said to have stood, and did not.
-std::string about_viewpoint(const Arguments& a, const Segmentation& s) {
+std::string about_viewpoint(const SegmentOptions& o, const Segmentation& s) {
   const auto text = [](const Vec3& p) {
     constexpr double half = 0.0005;
     const auto shown = [](double x) { return std::abs(x) < half ? 0.0 : x; };  // no -0.000
     return fmt::format("{:.3f},{:.3f},{:.3f}", shown(p[0]), shown(p[1]), shown(p[2]));
   };
   if (!s.rays_meet_at) return about_plane(s, text(s.viewpoint));
-  if (a.options.viewpoint) {
+  if (o.viewpoint) {
     return fmt::format("--viewpoint: found {}, but the rays of the pixels meet at {}",
-                       text(*a.options.viewpoint), text(*s.rays_meet_at));
+                       text(*o.viewpoint), text(*s.rays_meet_at));
   }
   return fmt::format(
       "the rays of the pixels do not meet at the viewpoint of the input but at {0}, which is "
@@ -108,14 +110,15 @@ std::string about_viewpoint(const Arguments& a, const Segmentation& s) {
 
 }  // namespace
 
-std::vector<std::string> warnings(const Arguments& a, const std::optional<Cloud>& cloud,
-                                  const Segmentation& s) {
+std::vector<std::string> notes(const Segmentation& s, const SegmentOptions& options,
+                               const Cloud* cloud, const DepthSource* depth) {
   std::vector<std::string> texts;
   if (!s.difference.empty()) texts.push_back("check: " + s.difference);
-  if (cloud && a.is_depth_image()) texts.push_back(about_camera(a, *cloud));
-  if (cloud) texts.push_back(about_viewpoint(a, s));
-  if (cloud && s.segments.empty() && cloud->size() > 0) texts.push_back(about_units(a, *cloud, s));
-  if (cloud && a.options.plane && !s.plane && s.stages.front().points > 0)
+  if (cloud && depth) texts.push_back(about_camera(*depth, *cloud));
+  if (cloud) texts.push_back(about_viewpoint(options, s));
+  if (cloud && s.segments.empty() && cloud->size() > 0)
+    texts.push_back(about_units(options, depth != nullptr, *cloud, s));
+  if (cloud && options.plane && !s.plane && s.stages.front().points > 0)
     texts.push_back(s.plane_note + "; nothing removed");
   std::erase(texts, "");
   return texts;

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "depth_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "ph/error.hpp"
+
+namespace ph::segment {
+namespace {
+
+/// The camera for images of this size; says so if its calibration is of another one.
+Camera scaled(const Camera& camera, std::string_view calibration, Index width, Index height,
+              const Note& note) {
+  Camera result;
+  try {
+    result = camera.scaled_to(width, height);
+  } catch (const Error& error) {
+    std::string_view what = error.what();
+    if (what.starts_with("camera: ")) what.remove_prefix(8);
+    throw Error(error.kind(), fmt::format("--camera {}: {}", printable(calibration), what));
+  }
+  if (camera.width != 0 && (camera.width != width || camera.height != height)) {
+    const Intrinsics& k = result.intrinsics;
+    note(
+        fmt::format("--camera {}: calibrated for {} x {} pixels; for {} x {} it is scaled to "
+                    "--intrinsics {:.6g},{:.6g},{:.6g},{:.6g}",
+                    printable(calibration), camera.width, camera.height, width, height, k.fx, k.fy,
+                    k.cx, k.cy));
+  }
+  return result;
+}
+
+}  // namespace
+
+std::optional<Camera> camera_named(std::string_view name, const Note& note) {
+  const auto presets = camera_presets();
+  const auto preset = std::ranges::find(presets, name, &CameraPreset::name);
+  if (preset == presets.end()) return std::nullopt;
+  note(
+      fmt::format("--camera {}: nominal values for {}; each camera differs by some per cent, "
+                  "other images by more; its calibration is better",
+                  preset->name, preset->images));
+  return preset->camera;
+}
+
+Camera calibrated_camera(const std::string& path, const Note& note, const RunContext& context) {
+  Camera camera = read_camera(path, &context);
+  if (camera.lens.model != Lens::Model::none) {
+    note(
+        fmt::format("--camera {}: the depth image is taken for a raw one, and the bending "
+                    "of its lens is undone",
+                    printable(path)));
+  }
+  return camera;
+}
+
+Cloud cloud_of_depth(const DepthImage& image, const std::optional<Raster>& colour,
+                     const Camera& camera, std::string_view calibration,
+                     std::optional<double> scale, const Note& note) {
+  const Index rows = image.depth.extents[0], columns = image.depth.extents[1];
+  const Camera fitting = scaled(camera, calibration, columns, rows, note);
+  DepthCounts counts;
+  Cloud cloud =
+      cloud_from_depth(image.depth, colour, fitting, scale.value_or(image.scale), &counts);
+  if (counts.negative > 0)
+    note(fmt::format("{} pixels of a depth below 0: taken as holes", counts.negative));
+  if (counts.unseen > 0) {
+    note(fmt::format("{} pixels are where the camera's lens shows no ray: holes", counts.unseen));
+  }
+  return cloud;
+}
+
+}  // namespace ph::segment
