@@ -27,7 +27,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 NAME = "libph"
 # What a build needs, and what an archive of the sources has.
-SOURCES = ("CMakeLists.txt", "cmake", "libph", "python", "pyproject.toml", "LICENSE", "README.md",
+SOURCES = ("CMakeLists.txt", "cmake", "libph", "libsegment", "python", "pyproject.toml", "LICENSE", "README.md",
            "CHANGELOG.md", "CITATION.cff", "docs/python.md")
 
 
@@ -135,7 +135,7 @@ def build(settings):
     if not given:
         generator = ["-G", "Ninja"] if shutil.which("ninja") else []
         run("cmake", "-S", ROOT, "-B", folder, *generator, "-DCMAKE_BUILD_TYPE=Release",
-            "-DPH_BUILD_PYTHON=ON", "-DPH_BUILD_APPS=OFF", "-DPH_BUILD_SEGMENT=OFF",
+            "-DPH_BUILD_PYTHON=ON", "-DPH_BUILD_APPS=OFF",
             "-DPH_BUILD_TESTS=OFF", "-DPH_BUILD_EXAMPLES=OFF", "-DPH_WITH_FREETYPE=OFF",
             "-DPH_INSTALL=OFF", "-DPH_WERROR=OFF", f"-DPython3_EXECUTABLE={sys.executable}",
             *pybind11_folder(), *settings.get("cmake-args", "").split())

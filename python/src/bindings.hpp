@@ -17,5 +17,7 @@ void bind_complexes(py::module_& m);
 void bind_computations(py::module_& m);
 void bind_merge_trees(py::module_& m);
 void bind_files(py::module_& m);
+void bind_clouds(py::module_& m);
+void bind_segmentations(py::module_& m);
 
 }  // namespace ph::python

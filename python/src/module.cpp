@@ -16,4 +16,6 @@ PYBIND11_MODULE(_core, m) {
   bind_computations(m);
   bind_merge_trees(m);
   bind_files(m);
+  bind_clouds(m);
+  bind_segmentations(m);
 }

@@ -26,15 +26,6 @@ Rips rips_of(const Distances& distances, const RipsOptions& options, const RunCo
   return Rips(distances, options, context);
 }
 
-VoxelType voxel_type_of(const py::buffer_info& array) {
-  if (holds<std::uint8_t>(array)) return VoxelType::uint8;
-  if (holds<std::uint16_t>(array)) return VoxelType::uint16;
-  if (holds<std::int16_t>(array)) return VoxelType::int16;
-  if (holds<float>(array)) return VoxelType::float32;
-  if (holds<double>(array)) return VoxelType::float64;
-  throw Error(ErrorKind::internal, "an image of the wrong type reached _core");
-}
-
 bool is_c_contiguous(const py::buffer_info& array) {
   py::ssize_t stride = array.itemsize;
   for (auto k = array.ndim; k-- > 0;) {

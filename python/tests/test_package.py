@@ -34,7 +34,8 @@ def test_names():
 
 
 def arguments_of(function):
-    return [a.arg for a in function.args.args if a.arg not in ("self", "cls")]
+    arguments = function.args.args + function.args.kwonlyargs
+    return [a.arg for a in arguments if a.arg not in ("self", "cls")]
 
 
 def signature_of(thing):
@@ -102,7 +103,8 @@ def test_an_archive_of_the_sources(backend, tmp_path):
     with tarfile.open(tmp_path / name) as archive:
         names = {member.split("/", 1)[1] for member in archive.getnames() if "/" in member}
     for needed in ("PKG-INFO", "pyproject.toml", "CMakeLists.txt", "python/src/module.cpp",
-                   "libph/src/core/barcode.cpp", "python/libph/__init__.py", "LICENSE"):
+                   "libph/src/core/barcode.cpp", "libsegment/src/pipeline.cpp",
+                   "python/libph/_scenes/__init__.py", "python/libph/__init__.py", "LICENSE"):
         assert needed in names
     assert not any("__pycache__" in n for n in names)
 

@@ -33,6 +33,15 @@ py::buffer_info Block::info() const {
                          shape_, std::move(strides), is_read_only_);
 }
 
+VoxelType voxel_type_of(const py::buffer_info& array) {
+  if (holds<std::uint8_t>(array)) return VoxelType::uint8;
+  if (holds<std::uint16_t>(array)) return VoxelType::uint16;
+  if (holds<std::int16_t>(array)) return VoxelType::int16;
+  if (holds<float>(array)) return VoxelType::float32;
+  if (holds<double>(array)) return VoxelType::float64;
+  throw Error(ErrorKind::internal, "an image of the wrong type reached _core");
+}
+
 PointsView points_of(const py::buffer_info& array) {
   constexpr py::ssize_t size = sizeof(double);
   if (!holds<double>(array) || array.ndim != 2 || array.strides[0] % size != 0 ||

@@ -100,6 +100,9 @@ std::vector<T> vector_of(const py::buffer& array) {
   return {numbers.begin(), numbers.end()};
 }
 
+/// The type of the numbers of an image. @throws Error (internal) on one that images do not have.
+VoxelType voxel_type_of(const py::buffer_info& array);
+
 /// Points of a float64 array with a point a row, of any strides that are whole numbers.
 PointsView points_of(const py::buffer_info& array);
 

@@ -59,6 +59,11 @@ void bind_merge_trees(py::module_& m) {
                              [](const MergeTree& t) { return column<Index>(t, &Merge::elder); })
       .def_property_readonly("younger",
                              [](const MergeTree& t) { return column<Index>(t, &Merge::younger); })
+      .def_property_readonly(
+          "elder_sizes", [](const MergeTree& t) { return column<Index>(t, &Merge::elder_size); })
+      .def_property_readonly(
+          "younger_sizes",
+          [](const MergeTree& t) { return column<Index>(t, &Merge::younger_size); })
       .def_property_readonly("linkage", &linkage_of)
       .def(
           "components",

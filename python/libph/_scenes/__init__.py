@@ -1,0 +1,7 @@
+# SPDX-License-Identifier: MIT
+"""Point clouds and depth images, segmented into objects."""
+from ._objects import Objects, Segment
+from ._segment import segment
+from ._segmentation import Segmentation, Voxels
+
+__all__ = ["Objects", "Segment", "Segmentation", "Voxels", "segment"]

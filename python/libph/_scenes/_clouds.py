@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: MIT
+"""From what a user has of a scene to a cloud of _core."""
+from __future__ import annotations
+
+import os
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import _arrays, _core, _options, _run
+from .._errors import DataError, MissingInputError, UsageError
+from .._files import path_of
+
+
+class Scene(NamedTuple):
+    """What is segmented, and where it came from."""
+
+    cloud: _core.Cloud | _core.Segmentation  # the latter: a stored tree was read
+    name: str                                # of the file; empty: it was an array
+    is_depth: bool
+
+
+def scene_of(data: Any, *, colours: Any, intrinsics: Any, camera: Any, depth_scale: Any,
+             run: dict[str, Any]) -> Scene:
+    """Of an array, or of a file."""
+    is_path = isinstance(data, (str, bytes, os.PathLike))
+    if intrinsics is not None and camera is not None:
+        raise UsageError("camera: excludes intrinsics")
+    name = os.fsdecode(data) if is_path else ""
+    if intrinsics is None and camera is None:
+        if depth_scale is not None:
+            raise UsageError("depth_scale: does nothing for a cloud; a depth image needs intrinsics "
+                             "or camera")
+        if not is_path:
+            return Scene(_cloud(data, colours, run), name, False)
+        if colours is not None:
+            raise UsageError("colours: does nothing for a file of a cloud, which has its own")
+        return Scene(_run.run(_core.read_scene, path_of(data), options=run), name, False)
+    seen_by = _camera(intrinsics, camera, run)
+    scale = None if depth_scale is None else _scale(depth_scale)
+    if not is_path:
+        return Scene(_depth(data, colours, seen_by, scale, run), name, True)
+    if colours is not None and not isinstance(colours, (str, bytes, os.PathLike)):
+        raise _options.refuse("colours", colours, "a path, as the depth image is one")
+    cloud = _run.run(_core.read_depth, path_of(data), b"" if colours is None else path_of(colours),
+                     seen_by, scale, options=run)
+    return Scene(cloud, name, True)
+
+
+def _scale(value: Any) -> float:
+    scale = _options.positive("depth_scale", value)
+    if scale < 1:
+        raise UsageError(f"depth_scale: found {scale}, expected units a metre, at least 1; if a "
+                         f"unit is {scale} m: {1 / scale:.6g}")
+    return scale
+
+
+def _camera(intrinsics: Any, name: Any, run: dict[str, Any]) -> _core.Camera:
+    if intrinsics is not None:
+        return _core.Camera(*_intrinsics(intrinsics))
+    known = _core.camera_named(name) if isinstance(name, str) else None
+    if known is not None:
+        return known
+    path = path_of(name)
+    if not os.path.exists(path):
+        raise MissingInputError(f"camera: found {os.fsdecode(path)!r}, expected a file that is "
+                                f"there or one of {', '.join(_core.camera_names())}")
+    return _run.run(_core.read_camera, path, options=run)
+
+
+def _intrinsics(given: Any) -> list[float]:
+    """FX, FY, CX, CY; or the camera matrix that OpenCV has."""
+    expected = "fx, fy, cx, cy, or the 3 x 3 matrix [[fx, 0, cx], [0, fy, cy], [0, 0, 1]]"
+    numbers = _arrays.as_float64(_arrays.as_array(given, "intrinsics"), "intrinsics")
+    if numbers.shape == (3, 3):
+        fx, fy, cx, cy = (float(numbers[place]) for place in ((0, 0), (1, 1), (0, 2), (1, 2)))
+        if not np.array_equal(numbers, [[fx, 0, cx], [0, fy, cy], [0, 0, 1]]):
+            raise _options.refuse("intrinsics", given, expected)
+        return [fx, fy, cx, cy]
+    if numbers.shape != (4,) or not np.isfinite(numbers).all():
+        raise _options.refuse("intrinsics", given, expected)
+    return [float(number) for number in numbers]
+
+
+def _cloud(data: Any, colours: Any, run: dict[str, Any]) -> _core.Cloud:
+    array = _arrays.as_array(data, "cloud")
+    if array.size == 0 and array.ndim == 1:
+        array = np.empty((0, 3))
+    if array.ndim not in (2, 3) or array.shape[-1] != 3:
+        hint = ""
+        if array.ndim == 2:
+            hint = "; a depth image needs intrinsics or camera, colours are given by colours"
+        raise UsageError(f"cloud: found an array of shape {array.shape}, expected (points, 3) or "
+                         f"(rows, columns, 3){hint}")
+    points = _arrays.as_float64(array, "cloud")
+    infinite = np.isinf(points)
+    if infinite.any():
+        index = [int(i) for i in np.unravel_index(int(np.argmax(infinite)), points.shape)]
+        raise DataError(f"cloud: {_arrays.place_of(index)}: found {points[tuple(index)]}, expected "
+                        "a finite number, or nan for a hole")
+    bytes_of = None if colours is None else _colours(colours, points.shape[:-1])
+    return _run.run(_core.cloud_of_points, np.ascontiguousarray(points), bytes_of, options=run)
+
+
+def _depth(data: Any, colours: Any, camera: _core.Camera, scale: float | None, run: dict[str, Any]
+           ) -> _core.Cloud:
+    array = _arrays.as_array(data, "cloud")
+    if array.ndim != 2:
+        raise UsageError(f"cloud: found an array of shape {array.shape}, expected a depth image of "
+                         "rows and columns, as a camera is given")
+    if scale is None:
+        scale = 1.0 if array.dtype.kind == "f" else 1000.0
+    image = np.ascontiguousarray(_arrays.as_image(array, "cloud"))
+    bytes_of = None if colours is None else _colours(colours, array.shape)
+    return _run.run(_core.cloud_of_depth, image, bytes_of, camera, scale, options=run)
+
+
+def _colours(data: Any, shape: tuple[int, ...]) -> NDArray[np.uint8]:
+    """Bytes, three or four for each point."""
+    array = _arrays.as_array(data, "colours")
+    if array.shape[:-1] != shape or array.shape[-1] not in (3, 4):
+        raise UsageError(f"colours: found an array of shape {array.shape}, expected "
+                         f"{(*shape, 3)}: red, green and blue of each point")
+    if array.dtype == np.uint8:
+        return np.ascontiguousarray(array)
+    is_share = array.dtype.kind == "f"
+    most = 1 if is_share else 255
+    wrong = ~((array >= 0) & (array <= most))
+    if wrong.any():
+        index = [int(i) for i in np.unravel_index(int(np.argmax(wrong)), array.shape)]
+        raise DataError(f"colours: {_arrays.place_of(index)}: found {array[tuple(index)]}, expected "
+                        f"0 to {most} of type {array.dtype}")
+    return np.floor(array * 255 + 0.5).astype(np.uint8) if is_share else array.astype(np.uint8)

@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: MIT
+"""The objects of a scene, as a table."""
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    import pandas
+
+_MOST_ROWS = 30  # of a table in a notebook
+
+
+class Segment(NamedTuple):
+    """One object of a scene; lengths in metres.
+
+    Attributes
+    ----------
+    label : int
+        Its number in `Segmentation.labels`: 1, 2, ... by decreasing number of points.
+    points, voxels : int
+        How many it has.
+    persistence : float
+        How far the value at which it meets another object is above its own lowest one: the
+        confidence in it. inf if it meets none.
+    centroid : ndarray
+        The mean of its points, without those at its base on the plane.
+    box : ndarray
+        The least and the largest coordinates of its points, (2, 3).
+    centre, axes, size : ndarray
+        The tight box of what is seen of it: its middle, three unit vectors, one a row, and how long
+        it is along each. Where a plane was removed, the last axis is its normal.
+    neighbours : tuple of (int, float)
+        The labels of the objects that it touches, the first met first, with the values at which
+        they meet.
+    """
+
+    label: int
+    points: int
+    voxels: int
+    persistence: float
+    centroid: NDArray[np.float64]
+    box: NDArray[np.float64]
+    centre: NDArray[np.float64]
+    axes: NDArray[np.float64]
+    size: NDArray[np.float64]
+    neighbours: tuple[tuple[int, float], ...]
+
+
+class Objects(Sequence[Segment]):
+    """The objects of a scene as a table. A row is a `Segment`, a column an array."""
+
+    def __init__(self, segments: Iterable[Segment]) -> None:
+        self._segments = tuple(segments)
+
+    @overload
+    def __getitem__(self, i: int) -> Segment: ...
+    @overload
+    def __getitem__(self, i: slice) -> Objects: ...
+
+    def __getitem__(self, i: int | slice) -> Segment | Objects:
+        found = self._segments[i]
+        return found if isinstance(found, Segment) else Objects(found)
+
+    def __len__(self) -> int:
+        return len(self._segments)
+
+    def __repr__(self) -> str:
+        rows = [f"{s.label}: {s.points} points at ({', '.join(f'{x:.3f}' for x in s.centre)})"
+                for s in self._segments[:3]]
+        more = ", ..." if len(self) > 3 else ""
+        return f"Objects({len(self)}{': ' if rows else ''}{'; '.join(rows)}{more})"
+
+    def _column(self, name: str, kind: Any, shape: tuple[int, ...] = ()) -> NDArray[Any]:
+        column = np.array([getattr(s, name) for s in self._segments], dtype=kind)
+        return column.reshape(len(self), *shape)
+
+    @property
+    def label(self) -> NDArray[np.int64]:
+        """The label of each."""
+        return self._column("label", np.int64)
+
+    @property
+    def points(self) -> NDArray[np.int64]:
+        """How many points each has."""
+        return self._column("points", np.int64)
+
+    @property
+    def voxels(self) -> NDArray[np.int64]:
+        """How many voxels each has."""
+        return self._column("voxels", np.int64)
+
+    @property
+    def persistence(self) -> NDArray[np.float64]:
+        """The confidence in each."""
+        return self._column("persistence", np.float64)
+
+    @property
+    def centroid(self) -> NDArray[np.float64]:
+        """The mean of the points of each, (k, 3)."""
+        return self._column("centroid", np.float64, (3,))
+
+    @property
+    def centre(self) -> NDArray[np.float64]:
+        """The middle of the tight box of each, (k, 3)."""
+        return self._column("centre", np.float64, (3,))
+
+    @property
+    def axes(self) -> NDArray[np.float64]:
+        """The axes of that box, (k, 3, 3)."""
+        return self._column("axes", np.float64, (3, 3))
+
+    @property
+    def size(self) -> NDArray[np.float64]:
+        """How long that box is along its axes, (k, 3)."""
+        return self._column("size", np.float64, (3,))
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table, a row for each object, with the label as its index."""
+        import pandas
+        columns: dict[str, Any] = {"points": self.points, "voxels": self.voxels,
+                                   "persistence": self.persistence}
+        for name in ("centroid", "centre", "size"):
+            values = getattr(self, name)
+            for k, axis in enumerate("012" if name == "size" else "xyz"):
+                columns[f"{name}_{axis}"] = values[:, k]
+        return pandas.DataFrame(columns, index=pandas.Index(self.label, name="label"))
+
+    def _repr_html_(self) -> str:
+        head = "".join(f"<th>{name}</th>" for name in ("label", "points", "voxels", "persistence",
+                                                       "centre (m)", "size (m)"))
+        rows = [f"<tr><th>{s.label}</th><td>{s.points}</td><td>{s.voxels}</td>"
+                f"<td>{s.persistence:.3g}</td><td>{_numbers(s.centre)}</td>"
+                f"<td>{_numbers(s.size)}</td></tr>" for s in self._segments[:_MOST_ROWS]]
+        if len(self) > _MOST_ROWS:
+            rows.append(f"<tr><td colspan=6>and {len(self) - _MOST_ROWS} more</td></tr>")
+        return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(rows)}</tbody></table>"
+
+
+def _numbers(values: Iterable[float]) -> str:
+    return ", ".join(f"{x:.3f}" for x in values)
+
+
+def segment_of(facts: dict[str, Any]) -> Segment:
+    """Of what _core knows of it."""
+    arrays = {name: np.array(facts[name]) for name in ("centroid", "box", "centre", "axes", "size")}
+    return Segment(facts["label"], facts["points"], facts["voxels"], facts["persistence"],
+                   neighbours=tuple(facts["neighbours"]), **arrays)

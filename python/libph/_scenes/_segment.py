@@ -1,0 +1,232 @@
+# SPDX-License-Identifier: MIT
+"""Objects in a point cloud or a depth image, by H0 persistence of its surface."""
+from __future__ import annotations
+
+import inspect
+import logging
+import math
+import warnings
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .. import _arrays, _core, _options, _run
+from .._errors import MemoryLimitError, UsageError
+from .._files import _as_keywords
+from ._clouds import Scene, scene_of
+from ._segmentation import Segmentation
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+    from typing_extensions import Unpack
+
+    from .._run import RunOptions
+
+_LOG = logging.getLogger("libph")
+_METHODS = ("surface", "paper", "supervoxels")
+# What is read of the scene itself. All others decide how it is segmented.
+_OF_INPUT = ("cloud", "colours", "intrinsics", "camera", "depth_scale", "run")
+_MOST_STEPS = 2**31 - 1
+_SPACING, _DISTANCE, _STEPS, _NOISE = 0.03, 0.025, 10, 0.005
+
+
+def segment(cloud: Any, *, method: str | None = None, supervoxels: float | None = None,
+            voxel: float | None = None, min_persistence: float | None = None,
+            min_part: int | None = None, min_size: int | None = None,
+            objects: bool | None = None, max_range: float = 2.0, crop: ArrayLike | None = None,
+            plane: bool = True, plane_distance: float | None = None,
+            plane_noise: float | None = None, viewpoint: Sequence[float] | None = None,
+            distance: float | None = None, steps: int | str | None = None, check: bool = True,
+            colours: Any = None, intrinsics: ArrayLike | None = None, camera: Any = None,
+            depth_scale: float | None = None, **run: Unpack[RunOptions]) -> Segmentation:
+    """Segments a point cloud or a depth image into objects.
+
+    All lengths are metres. What should be known before the result is trusted is a ``UserWarning``,
+    and in `Segmentation.meta`: no plane, or lengths that look like millimetres.
+
+    Parameters
+    ----------
+    cloud : array_like or path
+        Points in space (n, 3), or (rows, columns, 3) as a camera sees them, NaN where it sees
+        nothing. With `intrinsics` or `camera` a depth image (rows, columns): floats are metres,
+        whole numbers millimetres; what is not above 0 is a hole. A file of either, or of a tree
+        that `Segmentation.save` wrote; then there are no other options.
+    method : {None, "surface", "paper", "supervoxels"}
+        By the shape of the surface (default); by distance alone, as in Beksi & Papanikolopoulos,
+        ICRA 2016; or into pieces of about one size.
+    supervoxels : float, optional
+        Method "supervoxels": the surface is nowhere farther from a seed. Default: 0.03.
+    voxel : float, optional
+        The edge of a voxel. Default: 0.005, or more for a sparse cloud; "paper": 0.01.
+    min_persistence : float, optional
+        The least persistence of a part. "surface": a mean concavity from 0 to 2, default 0.01;
+        "supervoxels": a length, default 0.
+    min_part : int, optional
+        The fewest voxels of a part; a smaller one joins a neighbour. Default: 200; "supervoxels":
+        8. Not of "paper".
+    min_size : int, optional
+        The fewest voxels of an object. Default: 32; "supervoxels": 1.
+    objects : bool, optional
+        Whether the visible parts of one object are joined. Default: True. Of "surface" only.
+    max_range : float
+        Points farther from the viewpoint are left out.
+    crop : array_like, optional
+        Points outside this box are left out: xmin, xmax, ymin, ymax, zmin, zmax.
+    plane : bool
+        Whether the supporting plane, and what lies behind it, is removed.
+    plane_distance : float, optional
+        Half the thickness of the plane. Default: 0.005; "paper": 0.006.
+    plane_noise : float, optional
+        The least of it at a range of one metre; it grows with the square of the range. Default:
+        0.005. Not of "paper".
+    viewpoint : sequence of float, optional
+        Where the sensor stood. Default: as the file or the rays of the pixels say, else the origin.
+    distance : float, optional
+        Of "paper": the largest distance that joins two voxels. Default: 0.025.
+    steps : int or "exact", optional
+        Of "paper": the steps of the filtration up to it. Default: 10.
+    check : bool
+        Whether persistence is computed twice, by union-find and by reduction of a matrix.
+    colours : array_like or path, optional
+        Red, green and blue of each point or pixel, as bytes or as floats from 0 to 1. The
+        segmentation does not look at them; files and pictures have them.
+    intrinsics : array_like, optional
+        Of a depth image: fx, fy, cx, cy in pixels, or the matrix of the camera (3, 3).
+    camera : str or path, optional
+        In its place a calibration file (camera_info of ROS, OpenCV, Open3D), or the name of a
+        camera, as "realsense-d435".
+    depth_scale : float, optional
+        Units of a depth image that make a metre.
+    **run
+        `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
+
+    Returns
+    -------
+    Segmentation
+
+    Examples
+    --------
+    Two boxes on a table, seen from above:
+
+    >>> rows, columns = np.mgrid[0:240, 0:320]
+    >>> depth = np.full((240, 320), 0.8)
+    >>> depth[60:120, 60:120] = 0.7
+    >>> depth[100:180, 180:260] = 0.72
+    >>> found = ph.segment(depth, intrinsics=(260, 260, 159.5, 119.5))
+    >>> found
+    Segmentation(240 x 320 points, method surface: 2 objects)
+    >>> found.labels[90, 90], found.labels[140, 220], found.labels[0, 0]
+    (2, 1, 0)
+    """
+    given = dict(locals())
+    _run.check_names("segment", given["run"])
+    scene = scene_of(cloud, colours=colours, intrinsics=intrinsics, camera=camera,
+                     depth_scale=depth_scale, run=given["run"])
+    if isinstance(scene.cloud, _core.Segmentation):
+        _require_no_options(given)
+        return Segmentation._of(scene.cloud, scene.name, [])
+    options = _options_of(given)
+    try:
+        found = _run.run(_core.segment, scene.cloud, options, options=given["run"])
+    except MemoryLimitError as error:
+        edges = "distance or " if given["method"] == "paper" else ""
+        raise MemoryLimitError(f"{error}; lower {edges}max_range, enlarge voxel, or raise "
+                               "memory_limit") from None
+    return Segmentation._of(found, scene.name, _told(scene, found))
+
+
+def _told(scene: Scene, found: _core.Segmentation) -> list[str]:
+    """What the user hears; also for the record."""
+    assumed = [_as_keywords(note) for note in scene.cloud.notes]
+    for note in assumed:
+        _LOG.info("%s: %s", scene.name or "cloud", note)
+    doubts = [_as_keywords(note) for note in found.notes]
+    for note in doubts:
+        warnings.warn(note, UserWarning, stacklevel=3)
+    return assumed + doubts
+
+
+def _require_no_options(given: dict[str, Any]) -> None:
+    for name, parameter in inspect.signature(segment).parameters.items():
+        if name not in _OF_INPUT and given[name] != parameter.default:
+            raise UsageError(f"{name}: does nothing for a stored tree, which was made with what it "
+                             "was made with; Segmentation.cut cuts it anew")
+
+
+def _options_of(o: dict[str, Any]) -> _core.SegmentOptions:
+    """The options as _core takes them. One that does nothing is refused."""
+    method = o["method"]
+    if o["supervoxels"] is not None:
+        if method not in (None, "supervoxels"):
+            raise UsageError(f"supervoxels: found method={method!r}, expected 'supervoxels' or none")
+        method = "supervoxels"
+    method = "surface" if method is None else _options.choice("method", method, _METHODS)
+    plane = _options.flag("plane", o["plane"])
+    idle = [("plane_distance", plane, "plane=True"), ("plane_noise", plane, "plane=True")]
+    idle += [(name, method != "paper", "method 'surface' or 'supervoxels'")
+             for name in ("min_persistence", "min_part", "plane_noise")]
+    idle += [(name, method == "paper", "method 'paper'") for name in ("distance", "steps")]
+    idle += [("objects", method == "surface", "method 'surface'")]
+    for name, works, expected in idle:
+        if o[name] is not None and not works:
+            raise UsageError(f"{name}: does nothing here, expected {expected}")
+    return _core.SegmentOptions(
+        method=method, voxel=_if_given(_options.positive, "voxel", o),
+        min_size=_if_given(_at_least_one, "min_size", o),
+        max_range=_options.real("max_range", o["max_range"], "a length, at least 0", 0),
+        crop=_if_given(_box, "crop", o), plane=plane,
+        plane_distance=_if_given(_options.positive, "plane_distance", o),
+        plane_noise=_if_given(_length, "plane_noise", o, _NOISE),
+        viewpoint=_if_given(_point, "viewpoint", o), check=_options.flag("check", o["check"]),
+        min_persistence=_if_given(_at_least_zero, "min_persistence", o),
+        objects=_if_given(_options.flag, "objects", o, True),
+        min_part=_if_given(_at_least_one, "min_part", o),
+        spacing=_if_given(_options.positive, "supervoxels", o, _SPACING),
+        distance=_if_given(_length, "distance", o, _DISTANCE),
+        steps=_if_given(_steps, "steps", o, _STEPS))
+
+
+def _if_given(check: Any, name: str, options: dict[str, Any], default: Any = None) -> Any:
+    value = options[name]
+    return default if value is None else check(name, value)
+
+
+def _at_least_one(name: str, value: Any) -> int:
+    return _options.whole(name, value, 1)
+
+
+def _at_least_zero(name: str, value: Any) -> float:
+    return _options.real(name, value, "a number, at least 0", 0)
+
+
+def _length(name: str, value: Any) -> float:
+    length = _options.real(name, value, "a finite length, at least 0", 0)
+    if math.isinf(length):
+        raise _options.refuse(name, value, "a finite length, at least 0")
+    return length
+
+
+def _steps(name: str, value: Any) -> int:
+    """0: exact."""
+    return 0 if isinstance(value, str) and value == "exact" else _options.whole(
+        name, value, 1, _MOST_STEPS)
+
+
+def _point(name: str, value: Any) -> list[float]:
+    numbers = _arrays.as_float64(_arrays.as_array(value, name), name)
+    if numbers.shape != (3,) or not np.isfinite(numbers).all():
+        raise _options.refuse(name, value, "x, y, z, finite")
+    return [float(number) for number in numbers]
+
+
+def _box(name: str, value: Any) -> list[list[float]]:
+    """Its two corners."""
+    numbers = _arrays.as_float64(_arrays.as_array(value, name), name)
+    expected = "xmin, xmax, ymin, ymax, zmin, zmax, each least before its most"
+    if numbers.shape not in ((6,), (3, 2)):
+        raise _options.refuse(name, value, expected)
+    corners = numbers.reshape(3, 2).T
+    if not (corners[0] <= corners[1]).all():
+        raise _options.refuse(name, value, expected)
+    return [[float(x) for x in corner] for corner in corners]

@@ -1,0 +1,305 @@
+# SPDX-License-Identifier: MIT
+"""What a segmentation gives."""
+from __future__ import annotations
+
+import functools
+import html
+import os
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import _core, _options, _run
+from .._barcode import Barcode, Meta
+from .._errors import UsageError
+from .._files import path_of
+from .._trees import MergeTree
+from ._objects import Objects, segment_of
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from .._run import RunOptions
+
+_FORMATS = {".npy": "npy", ".png": "png", ".csv": "csv", ".txt": "csv", ".pcd": "pcd",
+            ".ply": "ply", ".tree": "tree", ".json": "json"}
+
+
+class Voxels(NamedTuple):
+    """The voxels of a scene: the vertices of its filtered graph.
+
+    Attributes
+    ----------
+    centroids : ndarray
+        The mean of the points in each, (v, 3).
+    normals : ndarray or None
+        The normal of the surface in each, NaN where there is none, (v, 3). None: method "paper".
+    points : ndarray
+        How many points each centroid is the mean of.
+    labels : ndarray
+        The object of each, 0: none.
+    of_point : ndarray
+        The voxel of each point of the cloud, -1: none. Shaped as `Segmentation.labels`.
+    """
+
+    centroids: NDArray[np.float64]
+    normals: NDArray[np.float64] | None
+    points: NDArray[np.int64]
+    labels: NDArray[np.uint32]
+    of_point: NDArray[np.int64]
+
+
+class Segmentation:
+    """The objects of a scene: one cut of a merge tree, with the tree.
+
+    Attributes
+    ----------
+    labels : ndarray
+        The object of each point, 0: none. (rows, columns) if the cloud has them, else (n,).
+    objects : Objects
+        What is known of each object.
+    tree : MergeTree
+        How the voxels join. `voxels` says where they are.
+    voxels : Voxels
+        The vertices of the tree.
+    barcode : Barcode
+        The H0 of the tree, with bars of no length.
+    meta : Mapping
+        How it was made: `method`, `voxel`, `plane` (a, b, c, d of ax + by + cz + d = 0),
+        `viewpoint`, where it was cut, and `notes`.
+    """
+
+    _found: _core.Segmentation
+    meta: Mapping[str, Any]
+
+    def __init__(self) -> None:
+        raise TypeError("a Segmentation is made by ph.segment")
+
+    @classmethod
+    def _of(cls, found: _core.Segmentation, name: str, notes: Sequence[str]) -> Segmentation:
+        self = object.__new__(cls)
+        self._found = found
+        self.labels: NDArray[np.uint32] = np.asarray(found.labels)
+        known = {"path": name, "shape": self.labels.shape, **found.facts, "notes": tuple(notes),
+                 "version": _core.version}
+        self.meta = Meta({key: value for key, value in known.items() if value != ""})
+        self.objects = Objects(segment_of(facts) for facts in found.segments)
+        return self
+
+    @property
+    def tree(self) -> MergeTree:
+        """How the voxels join."""
+        return MergeTree(self._found.tree, None)
+
+    @property
+    def voxels(self) -> Voxels:
+        """The voxels that are the vertices of the tree."""
+        normals = np.asarray(self._found.normals)
+        return Voxels(np.asarray(self._found.centroids),
+                      None if self.meta["method"] == "paper" else normals,
+                      np.asarray(self._found.counts), np.asarray(self._found.voxel_labels),
+                      np.asarray(self._found.voxel_of_point))
+
+    @property
+    def barcode(self) -> Barcode:
+        """The H0 of the tree."""
+        paper = self.meta["method"] == "paper"
+        meta = {"complex": "rips" if paper else "lower-star", "points": self.meta["voxels"]}
+        return Barcode._of(self._found.barcode, meta)
+
+    # ---- other cuts
+
+    def cut(self, value: float | None = None, *, n: int | None = None, min_part: int | None = None,
+            min_size: int | None = None, objects: bool | None = None, **run: Unpack[RunOptions]
+            ) -> Segmentation:
+        """A coarser or finer segmentation of the same tree, in milliseconds.
+
+        Parameters
+        ----------
+        value : float, optional
+            The least persistence of a part; method "paper": the distance up to which voxels join,
+            no larger than that of the tree. Default: as it is.
+        n : int, optional
+            In its place: how many objects there shall be.
+        min_part, min_size, objects
+            As of `segment`. Default: as they are.
+        **run
+            `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
+
+        Returns
+        -------
+        Segmentation
+
+        Raises
+        ------
+        UsageError
+            If no cut was found that gives `n` objects.
+        """
+        _run.check_names("cut", dict(run))
+        method = self.meta["method"]
+        if min_part is not None:
+            if method == "paper":
+                raise UsageError("min_part: does nothing for method 'paper'")
+            min_part = _options.whole("min_part", min_part, 1)
+        if min_size is not None:
+            min_size = _options.whole("min_size", min_size, 1)
+        if objects is not None:
+            if method != "surface":
+                raise UsageError(f"objects: does nothing for method '{method}'")
+            objects = _options.flag("objects", objects)
+        if value is not None:
+            value = _options.real("value", value, "a number, at least 0", 0)
+            if n is not None:
+                raise UsageError("n: excludes value")
+            if value > self.meta.get("distance", np.inf):
+                raise _options.refuse("value", value, f"at most {self.meta['distance']}, the "
+                                      "distance up to which the tree was made")
+
+        def found_at(value: float | None) -> _core.Segmentation:
+            return _run.run(self._found.cut, value, min_part, min_size, objects,
+                            options=dict(run))
+
+        if n is not None:
+            n = _options.whole("n", n, 0)
+            value = self._value_of(n, min_part, min_size, found_at)
+        found = found_at(value)
+        if n is not None and len(found.segments) != n:
+            raise _no_cut(n, [str(len(found.segments))])
+        return Segmentation._of(found, self.meta.get("path", ""), self.meta["notes"])
+
+    def _value_of(self, n: int, min_part: int | None, min_size: int | None, found_at: Any
+                  ) -> float:
+        """Where to cut for so many objects."""
+        tree = self._found.tree
+        sizes = np.sort(np.column_stack([np.asarray(tree.elder_sizes),
+                                         np.asarray(tree.younger_sizes)]), axis=1)
+        values = np.asarray(tree.values)
+        if self.meta["method"] == "paper":
+            return _distance_of(n, np.append(0.0, values), np.concatenate([[[0, 0]], sizes]),
+                                self.meta["voxels"], min_size or self.meta["min_size"])
+        separates = sizes[:, 0] >= (min_part or self.meta["min_part"])
+        births = np.asarray(tree.births)[np.asarray(tree.younger)]
+        # Between two of these all cuts are the same, and the last one joins all that can be.
+        levels = np.unique(np.append((values - births)[separates], 0.0))
+        levels = np.append(levels, np.nextafter(levels[-1], np.inf))
+
+        @functools.lru_cache(maxsize=None)
+        def count(i: int) -> int:
+            return len(found_at(float(levels[i])).segments)
+
+        def first_with(most: int) -> int:
+            """By halves: the coarser the cut, the fewer objects there are."""
+            low, high = 0, len(levels)
+            while low < high:
+                middle = (low + high) // 2
+                low, high = (low, middle) if count(middle) <= most else (middle + 1, high)
+            return low
+
+        first, end = first_with(n), first_with(n - 1)
+        if first == end:
+            counts = [str(count(i)) for i in (first - 1, first) if 0 <= i < len(levels)]
+            raise _no_cut(n, counts)
+        if end == len(levels):
+            return float(levels[first])
+        return float((levels[max(first - 1, 0)] + levels[end - 1]) / 2)
+
+    # ---- more about objects
+
+    def signature(self, *labels: int, **run: Unpack[RunOptions]) -> Barcode:
+        """The shape of an object, or of several together: loops and hollows.
+
+        A bar of dimension 1 is a loop. It closes when the voxels have grown by its birth, and a
+        ball as large as its death goes through. Lengths are metres.
+
+        Parameters
+        ----------
+        *labels : int
+            Of the objects.
+        **run
+            `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
+        """
+        _run.check_names("signature", dict(run))
+        chosen = [self._label("labels", label) for label in labels]
+        if not chosen:
+            raise UsageError("labels: found none, expected the label of an object")
+        bars = _run.run(self._found.signature, chosen, options=dict(run))
+        return Barcode._of(bars, {"complex": "cubical", "field": 2})
+
+    def first_meeting(self, a: int, b: int) -> tuple[float, NDArray[np.float64]] | None:
+        """The value at which two objects join, and where in space; None: they never do."""
+        meeting = self._found.first_meeting(self._label("a", a), self._label("b", b))
+        return None if meeting is None else (meeting[0], np.array(meeting[1]))
+
+    def _label(self, name: str, label: Any) -> int:
+        if not self.objects:
+            raise UsageError(f"{name}: found {label!r}, but there are no objects")
+        return _options.whole(name, label, 1, len(self.objects))
+
+    # ---- output
+
+    def save(self, path: str | os.PathLike[str], format: str | None = None) -> None:
+        """Writes a file, whole or not at all.
+
+        Parameters
+        ----------
+        path : path
+            Its extension chooses the format. The labels: .npy, .png (16 bits, rows and columns) or
+            .csv. The cloud with its labels, and all that it had: .pcd or .ply. The tree: .tree, for
+            `segment` and the program ph-segment, or .json.
+        format : str, optional
+            One of these extensions without its dot.
+        """
+        file = path_of(path)
+        extension = os.path.splitext(os.fsdecode(file))[1].lower()
+        known = _FORMATS.get(extension) if format is None else format
+        if known not in _FORMATS.values():
+            raise _options.refuse("format" if format else "path", format or os.fsdecode(file),
+                                  ", ".join(_FORMATS) if format is None
+                                  else ", ".join(dict.fromkeys(_FORMATS.values())))
+        if known in ("pcd", "ply") and not self._found.has_cloud:
+            raise UsageError(f"format: found {known}, but of a stored tree there is no cloud")
+        if known == "png" and self.labels.ndim == 1:
+            raise UsageError("format: found png for a cloud without rows and columns, expected npy "
+                             "or csv")
+        _run.run(self._found.save, file, known, options={})
+
+    def __repr__(self) -> str:
+        shape = " x ".join(map(str, self.labels.shape))
+        count = len(self.objects)
+        what = "supervoxel" if self.meta["method"] == "supervoxels" else "object"
+        return (f"Segmentation({shape} points, method {self.meta['method']}: {count} {what}"
+                f"{'' if count == 1 else 's'})")
+
+    def _repr_html_(self) -> str:
+        svg = _run.run(self._found.svg, options={})
+        notes = "".join(f"<div>{html.escape(note)}</div>" for note in self.meta["notes"])
+        return (f"<div>{html.escape(repr(self))}{notes}<div>{svg[svg.find('<svg'):]}</div>"
+                f"{self.objects._repr_html_()}</div>")
+
+
+def _distance_of(n: int, values: NDArray[np.float64], sizes: NDArray[np.int64], voxels: int,
+                 least: int) -> float:
+    """The largest distance at which `n` components have `least` voxels.
+
+    Parameters
+    ----------
+    values, sizes
+        Of each merge, in order: its distance, and the voxels of both sides, the smaller first.
+    """
+    gained = (sizes[:, 1] < least) & (sizes.sum(axis=1) >= least)
+    lost = (sizes[:, 0] >= least).astype(int)
+    counts = (voxels if least == 1 else 0) + np.cumsum(gained - lost)
+    is_last = np.append(values[1:] != values[:-1], True)
+    reached = np.flatnonzero(is_last & (counts == n))
+    if not len(reached):
+        found = np.unique(counts[is_last])
+        below, above = found[found < n][-1:], found[found > n][:1]
+        raise _no_cut(n, [str(count) for count in (*below, *above)])
+    return float(values[reached[-1]])
+
+
+def _no_cut(n: int, counts: Sequence[str]) -> UsageError:
+    return UsageError(f"n: found no cut into {n} objects; those next to it give "
+                      f"{' and '.join(counts) or 'none'}")

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: MIT
+// Segmentations of clouds: computed, cut again, stored.
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "bindings.hpp"
+#include "cloud_files.hpp"
+#include "data/arrays.hpp"
+#include "label_files.hpp"
+#include "notes.hpp"
+#include "ph/detail/io/output_file.hpp"
+#include "ph/io/cloud.hpp"
+#include "ph/io/plot.hpp"
+#include "pictures/cloud_legend.hpp"
+#include "pictures/colouring.hpp"
+#include "results/bars.hpp"
+#include "run.hpp"
+#include "scenes/scene.hpp"
+#include "tree/tree_barcode.hpp"
+
+namespace ph::python {
+namespace {
+
+using segment::SegmentOptions, segment::Vec3;
+
+constexpr std::size_t kFewPoints = 2000;
+
+SegmentedScene segment_cloud(std::shared_ptr<SceneCloud> cloud, const SegmentOptions& given,
+                             const RunOptions& options) {
+  SegmentedScene scene{std::move(cloud), given};
+  const auto points = static_cast<std::size_t>(scene.cloud()->size());
+  run_task(options, points < kFewPoints, [&](const SharedContext& context) {
+    scene.result = segment::segment(*scene.cloud(), given, *context);
+    if (!scene.result.difference.empty())
+      throw Error(ErrorKind::internal, "check: " + scene.result.difference);
+    const NamedCamera* camera = scene.input->camera.get();
+    std::optional<segment::DepthSource> depth;
+    if (camera)
+      depth.emplace(segment::DepthSource{
+          camera->camera, camera->calibration.empty() ? "--intrinsics" : "--camera"});
+    scene.notes = segment::notes(scene.result, given, scene.cloud(), depth ? &*depth : nullptr);
+  });
+  return scene;
+}
+
+/// A cloud, or the tree that was stored of one.
+py::object read_scene(const std::string& path, const RunOptions& options) {
+  std::shared_ptr<SceneCloud> cloud;
+  std::optional<SegmentedScene> stored;
+  run_task(options, false, [&](const SharedContext& context) {
+    const Input input = Input::open(std::filesystem::path(path), context.get());
+    if (!segment::is_tree(input)) {
+      cloud = std::make_shared<SceneCloud>();
+      ReadOptions how;
+      how.context = context.get();
+      how.allow_empty = true;
+      how.note = note_into(cloud->notes);
+      cloud->cloud = ph::read_cloud(input, how);
+      return;
+    }
+    segment::Segmentation& result = stored.emplace().result;
+    static_cast<segment::SceneTree&>(result) = segment::read_tree(input);
+    if (!result.plane) result.plane_note = "the tree was made without one";
+    result.barcode = segment::barcode_of(result.tree);
+    static_cast<segment::SceneCut&>(result) = segment::cut(result, result.first_cut, *context);
+  });
+  return stored ? py::cast(std::move(*stored)) : py::cast(std::move(cloud));
+}
+
+/// Another cut; what is not given stays as it is.
+SegmentedScene cut(const SegmentedScene& scene, std::optional<double> value,
+                   std::optional<Index> min_part, std::optional<Index> min_size,
+                   std::optional<bool> objects, const RunOptions& options) {
+  const segment::CutOptions& old = scene.result.first_cut;
+  const segment::CutOptions asked{value.value_or(old.value), min_part.value_or(old.min_part),
+                                  min_size.value_or(old.min_size), objects.value_or(old.objects)};
+  SegmentedScene other{scene.input, scene.options};
+  run_task(options, scene.result.points.size() < kFewPoints, [&](const SharedContext& context) {
+    segment::SceneCut found = segment::cut(scene.result, asked, *context);
+    other.result = scene.result;
+    static_cast<segment::SceneCut&>(other.result) = std::move(found);
+    other.result.first_cut = asked;
+  });
+  return other;
+}
+
+// ---- what was found, as arrays and plain values
+
+std::vector<py::ssize_t> raster_of(const segment::SceneTree& scene) {
+  if (scene.height > 1) return {scene.height, scene.width};
+  return {static_cast<py::ssize_t>(scene.cloud_size())};
+}
+
+Block labels(const SegmentedScene& scene) {
+  return Block::of(scene.result.labels, raster_of(scene.result));
+}
+
+Block voxel_of_point(const SegmentedScene& scene) {
+  const segment::SceneTree& tree = scene.result;
+  std::vector<std::int64_t> voxels(tree.cloud_size(), -1);
+  for (std::size_t k = 0; k < tree.points.size(); ++k)
+    voxels[static_cast<std::size_t>(tree.points[k])] = tree.vertex_of_point[k];
+  return Block::of(std::move(voxels), raster_of(tree));
+}
+
+std::map<std::string, py::object> segment_of(const segment::Segment& s) {
+  std::vector<std::pair<std::uint32_t, double>> neighbours;
+  for (const segment::Neighbour& n : s.neighbours) neighbours.emplace_back(n.label, n.meets_at);
+  return {{"label", py::cast(s.label)},
+          {"points", py::cast(s.points)},
+          {"voxels", py::cast(s.voxels)},
+          {"persistence", py::cast(s.persistence)},
+          {"neighbour", py::cast(s.neighbour)},
+          {"meets_at", py::cast(s.meets_at)},
+          {"centroid", py::cast(s.centroid)},
+          {"box", py::cast(std::array{s.box.min, s.box.max})},
+          {"centre", py::cast(s.oriented_box.centre)},
+          {"axes", py::cast(s.oriented_box.axes)},
+          {"size", py::cast(s.oriented_box.size)},
+          {"neighbours", py::cast(neighbours)}};
+}
+
+std::vector<std::map<std::string, py::object>> segments(const SegmentedScene& scene) {
+  std::vector<std::map<std::string, py::object>> all;
+  for (const segment::Segment& s : scene.result.segments) all.push_back(segment_of(s));
+  return all;
+}
+
+py::dict facts(const SegmentedScene& scene) {
+  const segment::Segmentation& s = scene.result;
+  py::dict meta;
+  meta["method"] = std::string(segment::kMethodNames[static_cast<std::size_t>(s.method)]);
+  meta["voxel"] = s.voxel;
+  if (s.method == segment::Method::paper) {
+    meta["distance"] = s.distance;
+    meta["steps"] = s.steps == 0 ? py::cast("exact") : py::cast(s.steps);
+  }
+  meta["voxels"] = s.vertices.rows();
+  meta["edges"] = s.edges;
+  meta["viewpoint"] = py::tuple(py::cast(s.viewpoint));
+  if (s.plane) {
+    meta["plane"] =
+        py::make_tuple(s.plane->normal[0], s.plane->normal[1], s.plane->normal[2], s.plane->offset);
+    meta["plane_share"] = s.plane->share;
+  } else {
+    meta["plane_note"] = s.plane_note;
+  }
+  meta["cut"] = s.first_cut.value;
+  if (s.method != segment::Method::paper) meta["min_part"] = s.first_cut.min_part;
+  meta["min_size"] = s.first_cut.min_size;
+  if (s.method == segment::Method::surface) meta["objects"] = s.first_cut.objects;
+  meta["checked"] = s.checked;
+  return meta;
+}
+
+Bars barcode(const SegmentedScene& scene) {
+  Bars bars{scene.result.barcode};
+  bars.facts.engine = "union-find";
+  return bars;
+}
+
+Bars signature(const SegmentedScene& scene, const std::vector<std::uint32_t>& labels,
+               const RunOptions& options) {
+  Bars bars = run(options, false, [&](const RunContext& context) {
+    return Bars{segment::signature(scene.result, scene.result, labels, context)};
+  });
+  bars.facts.max_dim = 2;
+  return bars;
+}
+
+std::optional<std::pair<double, Vec3>> first_meeting(const SegmentedScene& scene, std::uint32_t a,
+                                                     std::uint32_t b) {
+  const auto meeting = segment::first_meeting(scene.result, a, b);
+  if (!meeting) return std::nullopt;
+  return std::pair(meeting->value, meeting->at);
+}
+
+// ---- files and pictures
+
+std::string file_of(const SegmentedScene& scene, const std::string& format) {
+  const segment::Segmentation& s = scene.result;
+  const auto labels_as = [&](segment::LabelFormat how) {
+    return segment::label_bytes(s, s.labels, how);
+  };
+  if (format == "npy") return labels_as(segment::LabelFormat::npy);
+  if (format == "png") return labels_as(segment::LabelFormat::png);
+  if (format == "csv") return labels_as(segment::LabelFormat::csv);
+  if (format == "tree") return segment::tree_bytes(s);
+  if (format == "json") return segment::tree_json(s);
+  if (!scene.cloud() || (format != "pcd" && format != "ply"))
+    throw Error(ErrorKind::internal, "a format that is none reached _core");
+  return segment::cloud_bytes(
+      segment::with_labels(*scene.cloud(), s.labels),
+      format == "pcd" ? segment::CloudFormat::pcd : segment::CloudFormat::ply);
+}
+
+void save(const SegmentedScene& scene, const std::string& path, const std::string& format,
+          const RunOptions& options) {
+  run_task(options, false, [&](const SharedContext&) {
+    OutputFile file(path);
+    file.write(file_of(scene, format));
+    file.commit();
+  });
+}
+
+std::string svg(const SegmentedScene& scene, const RunOptions& options) {
+  return run(options, false, [&](const RunContext& context) {
+    const segment::Segmentation& s = scene.result;
+    const Cloud* cloud = scene.cloud();
+    const std::vector<std::uint32_t> colours =
+        cloud ? segment::segment_colours(segment::neighbouring_segments(*cloud, s))
+              : segment::label_colours(s);
+    return svg_plot(segment::with_legend(
+        segment::cloud_picture(cloud, s, s.labels, colours, {}, context), colours, {}));
+  });
+}
+
+}  // namespace
+
+void bind_segmentations(py::module_& m) {
+  py::class_<SegmentOptions>(m, "SegmentOptions")
+      .def(py::init([](const std::string& method, std::optional<double> voxel,
+                       std::optional<Index> min_size, double max_range,
+                       const std::optional<std::array<Vec3, 2>>& crop, bool plane,
+                       std::optional<double> plane_distance, double plane_noise,
+                       std::optional<Vec3> viewpoint, bool check,
+                       std::optional<double> min_persistence, bool objects,
+                       std::optional<Index> min_part, double spacing, double distance, int steps) {
+             SegmentOptions o;
+             const auto named = std::ranges::find(segment::kMethodNames, method);
+             if (named == segment::kMethodNames.end())
+               throw Error(ErrorKind::internal, "a method that is none reached _core");
+             o.method = static_cast<segment::Method>(named - segment::kMethodNames.begin());
+             o.voxel = voxel;
+             o.min_size = min_size;
+             o.max_range = max_range;
+             if (crop) o.crop = segment::Box{(*crop)[0], (*crop)[1]};
+             o.plane = plane;
+             o.plane_distance = plane_distance;
+             o.plane_noise = plane_noise;
+             o.viewpoint = viewpoint;
+             o.check = check;
+             o.min_persistence = min_persistence;
+             o.objects = objects;
+             o.min_part = min_part;
+             o.spacing = spacing;
+             o.distance = distance;
+             o.steps = steps;
+             return o;
+           }),
+           py::kw_only(), py::arg("method"), py::arg("voxel"), py::arg("min_size"),
+           py::arg("max_range"), py::arg("crop"), py::arg("plane"), py::arg("plane_distance"),
+           py::arg("plane_noise"), py::arg("viewpoint"), py::arg("check"),
+           py::arg("min_persistence"), py::arg("objects"), py::arg("min_part"), py::arg("spacing"),
+           py::arg("distance"), py::arg("steps"));
+  py::class_<SegmentedScene>(m, "Segmentation")
+      .def_property_readonly("has_cloud",
+                             [](const SegmentedScene& s) { return s.cloud() != nullptr; })
+      .def_readonly("notes", &SegmentedScene::notes)
+      .def_property_readonly("facts", &facts)
+      .def_property_readonly("labels", &labels)
+      .def_property_readonly("voxel_of_point", &voxel_of_point)
+      .def_property_readonly(
+          "centroids", [](const SegmentedScene& s) { return Block::of(Points(s.result.vertices)); })
+      .def_property_readonly(
+          "normals", [](const SegmentedScene& s) { return Block::of(Points(s.result.normals)); })
+      .def_property_readonly("counts",
+                             [](const SegmentedScene& s) {
+                               return Block::of(std::vector<std::int64_t>(s.result.counts));
+                             })
+      .def_property_readonly(
+          "voxel_labels",
+          [](const SegmentedScene& s) { return Block::of(std::vector(s.result.vertex_labels)); })
+      .def_property_readonly("segments", &segments)
+      .def_property_readonly("tree", [](const SegmentedScene& s) { return s.result.tree; })
+      .def_property_readonly("barcode", &barcode)
+      .def("cut", &cut, py::arg("value"), py::arg("min_part"), py::arg("min_size"),
+           py::arg("objects"), py::arg("run"))
+      .def("signature", &signature, py::arg("labels"), py::arg("run"))
+      .def("first_meeting", &first_meeting, py::arg("a"), py::arg("b"))
+      .def("save", &save, py::arg("path"), py::arg("format"), py::arg("run"))
+      .def("svg", &svg, py::arg("run"));
+  m.def("segment", &segment_cloud, py::arg("cloud"), py::arg("options"), py::arg("run"));
+  m.def("read_scene", &read_scene, py::arg("path"), py::arg("run"));
+}
+
+}  // namespace ph::python

@@ -1,0 +1,232 @@
+# SPDX-License-Identifier: MIT
+"""Segmentation: cuts into so many objects, arrays of all kinds, words, limits."""
+import os
+import re
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import libph as ph
+from scenes import CAMERA, TABLE, points_of_scene
+
+
+# ---- a number of objects
+
+
+@pytest.mark.filterwarnings("ignore::UserWarning")
+@pytest.mark.parametrize("options", [{"supervoxels": 0.04},
+                                     {"method": "paper", "distance": 0.05, "steps": "exact"},
+                                     {"objects": False, "min_part": 5, "min_size": 5}], ids=str)
+def test_so_many_objects(rng, options):
+    found = ph.segment(points_of_scene(rng), **options)
+    reached = 0
+    for n in range(1, 12):
+        try:
+            other = found.cut(n=n)
+        except ph.UsageError as error:
+            assert re.search(r"found no cut into \d+ objects; those next to it give \d+", str(error))
+            continue
+        reached += 1
+        assert len(other.objects) == n and other.labels.max() == n
+        assert np.array_equal(found.cut(other.meta["cut"]).labels, other.labels)
+    assert reached > 2
+
+
+# ---- arrays
+
+
+@pytest.mark.filterwarnings("ignore::UserWarning")
+def test_arrays_of_all_kinds(rng):
+    points = np.round(points_of_scene(rng), 4).astype(np.float32).astype(np.float64)
+    expected = ph.segment(points)
+    assert expected.objects
+    before = points.copy()
+    wide = np.zeros((len(points), 7))
+    wide[:, 1:6:2] = points
+    read_only = points.copy()
+    read_only.flags.writeable = False
+    for same in (points.astype(np.float32), points.astype(">f8"), np.asfortranarray(points),
+                 wide[:, 1:6:2], read_only, points[::-1][::-1], memoryview(points),
+                 points.tolist()):
+        assert np.array_equal(ph.segment(same).labels, expected.labels)
+    assert np.array_equal(points, before)
+    # The result does not depend on the order of the points.
+    order = rng.permutation(len(points))
+    assert np.array_equal(ph.segment(points[order]).labels, expected.labels[order])
+    # A masked entry is a hole.
+    masked = np.ma.masked_array(points, mask=False)
+    masked[:10] = np.ma.masked
+    holes = points.copy()
+    holes[:10] = np.nan
+    assert np.array_equal(ph.segment(masked).labels, ph.segment(holes).labels)
+
+
+@pytest.mark.parametrize("cloud", [np.empty((0, 3)), [], np.full((5, 3), np.nan),
+                                   np.full((4, 6, 3), np.nan), [[0, 0, 1]]], ids=str)
+@pytest.mark.filterwarnings("ignore::UserWarning")
+def test_clouds_of_nothing(cloud):
+    for options in ({}, {"method": "paper"}, {"supervoxels": 0.1}):
+        found = ph.segment(cloud, **options)
+        assert found.labels.shape == np.shape(cloud)[:-1] or found.labels.size == 0
+        assert found._repr_html_() and repr(found) and repr(found.objects)
+        assert len(found.objects.to_pandas()) == len(found.objects) <= 1
+        assert found.cut(0.0).labels.shape == found.labels.shape
+        assert len(found.tree) == len(found.voxels.points)
+
+
+# ---- words
+
+
+CLOUD = np.random.default_rng(0).uniform(size=(50, 3))
+DEPTH = np.full((20, 30), 0.5)
+
+
+@pytest.mark.parametrize("data, options, error, words", [
+    (CLOUD[:, :2], {}, ph.UsageError, r"cloud: found an array of shape \(50, 2\), expected \(points"),
+    (DEPTH, {}, ph.UsageError, "a depth image needs intrinsics or camera"),
+    (np.hstack([CLOUD, CLOUD]), {}, ph.UsageError, "colours are given by colours"),
+    (CLOUD[:, 0], {}, ph.UsageError, "cloud: found an array"),
+    ([[0, 0, np.inf]], {}, ph.DataError, "row 0, column 2: found inf"),
+    (["a"], {}, ph.DataError, "cloud: found text"),
+    (CLOUD, {"intrinsics": (1, 2, 3)}, ph.UsageError, "intrinsics: found .* expected fx, fy, cx, cy"),
+    (CLOUD, {"intrinsics": np.ones((3, 3))}, ph.UsageError, "intrinsics"),
+    (CLOUD[None], {"intrinsics": CAMERA}, ph.UsageError, "expected a depth image"),
+    (DEPTH, {"intrinsics": CAMERA, "camera": "kinect-v1"}, ph.UsageError, "excludes"),
+    (DEPTH, {"camera": "kinect-v7"}, ph.MissingInputError, "expected a file that is there or one of"),
+    (DEPTH, {"camera": "kinect-v1"}, ph.UsageError, "camera kinect-v1: "),
+    (DEPTH, {"intrinsics": (0, 1, 1, 1)}, ph.UsageError, "focal lengths 0 and 1"),
+    (DEPTH, {"intrinsics": CAMERA, "depth_scale": 0.001}, ph.UsageError, "if a unit is 0.001 m: 1000"),
+    (DEPTH, {"intrinsics": CAMERA, "colours": np.zeros((20, 31, 3), np.uint8)}, ph.UsageError,
+     r"colours: found an array of shape \(20, 31, 3\), expected \(20, 30, 3\)"),
+    (CLOUD, {"colours": CLOUD * 2}, ph.DataError, "colours: row .* expected 0 to 1"),
+    (CLOUD, {"depth_scale": 1000}, ph.UsageError, "depth_scale: does nothing for a cloud"),
+    (CLOUD, {"method": "best"}, ph.UsageError, "method: found 'best', expected"),
+    (CLOUD, {"method": "paper", "supervoxels": 0.1}, ph.UsageError, "supervoxels: found method"),
+    (CLOUD, {"method": "paper", "min_part": 3}, ph.UsageError, "min_part: does nothing"),
+    (CLOUD, {"method": "paper", "objects": True}, ph.UsageError, "objects: does nothing"),
+    (CLOUD, {"distance": 0.1}, ph.UsageError, "distance: does nothing here"),
+    (CLOUD, {"steps": 3}, ph.UsageError, "steps: does nothing here"),
+    (CLOUD, {"plane": False, "plane_distance": 0.1}, ph.UsageError, "plane_distance: does nothing"),
+    (CLOUD, {"voxel": 0}, ph.UsageError, "voxel: found 0"),
+    (CLOUD, {"voxel": 1e-40}, ph.UsageError, "voxel: found 1e-40"),
+    (CLOUD, {"supervoxels": 0.001}, ph.UsageError, "spacing: found 0.001"),
+    (CLOUD, {"min_size": 0}, ph.UsageError, "min_size: found 0"),
+    (CLOUD, {"crop": [1, 0, 0, 1, 0, 1]}, ph.UsageError, "crop: found"),
+    (CLOUD, {"viewpoint": [0, 0, np.inf]}, ph.UsageError, "viewpoint: found"),
+    (CLOUD, {"max_range": -1}, ph.UsageError, "max_range: found -1"),
+    ("no/such/file.pcd", {}, ph.MissingInputError, "no/such/file.pcd"),
+    (TABLE, {"colours": CLOUD}, ph.UsageError, "colours: does nothing for a file of a cloud"),
+    (None, {}, ph.UsageError, "cloud: found NoneType"),
+], ids=str)
+def test_what_is_wrong_is_said(data, options, error, words):
+    with pytest.raises(error, match=words):
+        ph.segment(data, **options)
+
+
+def test_unknown_keywords():
+    with pytest.raises(TypeError, match="unexpected keyword argument 'epsilon'"):
+        ph.segment(CLOUD, epsilon=1)
+    found = ph.segment(TABLE)
+    with pytest.raises(TypeError, match="unexpected keyword argument 'epsilon'"):
+        found.cut(epsilon=1)
+
+
+def test_a_stored_tree_has_no_options(tmp_path):
+    found = ph.segment(TABLE)
+    found.save(tmp_path / "t.tree")
+    with pytest.raises(ph.UsageError, match="voxel: does nothing for a stored tree"):
+        ph.segment(tmp_path / "t.tree", voxel=0.01)
+    stored = ph.segment(tmp_path / "t.tree")
+    assert np.array_equal(stored.labels, found.labels) and stored._repr_html_()
+    with pytest.raises(ph.UsageError, match="there is no cloud"):
+        stored.save(tmp_path / "x.pcd")
+    (tmp_path / "t.tree").write_bytes((tmp_path / "t.tree").read_bytes()[:-1])
+    with pytest.raises(ph.DataError, match="t.tree"):
+        ph.segment(tmp_path / "t.tree")
+
+
+def test_words_of_results(tmp_path):
+    found = ph.segment(TABLE)
+    for act, words in ((lambda: found.cut(0.1, n=2), "excludes"), (lambda: found.cut(-1), "value"),
+                       (lambda: found.signature(), "labels: found none"),
+                       (lambda: found.signature(3), "labels: found 3"),
+                       (lambda: found.first_meeting(0, 1), "a: found 0"),
+                       (lambda: found.save(tmp_path / "x.obj"), "path: found .*x.obj"),
+                       (lambda: found.save(tmp_path / "x", format="obj"), "format: found 'obj'"),
+                       (lambda: found.cut(n=10**6), "no cut into 1000000 .* those next to it give 2"),
+                       (lambda: found.cut(n=0), "no cut into 0 .* those next to it give 2")):
+        with pytest.raises(ph.UsageError, match=words):
+            act()
+    with pytest.raises(ph.OutputError):
+        found.save(tmp_path / "no" / "x.npy")
+    with pytest.raises(TypeError):
+        ph.Segmentation()
+
+
+def test_doubts_are_warnings():
+    points = points_of_scene(np.random.default_rng(1)) * 1000
+    with pytest.warns(UserWarning, match="are these millimetres") as caught:
+        found = ph.segment(points)
+    assert caught[0].filename == __file__
+    assert not found.objects and "are these millimetres" in " ".join(found.meta["notes"])
+    with pytest.warns(UserWarning, match=r"see viewpoint|viewpoint X,Y,Z|no plane|no point"):
+        ph.segment(CLOUD * 0.1 + 3)
+
+
+# ---- runs
+
+
+SPACE = np.random.default_rng(5).uniform(size=(400_000, 3)).astype(np.float32)
+LONG = {"max_range": np.inf, "plane": False, "voxel": 0.004}  # many seconds
+SOON = 1.0
+
+
+def test_stopping():
+    with pytest.raises(ph.Timeout):
+        start = time.monotonic()
+        ph.segment(SPACE, timeout=0.3, **LONG)
+    assert time.monotonic() - start < 0.3 + SOON
+    stop = threading.Event()
+    threading.Timer(0.3, stop.set).start()
+    with pytest.raises(ph.Cancelled):
+        start = time.monotonic()
+        ph.segment(SPACE, stop=stop, **LONG)
+    assert time.monotonic() - start < 0.3 + SOON
+
+
+def test_interrupt():
+    threading.Timer(0.3, lambda: os.kill(os.getpid(), 2)).start()
+    start = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        ph.segment(SPACE, **LONG)
+    assert time.monotonic() - start < 0.3 + SOON
+
+
+def test_memory_limit():
+    for limit in ("2MB", "12MB", "40MB"):
+        with pytest.raises(ph.MemoryLimitError, match="memory limit"):
+            ph.segment(SPACE, memory_limit=limit, **LONG)
+    with pytest.raises(ph.MemoryLimitError, match="lower max_range, enlarge voxel"):
+        ph.segment(SPACE, memory_limit="20MB", **LONG)
+    assert len(ph.segment(TABLE).objects) == 2
+
+
+def test_the_gil_is_released():
+    ticks, stop = [], threading.Event()
+
+    def tick():
+        while not stop.is_set():
+            ticks.append(time.monotonic())
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    start = time.monotonic()
+    with pytest.raises(ph.Timeout):
+        ph.segment(SPACE, timeout=0.5, **LONG)
+    seconds = time.monotonic() - start
+    stop.set()
+    thread.join()
+    assert len(ticks) > 50 * seconds
