@@ -26,6 +26,7 @@
 #include "facade/adjust.hpp"
 #include "ph/estimate.hpp"
 #include "ph/loops.hpp"
+#include "report/shown_tree.hpp"
 
 namespace ph::barcode {
 namespace {
@@ -61,7 +62,7 @@ std::vector<std::string> pictures_of_tree(const Loaded& loaded, const Job& job,
                 fmt::format("--plot-kind tree: {} has no merge tree: expected no sample, no "
                             "approximation, --construction vertices, no --threshold on a listed "
                             "complex, and at most {} voxels",
-                            loaded.data->name, kMostTreeVoxels));
+                            loaded.data->name, report::kMostTreeVoxels));
   const MemoryClaim claim(context.memory, tree->births.size() * sizeof(Branch));
   const std::vector<Branch> branches = tree->branches();
   std::vector<std::string> pictures;

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Which room may include which, how large a folder may be, where tests lie: layering.py ROOT.
 
-Rooms are the folders of libph/src, libsegment, apps and python. Public headers
+Rooms are the folders of libph/src, libsegment, libreport, apps and python. Public headers
 belong to the room that HEADERS names. Exit code 0 if nothing is out of order.
 """
 import re
@@ -26,11 +26,11 @@ MAY_INCLUDE = {
     "io": "core metric image complex",
     "plot": "core components io",
     "segment": "core metric image components reduction complex rips facade io plot",
-    "report": "core metric image components complex rips facade io plot",
+    "report": "core metric image components complex rips facade io plot segment",
     "common": "core metric image complex rips facade io plot report",
     "barcode": "core metric image components complex rips cubical facade loops diagram io plot report "
                "common",
-    "python": "core metric image complex rips facade loops diagram io plot segment",
+    "python": "core metric image complex rips facade loops diagram io plot segment report",
     "segment_program": "core metric image components complex rips facade io plot segment report common",
 }
 
@@ -50,7 +50,8 @@ HEADERS = {
 }
 ROOM_OF = {name: room for room, names in HEADERS.items() for name in names.split()}
 
-FOLDERS = (("libph/src/", None), ("libsegment/", "segment"), ("apps/segment/", "segment_program"),
+FOLDERS = (("libph/src/", None), ("libsegment/", "segment"), ("libreport/", "report"),
+           ("apps/segment/", "segment_program"),
            ("apps/", None), ("python/", "python"))
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<((?:ph|pcl|CGAL)/[^>]+)>)', re.M)
 MOST_FILES = 20
@@ -60,7 +61,7 @@ MOST_PUBLIC = {"libph/include/ph": 23, "libph/include/ph/io": 4, "libsegment/inc
 
 # Folders of tests, and whose rooms theirs are.
 TESTS_OF = {"tests/libph": ("libph/src",), "tests/libsegment": ("libsegment/src", "libsegment"),
-            "tests/apps": ("apps",)}
+            "tests/apps": ("apps", "libreport")}
 
 
 def room_of_header(path):
@@ -87,8 +88,8 @@ def room_of(file):
 def target_of(root, file, include):
     """The file of ours that is meant, below ROOT; None if it is somebody else's."""
     for base in (file.parent, Path("libph/include"), Path("libph/src"), Path("libsegment/include"),
-                 Path("libsegment/pcl/include"), Path("libsegment/src"), Path("apps"),
-                 Path("python/src")):
+                 Path("libsegment/pcl/include"), Path("libsegment/src"), Path("libreport"),
+                 Path("apps"), Path("python/src")):
         if (root / base / include).is_file():
             return (root / base / include).resolve().relative_to(root)
     return None
@@ -117,7 +118,7 @@ def violations_of(root, file):
 
 
 def too_large(root):
-    for folder in sorted(p for top in ("libph", "libsegment", "apps", "python", "tests")
+    for folder in sorted(p for top in ("libph", "libsegment", "libreport", "apps", "python", "tests")
                          for p in (root / top).rglob("*") if p.is_dir()):
         # Seeds are as many as were found, and what Python caches is not ours.
         if (root / "tests/corpus") in folder.parents or folder.name == "__pycache__":
@@ -151,7 +152,7 @@ def room_cycles():
 
 def main():
     root = Path(sys.argv[1]).resolve()
-    files = sorted(p.relative_to(root) for top in ("libph", "libsegment", "apps", "python")
+    files = sorted(p.relative_to(root) for top in ("libph", "libsegment", "libreport", "apps", "python")
                    for p in (root / top).rglob("*") if p.suffix in (".hpp", ".ipp", ".cpp"))
     found = [v for file in files for v in violations_of(root, file)]
     found += [*too_large(root), *misplaced_tests(root), *room_cycles()]

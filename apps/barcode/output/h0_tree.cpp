@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "barcode/output/h0_tree.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <charconv>
-#include <cmath>
-
 #include "ph/detail/rips/rips_graph.hpp"
+#include "report/shown_tree.hpp"
 
 namespace ph::barcode {
-namespace {
 
-// A page stays interactive with so many merges; those of the lowest levels are contracted.
-constexpr std::size_t kMostMerges = 100'000;
-
-std::optional<MergeTree> tree_of(const Rips& rips, const BuiltComplex& built, const NamedData& data,
-                                 const Arguments& arguments, const RunContext& context) {
-  if (rips.graph().has_names() && arguments.options.min_persistence < 0) return std::nullopt;
+std::optional<MergeTree> whole_tree(const BuiltComplex& built, const NamedData& data,
+                                    const Arguments& arguments, const RunContext& context) {
+  if (built.cut || built.empty) return std::nullopt;
+  const auto* rips = std::get_if<Rips>(&built.complex);
+  if (!rips) return report::whole_tree(built.complex, context);
+  if (rips->graph().has_names() && arguments.options.min_persistence < 0) return std::nullopt;
   if (built.subsample || arguments.rips.approximation) return std::nullopt;
   // The complex that was computed may hold all its edges and may have merged equal points; this one
   // is a spanning forest of all points.
@@ -29,126 +23,7 @@ std::optional<MergeTree> tree_of(const Rips& rips, const BuiltComplex& built, co
   again.check = false;
   again.threshold = built.threshold;
   const BuiltComplex forest = build_complex(data.read, data.name, data.dropped, again, context);
-  const Rips& all = std::get<Rips>(forest.complex);
-  if (all.graph().has_names()) return std::nullopt;  // some points are born beyond the threshold
-  return merge_tree(all, context);
-}
-
-std::optional<MergeTree> tree_of(const Cubical& cubical, const RunContext& context) {
-  const CubicalImage image = cubical.cubical_image();
-  if (!image.voxels_are_vertices || image.size() > kMostTreeVoxels) return std::nullopt;
-  return merge_tree(cubical, context);
-}
-
-std::optional<MergeTree> tree_of(const ExplicitComplex& complex, const RunContext& context) {
-  if (!complex.edges_join_vertices()) return std::nullopt;
-  return merge_tree(complex, context);
-}
-
-/// The vertex of the tree that gave birth to each bar of H0, as far as it is known.
-std::vector<std::uint32_t> birth_vertices(const Barcode& barcode, const Cubical* cubical) {
-  std::vector<std::uint32_t> vertices;
-  std::vector<Index> extents;
-  if (cubical) extents = cubical->cubical_image().extents;
-  for (std::size_t i = 0; i < barcode.bars(0).size(); ++i) {
-    const InputCell cell = barcode.birth_cell(i);
-    if (cell.numbers.empty()) return {};
-    Index vertex = cubical ? 0 : cell.numbers.front();
-    for (std::size_t axis = 0; axis < extents.size(); ++axis)
-      vertex = vertex * extents[axis] + cell.numbers[axis] / 2;
-    vertices.push_back(static_cast<std::uint32_t>(vertex));
-  }
-  return vertices;
-}
-
-/// The same to three digits.
-double rounded(double x) {
-  const std::string digits = fmt::format("{:.3g}", x);
-  std::from_chars(digits.data(), digits.data() + digits.size(), x);
-  return x;
-}
-
-/// Between two neighbouring levels, ascending, that are farther apart than `least`, and farther
-/// than all others. The upper one is at least a tenth of the largest: gaps far below it are chance.
-/// @param width how far apart two of them are.
-template <class Width>
-std::optional<double> middle_of_widest(const std::vector<double>& levels, double least,
-                                       Width width) {
-  constexpr double least_share = 0.1;
-  std::optional<double> middle;
-  for (std::size_t i = 1; i < levels.size(); ++i) {
-    if (levels[i] < least_share * levels.back()) continue;
-    const double apart = width(levels[i - 1], levels[i]);
-    if (apart <= least) continue;
-    least = apart;
-    middle = rounded(std::sqrt(levels[i - 1]) * std::sqrt(levels[i]));
-  }
-  return middle;
-}
-
-/// Where the levels of the largest merges have their widest gap, as a ratio: what lies above is
-/// much more persistent than what lies below. Without a wide one, of basins the widest difference;
-/// else the largest level, which leaves the fewest parts; `from` without merges.
-double cut_in_gap(const report::ContractedTree& contracted, const MergeTree& tree,
-                  report::CutRule rule, double from) {
-  constexpr std::ptrdiff_t most = 65;  // the upper end of a gap is one of the largest 64
-  constexpr double least_ratio = 1.2;
-  std::vector<double> levels;
-  for (const auto& kept : contracted.merges) {
-    const Merge& m = tree.merges[kept.merge];
-    const double level = rule == report::CutRule::value ? m.value : m.persistence();
-    if (level > 0 && std::isfinite(level)) levels.push_back(level);
-  }
-  if (levels.empty()) return from;
-  std::ranges::sort(levels);
-  if (std::ssize(levels) > most) levels.erase(levels.begin(), levels.end() - most);
-  auto cut =
-      middle_of_widest(levels, least_ratio, [](double low, double high) { return high / low; });
-  if (!cut && rule == report::CutRule::persistence)
-    cut = middle_of_widest(levels, 0, [](double low, double high) { return high - low; });
-  return cut.value_or(levels.back());
-}
-
-}  // namespace
-
-std::optional<MergeTree> whole_tree(const BuiltComplex& built, const NamedData& data,
-                                    const Arguments& arguments, const RunContext& context) {
-  if (built.cut || built.empty) return std::nullopt;
-  struct Make {
-    const BuiltComplex& built;
-    const NamedData& data;
-    const Arguments& arguments;
-    const RunContext& context;
-    std::optional<MergeTree> operator()(const Rips& c) const {
-      return tree_of(c, built, data, arguments, context);
-    }
-    std::optional<MergeTree> operator()(const Cubical& c) const { return tree_of(c, context); }
-    std::optional<MergeTree> operator()(const ExplicitComplex& c) const {
-      return tree_of(c, context);
-    }
-  };
-  return std::visit(Make{built, data, arguments, context}, built.complex);
-}
-
-std::optional<ShownTree> h0_tree(const Shown& shown, const Arguments& arguments,
-                                 const RunContext& context) {
-  std::optional<MergeTree> tree = whole_tree(shown.built, shown.data, arguments, context);
-  if (!tree) return std::nullopt;
-
-  const bool rips = std::holds_alternative<Rips>(shown.built.complex);
-  const auto* cubical = std::get_if<Cubical>(&shown.built.complex);
-  report::TreeMeta meta;
-  // Points enter together: clusters at a distance. Else minima lie at different depths.
-  meta.rule = rips ? report::CutRule::value : report::CutRule::persistence;
-  meta.label = rips ? "distance" : "persistence";
-  meta.what = rips ? "component" : "basin";
-  meta.from = report::least_cut(*tree, meta.rule, kMostMerges);
-  report::ContractedTree contracted =
-      report::contracted(*tree, meta.rule, meta.from, 1, {}, context);
-  meta.cut = cut_in_gap(contracted, *tree, meta.rule, meta.from);
-  report::LinkedBars bars =
-      report::linked_bars(*tree, shown.barcode, birth_vertices(shown.barcode, cubical));
-  return ShownTree{std::move(*tree), std::move(contracted), std::move(bars), std::move(meta)};
+  return report::whole_tree(forest.complex, context);
 }
 
 }  // namespace ph::barcode

@@ -10,9 +10,8 @@
 #include "common/arguments/numbers.hpp"
 #include "common/terminal/exit_code.hpp"
 #include "io/bytes/json_writer.hpp"
-#include "report/arrays/bar_arrays.hpp"
+#include "report/barcode_page.hpp"
 #include "report/encoding/sha256.hpp"
-#include "report/report_file.hpp"
 
 namespace ph::barcode {
 namespace {
@@ -20,20 +19,14 @@ namespace {
 void write_stored_report(app::Output& output, const Input& input, const Barcode& barcode,
                          const BarcodeInfo& info, bool superlevel, const Arguments& arguments,
                          app::Session& session) {
-  report::Metadata meta;
-  meta.title = report::title_of(info.input);
-  meta.value_label = superlevel ? "Value" : "Filtration value";
-  meta.negated = superlevel;
-  meta.barcodes.push_back({meta.title, barcode.cell_kind(), barcode.representatives()});
-  meta.provenance.command = arguments.command;
-  meta.provenance.has_homology = false;
-  meta.provenance.run = info;
-  meta.provenance.sha256 = report::sha256_hex(input, session.context());
-  report::ReportFile report(output.file(), meta, session.context());
-  report::add_pictures(report, std::span(&barcode, 1), meta);
-  // Its cells are those of data that are not here.
-  report::add_bars(report, barcode, "bars", false);
-  report.finish();
+  report::BarcodePage page{report::title_of(info.input), barcode};
+  page.negated = superlevel;
+  page.provenance.command = arguments.command;
+  page.provenance.has_homology = false;
+  page.provenance.run = info;
+  page.provenance.sha256 = report::sha256_hex(input, session.context());
+  report::write_page([&](std::string_view text) { output.file().write(text); }, page,
+                     session.context());
   output.commit();
 }
 

@@ -13,8 +13,9 @@
 #include "ph/io/write.hpp"
 #include "pictures/cloud_legend.hpp"
 #include "pictures/colouring.hpp"
-#include "segment/output/report.hpp"
+#include "report/scene_page.hpp"
 #include "segment/output/summary.hpp"
+#include "tree/tree_barcode.hpp"
 
 namespace ph::segment {
 namespace {
@@ -61,15 +62,9 @@ LabelFormat label_format_of(const std::string& path) {
 }  // namespace
 
 BarcodeInfo barcode_info(const Segmentation& s, const RunInfo& info) {
-  BarcodeInfo result;
+  BarcodeInfo result = info_of_barcode(s);
   result.program = info.program;
   result.input = info.input;
-  result.input_description = fmt::format("{} voxel centroids in R^3", s.vertices.rows());
-  const bool paper = s.method == Method::paper;
-  result.complex = paper ? "rips" : "lower-star";
-  if (paper) result.threshold = s.distance;
-  result.engine = "union-find";
-  for (const Stage& stage : s.stages) result.timings.emplace_back(stage.name, stage.seconds);
   result.peak_memory = app::peak_memory();
   return result;
 }
@@ -121,6 +116,23 @@ std::string Outputs::plot(const app::Plot& plot, const Cloud* cloud, const Segme
   return app::drawn(plot, s.barcode, options, context);
 }
 
+report::ScenePage Outputs::report_page(const Cloud* cloud, const Segmentation& s,
+                                       const RunInfo& info) const {
+  const Arguments& a = arguments_;
+  report::ScenePage page{report::title_of(info.input), s, cloud};
+  std::vector<std::string>& command = page.cut_command = {"ph-segment"};
+  if (!a.input.empty()) command.push_back(info.input);
+  command.insert(command.end(), a.scene_options.begin(), a.scene_options.end());
+  command.insert(command.end(), {"--cut", "{cut}"});
+  if (s.method == Method::surface) command.push_back("--parts");
+  command.insert(command.end(), {"--labels", "labels.npy"});
+  page.provenance.command = a.command;
+  page.provenance.sha256 = info.sha256;
+  page.provenance.run = barcode_info(s, info);
+  page.provenance.warnings = info.warnings;
+  return page;
+}
+
 void Outputs::write_file(File& file, const Cloud* cloud, const Segmentation& s, const RunInfo& info,
                          const RunContext& context) const {
   const OutputPaths& f = arguments_.files;
@@ -149,7 +161,8 @@ void Outputs::write_file(File& file, const Cloud* cloud, const Segmentation& s, 
         write_png(o, ph::segment::picture(*cloud, s.labels, colours(cloud, s, info)));
       }));
     case OutputKind::report:
-      return write_report(out.file(), cloud, s, info, arguments_, context);
+      return report::write_page([&](std::string_view text) { out.write(text); },
+                                report_page(cloud, s, info), context);
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "common/run/session.hpp"
 #include "ph/io/write.hpp"
+#include "report/scene_page.hpp"
 #include "segment/arguments/arguments.hpp"
 
 namespace ph::segment {
@@ -57,6 +58,8 @@ class Outputs {
                   const RunInfo& info, const RunContext& context) const;
   std::string plot(const app::Plot& plot, const Cloud* cloud, const Segmentation& s,
                    const RunInfo& info, const RunContext& context) const;
+  report::ScenePage report_page(const Cloud* cloud, const Segmentation& s,
+                                const RunInfo& info) const;
   std::vector<std::uint32_t> colours(const Cloud* cloud, const Segmentation& segmentation,
                                      const RunInfo& info) const;
 

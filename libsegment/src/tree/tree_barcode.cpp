@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tree/tree_barcode.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <span>
@@ -19,6 +21,17 @@ Barcode barcode_of(const MergeTree& tree) {
                 std::span<const Index>(edge).first(merge < 0 ? 0 : 2));
   }
   return barcode;
+}
+
+BarcodeInfo info_of_barcode(const Segmentation& s) {
+  BarcodeInfo info;
+  info.input_description = fmt::format("{} voxel centroids in R^3", s.vertices.rows());
+  const bool paper = s.method == Method::paper;
+  info.complex = paper ? "rips" : "lower-star";
+  if (paper) info.threshold = s.distance;
+  info.engine = "union-find";
+  for (const Stage& stage : s.stages) info.timings.emplace_back(stage.name, stage.seconds);
+  return info;
 }
 
 }  // namespace ph::segment

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "ph/detail/image/cubical_image.hpp"
-#include "ph/detail/io/output_file.hpp"
 #include "ph/run_context.hpp"
 #include "report/encoding/array_block.hpp"
 #include "report/metadata.hpp"
@@ -14,15 +13,15 @@
 namespace ph::report {
 
 /// A report while it is written: the page up to the marker, the metadata, arrays in any order, the
-/// rest of the page. docs/report-format.md says what each array is. The caller commits the file.
-/// All functions throw Error (io) as OutputFile, and Error (cancelled).
+/// rest of the page. docs/report-format.md says what each array is.
+/// All functions throw Error (cancelled) and what the sink throws.
 class ReportFile {
  public:
   /// @throws Error (not_built_in) without a page.
-  ReportFile(OutputFile& file, const Metadata& metadata, const RunContext& context);
+  ReportFile(const Sink& sink, const Metadata& metadata, const RunContext& context);
   template <ArrayNumber T>
   void add(std::string_view name, std::span<const T> numbers, const ArrayForm& form = {}) {
-    write_array(file_, raw_array(name, numbers), form, context_);
+    write_array(sink_, raw_array(name, numbers), form, context_);
   }
   template <ArrayNumber T>
   void add(std::string_view name, const std::vector<T>& numbers, const ArrayForm& form = {}) {
@@ -38,7 +37,7 @@ class ReportFile {
   const RunContext& context() const { return context_; }
 
  private:
-  OutputFile& file_;
+  const Sink& sink_;
   const RunContext& context_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "barcode/output/complex_arrays.hpp"
+#include "report/arrays/complex_arrays.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -7,7 +7,7 @@
 
 #include "ph/detail/rips/rips_graph.hpp"
 
-namespace ph::barcode {
+namespace ph::report {
 namespace {
 
 // What a page can draw: of edges the first ones, of a mesh all that there is.
@@ -69,7 +69,7 @@ ComplexArrays arrays_of(const ExplicitComplex& complex, std::size_t count,
   return arrays;
 }
 
-ComplexArrays arrays_of(const RipsGraph& graph, std::size_t count, const std::vector<Index>& ids) {
+ComplexArrays arrays_of(const RipsGraph& graph, std::size_t count, std::span<const Index> ids) {
   ComplexArrays arrays;
   if (!graph.births().empty()) {
     arrays.births.assign(count, std::numeric_limits<float>::quiet_NaN());
@@ -95,7 +95,7 @@ ComplexArrays arrays_of(const RipsGraph& graph, std::size_t count, const std::ve
 }  // namespace
 
 ComplexArrays complex_arrays(const AnyComplex& complex, std::size_t count,
-                             const std::vector<Index>& ids, const RunContext& context) {
+                             std::span<const Index> ids, const RunContext& context) {
   const MemoryClaim claim(context.memory, count * sizeof(float) + 16 * kMostEdges);
   if (const auto* rips = std::get_if<Rips>(&complex)) return arrays_of(rips->graph(), count, ids);
   if (const auto* listed = std::get_if<ExplicitComplex>(&complex))
@@ -103,7 +103,7 @@ ComplexArrays complex_arrays(const AnyComplex& complex, std::size_t count,
   return {};
 }
 
-void add_complex(report::ReportFile& report, const ComplexArrays& arrays) {
+void add_complex(ReportFile& report, const ComplexArrays& arrays) {
   if (!arrays.births.empty()) report.add("points/birth", arrays.births);
   const auto add = [&](const char* cells, const char* values, std::size_t arity,
                        const std::vector<std::uint32_t>& numbers, const std::vector<float>& of) {
@@ -115,4 +115,4 @@ void add_complex(report::ReportFile& report, const ComplexArrays& arrays) {
   add("complex/triangles", "complex/triangle_values", 3, arrays.triangles, arrays.triangle_values);
 }
 
-}  // namespace ph::barcode
+}  // namespace ph::report

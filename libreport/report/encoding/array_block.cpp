@@ -21,7 +21,7 @@ namespace {
 /// Compresses bytes and writes them as text.
 class DeflatedText {
  public:
-  DeflatedText(OutputFile& file, const RunContext& context) : file_(file), context_(context) {
+  DeflatedText(const Sink& sink, const RunContext& context) : sink_(sink), context_(context) {
     if (deflateInit(&stream_, Z_DEFAULT_COMPRESSION) != Z_OK) throw std::bad_alloc();
   }
   ~DeflatedText() { deflateEnd(&stream_); }
@@ -36,7 +36,7 @@ class DeflatedText {
     compress(Z_FINISH);
     std::string rest;
     base64_.finish(rest);
-    file_.write(rest);
+    sink_(rest);
   }
 
  private:
@@ -53,11 +53,11 @@ class DeflatedText {
       text_.clear();
       const auto packed = std::span(out_).first(out_.size() - stream_.avail_out);
       base64_.append(std::as_bytes(packed), text_);
-      file_.write(text_);
+      sink_(text_);
     } while (stream_.avail_out == 0);
   }
 
-  OutputFile& file_;
+  const Sink& sink_;
   const RunContext& context_;
   z_stream stream_{};
   detail::Base64 base64_;
@@ -115,7 +115,7 @@ std::string filter_text(bool delta, bool planes) {
 
 }  // namespace
 
-void write_array(OutputFile& file, const RawArray& array, const ArrayForm& form,
+void write_array(const Sink& sink, const RawArray& array, const ArrayForm& form,
                  const RunContext& context) {
   const std::size_t count = array.bytes.size() / array.width;
   std::vector<std::size_t> shape = form.shape;
@@ -126,13 +126,13 @@ void write_array(OutputFile& file, const RawArray& array, const ArrayForm& form,
   if (numbers != count)
     throw Error(ErrorKind::internal, fmt::format("report: {}: found {} numbers, expected {}",
                                                  array.name, count, numbers));
-  file.write(fmt::format(
+  sink(fmt::format(
       "<script type=\"application/x-ph-array\" data-array=\"{}\" data-type=\"{}\" "
       "data-shape=\"{}\"{}{}{}>",
       array.name, array.type, fmt::join(shape, ","), filter_text(form.delta, array.width > 1),
       numbers_text("offset", form.offset), numbers_text("scale", form.scale)));
   {
-    DeflatedText text(file, context);
+    DeflatedText text(sink, context);
     switch (array.width) {
       case 1:
         put_numbers<std::uint8_t>(array, columns, form.delta, text);
@@ -148,7 +148,7 @@ void write_array(OutputFile& file, const RawArray& array, const ArrayForm& form,
     }
     text.finish();
   }
-  file.write("</script>\n");
+  sink("</script>\n");
 }
 
 }  // namespace ph::report

@@ -3,15 +3,18 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "ph/detail/io/output_file.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph::report {
+
+/// What takes the text of a page, piece by piece: a file, a string.
+using Sink = std::function<void(std::string_view)>;
 
 /// What the numbers of an array may be.
 template <class T>
@@ -42,8 +45,8 @@ struct RawArray {
 /// Writes an array as docs/report-format.md says: filters, zlib, base64, in an element of its own.
 /// Numbers of more than a byte are stored as planes. Memory beside the array: a constant; of an
 /// array in a file no more than a block is in memory.
-/// @throws Error (io) as OutputFile; Error (cancelled); std::bad_alloc.
-void write_array(OutputFile& file, const RawArray& array, const ArrayForm& form,
+/// @throws Error (cancelled); std::bad_alloc; what `sink` throws.
+void write_array(const Sink& sink, const RawArray& array, const ArrayForm& form,
                  const RunContext& context);
 
 template <ArrayNumber T>

@@ -2,13 +2,14 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
-#include "barcode/complex/build_complex.hpp"
+#include "ph/persistence.hpp"
 #include "ph/run_context.hpp"
 #include "report/report_file.hpp"
 
-namespace ph::barcode {
+namespace ph::report {
 
 /// What a page cannot find by the positions of points: when they enter, and the cells that come
 /// first. Vertices have the numbers of the input.
@@ -25,9 +26,9 @@ struct ComplexArrays {
 /// @param count of points. @param ids their numbers in the input; empty: all are there.
 /// @throws Error (resource, cancelled).
 ComplexArrays complex_arrays(const AnyComplex& complex, std::size_t count,
-                             const std::vector<Index>& ids, const RunContext& context);
+                             std::span<const Index> ids, const RunContext& context);
 
 /// Writes points/birth and complex/….
-void add_complex(report::ReportFile& report, const ComplexArrays& arrays);
+void add_complex(ReportFile& report, const ComplexArrays& arrays);
 
-}  // namespace ph::barcode
+}  // namespace ph::report

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "segment/output/report.hpp"
+#include "report/scene_page.hpp"
 
 #include <fmt/format.h>
 
@@ -14,11 +14,10 @@
 #include "report/arrays/tree_arrays.hpp"
 #include "report/report_file.hpp"
 
-namespace ph::segment {
+namespace ph::report {
 namespace {
 
-using report::kNone;
-using report::ReportFile;
+using segment::Method, segment::SceneTree, segment::Segmentation;
 
 constexpr double kStepsAVoxel = 8;  // positions are stored at least as exactly
 
@@ -88,17 +87,17 @@ std::vector<std::uint32_t> truth_of(const Cloud& cloud, const ShownPoints& point
 
 void add_points(ReportFile& report, const Cloud* cloud, const Segmentation& s,
                 const ShownPoints& points, std::span<const std::uint32_t> leaves) {
-  report::add_positions(report, std::span<const float>(points.xyz), 3, s.voxel / kStepsAVoxel);
+  add_positions(report, std::span<const float>(points.xyz), 3, s.voxel / kStepsAVoxel);
   if (points.index.size() != s.cloud_size())
     report.add("points/index", points.index, {.delta = true});
-  report::add_labels(report, "points/leaf", leaves, true);
+  add_labels(report, "points/leaf", leaves, true);
   if (s.normals.rows() > 0) {
     std::vector<std::int8_t> normals;
     for (const std::uint32_t v : points.vertex) {
       const double none = std::nan("");
-      const auto stored =
-          v == kNone ? report::octahedral(none, none, none)
-                     : report::octahedral(s.normals(v, 0), s.normals(v, 1), s.normals(v, 2));
+      const auto stored = v == kNone
+                              ? octahedral(none, none, none)
+                              : octahedral(s.normals(v, 0), s.normals(v, 1), s.normals(v, 2));
       normals.insert(normals.end(), stored.begin(), stored.end());
     }
     report.add("points/normal", normals, {.shape = {points.index.size(), 2}, .delta = true});
@@ -112,7 +111,7 @@ void add_points(ReportFile& report, const Cloud* cloud, const Segmentation& s,
     report.add("points/rgb", rgb, {.shape = {points.index.size(), 3}, .delta = true});
   }
   if (const auto truth = truth_of(*cloud, points); !truth.empty())
-    report::add_labels(report, "points/truth", truth, false);
+    add_labels(report, "points/truth", truth, false);
 }
 
 /// The bars of a length, in the order of the barcode file. Their cells are points: one of each
@@ -147,8 +146,7 @@ std::vector<std::uint32_t> birth_vertices(const Barcode& barcode) {
 
 /// Pairs of leaves that the program made one object of: of each segment its first part and the
 /// others.
-std::vector<std::uint32_t> joins_of(const Segmentation& s,
-                                    const report::ContractedTree& contracted) {
+std::vector<std::uint32_t> joins_of(const Segmentation& s, const ContractedTree& contracted) {
   std::vector<std::uint32_t> joins;
   if (s.method != Method::surface || !s.first_cut.objects) return joins;
   const std::vector<Index> part_of = s.tree.basins(s.first_cut.value, s.first_cut.min_part);
@@ -167,50 +165,41 @@ std::vector<std::uint32_t> joins_of(const Segmentation& s,
   return joins;
 }
 
-report::TreeMeta tree_meta(const Segmentation& s, const RunInfo& info, const Arguments& a) {
-  report::TreeMeta meta;
+TreeMeta tree_meta(const Segmentation& s, const ScenePage& page) {
+  TreeMeta meta;
   const bool paper = s.method == Method::paper;
-  meta.rule = paper ? report::CutRule::value : report::CutRule::persistence;
+  meta.rule = paper ? CutRule::value : CutRule::persistence;
   meta.label = paper ? "distance" : "least persistence";
   if (s.method != Method::surface) meta.unit = "m";
   meta.cut = s.first_cut.value;
   if (paper) meta.to = s.distance;
   meta.min_size = s.first_cut.min_size;
   meta.what = s.method == Method::supervoxels ? "supervoxel" : "segment";
-  meta.command = {"ph-segment"};
-  if (!a.input.empty()) meta.command.push_back(info.input);
-  meta.command.insert(meta.command.end(), a.scene_options.begin(), a.scene_options.end());
-  meta.command.insert(meta.command.end(), {"--cut", "{cut}"});
-  if (s.method == Method::surface) meta.command.push_back("--parts");
-  meta.command.insert(meta.command.end(), {"--labels", "labels.npy"});
+  meta.command = page.cut_command;
   return meta;
 }
 
-report::Metadata metadata_of(const Segmentation& s, const RunInfo& info, const Arguments& a,
-                             bool organised) {
-  report::Metadata meta;
+Metadata metadata_of(const ScenePage& page) {
+  const Segmentation& s = page.segmentation;
+  Metadata meta;
   const bool surface = s.method == Method::surface;
-  meta.title = report::title_of(info.input);
-  meta.value_label = surface ? "Concavity" : "Distance";
-  meta.value_unit = surface ? "" : "m";
+  meta.title = page.title;
+  meta.value_label = std::string_view(surface ? "Concavity" : "Distance");
+  if (!surface) meta.value_unit = "m";
   meta.barcodes.push_back({meta.title});
-  report::CloudMeta cloud{.unit = "m", .viewpoint = s.viewpoint};
+  CloudMeta cloud{.unit = "m", .viewpoint = s.viewpoint};
   // A camera sees y downwards; what else there may be has z upwards.
-  if (organised)
+  if (s.height > 1)
     cloud.up = {0, -1, 0};
   else if (s.plane)
     cloud.up = s.plane->normal;
   meta.cloud = cloud;
-  meta.tree = tree_meta(s, info, a);
-  report::Provenance& p = meta.provenance;
-  p.command = a.command;
-  p.sha256 = info.sha256;
-  p.run = barcode_info(s, info);
+  meta.tree = tree_meta(s, page);
+  Provenance& p = meta.provenance = page.provenance;
   p.run.input_description =
       s.height > 1 ? fmt::format("{} points, {} x {}", s.cloud_size(), s.width, s.height)
                    : fmt::format("{} points", s.cloud_size());
-  p.warnings = info.warnings;
-  p.notes.emplace_back("Method", kMethodNames[static_cast<std::size_t>(s.method)]);
+  p.notes.emplace_back("Method", segment::kMethodNames[static_cast<std::size_t>(s.method)]);
   p.notes.emplace_back("Voxels", fmt::format("{} of {} m", s.vertices.rows(), shortest(s.voxel)));
   p.notes.emplace_back("Plane", s.plane ? fmt::format("removed, {:.1f} % of the points in range",
                                                       100 * s.plane->share)
@@ -223,37 +212,36 @@ report::Metadata metadata_of(const Segmentation& s, const RunInfo& info, const A
 
 }  // namespace
 
-void write_report(OutputFile& file, const Cloud* cloud, const Segmentation& s, const RunInfo& info,
-                  const Arguments& arguments, const RunContext& context) {
+void write_page(const Sink& sink, const ScenePage& page, const RunContext& context) {
+  const Segmentation& s = page.segmentation;
+  const Cloud* cloud = page.cloud;
   const ShownPoints points = shown_points(cloud, s);
   const MemoryClaim claim(context.memory,
                           points.index.size() * (2 * sizeof(std::uint32_t) + 3 * sizeof(float)));
   std::vector<std::uint32_t> points_of_vertex(s.cells.size());
   for (const std::uint32_t v : s.vertex_of_point) ++points_of_vertex[v];
 
-  const report::Metadata meta = metadata_of(s, info, arguments, s.height > 1);
-  const report::CutRule rule = meta.tree->rule;
+  const Metadata meta = metadata_of(page);
+  const CutRule rule = meta.tree->rule;
   const Index min_part = s.method == Method::paper ? 1 : s.first_cut.min_part;
-  const auto contracted =
-      report::contracted(s.tree, rule, meta.tree->from, min_part, points_of_vertex, context);
+  const auto kept = contracted(s.tree, rule, meta.tree->from, min_part, points_of_vertex, context);
   const Barcode bars = bars_of(s);
-  ReportFile report(file, meta, context);
-  report::add_pictures(report, std::span(&bars, 1), meta);
-  report::add_bars(report, bars);
-  report::add_tree(report, s.tree, contracted,
-                   report::linked_bars(s.tree, bars, birth_vertices(s.barcode)), rule);
-  const std::vector<std::uint32_t> joins = joins_of(s, contracted);
+  ReportFile report(sink, meta, context);
+  add_pictures(report, std::span(&bars, 1), meta);
+  add_bars(report, bars);
+  add_tree(report, s.tree, kept, linked_bars(s.tree, bars, birth_vertices(s.barcode)), rule);
+  const std::vector<std::uint32_t> joins = joins_of(s, kept);
   report.add("tree/joins", joins, {.shape = {joins.size() / 2, 2}});
   std::vector<std::uint32_t> leaves;
   leaves.reserve(points.vertex.size());
   for (const std::uint32_t v : points.vertex)
-    leaves.push_back(v == kNone ? kNone : contracted.leaf_of[v]);
+    leaves.push_back(v == kNone ? kNone : kept.leaf_of[v]);
   if (s.height > 1) {
-    const auto touching = report::touching_in_picture(points.index, leaves, s.width);
+    const auto touching = touching_in_picture(points.index, leaves, s.width);
     report.add("tree/touching", touching, {.shape = {touching.size() / 2, 2}, .delta = true});
   }
   add_points(report, cloud, s, points, leaves);
   report.finish();
 }
 
-}  // namespace ph::segment
+}  // namespace ph::report

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <string>
+#include <vector>
+
+#include "ph/segment.hpp"
+#include "report/encoding/array_block.hpp"
+#include "report/metadata.hpp"
+
+namespace ph::report {
+
+/// What the page of a segmentation shows. What is referred to outlives the page.
+struct ScenePage {
+  std::string title;
+  const segment::Segmentation& segmentation;
+  const Cloud* cloud = nullptr;  ///< null: a stored tree was cut; its points are shown
+  /// How another cut is made, "{cut}" standing for its value; empty: the page does not say.
+  std::vector<std::string> cut_command = {};
+  /// The description of the input, and notes on the method, are added.
+  Provenance provenance = {};
+};
+
+/// Writes the page: the points with their colours, normals and ground truth (which the segmentation
+/// never reads), the merge tree contracted to what cuts can tell apart, the bars of a length. A cut
+/// of the page gives the segments of `ph-segment --cut` with --parts; where parts were joined, the
+/// page does so at the cut of the segmentation.
+/// @throws Error (not_built_in) without a page; Error (resource, cancelled); what `sink` throws.
+void write_page(const Sink& sink, const ScenePage& page, const RunContext& context);
+
+}  // namespace ph::report
