@@ -122,7 +122,8 @@ class Segmentation:
             The least persistence of a part; method "paper": the distance up to which voxels join,
             no larger than that of the tree. Default: as it is.
         n : int, optional
-            In its place: how many objects there shall be.
+            In its place: how many objects there shall be. The cut stays where it is if it gives
+            them.
         min_part, min_size, objects
             As of `segment`. Default: as they are.
         **run
@@ -161,12 +162,13 @@ class Segmentation:
             return _run.run(self._found.cut, value, min_part, min_size, objects,
                             options=dict(run))
 
+        found = found_at(value)
         if n is not None:
             n = _options.whole("n", n, 0)
-            value = self._value_of(n, min_part, min_size, found_at)
-        found = found_at(value)
-        if n is not None and len(found.segments) != n:
-            raise _no_cut(n, [str(len(found.segments))])
+            if len(found.segments) != n:
+                found = found_at(self._value_of(n, min_part, min_size, found_at))
+            if len(found.segments) != n:
+                raise _no_cut(n, [str(len(found.segments))])
         return Segmentation._of(found, self.meta.get("path", ""), self.meta["notes"])
 
     def _value_of(self, n: int, min_part: int | None, min_size: int | None, found_at: Any
