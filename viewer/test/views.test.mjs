@@ -194,6 +194,26 @@ test("pages", { timeout: 500_000 }, async (t) => {
     await close();
   });
 
+  await t.test("a frame of a notebook, which has no address and may do nothing", async () => {
+    const { meta, arrays } = clusters();
+    const html = reportHtml(template(), meta, arrays);
+    const escaped = html.replaceAll("&", "&amp;").replaceAll('"', "&quot;");
+    const page = await browser.newPage();
+    const problems = [];
+    page.on("pageerror", (e) => problems.push(e.message));
+    page.on("request", (r) => r.url().startsWith("http") && problems.push(r.url()));
+    await page.setContent(
+      `<iframe sandbox="allow-scripts" width="1000" height="700" srcdoc="${escaped}"></iframe>`,
+    );
+    const inner = page.frameLocator("iframe");
+    await inner.locator("#app[data-first-frame]").waitFor();
+    await inner.locator(".chip").first().click(); // what is kept in the address elsewhere
+    await page.waitForTimeout(400);
+    assert.ok(await inner.locator(".diagram canvas").first().isVisible());
+    assert.deepEqual(problems, []);
+    await page.close();
+  });
+
   await t.test("what is no report says so", async () => {
     const { page, close } = await open(browser, template());
     assert.match(await page.textContent(".failure"), /holds no report/);

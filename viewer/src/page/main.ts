@@ -121,6 +121,7 @@ function statusLine(session: Session): HTMLElement {
 }
 
 function keepAddress(session: Session, data: DataView | undefined): void {
+  if (location.protocol === "about:") return; // in a frame of a notebook there is no address
   goTo(location.hash, session, data);
   let timer = 0;
   session.onChange((changes) => {
