@@ -34,6 +34,7 @@ from ._errors import (Cancelled, DataError, Error, InternalError, MemoryLimitErr
 from ._estimate import Estimate, estimate
 from ._files import Boundary, Mesh, Simplices, read, read_barcode
 from ._points import Subsample, collapse, distance_to_measure, farthest_points, point_image
+from ._report import Report, report
 from ._requests import PointImage
 from ._run import limits
 from ._scenes import Objects, Segment, Segmentation, Voxels, segment
@@ -42,9 +43,9 @@ from ._trees import MergeTree, merge_tree
 __all__ = [
     "Bar", "Barcode", "Boundary", "Cancelled", "Chain", "DataError", "Error", "Estimate",
     "InternalError", "Loop", "MemoryLimitError", "MergeTree", "Mesh", "MissingInputError",
-    "NotBuiltIn", "Objects", "OutputError", "PointImage", "Segment", "Segmentation", "Simplices",
-    "Subsample", "Timeout", "UsageError", "Voxels", "__version__", "bottleneck", "boundary",
-    "collapse", "cubical", "distance_to_measure", "estimate", "farthest_points", "filtered",
-    "gradients", "limits", "lower_star", "merge_tree", "point_image", "read", "read_barcode",
-    "rips", "segment",
+    "NotBuiltIn", "Objects", "OutputError", "PointImage", "Report", "Segment", "Segmentation",
+    "Simplices", "Subsample", "Timeout", "UsageError", "Voxels", "__version__", "bottleneck",
+    "boundary", "collapse", "cubical", "distance_to_measure", "estimate", "farthest_points",
+    "filtered", "gradients", "limits", "lower_star", "merge_tree", "point_image", "read",
+    "read_barcode", "report", "rips", "segment",
 ]

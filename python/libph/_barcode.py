@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     import pandas
     from matplotlib.axes import Axes
 
+    from ._report import Report
+
 # As the bars lie in _core.
 _BAR = np.dtype({"names": ["dim", "birth", "death"], "formats": ["i4", "f8", "f8"],
                  "offsets": [0, 8, 16], "itemsize": 24})
@@ -384,15 +386,39 @@ class Barcode(Summaries, Sequence[Bar]):
         from ._plots import plot
         return plot(self, kind, ax, style)
 
+    def report(self, X: Any = None, *, title: str = "", **options: Any) -> Report:
+        """An interactive page: diagram, barcode, and the data, all linked.
+
+        Parameters
+        ----------
+        X : optional
+            What the bars were computed of: the page shows it, with cells, chains and the merge
+            tree. Of a mesh or simplices what `read` gave. Default: the bars alone.
+        title : str
+            Of the page. Default: what the data are.
+        **options
+            Keywords with which the bars were computed that they do not know: an array of `weights`,
+            a function as `metric`; of a barcode that was read, all that were not defaults.
+
+        Returns
+        -------
+        Report
+
+        Raises
+        ------
+        NotBuiltIn
+            If libph was built without npm.
+        DataError
+            If the bars are not those of X.
+        """
+        from ._report import report_of_bars
+        return report_of_bars(self, X, title, options)
+
     def __repr__(self) -> str:
+        from ._report import description_of
         meta = self.meta
-        name = str(meta.get("complex") or "barcode")
-        if "shape" in meta:
-            name += " of " + " x ".join(map(str, meta["shape"]))
-        elif "points" in meta:
-            name += f" of {_spaced(meta['points'])} points"
-            if "coordinates" in meta:
-                name += f" in R^{meta['coordinates']}"
+        name = " of ".join(filter(None, [str(meta.get("complex") or "barcode"),
+                                         description_of(meta)]))
         counts: list[str] = []
         for dim, count in zip(*(x.tolist() for x in np.unique(self.dims, return_counts=True))):
             noun = "" if counts else " bar" if count == 1 else " bars"

@@ -140,11 +140,17 @@ def rips_request(o: dict[str, Any]) -> Request:
         source.space, threshold, births, neighbours, getattr(_core.WeightExponent, exponent),
         subsample, radius, approximation, merge, source.ids)
     weights = o["weights"] if isinstance(o["weights"], str) else None if births is None else "given"
+    others = {name: o[name] for name in ("subsample", "subsample_radius")}
+    # What is not looked at is not checked either.
+    is_given = isinstance(o["metric"], str) and o["metric"] == "precomputed"
+    for name in ("nan", *(("diagonal", "symmetrise") if is_given else ())):
+        others[name] = None if o[name] in ("error", "zero") else o[name]
     meta = _meta("rips", o, points=source.points, coordinates=source.coordinates,
                  metric=o["metric"] if isinstance(o["metric"], str) else "function",
                  minkowski_p=o["minkowski_p"] if o["metric"] == "minkowski" else None,
                  weights=weights, dtm_neighbors=neighbours, approximation=approximation,
-                 weight_exponent=None if weights is None else _NUMBERS[exponent])
+                 weight_exponent=None if weights is None else _NUMBERS[exponent],
+                 **others)
     return Request(recipe, task, o["run"], meta)
 
 
@@ -208,7 +214,8 @@ def cubical_request(o: dict[str, Any]) -> Request:
     recipe = _core.cubical_recipe(array, nan == "drop", _arrays.is_mapped_file(image),
                                   construction == "vertices", superlevel, periodic, threshold)
     meta = _meta("cubical", o, shape=array.shape, construction=construction, superlevel=superlevel,
-                 periodic=tuple(int(k) for k in np.flatnonzero(periodic)))
+                 periodic=tuple(int(k) for k in np.flatnonzero(periodic)),
+                 nan=None if nan == "error" else nan)
     return Request(recipe, task, o["run"], meta, layers)
 
 

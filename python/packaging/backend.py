@@ -27,8 +27,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 NAME = "libph"
 # What a build needs, and what an archive of the sources has.
-SOURCES = ("CMakeLists.txt", "cmake", "libph", "libsegment", "python", "pyproject.toml", "LICENSE", "README.md",
-           "CHANGELOG.md", "CITATION.cff", "docs/python.md")
+SOURCES = ("CMakeLists.txt", "cmake", "libph", "libsegment", "libreport", "viewer", "python",
+           "pyproject.toml", "LICENSE", "README.md", "CHANGELOG.md", "CITATION.cff",
+           "docs/python.md")
 
 
 def version():
@@ -120,7 +121,13 @@ def build_sdist(sdist_directory, config_settings=None):
 
 
 def without_caches(info):
-    return None if "__pycache__" in info.name or info.name.endswith(".pyc") else info
+    """Neither what Python and npm put there, nor what is built, but for a page of reports that is
+    built already: whoever has no npm has reports all the same."""
+    name = info.name.split("/", 1)[1]
+    is_cache = "__pycache__" in name or name.endswith(".pyc") or name.startswith(
+        ("viewer/node_modules", "viewer/test"))
+    is_built = name.startswith("viewer/build/") and name != "viewer/build/report-template.html"
+    return None if is_cache or is_built else info
 
 
 def run(*command):

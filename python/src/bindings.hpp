@@ -19,5 +19,6 @@ void bind_merge_trees(py::module_& m);
 void bind_files(py::module_& m);
 void bind_clouds(py::module_& m);
 void bind_segmentations(py::module_& m);
+void bind_reports(py::module_& m);
 
 }  // namespace ph::python

@@ -18,15 +18,6 @@
 namespace ph::python {
 namespace {
 
-/// Whether bars of H1 that come with cycles come with loops, too.
-enum class LoopChoice { none, plain, tight };
-
-/// What is computed.
-struct Task {
-  Options options;
-  LoopChoice loops = LoopChoice::none;
-};
-
 Bars compute(const Recipe& recipe, const Task& task, const RunContext& context) {
   Built built = recipe.build(task.options, context);
   const RunPlan planned = plan(built.complex, task.options, context);

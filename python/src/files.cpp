@@ -2,10 +2,8 @@
 // Files of data and of barcodes.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <filesystem>
 #include <initializer_list>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,6 +16,7 @@
 #include "ph/io/read.hpp"
 #include "ph/io/write.hpp"
 #include "results/bars.hpp"
+#include "results/origin.hpp"
 #include "run.hpp"
 
 namespace ph::python {
@@ -159,55 +158,6 @@ py::dict read(const std::string& path, const std::string& format_name,
   answer["dropped"] = dropped;
   answer["periodic"] = result.periodic;
   return answer;
-}
-
-/// What Python knows of a barcode, as far as files say it.
-BarcodeInfo info_of(const py::dict& meta) {
-  const auto take = [&]<class T>(const char* name, T& value) {
-    if (meta.contains(name) && !meta[name].is_none()) value = meta[name].cast<T>();
-  };
-  BarcodeInfo info;
-  take("program", info.program);
-  take("input_description", info.input_description);
-  take("complex", info.complex);
-  take("field", info.field);
-  take("max_dim", info.max_dim);
-  take("vertex_weights", info.vertex_weights);
-  take("superlevel", info.superlevel);
-  take("engine", info.engine);
-  double number = std::numeric_limits<double>::quiet_NaN();
-  take("threshold", number);
-  if (!std::isnan(number)) info.threshold = number;
-  number = std::numeric_limits<double>::quiet_NaN();
-  take("approximation", number);
-  if (!std::isnan(number)) info.approximation = number;
-  if (meta.contains("covering_radius") && !meta["covering_radius"].is_none()) {
-    info.subsample.emplace();
-    take("vertices", info.subsample->points);
-    take("points", info.subsample->of);
-    take("covering_radius", info.subsample->covering_radius);
-  }
-  return info;
-}
-
-py::dict meta_of(const BarcodeInfo& info) {
-  py::dict meta;
-  const auto put = [&](const char* name, const auto& value) { meta[name] = value; };
-  put("complex", info.complex);
-  put("field", info.field);
-  put("max_dim", info.max_dim);
-  put("threshold", info.threshold);
-  put("vertex_weights", info.vertex_weights);
-  put("superlevel", info.superlevel);
-  put("approximation", info.approximation);
-  put("engine", info.engine);
-  put("input_description", info.input_description);
-  if (info.subsample) {
-    put("vertices", info.subsample->points);
-    put("points", info.subsample->of);
-    put("covering_radius", info.subsample->covering_radius);
-  }
-  return meta;
 }
 
 void save(const Bars& bars, const std::string& path, const std::optional<std::string>& format_name,

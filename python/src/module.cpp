@@ -18,4 +18,5 @@ PYBIND11_MODULE(_core, m) {
   bind_files(m);
   bind_clouds(m);
   bind_segmentations(m);
+  bind_reports(m);
 }

@@ -7,8 +7,10 @@
 #include "bindings.hpp"
 #include "data/arrays.hpp"
 #include "ph/detail/rips/edge_collapse.hpp"
+#include "ph/detail/rips/rips_graph.hpp"
 #include "ph/error.hpp"
 #include "ph/explicit.hpp"
+#include "report/shown_tree.hpp"
 
 namespace ph::python {
 namespace {
@@ -41,6 +43,41 @@ bool is_c_contiguous(const py::buffer_info& array) {
 const std::vector<Index>& Recipe::vertex_ids() const {
   static const std::vector<Index> none;
   return none;
+}
+
+std::optional<MergeTree> Recipe::whole_tree(const Built& built, const Options&,
+                                            const RunContext& context) const {
+  if (built.cut) return std::nullopt;
+  return report::whole_tree(built.complex, context);
+}
+
+std::optional<PointsView> RipsRecipe::points() const {
+  const PointSet* set = space_->point_set();
+  if (!set || set->points.rows() == 0 || set->points.cols() == 0) return std::nullopt;
+  return set->points;
+}
+
+bool RipsRecipe::is_euclidean() const {
+  const PointSet* set = space_->point_set();
+  return set && set->distance == PointDistance::euclidean && !choices_.subsample &&
+         !choices_.approximation && !choices_.dtm_neighbours && choices_.births.empty();
+}
+
+std::optional<MergeTree> RipsRecipe::whole_tree(const Built& built, const Options& options,
+                                                const RunContext& context) const {
+  const bool has_names = std::get<Rips>(built.complex).graph().has_names();
+  if (space_->size() == 0 || choices_.subsample || choices_.approximation ||
+      (has_names && options.min_persistence < 0))
+    return std::nullopt;
+  // This one is a spanning forest of all points, equal ones among them.
+  Choices choices = choices_;
+  choices.threshold = built.facts.threshold;
+  choices.merge_equal_points.reset();
+  Options components;
+  components.max_dim = 0;
+  components.min_persistence = -1;
+  return report::whole_tree(
+      RipsRecipe(space_, std::move(choices)).build(components, context).complex, context);
 }
 
 Built RipsRecipe::build(const Options& task, const RunContext& context) const {

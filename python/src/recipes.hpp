@@ -9,10 +9,20 @@
 #include <vector>
 
 #include "data/metric_space.hpp"
+#include "ph/merge_tree.hpp"
 #include "ph/persistence.hpp"
 #include "results/bars.hpp"
 
 namespace ph::python {
+
+/// Whether bars of H1 that come with cycles come with loops, too.
+enum class LoopChoice { none, plain, tight };
+
+/// What is computed.
+struct Task {
+  Options options;
+  LoopChoice loops = LoopChoice::none;
+};
 
 /// A complex, and what was found out while it was built.
 struct Built {
@@ -33,6 +43,16 @@ class Recipe {
   virtual bool is_short(const Options& options) const = 0;
   /// By vertex of the complex its number in the input; empty: its own.
   virtual const std::vector<Index>& vertex_ids() const;
+
+  // For a page that shows the data.
+  /// The points, if it is built of some.
+  virtual std::optional<PointsView> points() const { return std::nullopt; }
+  /// Whether all pairs of points within a distance are the edges at that distance.
+  virtual bool is_euclidean() const { return false; }
+  /// The merge tree of all of its vertices; nothing where it has not all that are in the input.
+  /// @param built by these options, or by those of the same homology.
+  virtual std::optional<MergeTree> whole_tree(const Built& built, const Options& options,
+                                              const RunContext& context) const;
 };
 
 class RipsRecipe final : public Recipe {
@@ -47,12 +67,16 @@ class RipsRecipe final : public Recipe {
     std::optional<bool> merge_equal_points;  ///< none: where it may
     std::vector<Index> ids;                  ///< of the points; empty: their numbers
   };
-  RipsRecipe(std::shared_ptr<MetricSpace> space, Choices choices)
+  RipsRecipe(std::shared_ptr<const MetricSpace> space, Choices choices)
       : space_(std::move(space)), choices_(std::move(choices)) {}
 
   Built build(const Options& options, const RunContext& context) const override;
   bool is_short(const Options& options) const override;
   const std::vector<Index>& vertex_ids() const override { return choices_.ids; }
+  std::optional<PointsView> points() const override;
+  bool is_euclidean() const override;
+  std::optional<MergeTree> whole_tree(const Built& built, const Options& options,
+                                      const RunContext& context) const override;
   /// The edges of the complex after they were collapsed.
   Rips collapsed(const RunContext& context) const;
 

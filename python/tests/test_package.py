@@ -104,9 +104,10 @@ def test_an_archive_of_the_sources(backend, tmp_path):
         names = {member.split("/", 1)[1] for member in archive.getnames() if "/" in member}
     for needed in ("PKG-INFO", "pyproject.toml", "CMakeLists.txt", "python/src/module.cpp",
                    "libph/src/core/barcode.cpp", "libsegment/src/pipeline.cpp",
+                   "libreport/report/barcode_page.cpp", "viewer/build.mjs", "viewer/package-lock.json",
                    "python/libph/_scenes/__init__.py", "python/libph/__init__.py", "LICENSE"):
         assert needed in names
-    assert not any("__pycache__" in n for n in names)
+    assert not any("__pycache__" in n or "node_modules" in n for n in names)
 
 
 @pytest.fixture(scope="module")

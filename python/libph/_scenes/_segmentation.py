@@ -15,6 +15,7 @@ from .. import _core, _options, _run
 from .._barcode import Barcode, Meta
 from .._errors import UsageError
 from .._files import path_of
+from .._report import Report, require_page
 from .._trees import MergeTree
 from ._objects import Objects, segment_of
 
@@ -266,6 +267,34 @@ class Segmentation:
             raise UsageError("format: found png for a cloud without rows and columns, expected npy "
                              "or csv")
         _run.run(self._found.save, file, known, options={})
+
+    def report(self, *, title: str = "", **run: Unpack[RunOptions]) -> Report:
+        """An interactive page, as ``ph-segment --report`` writes it: the points, the merge tree.
+
+        Parameters
+        ----------
+        title : str
+            Of the page. Default: the name of the file, or what the scene is.
+        **run
+            `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
+
+        Returns
+        -------
+        Report
+
+        Raises
+        ------
+        NotBuiltIn
+            If libph was built without npm.
+        """
+        _run.check_names("report", dict(run))
+        require_page()
+        path = self.meta.get("path", "")
+        title = str(title) or os.path.basename(path) or repr(self)
+        meta = {"program": f"libph {_core.version}", "input": path}
+        page = _run.run(_core.page_of_scene, self._found, title, meta, list(self.meta["notes"]),
+                        options=dict(run))
+        return Report._of(page, title)
 
     def __repr__(self) -> str:
         shape = " x ".join(map(str, self.labels.shape))

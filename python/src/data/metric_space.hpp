@@ -54,6 +54,9 @@ class MetricSpace {
   /// Whether each pair has a distance.
   bool is_complete() const { return !std::holds_alternative<Pairs>(numbers_); }
 
+  /// The points, if it is some.
+  const PointSet* point_set() const { return std::get_if<PointSet>(&numbers_); }
+
   /// Calls `use` with a PointSet, an ArrayMetric or SparseDistances.
   /// @throws Error (bad_data) on what is no distance.
   template <class Use>

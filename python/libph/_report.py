@@ -1,0 +1,201 @@
+# SPDX-License-Identifier: MIT
+"""Interactive pages of a result: one file of HTML, or a frame in a notebook."""
+from __future__ import annotations
+
+import html
+import os
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from . import _arrays, _core, _run
+from ._compute import boundary, filtered, lower_star, rips
+from ._errors import DataError, NotBuiltIn, UsageError
+from ._estimate import request_of
+from ._files import Boundary, Mesh, Simplices, path_of
+from ._requests import (PointImage, Request, boundary_request, filtered_request,
+                        lower_star_request, rips_request)
+from ._signatures import arguments_of
+
+if TYPE_CHECKING:
+    from ._barcode import Barcode
+
+_HEIGHT = 720  # pixels of a frame in a notebook
+# What a barcode knows of the keywords with which it was computed.
+_KNOWN = {
+    "rips": ("metric", "minkowski_p", "weights", "dtm_neighbors", "weight_exponent", "subsample",
+             "subsample_radius", "approximation", "nan", "diagonal", "symmetrise"),
+    "cubical": ("construction", "superlevel", "periodic", "nan")}
+_OF_ALL = ("threshold", "field", "max_dim", "representatives")
+
+
+class Report:
+    """A page to look at: a notebook shows it in a frame, `save` writes it as one file.
+
+    The page needs no network and no Python. What it shows is described in docs/report.md.
+    """
+
+    __slots__ = ("_page", "title")
+
+    def __init__(self) -> None:
+        raise TypeError("a Report is made by ph.report, Barcode.report and Segmentation.report")
+
+    @classmethod
+    def _of(cls, page: bytes, title: str) -> Report:
+        self = object.__new__(cls)
+        self._page = page
+        self.title = title
+        return self
+
+    @property
+    def html(self) -> str:
+        """The whole page."""
+        return self._page.decode()
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the page to a file, whole or not at all."""
+        _run.run(_core.write_page, path_of(path), self._page, options={})
+
+    def __repr__(self) -> str:
+        return f"Report({self.title!r}, {len(self._page) / 1e6:.1f} MB)"
+
+    def _repr_html_(self) -> str:
+        # The page is a document of its own: it neither sees the notebook nor is seen by it.
+        return (f'<iframe sandbox="allow-scripts allow-downloads" title="{html.escape(self.title)}"'
+                f' style="width: 100%; height: {_HEIGHT}px; border: 0"'
+                f' srcdoc="{html.escape(self.html)}"></iframe>')
+
+
+def require_page() -> None:
+    """Before anything is computed."""
+    if not _core.has_page():
+        raise NotBuiltIn("report: the page of reports is not in this libph, for there was no npm "
+                         "when it was built. Install Node.js with npm (Debian: apt install npm), "
+                         "then install libph again (pip install .)")
+
+
+def report(data: Any, *, complex: str | None = None, title: str = "", **options: Any) -> Report:
+    """Computes a barcode and shows it with the data, as ``ph-barcode --report`` does.
+
+    Parameters
+    ----------
+    data : array_like, sparse matrix, PointImage, Mesh, Simplices or Boundary
+        As of `rips` or `cubical`; or what `read` gives of a file.
+    complex : {None, "rips", "cubical"}
+        Of arrays, which of the two. Default: cubical for three axes or more and for a PointImage,
+        else rips.
+    title : str
+        Of the page. Default: what the data are.
+    **options
+        All keywords of the function that computes the barcode.
+
+    Returns
+    -------
+    Report
+
+    Examples
+    --------
+    >>> ph.report([[0, 0], [1, 0], [1, 1], [0, 1]])        # doctest: +SKIP
+    Report('rips of 4 points in R^2', 0.7 MB)
+    """
+    from ._barcode import Barcode
+    require_page()
+    source = _source_of(data, complex, options)
+    bars = Barcode._of(source.request.run(_core.barcode), source.request.meta)
+    return _page(bars, source, title)
+
+
+class _Source(NamedTuple):
+    """What bars are computed of, and what a page shows beside them."""
+
+    request: Request
+    vertices: Any = None  # where they are
+    has_axes: bool = False
+
+
+_LISTED: dict[type, tuple[Callable[..., Any], Callable[..., Request]]] = {
+    Simplices: (filtered, filtered_request), Boundary: (boundary, boundary_request)}
+
+
+def _source_of(data: Any, complex: str | None, options: dict[str, Any]) -> _Source:
+    if not isinstance(data, (Mesh, Simplices, Boundary)):
+        return _Source(request_of(data, complex, options), None, isinstance(data, PointImage))
+    if complex is not None:
+        raise UsageError(f"complex: found {complex!r}, but a {type(data).__name__} is one")
+    if not isinstance(data, Mesh):
+        function, request = _LISTED[type(data)]
+        given = arguments_of(function, data[0], {**dict(zip(data._fields[1:], data[1:])), **options})
+        return _Source(request({"loops": None, **given}))
+    vertices = _arrays.as_points(data.vertices, "vertices")
+    if data.values is None:
+        return _Source(rips_request(arguments_of(rips, vertices, options)))
+    return _Source(lower_star_request(arguments_of(
+        lower_star, data.values, {"simplices": data.triangles, **options})), vertices)
+
+
+def report_of_bars(bars: Barcode, X: Any, title: str, options: dict[str, Any]) -> Report:
+    """See `Barcode.report`."""
+    require_page()
+    if X is None:
+        if options:
+            raise UsageError(f"{next(iter(options))}: does nothing without X")
+        return _page(bars, None, title)
+    meta = bars.meta
+    kind = meta.get("complex")
+    known = (*_KNOWN.get(str(kind), ()), *_OF_ALL)
+    given = {name: meta[name] for name in known if meta.get(name) is not None}
+    if isinstance(X, (Mesh, Simplices, Boundary)):
+        kind = None
+    elif kind not in _KNOWN:
+        raise UsageError(f"X: found bars of complex {kind!r}, expected a Mesh, Simplices or a "
+                         "Boundary, as ph.read gives them")
+    for name, unknown in (("metric", "function"), ("weights", "given")):
+        if given.get(name) == unknown and name not in options:
+            raise UsageError(f"{name}: found none, expected what the bars were computed with")
+    if "covering_radius" in meta and not {"subsample", "subsample_radius"} & {*given, *options}:
+        raise UsageError("subsample: found none, expected what the bars were computed with")
+    if isinstance(X, PointImage):
+        given.pop("nan", None)
+    source = _source_of(X, kind, {**given, **options})
+    for name in ("points", "shape"):
+        found, expected = source.request.meta.get(name), meta.get(name)
+        if expected is not None and found != expected:
+            raise DataError(f"X: found {found} {'' if name == 'shape' else name}".rstrip() +
+                            f", expected {expected}, as the bars are of")
+    return _page(bars, source, title)
+
+
+def _page(bars: Barcode, source: _Source | None, title: str) -> Report:
+    meta = {**bars.meta, "program": f"libph {_core.version}"}
+    described = description_of(meta)
+    meta.setdefault("input_description", described)
+    title = str(title) or " of ".join(filter(None, [str(meta.get("complex") or "barcode"),
+                                                    described]))
+    notes = []
+    weights = meta.get("weights")
+    if weights is not None:
+        notes.append(("Vertices enter late", weights if weights != "dtm"
+                      else f"dtm {meta.get('dtm_neighbors', '')}".strip()))
+    if meta.get("approximation") is not None:
+        notes.append(("Approximation", f"epsilon {meta['approximation']:g}: bars are born and die "
+                      "later by a factor of 1 + epsilon at most"))
+    arguments: tuple[Any, ...] = (None, _EMPTY_TASK, None, False)
+    options: dict[str, Any] = {}
+    if source is not None:
+        arguments = (source.request.recipe, source.request.task, source.vertices, source.has_axes)
+        options = source.request.options
+    page = _run.run(_core.page_of_bars, bars._bars, *arguments, title, meta, notes, options=options)
+    return Report._of(page, title)
+
+
+_EMPTY_TASK = _core.Task(None, 0, 2, "auto", _core.Collapse.automatic, 0.0,
+                         _core.Representatives.none, True, _core.LoopChoice.none)
+
+
+def description_of(meta: Any) -> str:
+    """What the data were: "20 points in R^2". Empty: nobody knows."""
+    if "shape" in meta:
+        return " x ".join(map(str, meta["shape"]))
+    if "points" not in meta:
+        return ""
+    number = f"{meta['points']:,}".replace(",", " ")
+    return f"{number} points" + (f" in R^{meta['coordinates']}" if "coordinates" in meta else "")
