@@ -47,7 +47,7 @@ bool is_too_fine(const Scene& scene, Index voxels, const VoxelPairs& pairs, doub
 }  // namespace
 
 VoxelPairs near_voxels(const VoxelGrid& grid, double voxel, const RunContext& context) {
-  return close_voxels(grid, voxel, kNeighbourhood, &context.memory);
+  return close_voxels(grid, voxel, kNeighbourhood, context);
 }
 
 bool are_adjacent(const VoxelPair& pair, double voxel) { return pair.distance < kAdjacent * voxel; }

@@ -94,20 +94,22 @@ VoxelPair* write_pairs(const std::vector<Place>& places, const VoxelRow& row, co
 }  // namespace
 
 VoxelPairs close_voxels(const VoxelGrid& grid, double voxel, double reach,
-                        std::pmr::memory_resource* memory) {
+                        const RunContext& context) {
   // Beyond, the row behind another one may be the same number: the search would not come to an end.
   require_exact_cells(grid, voxel);
   const std::vector<VoxelRow> rows = rows_of(grid);
   const std::vector<Place> places = places_of(grid);
   std::vector<Offset> offsets = offsets_within(reach);
   const double square_of_radius = std::pow(reach * voxel, 2);
-  VoxelPairs pairs(memory);
+  VoxelPairs pairs(&context.memory);
   // Those of a surface that bends, half of the disk around each voxel and a third more: growing
   // would copy them all, and touch three times the memory.
   const double disk = 4.0 / 3 * std::numbers::pi * reach * reach;
   pairs.reserve(static_cast<std::size_t>(disk / 2 * static_cast<double>(grid.cells.size())));
   const auto most_of_voxel = static_cast<std::size_t>(2 * std::ceil(reach) + 1);
+  Ticker ticker(context, "neighbours", rows.size());
   for (const VoxelRow& row : rows) {
+    ticker.tick();
     for (Offset& offset : offsets) {
       const double y = row.y + offset.y, z = row.z + offset.z;
       while (offset.next < rows.size() && comes_before(rows[offset.next], y, z)) ++offset.next;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ph/detail/core/raw_vector.hpp"
+#include "ph/run_context.hpp"
 #include "voxels/voxel_grid.hpp"
 
 namespace ph::segment {
@@ -23,9 +24,9 @@ using VoxelPairs = RawVector<VoxelPair>;
 /// All pairs of voxels whose centroids are closer than a number of voxels, in an order that depends
 /// on the voxels alone. O(rows * reach^2 + pairs): no tree, no hash.
 /// @param voxel edge of a voxel of the grid, metres. @param reach in voxels, > 0; small, for it is
-/// counted through. @throws Error (usage) as require_exact_cells.
+/// counted through. @throws Error (usage) as require_exact_cells; Error (resource, cancelled).
 VoxelPairs close_voxels(const VoxelGrid& grid, double voxel, double reach,
-                        std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+                        const RunContext& context = default_context());
 
 /// Calls `use` for the pairs with distance < `radius`, in their order. They are picked some at a
 /// time: whether a pair is as near is anyone's guess, and a branch for each would be the wrong one
