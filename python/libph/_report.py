@@ -143,6 +143,8 @@ def report_of_bars(bars: Barcode, X: Any, title: str, options: dict[str, Any]) -
     kind = meta.get("complex")
     known = (*_KNOWN.get(str(kind), ()), *_OF_ALL)
     given = {name: meta[name] for name in known if meta.get(name) is not None}
+    if given.get("diagonal") == "births":  # these are the weights
+        del given["weights"]
     if isinstance(X, (Mesh, Simplices, Boundary)):
         kind = None
     elif kind not in _KNOWN:

@@ -114,6 +114,15 @@ def test_pages_of_distances(barcode_page):
     bars = ph.rips(square, metric="precomputed")
     check(bars.report(square, title="d.npy"), written)
     check(bars.report(pdist(SOLID), title="d.npy"), written)
+    np.fill_diagonal(square, np.linspace(0, 1, len(square)))
+    written = barcode_page(square, "d.npy", "--format", "distance", "--diagonal", "births")
+    check(ph.rips(square, metric="precomputed", diagonal="births").report(square, title="d.npy"),
+          written)
+    square[3, 4] += 1
+    written = barcode_page(square, "d.npy", "--format", "distance", "--symmetrise", "max",
+                           "--diagonal", "zero")
+    bars = ph.rips(square, metric="precomputed", diagonal="any", symmetrise="max")
+    check(bars.report(square, title="d.npy"), written)
 
 
 IMAGE = np.random.default_rng(6).normal(size=(12, 15)).round(1) + 0.0
