@@ -100,6 +100,7 @@ def test_dimensions(rng):
     assert np.array_equal(cripser.compute_ph(image), full)
     four = np.ones((3, 3, 3, 3))
     four[1, 1, 1, 1] = 2
+    assert cripser.computePH(four, top_dim=True)[:, :3].tolist() == [[3, 1, 2]]
     assert cripser.compute_ph(four)[:, 0].max() == 3 > cripser.computePH(four)[:, 0].max()
 
 

@@ -146,6 +146,16 @@ def test_weights(rng, p, is_sparse):
         assert np.allclose(dgm[np.lexsort(dgm.T[::-1])], other)
 
 
+def test_of_weighted_sparse_distances_the_upper_entry_wins(rng):
+    distances, births = random_distances(rng, 7, False), rng.random(7)
+    upper, (i, j) = np.triu(distances), np.triu_indices(7, 1)
+    both = sparse.coo_matrix((np.concatenate([distances[i, j] / 2, distances[i, j]]),
+                              (np.concatenate([j, i]), np.concatenate([i, j]))), shape=(7, 7))
+    expected = of_matrix(upper, weights=births)["dgms"]
+    for matrix in (both, both.tocsr()):
+        assert same(of_matrix(matrix, weights=births)["dgms"], expected)
+
+
 @pytest.mark.parametrize("r", [1, 2, 3])
 def test_distance_to_measure(rng, r):
     """Vertices are born at twice the mean of exponent r of the distances to neighbours and self."""

@@ -147,7 +147,8 @@ def test_weighted_trees_of_gudhi(peer, seed):
     from gudhi.dtm_rips_complex import DTMRipsComplex
     from gudhi.weighted_rips_complex import WeightedRipsComplex
     rng = np.random.default_rng(seed)
-    points, weights = rng.random((8, 2)), 0.2 * rng.random(8)
+    # Weights that differ by more than the points are apart, and others.
+    points, weights = rng.random((8, 2)), [0.2, 0.6][seed // 3] * rng.random(8)
     limit = [INF, 0.9][seed % 2]
     distances = squareform(pdist(points))
     pairs = [[weighted(distances, weights, limit), dtm(points, k=3, max_filtration=limit)]
@@ -170,6 +171,8 @@ def test_a_sparse_complex_keeps_its_promise(rng):
               for tree in (exact, rough)]
     assert (deaths[0] <= deaths[1] + 1e-12).all()
     assert (deaths[1] <= deaths[0] / 0.7 + 1e-12).all() and (deaths[0] != deaths[1]).any()
+    bars = ph.rips(points, max_dim=0, approximation=0.3 / 0.7)
+    assert np.array_equal(deaths[1], bars.deaths[:-1])
 
 
 def test_what_is_elsewhere():
@@ -215,6 +218,11 @@ def test_images():
         assert len(never) == 1 and flat[never[0][0]] == 0 == flat[pairs[1][0, 0]]
         with pytest.raises(RuntimeError, match="expected the other kind"):
             image.vertices_of_persistence_pairs()
+    line = gudhi.CubicalComplex(top_dimensional_cells=[2, 4, 3, 5])
+    line.compute_persistence()
+    assert line.persistence_intervals_in_dimension(0).tolist() == [[3, 4], [2, INF]]
+    oblong = gudhi.CubicalComplex(vertices=[0, 1, 2, 3, 4, 5], dimensions=[2, 3])
+    assert oblong.vertices().tolist() == [[0, 2, 4], [1, 3, 5]]
     torus = gudhi.PeriodicCubicalComplex(top_dimensional_cells=np.arange(9).reshape(3, 3),
                                          periodic_dimensions=[True, True])
     assert [b for b in torus.persistence()] == [

@@ -80,6 +80,27 @@ def test_install():
         "2", "libph.compat.gph.modules.gph_ripser"]
 
 
+def test_gudhi_without_scikit_learn():
+    code = """if True:
+        import sys
+        sys.modules["sklearn"] = sys.modules["joblib"] = None
+        from libph import compat
+        compat.install("gudhi")
+        import gudhi, gudhi.hera
+        print("gudhi.sklearn" in sys.modules, gudhi.bottleneck_distance([[0, 2]], []))
+    """
+    assert run(code).split() == ["False", "1.0"]
+
+
+def test_each_has_the_version_of_libph():
+    import importlib
+    for name in ("ripser", "gph", "cripser", "tcripser", "gudhi", "persim"):
+        module = importlib.import_module(f"libph.compat.{name}")
+        assert module.__version__ == ph.__version__
+        for public in module.__all__:
+            assert hasattr(module, public)
+
+
 def test_install_refuses():
     code = """if True:
         import sys, types

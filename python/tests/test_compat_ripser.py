@@ -87,8 +87,12 @@ def test_order(rng):
         assert len(dgm) > 1 and (np.diff(dgm[:, 0]) <= 0).all()
     cut = ripser(rng.random((60, 3)), thresh=0.3)["dgms"][1]  # infinite ones among the others
     assert np.isinf(cut[:, 1]).any() and (np.diff(cut[:, 0]) <= 0).all()
-    ties = of_matrix(random_distances(rng, 12, True))["dgms"][1]
-    assert [tuple(row) for row in ties] == sorted(map(tuple, ties), reverse=True)
+    squares = [np.array([[0, 1, d, 1], [1, 0, 1, d], [d, 1, 0, 1], [1, d, 1, 0]])
+               for d in (1.25, 1.75, 1.5)]
+    three = np.kron(1 - np.eye(3), np.full((4, 4), 9.0))
+    for k, square in enumerate(squares):
+        three[4 * k:4 * k + 4, 4 * k:4 * k + 4] = square
+    assert of_matrix(three)["dgms"][1].tolist() == [[1, 1.75], [1, 1.5], [1, 1.25]]
 
 
 def test_num_edges():
@@ -98,7 +102,12 @@ def test_num_edges():
     line = np.array([[0.0], [1.0], [2.0], [10.0], [11.0]])
     assert ripser(line)["num_edges"] == 7  # up to the enclosing radius 9
     assert of_matrix(sparse.csr_matrix(distances), thresh=1)["num_edges"] == 6  # no zero is stored
-    assert of_matrix(np.diag([1.0, 2, 3]) + 4 * (1 - np.eye(3)))["num_edges"] == 3
+    births = squareform(pdist(line))
+    np.fill_diagonal(births, 0.5)
+    assert of_matrix(births)["num_edges"] == 10  # of births ripser.py knows no such radius
+    close = 1 + 2.0**-26
+    nearly = np.array([[0, 1, 1], [1, 0, close], [1, close, 0]])
+    assert of_matrix(nearly)["num_edges"] == 3 and of_matrix(nearly, dtype=float)["num_edges"] == 2
 
 
 def test_maxdim_and_lists():
@@ -136,6 +145,8 @@ def test_n_perm(rng):
         part = of_matrix(distances[np.ix_(chosen, chosen)])
         for dgm, other in zip(found["dgms"], part["dgms"]):
             assert np.allclose(dgm, other)
+    angles = ripser(rng.random((40, 7)), n_perm=12, metric="cosine")
+    assert not angles["dperm2all"][np.arange(12), angles["idx_perm"]].any()  # not even by rounding
     for n_perm in (0, None, 40):
         found = ripser(points, n_perm=n_perm)
         assert found["idx_perm"].tolist() == list(range(40)) and found["r_cover"] == 0.0
@@ -200,6 +211,22 @@ def test_a_point_that_enters_beyond_the_threshold_never_dies():
     matrix = np.array([[0.0, 3.0], [3.0, 2.0]])
     assert of_matrix(matrix, thresh=1)["dgms"][0].tolist() == [[0, INF], [2, INF]]
     assert of_matrix(matrix)["dgms"][0].tolist() == [[2, 3], [0, INF]]
+
+
+def test_the_point_that_is_near_to_all_may_be_late():
+    """Its enclosing radius holds from its birth on."""
+    matrix = np.array([[0, 2, 3, 2, 1], [2, 0, 2, 3, 1], [3, 2, 0, 2, 1], [2, 3, 2, 0, 1],
+                       [1, 1, 1, 1, 5.0]])
+    found = of_matrix(matrix)["dgms"]
+    assert found[1].tolist() == [[2, 3]]
+    assert same(found, Flag(matrix - 5 * np.diag([0, 0, 0, 0, 1]), [0, 0, 0, 0, 5]).bars(1))
+
+
+def test_a_point_that_is_born_at_infinity_never_enters():
+    for least in (0.0, -1.0):
+        matrix = np.array([[least, 1, INF], [1, 0, 2], [INF, 2, INF]])
+        assert sorted(of_matrix(matrix)["dgms"][0].tolist()) == sorted(
+            [[least, INF], [0, 1]])
 
 
 def test_sparse_matrices(rng):
@@ -282,7 +309,9 @@ def test_asymmetry_by_rounding_is_none_and_the_upper_entry_counts():
 
 def test_large_matrices_are_looked_at_in_strips(rng):
     """Beyond 512 rows."""
-    matrix = squareform(pdist(rng.random((700, 2))))
+    points = rng.random((700, 2))
+    points[[0, 690]] = [[0, 0], [0.5, 0.5]]  # the centre, and what is far from it
+    matrix = squareform(pdist(points))
     exact = ph.rips(matrix, metric="precomputed")
     assert same(of_matrix(matrix, dtype=float)["dgms"], exact.dgms())
     radius = matrix.max(axis=1).min()

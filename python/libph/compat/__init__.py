@@ -52,7 +52,13 @@ def install(*names: str) -> None:
     for name in names:
         _options.choice("install", name, _MODULES)
         chosen += [name, *_MODULES[name]]
-    ours = {name: importlib.import_module(f"{__name__}.{name}") for name in chosen}
+    ours = {}
+    for name in chosen:
+        try:
+            ours[name] = importlib.import_module(f"{__name__}.{name}")
+        except ImportError:  # gudhi.sklearn, without scikit-learn
+            if name != "gudhi.sklearn":
+                raise
     for name, module in ours.items():
         there = sys.modules.get(name)
         if there not in (None, module):

@@ -154,7 +154,7 @@ def of_dense(matrix: Any, limit: float, dtype: np.dtype[Any], is_symmetric: bool
     n = len(array)
     if edges is None:
         edges = _count(array, limit)
-    if least >= 0 and births.min(initial=0.0) >= 0 and latest <= limit:
+    if least >= 0 and births.min(initial=0.0) >= 0 and latest <= limit and latest < np.inf:
         return Flag(n, births, array, None, limit, edges)
     i, j = (np.concatenate(parts) for parts in zip(*_joined(array, limit)))
     values = np.asarray(array[i, j], dtype=np.float64)
@@ -298,11 +298,11 @@ def compute(flag: Flag, max_dim: int, dtype: np.dtype[Any], essential_last: bool
     else:
         assert flag.pairs is not None
         i, j, values = flag.pairs
-        if min(values.min(initial=0.0), births.min(initial=0.0)) < 0:
-            # libph has no distances below 0. Bars depend on the order of values alone.
+        if min(values.min(initial=0.0), births.min(initial=0.0)) < 0 or np.isinf(births).any():
+            # libph has no distances below 0, and no births at inf. Bars depend on the order of
+            # values alone.
             levels, ranks = np.unique(np.concatenate([births, values]), return_inverse=True)
-            ranks = np.where(np.isinf(levels[ranks]) & (levels[ranks] > 0), np.inf, ranks)
-            births, values = np.split(ranks, [len(births)])
+            births, values = np.split(ranks.astype(np.float64), [len(births)])
         limit = np.inf
         space = _core.MetricSpace.of_pairs(flag.size, i, j, np.ascontiguousarray(values))
     source = Source(space, flag.size, None, births if births.any() else None)

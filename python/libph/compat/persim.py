@@ -9,12 +9,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _arrays, _diagrams, _options
+from .._core import version as __version__
 from .._errors import NotBuiltIn, UsageError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["bottleneck", "plot_diagrams"]
+__all__ = ["__version__", "bottleneck", "plot_diagrams"]
 
 
 def bottleneck(dgm1: ArrayLike, dgm2: ArrayLike, matching: bool = False) -> float:

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from .. import _arrays, _run
 from .._compute import cubical
+from .._core import version as __version__
 from .._errors import DataError, NotBuiltIn, UsageError
 from . import _flag
 from .persim import plot_diagrams as plot_dgms
@@ -28,7 +29,8 @@ if TYPE_CHECKING:
     from .._run import RunOptions
     from ._ripser_class import Rips
 
-__all__ = ["Rips", "correlation_to_distance", "lower_star_img", "plot_dgms", "ripser"]
+__all__ = ["Rips", "__version__", "correlation_to_distance", "lower_star_img", "plot_dgms",
+           "ripser"]
 
 
 def __getattr__(name: str) -> Any:

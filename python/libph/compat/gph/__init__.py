@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
 from ... import _arrays, _options, _run
+from ..._core import version as __version__
 from ..._errors import NotBuiltIn, UsageError
 from .. import _flag
 from .._weights import weighted
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
 
     from ..._run import RunOptions
 
-__all__ = ["modules", "ripser_parallel"]
+__all__ = ["__version__", "modules", "ripser_parallel"]
 
 
 def ripser_parallel(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int = 2,

@@ -154,12 +154,8 @@ class FlagTree(Persistence):
             simplices = np.column_stack([simplices[s], v])
         np.fill_diagonal(matrix, 0)
         matrix = np.minimum(matrix, matrix.T)
-        options = {"metric": "precomputed", "threshold": limit if births is not None else None}
-        if births is not None:
-            options["weights"] = np.where(enters, births, 0)
-        finite = matrix[matrix < np.inf]
-        if births is None:  # all edges, those beyond the enclosing radius among them
-            options["threshold"] = float(finite.max(initial=0.0))
+        # All edges, those beyond the enclosing radius among them.
+        options = {"metric": "precomputed", "threshold": limit, "weights": births}
         below = rips(matrix, max_dim=self._dimension - 1, min_persistence=-1, **options)
         deaths = below.dgm(self._dimension - 1)[:, 1]
         levels, counts = np.unique(values, return_counts=True)
