@@ -48,6 +48,10 @@ def test_tensors(rng):
         dgms = libph.torch.rips(torch.tensor(X, dtype=kind, requires_grad=True))
         assert [d.dtype for d in dgms] == [kind] * 2 and all(d.requires_grad for d in dgms)
         assert all(np.allclose(d.detach().numpy(), e, rtol=1e-5) for d, e in zip(dgms, expected))
+    for kind in (torch.float16, torch.bfloat16):
+        half = torch.tensor(X, dtype=kind, requires_grad=True)
+        libph.torch.rips(half)[1].sum().backward()
+        assert half.grad.dtype == kind and half.grad.abs().sum() > 0
     assert not libph.torch.rips(torch.tensor(X))[0].requires_grad
     pixels = torch.arange(12).reshape(3, 4)
     assert libph.torch.cubical(pixels)[0].dtype == torch.float64
@@ -61,6 +65,8 @@ def test_what_torch_cannot(rng):
     X = torch.tensor(rng.random((8, 2)), requires_grad=True)
     with pytest.raises(ph.UsageError, match="X: found ndarray, expected a tensor"):
         libph.torch.rips(X.detach().numpy())
+    with pytest.raises(ph.UsageError, match="layout torch.sparse_coo, expected a dense one"):
+        libph.torch.rips(X.detach().to_sparse())
     with pytest.raises(ph.UsageError, match="cells: found False"):
         libph.torch.rips(X, cells=False)
     with pytest.raises(ph.UsageError, match="weights: found a tensor that requires a gradient"):

@@ -43,9 +43,14 @@ class _Values(torch.autograd.Function):
     def backward(ctx: Any, d_rows: Any) -> Any:
         (X,) = ctx.saved_tensors
         d = d_rows.detach().cpu().double().numpy()
-        gradient = pullback(ctx.bars, X.detach().cpu().numpy(), d[:, 0], d[:, 1],
-                            weights=ctx.weights)
+        gradient = pullback(ctx.bars, _array(X), d[:, 0], d[:, 1], weights=ctx.weights)
         return torch.as_tensor(gradient, dtype=X.dtype, device=X.device), None, None
+
+
+def _array(X: Any) -> Any:
+    """The same numbers for NumPy, which does not know bfloat16."""
+    tensor = X.detach().cpu()
+    return (tensor.double() if tensor.dtype == torch.bfloat16 else tensor).numpy()
 
 
 def _floating(X: Any) -> Any:
@@ -56,14 +61,16 @@ def _diagrams(X: Any, function: Any, arguments: tuple[Any, ...], options: dict[s
               ) -> list[Any]:
     if not isinstance(X, torch.Tensor):
         raise UsageError(f"X: found {type(X).__name__}, expected a tensor of torch")
+    if X.layout != torch.strided:
+        raise UsageError(f"X: found a tensor of the layout {X.layout}, expected a dense one")
     if options.get("cells") is False:
         raise UsageError("cells: found False, but gradients come through cells")
     weights = options.get("weights")
     if isinstance(weights, torch.Tensor):
         if weights.requires_grad:
             raise UsageError("weights: found a tensor that requires a gradient, expected constants")
-        weights = options["weights"] = weights.detach().cpu().numpy()
-    bars = function(X.detach().cpu().numpy(), *arguments, **options)
+        weights = options["weights"] = _array(weights)
+    bars = function(_array(X), *arguments, **options)
     rows = _Values.apply(X, bars, None if isinstance(weights, str) else weights)
     return [rows[bars._range(dim)] for dim in range(bars._top_dim + 1)]
 
