@@ -7,15 +7,11 @@
 #include <cmath>
 #include <optional>
 
+#include "metric/plain_squares.hpp"
 #include "ph/error.hpp"
 
 namespace ph {
 namespace {
-
-// Coordinates of this size have differences whose squares do not overflow.
-constexpr double kSmallestPlain = 1e-140, kLargestPlain = 1e150;
-// A sum of squares below this may have lost digits to underflow.
-constexpr double kSmallestPlainSquare = 1e-280;
 
 // Euclidean points, axis by axis: squares of distances to the chosen ones, many at a time. No
 // branches in the loops and no sums across points, which a compiler may not reorder: vectors.
@@ -88,7 +84,7 @@ std::optional<GreedyPermutation> by_squares(PointsView points, const GreedyLimit
     result.radii.push_back(result.covering_radius);
     squares.add(next);
     const auto [farthest, square] = squares.farthest();
-    if (square > 0 && square < kSmallestPlainSquare) return std::nullopt;
+    if (square > 0 && square < PointMetric::kLeastPlainSquare) return std::nullopt;
     ticker.tick();
     ticker.work(static_cast<std::uint64_t>(points.size()));
     next = farthest;

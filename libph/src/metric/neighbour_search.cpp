@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "metric/plain_squares.hpp"
+
 namespace ph {
 namespace {
 
@@ -30,9 +32,6 @@ struct ChebyshevGaps {
   static double add(double sum, double gap) { return std::max(sum, std::abs(gap)); }
   static double reach(double d, double slack) { return d * slack; }
 };
-
-// The squares of the differences of such coordinates neither overflow nor underflow.
-constexpr double kSmallestPlain = 1e-140, kLargestPlain = 1e150;
 
 /// @tparam Axes number of coordinates; 0: any.
 template <class Gaps, int Axes>

@@ -11,17 +11,13 @@
 
 #include "metric/cube_list.hpp"
 #include "metric/neighbour_search.hpp"
+#include "metric/plain_squares.hpp"
 #include "ph/detail/metric/metric.hpp"
 #include "ph/detail/metric/row_distances.hpp"
 #include "ph/error.hpp"
 
 namespace ph {
 namespace {
-
-// Below this a sum of squares may have lost digits to underflow.
-constexpr double kSmallestPlainSquare = 1e-280;
-// Coordinates whose differences have squares that neither overflow nor underflow.
-constexpr double kSmallestPlain = 1e-140, kLargestPlain = 1e150;
 
 using Visit = std::function<void(Index, Index, double)>;
 
@@ -38,14 +34,15 @@ void visit_in_cubes(const SearchSpace& space, const PointMetric& metric, double 
                     const Visit& visit, const RunContext& context) {
   const CubeList cubes(space.points, space.radius, context);
   // Most candidates are too far away by more than rounding: no root is needed to see it.
-  const double far = std::max(space.radius * space.radius, kSmallestPlainSquare) * (1 + 1e-12);
+  const double far =
+      std::max(space.radius * space.radius, PointMetric::kLeastPlainSquare) * (1 + 1e-12);
   cubes.for_each_candidate_pair(
       [&](const CubeList::Point& p, const CubeList::Point& q) {
         const double dx = p.x - q.x, dy = p.y - q.y, dz = p.z - q.z;
         const double square = dx * dx + dy * dy + dz * dz;
         if (square > far) return;
         // The same sum as the metric's, unless digits were lost to underflow.
-        const double d = square >= kSmallestPlainSquare && !space.is_scaled
+        const double d = square >= PointMetric::kLeastPlainSquare && !space.is_scaled
                              ? std::sqrt(square)
                              : metric(p.number, q.number);
         if (d <= radius) visit(std::min(p.number, q.number), std::max(p.number, q.number), d);

@@ -8,14 +8,12 @@
 #include <cmath>
 #include <limits>
 
+#include "metric/plain_squares.hpp"
 #include "ph/error.hpp"
 
 namespace ph {
 namespace {
 
-// Differences of coordinates whose squares neither overflow nor lose their digits to underflow.
-constexpr double kLargestPlain = 1e150;
-constexpr double kSmallestPlain = 1e-140;
 static_assert(PointMetric::kLeastPlainSquare >= kSmallestPlain * kSmallestPlain);
 
 /// The sum of terms 0 … count - 1, four at a time: each of four partial sums waits for itself only.

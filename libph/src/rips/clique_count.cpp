@@ -15,7 +15,7 @@ namespace {
 using Vertex = std::uint32_t;
 using Set = std::pmr::vector<Vertex>;  // ascending
 
-constexpr double kFew = 1 << 20;        // cells that are counted one by one
+constexpr double kFewCells = 1 << 20;   // cells that are counted one by one
 constexpr std::size_t kSamples = 4000;  // of edges
 constexpr double kSteps = 1 << 27;      // of the sample: fewer edges where degrees are high
 constexpr std::size_t kFewestSamples = 200;
@@ -68,7 +68,7 @@ class CliqueCounter {
     std::vector<double> estimates = estimate();
     double sum = 0;
     std::size_t few = 2;
-    while (few < estimates.size() && (sum += estimates[few]) <= kFew) ++few;
+    while (few < estimates.size() && (sum += estimates[few]) <= kFewCells) ++few;
     CliqueCounts result{std::move(estimates), static_cast<int>(few)};
     if (few > 2) count(result.counts, few - 1);
     while (!result.counts.empty() && result.counts.back() == 0) result.counts.pop_back();

@@ -9,7 +9,7 @@
 namespace ph::segment {
 namespace {
 
-constexpr std::size_t kSample = 20000;
+constexpr std::size_t kMostLookedAt = 20000;
 constexpr double kCell = 4;         // margins: a square of the plane that a point stands for
 constexpr double kFewBehind = 0.1;  // with fewer nothing else is looked at
 
@@ -34,7 +34,7 @@ class Squares {
 
 PlaneSight sight_past(const CloudView& cloud, const std::vector<Index>& points, const Plane& plane,
                       const PlaneMargin& margin) {
-  const std::size_t step = std::max<std::size_t>(1, points.size() / kSample);
+  const std::size_t step = std::max<std::size_t>(1, points.size() / kMostLookedAt);
   const auto& [vx, vy, vz] = cloud.viewpoint;
   const Eigen::Vector3d eye(vx, vy, vz);
   const double eye_height = plane.signed_distance(vx, vy, vz);

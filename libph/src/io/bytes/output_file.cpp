@@ -24,7 +24,9 @@ namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{1} << 16;
 
-std::string reason(int error) { return std::error_code(error, std::generic_category()).message(); }
+std::string words_for(int error) {
+  return std::error_code(error, std::generic_category()).message();
+}
 
 [[noreturn]] void fail_creating(const std::string& path, const std::string& why) {
   throw Error(ErrorKind::cannot_create,
@@ -82,19 +84,19 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
   }
   struct stat status {};
   if (stat(path_.c_str(), &status) != 0) {
-    if (errno != ENOENT) fail_creating(path_, reason(errno));
+    if (errno != ENOENT) fail_creating(path_, words_for(errno));
     if (path_.back() == '/') fail_creating(path_, "there is no such folder");
     target_ = path_;
   } else if (S_ISDIR(status.st_mode)) {
     fail_creating(path_, "it is a folder");
   } else if (S_ISREG(status.st_mode)) {
     target_ = resolved(path_);
-    if (access(target_.c_str(), W_OK) != 0) fail_creating(path_, reason(errno));
+    if (access(target_.c_str(), W_OK) != 0) fail_creating(path_, words_for(errno));
   } else {
     do {
       descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
     } while (descriptor_ < 0 && errno == EINTR);
-    if (descriptor_ < 0) fail_creating(path_, reason(errno));
+    if (descriptor_ < 0) fail_creating(path_, words_for(errno));
     owned_ = true;
     return;
   }
@@ -103,7 +105,7 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
   if (status.st_mode != 0 && fchmod(descriptor_, status.st_mode & 07777) != 0) {
     const int error = errno;
     discard();
-    fail_creating(path_, reason(error));
+    fail_creating(path_, words_for(error));
   }
 }
 
@@ -125,7 +127,7 @@ void OutputFile::open_regular() {
     }
     if (errno != EEXIST) break;
   }
-  fail_creating(path_, reason(errno));
+  fail_creating(path_, words_for(errno));
 }
 
 OutputFile::~OutputFile() { discard(); }
@@ -202,10 +204,10 @@ void OutputFile::commit() {
     std::string name = fresh_name(folder);
     const std::string unnamed = fmt::format("/proc/self/fd/{}", descriptor_);
     if (linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) != 0)
-      fail_creating(path_, reason(errno));
+      fail_creating(path_, words_for(errno));
     temporary_ = std::move(name);
   }
-  if (rename(temporary_.c_str(), target_.c_str()) != 0) fail_creating(path_, reason(errno));
+  if (rename(temporary_.c_str(), target_.c_str()) != 0) fail_creating(path_, words_for(errno));
   temporary_.clear();
   discard();
   // The new name is safe once the folder is; a failure here leaves a complete file all the same.
@@ -220,7 +222,7 @@ void OutputFile::fail_writing(int error) const {
   if (error == EPIPE) throw BrokenPipe();
   throw Error(ErrorKind::io,
               fmt::format("{}: cannot write: {}",
-                          path_ == "-" ? "standard output" : printable(path_), reason(error)));
+                          path_ == "-" ? "standard output" : printable(path_), words_for(error)));
 }
 
 OutputStream::OutputStream(OutputFile& file) : std::ostream(nullptr), file_(file) {

@@ -34,7 +34,7 @@ std::string_view without_comment(std::string_view line) {
   return line;
 }
 
-std::string_view without_quotes(std::string_view word) {
+std::string_view unquoted(std::string_view word) {
   const bool has = word.size() >= 2 && word.front() == word.back() &&
                    (word.front() == '"' || word.front() == '\'');
   return has ? word.substr(1, word.size() - 2) : word;
@@ -94,8 +94,7 @@ void YamlWords::take_line(std::string_view line) {
     if (open_.empty()) fail(indent + 1, {"list", quoted(rest), "a key before it", {}});
     const std::size_t first = std::min(rest.find_first_not_of(' ', 1), rest.size());
     const std::string_view word = trimmed(rest.substr(first));
-    values_.at(open_.back().path)
-        .words.push_back({without_quotes(word), number_, indent + first + 1});
+    values_.at(open_.back().path).words.push_back({unquoted(word), number_, indent + first + 1});
     return;
   }
   take_key(content, indent);
@@ -112,7 +111,7 @@ void YamlWords::take_key(std::string_view line, std::size_t indent) {
   }
   while (!open_.empty() && open_.back().indent >= indent) open_.pop_back();
   std::string path = open_.empty() ? std::string() : open_.back().path + ".";
-  path += lower(without_quotes(trimmed(content.substr(0, colon))));
+  path += lower(unquoted(trimmed(content.substr(0, colon))));
   const auto [entry, is_new] = values_.emplace(path, Value{number_, indent + 1, {}});
   if (!is_new) {
     fail(indent + 1, {"a key twice",
@@ -151,7 +150,7 @@ void YamlWords::take_value(Value& value, std::string_view rest, std::size_t colu
   }
   if (rest.front() == '&' || rest.front() == '*')
     fail(column, {"anchor or alias", quoted(trimmed(rest)), "a value", "write it out"});
-  value.words.push_back({without_quotes(trimmed(rest)), number_, column});
+  value.words.push_back({unquoted(trimmed(rest)), number_, column});
 }
 
 /// The words of a list up to its end, or to that of the line.
@@ -166,7 +165,7 @@ void YamlWords::take_list(Value& value, std::string_view rest, std::size_t colum
     const std::string_view word = trimmed(rest.substr(0, length));
     const bool ends = length < rest.size() && rest[length] == ']';
     if (!word.empty())
-      value.words.push_back({without_quotes(word), number_, column});
+      value.words.push_back({unquoted(word), number_, column});
     else if (!ends)
       fail(column, {"empty element of a list", quoted(rest), "a value", {}});
     rest.remove_prefix(std::min(length + 1, rest.size()));

@@ -12,8 +12,8 @@
 namespace ph::detail {
 namespace {
 
-constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
-constexpr std::size_t kMostPointBytes = std::size_t{1} << 20;
+constexpr std::int64_t kMostRecords = std::numeric_limits<std::int64_t>::max();
+constexpr std::size_t kMostRecordsPointBytes = std::size_t{1} << 20;
 
 std::optional<FieldType> field_type(char type, std::int64_t size) {
   constexpr std::array kUnsigned{FieldType::uint8, FieldType::uint16, FieldType::uint32,
@@ -29,9 +29,10 @@ std::optional<FieldType> field_type(char type, std::int64_t size) {
 }
 
 // Reads the header, keyword by keyword: each at most once, DATA last.
-class HeaderParser {
+class PcdHeaderParser {
  public:
-  explicit HeaderParser(const Input& input) : input_(input), lines_(input, 0, 0), cells_(lines_) {}
+  explicit PcdHeaderParser(const Input& input)
+      : input_(input), lines_(input, 0, 0), cells_(lines_) {}
 
   PcdHeader parse() {
     while (true) {
@@ -138,13 +139,14 @@ class HeaderParser {
       }
       types_[k] = type[0];
     } else {
-      header_.cloud.fields[k].count = static_cast<std::size_t>(cells_.integer(1, kMost, "COUNT"));
+      header_.cloud.fields[k].count =
+          static_cast<std::size_t>(cells_.integer(1, kMostRecords, "COUNT"));
     }
   }
 
   std::int64_t extent(const std::string& key) {
     if (!cells_.more()) lines_.fail(end_of_line(), {"no number after " + key, {}, "one", {}});
-    return cells_.integer(0, kMost, key.c_str());
+    return cells_.integer(0, kMostRecords, key.c_str());
   }
 
   PcdHeader finish() {
@@ -170,7 +172,7 @@ class HeaderParser {
     if (width_ < 0) width_ = points_;
     const auto product =
         checked_product(static_cast<std::size_t>(width_), static_cast<std::size_t>(height_));
-    const bool fits = product && *product <= static_cast<std::size_t>(kMost);
+    const bool fits = product && *product <= static_cast<std::size_t>(kMostRecords);
     if (!fits || (points_ >= 0 && *product != static_cast<std::size_t>(points_))) {
       input_.fail_at(points_place_.first, points_place_.second,
                      {"POINTS is not WIDTH x HEIGHT",
@@ -195,10 +197,10 @@ class HeaderParser {
       field.type = *type;
       field.offset = stride;
       const auto bytes = checked_product(field.count, size_of(*type));
-      if (!bytes || *bytes > kMostPointBytes - stride) {
+      if (!bytes || *bytes > kMostRecordsPointBytes - stride) {
         input_.fail({"points too large",
                      fmt::format("COUNT {}", field.count),
-                     fmt::format("at most {} bytes a point", kMostPointBytes),
+                     fmt::format("at most {} bytes a point", kMostRecordsPointBytes),
                      {}});
       }
       stride += *bytes;
@@ -235,6 +237,6 @@ bool is_pcd(const Input& input) {
   return text.starts_with("VERSION ") || text.starts_with("FIELDS ");
 }
 
-PcdHeader read_pcd_header(const Input& input) { return HeaderParser(input).parse(); }
+PcdHeader read_pcd_header(const Input& input) { return PcdHeaderParser(input).parse(); }
 
 }  // namespace ph::detail

@@ -13,7 +13,7 @@ namespace ph {
 namespace detail {
 namespace {
 
-constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kMostInteger = std::numeric_limits<std::int64_t>::max();
 
 // Bytes that an element takes at least, by which its count is checked before anything is allocated.
 std::size_t least_bytes(const PlyElement& element, bool ascii) {
@@ -79,7 +79,8 @@ void PlyBody::scalar(FieldType type, std::byte* to) {
       } else {  // PLY has no 64-bit integers
         value = static_cast<T>(cells_.integer(
             static_cast<std::int64_t>(std::numeric_limits<T>::min()),
-            sizeof(T) == 8 ? kMost : static_cast<std::int64_t>(std::numeric_limits<T>::max()),
+            sizeof(T) == 8 ? kMostInteger
+                           : static_cast<std::int64_t>(std::numeric_limits<T>::max()),
             "value"));
       }
     }

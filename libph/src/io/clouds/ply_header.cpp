@@ -10,7 +10,7 @@
 namespace ph::detail {
 namespace {
 
-constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kMostElements = std::numeric_limits<std::int64_t>::max();
 
 std::optional<FieldType> ply_type(std::string_view name) {
   if (name == "char" || name == "int8") return FieldType::int8;
@@ -25,9 +25,10 @@ std::optional<FieldType> ply_type(std::string_view name) {
 }
 
 // Walks over the lines of a header.
-class HeaderParser {
+class PlyHeaderParser {
  public:
-  explicit HeaderParser(const Input& input) : input_(input), lines_(input, 0, 0), cells_(lines_) {}
+  explicit PlyHeaderParser(const Input& input)
+      : input_(input), lines_(input, 0, 0), cells_(lines_) {}
 
   PlyHeader parse() {
     next_line();
@@ -108,7 +109,7 @@ class HeaderParser {
     }
     properties_.clear();
     if (!cells_.more()) fail_line("PLY header: line too short", "a count");
-    element.count = static_cast<std::size_t>(cells_.integer(0, kMost, "count"));
+    element.count = static_cast<std::size_t>(cells_.integer(0, kMostElements, "count"));
     header_.elements.push_back(std::move(element));
   }
   void parse_property() {
@@ -145,6 +146,6 @@ bool is_ply(const Input& input) {
   return input.text().starts_with("ply\n") || input.text().starts_with("ply\r");
 }
 
-PlyHeader read_ply_header(const Input& input) { return HeaderParser(input).parse(); }
+PlyHeader read_ply_header(const Input& input) { return PlyHeaderParser(input).parse(); }
 
 }  // namespace ph::detail
