@@ -153,14 +153,14 @@ TEST(CInterface, SaysWhatIsWrong) {
 }
 
 TEST(CInterface, StopsAndKeepsTheLimit) {
-  std::vector<double> points(3000);
+  std::vector<double> points(9000);
   Generator random(1);
   for (double& x : points) x = random.real();
   ph_options options = defaults();
   options.max_dim = 3;
   options.memory_limit = 1 << 20;
   ph_barcode* bars = nullptr;
-  EXPECT_EQ(ph_rips_points(points.data(), 1000, 3, 3, 1, &options, &bars), PH_RESOURCE);
+  EXPECT_EQ(ph_rips_points(points.data(), 3000, 3, 3, 1, &options, &bars), PH_RESOURCE);
   options.memory_limit = 0;
   struct Caller {
     std::thread::id thread = std::this_thread::get_id();
@@ -172,7 +172,7 @@ TEST(CInterface, StopsAndKeepsTheLimit) {
     EXPECT_EQ(c.thread, std::this_thread::get_id());
     return ++c.calls >= 3 ? 1 : 0;
   };
-  EXPECT_EQ(ph_rips_points(points.data(), 1000, 3, 3, 1, &options, &bars), PH_CANCELLED);
+  EXPECT_EQ(ph_rips_points(points.data(), 3000, 3, 3, 1, &options, &bars), PH_CANCELLED);
   EXPECT_GE(caller.calls, 3);
   EXPECT_EQ(bars, nullptr);
 }
