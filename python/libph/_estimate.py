@@ -9,7 +9,7 @@ import numpy as np
 from . import _arrays, _core, _options
 from ._compute import cubical, rips
 from ._requests import PointImage, Request, cubical_request, rips_request
-from ._signatures import arguments_of
+from ._options import arguments_of
 
 
 class Estimate(NamedTuple):

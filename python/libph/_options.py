@@ -2,11 +2,13 @@
 """Values of options, checked once: what is wrong is said in words."""
 from __future__ import annotations
 
+import functools
+import inspect
 import math
 import numbers
 import operator
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 from ._errors import UsageError
@@ -128,3 +130,19 @@ def axes(name: str, value: Any, count: int) -> list[bool]:
         except UsageError:
             raise refuse(name, value, expected) from None
     return chosen
+
+
+# ---- keywords of one function that another one takes, too
+
+_signature = functools.lru_cache(maxsize=None)(inspect.signature)
+
+
+def arguments_of(function: Callable[..., Any], data: Any, given: Mapping[str, Any]
+                 ) -> dict[str, Any]:
+    """What `function(data, **given)` would see: all of its arguments, defaults among them."""
+    try:
+        bound = _signature(function).bind(data, **given)
+    except TypeError as error:
+        raise TypeError(f"{function.__name__}() {error}") from None
+    bound.apply_defaults()
+    return dict(bound.arguments)

@@ -180,7 +180,7 @@ def collapse(distances: Any, *, threshold: float | None = None, diagonal: str = 
     from scipy.sparse import coo_array
     _options.choice("diagonal", diagonal, ["zero", "any"])
     from ._compute import rips
-    from ._signatures import arguments_of
+    from ._options import arguments_of
     request = rips_request(arguments_of(rips, distances, {
         "metric": "precomputed", "threshold": threshold, "diagonal": diagonal,
         "symmetrise": symmetrise, "merge_equal_points": False, **run}))

@@ -14,7 +14,7 @@ from ._estimate import request_of
 from ._files import Boundary, Mesh, Simplices, path_of
 from ._requests import (PointImage, Request, boundary_request, filtered_request,
                         lower_star_request, rips_request)
-from ._signatures import arguments_of
+from ._options import arguments_of
 
 if TYPE_CHECKING:
     from ._barcode import Barcode

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-TABLE = Path(os.environ.get("PH_SOURCE_DIR", Path(__file__).parents[2])) / "examples/data/table.pcd"
+TABLE = Path(os.environ.get("PH_SOURCE_DIR", Path(__file__).parents[3])) / "examples/data/table.pcd"
 CAMERA = (260.0, 255.0, 79.5, 59.5)
 
 
