@@ -313,7 +313,7 @@ def test_limits():
     with pytest.raises(ph.MemoryLimitError):
         ph.report(np.random.default_rng(0).normal(size=image.shape), memory_limit="20MB")
     with pytest.raises(ph.Timeout):
-        ph.report(np.random.default_rng(0).normal(size=(3000, 5)), timeout=0.1)
+        ph.report(np.random.default_rng(0).normal(size=(8000, 5)), timeout=0.05)
 
 
 def test_without_npm(monkeypatch):
