@@ -20,10 +20,10 @@ void advise(void* block, std::size_t bytes, std::size_t page, int advice) {
   if (std::align(page, page, block, bytes) != nullptr) madvise(block, bytes / page * page, advice);
 }
 
+// Whole pages; what does not fit the address space stays too large.
 std::size_t round_up(std::size_t bytes, std::size_t page) {
   const std::size_t rest = (page - bytes % page) % page;
-  if (bytes > SIZE_MAX - rest) throw std::bad_alloc();
-  return bytes + rest;
+  return bytes > SIZE_MAX - rest ? SIZE_MAX : bytes + rest;
 }
 
 }  // namespace
