@@ -41,6 +41,15 @@ def is_sparse(data: Any) -> bool:
     return hasattr(data, "tocoo") and hasattr(data, "nnz")
 
 
+def sparse_entries(matrix: Any, name: str = "X"
+                   ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
+    """Row, column and value of each entry that a sparse matrix stores."""
+    coo = matrix.tocoo()
+    if coo.data.dtype.kind not in "biuf":
+        raise DataError(f"{name}: found entries of type {coo.data.dtype}, expected real numbers")
+    return (coo.row.astype(np.int64), coo.col.astype(np.int64), as_float64(coo.data, name))
+
+
 def as_array(data: Any, name: str) -> NDArray[Any]:
     """The data as an array of real numbers, without a copy if they lie in memory as such.
 

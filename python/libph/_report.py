@@ -12,9 +12,9 @@ from ._compute import boundary, filtered, lower_star, rips
 from ._errors import DataError, NotBuiltIn, UsageError
 from ._estimate import request_of
 from ._files import Boundary, Mesh, Simplices, path_of
+from ._options import arguments_of
 from ._requests import (PointImage, Request, boundary_request, filtered_request,
                         lower_star_request, rips_request)
-from ._options import arguments_of
 
 if TYPE_CHECKING:
     from ._barcode import Barcode
@@ -68,9 +68,9 @@ class Report:
 def require_page() -> None:
     """Before anything is computed."""
     if not _core.has_page():
-        raise NotBuiltIn("report: the page of reports is not in this libph, for there was no npm "
-                         "when it was built. Install Node.js with npm (Debian: apt install npm), "
-                         "then install libph again (pip install .)")
+        raise NotBuiltIn("report: the page of reports is not in this libph, for npm or its packages "
+                         "were not there when it was built. Install Node.js with npm (Debian: apt "
+                         "install npm), then install libph again (pip install .)")
 
 
 def report(data: Any, *, complex: str | None = None, title: str = "", **options: Any) -> Report:
@@ -144,7 +144,7 @@ def report_of_bars(bars: Barcode, X: Any, title: str, options: dict[str, Any]) -
     known = (*_KNOWN.get(str(kind), ()), *_OF_ALL)
     given = {name: meta[name] for name in known if meta.get(name) is not None}
     if given.get("diagonal") == "births":  # these are the weights
-        del given["weights"]
+        given.pop("weights", None)
     if isinstance(X, (Mesh, Simplices, Boundary)):
         kind = None
     elif kind not in _KNOWN:

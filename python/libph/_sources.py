@@ -88,11 +88,7 @@ def _of_sparse(X: Any, nan: str, diagonal: str, symmetrise: str | None) -> Sourc
     """Both triangles are read. Zeros that are stored are distances; what is not stored never joins."""
     if len(X.shape) != 2 or X.shape[0] != X.shape[1]:
         raise UsageError(f"X: found a sparse matrix of shape {X.shape}, expected a square one")
-    coo = X.tocoo()
-    if coo.data.dtype.kind not in "biuf":
-        raise DataError(f"X: found entries of type {coo.data.dtype}, expected real numbers")
-    row, column = coo.row.astype(np.int64), coo.col.astype(np.int64)
-    values = _arrays.as_float64(coo.data, "X")
+    row, column, values = _arrays.sparse_entries(X)
     missing = np.isnan(values)
     if missing.any():
         if nan == "error":

@@ -47,13 +47,25 @@ def test_pages(name, needed):
     assert result.attempted > 10 and result.failed == 0
 
 
-@pytest.mark.parametrize("name", ["cluster_moons", "grow_loop"])
-def test_examples(name, tmp_path):
+@pytest.mark.parametrize("name, data", [
+    ("cluster_moons", []), ("grow_loop", []),
+    ("two_circles", [SOURCE / "examples/data/two_circles.csv"])])
+def test_examples(name, data, tmp_path):
     for package in ("matplotlib", "sklearn"):
         pytest.importorskip(package, reason=f"{package} is missing, which the examples need")
     example = SOURCE / f"python/examples/{name}.py"
-    subprocess.run([sys.executable, example, tmp_path / "picture.png"], check=True)
+    subprocess.run([sys.executable, example, *data, tmp_path / "picture.png"], check=True)
     assert (tmp_path / "picture.png").read_bytes()[:4] == b"\x89PNG"
+
+
+def test_readme(monkeypatch):
+    matplotlib = pytest.importorskip("matplotlib", reason="matplotlib is missing, which README needs")
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    monkeypatch.chdir(SOURCE)
+    matplotlib.use("agg")
+    result = doctest.testfile(str(SOURCE / "README.md"), module_relative=False, optionflags=FLAGS)
+    pyplot.close("all")
+    assert result.attempted == 7 and result.failed == 0
 
 
 @pytest.mark.parametrize("function", FUNCTIONS, ids=lambda f: f.__name__)

@@ -168,11 +168,7 @@ def of_sparse(matrix: Any, limit: float, size: int, upper_wins: bool,
     Both triangles are read. Of two entries of a pair the upper one counts; with `upper_wins` they
     may differ.
     """
-    coo = matrix.tocoo()
-    if coo.data.dtype.kind not in "biuf":
-        raise DataError(f"X: found entries of type {coo.data.dtype}, expected real numbers")
-    row, column = coo.row.astype(np.int64), coo.col.astype(np.int64)
-    values = _arrays.as_float64(coo.data, "X")
+    row, column, values = _arrays.sparse_entries(matrix)
     missing = np.isnan(values)
     if missing.any():
         k = int(np.argmax(missing))

@@ -56,9 +56,7 @@ def _of_sparse(matrix: Any, weights: ArrayLike | str, p: float, params: Mapping[
                ) -> tuple[Any, NDArray[np.float64]]:
     from scipy.sparse import coo_matrix
     n = max(matrix.shape)
-    coo = matrix.tocoo()
-    row, column = coo.row.astype(np.int64), coo.col.astype(np.int64)
-    values = _arrays.as_float64(coo.data, "X")
+    row, column, values = _arrays.sparse_entries(matrix)
     _refuse_negative(values)
     row, column, values = (a[row != column] for a in (row, column, values))
     # Each pair once, the upper entry where there are two.
