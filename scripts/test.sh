@@ -27,7 +27,7 @@ ctest --test-dir build/release -j "$jobs" -LE quick --output-on-failure --no-tes
   --output-junit "$results" "$@" || status=$?
 # A test of many parts passes though some were skipped: what this machine lacks.
 awk '/^[0-9]+\/[0-9]+ Testing: / { test = $3 }
-  /^skipped: / || / \.\.\. skipped / { print "skipped in " test ": " $0; ++parts }
+  /^skipped: / || / \.\.\. skipped / || /^SKIPPED / { print "skipped in " test ": " $0; ++parts }
   END { if (parts) printf "%d parts of tests skipped\n", parts }' build/release/Testing/Temporary/LastTest.log
 awk -F'"' '/^[ \t]*tests=/ { tests = $2 } /^[ \t]*failures=/ { failed = $2 } /^[ \t]*skipped=/ { skipped = $2 }
   /<testcase/ { exit }
