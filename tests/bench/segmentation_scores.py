@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""bench/segmentation_scores.py on small made scenes, with peers whose scores are known."""
+"""bench/segmentation/segmentation_scores.py on small made scenes, with peers whose scores are known."""
 import itertools
 import json
 import pathlib
@@ -16,8 +16,8 @@ except ImportError as error:
     sys.exit(77)
 
 BUILD = pathlib.Path(sys.argv.pop(1))
-BENCH = pathlib.Path(__file__).resolve().parents[2] / "bench"
-sys.path.insert(0, str(BENCH))
+BENCH = pathlib.Path(__file__).resolve().parents[2] / "bench/segmentation"
+sys.path[:0] = [str(BENCH), str(BENCH.parent)]
 import label_pictures  # noqa: E402
 import perturbations  # noqa: E402
 import point_clouds  # noqa: E402

@@ -118,8 +118,9 @@ def violations_of(root, file):
 
 
 def too_large(root):
-    for folder in sorted(p for top in ("libph", "libsegment", "libreport", "apps", "python", "tests")
-                         for p in (root / top).rglob("*") if p.is_dir()):
+    tops = ("libph", "libsegment", "libreport", "apps", "bench", "python", "tests")
+    for folder in sorted(p for top in tops for p in (root / top, *(root / top).rglob("*"))
+                         if p.is_dir()):
         # Seeds are as many as were found, and what Python caches is not ours.
         if (root / "tests/corpus") in folder.parents or folder.name == "__pycache__":
             continue

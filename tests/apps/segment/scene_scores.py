@@ -16,7 +16,8 @@ except ImportError as error:
 
 SCENES = pathlib.Path(sys.argv.pop(2))
 PROGRAM = pathlib.Path(sys.argv.pop(1))
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "bench"))
+BENCH = pathlib.Path(__file__).resolve().parents[3] / "bench"
+sys.path[:0] = [str(BENCH / "segmentation"), str(BENCH)]
 import point_clouds  # noqa: E402
 import segmentation_metrics as metrics  # noqa: E402
 from segmentation_programs import Program  # noqa: E402

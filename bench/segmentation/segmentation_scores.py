@@ -32,6 +32,7 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))  # what all benchmarks share
 import perturbations
 import segmentation_curves
 import segmentation_tables
