@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Prints the tables of docs/benchmarks.md: table.py BUILD_DIR [--ripser PROGRAM] [--gudhi-python PYTHON]
-[--scenes FOLDER] [--repeat N].
+"""Prints the tables of docs/notes/benchmarks.md: table.py BUILD_DIR [--ripser PROGRAM]
+[--gudhi-python PYTHON] [--scenes FOLDER] [--repeat N].
 
 User + system CPU seconds and peak resident memory, one thread, the best of N runs, ours and the peer's
 one after the other in the same run. Peers print nothing or to /dev/null; ours write no output.

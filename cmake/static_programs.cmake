@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# Programs that need no shared library: docs/adr/0018-static-programs.md. Sets PH_IS_STATIC, and
-# PH_FMT, what to link for fmt; makes ZLIB, PNG and FreeType be found as archives.
+# Programs that need no shared library: docs/development/adr/0018-static-programs.md. Sets
+# PH_IS_STATIC, and PH_FMT, what to link for fmt; makes ZLIB, PNG and FreeType be found as archives.
 set(PH_STATIC_PROGRAMS AUTO CACHE STRING
     "Link ph-barcode and ph-segment statically: ON, OFF, or AUTO: if all archives are there")
 set_property(CACHE PH_STATIC_PROGRAMS PROPERTY STRINGS AUTO ON OFF)

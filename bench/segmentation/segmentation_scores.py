@@ -20,7 +20,7 @@ Arguments may stand in a file, one a line, named as @FILE.
 Scores are always taken; of a program with "supervoxels" in its name or options those of pieces of
 objects: borders met and under-segmentation error. --times measures CPU seconds and memory, --perturb makes the frames worse,
 --cross-validate chooses options on other categories, --pictures draws labels; see
-docs/segmentation-benchmarks.md. Needs numpy.
+docs/notes/segmentation-benchmarks.md. Needs numpy.
 """
 import argparse
 import csv

@@ -12,7 +12,8 @@
 
 namespace ph::report {
 
-// The metadata of a report, as docs/report-format.md has them. Empty texts and lists are left out.
+// The metadata of a report, as docs/reference/report-format.md has them. Empty texts and lists are
+// left out.
 
 struct BarcodeMeta {
   std::string name;

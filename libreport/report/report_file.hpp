@@ -13,7 +13,7 @@
 namespace ph::report {
 
 /// A report while it is written: the page up to the marker, the metadata, arrays in any order, the
-/// rest of the page. docs/report-format.md says what each array is.
+/// rest of the page. docs/reference/report-format.md says what each array is.
 /// All functions throw Error (cancelled) and what the sink throws.
 class ReportFile {
  public:

@@ -31,7 +31,7 @@ _OF_ALL = ("threshold", "field", "max_dim", "representatives")
 class Report:
     """A page to look at: a notebook shows it in a frame, `save` writes it as one file.
 
-    The page needs no network and no Python. What it shows is described in docs/report.md.
+    The page needs no network and no Python. What it shows is described in docs/reference/report.md.
     """
 
     __slots__ = ("_page", "title")

@@ -29,7 +29,7 @@ NAME = "libph"
 # What a build needs, and what an archive of the sources has.
 SOURCES = ("CMakeLists.txt", "cmake", "libph", "libsegment", "libreport", "viewer", "python",
            "pyproject.toml", "LICENSE", "README.md", "CHANGELOG.md", "CITATION.cff",
-           "docs/python.md")
+           "docs/reference/python.md")
 
 
 def version():
@@ -55,7 +55,7 @@ Requires-Dist: matplotlib; extra == "all"
 Requires-Dist: tqdm; extra == "all"
 Description-Content-Type: text/markdown
 
-""" + (ROOT / "docs/python.md").read_text()
+""" + (ROOT / "docs/reference/python.md").read_text()
 
 
 # ---- hooks

@@ -37,8 +37,8 @@ def test_docstrings(name):
 
 
 @pytest.mark.parametrize("name, needed", [
-    ("python", []), ("gradients", []), ("coming-from", ["sklearn", "scipy"]),
-    ("scikit-learn", ["sklearn", "pandas"])])
+    ("reference/python", []), ("how-to/gradients", []),
+    ("how-to/coming-from", ["sklearn", "scipy"]), ("how-to/scikit-learn", ["sklearn", "pandas"])])
 def test_pages(name, needed):
     for package in needed:
         pytest.importorskip(package, reason=f"{package} is missing, which docs/{name}.md needs")

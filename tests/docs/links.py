@@ -7,7 +7,7 @@ import re
 import sys
 from pathlib import Path
 
-LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)|(?:href|src)=\"([^\"]+)\"")
+LINK = re.compile(r"\]\(([^)\s]+)\)|(?:href|src)=\"([^\"]+)\"")
 BLOCK = re.compile(r"```.*?```", re.DOTALL)
 SPAN = re.compile(r"`([^`\n]*)`")
 PATH = re.compile(r"((?:[\w.+-]+/)*)[\w.+-]+\.(\w+)")

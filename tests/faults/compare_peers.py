@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
 """compare_peers.py PH_BARCODE PH_SEGMENT PEAK READ_WITH_PCL [-v]: the corpus of faults through other
-programs, where they read the format, and through ours. Writes the table of docs/reliability.md
-between its two markers. Run by hand: `-v` prints each run. Needs ripser and python3-gudhi."""
+programs, where they read the format, and through ours. Writes the table of
+docs/explanation/reliability.md between its two markers. Run by hand: `-v` prints each run. Needs ripser and python3-gudhi."""
 import collections
 import contextlib
 import dataclasses
@@ -17,7 +17,7 @@ import corpus
 from entry import FORMS, of_file, sample, set_up
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-PAGE = os.path.join(HERE, os.pardir, os.pardir, "docs", "reliability.md")
+PAGE = os.path.join(HERE, os.pardir, os.pardir, "docs", "explanation", "reliability.md")
 BEGIN, END = "<!-- compare_peers.py writes from here -->", "<!-- to here -->"
 SECONDS = 20
 ADDRESS_SPACE = 8 << 30

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Input with nothing in it, or not what was meant: what docs/segmentation.md says of it, with all
-// methods.
+// Input with nothing in it, or not what was meant: what docs/explanation/segmentation.md says of
+// it, with all methods.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which bars stand out, and the sentence about them: the criterion of docs/report.md, case by case.
+// Which bars stand out, and the sentence about them: the criterion of
+// docs/reference/report.md, case by case.
 import assert from "node:assert/strict";
 import test from "node:test";
 import { random } from "./support/random.mjs";

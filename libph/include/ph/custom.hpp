@@ -18,8 +18,8 @@ namespace ph {
 
 // A COMPLEX is a type that models Filtration (ph/filtration.hpp). With the base SimplexFiltration
 // it has two members: how many vertices, and when a simplex enters. With the base CellFiltration it
-// has three: when a cell enters, all cells, and the facets of a cell. docs/own-complex.md has
-// programs.
+// has three: when a cell enters, all cells, and the facets of a cell. docs/how-to/own-complex.md
+// has programs.
 
 /// The barcode of a complex of your own: anything that models Filtration. @throws as the others.
 template <Filtration F>

@@ -35,7 +35,7 @@ struct Estimate : RunPlan {
   bool cells_at_most = false;
   double bytes_held = 0;  ///< memory that the complex takes already
   double bytes_low = 0;   ///< memory of the complex and the computation: at least …
-  double bytes_high = 0;  ///< … and at most, as foreseen: see docs/algorithms/estimates.md
+  double bytes_high = 0;  ///< … and at most, as foreseen: see docs/explanation/engines/estimates.md
 };
 /// Takes a fraction of the computation's time and memory: counts up to a million cells or samples
 /// a few thousand, and collapses edges where they are few. @throws as `persistence`.

@@ -38,7 +38,7 @@ struct GreedyPermutation {
 // What a subsample is worth. Let e be its covering radius and the triangle inequality hold. The
 // Rips barcodes of the whole set and of the subsample can be matched such that in the subsample
 // bars are born and die at the same value or later, by 2e at most; only bars no longer than 2e,
-// of either, are left unmatched. See docs/approximation.md.
+// of either, are left unmatched. See docs/explanation/approximation.md.
 
 /// Of points: the same permutation as that of the metric.
 /// @param points one point a row. @param p exponent of PointDistance::minkowski.

@@ -17,7 +17,7 @@
 namespace ph {
 
 /// Whether the edges of a Rips complex are collapsed before its homology is computed: the bars of
-/// positive length stay the same, see docs/algorithms/edge-collapse.md.
+/// positive length stay the same, see docs/explanation/engines/edge-collapse.md.
 enum class Collapse {
   automatic,  ///< where it is allowed and a sample of the edges says that it pays
   on,

@@ -10,7 +10,7 @@ namespace ph {
 /// Images of fewer than 2^31 voxels (three axes) or 2^32 cells (more; axes of one voxel do not
 /// count), all dimensions, no zero-length pairs: cells are paired voxel by voxel, what is left by
 /// union-find from both ends and by reduction between them. Of three axes with cycles or sets of
-/// voxels, not with cocycles. See docs/algorithms/discrete-gradient.md.
+/// voxels, not with cocycles. See docs/explanation/engines/discrete-gradient.md.
 struct GradientEngine {
   static constexpr Engine id = Engine::gradient;
   template <Filtration F>

@@ -16,7 +16,7 @@ namespace ph {
 /// The points of R^1, R^2 or R^3 sorted into cubes a little larger than a radius, so that all
 /// neighbours of a point lie in the 27 cubes around it. Coordinates of cubes are whole numbers kept
 /// as doubles: they cannot overflow. It stays beside the k-d tree, which takes 1.1 to 1.8 times as
-/// long (docs/adr/0020).
+/// long (docs/development/adr/0020).
 class CubeList {
  public:
   struct Point {

@@ -42,9 +42,9 @@ struct RawArray {
   bool is_in_file = false;  ///< see ph/detail/core/file_pages.hpp
 };
 
-/// Writes an array as docs/report-format.md says: filters, zlib, base64, in an element of its own.
-/// Numbers of more than a byte are stored as planes. Memory beside the array: a constant; of an
-/// array in a file no more than a block is in memory.
+/// Writes an array as docs/reference/report-format.md says: filters, zlib, base64, in an element of
+/// its own. Numbers of more than a byte are stored as planes. Memory beside the array: a constant;
+/// of an array in a file no more than a block is in memory.
 /// @throws Error (cancelled); std::bad_alloc; what `sink` throws.
 void write_array(const Sink& sink, const RawArray& array, const ArrayForm& form,
                  const RunContext& context);

@@ -156,7 +156,7 @@ struct Meeting {
 std::optional<Meeting> first_meeting(const SceneTree& scene, const SceneCut& cut, std::uint32_t a,
                                      std::uint32_t b);
 
-/// The tree as a file; docs/segmentation.md says what its bytes are.
+/// The tree as a file; docs/explanation/segmentation.md says what its bytes are.
 std::string tree_bytes(const SceneTree& scene);
 /// The same as JSON, for other programs; it is not read back.
 std::string tree_json(const SceneTree& scene);

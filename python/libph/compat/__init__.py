@@ -2,8 +2,8 @@
 """Drop-ins: the interfaces of other packages over libph.
 
 Each is a module here, as `libph.compat.ripser`. `install` gives them the names of the packages that
-they replace, so that other people's code runs unchanged. docs/coming-from.md says how, and where
-libph answers otherwise on purpose.
+they replace, so that other people's code runs unchanged. docs/how-to/coming-from.md says how, and
+where libph answers otherwise on purpose.
 """
 from __future__ import annotations
 

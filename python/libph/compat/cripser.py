@@ -7,7 +7,7 @@
 >>> cripser.computePH(ring)[1]
 array([1., 1., 7., 3., 2., 0., 2., 2., 0.])
 
-Where libph answers otherwise on purpose is listed in docs/coming-from.md.
+Where libph answers otherwise on purpose is listed in docs/how-to/coming-from.md.
 """
 from __future__ import annotations
 

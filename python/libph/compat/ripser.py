@@ -6,7 +6,7 @@
 array([[1.        , 1.41421354]])
 
 The numbers are those of ripser.py: rounded to single precision, in its order. ``dtype=np.float64``
-gives exact ones. Where libph answers otherwise on purpose is listed in docs/coming-from.md.
+gives exact ones. Where libph answers otherwise on purpose is listed in docs/how-to/coming-from.md.
 """
 from __future__ import annotations
 

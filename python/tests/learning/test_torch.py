@@ -79,10 +79,10 @@ def test_what_torch_cannot(rng):
 
 
 def test_code_of_the_page():
-    """What stands in docs/gradients.md without prompts."""
+    """What stands in docs/how-to/gradients.md without prompts."""
     torch.manual_seed(0)
     source = Path(os.environ.get("PH_SOURCE_DIR", Path(__file__).parents[3]))
-    page = (source / "docs/gradients.md").read_text()
+    page = (source / "docs/how-to/gradients.md").read_text()
     (code,) = (c for c in re.findall(r"```python\n(.*?)```", page, re.S) if ">>>" not in c)
     names = {}
     exec(code, names)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Reads a report back, by the words of docs/report-format.md."""
+"""Reads a report back, by the words of docs/reference/report-format.md."""
 import array
 import base64
 import html.parser

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""tuning_table.py PH_SEGMENT TUNING.md: the defaults in the table of docs/tuning.md are those that the
-program says and takes."""
+"""tuning_table.py PH_SEGMENT TUNING.md: the defaults in the table of docs/how-to/tuning.md are those
+that the program says and takes."""
 import json
 import os
 import re

@@ -301,7 +301,8 @@ TEST(ReadAny, DetectsFormats) {
 }
 
 TEST(FormatsPage, NamesEveryFormat) {
-  const Input page = Input::open(std::filesystem::path(PH_SOURCE_DIR) / "docs" / "formats.md");
+  const Input page =
+      Input::open(std::filesystem::path(PH_SOURCE_DIR) / "docs/reference/formats.md");
   const auto named = [&](std::string_view name) {
     std::string quoted(1, '`');
     quoted.append(name).append(1, '`');

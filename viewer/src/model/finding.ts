@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What stands out among the bars, and the sentence above the views that says so. docs/report.md has
-// the criterion in words.
+// What stands out among the bars, and the sentence above the views that says so.
+// docs/reference/report.md has the criterion in words.
 import { kLeastShare, kMostAbove, suggestedCut } from "./cuts";
 import { counted, homology, short } from "../common/number_format";
 import { capital, holes, intervalText, inWords, kindOfSegment, listed, shownValue, times } from "./words";

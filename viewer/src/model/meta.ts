@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The metadata of a report, as docs/report-format.md has them.
+// The metadata of a report, as docs/reference/report-format.md has them.
 import type { CutRule } from "./merge_tree";
 
 export type CellKind = "vertices" | "grid" | "row";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reads what a program wrote into the page: one JSON block and any number of arrays. The bytes are
-// described in docs/report-format.md.
+// described in docs/reference/report-format.md.
 
 export type Numbers =
   | Uint8Array

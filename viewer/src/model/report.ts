@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a report says: its metadata, checked, and its arrays under the names of docs/report-format.md.
+// What a report says: its metadata, checked, and its arrays under the names of
+// docs/reference/report-format.md.
 import { decoded, PayloadError, type Block, type Numbers, type Payload } from "./payload";
 import { Bars } from "./bars";
 import { MergeTree } from "./merge_tree";

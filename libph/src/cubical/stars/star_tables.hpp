@@ -153,7 +153,7 @@ class CubePairs {
 /// Pairs inside a star: the persistence pairs of the star modulo its lower link, in the order of
 /// the filtration. Which cells are killed, which kill and which do neither (critical cells) is that
 /// of the pairs; who is matched with whom is changed so that the matching is a forest, which alters
-/// nothing for critical cells (see docs/algorithms/discrete-gradient.md).
+/// nothing for critical cells (see docs/explanation/engines/discrete-gradient.md).
 class StarTables {
  public:
   /// @param wrapped bit a: the voxel is the first one of the periodic axis a, so that the cells

@@ -22,7 +22,7 @@ namespace ph {
 /// is known to the relations between generators alone. At first a formal annotation is a list of a
 /// few generators, later a row of bits over those that live.
 ///
-/// docs/algorithms/formal-annotations.md says why, and which call comes when.
+/// docs/explanation/engines/formal-annotations.md says why, and which call comes when.
 class RelationSolver {
  public:
   using Vertex = SweepObserver<Z2>::Vertex;

@@ -27,7 +27,7 @@ namespace ph {
 /// (if that component kills no class of H1) and dies with a loop of the link. Each living class h
 /// is held by a cocycle phi_h. It extends to the new triangles by a potential, p(w) = phi_h(u,v,w):
 /// p(y) - p(x) = gamma(x,y) := phi_h(u,x,y) - phi_h(v,x,y) for each edge xy of the link. Where
-/// there is none, a class dies. See docs/algorithms/edge-links-h2.md.
+/// there is none, a class dies. See docs/explanation/engines/edge-links-h2.md.
 template <Field K>
 class LinkSurfaces {
  public:

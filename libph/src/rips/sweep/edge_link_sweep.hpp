@@ -32,7 +32,7 @@ namespace ph {
 /// generator of the difference dies. Almost all edges end sooner: if no edge between u or v and
 /// the link is active, that is, has an annotation, nothing can happen. Where a further component
 /// kills nothing, a class of H2 is born. See LinkLoops, LinkSurfaces and
-/// docs/algorithms/edge-links.md.
+/// docs/explanation/engines/edge-links.md.
 template <Field K>
 class EdgeLinkSweep {
  public:

@@ -19,7 +19,7 @@ namespace ph {
 /// On this cycle z_g the generator g is one, younger ones are zero, and older ones may be anything;
 /// so a class of homology, given by its values under the generators, is a combination of the z_g
 /// that is found from the youngest down, and enters with its youngest. See
-/// docs/algorithms/edge-links.md.
+/// docs/explanation/engines/edge-links.md.
 template <Field K>
 class LinkCycles {
  public:

@@ -6,7 +6,7 @@
 array([[1.       , 1.4142135]], dtype=float32)
 
 The numbers are those of giotto-ph: of single precision, in its order. ``dtype=np.float64`` gives
-exact ones. Where libph answers otherwise on purpose is listed in docs/coming-from.md.
+exact ones. Where libph answers otherwise on purpose is listed in docs/how-to/coming-from.md.
 """
 from __future__ import annotations
 

@@ -7,7 +7,7 @@
 (1, (1.0, 1.4142135623730951))
 
 What is not here raises `NotBuiltIn`. What is answered otherwise on purpose is listed in
-docs/coming-from.md.
+docs/how-to/coming-from.md.
 """
 from __future__ import annotations
 

@@ -17,7 +17,8 @@ namespace ph {
 // The minimum spanning forest of a finite set with distances: of all pairs at finite distance <=
 // limit those that Kruskal's algorithm takes in the order (distance, larger end, smaller end). The
 // order is total, hence there is one such forest. It has the components of the whole graph up to
-// any distance, and so the same H0 pairs, cell by cell; see docs/algorithms/spanning-forest.md.
+// any distance, and so the same H0 pairs, cell by cell; see
+// docs/explanation/engines/spanning-forest.md.
 //
 // Edges come with u > v, in any order; fewer than 2^32 - 1 points.
 

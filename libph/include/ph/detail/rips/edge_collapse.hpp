@@ -21,7 +21,7 @@ enum class CollapseLayout {
 /// longest edge to the shortest, each edge is moved to the first value at which it is not
 /// dominated, or dropped if there is none (Glisse & Pritam, Swap, shift and trim to edge collapse a
 /// filtration, SoCG 2022); and so again on what is left, as long as many edges are dropped. See
-/// docs/algorithms/edge-collapse.md for the proof.
+/// docs/explanation/engines/edge-collapse.md for the proof.
 ///
 /// Each edge kept is one of `graph`, at its value or a later one that occurs in `graph`; vertices,
 /// their names and the threshold are the same. Among edges of one value those that were moved there

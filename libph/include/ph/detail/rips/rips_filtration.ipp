@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-// Apparent pairs of Rips filtrations; see docs/algorithms/cohomology.md.
+// Apparent pairs of Rips filtrations; see docs/explanation/engines/cohomology.md.
 // Included by rips_filtration.hpp.
 
 namespace ph {

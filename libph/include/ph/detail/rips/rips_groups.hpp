@@ -13,7 +13,7 @@ namespace ph {
 
 /// The simplices of one longest edge e after the other, as cliques of the link of e: the vertices
 /// that edges before e join to both of its ends. Finds those that are in no apparent pair without
-/// looking at most of the others; see docs/algorithms/cohomology.md.
+/// looking at most of the others; see docs/explanation/engines/cohomology.md.
 class RipsGroups {
  public:
   using Key = RipsGraph::Key;

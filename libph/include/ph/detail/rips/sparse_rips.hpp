@@ -23,7 +23,7 @@ namespace ph {
 /// If the triangle inequality holds, its barcode and that of the Rips filtration can be matched
 /// such that here bars are born and die at the same value or later, by a factor of 1 + epsilon at
 /// most; only bars [b, d) with d <= (1 + epsilon) b, of either, are left unmatched. Proof:
-/// docs/approximation.md.
+/// docs/explanation/approximation.md.
 class SparseRips {
  public:
   /// @param order of all points (GreedyLimits{}). @param size number of points.
