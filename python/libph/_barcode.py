@@ -248,6 +248,24 @@ class Barcode(Summaries, Sequence[Bar]):
         """The cell that killed each bar of a dimension; -1 in all places if it never dies."""
         return np.asarray(self._bars.death_cells(self._dim_of_cells(dim)))
 
+    def birth_cell(self, i: int) -> NDArray[np.int64]:
+        """The cell that gave birth to bar i, as a row of `birth_cells`.
+
+        >>> bars = ph.lower_star([0, 2, 1], [[0, 1], [1, 2]])
+        >>> bars[1], bars.birth_cell(1), bars.death_cell(1)
+        (Bar(dim=0, birth=1.0, death=2.0), array([2]), array([1, 2]))
+        """
+        place = self._place(i)
+        dim = int(self.dims[place])
+        return self.birth_cells(dim)[place - self._range(dim).start]
+
+    def death_cell(self, i: int) -> NDArray[np.int64] | None:
+        """The cell that killed bar i; None if it never dies."""
+        place = self._place(i)
+        dim = int(self.dims[place])
+        cell = self.death_cells(dim)[place - self._range(dim).start]
+        return None if (cell == -1).all() else cell
+
     def _dim_of_cells(self, dim: int) -> int:
         if not self._bars.has_cells:
             raise UsageError("cells: found none, expected a barcode computed with cells=True")

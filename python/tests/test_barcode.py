@@ -229,6 +229,11 @@ def test_cells_are_those_of_the_values():
         dies = np.isfinite(bars.dgm(dim)[:, 1])
         assert (deaths[~dies] == -1).all()
         assert np.allclose(diameters(deaths[dies]), bars.dgm(dim)[dies, 1])
+    for i, bar in enumerate(bars):
+        assert math.isclose(diameters([bars.birth_cell(i)])[0], bar.birth)
+        killer = bars.death_cell(i)
+        assert bar.death == math.inf if killer is None else \
+            math.isclose(diameters([killer])[0], bar.death)
     image = ph.cubical(VOLUME)
     assert image.birth_cells(1).shape == (len(image.dgm(1)), 3)
     assert bars.birth_cells(7).shape == (0, 8)
