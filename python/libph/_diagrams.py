@@ -43,7 +43,7 @@ def bottleneck(a: Any, b: Any, dim: int | None = None, **run: Unpack[RunOptions]
     >>> ph.bottleneck([[0, 1.5]], [[0, 1.25]])
     0.25
     """
-    _run.check_names("bottleneck", run)
+    _run.check_names("bottleneck", run, bottleneck)
     are_barcodes = isinstance(a, Barcode), isinstance(b, Barcode)
     if all(are_barcodes) and dim is None:
         return {d: _distance(a.dgm(d), b.dgm(d), run)

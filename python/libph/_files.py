@@ -103,7 +103,7 @@ def read(path: str | os.PathLike[str], format: str | None = None, *,
     ndarray, coo_array, Simplices, Boundary or Mesh
         Points (n, d); distances (n, n); an image; sparse distances.
     """
-    _run.check_names("read", dict(run))
+    _run.check_names("read", dict(run), read)
     name = "auto" if format is None else _options.choice("format", format, _core.format_names())
     try:
         dtype = np.dtype(raw_dtype)

@@ -64,7 +64,7 @@ def point_image(X: ArrayLike, voxel: float, *, value: str = "distance", margin: 
     >>> ph.point_image([[0.0], [2.0]], 1.0).image
     array([1., 0., 1., 0., 1.])
     """
-    _run.check_names("point_image", run)
+    _run.check_names("point_image", run, point_image)
     name = _options.choice("value", value, ["distance", "occupancy", "density"])
     edge = _options.positive("voxel", voxel)
     image, first = _run.run(
@@ -100,7 +100,7 @@ def farthest_points(X: Any, n: int | None = None, *, radius: float = 0.0,
     >>> ph.farthest_points([[0], [1], [10], [11]], 2)
     Subsample(indices=array([0, 3]), radii=array([inf, 11.]), covering_radius=1.0)
     """
-    _run.check_names("farthest_points", run)
+    _run.check_names("farthest_points", run, farthest_points)
     source = _complete(X, metric, minkowski_p)
     count = 2**62 if n is None else _options.whole("n", n, 1)
     covering = _options.real("radius", radius, "a finite number, at least 0", 0)
@@ -137,7 +137,7 @@ def distance_to_measure(X: Any, k: int, *, metric: Any = "euclidean", minkowski_
     >>> ph.distance_to_measure([[0], [1], [5]], 2)
     array([0.70710678, 0.70710678, 2.82842712])
     """
-    _run.check_names("distance_to_measure", run)
+    _run.check_names("distance_to_measure", run, distance_to_measure)
     source = _complete(X, metric, minkowski_p)
     neighbours = _options.whole("k", k, 1, max(1, source.size))
     if source.size == 0:

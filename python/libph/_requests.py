@@ -112,7 +112,7 @@ def _meta(complex_name: str, o: dict[str, Any], **more: Any) -> dict[str, Any]:
 
 def rips_request(o: dict[str, Any]) -> Request:
     """Of all keywords of `rips`, and X."""
-    _run.check_names("rips", o["run"])
+    _run.check_names("rips", o["run"], o)
     source = source_of(o["X"], metric=o["metric"], minkowski_p=o["minkowski_p"], nan=o["nan"],
                        diagonal=o["diagonal"], symmetrise=o["symmetrise"])
     threshold = _threshold(o, 0)
@@ -199,7 +199,7 @@ def _weights(o: dict[str, Any], source: Source
 
 def cubical_request(o: dict[str, Any]) -> Request:
     """Of all keywords of `cubical`, and the image."""
-    _run.check_names("cubical", o["run"])
+    _run.check_names("cubical", o["run"], o)
     image, nan = o["image"], _options.choice("nan", o["nan"], ["error", "drop"])
     if isinstance(image, PointImage):
         image, nan = image.image, "drop"
@@ -221,7 +221,7 @@ def cubical_request(o: dict[str, Any]) -> Request:
 
 def lower_star_request(o: dict[str, Any]) -> Request:
     """Of all keywords of `lower_star`, values and simplices."""
-    _run.check_names("lower_star", o["run"])
+    _run.check_names("lower_star", o["run"], o)
     values = _arrays.as_values(o["values"], "values")
     cells = simplex_list(o["simplices"])
     recipe = _core.lower_star_recipe(cells.vertices, cells.offsets, values, _threshold(o))
@@ -231,7 +231,7 @@ def lower_star_request(o: dict[str, Any]) -> Request:
 
 def filtered_request(o: dict[str, Any]) -> Request:
     """Of all keywords of `filtered`, simplices and values."""
-    _run.check_names("filtered", o["run"])
+    _run.check_names("filtered", o["run"], o)
     cells = simplex_list(o["simplices"])
     values = joined_values(o["values"], len(cells))
     recipe = _core.simplices_recipe(cells.vertices, cells.offsets, values, _threshold(o))
@@ -240,7 +240,7 @@ def filtered_request(o: dict[str, Any]) -> Request:
 
 def boundary_request(o: dict[str, Any]) -> Request:
     """Of all keywords of `boundary`, matrix, dims and values."""
-    _run.check_names("boundary", o["run"])
+    _run.check_names("boundary", o["run"], o)
     matrix = o["matrix"]
     if not _arrays.is_sparse(matrix):
         raise UsageError(f"matrix: found {type(matrix).__name__}, expected a sparse matrix of "

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import atexit
 import contextlib
+import inspect
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextvars import ContextVar
 from typing import Any, Protocol, TypedDict, Union
 
-from . import _core, _options
+from . import _core, _hints, _options
 
 Progress = Union[bool, Callable[[str, int, int], object]]
 
@@ -86,11 +87,17 @@ def run(function: Callable[..., Any], *arguments: Any, options: dict[str, Any],
             given.get("stop"), slab_layers))
 
 
-def check_names(function: str, options: dict[str, Any]) -> None:
-    """As Python does for keywords that are written out."""
+def check_names(function: str, options: dict[str, Any],
+                known: Iterable[str] | Callable[..., Any] = ()) -> None:
+    """As Python does for keywords that are written out, with a hint.
+
+    `known` are the other keywords, or the function that has them.
+    """
     for name in options:
         if name not in _NAMES:
-            raise TypeError(f"{function}() got an unexpected keyword argument '{name}'")
+            others = inspect.signature(known).parameters if callable(known) else known
+            raise TypeError(f"{function}() got an unexpected keyword argument '{name}'"
+                            + _hints.of_keyword(name, [*others, *_NAMES]))
 
 
 def _check(given: dict[str, Any]) -> dict[str, Any]:

@@ -120,7 +120,7 @@ def segment(cloud: Any, *, method: str | None = None, supervoxels: float | None 
     (2, 1, 0)
     """
     given = dict(locals())
-    _run.check_names("segment", given["run"])
+    _run.check_names("segment", given["run"], segment)
     scene = scene_of(cloud, colours=colours, intrinsics=intrinsics, camera=camera,
                      depth_scale=depth_scale, run=given["run"])
     if isinstance(scene.cloud, _core.Segmentation):

@@ -89,7 +89,7 @@ def compute_ph(arr: ArrayLike, *, filtration: str = "V", maxdim: int = 3, top_di
 
 def _rows(function: str, arr: ArrayLike, construction: str, maxdim: int, top_dim: bool,
           embedded: bool, run: Any) -> NDArray[np.float64]:
-    _run.check_names(function, run)
+    _run.check_names(function, run, compute_ph)
     image = _arrays.as_image(arr, "arr")
     axes = image.ndim
     if axes > 4:

@@ -81,7 +81,7 @@ def ripser(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int = 2,
     UsageError, DataError
         Both are a ValueError.
     """
-    _run.check_names("ripser", run)
+    _run.check_names("ripser", run, ripser)
     kind = _flag.precision(dtype)
     if not hasattr(X, "shape"):
         X = _arrays.as_array(X, "X")
@@ -196,7 +196,7 @@ def lower_star_img(img: ArrayLike, *, dtype: DTypeLike = np.float32, **run: Unpa
     ndarray
         Rows birth, death, by death.
     """
-    _run.check_names("lower_star_img", run)
+    _run.check_names("lower_star_img", run, lower_star_img)
     kind = _flag.precision(dtype)
     image = _arrays.as_image(img, "img")
     if image.ndim != 2:

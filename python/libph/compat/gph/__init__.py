@@ -93,7 +93,7 @@ def ripser_parallel(X: Any, maxdim: int = 1, thresh: float = np.inf, coeff: int 
     NotBuiltIn
         A NotImplementedError: for `collapse_edges` with `return_generators`, and other p.
     """
-    _run.check_names("ripser_parallel", run)
+    _run.check_names("ripser_parallel", run, ripser_parallel)
     if collapse_edges and return_generators:
         raise NotBuiltIn("collapse_edges: found True with return_generators=True, expected one of "
                          "the two; without collapse_edges edges are collapsed where that helps")

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: MIT
+"""What other packages call it, and what libph has in its place."""
+from __future__ import annotations
+
+
+def _table(*rows: tuple[str, str]) -> dict[str, str]:
+    return {name: hint for names, hint in rows for name in names.split()}
+
+
+MODULE = _table(
+    ("ripser Rips", "use ph.rips, or libph.compat.ripser for ripser.py's interface"),
+    ("ripser_parallel", "use ph.rips, or libph.compat.gph for giotto-ph's interface"),
+    ("vietoris_rips VietorisRips Ripser persistence persistent_homology barcode",
+     "use ph.rips of points or distances, ph.cubical of images"),
+    ("RipsComplex", "use ph.rips, or libph.compat.gudhi for GUDHI's interface"),
+    ("CubicalComplex PeriodicCubicalComplex",
+     "use ph.cubical, or libph.compat.gudhi for GUDHI's interface"),
+    ("SimplexTree", "use ph.filtered(simplices, values)"),
+    ("AlphaComplex alpha",
+     "use ph.rips, or ph.filtered(simplices, values) of an alpha complex that GUDHI lists"),
+    ("computePH compute_ph", "use ph.cubical, or libph.compat.cripser for CubicalRipser's interface"),
+    ("lower_star_img", "use ph.cubical, or libph.compat.ripser for ripser.py's interface"),
+    ("VietorisRipsPersistence RipsPersistence", "use libph.sklearn.RipsPersistence"),
+    ("CubicalPersistence", "use libph.sklearn.CubicalPersistence"),
+    ("PersistenceImage PersistenceImager PersImage", "use bars.image, or libph.sklearn"),
+    ("plot plot_diagrams plot_diagram plot_dgms plot_barcode plot_persistence_diagram "
+     "plot_persistence_barcode", "use bars.plot()"),
+    ("bottleneck_distance", "use ph.bottleneck"),
+    ("wasserstein wasserstein_distance sliced_wasserstein",
+     "persim and GUDHI have it, and take bars.dgm(1); ph.bottleneck is the bottleneck distance"),
+    ("betti betti_numbers betti_curve", "use bars.betti(t), bars.betti_curve(grid)"),
+    ("load loadtxt", "use ph.read for data, ph.read_barcode for what bars.save wrote"),
+    ("save", "use bars.save"),
+)
+
+BARCODE = _table(
+    ("diagrams diagram dgm_ persistence intervals persistence_intervals "
+     "persistence_intervals_in_dimension", "use dgm(dim) for one dimension, dgms() for all"),
+    ("show plot_diagrams plot_diagram plot_barcode plot_persistence_diagram",
+     "use plot(), plot('barcode')"),
+    ("dim dimension dimensions", "use dims, a number for each bar; len(bars) counts them"),
+    ("birth death lifetimes lengths persistences", "use births, deaths: arrays; deaths - births"),
+    ("pairs cells persistence_pairs", "use birth_cells(dim), death_cells(dim)"),
+    ("generators gens flag_persistence_generators cofaces_of_persistence_pairs",
+     "use ph.gradients.deciders(bars, data): the edges or voxels that decide"),
+    ("cocycles cycles representatives loops loop",
+     "use representative(i), of bars computed with representatives='cycles' or 'cocycles'"),
+    ("betti_numbers persistent_betti_numbers", "use betti(t), betti_curve(grid)"),
+    ("bottleneck bottleneck_distance wasserstein wasserstein_distance distance",
+     "use ph.bottleneck(a, b)"),
+    ("df to_df to_frame to_dataframe", "use to_pandas()"),
+    ("to_csv to_json dump write", "use save('bars.csv'), save('bars.json')"),
+    ("numpy to_array array", "use to_numpy(), dgm(dim)"),
+)
+
+SKLEARN = _table(
+    ("VietorisRipsPersistence WeightedRipsPersistence SparseRipsPersistence VietorisRips",
+     "use RipsPersistence"),
+    ("PersistenceEntropy PersistentEntropy", "use Entropy"),
+    ("PersistenceLandscape", "use Landscape"),
+    ("PersistenceImager", "use PersistenceImage"),
+    ("Amplitude TopologicalVector", "use Lengths, Landscape"),
+    ("Tomato ToMATo", "use PersistenceClustering"),
+    ("Silhouette HeatKernel PairwiseDistance Scaler Filtering",
+     "giotto-tda has it, and takes what output='giotto' gives"),
+)
+
+# By the keyword that the function has in its place.
+_KEYWORDS = {
+    "max_dim": "maxdim max_dimension maxdimension homology_dimensions max_homology_dim",
+    "threshold": "thresh max_edge_length max_edge maxscale",
+    "field": "coeff homology_coeff_field prime",
+    "metric": "distance_matrix precomputed",
+    "subsample": "n_perm",
+    "representatives": "do_cocycles return_generators generators cocycles",
+    "threads": "n_threads n_jobs num_threads workers",
+    "memory_limit": "memory max_memory",
+    "approximation": "sparse",
+    "collapse": "collapse_edges edge_collapse",
+    "weights": "weight_params",
+    "periodic": "periodic_dimensions",
+}
+KEYWORDS = {old: new for new, names in _KEYWORDS.items() for old in names.split()}
+VALUES = {"metric": "metric='precomputed'", "representatives": "representatives='cocycles'",
+           "max_dimension": "max_dim, which counts homology: one less than GUDHI's max_dimension",
+           "sparse": "approximation, which is sparse / (1 - sparse)"}
