@@ -22,7 +22,12 @@ stop : threading.Event
     Once it is set, the computation ends in `Cancelled`.
 
 The data must not change while a computation runs. `limits` sets defaults for a block of code.
+
+Three modules need other packages, and are loaded when they are looked at: `libph.sklearn`,
+`libph.torch`, and `libph.compat`, which has the interfaces of other packages.
 """
+from typing import TYPE_CHECKING as _TYPE_CHECKING
+
 from . import gradients
 from ._barcode import Bar, Barcode
 from ._chains import Chain, Loop
@@ -49,3 +54,23 @@ __all__ = [
     "filtered", "gradients", "limits", "lower_star", "merge_tree", "point_image", "read",
     "read_barcode", "report", "rips", "segment",
 ]
+
+if not _TYPE_CHECKING:  # for a type checker a name that is missing is an error
+
+    def __getattr__(name):
+        if name in ("compat", "sklearn", "torch"):
+            import importlib
+            try:
+                return importlib.import_module(f"{__name__}.{name}")
+            except ModuleNotFoundError as error:
+                package = (error.name or "").partition(".")[0]
+                if package == __name__:
+                    raise
+                raise AttributeError(f"libph.{name} needs {package}, which is not installed"
+                                     ) from None
+        from . import _hints
+        raise AttributeError(f"libph has no {name!r}" + _hints.of_name(
+            name, _hints.MODULE, __all__))
+
+    def __dir__():
+        return sorted({*globals(), "compat", "sklearn", "torch"})

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import importlib
 import sys
+from typing import TYPE_CHECKING
 
 from .. import _options
 from .._errors import UsageError
@@ -25,6 +26,7 @@ _MODULES = {
               "gudhi.weighted_rips_complex"),
     "persim": (),
 }
+_DROP_INS = sorted([*_MODULES, "tcripser"])
 
 
 def install(*names: str) -> None:
@@ -65,3 +67,15 @@ def install(*names: str) -> None:
             raise UsageError(f"install: {name} is imported already, from "
                              f"{getattr(there, '__file__', 'elsewhere')}; install it before that")
     sys.modules.update(ours)
+
+
+if not TYPE_CHECKING:  # for a type checker a name that is missing is an error
+
+    def __getattr__(name):
+        """The drop-ins, loaded when they are looked at."""
+        if name in _DROP_INS:
+            return importlib.import_module(f"{__name__}.{name}")
+        raise AttributeError(f"libph.compat has no {name!r}; there are {', '.join(_DROP_INS)}")
+
+    def __dir__():
+        return [*__all__, *_DROP_INS]

@@ -14,6 +14,8 @@ sample: `PersistenceClustering`, `DistanceToMeasure`, `FarthestPoints`.
 array([[0.414],
        [0.828]])
 """
+from typing import TYPE_CHECKING as _TYPE_CHECKING
+
 from ._clustering import PersistenceClustering
 from ._persistence import CubicalPersistence, RipsPersistence
 from ._points import DistanceToMeasure, FarthestPoints
@@ -21,3 +23,10 @@ from ._vectorisers import BettiCurve, Entropy, Landscape, Lengths, PersistenceIm
 
 __all__ = ["BettiCurve", "CubicalPersistence", "DistanceToMeasure", "Entropy", "FarthestPoints",
            "Landscape", "Lengths", "PersistenceClustering", "PersistenceImage", "RipsPersistence"]
+
+if not _TYPE_CHECKING:  # for a type checker a name that is missing is an error
+
+    def __getattr__(name):
+        from .. import _hints
+        raise AttributeError(f"libph.sklearn has no {name!r}" + _hints.of_name(
+            name, _hints.SKLEARN, __all__))
