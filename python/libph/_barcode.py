@@ -121,7 +121,22 @@ class Barcode(Summaries, Sequence[Bar]):
     def __getitem__(self, i: int | slice) -> Bar | Barcode:
         if isinstance(i, slice):
             return self._selected(np.sort(np.arange(len(self))[i]))
-        return Bar(*self._records[operator.index(i)].item())
+        try:
+            place = operator.index(i)
+        except TypeError:
+            raise TypeError(f"bars[...]: found {type(i).__name__}, expected a whole number or a "
+                            "slice; dgm(1) is the array of the bars of H1, filter() chooses bars"
+                            ) from None
+        if not -len(self) <= place < len(self):
+            raise IndexError(f"bars[{place}]: found {len(self)} bars")
+        return Bar(*self._records[place].item())
+
+    if not TYPE_CHECKING:  # for a type checker a name that is missing is an error
+
+        def __getattr__(self, name):
+            from . import _hints
+            raise AttributeError(f"a Barcode has no {name!r}" + _hints.of_name(
+                name, _hints.BARCODE, dir(type(self))))
 
     def __iter__(self) -> Iterator[Bar]:
         return map(Bar._make, self._records.tolist())
