@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from . import _options
 
@@ -61,31 +60,19 @@ def _diagram(bars: Barcode, ax: Axes, style: dict[str, Any]) -> None:
 
 
 def _lines(bars: Barcode, ax: Axes, style: dict[str, Any]) -> None:
-    low, high, infinity = _ends(bars)
+    infinity = _ends(bars)[2]
     row = 0
-    ends = []
     for dim in _dims(bars):
         dgm = bars.dgm(dim)
         deaths = np.where(np.isinf(dgm[:, 1]), infinity, dgm[:, 1])
-        births = np.where(np.isinf(dgm[:, 0]), low, dgm[:, 0])
+        births = np.where(np.isinf(dgm[:, 0]), _ends(bars)[0], dgm[:, 0])
         ax.hlines(np.arange(row, row + len(dgm)), births, deaths,
                   **{"label": f"H{dim}", "color": f"C{dim % 10}", **style})
-        ends.append(np.column_stack([births, deaths]))
         row += len(dgm)
     ax.set_yticks([])
     ax.set_xlabel(_label(bars))
     if len(bars):
-        ax.legend(loc=_emptiest_corner(np.concatenate(ends), (low + high) / 2))
-
-
-def _emptiest_corner(ends: NDArray[np.float64], middle: float) -> str:
-    """Of a picture of bars from the bottom up: matplotlib's own choice does not see their lines."""
-    quarter = -(-len(ends) // 4)
-    found = {}
-    for rows, high in ((slice(quarter), "lower"), (slice(len(ends) - quarter, None), "upper")):
-        found[f"{high} right"] = (ends[rows, 1] > middle).sum()
-        found[f"{high} left"] = (ends[rows, 0] < middle).sum()
-    return min(found, key=found.__getitem__)
+        ax.legend()
 
 
 def _betti(bars: Barcode, ax: Axes, style: dict[str, Any]) -> None:
