@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _options
 
@@ -60,19 +61,35 @@ def _diagram(bars: Barcode, ax: Axes, style: dict[str, Any]) -> None:
 
 
 def _lines(bars: Barcode, ax: Axes, style: dict[str, Any]) -> None:
-    infinity = _ends(bars)[2]
+    low, _, infinity = _ends(bars)
     row = 0
+    ends = []
     for dim in _dims(bars):
         dgm = bars.dgm(dim)
         deaths = np.where(np.isinf(dgm[:, 1]), infinity, dgm[:, 1])
-        births = np.where(np.isinf(dgm[:, 0]), _ends(bars)[0], dgm[:, 0])
+        births = np.where(np.isinf(dgm[:, 0]), low, dgm[:, 0])
         ax.hlines(np.arange(row, row + len(dgm)), births, deaths,
                   **{"label": f"H{dim}", "color": f"C{dim % 10}", **style})
+        ends.append(np.column_stack([births, deaths]))
         row += len(dgm)
     ax.set_yticks([])
     ax.set_xlabel(_label(bars))
     if len(bars):
-        ax.legend()
+        place = _empty_place(np.concatenate(ends), (low + infinity) / 2)
+        ax.legend(**({"loc": place} if place else {"loc": "upper left", "bbox_to_anchor": (1, 1)}))
+
+
+def _empty_place(ends: NDArray[np.float64], middle: float) -> str | None:
+    """Where no bar is, of a picture of bars from the bottom up; None: nowhere.
+
+    matplotlib's own choice does not see their lines.
+    """
+    height = np.linspace(0, 1, len(ends)) if len(ends) > 1 else np.array([0.5])
+    for side, is_there in (("right", ends[:, 1] > middle), ("left", ends[:, 0] < middle)):
+        for place, centre in (("lower", 0.1), ("upper", 0.9), ("center", 0.5)):
+            if not (is_there & (np.abs(height - centre) < 0.2)).any():
+                return f"{place} {side}"
+    return None
 
 
 def _betti(bars: Barcode, ax: Axes, style: dict[str, Any]) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Barcode: a sequence with arrays, cells, chains, summaries, files and pictures."""
+"""Barcode: a sequence with arrays, cells, chains, summaries and files."""
 import copy
 import html.parser
 import math
@@ -390,30 +390,3 @@ def test_a_dash_is_a_name(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     ph.rips(CIRCLE).save("-", format="csv")
     assert (tmp_path / "-").exists() and ph.read_barcode("-") == ph.rips(CIRCLE)
-
-
-# ---- pictures
-
-
-@each
-@pytest.mark.parametrize("kind", ["diagram", "barcode", "betti"])
-def test_plot(bars, kind):
-    matplotlib = pytest.importorskip("matplotlib")
-    matplotlib.use("agg")
-    from matplotlib.figure import Figure
-    before = dict(matplotlib.rcParams)
-    ax = Figure().add_subplot()
-    assert bars.plot(kind, ax=ax) is ax
-    ax.figure.savefig("/dev/null", format="svg")
-    assert dict(matplotlib.rcParams) == before
-
-
-def test_plot_makes_a_figure_of_its_own():
-    matplotlib = pytest.importorskip("matplotlib")
-    matplotlib.use("agg")
-    import matplotlib.pyplot as pyplot
-    ax = ph.rips(CIRCLE).plot(color="k", s=3)
-    assert ax.figure.number in pyplot.get_fignums()
-    pyplot.close(ax.figure)
-    with pytest.raises(ph.UsageError, match="kind"):
-        ph.rips(CIRCLE).plot("tree")

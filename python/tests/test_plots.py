@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: MIT
+"""Pictures that matplotlib draws of barcodes."""
+import numpy as np
+import pytest
+
+import libph as ph
+
+matplotlib = pytest.importorskip("matplotlib")
+matplotlib.use("agg")
+pyplot = pytest.importorskip("matplotlib.pyplot")
+
+ANGLES = np.linspace(0, 2 * np.pi, 20, endpoint=False)
+CIRCLE = np.column_stack([np.cos(ANGLES), np.sin(ANGLES)])
+VOLUME = np.random.default_rng(0).integers(0, 99, size=(6, 7, 5))
+
+
+def vertices(births):
+    return ph.filtered([(k,) for k in range(len(births))], births)
+
+
+def path(births, joins):
+    """Vertices in a row, of which each joins the next."""
+    n = len(births)
+    return ph.filtered([(k,) for k in range(n)] + [(k, k + 1) for k in range(n - 1)],
+                       [*births, *joins])
+
+
+BARCODES = {
+    "points": ph.rips(CIRCLE),
+    "image": ph.cubical(VOLUME, superlevel=True),
+    "zero length": ph.rips(CIRCLE, min_persistence=-1),
+    "no bars": ph.rips([]),
+    "all are born early": vertices(range(40)),
+    "all are born late": path([0, *[50] * 19], range(51, 70)),
+    "two long bars": path([0, 0, 0], [0, 9]),
+    "long bars all over": vertices(np.zeros(20)),
+    "some never begin": vertices([-np.inf, 0, 1]),
+}
+each = pytest.mark.parametrize("bars", [pytest.param(bars, id=name)
+                                        for name, bars in BARCODES.items()])
+
+
+@each
+@pytest.mark.parametrize("kind", ["diagram", "barcode", "betti"])
+def test_plots_leave_settings_alone(bars, kind):
+    from matplotlib.figure import Figure
+    before = dict(matplotlib.rcParams)
+    ax = Figure().add_subplot()
+    assert bars.plot(kind, ax=ax) is ax
+    ax.figure.savefig("/dev/null", format="svg")
+    assert dict(matplotlib.rcParams) == before
+
+
+def test_plot_makes_a_figure_of_its_own():
+    ax = ph.rips(CIRCLE).plot(color="k", s=3)
+    assert ax.figure.number in pyplot.get_fignums()
+    pyplot.close(ax.figure)
+    with pytest.raises(ph.UsageError, match="kind"):
+        ph.rips(CIRCLE).plot("tree")
+
+
+@pytest.mark.parametrize("name", ["points", "all are born early", "all are born late",
+                                  "two long bars", "long bars all over"])
+def test_the_legend_of_a_barcode_hides_no_bar(name):
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+    figure = Figure(figsize=(5, 4))
+    canvas, ax = FigureCanvasAgg(figure), BARCODES[name].plot("barcode", ax=figure.add_subplot())
+    canvas.draw()
+    box = ax.get_legend().get_window_extent()
+    paths = [line.transformed(lines.get_transform())
+             for lines in ax.collections for line in lines.get_paths()]
+    assert len(paths) == len(BARCODES[name])
+    assert not any(line.intersects_bbox(box, filled=False) for line in paths)
