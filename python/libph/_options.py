@@ -8,6 +8,7 @@ import math
 import numbers
 import operator
 import re
+import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
@@ -130,6 +131,14 @@ def axes(name: str, value: Any, count: int) -> list[bool]:
         except UsageError:
             raise refuse(name, value, expected) from None
     return chosen
+
+
+def user_level() -> int:
+    """The `stacklevel` with which a warning of the caller names the line that called libph."""
+    frame, level = sys._getframe(1), 1
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("libph"):
+        frame, level = frame.f_back, level + 1
+    return level
 
 
 # ---- keywords of one function that another one takes, too

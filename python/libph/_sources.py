@@ -2,6 +2,7 @@
 """Where distances come from: points, matrices, functions; and what each of them needs of options."""
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -52,7 +53,8 @@ def _of_points(X: Any, metric: Any, minkowski_p: Any, nan: str) -> Source:
     name = METRICS.get(metric) if isinstance(metric, str) else None
     if name is None:
         raise _options.refuse("metric", metric, ", ".join(METRICS) + ", 'precomputed' or a function "
-                              "of two points")
+                              "of two points; scipy.spatial.distance.pdist has more: its distances "
+                              "are taken with metric='precomputed'")
     p = _options.real("minkowski_p", minkowski_p, "a number, at least 1", least=1)
     if p != 2 and name != "minkowski":
         raise UsageError(f"minkowski_p: does nothing for metric='{metric}', expected 'minkowski'")
@@ -60,6 +62,7 @@ def _of_points(X: Any, metric: Any, minkowski_p: Any, nan: str) -> Source:
         raise UsageError("X: found a sparse matrix; metric='precomputed' reads its entries as "
                          "distances, .toarray() makes points of it")
     points = _arrays.as_points(X)
+    _warn_of_a_matrix(points)
     count, ids = len(points), None
     if nan == "drop":
         whole = ~np.isnan(points).any(axis=1)
@@ -73,6 +76,10 @@ def _of_points(X: Any, metric: Any, minkowski_p: Any, nan: str) -> Source:
 def _of_matrix(X: Any, nan: str, diagonal: str, symmetrise: str | None) -> Source:
     array = _arrays.as_distances(X)
     births = None
+    if diagonal == "zero" and _is_correlation(array):
+        raise DataError("X: found 1 on all of the diagonal and nothing beyond, as correlations are, "
+                        "expected distances, with 0 there; 1 - X are distances; diagonal='births' "
+                        "takes the diagonal for the births of the points, diagonal='any' for 0")
     if array.ndim == 1 and (diagonal == "births" or symmetrise is not None):
         name = "diagonal" if diagonal == "births" else "symmetrise"
         raise UsageError(f"{name}: does nothing for condensed distances, expected a square matrix")
@@ -82,6 +89,37 @@ def _of_matrix(X: Any, nan: str, diagonal: str, symmetrise: str | None) -> Sourc
         array, getattr(_core.Symmetrise, symmetrise or "none"), getattr(_core.NanPolicy, nan),
         diagonal == "zero")
     return Source(space, space.size, None, births)
+
+
+def _is_correlation(array: NDArray[Any]) -> bool:
+    if array.ndim != 2 or len(array) < 2 or not _are_near(np.diagonal(array), 1, _ROUNDING):
+        return False
+    with np.errstate(invalid="ignore"):
+        return not (np.abs(array) > 1 + _ROUNDING).any()  # NaN is no objection
+
+
+def _are_near(numbers: NDArray[Any], number: Any, rounding: float) -> bool:
+    with np.errstate(invalid="ignore"):
+        return bool((np.abs(numbers - number) <= rounding).all())
+
+
+def _warn_of_a_matrix(points: NDArray[np.float64]) -> None:
+    """An array that is symmetric and has 0 or 1 on its diagonal is hardly one of points, unless they
+    are the corners of a regular simplex, with two numbers as coordinates."""
+    rows, columns = points.shape
+    if rows != columns or rows < 4:
+        return
+    diagonal, rounding = np.diagonal(points), _ROUNDING * float(np.abs(points).max())
+    is_zero = _are_near(diagonal, 0, rounding)
+    if not (is_zero and points.min() >= 0) and not _is_correlation(points):
+        return
+    if not _are_near(points, points.T, rounding) or np.count_nonzero(
+            points == points[0, 1]) >= rows * (rows - 1):
+        return
+    number, what, distances = ("0", "distances", "X") if is_zero else ("1", "correlations", "1 - X")
+    warnings.warn(f"X: {rows} points of R^{rows} were taken; the array is symmetric, with {number} "
+                  f"on its diagonal, as {what} are; metric='precomputed' takes {distances} for "
+                  "distances", UserWarning, stacklevel=_options.user_level())
 
 
 def _of_sparse(X: Any, nan: str, diagonal: str, symmetrise: str | None) -> Source:

@@ -82,5 +82,5 @@ _KEYWORDS = {
 }
 KEYWORDS = {old: new for new, names in _KEYWORDS.items() for old in names.split()}
 VALUES = {"metric": "metric='precomputed'", "representatives": "representatives='cocycles'",
-           "max_dimension": "max_dim, which counts homology: one less than GUDHI's max_dimension",
-           "sparse": "approximation, which is sparse / (1 - sparse)"}
+          "max_dimension": "max_dim, which counts homology: one less than GUDHI's max_dimension",
+          "sparse": "approximation, which is sparse / (1 - sparse)"}
