@@ -5,6 +5,7 @@ Nothing here writes to what it is given.
 """
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from typing import Any
 
@@ -73,7 +74,8 @@ def as_array(data: Any, name: str) -> NDArray[Any]:
 
 def _converted(data: Any, name: str) -> NDArray[Any]:
     if data is None or isinstance(data, (str, bytes, dict, set, frozenset)):
-        raise UsageError(f"{name}: found {type(data).__name__}, expected an array of numbers")
+        hint = "; ph.read(path) reads a file" if isinstance(data, (str, bytes)) else ""
+        raise UsageError(f"{name}: found {type(data).__name__}, expected an array of numbers{hint}")
     if hasattr(data, "detach") and callable(data.detach):  # a tensor that knows its gradient
         data = data.detach()
     try:
@@ -85,7 +87,8 @@ def _converted(data: Any, name: str) -> NDArray[Any]:
     except Exception as error:  # what foreign objects raise
         raise DataError(f"{name}: {_ragged(data) or f'found no array of numbers: {error}'}") from None
     if array.dtype.kind == "O" and array.ndim == 0:
-        raise UsageError(f"{name}: found {type(data).__name__}, expected an array of numbers")
+        hint = "; ph.read(path) reads a file" if isinstance(data, os.PathLike) else ""
+        raise UsageError(f"{name}: found {type(data).__name__}, expected an array of numbers{hint}")
     if array.dtype.kind == "O" and isinstance(data, (list, tuple)) and _ragged(data):
         raise DataError(f"{name}: {_ragged(data)}")
     return array

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import math
+import re
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -11,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _core, _options, _run
-from ._errors import UsageError
+from ._errors import DataError, MemoryLimitError, UsageError
 from ._simplices import joined_values, simplex_list
 from ._sources import Source, source_of
 
@@ -48,9 +49,29 @@ class Request(NamedTuple):
     slab_layers: int = 0
 
     def run(self, function: Callable[..., Any]) -> Any:
-        """Calls a function of _core."""
+        """Calls a function of _core; what it finds is said in terms of the keywords."""
         arguments = (self.recipe,) if self.task is None else (self.recipe, self.task)
-        return _run.run(function, *arguments, options=self.options, slab_layers=self.slab_layers)
+        try:
+            return _run.run(function, *arguments, options=self.options,
+                            slab_layers=self.slab_layers)
+        except DataError as error:
+            raise DataError(self._in_words(str(error))) from None
+        except MemoryLimitError as error:
+            if self.meta["complex"] != "rips":
+                raise
+            raise MemoryLimitError(f"{error}; a smaller max_dim or threshold, subsample or "
+                                   "approximation takes less, ph.estimate says how much") from None
+
+    def _in_words(self, message: str) -> str:
+        """What is wrong with the data, with a way out where a keyword is one."""
+        if re.match(r"point \d+, coordinate \d+: found nan", message):
+            return f"{message}; nan='drop' leaves such points out"
+        voxel = re.match(r"voxel (\d+): found nan", message)
+        if voxel is None:
+            return message
+        index = np.unravel_index(int(voxel[1]), self.meta["shape"])
+        return (f"image: {_arrays.place_of([int(i) for i in index])}: found nan, expected a number; "
+                "nan='drop' leaves out what is NaN or masked")
 
 
 def _task(max_dim: Any, min_dim: Any, field: Any, engine: Any, collapse: Any, min_persistence: Any,

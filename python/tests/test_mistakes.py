@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """First mistakes: what is likely meant otherwise is warned of, or refused with a way out."""
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -50,3 +51,43 @@ def test_correlations_given_as_distances(dtype):
 def test_metrics_of_scipy():
     with pytest.raises(ph.UsageError, match="found 'correlation', .*; scipy.*pdist has more"):
         ph.rips(SERIES, metric="correlation")
+
+
+# ---- what is missing or too large
+
+
+@pytest.mark.parametrize("shape, place, words", [
+    ((3, 4, 5), (1, 2, 3), "index .1, 2, 3."), ((4, 5), (2, 3), "row 2, column 3"),
+    ((5,), (3,), "entry 3")])
+@pytest.mark.parametrize("function", [ph.cubical, lambda X: ph.merge_tree(X, complex="cubical")],
+                         ids=["cubical", "merge_tree"])
+def test_nan_in_an_image(function, shape, place, words):
+    image = np.ones(shape)
+    image[place] = np.nan
+    for X in (image, np.ma.masked_invalid(image)):
+        with pytest.raises(ph.DataError, match=f"image: {words}: found nan, .*nan='drop'"):
+            function(X)
+        assert len(ph.cubical(X, nan="drop")) > 0
+
+
+def test_nan_in_points():
+    X = SERIES.copy()
+    X[3, 2] = np.nan
+    with pytest.raises(ph.DataError, match="point 3, coordinate 2: found nan, .*; nan='drop' leaves"):
+        ph.rips(X)
+    assert len(ph.rips(X, nan="drop").dgm(0)) == 59
+
+
+@pytest.mark.parametrize("X", ["a.csv", b"a.csv", Path("a.csv")], ids=["str", "bytes", "Path"])
+def test_files_are_read_by_read(X):
+    for function in (ph.rips, ph.cubical):
+        with pytest.raises(ph.UsageError, match="expected an array of numbers; ph.read"):
+            function(X)
+
+
+def test_a_limit_that_is_met_says_what_takes_less():
+    X = np.random.default_rng(0).random((2000, 3))
+    with pytest.raises(ph.MemoryLimitError, match="more needed; a smaller max_dim or threshold"):
+        ph.rips(X, memory_limit="1MB")
+    for less in ({"max_dim": 0}, {"threshold": 0.02}, {"subsample": 20}, {"approximation": 0.5}):
+        assert ph.estimate(X, **less).bytes_high < ph.estimate(X).bytes_high
