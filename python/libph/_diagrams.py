@@ -58,6 +58,14 @@ def bottleneck(a: Any, b: Any, dim: int | None = None, **run: Unpack[RunOptions]
 def _rows(bars: Any, name: str, dim: int | None) -> NDArray[np.float64]:
     if isinstance(bars, Barcode):
         return bars.dgm(_options.whole("dim", dim, 0))
+    if isinstance(bars, (list, tuple)):
+        for row in bars:
+            if isinstance(row, np.ndarray) and row.ndim == 2:
+                raise UsageError(f"{name}: found a list of arrays, expected one of rows birth, "
+                                 f"death; {name}[1] are those of H1")
+            if isinstance(row, tuple) and len(row) == 2 and isinstance(row[1], tuple):
+                raise UsageError(f"{name}: found pairs (dimension, (birth, death)), expected rows "
+                                 "birth, death, of one dimension")
     array = _arrays.as_array(bars, name)
     if array.size == 0:
         return np.empty((0, 2))

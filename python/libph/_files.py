@@ -128,8 +128,12 @@ def read(path: str | os.PathLike[str], format: str | None = None, *,
         "raw_skip": _options.whole("raw_skip", raw_skip, 0)}
     if isinstance(columns, str):
         options["columns"] = columns.split(",")
+    file = path_of(path)
+    if format is None and columns is None and _is_barcode(file):
+        raise _errors.DataError(f"{os.fsdecode(file)}: found a barcode, expected data; "
+                                "ph.read_barcode reads it")
     try:
-        found = _run.run(_core.read, path_of(path), name,
+        found = _run.run(_core.read, file, name,
                          b"" if values is None else path_of(values), options, options=dict(run))
     except _errors.Error as error:
         raise type(error)(_as_keywords(str(error))) from None
@@ -137,6 +141,16 @@ def read(path: str | os.PathLike[str], format: str | None = None, *,
     for note in found["notes"]:
         _LOG.info("%s: %s", os.fspath(path), _as_keywords(note))
     return _answer(found)
+
+
+def _is_barcode(path: bytes) -> bool:
+    """Whether the file begins as `Barcode.save` begins a table or JSON."""
+    try:
+        with open(path, "rb") as file:
+            start = file.read(32)
+    except OSError:  # who reads it says what is wrong
+        return False
+    return start.startswith((b"dim,birth,death\n", b'{\n  "format": "ph-barcode"'))
 
 
 def _as_keywords(message: str) -> str:
