@@ -373,7 +373,7 @@ class Barcode(Summaries, Sequence[Bar]):
         dims, births, deaths = self._arrays
         keep = np.ones(len(self), dtype=bool)
         if dim is not None:
-            wanted = list(dim) if isinstance(dim, Iterable) else [dim]
+            wanted = list(dim) if isinstance(dim, Iterable) and not isinstance(dim, str) else [dim]
             keep &= np.isin(dims, [_options.whole("dim", d, 0) for d in wanted])
         if min_persistence is not None:
             least = _options.real("min_persistence", min_persistence)
@@ -400,8 +400,12 @@ class Barcode(Summaries, Sequence[Bar]):
         _run.run(_core.save, self._bars, path_of(path),
                  None if format is None else str(format), meta, options={})
 
-    def plot(self, kind: str = "diagram", ax: Axes | None = None, **style: Any) -> Axes:
+    def plot(self, kind: str = "diagram", ax: Axes | None = None, *,
+             dim: int | Iterable[int] | None = None, **style: Any) -> Axes:
         """Draws with matplotlib.
+
+        A notebook shows the picture; elsewhere ``matplotlib.pyplot.show()`` opens a window, and
+        ``axes.figure.savefig(path)`` writes a file.
 
         Parameters
         ----------
@@ -409,6 +413,8 @@ class Barcode(Summaries, Sequence[Bar]):
             Points birth, death; lines from birth to death; Betti numbers over the value.
         ax : Axes, optional
             Where to draw; default: a new figure.
+        dim : int or iterable of int, optional
+            Bars of these dimensions alone. Default: all.
         **style
             Passed on to what draws: `scatter`, `hlines` or `step`.
 
@@ -417,7 +423,7 @@ class Barcode(Summaries, Sequence[Bar]):
         Axes
         """
         from ._plots import plot
-        return plot(self, kind, ax, style)
+        return plot(self if dim is None else self.filter(dim=dim), kind, ax, style)
 
     def report(self, X: Any = None, *, title: str = "", **options: Any) -> Report:
         """An interactive page: diagram, barcode, and the data, all linked.

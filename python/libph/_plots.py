@@ -96,8 +96,9 @@ def _betti(bars: Barcode, ax: Axes, style: dict[str, Any]) -> None:
     low, high, infinity = _ends(bars)
     values = np.unique(np.concatenate([bars.births, bars.deaths, [low, infinity]]))
     values = values[np.isfinite(values)]
-    for dim, curve in enumerate(bars.betti_curve(values)):
-        ax.step(values, curve, where="post", **{"label": f"H{dim}", "color": f"C{dim % 10}",
+    curves = bars.betti_curve(values)
+    for dim in _dims(bars):
+        ax.step(values, curves[dim], where="post", **{"label": f"H{dim}", "color": f"C{dim % 10}",
                                                 **style})
     ax.set_xlabel(_label(bars))
     ax.set_ylabel("Betti number")

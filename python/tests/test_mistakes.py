@@ -24,8 +24,8 @@ def test_a_matrix_taken_for_points(function, X, words):
 
 
 @pytest.mark.parametrize("X", [
-    np.eye(6), 3 * (1 - np.eye(6)), np.zeros((5, 5)), [[0, 1], [1, 0]], [[0, 1, 2], [1, 0, 1], [2, 1, 0]],
-    SERIES[:8], SERIES[:8] - SERIES[:8].T, 1e-12 * SERIES[:8], np.triu(np.ones((5, 5))),
+    np.eye(6), 3 * (1 - np.eye(6)), np.zeros((5, 5)), [[0, 1], [1, 0]],
+    [[0, 1, 2], [1, 0, 1], [2, 1, 0]], SERIES[:8], SERIES[:8] - SERIES[:8].T, 1e-12 * SERIES[:8], np.triu(np.ones((5, 5))),
     2 * CORRELATIONS], ids=str)
 def test_points_that_are_no_matrix(X):
     with warnings.catch_warnings():
@@ -91,3 +91,29 @@ def test_a_limit_that_is_met_says_what_takes_less():
         ph.rips(X, memory_limit="1MB")
     for less in ({"max_dim": 0}, {"threshold": 0.02}, {"subsample": 20}, {"approximation": 0.5}):
         assert ph.estimate(X, **less).bytes_high < ph.estimate(X).bytes_high
+
+
+def test_a_barcode_is_no_data(tmp_path):
+    bars = ph.rips(SERIES).filter(dim=1)  # no bar is infinite: its table could be points
+    for name in ("bars.csv", "bars.json"):
+        bars.save(tmp_path / name)
+        with pytest.raises(ph.DataError, match="found a barcode, .*ph.read_barcode"):
+            ph.read(tmp_path / name)
+        assert ph.read_barcode(tmp_path / name) == bars
+    points = ph.read(tmp_path / "bars.csv", columns=["birth", "death"])
+    assert points.tolist() == bars.dgm(1).tolist()
+
+
+def test_diagrams_of_other_shapes():
+    bars = ph.rips(SERIES)
+    for wrong, words in ((bars.dgms(), "a list of arrays, .* a.1. are those of H1"),
+                         (bars.to_numpy("gudhi"), "pairs .dimension, .birth, death..")):
+        with pytest.raises(ph.UsageError, match=f"a: found {words}"):
+            ph.bottleneck(wrong, bars.dgm(1))
+    rows = [tuple(row) for row in bars.dgm(1)]
+    assert ph.bottleneck(rows, bars.dgm(1)) == 0
+
+
+def test_a_dimension_is_a_number():
+    with pytest.raises(ph.UsageError, match="dim: found 'H1', expected a whole number"):
+        ph.rips(SERIES).filter(dim="H1")

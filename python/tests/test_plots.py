@@ -51,6 +51,14 @@ def test_plots_leave_settings_alone(bars, kind):
     assert dict(matplotlib.rcParams) == before
 
 
+@pytest.mark.parametrize("kind", ["diagram", "barcode", "betti"])
+def test_plot_of_one_dimension(kind):
+    bars = ph.rips(CIRCLE)
+    for dim, labels in ((1, ["H1"]), ([0, 1], ["H0", "H1"]), (None, ["H0", "H1"])):
+        ax = bars.plot(kind, ax=Figure().add_subplot(), dim=dim)
+        assert [text.get_text() for text in ax.get_legend().get_texts()] == labels
+
+
 def test_plot_makes_a_figure_of_its_own():
     ax = ph.rips(CIRCLE).plot(color="k", s=3)
     assert ax.figure.number in pyplot.get_fignums()
