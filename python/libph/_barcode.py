@@ -29,7 +29,11 @@ _STATE_VERSION = 1
 
 
 class Bar(NamedTuple):
-    """A class of H_dim that is born at `birth` and is zero from `death` on."""
+    """A hole: there from `birth` on, gone at `death`, which is ``inf`` if it never is.
+
+    Of `dim` 0 it is a component, of 1 a loop, of 2 a hollow; in general a class of H_dim. It is a
+    tuple: ``dim, birth, death = bar``.
+    """
 
     dim: int
     birth: float
@@ -81,6 +85,16 @@ class Barcode(Summaries, Sequence[Bar]):
     meta : Mapping
         Where it comes from: `complex`, `field`, `max_dim`, `threshold`, `engine`, and what else is
         known, as the number of `points` or the `shape` of the image.
+
+    Examples
+    --------
+    >>> bars = ph.rips([[0, 0], [1, 0], [1, 1], [0, 1]])
+    >>> len(bars), bars[-1]
+    (5, Bar(dim=1, birth=1.0, death=1.4142135623730951))
+    >>> bars.dgm(1)
+    array([[1.        , 1.41421356]])
+    >>> [bar.persistence for bar in bars if bar.dim == 0]
+    [1.0, 1.0, 1.0, inf]
     """
 
     __slots__ = ("_bars", "_values", "meta", "__weakref__")
@@ -255,7 +269,13 @@ class Barcode(Summaries, Sequence[Bar]):
     def birth_cells(self, dim: int) -> NDArray[np.int64]:
         """The cell that gave birth to each bar of a dimension, a row each.
 
-        Vertices, ascending; of images doubled grid coordinates; rows of a boundary matrix.
+        Vertices, ascending; of images doubled grid coordinates, in which the voxel (i, j) is
+        (2 i, 2 j); rows of a boundary matrix. `gradients.deciders` tells the edge or the voxel
+        whose value the cell has.
+
+        >>> bars = ph.rips([[0, 0], [1, 0], [1, 1], [0, 1]])
+        >>> bars.birth_cells(1), bars.death_cells(1)
+        (array([[2, 3]]), array([[0, 2, 3]]))
         """
         return np.asarray(self._bars.birth_cells(self._dim_of_cells(dim)))
 

@@ -98,12 +98,23 @@ def rips(X: Any, *, max_dim: int | None = 1, min_dim: int = 0, threshold: float 
 
     Examples
     --------
-    >>> square = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    >>> square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
     >>> bars = ph.rips(square)
     >>> bars.dgm(1)
     array([[1.        , 1.41421356]])
     >>> bars
     Barcode(rips of 4 points in R^2, field 2: 4 bars of H0, 1 of H1, longest [1, 1.41421))
+
+    Of distances, and of correlations r, as distances 1 - r:
+
+    >>> ph.rips([[0, 3], [3, 0]], metric="precomputed").dgm(0)
+    array([[ 0.,  3.],
+           [ 0., inf]])
+    >>> r = np.corrcoef([[1, 2, 3], [1, 2, 4], [3, 1, 2]])
+    >>> ph.rips(1 - r, metric="precomputed").dgm(0).round(2)
+    array([[0.  , 0.02],
+           [0.  , 1.33],
+           [0.  ,  inf]])
     """
     return _barcode(rips_request(locals()))
 
@@ -115,6 +126,9 @@ def cubical(image: Any, *, construction: str = "vertices", superlevel: bool = Fa
             nan: str = "error", engine: str = "auto", slab_layers: int | None = None,
             **run: Unpack[RunOptions]) -> Barcode:
     """The barcode of the sublevel sets of an image, of 1 to 8 axes.
+
+    At a value t those voxels are there that are not above t, so dark ones come first. With
+    `superlevel` bright ones do, and a voxel of value f enters at -f.
 
     Parameters
     ----------
@@ -162,6 +176,12 @@ def cubical(image: Any, *, construction: str = "vertices", superlevel: bool = Fa
     >>> ring = [[9, 9, 9, 9, 9], [9, 1, 1, 1, 9], [9, 1, 7, 1, 9], [9, 1, 1, 1, 9], [9, 9, 9, 9, 9]]
     >>> list(ph.cubical(ring))
     [Bar(dim=0, birth=1.0, death=inf), Bar(dim=1, birth=1.0, death=7.0)]
+
+    Two bright spots in a row of pixels, of values 8 and 5, and a gap of 2 between them:
+
+    >>> ph.cubical([0, 8, 2, 5, 0], superlevel=True).dgm(0)
+    array([[-8., inf],
+           [-5., -2.]])
     """
     return _barcode(cubical_request(locals()))
 

@@ -31,13 +31,19 @@ _ELSEWHERE = {
     "read_persistence_intervals_grouped_by_dimension", "read_persistence_intervals_in_dimension",
     "read_points_from_off_file"}
 
+_INSTEAD = {
+    "SimplexTree": "ph.filtered takes simplices and values",
+    "plot_persistence_barcode": "ph.rips(...).plot('barcode') draws bars",
+    "plot_persistence_diagram": "ph.rips(...).plot() draws bars"}
+
 
 def __getattr__(name: str) -> Any:
     if name not in _ELSEWHERE:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
     def missing(*arguments: Any, **options: Any) -> NoReturn:
-        raise NotBuiltIn(f"{name}: libph has no such thing; GUDHI has it")
+        hint = f"; {_INSTEAD[name]}" if name in _INSTEAD else ""
+        raise NotBuiltIn(f"{name}: not in this drop-in; GUDHI has it{hint}")
 
     return missing
 
