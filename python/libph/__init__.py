@@ -28,11 +28,18 @@ Three modules need other packages, and are loaded when they are looked at: `libp
 """
 from typing import TYPE_CHECKING as _TYPE_CHECKING
 
+try:
+    from ._core import version as __version__
+except ModuleNotFoundError as _error:
+    import sys as _sys
+    raise ImportError(f"libph: {__path__[0]} has no _core, which is compiled, for Python "
+                      f"{_sys.version_info[0]}.{_sys.version_info[1]}; `pip install .` in the root "
+                      "of the repository compiles it", name=_error.name) from None
+
 from . import gradients
 from ._barcode import Bar, Barcode
 from ._chains import Chain, Loop
 from ._compute import boundary, cubical, filtered, lower_star, rips
-from ._core import version as __version__
 from ._diagrams import bottleneck
 from ._errors import (Cancelled, DataError, Error, InternalError, MemoryLimitError,
                       MissingInputError, NotBuiltIn, OutputError, Timeout, UsageError)

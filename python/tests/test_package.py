@@ -3,6 +3,7 @@
 import ast
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tarfile
@@ -28,6 +29,14 @@ def test_names():
     optional = {"compat", "sklearn", "torch"}
     assert {name for name in vars(ph) if not name.startswith("_")} <= set(ph.__all__) | optional
     assert (Path(ph.__file__).parent / "py.typed").exists()
+
+
+def test_sources_that_are_not_compiled(tmp_path):
+    shutil.copytree(SOURCE / "python/libph", tmp_path / "libph",
+                    ignore=shutil.ignore_patterns("*.so", "__pycache__"))
+    done = subprocess.run([sys.executable, "-c", "import libph"], capture_output=True, text=True,
+                          env={**os.environ, "PYTHONPATH": str(tmp_path)}, cwd=tmp_path)
+    assert re.search(r"ImportError: libph: .* has no _core, .* for Python 3.*pip install", done.stderr)
 
 
 # ---- the stubs of _core
