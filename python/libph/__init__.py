@@ -26,7 +26,7 @@ The data must not change while a computation runs. `limits` sets defaults for a 
 Three modules need other packages, and are loaded when they are looked at: `libph.sklearn`,
 `libph.torch`, and `libph.compat`, which has the interfaces of other packages.
 """
-from typing import TYPE_CHECKING as _TYPE_CHECKING
+import typing as _typing
 
 try:
     from ._core import version as __version__
@@ -62,7 +62,7 @@ __all__ = [
     "read_barcode", "report", "rips", "segment",
 ]
 
-if not _TYPE_CHECKING:  # for a type checker a name that is missing is an error
+if not _typing.TYPE_CHECKING:  # for a type checker a name that is missing is an error
 
     def __getattr__(name):
         if name in ("compat", "sklearn", "torch"):

@@ -14,7 +14,7 @@ sample: `PersistenceClustering`, `DistanceToMeasure`, `FarthestPoints`.
 array([[0.414],
        [0.828]])
 """
-from typing import TYPE_CHECKING as _TYPE_CHECKING
+import typing as _typing
 
 from ._clustering import PersistenceClustering
 from ._persistence import CubicalPersistence, RipsPersistence
@@ -24,7 +24,7 @@ from ._vectorisers import BettiCurve, Entropy, Landscape, Lengths, PersistenceIm
 __all__ = ["BettiCurve", "CubicalPersistence", "DistanceToMeasure", "Entropy", "FarthestPoints",
            "Landscape", "Lengths", "PersistenceClustering", "PersistenceImage", "RipsPersistence"]
 
-if not _TYPE_CHECKING:  # for a type checker a name that is missing is an error
+if not _typing.TYPE_CHECKING:  # for a type checker a name that is missing is an error
 
     def __getattr__(name):
         from .. import _hints

@@ -167,7 +167,7 @@ def test_an_image_with_holes(rng):
     image[2, 2] = np.nan
     assert same(CubicalPersistence(nan="drop").fit_transform([image]),
                 [[ph.cubical(image, nan="drop").dgm(d) for d in (0, 1)]])
-    with pytest.raises(ph.DataError, match="sample 1: voxel 12: found nan"):
+    with pytest.raises(ph.DataError, match="sample 1: image: row 2, column 2: found nan"):
         CubicalPersistence().fit_transform([np.ones((5, 5)), image])
 
 
