@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs the Debian packages that are missing: setup.sh [build|page|demo|test|python|viewer|lint|fuzz|coverage]…
+# Installs the Debian packages that are missing: setup.sh [build|page|demo|test|python|viewer|docs|lint|fuzz|coverage]…
 set -euo pipefail
 
 build=(build-essential cmake ninja-build pkg-config ccache libeigen3-dev libfmt-dev
@@ -16,6 +16,9 @@ python=(python3-dev pybind11-dev python3-numpy python3-scipy python3-sklearn pyt
 page=()
 command -v npm >/dev/null || page=(nodejs npm)
 viewer=("${page[@]}" chromium)  # its tests in a browser, too
+# The site of the documentation.
+docs=(python3-sphinx python3-myst-parser furo python3-breathe python3-sphinx-copybutton doxygen git
+      python3-jsonschema hunspell hunspell-en-gb)
 lint=(clang-format-14 clang-tidy-19)
 fuzz=(clang-19 libclang-rt-19-dev libgtest-dev)
 coverage=(gcovr libgtest-dev)
@@ -29,10 +32,11 @@ for set in "${@:-build}"; do
     test) wanted+=("${test[@]}") ;;
     python) wanted+=("${build[@]}" "${python[@]}") ;;
     viewer) wanted+=("${viewer[@]}") ;;
+    docs) wanted+=("${docs[@]}") ;;
     lint) wanted+=("${lint[@]}") ;;
     fuzz) wanted+=("${fuzz[@]}") ;;
     coverage) wanted+=("${coverage[@]}") ;;
-    *) echo "setup.sh: found '$set', expected build, page, demo, test, python, viewer, lint, fuzz or coverage" >&2; exit 64 ;;
+    *) echo "setup.sh: found '$set', expected build, page, demo, test, python, viewer, docs, lint, fuzz or coverage" >&2; exit 64 ;;
   esac
 done
 

@@ -71,7 +71,7 @@ class PointsView {
 class Points {
  public:
   Points() = default;
-  /// All coordinates are 0. @throws std::bad_alloc; Error (usage) on a negative size.
+  /// All coordinates are 0. @throws Error (usage) on a negative size; std::bad_alloc.
   Points(Index rows, Index columns) : rows_(rows), columns_(columns), data_(zeros(rows, columns)) {}
   /// One list a point: `Points{{0, 0}, {1, 0}}`. @throws Error (usage) if their lengths differ.
   Points(std::initializer_list<std::initializer_list<double>> rows);

@@ -23,7 +23,7 @@
 namespace ph {
 
 /// Bytes of a name or a cell as one printable line: control characters, newlines and bytes that are
-/// not UTF-8 become \n, \t or \xNN; longer than `max_bytes` is cut and ends in "...".
+/// not UTF-8 become `\n`, `\t` or `\xNN`; longer than `max_bytes` is cut and ends in "...".
 std::string printable(std::string_view bytes, std::size_t max_bytes = 4096);
 
 /// "FILE.npz:NAME" or "FILE.ply:NAME" as the file and the part of it that is asked for; any other

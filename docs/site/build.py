@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Builds the site: build.py [--folder build/site] [--barcode PH_BARCODE --segment PH_SEGMENT]
+[--package FOLDER_OF_LIBPH]. scripts/site.sh finds the last three.
+
+In the folder it makes
+
+source/     a tree of links to the pages of the repository; no page is copied
+doxygen/    XML of the public headers
+printed/    what the programs print, if there are programs
+html/       the site
+
+Needs no network. A warning of Sphinx is an error. Exit code 77: something that it needs is missing.
+"""
+import argparse
+import importlib.util
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+DOCS = ROOT / "docs"
+# Pages that lie elsewhere in the repository.
+ELSEWHERE = {"CHANGELOG.md": "reference/changes.md", "CONTRIBUTING.md": "development/contributing.md",
+             "SECURITY.md": "development/security.md", "viewer/README.md": "development/viewer.md"}
+HEADERS = ["libph/include/ph", "libph/include/ph/io", "libsegment/include/ph"]
+# What public headers declare elsewhere and a reader has to know.
+DETAIL = ["components/branch", "complex/filtered_graph", "core/engine", "core/loop", "io/camera",
+          "io/cloud_data", "io/png", "io/reader", "metric/metric", "rips/vertex_weights"]
+
+
+def require_tools():
+    missing = [module for module in ("sphinx", "myst_parser", "furo", "breathe", "sphinx_copybutton")
+               if importlib.util.find_spec(module) is None]
+    missing += [program for program in ("doxygen", "git") if shutil.which(program) is None]
+    if missing:
+        print(f"skipped: the site needs {', '.join(missing)}; scripts/setup.sh docs installs that, "
+              f"for /usr/bin/python3 (this is {sys.executable})")
+        sys.exit(77)
+
+
+def link_pages(tree):
+    for file in DOCS.rglob("*"):
+        if file.is_file() and HERE not in file.parents:
+            link(tree / file.relative_to(DOCS), file)
+    for path, place in ELSEWHERE.items():
+        link(tree / place, ROOT / path)
+
+
+def link(place, file):
+    place.parent.mkdir(parents=True, exist_ok=True)
+    place.symlink_to(file)
+
+
+def run_doxygen(folder):
+    folder.mkdir(parents=True)
+    inputs = HEADERS + [f"libph/include/ph/detail/{name}.hpp" for name in DETAIL]
+    settings = (HERE / "Doxyfile").read_text() + (
+        f"INPUT = {' '.join(inputs)}\n"
+        f"INPUT_FILTER = \"{sys.executable} -B {HERE / 'group.py'}\"\nOUTPUT_DIRECTORY = {folder}\n")
+    subprocess.run(["doxygen", "-"], input=settings, text=True, cwd=ROOT, check=True)
+
+
+def print_helps(folder, programs):
+    folder.mkdir(parents=True)
+    for program in programs:
+        text = subprocess.run([program, "--help"], capture_output=True, text=True, check=True).stdout
+        (folder / f"{Path(program).name}.txt").write_text(text)
+
+
+def has_package(environment):
+    code = "import libph, sys; sys.exit(0)"
+    return subprocess.run([sys.executable, "-B", "-c", code], env=environment, cwd="/",
+                          capture_output=True, check=False).returncode == 0
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--folder", type=Path, default=ROOT / "build/site")
+    parser.add_argument("--barcode")
+    parser.add_argument("--segment")
+    parser.add_argument("--package", type=Path)
+    arguments = parser.parse_args()
+    require_tools()
+    folder = arguments.folder.resolve()
+    programs = [program for program in (arguments.barcode, arguments.segment) if program]
+    environment = {**os.environ, "PH_SITE_FOLDER": str(folder), "PYTHONDONTWRITEBYTECODE": "1"}
+    if arguments.package:
+        environment["PYTHONPATH"] = str(arguments.package.resolve())
+    environment["PH_SITE_PYTHON"] = "1" if has_package(environment) else "0"
+    for name in ("source", "doxygen", "printed", "html", "doctrees"):
+        shutil.rmtree(folder / name, ignore_errors=True)
+
+    link_pages(folder / "source")
+    run_doxygen(folder / "doxygen")
+    print_helps(folder / "printed", programs)
+    built = subprocess.run(
+        [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-j", "auto", "-c", HERE,
+         "-d", folder / "doctrees", "-b", "html", folder / "source", folder / "html"],
+        env=environment, check=False)
+    if environment["PH_SITE_PYTHON"] == "0":
+        print("left out: the reference of Python, for there is no compiled module of libph")
+    if len(programs) < 2:
+        print("left out: the options of the programs, for there are no programs")
+    if built.returncode:
+        sys.exit(built.returncode)
+    print(f"{folder / 'html' / 'index.html'}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: MIT
+"""Sphinx: how the pages of docs/ become a site. scripts/site.sh calls it; README.md says how."""
+import os
+import re
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+# What prepare.py made: the tree of sources, Doxygen's XML, what the programs print.
+MADE = Path(os.environ["PH_SITE_FOLDER"])
+sys.path[:0] = [str(HERE), str(HERE / "ext")]
+
+project = "libph"
+version = release = re.search(r"VERSION (\d+\.\d+\.\d+)", (ROOT / "CMakeLists.txt").read_text())[1]
+author = "the authors of libph"
+copyright = "the authors of libph, MIT licence"
+language = "en"
+root_doc = "index"
+needs_sphinx = "5.3"
+
+extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "sphinx.ext.napoleon",
+              "sphinx_copybutton", "furo_of_debian", "markers", "navigation", "source_pages"]
+site_root = str(ROOT)
+site_made = str(MADE)
+site_has_python = os.environ.get("PH_SITE_PYTHON") == "1"
+
+# Markdown. Anchors are those that a forge makes of headings.
+source_suffix = {".md": "markdown"}
+myst_heading_anchors = 4
+highlight_language = "text"
+# References in the docstrings of Python: `name` is one, where there is such a name.
+default_role = "py:obj"
+
+smartquotes = False
+
+# Python: numpydoc's sections.
+napoleon_google_docstring = False
+napoleon_use_rtype = False
+napoleon_use_ivar = True
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"
+autodoc_preserve_defaults = True
+python_use_unqualified_type_names = True
+
+# C++.
+breathe_projects = {"libph": str(MADE / "doxygen" / "xml")}
+breathe_default_project = "libph"
+breathe_default_members = ("members", "undoc-members")
+breathe_show_include = False
+breathe_domain_by_extension = {"hpp": "cpp", "h": "c"}
+cpp_maximum_signature_line_length = None
+primary_domain = "py"
+
+nitpicky = True
+# What is not ours, or is no page of its own: the standard library, template parameters, what is
+# private to a header.
+nitpick_ignore_regex = [("cpp:.*", ".*"), ("c:.*", ".*"), ("py:.*", ".*")]
+
+html_theme = "furo"
+html_title = f"libph {version}"
+html_static_path = [str(HERE / "static")]
+html_css_files = ["site.css"]
+html_copy_source = False
+html_show_sphinx = False
+html_theme_options = {"navigation_with_keys": True}
+pygments_style = "friendly"
+pygments_dark_style = "monokai"
+copybutton_prompt_text = r">>> |\.\.\. |\$ "
+copybutton_prompt_is_regexp = True

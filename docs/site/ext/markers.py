@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: MIT
+"""What the site fills in. A page has a line
+
+    <!-- site: KIND ARGUMENTS -->
+
+which those who read the file do not see. Kinds:
+
+    cpp HEADER…         what public headers declare, in the words of their comments
+    python NAME…        functions and classes of the package libph, by their docstrings
+    printed FILE        what prepare.py let a program print
+    schema FILE         a JSON Schema as a table of members
+"""
+import json
+import re
+from pathlib import Path
+
+from group import group_of
+from schema_tables import tables
+
+MARKER = re.compile(r"^<!-- site: (\w+) (.*?) -->$", re.MULTILINE)
+
+
+def fence(directive, body="", of=""):
+    return f"````{{{directive}}} {of}\n{body}\n````\n"
+
+
+def rst(*lines):
+    return fence("eval-rst", "\n".join(lines))
+
+
+def cpp(app, *headers):
+    return "\n".join(fence("doxygengroup", ":content-only:\n:members:", group_of(header)) for header in headers)
+
+
+def members(thing):
+    """What a class has of libph itself, in the order of the source; bases of others are left out."""
+    own = [name for base in thing.__mro__ if base.__module__.startswith("libph") for name in vars(base)]
+    return [name for name in dict.fromkeys(own) if not name.startswith("_")]
+
+
+def python(app, *names):
+    if not app.config.site_has_python:
+        return fence("warning", "This copy of the site was built without the compiled module of "
+                                "libph: the reference of Python is left out.")
+    import importlib
+    made = []
+    for name in names:
+        module, _, attribute = name.rpartition(".")
+        thing = getattr(importlib.import_module(module), attribute)
+        if isinstance(thing, type):
+            made.append(rst(f".. autoclass:: {name}", f"   :members: {', '.join(members(thing))}"))
+        else:
+            made.append(rst(f".. autofunction:: {name}"))
+    return "\n".join(made)
+
+
+def printed(app, name):
+    file = Path(app.config.site_made, "printed", name)
+    if not file.exists():
+        return fence("warning", "This copy of the site was built without the programs: what they "
+                                "print is left out.")
+    return f"```text\n{file.read_text()}```\n"
+
+
+def schema(app, name):
+    return tables(json.loads(Path(app.config.site_root, name).read_text()))
+
+
+KINDS = {"cpp": cpp, "python": python, "printed": printed, "schema": schema}
+
+
+def fill_in(app, docname, source):
+    def made(match):
+        return KINDS[match[1]](app, *match[2].split())
+    source[0] = MARKER.sub(made, source[0])
+
+
+def setup(app):
+    app.add_config_value("site_made", "", "env")
+    app.add_config_value("site_has_python", False, "env")
+    app.connect("source-read", fill_in)
+    return {"parallel_read_safe": True}

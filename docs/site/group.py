@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: MIT
+"""group.py HEADER: prints a header for Doxygen, with what it declares in a group of its own, named
+after it: Breathe shows a group without the namespace around it, which many headers open."""
+import re
+import sys
+from pathlib import Path
+
+
+def group_of(header):
+    """`ph/io/read.hpp` is the group `ph_io_read`."""
+    return re.sub(r"\W", "_", header.rsplit(".", 1)[0])
+
+
+def grouped(text, group):
+    begin = f"/** @addtogroup {group} */ /** @{{ */"
+    # Hashes of cells say nothing to a reader; definitions of what a class declares say it again.
+    text = re.sub(r"^template <>\nstruct std::hash.*?^\};$", "", text, flags=re.MULTILINE | re.DOTALL)
+    text = re.sub(r"^inline constexpr (\w+) \1::.*$", "", text, flags=re.MULTILINE)
+    text = re.sub(r"^(namespace ph(?:::segment)? \{|extern \"C\" \{\n#endif)$", rf"\1 {begin}", text,
+                  count=1, flags=re.MULTILINE)
+    return re.sub(r"^(\}  // namespace ph(?:::segment)?|#ifdef __cplusplus\n\})$", r"/** @} */ \1", text,
+                  count=1, flags=re.MULTILINE)
+
+
+if __name__ == "__main__":
+    path = Path(sys.argv[1])
+    name = path.as_posix().partition("/include/")[2]
+    print(grouped(path.read_text(), group_of(name)))

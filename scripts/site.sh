@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Builds the documentation as a site, build/site/html/index.html: site.sh [FOLDER]. Installs what is
+# missing first. The programs and the Python module are those of build/release, or of PH_BUILD_DIR;
+# what is not there is left out, and said.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+scripts/setup.sh docs
+build=${PH_BUILD_DIR:-build/release}
+found=(--folder "${1:-build/site}")
+for name in barcode segment; do
+  program=$build/apps/$name/ph-$name
+  [ ! -x "$program" ] || found+=("--$name" "$program")
+done
+for package in "$build/python" python; do
+  if PYTHONPATH=$package /usr/bin/python3 -B -c 'import libph' 2>/dev/null; then
+    found+=(--package "$package")
+    break
+  fi
+done
+exec /usr/bin/python3 -B docs/site/build.py "${found[@]}"
