@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: MIT
+"""json_schemas.py PH_BARCODE PH_SEGMENT: what the programs write is what docs/reference/schemas says, and each
+member that they write is described there. Needs python3-jsonschema; without it the test is skipped."""
+import copy
+import json
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+try:
+    import jsonschema
+except ImportError:
+    print("skipped: jsonschema is missing; scripts/setup.sh docs installs it")
+    sys.exit(77)
+
+ROOT = Path(__file__).resolve().parents[3]
+DATA = ROOT / "examples/data"
+SCHEMAS = ROOT / "docs/reference/schemas"
+SQUARE = "0 0\n1 0\n1 1\n0 1\n"
+MESH = "0 : 0\n1 : 1\n2 : 2\n0 1 : 1\n1 2 : 2\n0 2 : 3\n"
+MATRIX = "0\n0\n1 0 1\n"
+
+
+def closed(schema):
+    """The same schema without members that it does not describe."""
+    schema = copy.deepcopy(schema)
+
+    def close(part):
+        if isinstance(part, dict):
+            if "properties" in part:
+                part.setdefault("additionalProperties", False)
+            for inner in part.values():
+                close(inner)
+        elif isinstance(part, list):
+            for inner in part:
+                close(inner)
+    close(schema)
+    return schema
+
+
+def checker(name):
+    schema = json.loads((SCHEMAS / f"{name}.schema.json").read_text())
+    jsonschema.Draft202012Validator.check_schema(schema)
+    return jsonschema.Draft202012Validator(closed(schema))
+
+
+class Tester:
+    def __init__(self, folder, barcode, segment):
+        self.folder, self.barcode, self.segment = folder, barcode, segment
+        self.checkers = {file.name.partition(".")[0]: checker(file.name.partition(".")[0])
+                         for file in SCHEMAS.glob("*.schema.json")}
+        self.count, self.failures, self.seen = 0, 0, set()
+
+    def run(self, program, *arguments, code=0):
+        result = subprocess.run([program, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
+                                check=False)
+        if result.returncode != code:
+            sys.exit(f"{arguments}: exit code {result.returncode}, expected {code}\n{result.stderr}")
+        return result
+
+    def check(self, schema, text, what):
+        self.count += 1
+        self.seen.add(schema)
+        value = json.loads(text)
+        for error in self.checkers[schema].iter_errors(value):
+            self.failures += 1
+            print(f"{what}: {error.json_path}: {error.message[:300]}")
+        return value
+
+    def check_bars(self, *arguments):
+        printed = self.run(self.barcode, *arguments, "--output-format", "json", "--quiet").stdout
+        return self.check("ph-barcode", printed, arguments)
+
+
+def test_barcodes(t):
+    circles, blobs = DATA / "two_circles.csv", DATA / "blobs.pgm"
+    for name, text in {"square.csv": SQUARE, "mesh.simplices": MESH, "matrix.phat": MATRIX}.items():
+        (t.folder / name).write_text(text)
+    t.check_bars(circles)
+    t.check_bars(circles, "--representatives", "cycles")
+    t.check_bars(circles, "--representatives", "cycles", "--loops", "plain", "--field", "3")
+    t.check_bars(circles, "--representatives", "cocycles", "--max-dim", "2", "--threshold", "1")
+    t.check_bars(circles, "--dtm", "3")
+    t.check_bars(circles, "--subsample", "20")
+    t.check_bars(circles, "--approximate", "1")
+    t.check_bars(circles, "--complex", "cubical", "--voxel", "0.3", "--voxel-value", "density")
+    t.check_bars(blobs, "--superlevel", "--representatives", "voxels")
+    t.check_bars(blobs, "--representatives", "cycles", "--construction", "cells")
+    t.check_bars("mesh.simplices", "--representatives", "cycles")
+    t.check_bars("matrix.phat")
+    assert "row" in t.check_bars("matrix.phat")["bars"][0]["birth_cell"]
+    t.run(t.barcode, "square.csv", "-o", "square.pers", "--quiet")
+    assert "complex" not in t.check_bars("square.pers")
+    (t.folder / "low.grid").write_text("-inf 1 -inf 2\n")
+    low = t.check_bars("low.grid", "--format", "grid")
+    assert low["bars"][0]["birth"] == "-inf"
+
+
+def test_others(t):
+    t.run(t.barcode, "square.csv", "-o", "a.json", "--quiet")
+    t.run(t.barcode, DATA / "two_circles.csv", "-o", "b.json", "--quiet")
+    compared = t.run(t.barcode, "--compare", "a.json", "b.json", "--output-format", "json", "--quiet")
+    t.check("ph-barcode-distances", compared.stdout, "--compare")
+    noise = bytes((i * i * 2654435761 >> 7) & 255 for i in range(500 * 500))
+    (t.folder / "noise.raw").write_bytes(noise)  # slow enough that there is progress to tell
+    lines = t.run(t.barcode, "noise.raw", "--raw-shape", "500,500", "--engine", "standard", "--progress", "json",
+                  "--quiet", "--output-format", "none").stderr.splitlines()
+    if not lines:
+        sys.exit("--progress json: found no line on standard error")
+    for line in lines:
+        t.check("progress", line, "--progress json")
+
+
+def test_segmentations(t):
+    table, stack = DATA / "table.pcd", DATA / "stack.pcd"
+    for options in ([], ["--signatures", "--parts"], ["--method", "paper"], ["--supervoxels", "0.03"],
+                    ["--method", "paper", "--steps", "exact", "--no-check"], ["--plane", "off"],
+                    ["--crop", "-1,1,-1,inf,0,2", "--viewpoint", "0,0,0", "--voxel", "0.01", "--max-range", "inf"],
+                    ["--crop", "5,6,5,6,5,6"]):
+        t.run(t.segment, stack, "--json", "s.json", "--tree", "t.json", "--barcode", "b.json", "--quiet", *options)
+        for schema, name in (("ph-segment", "s"), ("ph-segment-tree", "t"), ("ph-barcode", "b")):
+            t.check(schema, (t.folder / f"{name}.json").read_text(), options)
+    t.run(t.segment, table, "--tree", "scene.tree", "--quiet")
+    t.run(t.segment, "scene.tree", "--cut", "0.05", "--json", "s.json", "--quiet")
+    assert t.check("ph-segment", (t.folder / "s.json").read_text(), "a stored tree")["options"] is None
+    (t.folder / "broken.pcd").write_text("VERSION 0.7\n")
+    t.run(t.segment, table, "broken.pcd", "--json", "frames.jsonl", "--quiet", code=65)
+    lines = (t.folder / "frames.jsonl").read_text().splitlines()
+    found = [t.check("ph-segment", line, "a stream").get("exit_code") for line in lines]
+    assert found == [None, 65], found
+
+
+def test_that_faults_are_seen(t):
+    """A schema that takes everything would be no test."""
+    good = json.loads(t.run(t.barcode, "square.csv", "--output-format", "json", "--quiet").stdout)
+    for spoil in (lambda v: v.pop("bars"), lambda v: v.update(new=1), lambda v: v["bars"][0].update(dim="0"),
+                  lambda v: v["bars"][0].update(birth="inf"), lambda v: v["bars"][0]["birth_cell"].update(row=1)):
+        bad = copy.deepcopy(good)
+        spoil(bad)
+        assert not t.checkers["ph-barcode"].is_valid(bad)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        t = Tester(Path(folder), *map(lambda path: str(Path(path).resolve()), sys.argv[1:3]))
+        test_barcodes(t)
+        test_others(t)
+        test_segmentations(t)
+        test_that_faults_are_seen(t)
+        unseen = set(t.checkers) - t.seen
+        print(f"{t.count} outputs, {t.failures} faults" + "".join(f"\n{name}: no output was held against it"
+                                                                 for name in sorted(unseen)))
+        sys.exit(1 if t.failures or unseen else 0)
+
+
+if __name__ == "__main__":
+    main()
