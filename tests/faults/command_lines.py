@@ -95,7 +95,7 @@ BARCODE = [
     (50, ["--maxdim", "2"], "did you mean '--max-dim'"),
     (50, ["--no-such-thing-at-all"], "--no-such-thing-at-all"),
     (50, ["--plot-title", "x"], "did you mean '--title'"),
-    (50, ["--plot-range", "x"], "'--plot-range'; --help lists the options"),
+    (50, ["--plot-range", "x"], "'--plot-range'; --help all lists the options"),
     (49, ["--quiet", "--verbose"], "--quiet excludes --verbose"),
     (49, ["--plot", "x.svg", "--size", "10"], "--size"),
     (49, ["--plot", "x.svg", "--axis", "2,1"], "--axis"),

@@ -28,8 +28,8 @@ def named_options(text):
 
 def options_of(program):
     """The options that the help of a program lists."""
-    return set(named_options(subprocess.run([program, "--help"], capture_output=True, text=True,
-                                            timeout=60, check=True).stdout))
+    return set(named_options(subprocess.run([program, "--help", "all"], capture_output=True,
+                                            text=True, timeout=60, check=True).stdout))
 
 
 class Runner:

@@ -11,8 +11,8 @@
 #include <string_view>
 
 #include "barcode/arguments/computation_arguments.hpp"
-#include "barcode/arguments/formats_table.hpp"
 #include "barcode/arguments/image_arguments.hpp"
+#include "barcode/arguments/manual.hpp"
 #include "barcode/arguments/option_scopes.hpp"
 #include "barcode/arguments/rips_arguments.hpp"
 #include "barcode/arguments/table_arguments.hpp"
@@ -34,7 +34,11 @@ Names format_names() {
   return names;
 }
 
-Names output_formats() { return {"csv", "json", "ripser", "pers", "dipha", "npy", "none"}; }
+Names output_formats() {
+  Names names;
+  for (const BarcodeFormatInfo& info : barcode_formats()) names.push_back(info.name);
+  return names;
+}
 
 std::string lower_case(std::string text) {
   for (char& c : text)
@@ -53,7 +57,7 @@ void take_report(Arguments& a, const std::string& path) {
 }
 
 void add_input_options(CLI::App& app, Arguments& a) {
-  const std::string group = "Input";
+  app.option_defaults()->group("input");
   app.add_option(
          "INPUT", a.inputs,
          "files to read; - is standard input. Several, or a folder, are a batch: its "
@@ -63,43 +67,36 @@ void add_input_options(CLI::App& app, Arguments& a) {
   static const Names formats = format_names();
   add_choice(app, "--format", formats,
              "format of the input (default auto: by content and extension)",
-             [&a](std::size_t i) { a.format = ph::formats()[i].format; })
-      ->group(group);
+             [&a](std::size_t i) { a.format = ph::formats()[i].format; });
   add_path(app, "--values", "FILE",
            "values of the cells of a boundary matrix (default: their order), or of the vertices of "
            "a mesh: text, NPY, or a property of a mesh, FILE.ply:NAME",
-           a.values)
-      ->group(group);
-  app.add_flag("--allow-empty", a.read.allow_empty, "an input without points is no error")
-      ->group(group);
+           a.values);
+  app.add_flag("--allow-empty", a.read.allow_empty, "an input without points is no error");
   add_choice(app, "--symmetrise", {"max", "min", "lower"},
              "take an asymmetric distance matrix, by the larger, the smaller or the lower entry",
              [&a](std::size_t i) {
                constexpr std::array kWays{Symmetrise::max, Symmetrise::min, Symmetrise::lower};
                a.read.symmetrise = kWays[i];
                a.read.array = ArrayMeaning::distances;
-             })
-      ->group(group);
+             });
   app.add_flag_callback(
-         "--from-correlation",
-         [&a] {
-           a.read.from_correlation = true;
-           a.read.array = ArrayMeaning::distances;
-         },
-         "the matrix holds correlations r; distances are 1 - r")
-      ->group(group);
+      "--from-correlation",
+      [&a] {
+        a.read.from_correlation = true;
+        a.read.array = ArrayMeaning::distances;
+      },
+      "the matrix holds correlations r; distances are 1 - r");
   add_choice(app, "--diagonal", {"zero", "births"},
              "what the diagonal of a distance matrix has: 0, whatever stands there, or when each "
              "point enters (default: 0, else an error)",
              [&a](std::size_t i) {
                a.read.diagonal = i == 0 ? Diagonal::any : Diagonal::births;
                a.read.array = ArrayMeaning::distances;
-             })
-      ->group(group);
+             });
   add_choice(app, "--nan", {"error", "drop"},
              "what NaN means: an error (default), or a point, distance or voxel that is not there",
-             [&a](std::size_t i) { a.read.nan = i == 0 ? NanPolicy::error : NanPolicy::drop; })
-      ->group(group);
+             [&a](std::size_t i) { a.read.nan = i == 0 ? NanPolicy::error : NanPolicy::drop; });
 }
 
 constexpr std::array<std::string_view, 4> kPlotKinds{"barcode", "diagram", "betti", "tree"};
@@ -113,8 +110,8 @@ void take_compared(Arguments& a, const std::vector<std::string>& paths) {
   a.compare = paths;
 }
 
-void add_output_options(CLI::App& app, Arguments& a, app::PlotArguments& plots) {
-  const std::string group = "Output";
+void add_output_options(CLI::App& app, Arguments& a) {
+  app.option_defaults()->group("output");
   add_value(
       app, "-o,--output", "FILE",
       "where the barcode goes (default -: standard output); FOLDER/ for several inputs; after the "
@@ -122,45 +119,32 @@ void add_output_options(CLI::App& app, Arguments& a, app::PlotArguments& plots) 
       [&a](const std::string& text) {
         if (text.empty()) throw Error(ErrorKind::usage, "--output: found '', expected a path");
         a.output = text;
-      })
-      ->group(group);
+      });
   static const Names names = output_formats();
   add_choice(app, "--output-format", names, "format of the barcode (default: by extension, or csv)",
-             [&a](std::size_t i) { a.output_format = barcode_format_named(names[i]); })
-      ->group(group);
-  app::add_plot_options(app, kPlotKinds, "draw the barcode, or the merge tree of H0 (repeatable)",
-                        group, plots);
-  app::add_plot_look(
-      app, {"--dims", [](const app::Plot& plot) { return plot.shows_bars(); }, "bars"}, "D,…",
-      "dimensions that plots show (default: all that there are)", group, plots,
-      [&plots](const std::string& text) {
-        for (const std::int64_t dim : app::parse_integers("--dims", text, 0, 1'000'000))
-          plots.look.dims.push_back(static_cast<int>(dim));
-      });
-  add_value(app, "--report", "FILE.html",
+             [&a](std::size_t i) { a.output_format = barcode_format_named(names[i]); });
+  add_value(app, "--report", "FILE.html|.htm",
             "one page to look at: barcode, diagram, merge tree and data, linked; needs no network",
-            [&a](const std::string& path) { take_report(a, path); })
-      ->group(group);
+            [&a](const std::string& path) { take_report(a, path); });
   app.add_option_function<std::vector<std::string>>(
          "--compare", [&a](const std::vector<std::string>& paths) { take_compared(a, paths); },
          "compute nothing but the distances of two barcode files, dimension by dimension: text, or "
          "--output-format csv or json; with --report also side by side in a page")
-      ->type_name("A B")
+      ->type_name("FILE FILE")
       ->type_size(1)
-      ->expected(1, kAnyNumber)  // take_compared() says what is wrong
-      ->group(group);
+      ->expected(1, kAnyNumber);  // take_compared() says what is wrong
 }
 
-/// What --version --verbose adds.
-std::string built_in() {
-  std::string engines, read, missing, written;
-  for (const std::string_view name : engine_names()) engines += fmt::format(" {}", name);
-  for (const FormatInfo& info : formats())
-    if (info.format != Format::automatic)
-      (info.read ? read : missing) += fmt::format(" {}", info.name);
-  for (const std::string_view name : output_formats()) written += fmt::format(" {}", name);
-  return fmt::format("engines    {}\nreads      {}\n{}writes     {} svg\n", engines, read,
-                     missing.empty() ? "" : fmt::format("not read   {}\n", missing), written);
+void add_picture_options(CLI::App& app, app::PlotArguments& plots) {
+  app::add_plot_options(app, kPlotKinds, "draw the barcode, or the merge tree of H0 (repeatable)",
+                        plots);
+  app::add_plot_look(
+      app, {"--dims", [](const app::Plot& plot) { return plot.shows_bars(); }, "bars"}, "D,…",
+      "dimensions that plots show (default: all that there are)", plots,
+      [&plots](const std::string& text) {
+        for (const std::int64_t dim : app::parse_integers("--dims", text, 0, 1'000'000))
+          plots.look.dims.push_back(static_cast<int>(dim));
+      });
 }
 
 /// `ph-barcode plot BARS… -o FILE.svg`: pictures of stored barcodes.
@@ -212,7 +196,7 @@ void check_together(Arguments& a) {
                          a.inputs.front()));
     return;
   }
-  if (a.inputs.empty()) reject("INPUT is missing; --help lists the options");
+  if (a.inputs.empty()) reject("INPUT is missing; see --help");
   for (const std::string& input : a.inputs)
     if (input.empty()) reject("INPUT: found '', expected a path");
   if (std::count(a.inputs.begin(), a.inputs.end(), "-") > 1)
@@ -269,23 +253,21 @@ bool Arguments::is_batch() const {
 
 std::optional<std::string> parse_arguments(int argc, const char* const* argv,
                                            Arguments& arguments) {
-  CLI::App app(
-      "Computes the persistent homology of points, distances, images and filtered complexes.\n"
-      "Rips values are diameters: two points join at their distance.",
-      "ph-barcode");
+  CLI::App app("", std::string(manual().program));
   app::PlotArguments plots;
+  bool list_formats = false;
   add_input_options(app, arguments);
   add_table_options(app, arguments);
+  app.add_flag("--formats", list_formats, "print the table of formats and exit");
   add_raw_options(app, arguments);
   add_complex_options(app, arguments);
   add_cubical_options(app, arguments);
   add_rips_options(app, arguments);
   add_homology_options(app, arguments);
-  add_output_options(app, arguments, plots);
-  bool list_formats = false;
-  app.add_flag("--formats", list_formats, "print the table of formats and exit")->group("Input");
+  add_output_options(app, arguments);
+  add_picture_options(app, plots);
   app::add_common_options(app, arguments.common);
-  if (auto answer = app::parse_command_line(app, arguments.common, argc, argv, built_in()))
+  if (auto answer = app::parse_command_line(app, arguments.common, argc, argv, manual()))
     return answer;
   if (list_formats) return formats_table();
   const bool is_first_of_output = take_word(arguments, plots);

@@ -74,40 +74,36 @@ void take_engine(Arguments& a, const std::string& text) {
 }  // namespace
 
 void add_complex_options(CLI::App& app, Arguments& a) {
-  const std::string group = "Complex";
+  app.option_defaults()->group("complexes");
   std::string what =
-      "what is built (default auto: rips for points and distances, cubical for images, "
+      "what is built of the input (default auto: rips for points and distances, cubical for "
+      "images, "
       "explicit for boundary matrices and simplices; points may be cubical, too: --voxel)";
   for (const OwnComplex& own : own_complexes()) what += fmt::format("; {}: {}", own.name, own.what);
   add_value(app, "--complex", fmt::format("{}", fmt::join(complex_names(), "|")), what,
-            [&a](const std::string& text) { take_complex(a, text); })
-      ->group(group);
+            [&a](const std::string& text) { take_complex(a, text); });
   add_value(app, "--threshold,--max-scale", "T",
             "largest filtration value, in units of the input (default for rips: the enclosing "
             "radius; else none)",
-            [&a](const std::string& text) { a.threshold = parse_number("--threshold", text); })
-      ->group(group);
+            [&a](const std::string& text) { a.threshold = parse_number("--threshold", text); });
   add_value(app, "--metric", "euclidean|manhattan|chebyshev|cosine|minkowski:P|hamming",
             "distance of points (default euclidean)",
-            [&a](const std::string& text) { take_metric(a, text); })
-      ->group(group);
+            [&a](const std::string& text) { take_metric(a, text); });
 }
 
 void add_homology_options(CLI::App& app, Arguments& a) {
-  const std::string group = "Homology";
+  app.option_defaults()->group("engines");
   add_value(app, "--max-dim", "D", "highest dimension reported (default: 1 for rips, else all)",
             [&a](const std::string& text) {
               a.options.max_dim =
                   static_cast<int>(parse_integer("--max-dim", text, 0, kMostDimensions));
-            })
-      ->group(group);
+            });
   add_value(app, "--min-dim", "D",
             "lowest dimension reported (default 0); of volumes 2 saves the work for loops",
             [&a](const std::string& text) {
               a.options.min_dim =
                   static_cast<int>(parse_integer("--min-dim", text, 0, kMostDimensions));
-            })
-      ->group(group);
+            });
   add_value(app, "--field,--modulus", "P", "coefficients modulo the prime P (default 2)",
             [&a](const std::string& text) {
               a.options.field = parse_integer("--field", text, 2);
@@ -115,22 +111,18 @@ void add_homology_options(CLI::App& app, Arguments& a) {
                 throw Error(ErrorKind::usage, fmt::format("--field: found '{}', expected a prime "
                                                           "below 2^31",
                                                           text));
-            })
-      ->group(group);
+            });
   add_value(app, "--engine", fmt::format("{}", fmt::join(engine_names(), "|")),
             "how it is computed (default auto; standard is the slow reference engine)",
-            [&a](const std::string& text) { take_engine(a, text); })
-      ->group(group);
+            [&a](const std::string& text) { take_engine(a, text); });
   app.add_flag("--check", a.check,
                "also run the slow reference engine and compare; a difference is printed and "
-               "exits 1")
-      ->group(group);
+               "exits 1");
   add_value(app, "--min-persistence", "X",
             "omit bars with death - birth <= X (default 0; a negative X keeps bars of length 0)",
             [&a](const std::string& text) {
               a.options.min_persistence = parse_number("--min-persistence", text);
-            })
-      ->group(group);
+            });
   add_choice(app, "--representatives", {"none", "cycles", "cocycles", "voxels"},
              "with each bar, in JSON: a cycle, or a cocycle, as cells of the input with "
              "coefficients; of images also voxels: components and hollows as sets of voxels, all "
@@ -139,17 +131,14 @@ void add_homology_options(CLI::App& app, Arguments& a) {
                constexpr std::array kKinds{Representatives::none, Representatives::cycles,
                                            Representatives::cocycles, Representatives::voxels};
                a.options.representatives = kKinds[i];
-             })
-      ->group(group);
+             });
   add_choice(app, "--loops", {"tight", "plain", "none"},
              "with each cycle of edges, in JSON: the closed walks that it consists of, of rips as "
              "short as is cheap (tight, default) or as found (plain)",
-             [&a](std::size_t i) { a.loops = static_cast<LoopChoice>(i); })
-      ->group(group);
+             [&a](std::size_t i) { a.loops = static_cast<LoopChoice>(i); });
   app.add_flag("--dry-run", a.dry_run,
                "read the input, print the estimate of cells and memory and the engine; compute "
-               "nothing")
-      ->group(group);
+               "nothing");
 }
 
 }  // namespace ph::barcode

@@ -39,22 +39,18 @@ RawLayout& raw(Arguments& a) { return a.read.raw ? *a.read.raw : a.read.raw.empl
 }  // namespace
 
 void add_cubical_options(CLI::App& app, Arguments& a) {
-  const std::string group = "Cubical";
+  app.option_defaults()->group("cubical");
   add_choice(app, "--construction", {"vertices", "cells"},
-             "voxels are vertices (default) or top cells",
-             [&a](std::size_t i) {
+             "voxels are vertices (default) or top cells", [&a](std::size_t i) {
                using Construction = CubicalOptions::Construction;
                a.cubical.construction = i == 0 ? Construction::vertices : Construction::cells;
-             })
-      ->group(group);
+             });
   app.add_flag_callback(
-         "--superlevel", [&a] { a.cubical.superlevel = true; },
-         "superlevel sets; values are those of the negated image")
-      ->group(group);
+      "--superlevel", [&a] { a.cubical.superlevel = true; },
+      "superlevel sets, the largest values first; values are those of the negated image");
   add_value(app, "--periodic", "AXES",
             "axes that close up on themselves, such as 0,2, or all (default: none)",
-            [&a](const std::string& text) { take_periodic(a, text); })
-      ->group(group);
+            [&a](const std::string& text) { take_periodic(a, text); });
   add_value(app, "--slab-layers", "N",
             "layers along the first axis that are looked at together; the bars are the same "
             "(default: all if the memory limit allows it, else as many as it does)",
@@ -62,8 +58,7 @@ void add_cubical_options(CLI::App& app, Arguments& a) {
               constexpr Index most = Index{1} << 30;
               a.common.slab_layers =
                   static_cast<int>(parse_integer("--slab-layers", text, 1, most));
-            })
-      ->group(group);
+            });
   add_value(app, "--voxel", "X",
             "of points with --complex cubical: edge of the voxels that they lie in, in their unit",
             [&a](const std::string& text) {
@@ -72,18 +67,16 @@ void add_cubical_options(CLI::App& app, Arguments& a) {
                 throw Error(
                     ErrorKind::usage,
                     fmt::format("--voxel: found '{}', expected a finite number above 0", text));
-            })
-      ->group(group);
+            });
   add_choice(
       app, "--voxel-value", {"distance", "occupancy", "density"},
       "what such a voxel is worth: the distance to the nearest voxel with a point (default); "
       "0 with a point, else it is not there; minus the number of its points",
-      [&a](std::size_t i) { a.voxel_value = static_cast<VoxelValue>(i); })
-      ->group(group);
+      [&a](std::size_t i) { a.voxel_value = static_cast<VoxelValue>(i); });
 }
 
 void add_raw_options(CLI::App& app, Arguments& a) {
-  const std::string group = "Raw images";
+  app.option_defaults()->group("raw");
   add_value(app, "--raw-shape", "N,M,…",
             "sizes of the axes, the last one fastest; the input is numbers without a header that "
             "says so (--format raw)",
@@ -91,27 +84,22 @@ void add_raw_options(CLI::App& app, Arguments& a) {
               constexpr Index most = Index{1} << 32;
               const auto extents = parse_integers("--raw-shape", text, 0, most);
               raw(a).extents.assign(extents.begin(), extents.end());
-            })
-      ->group(group);
+            });
   add_choice(app, "--raw-type",
              {"uint8", "int8", "uint16", "int16", "uint32", "int32", "uint64", "int64", "float16",
               "float32", "float64"},
-             "what they are (default uint8)",
-             [&a](std::size_t i) {
+             "what they are (default uint8)", [&a](std::size_t i) {
                constexpr std::array kTypes{"u1", "i1", "u2", "i2", "u4", "i4",
                                            "u8", "i8", "f2", "f4", "f8"};
                raw(a).type = kTypes[i];
-             })
-      ->group(group);
+             });
   app.add_flag_callback(
-         "--raw-big-endian", [&a] { raw(a).big_endian = true; },
-         "the high byte comes first (default: last)")
-      ->group(group);
+      "--raw-big-endian", [&a] { raw(a).big_endian = true; },
+      "the high byte comes first (default: last)");
   add_value(app, "--raw-skip", "BYTES", "bytes before them: a header (default 0)",
             [&a](const std::string& text) {
               raw(a).skip = static_cast<std::size_t>(parse_integer("--raw-skip", text, 0));
-            })
-      ->group(group);
+            });
 }
 
 void check_image_arguments(Arguments& a) {

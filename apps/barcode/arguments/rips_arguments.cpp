@@ -21,7 +21,7 @@ using app::parse_integer;
 using app::parse_number;
 
 void add_rips_options(CLI::App& app, Arguments& a) {
-  const std::string group = "Rips";
+  app.option_defaults()->group("rips");
   const auto number = [&](const std::string& option, const std::string& placeholder,
                           const std::string& description, bool may_be_zero, auto take) {
     add_value(app, option, placeholder, description, [=, &a](const std::string& text) {
@@ -31,7 +31,7 @@ void add_rips_options(CLI::App& app, Arguments& a) {
                     fmt::format("{}: found '{}', expected a finite number {} 0", option, text,
                                 may_be_zero ? "of at least" : "above"));
       take(value);
-    })->group(group);
+    });
   };
   add_choice(app, "--collapse", {"auto", "on", "off"},
              "collapse edges first, which leaves fewer of them and the same bars (default auto: "
@@ -39,18 +39,17 @@ void add_rips_options(CLI::App& app, Arguments& a) {
              [&a](std::size_t i) {
                constexpr std::array kWays{Collapse::automatic, Collapse::on, Collapse::off};
                a.options.collapse = kWays[i];
-             })
-      ->group(group);
+             });
   const auto limits = [&a]() -> GreedyLimits& {
     if (!a.subsample) a.subsample.emplace();
     return *a.subsample;
   };
-  add_value(
-      app, "--subsample", "N",
-      "keep N points, each the farthest from those before (default: all); with their "
-      "covering radius E, bars longer than 2 E are real and come at most 2 E late",
-      [=, &a](const std::string& text) { limits().points = parse_integer("--subsample", text, 1); })
-      ->group(group);
+  add_value(app, "--subsample", "N",
+            "keep N points, each the farthest from those before (default: all); with their "
+            "covering radius E, bars longer than 2 E are real and come at most 2 E late",
+            [=, &a](const std::string& text) {
+              limits().points = parse_integer("--subsample", text, 1);
+            });
   number("--subsample-radius", "R",
          "keep points until all are within R of one (default 0), in units of the distance", true,
          [=](double radius) { limits().radius = radius; });
@@ -61,13 +60,11 @@ void add_rips_options(CLI::App& app, Arguments& a) {
   add_path(app, "--vertex-weights", "FILE",
            "when each point enters, one number a point, in units of the distance (default: all at "
            "0)",
-           a.vertex_weights)
-      ->group(group);
+           a.vertex_weights);
   add_value(app, "--dtm", "K",
             "DTM filtration: points enter at twice their distance to the measure of their K "
             "nearest points, themselves included",
-            [&a](const std::string& text) { a.dtm = parse_integer("--dtm", text, 1); })
-      ->group(group);
+            [&a](const std::string& text) { a.dtm = parse_integer("--dtm", text, 1); });
   add_choice(app, "--weight-exponent", {"1", "2", "inf"},
              "how the ball of a point born at B has grown at T: to (T^P - B^P)^(1/P) (default inf, "
              "with --dtm 1)",
@@ -75,8 +72,7 @@ void add_rips_options(CLI::App& app, Arguments& a) {
                constexpr std::array kExponents{WeightExponent::one, WeightExponent::two,
                                                WeightExponent::infinity};
                a.weight_exponent = kExponents[i];
-             })
-      ->group(group);
+             });
 }
 
 void check_rips_arguments(Arguments& a) {

@@ -38,12 +38,11 @@ void take_columns(Arguments& a, const std::string& text) {
 }  // namespace
 
 void add_table_options(CLI::App& app, Arguments& a) {
-  const std::string group = "Input";
+  app.option_defaults()->group("input");
   add_value(app, "--columns", "LIST",
             "columns of a table that are read, by the names in its header or by numbers from 1: "
             "x,y or 2-4 or 1,3 (default: all but an index)",
-            [&a](const std::string& text) { take_columns(a, text); })
-      ->group(group);
+            [&a](const std::string& text) { take_columns(a, text); });
   add_choice(app, "--channel", {"grey", "red", "green", "blue", "alpha"},
              "what of a colour picture is read (default: its grey, if it has no colours); grey of "
              "colours is their luma, 0.299 R + 0.587 G + 0.114 B",
@@ -51,8 +50,7 @@ void add_table_options(CLI::App& app, Arguments& a) {
                constexpr std::array kChannels{Channel::grey, Channel::red, Channel::green,
                                               Channel::blue, Channel::alpha};
                a.read.channel = kChannels[i];
-             })
-      ->group(group);
+             });
 }
 
 void check_table_arguments(Arguments& a) {

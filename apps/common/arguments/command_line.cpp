@@ -11,6 +11,7 @@
 
 #include "common/arguments/choices.hpp"
 #include "common/arguments/numbers.hpp"
+#include "common/manual/help_text.hpp"
 #include "common/terminal/build_information.hpp"
 #include "common/terminal/exit_code.hpp"
 #include "ph/detail/io/output_file.hpp"
@@ -19,7 +20,6 @@ namespace ph::app {
 namespace {
 
 constexpr std::array<std::string_view, 4> kProgressModes{"auto", "bar", "json", "none"};
-constexpr std::string_view kCommon = "Common options";
 
 /// All long names of a program's options, with their dashes.
 std::vector<std::string> long_names(const CLI::App& app) {
@@ -44,7 +44,7 @@ std::vector<std::string> long_names(const CLI::App& app) {
       is_dimension && most != views.end() ? std::optional(*most) : nearest_name(dashed, views);
   throw Error(ErrorKind::usage, fmt::format("unknown option '{}'; {}", name,
                                             near ? fmt::format("did you mean '{}'?", *near)
-                                                 : "--help lists the options"));
+                                                 : "--help all lists the options"));
 }
 
 /// What CLI11 says, on one line.
@@ -69,61 +69,45 @@ std::string about_values(const CLI::App& app, const std::string& text) {
   return one_line(text);
 }
 
-/// Breaks a description into lines that fit beside the names of the options; CLI11 indents them.
-std::string wrapped(const std::string& text) {
-  constexpr std::size_t kColumns = 68;
-  std::string lines;
-  std::size_t column = 0;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find(' ', begin), text.size());
-    const std::string word = text.substr(begin, end - begin);
-    if (column > 0 && column + 1 + word.size() > kColumns) {
-      lines += '\n';
-      column = 0;
-    }
-    if (column > 0) {
-      lines += ' ';
-      ++column;
-    }
-    lines += word;
-    column += word.size();
-    begin = end + 1;
-  }
-  return lines;
+/// What says nothing of the result: how it is computed, and what is told meanwhile.
+bool is_common(const CLI::Option& option) {
+  return option.get_group() == kLimitsTopic.name || option.get_group() == kMessagesTopic.name;
 }
 
 }  // namespace
 
 void add_common_options(CLI::App& app, CommonOptions& options) {
   app.set_help_flag();  // ours comes below: it must not depend on the order of the options
-  const std::string group(kCommon);
+  app.option_defaults()->group(std::string(kLimitsTopic.name));
   add_value(app, "--threads", "N", "threads to use (default: one for each core)",
             [&options](const std::string& text) {
               options.threads = static_cast<int>(parse_integer("--threads", text, 1, 4096));
-            })
-      ->group(group);
+            });
   add_value(app, "--memory-limit", "SIZE",
             "bytes the computation may take, such as 4GiB, 500MB or 1e9 (default: 90 % of the "
             "memory of the machine)",
             [&options](const std::string& text) {
               options.memory_limit = parse_size("--memory-limit", text);
-            })
-      ->group(group);
+            });
+  app.option_defaults()->group(std::string(kMessagesTopic.name));
   add_value(app, "--progress", "auto|bar|json|none",
             "progress on stderr (default auto: a bar on a terminal, else silent)",
             [&options](const std::string& text) {
               options.progress =
                   static_cast<ProgressMode>(choose("--progress", text, kProgressModes));
-            })
-      ->group(group);
-  app.add_flag("--quiet", options.quiet, "no messages but errors")->group(group);
-  app.add_flag("--verbose", options.verbose, "say what was chosen and why")->group(group);
-  app.add_flag("--force", options.force, "write over an input, which is refused else")
-      ->group(group);
+            });
+  app.add_flag("--quiet", options.quiet, "no messages but errors");
+  app.add_flag("--verbose", options.verbose, "say what was chosen and why");
+  app.add_flag("--force", options.force, "write over an input, which is refused else");
   app.add_flag("--version", options.version,
-               "print the version and exit; with --verbose also what was built in")
-      ->group(group);
-  app.add_flag("-h,--help", options.help, "print this text and exit")->group(group);
+               "print the version and exit; with --verbose also what was built in");
+  add_value(app, "-h,--help", "[TOPIC]",
+            "print the options of a topic, or those used most, and exit; all: all of them; man, "
+            "markdown, bash, zsh, fish: a manual page, a reference page, completions for a shell",
+            [&options](const std::string& topic) { options.help = topic; })
+      ->expected(0, 1)
+      ->default_str(std::string(kUsual))
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 }
 
 CLI::Option* add_value(CLI::App& app, const std::string& names, const std::string& placeholder,
@@ -163,8 +147,7 @@ std::vector<std::string> given_options(const CLI::App& app,
                                        std::span<const std::string_view> without) {
   std::vector<std::string> words;
   for (const CLI::Option* option : app.get_options()) {
-    if (option->count() == 0 || option->get_lnames().empty() || option->get_group() == kCommon)
-      continue;
+    if (option->count() == 0 || option->get_lnames().empty() || is_common(*option)) continue;
     const std::string& name = option->get_lnames().front();
     if (std::ranges::find(without, name) != without.end()) continue;
     words.push_back("--" + name);
@@ -179,8 +162,7 @@ std::string program_and_version(const std::string& program) {
 }
 
 std::optional<std::string> parse_command_line(CLI::App& app, const CommonOptions& options, int argc,
-                                              const char* const* argv,
-                                              const std::string& built_in) {
+                                              const char* const* argv, const Manual& manual) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ExtrasError&) {
@@ -194,15 +176,12 @@ std::optional<std::string> parse_command_line(CLI::App& app, const CommonOptions
   } catch (const CLI::Error& error) {
     throw Error(ErrorKind::usage, one_line(error.what()));
   }
-  if (options.help) {
-    for (CLI::Option* option : app.get_options())
-      option->description(wrapped(option->get_description()));
-    return app.help();
-  }
+  if (options.help)
+    return help_text(described(app, manual, argc > 0 ? argv[0] : ""), *options.help);
   if (options.quiet && options.verbose) throw Error(ErrorKind::usage, "--quiet excludes --verbose");
   if (options.version) {
     return program_and_version(app.get_name()) + "\n" +
-           (options.verbose ? build_information() + built_in : "");
+           (options.verbose ? build_information() + manual.built_in() : "");
   }
   return std::nullopt;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/arguments/cli_names.hpp"
+#include "common/manual/manual.hpp"
 
 namespace ph::app {
 
@@ -22,8 +23,8 @@ struct CommonOptions {
   ProgressMode progress = ProgressMode::automatic;
   bool quiet = false;
   bool verbose = false;
-  bool force = false;  ///< an output may replace an input
-  bool help = false;
+  bool force = false;               ///< an output may replace an input
+  std::optional<std::string> help;  ///< the topic of --help
   bool version = false;
 };
 
@@ -53,12 +54,10 @@ std::vector<std::string> given_options(const CLI::App& app,
                                        std::span<const std::string_view> without);
 
 /// Parses the command line; prints nothing.
-/// @param built_in lines that --version --verbose adds: what this program in particular can do.
 /// @return the answer to --help or --version, which is all that is left to do.
 /// @throws Error (usage) that names the option and the nearest known one.
 std::optional<std::string> parse_command_line(CLI::App& app, const CommonOptions& options, int argc,
-                                              const char* const* argv,
-                                              const std::string& built_in = {});
+                                              const char* const* argv, const Manual& manual);
 
 /// Prints the answer to --help and its like. @return the exit code.
 int answer_command_line(const std::string& answer);

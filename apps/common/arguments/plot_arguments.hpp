@@ -55,13 +55,14 @@ struct PlotArguments {
   std::vector<Plot> together(std::string_view usual) const;
 };
 
-/// Registers those that all programs have. @param kinds outlives `app`, as `to` does.
+/// Registers those that all programs have, as the first ones of the topic `pictures`. @param kinds
+/// outlives `app`, as `to` does.
 void add_plot_options(CLI::App& app, std::span<const std::string_view> kinds,
-                      const std::string& description, const std::string& group, PlotArguments& to);
+                      const std::string& description, PlotArguments& to);
 
 /// Registers one more look. @param take puts the text of the option into `to.look`.
 void add_plot_look(CLI::App& app, const PlotLook& look, const std::string& placeholder,
-                   const std::string& what, const std::string& group, PlotArguments& to,
+                   const std::string& what, PlotArguments& to,
                    std::function<void(const std::string& text)> take);
 
 }  // namespace ph::app

@@ -1,7 +1,28 @@
 // SPDX-License-Identifier: MIT
 #include "common/terminal/exit_code.hpp"
 
+#include <array>
+
 namespace ph::app {
+namespace {
+
+constexpr std::array kStatuses{
+    ExitStatus{kOk, "Done"},
+    ExitStatus{kDifference, "A check found a difference; the result is written all the same"},
+    ExitStatus{kUsage, "The command line makes no sense"},
+    ExitStatus{kBadData, "The data are malformed"},
+    ExitStatus{kNoInput, "An input is missing or cannot be read"},
+    ExitStatus{kNotBuiltIn, "A feature was left out when the program was built"},
+    ExitStatus{kInternal, "A bug of the program; please report it"},
+    ExitStatus{kCannotCreate, "An output cannot be created"},
+    ExitStatus{kIo, "Reading or writing broke off"},
+    ExitStatus{kResource, "The memory limit, or another one, would be exceeded"},
+    ExitStatus{kHangup, "Stopped by a hang-up"},
+    ExitStatus{kInterrupted, "Stopped by Ctrl-C"},
+    ExitStatus{kTerminated, "Stopped by a request to terminate"},
+};
+
+}  // namespace
 
 int exit_code(ErrorKind kind) {
   switch (kind) {
@@ -26,5 +47,7 @@ int exit_code(ErrorKind kind) {
   }
   return kInternal;
 }
+
+std::span<const ExitStatus> exit_statuses() { return kStatuses; }
 
 }  // namespace ph::app

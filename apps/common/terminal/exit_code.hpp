@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <span>
+#include <string_view>
+
 #include "ph/error.hpp"
 
 namespace ph::app {
@@ -23,5 +26,13 @@ enum ExitCode : int {
 
 /// The exit code of a kind of error; a cancelled run counts as interrupted.
 int exit_code(ErrorKind kind);
+
+/// What a code means, for users: a sentence without its full stop.
+struct ExitStatus {
+  ExitCode code;
+  std::string_view what;
+};
+/// All of them, by number.
+std::span<const ExitStatus> exit_statuses();
 
 }  // namespace ph::app

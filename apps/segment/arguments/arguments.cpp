@@ -13,18 +13,13 @@
 #include "ph/error.hpp"
 #include "report/page_template.hpp"
 #include "segment/arguments/argument_groups.hpp"
+#include "segment/arguments/manual.hpp"
 #include "segment/arguments/option_scopes.hpp"
 
 namespace ph::segment {
 namespace {
 
 using app::add_value;
-
-/// What --version --verbose adds.
-constexpr std::string_view kBuiltIn =
-    "methods     {}\n"
-    "reads       pcd ply xyz csv pts npy png pgm tree\n"
-    "writes      pcd ply npy csv png json svg tree\n";
 
 std::vector<std::string_view> names_of_presets() {
   std::vector<std::string_view> names;
@@ -44,42 +39,43 @@ double depth_scale(const std::string& text) {
 }
 
 void add_input_options(CLI::App& app, Arguments& a) {
+  app.option_defaults()->group("input");
   app.add_option(
       "INPUT", a.inputs,
       "point cloud: .pcd, .ply, .npy, or text: .xyz, .csv, .pts; a stored merge tree (see --tree); "
       "with --camera or --intrinsics a depth image: .png, .pgm or .npy; - is standard input. "
       "Several, or a folder, are a stream of frames: its outputs are folders (FOLDER/) or have a * "
       "for the frame's name, and --json gets one line a frame");
-  app::add_path(app, "--frames-from", "LIST",
-                "a stream of the files that LIST names, one a line; -: standard input, each as "
-                "soon as it is named",
-                a.frames_from);
-  app.add_flag("--stable-labels", a.stable_labels,
-               "stream: an object keeps its label from frame to frame, by overlap in the image; "
-               "clouds without rows and columns are compared in cubes of 1 cm. Labels are then not "
-               "in the order of size");
-  app::add_path(app, "--depth", "D.png",
-                "depth image in place of INPUT: .png, .pgm or .npy; 0 and NaN are holes",
-                a.image.depth);
-  app::add_path(app, "--color,--colour", "C.png", "colour image of the same size", a.image.colour);
+  app::add_path(app, "--depth", "FILE.png|.pgm|.npy",
+                "depth image in place of INPUT; 0 and NaN are holes", a.image.depth);
+  app::add_path(app, "--color,--colour", "FILE.png", "colour image of the same size",
+                a.image.colour);
   CLI::Option* intrinsics = add_value(
       app, "--intrinsics", "FX,FY,CX,CY",
       "focal lengths and principal point of the depth image, pixels", [&a](const std::string& v) {
         const auto k = app::parse_numbers("--intrinsics", v, 4);
         a.image.camera = Camera{{k[0], k[1], k[2], k[3]}};
       });
-  app::add_path(app, "--camera", "FILE|NAME",
-                fmt::format("the camera of the depth image in place of --intrinsics: a camera_info "
-                            "YAML of ROS, with its lens, an intrinsic JSON of Open3D, or the "
-                            "nominal values of {}",
-                            fmt::join(names_of_presets(), ", ")),
-                a.image.calibration)
-      ->excludes(intrinsics);
+  CLI::Option* camera = app::add_path(
+      app, "--camera", fmt::format("FILE|{}", fmt::join(names_of_presets(), "|")),
+      "the camera of the depth image: a camera_info YAML of ROS, with its lens, an intrinsic JSON "
+      "of Open3D, or the nominal values of a model",
+      a.image.calibration);
+  camera->excludes(intrinsics);
   add_value(app, "--depth-scale", "S",
             "depth units a metre (default: 1000, millimetres; floats: 1, metres)",
             [&a](const std::string& v) { a.image.scale = depth_scale(v); });
   app.add_flag("--allow-empty", a.allow_empty,
                "a cloud without points is an empty result (default: an error)");
+  app.option_defaults()->group("streams");
+  app::add_path(app, "--frames-from", "FILE",
+                "a stream of the files that FILE names, one a line; -: standard input, each as "
+                "soon as it is named",
+                a.frames_from);
+  app.add_flag("--stable-labels", a.stable_labels,
+               "an object keeps its label from frame to frame, by overlap in the image; clouds "
+               "without rows and columns are compared in cubes of 1 cm. Labels are then not in the "
+               "order of size");
 }
 
 /// Whether an input is a depth image, by its name, where a camera is given.
@@ -141,8 +137,7 @@ void require_consistent(const Arguments& a) {
 }  // namespace
 
 std::optional<std::string> parse_arguments(int argc, const char* const* argv, Arguments& a) {
-  CLI::App app("Segments a point cloud or a depth image by zero-dimensional persistent homology.",
-               "ph-segment");
+  CLI::App app("", std::string(manual().program));
   add_input_options(app, a);
   add_scene_options(app, a.options);
   Known known = add_method_options(app, a.options);
@@ -150,9 +145,7 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv, Ar
   app::PlotArguments plots;
   add_output_options(app, a, plots, known);
   app::add_common_options(app, a.common);
-  if (auto answer = app::parse_command_line(app, a.common, argc, argv,
-                                            fmt::format(kBuiltIn, fmt::join(kMethodNames, " "))))
-    return answer;
+  if (auto answer = app::parse_command_line(app, a.common, argc, argv, manual())) return answer;
   if (known.supervoxels->count() > 0) {
     if (known.method->count() > 0 && a.options.method != Method::supervoxels) {
       throw Error(ErrorKind::usage,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -41,21 +42,26 @@ ViewTurn parse_turn(std::string_view option, const std::string& text) {
 
 void add_output_options(CLI::App& app, Arguments& a, app::PlotArguments& plots, Known& known) {
   for (const OutputOption& of : output_options()) {
+    const bool is_picture = of.kind == OutputKind::picture || of.kind == OutputKind::plot;
+    app.option_defaults()->group(is_picture ? "pictures" : "output");
     const std::string help(of.help);
     if (of.path)
-      app::add_path(app, std::string(of.names), std::string(of.placeholder), help,
-                    a.files.*of.path);
+      app::add_path(app, std::string(of.names),
+                    fmt::format("FILE{}", fmt::join(of.extensions, "|")), help, a.files.*of.path);
     else
-      app::add_plot_options(app, kPlotKinds, help, "Options", plots);
+      app::add_plot_options(app, kPlotKinds, help, plots);
   }
+  app.option_defaults()->group("output");
   app.add_flag("--signatures", a.signatures,
                "JSON: H0, H1 and H2 of the shape of each segment (a handle is a loop, a hollow a "
                "bar in dimension 2), in metres");
+  app.option_defaults()->group("pictures");
   known.plot_view = app::add_value(
       app, "--plot-view", "RIGHT,UP",
       "where a plot of the cloud is seen from: by how much the eye goes around the segments "
       "from the viewpoint, degrees (default: 0,0)",
       [&a](const std::string& v) { a.plot_view = parse_turn("--plot-view", v); });
+  app.option_defaults()->group("cuts");
   app::add_value(app, "--explain", "A,B",
                  "print where, and at which value of the filtration, the segments A and B join, in "
                  "place of the table",

@@ -21,7 +21,6 @@ constexpr std::array kOutputs{
                  .option = "--output",
                  .path = &OutputPaths::output,
                  .names = "-o,--output",
-                 .placeholder = "FILE.pcd|.ply",
                  .help = "the same points in the same order with all their fields and `label` (an "
                          "existing `label` becomes `label_in`)",
                  .extensions = kClouds,
@@ -31,7 +30,6 @@ constexpr std::array kOutputs{
                  .option = "--labels",
                  .path = &OutputPaths::labels,
                  .names = "--labels",
-                 .placeholder = "FILE.npy|.csv|.png",
                  .help = "one label a point: 0 no segment, 1…k by decreasing number of points "
                          "(csv: one a line; png: 16 bits, organised clouds)",
                  .extensions = kLabels,
@@ -40,7 +38,6 @@ constexpr std::array kOutputs{
                  .option = "--json",
                  .path = &OutputPaths::json,
                  .names = "--json",
-                 .placeholder = "FILE",
                  .help = "summary: stages, complex, plane, segments",
                  .extensions = {},
                  .shows_labels = true},
@@ -48,7 +45,6 @@ constexpr std::array kOutputs{
                  .option = "--tree",
                  .path = &OutputPaths::tree,
                  .names = "--tree",
-                 .placeholder = "FILE.tree|.json",
                  .help = "the merge tree and what other cuts need: .tree is an INPUT for --cut and "
                          "--explain, .json is for other programs",
                  .extensions = kTrees},
@@ -56,14 +52,12 @@ constexpr std::array kOutputs{
                  .option = "--barcode",
                  .path = &OutputPaths::barcode,
                  .names = "--barcode",
-                 .placeholder = "FILE",
-                 .help = "barcode of H0: .csv, .json, .txt, .pers, .dipha, .npy",
+                 .help = "barcode of H0",
                  .extensions = kBarcodes},
     OutputOption{.kind = OutputKind::plot,
                  .option = "--plot",
                  .path = nullptr,
                  .names = "--plot",
-                 .placeholder = "FILE.svg|.png",
                  .help = "figure of the barcode, of the merge tree, or of the cloud with a colour "
                          "a segment (repeatable)",
                  .extensions = kFigures},
@@ -71,7 +65,6 @@ constexpr std::array kOutputs{
                  .option = "--coloured",
                  .path = &OutputPaths::coloured,
                  .names = "--coloured,--colored",
-                 .placeholder = "FILE.pcd|.ply",
                  .help = "the points with a colour a segment, safe for the colour-blind, and the "
                          "rest in grey",
                  .extensions = kClouds,
@@ -81,7 +74,6 @@ constexpr std::array kOutputs{
                  .option = "--picture",
                  .path = &OutputPaths::picture,
                  .names = "--picture",
-                 .placeholder = "FILE.png",
                  .help = "the image with its segments coloured (organised clouds)",
                  .extensions = kPictures,
                  .shows_labels = true,
@@ -90,7 +82,6 @@ constexpr std::array kOutputs{
                  .option = "--report",
                  .path = &OutputPaths::report,
                  .names = "--report",
-                 .placeholder = "FILE.html",
                  .help = "one page to look at: cloud, segments, merge tree and barcode, linked, "
                          "with a slider that cuts anew; needs no network",
                  .extensions = kPages,

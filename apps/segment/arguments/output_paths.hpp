@@ -19,9 +19,9 @@ struct OutputPaths;
 /// An option that asks for a file.
 struct OutputOption {
   OutputKind kind;
-  std::string_view option;                    ///< "--output"
-  std::string OutputPaths::*path;             ///< null: --plot, which may ask for several
-  std::string_view names, placeholder, help;  ///< of the command line
+  std::string_view option;         ///< "--output"
+  std::string OutputPaths::*path;  ///< null: --plot, which may ask for several
+  std::string_view names, help;    ///< of the command line
   /// What its name may end in; a file in a folder of results ends in the first. Empty: in anything.
   std::span<const std::string_view> extensions;
   bool shows_labels = false, shows_colours = false;  ///< labels of segments, colours of points

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include <array>
@@ -78,6 +79,7 @@ double length(std::string_view option, const std::string& text, bool zero) {
 }
 
 void add_scene_options(CLI::App& app, SegmentOptions& o) {
+  app.option_defaults()->group("scenes");
   const SegmentOptions d;
   add_value(app, "--max-range", "M",
             fmt::format("keep points up to M metres from the viewpoint; inf: all (default: {})",
@@ -109,13 +111,14 @@ void add_scene_options(CLI::App& app, SegmentOptions& o) {
 }
 
 Known add_method_options(CLI::App& app, SegmentOptions& o) {
+  app.option_defaults()->group("methods");
   const SegmentOptions d;
   Known known;
-  known.method = add_value(
-      app, "--method", "NAME",
-      "surface: by the shape of the visible surface (default); paper: by distance alone, the "
-      "pipeline of the ICRA 2016 paper; supervoxels: see --supervoxels",
-      [&o](const std::string& v) { o.method = parse_method(v); });
+  known.method = add_value(app, "--method", fmt::format("{}", fmt::join(kMethodNames, "|")),
+                           "what joins points (default surface: the shape of the visible surface; "
+                           "paper: distance alone, "
+                           "the pipeline of the ICRA 2016 paper; supervoxels: see --supervoxels)",
+                           [&o](const std::string& v) { o.method = parse_method(v); });
   known.supervoxels = add_value(
       app, "--supervoxels", "M",
       fmt::format("method supervoxels, with seeds so far apart that the surface is nowhere more "
@@ -126,6 +129,7 @@ Known add_method_options(CLI::App& app, SegmentOptions& o) {
             fmt::format("edge of a voxel, metres (default: {})",
                         defaults_of(&SegmentOptions::voxel_size)),
             [&o](const std::string& v) { o.voxel = length("--voxel", v); });
+  app.option_defaults()->group("cuts");
   known.min_persistence = add_value(
       app, "--min-persistence", "X",
       fmt::format("least persistence of a part; one of less joins the neighbour that it meets "
@@ -133,6 +137,7 @@ Known add_method_options(CLI::App& app, SegmentOptions& o) {
                   "(default: {})",
                   d.cut().value, SegmentOptions{.method = Method::supervoxels}.cut().value),
       [&o](const std::string& v) { o.min_persistence = at_least_zero("--min-persistence", v); });
+  app.option_defaults()->group("methods");
   add_value(
       app, "--distance", "M",
       fmt::format("paper: maximum distance of the Vietoris-Rips complex, metres (default: {})",
@@ -151,6 +156,7 @@ Known add_method_options(CLI::App& app, SegmentOptions& o) {
 }
 
 void add_cut_options(CLI::App& app, CutArguments& cut, const Known& known) {
+  app.option_defaults()->group("cuts");
   const CutOptions d, supervoxels = SegmentOptions{.method = Method::supervoxels}.cut();
   add_value(app, "--cut", "X",
             "cut the merge tree here: the same as --min-persistence; paper: segments are "

@@ -390,7 +390,7 @@ class Version(ProgramTest):
             for word in ("compiler", "build type", "assertions", "Eigen", "fmt", "CLI11", "libpng",
                          "PNG plots", "zlib", "PCL", "CGAL", "engines", "reads", "writes"):
                 self.assertRegex(text, rf"(?m)^{word} +\S")
-        text = self.expect(0, "--help").stdout
+        text = self.expect(0, "--help", "all").stdout
         for option in ("--max-dim", "--threshold", "--max-scale", "--memory-limit", "default"):
             self.assertIn(option, text)
 

@@ -9,10 +9,10 @@ input. It runs the program with and without the option; the option
 
 Anything else is an option that was ignored without a word: SILENT, and the test fails. So is one
 whose input is then bad data without a word of what the option changed, and one that the program
-fails to obey. Of an option with choices (--help lists them as a|b|c) each choice is tried: it is
+fails to obey. Of an option with choices (the help lists them as a|b|c) each choice is tried: it is
 refused by name, or its result is that of no other choice.
 
-The options are those that --help lists: one that has no row here fails, too. The table is written
+The options are those that --help all lists: one that has no row here fails, too. The table is written
 to TABLE.csv. OPTION...: only these."""
 import collections
 import concurrent.futures
@@ -25,8 +25,10 @@ import sys
 import tempfile
 import threading
 
-import option_inputs_barcode
-import option_inputs_segment
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "manual"))
+import described  # noqa: E402
+import option_inputs_barcode  # noqa: E402
+import option_inputs_segment  # noqa: E402
 
 CHANGES, OBEYED, REFUSED, SAID, SILENT = "changes", "obeyed", "refused", "said", "SILENT"
 VOLATILE = ("timings", "peak_memory", "stages", "table", "seconds")
@@ -47,7 +49,7 @@ class Row:
     default: other arguments, where the option says what holds anyway: they change the result.
     unfit: what a message says where the option makes of the input what it, or another option, does
     not fit (64, 65); its name will always do.
-    choices: those that are tried, each with another result; by default those of --help.
+    choices: those that are tried, each with another result; by default those of the help.
     alike: choices that have the result of another one."""
 
     def __init__(self, *arguments, variant="plain", beside=(), sign=None, lost=None, default=(),
@@ -72,15 +74,12 @@ class Input:
 
 
 def options_of(program):
-    """All options of --help, each by its first long name, and the choices it lists."""
-    text = subprocess.run([program, "--help"], capture_output=True, text=True, check=True).stdout
+    """All options of the help, each by its first long name, and the choices it lists."""
     found = {}
-    for line in text.splitlines():
-        if match := re.match(r"  (-[^ ]+) ?(\S*)", line):
-            name = next(name for name in match[1].split(",") if name.startswith("--"))
-            choices = match[2].replace("minkowski:P", "minkowski:3").split("|")
-            is_list = len(choices) > 1 and all(re.fullmatch("[a-z0-9:_-]+", c) for c in choices)
-            found[name] = [c for c in choices if c != "auto"] if is_list else []
+    for name, option in described.options_of(program).items():
+        choices = option.value.replace("minkowski:P", "minkowski:3").split("|")
+        is_list = len(choices) > 1 and all(re.fullmatch("[a-z0-9:_-]+", c) for c in choices)
+        found[name] = [c for c in choices if c != "auto"] if is_list else []
     return found
 
 

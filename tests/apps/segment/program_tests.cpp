@@ -195,7 +195,7 @@ TEST_F(Program, InputErrors) {
 }
 
 TEST_F(Program, HelpAndVersion) {
-  EXPECT_EQ(run("--help"), 0);
+  EXPECT_EQ(run("--help all"), 0);
   for (const char* option :
        {"--method",      "--max-range", "--crop",      "--plane",           "--plane-distance",
         "--plane-noise", "--voxel",     "--min-part",  "--min-persistence", "--distance",

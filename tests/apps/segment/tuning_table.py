@@ -38,7 +38,7 @@ def summary(folder, method):
 
 
 def main():
-    text = subprocess.run([PROGRAM, "--help"], capture_output=True, check=True, text=True).stdout
+    text = subprocess.run([PROGRAM, "--help", "all"], capture_output=True, check=True, text=True).stdout
     known = set(re.findall(r"^  (--[a-z-]+)", text, re.MULTILINE))
     table = dict(rows())
     faults = [f"{option}: not an option" for option in table if option not in known]
@@ -61,7 +61,7 @@ def main():
     voxel = re.search(r"edge of a voxel, metres\s+\(default:\s+([\d.]+),\s+paper:\s+([\d.]+)\)", text)
     stated = tuple(table["--voxel"][method] for method in METHODS)
     if not voxel or stated != (voxel[1], voxel[2], voxel[1]):
-        faults.append(f"--voxel: {stated} in the table, {voxel and voxel.groups()} in --help")
+        faults.append(f"--voxel: {stated} in the table, {voxel and voxel.groups()} in the help")
     print("\n".join([*faults, f"{checked} defaults compared, {len(faults)} faults"]))
     return 1 if faults or checked < 21 else 0
 

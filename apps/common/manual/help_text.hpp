@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/manual/option_text.hpp"
+
+namespace ph::app {
+
+/// The topic of --help without one.
+inline constexpr std::string_view kUsual = "usual";
+
+/// All that --help takes: the topics of the program, `all`, and what other programs read: `man`,
+/// `markdown`, and the shells.
+std::vector<std::string_view> help_topics(const Manual& manual);
+
+/// The answer to `--help TOPIC`. @throws Error (usage) on an unknown topic, with the list.
+std::string help_text(const Described& program, std::string_view topic);
+
+}  // namespace ph::app
