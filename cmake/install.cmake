@@ -25,7 +25,8 @@ if(TARGET ph_pcl)
   install(DIRECTORY libsegment/pcl/include/ph DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endif()
 if(PH_BUILD_APPS)
-  install(TARGETS ph-barcode ph-segment RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS ph-barcode ph-segment RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
+          COMPONENT programs)
 endif()
 install(FILES LICENSE README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 

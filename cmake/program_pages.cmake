@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: MIT
+# What the programs say of themselves (--help man, and so on), as files: manual pages, completions, and
+# a reference page for a site of documentation, ${PROJECT_BINARY_DIR}/pages/options-PROGRAM.md.
+#
+# The programs print them, so they have to run here. Where they do not, PH_HOST_PROGRAMS names a folder
+# with programs of the same version that do; CMAKE_CROSSCOMPILING_EMULATOR is used if it is set.
+include(GNUInstallDirs)
+set(PH_HOST_PROGRAMS "" CACHE PATH
+    "When cross-building: a folder with ph-barcode and ph-segment that run here, to print their pages")
+# Where zsh looks depends on who installed it: Debian's has a folder for what packages bring.
+if(CMAKE_INSTALL_PREFIX STREQUAL "/usr" AND EXISTS /etc/debian_version)
+  set(zsh_folder ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+else()
+  set(zsh_folder ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+endif()
+set(PH_INSTALL_ZSHDIR ${zsh_folder} CACHE PATH "Folder of completions for zsh, below the prefix")
+mark_as_advanced(PH_HOST_PROGRAMS PH_INSTALL_ZSHDIR)
+
+# ph_program_pages(PROGRAM): its pages are built and installed with it.
+function(ph_program_pages program)
+  set(printer ${program})
+  if(PH_HOST_PROGRAMS)
+    set(printer ${PH_HOST_PROGRAMS}/${program})
+  elseif(CMAKE_CROSSCOMPILING AND NOT CMAKE_CROSSCOMPILING_EMULATOR)
+    message(STATUS "${program}: no manual page and no completions: it does not run here, and "
+                   "PH_HOST_PROGRAMS names none that does")
+    return()
+  endif()
+  set(folder ${PROJECT_BINARY_DIR}/pages)
+  file(MAKE_DIRECTORY ${folder})
+  set(pages "")
+  # A file has the name under which it is looked for.
+  foreach(page man=${program}.1 markdown=options-${program}.md bash=${program} zsh=_${program}
+               fish=${program}.fish)
+    string(REGEX MATCH "^([a-z]+)=(.*)$" page ${page})
+    set(${CMAKE_MATCH_1} ${folder}/${CMAKE_MATCH_2})
+    list(APPEND pages ${folder}/${CMAKE_MATCH_2})
+    add_custom_command(OUTPUT ${folder}/${CMAKE_MATCH_2}
+                       COMMAND ${printer} --help ${CMAKE_MATCH_1} > ${folder}/${CMAKE_MATCH_2}
+                       DEPENDS ${printer} VERBATIM)
+  endforeach()
+  add_custom_target(${program}-pages ALL DEPENDS ${pages})
+  if(PH_INSTALL)
+    install(FILES ${man} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT programs)
+    install(FILES ${bash} COMPONENT programs
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+    install(FILES ${zsh} DESTINATION ${PH_INSTALL_ZSHDIR} COMPONENT programs)
+    install(FILES ${fish} DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
+            COMPONENT programs)
+  endif()
+endfunction()
