@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: MIT
+"""Shells at a terminal, to see what they complete."""
+import os
+import pty
+import re
+import select
+import signal
+import subprocess
+import struct
+import termios
+import time
+import fcntl
+
+PATIENCE = 30  # seconds
+TAB, KILL_LINE, ENTER = b"\t", b"\x15", b"\r"
+
+
+class Terminal:
+    """A shell that believes that somebody types."""
+
+    def __init__(self, command, folder, environment):
+        self.pid, self.descriptor = pty.fork()
+        if self.pid == 0:
+            os.chdir(folder)
+            os.execvpe(command[0], command, environment)
+        fcntl.ioctl(self.descriptor, termios.TIOCSWINSZ, struct.pack("HHHH", 200, 400, 0, 0))
+        self.asked = 0
+
+    def close(self):
+        os.close(self.descriptor)
+        os.kill(self.pid, signal.SIGKILL)
+        os.waitpid(self.pid, 0)
+
+    def type(self, keys):
+        os.write(self.descriptor, keys)
+
+    def read_until(self, pattern):
+        """All that is shown up to a pattern."""
+        shown, end = b"", time.monotonic() + PATIENCE
+        while not re.search(pattern, shown):
+            if not select.select([self.descriptor], [], [], max(0, end - time.monotonic()))[0]:
+                raise TimeoutError(f"no {pattern!r} in {shown.decode(errors='replace')!r}")
+            shown += os.read(self.descriptor, 65536)
+        return shown
+
+    def run(self, line):
+        """Waits until it is done. What is typed differs from what is shown: the answer is seen, not
+        the question."""
+        self.asked += 1
+        self.type(line.encode() + b"; echo an''swer" + str(self.asked).encode() + ENTER)
+        return self.read_until(b"answer%d\r?\n" % self.asked)
+
+    def complete(self, line, seconds):
+        """What is shown for a TAB behind a line: candidates, or the line as it is completed.
+        @param seconds that the shell has for it: it shows nothing once the next key is there."""
+        self.type(line.encode() + TAB)
+        time.sleep(seconds)
+        self.type(KILL_LINE)
+        shown = self.run(" true").decode(errors="replace")
+        return re.sub(r"\x1b\[[0-9;?]*[a-zA-Z]|\x1b[=>]|[\0\x07\r]", "", shown)
+
+
+def environment(folder):
+    return {"PATH": os.environ["PATH"], "HOME": folder, "TERM": "vt100", "LC_ALL": "C.UTF-8",
+            "PS1": "> ", "INPUTRC": "/dev/null", "ZDOTDIR": folder}
+
+
+class Bash(Terminal):
+    def __init__(self, folder, script):
+        super().__init__(["bash", "--norc", "--noprofile", "-i"], folder, environment(folder))
+        for setting in ("show-all-if-ambiguous on", "completion-query-items 0", "bell-style none",
+                        "page-completions off", "enable-bracketed-paste off"):
+            self.run(f"bind 'set {setting}'")
+        self.run(f"source {script}")
+
+
+class Zsh(Terminal):
+    """Finds the script as an installation has it: by a name in a folder."""
+
+    def __init__(self, folder, script):
+        super().__init__(["zsh", "-f", "-i"], folder, environment(folder))
+        self.run("unsetopt beep list_ambiguous; setopt no_always_last_prompt; bindkey -e")
+        self.run("LISTMAX=100000; unset zle_bracketed_paste")
+        self.run(f"fpath=({os.path.dirname(script)} $fpath); autoload -U compinit; "
+                 f"compinit -u -d {folder}/dump")
+
+
+class Fish:
+    """Says by itself what it would complete."""
+
+    def __init__(self, folder, script):
+        self.folder, self.script = folder, script
+
+    def close(self):
+        pass
+
+    def complete(self, line, _seconds):
+        return subprocess.run(["fish", "--no-config", "-c",
+                               f"source {self.script}; complete -C '{line}'"], cwd=self.folder,
+                              env={**environment(self.folder), "XDG_DATA_HOME": self.folder},
+                              capture_output=True, text=True, timeout=PATIENCE, check=True).stdout
