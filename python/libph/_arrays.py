@@ -15,6 +15,7 @@ from numpy.typing import DTypeLike, NDArray
 from . import _core
 from ._errors import DataError, MemoryLimitError, UsageError
 
+_MASKED: Any = np.ma  # its functions have no types in NumPy 1
 _LARGEST = 2**53  # all whole numbers up to it are doubles
 _LARGE = 2**24  # bytes
 _WORDS = {"c": "complex numbers, expected real ones; take .real or abs()",
@@ -107,13 +108,14 @@ def _ragged(data: Any) -> str:
     return ""
 
 
-def _without_mask(data: np.ma.MaskedArray, name: str) -> NDArray[Any]:
+def _without_mask(data: Any, name: str) -> NDArray[Any]:
     """Masked numbers become NaN."""
-    if not np.ma.is_masked(data):
-        return np.ma.getdata(data)
+    numbers: NDArray[Any] = _MASKED.getdata(data)
+    if not _MASKED.is_masked(data):
+        return numbers
     if data.dtype.kind not in "biuf":
         raise DataError(f"{name}: found masked entries of type {data.dtype}, expected numbers")
-    return as_float64(np.ma.getdata(data), name, np.ma.getmaskarray(data))
+    return as_float64(numbers, name, _MASKED.getmaskarray(data))
 
 
 def _numbers_of_objects(array: NDArray[Any], name: str) -> NDArray[np.float64]:

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 _BAR = np.dtype({"names": ["dim", "birth", "death"], "formats": ["i4", "f8", "f8"],
                  "offsets": [0, 8, 16], "itemsize": 24})
 _STATE_VERSION = 1
+_Arrays = tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]
 
 
 class Bar(NamedTuple):
@@ -99,6 +100,8 @@ class Barcode(Summaries, Sequence[Bar]):
 
     __slots__ = ("_bars", "_values", "meta", "__weakref__")
 
+    _bars: _core.Bars
+    _values: _Arrays | None  # once they were asked for
     meta: Mapping[str, Any]
 
     def __init__(self) -> None:
@@ -174,10 +177,10 @@ class Barcode(Summaries, Sequence[Bar]):
 
     @property
     def _records(self) -> NDArray[Any]:
-        return np.frombuffer(self._bars, _BAR) if len(self._bars) else np.empty(0, _BAR)
+        return np.asarray(self._bars).view(_BAR)
 
     @property
-    def _arrays(self) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
+    def _arrays(self) -> _Arrays:
         if self._values is None:
             records = self._records
             arrays = (records["dim"].astype(np.int64), records["birth"].copy(),
@@ -210,7 +213,7 @@ class Barcode(Summaries, Sequence[Bar]):
     @property
     def _top_dim(self) -> int:
         """The highest dimension that was asked for, or of which there is a bar."""
-        known = self.meta.get("max_dim", -1)
+        known: int = self.meta.get("max_dim", -1)
         return max(known, int(self.dims[-1])) if len(self) else known
 
     def dgm(self, dim: int) -> NDArray[np.float64]:
@@ -358,7 +361,7 @@ class Barcode(Summaries, Sequence[Bar]):
                              self.meta)
 
     @overload
-    def longest(self, dim: int) -> int: ...
+    def longest(self, dim: int, n: None = None) -> int: ...
     @overload
     def longest(self, dim: int, n: int) -> NDArray[np.int64]: ...
 
@@ -372,7 +375,8 @@ class Barcode(Summaries, Sequence[Bar]):
         lengths = np.where(deaths == births, 0, deaths - births)
         order = np.argsort(-lengths, kind="stable") + places.start
         if n is not None:
-            return order[:_options.whole("n", n, 0)]
+            chosen: NDArray[np.int64] = order[:_options.whole("n", n, 0)]
+            return chosen
         if not len(order):
             raise UsageError(f"longest: found no bar of dimension {dim}")
         return int(order[0])

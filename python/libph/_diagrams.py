@@ -2,10 +2,10 @@
 """Distances of barcodes."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _core, _options, _run
 from ._barcode import Barcode
@@ -15,6 +15,15 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from ._run import RunOptions
+
+
+@overload
+def bottleneck(  # type: ignore[misc]  # a Barcode is array_like, too: the first that fits counts
+        a: Barcode, b: Barcode, dim: None = None, **run: Unpack[RunOptions]
+        ) -> dict[int, float]: ...
+@overload
+def bottleneck(a: ArrayLike, b: ArrayLike, dim: int | None = None, **run: Unpack[RunOptions]
+               ) -> float: ...
 
 
 def bottleneck(a: Any, b: Any, dim: int | None = None, **run: Unpack[RunOptions]

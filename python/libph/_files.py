@@ -175,11 +175,12 @@ def _answer(found: dict[str, Any]) -> Any:
         size = found["size"]
         return coo_array((np.asarray(found["values"]),
                           (np.asarray(found["i"]), np.asarray(found["j"]))), shape=(size, size))
-    values = None if found["values"] is None else np.asarray(found["values"])
     offsets = np.asarray(found["offsets"])
     if kind == "simplices":
         vertices = np.asarray(found["vertices"]).tolist()
-        return Simplices([tuple(vertices[a:b]) for a, b in zip(offsets[:-1], offsets[1:])], values)
+        return Simplices([tuple(vertices[a:b]) for a, b in zip(offsets[:-1], offsets[1:])],
+                         np.asarray(found["values"]))
+    values = None if found["values"] is None else np.asarray(found["values"])
     if kind == "boundary":
         from scipy.sparse import csc_array
         cells = len(offsets) - 1

@@ -36,6 +36,9 @@ class Report:
 
     __slots__ = ("_page", "title")
 
+    _page: bytes
+    title: str
+
     def __init__(self) -> None:
         raise TypeError("a Report is made by ph.report, Barcode.report and Segmentation.report")
 

@@ -6,7 +6,7 @@ import functools
 import math
 import re
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,7 @@ from ._sources import Source, source_of
 _MOST_DIMENSIONS = 1_000_000  # beyond any simplex that fits a memory
 _EXPONENTS = {1: "one", 2: "two", math.inf: "infinity"}
 _NUMBERS = {name: number for number, name in _EXPONENTS.items()}
+_Result = TypeVar("_Result")
 
 
 class PointImage(NamedTuple):
@@ -48,7 +49,7 @@ class Request(NamedTuple):
     meta: dict[str, Any]
     slab_layers: int = 0
 
-    def run(self, function: Callable[..., Any]) -> Any:
+    def run(self, function: Callable[..., _Result]) -> _Result:
         """Calls a function of _core; what it finds is said in terms of the keywords."""
         arguments = (self.recipe,) if self.task is None else (self.recipe, self.task)
         try:

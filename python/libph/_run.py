@@ -6,13 +6,14 @@ import atexit
 import contextlib
 import inspect
 import os
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextvars import ContextVar
-from typing import Any, Protocol, TypedDict, Union
+from typing import Any, Protocol, TypedDict, TypeVar, Union
 
 from . import _core, _hints, _options
 
 Progress = Union[bool, Callable[[str, int, int], object]]
+_Result = TypeVar("_Result")
 
 
 class Stop(Protocol):
@@ -71,8 +72,8 @@ def limits(*, memory: int | str | None = None, threads: int | None = None,
         _DEFAULTS.reset(token)
 
 
-def run(function: Callable[..., Any], *arguments: Any, options: dict[str, Any],
-        slab_layers: int = 0) -> Any:
+def run(function: Callable[..., _Result], *arguments: Any, options: dict[str, Any],
+        slab_layers: int = 0) -> _Result:
     """Calls a function of _core that takes RunOptions last.
 
     `options` are the keywords that the user gave.
@@ -87,7 +88,7 @@ def run(function: Callable[..., Any], *arguments: Any, options: dict[str, Any],
             given.get("stop"), slab_layers))
 
 
-def check_names(function: str, options: dict[str, Any],
+def check_names(function: str, options: Mapping[str, object],
                 known: Iterable[str] | Callable[..., Any] = ()) -> None:
     """As Python does for keywords that are written out, with a hint.
 
@@ -131,7 +132,8 @@ def _reporter(progress: Progress) -> Iterator[Callable[[str, int, int], object] 
     if not progress or tqdm is None:
         yield None
         return
-    bar = shown = None
+    bar: Any = None
+    shown: str | None = None
 
     def report(stage: str, done: int, total: int) -> None:
         nonlocal bar, shown

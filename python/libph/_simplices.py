@@ -18,7 +18,7 @@ class SimplexList(NamedTuple):
     vertices: NDArray[np.int64]
     offsets: NDArray[np.int64]
 
-    def __len__(self) -> int:  # type: ignore[override]
+    def __len__(self) -> int:
         return len(self.offsets) - 1
 
 

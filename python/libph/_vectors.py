@@ -67,7 +67,8 @@ def settled(dgm: Diagram, infinity: Infinity, name: str) -> Diagram:
         raise UsageError(f"{name}: row {int(np.argmax(endless))}: found a bar that never dies; "
                          "infinity='drop' leaves such bars out, infinity=NUMBER is their death")
     if infinity == "drop":
-        return dgm[~endless]
+        kept: Diagram = dgm[~endless]
+        return kept
     latest = float(dgm[endless, 0].max())
     if isinstance(infinity, str) or latest > infinity:
         raise UsageError(f"infinity: found {infinity}, expected at least {latest}, the birth of a "

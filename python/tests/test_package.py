@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The package as such: what it exports, stubs, wheels."""
-import ast
+"""The package as such: what it exports, wheels."""
 import os
 import re
 import shutil
@@ -13,7 +12,6 @@ from pathlib import Path
 import pytest
 
 import libph as ph
-from libph import _core
 
 SOURCE = Path(os.environ.get("PH_SOURCE_DIR", Path(__file__).parents[2]))
 
@@ -37,46 +35,6 @@ def test_sources_that_are_not_compiled(tmp_path):
     done = subprocess.run([sys.executable, "-c", "import libph"], capture_output=True, text=True,
                           env={**os.environ, "PYTHONPATH": str(tmp_path)}, cwd=tmp_path)
     assert re.search(r"ImportError: libph: .* has no _core, .* for Python 3.*pip install", done.stderr)
-
-
-# ---- the stubs of _core
-
-
-def arguments_of(function):
-    arguments = function.args.args + function.args.kwonlyargs
-    return [a.arg for a in arguments if a.arg not in ("self", "cls")]
-
-
-def signature_of(thing):
-    """As pybind11 writes it into the docstring."""
-    text = re.search(r"\((.*?)\) ->", thing.__doc__.split("\n")[0])[1]
-    return [name for name in re.findall(r"(\w+): ", text) if name != "self"]
-
-
-def test_stubs_name_all_that_there_is():
-    tree = ast.parse((SOURCE / "python/libph/_core.pyi").read_text())
-    functions = {n.name: n for n in tree.body if isinstance(n, ast.FunctionDef)}
-    classes = {n.name: n for n in tree.body if isinstance(n, ast.ClassDef)}
-    there = {name for name in dir(_core) if not name.startswith("__")}
-    assert there == {*functions, *classes, "version"}
-    for name, function in functions.items():
-        named = [a for a in signature_of(getattr(_core, name)) if a != "arg0"]
-        assert named in (arguments_of(function), []), name
-    for name, node in classes.items():
-        kind = getattr(_core, name)
-        stated = {m.name for m in node.body if isinstance(m, ast.FunctionDef)} | {
-            target.id for m in node.body if isinstance(m, ast.Assign) for target in m.targets}
-        found = {m for m in vars(kind) if not m.startswith("_")}
-        if hasattr(kind, "__members__"):
-            found = set(kind.__members__)
-        assert {m for m in stated if not m.startswith("__")} == found, name
-        for member in node.body:
-            is_property = isinstance(member, ast.FunctionDef) and any(
-                getattr(d, "id", "") == "property" for d in member.decorator_list)
-            if not isinstance(member, ast.FunctionDef) or is_property or member.name == "__len__":
-                continue
-            assert signature_of(getattr(kind, member.name)) in (
-                arguments_of(member), []), f"{name}.{member.name}"
 
 
 # ---- wheels

@@ -75,7 +75,8 @@ def _intrinsics(given: Any) -> list[float]:
     numbers = _arrays.as_float64(_arrays.as_array(given, "intrinsics"), "intrinsics")
     if numbers.shape == (3, 3):
         fx, fy, cx, cy = (float(numbers[place]) for place in ((0, 0), (1, 1), (0, 2), (1, 2)))
-        if not np.array_equal(numbers, [[fx, 0, cx], [0, fy, cy], [0, 0, 1]]):
+        matrix = np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1]])
+        if not np.array_equal(numbers, matrix):
             raise _options.refuse("intrinsics", given, expected)
         return [fx, fy, cx, cy]
     if numbers.shape != (4,) or not np.isfinite(numbers).all():
@@ -131,4 +132,5 @@ def _colours(data: Any, shape: tuple[int, ...]) -> NDArray[np.uint8]:
         index = [int(i) for i in np.unravel_index(int(np.argmax(wrong)), array.shape)]
         raise DataError(f"colours: {_arrays.place_of(index)}: found {array[tuple(index)]}, expected "
                         f"0 to {most} of type {array.dtype}")
-    return np.floor(array * 255 + 0.5).astype(np.uint8) if is_share else array.astype(np.uint8)
+    bytes_of = np.floor(array * 255 + 0.5) if is_share else array
+    return np.asarray(bytes_of, dtype=np.uint8)

@@ -73,6 +73,8 @@ class Segmentation:
     """
 
     _found: _core.Segmentation
+    labels: NDArray[np.uint32]
+    objects: Objects
     meta: Mapping[str, Any]
 
     def __init__(self) -> None:
@@ -82,7 +84,7 @@ class Segmentation:
     def _of(cls, found: _core.Segmentation, name: str, notes: Sequence[str]) -> Segmentation:
         self = object.__new__(cls)
         self._found = found
-        self.labels: NDArray[np.uint32] = np.asarray(found.labels)
+        self.labels = np.asarray(found.labels)
         known = {"path": name, "shape": self.labels.shape, **found.facts, "notes": tuple(notes),
                  "version": _core.version}
         self.meta = Meta({key: value for key, value in known.items() if value != ""})

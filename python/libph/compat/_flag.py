@@ -114,10 +114,10 @@ def ordered(dgm: NDArray[np.float64], dim: int, essential_last: bool = False) ->
     With `essential_last` bars that never die follow the others.
     """
     births, deaths = dgm.T
-    if dim == 0:
-        return np.lexsort((births, deaths))
-    keys = (-deaths, -births)
-    return np.lexsort((*keys, np.isinf(deaths)) if essential_last else keys)
+    keys: tuple[NDArray[Any], ...] = (births, deaths) if dim == 0 else (-deaths, -births)
+    if essential_last and dim > 0:
+        keys += (np.isinf(deaths),)
+    return np.asarray(np.lexsort(keys))
 
 
 # ---- filtrations of matrices

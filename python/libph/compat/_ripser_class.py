@@ -62,7 +62,8 @@ class Rips(TransformerMixin):
                        metric, self.n_perm)
         for name in ("dgms", "cocycles", "num_edges", "dperm2all", "idx_perm", "r_cover"):
             setattr(self, f"{name}_", found[name])
-        return found["dgms"]
+        dgms: list[NDArray[np.float64]] = found["dgms"]
+        return dgms
 
     def fit_transform(self, X: Any, distance_matrix: bool = False, metric: Any = "euclidean"
                       ) -> list[NDArray[np.float64]]:

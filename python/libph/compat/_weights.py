@@ -69,7 +69,7 @@ def _of_sparse(matrix: Any, weights: ArrayLike | str, p: float, params: Mapping[
     if isinstance(weights, str):
         ends, both = np.concatenate([i, j]), np.concatenate([values, values])
         order = np.argsort(ends, kind="stable")
-        begins = np.searchsorted(ends[order], np.arange(n + 1))
+        begins = np.searchsorted(ends[order], np.arange(n + 1)).tolist()
         both = both[order]
         births = distance_to_measure(lambda k: both[begins[k]:begins[k + 1]], n, params, False)
     else:

@@ -34,8 +34,7 @@ def bottleneck(dgm1: ArrayLike, dgm2: ArrayLike, matching: bool = False) -> floa
     """
     if _options.flag("matching", matching):
         raise NotBuiltIn("matching: libph gives the distance alone; persim has the matching")
-    return _diagrams.bottleneck(  # type: ignore[return-value]
-        _finite(dgm1, "dgm1"), _finite(dgm2, "dgm2"))
+    return _diagrams.bottleneck(_finite(dgm1, "dgm1"), _finite(dgm2, "dgm2"))
 
 
 def _finite(dgm: ArrayLike, name: str) -> NDArray[np.float64]:

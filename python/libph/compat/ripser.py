@@ -146,7 +146,7 @@ def _pairwise(X: Any, metric: Any, *others: Any) -> NDArray[Any]:
         raise NotBuiltIn("ripser: distances of points are those of scikit-learn, which is not "
                          "installed; distance_matrix=True takes distances, ph.rips points"
                          ) from None
-    return pairwise_distances(X, *others, metric=metric)
+    return np.asarray(pairwise_distances(X, *others, metric=metric))
 
 
 def _farthest_points(X: Any, count: int, is_distances: bool, metric: Any
@@ -157,7 +157,7 @@ def _farthest_points(X: Any, count: int, is_distances: bool, metric: Any
 
     def row(i: int) -> NDArray[Any]:
         if is_distances:
-            return X[i]
+            return np.asarray(X[i])
         distances = _pairwise(X, metric, X[i:i + 1]).ravel()
         distances[i] = 0
         return distances

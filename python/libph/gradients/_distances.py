@@ -56,7 +56,8 @@ class PointDistances(Distances):
     def _lengths(self, x: Numbers, y: Numbers) -> Numbers:
         if self._p == 0:
             # The same number as 1 - cos, and it keeps its digits for small angles.
-            return ((_unit(x)[0] - _unit(y)[0])**2).sum(axis=-1) / 2
+            squares: Numbers = ((_unit(x)[0] - _unit(y)[0])**2).sum(axis=-1)
+            return squares / 2
         return _norm(x - y, self._p)
 
     def add(self, i: Integers, j: Integers, factors: Numbers) -> None:
@@ -84,23 +85,25 @@ def _unit(x: Numbers) -> tuple[Numbers, Numbers]:
 
 def _norm(x: Numbers, p: float) -> Numbers:
     size = np.abs(x)
-    largest = size.max(axis=-1, initial=0)
+    largest: Numbers = size.max(axis=-1, initial=0)
     if p == math.inf:
         return largest
     # Powers of what is at most 1 do not overflow.
     share = size / np.where(largest > 0, largest, 1)[..., None]
-    return largest * (share**p).sum(axis=-1)**(1 / p)
+    lengths: Numbers = (share**p).sum(axis=-1)**(1 / p)
+    return largest * lengths
 
 
 def _gradient_of_norm(x: Numbers, p: float) -> Numbers:
     """0 at 0."""
     if p == math.inf:
         first = np.argmax(np.abs(x), axis=1)[:, None]
-        gradient = np.zeros_like(x)
+        gradient: Numbers = np.zeros_like(x)
         np.put_along_axis(gradient, first, np.sign(np.take_along_axis(x, first, axis=1)), axis=1)
         return gradient
     length = _norm(x, p)[:, None]
-    return np.sign(x) * (np.abs(x) / np.where(length > 0, length, 1))**(p - 1)
+    gradient = np.sign(x) * (np.abs(x) / np.where(length > 0, length, 1))**(p - 1)
+    return gradient
 
 
 class MatrixDistances(Distances):
@@ -116,16 +119,18 @@ class MatrixDistances(Distances):
     def _place(self, i: Integers, j: Integers) -> Integers:
         """In the condensed form."""
         low, high = np.minimum(i, j), np.maximum(i, j)
-        return low * (2 * self.size - low - 1) // 2 + high - low - 1
+        place: Integers = low * (2 * self.size - low - 1) // 2 + high - low - 1
+        return place
 
     def between(self, i: Integers, j: Integers) -> Numbers:
         if self._is_square:
-            return (self._X[i, j].astype(np.float64) + self._X[j, i]) / 2
-        return self._X[self._place(i, j)].astype(np.float64)
+            both: Numbers = self._X[i, j].astype(np.float64) + self._X[j, i]
+            return both / 2
+        return np.asarray(self._X[self._place(i, j)], dtype=np.float64)
 
     def rows(self, i: Integers) -> Numbers:
         if self._is_square:
-            rows = (self._X[i].astype(np.float64) + self._X[:, i].T) / 2
+            rows: Numbers = (self._X[i].astype(np.float64) + self._X[:, i].T) / 2
         else:
             others = np.broadcast_to(np.arange(self.size), (len(i), self.size))
             at = np.where(others == i[:, None], 0, self._place(i[:, None], others))

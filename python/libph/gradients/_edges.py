@@ -158,14 +158,14 @@ def _met_of_squares(lengths: Numbers, a: Numbers, b: Numbers) -> tuple[Numbers, 
     Where one ball swallows the other they meet when that is born.
     """
     meet = 4 * lengths**2 > np.abs(a**2 - b**2)
-    d = np.where(meet, lengths, 1)
+    d: Numbers = np.where(meet, lengths, 1)
     half_sum, half_difference = (a + b) / 2, (a - b) / 2
     outer, inner = d**2 + half_sum**2, d**2 + half_difference**2
     t = np.where(meet, np.sqrt(outer) * np.sqrt(inner) / d, -np.inf)
-    finite = np.where(meet, t, 0)
+    finite: Numbers = np.where(meet, t, 0)
+    of_distance: Numbers = finite * (d / outer + d / inner - 1 / d)
     of_sum, of_difference = finite * half_sum / outer / 2, finite * half_difference / inner / 2
-    return (t, finite * (d / outer + d / inner - 1 / d), of_sum + of_difference,
-            of_sum - of_difference)
+    return t, of_distance, of_sum + of_difference, of_sum - of_difference
 
 
 def _distances_of(X: Any, meta: Mapping[str, Any]) -> Distances:

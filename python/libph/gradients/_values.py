@@ -62,7 +62,8 @@ class StarValues(CellValues):
         self._gradient = np.zeros(len(self._values))
 
     def values(self, dim: int, cells: Integers) -> Numbers:
-        return self._values[self.deciders(dim, cells)[:, 0]]
+        values: Numbers = self._values[self.deciders(dim, cells)[:, 0]]
+        return values
 
     def deciders(self, dim: int, cells: Integers) -> Integers:
         if cells.max() >= len(self._values):

@@ -21,7 +21,8 @@ except ImportError:
 
 def table_of(estimator: BaseEstimator, X: Any, reset: bool) -> NDArray[np.float64]:
     """The rows of one cloud; `reset`: it is the one that the estimator is fitted to."""
-    return _validate_data(estimator, X, dtype=np.float64, reset=reset)
+    table: NDArray[np.float64] = _validate_data(estimator, X, dtype=np.float64, reset=reset)
+    return table
 
 
 class MakesTables:

@@ -136,12 +136,12 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
                 i = int(np.argmax(wrong))
                 raise UsageError(f"density: of row {i}: found {density[i]}, expected a finite "
                                  "number above 0")
-            return -np.log(density)
+            return np.asarray(-np.log(density))
         _options.choice("density", self.density, ["dtm"])
         to_measure = np.sqrt(np.mean(distances**2, axis=1))
         is_zero = to_measure == 0
         to_measure[is_zero] = to_measure[~is_zero].min() if not is_zero.all() else 1
-        return np.log(to_measure)
+        return np.asarray(np.log(to_measure))
 
     def _joins(self, points: _Numbers, hills: _Hills) -> _Integers:
         """Pairs of hills that become one."""
@@ -150,15 +150,15 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
         order = np.argsort(-lengths, kind="stable")
         if self.min_persistence is not None:
             least = _options.real("min_persistence", self.min_persistence, "a number, at least 0", 0)
-            return hills.passes[lengths <= least]
+            return np.asarray(hills.passes[lengths <= least])
         if self.n_clusters is None:
-            return hills.passes[order[_before_gap(lengths[order]):]]
+            return np.asarray(hills.passes[order[_before_gap(lengths[order]):]])
         wanted = _options.whole("n_clusters", self.n_clusters, 1)
         if wanted > len(hills.peaks):
             warnings.warn(f"n_clusters: found {wanted}, but the density has {len(hills.peaks)} "
                           "peaks: each is a cluster", ConvergenceWarning, stacklevel=3)
         if wanted >= parts:
-            return hills.passes[order[wanted - parts:]]
+            return np.asarray(hills.passes[order[wanted - parts:]])
         warnings.warn(f"n_clusters: found {wanted}, but the graph of neighbours has {parts} parts: "
                       "those with densest points near each other are joined; a larger k joins them, "
                       "too", ConvergenceWarning, stacklevel=3)
@@ -172,7 +172,7 @@ class PersistenceClustering(ClusterMixin, BaseEstimator):
         at = hills.peaks[highest]
         sample = points[np.ix_(at, at)] if self.metric == "precomputed" else points[at]
         tree = merge_tree(sample, complex="rips", metric=self.metric, threshold=np.inf)
-        return highest[tree.edges[:len(highest) - wanted]]
+        return np.asarray(highest[tree.edges[:len(highest) - wanted]])
 
     def _more_tags(self) -> dict[str, Any]:
         return {"pairwise": self.metric == "precomputed"}

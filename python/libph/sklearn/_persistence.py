@@ -172,7 +172,7 @@ def _giotto(rows: list[list[NDArray[np.float64]]], dims: list[int]) -> NDArray[n
     return np.concatenate(parts, axis=1) if parts else np.empty((0, len(dims), 3))
 
 
-def _list_of(X: Any, what: str, axes: int) -> Any:
+def _list_of(X: Any, what: str, axes: int) -> Sequence[Any]:
     """The samples. An array of so many axes is one sample, not a list."""
     if _arrays.is_sparse(X) or isinstance(X, (str, bytes)) or (
             isinstance(X, np.ndarray) and X.dtype != object and X.ndim <= axes):
@@ -180,7 +180,7 @@ def _list_of(X: Any, what: str, axes: int) -> Any:
         raise UsageError(f"X: found {found}, expected a list of {what}; [X] is a list of one")
     if not isinstance(X, Iterable):
         raise UsageError(f"X: found {type(X).__name__}, expected a list of {what}")
-    return X if isinstance(X, (list, tuple, np.ndarray)) else list(X)
+    return list(X)
 
 
 class RipsPersistence(_Persistence):

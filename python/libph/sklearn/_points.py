@@ -86,7 +86,8 @@ class DistanceToMeasure(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseE
         """
         check_is_fitted(self)
         distances = self._search.kneighbors(table_of(self, X, reset=False))[0]
-        return np.sqrt(np.mean(distances**2, axis=1))[:, None]
+        column: NDArray[np.float64] = np.sqrt(np.mean(distances**2, axis=1))[:, None]
+        return column
 
 
 class FarthestPoints(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseEstimator):
@@ -164,4 +165,6 @@ class FarthestPoints(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseEsti
             A row for each point, a column for each landmark.
         """
         check_is_fitted(self)
-        return pairwise_distances(table_of(self, X, reset=False), self.points_, metric=self.metric)
+        distances: NDArray[np.float64] = pairwise_distances(
+            table_of(self, X, reset=False), self.points_, metric=self.metric)
+        return distances

@@ -45,7 +45,7 @@ class _Vectoriser(MakesTables, TransformerMixin, TakesDiagrams):
         self._fit_columns(columns)
         return self
 
-    def transform(self, X: Any) -> NDArray[np.float64]:
+    def transform(self, X: Any) -> Any:
         """A vector of each sample.
 
         Parameters

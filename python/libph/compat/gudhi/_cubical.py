@@ -149,8 +149,9 @@ class CubicalComplex(Persistence):
 
     def _flat(self, cells: NDArray[np.int64]) -> NDArray[np.int64]:
         voxels = deciding_voxels(cells, self._image, self._is_vertices, self._periodic)
-        return np.ravel_multi_index(tuple(voxels.T), self._image.shape, order="F") if len(voxels) \
-            else np.empty(0, dtype=np.int64)
+        if not len(voxels):
+            return np.empty(0, dtype=np.int64)
+        return np.asarray(np.ravel_multi_index(tuple(voxels.T), self._image.shape, order="F"))
 
 
 class PeriodicCubicalComplex(CubicalComplex):

@@ -39,7 +39,8 @@ def bottleneck_distance(X: Any, Y: Any, delta: float = 0.01) -> float:
         if array.shape != (0,) and (array.ndim != 2 or array.shape[1] != 2):
             raise _WidthError(f"{name}: found an array of shape {array.shape}, expected rows "
                               "birth, death")
-    return _diagrams.bottleneck(X, Y)  # type: ignore[return-value]
+    distance: float = _diagrams.bottleneck(X, Y)
+    return distance
 
 
 def wasserstein_distance(*arguments: Any, **options: Any) -> NoReturn:

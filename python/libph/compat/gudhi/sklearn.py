@@ -35,7 +35,7 @@ class _DiagramsOfEach(TransformerMixin, BaseEstimator):
         """The diagrams of each sample: one, or a list if `homology_dimensions` is a list."""
         dims = self._dims()
         options: dict[str, Any] = {"threads": 1} if effective_n_jobs(self.n_jobs) > 1 else {}
-        found = Parallel(n_jobs=self.n_jobs, prefer="threads")(
+        found: list[Any] = Parallel(n_jobs=self.n_jobs, prefer="threads")(
             delayed(self._diagrams)(x, dims, options) for x in X)
         return [dgms[0] for dgms in found] if np.ndim(self.homology_dimensions) == 0 else found
 
@@ -56,7 +56,8 @@ class _DiagramsOfEach(TransformerMixin, BaseEstimator):
 
 
 def _by_death(dgm: NDArray[np.float64]) -> NDArray[np.float64]:
-    return dgm[np.lexsort((dgm[:, 0], dgm[:, 1]))]
+    ordered: NDArray[np.float64] = dgm[np.lexsort((dgm[:, 0], dgm[:, 1]))]
+    return ordered
 
 
 class RipsPersistence(_DiagramsOfEach):
