@@ -10,7 +10,7 @@ jobs=$(nproc)
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=true
 export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
 
-scripts/setup.sh build test python viewer
+scripts/setup.sh build test python viewer docs
 cmake --preset release -DPH_WITH_PCL=ON -DPH_BUILD_TESTS=ON -DPH_BUILD_EXAMPLES=ON -DPH_BUILD_BENCHMARKS=ON \
   -DPH_BUILD_PYTHON=ON -DPython3_EXECUTABLE=/usr/bin/python3
 cmake --build --preset release -j "$jobs"

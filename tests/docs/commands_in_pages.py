@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Runs the commands that pages show and compares what they print: commands_in_pages.py BIN… -- PAGE…
+"""Runs the commands that pages show and compares what they print: commands_in_pages.py BIN… [-- PAGE…]
+Without a page: all that have some.
 
-In a block ```console, a line `$ command` is run in a copy of the repository with the programs of the folders BIN
-on the path; a backslash at its end continues it in the next line. The lines after it are what it prints. `…` stands
+In a block ```console, a line `$ command` is run in a folder of the page's own, with a copy of examples/, and with
+the programs of the folders BIN on the path; a backslash at its end continues it in the next line. The lines after it are what it prints. `…` stands
 for anything within a line, a line `…` for any number of lines.
 """
 import os
@@ -36,26 +37,36 @@ def matches(expected, printed):
     return re.fullmatch("".join(parts), printed) is not None
 
 
-def main():
-    split = sys.argv.index("--")
-    path = os.pathsep.join([*map(os.path.abspath, sys.argv[1:split]), os.environ["PATH"]])
-    count = failures = 0
+def pages_with_commands():
+    pages = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+    return [page for page in pages if commands_of(page)]
+
+
+def failures_of(page, path):
+    """Runs the commands of a page. @return how many there are, and how many differ."""
+    commands, failures = commands_of(page), 0
+    if not commands:
+        print(f"{page}: found no command, expected a block ```console")
+        return 0, 1
     with tempfile.TemporaryDirectory() as folder:
         shutil.copytree(ROOT / "examples", pathlib.Path(folder) / "examples")
-        for name in sys.argv[split + 1:]:
-            commands = commands_of(ROOT / name)
-            if not commands:
-                print(f"{name}: found no command, expected a block ```console")
+        for command, expected in commands:
+            run = subprocess.run(command, shell=True, cwd=folder, env={**os.environ, "PATH": path}, text=True,
+                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=120)
+            if run.returncode != 0 or not matches(expected, run.stdout):
                 failures += 1
-            for command, expected in commands:
-                count += 1
-                run = subprocess.run(command, shell=True, cwd=folder, env={**os.environ, "PATH": path}, text=True,
-                                     stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=120)
-                if run.returncode != 0 or not matches(expected, run.stdout):
-                    failures += 1
-                    print(f"{name}: $ {command}\nexit code {run.returncode}, found:\n{run.stdout}expected:\n"
-                          + "".join(f"{line}\n" for line in expected))
-    print(f"{count} commands, {failures} differ")
+                print(f"{page.relative_to(ROOT)}: $ {command}\nexit code {run.returncode}, found:\n{run.stdout}"
+                      "expected:\n" + "".join(f"{line}\n" for line in expected))
+    return len(commands), failures
+
+
+def main():
+    split = sys.argv.index("--") if "--" in sys.argv else len(sys.argv)
+    path = os.pathsep.join([*map(os.path.abspath, sys.argv[1:split]), os.environ["PATH"]])
+    pages = [ROOT / page for page in sys.argv[split + 1:]] or pages_with_commands()
+    results = [failures_of(page, path) for page in pages]
+    count, failures = (sum(column) for column in zip(*results))
+    print(f"{len(pages)} pages, {count} commands, {failures} differ")
     sys.exit(1 if failures else 0)
 
 

@@ -5,13 +5,15 @@
     programs_in_pages.py write PAGE FOLDER COUNT     PAGE's programs as FOLDER/1.cpp, FOLDER/2.cpp, …
     programs_in_pages.py run PAGE NUMBER PROGRAM     runs what was made of one of them
 
-A program is a block ```cpp with a main function. The block ```text after it is what it prints.
+A program is a block ```cpp with a main function. The block ```text after it is what it prints. It runs
+in the root of the repository.
 """
 import re
 import subprocess
 import sys
 from pathlib import Path
 
+ROOT = Path(__file__).resolve().parents[2]
 BLOCK = re.compile(r"^```(cpp|text)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 
@@ -37,7 +39,7 @@ def write(page, folder, count):
 
 def run(page, number, program):
     expected = programs_of(page)[int(number) - 1][1]
-    ended = subprocess.run([program], capture_output=True, text=True, timeout=60)
+    ended = subprocess.run([program], cwd=ROOT, capture_output=True, text=True, timeout=60)
     if ended.returncode != 0 or ended.stdout != expected:
         sys.exit(f"{page}: program {number}: exit code {ended.returncode}, found:\n{ended.stdout}"
                  f"{ended.stderr}expected:\n{expected}")

@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 # The first link of an item.
-LINK = re.compile(r"^\* .*?\]\(([\w./-]+\.md)\)", re.MULTILINE)
+LINK = re.compile(r"^\* (?:[^\n]|\n  )*?\]\(([\w./-]+\.md)\)", re.MULTILINE)
 
 
 def pages_below(file, text, pages):

@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""What each page keeps to: pages.py ROOT.
+
+* It has one title, in its first line, and can be reached from docs/index.md by links.
+* Prose is at most 100 characters wide.
+* A picture has an alternative text, and a picture in docs/images is on a page.
+* A block of code says its language. One of Python, C, C++ or a console is run by a test, or the
+  line before it says why not: <!-- not run: REASON -->.
+"""
+import re
+import sys
+from pathlib import Path
+
+FENCE = re.compile(r"^( *)(`{3,})(\S*)[^\n]*\n(.*?)^\1\2 *$", re.MULTILINE | re.DOTALL)
+IMAGE = re.compile(r"!\[([^\]]*)\]\(([^)\s]+)\)")
+LINK = re.compile(r"\]\(([^)\s]+)\)")
+NOT_RUN = re.compile(r"<!-- not run: \S.*-->\n$")
+WIDTH = 100
+# Its lines are as wide as they were.
+HISTORY = "CHANGELOG.md"
+NOT_OURS = {"build", "node_modules", ".git", "violations", "out"}
+CODE = {"python", "c", "cpp", "console"}
+
+
+def pages_of(root):
+    return sorted(page for page in root.rglob("*.md")
+                  if not NOT_OURS & set(page.relative_to(root).parts))
+
+
+def without_code(text):
+    """Each block of code as empty lines."""
+    return FENCE.sub(lambda match: "\n" * match[0].count("\n"), text)
+
+
+def title_faults(text):
+    titles = re.findall(r"^# +\S", without_code(text), re.MULTILINE)
+    if not text.startswith("# ") or len(titles) != 1:
+        yield "found no title in the first line, or several titles"
+
+
+def is_prose(line):
+    """Tables, comments, and what cannot be broken may be wider."""
+    return not line.lstrip().startswith(("|", "<!--", "!", "[![")) and " " in line.strip()
+
+
+def width_faults(text):
+    for number, line in enumerate(without_code(text).split("\n"), 1):
+        if len(line) > WIDTH and is_prose(line):
+            yield f"line {number}: found {len(line)} characters, expected at most {WIDTH}"
+
+
+def picture_faults(text):
+    for words, path in IMAGE.findall(without_code(text)):
+        if not words.strip():
+            yield f"{path}: found no alternative text"
+
+
+def runs(language, code, page, compiled):
+    """Whether a test runs the block: doctest, commands_in_pages.py, programs_in_pages.py."""
+    if language == "python":
+        return ">>> " in code
+    if language == "console":
+        return code.startswith("$ ")
+    return language == "cpp" and "int main(" in code and page in compiled
+
+
+def code_faults(text, page, compiled):
+    for match in FENCE.finditer(text):
+        line = text.count("\n", 0, match.start()) + 1
+        language = match[3]
+        if not language:
+            yield f"line {line}: found a block of code without a language; `text` is one"
+        if language in CODE and not runs(language, match[4], page, compiled) \
+                and not NOT_RUN.search(text[:match.start()]):
+            yield (f"line {line}: found a block of {language} that no test runs; "
+                   "<!-- not run: REASON --> before it says why")
+
+
+def reachable(start):
+    """Pages to which links lead from one page, and pictures that these show."""
+    pages, pictures, ahead = set(), set(), [start]
+    while ahead:
+        page = ahead.pop()
+        if page in pages or not page.exists():
+            continue
+        pages.add(page)
+        for link in LINK.findall(without_code(page.read_text(encoding="utf-8"))):
+            target = (page.parent / link.partition("#")[0]).resolve()
+            if target.suffix == ".md":
+                ahead.append(target)
+            else:
+                pictures.add(target)
+    return pages, pictures
+
+
+def compiled_pages(root):
+    """Those of which CMake compiles the programs."""
+    lists = root / "tests/docs/CMakeLists.txt"
+    return set(re.findall(r"^ph_page_programs\((\S+)", lists.read_text(), re.MULTILINE)) if lists.exists() else set()
+
+
+def main():
+    root = Path(sys.argv[1]).resolve()
+    compiled = compiled_pages(root)
+    pages = pages_of(root)
+    found, shown = reachable(root / "docs/index.md")
+    faults = []
+    for page in pages:
+        text, name = page.read_text(encoding="utf-8"), page.relative_to(root).as_posix()
+        of_page = [*title_faults(text), *picture_faults(text), *code_faults(text, name, compiled)]
+        if page.name != HISTORY:
+            of_page += width_faults(text)
+        if name.startswith("docs/") and page not in found:
+            of_page.append("docs/index.md does not lead to it")
+        faults += [f"{name}: {fault}" for fault in of_page]
+    for picture in sorted((root / "docs/images").rglob("*")):
+        if picture.suffix in (".png", ".svg") and picture not in shown \
+                and picture not in reachable(root / "README.md")[1]:
+            faults.append(f"{picture.relative_to(root)}: no page shows it")
+    print("\n".join([*faults, f"{len(pages)} pages, {len(faults)} faults"]))
+    return 1 if faults or not pages else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
