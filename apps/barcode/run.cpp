@@ -24,9 +24,9 @@
 #include "common/terminal/exit_code.hpp"
 #include "common/terminal/messages.hpp"
 #include "facade/adjust.hpp"
+#include "ph/detail/report/shown_tree.hpp"
 #include "ph/estimate.hpp"
 #include "ph/loops.hpp"
-#include "report/shown_tree.hpp"
 
 namespace ph::barcode {
 namespace {

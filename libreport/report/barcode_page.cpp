@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "report/barcode_page.hpp"
+#include "ph/report.hpp"
 
 #include <fmt/format.h>
 
@@ -11,6 +11,7 @@
 #include "report/arrays/bar_arrays.hpp"
 #include "report/arrays/complex_arrays.hpp"
 #include "report/arrays/point_arrays.hpp"
+#include "report/arrays/tree_arrays.hpp"
 #include "report/arrays/voxel_arrays.hpp"
 #include "report/report_file.hpp"
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "ph/barcode.hpp"
-#include "ph/io/write.hpp"
+#include "ph/detail/report/provenance.hpp"
+#include "ph/detail/report/shown_tree.hpp"
 
 namespace ph::report {
 
@@ -31,36 +31,10 @@ struct CloudMeta {
   std::string projection = {};                 ///< "first 3 of 10 coordinates"
 };
 
-/// What decides which merges a cut does.
-enum class CutRule {
-  persistence,  ///< those of a persistence below the cut: MergeTree::basins
-  value,        ///< those at values up to the cut: MergeTree::components
-};
-
-struct TreeMeta {
-  CutRule rule = CutRule::persistence;
-  std::string label, unit = {};
-  double cut = 0;                    ///< where the page begins
-  double from = 0;                   ///< least cut for which the contraction is right
-  std::optional<double> to = {};     ///< largest one
-  Index min_size = 1;                ///< fewest vertices of a segment
-  std::string what;                  ///< "segment"
-  std::vector<std::string> command;  ///< of another cut, "{cut}" standing for its value
-};
-
 /// Of the bars of one dimension in the two barcodes of a comparison.
 struct Distance {
   int dim = 0;
   double bottleneck = 0;  ///< may be infinite
-};
-
-struct Provenance {
-  std::vector<std::string> command;
-  std::string sha256;        ///< of the input
-  BarcodeInfo run;           ///< program, input, complex, engine, timings …
-  bool has_homology = true;  ///< whether field, dimension and threshold of `run` mean something
-  std::vector<std::string> warnings = {};
-  std::vector<std::pair<std::string, std::string>> notes = {};  ///< what else is worth saying
 };
 
 struct Metadata {
@@ -75,9 +49,6 @@ struct Metadata {
   std::vector<Distance> distances = {};  ///< of a comparison
   Provenance provenance;
 };
-
-/// What to call the data of a file: its path without folders.
-std::string title_of(const std::string& path);
 
 /// As JSON that can stand in an element of HTML: no text in it ends the element.
 std::string metadata_json(const Metadata& metadata);

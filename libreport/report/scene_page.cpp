@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "report/scene_page.hpp"
+#include "ph/scene_report.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "report/shown_tree.hpp"
+#include "ph/detail/report/shown_tree.hpp"
 
 #include <fmt/format.h>
 

@@ -6,11 +6,11 @@
 
 #include "bindings.hpp"
 #include "data/arrays.hpp"
+#include "ph/detail/report/shown_tree.hpp"
 #include "ph/detail/rips/edge_collapse.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
 #include "ph/error.hpp"
 #include "ph/explicit.hpp"
-#include "report/shown_tree.hpp"
 
 namespace ph::python {
 namespace {

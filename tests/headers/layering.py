@@ -47,6 +47,7 @@ HEADERS = {
     "loops": "loops ph",
     "plot": "io/plot",
     "segment": "label_tracker pcl scene_tree segment",
+    "report": "report scene_report",
 }
 ROOM_OF = {name: room for room, names in HEADERS.items() for name in names.split()}
 
@@ -57,7 +58,7 @@ INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<((?:ph|pcl|CGAL)
 MOST_FILES = 20
 # Folders of public headers: what no user includes by itself goes to ph/detail. None may grow.
 MOST_PUBLIC = {"libph/include/ph": 23, "libph/include/ph/io": 4, "libsegment/include/ph": 3,
-               "libsegment/pcl/include/ph": 1}
+               "libsegment/pcl/include/ph": 1, "libreport/include/ph": 2}
 
 # Folders of tests, and whose rooms theirs are.
 TESTS_OF = {"tests/libph": ("libph/src",), "tests/libsegment": ("libsegment/src", "libsegment"),
@@ -88,8 +89,8 @@ def room_of(file):
 def target_of(root, file, include):
     """The file of ours that is meant, below ROOT; None if it is somebody else's."""
     for base in (file.parent, Path("libph/include"), Path("libph/src"), Path("libsegment/include"),
-                 Path("libsegment/pcl/include"), Path("libsegment/src"), Path("libreport"),
-                 Path("apps"), Path("python/src")):
+                 Path("libsegment/pcl/include"), Path("libsegment/src"),
+                 Path("libreport/include"), Path("libreport"), Path("apps"), Path("python/src")):
         if (root / base / include).is_file():
             return (root / base / include).resolve().relative_to(root)
     return None

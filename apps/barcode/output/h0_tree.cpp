@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "barcode/output/h0_tree.hpp"
 
+#include "ph/detail/report/shown_tree.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
-#include "report/shown_tree.hpp"
 
 namespace ph::barcode {
 

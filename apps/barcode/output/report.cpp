@@ -13,8 +13,8 @@
 #include "barcode/output/stored.hpp"
 #include "common/terminal/exit_code.hpp"
 #include "ph/bottleneck.hpp"
+#include "ph/report.hpp"
 #include "report/arrays/bar_arrays.hpp"
-#include "report/barcode_page.hpp"
 #include "report/encoding/sha256.hpp"
 #include "report/report_file.hpp"
 

@@ -10,7 +10,7 @@
 #include "common/arguments/numbers.hpp"
 #include "common/terminal/exit_code.hpp"
 #include "io/bytes/json_writer.hpp"
-#include "report/barcode_page.hpp"
+#include "ph/report.hpp"
 #include "report/encoding/sha256.hpp"
 
 namespace ph::barcode {

@@ -11,9 +11,9 @@
 #include "label_files.hpp"
 #include "ph/error.hpp"
 #include "ph/io/write.hpp"
+#include "ph/scene_report.hpp"
 #include "pictures/cloud_legend.hpp"
 #include "pictures/colouring.hpp"
-#include "report/scene_page.hpp"
 #include "segment/output/summary.hpp"
 #include "tree/tree_barcode.hpp"
 

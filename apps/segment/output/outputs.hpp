@@ -8,7 +8,7 @@
 
 #include "common/run/session.hpp"
 #include "ph/io/write.hpp"
-#include "report/scene_page.hpp"
+#include "ph/scene_report.hpp"
 #include "segment/arguments/arguments.hpp"
 
 namespace ph::segment {

@@ -3,18 +3,15 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "ph/detail/report/provenance.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph::report {
-
-/// What takes the text of a page, piece by piece: a file, a string.
-using Sink = std::function<void(std::string_view)>;
 
 /// What the numbers of an array may be.
 template <class T>

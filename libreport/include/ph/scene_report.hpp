@@ -3,9 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "ph/detail/report/provenance.hpp"
 #include "ph/segment.hpp"
-#include "report/encoding/array_block.hpp"
-#include "report/metadata.hpp"
 
 namespace ph::report {
 

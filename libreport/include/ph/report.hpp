@@ -4,9 +4,10 @@
 #include <span>
 #include <string>
 
+#include "ph/detail/report/provenance.hpp"
+#include "ph/detail/report/shown_tree.hpp"
 #include "ph/persistence.hpp"
 #include "ph/points.hpp"
-#include "report/shown_tree.hpp"
 
 namespace ph::report {
 
