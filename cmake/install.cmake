@@ -1,34 +1,49 @@
 # SPDX-License-Identifier: MIT
 # What others use of us: `cmake --install`, then find_package(ph CONFIG). One set of exported
-# targets a component, so that a component asks for its own dependencies only.
+# targets a library, so that a library asks for its own dependencies only.
+#
+# `cmake --install BUILD --component NAME` takes a part: `c`, what programs need that were linked
+# with ph::c; `dev`, what it takes to compile and link others; `pcl`, the same of ph::pcl;
+# `programs`; `python`; `doc`; `licence`. debian/rules makes a package of each.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/ph)
 
-foreach(component core c io plot segment pcl)
-  if(NOT TARGET ph_${component})
+foreach(library core c io plot segment report pcl)
+  if(NOT TARGET ph_${library})
     continue()
   endif()
-  set_target_properties(ph_${component} PROPERTIES EXPORT_NAME ${component})
-  install(TARGETS ph_${component} EXPORT ph-${component}
-          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-          LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  set(component dev)
+  if(library STREQUAL "pcl")
+    set(component pcl)
+  endif()
+  set_target_properties(ph_${library} PROPERTIES EXPORT_NAME ${library})
+  install(TARGETS ph_${library} EXPORT ph-${library}
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev
+          LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT c NAMELINK_COMPONENT dev
           INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-  install(EXPORT ph-${component} NAMESPACE ph:: DESTINATION ${package_dir})
+  install(EXPORT ph-${library} NAMESPACE ph:: DESTINATION ${package_dir} COMPONENT ${component})
 endforeach()
 
-install(DIRECTORY libph/include/ph DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-if(TARGET ph_segment)
-  install(DIRECTORY libsegment/include/ph DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-endif()
+install(DIRECTORY libph/include/ph DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
+foreach(library segment report)
+  if(TARGET ph_${library})
+    install(DIRECTORY lib${library}/include/ph DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
+  endif()
+endforeach()
 if(TARGET ph_pcl)
-  install(DIRECTORY libsegment/pcl/include/ph DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  install(DIRECTORY libsegment/pcl/include/ph DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT pcl)
 endif()
 if(PH_BUILD_APPS)
-  install(TARGETS ph-barcode ph-segment RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
-          COMPONENT programs)
+  install(TARGETS ph-barcode ph-segment
+          RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
 endif()
-install(FILES LICENSE README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# Links between pages hold: they lie as in the repository.
+install(FILES README.md CHANGELOG.md CITATION.cff CONTRIBUTING.md SECURITY.md
+        DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc)
+install(DIRECTORY docs examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc
+        PATTERN CMakeLists.txt EXCLUDE)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
 
 configure_package_config_file(cmake/ph-config.cmake.in ${PROJECT_BINARY_DIR}/ph-config.cmake
                               INSTALL_DESTINATION ${package_dir})
@@ -36,4 +51,4 @@ configure_package_config_file(cmake/ph-config.cmake.in ${PROJECT_BINARY_DIR}/ph-
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/ph-config-version.cmake
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/ph-config.cmake ${PROJECT_BINARY_DIR}/ph-config-version.cmake
-        DESTINATION ${package_dir})
+        DESTINATION ${package_dir} COMPONENT dev)

@@ -295,7 +295,7 @@ class Barcode(Summaries, Sequence[Bar]):
         """
         place = self._place(i)
         dim = int(self.dims[place])
-        return self.birth_cells(dim)[place - self._range(dim).start]
+        return np.asarray(self.birth_cells(dim)[place - self._range(dim).start])
 
     def death_cell(self, i: int) -> NDArray[np.int64] | None:
         """The cell that killed bar i; None if it never dies."""

@@ -76,7 +76,10 @@ def _lines(bars: Barcode, ax: Axes, style: dict[str, Any]) -> None:
     ax.set_xlabel(_label(bars))
     if len(bars):
         place = _empty_place(np.concatenate(ends), (low + infinity) / 2)
-        ax.legend(**({"loc": place} if place else {"loc": "upper left", "bbox_to_anchor": (1, 1)}))
+        if place:
+            ax.legend(loc=place)
+        else:
+            ax.legend(loc="upper left", bbox_to_anchor=(1, 1))
 
 
 def _empty_place(ends: NDArray[np.float64], middle: float) -> str | None:

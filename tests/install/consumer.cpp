@@ -7,12 +7,18 @@
 #ifdef WITH_SEGMENT
 #include <ph/segment.hpp>
 #endif
+#ifdef WITH_REPORT
+#include <ph/report.hpp>
+#include <ph/scene_report.hpp>
+#endif
 #ifdef WITH_PCL
 #include <ph/pcl.hpp>
 #endif
 
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <string_view>
 
 int main(int argc, char** argv) try {
   // Their warnings are theirs: this conversion would stop our own build.
@@ -29,6 +35,21 @@ int main(int argc, char** argv) try {
   const float xyz[] = {0, 0, 1, 0, 0, 1.001F, 0, 0, 1.002F};
   const auto parts = ph::segment::segment({xyz, {}}, {.min_size = 1, .plane = false});
   std::printf("%d segment\n", static_cast<int>(parts.segments.size()));
+#endif
+#ifdef WITH_REPORT
+  const auto is_whole = [](const auto& page) {
+    std::string text;
+    ph::report::write_page([&](std::string_view part) { text += part; }, page,
+                           ph::default_context());
+    return text.starts_with("<!DOCTYPE html>") && text.ends_with("</html>\n");
+  };
+  try {
+    std::printf("%d pages\n", is_whole(ph::report::BarcodePage{"bars", bars}) +
+                                  is_whole(ph::report::ScenePage{"parts", parts}));
+  } catch (const ph::Error& error) {  // a libph that was built without npm
+    if (error.kind() != ph::ErrorKind::not_built_in) throw;
+    std::puts("0 pages are built in");
+  }
 #endif
 #ifdef WITH_PCL
   pcl::PointCloud<pcl::PointXYZ> cloud;
