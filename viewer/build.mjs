@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Bundles the page into one template, build/report-template.html: script, style and their hashes
-// in the policy are fixed here, and the programs put a payload where the marker stands.
+// in the policy are fixed here, and the programs put a payload where the marker stands. Beside it,
+// report-template.inputs lists all files that are in it, also those of npm packages.
 // node build.mjs [output folder]
 import { createHash } from "node:crypto";
-import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
-import { dirname, join } from "node:path";
+import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { dirname, join, relative } from "node:path";
 import { fileURLToPath } from "node:url";
 import { build } from "esbuild";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const folder = process.argv[2] ?? join(here, "build");
 
+const inputs = new Set(["src/page/page.html"]);
 async function bundle(entry, options) {
   const result = await build({
     absWorkingDir: here,
@@ -18,10 +20,12 @@ async function bundle(entry, options) {
     bundle: true,
     minify: true,
     write: false,
+    metafile: true,
     charset: "utf8",
     logLevel: "warning",
     ...options,
   });
+  for (const path of Object.keys(result.metafile.inputs)) inputs.add(path);
   return result.outputFiles[0].text.trim();
 }
 
@@ -36,6 +40,16 @@ for (const [what, text, end] of [
   ["style", style, "</style"],
 ])
   if (text.toLowerCase().includes(end)) throw new Error(`the ${what} contains its own end tag`);
+
+// Says which sources the page belongs to; libreport/ready_page.cmake computes it, too.
+const digest = (text) => createHash("sha256").update(text).digest("hex");
+const sources = readdirSync(join(here, "src"), { recursive: true, withFileTypes: true })
+  .filter((entry) => entry.isFile())
+  .map((entry) => relative(here, join(entry.parentPath ?? entry.path, entry.name)))
+  .concat("build.mjs", "package-lock.json")
+  .sort()
+  .map((path) => `${digest(readFileSync(join(here, path)))}  ${path}\n`)
+  .join("");
 
 const hash = (text) => `'sha256-${createHash("sha256").update(text).digest("base64")}'`;
 const policy = [
@@ -52,6 +66,7 @@ const policy = [
 // Replacements by function: the text of a bundle may contain `$&`.
 const page = readFileSync(join(here, "src/page/page.html"), "utf8")
   .replace("{{policy}}", () => policy)
+  .replace("{{sources}}", digest(sources))
   .replace("{{style}}", () => style)
   .replace("{{script}}", () => script);
 const marker = "<!--ph:payload-->";
@@ -59,4 +74,5 @@ if (page.split(marker).length !== 2) throw new Error("the template needs its mar
 mkdirSync(folder, { recursive: true });
 const path = join(folder, "report-template.html");
 writeFileSync(path, page);
+writeFileSync(join(folder, "report-template.inputs"), [...inputs].sort().join("\n") + "\n");
 console.log(`${path}: ${(page.length / 1024).toFixed(0)} KiB`);

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: MIT
+# A page that was bundled elsewhere: an archive of the sources has one in it, for builds that have no
+# npm or no network.
+
+# ph_page_sources(VIEWER NAMES DIGEST): the files that a page is made of, below VIEWER, and one SHA-256
+# of them all: that of what `sha256sum` prints of these files in the order of their names.
+# viewer/build.mjs writes it into the page.
+function(ph_page_sources viewer names digest)
+  file(GLOB_RECURSE sources RELATIVE ${viewer} CONFIGURE_DEPENDS ${viewer}/src/*)
+  list(APPEND sources build.mjs package-lock.json)
+  list(SORT sources COMPARE STRING)
+  set(lines "")
+  foreach(source ${sources})
+    file(SHA256 ${viewer}/${source} sum)
+    string(APPEND lines "${sum}  ${source}\n")
+  endforeach()
+  string(SHA256 sum "${lines}")
+  set(${names} ${sources} PARENT_SCOPE)
+  set(${digest} ${sum} PARENT_SCOPE)
+endfunction()
+
+# ph_page_belongs(PAGE DIGEST RESULT): whether PAGE is there and was made of the sources of this
+# digest.
+function(ph_page_belongs page digest result)
+  set(${result} FALSE PARENT_SCOPE)
+  if(EXISTS ${page})
+    file(STRINGS ${page} stated REGEX "^<meta name=\"sources\" content=\"[0-9a-f]+\">$" LIMIT_COUNT 1)
+    if(stated MATCHES "content=\"${digest}\"")
+      set(${result} TRUE PARENT_SCOPE)
+    endif()
+  endif()
+endfunction()
