@@ -179,7 +179,7 @@ def specs(tmp_path_factory):
     folder = tmp_path_factory.mktemp("kernels")
     (folder / "this").mkdir()
     argv = [sys.executable, "-m", "ipykernel_launcher", "-f", "{connection_file}"]
-    places = [str(Path(libph.__file__).resolve().parents[1]), os.environ.get("PYTHONPATH", "")]
+    places = [str(Path(libph.__file__).absolute().parents[1]), os.environ.get("PYTHONPATH", "")]
     (folder / "this/kernel.json").write_text(json.dumps(
         {"argv": argv, "display_name": "this", "language": "python",
          "env": {"PYTHONPATH": os.pathsep.join(filter(None, places)),

@@ -53,6 +53,7 @@ def test_plots_leave_settings_alone(bars, kind):
 
 @pytest.mark.parametrize("kind", ["diagram", "barcode", "betti"])
 def test_plot_of_one_dimension(kind):
+    from matplotlib.figure import Figure
     bars = ph.rips(CIRCLE)
     for dim, labels in ((1, ["H1"]), ([0, 1], ["H0", "H1"]), (None, ["H0", "H1"])):
         ax = bars.plot(kind, ax=Figure().add_subplot(), dim=dim)
