@@ -8,6 +8,7 @@ In the folder it makes
 source/     a tree of links to the pages of the repository; no page is copied
 doxygen/    XML of the public headers
 printed/    what the programs print, if there are programs
+reports/    the reports of the gallery, if there are programs
 html/       the site
 
 Needs no network. A warning of Sphinx is an error. Exit code 77: something that it needs is missing.
@@ -71,6 +72,18 @@ def print_helps(folder, programs):
         (folder / f"{Path(program).name}.txt").write_text(text)
 
 
+def make_reports(folder, programs):
+    """By the commands of the page."""
+    sys.path.insert(0, str(ROOT / "tests/docs"))
+    from commands_in_pages import commands_of
+    shutil.copytree(ROOT / "examples", folder / "examples")
+    path = os.pathsep.join([*(str(Path(program).resolve().parent) for program in programs), os.environ["PATH"]])
+    for command, _ in commands_of(DOCS / "gallery.md"):
+        subprocess.run(command, shell=True, cwd=folder, env={**os.environ, "PATH": path}, check=True,
+                       stdout=subprocess.DEVNULL)
+    shutil.rmtree(folder / "examples")
+
+
 def has_package(environment):
     code = "import libph, sys; sys.exit(0)"
     return subprocess.run([sys.executable, "-B", "-c", code], env=environment, cwd="/",
@@ -91,12 +104,14 @@ def main():
     if arguments.package:
         environment["PYTHONPATH"] = str(arguments.package.resolve())
     environment["PH_SITE_PYTHON"] = "1" if has_package(environment) else "0"
-    for name in ("source", "doxygen", "printed", "html", "doctrees"):
+    for name in ("source", "doxygen", "printed", "reports", "html", "doctrees"):
         shutil.rmtree(folder / name, ignore_errors=True)
 
     link_pages(folder / "source")
     run_doxygen(folder / "doxygen")
-    print_helps(folder / "printed", programs)
+    if len(programs) == 2:
+        print_helps(folder / "printed", programs)
+        make_reports(folder / "reports", programs)
     built = subprocess.run(
         [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-j", "auto", "-c", HERE,
          "-d", folder / "doctrees", "-b", "html", folder / "source", folder / "html"],
@@ -104,7 +119,7 @@ def main():
     if environment["PH_SITE_PYTHON"] == "0":
         print("left out: the reference of Python, for there is no compiled module of libph")
     if len(programs) < 2:
-        print("left out: the options of the programs, for there are no programs")
+        print("left out: the options of the programs and the reports of the gallery, for there are no programs")
     if built.returncode:
         sys.exit(built.returncode)
     print(f"{folder / 'html' / 'index.html'}")

@@ -36,7 +36,7 @@ def test_docstrings(name):
     assert doctest.testmod(module, globs=names, optionflags=FLAGS).failed == 0
 
 
-OPTIONAL = {"matplotlib", "pandas", "scipy", "sklearn"}
+OPTIONAL = {"matplotlib", "open3d", "pandas", "scipy", "sklearn"}
 # What a page needs without a word.
 NEEDED = {"docs/how-to/coming-from.md": {"sklearn", "scipy"}, "docs/how-to/scikit-learn.md": {"pandas"}}
 PAGES = [page.relative_to(SOURCE).as_posix() for page in sorted((SOURCE / "docs").rglob("*.md"))
@@ -62,7 +62,8 @@ def test_that_there_are_pages():
 
 
 @pytest.mark.parametrize("name, data", [
-    ("cluster_moons", []), ("grow_loop", []),
+    ("cluster_moons", []), ("grow_loop", []), ("growing_discs", []), ("sweeping_level", []),
+    ("delay_embedding", [SOURCE / "examples/data/pulse.csv"]),
     ("two_circles", [SOURCE / "examples/data/two_circles.csv"])])
 def test_examples(name, data, tmp_path):
     for package in ("matplotlib", "sklearn"):

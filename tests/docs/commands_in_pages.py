@@ -5,6 +5,9 @@ Without a page: all that have some.
 In a block ```console, a line `$ command` is run in a folder of the page's own, with a copy of examples/, and with
 the programs of the folders BIN on the path; a backslash at its end continues it in the next line. The lines after it are what it prints. `…` stands
 for anything within a line, a line `…` for any number of lines.
+
+A picture images/pages/NAME.svg on the page is the file NAME.svg that its commands write; docs/images/make.py
+copies it. It has to be the same, byte for byte.
 """
 import os
 import pathlib
@@ -15,6 +18,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+PICTURE = re.compile(r"\]\([./]*images/pages/([\w-]+\.svg)\)")
 BLOCK = re.compile(r"^```console\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 
@@ -30,6 +34,11 @@ def commands_of(page):
             elif commands:
                 commands[-1][1].append(line)
     return commands
+
+
+def pictures_of(page):
+    """Names of the pictures that its commands draw."""
+    return PICTURE.findall(page.read_text(encoding="utf-8"))
 
 
 def matches(expected, printed):
@@ -57,6 +66,11 @@ def failures_of(page, path):
                 failures += 1
                 print(f"{page.relative_to(ROOT)}: $ {command}\nexit code {run.returncode}, found:\n{run.stdout}"
                       "expected:\n" + "".join(f"{line}\n" for line in expected))
+        for name in pictures_of(page):
+            made, kept = pathlib.Path(folder, name), ROOT / "docs/images/pages" / name
+            if not made.exists() or made.read_bytes() != kept.read_bytes():
+                failures += 1
+                print(f"{page.relative_to(ROOT)}: {name} is not what its commands draw; docs/images/make.py makes it")
     return len(commands), failures
 
 

@@ -17,7 +17,7 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 # Made by other tools, and tested where they are made.
-REPORTS = "gallery/reports"
+REPORTS = "reports/"
 LOADED = {("script", "src"), ("img", "src"), ("link", "href"), ("iframe", "src"), ("source", "src")}
 # A browser asks for these only when the reader does.
 NOT_LOADED = {"canonical", "index", "search", "next", "prev"}
@@ -114,7 +114,7 @@ def main():
     if not root.is_dir():
         print(f"skipped: {root} is not there, for the site was not built")
         return 77
-    files = [file for file in sorted(root.rglob("*.html")) if REPORTS not in file.as_posix()]
+    files = [file for file in sorted(root.rglob("*.html")) if not file.relative_to(root).as_posix().startswith(REPORTS)]
     pages = {str(file): Page(file) for file in files}
     found = reached(pages, str(root))
     faults = [f"{file}: {fault}" for file, page in pages.items() for fault in faults_of(file, page, pages, str(root))]

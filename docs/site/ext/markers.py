@@ -9,9 +9,11 @@ which those who read the file do not see. Kinds:
     python NAME…        functions and classes of the package libph, by their docstrings
     printed FILE        what prepare.py let a program print
     schema FILE         a JSON Schema as a table of members
+    report NAME         a link to a report that build.py let a program make
 """
 import json
 import re
+import shutil
 from pathlib import Path
 
 from group import group_of
@@ -66,7 +68,21 @@ def schema(app, name):
     return tables(json.loads(Path(app.config.site_root, name).read_text()))
 
 
-KINDS = {"cpp": cpp, "python": python, "printed": printed, "schema": schema}
+def report(app, name):
+    if not Path(app.config.site_made, "reports", f"{name}.html").exists():
+        return fence("warning", "This copy of the site was built without the programs: the report is left out.")
+    return f'<p><a class="report" href="reports/{name}.html">Open this report</a></p>\n'
+
+
+def copy_reports(app):
+    """Beside the pages, as files of their own."""
+    made = Path(app.config.site_made, "reports")
+    if app.builder.format == "html" and made.exists():
+        shutil.copytree(made, Path(app.outdir, "reports"), dirs_exist_ok=True)
+    return []
+
+
+KINDS = {"cpp": cpp, "python": python, "printed": printed, "report": report, "schema": schema}
 
 
 def fill_in(app, docname, source):
@@ -79,4 +95,5 @@ def setup(app):
     app.add_config_value("site_made", "", "env")
     app.add_config_value("site_has_python", False, "env")
     app.connect("source-read", fill_in)
+    app.connect("html-collect-pages", copy_reports)
     return {"parallel_read_safe": True}
