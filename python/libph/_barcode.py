@@ -498,21 +498,29 @@ class Barcode(Summaries, Sequence[Bar]):
         return f"<div>{html.escape(repr(self))}<br>{svg[svg.find('<svg'):]}</div>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        def arrays(value: Any) -> Any:
-            if isinstance(value, tuple):
-                return tuple(map(arrays, value))
-            return np.asarray(value) if isinstance(value, _core.Block) else value
-
-        state = {name: arrays(value) for name, value in self._bars.state().items()}
-        return (_restored, (_STATE_VERSION, state, dict(self.meta)))
+        return (_restored, (_STATE_VERSION, with_arrays(self._bars.state()), dict(self.meta)))
 
 
 def _restored(version: int, state: dict[str, Any], meta: dict[str, Any]) -> Barcode:
     """What pickle calls."""
-    if version != _STATE_VERSION:
-        raise UsageError(f"pickle: found version {version}, expected {_STATE_VERSION}: it was "
-                         "written by another libph")
+    require_version(version, _STATE_VERSION)
     return Barcode._made(_core.Bars.from_state(state), meta)
+
+
+def with_arrays(state: Any) -> Any:
+    """A state of _core that can be pickled: its blocks are arrays."""
+    if isinstance(state, _core.Block):
+        return np.asarray(state)
+    if isinstance(state, dict):
+        return {name: with_arrays(member) for name, member in state.items()}
+    return tuple(map(with_arrays, state)) if isinstance(state, tuple) else state
+
+
+def require_version(found: int, expected: int) -> None:
+    """Refuses the state of another libph."""
+    if found != expected:
+        raise UsageError(f"pickle: found version {found}, expected {expected}: it was written by "
+                         "another libph")
 
 
 def _spaced(number: int) -> str:

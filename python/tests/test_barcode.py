@@ -129,6 +129,11 @@ def test_a_damaged_pickle_is_refused():
     with pytest.raises(ph.UsageError, match="version"):
         restored(version + 1, state, meta)
     for name, array in state.items():
+        missing = {other: member for other, member in state.items() if other != name}
+        for damaged in (missing, {**state, name: None}, {**state, name: "text"},
+                        {**state, name: (np.zeros(3), 7)}):
+            with pytest.raises(ph.DataError, match="state of a barcode: found damaged"):
+                restored(version, damaged, meta)
         if not isinstance(array, tuple):
             continue
         numbers, ends = array

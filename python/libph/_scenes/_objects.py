@@ -49,6 +49,15 @@ class Segment(NamedTuple):
     size: NDArray[np.float64]
     neighbours: tuple[tuple[int, float], ...]
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Segment):
+            return False
+        pairs: Iterable[tuple[Any, Any]] = zip(self, other)
+        return all(np.array_equal(mine, its) for mine, its in pairs)
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
 
 class Objects(Sequence[Segment]):
     """The objects of a scene as a table. A row is a `Segment`, a column an array."""
@@ -67,6 +76,9 @@ class Objects(Sequence[Segment]):
 
     def __len__(self) -> int:
         return len(self._segments)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Objects) and self._segments == other._segments
 
     def __repr__(self) -> str:
         rows = [f"{s.label}: {s.points} points at ({', '.join(f'{x:.3f}' for x in s.centre)})"
@@ -147,5 +159,7 @@ def _numbers(values: Iterable[float]) -> str:
 def segment_of(facts: dict[str, Any]) -> Segment:
     """Of what _core knows of it."""
     arrays = {name: np.array(facts[name]) for name in ("centroid", "box", "centre", "axes", "size")}
+    for array in arrays.values():
+        array.flags.writeable = False
     return Segment(facts["label"], facts["points"], facts["voxels"], facts["persistence"],
                    neighbours=tuple(facts["neighbours"]), **arrays)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core, _options, _run
-from .._barcode import Barcode, Meta
+from .._barcode import Barcode, Meta, require_version, with_arrays
 from .._errors import UsageError
 from .._files import path_of
 from .._report import Report, require_page
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 _FORMATS = {".npy": "npy", ".png": "png", ".csv": "csv", ".txt": "csv", ".pcd": "pcd",
             ".ply": "ply", ".tree": "tree", ".json": "json"}
+_STATE_VERSION = 1
 
 
 class Voxels(NamedTuple):
@@ -55,10 +56,13 @@ class Voxels(NamedTuple):
 class Segmentation:
     """The objects of a scene: one cut of a merge tree, with the tree.
 
+    It cannot be changed. Two are equal if their trees and cuts are.
+
     Attributes
     ----------
     labels : ndarray
         The object of each point, 0: none. (rows, columns) if the cloud has them, else (n,).
+        Read-only.
     objects : Objects
         What is known of each object.
     tree : MergeTree
@@ -81,15 +85,36 @@ class Segmentation:
         raise TypeError("a Segmentation is made by ph.segment")
 
     @classmethod
-    def _of(cls, found: _core.Segmentation, name: str, notes: Sequence[str]) -> Segmentation:
+    def _of(cls, found: _core.Segmentation, name: str, notes: Sequence[str],
+            version: str = _core.version) -> Segmentation:
         self = object.__new__(cls)
         self._found = found
         self.labels = np.asarray(found.labels)
+        self.labels.flags.writeable = False
         known = {"path": name, "shape": self.labels.shape, **found.facts, "notes": tuple(notes),
-                 "version": _core.version}
+                 "version": version}
         self.meta = Meta({key: value for key, value in known.items() if value != ""})
         self.objects = Objects(segment_of(facts) for facts in found.segments)
         return self
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Segmentation):
+            return NotImplemented
+        return self._found is other._found or np.array_equal(np.asarray(self._found.tree_file()),
+                                                             np.asarray(other._found.tree_file()))
+
+    def __hash__(self) -> int:
+        return hash(np.asarray(self._found.tree_file()).tobytes())
+
+    def __copy__(self) -> Segmentation:
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Segmentation:
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        told = (self.meta.get("path", ""), self.meta["notes"], self.meta["version"])
+        return (_restored, (_STATE_VERSION, with_arrays(self._found.state()), told))
 
     @property
     def tree(self) -> MergeTree:
@@ -310,6 +335,14 @@ class Segmentation:
         notes = "".join(f"<div>{html.escape(note)}</div>" for note in self.meta["notes"])
         return (f"<div>{html.escape(repr(self))}{notes}<div>{svg[svg.find('<svg'):]}</div>"
                 f"{self.objects._repr_html_()}</div>")
+
+
+def _restored(version: int, state: dict[str, Any], told: tuple[str, Sequence[str], str]
+              ) -> Segmentation:
+    """What pickle calls."""
+    require_version(version, _STATE_VERSION)
+    found = _run.run(_core.Segmentation.from_state, state, options={})
+    return Segmentation._of(found, *told)
 
 
 def _distance_of(n: int, values: NDArray[np.float64], sizes: NDArray[np.int64], voxels: int,

@@ -12,6 +12,7 @@
 #include "ph/error.hpp"
 #include "ph/io/plot.hpp"
 #include "results/bars_state.hpp"
+#include "results/state.hpp"
 #include "run.hpp"
 
 namespace ph::python {
@@ -164,7 +165,12 @@ void bind_bars(py::module_& m) {
           py::arg("places"))
       .def("svg", &svg_of, py::arg("title"), py::arg("negated"), py::arg("run"))
       .def("state", &state_of)
-      .def_static("from_state", &bars_of_state, py::arg("state"));
+      .def_static(
+          "from_state",
+          [](const py::dict& state) {
+            return of_state("a barcode", [&] { return bars_of_state(state); });
+          },
+          py::arg("state"));
 }
 
 }  // namespace ph::python

@@ -32,7 +32,6 @@ struct SceneCloud {
 /// What a segmentation gives, with what went in.
 struct SegmentedScene {
   std::shared_ptr<const SceneCloud> input;  ///< null: a stored tree was read
-  segment::SegmentOptions options = {};
   segment::Segmentation result = {};
   std::vector<std::string> notes = {};
 

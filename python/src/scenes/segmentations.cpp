@@ -24,7 +24,7 @@
 #include "results/bars.hpp"
 #include "run.hpp"
 #include "scenes/scene.hpp"
-#include "tree/tree_barcode.hpp"
+#include "scenes/scene_state.hpp"
 
 namespace ph::python {
 namespace {
@@ -35,7 +35,7 @@ constexpr std::size_t kFewPoints = 2000;
 
 SegmentedScene segment_cloud(std::shared_ptr<SceneCloud> cloud, const SegmentOptions& given,
                              const RunOptions& options) {
-  SegmentedScene scene{std::move(cloud), given};
+  SegmentedScene scene{std::move(cloud)};
   const auto points = static_cast<std::size_t>(scene.cloud()->size());
   run_task(options, points < kFewPoints, [&](const SharedContext& context) {
     scene.result = segment::segment(*scene.cloud(), given, *context);
@@ -66,11 +66,7 @@ py::object read_scene(const std::string& path, const RunOptions& options) {
       cloud->cloud = ph::read_cloud(input, how);
       return;
     }
-    segment::Segmentation& result = stored.emplace().result;
-    static_cast<segment::SceneTree&>(result) = segment::read_tree(input);
-    if (!result.plane) result.plane_note = "the tree was made without one";
-    result.barcode = segment::barcode_of(result.tree);
-    static_cast<segment::SceneCut&>(result) = segment::cut(result, result.first_cut, *context);
+    stored.emplace().result = segmentation_of_tree(input, *context);
   });
   return stored ? py::cast(std::move(*stored)) : py::cast(std::move(cloud));
 }
@@ -82,7 +78,7 @@ SegmentedScene cut(const SegmentedScene& scene, std::optional<double> value,
   const segment::CutOptions& old = scene.result.first_cut;
   const segment::CutOptions asked{value.value_or(old.value), min_part.value_or(old.min_part),
                                   min_size.value_or(old.min_size), objects.value_or(old.objects)};
-  SegmentedScene other{scene.input, scene.options};
+  SegmentedScene other{scene.input};
   run_task(options, scene.result.points.size() < kFewPoints, [&](const SharedContext& context) {
     segment::SceneCut found = segment::cut(scene.result, asked, *context);
     other.result = scene.result;
@@ -287,7 +283,10 @@ void bind_segmentations(py::module_& m) {
       .def("signature", &signature, py::arg("labels"), py::arg("run"))
       .def("first_meeting", &first_meeting, py::arg("a"), py::arg("b"))
       .def("save", &save, py::arg("path"), py::arg("format"), py::arg("run"))
-      .def("svg", &svg, py::arg("run"));
+      .def("svg", &svg, py::arg("run"))
+      .def("tree_file", &tree_file)
+      .def("state", [](const SegmentedScene& s) { return state_of(s); })
+      .def_static("from_state", &scene_of_state, py::arg("state"), py::arg("run"));
   m.def("segment", &segment_cloud, py::arg("cloud"), py::arg("options"), py::arg("run"));
   m.def("read_scene", &read_scene, py::arg("path"), py::arg("run"));
 }

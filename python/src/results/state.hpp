@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <pybind11/pybind11.h>
+
+#include <fmt/format.h>
+
+#include "ph/error.hpp"
+
+namespace ph::python {
+
+namespace py = pybind11;
+
+/// What `take` makes of the members of a state that was pickled. They may be missing, or anything.
+/// @param thing whose state it is: "a barcode".
+/// @throws Error (bad_data).
+template <class Take>
+auto of_state(const char* thing, const Take& take) {
+  try {
+    return take();
+  } catch (const py::builtin_exception&) {  // not of a type that was asked for
+  } catch (const py::error_already_set& error) {
+    if (!error.matches(PyExc_Exception) || error.matches(PyExc_MemoryError)) throw;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::internal) throw;  // an array of another type
+  }
+  throw Error(ErrorKind::bad_data, fmt::format("state of {}: found damaged members", thing));
+}
+
+}  // namespace ph::python
