@@ -7,12 +7,13 @@ set_property(CACHE PH_STATIC_PROGRAMS PROPERTY STRINGS AUTO ON OFF)
 set(PH_IS_STATIC FALSE)
 set(PH_FMT fmt::fmt)
 
-# For each of our programs.
+# For each of our programs. The map lists what was linked in, whose licences a copy comes with.
 function(ph_link_program program)
   if(NOT PH_IS_STATIC)
     return()
   endif()
-  target_link_options(${program} PRIVATE -static -Wl,--gc-sections)
+  target_link_options(${program} PRIVATE -static -Wl,--gc-sections
+                      -Wl,-Map=${CMAKE_CURRENT_BINARY_DIR}/${program}.map)
 endfunction()
 
 if(NOT PH_STATIC_PROGRAMS OR NOT PH_BUILD_APPS)
