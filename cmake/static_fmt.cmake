@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Sets PH_FMT, what to link for fmt, to an archive: Debian has fmt as a shared library and as headers
 # only.
-find_package(fmt 9 REQUIRED)
 add_library(ph_fmt STATIC ${CMAKE_CURRENT_LIST_DIR}/fmt_functions.cpp)
 ph_position_independent(ph_fmt)
 target_compile_options(ph_fmt PRIVATE -w -ffunction-sections -fkeep-inline-functions $<$<CONFIG:Release>:-O2>)
