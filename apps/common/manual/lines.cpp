@@ -26,14 +26,13 @@ std::vector<std::string> wrapped(std::string_view text, std::size_t columns) {
   return lines;
 }
 
-std::vector<std::string> wrapped_list(std::string_view text, std::size_t columns,
-                                      std::size_t first) {
+std::vector<std::string> wrapped_list(std::string_view text, std::size_t columns) {
   std::vector<std::string> lines{""};
   while (!text.empty()) {
     const std::size_t bar = text.find('|');
     const std::string_view part = text.substr(0, bar == text.npos ? bar : bar + 1);
-    const std::size_t taken = columns_of(lines.back()) + (lines.size() == 1 ? first : 0);
-    if (taken + columns_of(part) > columns && !lines.back().empty()) lines.emplace_back();
+    const std::size_t taken = columns_of(lines.back());
+    if (taken > 0 && taken + columns_of(part) > columns) lines.emplace_back();
     lines.back() += part;
     text.remove_prefix(part.size());
   }

@@ -14,10 +14,8 @@ std::vector<std::string_view> words_of(std::string_view text);
 /// longer.
 std::vector<std::string> wrapped(std::string_view text, std::size_t columns);
 
-/// The same for a list of alternatives, a|b|c, which may also be broken behind a bar; `first`
-/// columns of the first line are taken.
-std::vector<std::string> wrapped_list(std::string_view text, std::size_t columns,
-                                      std::size_t first = 0);
+/// The same for a list of alternatives, a|b|c: behind its bars.
+std::vector<std::string> wrapped_list(std::string_view text, std::size_t columns);
 
 /// How many columns a terminal needs for it: UTF-8, without wide characters.
 std::size_t columns_of(std::string_view text);

@@ -16,6 +16,8 @@
 #include "common/arguments/choices.hpp"
 #include "common/arguments/numbers.hpp"
 #include "common/files/file_identity.hpp"
+#include "common/manual/lines.hpp"
+#include "common/manual/option_text.hpp"
 #include "kind_of.hpp"
 
 namespace ph::app {
@@ -87,6 +89,48 @@ TEST(Choices, SuggestNothingThatIsFar) {
   EXPECT_EQ(nearest_name("--plot-size", kNames), std::nullopt);
   EXPECT_EQ(nearest_name("--tilte", kNames), "--title");
   EXPECT_EQ(nearest_name("---", kNames), std::nullopt);
+}
+
+TEST(Placeholders, SayWhatAValueMayBe) {
+  using Words = std::vector<std::string>;
+  EXPECT_EQ(values_of("auto|kinect-v1|2").words, (Words{"auto", "kinect-v1", "2"}));
+  EXPECT_EQ(values_of("cosine|minkowski:P").words, (Words{"cosine", "minkowski:"}));
+  EXPECT_EQ(values_of("N|exact").words, Words{"exact"});
+  EXPECT_FALSE(values_of("on|off").is_file);
+  for (const char* text : {"FILE", "FILE FILE", "FILE|xtion"}) {
+    EXPECT_TRUE(values_of(text).is_file) << text;
+    EXPECT_TRUE(values_of(text).extensions.empty()) << text;
+  }
+  EXPECT_EQ(values_of("FILE.svg|.png").extensions, (Words{".svg", ".png"}));
+  EXPECT_TRUE(values_of("FILE.svg|.png").words.empty());
+  for (const char* text : {"", "N", "LO,HI", "WxH", "D,…", "[TOPIC]", "X,Y,Z", "-"}) {
+    const Values values = values_of(text);
+    EXPECT_TRUE(values.words.empty() && values.extensions.empty() && !values.is_file) << text;
+  }
+}
+
+TEST(Descriptions, AreCutBehindWhatMatters) {
+  const auto brief = [](const std::string& text) {
+    OptionText option;
+    option.description = text;
+    return option.brief();
+  };
+  EXPECT_EQ(brief("format of the input (default auto: by content)"), "format of the input");
+  EXPECT_EQ(brief("one page; needs no network"), "one page");
+  EXPECT_EQ(brief("least persistence. surface: 0.01"), "least persistence");
+  EXPECT_EQ(brief("a label a point (csv: one a line; png: 16 bits)"),
+            "a label a point (csv: one a line; png: 16 bits)");
+  EXPECT_EQ(brief("an error (default), or a hole"), "an error (default), or a hole");
+}
+
+TEST(Lines, AreBrokenAtBlanksAndBars) {
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(wrapped("a bc  def", 4), (Lines{"a bc", "def"}));
+  EXPECT_EQ(wrapped("… … …", 3), (Lines{"… …", "…"}));
+  EXPECT_EQ(wrapped("longer than that", 3), (Lines{"longer", "than", "that"}));
+  EXPECT_EQ(wrapped("", 3), Lines{});
+  EXPECT_EQ(wrapped_list("--o ab|cd|ef", 7), (Lines{"--o ab|", "cd|ef"}));
+  EXPECT_EQ(shell_quoted("it's"), "'it'\\''s'");
 }
 
 // A folder of its own with one file, "input".
