@@ -13,7 +13,7 @@ for name in barcode segment; do
   [ ! -x "$program" ] || found+=("--$name" "$program")
 done
 for package in "$build/python" python; do
-  if PYTHONPATH=$package /usr/bin/python3 -B -c 'import libph' 2>/dev/null; then
+  if PYTHONPATH=$package /usr/bin/python3 -B -c 'import libph._core' 2>/dev/null; then
     found+=(--package "$package")
     break
   fi

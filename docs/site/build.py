@@ -7,7 +7,7 @@ In the folder it makes
 
 source/     a tree of links to the pages of the repository; no page is copied
 doxygen/    XML of the public headers
-printed/    what the programs print, if there are programs
+printed/    the options of the programs, as they print them, if there are programs
 reports/    the reports of the gallery, if there are programs
 html/       the site
 
@@ -65,11 +65,11 @@ def run_doxygen(folder):
     subprocess.run(["doxygen", "-"], input=settings, text=True, cwd=ROOT, check=True)
 
 
-def print_helps(folder, programs):
+def print_options(folder, programs):
     folder.mkdir(parents=True)
     for program in programs:
-        text = subprocess.run([program, "--help"], capture_output=True, text=True, check=True).stdout
-        (folder / f"{Path(program).name}.txt").write_text(text)
+        text = subprocess.run([program, "--help", "markdown"], capture_output=True, text=True, check=True).stdout
+        (folder / f"{Path(program).name}.md").write_text(text)
 
 
 def make_reports(folder, programs):
@@ -85,7 +85,7 @@ def make_reports(folder, programs):
 
 
 def has_package(environment):
-    code = "import libph, sys; sys.exit(0)"
+    code = "import libph._core"
     return subprocess.run([sys.executable, "-B", "-c", code], env=environment, cwd="/",
                           capture_output=True, check=False).returncode == 0
 
@@ -110,7 +110,7 @@ def main():
     link_pages(folder / "source")
     run_doxygen(folder / "doxygen")
     if len(programs) == 2:
-        print_helps(folder / "printed", programs)
+        print_options(folder / "printed", programs)
         make_reports(folder / "reports", programs)
     built = subprocess.run(
         [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-j", "auto", "-c", HERE,

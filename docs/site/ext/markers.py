@@ -7,7 +7,7 @@ which those who read the file do not see. Kinds:
 
     cpp HEADER…         what public headers declare, in the words of their comments
     python NAME…        functions and classes of the package libph, by their docstrings
-    printed FILE        what prepare.py let a program print
+    options PROGRAM     its options, as it prints them itself
     schema FILE         a JSON Schema as a table of members
     report NAME         a link to a report that build.py let a program make
 """
@@ -56,12 +56,12 @@ def python(app, *names):
     return "\n".join(made)
 
 
-def printed(app, name):
-    file = Path(app.config.site_made, "printed", name)
+def options(app, program):
+    file = Path(app.config.site_made, "printed", f"{program}.md")
     if not file.exists():
-        return fence("warning", "This copy of the site was built without the programs: what they "
-                                "print is left out.")
-    return f"```text\n{file.read_text()}```\n"
+        return fence("warning", "This copy of the site was built without the programs: their options "
+                                "are left out.")
+    return file.read_text().partition("\n")[2]  # the page has a title
 
 
 def schema(app, name):
@@ -82,7 +82,7 @@ def copy_reports(app):
     return []
 
 
-KINDS = {"cpp": cpp, "python": python, "printed": printed, "report": report, "schema": schema}
+KINDS = {"cpp": cpp, "python": python, "options": options, "report": report, "schema": schema}
 
 
 def fill_in(app, docname, source):
