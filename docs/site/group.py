@@ -13,7 +13,8 @@ def group_of(header):
 
 def grouped(text, group):
     begin = f"/** @addtogroup {group} */ /** @{{ */"
-    # Hashes of cells say nothing to a reader; definitions of what a class declares say it again.
+    # Hashes of cells and friends say nothing to a reader; definitions of what a class declares say it again.
+    text = re.sub(r"^ +friend .*;$", "", text, flags=re.MULTILINE)
     text = re.sub(r"^template <>\nstruct std::hash.*?^\};$", "", text, flags=re.MULTILINE | re.DOTALL)
     text = re.sub(r"^inline constexpr (\w+) \1::.*$", "", text, flags=re.MULTILINE)
     text = re.sub(r"^(namespace ph(?:::segment)? \{|extern \"C\" \{\n#endif)$", rf"\1 {begin}", text,

@@ -1,28 +1,37 @@
 # SPDX-License-Identifier: MIT
-"""Debian's Furo is not bundled: its script imports another one, which a page opened as a file must
-not, and its style sheet asks a web server for normalize.css. Both are put together here."""
+"""What Debian's Furo lacks, since other tools build it: its script imports another one, which a page
+opened as a file must not; its style sheet asks a web server for normalize.css, and has no dark colours
+for those whose browser asks for them."""
 import re
 from pathlib import Path
 
 NORMALIZE = Path("/usr/share/javascript/normalize.css/normalize.css")
 
 
-def bundle(app, error):
-    static = Path(app.outdir, "_static")
-    script, spy = static / "scripts/furo.js", static / "scripts/gumshoe-patched.js"
+def whole_script(script, spy):
+    """The scroll spy and the script as one; as it is, if it imports nothing."""
+    first, _, rest = script.partition("\n")
+    return f"{spy}\n(() => {{\n{rest}\n}})();\n" if first.startswith("import Gumshoe") else script
+
+
+def whole_style(style):
+    style = re.sub(r"@import url\(/javascript/normalize\.css/normalize\.css\);",
+                   lambda _: NORMALIZE.read_text(), style)
+    dark = re.search(r'body\[data-theme="dark"\] (\{\s*--[^}]*\})', style)
+    if "prefers-color-scheme" not in style and dark:
+        style += f'@media screen and (prefers-color-scheme: dark) {{ body[data-theme="auto"] {dark[1]} }}\n'
+    return style
+
+
+def mend(app, error):
     if error or app.builder.format != "html":
         return
-    text = script.read_text()
-    if text.startswith("import Gumshoe from"):
-        script.write_text(spy.read_text() + "\n(() => {\n" + text.partition("\n")[2] + "\n})();\n")
-    style = static / "styles/furo.css"
-    text = style.read_text()
-    whole = re.sub(r"@import url\(/javascript/normalize\.css/normalize\.css\);",
-                   lambda _: NORMALIZE.read_text(), text)
-    if whole != text:
-        style.write_text(whole)
+    static = Path(app.outdir, "_static")
+    script, style = static / "scripts/furo.js", static / "styles/furo.css"
+    script.write_text(whole_script(script.read_text(), (static / "scripts/gumshoe-patched.js").read_text()))
+    style.write_text(whole_style(style.read_text()))
 
 
 def setup(app):
-    app.connect("build-finished", bundle)
+    app.connect("build-finished", mend)
     return {"parallel_read_safe": True}
