@@ -37,8 +37,7 @@ except ModuleNotFoundError as _error:
                       "of the repository compiles it", name=_error.name) from None
 
 from . import gradients
-from ._barcode import Bar, Barcode
-from ._chains import Chain, Loop
+from ._barcodes import Bar, Barcode, Chain, Loop
 from ._compute import boundary, cubical, filtered, lower_star, rips
 from ._diagrams import bottleneck
 from ._errors import (Cancelled, DataError, Error, InternalError, MemoryLimitError,

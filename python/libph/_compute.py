@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from . import _core
-from ._barcode import Barcode
+from ._barcodes import Barcode
 from ._requests import (Request, boundary_request, cubical_request, filtered_request,
                         lower_star_request, rips_request)
 

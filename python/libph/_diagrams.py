@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arrays, _core, _options, _run
-from ._barcode import Barcode
+from ._barcodes import Barcode
 from ._errors import UsageError
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from . import _core, _errors, _options, _run
-from ._barcode import Barcode
+from ._barcodes import Barcode
 
 if TYPE_CHECKING:
     from scipy.sparse import csc_array

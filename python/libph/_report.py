@@ -15,9 +15,10 @@ from ._files import Boundary, Mesh, Simplices, path_of
 from ._options import arguments_of
 from ._requests import (PointImage, Request, boundary_request, filtered_request,
                         lower_star_request, rips_request)
+from ._results import description_of
 
 if TYPE_CHECKING:
-    from ._barcode import Barcode
+    from ._barcodes import Barcode
 
 _HEIGHT = 720  # pixels of a frame in a notebook
 # What a barcode knows of the keywords with which it was computed.
@@ -100,7 +101,7 @@ def report(data: Any, *, complex: str | None = None, title: str = "", **options:
     >>> ph.report([[0, 0], [1, 0], [1, 1], [0, 1]])        # doctest: +SKIP
     Report('rips of 4 points in R^2', 0.7 MB)
     """
-    from ._barcode import Barcode
+    from ._barcodes import Barcode
     require_page()
     source = _source_of(data, complex, options)
     bars = Barcode._of(source.request.run(_core.barcode), source.request.meta)
@@ -194,13 +195,3 @@ def _page(bars: Barcode, source: _Source | None, title: str) -> Report:
 
 _EMPTY_TASK = _core.Task(None, 0, 2, "auto", _core.Collapse.automatic, 0.0,
                          _core.Representatives.none, True, _core.LoopChoice.none)
-
-
-def description_of(meta: Any) -> str:
-    """What the data were: "20 points in R^2". Empty: nobody knows."""
-    if "shape" in meta:
-        return " x ".join(map(str, meta["shape"]))
-    if "points" not in meta:
-        return ""
-    number = f"{meta['points']:,}".replace(",", " ")
-    return f"{number} points" + (f" in R^{meta['coordinates']}" if "coordinates" in meta else "")

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core, _options, _run
-from .._barcode import Barcode, Meta, require_version, with_arrays
+from .._barcodes import Barcode
+from .._results import Meta, require_version, with_arrays
 from .._errors import UsageError
 from .._files import path_of
 from .._report import Report, require_page

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from .. import _arrays, _core, _options
-from .._barcode import Barcode
+from .._barcodes import Barcode
 from .._compute import rips
 from .._errors import DataError, UsageError
 from .._sources import Source, unique_pairs

@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _arrays
-from .._barcode import Barcode
+from .._barcodes import Barcode
 from .._errors import UsageError
 from ._edges import RipsValues
 from ._values import CellValues, StarValues, VoxelValues

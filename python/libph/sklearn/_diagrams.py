@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .. import _arrays
-from .._barcode import Barcode
+from .._barcodes import Barcode
 from .._errors import UsageError
 from .._vectors import Diagram, as_diagram
 

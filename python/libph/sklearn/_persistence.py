@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from sklearn.base import TransformerMixin
 
 from .. import _arrays, _options, _vectors
-from .._barcode import Barcode
+from .._barcodes import Barcode
 from .._compute import cubical, rips
 from .._errors import Cancelled, DataError, MemoryLimitError, UsageError
 from ._base import MakesTables, TakesLists

@@ -21,7 +21,7 @@ import torch
 from torch.autograd.function import once_differentiable
 
 from .. import _compute
-from .._barcode import Barcode
+from .._barcodes import Barcode
 from .._errors import UsageError
 from ..gradients import pullback
 

@@ -93,7 +93,7 @@ py::tuple loops_of(const Bars& bars, std::int64_t i) {
 
 py::buffer_info bytes_of_bars(const Bars& bars) {
   static_assert(sizeof(Bar) == 24 && offsetof(Bar, birth) == 8 && offsetof(Bar, death) == 16,
-                "libph/_barcode.py knows the layout");
+                "libph/_barcodes/_barcode.py knows the layout");
   const auto size = static_cast<py::ssize_t>(bars.barcode.size() * sizeof(Bar));
   auto* const first = size == 0 ? nullptr : const_cast<Bar*>(&bars.barcode[0]);
   return py::buffer_info(reinterpret_cast<unsigned char*>(first), size, true);

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ... import _options
-from ..._barcode import Barcode
+from ..._barcodes import Barcode
 from ..._errors import UsageError
 
 

@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _core, _options
-from ._errors import UsageError
+from .. import _core, _options
+from .._errors import UsageError
 
 
 class Loop(NamedTuple):

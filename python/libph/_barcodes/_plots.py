@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _options
+from .. import _options
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Barcodes: the result of persistent homology."""
+"""Barcodes: sequences of bars, with arrays of the same."""
 from __future__ import annotations
 
 import html
@@ -11,16 +11,18 @@ from typing import TYPE_CHECKING, Any, NamedTuple, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _core, _options, _run
-from ._chains import Chain
-from ._errors import UsageError
-from ._vectors import Summaries
+from .. import _core, _options, _run
+from .._errors import UsageError
+from .._results import Meta, require_version, with_arrays
+from .._vectors import Summaries
+from . import _output
+from ._cells import Cells
 
 if TYPE_CHECKING:
     import pandas
     from matplotlib.axes import Axes
 
-    from ._report import Report
+    from .._report import Report
 
 # As the bars lie in _core.
 _BAR = np.dtype({"names": ["dim", "birth", "death"], "formats": ["i4", "f8", "f8"],
@@ -46,34 +48,7 @@ class Bar(NamedTuple):
         return self.death - self.birth if self.birth != self.death else 0.0
 
 
-class Meta(Mapping[str, Any]):
-    """Where a barcode comes from: a dictionary that cannot be changed."""
-
-    __slots__ = ("_items",)
-
-    def __init__(self, items: Mapping[str, Any]) -> None:
-        self._items = dict(items)
-
-    def __getitem__(self, name: str) -> Any:
-        return self._items[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._items)
-
-    def __len__(self) -> int:
-        return len(self._items)
-
-    def __hash__(self) -> int:
-        return hash(frozenset(self._items.items()))
-
-    def __repr__(self) -> str:
-        return f"Meta({self._items!r})"
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return (Meta, (self._items,))
-
-
-class Barcode(Summaries, Sequence[Bar]):
+class Barcode(Cells, Summaries, Sequence[Bar]):
     """The result of persistent homology: bars, ordered by dimension, birth and death.
 
     A sequence of `Bar` that cannot be changed, with arrays of the same. Barcodes are equal if their
@@ -151,7 +126,7 @@ class Barcode(Summaries, Sequence[Bar]):
     if not TYPE_CHECKING:  # for a type checker a name that is missing is an error
 
         def __getattr__(self, name):
-            from . import _hints
+            from .. import _hints
             raise AttributeError(f"a Barcode has no {name!r}" + _hints.of_name(
                 name, _hints.BARCODE, dir(type(self))))
 
@@ -239,122 +214,11 @@ class Barcode(Summaries, Sequence[Bar]):
         rows = np.column_stack(self._arrays)
         return rows if dtype is None else rows.astype(dtype, copy=False)
 
-    def to_numpy(self, layout: str = "dim-birth-death") -> Any:
-        """The bars in the layout of another program.
-
-        Parameters
-        ----------
-        layout : {"dim-birth-death", "giotto", "ripser", "gudhi"}
-            Rows dim, birth, death; rows birth, death, dim of giotto-tda; the list of arrays of
-            ripser.py, H0 by death and others by descending birth; the list of (dim, (birth,
-            death)) of GUDHI, dimensions descending, the longest first.
-        """
-        _options.choice("layout", layout, ["dim-birth-death", "giotto", "ripser", "gudhi"])
-        dims, births, deaths = self._arrays
-        if layout == "giotto":
-            return np.column_stack([births, deaths, dims])
-        if layout == "ripser":
-            dgms = self.dgms()
-            return [dgm[np.lexsort((-dgm[:, 1], -dgm[:, 0]) if dim else (dgm[:, 0], dgm[:, 1]))]
-                    for dim, dgm in enumerate(dgms)]
-        if layout == "gudhi":
-            order = np.lexsort((births, births - deaths, -dims))
-            return [(int(dims[i]), (float(births[i]), float(deaths[i]))) for i in order]
-        return np.asarray(self)
-
-    def to_pandas(self) -> pandas.DataFrame:
-        """A table with the columns dim, birth, death."""
-        import pandas
-        return pandas.DataFrame(dict(zip(("dim", "birth", "death"), map(np.array, self._arrays))))
-
-    # ---- cells and chains
-
-    def birth_cells(self, dim: int) -> NDArray[np.int64]:
-        """The cell that gave birth to each bar of a dimension, a row each.
-
-        Vertices, ascending; of images doubled grid coordinates, in which the voxel (i, j) is
-        (2 i, 2 j); rows of a boundary matrix. `gradients.deciders` tells the edge or the voxel
-        whose value the cell has.
-
-        >>> bars = ph.rips([[0, 0], [1, 0], [1, 1], [0, 1]])
-        >>> bars.birth_cells(1), bars.death_cells(1)
-        (array([[2, 3]]), array([[0, 2, 3]]))
-        """
-        return np.asarray(self._bars.birth_cells(self._dim_of_cells(dim)))
-
-    def death_cells(self, dim: int) -> NDArray[np.int64]:
-        """The cell that killed each bar of a dimension; -1 in all places if it never dies."""
-        return np.asarray(self._bars.death_cells(self._dim_of_cells(dim)))
-
-    def birth_cell(self, i: int) -> NDArray[np.int64]:
-        """The cell that gave birth to bar i, as a row of `birth_cells`.
-
-        >>> bars = ph.lower_star([0, 2, 1], [[0, 1], [1, 2]])
-        >>> bars[1], bars.birth_cell(1), bars.death_cell(1)
-        (Bar(dim=0, birth=1.0, death=2.0), array([2]), array([1, 2]))
-        """
-        place = self._place(i)
-        dim = int(self.dims[place])
-        return np.asarray(self.birth_cells(dim)[place - self._range(dim).start])
-
-    def death_cell(self, i: int) -> NDArray[np.int64] | None:
-        """The cell that killed bar i; None if it never dies."""
-        place = self._place(i)
-        dim = int(self.dims[place])
-        cell = self.death_cells(dim)[place - self._range(dim).start]
-        return None if (cell == -1).all() else cell
-
-    def _dim_of_cells(self, dim: int) -> int:
-        if not self._bars.has_cells:
-            raise UsageError("cells: found none, expected a barcode computed with cells=True")
-        return _options.whole("dim", dim, 0, 2**31 - 2)
+    # ---- places and selections
 
     def _place(self, i: Any) -> int:
         place = _options.whole("i", i, -len(self), len(self) - 1)
         return place + len(self) if place < 0 else place
-
-    def representative(self, i: int) -> Chain:
-        """The cycle or cocycle of bar i, as asked for by `representatives`.
-
-        Examples
-        --------
-        >>> square = [[0, 0], [1, 0], [1, 1], [0, 1]]
-        >>> bars = ph.rips(square, representatives="cycles")
-        >>> bars.representative(bars.longest(1)).loop()
-        array([0, 1, 2, 3])
-        """
-        if self._bars.representatives == _core.Representatives.none and len(self):
-            raise UsageError("representative: found none, expected a barcode computed with "
-                             "representatives='cycles' or 'cocycles'")
-        return Chain(self._bars, self._place(i))
-
-    def _require_voxels(self) -> tuple[int, ...]:
-        shape = self.meta.get("shape")
-        if self._bars.representatives != _core.Representatives.voxels or shape is None:
-            raise UsageError("voxels: found none, expected a barcode of an image computed with "
-                             "representatives='voxels'")
-        return tuple(shape)
-
-    def voxels(self, i: int) -> NDArray[np.bool_]:
-        """A mask of the image: the component or hollow of bar i.
-
-        Bars of other dimensions have a cycle in its place, and no voxel is true.
-        """
-        mask = np.zeros(self._require_voxels(), dtype=bool)
-        mask.reshape(-1)[np.asarray(self._bars.voxels(self._place(i)))] = True
-        return mask
-
-    def birth_voxel(self, i: int) -> tuple[int, ...]:
-        """The voxel whose value is the birth of bar i."""
-        self._require_voxels()
-        return tuple(np.asarray(self._bars.birth_voxel(self._place(i))).tolist())
-
-    def death_voxel(self, i: int) -> tuple[int, ...] | None:
-        """The voxel whose value is the death of bar i; None if it never dies."""
-        self._require_voxels()
-        return tuple(np.asarray(self._bars.death_voxel(self._place(i))).tolist()) or None
-
-    # ---- selections
 
     def _selected(self, places: NDArray[Any]) -> Barcode:
         return Barcode._made(self._bars.selected(np.ascontiguousarray(places, dtype=np.int64)),
@@ -408,6 +272,23 @@ class Barcode(Summaries, Sequence[Bar]):
 
     # ---- output
 
+    def to_numpy(self, layout: str = "dim-birth-death") -> Any:
+        """The bars in the layout of another program.
+
+        Parameters
+        ----------
+        layout : {"dim-birth-death", "giotto", "ripser", "gudhi"}
+            Rows dim, birth, death; rows birth, death, dim of giotto-tda; the list of arrays of
+            ripser.py, H0 by death and others by descending birth; the list of (dim, (birth,
+            death)) of GUDHI, dimensions descending, the longest first.
+        """
+        return _output.in_layout(self, layout)
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table with the columns dim, birth, death."""
+        import pandas
+        return pandas.DataFrame(dict(zip(("dim", "birth", "death"), map(np.array, self._arrays))))
+
     def save(self, path: str | os.PathLike[str], format: str | None = None) -> None:
         """Writes a file, whole or not at all.
 
@@ -419,7 +300,7 @@ class Barcode(Summaries, Sequence[Bar]):
         format : str, optional
             "csv", "json", "ripser", "pers", "dipha" or "npy".
         """
-        from ._files import path_of
+        from .._files import path_of
         meta = {**self.meta, "program": f"libph {_core.version}"}
         _run.run(_core.save, self._bars, path_of(path),
                  None if format is None else str(format), meta, options={})
@@ -474,24 +355,11 @@ class Barcode(Summaries, Sequence[Bar]):
         DataError
             If the bars are not those of X.
         """
-        from ._report import report_of_bars
+        from .._report import report_of_bars
         return report_of_bars(self, X, title, options)
 
     def __repr__(self) -> str:
-        from ._report import description_of
-        meta = self.meta
-        name = " of ".join(filter(None, [str(meta.get("complex") or "barcode"),
-                                         description_of(meta)]))
-        counts: list[str] = []
-        for dim, count in zip(*(x.tolist() for x in np.unique(self.dims, return_counts=True))):
-            noun = "" if counts else " bar" if count == 1 else " bars"
-            counts.append(f"{_spaced(count)}{noun} of H{dim}")
-        text = f"Barcode({name}, field {meta.get('field', 2)}: {', '.join(counts) or 'no bars'}"
-        dim = int(self.dims[-1]) if len(self) else 0
-        if dim > 0:
-            bar = self[self.longest(dim)]
-            text += f", longest [{bar.birth:.6g}, {bar.death:.6g})"
-        return text + ")"
+        return _output.in_words(self)
 
     def _repr_html_(self) -> str:
         svg = _run.run(self._bars.svg, "", bool(self.meta.get("superlevel")), options={})
@@ -505,23 +373,3 @@ def _restored(version: int, state: dict[str, Any], meta: dict[str, Any]) -> Barc
     """What pickle calls."""
     require_version(version, _STATE_VERSION)
     return Barcode._made(_core.Bars.from_state(state), meta)
-
-
-def with_arrays(state: Any) -> Any:
-    """A state of _core that can be pickled: its blocks are arrays."""
-    if isinstance(state, _core.Block):
-        return np.asarray(state)
-    if isinstance(state, dict):
-        return {name: with_arrays(member) for name, member in state.items()}
-    return tuple(map(with_arrays, state)) if isinstance(state, tuple) else state
-
-
-def require_version(found: int, expected: int) -> None:
-    """Refuses the state of another libph."""
-    if found != expected:
-        raise UsageError(f"pickle: found version {found}, expected {expected}: it was written by "
-                         "another libph")
-
-
-def _spaced(number: int) -> str:
-    return f"{number:,}".replace(",", " ")

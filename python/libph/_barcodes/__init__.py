@@ -1,0 +1,6 @@
+# SPDX-License-Identifier: MIT
+"""Barcodes, and what belongs to bars: cells, chains, loops."""
+from ._barcode import Bar, Barcode
+from ._chains import Chain, Loop
+
+__all__ = ["Bar", "Barcode", "Chain", "Loop"]

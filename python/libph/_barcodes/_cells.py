@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: MIT
+"""Where holes are: cells, chains and voxels of bars."""
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import _core, _options
+from .._errors import UsageError
+from ._chains import Chain
+
+
+class Cells:
+    """What a `Barcode` knows of where its holes are."""
+
+    __slots__ = ()
+
+    if TYPE_CHECKING:
+        _bars: _core.Bars
+        meta: Mapping[str, Any]
+        @property
+        def dims(self) -> NDArray[np.int64]: ...
+        def __len__(self) -> int: ...
+        def _range(self, dim: int) -> slice: ...
+        def _place(self, i: Any) -> int: ...
+
+    def birth_cells(self, dim: int) -> NDArray[np.int64]:
+        """The cell that gave birth to each bar of a dimension, a row each.
+
+        Vertices, ascending; of images doubled grid coordinates, in which the voxel (i, j) is
+        (2 i, 2 j); rows of a boundary matrix. `gradients.deciders` tells the edge or the voxel
+        whose value the cell has.
+
+        >>> bars = ph.rips([[0, 0], [1, 0], [1, 1], [0, 1]])
+        >>> bars.birth_cells(1), bars.death_cells(1)
+        (array([[2, 3]]), array([[0, 2, 3]]))
+        """
+        return np.asarray(self._bars.birth_cells(self._dim_of_cells(dim)))
+
+    def death_cells(self, dim: int) -> NDArray[np.int64]:
+        """The cell that killed each bar of a dimension; -1 in all places if it never dies."""
+        return np.asarray(self._bars.death_cells(self._dim_of_cells(dim)))
+
+    def birth_cell(self, i: int) -> NDArray[np.int64]:
+        """The cell that gave birth to bar i, as a row of `birth_cells`.
+
+        >>> bars = ph.lower_star([0, 2, 1], [[0, 1], [1, 2]])
+        >>> bars[1], bars.birth_cell(1), bars.death_cell(1)
+        (Bar(dim=0, birth=1.0, death=2.0), array([2]), array([1, 2]))
+        """
+        place = self._place(i)
+        dim = int(self.dims[place])
+        return np.asarray(self.birth_cells(dim)[place - self._range(dim).start])
+
+    def death_cell(self, i: int) -> NDArray[np.int64] | None:
+        """The cell that killed bar i; None if it never dies."""
+        place = self._place(i)
+        dim = int(self.dims[place])
+        cell = self.death_cells(dim)[place - self._range(dim).start]
+        return None if (cell == -1).all() else cell
+
+    def _dim_of_cells(self, dim: int) -> int:
+        if not self._bars.has_cells:
+            raise UsageError("cells: found none, expected a barcode computed with cells=True")
+        return _options.whole("dim", dim, 0, 2**31 - 2)
+
+    def representative(self, i: int) -> Chain:
+        """The cycle or cocycle of bar i, as asked for by `representatives`.
+
+        Examples
+        --------
+        >>> square = [[0, 0], [1, 0], [1, 1], [0, 1]]
+        >>> bars = ph.rips(square, representatives="cycles")
+        >>> bars.representative(bars.longest(1)).loop()
+        array([0, 1, 2, 3])
+        """
+        if self._bars.representatives == _core.Representatives.none and len(self):
+            raise UsageError("representative: found none, expected a barcode computed with "
+                             "representatives='cycles' or 'cocycles'")
+        return Chain(self._bars, self._place(i))
+
+    def _require_voxels(self) -> tuple[int, ...]:
+        shape = self.meta.get("shape")
+        if self._bars.representatives != _core.Representatives.voxels or shape is None:
+            raise UsageError("voxels: found none, expected a barcode of an image computed with "
+                             "representatives='voxels'")
+        return tuple(shape)
+
+    def voxels(self, i: int) -> NDArray[np.bool_]:
+        """A mask of the image: the component or hollow of bar i.
+
+        Bars of other dimensions have a cycle in its place, and no voxel is true.
+        """
+        mask = np.zeros(self._require_voxels(), dtype=bool)
+        mask.reshape(-1)[np.asarray(self._bars.voxels(self._place(i)))] = True
+        return mask
+
+    def birth_voxel(self, i: int) -> tuple[int, ...]:
+        """The voxel whose value is the birth of bar i."""
+        self._require_voxels()
+        return tuple(np.asarray(self._bars.birth_voxel(self._place(i))).tolist())
+
+    def death_voxel(self, i: int) -> tuple[int, ...] | None:
+        """The voxel whose value is the death of bar i; None if it never dies."""
+        self._require_voxels()
+        return tuple(np.asarray(self._bars.death_voxel(self._place(i))).tolist()) or None

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: MIT
+"""What results have in common: they say where they come from, and they can be pickled."""
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from . import _core
+from ._errors import UsageError
+
+
+class Meta(Mapping[str, Any]):
+    """Where a result comes from: a dictionary that cannot be changed."""
+
+    __slots__ = ("_items",)
+
+    def __init__(self, items: Mapping[str, Any]) -> None:
+        self._items = dict(items)
+
+    def __getitem__(self, name: str) -> Any:
+        return self._items[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._items)
+
+    def __len__(self) -> int:
+        return len(self._items)
+
+    def __hash__(self) -> int:
+        return hash(frozenset(self._items.items()))
+
+    def __repr__(self) -> str:
+        return f"Meta({self._items!r})"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (Meta, (self._items,))
+
+
+def with_arrays(state: Any) -> Any:
+    """A state of _core that can be pickled: its blocks are arrays."""
+    if isinstance(state, _core.Block):
+        return np.asarray(state)
+    if isinstance(state, dict):
+        return {name: with_arrays(member) for name, member in state.items()}
+    return tuple(map(with_arrays, state)) if isinstance(state, tuple) else state
+
+
+def require_version(found: int, expected: int) -> None:
+    """Refuses the state of another libph."""
+    if found != expected:
+        raise UsageError(f"pickle: found version {found}, expected {expected}: it was written by "
+                         "another libph")
+
+
+def description_of(meta: Any) -> str:
+    """What the data were: "20 points in R^2". Empty: nobody knows."""
+    if "shape" in meta:
+        return " x ".join(map(str, meta["shape"]))
+    if "points" not in meta:
+        return ""
+    number = spaced(meta["points"])
+    return f"{number} points" + (f" in R^{meta['coordinates']}" if "coordinates" in meta else "")
+
+
+def spaced(number: int) -> str:
+    """A number as people read it.
+
+    >>> spaced(12345)
+    '12 345'
+    """
+    return f"{number:,}".replace(",", " ")
