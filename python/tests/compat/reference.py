@@ -118,3 +118,8 @@ def random_distances(rng, n, ties):
     upper = rng.integers(1, 4, (n, n)).astype(float) if ties else rng.random((n, n))
     upper = np.triu(upper, 1)
     return upper + upper.T
+
+
+def single(numbers):
+    """What single precision makes of doubles."""
+    return np.asarray(numbers, dtype=np.float32).astype(float)

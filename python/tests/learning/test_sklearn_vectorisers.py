@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: MIT
+"""Vectors of lists of diagrams, of all layouts, beside plain loops."""
+import numpy as np
+import pytest
+
+import libph as ph
+from samples import of_class
+
+pytest.importorskip("sklearn", reason="scikit-learn is missing: nothing of libph.sklearn is tested")
+from sklearn.base import clone  # noqa: E402
+
+from libph.sklearn import (BettiCurve, Entropy, Landscape, Lengths, PersistenceImage,  # noqa: E402
+                           RipsPersistence)
+
+OF_DIAGRAMS = [PersistenceImage, Landscape, BettiCurve, Entropy, Lengths]
+
+
+def expected_columns(kind, dgm, all_of_it):
+    """With the parameters below, by the functions that test_vectors.py checks."""
+    from libph import _vectors
+    values = np.concatenate(all_of_it)
+    low, high = values.min(), values.max()
+    grid = np.linspace(low, high, 6)
+    if kind is Landscape:
+        return _vectors.landscape(dgm, 2, grid).ravel()
+    if kind is BettiCurve:
+        return _vectors.betti_curve(dgm, grid)
+    if kind is Entropy:
+        return [_vectors.entropy(dgm)]
+    if kind is Lengths:
+        return _vectors.longest(dgm, 3)
+    births = values[:, 0].min(), values[:, 0].max()
+    lengths = 0, (values[:, 1] - values[:, 0]).max()
+    if births[0] == births[1]:
+        births = births[0] - lengths[1] / 2, births[0] + lengths[1] / 2
+    bandwidth = max(births[1] - births[0], lengths[1]) / 20
+    return _vectors.image(dgm, bandwidth, (3, 2), births, lengths, 1).ravel()
+
+
+SMALL = {PersistenceImage: PersistenceImage(resolution=(3, 2)),
+         Landscape: Landscape(layers=2, resolution=6), BettiCurve: BettiCurve(resolution=6),
+         Entropy: Entropy(), Lengths: Lengths(count=3)}
+
+
+@pytest.mark.parametrize("kind", OF_DIAGRAMS, ids=of_class)
+def test_ranges_are_those_of_the_samples_that_were_fitted(kind, dgms):
+    fitted = clone(SMALL[kind]).fit(dgms[:3])
+    found = fitted.transform(dgms)  # of one more than was fitted
+    for i, row in enumerate(dgms):
+        expected = np.concatenate([
+            expected_columns(kind, dgm, [other[j] for other in dgms[:3]])
+            for j, dgm in enumerate(row)])
+        assert np.array_equal(found[i], expected)
+    assert found.dtype == np.float64 and found.shape[1] == len(fitted.get_feature_names_out())
+
+
+@pytest.mark.parametrize("kind", OF_DIAGRAMS, ids=of_class)
+def test_layouts(kind, clouds, dgms):
+    """Lists, arrays of lists, barcodes, padded arrays and tables are the same diagrams."""
+    expected = clone(SMALL[kind]).fit_transform(dgms)
+    objects = np.empty((len(dgms), 2), dtype=object)
+    for i, row in enumerate(dgms):
+        objects[i, 0], objects[i, 1] = row
+    giotto = RipsPersistence(output="giotto", reduced=True).fit_transform(clouds)
+    table = RipsPersistence(reduced=True).set_output(transform="pandas").fit_transform(clouds)
+    for other in (list(objects), objects, giotto, table, [tuple(row) for row in dgms]):
+        assert np.array_equal(clone(SMALL[kind]).fit_transform(other), expected)
+    if kind is PersistenceImage:  # in which bars of length 0 would count
+        flat = PersistenceImage(weight_power=0, resolution=2)
+        assert np.array_equal(flat.fit_transform(giotto), flat.fit_transform(dgms))
+    bars = RipsPersistence(output="barcode").fit_transform(clouds)
+    dropped = clone(SMALL[kind]).set_params(infinity="drop").fit(bars)
+    assert np.array_equal(dropped.transform(bars), expected)
+    single = clone(SMALL[kind]).fit_transform([row[1] for row in dgms])
+    assert np.array_equal(single, expected[:, expected.shape[1] // 2:])
+    as_lists = clone(SMALL[kind]).fit_transform([row[1].tolist() for row in dgms])
+    assert np.array_equal(as_lists, single)
+
+
+def test_names(clouds, dgms):
+    assert Lengths(count=2).fit(dgms).get_feature_names_out().tolist() == [
+        "dgm0_length0", "dgm0_length1", "dgm1_length0", "dgm1_length1"]
+    bars = RipsPersistence(output="barcode").fit_transform(clouds)
+    assert Entropy(infinity="drop").fit(bars).get_feature_names_out().tolist() == [
+        "H0_entropy", "H1_entropy"]
+    giotto = RipsPersistence((1,), output="giotto").fit_transform(clouds)
+    assert BettiCurve(resolution=2).fit(giotto).get_feature_names_out().tolist() == [
+        "H1_betti0", "H1_betti1"]
+    image = PersistenceImage(resolution=(2, 1)).fit(dgms)
+    assert image.get_feature_names_out(["a", "b"]).tolist() == [
+        "a_p0_b0", "a_p0_b1", "b_p0_b0", "b_p0_b1"]
+    landscape = Landscape(layers=2, resolution=1).fit(dgms)
+    assert landscape.get_feature_names_out()[:2].tolist() == ["dgm0_layer0_0", "dgm0_layer1_0"]
+    with pytest.raises(ph.UsageError, match="input_features: found 1 names, expected 2"):
+        landscape.get_feature_names_out(["a"])
+
+
+def test_a_name_is_that_of_its_number():
+    """The pixel of the highest persistence and the largest birth is the one named so."""
+    image = PersistenceImage(resolution=(2, 3), bandwidth=1e-3, birth_range=(0, 2),
+                             persistence_range=(0, 3))
+    (row,) = image.fit_transform([[[1.5, 4.0]]])
+    assert image.get_feature_names_out()[np.argmax(row)] == "dgm0_p2_b1"
+
+
+def test_bars_that_never_die_are_never_dropped_in_silence(clouds):
+    dgms = RipsPersistence().fit_transform(clouds)
+    for kind in (PersistenceImage, Entropy, Lengths):
+        with pytest.raises(ph.UsageError, match="sample 0, dgm0: row 11: found a bar that never"):
+            kind().fit(dgms)
+        fitted = kind(infinity=5.0).fit(dgms)
+        assert not np.array_equal(fitted.transform(dgms),
+                                  kind(infinity="drop").fit(dgms).transform(dgms))
+    curve = BettiCurve(resolution=3, range=(0, 100)).fit_transform(dgms)
+    assert curve[:, 2].tolist() == [1] * 4
+    assert Lengths(count=1, infinity=5.0).fit_transform(dgms)[:, 0].tolist() == [5] * 4
+
+
+def test_ranges_that_are_given(dgms):
+    both = Landscape(range=(0, 2)).fit(dgms)
+    assert both.ranges_ == [(0, 2)] * 2 and both.grids_[0][-1] == 2
+    each = BettiCurve(range=[(0, 2), None]).fit(dgms)
+    h1 = np.concatenate([row[1] for row in dgms])
+    assert each.ranges_ == [(0, 2), (h1.min(), h1.max())]
+    image = PersistenceImage(birth_range=(0, 1), persistence_range=[None, (0, 3)]).fit(dgms)
+    assert image.birth_ranges_ == [(0, 1)] * 2 and image.persistence_ranges_[1] == (0, 3)
+    assert image.bandwidths_[1] == pytest.approx(3 / 20)
+    with pytest.raises(ph.UsageError, match="range: found 3 ranges, expected 2"):
+        Landscape(range=[None] * 3).fit(dgms)
+    with pytest.raises(ph.UsageError, match=r"range: found \(1, 0\)"):
+        Landscape(range=(1, 0)).fit(dgms)
+
+
+@pytest.mark.parametrize("X, words", [
+    (5, "found int"), ("ab", "found str"), (np.ones((3, 2)), r"found an array of shape \(3, 2\)"),
+    ([], "found no samples"), ([[]], "found samples without diagrams"),
+    ([[np.ones((1, 2))], [np.ones((1, 2))] * 2], "sample 1: found 2 diagrams, expected 1"),
+    ([ph.rips([[0], [1]]), np.ones((1, 2))], "found barcodes and arrays"),
+    ([np.array([[1.0, 0.0]])], "sample 0: row 0: found birth 1.0 and death 0.0"),
+    (np.array([[[0, 1, 0.5]]]), "found dimensions"), (ph.rips([[0], [1]]), "found Barcode")])
+def test_what_is_no_list_of_diagrams(X, words):
+    with pytest.raises(ph.Error, match=words):
+        Entropy(infinity="drop").fit(X)
+
+
+def test_other_diagrams_than_those_fitted(dgms):
+    with pytest.raises(ph.UsageError, match="found 1 diagrams for each sample, expected 2"):
+        Entropy().fit(dgms).transform([row[0] for row in dgms])
