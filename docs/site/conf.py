@@ -20,7 +20,8 @@ root_doc = "index"
 needs_sphinx = "5.3"
 
 extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "sphinx.ext.napoleon",
-              "sphinx_copybutton", "furo_of_debian", "markers", "navigation", "source_pages"]
+              "sphinx_copybutton", "furo_of_debian", "markers", "navigation", "short_code",
+              "source_pages"]
 site_root = str(ROOT)
 site_made = str(MADE)
 site_has_python = os.environ.get("PH_SITE_PYTHON") == "1"

@@ -33,15 +33,16 @@ def rows(schema, prefix=""):
     required = schema.get("required", [])
     for name, member in schema["properties"].items():
         about = member.get("description", "")
-        always = "yes" if name in required else ""
-        yield f"| `{prefix}{name}` | {type_of(member)} | {always} | {about} |"
+        if name not in required:
+            about = f"optional: {about}" if about else "optional"
+        yield f"| `{prefix}{name}` | {type_of(member)} | {about} |"
         inner = member.get("items", member)
         if "properties" in inner:
             yield from rows(inner, f"{prefix}{name}{'[].' if 'items' in member else '.'}")
 
 
 def table(schema):
-    return "\n".join(["| member | is | always | means |", "|---|---|---|---|", *rows(schema)]) + "\n"
+    return "\n".join(["| member | is | means |", "|---|---|---|", *rows(schema)]) + "\n"
 
 
 def tables(schema):

@@ -118,18 +118,27 @@ def page_of_folder(path, names, files, inside):
     return "<ul>" + "".join(map(item, names)) + "</ul>"
 
 
+def page(app, menus, name, title, body):
+    """As Sphinx wants it. The menu is the same for all pages of one depth: making it takes long."""
+    def menu(**how):
+        key = (name.count("/"), *sorted(how.items()))
+        if key not in menus:
+            menus[key] = app.builder._get_local_toctree(name, **how)
+        return menus[key]
+    return name, {"title": title, "toctree": menu, "body": f"<h1><code>{html.escape(title)}</code></h1>{body}"}, \
+        "page.html"
+
+
 def pages(app):
     if app.builder.format != "html":
         return
     files, inside = shown(app)
+    menus = {}
     for path in sorted(files):
-        yield (posixpath.join(FOLDER, path), {
-            "title": path, "body": f"<h1><code>{html.escape(path)}</code></h1>" + page_of_file(app, path)},
-            "page.html")
+        yield page(app, menus, posixpath.join(FOLDER, path), path, page_of_file(app, path))
     for path, names in sorted(inside.items()):
-        yield (posixpath.join(FOLDER, path, "index"), {
-            "title": path, "body": f"<h1><code>{html.escape(path)}/</code></h1>"
-            + page_of_folder(path, names, files, inside)}, "page.html")
+        yield page(app, menus, posixpath.join(FOLDER, path, "index"), f"{path}/",
+                   page_of_folder(path, names, files, inside))
 
 
 def setup(app):
