@@ -27,7 +27,8 @@ DOCS = ROOT / "docs"
 # Pages that lie elsewhere in the repository.
 ELSEWHERE = {"CHANGELOG.md": "reference/changes.md", "CONTRIBUTING.md": "development/contributing.md",
              "SECURITY.md": "development/security.md", "viewer/README.md": "development/viewer.md"}
-HEADERS = ["libph/include/ph", "libph/include/ph/io", "libsegment/include/ph"]
+HEADERS = ["libph/include/ph", "libph/include/ph/io", "libsegment/include/ph", "libsegment/pcl/include/ph",
+           "libreport/include/ph", "libreport/include/ph/detail/report"]
 # What public headers declare elsewhere and a reader has to know.
 DETAIL = ["components/branch", "complex/filtered_graph", "core/engine", "core/loop", "io/camera",
           "io/cloud_data", "io/png", "io/reader", "metric/metric", "rips/vertex_weights"]

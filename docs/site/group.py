@@ -17,9 +17,9 @@ def grouped(text, group):
     text = re.sub(r"^ +friend .*;$", "", text, flags=re.MULTILINE)
     text = re.sub(r"^template <>\nstruct std::hash.*?^\};$", "", text, flags=re.MULTILINE | re.DOTALL)
     text = re.sub(r"^inline constexpr (\w+) \1::.*$", "", text, flags=re.MULTILINE)
-    text = re.sub(r"^(namespace ph(?:::segment)? \{|extern \"C\" \{\n#endif)$", rf"\1 {begin}", text,
+    text = re.sub(r"^(namespace ph(?:::\w+)? \{|extern \"C\" \{\n#endif)$", rf"\1 {begin}", text,
                   count=1, flags=re.MULTILINE)
-    return re.sub(r"^(\}  // namespace ph(?:::segment)?|#ifdef __cplusplus\n\})$", r"/** @} */ \1", text,
+    return re.sub(r"^(\}  // namespace ph(?:::\w+)?|#ifdef __cplusplus\n\})$", r"/** @} */ \1", text,
                   count=1, flags=re.MULTILINE)
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Examples in docstrings and on pages give what they say; each function has one."""
+import ast
 import doctest
 import importlib
 import inspect
@@ -55,6 +56,17 @@ def test_pages(name, monkeypatch):
     monkeypatch.chdir(SOURCE)
     result = doctest.testfile(str(page), module_relative=False, optionflags=FLAGS)
     assert result.attempted > 0 and result.failed == 0
+
+
+def test_that_the_reference_has_all_names():
+    """Those of libph, libph.sklearn and libph.torch; the latter as written, for torch may be missing."""
+    pages = "".join(page.read_text() for page in (SOURCE / "docs/reference/python-api").glob("*.md"))
+    names = {f"libph.{name}" for name in ph.__all__} - {"libph.__version__", "libph.gradients"}
+    names |= {f"libph.gradients.{name}" for name in ph.gradients.__all__}
+    for module in ("sklearn", "torch"):
+        text = (SOURCE / f"python/libph/{module}/__init__.py").read_text()
+        names |= {f"libph.{module}.{name}" for name in ast.literal_eval(re.search(r"__all__ = (\[.*?\])", text, re.S)[1])}
+    assert not sorted(name for name in names if not re.search(rf"{re.escape(name)}(?![\w.])", pages))
 
 
 def test_that_there_are_pages():

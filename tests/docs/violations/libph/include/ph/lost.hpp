@@ -1,0 +1,2 @@
+// SPDX-License-Identifier: MIT
+// No page of the reference has it.
