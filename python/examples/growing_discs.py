@@ -31,8 +31,9 @@ def draw_discs(axes, points, diameter):
                 axes.plot(*np.transpose([p, q]), color="C0", linewidth=1)
     axes.scatter(*points.T, s=10, color="black", zorder=3)
     pieces, loops = ph.rips(points).betti(diameter)
+    counts = f"{pieces} piece{'' if pieces == 1 else 's'}, {loops} loop{'' if loops == 1 else 's'}"
     axes.set(aspect="equal", xlim=(-2, 2), ylim=(-2, 2), xticks=[], yticks=[],
-             title=f"{diameter:g} wide: {pieces} piece{'' if pieces == 1 else 's'}, {loops} loop{'' if loops == 1 else 's'}")
+             title=f"{diameter:g} wide: {counts}")
 
 
 def draw_bars(axes, bars):

@@ -6,6 +6,7 @@ to a list of what is in it. The repository has no address of its own, so the sit
 """
 import html
 import posixpath
+import re
 import subprocess
 from pathlib import Path
 
@@ -20,6 +21,7 @@ import pygments.lexers
 
 LOG = logging.getLogger(__name__)
 FOLDER = "source"
+PATH = re.compile(r"(docs/[\w./-]+\.md)")
 
 
 class LinksOutside(SphinxTransform):
@@ -55,6 +57,28 @@ class LinksOutside(SphinxTransform):
         name = posixpath.join(FOLDER, path, "index" if is_folder(self.config, path) else "")
         link.replace_self(nodes.reference(
             "", "", *link.children, refuri=f"{up}{name.rstrip('/')}.html", internal=True))
+
+
+class PathsInComments(SphinxTransform):
+    """A page that a comment of the source names, as docs/explanation/approximation.md, becomes a link."""
+    default_priority = 399
+
+    def apply(self):
+        if not self.env.docname.startswith("reference/"):
+            return
+        for text in list(self.document.findall(nodes.Text)):
+            parts = PATH.split(str(text))
+            if len(parts) > 1 and not isinstance(text.parent, (nodes.literal, nodes.literal_block, nodes.reference)):
+                text.parent.replace(text, [self.link(part) if PATH.fullmatch(part) else nodes.Text(part)
+                                           for part in parts])
+
+    def link(self, path):
+        docname = self.config.site_docs.get(str(Path(self.config.site_root, path).resolve()))
+        if docname is None:
+            LOG.warning("a comment of the source names %s: found no such page", path, location=self.env.docname)
+            return nodes.Text(path)
+        uri = posixpath.relpath(docname, posixpath.dirname(self.env.docname)) + ".html"
+        return nodes.reference("", path, refuri=uri, internal=True)
 
 
 def is_folder(config, path):
@@ -145,6 +169,7 @@ def setup(app):
     app.add_config_value("site_root", "", "env")
     app.add_config_value("site_docs", {}, "")
     app.add_transform(LinksOutside)
+    app.add_transform(PathsInComments)
     app.connect("config-inited", find_pages)
     app.connect("builder-inited", begin)
     app.connect("env-purge-doc", forget)
