@@ -2,11 +2,11 @@
 # A page that was bundled elsewhere: an archive of the sources has one in it, for builds that have no
 # npm or no network.
 
-# ph_page_sources(VIEWER NAMES DIGEST): the files that a page is made of, below VIEWER, and one SHA-256
-# of them all: that of what `sha256sum` prints of these files in the order of their names.
-# viewer/build.mjs writes it into the page.
-function(ph_page_sources viewer names digest)
-  file(GLOB_RECURSE sources RELATIVE ${viewer} CONFIGURE_DEPENDS ${viewer}/src/*)
+# ph_page_digest(VIEWER DIGEST): one SHA-256 of all files below VIEWER that a page is made of: that of
+# what `sha256sum` prints of them in the order of their names. viewer/build.mjs writes it into the
+# page.
+function(ph_page_digest viewer digest)
+  file(GLOB_RECURSE sources RELATIVE ${viewer} ${viewer}/src/*)
   list(APPEND sources build.mjs package-lock.json)
   list(SORT sources COMPARE STRING)
   set(lines "")
@@ -15,7 +15,6 @@ function(ph_page_sources viewer names digest)
     string(APPEND lines "${sum}  ${source}\n")
   endforeach()
   string(SHA256 sum "${lines}")
-  set(${names} ${sources} PARENT_SCOPE)
   set(${digest} ${sum} PARENT_SCOPE)
 endfunction()
 
