@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs the Debian packages that are missing: setup.sh [build|page|demo|test|python|viewer|docs|lint|fuzz|coverage]…
+# Installs the Debian packages that are missing: setup.sh [build|page|demo|test|python|viewer|docs|packages|lint|fuzz|coverage]…
 set -euo pipefail
 
 build=(build-essential cmake ninja-build pkg-config ccache libeigen3-dev libfmt-dev
@@ -8,7 +8,7 @@ build=(build-essential cmake ninja-build pkg-config ccache libeigen3-dev libfmt-
 demo=(python3-numpy python3-skimage libcgal-demo)
 # Peers and tools that tests compare with or look through.
 test=(libgtest-dev libbenchmark-dev libpcl-dev ripser python3-gudhi python3-numpy librsvg2-bin git
-      locales zsh fish man-db groff mandoc)
+      locales zsh fish man-db groff mandoc abigail-tools)
 # The Python package, and what its tests compare with.
 python=(python3-dev pybind11-dev python3-numpy python3-scipy python3-sklearn python3-pandas
         python3-matplotlib python3-pytest python3-mypy python3-venv python3-nbclient
@@ -20,6 +20,9 @@ viewer=("${page[@]}" chromium)  # its tests in a browser, too
 # The site of the documentation.
 docs=(python3-sphinx python3-myst-parser furo python3-breathe python3-sphinx-copybutton doxygen git
       python3-jsonschema hunspell hunspell-en-gb)
+# What makes Debian packages, and what tries them.
+packages=(debhelper dh-python fakeroot xz-utils git libgtest-dev libpcl-dev lintian diffoscope-minimal
+          debootstrap autopkgtest busybox-static)
 lint=(clang-format-14 clang-tidy-19)
 fuzz=(clang-19 libclang-rt-19-dev libgtest-dev)
 coverage=(gcovr libgtest-dev)
@@ -34,10 +37,11 @@ for set in "${@:-build}"; do
     python) wanted+=("${build[@]}" "${python[@]}") ;;
     viewer) wanted+=("${viewer[@]}") ;;
     docs) wanted+=("${docs[@]}") ;;
+    packages) wanted+=("${packages[@]}") ;;
     lint) wanted+=("${lint[@]}") ;;
     fuzz) wanted+=("${fuzz[@]}") ;;
     coverage) wanted+=("${coverage[@]}") ;;
-    *) echo "setup.sh: found '$set', expected build, page, demo, test, python, viewer, docs, lint, fuzz or coverage" >&2; exit 64 ;;
+    *) echo "setup.sh: found '$set', expected build, page, demo, test, python, viewer, docs, packages, lint, fuzz or coverage" >&2; exit 64 ;;
   esac
 done
 

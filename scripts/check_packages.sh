@@ -1,0 +1,153 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Makes all packages of HEAD, and tries them where nothing else is: check_packages.sh [PART]…
+#
+#   archives    dist/ by scripts/package.sh, and which files the archive of the sources has
+#   build       dpkg-buildpackage from that archive, with its tests, without a network
+#   lintian     neither an error nor a warning; the rest is counted
+#   reproduce   both again in other folders, with another umask, language, time zone and home
+#   install     in a bare Debian 12: apt install, a first picture, Python, a program in C++; autopkgtest
+#   elsewhere   the static programs beside BusyBox alone, and in other releases of Debian
+#
+# All of them take two hours of two cores. install and elsewhere need root and a mirror of Debian
+# (PH_MIRROR). Work is done in build/check-packages, or PH_WORK; a part uses what earlier parts left.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+root=$PWD
+work=${PH_WORK:-$root/build/check-packages}
+jobs=${PH_JOBS:-$(nproc)}
+version=$(sed -n 's/^project(libph VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+source=dist/libph-$version.tar.xz
+binary=dist/libph-$version-linux-$(uname -m).tar.xz
+mirror=${PH_MIRROR:-http://deb.debian.org/debian}
+
+fail() { echo "check_packages.sh: $1" >&2; exit 1; }
+
+# A build of Debian has no network; only root can take it away.
+offline() { if [ "$(id -u)" -eq 0 ]; then unshare -n -- "$@"; else "$@"; fi; }
+
+# debs FOLDER: unpacks the sources there and builds all packages.
+debs() {
+  rm -rf "$1" && mkdir -p "$1"
+  cp "$source" "$1/libph_$version.orig.tar.xz"
+  tar -C "$1" -xf "$source"
+  (cd "$1/libph-$version" && DEB_BUILD_OPTIONS="parallel=$jobs ${2:-}" offline dpkg-buildpackage -us -uc) \
+    >"$1/build.log" 2>&1 || { tail -n 30 "$1/build.log" >&2; fail "dpkg-buildpackage failed: $1/build.log"; }
+}
+
+archives() {
+  scripts/package.sh
+  /usr/bin/python3 -B tests/packages/archive.py . "$source"
+}
+
+build() {
+  debs "$work/one"
+  grep -h 'tests passed' "$work/one/build.log" || true
+  (cd "$work/one" && ls -l ./*.deb | awk '{ print $5, $9 }')
+}
+
+lintian_() {
+  local said=$work/lintian.txt
+  lintian -EvIL +pedantic --show-overrides "$work"/one/*.changes >"$said" 2>/dev/null || true
+  grep -q . "$said" || fail "lintian said nothing at all"
+  ! grep '^[EW]: ' "$said" || fail "found errors or warnings of lintian"
+  for kind in I P O X C; do echo "$kind: $(grep -c "^$kind: " "$said")"; done
+  echo "all it said: $said"
+}
+
+# same A B: files of the same bytes.
+same() {
+  cmp -s "$1" "$2" && { sha256sum "$1" | sed "s|  .*/|  |"; return; }
+  diffoscope --text "$work/diffoscope.txt" "$1" "$2" || true
+  fail "$1 and $2 differ: $work/diffoscope.txt"
+}
+
+reproduce() {
+  (
+    umask 027
+    export HOME=$work/nowhere TZ=Pacific/Kiritimati LANG=C.UTF-8 LC_ALL=C.UTF-8 USER=somebody
+    debs "$work/another/folder/with a longer name" nocheck
+  )
+  for file in "$work"/one/*.deb "$work"/one/*.dsc "$work"/one/*.debian.tar.xz; do
+    same "$file" "$work/another/folder/with a longer name/$(basename "$file")"
+  done
+  rm -rf "$work/clone" && git clone -q . "$work/clone"
+  (umask 077; TZ=Asia/Tokyo LC_ALL=C.UTF-8 "$work/clone/scripts/package.sh" >/dev/null)
+  for file in dist/*.tar.xz dist/*.json; do same "$file" "$work/clone/$file"; done
+}
+
+# bare SUITE: a system with nothing in it, as a folder.
+bare() {
+  [ "$(id -u)" -eq 0 ] || fail "a bare system needs root"
+  rm -rf --one-file-system "${work:?}/$1"
+  debootstrap --variant=minbase "$1" "$work/$1" "$mirror" >"$work/debootstrap.log" 2>&1 ||
+    { tail "$work/debootstrap.log" >&2; fail "debootstrap $1 failed"; }
+}
+
+# run_in SYSTEM COMMAND: in it, without the host's processes.
+run_in() {
+  unshare -m -p -f --kill-child sh -c 'mkdir -p "$1/proc" && mount -t proc proc "$1/proc" &&
+    exec chroot "$1" /usr/bin/env -i HOME=/root TERM=dumb PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive sh -ec "$2"' \
+    sh "$work/$1" "$2"
+}
+
+install_() {
+  bare bookworm
+  mkdir -p "$work/bookworm/root/debs"
+  cp "$work"/one/*.deb "$work/bookworm/root/debs"
+  cp -r examples tests/install "$work/bookworm/root"
+  echo "== the programs, and a first picture"
+  time run_in bookworm 'apt-get update -qq; cd /root/debs
+    apt-get install -y -qq --no-install-recommends ./ph-tools_*.deb >/dev/null 2>&1; cd /root
+    ph-barcode examples/data/two_circles.csv --plot bars.svg --report loops.html --quiet >/dev/null
+    ph-barcode examples/data/two_circles.csv --plot bars.png --output-format none --quiet
+    ls -l bars.svg bars.png loops.html | awk "{ print \$5, \$9 }"'
+  echo "== Python"
+  time run_in bookworm 'cd /root/debs
+    apt-get install -y -qq --no-install-recommends ./python3-libph_*.deb >/dev/null 2>&1; cd /
+    python3 -c "import libph; print(libph.__version__, libph.rips([[0, 0], [1, 0], [1, 1], [0, 1]]).dgm(1))"'
+  echo "== a program in C++"
+  time run_in bookworm 'cd /root/debs
+    apt-get install -y -qq --no-install-recommends ./libph-dev_*.deb ./libph-c1_*.deb cmake g++ make >/dev/null 2>&1
+    mkdir -p /root/tests; mv /root/install /root/tests/; cd /root/tests/install/find_package
+    cmake -B /root/build >/dev/null; cmake --build /root/build >/dev/null 2>&1
+    /root/build/consumer /root/examples/data/two_circles.csv'
+  echo "== autopkgtest"
+  bare bookworm
+  time autopkgtest --apt-upgrade "$work"/one/*.deb "$work/one/libph-$version/" -- chroot "$work/bookworm" \
+    >"$work/autopkgtest.log" 2>&1 || { tail -n 40 "$work/autopkgtest.log"; fail "autopkgtest failed"; }
+  sed -n '/@@@.* summary/,$p' "$work/autopkgtest.log"
+}
+
+# first_picture SYSTEM: the command of the archive's README, where it was unpacked.
+first_picture() {
+  tar -C "$work/$1" --strip-components=1 -xf "$binary"
+  run_in "$1" "$(sed -n 's/^    \(bin\/ph-barcode .*\)/\1/p' "$work/$1/README.md") >/dev/null
+    bin/ph-segment examples/table.pcd --quiet; bin/ph-barcode --version
+    for file in bars.svg loops.html; do test -s \$file; done"
+  echo "$1: $(grep -c '<path\|<line\|<rect' "$work/$1/bars.svg") elements in bars.svg, $(stat -c %s "$work/$1/loops.html") bytes in loops.html"
+}
+
+elsewhere() {
+  rm -rf "$work/busybox" && mkdir -p "$work"/busybox/{bin,usr/bin,proc,tmp,dev,root}
+  cp /bin/busybox "$work/busybox/bin"
+  ln -s /bin/busybox "$work/busybox/bin/sh" && ln -s /bin/busybox "$work/busybox/usr/bin/env"
+  ln -s /bin/busybox "$work/busybox/bin/test"
+  : >"$work/busybox/dev/null"
+  first_picture busybox
+  for suite in bullseye trixie; do bare $suite; first_picture $suite; done
+}
+
+scripts/setup.sh build page python packages
+mkdir -p "$work"
+[ $# -gt 0 ] || set -- archives build lintian reproduce install elsewhere
+for part; do
+  begun=$SECONDS
+  echo "==== $part"
+  case $part in
+    archives | build | reproduce | elsewhere) "$part" ;;
+    lintian | install) "${part}_" ;;
+    *) fail "found '$part', expected archives, build, lintian, reproduce, install or elsewhere" ;;
+  esac
+  echo "==== $part: $((SECONDS - begun)) s"
+done
