@@ -1,0 +1,61 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Each component of an installation is whole, and together they are all of it: components.py BUILD FOLDER.
+
+A file that has no component, or two, would be in no package or in two.
+"""
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+# What each has at least, and all that it may have, as regular expressions.
+HAS = {
+    "c": ([r"lib/.*libph_c\.so\.1"], r"lib/([^/]+/)?libph_c\.so\.\d[\d.]*"),
+    "dev": ([r"include/ph/ph\.hpp", r"include/ph/ph\.h", r".*/libph_core\.a", r".*/libph_c\.so",
+             r".*/cmake/ph/ph-config\.cmake"],
+            r"include/ph/.*\.(hpp|h|ipp)|lib/([^/]+/)?(libph_\w+\.a|libph_c\.so|cmake/ph/ph-[\w-]+\.cmake)"),
+    "pcl": ([], r"include/ph/pcl\.hpp|lib/.*/cmake/ph/ph-pcl\.cmake"),
+    "programs": ([], r"bin/ph-\w+|share/(man/man1|bash-completion|zsh|fish)/.*|share/man/man1/.*"),
+    "python": ([], r"lib/python[^/]*/[^/]+/libph/.*\.(py|pyi|so|typed)|.*/py\.typed"),
+    "doc": ([r"share/doc/libph/README\.md", r"share/doc/libph/docs/index\.md",
+             r"share/doc/libph/examples/01_points\.cpp"], r"share/doc/libph/.*"),
+    "licence": ([r"share/doc/libph/LICENSE"], r"share/doc/libph/LICENSE"),
+}
+
+
+def installed(build, folder, *options):
+    shutil.rmtree(folder, ignore_errors=True)
+    subprocess.run(["cmake", "--install", build, "--prefix", folder, *options], check=True,
+                   stdout=subprocess.DEVNULL)
+    return {path.relative_to(folder).as_posix() for path in folder.rglob("*") if not path.is_dir()}
+
+
+def faults_of(build, folder):
+    whole = installed(build, folder / "all")
+    seen = {}
+    for component, (needed, allowed) in HAS.items():
+        files = installed(build, folder / component, "--component", component)
+        print(f"{component}: {len(files)} files")
+        for pattern in needed:
+            if not any(re.fullmatch(pattern, file) for file in files):
+                yield f"{component}: found no {pattern}"
+        for file in sorted(files):
+            if not re.fullmatch(allowed, file):
+                yield f"{component}: {file}: found where it does not belong"
+            if file in seen:
+                yield f"{file}: found in {component} and {seen[file]}"
+            seen[file] = component
+    for file in sorted(whole ^ set(seen)):
+        yield f"{file}: found in {'no component' if file in whole else seen[file] + ' only'}"
+
+
+def main():
+    faults = list(faults_of(Path(sys.argv[1]), Path(sys.argv[2])))
+    print(*faults, f"{len(faults)} faults", sep="\n")
+    sys.exit(1 if faults else 0)
+
+
+if __name__ == "__main__":
+    main()
