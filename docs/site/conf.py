@@ -20,7 +20,7 @@ root_doc = "index"
 needs_sphinx = "5.3"
 
 extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "sphinx.ext.napoleon",
-              "sphinx_copybutton", "furo_of_debian", "markers", "navigation", "short_code",
+              "sphinx_copybutton", "furo_of_debian", "markers", "navigation", "shown_code",
               "source_pages"]
 site_root = str(ROOT)
 site_made = str(MADE)
