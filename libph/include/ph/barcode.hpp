@@ -83,7 +83,9 @@ class Barcode {
   auto end() const { return bars_.end(); }
 
   /// The bars of one dimension, in order.
-  std::span<const Bar> bars(int dim) const;
+  std::span<const Bar> bars(int dim) const&;
+  /// Of a barcode that nobody keeps: `for (const Bar& bar : persistence(rips).bars(1))`.
+  std::vector<Bar> bars(int dim) &&;
   /// Position of the longest bar of a dimension, infinite ones first, the first among equals.
   /// @throws Error (usage) if there is none.
   std::size_t longest(int dim) const;

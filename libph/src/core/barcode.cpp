@@ -6,6 +6,7 @@
 #include <memory_resource>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "ph/detail/core/polled_sort.hpp"
 #include "ph/detail/core/radix_sort.hpp"
@@ -168,11 +169,16 @@ void Barcode::sort(const RunContext& context) {
   cells_ = std::move(cells);
 }
 
-std::span<const Bar> Barcode::bars(int dim) const {
+std::span<const Bar> Barcode::bars(int dim) const& {
   const auto [first, last] =
       std::equal_range(bars_.begin(), bars_.end(), Bar{dim, 0, 0},
                        [](const Bar& a, const Bar& b) { return a.dim < b.dim; });
   return {first, last};
+}
+
+std::vector<Bar> Barcode::bars(int dim) && {
+  const std::span<const Bar> kept = std::as_const(*this).bars(dim);
+  return {kept.begin(), kept.end()};
 }
 
 std::size_t Barcode::longest(int dim) const {

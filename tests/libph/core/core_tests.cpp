@@ -3,6 +3,7 @@
 #include <array>
 #include <climits>
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "ph/barcode.hpp"
@@ -192,6 +193,21 @@ TEST(Barcodes, EqualBarsAreSortedByTheirCellsWhereValuesAreSortedAlready) {
     EXPECT_EQ(barcode.birth_cell(i).numbers[0], expected[i]);
     EXPECT_EQ(barcode.death_cell(i)->numbers[1], expected[i] + 1);
   }
+}
+
+TEST(Barcodes, BarsOfATemporaryAreKept) {
+  const auto barcode = [] {
+    Barcode barcode;
+    barcode.add({0, 0, 3}, {}, {});
+    barcode.add({1, 0, 1}, {}, {});
+    barcode.add({1, 2, 4}, {}, {});
+    barcode.sort();
+    return barcode;
+  };
+  static_assert(std::is_same_v<decltype(barcode().bars(1)), std::vector<Bar>>);
+  std::vector<double> deaths;
+  for (const Bar& bar : barcode().bars(1)) deaths.push_back(bar.death);
+  EXPECT_EQ(deaths, (std::vector<double>{1, 4}));
 }
 
 TEST(Barcodes, TheLongestBarIsTheFirstOfTheLongest) {
