@@ -12,6 +12,16 @@ import { build } from "esbuild";
 const here = dirname(fileURLToPath(import.meta.url));
 const folder = process.argv[2] ?? join(here, "build");
 
+// three.js as it is written, not as its authors have bundled it: what is in the page has its source in
+// report-template.inputs.
+const asWritten = {
+  name: "as-written",
+  setup(steps) {
+    steps.onResolve({ filter: /^three$/ }, (asked) =>
+      steps.resolve("three/src/Three.js", { kind: asked.kind, resolveDir: asked.resolveDir }));
+  },
+};
+
 const inputs = new Set(["src/page/page.html"]);
 async function bundle(entry, options) {
   const result = await build({
@@ -23,17 +33,25 @@ async function bundle(entry, options) {
     metafile: true,
     charset: "utf8",
     logLevel: "warning",
+    plugins: [asWritten],
     ...options,
   });
   for (const path of Object.keys(result.metafile.inputs)) inputs.add(path);
   return result.outputFiles[0].text.trim();
 }
 
-const script = await bundle("src/page/main.ts", {
+const code = await bundle("src/page/main.ts", {
   format: "iife",
   target: "es2022",
   legalComments: "inline",
 });
+// The licences of the packages that are in it: a copy of the page is a copy of them.
+const folders = [...inputs].map((path) => /^node_modules\/(@[^/]+\/)?[^/]+/.exec(path)?.[0]);
+const notices = [...new Set(folders)].filter(Boolean).sort().map((folder) => {
+  const { name, version } = JSON.parse(readFileSync(join(here, folder, "package.json"), "utf8"));
+  return `/*! ${name} ${version}\n\n${readFileSync(join(here, folder, "LICENSE"), "utf8").trim()}\n*/\n`;
+});
+const script = notices.join("") + code;
 const style = await bundle("src/page/style.css", {});
 for (const [what, text, end] of [
   ["script", script, "</script"],

@@ -24,7 +24,7 @@ OF_THE_LINKER = re.compile(r"_(end|edata|etext|GLOBAL_OFFSET_TABLE_|DYNAMIC|init
 # Namespaces of code that comes in headers; None: of an archive, which symbols are looked up in.
 NAMESPACES = {"CLI": "libcli11-dev", "Eigen": "libeigen3-dev", "fmt": "libfmt-dev", "ph": None,
               "std": None, "__gnu_cxx": None}
-TRACES = {"fonts-dejavu-core": "DejaVu Sans".encode("utf-16-be"), "three": b"Three.js Authors"}
+TRACES = {"fonts-dejavu-core": "DejaVu Sans".encode("utf-16-be"), "three": b"three.js authors"}
 
 
 def output_of(*command):
