@@ -3,14 +3,15 @@
 # Makes all packages of HEAD, and tries them where nothing else is: check_packages.sh [PART]…
 #
 #   archives    dist/ by scripts/package.sh, and which files the archive of the sources has
-#   build       dpkg-buildpackage from that archive, with its tests, without a network
+#   build       dpkg-buildpackage from them, with its tests, without a network
 #   lintian     neither an error nor a warning; the rest is counted
 #   reproduce   both again in other folders, with another umask, language, time zone and home
 #   install     in a bare Debian 12: apt install, a first picture, Python, a program in C++; autopkgtest
 #   elsewhere   the static programs beside BusyBox alone, and in other releases of Debian
 #
-# All of them take two hours of two cores. install and elsewhere need root and a mirror of Debian
-# (PH_MIRROR). Work is done in build/check-packages, or PH_WORK; a part uses what earlier parts left.
+# install and elsewhere need root and a mirror of Debian (PH_MIRROR). DEB_BUILD_OPTIONS is passed on:
+# noautodbgsym saves minutes. Work is done in build/check-packages, or PH_WORK; a part uses what
+# earlier parts left there. PH_JOBS: how many compilers.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD
@@ -29,9 +30,8 @@ offline() { if [ "$(id -u)" -eq 0 ]; then unshare -n -- "$@"; else "$@"; fi; }
 # debs FOLDER: unpacks the sources there and builds all packages.
 debs() {
   rm -rf "$1" && mkdir -p "$1"
-  cp "$source" "$1/libph_$version.orig.tar.xz"
-  tar -C "$1" -xf "$source"
-  (cd "$1/libph-$version" && DEB_BUILD_OPTIONS="parallel=$jobs ${2:-}" offline dpkg-buildpackage -us -uc) \
+  cp dist/debian/* "$1"
+  (cd "$1" && dpkg-source -x libph_*.dsc >/dev/null && cd "libph-$version" && DEB_BUILD_OPTIONS="parallel=$jobs ${DEB_BUILD_OPTIONS:-} ${2:-}" offline dpkg-buildpackage -us -uc) \
     >"$1/build.log" 2>&1 || { tail -n 30 "$1/build.log" >&2; fail "dpkg-buildpackage failed: $1/build.log"; }
 }
 

@@ -3,6 +3,7 @@
 # Makes what is given to others, in dist/: package.sh [source|binary]… (default: both)
 #
 #   libph-VERSION.tar.xz               the sources of HEAD, with the page of the reports ready in them
+#   debian/                            the same as a source package of Debian
 #   libph-VERSION-linux-MACHINE.tar.xz the programs, linked statically: for any Linux of the machine
 #   libph-VERSION-linux-MACHINE.spdx.json   what is in them (SPDX 2.3)
 #   SHA256SUMS
@@ -49,6 +50,11 @@ make_source() {
   git archive --prefix="$name/" HEAD | tar -C "$work/source" -x
   add_page "$work/source/$name"
   pack "$work/source/$name" "$dist/$name.tar.xz"
+  # The time is that of debian/changelog, as dpkg-buildpackage has it.
+  rm -rf "$dist/debian" && mkdir "$dist/debian"
+  cp "$dist/$name.tar.xz" "$dist/debian/libph_$version.orig.tar.xz"
+  git archive --prefix=debian/ HEAD:debian | tar -C "$work/source/$name" -x
+  (cd "$dist/debian" && unset SOURCE_DATE_EPOCH && dpkg-source -b "$work/source/$name" >/dev/null)
 }
 
 readme() {
@@ -102,4 +108,4 @@ for what in "${@:-source binary}"; do
     esac
   done
 done
-(cd "$dist" && sha256sum -- libph-* >SHA256SUMS)
+(cd "$dist" && sha256sum -- libph-* debian/* >SHA256SUMS)

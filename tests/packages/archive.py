@@ -3,7 +3,7 @@
 """Which files an archive of the sources has: archive.py ROOT [ARCHIVE.tar.xz].
 
 Without an archive: what `git archive` would put into one. Everything that git holds is in it, but for
-hidden files of the root, and nothing that was built, but for the page of the reports and the files of
+debian/ and hidden files of the root, and nothing that was built, but for the page of the reports and the files of
 npm packages that are in it. Names and times do not tell who made it. Exit code 77: no clone of git.
 """
 import io
@@ -23,7 +23,7 @@ def git(root, *arguments):
 
 
 def is_wanted(name):
-    return not name.startswith(".") or name in HIDDEN
+    return name in HIDDEN or not name.startswith((".", "debian/"))
 
 
 def faults_of(root, archive, has_page):
