@@ -65,10 +65,10 @@ They run on any Linux of $(uname -m), and need nothing else. A first picture:
 
     bin/ph-barcode examples/two_circles.csv --plot bars.svg --report loops.html --quiet
 
-bars.svg and loops.html open in a browser. \`man -l share/man/man1/ph-barcode.1\` is the manual, if it
-is there; \`--help\` always is. libph is MIT (LICENSE). What else is in the programs, and under which
-licences, is in licences/ and libph.spdx.json; portions are copyright The FreeType Project
-(www.freetype.org). glibc is LGPL: $name.tar.xz builds them anew with another one.
+bars.svg and loops.html open in a browser. \`man -l share/man/man1/ph-barcode.1\` is the manual.
+libph is MIT (LICENSE). What else is in the programs, and under which licences, is in licences/ and
+libph.spdx.json; portions are copyright The FreeType Project (www.freetype.org). glibc is LGPL:
+$name.tar.xz builds the programs anew, with another one if you like.
 END
 }
 
