@@ -196,7 +196,7 @@ TEST(Barcodes, EqualBarsAreSortedByTheirCellsWhereValuesAreSortedAlready) {
 }
 
 TEST(Barcodes, BarsOfATemporaryAreKept) {
-  const auto barcode = [] {
+  const auto three_bars = [] {
     Barcode barcode;
     barcode.add({0, 0, 3}, {}, {});
     barcode.add({1, 0, 1}, {}, {});
@@ -204,9 +204,9 @@ TEST(Barcodes, BarsOfATemporaryAreKept) {
     barcode.sort();
     return barcode;
   };
-  static_assert(std::is_same_v<decltype(barcode().bars(1)), std::vector<Bar>>);
+  static_assert(std::is_same_v<decltype(three_bars().bars(1)), std::vector<Bar>>);
   std::vector<double> deaths;
-  for (const Bar& bar : barcode().bars(1)) deaths.push_back(bar.death);
+  for (const Bar& bar : three_bars().bars(1)) deaths.push_back(bar.death);
   EXPECT_EQ(deaths, (std::vector<double>{1, 4}));
 }
 
