@@ -9,7 +9,7 @@
 #   install     in a bare Debian 12: apt install, a first picture, Python, a program in C++; autopkgtest
 #   elsewhere   the static programs beside BusyBox alone, and in other releases of Debian
 #
-# install and elsewhere need root and a mirror of Debian (PH_MIRROR). DEB_BUILD_OPTIONS is passed on:
+# install and elsewhere need root and a mirror of Debian (PH_MIRROR; default: debootstrap's own). DEB_BUILD_OPTIONS is passed on:
 # noautodbgsym saves minutes. Work is done in build/check-packages, or PH_WORK; a part uses what
 # earlier parts left there. PH_JOBS: how many compilers.
 set -euo pipefail
@@ -20,7 +20,7 @@ jobs=${PH_JOBS:-$(nproc)}
 version=$(sed -n 's/^project(libph VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
 source=dist/libph-$version.tar.xz
 binary=dist/libph-$version-linux-$(uname -m).tar.xz
-mirror=${PH_MIRROR:-http://deb.debian.org/debian}
+mirror=(${PH_MIRROR:+"$PH_MIRROR"})
 
 fail() { echo "check_packages.sh: $1" >&2; exit 1; }
 
@@ -80,7 +80,7 @@ reproduce() {
 bare() {
   [ "$(id -u)" -eq 0 ] || fail "a bare system needs root"
   rm -rf --one-file-system "${work:?}/$1"
-  debootstrap --variant=minbase "$1" "$work/$1" "$mirror" >"$work/debootstrap.log" 2>&1 ||
+  debootstrap --variant=minbase "$1" "$work/$1" "${mirror[@]}" >"$work/debootstrap.log" 2>&1 ||
     { tail "$work/debootstrap.log" >&2; fail "debootstrap $1 failed"; }
 }
 
