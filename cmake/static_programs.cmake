@@ -6,6 +6,9 @@ set(PH_STATIC_PROGRAMS AUTO CACHE STRING
 set_property(CACHE PH_STATIC_PROGRAMS PROPERTY STRINGS AUTO ON OFF)
 set(PH_IS_STATIC FALSE)
 set(PH_FMT fmt::fmt)
+if(PH_COMPILE_DEPENDENCIES)
+  set(PH_FMT fmt::fmt-header-only)
+endif()
 
 # For each of our programs. The map lists what was linked in, whose licences a copy comes with.
 function(ph_link_program program)

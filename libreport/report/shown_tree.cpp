@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
+#include "core/floating.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
 
 namespace ph::report {
@@ -50,7 +50,7 @@ std::vector<std::uint32_t> birth_vertices(const Barcode& barcode, const Cubical*
 /// The same to three digits.
 double rounded(double x) {
   const std::string digits = fmt::format("{:.3g}", x);
-  std::from_chars(digits.data(), digits.data() + digits.size(), x);
+  floating_from_chars(digits.data(), digits.data() + digits.size(), x);
   return x;
 }
 

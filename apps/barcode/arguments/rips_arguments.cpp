@@ -24,7 +24,7 @@ void add_rips_options(CLI::App& app, Arguments& a) {
   app.option_defaults()->group("rips");
   const auto number = [&](const std::string& option, const std::string& placeholder,
                           const std::string& description, bool may_be_zero, auto take) {
-    add_value(app, option, placeholder, description, [=, &a](const std::string& text) {
+    add_value(app, option, placeholder, description, [=](const std::string& text) {
       const double value = parse_number(option, text);
       if (!std::isfinite(value) || value < 0 || (value == 0 && !may_be_zero))
         throw Error(ErrorKind::usage,
@@ -44,12 +44,11 @@ void add_rips_options(CLI::App& app, Arguments& a) {
     if (!a.subsample) a.subsample.emplace();
     return *a.subsample;
   };
-  add_value(app, "--subsample", "N",
-            "keep N points, each the farthest from those before (default: all); with their "
-            "covering radius E, bars longer than 2 E are real and come at most 2 E late",
-            [=, &a](const std::string& text) {
-              limits().points = parse_integer("--subsample", text, 1);
-            });
+  add_value(
+      app, "--subsample", "N",
+      "keep N points, each the farthest from those before (default: all); with their "
+      "covering radius E, bars longer than 2 E are real and come at most 2 E late",
+      [=](const std::string& text) { limits().points = parse_integer("--subsample", text, 1); });
   number("--subsample-radius", "R",
          "keep points until all are within R of one (default 0), in units of the distance", true,
          [=](double radius) { limits().radius = radius; });

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/floating.hpp"
 #include "ph/error.hpp"
 
 namespace ph::app {
@@ -26,7 +27,7 @@ struct Read {
 Read read_number(std::string_view text) {
   Read read;
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), read.value);
+  const auto [end, error] = floating_from_chars(text.data(), text.data() + text.size(), read.value);
   read.ok = error == std::errc{};
   read.rest = text.substr(static_cast<std::size_t>(end - text.data()));
   return read;

@@ -49,11 +49,10 @@ CollapseChoice choose_collapse(const Rips& rips, const Options& options,
                                const RunContext& context) {
   // Engines are told apart by the kind of a filtration only, not by the size of its cells.
   const RipsFiltration<RipsLayout::sparse, 1> filtration(rips.graph());
-  const auto [engine, engine_reason] =
+  const auto choice =
       choose_engine(filtration, options.engine, task_of(options, options.max_dim.value_or(1)));
-  const auto decide = [&, engine = engine, engine_reason = engine_reason](bool collapses,
-                                                                          std::string_view reason) {
-    return CollapseChoice{collapses, std::string(reason), engine->id, engine_reason};
+  const auto decide = [&](bool collapses, std::string_view reason) {
+    return CollapseChoice{collapses, std::string(reason), choice.engine->id, choice.reason};
   };
   if (options.collapse == Collapse::off) return decide(false, "asked for");
   const std::string_view spoilt = obstacle(options);
@@ -63,7 +62,7 @@ CollapseChoice choose_collapse(const Rips& rips, const Options& options,
     return decide(true, "asked for");
   }
   if (!spoilt.empty()) return decide(false, spoilt);
-  if (const std::string_view reason = no_need(*engine); !reason.empty())
+  if (const std::string_view reason = no_need(*choice.engine); !reason.empty())
     return decide(false, reason);
   const double share = dominated_share(rips.graph(), context);
   return decide(share >= kWorthwhileShare,

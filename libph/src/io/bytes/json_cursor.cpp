@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "core/floating.hpp"
+
 namespace ph::detail {
 namespace {
 
@@ -149,7 +151,7 @@ std::string_view JsonCursor::number_word() {
 double JsonCursor::number() {
   const std::string_view word = number_word();
   double value = 0;
-  const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const auto [stop, error] = floating_from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc{} || stop != word.data() + word.size()) {
     fail(at_, {error == std::errc::result_out_of_range ? "number out of range" : "not a number",
                printable(word, 40),

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/floating.hpp"
 #include "io/points/table.hpp"
 #include "ph/detail/io/reader.hpp"
 
@@ -214,7 +215,7 @@ T Cells::floating(Allow allow) {
   // from_chars takes no plus sign
   if (digits != end_ && *digits == '+' && end_ - digits > 1 && digits[1] != '-') ++digits;
   T value = 0;
-  const auto [last, error] = std::from_chars(digits, end_, value);
+  const auto [last, error] = floating_from_chars(digits, end_, value);
   const char* stop = last;
   if (in_quotes && stop != end_ && *stop == '"') ++stop;
   if (allow >= Allow::any && error == std::errc::invalid_argument) {

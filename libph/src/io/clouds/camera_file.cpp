@@ -3,9 +3,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
+#include "core/floating.hpp"
 #include "io/bytes/json_cursor.hpp"
 #include "io/bytes/yaml_words.hpp"
 #include "ph/detail/io/camera.hpp"
@@ -71,7 +71,7 @@ class CameraYaml {
     double number = 0;
     std::string_view text = word.text;
     if (text.starts_with('+')) text.remove_prefix(1);
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    const auto [stop, error] = floating_from_chars(text.data(), text.data() + text.size(), number);
     if (error != std::errc{} || stop != text.data() + text.size() || !std::isfinite(number))
       fail(word, "not a number", "a finite decimal number");
     return number;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/floating.hpp"
 #include "io/readers.hpp"
 
 namespace ph::detail {
@@ -284,7 +285,7 @@ std::optional<double> number_in(std::string_view cell) {
   cell = without_quotes(cell);
   if (cell.starts_with('+')) cell.remove_prefix(1);
   double value = std::numeric_limits<double>::quiet_NaN();
-  const auto [stop, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  const auto [stop, error] = floating_from_chars(cell.data(), cell.data() + cell.size(), value);
   if (error == std::errc::invalid_argument || stop != cell.data() + cell.size())
     return std::nullopt;
   return value;

@@ -139,18 +139,17 @@ bool RelationSolver::solve() {
 }
 
 void RelationSolver::make_rows() {
-  using Word = SumRows::Word;
   const std::size_t sums = sum_count(), generators = births_.size();
   const std::size_t words = SumRows::words_for(living_);
-  std::pmr::vector<Word> rows(kept_);
+  std::pmr::vector<SumRows::Word> rows(kept_);
   rows.reserve(2 * sums * words);  // about as many are to come
   rows.resize(sums * words, 0);
   {
-    std::pmr::vector<Word> meanings(generators * words, 0, lent_);
+    std::pmr::vector<SumRows::Word> meanings(generators * words, 0, lent_);
     std::size_t living = 0;
     for (Generator g = 0; g < generators; ++g) {
       if (is_dead(g)) continue;
-      meanings[g * words + living / 64] |= Word{1} << (living % 64);
+      meanings[g * words + living / 64] |= SumRows::Word{1} << (living % 64);
       births_[living++] = births_[g];
     }
     if (has_rows())

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "core/floating.hpp"
+
+#include <locale.h>
+#include <stdlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace ph {
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+const char* end_of_digits(const char* at, const char* last) {
+  return std::find_if_not(at, last, is_digit);
+}
+
+/// Whether the text begins with a word in small letters, written in any.
+bool begins_with(const char* at, const char* last, std::string_view word) {
+  if (last - at < static_cast<std::ptrdiff_t>(word.size())) return false;
+  return std::equal(word.begin(), word.end(), at,
+                    [](char small, char c) { return is_letter(c) && (c | 0x20) == small; });
+}
+
+/// `(letters, digits and _)` behind "nan", as far as it is there.
+const char* end_of_payload(const char* at, const char* last) {
+  if (at == last || *at != '(') return at;
+  const char* const end = std::find_if_not(
+      at + 1, last, [](char c) { return is_digit(c) || is_letter(c) || c == '_'; });
+  return end != last && *end == ')' ? end + 1 : at;
+}
+
+/// Where the longest number ends that begins at `first`; `first`: there is none. What strtod takes
+/// beyond that (blanks, a plus sign, hexadecimal digits) is none.
+const char* end_of_number(const char* first, const char* last) {
+  const char* at = first;
+  if (at != last && *at == '-') ++at;
+  if (begins_with(at, last, "infinity")) return at + 8;
+  if (begins_with(at, last, "inf")) return at + 3;
+  if (begins_with(at, last, "nan")) return end_of_payload(at + 3, last);
+  const char* const whole = end_of_digits(at, last);
+  std::ptrdiff_t digits = whole - at;
+  at = whole;
+  if (at != last && *at == '.') {
+    const char* const fraction = end_of_digits(at + 1, last);
+    digits += fraction - (at + 1);
+    at = fraction;
+  }
+  if (digits == 0) return first;
+  if (at == last || (*at != 'e' && *at != 'E')) return at;
+  const char* exponent = at + 1;
+  if (exponent != last && (*exponent == '-' || *exponent == '+')) ++exponent;
+  const char* const end = end_of_digits(exponent, last);
+  return end == exponent ? at : end;
+}
+
+bool is_zero(std::string_view number) {
+  const std::string_view digits = number.substr(0, number.find_first_of("eE"));
+  return digits.find_first_of("123456789") == digits.npos;
+}
+
+// A program of others may have set another locale, where a comma separates decimals.
+#ifdef _WIN32
+double strtod_in_c(const char* text, double) {
+  static const _locale_t c = _create_locale(LC_ALL, "C");
+  return _strtod_l(text, nullptr, c);
+}
+float strtod_in_c(const char* text, float) {
+  static const _locale_t c = _create_locale(LC_ALL, "C");
+  return _strtof_l(text, nullptr, c);
+}
+#else
+locale_t c_locale() {
+  static const locale_t c = newlocale(LC_ALL_MASK, "C", nullptr);
+  return c;
+}
+double strtod_in_c(const char* text, double) { return strtod_l(text, nullptr, c_locale()); }
+float strtod_in_c(const char* text, float) { return strtof_l(text, nullptr, c_locale()); }
+#endif
+
+template <class T>
+std::from_chars_result read(const char* first, const char* last, T& value) {
+  const char* const end = end_of_number(first, last);
+  if (end == first) return {first, std::errc::invalid_argument};
+  const auto size = static_cast<std::size_t>(end - first);
+  // strtod asks for a zero at the end. Most numbers are short.
+  std::array<char, 64> few{};
+  std::string many;
+  const char* text = few.data();
+  if (size < few.size()) {
+    std::copy(first, end, few.begin());
+  } else {
+    text = many.assign(first, end).c_str();
+  }
+  const T result = strtod_in_c(text, T{});
+  const bool is_decimal = is_digit(end[-1]) || end[-1] == '.';
+  if (is_decimal && (std::isinf(result) || (result == 0 && !is_zero({first, size}))))
+    return {end, std::errc::result_out_of_range};
+  value = result;
+  return {end, std::errc{}};
+}
+
+}  // namespace
+
+std::from_chars_result floating_by_strtod(const char* first, const char* last, float& value) {
+  return read(first, last, value);
+}
+std::from_chars_result floating_by_strtod(const char* first, const char* last, double& value) {
+  return read(first, last, value);
+}
+
+}  // namespace ph
