@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs the Debian packages that are missing: setup.sh [build|page|demo|test|python|viewer|docs|packages|lint|fuzz|coverage]…
+# Installs the Debian packages that are missing: setup.sh [build|page|demo|test|python|viewer|docs|packages|lint|fuzz|coverage|clang-libcxx|aarch64]…
 set -euo pipefail
 
 build=(build-essential cmake ninja-build pkg-config ccache libeigen3-dev libfmt-dev
@@ -26,6 +26,9 @@ packages=(debhelper dh-python fakeroot xz-utils git libgtest-dev libpcl-dev lint
 lint=(clang-format-14 clang-tidy-19)
 fuzz=(clang-19 libclang-rt-19-dev libgtest-dev)
 coverage=(gcovr libgtest-dev)
+# Of scripts/platforms.sh; GoogleTest and fmt are compiled along.
+clang_libcxx=(clang-19 libc++-19-dev libc++abi-19-dev libunwind-19-dev googletest)
+aarch64=(g++-aarch64-linux-gnu qemu-user-static googletest)
 
 wanted=()
 for set in "${@:-build}"; do
@@ -41,7 +44,9 @@ for set in "${@:-build}"; do
     lint) wanted+=("${lint[@]}") ;;
     fuzz) wanted+=("${fuzz[@]}") ;;
     coverage) wanted+=("${coverage[@]}") ;;
-    *) echo "setup.sh: found '$set', expected build, page, demo, test, python, viewer, docs, packages, lint, fuzz or coverage" >&2; exit 64 ;;
+    clang-libcxx) wanted+=("${clang_libcxx[@]}") ;;
+    aarch64) wanted+=("${aarch64[@]}") ;;
+    *) echo "setup.sh: found '$set', expected build, page, demo, test, python, viewer, docs, packages, lint, fuzz, coverage, clang-libcxx or aarch64" >&2; exit 64 ;;
   esac
 done
 
