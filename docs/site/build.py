@@ -26,7 +26,8 @@ ROOT = HERE.parents[1]
 DOCS = ROOT / "docs"
 # Pages that lie elsewhere in the repository.
 ELSEWHERE = {"CHANGELOG.md": "reference/changes.md", "CONTRIBUTING.md": "development/contributing.md",
-             "SECURITY.md": "development/security.md", "viewer/README.md": "development/viewer.md"}
+             "CODE_OF_CONDUCT.md": "development/conduct.md", "SECURITY.md": "development/security.md",
+             "viewer/README.md": "development/viewer.md"}
 HEADERS = ["libph/include/ph", "libph/include/ph/io", "libsegment/include/ph", "libsegment/pcl/include/ph",
            "libreport/include/ph", "libreport/include/ph/detail/report"]
 # What public headers declare elsewhere and a reader has to know.
