@@ -8,7 +8,7 @@
 #include "bindings.hpp"
 #include "data/arrays.hpp"
 #include "facade/adjust.hpp"
-#include "ph/bottleneck.hpp"
+#include "ph/distances.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
 #include "ph/estimate.hpp"
 #include "ph/loops.hpp"

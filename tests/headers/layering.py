@@ -42,7 +42,7 @@ HEADERS = {
     "image": "image",
     "complex": "cubical explicit voxel_image",
     "rips": "rips",
-    "diagram": "bottleneck",
+    "diagram": "distances",
     "facade": "custom estimate merge_tree persistence",
     "loops": "loops ph",
     "plot": "io/plot",

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "ph/bottleneck.hpp"
+#include "ph/distances.hpp"
 #include "ph/persistence.hpp"
 #include "support/generators.hpp"
 #include "support/known_spaces.hpp"

@@ -12,7 +12,7 @@
 #include "barcode/output/h0_tree.hpp"
 #include "barcode/output/stored.hpp"
 #include "common/terminal/exit_code.hpp"
-#include "ph/bottleneck.hpp"
+#include "ph/distances.hpp"
 #include "ph/report.hpp"
 #include "report/arrays/bar_arrays.hpp"
 #include "report/encoding/sha256.hpp"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "ph/bottleneck.hpp"
+#include "ph/distances.hpp"
 #include "ph/error.hpp"
 
 namespace ph {
@@ -100,8 +100,8 @@ TEST(Bottleneck, IsTheBestOfAllMatchings) {
   std::mt19937 random(1);
   for (int round = 0; round < 600; ++round) {
     const int steps = round % 3 == 0 ? 0 : round % 3 == 1 ? 4 : 12;
-    const Bars a = random_bars(random, random() % 6, steps);
-    const Bars b = random_bars(random, random() % 6, steps);
+    const Bars a = random_bars(random, random() % 8, steps);
+    const Bars b = random_bars(random, random() % 8, steps);
     ASSERT_EQ(bottleneck_distance(a, b), by_all_matchings(a, b)) << round;
   }
 }
@@ -110,10 +110,10 @@ TEST(Bottleneck, IsThatOfGrowingMatchings) {
   std::mt19937 random(2);
   for (int round = 0; round < 40; ++round) {
     const int steps = round % 2 == 0 ? 0 : 20;
-    const Bars a = random_bars(random, 10 + random() % 40, steps);
+    const Bars a = random_bars(random, 10 + random() % 51, steps);
     Bars b = a;  // near the first in one half of the rounds: then most bars have a partner
     if (round % 4 < 2)
-      b = random_bars(random, 10 + random() % 40, steps);
+      b = random_bars(random, 10 + random() % 51, steps);
     else
       for (Bar& bar : b) bar.death += 0.05 * std::uniform_real_distribution<>()(random);
     std::ranges::shuffle(b, random);
@@ -124,7 +124,7 @@ TEST(Bottleneck, IsThatOfGrowingMatchings) {
 }
 
 // Bars in a row, each within reach of two of the other diagram, and the one that is free is at the
-// end: ways between bars that are alone are longer than there are bits in a set of labels.
+// end: ways between bars that are alone are long.
 TEST(Bottleneck, OfBarsInARow) {
   std::mt19937 random(6);
   for (int round = 0; round < 20; ++round) {
@@ -138,6 +138,76 @@ TEST(Bottleneck, OfBarsInARow) {
     ASSERT_EQ(bottleneck_distance(a, b), 0.5) << round;
     ASSERT_EQ(bottleneck_distance(b, a), 0.5) << round;
   }
+}
+
+TEST(Bottleneck, BoundsAreAsNearAsAsked) {
+  std::mt19937 random(7);
+  int narrower = 0, beyond = 0;
+  for (int round = 0; round < 300; ++round) {
+    const int steps = round % 3 == 0 ? 9 : 0;
+    const Bars a = random_bars(random, 5 + random() % 200, steps);
+    const Bars b = random_bars(random, 5 + random() % 200, steps);
+    const double distance = bottleneck_distance(a, b);
+    const double error = round % 2 == 0 ? 0.5 : 0.01;
+    const DistanceBounds near = bottleneck_bounds(a, b, {.relative_error = error});
+    ASSERT_LE(near.lower, distance) << round;
+    ASSERT_GE(near.value, distance) << round;
+    ASSERT_LE(near.value, (1 + error) * near.lower) << round;
+    narrower += near.value > near.lower ? 1 : 0;
+    const DistanceBounds all = bottleneck_bounds(a, b, {});
+    ASSERT_EQ(all.value, distance) << round;
+    ASSERT_EQ(all.lower, distance) << round;
+    // Just below it, far below it, at it.
+    for (const double at_most : {std::nextafter(distance, 0.0), distance / 3, distance}) {
+      const DistanceBounds most = bottleneck_bounds(a, b, {.at_most = at_most});
+      ASSERT_LE(most.lower, distance) << round;
+      ASSERT_GE(most.value, distance) << round;
+      if (distance > at_most) {
+        ASSERT_GT(most.lower, at_most) << round;
+        beyond += most.value > most.lower ? 1 : 0;
+      } else {
+        ASSERT_EQ(most.value, distance) << round;
+        ASSERT_EQ(most.lower, distance) << round;
+      }
+    }
+  }
+  EXPECT_GT(narrower, 50);  // no error was used up otherwise
+  EXPECT_GT(beyond, 50);    // they end early
+}
+
+TEST(Bottleneck, RefusesLimitsOutOfRange) {
+  const Bars one = {{0, 1, 5}};
+  for (const double error : {-0.1, kInfinity, std::nan("")})
+    EXPECT_THROW(bottleneck_bounds(one, one, {.relative_error = error}), Error) << error;
+  EXPECT_THROW(bottleneck_bounds(one, one, {.at_most = std::nan("")}), Error);
+  EXPECT_EQ(bottleneck_bounds(one, one, {.at_most = -1}).lower, 0);
+}
+
+TEST(Bottleneck, IsAMetric) {
+  std::mt19937 random(8);
+  for (int round = 0; round < 100; ++round) {
+    Bars bars[3];
+    for (Bars& b : bars) b = random_bars(random, 40 + random() % 40, round % 2 == 0 ? 30 : 0);
+    const auto d = [&](int i, int j) { return bottleneck_distance(bars[i], bars[j]); };
+    ASSERT_EQ(d(0, 0), 0) << round;
+    ASSERT_EQ(d(0, 1), d(1, 0)) << round;
+    ASSERT_LE(d(0, 2), d(0, 1) + d(1, 2) + 1e-15) << round;
+  }
+}
+
+// Copies, bars on the diagonal, and clusters far from each other made others loop.
+TEST(Bottleneck, OfManyCopies) {
+  const Bars million(1'000'000, {1, 0.25, 0.75}), half(500'000, {1, 0.25, 0.75});
+  EXPECT_EQ(bottleneck_distance(half, half), 0);
+  EXPECT_EQ(bottleneck_distance(million, half), 0.25);
+  EXPECT_EQ(bottleneck_distance(half, Bars(500'000, {1, 0.25, 0.875})), 0.125);
+  Bars a(3000, {1, 5, 5}), b(3000, {1, 0, 1e-12});
+  for (int i = 0; i < 3000; ++i) {
+    a.push_back({1, 1e6, 1e6 + 1 + i % 3});
+    b.push_back({1, 1e6, 1e6 + 1 + i % 2});
+  }
+  // Of 1 000 bars of length 3 none has a partner of that length; the others are 500 too many.
+  EXPECT_EQ(bottleneck_distance(a, b), 1);
 }
 
 TEST(Bottleneck, OfDiagramsThatAreKnown) {
@@ -258,6 +328,19 @@ TEST(Bottleneck, StopsWhenAsked) {
   RunContext small;
   small.memory.set_limit(1000);
   EXPECT_THROW(bottleneck_distance(a, b, small), Error);
+}
+
+TEST(Bottleneck, StopsInTheMiddle) {
+  std::mt19937 random(9);
+  const Bars a = random_bars(random, 100'000, 0), b = random_bars(random, 100'000, 0);
+  RunContext context;
+  std::stop_source source;
+  context.stop = source.get_token();
+  context.on_progress = [&](const Progress& progress) {
+    if (progress.stage == "bottleneck distance") source.request_stop();
+  };
+  EXPECT_THROW(bottleneck_distance(a, b, context), Error);
+  EXPECT_EQ(context.memory.used(), 0);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <climits>
 #include <limits>
 
-#include "ph/bottleneck.hpp"
+#include "ph/distances.hpp"
 #include "ph/distance_to_measure.hpp"
 #include "ph/eigen.hpp"
 #include "ph/estimate.hpp"

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "diagram/point_tree.hpp"
+
+namespace ph::diagram {
+
+/// Two matchings, one with all long bars of the first diagram, one with those of the second, made
+/// one that has all of both. Together they are paths and cycles, whose pairs come from one and the
+/// other in turn; of each path one of the two has all long bars (Mendelsohn and Dulmage).
+class JoinedMatchings {
+ public:
+  using Mates = std::span<const std::uint32_t>;
+
+  /// @param first_of_a, first_of_b the first matching by bars of either diagram; kNone: no pair.
+  JoinedMatchings(Mates first_of_a, Mates first_of_b, Mates second_of_a, Mates second_of_b)
+      : mates_{{first_of_a, first_of_b}, {second_of_a, second_of_b}},
+        seen_(first_of_a.size() + first_of_b.size()) {}
+
+  /// @return the partner of each bar of the first diagram, or kNone.
+  std::vector<std::uint32_t> join() {
+    partners_.assign(mates_[0][0].size(), kNone);
+    // Paths from their ends, which have a pair in one matching only; what is left are cycles.
+    for (const bool ends : {true, false})
+      for (std::size_t side : {0U, 1U})
+        for (std::uint32_t i = 0; i < mates_[0][side].size(); ++i) {
+          const bool in_first = mate(0, side, i) != kNone, in_second = mate(1, side, i) != kNone;
+          if (seen(side, i) || !(in_first || in_second) || (ends && in_first && in_second))
+            continue;
+          take(side, i, in_first ? 0 : 1);
+        }
+    return std::move(partners_);
+  }
+
+ private:
+  std::uint32_t mate(std::size_t matching, std::size_t side, std::uint32_t i) const {
+    return mates_[matching][side][i];
+  }
+  std::vector<bool>::reference seen(std::size_t side, std::uint32_t i) {
+    return seen_[side * mates_[0][0].size() + i];
+  }
+  /// Follows a path from one of its ends, or a cycle, and keeps the pairs of one matching: the one
+  /// with more of them; of as many, the one with the bar at the end that the first diagram has in
+  /// the first matching, or the second in the second.
+  void take(std::size_t side, std::uint32_t start, std::size_t matching) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs[2];
+    std::size_t at_side = side, at_matching = matching;
+    std::uint32_t at = start;
+    seen(side, start) = true;
+    for (;;) {
+      const std::uint32_t next = mate(at_matching, at_side, at);
+      if (next == kNone) break;
+      pairs[at_matching].emplace_back(at_side == 0 ? at : next, at_side == 0 ? next : at);
+      at_side = 1 - at_side;
+      if (seen(at_side, next)) break;
+      seen(at_side, next) = true;
+      at = next;
+      at_matching = 1 - at_matching;
+    }
+    // A path of as many pairs of each ends where it began, on the same side.
+    const std::size_t better =
+        pairs[0].size() != pairs[1].size() ? (pairs[0].size() > pairs[1].size() ? 0U : 1U) : side;
+    for (const auto& [a, b] : pairs[better]) partners_[a] = b;
+  }
+
+  Mates mates_[2][2];
+  std::vector<bool> seen_;
+  std::vector<std::uint32_t> partners_;
+};
+
+}  // namespace ph::diagram

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <bit>
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "diagram/point_tree.hpp"
+
+namespace ph::diagram {
+
+/// Those points of a tree that are left, in the maximum metric: a byte for each node. That of a
+/// leaf has a bit for each of its points; that of an inner node is zero if and only if nobody is
+/// left. Distances are those of `distance`, to the last digit.
+class PointsLeft {
+ public:
+  using Position = PointTree::Position;
+
+  /// All are left. @param tree outlives this.
+  PointsLeft(const PointTree& tree, const RunContext& context);
+
+  void restore_all() { left_ = all_; }
+  /// As restore_all and a `remove` of each point that `is_left` refuses, but O(n).
+  template <class IsLeft>
+  void restore(IsLeft&& is_left) {
+    for (Node node = tree_.node_count() - 1; node > 0; --node) {
+      std::uint8_t& left = left_[node];
+      if (!tree_.is_leaf(node)) {
+        left = left_[2 * node] | left_[2 * node + 1];
+        continue;
+      }
+      left = 0;
+      const Position begin = tree_.begin(node), end = tree_.end(node);
+      for (Position q = begin; q < end; ++q)
+        if (is_left(q)) left |= static_cast<std::uint8_t>(1U << (q - begin));
+    }
+  }
+  bool has(Position q) const {
+    const Node leaf = tree_.leaf_of(q);
+    return (left_[leaf] >> (q - tree_.begin(leaf)) & 1U) != 0;
+  }
+  void remove(Position q);
+  /// Removes a point at a distance of `radius` or less: which one is not said, but those near
+  /// `near` in the order of the tree are tried first. @return its position, or kNone if there is
+  /// none.
+  Position take(const Point& p, double radius, Position near);
+
+  /// Removes all points at a distance of `radius` or less, and calls `visit(position)` for each.
+  template <class Visit>
+  void take_all(const Point& p, double radius, Visit&& visit) {
+    if (left_[1] != 0 && tree_.distance_to_box(p, 1) <= radius) take_all_below(1, p, radius, visit);
+  }
+
+  struct Nearest {
+    double distance;
+    Position position = kNone;
+  };
+  /// The nearest point that is left; of what is `limit` away or more only `limit` is said.
+  Nearest nearest(const Point& p, double limit) const {
+    Nearest best{limit};
+    if (left_[1] != 0 && tree_.distance_to_box(p, 1) < limit) nearest(1, p, best);
+    return best;
+  }
+
+ private:
+  using Node = PointTree::Node;
+
+  /// A node is zero once both of its children are; until then nothing changes above it.
+  void empty_above(Node node) {
+    while (node > 1 && left_[node] == 0) {
+      node /= 2;
+      left_[node] = left_[2 * node] | left_[2 * node + 1];
+    }
+  }
+  Position take_below(Node node, const Point& p, double radius);
+  template <class Visit>
+  void take_all_below(Node node, const Point& p, double radius, Visit& visit) {
+    if (tree_.is_leaf(node)) {
+      const Position begin = tree_.begin(node);
+      for (unsigned left = left_[node]; left != 0; left &= left - 1) {
+        const Position q = begin + static_cast<Position>(std::countr_zero(left));
+        if (distance(p, tree_.point(q)) > radius) continue;
+        left_[node] &= static_cast<std::uint8_t>(~(left & -left));
+        visit(q);
+      }
+      return;
+    }
+    for (const Node child : {2 * node, 2 * node + 1})
+      if (left_[child] != 0 && tree_.distance_to_box(p, child) <= radius)
+        take_all_below(child, p, radius, visit);
+    left_[node] = left_[2 * node] | left_[2 * node + 1];
+  }
+  void nearest(Node node, const Point& p, Nearest& best) const;
+
+  const PointTree& tree_;
+  std::pmr::vector<std::uint8_t> left_, all_;
+};
+
+}  // namespace ph::diagram
