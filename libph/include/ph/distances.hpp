@@ -66,4 +66,56 @@ struct BottleneckMatching {
 BottleneckMatching bottleneck_matching(std::span<const Bar> a, std::span<const Bar> b,
                                        const RunContext& context = default_context());
 
+/// What the Wasserstein distance is of.
+struct WassersteinOptions {
+  double order = 1;  ///< p: at least 1, finite. Infinity is the bottleneck distance.
+  /// q, the norm in which a pair is apart: at least 1; 2 is the Euclidean one, infinity the
+  /// maximum.
+  double ground = kInfinity;
+  DistanceLimits limits = {};
+};
+
+/// The p-Wasserstein distance of two persistence diagrams: the p-th root of the least sum, over all
+/// ways to pair bars off, each in at most one pair, of ‖(birth, death) of one - those of the
+/// other‖_q^p over pairs and of the distance from the diagonal, 2^(1/q - 1) · length, to the power
+/// of p over bars left over.
+///
+/// Bars that never die are paired with such bars only, by birth, |difference|^p; those that were
+/// always there by death. It is infinite where their numbers differ. Bars of length 0 do not count.
+///
+/// Certified: `value` is what a matching costs, and prices of the bars prove that none costs less
+/// than `lower` (duality of linear programs). Without a relative error both are the distance but
+/// for rounding: the costs to the power of p agree to 1e-13, or to 2e-15 of what all bars would
+/// cost on the diagonal.
+///
+/// Sources: Bertsekas, The auction algorithm: a distributed relaxation method for the assignment
+/// problem, 1988; Bertsekas, Castañon, A forward/reverse auction algorithm for asymmetric
+/// assignment problems, 1992; Kerber, Morozov, Nigmetov, Geometry helps to compare persistence
+/// diagrams, 2017 (bids by a k-d tree with weights). There is one diagonal, in place of a copy of
+/// each bar on it.
+///
+/// Some 5 rounds to 1 %, 20 to the end, each of some searches in a k-d tree for each bar; memory
+/// O(n). Where an auction takes too many bids, shortest augmenting paths follow (Jonker, Volgenant,
+/// 1987): O(n) searches for each bar at most.
+/// @param a, b bars of one dimension each (their dimension is not looked at), in any order.
+/// @throws Error (usage) on options out of their range; Error (bad_data) on a NaN, or a death
+///         before its birth; Error (resource, cancelled).
+DistanceBounds wasserstein_distance(std::span<const Bar> a, std::span<const Bar> b,
+                                    const WassersteinOptions& options = {},
+                                    const RunContext& context = default_context());
+
+/// A matching of all bars of two diagrams.
+struct WassersteinMatching {
+  DistanceBounds distance;  ///< infinite: then there are no pairs
+  /// Places in `a` and in `b`, ascending; -1 is the diagonal, and comes last. Each bar of both is
+  /// in one pair, those of length 0 with the diagonal.
+  std::vector<std::pair<std::int64_t, std::int64_t>> pairs;
+};
+
+/// Which bars the Wasserstein distance pairs: the matching costs distance.value. Cost, parameters
+/// and errors are those of wasserstein_distance.
+WassersteinMatching wasserstein_matching(std::span<const Bar> a, std::span<const Bar> b,
+                                         const WassersteinOptions& options = {},
+                                         const RunContext& context = default_context());
+
 }  // namespace ph

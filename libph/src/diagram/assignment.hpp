@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "diagram/ground_cost.hpp"
+#include "diagram/weighted_tree.hpp"
+
+namespace ph::diagram {
+
+/// A matching of two sets of points with one diagonal, and prices that prove how good it is.
+///
+/// Prices u of the first and w of the second are feasible: u_a + w_b <= cost(a, b) for all pairs,
+/// u_a <= cost(a alone), w_b <= cost(b alone). So every matching costs at least their sum. It costs
+/// as much as that if its pairs have u_a + w_b = cost(a, b), and who is alone has the price of
+/// that.
+class Assignment {
+ public:
+  using Position = PointTree::Position;
+
+  /// Points of one diagram, their prices and partners by position in their tree.
+  struct Side {
+    PointTree tree;
+    WeightedTree prices;
+    std::vector<double> alone;      // what each costs that is left over
+    std::vector<Position> partner;  // in the other tree, or kNone
+    std::vector<Position> near;     // in the other tree: where a search begins
+
+    Side(std::span<const Point> points, std::size_t others, const GroundCost& cost,
+         const RunContext& context);
+  };
+
+  /// Nobody is paired, and prices are -infinity. Both sets have points, which outlive this.
+  Assignment(std::span<const Point> a, std::span<const Point> b, const GroundCost& cost,
+             const RunContext& context)
+      : cost_(cost), sides_{Side(a, b.size(), cost_, context), Side(b, a.size(), cost_, context)} {}
+  Assignment(const Assignment&) = delete;
+  Assignment& operator=(const Assignment&) = delete;
+
+  Side& side(std::size_t k) { return sides_[k]; }
+  const Side& side(std::size_t k) const { return sides_[k]; }
+  const GroundCost& cost() const { return cost_; }
+
+  double pair_cost(std::size_t k, Position x, Position y) const {
+    return cost_.pair(sides_[k].tree.point(x), sides_[1 - k].tree.point(y));
+  }
+  /// The two that x of side k would take, at the prices of the other side.
+  WeightedTree::Best best_two(std::size_t k, Position x);
+  void pair(std::size_t k, Position x, Position y) {
+    sides_[k].partner[x] = y;
+    sides_[1 - k].partner[y] = x;
+  }
+  void part(std::size_t k, Position x) {
+    Position& y = sides_[k].partner[x];
+    if (y == kNone) return;
+    sides_[1 - k].partner[y] = kNone;
+    y = kNone;
+  }
+  /// Makes the price of x of side k as high as is feasible.
+  void raise_price(std::size_t k, Position x);
+
+  /// The matching costs `cost`, and none costs less than `lower`, rounding allowed for.
+  struct Costs {
+    double cost, lower;
+  };
+  Costs costs() const;
+  /// By place among the points of the first set: place in the second, or kNone.
+  std::vector<std::uint32_t> partners() const;
+
+ private:
+  const GroundCost cost_;
+  std::array<Side, 2> sides_;
+};
+
+}  // namespace ph::diagram

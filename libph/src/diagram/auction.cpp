@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "diagram/auction.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ph::diagram {
+namespace {
+
+/// From an increment to the next.
+constexpr double kStep = 6;
+
+/// So many bids for each bar, and the first round takes larger steps.
+constexpr std::uint64_t kBidsAStep = 3;
+
+/// More than differences of the two are rounded by: a bid that is lower by this is lower.
+double rounding_of(double cost, double price) { return 1e-15 * (cost + std::abs(price)); }
+
+}  // namespace
+
+Auction::Auction(Assignment& assignment, const RunContext& context)
+    : assignment_(assignment), ticker_(context, "Wasserstein distance") {
+  // Prices that are no larger than costs: with prices of zero, raised on one side after the other.
+  Assignment::Side& mine = assignment_.side(0);
+  for (Position x = 0; x < mine.tree.size(); ++x) mine.prices.set(x, 0);
+  for (const std::size_t k : {1U, 0U})
+    for (Position x = 0; x < assignment_.side(k).tree.size(); ++x) {
+      ticker_.work();
+      assignment_.raise_price(k, x);
+    }
+}
+
+bool Auction::run(const std::function<bool(const Assignment::Costs&)>& is_enough,
+                  std::uint64_t most_bids) {
+  double alone = 0;
+  std::size_t count = 0;
+  for (const std::size_t k : {0U, 1U})
+    for (const double cost : assignment_.side(k).alone) {
+      alone += cost;
+      ++count;
+    }
+  // What pairs cost is mostly of the size of the first prices; of equal diagrams these are zero.
+  increment_ = std::max(assignment_.costs().lower, 1e-3 * alone) / static_cast<double>(count);
+  // Where many bid for few, prices have far to go: the first round may take larger steps.
+  most_increment_ = std::max(increment_, alone / static_cast<double>(count));
+  for (;;) {
+    if (!round(most_bids)) return false;
+    const Assignment::Costs costs = assignment_.costs();
+    // Pairs are dearer than their prices by the increment at most: what is left is rounding.
+    if (is_enough(costs) || increment_ * static_cast<double>(count) <= 1e-14 * costs.cost)
+      return true;
+    increment_ /= kStep;
+    most_increment_ = increment_;
+  }
+}
+
+bool Auction::round(std::uint64_t most_bids) {
+  Assignment::Side &mine = assignment_.side(0), &other = assignment_.side(1);
+  bids_ = 0;
+  most_bids_ = most_bids;
+  next_step_ = kBidsAStep * (mine.tree.size() + other.tree.size());
+  for (Position x = 0; x < mine.tree.size(); ++x) {
+    ticker_.work();
+    assignment_.raise_price(0, x);
+    const Position y = mine.partner[x];
+    if (y == kNone) continue;
+    const double cost = assignment_.pair_cost(0, x, y);
+    const double slack = cost - mine.prices.weight(x) - other.prices.weight(y);
+    if (slack > increment_ + rounding_of(cost, mine.prices.weight(x))) assignment_.part(0, x);
+  }
+  for (const std::size_t k : {0U, 1U}) {
+    const Assignment::Side& side = assignment_.side(k);
+    for (Position x = 0; x < side.tree.size(); ++x)
+      if (side.partner[x] == kNone && side.prices.weight(x) < side.alone[x] && !settle(k, x))
+        return false;
+  }
+  return true;
+}
+
+bool Auction::settle(std::size_t k, Position x) {
+  Assignment::Side &mine = assignment_.side(k), &other = assignment_.side(1 - k);
+  for (;;) {
+    if (++bids_ > most_bids_) return false;
+    if (bids_ == next_step_) {
+      increment_ = std::min(increment_ * kStep, most_increment_);
+      next_step_ += kBidsAStep * (mine.tree.size() + other.tree.size());
+    }
+    ticker_.work();
+    const auto [first, second, y] = assignment_.best_two(k, x);
+    const double alone = mine.alone[x];
+    if (!(first < alone)) {
+      mine.prices.set(x, alone);
+      return true;
+    }
+    const double price = std::min(second, alone);
+    const Position outbid = other.partner[y];
+    mine.prices.set(x, price);
+    const double cost = assignment_.pair_cost(k, x, y);
+    other.prices.set(y, cost - price - std::max(increment_, rounding_of(cost, price)));
+    assignment_.pair(k, x, y);
+    if (outbid == kNone) return true;
+    mine.partner[outbid] = kNone;
+    if (!(mine.prices.weight(outbid) < mine.alone[outbid])) return true;
+    x = outbid;
+  }
+}
+
+}  // namespace ph::diagram

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "diagram/shortest_paths.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <tuple>
+#include <vector>
+
+namespace ph::diagram {
+namespace {
+
+constexpr double kGone = -std::numeric_limits<double>::infinity();
+
+/// Trees of shortest paths in the costs that prices leave (Dijkstra), one after the other.
+class ShortestPaths {
+ public:
+  using Position = PointTree::Position;
+
+  ShortestPaths(Assignment& assignment, const RunContext& context)
+      : assignment_(assignment),
+        mine_(assignment.side(0)),
+        other_(assignment.side(1)),
+        reached_from_(other_.tree.size()),
+        ticker_(context, "Wasserstein distance, shortest paths") {
+    for (Position x = 0; x < mine_.tree.size(); ++x) assignment.part(0, x);
+    for (Position y = 0; y < other_.tree.size(); ++y) other_.prices.set(y, other_.alone[y]);
+  }
+
+  /// Pairs x, or leaves it or another one alone.
+  void add(Position x) {
+    assignment_.raise_price(0, x);
+    nodes_.clear();
+    steps_ = {};
+    add_node(x, kNone, 0);
+    Step step;
+    for (;;) {
+      step = steps_.top();
+      steps_.pop();
+      if (step.to == kNone) break;
+      // Somebody else was there before.
+      if (other_.prices.weight(step.to) == kGone) {
+        add_step(step.node);
+        continue;
+      }
+      reached_from_[step.to] = step.node;
+      if (other_.partner[step.to] == kNone) break;
+      add_node(other_.partner[step.to], step.to, step.length);
+      add_step(step.node);
+    }
+    for (const Node& node : nodes_) {
+      const double rise = step.length - node.length;
+      mine_.prices.set(node.x, mine_.prices.weight(node.x) + rise);
+      if (node.y != kNone) other_.prices.set(node.y, node.price - rise);
+    }
+    change_pairs(step);
+  }
+
+ private:
+  /// A point x that was reached through its partner y; none for the first.
+  struct Node {
+    Position x, y;
+    double length;  // of the path
+    double price;   // of y, before
+  };
+  /// From a node to a point of the other side, or kNone: x stays alone.
+  struct Step {
+    double length;
+    std::size_t node;
+    Position to;
+    bool operator>(const Step& other) const {
+      return std::tie(length, node, to) > std::tie(other.length, other.node, other.to);
+    }
+  };
+
+  void add_node(Position x, Position y, double length) {
+    double price = 0;
+    if (y != kNone) {
+      price = other_.prices.weight(y);
+      other_.prices.set(y, kGone);
+    }
+    nodes_.push_back({x, y, length, price});
+    steps_.push({length + (mine_.alone[x] - mine_.prices.weight(x)), nodes_.size() - 1, kNone});
+    add_step(nodes_.size() - 1);
+  }
+  void add_step(std::size_t node) {
+    ticker_.work();
+    const Position x = nodes_[node].x;
+    const WeightedTree::Best best = assignment_.best_two(0, x);
+    if (best.position == kNone) return;
+    // Rounding may make a cost less than nothing.
+    const double cost = std::max(0.0, best.first - mine_.prices.weight(x));
+    steps_.push({nodes_[node].length + cost, node, best.position});
+  }
+  void change_pairs(const Step& last) {
+    Position to = last.to;
+    for (std::size_t node = last.node;;) {
+      const auto [x, y, length, price] = nodes_[node];
+      if (y != kNone) assignment_.part(0, x);
+      if (to != kNone) assignment_.pair(0, x, to);
+      if (y == kNone) return;
+      to = y;
+      node = reached_from_[y];
+    }
+  }
+
+  Assignment& assignment_;
+  Assignment::Side &mine_, &other_;
+  std::vector<Node> nodes_;
+  std::vector<std::size_t> reached_from_;  // node, by position
+  std::priority_queue<Step, std::vector<Step>, std::greater<>> steps_;
+  Ticker ticker_;
+};
+
+}  // namespace
+
+void assign_by_shortest_paths(Assignment& assignment, const RunContext& context) {
+  ShortestPaths paths(assignment, context);
+  const std::size_t count = assignment.side(0).tree.size();
+  for (PointTree::Position x = 0; x < count; ++x) paths.add(x);
+  // What rounding has added up to is in no price that is found anew.
+  for (PointTree::Position x = 0; x < count; ++x) assignment.raise_price(0, x);
+}
+
+}  // namespace ph::diagram

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "diagram/assignment.hpp"
+
+namespace ph::diagram {
+
+/// Finds the best matching and its prices by shortest augmenting paths, one for each point of the
+/// first set (Jonker, Volgenant 1987). Slower than an auction, but it has no increments: the number
+/// of its steps is bounded whatever the costs.
+/// @param assignment in any state.
+void assign_by_shortest_paths(Assignment& assignment, const RunContext& context);
+
+}  // namespace ph::diagram

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <memory_resource>
+#include <vector>
+
+#include "diagram/ground_cost.hpp"
+#include "diagram/point_tree.hpp"
+
+namespace ph::diagram {
+
+/// Points of a tree with weights that change: who costs least, the weight deducted. Each node keeps
+/// the largest weight of its points.
+class WeightedTree {
+ public:
+  using Position = PointTree::Position;
+
+  /// Weights are -infinity: those points do not exist. @param tree, cost outlive this.
+  WeightedTree(const PointTree& tree, const GroundCost& cost, const RunContext& context);
+
+  double weight(Position q) const { return weights_[q]; }
+  void set(Position q, double weight);
+
+  /// The two least values of cost minus weight, infinity where there is no such point.
+  struct Best {
+    double first, second;
+    Position position = kNone;  // of the first
+  };
+  /// @param near a position where to begin: any will do, one that is near is fast.
+  Best best_two(const Point& p, Position near) const;
+
+ private:
+  using Node = PointTree::Node;
+
+  double least(const Point& p, Node node) const {
+    return cost_.pair_with_box(p, tree_.box(node)) - largest_[node];
+  }
+  void best_below(Node node, const Point& p, Best& best) const;
+
+  const PointTree& tree_;
+  const GroundCost& cost_;
+  std::pmr::vector<double> weights_;  // by position
+  std::pmr::vector<double> largest_;  // by node
+};
+
+}  // namespace ph::diagram
