@@ -2,11 +2,13 @@
 /// Distances of persistence diagrams.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "ph/barcode.hpp"
+#include "ph/distance_matrix.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph {
@@ -94,7 +96,7 @@ struct WassersteinOptions {
 /// diagrams, 2017 (bids by a k-d tree with weights). There is one diagonal, in place of a copy of
 /// each bar on it.
 ///
-/// Some 5 rounds to 1 %, 20 to the end, each of some searches in a k-d tree for each bar; memory
+/// Some 3 to 5 rounds to 1 %, 20 to the end, each of some searches in a k-d tree for each bar; memory
 /// O(n). Where an auction takes too many bids, shortest augmenting paths follow (Jonker, Volgenant,
 /// 1987): O(n) searches for each bar at most.
 /// @param a, b bars of one dimension each (their dimension is not looked at), in any order.
@@ -117,5 +119,74 @@ struct WassersteinMatching {
 WassersteinMatching wasserstein_matching(std::span<const Bar> a, std::span<const Bar> b,
                                          const WassersteinOptions& options = {},
                                          const RunContext& context = default_context());
+
+/// The sliced Wasserstein distance of two persistence diagrams (order 1), approximated by
+/// directions. Points of a diagram, and the points of the diagonal nearest to those of the other
+/// one, are projected to a line. What is between the two sorted lists of numbers, |x_1 - y_1| +
+/// |x_2 - y_2|
+/// + …, is averaged over the directions of the line: angles k π / directions, k = 0 …
+/// directions - 1. They go once around: a line at π is the one at 0, and counts once.
+///
+/// Bars that never die, and those that were always there, add what wasserstein_distance adds for
+/// them. It is infinite where their numbers differ. Bars of length 0 do not count.
+///
+/// It is equivalent to wasserstein_distance of order 1, not equal to it: at most 2 √2 times as
+/// large, however many directions. exp(-distance) is a positive definite kernel. Source: Carrière,
+/// Cuturi, Oudot, Sliced Wasserstein kernel for persistence diagrams, 2017. O(directions · n log
+/// n), directions shared by threads; the result does not depend on them.
+/// @param directions at least 1.
+/// @throws Error (usage) on fewer directions; else as bottleneck_distance.
+double sliced_wasserstein_distance(std::span<const Bar> a, std::span<const Bar> b,
+                                   int directions = 50,
+                                   const RunContext& context = default_context());
+
+/// A distance of two diagrams, as `[](auto a, auto b, auto& context) { return
+/// bottleneck_distance(a, b, context); }`. Called by several threads.
+using DiagramDistance =
+    std::function<double(std::span<const Bar>, std::span<const Bar>, const RunContext&)>;
+
+/// The distances of all pairs of diagrams. Threads share the pairs, those with the most bars first;
+/// the result does not depend on them, nor on the order in which they are done.
+/// @param distance symmetric; called once for each pair, with a context of one thread that can be
+///        stopped, and with an equal share of the memory that is left.
+/// @throws what `distance` throws; Error (cancelled).
+DistanceMatrix diagram_distances(std::span<const std::span<const Bar>> diagrams,
+                                 const DiagramDistance& distance,
+                                 const RunContext& context = default_context());
+
+struct BarycentreOptions {
+  int most_rounds = 100;  ///< at least 0: then the medoid is the result
+  /// Ends after a round that lowers the root mean square by this part of it, or less. At least 0.
+  double least_gain = 1e-6;
+};
+
+/// A diagram in the middle of others.
+struct Barycentre {
+  std::vector<Bar> bars;        ///< ascending by birth, then death; of dimension 0
+  double root_mean_square = 0;  ///< of the distances to the diagrams
+  int rounds = 0;               ///< that lowered it
+  bool converged = false;       ///< whether it ended before the most rounds
+};
+
+/// A barycentre (Fréchet mean) of persistence diagrams: a local minimum of the mean square of the
+/// Wasserstein distances, of order 2 and Euclidean ground norm, from a diagram to those given. It
+/// begins at their medoid, the diagram with the least sum of squares (of several the first one;
+/// distances within 1 %), and alternates: each diagram is matched with it; each of its bars moves
+/// to the mean of its partners, of which those on the diagonal count as the point nearest to the
+/// mean of the others. A bar without a partner in it becomes a new bar, as near to the diagonal as
+/// all other diagrams want it; one with all partners on the diagonal is gone. So there may be bars
+/// that are N times as short as those of one of N diagrams.
+///
+/// Infinite bars are averaged in the order of their finite ends. Bars of length 0 do not count.
+/// Sources: Turner, Mileyko, Mukherjee, Harer, Fréchet means for distributions of persistence
+/// diagrams, 2014 (alternation; it lowers the mean square until it ends); Vidal, Budin, Tierny,
+/// Progressive Wasserstein barycenters of persistence diagrams, 2020.
+/// Some 1 to 15 rounds of N matchings, after N²/2 distances. Diagrams are shared by threads; the
+/// result does not depend on them.
+/// @throws Error (usage) on no diagram or options out of range; Error (bad_data) on a NaN, a death
+///         before its birth or numbers of infinite bars that differ; Error (resource, cancelled).
+Barycentre barycentre(std::span<const std::span<const Bar>> diagrams,
+                      const BarycentreOptions& options = {},
+                      const RunContext& context = default_context());
 
 }  // namespace ph

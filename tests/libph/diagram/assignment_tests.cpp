@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Prices that prove a matching, looked at pair by pair; auctions that are given up.
-#include "diagram/assignment.hpp"
+#include "diagram/wasserstein/assignment.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-#include "diagram/auction.hpp"
-#include "diagram/shortest_paths.hpp"
+#include "diagram/wasserstein/auction.hpp"
+#include "diagram/wasserstein/shortest_paths.hpp"
 #include "ph/barcode.hpp"
 
 namespace ph::diagram {

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "diagram/diagram_parts.hpp"
-#include "diagram/joined_matchings.hpp"
-#include "diagram/one_sided_matching.hpp"
+#include "diagram/bottleneck/joined_matchings.hpp"
+#include "diagram/bottleneck/one_sided_matching.hpp"
 #include "ph/distances.hpp"
 
 namespace ph {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "diagram/weighted_tree.hpp"
+#include "diagram/wasserstein/weighted_tree.hpp"
 
 #include <algorithm>
 #include <limits>

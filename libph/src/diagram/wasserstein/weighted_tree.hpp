@@ -3,7 +3,7 @@
 #include <memory_resource>
 #include <vector>
 
-#include "diagram/ground_cost.hpp"
+#include "diagram/wasserstein/ground_cost.hpp"
 #include "diagram/point_tree.hpp"
 
 namespace ph::diagram {

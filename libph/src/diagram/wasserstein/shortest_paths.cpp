@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "diagram/shortest_paths.hpp"
+#include "diagram/wasserstein/shortest_paths.hpp"
 
 #include <algorithm>
 #include <functional>

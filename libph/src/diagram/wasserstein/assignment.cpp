@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "diagram/assignment.hpp"
+#include "diagram/wasserstein/assignment.hpp"
 
 #include <algorithm>
 #include <cmath>

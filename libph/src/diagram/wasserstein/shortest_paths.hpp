@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "diagram/assignment.hpp"
+#include "diagram/wasserstein/assignment.hpp"
 
 namespace ph::diagram {
 

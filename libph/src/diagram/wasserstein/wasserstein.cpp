@@ -7,9 +7,9 @@
 #include <limits>
 #include <vector>
 
-#include "diagram/auction.hpp"
+#include "diagram/wasserstein/auction.hpp"
 #include "diagram/diagram_parts.hpp"
-#include "diagram/shortest_paths.hpp"
+#include "diagram/wasserstein/shortest_paths.hpp"
 #include "ph/distances.hpp"
 #include "ph/error.hpp"
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "diagram/points_left.hpp"
+#include "diagram/bottleneck/points_left.hpp"
 #include "ph/distances.hpp"
 
 namespace ph::diagram {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "diagram/auction.hpp"
+#include "diagram/wasserstein/auction.hpp"
 
 #include <algorithm>
 #include <cmath>

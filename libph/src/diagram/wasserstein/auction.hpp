@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "diagram/assignment.hpp"
+#include "diagram/wasserstein/assignment.hpp"
 
 namespace ph::diagram {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "diagram/one_sided_matching.hpp"
+#include "diagram/bottleneck/one_sided_matching.hpp"
 
 #include <algorithm>
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "diagram/ground_cost.hpp"
-#include "diagram/weighted_tree.hpp"
+#include "diagram/wasserstein/ground_cost.hpp"
+#include "diagram/wasserstein/weighted_tree.hpp"
 
 namespace ph::diagram {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "diagram/points_left.hpp"
+#include "diagram/bottleneck/points_left.hpp"
 
 #include <utility>
 
