@@ -96,9 +96,9 @@ struct WassersteinOptions {
 /// diagrams, 2017 (bids by a k-d tree with weights). There is one diagonal, in place of a copy of
 /// each bar on it.
 ///
-/// Some 3 to 5 rounds to 1 %, 20 to the end, each of some searches in a k-d tree for each bar; memory
-/// O(n). Where an auction takes too many bids, shortest augmenting paths follow (Jonker, Volgenant,
-/// 1987): O(n) searches for each bar at most.
+/// Some 3 to 5 rounds to 1 %, 20 to the end, each of some searches in a k-d tree for each bar;
+/// memory O(n). Where an auction takes too many bids, shortest augmenting paths follow (Jonker,
+/// Volgenant, 1987): O(n) searches for each bar at most.
 /// @param a, b bars of one dimension each (their dimension is not looked at), in any order.
 /// @throws Error (usage) on options out of their range; Error (bad_data) on a NaN, or a death
 ///         before its birth; Error (resource, cancelled).

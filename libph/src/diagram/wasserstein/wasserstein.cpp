@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
-#include "diagram/wasserstein/auction.hpp"
 #include "diagram/diagram_parts.hpp"
+#include "diagram/wasserstein/auction.hpp"
 #include "diagram/wasserstein/shortest_paths.hpp"
 #include "ph/distances.hpp"
 #include "ph/error.hpp"

@@ -3,8 +3,8 @@
 #include <memory_resource>
 #include <vector>
 
-#include "diagram/wasserstein/ground_cost.hpp"
 #include "diagram/point_tree.hpp"
+#include "diagram/wasserstein/ground_cost.hpp"
 
 namespace ph::diagram {
 
