@@ -39,7 +39,8 @@ except ModuleNotFoundError as _error:
 from . import gradients
 from ._barcodes import Bar, Barcode, Chain, Loop
 from ._compute import boundary, cubical, filtered, lower_star, rips
-from ._diagrams import bottleneck
+from ._distances import (Barycentre, Matching, barycentre, bottleneck, bottleneck_matching,
+                         diagram_distances, sliced_wasserstein, wasserstein, wasserstein_matching)
 from ._errors import (Cancelled, DataError, Error, InternalError, MemoryLimitError,
                       MissingInputError, NotBuiltIn, OutputError, Timeout, UsageError)
 from ._estimate import Estimate, estimate
@@ -52,13 +53,14 @@ from ._scenes import Objects, Segment, Segmentation, Voxels, segment
 from ._trees import MergeTree, merge_tree
 
 __all__ = [
-    "Bar", "Barcode", "Boundary", "Cancelled", "Chain", "DataError", "Error", "Estimate",
-    "InternalError", "Loop", "MemoryLimitError", "MergeTree", "Mesh", "MissingInputError",
-    "NotBuiltIn", "Objects", "OutputError", "PointImage", "Report", "Segment", "Segmentation",
-    "Simplices", "Subsample", "Timeout", "UsageError", "Voxels", "__version__", "bottleneck",
-    "boundary", "collapse", "cubical", "distance_to_measure", "estimate", "farthest_points",
-    "filtered", "gradients", "limits", "lower_star", "merge_tree", "point_image", "read",
-    "read_barcode", "report", "rips", "segment",
+    "Bar", "Barcode", "Barycentre", "Boundary", "Cancelled", "Chain", "DataError", "Error",
+    "Estimate", "InternalError", "Loop", "Matching", "MemoryLimitError", "MergeTree", "Mesh",
+    "MissingInputError", "NotBuiltIn", "Objects", "OutputError", "PointImage", "Report", "Segment",
+    "Segmentation", "Simplices", "Subsample", "Timeout", "UsageError", "Voxels", "__version__",
+    "barycentre", "bottleneck", "bottleneck_matching", "boundary", "collapse", "cubical",
+    "diagram_distances", "distance_to_measure", "estimate", "farthest_points", "filtered",
+    "gradients", "limits", "lower_star", "merge_tree", "point_image", "read", "read_barcode",
+    "report", "rips", "segment", "sliced_wasserstein", "wasserstein", "wasserstein_matching",
 ]
 
 if not _typing.TYPE_CHECKING:  # for a type checker a name that is missing is an error

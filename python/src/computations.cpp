@@ -8,7 +8,6 @@
 #include "bindings.hpp"
 #include "data/arrays.hpp"
 #include "facade/adjust.hpp"
-#include "ph/distances.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
 #include "ph/estimate.hpp"
 #include "ph/loops.hpp"
@@ -75,21 +74,6 @@ py::tuple collapsed_edges(const RipsRecipe& recipe, const RunOptions& options) {
                         Block::of(std::move(edges.values)));
 }
 
-double bottleneck(const py::buffer& a, const py::buffer& b, const RunOptions& options) {
-  const auto bars_of = [](const py::buffer& array) {
-    const py::buffer_info info = array.request();
-    const PointsView rows = points_of(info);
-    std::vector<Bar> bars;
-    for (Index i = 0; i < rows.rows(); ++i) bars.push_back({0, rows(i, 0), rows(i, 1)});
-    return bars;
-  };
-  const std::vector<Bar> bars_of_a = bars_of(a), bars_of_b = bars_of(b);
-  constexpr std::size_t few = 100;
-  return run(options, bars_of_a.size() + bars_of_b.size() < few, [&](const RunContext& context) {
-    return bottleneck_distance(bars_of_a, bars_of_b, context);
-  });
-}
-
 /// @throws Error (usage) if there is none of that name.
 Engine engine_of(const std::string& name) {
   if (const std::optional<Engine> engine = engine_named(name)) return *engine;
@@ -147,7 +131,6 @@ void bind_computations(py::module_& m) {
   m.def("barcode", &barcode, py::arg("recipe"), py::arg("task"), py::arg("run"));
   m.def("estimate", &estimate_of, py::arg("recipe"), py::arg("task"), py::arg("run"));
   m.def("collapsed_edges", &collapsed_edges, py::arg("recipe"), py::arg("run"));
-  m.def("bottleneck", &bottleneck, py::arg("a"), py::arg("b"), py::arg("run"));
 }
 
 }  // namespace ph::python

@@ -59,7 +59,7 @@ def test_keywords_named_in_hints_are_there():
 
 @pytest.mark.parametrize("name, hint", [
     ("ripser", "libph.compat.ripser"), ("vietoris_rips", "ph.rips"), ("plot_diagrams", "bars.plot"),
-    ("wasserstein", "persim and GUDHI"), ("cubicle", "'cubical'"),
+    ("wasserstein_distance", "ph.wasserstein"), ("cubicle", "'cubical'"),
     ("VietorisRipsPersistence", "libph.sklearn.RipsPersistence")])
 def test_names_of_the_package(name, hint):
     assert not hasattr(ph, name)

@@ -49,6 +49,11 @@ assert_type(ph.read_barcode("bars.json"), ph.Barcode)
 assert_type(ph.bottleneck(bars, bars), Dict[int, float])
 assert_type(ph.bottleneck(bars, bars, 1), float)
 assert_type(ph.bottleneck([[0, 1]], X), float)
+assert_type(ph.wasserstein(bars, bars, order=2), Dict[int, float])
+assert_type(ph.wasserstein(X, X, ground=2, threads=1), float)
+assert_type(ph.wasserstein_matching(bars, bars, 1).pairs, NDArray[np.int64])
+assert_type(ph.diagram_distances([X, X]), NDArray[np.float64])
+assert_type(ph.barycentre([X, X]).converged, bool)
 assert_type(ph.distance_to_measure(X, 3), NDArray[np.float64])
 assert_type(ph.merge_tree(X).values, NDArray[np.float64])
 scene = ph.segment(X, intrinsics=(1, 1, 0, 0), timeout=10)
@@ -75,6 +80,7 @@ bars.deaths = X                                      # misc: "deaths"
 bars.meta["field"] = 3                               # index: indexed assignment
 bars[0].death.append(1)                              # attr-defined: "float"
 ph.bottleneck(bars, bars, dim="1")                   # call-overload: "bottleneck"
+ph.wasserstein_matching(X, X, at_most=1)             # call-arg: "at_most"
 scene.cut(n="3")                                     # arg-type: "n" to "cut"
 scene.labels.sort(axes=0)                            # call-arg: "axes"
 '''

@@ -304,7 +304,7 @@ MUTANTS = [
     ("sliced Wasserstein: nothing of the other diagram", "libph/src/diagram/sliced_wasserstein.cpp",
      "points.push_back({middle, middle});", ";", ["many_diagrams_tests"]),
     ("diagram distances: in the order in which they are done",
-     "libph/src/diagram/diagram_distances.cpp", "lower[place] = distance(", "lower[k] = distance(",
+     "libph/src/diagram/diagram_distances.cpp", "result[place] = distance(", "result[k] = distance(",
      ["many_diagrams_tests"]),
     ("barycentre: the diagonal does not count", "libph/src/diagram/barycentre.cpp",
      "if (share == 1) return", "if (share <= 1) return", ["many_diagrams_tests"]),

@@ -154,6 +154,13 @@ DistanceMatrix diagram_distances(std::span<const std::span<const Bar>> diagrams,
                                  const DiagramDistance& distance,
                                  const RunContext& context = default_context());
 
+/// The distances of each of some diagrams from each of others, row by row: otherwise the same.
+/// @returns diagrams.size() · others.size() numbers.
+std::vector<double> diagram_distances(std::span<const std::span<const Bar>> diagrams,
+                                      std::span<const std::span<const Bar>> others,
+                                      const DiagramDistance& distance,
+                                      const RunContext& context = default_context());
+
 struct BarycentreOptions {
   int most_rounds = 100;  ///< at least 0: then the medoid is the result
   /// Ends after a round that lowers the root mean square by this part of it, or less. At least 0.

@@ -29,7 +29,10 @@ def plot(bars: Barcode, kind: Any, ax: Axes | None, style: dict[str, Any]) -> Ax
 def _ends(bars: Barcode) -> tuple[float, float, float]:
     """The least and largest finite value, and where infinity is drawn."""
     values = np.concatenate([bars.births, bars.deaths])
-    values = values[np.isfinite(values)]
+    return _ends_of(values[np.isfinite(values)])
+
+
+def _ends_of(values: NDArray[np.float64]) -> tuple[float, float, float]:
     low, high = (float(values.min()), float(values.max())) if values.size else (0.0, 1.0)
     room = (high - low) or 1.0
     return low, high, high + 0.1 * room
@@ -107,3 +110,28 @@ def _betti(bars: Barcode, ax: Axes, style: dict[str, Any]) -> None:
     ax.set_ylabel("Betti number")
     if len(bars):
         ax.legend()
+
+
+def plot_matching(a: NDArray[np.float64], b: NDArray[np.float64], pairs: NDArray[np.int64],
+                  ax: Axes | None, style: dict[str, Any]) -> Axes:
+    """See `Matching.plot`."""
+    from matplotlib.collections import LineCollection
+    if ax is None:
+        import matplotlib.pyplot
+        _, ax = matplotlib.pyplot.subplots()
+    values = np.concatenate([a.ravel(), b.ravel()])
+    low, high, infinity = _ends_of(values[np.isfinite(values)])
+    ax.plot([low, high], [low, high], color="0.7", linewidth=1, zorder=0)
+    a, b = (np.clip(dgm, low, np.where(np.isinf(dgm), infinity, dgm)) for dgm in (a, b))
+    lines = []
+    for i, j in pairs:
+        ends = [dgm[k] if k >= 0 else None for dgm, k in ((a, i), (b, j))]
+        lines.append([np.repeat(ends[1 - side].mean(), 2) if end is None else end
+                      for side, end in enumerate(ends)])
+    ax.add_collection(LineCollection(lines, **{"colors": "0.4", "linewidths": 1, "zorder": 1,
+                                               **style}))
+    for dgm, name, marker in ((a, "a", "o"), (b, "b", "s")):
+        ax.scatter(dgm[:, 0], dgm[:, 1], 16, label=name, marker=marker, zorder=2)
+    ax.set(xlabel="Birth", ylabel="Death")
+    ax.legend()
+    return ax

@@ -26,8 +26,11 @@ MODULE = _table(
     ("plot plot_diagrams plot_diagram plot_dgms plot_barcode plot_persistence_diagram "
      "plot_persistence_barcode", "use bars.plot()"),
     ("bottleneck_distance", "use ph.bottleneck"),
-    ("wasserstein wasserstein_distance sliced_wasserstein",
-     "persim and GUDHI have it, and take bars.dgm(1); ph.bottleneck is the bottleneck distance"),
+    ("wasserstein_distance emd", "use ph.wasserstein"),
+    ("sliced_wasserstein_distance SlicedWassersteinDistance", "use ph.sliced_wasserstein"),
+    ("PairwiseDistance pairwise_persistence_diagram_distances pairwise_distances",
+     "use ph.diagram_distances"),
+    ("frechet_mean lagrangian_barycenter barycenter", "use ph.barycentre"),
     ("betti betti_numbers betti_curve", "use bars.betti(t), bars.betti_curve(grid)"),
     ("load loadtxt", "use ph.read for data, ph.read_barcode for what bars.save wrote"),
     ("save", "use bars.save"),
@@ -47,7 +50,7 @@ BARCODE = _table(
      "use representative(i), of bars computed with representatives='cycles' or 'cocycles'"),
     ("betti_numbers persistent_betti_numbers", "use betti(t), betti_curve(grid)"),
     ("bottleneck bottleneck_distance wasserstein wasserstein_distance distance",
-     "use ph.bottleneck(a, b)"),
+     "use ph.bottleneck(a, b), ph.wasserstein(a, b)"),
     ("df to_df to_frame to_dataframe", "use to_pandas()"),
     ("to_csv to_json dump write", "use save('bars.csv'), save('bars.json')"),
     ("numpy to_array array", "use to_numpy(), dgm(dim)"),
@@ -61,7 +64,9 @@ SKLEARN = _table(
     ("PersistenceImager", "use PersistenceImage"),
     ("Amplitude TopologicalVector", "use Lengths, Landscape"),
     ("Tomato ToMATo", "use PersistenceClustering"),
-    ("Silhouette HeatKernel PairwiseDistance Scaler Filtering",
+    ("PairwiseDistance BottleneckDistance WassersteinDistance SlicedWassersteinDistance",
+     "use DiagramDistances"),
+    ("Silhouette HeatKernel Scaler Filtering",
      "giotto-tda has it, and takes what output='giotto' gives"),
 )
 

@@ -21,7 +21,7 @@ _MODULES = {
     "ripser": (),
     "gph": ("gph.modules", "gph.modules.gph_ripser", "gph.modules.gph_collapser"),
     "cripser": ("tcripser",),
-    "gudhi": ("gudhi.hera", "gudhi.sklearn", "gudhi.flag_filtration",
+    "gudhi": ("gudhi.hera", "gudhi.wasserstein", "gudhi.sklearn", "gudhi.flag_filtration",
               "gudhi.flag_filtration.edge_collapse", "gudhi.dtm_rips_complex",
               "gudhi.weighted_rips_complex"),
     "persim": (),

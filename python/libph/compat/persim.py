@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""persim's `plot_diagrams` and `bottleneck` over libph."""
+"""persim's `plot_distances` and `bottleneck` over libph."""
 from __future__ import annotations
 
 import warnings
@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .. import _arrays, _diagrams, _options
+from .. import _arrays, _distances, _options
 from .._core import version as __version__
-from .._errors import NotBuiltIn, UsageError
+from .._errors import UsageError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["__version__", "bottleneck", "plot_diagrams"]
+__all__ = ["__version__", "bottleneck", "plot_diagrams", "wasserstein"]
 
 
-def bottleneck(dgm1: ArrayLike, dgm2: ArrayLike, matching: bool = False) -> float:
+def bottleneck(dgm1: ArrayLike, dgm2: ArrayLike, matching: bool = False) -> Any:
     """The bottleneck distance of bars that die; others are left out with a warning.
 
     Parameters
@@ -26,15 +26,52 @@ def bottleneck(dgm1: ArrayLike, dgm2: ArrayLike, matching: bool = False) -> floa
     dgm1, dgm2 : array_like
         Rows birth, death; further columns are not looked at.
     matching : bool
-        Not built in: the distance alone is computed.
+        Whether the matching is returned, too.
 
     Returns
     -------
-    float
+    float or (float, ndarray)
+        Rows of the matching: place in `dgm1`, place in `dgm2`, cost; -1 is the diagonal. Places
+        count bars that die.
     """
-    if _options.flag("matching", matching):
-        raise NotBuiltIn("matching: libph gives the distance alone; persim has the matching")
-    return _diagrams.bottleneck(_finite(dgm1, "dgm1"), _finite(dgm2, "dgm2"))
+    a, b = _finite(dgm1, "dgm1"), _finite(dgm2, "dgm2")
+    if not _options.flag("matching", matching):
+        return _distances.bottleneck(a, b)
+    return _with_costs(_distances.bottleneck_matching(a, b), np.inf)
+
+
+def wasserstein(dgm1: ArrayLike, dgm2: ArrayLike, matching: bool = False) -> Any:
+    """The Wasserstein distance of order 1 with Euclidean ground norm, of bars that die; others are
+    left out with a warning.
+
+    Parameters
+    ----------
+    dgm1, dgm2 : array_like
+        Rows birth, death; further columns are not looked at.
+    matching : bool
+        Whether the matching is returned, too.
+
+    Returns
+    -------
+    float or (float, ndarray)
+        Rows of the matching: place in `dgm1`, place in `dgm2`, cost; -1 is the diagonal. Places
+        count bars that die.
+    """
+    a, b = _finite(dgm1, "dgm1"), _finite(dgm2, "dgm2")
+    if not _options.flag("matching", matching):
+        return _distances.wasserstein(a, b, ground=2)
+    return _with_costs(_distances.wasserstein_matching(a, b, ground=2), 2)
+
+
+def _with_costs(matching: _distances.Matching, norm: float) -> tuple[float, NDArray[np.float64]]:
+    costs = []
+    for i, j in matching.pairs:
+        if i >= 0 and j >= 0:
+            costs.append(np.linalg.norm(matching.a[i] - matching.b[j], norm))
+        else:
+            birth, death = matching.a[i] if i >= 0 else matching.b[j]
+            costs.append(np.linalg.norm([death - birth, death - birth], norm) / 2)
+    return matching.distance, np.column_stack([matching.pairs, costs])
 
 
 def _finite(dgm: ArrayLike, name: str) -> NDArray[np.float64]:
@@ -51,7 +88,7 @@ def _finite(dgm: ArrayLike, name: str) -> NDArray[np.float64]:
     return np.ascontiguousarray(rows[keep, :2])
 
 
-def plot_diagrams(diagrams: Any, plot_only: Any = None, title: str | None = None,
+def plot_distances(diagrams: Any, plot_only: Any = None, title: str | None = None,
                   xy_range: Any = None, labels: Any = None, colormap: str = "default",
                   size: float = 20, ax_color: Any = "black", diagonal: bool = True,
                   lifetime: bool = False, legend: bool = True, show: bool = False,

@@ -2,8 +2,8 @@
 """Persistent homology in pipelines of scikit-learn.
 
 Of lists of point clouds, distances or images: `RipsPersistence`, `CubicalPersistence`. Of lists of
-diagrams: `PersistenceImage`, `Landscape`, `BettiCurve`, `Entropy`, `Lengths`. Of one cloud, a row a
-sample: `PersistenceClustering`, `DistanceToMeasure`, `FarthestPoints`.
+diagrams: `PersistenceImage`, `Landscape`, `BettiCurve`, `Entropy`, `Lengths`, `DiagramDistances`. Of
+one cloud, a row a sample: `PersistenceClustering`, `DistanceToMeasure`, `FarthestPoints`.
 
 >>> import libph.sklearn
 >>> from sklearn.pipeline import make_pipeline
@@ -17,12 +17,14 @@ array([[0.414],
 import typing as _typing
 
 from ._clustering import PersistenceClustering
+from ._distances import DiagramDistances
 from ._persistence import CubicalPersistence, RipsPersistence
 from ._points import DistanceToMeasure, FarthestPoints
 from ._vectorisers import BettiCurve, Entropy, Landscape, Lengths, PersistenceImage
 
-__all__ = ["BettiCurve", "CubicalPersistence", "DistanceToMeasure", "Entropy", "FarthestPoints",
-           "Landscape", "Lengths", "PersistenceClustering", "PersistenceImage", "RipsPersistence"]
+__all__ = ["BettiCurve", "CubicalPersistence", "DiagramDistances", "DistanceToMeasure", "Entropy",
+           "FarthestPoints", "Landscape", "Lengths", "PersistenceClustering", "PersistenceImage",
+           "RipsPersistence"]
 
 if not _typing.TYPE_CHECKING:  # for a type checker a name that is missing is an error
 

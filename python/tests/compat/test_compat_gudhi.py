@@ -9,6 +9,7 @@ from scipy.spatial.distance import pdist, squareform
 
 import libph as ph
 from libph.compat import gudhi
+from libph.compat.gudhi import wasserstein
 from libph.compat.gudhi.flag_filtration.edge_collapse import reduce_graph
 from reference import INF, Flag, random_distances, same, sorted_rows
 
@@ -179,7 +180,8 @@ def test_what_is_elsewhere():
     tree = gudhi.RipsComplex(points=SQUARE).create_simplex_tree(1)
     rough = gudhi.RipsComplex(points=SQUARE, sparse=0.5).create_simplex_tree(1)
     for call in (lambda: gudhi.AlphaComplex(points=SQUARE), gudhi.SimplexTree, tree.get_filtration,
-                 lambda: tree.insert([0, 1]), lambda: gudhi.hera.wasserstein_distance([], []),
+                 lambda: tree.insert([0, 1]),
+                 lambda: wasserstein.wasserstein_distance([], [], enable_autodiff=True),
                  lambda: rough.persistence(persistence_dim_max=True)):
         with pytest.raises(ph.NotBuiltIn, match="GUDHI"):
             call()
@@ -334,6 +336,31 @@ def test_bottleneck_of_gudhi(peer, rng):
     for _ in range(20):
         a, b = (np.sort(rng.random((int(rng.integers(0, 8)), 2)), axis=1) for _ in range(2))
         assert np.isclose(gudhi.bottleneck_distance(a, b), peer.bottleneck_distance(a, b))
+
+
+def test_wasserstein():
+    a, b = np.array([[2.7, 3.7], [9.6, 14.0], [34.2, 34.974]]), [(2.8, 4.45), (9.5, 14.1)]
+    assert np.isclose(gudhi.hera.wasserstein_distance(a, b), 0.75 + 0.1 + 0.387)
+    assert np.isclose(gudhi.hera.wasserstein_distance(a, b, 2, 2),
+                      np.sqrt(0.1**2 + 0.75**2 + 2 * 0.1**2 + 0.774**2 / 2))
+    distance, pairs = wasserstein.wasserstein_distance(a, b, matching=True)
+    assert distance == wasserstein.wasserstein_distance(a, b) == ph.wasserstein(a, b)
+    assert pairs.tolist() == [[0, 0], [1, 1], [2, -1]]
+    more = np.vstack([[[1.0, INF]], a])
+    assert wasserstein.wasserstein_distance(more, b, matching=True) == (INF, None)
+    distance, pairs = wasserstein.wasserstein_distance(more, b, matching=True,
+                                                       keep_essential_parts=False)
+    assert np.isclose(distance, 1.237) and pairs.tolist() == [[1, 0], [2, 1], [3, -1]]
+    with pytest.raises(TypeError):
+        gudhi.hera.wasserstein_distance(np.zeros((2, 3)), [])
+
+
+def test_wasserstein_of_gudhi(peer, rng):
+    hera = pytest.importorskip("gudhi.hera", reason="GUDHI is not installed")
+    for _ in range(20):
+        a, b = (np.sort(rng.random((int(rng.integers(0, 8)), 2)), axis=1) for _ in range(2))
+        assert np.isclose(gudhi.hera.wasserstein_distance(a, b, 2, 2),
+                          hera.wasserstein_distance(a, b, 2, 2, 1e-9))
 
 
 def test_reduce_graph(rng):

@@ -148,9 +148,21 @@ def test_bottleneck(rng):
             assert persim.bottleneck(*pair) == 0.5
 
 
+def test_matchings():
+    a, b = [[0, 4], [1, 1.5], [2, INF]], [[3, 3.2], [0, 5]]
+    with pytest.warns(UserWarning, match="dgm1 has points with non-finite death times"):
+        distance, rows = persim.bottleneck(a, b, matching=True)
+    assert distance == 1 and np.allclose(rows, [[0, 1, 1], [1, -1, 0.25], [-1, 0, 0.1]])
+    with pytest.warns(UserWarning, match="dgm1 has points with non-finite death times"):
+        distance, rows = persim.wasserstein(a, b, matching=True)
+    halves = [0.25 * 2 ** 0.5, 0.1 * 2 ** 0.5]
+    assert np.isclose(distance, 1 + sum(halves)) and np.allclose(
+        rows, [[0, 1, 1], [1, -1, halves[0]], [-1, 0, halves[1]]])
+    with pytest.warns(UserWarning):
+        assert persim.wasserstein(a, b) == distance
+
+
 def test_bottleneck_errors():
-    with pytest.raises(ph.NotBuiltIn, match="persim"):
-        persim.bottleneck([[0, 1]], [[0, 1]], matching=True)
     with pytest.raises(ph.UsageError, match="dgm2: found an array of shape"):
         persim.bottleneck([[0, 1]], [[1], [2]])
     with pytest.raises(ph.DataError, match="birth <= death"):

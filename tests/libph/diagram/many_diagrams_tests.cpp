@@ -154,6 +154,26 @@ TEST(DiagramDistances, AreThoseOfAllPairs) {
   EXPECT_EQ(diagram_distances({}, none).size(), 0);
 }
 
+TEST(DiagramDistances, OfSomeFromOthers) {
+  std::mt19937 random(8);
+  std::vector<Bars> some, others;
+  for (int i = 0; i < 3; ++i) some.push_back(random_bars(random, 5 + random() % 100));
+  for (int i = 0; i < 5; ++i) others.push_back(random_bars(random, 5 + random() % 100));
+  // Not symmetric: which of both comes first.
+  const auto difference = [](std::span<const Bar> a, std::span<const Bar> b, const RunContext&) {
+    return static_cast<double>(1000 + a.size()) - static_cast<double>(b.size());
+  };
+  for (const int threads : {1, 3}) {
+    RunContext context;
+    context.threads = threads;
+    std::vector<double> expected;
+    for (const Bars& a : some)
+      for (const Bars& b : others) expected.push_back(difference(a, b, context));
+    EXPECT_EQ(diagram_distances(spans_of(some), spans_of(others), difference, context), expected);
+  }
+  EXPECT_TRUE(diagram_distances(spans_of(some), {}, difference).empty());
+}
+
 TEST(DiagramDistances, EndWithTheirErrors) {
   std::mt19937 random(4);
   std::vector<Bars> diagrams(5, random_bars(random, 10));

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""GUDHI's module hera: its bottleneck distance, exact."""
+"""GUDHI's module hera: its distances of diagrams, exact."""
 from __future__ import annotations
 
-from typing import Any, NoReturn
+from typing import Any
 
-from ... import _arrays, _diagrams, _options
-from ..._errors import NotBuiltIn, UsageError
+from ... import _arrays, _distances, _options
+from ..._errors import UsageError
 
 __all__ = ["bottleneck_distance", "wasserstein_distance"]
 
@@ -34,15 +34,44 @@ def bottleneck_distance(X: Any, Y: Any, delta: float = 0.01) -> float:
         Both are a ValueError; the one for rows of another width is a TypeError, too.
     """
     _options.real("delta", delta, "a number of at least 0", 0)
+    _check_width(X, Y)
+    distance: float = _distances.bottleneck(X, Y)
+    return distance
+
+
+def wasserstein_distance(X: Any, Y: Any, order: float = 1.0, internal_p: float = float("inf"),
+                         delta: float = 0.01) -> float:
+    """The Wasserstein distance of two diagrams.
+
+    Parameters
+    ----------
+    X, Y : array_like
+        Rows birth, death.
+    order : float
+        p: at least 1, finite.
+    internal_p : float
+        The norm in which a pair is apart, at least 1.
+    delta : float
+        The relative error that is allowed; there is none.
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    UsageError, DataError
+        Both are a ValueError; the one for rows of another width is a TypeError, too.
+    """
+    _options.real("delta", delta, "a number of at least 0", 0)
+    _check_width(X, Y)
+    distance: float = _distances.wasserstein(X, Y, order=order, ground=internal_p)
+    return distance
+
+
+def _check_width(X: Any, Y: Any) -> None:
     for name, dgm in (("diagram 1", X), ("diagram 2", Y)):
         array = _arrays.as_array(dgm, name)
         if array.shape != (0,) and (array.ndim != 2 or array.shape[1] != 2):
             raise _WidthError(f"{name}: found an array of shape {array.shape}, expected rows "
                               "birth, death")
-    distance: float = _diagrams.bottleneck(X, Y)
-    return distance
-
-
-def wasserstein_distance(*arguments: Any, **options: Any) -> NoReturn:
-    """Not built in: GUDHI has it."""
-    raise NotBuiltIn("wasserstein_distance: libph has no such distance; GUDHI has it")

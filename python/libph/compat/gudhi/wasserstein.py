@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: MIT
+"""GUDHI's module wasserstein: the distance with its matching, exact."""
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ... import _distances, _options
+from ..._errors import NotBuiltIn
+from .hera import _check_width
+
+__all__ = ["wasserstein_distance"]
+
+
+def wasserstein_distance(X: Any, Y: Any, matching: bool = False, order: float = 1.0,
+                         internal_p: float = math.inf, enable_autodiff: bool = False,
+                         keep_essential_parts: bool = True) -> Any:
+    """The Wasserstein distance of two diagrams.
+
+    Parameters
+    ----------
+    X, Y : array_like
+        Rows birth, death.
+    matching : bool
+        Whether the matching is returned, too.
+    order : float
+        p: at least 1, finite.
+    internal_p : float
+        The norm in which a pair is apart, at least 1.
+    enable_autodiff : bool
+        Not built in.
+    keep_essential_parts : bool
+        Whether bars that never die count.
+
+    Returns
+    -------
+    float or (float, ndarray)
+        Rows of the matching: place in `X`, place in `Y`; -1 is the diagonal. None in its place if
+        the distance is infinite.
+    """
+    if _options.flag("enable_autodiff", enable_autodiff):
+        raise NotBuiltIn("enable_autodiff: libph gives numbers alone; GUDHI has it")
+    _check_width(X, Y)
+    rows = [np.asarray(dgm, dtype=np.float64).reshape(-1, 2) for dgm in (X, Y)]
+    kept = [np.arange(len(dgm)) if _options.flag("keep_essential_parts", keep_essential_parts)
+            else np.flatnonzero(np.isfinite(dgm).all(axis=1)) for dgm in rows]
+    found = _distances.wasserstein_matching(rows[0][kept[0]], rows[1][kept[1]], order=order,
+                                            ground=internal_p)
+    if not _options.flag("matching", matching):
+        return found.distance
+    if math.isinf(found.distance):
+        return found.distance, None
+    # Places of all bars; the last number stands for the diagonal, whose place is -1.
+    places = [np.append(kept[side], -1)[found.pairs[:, side]] for side in (0, 1)]
+    return found.distance, np.column_stack(places)

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+// Distances of diagrams, matchings and barycentres. A diagram is an array of rows birth, death.
+#include "ph/distances.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bindings.hpp"
+#include "data/arrays.hpp"
+#include "run.hpp"
+
+namespace ph::python {
+namespace {
+
+using Diagram = std::span<const Bar>;
+
+/// Which distance, and how much of it has to be known.
+struct DiagramMetric {
+  enum class Kind { bottleneck, wasserstein, sliced } kind = Kind::bottleneck;
+  WassersteinOptions options = {};  ///< of bottleneck the limits alone
+  int directions = 50;              ///< of sliced
+
+  DistanceBounds bounds(Diagram a, Diagram b, const RunContext& context) const {
+    switch (kind) {
+      case Kind::bottleneck:
+        return bottleneck_bounds(a, b, options.limits, context);
+      case Kind::wasserstein:
+        return wasserstein_distance(a, b, options, context);
+      default:
+        const double distance = sliced_wasserstein_distance(a, b, directions, context);
+        return {distance, distance};
+    }
+  }
+  DiagramDistance function() const {
+    return [metric = *this](Diagram a, Diagram b, const RunContext& context) {
+      return metric.bounds(a, b, context).value;
+    };
+  }
+};
+
+DiagramMetric metric_of(const std::string& kind, double order, double ground, double relative_error,
+                        double at_most, int directions) {
+  using Kind = DiagramMetric::Kind;
+  return {kind == "bottleneck"    ? Kind::bottleneck
+          : kind == "wasserstein" ? Kind::wasserstein
+                                  : Kind::sliced,
+          {order, ground, {relative_error, at_most}},
+          directions};
+}
+
+std::vector<Bar> bars_of(const py::buffer& array) {
+  const py::buffer_info info = array.request();
+  const PointsView rows = points_of(info);
+  std::vector<Bar> bars;
+  bars.reserve(static_cast<std::size_t>(rows.rows()));
+  for (Index i = 0; i < rows.rows(); ++i) bars.push_back({0, rows(i, 0), rows(i, 1)});
+  return bars;
+}
+
+/// Diagrams of arrays, and what the library takes.
+struct Diagrams {
+  explicit Diagrams(const std::vector<py::buffer>& arrays) {
+    for (const py::buffer& array : arrays) all.push_back(bars_of(array));
+  }
+  std::vector<Diagram> spans() const { return {all.begin(), all.end()}; }
+
+  std::vector<std::vector<Bar>> all;
+};
+
+bool are_few(const std::vector<Bar>& a, const std::vector<Bar>& b) {
+  constexpr std::size_t few = 100;
+  return a.size() + b.size() < few;
+}
+
+py::tuple distance(const py::buffer& a, const py::buffer& b, const DiagramMetric& metric,
+                   const RunOptions& options) {
+  const std::vector<Bar> bars_of_a = bars_of(a), bars_of_b = bars_of(b);
+  const DistanceBounds bounds =
+      run(options, are_few(bars_of_a, bars_of_b),
+          [&](const RunContext& context) { return metric.bounds(bars_of_a, bars_of_b, context); });
+  return py::make_tuple(bounds.value, bounds.lower);
+}
+
+/// Each bar is in one pair, of one of the diagonal if need be. -1 is the diagonal, and comes last.
+std::vector<std::pair<std::int64_t, std::int64_t>> with_diagonal(const BottleneckMatching& matching,
+                                                                 std::size_t count_a,
+                                                                 std::size_t count_b) {
+  std::vector<std::pair<std::int64_t, std::int64_t>> pairs;
+  std::vector<bool> is_paired(count_b);
+  auto next = matching.pairs.begin();
+  for (std::size_t a = 0; a < count_a; ++a) {
+    const bool has_partner = next != matching.pairs.end() && next->first == a;
+    pairs.emplace_back(a, has_partner ? static_cast<std::int64_t>(next->second) : -1);
+    if (has_partner) is_paired[(next++)->second] = true;
+  }
+  for (std::size_t b = 0; b < count_b; ++b)
+    if (!is_paired[b]) pairs.emplace_back(-1, b);
+  return pairs;
+}
+
+/// Value, lower bound, pairs. No pairs if the distance is infinite.
+py::tuple matching(const py::buffer& a, const py::buffer& b, const DiagramMetric& metric,
+                   const RunOptions& options) {
+  const std::vector<Bar> bars_of_a = bars_of(a), bars_of_b = bars_of(b);
+  const WassersteinMatching found =
+      run(options, are_few(bars_of_a, bars_of_b), [&](const RunContext& context) {
+        if (metric.kind == DiagramMetric::Kind::wasserstein)
+          return wasserstein_matching(bars_of_a, bars_of_b, metric.options, context);
+        const BottleneckMatching pairs = bottleneck_matching(bars_of_a, bars_of_b, context);
+        WassersteinMatching all{{pairs.distance, pairs.distance}, {}};
+        if (pairs.distance < kInfinity)
+          all.pairs = with_diagonal(pairs, bars_of_a.size(), bars_of_b.size());
+        return all;
+      });
+  std::vector<std::int64_t> flat;
+  for (const auto& [i, j] : found.pairs) flat.insert(flat.end(), {i, j});
+  const auto rows = static_cast<py::ssize_t>(found.pairs.size());
+  return py::make_tuple(found.distance.value, found.distance.lower,
+                        Block::of(std::move(flat), {rows, 2}));
+}
+
+/// A square matrix, or with `others` one of as many columns as these.
+Block distances(const std::vector<py::buffer>& diagrams,
+                const std::optional<std::vector<py::buffer>>& others, const DiagramMetric& metric,
+                const RunOptions& options) {
+  const Diagrams rows(diagrams);
+  const auto size = static_cast<py::ssize_t>(diagrams.size());
+  if (others) {
+    const Diagrams columns(*others);
+    return Block::of(run(options, false,
+                         [&](const RunContext& context) {
+                           return diagram_distances(rows.spans(), columns.spans(),
+                                                    metric.function(), context);
+                         }),
+                     {size, static_cast<py::ssize_t>(others->size())});
+  }
+  return Block::of(run(options, false,
+                       [&](const RunContext& context) {
+                         const DistanceMatrix all =
+                             diagram_distances(rows.spans(), metric.function(), context);
+                         std::vector<double> square;
+                         for (Index i = 0; i < all.size(); ++i)
+                           for (Index j = 0; j < all.size(); ++j) square.push_back(all(i, j));
+                         return square;
+                       }),
+                   {size, size});
+}
+
+/// Rows birth, death; root of the mean square; rounds; whether it converged.
+py::tuple barycentre_of(const std::vector<py::buffer>& diagrams, int most_rounds, double least_gain,
+                        const RunOptions& options) {
+  const Diagrams given(diagrams);
+  const Barycentre found = run(options, false, [&](const RunContext& context) {
+    return barycentre(given.spans(), {most_rounds, least_gain}, context);
+  });
+  std::vector<double> rows;
+  for (const Bar& bar : found.bars) rows.insert(rows.end(), {bar.birth, bar.death});
+  return py::make_tuple(
+      Block::of(std::move(rows), {static_cast<py::ssize_t>(found.bars.size()), 2}),
+      found.root_mean_square, found.rounds, found.converged);
+}
+
+}  // namespace
+
+void bind_distances(py::module_& m) {
+  py::class_<DiagramMetric>(m, "DiagramMetric")
+      .def(py::init(&metric_of), py::arg("kind"), py::arg("order"), py::arg("ground"),
+           py::arg("relative_error"), py::arg("at_most"), py::arg("directions"));
+  m.def("distance", &distance, py::arg("a"), py::arg("b"), py::arg("metric"), py::arg("run"));
+  m.def("matching", &matching, py::arg("a"), py::arg("b"), py::arg("metric"), py::arg("run"));
+  m.def("distances", &distances, py::arg("diagrams"), py::arg("others"), py::arg("metric"),
+        py::arg("run"));
+  m.def("barycentre", &barycentre_of, py::arg("diagrams"), py::arg("most_rounds"),
+        py::arg("least_gain"), py::arg("run"));
+}
+
+}  // namespace ph::python
