@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Sphinx: how the pages of docs/ become a site. scripts/site.sh calls it; README.md says how."""
+"""Sphinx: how the pages of docs/ become a site. scripts/site.sh calls it."""
 import os
 import re
 import sys
