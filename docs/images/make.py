@@ -20,6 +20,7 @@ from commands_in_pages import commands_of, pages_with_commands, pictures_of  # n
 
 # Of each example its picture here and, if it takes some, its data.
 EXAMPLES = {"cluster_moons": ["cluster-moons"], "grow_loop": ["grow-loop"],
+            "clouds_to_features": ["clouds-to-features"],
             "two_circles": ["two-circles", ROOT / "examples/data/two_circles.csv"],
             "growing_discs": ["growing-discs"], "sweeping_level": ["sweeping-level"],
             "delay_embedding": ["delay-embedding", ROOT / "examples/data/pulse.csv"]}
