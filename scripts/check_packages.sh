@@ -6,12 +6,14 @@
 #   build       dpkg-buildpackage from them, with its tests, without a network
 #   lintian     neither an error nor a warning; the rest is counted
 #   reproduce   both again in other folders, with another umask, language, time zone and home
-#   install     in a bare Debian 12: apt install, a first picture, Python, a program in C++; autopkgtest
-#   elsewhere   the static programs beside BusyBox alone, and in other releases of Debian
+#   install     in a bare Debian 12: apt install, a first picture, Python, a program in C++, each
+#               with its time; autopkgtest
+#   elsewhere   the static programs beside BusyBox alone, and in other releases of Debian, with the
+#               time from the archive to the picture
 #
-# install and elsewhere need root and a mirror of Debian (PH_MIRROR; default: debootstrap's own). DEB_BUILD_OPTIONS is passed on:
-# noautodbgsym saves minutes. Work is done in build/check-packages, or PH_WORK; a part uses what
-# earlier parts left there. PH_JOBS: how many compilers.
+# install and elsewhere need root and a mirror of Debian (PH_MIRROR; default: debootstrap's own).
+# DEB_BUILD_OPTIONS is passed on: noautodbgsym saves minutes. Work is done in build/check-packages,
+# or PH_WORK; a part uses what earlier parts left there. PH_JOBS: how many compilers.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD
@@ -27,12 +29,16 @@ fail() { echo "check_packages.sh: $1" >&2; exit 1; }
 # A build of Debian has no network; only root can take it away.
 offline() { if [ "$(id -u)" -eq 0 ]; then unshare -n -- "$@"; else "$@"; fi; }
 
-# debs FOLDER: unpacks the sources there and builds all packages.
+# debs FOLDER [OPTIONS]: unpacks the sources there and builds all packages, with these options, too.
 debs() {
   rm -rf "$1" && mkdir -p "$1"
   cp dist/debian/* "$1"
-  (cd "$1" && dpkg-source -x libph_*.dsc >/dev/null && cd "libph-$version" && DEB_BUILD_OPTIONS="parallel=$jobs ${DEB_BUILD_OPTIONS:-} ${2:-}" offline dpkg-buildpackage -us -uc) \
-    >"$1/build.log" 2>&1 || { tail -n 30 "$1/build.log" >&2; fail "dpkg-buildpackage failed: $1/build.log"; }
+  (
+    export DEB_BUILD_OPTIONS="parallel=$jobs ${DEB_BUILD_OPTIONS:-} ${2:-}"
+    cd "$1" && dpkg-source -x libph_*.dsc >/dev/null &&
+      cd "libph-$version" && offline dpkg-buildpackage -us -uc
+  ) >"$1/build.log" 2>&1 ||
+    { tail -n 30 "$1/build.log" >&2; fail "dpkg-buildpackage failed: $1/build.log"; }
 }
 
 archives() {
@@ -87,8 +93,8 @@ bare() {
 # run_in SYSTEM COMMAND: in it, without the host's processes.
 run_in() {
   unshare -m -p -f --kill-child sh -c 'mkdir -p "$1/proc" && mount -t proc proc "$1/proc" &&
-    exec chroot "$1" /usr/bin/env -i HOME=/root TERM=dumb PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive sh -ec "$2"' \
-    sh "$work/$1" "$2"
+    exec chroot "$1" /usr/bin/env -i HOME=/root TERM=dumb DEBIAN_FRONTEND=noninteractive \
+      PATH=/usr/sbin:/usr/bin:/sbin:/bin sh -ec "$2"' sh "$work/$1" "$2"
 }
 
 install_() {
@@ -105,10 +111,12 @@ install_() {
   echo "== Python"
   time run_in bookworm 'cd /root/debs
     apt-get install -y -qq --no-install-recommends ./python3-libph_*.deb >/dev/null 2>&1; cd /
-    python3 -c "import libph; print(libph.__version__, libph.rips([[0, 0], [1, 0], [1, 1], [0, 1]]).dgm(1))"'
+    python3 -c "import libph; print(libph.__version__)
+print(libph.rips([[0, 0], [1, 0], [1, 1], [0, 1]]).dgm(1))"'
   echo "== a program in C++"
   time run_in bookworm 'cd /root/debs
-    apt-get install -y -qq --no-install-recommends ./libph-dev_*.deb ./libph-c1_*.deb cmake g++ make >/dev/null 2>&1
+    apt-get install -y -qq --no-install-recommends ./libph-dev_*.deb ./libph-c1_*.deb \
+      cmake g++ make >/dev/null 2>&1
     mkdir -p /root/tests; mv /root/install /root/tests/; cd /root/tests/install/find_package
     cmake -B /root/build >/dev/null; cmake --build /root/build >/dev/null 2>&1
     /root/build/consumer /root/examples/data/two_circles.csv'
@@ -119,18 +127,25 @@ install_() {
   # Java, which PCL needs, is not installed without /proc, and dpkg writes no log without /dev/pts.
   time unshare -m -p -f --kill-child --mount-proc sh -ec 'bed=$1; shift
     mount -t proc proc "$bed/proc"; mount -t devpts devpts "$bed/dev/pts"
-    exec autopkgtest "$@" -- chroot "$bed"' sh "$work/bookworm" "${tested[@]}" "$work/one/libph-$version/" \
-    >"$work/autopkgtest.log" 2>&1 || { tail -n 40 "$work/autopkgtest.log"; fail "autopkgtest failed"; }
+    exec autopkgtest "$@" -- chroot "$bed"' \
+    sh "$work/bookworm" "${tested[@]}" "$work/one/libph-$version/" >"$work/autopkgtest.log" 2>&1 ||
+    { tail -n 40 "$work/autopkgtest.log"; fail "autopkgtest failed"; }
   sed -n '/@@@.* summary/,$p' "$work/autopkgtest.log"
 }
 
-# first_picture SYSTEM: the command of the archive's README, where it was unpacked.
-first_picture() {
+# draw SYSTEM: the command of the archive's README, where it was unpacked.
+draw() {
   tar -C "$work/$1" --strip-components=1 -xf "$binary"
-  run_in "$1" "$(sed -n 's/^    \(bin\/ph-barcode .*\)/\1/p' "$work/$1/README.md") >/dev/null
-    bin/ph-segment examples/table.pcd --quiet; bin/ph-barcode --version
+  run_in "$1" "$(sed -n 's/^    \(bin\/ph-barcode .*\)/\1/p' "$work/$1/README.md") >/dev/null"
+}
+
+first_picture() {
+  echo "== $1"
+  time draw "$1"
+  run_in "$1" "bin/ph-segment examples/table.pcd --quiet; bin/ph-barcode --version
     for file in bars.svg loops.html; do test -s \$file; done"
-  echo "$1: $(grep -c '<path\|<line\|<rect' "$work/$1/bars.svg") elements in bars.svg, $(stat -c %s "$work/$1/loops.html") bytes in loops.html"
+  echo "$(grep -c '<path\|<line\|<rect' "$work/$1/bars.svg") elements in bars.svg," \
+    "$(stat -c %s "$work/$1/loops.html") bytes in loops.html"
 }
 
 elsewhere() {
