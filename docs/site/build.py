@@ -77,7 +77,10 @@ def print_options(folder, programs):
 def make_reports(folder, programs):
     """By the commands of the page."""
     sys.path.insert(0, str(ROOT / "tests/docs"))
-    from commands_in_pages import commands_of
+    from commands_in_pages import commands_of, has_page
+    if not all(map(has_page, programs)):
+        print("skipped: the site shows reports, and they are not built in")
+        sys.exit(77)
     shutil.copytree(ROOT / "examples", folder / "examples")
     path = os.pathsep.join([*(str(Path(program).resolve().parent) for program in programs), os.environ["PATH"]])
     for command, _ in commands_of(DOCS / "gallery.md"):

@@ -2,12 +2,14 @@
 """Runs the commands that pages show and compares what they print: commands_in_pages.py BIN… [-- PAGE…]
 Without a page: all that have some.
 
-In a block ```console, a line `$ command` is run in a folder of the page's own, with a copy of examples/, and with
-the programs of the folders BIN on the path; a backslash at its end continues it in the next line. The lines after it are what it prints. `…` stands
-for anything within a line, a line `…` for any number of lines.
+In a block ```console, a line `$ command` is run in a folder of the page's own, with a copy of
+examples/, and with the programs of the folders BIN on the path; a backslash at its end continues it
+in the next line. The lines after it are what it prints. `…` stands for anything within a line, a
+line `…` for any number of lines. Commands that write a report are skipped, aloud, where the
+programs have no page.
 
-A picture images/pages/NAME.svg on the page is the file NAME.svg that its commands write; docs/images/make.py
-copies it. It has to be the same, byte for byte.
+A picture images/pages/NAME.svg on the page is the file NAME.svg that its commands write;
+docs/images/make.py copies it. It has to be the same, byte for byte.
 """
 import os
 import pathlib
@@ -18,6 +20,9 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/support"))
+from program import has_page  # noqa: E402
+
 PICTURE = re.compile(r"\]\([./]*images/pages/([\w-]+\.svg)\)")
 BLOCK = re.compile(r"^```console\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
@@ -46,20 +51,29 @@ def matches(expected, printed):
     return re.fullmatch("".join(parts), printed) is not None
 
 
+def is_left_out(command, path):
+    """Whether it writes a report, which its program cannot."""
+    return "--report" in command and not has_page(shutil.which(command.split()[0], path=path))
+
+
 def pages_with_commands():
     pages = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
     return [page for page in pages if commands_of(page)]
 
 
 def failures_of(page, path):
-    """Runs the commands of a page. @return how many there are, and how many differ."""
-    commands, failures = commands_of(page), 0
+    """Runs the commands of a page. @return how many there are, are skipped, and differ."""
+    commands, skipped, failures = commands_of(page), 0, 0
     if not commands:
         print(f"{page}: found no command, expected a block ```console")
-        return 0, 1
+        return 0, 0, 1
     with tempfile.TemporaryDirectory() as folder:
         shutil.copytree(ROOT / "examples", pathlib.Path(folder) / "examples")
         for command, expected in commands:
+            if is_left_out(command, path):
+                skipped += 1
+                print(f"skipped, for reports are not built in: {page.relative_to(ROOT)}: $ {command}")
+                continue
             run = subprocess.run(command, shell=True, cwd=folder, env={**os.environ, "PATH": path}, text=True,
                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=120)
             if run.returncode != 0 or not matches(expected, run.stdout):
@@ -71,7 +85,7 @@ def failures_of(page, path):
             if not made.exists() or made.read_bytes() != kept.read_bytes():
                 failures += 1
                 print(f"{page.relative_to(ROOT)}: {name} is not what its commands draw; docs/images/make.py makes it")
-    return len(commands), failures
+    return len(commands), skipped, failures
 
 
 def main():
@@ -79,8 +93,8 @@ def main():
     path = os.pathsep.join([*map(os.path.abspath, sys.argv[1:split]), os.environ["PATH"]])
     pages = [ROOT / page for page in sys.argv[split + 1:]] or pages_with_commands()
     results = [failures_of(page, path) for page in pages]
-    count, failures = (sum(column) for column in zip(*results))
-    print(f"{len(pages)} pages, {count} commands, {failures} differ")
+    count, skipped, failures = (sum(column) for column in zip(*results))
+    print(f"{len(pages)} pages, {count} commands, {skipped} skipped, {failures} differ")
     sys.exit(1 if failures else 0)
 
 

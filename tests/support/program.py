@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Runs a program in a folder of its own; shared by the tests that drive programs."""
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -12,6 +13,13 @@ PROGRAM = None
 SQUARE = "0 0\n1 0\n1 1\n0 1.25\n"
 SQUARE_CSV = ("dim,birth,death\n0,0,1\n0,0,1\n0,0,1.0307764064044151\n0,0,inf\n"
               "1,1.25,1.4142135623730951\n")
+
+
+def has_page(program):
+    """Whether the page of --report is built in; else the option ends with exit code 69."""
+    said = subprocess.run([program, "--version", "--verbose"], check=True, text=True,
+                          stdout=subprocess.PIPE).stdout
+    return re.search("reports +built in", said) is not None
 
 
 class ProgramTest(unittest.TestCase):
@@ -53,6 +61,11 @@ class ProgramTest(unittest.TestCase):
             lines = [line for line in run.stderr.splitlines() if ": read " not in line]
             self.assertLessEqual(len(lines), 1, run.stderr)
         return run
+
+    def require_page(self):
+        """Skips what comes next, in a subtest or in all of the test, if reports are not built in."""
+        if not has_page(PROGRAM):
+            self.skipTest("reports are not built in")
 
     def files(self):
         return sorted(os.listdir(self.folder))

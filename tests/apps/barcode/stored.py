@@ -187,14 +187,19 @@ class Stored(ProgramTest):
         run = self.expect(0, *pair, "--output-format", "none", "-o", "x.csv")
         self.assertIn("nothing is done for --output x.csv", run.stderr)
         self.assertNotIn("x.csv", self.files())
-        for arguments in ((), ("--output-format", "json")):
-            self.assertIn("--report", self.expect(64, *pair, "--report", "-", *arguments).stderr)
         run = self.expect(64, *pair, "-o", "d.npy")
         self.assertIn("--output: found d.npy", run.stderr)
         self.assertNotIn("--output-format", run.stderr)
         for arguments in (("--output-format", "npy"), ("--plot", "x.svg"), ("--metric", "hamming"),
                           ("--max-dim", "1")):
             self.assertIn(arguments[0], self.expect(64, *pair, *arguments).stderr)
+
+    def test_the_report_of_a_comparison_is_a_file(self):
+        self.require_page()
+        self.write("a.csv", "dim,birth,death\n0,0,1\n")
+        for arguments in ((), ("--output-format", "json")):
+            run = self.expect(64, "--compare", "a.csv", "a.csv", "--report", "-", *arguments)
+            self.assertIn("--report", run.stderr)
 
     def test_compare_says_what_it_leaves_out(self):
         self.write("a.csv", "dim,birth,death\n0,0,1\n")

@@ -25,10 +25,12 @@ import sys
 import tempfile
 import threading
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "manual"))
+for _folder in ("../../support", "manual"):
+    sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), _folder))
 import described  # noqa: E402
 import option_inputs_barcode  # noqa: E402
 import option_inputs_segment  # noqa: E402
+from program import has_page  # noqa: E402
 
 CHANGES, OBEYED, REFUSED, SAID, SILENT = "changes", "obeyed", "refused", "said", "SILENT"
 VOLATILE = ("timings", "peak_memory", "stages", "table", "seconds")
@@ -244,9 +246,7 @@ def pairs_of(runs, program, suite):
     missing = [option for option in listed if option not in rows]
     if missing:
         sys.exit(f"{program}: no row for {', '.join(missing)} in {suite.__name__}.py")
-    version = subprocess.run([program, "--version", "--verbose"], capture_output=True, text=True,
-                             check=True).stdout
-    if re.search("reports +not built in", version):
+    if not has_page(program):
         print(f"skipped: {os.path.basename(program)} --report: this build has no page")
         del listed["--report"]
     for kind in suite.inputs(Input, program):

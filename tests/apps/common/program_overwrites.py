@@ -12,6 +12,7 @@ import zipfile
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../support"))
 from option_inputs_segment import CAMERA, FOCAL, HEIGHT, WIDTH, depth_png, depths, pcd, points_of  # noqa: E402
 from files import RGB, array, png  # noqa: E402
+from program import has_page  # noqa: E402
 
 BARCODE = SEGMENT = None
 POINTS = b"0 0\n1 0\n1 1\n0 1.25\n"
@@ -66,6 +67,8 @@ class Overwrites(unittest.TestCase):
                     ("--output", ["p.csv", "w.csv", "-o", "./"]),
                     ("--output", ["--compare", "p.csv", "w.csv", "-o", weights])):
                 with self.subTest(arguments=arguments):
+                    if option == "--report" and not has_page(BARCODE):
+                        self.skipTest("reports are not built in")
                     self.refused(BARCODE, option, inputs, *arguments)
 
     def test_ph_barcode_values(self):

@@ -141,9 +141,3 @@ class Report:
             if leaf != none:
                 labels[i] = of_leaf[leaf]
         return labels
-
-
-def is_built_in(folder_test):
-    """Whether the program writes reports; else it says so with exit 69."""
-    run = folder_test.run_program("--version", "--verbose")
-    return "reports     built in" in run.stdout

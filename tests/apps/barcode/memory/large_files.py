@@ -66,6 +66,7 @@ class LargeFiles(UnderLimit):
             ("shown.npy", (1, 24), ("--max-dim", "0", "--superlevel", "--report", "o.html")))
 
     def test_the_limit_holds(self):
+        self.require_page()
         ends = set()
         for name, limits, options in self.ROWS:
             for limit in limits:
