@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 # Makes all packages of HEAD, and tries them where nothing else is: check_packages.sh [PART]…
 #
-#   archives    dist/ by scripts/package.sh, and which files the archive of the sources has
+#   archives    dist/ by scripts/package.sh, its checksums, and which files the archive of the
+#               sources has
 #   build       dpkg-buildpackage from them, with its tests, without a network
 #   lintian     neither an error nor a warning; the rest is counted
 #   reproduce   both again in other folders, with another umask, language, time zone and home
@@ -44,6 +45,7 @@ debs() {
 archives() {
   scripts/package.sh
   /usr/bin/python3 -B tests/packages/archive.py . "$source"
+  (cd dist && sha256sum --quiet -c SHA256SUMS)
 }
 
 build() {
@@ -155,7 +157,7 @@ elsewhere() {
   ln -s /bin/busybox "$work/busybox/bin/test"
   : >"$work/busybox/dev/null"
   first_picture busybox
-  for suite in bullseye trixie; do bare $suite; first_picture $suite; done
+  for suite in bullseye trixie sid; do bare $suite; first_picture $suite; done
 }
 
 scripts/setup.sh build page python packages
