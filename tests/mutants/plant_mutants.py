@@ -27,7 +27,7 @@ ROOT = Path(__file__).resolve().parents[2]
 TIME_LIMIT = 90  # seconds a test program may run
 
 # Rooms of libph/src.
-SOURCES = ["core", "metric", "image", "complex", "rips", "cubical", "facade", "diagram", "loops"]
+SOURCES = ["core", "metric", "image", "complex", "rips", "cubical", "facade", "diagram", "vectors", "loops"]
 NINJA = """\
 cxx = {compiler}
 flags = -std=c++20 -O1 -Ilibph/include -Ilibph/src -Itests '-DPH_SHARED_DIR=""' {includes}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "ph/barcode.hpp"
+
+namespace ph::vectors {
+
+/// Beyond it squares and sums could overflow.
+inline constexpr double kLargest = 1e100;
+
+/// @throws Error (bad_data) on a NaN, a death before its birth, or a finite number that is too
+///         large. @param function the name for messages.
+void check_bar(const Bar& bar, std::string_view function);
+
+enum class Ends { finite, any_death, any };
+
+/// The bars that count: those longer than 0.
+/// @throws Error (bad_data) as `check_bar`, and on a bar with other ends than are allowed.
+std::vector<Bar> checked_bars(std::span<const Bar> bars, Ends allowed, std::string_view function);
+
+/// @throws Error (usage) if an output has another size than expected.
+void check_size(std::span<const double> out, std::size_t expected, std::string_view function);
+
+/// @throws Error (usage) unless it is finite and at least 0.
+void check_power(double power, std::string_view function);
+
+/// @throws Error (usage) unless it is finite and more than 0.
+void check_positive(double number, std::string_view name, std::string_view function);
+
+}  // namespace ph::vectors

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <memory_resource>
+#include <vector>
+
+#include "vectors/euler/layers.hpp"
+#include "vectors/euler/mask_rows.hpp"
+
+namespace ph::vectors {
+
+/// By how much the Euler characteristic changes at each voxel of a row.
+///
+/// V-construction: a voxel decides the values of the cells of which it is the last vertex. Such a
+/// cell lies in one of 3^d - 1 directions, -1, 0 or 1 along each axis, and its other vertices in
+/// the directions with some of these set to 0. So a cell is decided here if the neighbour in its
+/// own direction precedes the voxel and its facets at the voxel are decided here. Of equal vertices
+/// the one in the larger direction is last: each cell is decided once, also where an axis has one
+/// or two voxels and is periodic.
+///
+/// T-construction: the same with all that is between top cubes. A face in a direction is decided
+/// here if all cubes around it come later, or are not there; its dimension is d less the number of
+/// axes along which the direction leads.
+class DecidedCells {
+ public:
+  static constexpr std::size_t kBlock = 512;
+
+  DecidedCells(const Layered& image, std::pmr::memory_resource* memory)
+      : axes_(image.axes()),
+        length_(image.row_length()),
+        is_circle_(image.periodic.back()),
+        outside_(image.image.voxels_are_vertices ? 0 : 0xFF),
+        has_own_(axes_ % 2 == 0 || image.image.voxels_are_vertices) {
+    std::size_t count = 1;
+    for (std::size_t k = 0; k < axes_; ++k) count *= 3;
+    directions_.resize(count);
+    for (std::size_t number = 1; number < count; ++number) {
+      Direction& direction = directions_[number];
+      std::size_t steps = 0, power = 1;
+      for (std::size_t rest = number; rest > 0; rest /= 3, power *= 3) {
+        const std::size_t digit = rest % 3;  // 0: stays, 1: down, 2: up
+        if (digit == 0) continue;
+        direction.is_down = digit == 1;  // along the first axis along which it leads
+        direction.facets.push_back(number - digit * power);
+        ++steps;
+      }
+      direction.adds = (steps + (has_own_ ? 0 : 1)) % 2 == 0;
+    }
+    masks_ = RawVector<Mask>(count * kBlock, memory);
+    std::fill_n(masks_.data(), kBlock, Mask{0xFF});  // no direction: no condition
+  }
+
+  /// @param rows 3^(d-1) rows of keys by direction, the voxels' own one first; null where there is
+  ///        none.
+  /// @param begin, end of a part of the row, kBlock at most.
+  template <class T, class Sum>
+  void count(const T* const* rows, std::size_t begin, std::size_t end, Sum* sums) {
+    const std::size_t size = end - begin;
+    const T* voxels = rows[0] + begin;
+    std::fill_n(sums, size, static_cast<Sum>(has_own_ ? 1 : -1));
+    for (std::size_t number = 1; number < directions_.size(); ++number) {
+      const Direction& direction = directions_[number];
+      Mask* masks = masks_of(number);
+      if (const T* row = rows[number / 3]) {
+        const std::size_t along = number % 3;
+        const T* neighbours = row + begin + (along == 2 ? 1 : 0) - (along == 1 ? 1 : 0);
+        find_preceding(neighbours, voxels, size, direction.is_down, outside_, masks);
+        if (along == 1 && begin == 0 && !is_circle_) masks[0] = outside_;
+        if (along == 2 && end == length_ && !is_circle_) masks[size - 1] = outside_;
+      } else {
+        std::memset(masks, outside_, size);
+      }
+      const auto& facets = direction.facets;
+      for (std::size_t i = 3; i < facets.size(); ++i) {
+        const Mask* facet = masks_of(facets[i]);
+        for (std::size_t x = 0; x < size; ++x) masks[x] &= facet[x];
+      }
+      count_where_all(masks, masks_of(facets[0]), masks_of(facets.size() > 1 ? facets[1] : 0),
+                      masks_of(facets.size() > 2 ? facets[2] : 0), size, direction.adds, sums);
+    }
+  }
+
+ private:
+  struct Direction {
+    std::vector<std::size_t> facets;
+    bool is_down = false, adds = false;
+  };
+  Mask* masks_of(std::size_t direction) { return masks_.data() + direction * kBlock; }
+
+  std::size_t axes_, length_;
+  bool is_circle_;
+  Mask outside_;  // what is outside precedes nothing (V), comes after all (T)
+  bool has_own_;  // whether the cell in no direction counts 1, or -1
+  std::vector<Direction> directions_;
+  RawVector<Mask> masks_;
+};
+
+}  // namespace ph::vectors

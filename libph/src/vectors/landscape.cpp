@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory_resource>
+
+#include "ph/error.hpp"
+#include "vectors/checked_bars.hpp"
+#include "vectors/grid_cells.hpp"
+
+namespace ph {
+namespace vectors {
+namespace {
+
+/// The best few of all numbers that were offered, in order.
+template <class Better>
+class Best {
+ public:
+  explicit Best(std::size_t most) : most_(most) {}
+  void offer(double x) {
+    if (numbers_.size() == most_) {
+      if (!Better()(x, numbers_.back())) return;
+      numbers_.pop_back();
+    }
+    numbers_.insert(std::ranges::upper_bound(numbers_, x, Better()), x);
+  }
+  const std::vector<double>& numbers() const { return numbers_; }
+
+ private:
+  std::size_t most_;
+  std::vector<double> numbers_;
+};
+
+/// Bars by the place in the grid where they begin to fall: begin[i] … begin[i + 1] - 1.
+struct SortedByTop {
+  std::pmr::vector<Bar> bars;
+  std::pmr::vector<std::size_t> begin;
+
+  SortedByTop(const std::vector<Bar>& given, const GridCells& cells, const RunContext& context)
+      : bars(given.size(), &context.memory), begin(cells.size() + 2, &context.memory) {
+    std::pmr::vector<std::size_t> place(&context.memory);
+    place.reserve(given.size());
+    for (const Bar& bar : given) ++begin[place.emplace_back(cells.first_falling(bar)) + 1];
+    for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+    std::pmr::vector<std::size_t> next(begin, &context.memory);
+    for (std::size_t i = 0; i < given.size(); ++i) bars[next[place[i]]++] = given[i];
+  }
+  std::span<const Bar> at(std::size_t place) const {
+    return std::span(bars).subspan(begin[place], begin[place + 1] - begin[place]);
+  }
+};
+
+}  // namespace
+}  // namespace vectors
+
+void landscape(std::span<const Bar> given, const Grid& grid, std::size_t layers,
+               std::span<double> out, const RunContext& context) {
+  if (layers < 1) throw Error(ErrorKind::usage, "landscape: layers: found 0, expected at least 1");
+  const vectors::GridCells cells(grid, "landscape");
+  vectors::check_size(out, layers * grid.points, "landscape");
+  const std::vector<Bar> bars = vectors::checked_bars(given, vectors::Ends::any_death, "landscape");
+  std::ranges::fill(out, 0);
+  if (bars.empty()) return;
+  const std::size_t points = grid.points, most = std::min(layers, bars.size());
+  const vectors::SortedByTop sorted(bars, cells, context);
+  Ticker ticker(context, "landscape", 2 * points);
+  // Of the bars that grow at t those born first are highest, of those that fall those that die
+  // last.
+  vectors::Best<std::less<>> births(most);
+  for (std::size_t i = points; i-- > 0;) {
+    for (const Bar& bar : sorted.at(i + 1)) births.offer(bar.birth);
+    std::size_t layer = 0;
+    for (const double birth : births.numbers()) {
+      if (birth >= cells[i]) break;
+      out[layer++ * points + i] = cells[i] - birth;
+    }
+    ticker.work(sorted.at(i + 1).size());
+    ticker.tick();
+  }
+  vectors::Best<std::greater<>> deaths(most);
+  std::vector<double> growing(most);
+  for (std::size_t i = 0; i < points; ++i) {
+    for (const Bar& bar : sorted.at(i)) deaths.offer(bar.death);
+    for (std::size_t layer = 0; layer < most; ++layer) growing[layer] = out[layer * points + i];
+    std::size_t layer = 0, next = 0;
+    for (const double death : deaths.numbers()) {
+      if (death <= cells[i]) break;
+      for (; layer < most && growing[next] >= death - cells[i]; ++layer)
+        out[layer * points + i] = growing[next++];
+      if (layer == most) break;
+      out[layer++ * points + i] = death - cells[i];
+    }
+    for (; layer < most; ++layer) out[layer * points + i] = growing[next++];
+    ticker.work(sorted.at(i).size());
+    ticker.tick();
+  }
+}
+
+double PiecewiseLinear::operator()(double t) const {
+  const auto behind = std::ranges::upper_bound(at, t);
+  if (behind == at.begin()) return 0;
+  const auto i = static_cast<std::size_t>(behind - at.begin());
+  if (i == at.size()) return at.back() == t ? value.back() : 0;
+  const double width = at[i] - at[i - 1];
+  return value[i - 1] + (value[i] - value[i - 1]) * ((t - at[i - 1]) / width);
+}
+
+std::vector<PiecewiseLinear> exact_landscape(std::span<const Bar> given, std::size_t layers,
+                                             const RunContext& context) {
+  if (layers < 1)
+    throw Error(ErrorKind::usage, "exact_landscape: layers: found 0, expected at least 1");
+  std::vector<Bar> tents = vectors::checked_bars(given, vectors::Ends::finite, "exact_landscape");
+  const auto precedes = [](const Bar& a, const Bar& b) {
+    return a.birth != b.birth ? a.birth < b.birth : a.death > b.death;
+  };
+  std::ranges::sort(tents, precedes);
+  Ticker ticker(context, "landscape", std::min(layers, tents.size()));
+  std::vector<PiecewiseLinear> landscapes;
+  std::vector<Bar> below;
+  while (!tents.empty() && landscapes.size() < layers) {
+    PiecewiseLinear& layer = landscapes.emplace_back();
+    const auto add = [&](double t, double value) {
+      if (!layer.at.empty() && layer.at.back() == t) return;  // two that rounding makes one
+      layer.at.push_back(t);
+      layer.value.push_back(value);
+    };
+    const auto add_top = [&](const Bar& bar) {
+      add(bar.birth / 2 + bar.death / 2, (bar.death - bar.birth) / 2);
+    };
+    // Along the upper hull. A tent that comes out of another one leaves below it what both share.
+    below.clear();
+    Bar now = tents.front(), shared;
+    bool has_shared = false;
+    add(now.birth, 0);
+    add_top(now);
+    for (std::size_t i = 1; i < tents.size(); ++i) {
+      const Bar& next = tents[i];
+      ticker.work();
+      if (has_shared && precedes(shared, next)) {
+        below.push_back(shared);
+        has_shared = false;
+      }
+      if (next.death <= now.death) {
+        below.push_back(next);
+        continue;
+      }
+      if (next.birth >= now.death) {
+        add(now.death, 0);
+        add(next.birth, 0);
+      } else {
+        shared = {now.dim, next.birth, now.death};
+        has_shared = true;
+        add_top(shared);
+      }
+      add_top(next);
+      now = next;
+    }
+    if (has_shared) below.push_back(shared);
+    add(now.death, 0);
+    tents.swap(below);
+    ticker.tick();
+  }
+  return landscapes;
+}
+
+}  // namespace ph

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+// What vectors of diagrams are by definition, value by value, in more digits.
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <span>
+#include <vector>
+
+#include "ph/barcode.hpp"
+
+namespace ph::test {
+
+using Bars = std::vector<Bar>;
+
+/// @param steps 0: any numbers in [-1, 1]; else whole numbers from 0 to it, ties and bars of length
+/// 0
+///        among them.
+inline Bars random_bars(std::mt19937& random, std::size_t count, int steps) {
+  const auto number = [&] {
+    if (steps > 0) return static_cast<double>(std::uniform_int_distribution<>(0, steps)(random));
+    return std::uniform_real_distribution<>(-1, 1)(random);
+  };
+  Bars bars;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double a = number(), b = number();
+    bars.push_back({1, std::min(a, b), std::max(a, b)});
+  }
+  return bars;
+}
+
+inline double tent(const Bar& bar, double t) {
+  return std::max(0.0, std::min(t - bar.birth, bar.death - t));
+}
+
+/// The k-th largest tent, k from 0; 0 if there are fewer.
+inline double landscape_at(const Bars& bars, std::size_t k, double t) {
+  std::vector<double> tents;
+  for (const Bar& bar : bars) tents.push_back(tent(bar, t));
+  std::ranges::sort(tents);
+  return k < tents.size() ? tents[tents.size() - 1 - k] : 0;
+}
+
+inline double silhouette_at(const Bars& bars, double power, double t) {
+  long double sum = 0, weights = 0;
+  for (const Bar& bar : bars) {
+    if (bar.birth == bar.death) continue;
+    const long double weight =
+        std::pow(static_cast<long double>(bar.death) - bar.birth, static_cast<long double>(power));
+    sum += weight * static_cast<long double>(tent(bar, t));
+    weights += weight;
+  }
+  return weights > 0 ? static_cast<double>(sum / weights) : 0;
+}
+
+/// -Σ p ln p over the bars that `counts` says.
+template <class Counts>
+double entropy_of(const Bars& bars, Counts&& counts) {
+  long double total = 0, sum = 0;
+  for (const Bar& bar : bars) total += static_cast<long double>(bar.death) - bar.birth;
+  for (const Bar& bar : bars) {
+    const long double share = (static_cast<long double>(bar.death) - bar.birth) / total;
+    if (bar.birth < bar.death && counts(bar)) sum -= share * std::log(share);
+  }
+  return static_cast<double>(sum);
+}
+
+/// The integral over [a, b], by Simpson's rule on many pieces.
+template <class F>
+double integral(double a, double b, F&& f, int pieces = 200) {
+  double sum = 0;
+  const double width = (b - a) / pieces;
+  for (int i = 0; i < pieces; ++i) {
+    const double x = a + width * i;
+    sum += width / 6 * (f(x) + 4 * f(x + width / 2) + f(x + width));
+  }
+  return sum;
+}
+
+}  // namespace ph::test
