@@ -20,7 +20,7 @@ MAY_INCLUDE = {
     "rips": "core metric components reduction complex",
     "cubical": "core image components reduction",
     "diagram": "core metric",
-    "vectors": "core image complex",
+    "vectors": "core image complex diagram",
     "facade": "core metric image components reduction complex rips cubical",
     "loops": "core metric complex components reduction rips facade",
     "c": "core metric image complex rips cubical facade",

@@ -164,4 +164,84 @@ void persistence_image(std::span<const Bar> bars, const ImageFrame& frame, doubl
                        double power, std::span<double> out,
                        const RunContext& context = default_context());
 
+// ---- by a batch
+
+/// What ATOL has learned of a batch: places of the plane (birth, death), and how far each reaches.
+struct Atol {
+  enum class Contrast {
+    laplace,  ///< exp(-distance / width)
+    gauss,    ///< exp(-distance² / width²)
+  };
+  std::vector<std::array<double, 2>> centres;  ///< ascending
+  std::vector<double> widths;                  ///< as many, > 0
+  Contrast contrast = Contrast::laplace;
+  friend bool operator==(const Atol&, const Atol&) = default;
+};
+
+struct AtolOptions {
+  std::size_t centres = 10;  ///< at least 1
+  Atol::Contrast contrast = Atol::Contrast::laplace;
+  std::uint64_t seed = 0;  ///< of the first centres
+  int most_rounds = 300;   ///< of k-means, at least 0
+};
+
+/// Automatic topologically-oriented learning: the bars of all diagrams are points (birth, death),
+/// k-means finds their centres, and half the distance to the nearest other centre is a width (of a
+/// single one the mean distance of the points, 1 if that is 0).
+///
+/// Source: Royer et al., ATOL: measure vectorization for automatic topologically-oriented learning,
+/// 2021. First centres by k-means++ (Arthur, Vassilvitskii, 2007), then rounds until no point
+/// changes its centre. The result is the same on any machine, for bars and diagrams in any order
+/// and for any number of threads. O(n · centres) a round, shared by threads.
+/// @throws Error (usage) on options out of range; Error (bad_data) on fewer points that differ than
+///         centres; Error (resource, cancelled).
+Atol fit_atol(std::span<const std::span<const Bar>> diagrams, const AtolOptions& options = {},
+              const RunContext& context = default_context());
+
+/// For each centre the sum over the bars of what `contrast` says. Without unit. O(n · centres).
+/// @param out as many as there are centres. @throws Error (usage) on an `Atol` that is none.
+void atol_vector(std::span<const Bar> bars, const Atol& fitted, std::span<double> out);
+
+// ---- kernels
+
+/// The persistence scale-space kernel of two diagrams: 1 / (8 π sigma) · Σ exp(-|p - q|² / (8
+/// sigma)) - exp(-|p - q'|² / (8 sigma)) over bars p of one, q of the other; q' is q with birth and
+/// death exchanged. Positive definite. sigma has the unit of the values, squared.
+///
+/// Source: Reininghaus et al., A stable multi-scale kernel for topological machine learning, 2015.
+/// Pairs with |p - q|² > 320 sigma, less than 5e-18 of one that agrees, are left out. O(n m) at
+/// most.
+/// @param sigma finite, > 0.
+double scale_space_kernel(std::span<const Bar> a, std::span<const Bar> b, double sigma,
+                          const RunContext& context = default_context());
+
+struct WeightedGaussian {
+  double sigma = 1;  ///< finite, > 0; in the unit of the values
+  double slope = 1;  ///< finite, > 0; a bar weighs arctan(slope · length^power)
+  double power = 1;  ///< finite, at least 0
+};
+
+/// The persistence weighted Gaussian kernel (the linear one): Σ w(p) w(q) exp(-|p - q|² / (2
+/// sigma²)). Positive definite.
+///
+/// Source: Kusano, Fukumizu, Hiraoka, Persistence weighted Gaussian kernel for topological data
+/// analysis, 2016. Pairs with |p - q|² > 80 sigma² are left out, as above.
+double weighted_gaussian_kernel(std::span<const Bar> a, std::span<const Bar> b,
+                                const WeightedGaussian& options = {},
+                                const RunContext& context = default_context());
+
+/// A kernel of two diagrams. Called by several threads.
+using DiagramKernel =
+    std::function<double(std::span<const Bar>, std::span<const Bar>, const RunContext&)>;
+
+/// The Gram matrix of N diagrams: N × N in C order, symmetric. Threads share the pairs; the result
+/// does not depend on them.
+/// @param kernel symmetric; called once for each pair, also of a diagram with itself, with a
+/// context
+///        of one thread.
+/// @throws what `kernel` throws; Error (cancelled).
+std::vector<double> gram_matrix(std::span<const std::span<const Bar>> diagrams,
+                                const DiagramKernel& kernel,
+                                const RunContext& context = default_context());
+
 }  // namespace ph

@@ -27,6 +27,15 @@ TEST(Grids, HaveBothEndsAndEqualSteps) {
   EXPECT_EQ(tenths[1], 1 * (0.1 / 3));
   EXPECT_EQ(tenths[2], 2 * (0.1 / 3));
   EXPECT_EQ(tenths[3], 0.1);
+  std::mt19937 random(3);
+  for (int i = 0; i < 1000; ++i) {
+    const double lo = std::uniform_real_distribution<>(-1, 0)(random);
+    const double hi = std::uniform_real_distribution<>(0.01, 1)(random);
+    const std::vector<double> values = Grid{lo, hi, 2 + random() % 300}.values();
+    ASSERT_EQ(values.front(), lo);
+    ASSERT_EQ(values.back(), hi);
+    ASSERT_TRUE(std::ranges::is_sorted(values));
+  }
 }
 
 TEST(Grids, AreFittedToBatches) {

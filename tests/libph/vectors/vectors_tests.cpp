@@ -101,6 +101,8 @@ TEST(Statistics, OfKnownBars) {
   EXPECT_EQ(one, expected);
   EXPECT_EQ(statistics_of({}), std::vector<double>(kStatistics));
   EXPECT_EQ(statistics_of({{0, 7, 7}}), std::vector<double>(kStatistics));
+  const std::vector<double> far_apart = statistics_of({{0, -1e16, 0}, {0, 1, 2}, {0, 1e16, 2e16}});
+  EXPECT_EQ(far_apart[0], 1.0 / 3);  // what is small is not rounded away
   const auto& names = statistics_names();
   EXPECT_EQ(std::set(names.begin(), names.end()).size(), kStatistics);
   EXPECT_EQ(names[1], "birth_sd");

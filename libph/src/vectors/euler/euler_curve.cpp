@@ -92,14 +92,14 @@ std::size_t layers_at_a_time(const Layered& image, const RunContext& context) {
 template <class T, class Sum, class Counts>
 void count_layers(const Layered& image, std::size_t begin, std::size_t end, Counts& counts,
                   const RunContext& context) {
-  ThreeLayers<T> layers(image, &context.memory);
+  ThreeLayers<T> layers(image, begin, &context.memory);
   DecidedCells cells(image, &context.memory);
   RowNeighbours neighbours(image);
   typename Counts::Part part(counts);
   Sum changes[DecidedCells::kBlock];
   Ticker ticker(context, "");
   for (std::size_t layer = begin; layer < end; ++layer) {
-    layers.go_to(layer);
+    layers.go_up();
     neighbours.for_each_row(layers, [&](std::size_t, const T* const* rows) {
       for (std::size_t x = 0; x < image.row_length(); x += DecidedCells::kBlock) {
         const std::size_t behind = std::min(x + DecidedCells::kBlock, image.row_length());

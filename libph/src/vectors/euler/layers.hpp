@@ -59,18 +59,18 @@ double entry_value(T key, bool superlevel) {
 template <class T>
 class ThreeLayers {
  public:
-  ThreeLayers(const Layered& of, std::pmr::memory_resource* memory)
-      : of_(of), padded_(of.row_length() + 2) {
+  /// The first `go_up` brings layer `first` into the middle.
+  ThreeLayers(const Layered& of, std::size_t first, std::pmr::memory_resource* memory)
+      : of_(of), padded_(of.row_length() + 2), middle_(first - 1) {
     for (auto& layer : layers_) layer = RawVector<T>(of.rows_each() * padded_, memory);
+    load(wrapped(first - 1), order_[1]);
+    load(first, order_[2]);
   }
 
-  /// Moves so that layer `middle` is in the middle. Goes up by one or anywhere.
-  void go_to(std::size_t middle) {
-    if (middle != next_) load_anywhere(middle);
-    next_ = middle + 1;
-    // below, middle, above
+  void go_up() {
+    ++middle_;
     std::rotate(std::begin(order_), std::begin(order_) + 1, std::end(order_));
-    load(wrapped(middle + 1), order_[2]);
+    load(wrapped(middle_ + 1), order_[2]);
   }
   /// @param offset -1, 0, 1. Null if there is no such layer.
   const T* layer(int offset) const {
@@ -82,14 +82,10 @@ class ThreeLayers {
  private:
   static constexpr std::size_t kNone = SIZE_MAX;
 
-  void load_anywhere(std::size_t middle) {
-    load(middle == 0 ? wrapped(kNone) : middle - 1, order_[1]);
-    load(middle, order_[2]);
-  }
   std::size_t wrapped(std::size_t layer) const {
     if (layer < of_.layers()) return layer;
     if (!of_.periodic.front()) return kNone;
-    return layer == kNone ? of_.layers() - 1 : 0;
+    return layer == kNone ? of_.layers() - 1 : 0;  // before the first one, behind the last
   }
   void load(std::size_t layer, int to) {
     present_[to] = layer != kNone;
@@ -111,8 +107,8 @@ class ThreeLayers {
   std::size_t padded_;
   RawVector<T> layers_[3];
   bool present_[3] = {};
-  int order_[3] = {0, 1, 2};
-  std::size_t next_ = kNone;
+  int order_[3] = {0, 1, 2};  // below, middle, above
+  std::size_t middle_;
 };
 
 }  // namespace ph::vectors

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "ph/detail/core/parallel.hpp"
+#include "ph/error.hpp"
+#include "ph/vectorise.hpp"
+#include "vectors/checked_bars.hpp"
+
+namespace ph {
+namespace vectors {
+namespace {
+
+using Place = std::array<double, 2>;
+
+double square_between(const Place& a, const Place& b) {
+  return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]);
+}
+double between(const Place& a, const Place& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
+
+/// Numbers in [0, 1), the same on any machine. Source: Steele, Lea, Flood, Fast splittable
+/// pseudorandom number generators, 2014 (SplitMix64).
+class Uniform {
+ public:
+  explicit Uniform(std::uint64_t seed) : state_(seed) {}
+  double next() {
+    std::uint64_t x = state_ += 0x9E3779B97F4A7C15;
+    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9;
+    x = (x ^ (x >> 27)) * 0x94D049BB133111EB;
+    return std::ldexp(static_cast<double>((x ^ (x >> 31)) >> 11), -53);
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+/// A place of the plane, and how many bars are there.
+struct Heap {
+  Place place;
+  double count = 0;
+};
+
+/// The bars of all diagrams as places in order, each once.
+std::vector<Heap> heaps_of(std::span<const std::span<const Bar>> diagrams) {
+  std::vector<Place> places;
+  for (const auto& bars : diagrams)
+    for (const Bar& bar : checked_bars(bars, Ends::finite, "fit_atol"))
+      places.push_back({bar.birth + 0.0, bar.death + 0.0});
+  std::ranges::sort(places);
+  std::vector<Heap> heaps;
+  for (const Place& place : places) {
+    if (heaps.empty() || heaps.back().place != place) heaps.push_back({place});
+    ++heaps.back().count;
+  }
+  return heaps;
+}
+
+class KMeans {
+ public:
+  KMeans(const std::vector<Heap>& heaps, std::size_t count, std::uint64_t seed,
+         const RunContext& context)
+      : heaps_(heaps), context_(context), nearest_(heaps.size()), squares_(heaps.size()) {
+    seed_centres(count, seed);
+  }
+
+  void run(int most_rounds) {
+    for (int round = 0; round < most_rounds && assign(); ++round) move();
+    std::ranges::sort(centres_);
+  }
+  const std::vector<Place>& centres() const { return centres_; }
+
+ private:
+  static constexpr std::size_t kPiece = 4096;
+  struct Sum {
+    double x = 0, y = 0, count = 0;
+  };
+
+  /// k-means++: the next centre is a place by chance, in proportion to the square of how far it is
+  /// from those before.
+  void seed_centres(std::size_t count, std::uint64_t seed) {
+    Uniform uniform(seed);
+    std::ranges::fill(squares_, 1);
+    while (centres_.size() < count) {
+      double total = 0;
+      for (std::size_t i = 0; i < heaps_.size(); ++i) total += heaps_[i].count * squares_[i];
+      double rest = uniform.next() * total;
+      std::size_t chosen = heaps_.size();
+      for (std::size_t i = 0; i < heaps_.size(); ++i) {
+        if (squares_[i] == 0) continue;
+        chosen = i;
+        if ((rest -= heaps_[i].count * squares_[i]) < 0) break;
+      }
+      if (chosen == heaps_.size())
+        chosen = first_free();  // squares that are too small for a double
+      const bool is_first = centres_.empty();
+      centres_.push_back(heaps_[chosen].place);
+      for (std::size_t i = 0; i < heaps_.size(); ++i) {
+        const double square = square_between(heaps_[i].place, centres_.back());
+        squares_[i] = is_first ? square : std::min(squares_[i], square);
+      }
+      context_.poll();
+    }
+  }
+  std::size_t first_free() const {
+    for (std::size_t i = 0; i < heaps_.size(); ++i)
+      if (std::ranges::find(centres_, heaps_[i].place) == centres_.end()) return i;
+    return 0;
+  }
+
+  /// Finds the nearest centre of each place, the first among equals, and what comes together there.
+  /// @return whether any has changed.
+  bool assign() {
+    const std::size_t pieces = (heaps_.size() - 1) / kPiece + 1, count = centres_.size();
+    std::vector<Sum> sums(pieces * count);
+    std::vector<char> changed(pieces);
+    for_each_piece("k-means", heaps_.size(), kPiece, context_,
+                   [&](std::size_t begin, std::size_t end) {
+                     const std::size_t piece = begin / kPiece;
+                     for (std::size_t i = begin; i < end; ++i) {
+                       const std::size_t centre = find_nearest(i);
+                       if (is_new_ || nearest_[i] != centre) changed[piece] = 1;
+                       nearest_[i] = static_cast<std::uint32_t>(centre);
+                       Sum& sum = sums[piece * count + centre];
+                       sum.x += heaps_[i].count * heaps_[i].place[0];
+                       sum.y += heaps_[i].count * heaps_[i].place[1];
+                       sum.count += heaps_[i].count;
+                     }
+                   });
+    is_new_ = false;
+    sums_.assign(count, {});  // piece by piece in order: rounding does not depend on threads
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      Sum& sum = sums_[i % count];
+      sum = {sum.x + sums[i].x, sum.y + sums[i].y, sum.count + sums[i].count};
+    }
+    return std::ranges::find(changed, 1) != changed.end();
+  }
+  std::size_t find_nearest(std::size_t i) {
+    std::size_t nearest = 0;
+    double least = kInfinity;
+    for (std::size_t k = 0; k < centres_.size(); ++k) {
+      const double square = square_between(heaps_[i].place, centres_[k]);
+      if (square < least) {
+        least = square;
+        nearest = k;
+      }
+    }
+    squares_[i] = least;
+    return nearest;
+  }
+  /// Centres go to the mean; one without places to the place that is farthest from its centre.
+  void move() {
+    for (std::size_t k = 0; k < centres_.size(); ++k) {
+      if (sums_[k].count > 0) {
+        centres_[k] = {sums_[k].x / sums_[k].count, sums_[k].y / sums_[k].count};
+      } else {
+        const auto farthest = std::ranges::max_element(squares_);
+        centres_[k] = heaps_[static_cast<std::size_t>(farthest - squares_.begin())].place;
+        *farthest = 0;
+      }
+    }
+  }
+
+  const std::vector<Heap>& heaps_;
+  const RunContext& context_;
+  std::vector<Place> centres_;
+  std::vector<std::uint32_t> nearest_;
+  std::vector<double> squares_;  // distance to the nearest centre
+  std::vector<Sum> sums_;
+  bool is_new_ = true;
+};
+
+/// Half the way to the nearest other centre; of a single one the mean distance.
+std::vector<double> widths_of(const std::vector<Place>& centres, const std::vector<Heap>& heaps) {
+  std::vector<double> widths;
+  for (std::size_t k = 0; k < centres.size(); ++k) {
+    double least = kInfinity;
+    for (std::size_t other = 0; other < centres.size(); ++other)
+      if (other != k) least = std::min(least, between(centres[k], centres[other]) / 2);
+    widths.push_back(std::max(least, std::numeric_limits<double>::min()));
+  }
+  if (centres.size() > 1) return widths;
+  double sum = 0, count = 0;
+  for (const Heap& heap : heaps) {
+    sum += heap.count * between(heap.place, centres[0]);
+    count += heap.count;
+  }
+  return {sum > 0 ? sum / count : 1};
+}
+
+void check(const Atol& fitted) {
+  bool is_right = !fitted.centres.empty() && fitted.centres.size() == fitted.widths.size();
+  for (const Place& centre : fitted.centres)
+    for (const double x : centre) is_right = is_right && std::abs(x) <= kLargest;
+  for (const double width : fitted.widths) is_right = is_right && width > 0 && width < kInfinity;
+  if (!is_right)
+    throw Error(ErrorKind::usage,
+                fmt::format("atol_vector: found {} centres and {} widths, expected as many, at "
+                            "least 1, finite; widths > 0",
+                            fitted.centres.size(), fitted.widths.size()));
+}
+
+}  // namespace
+}  // namespace vectors
+
+Atol fit_atol(std::span<const std::span<const Bar>> diagrams, const AtolOptions& options,
+              const RunContext& context) {
+  if (options.centres < 1 || options.most_rounds < 0)
+    throw Error(ErrorKind::usage,
+                fmt::format("fit_atol: found {} centres and {} rounds, expected at least 1 and 0",
+                            options.centres, options.most_rounds));
+  std::vector<vectors::Heap> heaps = vectors::heaps_of(diagrams);
+  if (heaps.size() < options.centres)
+    throw Error(ErrorKind::bad_data,
+                fmt::format("fit_atol: found {} bars that differ, expected at least {}, the number "
+                            "of centres",
+                            heaps.size(), options.centres));
+  // In a unit in which all numbers are less than 1: squares of small ones would be 0.
+  double largest = 0;
+  for (const auto& heap : heaps)
+    largest = std::max({largest, std::abs(heap.place[0]), std::abs(heap.place[1])});
+  const int exponent = std::ilogb(largest) + 1;
+  for (auto& heap : heaps)
+    for (double& x : heap.place) x = std::ldexp(x, -exponent);
+  const MemoryClaim claim(context.memory,
+                          heaps.size() * (sizeof(vectors::Heap) + 2 * sizeof(double)));
+  vectors::KMeans k_means(heaps, options.centres, options.seed, context);
+  k_means.run(options.most_rounds);
+  Atol fitted{k_means.centres(), vectors::widths_of(k_means.centres(), heaps), options.contrast};
+  for (auto& centre : fitted.centres)
+    for (double& x : centre) x = std::ldexp(x, exponent);
+  const bool has_no_unit = heaps.size() == 1;
+  for (double& width : fitted.widths)
+    if (!has_no_unit) width = std::ldexp(width, exponent);
+  return fitted;
+}
+
+void atol_vector(std::span<const Bar> given, const Atol& fitted, std::span<double> out) {
+  vectors::check(fitted);
+  vectors::check_size(out, fitted.centres.size(), "atol_vector");
+  const std::vector<Bar> bars = vectors::checked_bars(given, vectors::Ends::finite, "atol_vector");
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    out[k] = 0;
+    for (const Bar& bar : bars) {
+      const double steps =
+          vectors::between({bar.birth, bar.death}, fitted.centres[k]) / fitted.widths[k];
+      out[k] += std::exp(fitted.contrast == Atol::Contrast::laplace ? -steps : -steps * steps);
+    }
+  }
+}
+
+}  // namespace ph
