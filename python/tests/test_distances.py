@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import libph as ph
-from conftest import INF
 
 optimize = pytest.importorskip("scipy.optimize")
+INF = math.inf
 
 
 def random_diagram(rng, size, infinite=0, grid=None):

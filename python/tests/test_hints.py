@@ -32,6 +32,7 @@ def test_keywords_of_rips(keyword, hint):
     (lambda: ph.estimate(POINTS, maxdim=2), "'max_dim'"),
     (lambda: ph.farthest_points(POINTS, 2, thread=1), "'threads'"),
     (lambda: ph.bottleneck([[0, 1]], [[0, 1]], dims=0), "'dim'"),
+    (lambda: ph.wasserstein([[0, 1]], [[0, 1]], internal_p=2), "'ground'"),
     (lambda: ph.segment(POINTS, intrinsic=(1, 1, 1, 1)), "'intrinsics'"),
     (lambda: ph.compat.cripser.computePH(POINTS, max_dim=1), "'maxdim'"),
     (lambda: ph.compat.ripser.ripser(POINTS, max_dim=1), "'maxdim'")])
@@ -48,8 +49,8 @@ def test_a_keyword_like_no_other_has_no_hint():
 
 
 def test_keywords_named_in_hints_are_there():
-    there = {*inspect.signature(ph.rips).parameters, *inspect.signature(ph.cubical).parameters,
-             "threads", "memory_limit"}
+    functions = ph.rips, ph.cubical, ph.wasserstein, ph.sliced_wasserstein
+    there = {"threads", "memory_limit"}.union(*(inspect.signature(f).parameters for f in functions))
     assert set(_hints.KEYWORDS.values()) <= there
     assert not set(_hints.KEYWORDS) & there
 

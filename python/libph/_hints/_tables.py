@@ -84,6 +84,10 @@ _KEYWORDS = {
     "collapse": "collapse_edges edge_collapse",
     "weights": "weight_params",
     "periodic": "periodic_dimensions",
+    "order": "p",
+    "ground": "internal_p q",
+    "relative_error": "delta e epsilon",
+    "directions": "M n_directions num_directions",
 }
 KEYWORDS = {old: new for new, names in _KEYWORDS.items() for old in names.split()}
 VALUES = {"metric": "metric='precomputed'", "representatives": "representatives='cocycles'",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""persim's `plot_distances` and `bottleneck` over libph."""
+"""persim's `plot_diagrams`, `bottleneck` and `wasserstein` over libph."""
 from __future__ import annotations
 
 import warnings
@@ -88,7 +88,7 @@ def _finite(dgm: ArrayLike, name: str) -> NDArray[np.float64]:
     return np.ascontiguousarray(rows[keep, :2])
 
 
-def plot_distances(diagrams: Any, plot_only: Any = None, title: str | None = None,
+def plot_diagrams(diagrams: Any, plot_only: Any = None, title: str | None = None,
                   xy_range: Any = None, labels: Any = None, colormap: str = "default",
                   size: float = 20, ax_color: Any = "black", diagonal: bool = True,
                   lifetime: bool = False, legend: bool = True, show: bool = False,
