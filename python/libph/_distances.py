@@ -163,7 +163,7 @@ def sliced_wasserstein(a: Any, b: Any, dim: int | None = None, *, directions: in
     Examples
     --------
     >>> round(ph.sliced_wasserstein([[0, 1]], []), 3)
-    0.631
+    0.45
     """
     _run.check_names("sliced_wasserstein", run, sliced_wasserstein)
     return _of_each_dim(a, b, dim, _metric("sliced_wasserstein", directions=directions), run)
