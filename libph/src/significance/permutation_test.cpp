@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/random.hpp"
+#include "ph/detail/core/parallel.hpp"
+#include "ph/error.hpp"
+#include "ph/significance.hpp"
+
+namespace ph {
+namespace {
+
+/// Groups by number 0, 1, …, and how many are in each.
+struct Groups {
+  std::vector<std::uint32_t> of;
+  std::vector<std::size_t> sizes;
+};
+
+Groups numbered(std::span<const std::int64_t> given) {
+  std::map<std::int64_t, std::uint32_t> numbers;
+  Groups groups;
+  for (const std::int64_t name : given) {
+    const auto [place, is_new] =
+        numbers.try_emplace(name, static_cast<std::uint32_t>(numbers.size()));
+    if (is_new) groups.sizes.push_back(0);
+    groups.of.push_back(place->second);
+    ++groups.sizes[place->second];
+  }
+  for (const auto& [name, number] : numbers)
+    if (groups.sizes[number] < 2)
+      throw Error(ErrorKind::usage,
+                  fmt::format("permutation_test: found one diagram in group {}, expected at least "
+                              "2 in each",
+                              name));
+  if (numbers.size() < 2)
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("permutation_test: found {} groups, expected at least 2", numbers.size()));
+  return groups;
+}
+
+void check(const DistanceMatrix& distances, std::size_t labels, const PermutationOptions& options) {
+  if (options.shuffles == 0)
+    throw Error(ErrorKind::usage, "permutation_test: shuffles: found 0, expected at least 1");
+  if (!(options.power > 0) || std::isinf(options.power))
+    throw Error(ErrorKind::usage,
+                fmt::format("permutation_test: power: found {}, expected a finite number above 0",
+                            options.power));
+  if (labels != static_cast<std::size_t>(distances.size()))
+    throw Error(ErrorKind::usage,
+                fmt::format("permutation_test: found {} groups for {} diagrams, expected one for "
+                            "each",
+                            labels, distances.size()));
+}
+
+/// The strict lower triangle row by row, to the power.
+std::pmr::vector<double> powers_of(const DistanceMatrix& distances, double power,
+                                   const RunContext& context) {
+  const Index n = distances.size();
+  std::pmr::vector<double> powers(&context.memory);
+  powers.reserve(static_cast<std::size_t>(n * (n - 1) / 2));
+  for (Index i = 0; i < n; ++i)
+    for (Index j = 0; j < i; ++j) {
+      const double distance = distances(i, j);
+      if (std::isinf(distance))
+        throw Error(ErrorKind::bad_data,
+                    fmt::format("permutation_test: diagrams {} and {}: found an infinite distance, "
+                                "expected finite ones; leave out bars that never die",
+                                j, i));
+      powers.push_back(power == 1 ? distance : std::pow(distance, power));
+    }
+  return powers;
+}
+
+/// Σ over groups of the mean over pairs within, halved: 1 / (2 n (n - 1)) of the sum over ordered
+/// pairs.
+double loss_of(std::span<const double> powers, std::span<const std::uint32_t> groups,
+               std::span<const std::size_t> sizes, std::vector<double>& sums) {
+  sums.assign(sizes.size(), 0.0);
+  const double* power = powers.data();
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j, ++power)
+      if (groups[i] == groups[j]) sums[groups[i]] += *power;
+  double loss = 0;
+  for (std::size_t g = 0; g < sizes.size(); ++g)
+    loss += sums[g] / static_cast<double>(sizes[g] * (sizes[g] - 1));
+  return loss;
+}
+
+}  // namespace
+
+PermutationTest permutation_test(const DistanceMatrix& distances,
+                                 std::span<const std::int64_t> groups,
+                                 const PermutationOptions& options, const RunContext& context) {
+  check(distances, groups.size(), options);
+  const Groups observed = numbered(groups);
+  const std::pmr::vector<double> powers = powers_of(distances, options.power, context);
+  std::vector<double> sums;
+  PermutationTest result;
+  result.loss = loss_of(powers, observed.of, observed.sizes, sums);
+  // Sums in another order differ by rounding: groups that are the same in other words are a tie.
+  const double as_low = result.loss * (1 + 1e-12);
+  std::vector<std::uint8_t> is_as_low(options.shuffles);
+  for_each_piece("shuffles", options.shuffles, 1, context, [&](std::size_t begin, std::size_t end) {
+    std::vector<double> own_sums;
+    for (std::size_t k = begin; k < end; ++k) {
+      if (context.stop.stop_requested()) return;
+      Random random(options.seed, k);
+      std::vector<std::uint32_t> shuffled = observed.of;
+      draw(shuffled, shuffled.size(), random);
+      is_as_low[k] = loss_of(powers, shuffled, observed.sizes, own_sums) <= as_low;
+    }
+  });
+  const auto as_low_count = static_cast<double>(std::ranges::count(is_as_low, 1));
+  result.p = (as_low_count + 1) / static_cast<double>(options.shuffles + 1);
+  return result;
+}
+
+}  // namespace ph

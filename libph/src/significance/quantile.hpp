@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "ph/error.hpp"
+
+namespace ph::significance {
+
+/// @throws Error (usage) unless it is above 0 and below 1. @param function the name for messages.
+inline void check_alpha(double alpha, std::string_view function) {
+  if (!(alpha > 0 && alpha < 1))
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("{}: alpha: found {}, expected a number above 0, below 1", function, alpha));
+}
+
+/// The least of the numbers that at most the part alpha of them exceeds.
+inline double upper_quantile(std::vector<double> numbers, double alpha) {
+  std::ranges::sort(numbers);
+  const auto may_exceed =
+      static_cast<std::size_t>(std::floor(alpha * static_cast<double>(numbers.size())));
+  return numbers[numbers.size() - 1 - std::min(may_exceed, numbers.size() - 1)];
+}
+
+}  // namespace ph::significance
