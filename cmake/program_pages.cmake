@@ -6,7 +6,7 @@
 # with programs of the same version that do; CMAKE_CROSSCOMPILING_EMULATOR is used if it is set.
 include(GNUInstallDirs)
 set(PH_HOST_PROGRAMS "" CACHE PATH
-    "When cross-building: a folder with ph-barcode and ph-segment that run here, to print their pages")
+    "When cross-building: a folder with the programs that run here, to print their pages")
 # Where zsh looks depends on who installed it: Debian's has a folder for what packages bring.
 if(CMAKE_INSTALL_PREFIX STREQUAL "/usr" AND EXISTS /etc/debian_version)
   set(zsh_folder ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)

@@ -34,6 +34,7 @@ MAY_INCLUDE = {
                "common",
     "python": "core metric image complex rips facade loops diagram vectors significance io plot segment "
               "report",
+    "vectorise": "core image complex vectors diagram io report common",
     "segment_program": "core metric image components complex rips facade io plot segment report common",
 }
 

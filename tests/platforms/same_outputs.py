@@ -14,6 +14,7 @@ from pathlib import Path
 
 DATA = Path(__file__).resolve().parents[2] / "examples/data"
 BARCODE, SEGMENT = "apps/barcode/ph-barcode", "apps/segment/ph-segment"
+VECTORISE = "apps/vectorise/ph-vectorise"
 # Of a run, not of its result: times, and memory, which a forecast measures on a part of the input.
 MEASURED = re.compile(rb'"timings": \{[^}]*\}|"(?:seconds|time|peak_memory)": [-+.e\d]+|; [.\d]+ m?s$|'
                       rb'^memory  .*$', re.M)
@@ -43,6 +44,10 @@ def commands():
         yield [SEGMENT, cloud, "--parts", "--plot", "out.svg", "--plot-kind", "cloud"]
     yield [SEGMENT, "stack.pcd", "--explain", "1,2"]
     yield [SEGMENT, "table.pcd", "--plot", "out.png"]
+    for kind in ("statistics", "betti", "landscape", "silhouette", "image", "life-entropy", "lengths", "atol",
+                 "euler"):
+        yield [VECTORISE, "bars", "--kind", kind, "-o", "out.npy", "--fit", "out.json"]
+    yield [VECTORISE, "blobs.pgm", "phantom.nii.gz", "--kind", "euler"]
 
 
 def result_of(build, emulator, command):

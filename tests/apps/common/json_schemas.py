@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""json_schemas.py PH_BARCODE PH_SEGMENT: what the programs write is what docs/reference/schemas says, and each
+"""json_schemas.py PH_BARCODE PH_SEGMENT PH_VECTORISE: what the programs write is what docs/reference/schemas says, and each
 member that they write is described there. Needs python3-jsonschema; without it the test is skipped."""
 import copy
 import json
@@ -46,8 +46,8 @@ def checker(name):
 
 
 class Tester:
-    def __init__(self, folder, barcode, segment):
-        self.folder, self.barcode, self.segment = folder, barcode, segment
+    def __init__(self, folder, barcode, segment, vectorise):
+        self.folder, self.barcode, self.segment, self.vectorise = folder, barcode, segment, vectorise
         self.checkers = {file.name.partition(".")[0]: checker(file.name.partition(".")[0])
                          for file in SCHEMAS.glob("*.schema.json")}
         self.count, self.failures, self.seen = 0, 0, set()
@@ -131,6 +131,17 @@ def test_segmentations(t):
     assert found == [None, 65], found
 
 
+def test_fits(t):
+    for kind in ("statistics", "betti", "landscape", "silhouette", "image", "entropy", "life-entropy", "lengths",
+                 "atol", "euler"):
+        for options in ([], ["--infinite", "9"]):
+            t.run(t.vectorise, DATA / "bars", "--kind", kind, "--fit", "fit.json", "-o", "x.npy", "--quiet", *options)
+            t.check("ph-vectorise-fit", (t.folder / "fit.json").read_text(), (kind, *options))
+    t.run(t.vectorise, DATA / "blobs.pgm", "--kind", "euler", "--periodic", "0", "--fit", "fit.json", "-o", "x.npy",
+          "--quiet")
+    t.check("ph-vectorise-fit", (t.folder / "fit.json").read_text(), "an image")
+
+
 def test_that_faults_are_seen(t):
     """A schema that takes everything would be no test."""
     good = json.loads(t.run(t.barcode, "square.csv", "--output-format", "json", "--quiet").stdout)
@@ -143,10 +154,11 @@ def test_that_faults_are_seen(t):
 
 def main():
     with tempfile.TemporaryDirectory() as folder:
-        t = Tester(Path(folder), *map(lambda path: str(Path(path).resolve()), sys.argv[1:3]))
+        t = Tester(Path(folder), *map(lambda path: str(Path(path).resolve()), sys.argv[1:4]))
         test_barcodes(t)
         test_others(t)
         test_segmentations(t)
+        test_fits(t)
         test_that_faults_are_seen(t)
         unseen = set(t.checkers) - t.seen
         print(f"{t.count} outputs, {t.failures} faults" + "".join(f"\n{name}: no output was held against it"

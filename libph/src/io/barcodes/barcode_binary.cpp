@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
 
 #include "io/barcodes/barcode_formats.hpp"
+#include "io/points/npy_write.hpp"
 
 namespace ph {
 namespace {
@@ -43,23 +43,9 @@ void write_barcode_dipha(OutputFile& file, const Barcode& barcode,
 }
 
 void write_barcode_npy(OutputFile& file, const Barcode& barcode) {
-  // NumPy's format 1.0: magic, version, length of the header, a header that ends on a multiple of
-  // 64 bytes in a newline, the numbers.
-  std::string header =
-      fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, 3), }}", barcode.size());
-  constexpr std::size_t kPrefix = 10;
-  header.append(63 - (kPrefix + header.size()) % 64, ' ');
-  header += '\n';
-  file.write(std::string_view("\x93NUMPY\x01\x00", 8));
-  const char length[2] = {static_cast<char>(header.size() & 0xff),
-                          static_cast<char>(header.size() >> 8)};
-  file.write(std::string_view(length, 2));
-  file.write(header);
-  for (const Bar& bar : barcode) {
-    put(file, static_cast<double>(bar.dim));
-    put(file, bar.birth + 0.0);  // -0 is 0
-    put(file, bar.death);
-  }
+  write_npy_header(file, std::array{barcode.size(), std::size_t{3}});
+  for (const Bar& bar : barcode)
+    write_npy_numbers(file, std::array{static_cast<double>(bar.dim), bar.birth, bar.death});
 }
 
 }  // namespace ph

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/arguments/command_line.hpp"
+#include "common/arguments/option_scope.hpp"
+#include "ph/io/read.hpp"
+#include "vectorise/fit/fit.hpp"
+
+namespace ph::vectorise {
+
+/// LO,HI,N, or N alone: then the range is fitted.
+struct AxisArgument {
+  std::optional<std::array<double, 2>> range;
+  std::size_t count = 0;
+};
+
+enum class InputKind { automatic, barcode, image };
+enum class OutputFormat { csv, npy };
+
+/// Everything the command line says.
+struct Arguments {
+  app::CommonOptions common;
+  std::vector<std::string> inputs;
+  InputKind format = InputKind::automatic;
+  NanPolicy nan = NanPolicy::error;
+  CubicalOptions cubical;
+
+  Kind kind = Kind::statistics;
+  std::vector<int> dims;  // empty: all that there are
+  std::optional<InfiniteRule> infinite;
+  std::optional<AxisArgument> grid, length_grid;
+  std::size_t layers = 5;
+  std::optional<std::size_t> count;
+  std::optional<double> sigma;
+  double power = 1;
+  bool normalised = false;
+  AtolOptions atol;
+
+  std::string output = "-";
+  std::optional<OutputFormat> output_format;
+  std::string fit;     // path; empty: none
+  std::string fitted;  // path; empty: none
+  // The options that were given of those that do nothing for some kinds of vectors.
+  std::vector<const app::OptionScope*> given;
+
+  OutputFormat written_format() const;
+};
+
+/// Parses the command line. @return the answer to --help or --version, which is all that is left.
+/// @throws Error (usage).
+std::optional<std::string> parse_arguments(int argc, const char* const* argv, Arguments& arguments);
+
+/// @throws Error (usage) on an option that does nothing for this kind.
+void require_kind(const Arguments& arguments, Kind kind);
+
+}  // namespace ph::vectorise

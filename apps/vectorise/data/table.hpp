@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <memory_resource>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ph/detail/io/output_file.hpp"
+#include "vectorise/arguments/arguments.hpp"
+
+namespace ph::vectorise {
+
+/// A row of numbers for each input.
+struct Table {
+  std::size_t columns = 0;
+  std::pmr::vector<double> numbers;
+
+  std::span<double> row(std::size_t i) { return std::span(numbers).subspan(i * columns, columns); }
+};
+
+/// Writes it. @param inputs their names, one a row. @param names of the columns.
+void write_table(OutputFile& file, const Table& table, OutputFormat format,
+                 const std::vector<std::string>& inputs, const std::vector<std::string>& names);
+
+}  // namespace ph::vectorise

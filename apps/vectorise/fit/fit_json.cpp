@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+#include "vectorise/fit/fit_json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "common/arguments/command_line.hpp"
+#include "io/bytes/json_cursor.hpp"
+#include "io/bytes/json_writer.hpp"
+#include "ph/error.hpp"
+#include "ph/euler_curve.hpp"
+
+namespace ph::vectorise {
+namespace {
+
+using detail::JsonCursor;
+
+constexpr std::string_view kFormat = "ph-vectorise fit";
+constexpr std::int64_t kMost = std::int64_t{1} << 30;  // of anything that is counted
+constexpr std::array<std::string_view, 3> kRules{"drop", "keep", "error"};
+constexpr std::array<std::string_view, 2> kContrasts{"laplace", "gauss"};
+constexpr std::array<std::string_view, 2> kConstructions{"vertices", "cells"};
+
+std::string range_json(double lo, double hi, std::string_view name, std::size_t count) {
+  return json::object(
+      {{"lo", json::number(lo)}, {"hi", json::number(hi)}, {name, json::integer(count)}});
+}
+
+bool has_grid(Kind kind) {
+  return kind == Kind::betti || kind == Kind::landscape || kind == Kind::silhouette ||
+         kind == Kind::life_entropy || kind == Kind::euler;
+}
+
+std::string block_json(const Fit& fit, const Block& block) {
+  std::string members;
+  if (fit.kind != Kind::euler) json::add_members(members, {{"dim", json::integer(block.dim)}});
+  json::add_members(members,
+                    {{"shape", json::array(shape_of(fit, block), json::integer<std::size_t>)}});
+  if (has_grid(fit.kind))
+    json::add_members(
+        members, {{"grid", range_json(block.grid.lo, block.grid.hi, "points", block.grid.points)}});
+  if (fit.kind == Kind::image) {
+    const auto& [births, lengths] = block.frame;
+    json::add_members(members,
+                      {{"births", range_json(births.lo, births.hi, "pixels", births.pixels)},
+                       {"lengths", range_json(lengths.lo, lengths.hi, "pixels", lengths.pixels)},
+                       {"sigma", json::number(block.sigma)}});
+  }
+  if (fit.kind == Kind::atol)
+    json::add_members(
+        members,
+        {{"centres", json::array(block.atol.centres, json::numbers<std::array<double, 2>>)},
+         {"widths", json::numbers(block.atol.widths)},
+         {"contrast", json::string(kContrasts[static_cast<std::size_t>(block.atol.contrast)])}});
+  return "{" + members + "}";
+}
+
+/// Reads the JSON that fit_json writes; members that it does not know are skipped.
+class Reader {
+ public:
+  explicit Reader(const Input& input) : input_(input), json_(input) {}
+
+  Fit read() {
+    bool has_format = false, has_kind = false;
+    for_each_member([&](const std::string& name) {
+      const std::size_t place = json_.place();
+      if (name == "format") {
+        if (const std::string value = json_.string(); value != kFormat)
+          json_.fail(place, {"format", printable(value, 40), std::string(kFormat), {}});
+        has_format = true;
+      } else if (name == "version") {
+        json_.integer(1, 1, "version");
+      } else if (name == "kind") {
+        fit_.kind = static_cast<Kind>(word("kind", kKinds));
+        has_kind = true;
+      } else if (name == "infinite") {
+        read_infinite();
+      } else if (name == "layers") {
+        fit_.layers = count("layers");
+      } else if (name == "count") {
+        fit_.count = count("count");
+      } else if (name == "power") {
+        fit_.power = json_.number();
+      } else if (name == "normalised") {
+        fit_.normalised = json_.boolean();
+      } else if (name == "construction") {
+        fit_.cubical.construction =
+            static_cast<CubicalOptions::Construction>(word("construction", kConstructions));
+      } else if (name == "superlevel") {
+        fit_.cubical.superlevel = json_.boolean();
+      } else if (name == "periodic") {
+        for_each_element([&] { fit_.cubical.periodic.push_back(json_.boolean()); });
+      } else if (name == "blocks") {
+        for_each_element([&] { read_block(); });
+      } else {
+        json_.skip_value();
+      }
+    });
+    json_.expect_end();
+    if (!has_format || !has_kind || fit_.blocks.empty())
+      input_.fail({"not a fit",
+                   "a member is missing",
+                   R"("format": "ph-vectorise fit", "kind" and "blocks")",
+                   {}});
+    check();
+    return std::move(fit_);
+  }
+
+ private:
+  template <class Take>
+  void for_each_member(Take&& take) {
+    std::string name;
+    json_.expect('{');
+    for (bool first = true; json_.next_member(first, name);) take(name);
+  }
+  template <class Take>
+  void for_each_element(Take&& take) {
+    json_.expect('[');
+    for (bool first = true; json_.next_element(first);) take();
+  }
+  std::size_t count(const char* what) {
+    return static_cast<std::size_t>(json_.integer(1, kMost, what));
+  }
+  std::size_t word(const char* what, std::span<const std::string_view> words) {
+    const std::size_t place = json_.place();
+    const std::string value = json_.string();
+    const auto found = std::ranges::find(words, value);
+    if (found == words.end())
+      json_.fail(place,
+                 {what, printable(value, 40), fmt::format("{}", fmt::join(words, ", ")), {}});
+    return static_cast<std::size_t>(found - words.begin());
+  }
+  void read_infinite() {
+    using Rule = InfiniteRule::Rule;
+    if (json_.peek() == '"')
+      fit_.infinite = {static_cast<Rule>(word("infinite", kRules)), 0};
+    else
+      fit_.infinite = {Rule::cap, json_.number()};
+  }
+  void read_block() {
+    Block& block = fit_.blocks.emplace_back();
+    for_each_member([&](const std::string& name) {
+      if (name == "dim")
+        block.dim = static_cast<int>(json_.integer(0, kMost, "dimension"));
+      else if (name == "grid")
+        read_range(block.grid.lo, block.grid.hi, "points", block.grid.points);
+      else if (name == "births")
+        read_pixels(block.frame.births);
+      else if (name == "lengths")
+        read_pixels(block.frame.lengths);
+      else if (name == "sigma")
+        block.sigma = json_.number();
+      else if (name == "centres")
+        for_each_element([&] { read_centre(block.atol); });
+      else if (name == "widths")
+        for_each_element([&] { block.atol.widths.push_back(json_.number()); });
+      else if (name == "contrast")
+        block.atol.contrast = static_cast<Atol::Contrast>(word("contrast", kContrasts));
+      else
+        json_.skip_value();
+    });
+  }
+  void read_centre(Atol& atol) {
+    const std::size_t place = json_.place();
+    std::vector<double> numbers;
+    for_each_element([&] { numbers.push_back(json_.number()); });
+    if (numbers.size() != 2)
+      json_.fail(place,
+                 {"centre", fmt::format("{} numbers", numbers.size()), "birth and death", {}});
+    atol.centres.push_back({numbers[0], numbers[1]});
+  }
+  void read_pixels(PixelRange& range) { read_range(range.lo, range.hi, "pixels", range.pixels); }
+  void read_range(double& lo, double& hi, std::string_view counted, std::size_t& number) {
+    for_each_member([&](const std::string& name) {
+      if (name == "lo")
+        lo = json_.number();
+      else if (name == "hi")
+        hi = json_.number();
+      else if (name == counted)
+        number = count("number");
+      else
+        json_.skip_value();
+    });
+  }
+
+  /// Whether the functions take it: what they say of no bars at all.
+  void check() {
+    if (fit_.infinite.rule == InfiniteRule::Rule::keep && !may_keep_infinite(fit_.kind))
+      input_.fail({"infinite", "keep", "drop, error or a number with this kind", {}});
+    if (fit_.kind == Kind::euler && fit_.blocks.size() > 1)
+      input_.fail({"blocks", fmt::format("{}", fit_.blocks.size()), "one of an Euler curve", {}});
+    try {
+      for (const Block& block : fit_.blocks) {
+        std::size_t length = 1;
+        for (const std::size_t n : shape_of(fit_, block)) length *= n;
+        if (length > static_cast<std::size_t>(kMost))
+          input_.fail({"shape", fmt::format("{} numbers", length), "at most 2^30", {}});
+        std::vector<double> out(length);
+        if (fit_.kind == Kind::euler)
+          StepFunction().sample(block.grid, out);
+        else
+          write_block(fit_, block, {}, out, default_context());
+      }
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::usage) throw;
+      throw Error(ErrorKind::bad_data, fmt::format("{}: {}", input_.name(), error.what()));
+    }
+  }
+
+  const Input& input_;
+  JsonCursor json_;
+  Fit fit_;
+};
+
+}  // namespace
+
+std::string fit_json(const Fit& fit, std::size_t dropped) {
+  using Rule = InfiniteRule::Rule;
+  const Kind kind = fit.kind;
+  const auto only = [](bool is_wanted, std::string text) {
+    return is_wanted ? std::move(text) : std::string();
+  };
+  const bool is_euler = kind == Kind::euler;
+  return json::document({
+      {"format", json::string(kFormat)},
+      {"version", "1"},
+      {"program", json::string(app::program_and_version("ph-vectorise"))},
+      {"kind", json::string(kKinds[static_cast<std::size_t>(kind)])},
+      {"length", json::integer(length_of(fit))},
+      {"infinite", fit.infinite.rule == Rule::cap
+                       ? json::number(fit.infinite.cap)
+                       : json::string(kRules[static_cast<std::size_t>(fit.infinite.rule)])},
+      {"dropped", json::integer(dropped)},
+      {"layers", only(kind == Kind::landscape, json::integer(fit.layers))},
+      {"count", only(kind == Kind::lengths, json::integer(fit.count))},
+      {"power", only(kind == Kind::silhouette || kind == Kind::image, json::number(fit.power))},
+      {"normalised", only(kind == Kind::entropy, json::boolean(fit.normalised))},
+      {"construction",
+       only(is_euler,
+            json::string(kConstructions[static_cast<std::size_t>(fit.cubical.construction)]))},
+      {"superlevel", only(is_euler, json::boolean(fit.cubical.superlevel))},
+      {"periodic", only(is_euler, json::array(fit.cubical.periodic, json::boolean))},
+      {"blocks",
+       json::lines(fit.blocks, [&](const Block& block) { return block_json(fit, block); })},
+  });
+}
+
+Fit read_fit(const Input& input) { return Reader(input).read(); }
+
+}  // namespace ph::vectorise

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "vectorise/run.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "common/arguments/numbers.hpp"
+#include "common/files/file_identity.hpp"
+#include "common/run/session.hpp"
+#include "common/terminal/exit_code.hpp"
+#include "diagram/thread_context.hpp"
+#include "ph/detail/core/parallel.hpp"
+#include "vectorise/arguments/arguments.hpp"
+#include "vectorise/arguments/option_scopes.hpp"
+#include "vectorise/data/samples.hpp"
+#include "vectorise/data/table.hpp"
+#include "vectorise/fit/fit_json.hpp"
+#include "vectorise/fit/make_fit.hpp"
+
+namespace ph::vectorise {
+namespace {
+
+/// The parts of a run that go together.
+class Run {
+ public:
+  Run(const Arguments& arguments, app::Session& session)
+      : arguments_(arguments), session_(session), context_(session.context()) {
+    if (arguments.fitted.empty()) {
+      fit_ = fit_of(arguments);
+    } else {
+      fit_ = read_fit(Input::open(arguments.fitted, &context_));
+      if (fit_.kind != Kind::euler) require_kind(arguments, fit_.kind);
+    }
+    files_ = files_of(arguments, fit_.kind);
+    require_separate();
+    output_.emplace(arguments.output);
+    if (!arguments.fit.empty()) fit_output_.emplace(arguments.fit);
+  }
+
+  void run() {
+    Table table = fit_.kind == Kind::euler ? euler_curves() : vectors();
+    if (dropped_ > 0)
+      session_.note(fmt::format("left out: {}; --infinite T gives them an end",
+                                app::count_of(dropped_, "bar") + " that are not finite"));
+    const app::BarHold results_are_written(session_);
+    write_table(output_->file(), table, arguments_.written_format(), files_, names_of(fit_));
+    output_->commit();
+    if (fit_output_) {
+      fit_output_->write(fit_json(fit_, dropped_));
+      fit_output_->commit();
+    }
+    session_.note(fmt::format("{}, {}: {} of {}", app::count_of(files_.size(), "input"),
+                              kKinds[static_cast<std::size_t>(fit_.kind)],
+                              app::count_of(files_.size(), "vector"),
+                              app::count_of(table.columns, "number")));
+  }
+
+ private:
+  bool is_fitting() const { return arguments_.fitted.empty(); }
+
+  /// No output replaces an input. @throws Error (usage).
+  void require_separate() const {
+    app::InputFiles inputs;
+    for (const std::string& file : files_) inputs.add(file);
+    if (!arguments_.fitted.empty()) inputs.add(arguments_.fitted);
+    std::vector<app::Written> outputs{{"--output", arguments_.output}};
+    if (!arguments_.fit.empty()) outputs.push_back({"--fit", arguments_.fit});
+    const bool replaces = app::require_separate(inputs, outputs, arguments_.common.force);
+    if (!replaces && arguments_.common.force)
+      session_.explain("--force: not needed, no output is an input");
+  }
+
+  Table new_table() const {
+    Table table{length_of(fit_), std::pmr::vector<double>(&session_.context().memory)};
+    std::size_t numbers = 0;
+    if (__builtin_mul_overflow(files_.size(), table.columns, &numbers))
+      throw Error(ErrorKind::resource, "the table has more numbers than can be counted");
+    table.numbers.resize(numbers);
+    return table;
+  }
+
+  Table vectors() {
+    std::vector<Barcode> barcodes;
+    std::size_t bytes = 0;
+    for (const std::string& file : files_) {
+      Sample sample = read_sample(file, fit_.kind, fit_.cubical, arguments_, session_);
+      barcodes.push_back(std::get<Barcode>(std::move(sample)));
+      bytes += barcodes.back().bytes();
+      context_.memory.require(bytes);
+    }
+    const MemoryClaim claim(context_.memory, bytes);
+    std::size_t ignored = 0;
+    if (is_fitting()) add_blocks(fit_, barcodes, files_, arguments_, ignored, context_);
+    Table table = new_table();
+    std::vector<std::size_t> dropped(files_.size());
+    const diagram::ThreadContexts tasks(files_.size(), context_);
+    for_each_piece("vectors", files_.size(), 1, context_, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        RunContext task;
+        tasks.prepare(task);
+        std::size_t at = 0;
+        for (const Block& block : fit_.blocks) {
+          const std::vector<Bar> bars =
+              bars_of(fit_, barcodes[i].bars(block.dim), files_[i], dropped[i]);
+          std::size_t length = 1;
+          for (const std::size_t n : shape_of(fit_, block)) length *= n;
+          write_block(fit_, block, bars, table.row(i).subspan(at, length), task);
+          at += length;
+        }
+      }
+    });
+    for (const std::size_t count : dropped) dropped_ += count;
+    return table;
+  }
+
+  /// The curve of a sample.
+  StepFunction curve_of(const Sample& sample, const std::string& name) {
+    if (const auto* cubical = std::get_if<Cubical>(&sample)) return euler_curve(*cubical, context_);
+    const Barcode& barcode = std::get<Barcode>(sample);
+    const std::span<const Bar> all(barcode.begin(), barcode.end());
+    return euler_curve(bars_of(fit_, all, name, dropped_));
+  }
+
+  /// Sample by sample: an image need not wait for the others. Only a grid that is to be fitted
+  /// needs the curves of all of them.
+  Table euler_curves() {
+    const bool knows_grid = !is_fitting() || (arguments_.grid && arguments_.grid->range);
+    if (knows_grid && is_fitting()) add_euler_block(fit_, {}, arguments_);
+    std::vector<StepFunction> curves;
+    std::optional<Table> table;
+    if (knows_grid) table = new_table();
+    for (std::size_t i = 0; i < files_.size(); ++i) {
+      const Sample sample = read_sample(files_[i], fit_.kind, fit_.cubical, arguments_, session_);
+      const auto* cubical = std::get_if<Cubical>(&sample);
+      if (!knows_grid)
+        curves.push_back(curve_of(sample, files_[i]));
+      else if (cubical != nullptr)
+        euler_curve(*cubical, fit_.blocks[0].grid, table->row(i), context_);
+      else
+        curve_of(sample, files_[i]).sample(fit_.blocks[0].grid, table->row(i));
+    }
+    if (!knows_grid) {
+      add_euler_block(fit_, curves, arguments_);
+      table = new_table();
+      for (std::size_t i = 0; i < files_.size(); ++i)
+        curves[i].sample(fit_.blocks[0].grid, table->row(i));
+    }
+    return std::move(*table);
+  }
+
+  const Arguments& arguments_;
+  app::Session& session_;
+  const RunContext& context_;
+  Fit fit_;
+  std::vector<std::string> files_;
+  std::size_t dropped_ = 0;
+  std::optional<app::Output> output_, fit_output_;
+};
+
+}  // namespace
+
+int run(int argc, const char* const* argv, std::stop_token stop) {
+  Arguments arguments;
+  if (const auto answer = parse_arguments(argc, argv, arguments))
+    return app::answer_command_line(*answer);
+  app::Session session(kProgram.name, arguments.common, std::move(stop));
+  Run(arguments, session).run();
+  return app::kOk;
+}
+
+}  // namespace ph::vectorise
