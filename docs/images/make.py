@@ -4,6 +4,7 @@
 
 pages/     what the commands of pages draw (tests/docs/commands_in_pages.py compares them)
 gallery/   the reports of gallery.md as a browser shows them; left out without Chromium
+vectors.png  what vectors.py draws; left out without matplotlib
 *.png      what python/examples draws; left out without the compiled module and matplotlib
 """
 import os
@@ -67,15 +68,22 @@ def run_examples(environment):
         print(f"{picture}.png" if done.returncode == 0 else f"left out: {picture}.png")
 
 
+def draw_vectors(environment):
+    done = subprocess.run([sys.executable, IMAGES / "vectors.py", ROOT / "examples/data/bars/circles.csv",
+                           IMAGES / "vectors.png"], env=environment, check=False)
+    print("vectors.png" if done.returncode == 0 else "left out: vectors.png")
+
+
 def main():
     build = Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/release").resolve()
-    path = [str(build / "apps/barcode"), str(build / "apps/segment"), os.environ["PATH"]]
+    path = [*(str(build / "apps" / name) for name in ("barcode", "segment", "vectorise")), os.environ["PATH"]]
     packages = [str(build / "python"), str(ROOT / "python")]
     environment = {**os.environ, "PATH": os.pathsep.join(path), "PYTHONPATH": os.pathsep.join(packages)}
     for folder in ("pages", "gallery"):
         (IMAGES / folder).mkdir(exist_ok=True)
     draw_pages(environment)
     photograph_reports(environment)
+    draw_vectors(environment)
     run_examples(environment)
 
 

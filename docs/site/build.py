@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Builds the site: build.py [--folder build/site] [--barcode PH_BARCODE --segment PH_SEGMENT]
-[--package FOLDER_OF_LIBPH]. scripts/site.sh finds the last three.
+"""Builds the site: build.py [--folder build/site] [--barcode PH_BARCODE --segment PH_SEGMENT
+--vectorise PH_VECTORISE] [--package FOLDER_OF_LIBPH]. scripts/site.sh finds the last four.
 
 In the folder it makes
 
@@ -28,6 +28,7 @@ DOCS = ROOT / "docs"
 ELSEWHERE = {"CHANGELOG.md": "reference/changes.md", "CONTRIBUTING.md": "development/contributing.md",
              "CODE_OF_CONDUCT.md": "development/conduct.md", "SECURITY.md": "development/security.md",
              "viewer/README.md": "development/viewer.md"}
+PROGRAMS = 3  # all of them, or none
 HEADERS = ["libph/include/ph", "libph/include/ph/io", "libsegment/include/ph", "libsegment/pcl/include/ph",
            "libreport/include/ph", "libreport/include/ph/detail/report"]
 # What public headers declare elsewhere and a reader has to know.
@@ -100,11 +101,12 @@ def main():
     parser.add_argument("--folder", type=Path, default=ROOT / "build/site")
     parser.add_argument("--barcode")
     parser.add_argument("--segment")
+    parser.add_argument("--vectorise")
     parser.add_argument("--package", type=Path)
     arguments = parser.parse_args()
     require_tools()
     folder = arguments.folder.resolve()
-    programs = [program for program in (arguments.barcode, arguments.segment) if program]
+    programs = [program for program in (arguments.barcode, arguments.segment, arguments.vectorise) if program]
     environment = {**os.environ, "PH_SITE_FOLDER": str(folder), "PYTHONDONTWRITEBYTECODE": "1"}
     if arguments.package:
         environment["PYTHONPATH"] = str(arguments.package.resolve())
@@ -114,7 +116,7 @@ def main():
 
     link_pages(folder / "source")
     run_doxygen(folder / "doxygen")
-    if len(programs) == 2:
+    if len(programs) == PROGRAMS:
         print_options(folder / "printed", programs)
         make_reports(folder / "reports", programs)
     built = subprocess.run(
@@ -123,7 +125,7 @@ def main():
         env=environment, check=False)
     if environment["PH_SITE_PYTHON"] == "0":
         print("left out: the reference of Python, for there is no compiled module of libph")
-    if len(programs) < 2:
+    if len(programs) < PROGRAMS:
         print("left out: the options of the programs and the reports of the gallery, for there are no programs")
     if built.returncode:
         sys.exit(built.returncode)
