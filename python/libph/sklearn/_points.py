@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from sklearn.base import BaseEstimator, ClassNamePrefixFeaturesOutMixin, TransformerMixin
+from scipy.spatial.distance import cdist
 from sklearn.metrics import pairwise_distances
 from sklearn.neighbors import NearestNeighbors
 from sklearn.utils.validation import check_is_fitted
@@ -165,6 +166,10 @@ class FarthestPoints(ClassNamePrefixFeaturesOutMixin, TransformerMixin, BaseEsti
             A row for each point, a column for each landmark.
         """
         check_is_fitted(self)
-        distances: NDArray[np.float64] = pairwise_distances(
-            table_of(self, X, reset=False), self.points_, metric=self.metric)
+        points = table_of(self, X, reset=False)
+        distances: NDArray[np.float64]
+        if self.metric == "euclidean":  # scikit-learn's are of dot products: 1e-8 where 0 is
+            distances = cdist(points, self.points_)
+        else:
+            distances = pairwise_distances(points, self.points_, metric=self.metric)
         return distances
