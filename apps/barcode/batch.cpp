@@ -11,6 +11,7 @@
 
 #include "barcode/arguments/option_scopes.hpp"
 #include "barcode/output/report.hpp"
+#include "barcode/output/significance.hpp"
 #include "barcode/run.hpp"
 #include "common/files/batch_names.hpp"
 #include "common/files/file_identity.hpp"
@@ -46,6 +47,7 @@ BarcodeFormat format_of(const Arguments& arguments, app::Session& session) {
 /// Only JSON and the report have room for representatives, and only JSON for loops.
 /// @throws Error (usage).
 void require_room(BarcodeFormat format, const Arguments& arguments) {
+  if (!arguments.dry_run) require_significance(format, arguments);
   if (arguments.options.representatives == Representatives::none || arguments.dry_run) return;
   if (arguments.loops && format != BarcodeFormat::json)
     throw Error(

@@ -19,6 +19,7 @@
 #include "barcode/output/h0_tree.hpp"
 #include "barcode/output/outputs.hpp"
 #include "barcode/output/report.hpp"
+#include "barcode/output/significance.hpp"
 #include "barcode/output/stored.hpp"
 #include "common/arguments/numbers.hpp"
 #include "common/terminal/exit_code.hpp"
@@ -187,6 +188,8 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
     }
   }
 
+  const std::vector<double> p_values =
+      arguments.significance ? p_values_of(barcode) : std::vector<double>();
   BarcodeInfo info;
   info.program = app::program_and_version("ph-barcode");
   info.input = job.input;
@@ -202,6 +205,7 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
     info.superlevel = cubical->cubical_image().superlevel;
   info.approximation = arguments.rips.approximation;
   info.loops = loops_of_bars;
+  info.p_values = p_values;
   info.engine = planned.engine.name();
   info.timings = watch.laps();
   info.peak_memory = app::peak_memory();

@@ -50,17 +50,21 @@ from ._report import Report, report
 from ._requests import PointImage
 from ._run import limits
 from ._scenes import Objects, Segment, Segmentation, Voxels, segment
+from ._significance import (Band, PermutationTest, confidence_band, confidence_radius, p_values,
+                            permutation_test)
 from ._trees import MergeTree, merge_tree
 
 __all__ = [
-    "Bar", "Barcode", "Barycentre", "Boundary", "Cancelled", "Chain", "DataError", "Error",
+    "Band", "Bar", "Barcode", "Barycentre", "Boundary", "Cancelled", "Chain", "DataError", "Error",
     "Estimate", "InternalError", "Loop", "Matching", "MemoryLimitError", "MergeTree", "Mesh",
-    "MissingInputError", "NotBuiltIn", "Objects", "OutputError", "PointImage", "Report", "Segment",
-    "Segmentation", "Simplices", "Subsample", "Timeout", "UsageError", "Voxels", "__version__",
-    "barycentre", "bottleneck", "bottleneck_matching", "boundary", "collapse", "cubical",
-    "diagram_distances", "distance_to_measure", "estimate", "farthest_points", "filtered",
-    "gradients", "limits", "lower_star", "merge_tree", "point_image", "read", "read_barcode",
-    "report", "rips", "segment", "sliced_wasserstein", "wasserstein", "wasserstein_matching",
+    "MissingInputError", "NotBuiltIn", "Objects", "OutputError", "PermutationTest", "PointImage",
+    "Report", "Segment", "Segmentation", "Simplices", "Subsample", "Timeout", "UsageError",
+    "Voxels", "__version__", "barycentre", "bottleneck", "bottleneck_matching", "boundary",
+    "collapse", "confidence_band", "confidence_radius", "cubical", "diagram_distances",
+    "distance_to_measure", "estimate", "farthest_points", "filtered", "gradients", "limits",
+    "lower_star", "merge_tree", "p_values", "permutation_test", "point_image", "read",
+    "read_barcode", "report", "rips", "segment", "sliced_wasserstein", "wasserstein",
+    "wasserstein_matching",
 ]
 
 if not _typing.TYPE_CHECKING:  # for a type checker a name that is missing is an error

@@ -15,6 +15,7 @@ PYBIND11_MODULE(_core, m) {
   bind_complexes(m);
   bind_computations(m);
   bind_distances(m);
+  bind_significance(m);
   bind_merge_trees(m);
   bind_files(m);
   bind_clouds(m);

@@ -30,8 +30,8 @@ MAY_INCLUDE = {
     "segment": "core metric image components reduction complex rips facade io plot",
     "report": "core metric image components complex rips facade io plot segment",
     "common": "core metric image complex rips facade io plot report",
-    "barcode": "core metric image components complex rips cubical facade loops diagram io plot report "
-               "common",
+    "barcode": "core metric image components complex rips cubical facade loops diagram significance io "
+               "plot report common",
     "python": "core metric image complex rips facade loops diagram vectors significance io plot segment "
               "report",
     "vectorise": "core image complex vectors diagram io report common",

@@ -51,6 +51,7 @@ struct Arguments {
   Options options;
   std::optional<LoopChoice> loops;  // empty: not said, which is tight
   bool check = false;
+  bool significance = false;  // a p-value for each bar
   bool dry_run = false;
 
   // Where it goes.

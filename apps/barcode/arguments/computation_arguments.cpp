@@ -136,6 +136,10 @@ void add_homology_options(CLI::App& app, Arguments& a) {
              "with each cycle of edges, in JSON: the closed walks that it consists of, of rips as "
              "short as is cheap (tight, default) or as found (plain)",
              [&a](std::size_t i) { a.loops = static_cast<LoopChoice>(i); });
+  app.add_flag("--significance", a.significance,
+               "with each bar of dimension 1 and above, in CSV and JSON: p, how likely noise is to "
+               "have a bar that stands out as much (times the number of bars, at most 1; Bobrowski "
+               "and Skraba 2023)");
   app.add_flag("--dry-run", a.dry_run,
                "read the input, print the estimate of cells and memory and the engine; compute "
                "nothing");

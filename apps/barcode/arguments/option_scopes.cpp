@@ -58,6 +58,7 @@ constexpr std::array kScopes{
     OptionScope{"check", kComputed, kOfInputs},
     OptionScope{"min-persistence", kComputed, kOfInputs},
     OptionScope{"representatives", kComputed, kOfInputs},
+    OptionScope{"significance", kAllPairs | kSomePairs, "Rips complexes of points and distances"},
     OptionScope{"dry-run", kComputed, kOfInputs},
     OptionScope{"plot", kComputed | kBarcode, "one barcode"},
     OptionScope{"plot-kind", kComputed | kBarcode, "one barcode"},

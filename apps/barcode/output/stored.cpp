@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 
 #include "common/arguments/numbers.hpp"
@@ -47,7 +48,10 @@ Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, const A
     session.explain(what);
   else
     session.note(what);
-  if (job.format == BarcodeFormat::json && !left_out.empty())
+  // Others have no room for what JSON has beside the bars, and nobody expects it there.
+  const bool loses_p =
+      job.format == BarcodeFormat::csv && std::ranges::find(left_out, "p") != left_out.end();
+  if (loses_p || (job.format == BarcodeFormat::json && !left_out.empty()))
     session.note(fmt::format("{}: not kept: {}", input.name(), fmt::join(left_out, ", ")));
   BarcodeInfo info;
   info.program = app::program_and_version("ph-barcode");

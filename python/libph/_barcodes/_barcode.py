@@ -306,7 +306,8 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
                  None if format is None else str(format), meta, options={})
 
     def plot(self, kind: str = "diagram", ax: Axes | None = None, *,
-             dim: int | Iterable[int] | None = None, **style: Any) -> Axes:
+             dim: int | Iterable[int] | None = None, noise: float | None = None,
+             **style: Any) -> Axes:
         """Draws with matplotlib.
 
         A notebook shows the picture; elsewhere ``matplotlib.pyplot.show()`` opens a window, and
@@ -320,6 +321,9 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
             Where to draw; default: a new figure.
         dim : int or iterable of int, optional
             Bars of these dimensions alone. Default: all.
+        noise : float, optional
+            Of a diagram: a grey band along the diagonal, where bars of this length and shorter are;
+            of points ``4 * ph.confidence_radius(X)``.
         **style
             Passed on to what draws: `scatter`, `hlines` or `step`.
 
@@ -328,7 +332,7 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
         Axes
         """
         from ._plots import plot
-        return plot(self if dim is None else self.filter(dim=dim), kind, ax, style)
+        return plot(self if dim is None else self.filter(dim=dim), kind, ax, noise, style)
 
     def report(self, X: Any = None, *, title: str = "", **options: Any) -> Report:
         """An interactive page: diagram, barcode, and the data, all linked.

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _options
+from .._errors import UsageError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -15,13 +16,21 @@ if TYPE_CHECKING:
     from ._barcode import Barcode
 
 
-def plot(bars: Barcode, kind: Any, ax: Axes | None, style: dict[str, Any]) -> Axes:
+def plot(bars: Barcode, kind: Any, ax: Axes | None, noise: float | None, style: dict[str, Any]
+         ) -> Axes:
     """See `Barcode.plot`."""
     draw = {"diagram": _diagram, "barcode": _lines, "betti": _betti}[
         _options.choice("kind", kind, ["diagram", "barcode", "betti"])]
     if ax is None:
         import matplotlib.pyplot
         _, ax = matplotlib.pyplot.subplots()
+    if noise is not None:
+        if kind != "diagram":
+            raise UsageError(f"noise: does nothing for kind={kind!r}, expected a diagram")
+        noise = _options.real("noise", noise, "a finite number, at least 0", 0)
+        low, high, _ = _ends(bars)
+        ax.fill_between([low, high], [low, high], [low + noise, high + noise], color="0.9",
+                        linewidth=0, zorder=-1)
     draw(bars, ax, style)
     return ax
 

@@ -35,6 +35,51 @@ class Options(ProgramTest):
         self.assertEqual(self.bars("square.txt", "--max-scale", "1.1", "--modulus", "3"),
                          self.bars("square.txt", "--threshold", "1.1", "--field", "3"))
 
+    def test_significance(self):
+        rng = random.Random(3)
+        points = [(math.cos(a) + rng.gauss(0, 0.1), math.sin(a) + rng.gauss(0, 0.1))
+                  for a in (rng.uniform(0, 2 * math.pi) for _ in range(80))]
+        self.write("circle.csv", "".join(f"{x!r},{y!r}\n" for x, y in points))
+        lines = self.expect(0, "circle.csv", "--significance", "--quiet").stdout.splitlines()
+        self.assertEqual(lines[0], "dim,birth,death,p")
+        rows = [line.split(",") for line in lines[1:]]
+        self.assertEqual([row[:3] for row in rows], [
+            line.split(",") for line in self.expect(0, "circle.csv", "--quiet").stdout.splitlines()[1:]])
+        self.assertEqual({row[3] for row in rows if row[0] == "0"}, {""})
+        loops = [(float(b), float(d), float(p)) for dim, b, d, p in rows if dim == "1"]
+        ratios = [math.log(math.log(death / birth)) for birth, death, _ in loops]
+        mean = sum(ratios) / len(ratios)
+        for (_, _, p), ratio in zip(loops, ratios):
+            expected = len(loops) * math.exp(-math.exp(ratio - mean - 0.5772156649015329))
+            self.assertAlmostEqual(p, min(1, expected), 12)
+        self.assertEqual([p < 0.05 for _, _, p in loops].count(True), 1)
+        self.expect(0, "circle.csv", "--significance", "-o", "out.json", "--quiet")
+        bars = json.loads(self.read("out.json"))["bars"]
+        self.assertEqual([bar["p"] for bar in bars if bar["dim"] == 1], [p for _, _, p in loops])
+        self.assertFalse([bar for bar in bars if bar["dim"] == 0 and "p" in bar])
+        # A bar that the threshold cuts has none. What was written is read again, without p.
+        self.expect(0, "circle.csv", "--significance", "--threshold", "0.8", "-o", "cut.csv")
+        self.assertIn("inf,\n", self.read("cut.csv"))
+        again = self.expect(0, "cut.csv")
+        self.assertEqual(again.stdout.replace("\n", ",\n").splitlines()[1:],
+                         [",".join(row.split(",")[:3]) + ","
+                          for row in self.read("cut.csv").splitlines()[1:]])
+        self.assertIn("not kept: p", again.stderr)
+
+    def test_significance_is_refused(self):
+        for arguments, words in (
+                (["--min-persistence", "0.1"], "expected all bars"), (["--dtm", "2"], "weights"),
+                (["--max-dim", "0"], "--max-dim 0"), (["--output-format", "npy"], "csv or json"),
+                (["--output-format", "ripser"], "csv or json")):
+            done = self.expect(64, "square.txt", "--significance", *arguments)
+            self.assertIn("--significance: found", done.stderr)
+            self.assertIn(words, done.stderr)
+        self.write("image.pgm", "P2 2 2 9\n1 2\n3 4\n")
+        self.assertIn("--significance", self.expect(64, "image.pgm", "--significance").stderr)
+        for line in ("1,0.5,2,1.5", "1,0.5,2,-0.1", "1,0.5,2,x", "1,0.5,2,0.1,3"):
+            self.write("wrong.csv", "dim,birth,death,p\n" + line + "\n")
+            self.expect(65, "wrong.csv")
+
     def test_standard_input(self):
         self.assertEqual(self.bars("-", input=SQUARE), self.bars("square.txt"))
 

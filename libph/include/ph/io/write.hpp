@@ -18,7 +18,7 @@ namespace ph {
 
 /// The formats of a barcode file.
 enum class BarcodeFormat {
-  csv,     ///< header `dim,birth,death`, a bar a line
+  csv,     ///< header `dim,birth,death`, and `p` if there are p-values; a bar a line
   json,    ///< with the cells of each bar and where the barcode came from
   ripser,  ///< what Ripser prints: intervals by dimension, 6 significant digits
   pers,    ///< GUDHI: `dim birth death` a line
@@ -57,6 +57,8 @@ struct BarcodeInfo {
   /// By bar of the barcode that is written, as ph::loops gives them: they stand beside the cycles.
   /// Empty: there are none.
   std::span<const BarLoops> loops;
+  /// By bar, in CSV and JSON; NaN: it has none. Empty: there are none.
+  std::span<const double> p_values;
   std::string engine;
   std::vector<std::pair<std::string, double>> timings;  ///< stage, seconds
   std::uint64_t peak_memory = 0;                        ///< bytes; 0: unknown
@@ -80,7 +82,7 @@ std::optional<BarcodeFormat> barcode_format_named(std::string_view name);
 std::optional<BarcodeFormat> barcode_format_of_path(std::string_view path);
 
 /// Writes a barcode; the caller commits the file.
-/// @throws Error (io) as OutputFile; Error (usage) on loops that are not of these bars.
+/// @throws Error (io) as OutputFile; Error (usage) on loops or p-values that are not of these bars.
 void write_barcode(OutputFile& file, const Barcode& barcode, BarcodeFormat format,
                    const BarcodeInfo& info = {});
 
@@ -99,8 +101,9 @@ Barcode read_barcode(const Input& input, std::optional<BarcodeFormat> format = s
 /// A barcode with what its file says about it.
 struct StoredBarcode {
   Barcode bars;
-  BarcodeInfo info;  ///< without loops; empty of all formats but JSON
-  /// Members of the JSON that are not here, by name: "loops", "voxels", others that nobody knows.
+  BarcodeInfo info;  ///< without loops and p-values; empty of all formats but JSON
+  /// Members of the JSON that are not here, by name: "loops", "voxels", "p", others that nobody
+  /// knows.
   std::vector<std::string> left_out;
 };
 StoredBarcode read_stored_barcode(const Input& input,

@@ -53,9 +53,13 @@ std::optional<BarcodeFormat> barcode_format_of_path(std::string_view path) {
 
 void write_barcode(OutputFile& file, const Barcode& barcode, BarcodeFormat format,
                    const BarcodeInfo& info) {
+  if (!info.p_values.empty() && info.p_values.size() != barcode.size())
+    throw Error(ErrorKind::usage,
+                fmt::format("p_values: found {}, expected one for each of {} bars, or none",
+                            info.p_values.size(), barcode.size()));
   switch (format) {
     case BarcodeFormat::csv:
-      return write_barcode_csv(file, barcode);
+      return write_barcode_csv(file, barcode, info.p_values);
     case BarcodeFormat::json:
       return write_barcode_json(file, barcode, info);
     case BarcodeFormat::ripser:

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -199,6 +200,8 @@ void write_barcode_json(OutputFile& file, const Barcode& barcode, const BarcodeI
                            json_value(bar.birth), json_value(bar.death)));
     file.write(fmt::format("\"birth_cell\": {}, \"death_cell\": {}",
                            json_cell(barcode.birth_cell(i)), json_cell(barcode.death_cell(i))));
+    if (!info.p_values.empty() && !std::isnan(info.p_values[i]))
+      file.write(fmt::format(", \"p\": {}", json::number(info.p_values[i])));
     if (barcode.representatives() == Representatives::voxels) {
       write_voxels(file, barcode, i);
     } else if (with_chains) {

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
+
 #include "io/points/table.hpp"
 #include "io/readers.hpp"
 
@@ -25,22 +28,45 @@ void require_cell(const TextLines& lines, const Cells& cells, const char* what,
              {fmt::format("{} missing", what), "the end of the line", expected, {}});
 }
 
+/// Whether they are those of a header of ours; p-values may follow the bars.
+bool is_header(std::span<const std::string> names) {
+  constexpr std::array<std::string_view, 4> kNames{"dim", "birth", "death", "p"};
+  return (names.size() == 3 || names.size() == 4) &&
+         std::equal(names.begin(), names.end(), kNames.begin());
+}
+
+void check_p(const TextLines& lines, Cells& cells) {
+  const char* const begin = cells.place();
+  const std::string_view rest(begin, lines.line().data() + lines.line().size());
+  if (rest.find_first_not_of(" \t") == rest.npos) {
+    cells.skip();
+    return;
+  }
+  const double p = cells.number();
+  if (!(p >= 0 && p <= 1))
+    lines.fail(begin, {"p-value", shortest(p), "a number from 0 to 1, or nothing", {}});
+}
+
 // `dim birth death` or GUDHI's `p dim birth death`, one a line; a header line may stand before.
-Barcode read_rows(const Input& input, bool may_be_empty) {
+// Behind a header with p a line may end in a p-value, which is checked and left out.
+// @param has_p receives whether there is such a header.
+Barcode read_rows(const Input& input, bool may_be_empty, bool& has_p) {
   Barcode barcode;
   TextLines lines(input);
   Cells cells(lines);
   std::size_t columns = 0;
   bool header = false;
+  has_p = false;
   while (lines.next()) {
     if (columns == 0 && !header) {
       const std::vector<std::string> names = header_names(lines.line());
       if (!names.empty()) {
-        if (names != std::vector<std::string>{"dim", "birth", "death"}) {
+        if (!is_header(names)) {
           lines.fail(lines.line().data(),
                      {"header", '"' + printable(lines.line(), 40) + '"', "dim,birth,death", {}});
         }
         header = true;
+        has_p = names.size() == 4;
         continue;
       }
     }
@@ -53,7 +79,7 @@ Barcode read_rows(const Input& input, bool may_be_empty) {
     }
     constexpr const char* kExpected = "dim birth death, or p dim birth death";
     cells.start();
-    if (columns == 4) {
+    if (columns == 4 && !has_p) {
       cells.integer(2, std::numeric_limits<std::int32_t>::max(), "characteristic");
       require_cell(lines, cells, "dimension", kExpected);
     }
@@ -63,6 +89,7 @@ Barcode read_rows(const Input& input, bool may_be_empty) {
     bar.birth = cells.number(Allow::infinite);
     require_cell(lines, cells, "death", kExpected);
     bar.death = cells.number(Allow::infinite);
+    if (has_p && cells.more()) check_p(lines, cells);
     cells.expect_end(kExpected);
     add_at(lines, barcode, bar);
   }
@@ -189,8 +216,7 @@ BarcodeFormat format_of(const Input& input) {
 
 bool has_header(const Input& input) {
   TextLines lines(input);
-  return lines.next() &&
-         header_names(lines.line()) == std::vector<std::string>{"dim", "birth", "death"};
+  return lines.next() && is_header(header_names(lines.line()));
 }
 
 }  // namespace
@@ -223,6 +249,12 @@ Fault fault_of_bar(const Bar& bar) {
 }
 
 StoredBarcode read_stored_barcode(const Input& input, std::optional<BarcodeFormat> format) {
+  const auto rows = [&](bool may_be_empty) {
+    bool has_p = false;
+    StoredBarcode stored{read_rows(input, may_be_empty, has_p), {}, {}};
+    if (has_p) stored.left_out.emplace_back("p");
+    return stored;
+  };
   const auto read = [&]() -> StoredBarcode {
     switch (format.value_or(format_of(input))) {
       case BarcodeFormat::json:
@@ -234,12 +266,12 @@ StoredBarcode read_stored_barcode(const Input& input, std::optional<BarcodeForma
       case BarcodeFormat::npy:
         return {read_npy(input), {}, {}};
       case BarcodeFormat::pers:
-        return {read_rows(input, true), {}, {}};  // an empty barcode is an empty file
+        return rows(true);  // an empty barcode is an empty file
       case BarcodeFormat::csv:
       case BarcodeFormat::none:
         break;
     }
-    return {read_rows(input, false), {}, {}};
+    return rows(false);
   };
   input.take_memory();
   StoredBarcode stored = read();

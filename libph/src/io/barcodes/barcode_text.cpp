@@ -19,10 +19,16 @@ std::string six_digits(double value) { return fmt::format("{:g}", value == 0 ? 0
 
 }  // namespace
 
-void write_barcode_csv(OutputFile& file, const Barcode& barcode) {
-  file.write("dim,birth,death\n");
-  for (const Bar& bar : barcode)
-    file.write(fmt::format("{},{},{}\n", bar.dim, shortest(bar.birth), shortest(bar.death)));
+void write_barcode_csv(OutputFile& file, const Barcode& barcode, std::span<const double> p_values) {
+  const bool has_p = !p_values.empty();
+  file.write(has_p ? "dim,birth,death,p\n" : "dim,birth,death\n");
+  for (std::size_t i = 0; i < barcode.size(); ++i) {
+    const Bar& bar = barcode[i];
+    file.write(fmt::format("{},{},{}", bar.dim, shortest(bar.birth), shortest(bar.death)));
+    if (has_p)
+      file.write(std::isnan(p_values[i]) ? "," : fmt::format(",{}", shortest(p_values[i])));
+    file.write("\n");
+  }
 }
 
 void write_barcode_pers(OutputFile& file, const Barcode& barcode) {

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "barcode/output/significance.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "ph/significance.hpp"
+
+namespace ph::barcode {
+
+void require_significance(BarcodeFormat format, const Arguments& arguments) {
+  if (!arguments.significance) return;
+  const auto reject = [](const std::string& found) {
+    throw Error(ErrorKind::usage, "--significance: found " + found);
+  };
+  if (format != BarcodeFormat::csv && format != BarcodeFormat::json)
+    reject(fmt::format("output format {}, expected csv or json, which have room for p",
+                       barcode_format_name(format)));
+  if (arguments.options.min_persistence > 0)
+    reject(
+        "--min-persistence, expected all bars: p compares each with the others; leave out those "
+        "with a large p afterwards");
+  if (arguments.dtm || !arguments.vertex_weights.empty())
+    reject(
+        "vertices with weights, expected ones that are there from 0 on: ratios of death and "
+        "birth are compared");
+  if (arguments.options.max_dim == 0)
+    reject("--max-dim 0, expected dimension 1 or above: components are born at 0");
+}
+
+std::vector<double> p_values_of(const Barcode& barcode) {
+  std::vector<double> result(barcode.size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t begin = 0; begin < barcode.size();) {
+    std::size_t end = begin;
+    std::vector<Bar> bars;  // of one dimension: they are in its order
+    while (end < barcode.size() && barcode[end].dim == barcode[begin].dim)
+      bars.push_back(barcode[end++]);
+    if (barcode[begin].dim > 0)
+      std::ranges::copy(universal_p_values(bars, DistanceFiltration::rips).corrected,
+                        result.begin() + static_cast<std::ptrdiff_t>(begin));
+    begin = end;
+  }
+  return result;
+}
+
+}  // namespace ph::barcode

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <vector>
+
+#include "barcode/arguments/arguments.hpp"
+#include "ph/barcode.hpp"
+#include "ph/io/write.hpp"
+
+namespace ph::barcode {
+
+/// Before anything is computed. @throws Error (usage) if p-values are asked for that have no place,
+/// or that would mean nothing.
+void require_significance(BarcodeFormat format, const Arguments& arguments);
+
+/// By bar its p-value, times the number of bars of its dimension that were tested; NaN of
+/// components and of bars that never die.
+std::vector<double> p_values_of(const Barcode& barcode);
+
+}  // namespace ph::barcode

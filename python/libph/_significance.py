@@ -1,0 +1,264 @@
+# SPDX-License-Identifier: MIT
+"""Which bars are more than chance, and which groups of barcodes differ."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _arrays, _core, _options, _run
+from ._barcodes import Barcode
+from ._errors import DataError, UsageError
+from ._vectors import as_diagram
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._run import RunOptions
+
+_MOST = 2**63 - 1
+
+
+def p_values(bars: Barcode | ArrayLike, dim: int | None = None, *, filtration: str | None = None,
+             corrected: bool = True) -> NDArray[np.float64]:
+    """The p-value of each bar: how likely noise is to have a bar that stands out as much.
+
+    Of point sets, for loops, voids and holes of higher dimension. log log (death / birth), shifted
+    to the mean that it has for noise, follows one law whatever the points are drawn from
+    [Bobrowski, Skraba 2023]. Values may be radii, diameters or squares. Few bars say little: the
+    shift is their mean.
+
+    Parameters
+    ----------
+    bars : Barcode or array_like
+        A barcode, or rows birth, death.
+    dim : int, optional
+        Of a barcode: the dimension, at least 1.
+    filtration : {"rips", "cech"}, optional
+        What the bars are of; "cech" also for alpha complexes. Default: "rips" for barcodes of
+        `rips`.
+    corrected : bool
+        Whether p is multiplied by the number of bars, at most 1 (Bonferroni): then all bars with p
+        at most 0.05 are real with a probability of 95 %.
+
+    Returns
+    -------
+    ndarray
+        A number for each bar of `dim`, in their order. NaN for bars that never die.
+
+    Examples
+    --------
+    >>> rng = np.random.default_rng(0)
+    >>> angles = rng.uniform(0, 2 * np.pi, 200)
+    >>> circle = np.column_stack([np.cos(angles), np.sin(angles)]) + rng.normal(0, 0.1, (200, 2))
+    >>> int((ph.p_values(ph.rips(circle), dim=1) < 0.05).sum())
+    1
+    """
+    if isinstance(bars, Barcode):
+        if dim is None:
+            raise UsageError("dim: found None, expected the dimension of the bars, at least 1")
+        rows = bars.dgm(_options.whole("dim", dim, 1))
+        kind = bars.meta.get("complex")
+        if filtration is None and kind != "rips":
+            raise UsageError(f"filtration: found None, expected 'rips' or 'cech' for bars of "
+                             f"complex {kind!r}; images have no such test")
+    else:
+        if dim is not None:
+            raise UsageError("dim: does nothing for arrays, expected a Barcode")
+        if filtration is None:
+            raise UsageError("filtration: found None, expected 'rips' or 'cech' for an array")
+        rows = as_diagram(bars, "bars")
+    chosen = "rips" if filtration is None else _options.choice("filtration", filtration,
+                                                               ["rips", "cech"])
+    found = _core.p_values(np.ascontiguousarray(rows), chosen)
+    return np.asarray(found[_options.flag("corrected", corrected)])
+
+
+def confidence_radius(X: ArrayLike, *, alpha: float = 0.05, subsamples: int = 100,
+                      size: int | None = None, seed: int = 0, **run: Unpack[RunOptions]) -> float:
+    """How far points may be from the whole of the set that they were drawn from.
+
+    With probability 1 - alpha the Hausdorff distance is at most c, as the number of points grows
+    [Fasy et al. 2014, subsampling]. So bars of the distance function that are longer than 2 c are
+    real. Bars of `rips` are twice as long, since its values are diameters: there those longer than
+    4 c are. The answer is careful: expect it to be large.
+
+    Parameters
+    ----------
+    X : array_like
+        Points, one a row; Euclidean.
+    alpha : float
+        The probability to be wrong, above 0 and below 1.
+    subsamples : int
+        How many are drawn.
+    size : int, optional
+        Points of each. Default: n / ln n.
+    seed : int
+        Of the random numbers; the same seed gives the same result.
+    **run
+        `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
+
+    Returns
+    -------
+    float
+        c, in the unit of the points.
+
+    Examples
+    --------
+    >>> rng = np.random.default_rng(0)
+    >>> angles = rng.uniform(0, 2 * np.pi, 2000)
+    >>> circle = np.column_stack([np.cos(angles), np.sin(angles)])
+    >>> 0.02 < ph.confidence_radius(circle) < 0.2
+    True
+    """
+    _run.check_names("confidence_radius", run, confidence_radius)
+    points = _arrays.as_points(X)
+    return float(_run.run(
+        _core.confidence_radius, points, _alpha(alpha),
+        _options.whole("subsamples", subsamples, 1),
+        0 if size is None else _options.whole("size", size, 1),
+        _options.whole("seed", seed, 0, _MOST), options=dict(run)))
+
+
+class Band(NamedTuple):
+    """A mean and a band around it; see `confidence_band`.
+
+    Attributes
+    ----------
+    mean, lower, upper : ndarray
+        In the shape of one function.
+    """
+
+    mean: NDArray[np.float64]
+    lower: NDArray[np.float64]
+    upper: NDArray[np.float64]
+
+
+def confidence_band(functions: ArrayLike, *, alpha: float = 0.05, repetitions: int = 1000,
+                    seed: int = 0, **run: Unpack[RunOptions]) -> Band:
+    """The mean of functions such as landscapes, and a band that has the true mean in it.
+
+    With probability 1 - alpha the true mean lies in the band everywhere at once, as the number of
+    samples grows: the multiplier bootstrap [Chazal et al. 2014].
+
+    Parameters
+    ----------
+    functions : array_like
+        An array whose first axis counts samples, at least 2: the rows that
+        `libph.sklearn.Landscape` makes, or ``[bars.landscape(1, range=...) for bars in ...]`` on
+        one grid.
+    alpha : float
+        The probability to be wrong, above 0 and below 1.
+    repetitions : int
+        Of the bootstrap.
+    seed : int
+        Of the random numbers; the same seed gives the same result.
+    **run
+        `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
+
+    Returns
+    -------
+    Band
+
+    Examples
+    --------
+    >>> samples = np.random.default_rng(0).normal(3, 1, (100, 20))
+    >>> band = ph.confidence_band(samples)
+    >>> bool((band.lower < 3).all() and (3 < band.upper).all())
+    True
+    """
+    _run.check_names("confidence_band", run, confidence_band)
+    array = _arrays.as_float64(_arrays.as_array(functions, "functions"), "functions")
+    if array.ndim < 2 or len(array) < 2:
+        raise UsageError(f"functions: found an array of shape {array.shape}, expected at least two "
+                         "samples along the first axis, and numbers along others")
+    if not np.isfinite(array).all():
+        where = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
+        raise DataError(f"functions: {_arrays.place_of(where)}: found {array[where]}, expected a "
+                        "finite number")
+    block, half_width = _run.run(
+        _core.confidence_band, np.ascontiguousarray(array).ravel(), len(array), _alpha(alpha),
+        _options.whole("repetitions", repetitions, 1), _options.whole("seed", seed, 0, _MOST),
+        options=dict(run))
+    mean = np.asarray(block).reshape(array.shape[1:])
+    return Band(mean, mean - half_width, mean + half_width)
+
+
+class PermutationTest(NamedTuple):
+    """What `permutation_test` found.
+
+    Attributes
+    ----------
+    p : float
+        How likely groups of one distribution are to be as far apart.
+    loss : float
+        The sum over the groups of half the mean of the distances within.
+    """
+
+    p: float
+    loss: float
+
+
+def permutation_test(distances: ArrayLike, groups: Any, *, shuffles: int = 1000, power: float = 1.0,
+                     seed: int = 0, **run: Unpack[RunOptions]) -> PermutationTest:
+    """Whether groups of barcodes differ [Robinson, Turner 2017].
+
+    Labels are shuffled, and the mean distance within groups is compared.
+
+    Parameters
+    ----------
+    distances : array_like
+        A square matrix, as `diagram_distances` makes it; finite.
+    groups : sequence
+        Of each barcode its group: numbers or words. At least two groups of at least two.
+    shuffles : int
+        How many. The least p is 1 / (shuffles + 1).
+    power : float
+        Of the distances, above 0.
+    seed : int
+        Of the random numbers; the same seed gives the same result.
+    **run
+        `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
+
+    Returns
+    -------
+    PermutationTest
+
+    Examples
+    --------
+    >>> places = np.array([0, 1, 2, 3, 50, 51, 52, 53])
+    >>> distances = abs(places[:, None] - places)
+    >>> ph.permutation_test(distances, list("aaaabbbb")).p < 0.05
+    True
+    """
+    _run.check_names("permutation_test", run, permutation_test)
+    matrix = _arrays.as_float64(_arrays.as_array(distances, "distances"), "distances")
+    if matrix.ndim != 2 or matrix.shape[0] != matrix.shape[1]:
+        raise UsageError(f"distances: found an array of shape {matrix.shape}, expected a square "
+                         "matrix")
+    if not np.array_equal(matrix, matrix.T):
+        i, j = (int(k) for k in np.argwhere(matrix != matrix.T)[0])
+        raise DataError(f"distances: found {matrix[i, j]} at row {i}, column {j} and {matrix[j, i]} "
+                        f"at row {j}, column {i}, expected a symmetric matrix without NaN")
+    labels = np.asarray(groups)
+    if labels.shape != (len(matrix),):
+        raise UsageError(f"groups: found an array of shape {labels.shape}, expected {len(matrix)}, "
+                         "one for each row of the distances")
+    names, numbers = np.unique(labels, return_inverse=True)
+    sizes = np.bincount(numbers, minlength=len(names))
+    if len(names) < 2 or sizes.min() < 2:
+        raise UsageError(f"groups: found {len(names)} of sizes {sizes.tolist()}, expected at least "
+                         "two groups of at least two")
+    p, loss = _run.run(
+        _core.permutation_test, matrix, numbers.astype(np.int64),
+        _options.whole("shuffles", shuffles, 1), _options.positive("power", power),
+        _options.whole("seed", seed, 0, _MOST), options=dict(run))
+    return PermutationTest(p, loss)
+
+
+def _alpha(alpha: Any) -> float:
+    number = _options.real("alpha", alpha, "a number above 0, below 1")
+    if not 0 < number < 1:
+        raise _options.refuse("alpha", alpha, "a number above 0, below 1")
+    return number
