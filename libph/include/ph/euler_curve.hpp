@@ -18,8 +18,9 @@ struct StepFunction {
   std::vector<double> at;           ///< ascending, each once; the first may be -infinity
   std::vector<std::int64_t> value;  ///< as many; each differs from the one before
 
+  /// @throws Error (usage) if there are not as many values as places.
   std::int64_t operator()(double t) const;
-  /// @param out grid.points numbers. @throws Error (usage) as betti_curve.
+  /// @param out grid.points numbers. @throws Error (usage) also as betti_curve.
   void sample(const Grid& grid, std::span<double> out) const;
   friend bool operator==(const StepFunction&, const StepFunction&) = default;
 };

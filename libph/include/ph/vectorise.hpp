@@ -139,6 +139,7 @@ void landscape(std::span<const Bar> bars, const Grid& grid, std::size_t layers,
 struct PiecewiseLinear {
   std::vector<double> at;     ///< ascending
   std::vector<double> value;  ///< as many
+  /// @throws Error (usage) if there are not as many values as places.
   double operator()(double t) const;
 };
 

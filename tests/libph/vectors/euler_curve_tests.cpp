@@ -171,6 +171,8 @@ TEST(EulerCurves, OfImagesOfManyPieces) {
           context.threads = threads;
           ASSERT_TRUE(euler_curve(cubical, context) == expected) << extents[0] << " " << threads;
         }
+        const std::size_t layer = static_cast<std::size_t>(extents[1]) * bytes_of(voxels.type());
+        EXPECT_GT(context.memory.peak(), 3 * layer);
         EXPECT_LT(context.memory.peak(), 24U << 20);
       }
     }
@@ -222,6 +224,10 @@ TEST(EulerCurves, RefuseWhatMakesNoSenseAndStop) {
   expect_error(ErrorKind::usage, "grid: found", [&] { euler_curve(cubical, {1, 0, 3}, out); });
   expect_error(ErrorKind::usage, "expected 4", [&] { euler_curve(cubical, {0, 1, 4}, out); });
   expect_error(ErrorKind::usage, "expected 4", [&] { StepFunction().sample({0, 1, 4}, out); });
+  expect_error(ErrorKind::usage, "2 places and 1 values", [] { StepFunction{{1, 2}, {3}}(1); });
+  expect_error(ErrorKind::usage, "1 places and 2 values", [&] {
+    StepFunction{{1}, {3, 4}}.sample({0, 1, 3}, out);
+  });
   expect_error(ErrorKind::bad_data, "euler_curve: found a bar", [&] {
     euler_curve(std::vector<Bar>{{0, 2, 1}});
   });

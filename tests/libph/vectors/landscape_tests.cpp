@@ -112,6 +112,7 @@ TEST(Landscapes, RefuseWhatMakesNoSenseAndStop) {
   const Grid grid{0, 1, 10};
   expect_error(ErrorKind::usage, "layers: found 0", [&] { landscape(one, grid, 0, out); });
   expect_error(ErrorKind::usage, "layers: found 0", [&] { exact_landscape(one, 0); });
+  expect_error(ErrorKind::usage, "2 places and 1 values", [] { PiecewiseLinear{{1, 2}, {3}}(1); });
   expect_error(ErrorKind::usage, "expected 30", [&] { landscape(one, grid, 3, out); });
   expect_error(ErrorKind::bad_data, "expected a finite birth", [&] {
     landscape(Bars{{0, -kInfinity, 5}}, grid, 2, out);

@@ -32,7 +32,8 @@ class DecidedCells {
         length_(image.row_length()),
         is_circle_(image.periodic.back()),
         outside_(image.image.voxels_are_vertices ? 0 : 0xFF),
-        has_own_(axes_ % 2 == 0 || image.image.voxels_are_vertices) {
+        has_own_(axes_ % 2 == 0 || image.image.voxels_are_vertices),
+        masks_(memory) {
     std::size_t count = 1;
     for (std::size_t k = 0; k < axes_; ++k) count *= 3;
     directions_.resize(count);
@@ -48,7 +49,7 @@ class DecidedCells {
       }
       direction.adds = (steps + (has_own_ ? 0 : 1)) % 2 == 0;
     }
-    masks_ = RawVector<Mask>(count * kBlock, memory);
+    masks_.resize(count * kBlock);
     std::fill_n(masks_.data(), kBlock, Mask{0xFF});  // no direction: no condition
   }
 

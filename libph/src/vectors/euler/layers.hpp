@@ -61,8 +61,11 @@ class ThreeLayers {
  public:
   /// The first `go_up` brings layer `first` into the middle.
   ThreeLayers(const Layered& of, std::size_t first, std::pmr::memory_resource* memory)
-      : of_(of), padded_(of.row_length() + 2), middle_(first - 1) {
-    for (auto& layer : layers_) layer = RawVector<T>(of.rows_each() * padded_, memory);
+      : of_(of),
+        padded_(of.row_length() + 2),
+        layers_{RawVector<T>(memory), RawVector<T>(memory), RawVector<T>(memory)},
+        middle_(first - 1) {
+    for (auto& layer : layers_) layer.resize(of.rows_each() * padded_);
     load(wrapped(first - 1), order_[1]);
     load(first, order_[2]);
   }

@@ -1,20 +1,35 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "ph/error.hpp"
 #include "ph/euler_curve.hpp"
 #include "vectors/checked_bars.hpp"
 #include "vectors/grid_cells.hpp"
 
 namespace ph {
+namespace {
+
+void check(const StepFunction& function) {
+  if (function.at.size() != function.value.size())
+    throw Error(ErrorKind::usage, fmt::format("StepFunction: found {} places and {} values, "
+                                              "expected as many",
+                                              function.at.size(), function.value.size()));
+}
+
+}  // namespace
 
 std::int64_t StepFunction::operator()(double t) const {
+  check(*this);
   const auto behind = std::ranges::upper_bound(at, t);
   return behind == at.begin() ? 0 : value[static_cast<std::size_t>(behind - at.begin()) - 1];
 }
 
 void StepFunction::sample(const Grid& grid, std::span<double> out) const {
+  check(*this);
   vectors::check(grid, "StepFunction::sample");
   vectors::check_size(out, grid.points, "StepFunction::sample");
   std::size_t next = 0;
