@@ -5,6 +5,7 @@
 #include "barcode/arguments/arguments.hpp"
 #include "segment/arguments/arguments.hpp"
 #include "targets.hpp"
+#include "vectorise/arguments/arguments.hpp"
 #include "violation.hpp"
 
 namespace ph::fuzz {
@@ -47,6 +48,10 @@ void run_barcode_arguments(std::string_view bytes) {
 
 void run_segment_arguments(std::string_view bytes) {
   check(words_of(bytes, "ph-segment"), &segment::parse_arguments);
+}
+
+void run_vectorise_arguments(std::string_view bytes) {
+  check(words_of(bytes, "ph-vectorise"), &vectorise::parse_arguments);
 }
 
 }  // namespace ph::fuzz

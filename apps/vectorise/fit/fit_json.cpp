@@ -191,17 +191,18 @@ class Reader {
       input_.fail({"infinite", "keep", "drop, error or a number with this kind", {}});
     if (fit_.kind == Kind::euler && fit_.blocks.size() > 1)
       input_.fail({"blocks", fmt::format("{}", fit_.blocks.size()), "one of an Euler curve", {}});
+    const RunContext& context = input_.context() ? *input_.context() : default_context();
     try {
       for (const Block& block : fit_.blocks) {
         std::size_t length = 1;
         for (const std::size_t n : shape_of(fit_, block)) length *= n;
         if (length > static_cast<std::size_t>(kMost))
           input_.fail({"shape", fmt::format("{} numbers", length), "at most 2^30", {}});
-        std::vector<double> out(length);
+        std::pmr::vector<double> out(length, &context.memory);
         if (fit_.kind == Kind::euler)
           StepFunction().sample(block.grid, out);
         else
-          write_block(fit_, block, {}, out, default_context());
+          write_block(fit_, block, {}, out, context);
       }
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::usage) throw;

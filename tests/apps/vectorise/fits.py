@@ -100,6 +100,11 @@ class Fits(ProgramTest):
             spoil(fit["blocks"][0])
             self.write("bad.json", json.dumps(fit))
             self.assertIn("bad.json", self.expect(65, "a.csv", "--fitted", "bad.json").stderr)
+        fit = self.fit("landscape", "--layers", "1000")
+        for block in fit["blocks"]:
+            block["grid"]["points"] = 10**6
+        self.write("large.json", json.dumps(fit))
+        self.assertIn("memory", self.expect(75, "a.csv", "--fitted", "large.json", "--memory-limit", "100MB").stderr)
         fit = self.fit("silhouette")
         for changes in ({"power": -1}, {"infinite": "keep"}):
             self.write("bad.json", json.dumps({**fit, **changes}))

@@ -220,6 +220,18 @@ class Results(ProgramTest):
         self.assertEqual(self.table("none.csv", "--dims", "0")[1]["none.csv"], [0.0] * 38)
         self.assertIn("square.txt:1", self.expect(65, "square.txt").stderr)
 
+    def test_images_larger_than_the_memory(self):
+        """They stay in their files, layer by layer."""
+        count = 96
+        values = bytes((x * x + 7 * y + 13 * z * x) % 251 for z in range(count) for y in range(count)
+                       for x in range(count * 2))
+        self.write("bytes.npy", files.npy("|u1", (count, count, 2 * count), values))
+        grid_of = ["--kind", "euler", "--grid", "0,250,251", "--quiet"]
+        expected = self.expect(0, "bytes.npy", *grid_of).stdout
+        run = self.expect(0, "bytes.npy", *grid_of, "--memory-limit", "1MB", "--threads", "1")
+        self.assertEqual(run.stdout, expected)
+        self.assertEqual(expected.splitlines()[1].split(",")[-1], "1")  # a box
+
     def test_threads_and_memory(self):
         names = [self.write(f"{i}.csv", csv_of([(i % 2, j, j + 1 + i) for j in range(50)]))
                  for i in range(30)]

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// What the programs store for themselves: merge trees of scenes, fits of vectors.
+#include <memory_resource>
+#include <string>
+#include <vector>
+
+#include "ph/error.hpp"
+#include "targets.hpp"
+#include "tree/tree_file.hpp"
+#include "vectorise/fit/fit_json.hpp"
+#include "violation.hpp"
+
+namespace ph::fuzz {
+
+// The checksum of a stored tree stops every change before anything else looks at it: here it is set
+// right.
+void run_tree(std::string_view bytes) {
+  run_reader("tree", bytes);
+  if (bytes.size() < segment::kTreeSum) return;
+  std::string repaired(bytes.substr(0, bytes.size() - segment::kTreeSum));
+  const std::uint32_t sum = segment::tree_sum(repaired);
+  for (int shift = 0; shift < 32; shift += 8) repaired += static_cast<char>(sum >> shift & 0xFF);
+  run_reader("tree", repaired);
+}
+
+void run_vectorise_fit(std::string_view bytes) {
+  RunContext context;
+  context.memory.set_limit(std::size_t{16} << 20);
+  const auto read = [&](std::string_view text) {
+    std::pmr::vector<char> copy(text.begin(), text.end());
+    return vectorise::read_fit(Input::hold(std::move(copy), "fit.json", &context));
+  };
+  std::string written;
+  try {
+    written = vectorise::fit_json(read(bytes), 0);
+  } catch (const Error& error) {
+    require(error.kind() == ErrorKind::bad_data || error.kind() == ErrorKind::resource,
+            "a fit is neither bad nor too large");
+    require(std::string_view(error.what()).find('\n') == std::string_view::npos,
+            "a message of several lines");
+    return;
+  }
+  require(vectorise::fit_json(read(written), 0) == written, "a fit is not read as it was written");
+}
+
+}  // namespace ph::fuzz
