@@ -110,11 +110,11 @@ class ChangeList {
 
  public:
   ChangeList(const Layered& image, const RunContext& context)
-      : image_(image.image), changes_(&context.memory) {}
+      : image_(image.image), memory_(&context.memory) {}
 
   class Part {
    public:
-    explicit Part(ChangeList& all) : all_(all), changes_(all.changes_.get_allocator()) {}
+    explicit Part(ChangeList& all) : all_(all), changes_(all.memory_) {}
     template <class Sum>
     void take(const T* keys, const Sum* changes, std::size_t count) {
       const std::size_t before = changes_.size();
@@ -128,8 +128,9 @@ class ChangeList {
       changes_.resize(static_cast<std::size_t>(to - changes_.data()));
     }
     void add_to_all() {
+      RawVector<Change> exact(changes_.begin(), changes_.end(), all_.memory_);
       const std::lock_guard lock(all_.mutex_);
-      all_.changes_.insert(all_.changes_.end(), changes_.begin(), changes_.end());
+      all_.parts_.push_back(std::move(exact));
     }
 
    private:
@@ -138,16 +139,17 @@ class ChangeList {
   };
 
   StepFunction curve(const RunContext& context) {
+    RawVector<Change> changes = joined();
     radix_sort_by_value(
-        changes_, [](const Change& change) { return static_cast<double>(change.key); }, context);
+        changes, [](const Change& change) { return static_cast<double>(change.key); }, context);
     Ticker ticker(context, "Euler curve");
     const auto for_each_value = [&](auto&& use) {
-      for (std::size_t i = 0; i < changes_.size();) {
+      for (std::size_t i = 0; i < changes.size();) {
         const std::size_t first = i;
         std::int64_t sum = 0;
-        for (; i < changes_.size() && changes_[i].key == changes_[first].key; ++i)
-          sum += changes_[i].by;
-        use(entry_value(changes_[first].key, image_.superlevel), sum);
+        for (; i < changes.size() && changes[i].key == changes[first].key; ++i)
+          sum += changes[i].by;
+        use(entry_value(changes[first].key, image_.superlevel), sum);
         ticker.work(i - first);
       }
     };
@@ -161,9 +163,24 @@ class ChangeList {
   }
 
  private:
+  /// All parts, each given back as soon as it is copied. Their order, which threads decide, does
+  /// not matter: equal keys are summed.
+  RawVector<Change> joined() {
+    std::size_t count = 0;
+    for (const auto& part : parts_) count += part.size();
+    RawVector<Change> all(memory_);
+    all.reserve(count);
+    for (auto& part : parts_) {
+      all.insert(all.end(), part.begin(), part.end());
+      RawVector<Change>(memory_).swap(part);
+    }
+    return all;
+  }
+
   CubicalImage image_;
+  std::pmr::memory_resource* memory_;
   std::mutex mutex_;
-  RawVector<Change> changes_;
+  std::vector<RawVector<Change>> parts_;
 };
 
 /// Sums by the first value of a grid that is not below.

@@ -82,11 +82,10 @@ class RowNeighbours {
 /// How many layers a thread takes at a time: enough to outweigh the two beside them, and the
 /// counts.
 std::size_t layers_at_a_time(const Layered& image, const RunContext& context) {
-  constexpr std::size_t voxels = 1 << 19, at_least = 8, for_each_thread = 8;
+  constexpr std::size_t voxels = 1 << 20, at_least = 16;
   const std::size_t layers = image.layers(), threads = thread_count(context);
-  return std::max({(voxels - 1) / image.voxels_each() + 1,
-                   std::min(at_least, (layers - 1) / threads + 1),
-                   layers / (for_each_thread * threads)});
+  return std::max(
+      {(voxels - 1) / image.voxels_each() + 1, std::min(at_least, (layers - 1) / threads + 1)});
 }
 
 template <class T, class Sum, class Counts>
