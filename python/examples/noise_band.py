@@ -19,12 +19,10 @@ def main(picture):
     rng = np.random.default_rng(0)
     angles = rng.uniform(0, 2 * np.pi, 3000)
     points = np.column_stack([np.cos(angles), np.sin(angles)]) + rng.normal(0, 0.03, (3000, 2))
-    sample = points[ph.farthest_points(points, 400).indices]
-    bars = ph.rips(sample)
+    bars = ph.rips(points)
     figure, (left, right) = plt.subplots(1, 2, figsize=(8, 3.6), layout="constrained")
-    left.scatter(*points.T, s=1, color="0.7")
-    left.scatter(*sample.T, s=4, color="C1")
-    left.set(aspect="equal", xlabel="x", ylabel="y", title="400 of 3000 points")
+    left.scatter(*points.T, s=1, color="C0")
+    left.set(aspect="equal", xlabel="x", ylabel="y", title="3000 points")
     bars.plot(dim=1, ax=right, noise=4 * ph.confidence_radius(points))
     real = bars.dgm(1)[ph.p_values(bars, 1) <= 0.05]
     right.scatter(*real.T, s=90, facecolors="none", edgecolors="black", label="p ≤ 0.05")
