@@ -183,10 +183,14 @@ class Matching:
     pairs : ndarray
         Rows (i, j): bar i of `a` is paired with bar j of `b`; -1 is the diagonal. Each bar is in
         one row. No rows if the distance is infinite.
-    order, ground : float
-        p and q, see `wasserstein`; both inf for the bottleneck distance.
-    a, b : ndarray
-        The diagrams, rows birth, death.
+    order : float
+        p, see `wasserstein`; inf for the bottleneck distance.
+    ground : float
+        q, see `wasserstein`; inf for the bottleneck distance.
+    a : ndarray
+        The first diagram, rows birth, death.
+    b : ndarray
+        The second diagram.
     """
 
     distance: float

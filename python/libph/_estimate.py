@@ -17,8 +17,10 @@ class Estimate(NamedTuple):
 
     Attributes
     ----------
-    bytes_low, bytes_high : float
-        Memory of the complex and the computation, as foreseen: at least, and at most.
+    bytes_low : float
+        Memory of the complex and the computation, as foreseen: at least so much.
+    bytes_high : float
+        The same: at most so much.
     cells : tuple of float
         Cells by dimension, as far as the engine lists them.
     counted_dims : int

@@ -126,8 +126,12 @@ class Band(NamedTuple):
 
     Attributes
     ----------
-    mean, lower, upper : ndarray
-        In the shape of one function.
+    mean : ndarray
+        In the shape of one function, as the others.
+    lower : ndarray
+        The lower end of the band.
+    upper : ndarray
+        The upper end of the band.
     """
 
     mean: NDArray[np.float64]

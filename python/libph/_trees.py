@@ -35,9 +35,10 @@ class MergeTree:
         Of each merge its value, ascending.
     edges : ndarray
         Of each merge the edge that joins two components: of a minimum spanning forest, (m, 2).
-    elder, younger : ndarray
-        Of each merge the vertices that gave birth to the component that survives and to the one
-        that dies.
+    elder : ndarray
+        Of each merge the vertex that gave birth to the component that survives.
+    younger : ndarray
+        Of each merge the vertex that gave birth to the component that dies.
     shape : tuple of int or None
         Of an image: what `components` and `basins` may be reshaped to.
     """

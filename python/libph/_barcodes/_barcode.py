@@ -56,8 +56,6 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
 
     Attributes
     ----------
-    dims, births, deaths : ndarray
-        Of each bar; read-only.
     meta : Mapping
         Where it comes from: `complex`, `field`, `max_dim`, `threshold`, `engine`, and what else is
         known, as the number of `points` or the `shape` of the image.

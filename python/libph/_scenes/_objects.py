@@ -21,7 +21,9 @@ class Segment(NamedTuple):
     ----------
     label : int
         Its number in `Segmentation.labels`: 1, 2, ... by decreasing number of points.
-    points, voxels : int
+    points : int
+        How many it has.
+    voxels : int
         How many it has.
     persistence : float
         How far the value at which it meets another object is above its own lowest one: the
@@ -30,9 +32,13 @@ class Segment(NamedTuple):
         The mean of its points, without those at its base on the plane.
     box : ndarray
         The least and the largest coordinates of its points, (2, 3).
-    centre, axes, size : ndarray
-        The tight box of what is seen of it: its middle, three unit vectors, one a row, and how long
-        it is along each. Where a plane was removed, the last axis is its normal.
+    centre : ndarray
+        The middle of the tight box around what is seen of it.
+    axes : ndarray
+        Three unit vectors along the tight box, one a row. Where a plane was removed, the last one
+        is its normal.
+    size : ndarray
+        How long the tight box is along each of the axes.
     neighbours : tuple of (int, float)
         The labels of the objects that it touches, the first met first, with the values at which
         they meet.
