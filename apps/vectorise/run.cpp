@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "common/arguments/numbers.hpp"
+#include "common/files/barcode_files.hpp"
 #include "common/files/file_identity.hpp"
 #include "common/run/session.hpp"
 #include "common/terminal/exit_code.hpp"
@@ -81,15 +82,8 @@ class Run {
   }
 
   Table vectors() {
-    std::vector<Barcode> barcodes;
-    std::size_t bytes = 0;
-    for (const std::string& file : files_) {
-      Sample sample = read_sample(file, fit_.kind, fit_.cubical, arguments_, session_);
-      barcodes.push_back(std::get<Barcode>(std::move(sample)));
-      bytes += barcodes.back().bytes();
-      context_.memory.require(bytes);
-    }
-    const MemoryClaim claim(context_.memory, bytes);
+    const app::StoredBarcodes stored(files_, session_);
+    const std::vector<Barcode>& barcodes = stored.all();
     std::size_t ignored = 0;
     if (is_fitting()) add_blocks(fit_, barcodes, files_, arguments_, ignored, context_);
     Table table = new_table();
@@ -131,7 +125,7 @@ class Run {
     std::optional<Table> table;
     if (knows_grid) table = new_table();
     for (std::size_t i = 0; i < files_.size(); ++i) {
-      const Sample sample = read_sample(files_[i], fit_.kind, fit_.cubical, arguments_, session_);
+      const Sample sample = read_sample(files_[i], fit_.cubical, arguments_, session_);
       const auto* cubical = std::get_if<Cubical>(&sample);
       if (!knows_grid)
         curves.push_back(curve_of(sample, files_[i]));

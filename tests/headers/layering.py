@@ -29,11 +29,12 @@ MAY_INCLUDE = {
     "plot": "core components io",
     "segment": "core metric image components reduction complex rips facade io plot",
     "report": "core metric image components complex rips facade io plot segment",
-    "common": "core metric image complex rips facade io plot report",
+    "common": "core metric image complex rips facade diagram io plot report",
     "barcode": "core metric image components complex rips cubical facade loops diagram significance io "
                "plot report common",
     "python": "core metric image complex rips facade loops diagram vectors significance io plot segment "
               "report",
+    "distance": "core metric diagram significance io common",
     "vectorise": "core image complex vectors diagram io report common",
     "segment_program": "core metric image components complex rips facade io plot segment report common",
 }

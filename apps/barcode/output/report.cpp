@@ -6,13 +6,12 @@
 
 #include <new>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "barcode/output/h0_tree.hpp"
 #include "barcode/output/stored.hpp"
+#include "common/distances/distance_choice.hpp"
 #include "common/terminal/exit_code.hpp"
-#include "ph/distances.hpp"
 #include "ph/report.hpp"
 #include "report/arrays/bar_arrays.hpp"
 #include "report/encoding/sha256.hpp"
@@ -84,26 +83,27 @@ std::optional<report::ShownTree> tree_if_it_fits(const Shown& shown, const Argum
 /// The distances of two barcodes, one a dimension that either has.
 /// @param matched receives the numbers of the bars that they pair.
 /// @return where they would take long: "H1: 50000 bars".
-std::vector<std::string> add_distances(report::Metadata& meta, const Barcode& a, const Barcode& b,
+std::vector<std::string> add_distances(report::Metadata& meta, std::span<const Barcode, 2> barcodes,
                                        std::vector<std::uint32_t>& matched, app::Session& session) {
-  std::set<int> dims;
-  for (const Barcode* barcode : {&a, &b})
-    for (const Bar& bar : *barcode) dims.insert(bar.dim);
+  const Barcode &a = barcodes[0], &b = barcodes[1];
   std::vector<std::string> left_out;
-  for (const int dim : dims) {
+  for (const int dim : app::dims_of(barcodes)) {
     const std::span<const Bar> bars[] = {a.bars(dim), b.bars(dim)};
     const std::size_t count = bars[0].size() + bars[1].size();
     if (count > kMostComparedBars) {
       left_out.push_back(fmt::format("H{}: {} bars", dim, count));
       continue;
     }
-    const auto [distance, pairs] = bottleneck_matching(bars[0], bars[1], session.context());
-    meta.distances.push_back({dim, distance});
+    const auto [distance, pairs] = app::matching_of(bars[0], bars[1], {}, session.context());
+    meta.distances.push_back({dim, distance.value});
     // Numbers of bars: those of a dimension come one after another in each barcode.
     const auto first = bars[0].empty() ? 0U : static_cast<std::uint32_t>(&bars[0][0] - &a[0]);
     const auto second = bars[1].empty() ? 0U : static_cast<std::uint32_t>(&bars[1][0] - &b[0]);
     for (const auto& [i, j] : pairs)
-      matched.insert(matched.end(), {first + i, static_cast<std::uint32_t>(a.size()) + second + j});
+      if (i >= 0 && j >= 0)
+        matched.insert(matched.end(), {first + static_cast<std::uint32_t>(i),
+                                       static_cast<std::uint32_t>(a.size()) + second +
+                                           static_cast<std::uint32_t>(j)});
   }
   if (!left_out.empty())
     meta.provenance.notes.emplace_back(
@@ -151,13 +151,13 @@ int run_comparison(const Arguments& arguments, app::Session& session) try {
     session.note(fmt::format("read {}: {} bars", input.name(), barcodes.back().size()));
   }
   std::vector<std::uint32_t> matched;
-  const auto left_out = add_distances(meta, barcodes[0], barcodes[1], matched, session);
+  const auto left_out = add_distances(meta, std::span(barcodes).first<2>(), matched, session);
   for (const std::string& what : left_out)  // not each format has room for them
     session.note(fmt::format("left out: {}; at most {} are compared", what, kMostComparedBars));
   meta.provenance.run.peak_memory = app::peak_memory();
   const app::BarHold results_are_written(session);
   if (distances) {
-    distances->write(distances_file(meta.distances, left_out, arguments, format));
+    distances->write(distances_file(meta.distances, barcodes, left_out, arguments, format));
     distances->commit();
   }
   if (!output) return app::kOk;

@@ -9,6 +9,7 @@
 #include <array>
 
 #include "common/arguments/numbers.hpp"
+#include "common/distances/distance_choice.hpp"
 #include "common/terminal/exit_code.hpp"
 #include "io/bytes/json_writer.hpp"
 #include "ph/report.hpp"
@@ -88,6 +89,7 @@ DistanceFormat distance_format(const Arguments& arguments) {
 }
 
 std::string distances_file(const std::vector<report::Distance>& distances,
+                           std::span<const Barcode> barcodes,
                            const std::vector<std::string>& left_out, const Arguments& arguments,
                            DistanceFormat format) {
   const std::string &first = arguments.compare[0], &second = arguments.compare[1];
@@ -110,9 +112,13 @@ std::string distances_file(const std::vector<report::Distance>& distances,
                            {"distances", json::lines(distances, distance)},
                            {"left_out", json::array(left_out, json::string)}});
   }
-  text = fmt::format("bottleneck distance of {} and {}\n", printable(first), printable(second));
+  const app::DistanceChoice choice;  // the bottleneck distance
+  text =
+      fmt::format("{} of {} and {}\n", app::words_of(choice), printable(first), printable(second));
   for (const auto& [dim, bottleneck] : distances)
-    text += fmt::format("H{}  {}\n", dim, shortest(bottleneck));
+    text += fmt::format("H{}  {}\n", dim,
+                        app::text_of({bottleneck, bottleneck}, choice, barcodes[0].bars(dim),
+                                     barcodes[1].bars(dim)));
   for (const std::string& what : left_out) text += fmt::format("left out: {}\n", what);
   if (distances.empty() && left_out.empty()) text += "no bars\n";
   return text;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,7 @@ Outcome run_stored(const Job& job, const Input& input, Outputs& outputs, const A
 enum class DistanceFormat { text, csv, json };
 /// The distances of two barcodes as a file.
 std::string distances_file(const std::vector<report::Distance>& distances,
+                           std::span<const Barcode> barcodes,
                            const std::vector<std::string>& left_out, const Arguments& arguments,
                            DistanceFormat format);
 /// As --output-format and the extension of -o say. @throws Error (usage) on any other format.

@@ -15,12 +15,12 @@ namespace ph::vectorise {
 /// The inputs, with the files of folders in place of these.
 std::vector<std::string> files_of(const Arguments& arguments, Kind kind);
 
-/// What was read: a barcode, or, of an Euler curve, an image.
+/// What an Euler curve is of.
 using Sample = std::variant<Barcode, Cubical>;
 
 /// @param cubical how an image is taken; axes that the file says are periodic are added.
 /// @throws Error as the readers; Error (usage) on an option that is not for such an input.
-Sample read_sample(const std::string& path, Kind kind, const CubicalOptions& cubical,
+Sample read_sample(const std::string& path, const CubicalOptions& cubical,
                    const Arguments& arguments, app::Session& session);
 
 }  // namespace ph::vectorise

@@ -174,8 +174,8 @@ class Stored(ProgramTest):
         self.write("b.csv", "dim,birth,death\n0,0,1.5\n0,0,inf\n1,1,2\n1,3,3.5\n2,0,inf\n")
         pair = ("--compare", "a.csv", "b.csv")
         run = self.expect(0, *pair)
-        self.assertEqual(run.stdout, "bottleneck distance of a.csv and b.csv\nH0  0.5\nH1  0.25\n"
-                         "H2  inf\n")
+        self.assertEqual(run.stdout, "bottleneck distance (order inf, ground norm inf) of a.csv and b.csv\n"
+                         "H0  0.5\nH1  0.25\nH2  inf: 0 and 1 bars that never die\n")
         self.assertEqual(self.expect(0, *pair, "--output-format", "csv").stdout,
                          "dim,bottleneck\n0,0.5\n1,0.25\n2,inf\n")
         self.expect(0, *pair, "-o", "d.json")

@@ -134,7 +134,7 @@ class Reports(ReportTest):
         self.write("a.csv", SQUARE_CSV)
         self.write("b.csv", "dim,birth,death\n0,0,inf\n1,1,3\n")
         run = self.expect(0, "--compare", "a.csv", "b.csv", "--report", "r.html")
-        self.assertTrue(run.stdout.startswith("bottleneck distance of a.csv and b.csv\nH0  "))
+        self.assertTrue(run.stdout.startswith("bottleneck distance (order inf, ground norm inf) of a.csv and b.csv\nH0  "))
         report = Report(self.path("r.html"))
         self.assertEqual(report.bars(), self.bars_of_csv(SQUARE_CSV))
         self.assertEqual(report.bars("bars2"), [(0, 0, math.inf), (1, 1, 3)])
