@@ -156,7 +156,7 @@ def document(build):
     version = re.search(r"VERSION (\d+\.\d+\.\d+)", (ROOT / "CMakeLists.txt").read_text())[1]
     own = package("libph", version, "MIT", supplier="Organization: The libph authors",
                   primaryPackagePurpose="APPLICATION",
-                  comment=f"ph-barcode, ph-segment and ph-vectorise for Linux, {platform.machine()}, linked statically")
+                  comment=f"ph-barcode, ph-distance, ph-segment and ph-vectorise for Linux, {platform.machine()}, linked statically")
     packages, relations = [own], [relation("SPDXRef-DOCUMENT", "DESCRIBES", own["SPDXID"])]
 
     linked = debian_packages(linked_files(build))

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Builds the site: build.py [--folder build/site] [--barcode PH_BARCODE --segment PH_SEGMENT
---vectorise PH_VECTORISE] [--package FOLDER_OF_LIBPH]. scripts/site.sh finds the last four.
+--vectorise PH_VECTORISE --distance PH_DISTANCE] [--package FOLDER_OF_LIBPH]. scripts/site.sh finds
+the last five.
 
 In the folder it makes
 
@@ -28,7 +29,7 @@ DOCS = ROOT / "docs"
 ELSEWHERE = {"CHANGELOG.md": "reference/changes.md", "CONTRIBUTING.md": "development/contributing.md",
              "CODE_OF_CONDUCT.md": "development/conduct.md", "SECURITY.md": "development/security.md",
              "viewer/README.md": "development/viewer.md"}
-PROGRAMS = 3  # all of them, or none
+PROGRAMS = 4  # all of them, or none
 HEADERS = ["libph/include/ph", "libph/include/ph/io", "libsegment/include/ph", "libsegment/pcl/include/ph",
            "libreport/include/ph", "libreport/include/ph/detail/report"]
 # What public headers declare elsewhere and a reader has to know.
@@ -102,11 +103,13 @@ def main():
     parser.add_argument("--barcode")
     parser.add_argument("--segment")
     parser.add_argument("--vectorise")
+    parser.add_argument("--distance")
     parser.add_argument("--package", type=Path)
     arguments = parser.parse_args()
     require_tools()
     folder = arguments.folder.resolve()
-    programs = [program for program in (arguments.barcode, arguments.segment, arguments.vectorise) if program]
+    programs = [program for program in (arguments.barcode, arguments.segment, arguments.vectorise, arguments.distance)
+                if program]
     environment = {**os.environ, "PH_SITE_FOLDER": str(folder), "PYTHONDONTWRITEBYTECODE": "1"}
     if arguments.package:
         environment["PYTHONPATH"] = str(arguments.package.resolve())

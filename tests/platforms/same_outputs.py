@@ -14,7 +14,7 @@ from pathlib import Path
 
 DATA = Path(__file__).resolve().parents[2] / "examples/data"
 BARCODE, SEGMENT = "apps/barcode/ph-barcode", "apps/segment/ph-segment"
-VECTORISE = "apps/vectorise/ph-vectorise"
+VECTORISE, DISTANCE = "apps/vectorise/ph-vectorise", "apps/distance/ph-distance"
 # Of a run, not of its result: times, and memory, which a forecast measures on a part of the input.
 MEASURED = re.compile(rb'"timings": \{[^}]*\}|"(?:seconds|time|peak_memory)": [-+.e\d]+|; [.\d]+ m?s$|'
                       rb'^memory  .*$', re.M)
@@ -48,6 +48,11 @@ def commands():
                  "euler"):
         yield [VECTORISE, "bars", "--kind", kind, "-o", "out.npy", "--fit", "out.json"]
     yield [VECTORISE, "blobs.pgm", "phantom.nii.gz", "--kind", "euler"]
+    for options in ([], ["--distance", "wasserstein"], ["--distance", "wasserstein", "--order", "3", "--ground", "1.5"],
+                    ["--distance", "sliced"]):
+        matching = [] if "sliced" in options else ["--matching", "out.csv"]
+        yield [DISTANCE, "bars", *options, *matching, "-o", "out.json"]
+    yield [DISTANCE, "bars", "bars", "--dim", "1", "--matrix", "out.npy"]
 
 
 def result_of(build, emulator, command):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""json_schemas.py PH_BARCODE PH_SEGMENT PH_VECTORISE: what the programs write is what docs/reference/schemas says, and each
-member that they write is described there. Needs python3-jsonschema; without it the test is skipped."""
+"""json_schemas.py PH_BARCODE PH_SEGMENT PH_VECTORISE PH_DISTANCE: what the programs write is what docs/reference/schemas
+says, and each member that they write is described there. Needs python3-jsonschema; without it the test is skipped."""
 import copy
 import json
 import subprocess
@@ -46,8 +46,9 @@ def checker(name):
 
 
 class Tester:
-    def __init__(self, folder, barcode, segment, vectorise):
-        self.folder, self.barcode, self.segment, self.vectorise = folder, barcode, segment, vectorise
+    def __init__(self, folder, barcode, segment, vectorise, distance):
+        self.folder, self.barcode, self.segment = folder, barcode, segment
+        self.vectorise, self.distance = vectorise, distance
         self.checkers = {file.name.partition(".")[0]: checker(file.name.partition(".")[0])
                          for file in SCHEMAS.glob("*.schema.json")}
         self.count, self.failures, self.seen = 0, 0, set()
@@ -142,6 +143,27 @@ def test_fits(t):
     t.check("ph-vectorise-fit", (t.folder / "fit.json").read_text(), "an image")
 
 
+def test_distances(t):
+    bars = DATA / "bars"
+    (t.folder / "groups.txt").write_text("x\ny\nx\ny\n")
+    (t.folder / "always.csv").write_text("dim,birth,death\n0,-inf,1\n0,0,2\n")
+    (t.folder / "never.csv").write_text("dim,birth,death\n0,1,inf\n1,0,inf\n")
+    kinds = ([], ["--distance", "wasserstein", "--order", "2", "--ground", "2", "--error", "0.01"],
+             ["--distance", "wasserstein"], ["--distance", "sliced"], ["--at-most", "0.1"])
+    for options in kinds:
+        for inputs in ([bars], [bars, bars], ["always.csv", "never.csv"]):
+            printed = t.run(t.distance, *inputs, *options, "--output-format", "json", "--quiet").stdout
+            t.check("ph-distance", printed, (inputs, *options))
+        if "--at-most" not in options:
+            printed = t.run(t.distance, bars, bars, *options, "--groups", "groups.txt", "--output-format", "json",
+                            "--quiet").stdout
+            t.check("ph-distance", printed, ("--groups", *options))
+    for options in kinds[:3]:
+        for inputs in ([bars], ["always.csv"] * 2, ["never.csv"] * 2, ["always.csv", "never.csv"]):
+            t.run(t.distance, *inputs, *options, "--matching", "m.json", "--quiet")
+            t.check("ph-distance-matching", (t.folder / "m.json").read_text(), (inputs, *options))
+
+
 def test_that_faults_are_seen(t):
     """A schema that takes everything would be no test."""
     good = json.loads(t.run(t.barcode, "square.csv", "--output-format", "json", "--quiet").stdout)
@@ -154,11 +176,12 @@ def test_that_faults_are_seen(t):
 
 def main():
     with tempfile.TemporaryDirectory() as folder:
-        t = Tester(Path(folder), *map(lambda path: str(Path(path).resolve()), sys.argv[1:4]))
+        t = Tester(Path(folder), *map(lambda path: str(Path(path).resolve()), sys.argv[1:5]))
         test_barcodes(t)
         test_others(t)
         test_segmentations(t)
         test_fits(t)
+        test_distances(t)
         test_that_faults_are_seen(t)
         unseen = set(t.checkers) - t.seen
         print(f"{t.count} outputs, {t.failures} faults" + "".join(f"\n{name}: no output was held against it"

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/arguments/command_line.hpp"
+#include "common/arguments/option_scope.hpp"
+#include "common/distances/distance_choice.hpp"
+#include "ph/significance.hpp"
+
+namespace ph::distance_program {
+
+enum class OutputFormat { text, csv, json };
+
+/// Everything the command line says.
+struct Arguments {
+  app::CommonOptions common;
+  std::vector<std::string> inputs;
+  std::vector<int> dims;  // empty: all that there are
+  app::DistanceChoice distance;
+
+  std::optional<std::string> output;
+  std::optional<OutputFormat> output_format;
+  std::string matching;  // path; empty: none
+  std::string matrix;    // path; empty: none
+
+  std::string groups;  // path; empty: none
+  PermutationOptions test;
+  // The options that were given of those that do nothing somewhere.
+  std::vector<const app::OptionScope*> given;
+
+  std::string output_path() const { return output.value_or("-"); }
+  /// Whether distances or tests are written. A matrix takes their place, unless they are asked for.
+  bool writes_table() const { return matrix.empty() || !groups.empty() || output || output_format; }
+  OutputFormat table_format() const;
+};
+
+/// Parses the command line. @return the answer to --help or --version, which is all that is left.
+/// @throws Error (usage).
+std::optional<std::string> parse_arguments(int argc, const char* const* argv, Arguments& arguments);
+
+}  // namespace ph::distance_program

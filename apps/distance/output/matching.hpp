@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/distances/distance_choice.hpp"
+#include "ph/detail/io/output_file.hpp"
+
+namespace ph::distance_program {
+
+/// How the bars of one dimension are paired.
+struct DimMatching {
+  int dim;
+  std::array<std::span<const Bar>, 2> bars;
+  app::DiagramMatching matching;
+};
+
+/// Writes all pairs with the ends of their bars, and what each costs: its distance in the ground
+/// norm. Where a bar goes to the diagonal, its partner is the point of the diagonal nearest to it.
+void write_matching(OutputFile& file, std::span<const DimMatching> matchings, bool is_json,
+                    const app::DistanceChoice& choice, const std::vector<std::string>& inputs);
+
+}  // namespace ph::distance_program
