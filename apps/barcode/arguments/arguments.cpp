@@ -128,8 +128,10 @@ void add_output_options(CLI::App& app, Arguments& a) {
             [&a](const std::string& path) { take_report(a, path); });
   app.add_option_function<std::vector<std::string>>(
          "--compare", [&a](const std::vector<std::string>& paths) { take_compared(a, paths); },
-         "compute nothing but the distances of two barcode files, dimension by dimension: text, or "
-         "--output-format csv or json; with --report also side by side in a page")
+         "compute nothing but the bottleneck distances of two barcode files, dimension by "
+         "dimension: "
+         "text, or --output-format csv or json; with --report also side by side in a page; "
+         "ph-distance has others")
       ->type_name("FILE FILE")
       ->type_size(1)
       ->expected(1, kAnyNumber);  // take_compared() says what is wrong
