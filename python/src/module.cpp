@@ -16,6 +16,9 @@ PYBIND11_MODULE(_core, m) {
   bind_computations(m);
   bind_distances(m);
   bind_significance(m);
+  bind_vectors(m);
+  bind_kernels(m);
+  bind_euler_curves(m);
   bind_merge_trees(m);
   bind_files(m);
   bind_clouds(m);

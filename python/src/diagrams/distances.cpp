@@ -12,6 +12,7 @@
 
 #include "bindings.hpp"
 #include "data/arrays.hpp"
+#include "data/diagrams.hpp"
 #include "run.hpp"
 
 namespace ph::python {
@@ -52,25 +53,6 @@ DiagramMetric metric_of(const std::string& kind, double order, double ground, do
           {order, ground, {relative_error, at_most}},
           directions};
 }
-
-std::vector<Bar> bars_of(const py::buffer& array) {
-  const py::buffer_info info = array.request();
-  const PointsView rows = points_of(info);
-  std::vector<Bar> bars;
-  bars.reserve(static_cast<std::size_t>(rows.rows()));
-  for (Index i = 0; i < rows.rows(); ++i) bars.push_back({0, rows(i, 0), rows(i, 1)});
-  return bars;
-}
-
-/// Diagrams of arrays, and what the library takes.
-struct Diagrams {
-  explicit Diagrams(const std::vector<py::buffer>& arrays) {
-    for (const py::buffer& array : arrays) all.push_back(bars_of(array));
-  }
-  std::vector<Diagram> spans() const { return {all.begin(), all.end()}; }
-
-  std::vector<std::vector<Bar>> all;
-};
 
 bool are_few(const std::vector<Bar>& a, const std::vector<Bar>& b) {
   constexpr std::size_t few = 100;

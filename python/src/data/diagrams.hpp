@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+// Diagrams that come in: float64 arrays of rows birth, death.
+#include <pybind11/pybind11.h>
+
+#include <span>
+#include <vector>
+
+#include "ph/barcode.hpp"
+
+namespace ph::python {
+
+namespace py = pybind11;
+
+/// The rows, as bars of dimension 0.
+std::vector<Bar> bars_of(const py::buffer& array);
+
+/// Diagrams of arrays, and what the library takes.
+struct Diagrams {
+  explicit Diagrams(const std::vector<py::buffer>& arrays) {
+    for (const py::buffer& array : arrays) all.push_back(bars_of(array));
+  }
+  std::vector<std::span<const Bar>> spans() const { return {all.begin(), all.end()}; }
+
+  std::vector<std::vector<Bar>> all;
+};
+
+}  // namespace ph::python

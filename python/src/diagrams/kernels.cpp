@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Kernels of diagrams: Gram matrices.
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bindings.hpp"
+#include "data/arrays.hpp"
+#include "data/diagrams.hpp"
+#include "ph/distances.hpp"
+#include "ph/vectorise.hpp"
+#include "run.hpp"
+
+namespace ph::python {
+namespace {
+
+/// Which kernel, and how wide.
+struct KernelChoice {
+  bool is_scale_space = true;
+  double sigma = 1;                ///< of the scale-space kernel
+  WeightedGaussian weighted = {};  ///< of the other one
+
+  DiagramKernel function() const {
+    return [choice = *this](std::span<const Bar> a, std::span<const Bar> b,
+                            const RunContext& context) {
+      return choice.is_scale_space ? scale_space_kernel(a, b, choice.sigma, context)
+                                   : weighted_gaussian_kernel(a, b, choice.weighted, context);
+    };
+  }
+};
+
+KernelChoice choice_of(const std::string& kind, double sigma, double slope, double power) {
+  return {kind == "scale_space", sigma, {sigma, slope, power}};
+}
+
+/// A square matrix, or with `others` one of as many columns as these.
+Block kernels(const std::vector<py::buffer>& diagrams,
+              const std::optional<std::vector<py::buffer>>& others, const KernelChoice& choice,
+              const RunOptions& options) {
+  const Diagrams rows(diagrams);
+  const auto size = static_cast<py::ssize_t>(diagrams.size());
+  if (!others)
+    return Block::of(run(options, false,
+                         [&](const RunContext& context) {
+                           return gram_matrix(rows.spans(), choice.function(), context);
+                         }),
+                     {size, size});
+  const Diagrams columns(*others);
+  // It shares the pairs between threads, whatever the function of two diagrams is.
+  return Block::of(run(options, false,
+                       [&](const RunContext& context) {
+                         return diagram_distances(rows.spans(), columns.spans(), choice.function(),
+                                                  context);
+                       }),
+                   {size, static_cast<py::ssize_t>(others->size())});
+}
+
+}  // namespace
+
+void bind_kernels(py::module_& m) {
+  py::class_<KernelChoice>(m, "KernelChoice")
+      .def(py::init(&choice_of), py::arg("kind"), py::arg("sigma"), py::arg("slope"),
+           py::arg("power"));
+  m.def("kernels", &kernels, py::arg("diagrams"), py::arg("others"), py::arg("choice"),
+        py::arg("run"));
+}
+
+}  // namespace ph::python
