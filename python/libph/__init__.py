@@ -53,18 +53,21 @@ from ._scenes import Objects, Segment, Segmentation, Voxels, segment
 from ._significance import (Band, PermutationTest, confidence_band, confidence_radius, p_values,
                             permutation_test)
 from ._trees import MergeTree, merge_tree
+from ._vectors import PiecewiseLinear, StepFunction
+from ._vectors._euler import euler_curve
+from ._vectors._kernels import diagram_kernels
 
 __all__ = [
     "Band", "Bar", "Barcode", "Barycentre", "Boundary", "Cancelled", "Chain", "DataError", "Error",
     "Estimate", "InternalError", "Loop", "Matching", "MemoryLimitError", "MergeTree", "Mesh",
-    "MissingInputError", "NotBuiltIn", "Objects", "OutputError", "PermutationTest", "PointImage",
-    "Report", "Segment", "Segmentation", "Simplices", "Subsample", "Timeout", "UsageError",
-    "Voxels", "__version__", "barycentre", "bottleneck", "bottleneck_matching", "boundary",
-    "collapse", "confidence_band", "confidence_radius", "cubical", "diagram_distances",
-    "distance_to_measure", "estimate", "farthest_points", "filtered", "gradients", "limits",
-    "lower_star", "merge_tree", "p_values", "permutation_test", "point_image", "read",
-    "read_barcode", "report", "rips", "segment", "sliced_wasserstein", "wasserstein",
-    "wasserstein_matching",
+    "MissingInputError", "NotBuiltIn", "Objects", "OutputError", "PermutationTest",
+    "PiecewiseLinear", "PointImage", "Report", "Segment", "Segmentation", "Simplices",
+    "StepFunction", "Subsample", "Timeout", "UsageError", "Voxels", "__version__", "barycentre",
+    "bottleneck", "bottleneck_matching", "boundary", "collapse", "confidence_band",
+    "confidence_radius", "cubical", "diagram_distances", "diagram_kernels", "distance_to_measure",
+    "estimate", "euler_curve", "farthest_points", "filtered", "gradients", "limits", "lower_star",
+    "merge_tree", "p_values", "permutation_test", "point_image", "read", "read_barcode", "report",
+    "rips", "segment", "sliced_wasserstein", "wasserstein", "wasserstein_matching",
 ]
 
 if not _typing.TYPE_CHECKING:  # for a type checker a name that is missing is an error

@@ -321,8 +321,8 @@ def diagram_distances(diagrams: Iterable[Barcode | ArrayLike],
     name = _options.choice("distance", distance, _DISTANCES)
     _refuse_options_of_others(name, order, ground, relative_error, directions)
     metric = _metric(name, order, ground, relative_error, directions=directions)
-    rows = _all_rows("diagrams", diagrams, dim)
-    columns = None if others is None else _all_rows("others", others, dim)
+    rows = all_rows("diagrams", diagrams, dim)
+    columns = None if others is None else all_rows("others", others, dim)
     return np.asarray(_run.run(_core.distances, rows, columns, metric, options=dict(run)))
 
 
@@ -382,7 +382,7 @@ def barycentre(diagrams: Iterable[Barcode | ArrayLike], dim: int | None = None, 
     rounds = _options.whole("max_rounds", max_rounds, 0, 2**31 - 1)
     least_gain = _options.real("tolerance", tolerance, "a finite number, at least 0", 0)
     block, root_mean_square, done, converged = _run.run(
-        _core.barycentre, _all_rows("diagrams", diagrams, dim), rounds, least_gain,
+        _core.barycentre, all_rows("diagrams", diagrams, dim), rounds, least_gain,
         options=dict(run))
     return Barycentre(np.asarray(block), root_mean_square, done, converged)
 
@@ -437,7 +437,7 @@ def _two_diagrams(a: Any, b: Any, dim: int | None
     return _rows(a, "a", dim), _rows(b, "b", dim)
 
 
-def _all_rows(name: str, diagrams: Iterable[Any], dim: int | None) -> list[NDArray[np.float64]]:
+def all_rows(name: str, diagrams: Iterable[Any], dim: int | None) -> list[NDArray[np.float64]]:
     if isinstance(diagrams, (str, bytes, dict, Barcode)) or not isinstance(diagrams, Iterable):
         raise _options.refuse(name, diagrams, "a list of barcodes or diagrams")
     given = list(diagrams)

@@ -2,8 +2,10 @@
 """Persistent homology in pipelines of scikit-learn.
 
 Of lists of point clouds, distances or images: `RipsPersistence`, `CubicalPersistence`. Of lists of
-diagrams: `PersistenceImage`, `Landscape`, `BettiCurve`, `Entropy`, `Lengths`, `DiagramDistances`. Of
-one cloud, a row a sample: `PersistenceClustering`, `DistanceToMeasure`, `FarthestPoints`.
+diagrams: `Statistics`, `PersistenceImage`, `Landscape`, `Silhouette`, `BettiCurve`, `LifeEntropy`,
+`Entropy`, `Lengths`, `Atol`, `DiagramDistances`, `DiagramKernels`. Of lists of images, without their
+bars: `EulerCurve`. Of one cloud, a row a sample: `PersistenceClustering`, `DistanceToMeasure`,
+`FarthestPoints`.
 
 >>> import libph.sklearn
 >>> from sklearn.pipeline import make_pipeline
@@ -16,15 +18,20 @@ array([[0.414],
 """
 import typing as _typing
 
+from ._atol import Atol
 from ._clustering import PersistenceClustering
-from ._distances import DiagramDistances
+from ._curves import BettiCurve, Landscape, LifeEntropy, Silhouette
+from ._distances import DiagramDistances, DiagramKernels
+from ._euler import EulerCurve
+from ._images import PersistenceImage
+from ._numbers import Entropy, Lengths, Statistics
 from ._persistence import CubicalPersistence, RipsPersistence
 from ._points import DistanceToMeasure, FarthestPoints
-from ._vectorisers import BettiCurve, Entropy, Landscape, Lengths, PersistenceImage
 
-__all__ = ["BettiCurve", "CubicalPersistence", "DiagramDistances", "DistanceToMeasure", "Entropy",
-           "FarthestPoints", "Landscape", "Lengths", "PersistenceClustering", "PersistenceImage",
-           "RipsPersistence"]
+__all__ = ["Atol", "BettiCurve", "CubicalPersistence", "DiagramDistances", "DiagramKernels",
+           "DistanceToMeasure", "Entropy", "EulerCurve", "FarthestPoints", "Landscape", "Lengths",
+           "LifeEntropy", "PersistenceClustering", "PersistenceImage", "RipsPersistence",
+           "Silhouette", "Statistics"]
 
 if not _typing.TYPE_CHECKING:  # for a type checker a name that is missing is an error
 

@@ -13,10 +13,11 @@ from joblib import Parallel, delayed, effective_n_jobs
 from numpy.typing import NDArray
 from sklearn.base import TransformerMixin
 
-from .. import _arrays, _options, _vectors
+from .. import _arrays, _options
 from .._barcodes import Barcode
 from .._compute import cubical, rips
 from .._errors import Cancelled, DataError, MemoryLimitError, UsageError
+from .._vectors import checked_infinity, settled
 from ._base import MakesTables, TakesLists
 
 _OUTPUTS = ["list", "giotto", "barcode"]
@@ -139,7 +140,7 @@ class _Persistence(MakesTables, TransformerMixin, TakesLists):
         _options.choice("output", self.output, _OUTPUTS)
         _options.flag("reduced", self.reduced)
         if self.infinity is not None:
-            _vectors.checked_infinity(self.infinity, may_keep=False)
+            checked_infinity(self.infinity, may_keep=False)
         if self.output == "barcode" and (self.infinity is not None or self.reduced):
             raise UsageError("output: found 'barcode', which is as it was computed; infinity and "
                              "reduced need 'list' or 'giotto'")
@@ -156,7 +157,7 @@ class _Persistence(MakesTables, TransformerMixin, TakesLists):
         if self.reduced and dim == 0:
             endless = np.flatnonzero(dgm[:, 1] == math.inf)
             dgm = np.delete(dgm, endless[:1], axis=0)
-        return dgm if self.infinity is None else _vectors.settled(dgm, self.infinity, f"H{dim}")
+        return dgm if self.infinity is None else settled(dgm, self.infinity, f"H{dim}")
 
 
 def _giotto(rows: list[list[NDArray[np.float64]]], dims: list[int]) -> NDArray[np.float64]:
@@ -172,7 +173,7 @@ def _giotto(rows: list[list[NDArray[np.float64]]], dims: list[int]) -> NDArray[n
     return np.concatenate(parts, axis=1) if parts else np.empty((0, len(dims), 3))
 
 
-def _list_of(X: Any, what: str, axes: int) -> Sequence[Any]:
+def list_of(X: Any, what: str, axes: int) -> Sequence[Any]:
     """The samples. An array of so many axes is one sample, not a list."""
     if _arrays.is_sparse(X) or isinstance(X, (str, bytes)) or (
             isinstance(X, np.ndarray) and X.dtype != object and X.ndim <= axes):
@@ -242,7 +243,7 @@ class RipsPersistence(_Persistence):
         self.n_jobs = n_jobs
 
     def _samples(self, X: Any) -> Sequence[Any]:
-        return _list_of(X, "distances" if self.metric == "precomputed" else "clouds", 2)
+        return list_of(X, "distances" if self.metric == "precomputed" else "clouds", 2)
 
     def _barcode(self, sample: Any, max_dim: int, **how: Any) -> Barcode:
         return rips(sample, max_dim=max_dim, metric=self.metric,
@@ -295,7 +296,7 @@ class CubicalPersistence(_Persistence):
         self.n_jobs = n_jobs
 
     def _samples(self, X: Any) -> Sequence[Any]:
-        return _list_of(X, "images", 1)
+        return list_of(X, "images", 1)
 
     def _barcode(self, sample: Any, max_dim: int, **how: Any) -> Barcode:
         axes = np.ndim(sample)

@@ -19,12 +19,14 @@ from sklearn.model_selection import GridSearchCV  # noqa: E402
 from sklearn.pipeline import make_pipeline  # noqa: E402
 from sklearn.utils import estimator_checks  # noqa: E402
 
-from libph.sklearn import (BettiCurve, CubicalPersistence, DistanceToMeasure, Entropy,  # noqa: E402
-                           FarthestPoints, Landscape, Lengths, PersistenceClustering,
-                           PersistenceImage, RipsPersistence)
+from libph.sklearn import (Atol, BettiCurve, CubicalPersistence, DiagramDistances,  # noqa: E402
+                           DiagramKernels, DistanceToMeasure, Entropy, EulerCurve, FarthestPoints,
+                           Landscape, Lengths, LifeEntropy, PersistenceClustering,
+                           PersistenceImage, RipsPersistence, Silhouette, Statistics)
 
 OF_LISTS = [RipsPersistence, CubicalPersistence]
-OF_DIAGRAMS = [PersistenceImage, Landscape, BettiCurve, Entropy, Lengths]
+OF_DIAGRAMS = [PersistenceImage, Landscape, BettiCurve, Entropy, Lengths, Statistics, Silhouette,
+               LifeEntropy, Atol, DiagramDistances, DiagramKernels, EulerCurve]
 OF_POINTS = [PersistenceClustering, DistanceToMeasure, FarthestPoints]
 ALL = OF_LISTS + OF_DIAGRAMS + OF_POINTS
 
@@ -66,7 +68,7 @@ def test_importing_libph_does_not_load_scikit_learn():
 def inputs_of(kind, clouds, dgms):
     if kind in OF_POINTS:
         return np.vstack(clouds)
-    if kind is CubicalPersistence:
+    if kind in (CubicalPersistence, EulerCurve):
         return [cloud @ cloud.T for cloud in clouds]
     return clouds if kind is RipsPersistence else dgms
 
@@ -79,9 +81,10 @@ def out_of(estimator, X):
 @pytest.mark.parametrize("kind", ALL, ids=of_class)
 def test_clone_and_pickle(kind, clouds, dgms):
     X = inputs_of(kind, clouds, dgms)
-    fitted = kind().fit(X)
+    how = {"centres": 3} if kind is Atol else {}
+    fitted = kind(**how).fit(X)
     again = clone(fitted)
-    assert again.get_params() == kind().get_params()
+    assert again.get_params() == kind(**how).get_params()
     results = [out_of(one, X) for one in (fitted, pickle.loads(pickle.dumps(fitted)), again.fit(X))]
     for other in results[1:]:
         assert same(results[0], other) if kind in OF_LISTS else np.array_equal(results[0], other)

@@ -9,37 +9,45 @@ from samples import of_class
 pytest.importorskip("sklearn", reason="scikit-learn is missing: nothing of libph.sklearn is tested")
 from sklearn.base import clone  # noqa: E402
 
-from libph.sklearn import (BettiCurve, Entropy, Landscape, Lengths, PersistenceImage,  # noqa: E402
-                           RipsPersistence)
+from libph.sklearn import (Atol, BettiCurve, Entropy, EulerCurve, Landscape, Lengths,  # noqa: E402
+                           LifeEntropy, PersistenceImage, RipsPersistence, Silhouette, Statistics)
 
-OF_DIAGRAMS = [PersistenceImage, Landscape, BettiCurve, Entropy, Lengths]
+OF_DIAGRAMS = [PersistenceImage, Landscape, BettiCurve, Entropy, Lengths, Statistics, Silhouette,
+               LifeEntropy, Atol]
 
 
 def expected_columns(kind, dgm, all_of_it):
     """With the parameters below, by the functions that test_vectors.py checks."""
-    from libph import _vectors
+    from libph._vectors import _functions
     values = np.concatenate(all_of_it)
-    low, high = values.min(), values.max()
-    grid = np.linspace(low, high, 6)
-    if kind is Landscape:
-        return _vectors.landscape(dgm, 2, grid).ravel()
-    if kind is BettiCurve:
-        return _vectors.betti_curve(dgm, grid)
+    grid = (values.min(), values.max()), 6
+    of_curves = {Landscape: lambda: _functions.landscape(dgm, 2, *grid).ravel(),
+                 BettiCurve: lambda: _functions.betti_curve(dgm, *grid),
+                 Silhouette: lambda: _functions.silhouette(dgm, 1, *grid),
+                 LifeEntropy: lambda: _functions.life_entropy(dgm, *grid)}
+    if kind in of_curves:
+        return of_curves[kind]()
     if kind is Entropy:
-        return [_vectors.entropy(dgm)]
+        return [_functions.entropy(dgm)]
     if kind is Lengths:
-        return _vectors.longest(dgm, 3)
+        return _functions.longest(dgm, 3)
+    if kind is Statistics:
+        return _functions.statistics(dgm)
+    if kind is Atol:
+        return _functions.atol(dgm, *_functions.fit_atol(all_of_it, 3, 0), "laplace")
     births = values[:, 0].min(), values[:, 0].max()
     lengths = 0, (values[:, 1] - values[:, 0]).max()
     if births[0] == births[1]:
         births = births[0] - lengths[1] / 2, births[0] + lengths[1] / 2
     bandwidth = max(births[1] - births[0], lengths[1]) / 20
-    return _vectors.image(dgm, bandwidth, (3, 2), births, lengths, 1).ravel()
+    return _functions.image(dgm, bandwidth, (3, 2), births, lengths, 1).ravel()
 
 
 SMALL = {PersistenceImage: PersistenceImage(resolution=(3, 2)),
          Landscape: Landscape(layers=2, resolution=6), BettiCurve: BettiCurve(resolution=6),
-         Entropy: Entropy(), Lengths: Lengths(count=3)}
+         Entropy: Entropy(), Lengths: Lengths(count=3), Statistics: Statistics(),
+         Silhouette: Silhouette(resolution=6), LifeEntropy: LifeEntropy(resolution=6),
+         Atol: Atol(centres=3)}
 
 
 @pytest.mark.parametrize("kind", OF_DIAGRAMS, ids=of_class)
@@ -91,26 +99,33 @@ def test_names(clouds, dgms):
         "a_p0_b0", "a_p0_b1", "b_p0_b0", "b_p0_b1"]
     landscape = Landscape(layers=2, resolution=1).fit(dgms)
     assert landscape.get_feature_names_out()[:2].tolist() == ["dgm0_layer0_0", "dgm0_layer1_0"]
+    assert Statistics().fit(dgms).get_feature_names_out()[[0, 37, 38]].tolist() == [
+        "dgm0_birth_mean", "dgm0_entropy", "dgm1_birth_mean"]
+    assert Atol(centres=2).fit(dgms).get_feature_names_out()[1] == "dgm0_atol1"
+    assert Silhouette().fit(dgms).get_feature_names_out()[99] == "dgm0_silhouette99"
+    assert LifeEntropy().fit(dgms).get_feature_names_out()[99] == "dgm0_life99"
     with pytest.raises(ph.UsageError, match="input_features: found 1 names, expected 2"):
         landscape.get_feature_names_out(["a"])
 
 
-def test_a_name_is_that_of_its_number():
+@pytest.mark.parametrize("orientation", ["ascending", "descending", "births"])
+def test_a_name_is_that_of_its_number(orientation):
     """The pixel of the highest persistence and the largest birth is the one named so."""
     image = PersistenceImage(resolution=(2, 3), bandwidth=1e-3, birth_range=(0, 2),
-                             persistence_range=(0, 3))
+                             persistence_range=(0, 3), orientation=orientation)
     (row,) = image.fit_transform([[[1.5, 4.0]]])
     assert image.get_feature_names_out()[np.argmax(row)] == "dgm0_p2_b1"
 
 
 def test_bars_that_never_die_are_never_dropped_in_silence(clouds):
     dgms = RipsPersistence().fit_transform(clouds)
-    for kind in (PersistenceImage, Entropy, Lengths):
+    for kind in (PersistenceImage, Entropy, Lengths, Statistics, Silhouette, LifeEntropy, Atol):
+        small = SMALL[kind]
         with pytest.raises(ph.UsageError, match="sample 0, dgm0: row 11: found a bar that never"):
-            kind().fit(dgms)
-        fitted = kind(infinity=5.0).fit(dgms)
-        assert not np.array_equal(fitted.transform(dgms),
-                                  kind(infinity="drop").fit(dgms).transform(dgms))
+            clone(small).fit(dgms)
+        capped, dropped = (clone(small).set_params(infinity=rule).fit_transform(dgms)
+                           for rule in (5.0, "drop"))
+        assert not np.array_equal(capped, dropped)
     curve = BettiCurve(resolution=3, range=(0, 100)).fit_transform(dgms)
     assert curve[:, 2].tolist() == [1] * 4
     assert Lengths(count=1, infinity=5.0).fit_transform(dgms)[:, 0].tolist() == [5] * 4
@@ -129,6 +144,48 @@ def test_ranges_that_are_given(dgms):
         Landscape(range=[None] * 3).fit(dgms)
     with pytest.raises(ph.UsageError, match=r"range: found \(1, 0\)"):
         Landscape(range=(1, 0)).fit(dgms)
+
+
+def test_fitted_grids_are_used_again(dgms):
+    """Those of one batch, stored as text, are given to another transformer."""
+    import json
+    for kind in (Landscape, BettiCurve, Silhouette, LifeEntropy):
+        fitted = kind(resolution=7).fit(dgms[:2])
+        again = kind(resolution=7, range=json.loads(json.dumps(fitted.ranges_))).fit(dgms[2:])
+        assert np.array_equal(again.transform(dgms), fitted.transform(dgms))
+        assert again.ranges_ == fitted.ranges_
+    image = PersistenceImage(resolution=4, bandwidth=0.1).fit(dgms[:2])
+    again = PersistenceImage(resolution=4, bandwidth=0.1, birth_range=image.birth_ranges_,
+                             persistence_range=image.persistence_ranges_).fit(dgms[2:])
+    assert np.array_equal(again.transform(dgms), image.transform(dgms))
+
+
+def test_centres_need_so_many_places(dgms):
+    with pytest.raises(ph.DataError, match="dgm0: found 6. bars that differ, expected at least 1000"):
+        Atol(centres=1000).fit(dgms)
+
+
+# ---- Euler curves of images
+
+
+def test_euler_curves(rng):
+    images = [rng.integers(0, 9, shape) for shape in ((5, 6), (4, 4), (3, 3, 4))]
+    fitted = EulerCurve(resolution=9).fit(images)
+    low, high = min(image.min() for image in images), max(image.max() for image in images)
+    assert fitted.range_ == (low, high) and np.array_equal(fitted.grid_, np.linspace(low, high, 9))
+    for row, image in zip(fitted.transform(images), images):
+        assert row.tolist() == [ph.cubical(image).euler_curve()(t) for t in fitted.grid_]
+    assert EulerCurve(superlevel=True).fit(images).range_ == (-high, -low)
+    assert EulerCurve(threshold=high - 2).fit(images).range_ == (low, high - 2)
+    again = EulerCurve(resolution=9, range=fitted.range_, n_jobs=2).fit(images[:1])
+    assert np.array_equal(again.transform(images), fitted.transform(images))
+    assert fitted.get_feature_names_out()[[0, 8]].tolist() == ["euler0", "euler8"]
+    holes = np.where(rng.random((5, 5)) < 0.2, np.nan, 1.0)
+    assert EulerCurve(nan="drop").fit([holes, 3 * holes]).range_ == (1, 3)
+    with pytest.raises(ph.DataError, match="sample 1: image: row 0, column 0: found nan"):
+        fitted.transform([images[0], [[np.nan]]])
+    with pytest.raises(ph.UsageError, match="expected a list of images"):
+        EulerCurve().fit(np.zeros(5))
 
 
 @pytest.mark.parametrize("X, words", [

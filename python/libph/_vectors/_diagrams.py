@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: MIT
+"""Diagrams: arrays (k, 2) of rows birth, death."""
+from __future__ import annotations
+
+import math
+from typing import Any, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import _arrays, _options
+from .._errors import DataError, UsageError
+
+Diagram = NDArray[np.float64]
+Infinity = Union[float, str]
+
+
+def as_diagram(data: Any, name: str) -> Diagram:
+    """Rows birth, death of numbers with birth <= death, none born at an infinite value."""
+    array = _arrays.as_array(data, name)
+    if array.size == 0 and array.ndim < 3:
+        return np.empty((0, 2))
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise UsageError(f"{name}: found an array of shape {array.shape}, expected rows birth, "
+                         "death")
+    dgm = _arrays.as_float64(array, name)
+    wrong = ~(dgm[:, 0] <= dgm[:, 1])
+    if wrong.any():
+        i = int(np.argmax(wrong))
+        raise DataError(f"{name}: row {i}: found birth {dgm[i, 0]} and death {dgm[i, 1]}, expected "
+                        "birth <= death")
+    endless = np.isinf(dgm[:, 0])
+    if endless.any():
+        i = int(np.argmax(endless))
+        raise DataError(f"{name}: row {i}: found birth {dgm[i, 0]}, expected a finite number")
+    return dgm
+
+
+def checked_infinity(infinity: Any, may_keep: bool) -> Infinity:
+    """What becomes of deaths at infinity: "error", "drop", "keep" if it is defined, a number."""
+    words = ["error", "drop"] + ["keep"] * may_keep
+    if isinstance(infinity, str):
+        if infinity not in words:
+            raise _options.refuse("infinity", infinity, ", ".join(map(repr, words)) + " or a number")
+        return infinity
+    number = _options.real("infinity", infinity, ", ".join(map(repr, words)) + " or a number")
+    if math.isinf(number):
+        raise _options.refuse("infinity", infinity, "a finite number")
+    return number
+
+
+def settled(dgm: Diagram, infinity: Infinity, name: str) -> Diagram:
+    """The diagram with its infinite deaths as `infinity` says."""
+    endless = np.isinf(dgm[:, 1])
+    if infinity == "keep" or not endless.any():
+        return dgm
+    if infinity == "error":
+        raise UsageError(f"{name}: row {int(np.argmax(endless))}: found a bar that never dies; "
+                         "infinity='drop' leaves such bars out, infinity=NUMBER is their death")
+    if infinity == "drop":
+        kept: Diagram = dgm[~endless]
+        return kept
+    latest = float(dgm[endless, 0].max())
+    if isinstance(infinity, str) or latest > infinity:
+        raise UsageError(f"infinity: found {infinity}, expected at least {latest}, the birth of a "
+                         "bar that never dies")
+    return np.column_stack([dgm[:, 0], np.where(endless, infinity, dgm[:, 1])])

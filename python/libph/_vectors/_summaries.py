@@ -1,0 +1,359 @@
+# SPDX-License-Identifier: MIT
+"""The methods of `Barcode` that give vectors and curves."""
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .. import _arrays, _core, _options, _run
+from ._diagrams import Diagram, as_diagram, checked_infinity, settled
+from ._functions import (HEIGHTS, NORMS, ORIENTATIONS, PIXELS, checked_entropy, checked_power,
+                         entropy, factor_of, image, landscape, life_entropy, silhouette, statistics,
+                         statistics_names)
+from ._ranges import (Range, checked_range, checked_resolution, default_bandwidth, range_of_values,
+                      ranges_of_image)
+from ._steps import PiecewiseLinear, StepFunction
+
+
+class Summaries:
+    """What a `Barcode` says in numbers: see there for `dgm`."""
+
+    __slots__ = ()
+
+    if TYPE_CHECKING:
+        @property
+        def _top_dim(self) -> int: ...
+        @property
+        def _arrays(self) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]: ...
+        def dgm(self, dim: int) -> Diagram: ...
+
+    # ---- numbers
+
+    def statistics(self, dim: int, *, infinity: float | str = "error") -> dict[str, float]:
+        """38 numbers that describe a dimension; the first thing to try [Ali et al. 2023].
+
+        Of births, deaths, midpoints and lengths: mean, standard deviation, median, interquartile
+        range, range, and the 10th, 25th, 75th and 90th percentile. Then how many bars there are,
+        and their entropy, in nats. Bars of length 0 do not count. All are 0 without bars.
+
+        Parameters
+        ----------
+        dim : int
+            The dimension of the bars.
+        infinity : {"error", "drop"} or float
+            What a bar that never dies is: an error, left out, or one that dies at this value.
+
+        Returns
+        -------
+        dict of str to float
+
+        Examples
+        --------
+        >>> numbers = ph.rips([[0], [1], [3]]).statistics(0, infinity="drop")
+        >>> numbers["count"], numbers["length_mean"], round(numbers["entropy"], 4)
+        (2.0, 1.5, 0.6365)
+        """
+        numbers = statistics(self._settled(dim, infinity, may_keep=False))
+        return dict(zip(statistics_names(), numbers.tolist()))
+
+    def entropy(self, dim: int, *, unit: str = "nats", normalised: str | None = None) -> float:
+        """The persistent entropy of a dimension [Chintakunta et al. 2015], of bars that die.
+
+        It is the entropy of the shares that they have in the sum of their lengths.
+
+        Parameters
+        ----------
+        dim : int
+            The dimension of the bars.
+        unit : {"nats", "bits"}
+            Of natural logarithms; or of those to the base 2, as in giotto-tda.
+        normalised : {None, "count", "total"}
+            "count": divided by the logarithm of the number of bars, its largest value, as persim
+            can. "total": divided by the logarithm of the sum of their lengths, as giotto-tda can;
+            this depends on the unit of the values.
+
+        Returns
+        -------
+        float
+
+        Examples
+        --------
+        >>> bars = ph.rips([[0], [1], [2]])
+        >>> round(bars.entropy(0), 4), bars.entropy(0, unit="bits")
+        (0.6931, 1.0)
+        """
+        checked_entropy(unit, normalised, NORMS)
+        return entropy(self.dgm(dim), unit, normalised)
+
+    # ---- curves
+
+    def betti(self, t: float) -> NDArray[np.int64]:
+        """The Betti numbers at a value: how many bars of each dimension live."""
+        return self.betti_curve([_options.real("t", t)])[:, 0]
+
+    def betti_curve(self, grid: ArrayLike) -> NDArray[np.int64]:
+        """The Betti numbers at each value of a grid, a row for each dimension.
+
+        >>> ph.rips([[0], [1], [3]]).betti_curve([0, 1, 2])
+        array([[3, 2, 1],
+               [0, 0, 0]])
+        """
+        values = _arrays.as_values(grid, "grid")
+        curves = np.empty((self._top_dim + 1, len(values)), dtype=np.int64)
+        for dim in range(self._top_dim + 1):
+            curves[dim] = self.betti_function(dim)(values)
+        # Nothing lives at infinity, where the step functions have their last value.
+        return np.where(values < math.inf, curves, 0)
+
+    def betti_function(self, dim: int) -> StepFunction:
+        """The Betti number of a dimension at any value: the exact curve, with all its steps.
+
+        >>> curve = ph.rips([[0], [1], [3]]).betti_function(0)
+        >>> curve.at, curve.value, curve(0.5)
+        (array([0., 1., 2.]), array([3, 2, 1]), 3)
+        """
+        return StepFunction._of(_run.run(_core.curve_of_bars, self.dgm(dim), None, options={}))
+
+    def euler_curve(self) -> StepFunction:
+        """The Euler characteristic at any value: the alternating sum of the Betti numbers.
+
+        It is that of the complex if the barcode has all dimensions of it, and neither `threshold`
+        nor `min_persistence` cut bars off. `libph.euler_curve` computes that of an image at once.
+
+        >>> curve = ph.cubical([[1, 1, 1, 1, 1], [1, 5, 1, 7, 1], [1, 1, 1, 1, 1]]).euler_curve()
+        >>> curve.at, curve.value
+        (array([1., 5., 7.]), array([-1,  0,  1]))
+        """
+        dims, births, deaths = self._arrays
+        return StepFunction._of(_run.run(_core.curve_of_bars, np.column_stack([births, deaths]), dims,
+                                         options={}))
+
+    def life_entropy(self, dim: int, *, resolution: int = 100, range: Any = None,
+                     infinity: float | str = "error", unit: str = "nats", normalised: bool = False
+                     ) -> NDArray[np.float64]:
+        """The entropy of the bars that live, at the values of a grid [Atienza et al. 2020].
+
+        It is the sum of -p log p over the bars with birth <= t < death. p is the share of a bar in
+        the lengths of all.
+
+        Parameters
+        ----------
+        dim : int
+            The dimension of the bars.
+        resolution : int
+            How many values the grid has, both ends of the range among them.
+        range : pair of float, optional
+            From where to where. Default: from the least finite value of these bars to the largest.
+            Give it where curves are to be compared.
+        infinity : {"error", "drop"} or float
+            What a bar that never dies is: an error, left out, or one that dies at this value.
+        unit : {"nats", "bits"}
+            Of natural logarithms, or of those to the base 2.
+        normalised : bool
+            Whether the values are divided by their sum, as in GUDHI.
+
+        Returns
+        -------
+        ndarray
+
+        Examples
+        --------
+        >>> ph.rips([[0], [1], [2]]).life_entropy(0, resolution=3, range=(0, 2), unit="bits",
+        ...                                       infinity="drop")
+        array([1., 0., 0.])
+        """
+        checked_entropy(unit, normalised, (True, False))
+        dgm, ends, count = self._on_grid(dim, range, resolution, infinity, may_keep=False)
+        return life_entropy(dgm, ends, count, unit, normalised)
+
+    def silhouette(self, dim: int, *, power: float = 1.0, resolution: int = 100, range: Any = None,
+                   infinity: float | str = "error", height: str = "tent") -> NDArray[np.float64]:
+        """The silhouette of a dimension [Chazal et al. 2014]: one curve for all its bars.
+
+        It is the mean of max(0, min(t - birth, death - t)) over the bars, weighted by lengths to a
+        power.
+
+        Parameters
+        ----------
+        dim : int
+            The dimension of the bars.
+        power : float
+            Of the lengths; 0: all bars weigh the same, as in GUDHI.
+        resolution : int
+            How many values the grid has, both ends of the range among them.
+        range : pair of float, optional
+            From where to where. Default: from the least finite value of these bars to the largest.
+            Give it where curves are to be compared.
+        infinity : {"error", "drop"} or float
+            What a bar that never dies is: an error, left out, or one that dies at this value.
+        height : {"tent", "euclidean"}
+            A bar has the height of its tent, half its length; or √2 times as much, the Euclidean
+            distance of (birth, death) from the diagonal, as in GUDHI.
+
+        Returns
+        -------
+        ndarray
+
+        Examples
+        --------
+        >>> bars = ph.rips([[0], [2], [6]])
+        >>> bars.silhouette(0, resolution=5, infinity="drop").round(3)
+        array([0.   , 1.   , 1.333, 0.667, 0.   ])
+        """
+        exponent = checked_power("power", power)
+        _options.choice("height", height, HEIGHTS)
+        dgm, ends, count = self._on_grid(dim, range, resolution, infinity, may_keep=False)
+        return silhouette(dgm, exponent, ends, count, height)
+
+    def landscape(self, dim: int, *, layers: int = 5, resolution: int = 100, range: Any = None,
+                  infinity: float | str = "keep", height: str = "tent") -> NDArray[np.float64]:
+        """The persistence landscape of a dimension [Bubenik 2015], exact at the values of a grid.
+
+        Layer k at t is the k-th largest of max(0, min(t - birth, death - t)) over the bars.
+
+        Parameters
+        ----------
+        dim : int
+            The dimension of the bars.
+        layers : int
+            How many.
+        resolution : int
+            How many values the grid has, both ends of the range among them.
+        range : pair of float, optional
+            From where to where. Default: from the least finite value of these bars to the largest.
+            Give it where landscapes are to be compared.
+        infinity : {"keep", "error", "drop"} or float
+            What a bar that never dies is: one that grows for ever, an error, left out, or one that
+            dies at this value.
+        height : {"tent", "euclidean"}
+            A bar has the height of its tent, half its length; or √2 times as much, the Euclidean
+            distance of (birth, death) from the diagonal, as in GUDHI.
+
+        Returns
+        -------
+        ndarray
+            A row for each layer.
+
+        Examples
+        --------
+        >>> ph.rips([[0], [2]]).landscape(0, layers=2, resolution=5)
+        array([[0. , 0.5, 1. , 1.5, 2. ],
+               [0. , 0.5, 1. , 0.5, 0. ]])
+        """
+        count = _options.whole("layers", layers, 1, 2**20)
+        _options.choice("height", height, HEIGHTS)
+        dgm, ends, values = self._on_grid(dim, range, resolution, infinity, may_keep=True)
+        return landscape(dgm, count, ends, values, height)
+
+    def exact_landscape(self, dim: int, layers: int = 5, *, infinity: float | str = "error",
+                        height: str = "tent") -> list[PiecewiseLinear]:
+        """The persistence landscape of a dimension with all its critical points.
+
+        Source: Bubenik, Dłotko, A persistence landscapes toolbox for topological statistics, 2017.
+
+        Parameters
+        ----------
+        dim : int
+            The dimension of the bars.
+        layers : int
+            How many at most: layers that are 0 everywhere are left out.
+        infinity : {"error", "drop"} or float
+            What a bar that never dies is: an error, left out, or one that dies at this value.
+        height : {"tent", "euclidean"}
+            As of `landscape`.
+
+        Returns
+        -------
+        list of PiecewiseLinear
+            A function for each layer.
+
+        Examples
+        --------
+        >>> layers = ph.rips([[0], [2], [6]]).exact_landscape(0, infinity="drop")
+        >>> [layer.at.tolist() for layer in layers]
+        [[0.0, 2.0, 4.0], [0.0, 1.0, 2.0]]
+        >>> layers[0](1.75)
+        1.75
+        """
+        count = _options.whole("layers", layers, 1, 2**31 - 1)
+        _options.choice("height", height, HEIGHTS)
+        found = _run.run(_core.exact_landscape, self._settled(dim, infinity, may_keep=False), count,
+                         options={})
+        return [PiecewiseLinear._of(layer, factor_of(height)) for layer in found]
+
+    # ---- pictures
+
+    def image(self, dim: int, *, bandwidth: float | None = None, resolution: Any = 20,
+              birth_range: Any = None, persistence_range: Any = None, weight_power: float = 1.0,
+              infinity: float | str = "error", pixel: str = "integral",
+              orientation: str = "ascending") -> NDArray[np.float64]:
+        """The persistence image of a dimension [Adams et al. 2017].
+
+        Each bar is a normal distribution around the point (birth, persistence), times a weight. A
+        pixel has the integral over it, to the last digits. Bars of length 0 do not count.
+
+        Parameters
+        ----------
+        dim : int
+            The dimension of the bars.
+        bandwidth : float, optional
+            The standard deviation, in the unit of the values. Default: a twentieth of the longer
+            range.
+        resolution : int or pair of int
+            How many pixels along births, and along persistence.
+        birth_range, persistence_range : pair of float, optional
+            What the image shows. Default: from the least birth to the largest, and from 0 to the
+            largest persistence, of these bars. Give both where images are to be compared.
+        weight_power : float
+            The weight is the persistence to this power; 0: all bars weigh 1.
+        infinity : {"error", "drop"} or float
+            What a bar that never dies is: an error, left out, or one that dies at this value.
+        pixel : {"integral", "density"}
+            What a pixel has: the integral over it, or the density at its centre, as in GUDHI.
+        orientation : {"ascending", "descending", "births"}
+            What rows are: intervals of persistence, the shortest first, or the longest first, as in
+            giotto-tda; or intervals of births, as in persim.
+
+        Returns
+        -------
+        ndarray
+            A row for each interval of persistence, a column for each of births, unless
+            `orientation` says otherwise.
+
+        Examples
+        --------
+        >>> bars = ph.rips([[0, 0], [1, 0], [1, 1], [0, 1]])
+        >>> bars.image(1, resolution=1, bandwidth=0.01, birth_range=(0, 2),
+        ...            persistence_range=(0, 1)).round(6)
+        array([[0.414214]])
+        """
+        births = None if birth_range is None else checked_range("birth_range", birth_range)
+        lengths = None if persistence_range is None else checked_range(
+            "persistence_range", persistence_range)
+        pixels = checked_resolution(resolution)
+        power = checked_power("weight_power", weight_power)
+        _options.choice("pixel", pixel, PIXELS)
+        _options.choice("orientation", orientation, ORIENTATIONS)
+        dgm = self._settled(dim, infinity, may_keep=False)
+        births, lengths = ranges_of_image([dgm], births, lengths)
+        width = default_bandwidth(births, lengths) if bandwidth is None else \
+            _options.positive("bandwidth", bandwidth)
+        return image(dgm, width, pixels, births, lengths, power, pixel, orientation)
+
+    # ---- what they have in common
+
+    def _on_grid(self, dim: int, range: Any, resolution: Any, infinity: Any, may_keep: bool
+                 ) -> tuple[Diagram, Range, int]:
+        """The bars, the ends of the grid, and how many values it has."""
+        count = _options.whole("resolution", resolution, 1, 2**30)
+        dgm = self._settled(dim, infinity, may_keep)
+        ends = range_of_values([dgm]) if range is None else checked_range("range", range)
+        return dgm, ends, count
+
+    def _settled(self, dim: int, infinity: Any, may_keep: bool) -> Diagram:
+        """The bars of a dimension, finite if they are to be."""
+        rule = checked_infinity(infinity, may_keep)
+        return settled(as_diagram(self.dgm(dim), "bars"), rule, "bars")

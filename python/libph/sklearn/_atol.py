@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: MIT
+"""Diagrams by centres that are learned of a batch."""
+from __future__ import annotations
+
+from typing import Any
+
+from .. import _options
+from .._errors import DataError
+from .._vectors import Diagram
+from .._vectors._functions import atol, fit_atol
+from ._vectoriser import Vectoriser
+
+
+class Atol(Vectoriser):
+    """How much of a diagram is near each of some centres, which are learned [Royer et al. 2021].
+
+    The bars of all samples that are fitted are points (birth, death). k-means finds centres of them,
+    and half the distance of a centre to the nearest other one is its width. A feature is the sum
+    over the bars of a diagram of what `contrast` says. The result does not depend on the order of
+    samples and bars, nor on threads or the machine.
+
+    Parameters
+    ----------
+    centres : int
+        How many, for each diagram of a sample. Bars at so many places are needed.
+    contrast : {"laplace", "gauss"}
+        exp(-distance / width), or exp(-distance² / width²), the default of GUDHI.
+    seed : int
+        Of the first centres.
+    infinity : {"error", "drop"} or float
+        What a bar that never dies is: an error, left out, or one that dies at this value.
+
+    Attributes
+    ----------
+    centres_ : list of ndarray
+        Of each diagram of a sample rows birth, death, ascending.
+    widths_ : list of ndarray
+        How far each reaches.
+
+    Examples
+    --------
+    >>> atol = ph.sklearn.Atol(centres=2).fit([[[0, 1], [0, 9]], [[0, 1]]])
+    >>> atol.centres_, atol.widths_
+    ([array([[0., 1.], [0., 9.]])], [array([4., 4.])])
+    >>> atol.transform([[[0, 1]], [[0, 5]]]).round(3)
+    array([[1.   , 0.135],
+           [0.368, 0.368]])
+    """
+
+    def __init__(self, centres: int = 10, contrast: str = "laplace", seed: int = 0,
+                 infinity: float | str = "error") -> None:
+        self.centres = centres
+        self.contrast = contrast
+        self.seed = seed
+        self.infinity = infinity
+
+    def _fit_columns(self, columns: list[list[Diagram]]) -> None:
+        count = _options.whole("centres", self.centres, 1, 2**31 - 1)
+        seed = _options.whole("seed", self.seed, 0)
+        _options.choice("contrast", self.contrast, ["laplace", "gauss"])
+        fitted = []
+        for name, dgms in zip(self._diagram_names, columns):
+            try:
+                fitted.append(fit_atol(dgms, count, seed))
+            except DataError as error:
+                raise DataError(f"{name}: {str(error).removeprefix('fit_atol: ')}") from None
+        self.centres_ = [centres for centres, _ in fitted]
+        self.widths_ = [widths for _, widths in fitted]
+        self._count = count
+
+    def _vector(self, dgm: Diagram, place: int) -> Any:
+        return atol(dgm, self.centres_[place], self.widths_[place], self.contrast)
+
+    def _endings(self) -> list[str]:
+        return [f"atol{i}" for i in range(self._count)]

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: MIT
+"""Numbers of pairs of diagrams: of those that are given, and those that were fitted."""
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from sklearn.base import TransformerMixin
+from sklearn.utils.validation import check_is_fitted
+
+from .._errors import UsageError
+from ._base import MakesTables, TakesDiagrams
+from ._diagrams import Samples, samples_of
+
+
+class BesideFitted(MakesTables, TransformerMixin, TakesDiagrams):
+    """A column for each of the samples that were fitted."""
+
+    def fit(self, X: Any, y: Any = None) -> Any:
+        """Keeps the diagrams.
+
+        Parameters
+        ----------
+        X : list
+            As of `transform`.
+        y : None
+
+        Returns
+        -------
+        self
+        """
+        samples = samples_of(X)
+        if not samples.rows:
+            raise UsageError("X: found no samples, expected at least one")
+        self._fitted = samples
+        self.n_features_in_ = len(samples.rows[0])
+        return self
+
+    def transform(self, X: Any) -> Any:
+        """The numbers of each sample and each of those that were fitted.
+
+        Parameters
+        ----------
+        X : list
+            An entry for each sample, as of `PersistenceImage.transform`.
+
+        Returns
+        -------
+        ndarray or DataFrame
+            A row for each sample, a column for each of those that were fitted.
+        """
+        check_is_fitted(self, "n_features_in_")
+        samples = samples_of(X)
+        if samples.rows and len(samples.rows[0]) != self.n_features_in_:
+            raise UsageError(f"X: found {len(samples.rows[0])} diagrams for each sample, expected "
+                             f"{self.n_features_in_} as in the samples that were fitted")
+        return self._in_table(X, self._all(samples, self._fitted))
+
+    def fit_transform(self, X: Any, y: Any = None, **fit_params: Any) -> Any:
+        """The numbers of all pairs; each is computed once.
+
+        Parameters
+        ----------
+        X : list
+            As of `transform`.
+        y : None
+
+        Returns
+        -------
+        ndarray or DataFrame
+            Square.
+        """
+        self.fit(X, y)
+        return self._in_table(X, self._all(self._fitted, None))
+
+    def get_feature_names_out(self, input_features: Any = None) -> NDArray[np.object_]:
+        """Names of the columns.
+
+        Parameters
+        ----------
+        input_features : None
+
+        Returns
+        -------
+        ndarray of str
+        """
+        check_is_fitted(self, "n_features_in_")
+        return np.array([f"sample{i}" for i in range(len(self._fitted.rows))], dtype=object)
+
+    def _all(self, samples: Samples, others: Samples | None) -> NDArray[np.float64]:
+        raise NotImplementedError
