@@ -33,6 +33,8 @@ def test_keywords_of_rips(keyword, hint):
     (lambda: ph.farthest_points(POINTS, 2, thread=1), "'threads'"),
     (lambda: ph.bottleneck([[0, 1]], [[0, 1]], dims=0), "'dim'"),
     (lambda: ph.wasserstein([[0, 1]], [[0, 1]], internal_p=2), "'ground'"),
+    (lambda: ph.euler_curve(POINTS, n_bins=9), "'resolution'"),
+    (lambda: ph.diagram_kernels([], bandwidth=1), "'sigma'"),
     (lambda: ph.segment(POINTS, intrinsic=(1, 1, 1, 1)), "'intrinsics'"),
     (lambda: ph.compat.cripser.computePH(POINTS, max_dim=1), "'maxdim'"),
     (lambda: ph.compat.ripser.ripser(POINTS, max_dim=1), "'maxdim'")])
@@ -49,7 +51,8 @@ def test_a_keyword_like_no_other_has_no_hint():
 
 
 def test_keywords_named_in_hints_are_there():
-    functions = ph.rips, ph.cubical, ph.wasserstein, ph.sliced_wasserstein
+    functions = (ph.rips, ph.cubical, ph.wasserstein, ph.sliced_wasserstein, ph.euler_curve,
+                 ph.diagram_kernels)
     there = {"threads", "memory_limit"}.union(*(inspect.signature(f).parameters for f in functions))
     assert set(_hints.KEYWORDS.values()) <= there
     assert not set(_hints.KEYWORDS) & there
@@ -61,6 +64,7 @@ def test_keywords_named_in_hints_are_there():
 @pytest.mark.parametrize("name, hint", [
     ("ripser", "libph.compat.ripser"), ("vietoris_rips", "ph.rips"), ("plot_diagrams", "bars.plot"),
     ("wasserstein_distance", "ph.wasserstein"), ("cubicle", "'cubical'"),
+    ("PersistenceScaleSpaceKernel", "ph.diagram_kernels"), ("ecc", "ph.euler_curve"),
     ("VietorisRipsPersistence", "libph.sklearn.RipsPersistence")])
 def test_names_of_the_package(name, hint):
     assert not hasattr(ph, name)
@@ -70,7 +74,8 @@ def test_names_of_the_package(name, hint):
 
 @pytest.mark.parametrize("name, hint", [
     ("diagrams", "dgms"), ("persistence", "dgm"), ("show", "plot"), ("lifetimes", "deaths"),
-    ("flag_persistence_generators", "ph.gradients.deciders"), ("brith_cells", "'birth_cells'")])
+    ("flag_persistence_generators", "ph.gradients.deciders"), ("brith_cells", "'birth_cells'"),
+    ("euler_characteristic", "euler_curve")])
 def test_names_of_a_barcode(name, hint):
     with pytest.raises(AttributeError, match=f"a Barcode has no '{name}'; .*{hint}"):
         getattr(ph.rips(POINTS), name)
