@@ -88,6 +88,20 @@ def test_an_image_is_not_copied():
     assert taken < 64, f"{taken} MiB"
 
 
+@pytest.mark.parametrize("how", ["", ", range=(0, 255), resolution=256"])
+@pytest.mark.parametrize("layout", ["image", "image[::-1, ::-1, ::-1]"])
+def test_an_euler_curve_does_not_copy_the_image(layout, how):
+    """128 MiB of bytes; one that runs backwards is brought into order first, and only that."""
+    taken = peak_above_the_data(f"""
+        image = np.zeros((512, 512, 512), np.uint8)
+        image[::2] = 1
+        def compute(warm_up):
+            ph.euler_curve((image[:2, :2, :2] if warm_up else {layout}){how})
+        measured(compute)
+    """)
+    assert taken < (32 if layout == "image" else 160), f"{taken} MiB"
+
+
 def resident():
     with open("/proc/self/status") as lines:
         return int(next(line for line in lines if line.startswith("RssAnon")).split()[1]) * 1024
@@ -95,6 +109,7 @@ def resident():
 
 POINTS = np.random.default_rng(0).normal(size=(60, 3))
 IMAGE = np.random.default_rng(0).integers(0, 99, size=(12, 12, 12))
+BARS = ph.rips(POINTS)
 
 
 @pytest.mark.parametrize("compute", [
@@ -108,6 +123,11 @@ IMAGE = np.random.default_rng(0).integers(0, 99, size=(12, 12, 12))
     lambda: refused(lambda: ph.rips(POINTS, max_dim=2, memory_limit=1)),
     lambda: ph.rips(POINTS, progress=lambda *news: None),
     lambda: ph.bottleneck(ph.rips(POINTS), ph.rips(POINTS + 0.1)),
+    lambda: ph.euler_curve(IMAGE)(5), lambda: ph.euler_curve(IMAGE, range=(0, 99), timeout=60),
+    lambda: refused(lambda: ph.euler_curve([np.nan])), lambda: BARS.exact_landscape(1),
+    lambda: (BARS.statistics(1), BARS.silhouette(1), BARS.image(1), BARS.landscape(1, layers=3)),
+    lambda: (BARS.betti_function(0), BARS.life_entropy(1), BARS.entropy(1), BARS.euler_curve()),
+    lambda: ph.diagram_kernels([BARS, BARS], dim=1, threads=2),
     lambda: ph.point_image(POINTS, 0.5), lambda: ph.lower_star(POINTS[:, 0], [[0, 1], [1, 2]])])
 def test_a_thousand_calls_leak_nothing(compute):
     for _ in range(100):

@@ -54,6 +54,9 @@ BAD = [
                    True, np.float64(1), np.array(3.0), slice(3), Exception("x"))],
     *[(f"image {data!r:.20}", ph.cubical, (data,), {}, "image: found")
       for data in (None, "abc", 3, object(), np.array(1.0), np.zeros((1,) * 9), {}, Broken())],
+    *[(f"image of an Euler curve {data!r:.20}", ph.euler_curve, (data,), {}, "image: found")
+      for data in (None, "abc", 3, object(), np.zeros((1,) * 9), Broken(),
+                   np.zeros((3, 2), "complex128"), np.zeros((3, 2), "U3"))],
     # ragged
     ("rows of two lengths", ph.rips, ([[1, 2], [3]],), {}, "row 1: found 1 numbers, expected 2"),
     ("a number among rows", ph.rips, ([[1, 2], 3],), {}, "row 1: found one number, expected 2"),
@@ -72,6 +75,9 @@ BAD = [
     ("an image without voxels", ph.cubical, (np.zeros((3, 0)),), {}, "0"),
     ("a signal without values", ph.cubical, (np.zeros(0),), {}, "0"),
     ("one number as a diagram", ph.bottleneck, ([1.0], [[0, 1]]), {}, "rows birth, death"),
+    ("three columns of a kernel's diagram", ph.diagram_kernels, ([np.zeros((2, 3))],), {}, "(2, 3)"),
+    ("a text as diagrams", ph.diagram_kernels, ("abc",), {}, "diagrams: found 'abc', expected a list"),
+    ("an Euler curve without voxels", ph.euler_curve, (np.zeros((3, 0)),), {}, "0"),
     ("three columns of a diagram", ph.bottleneck, (np.zeros((2, 3)), [[0, 1]]), {}, "(2, 3)"),
     # types
     *[(f"points of {kind}", ph.rips, (np.zeros((3, 2), kind),), {}, words)
@@ -120,6 +126,10 @@ BAD = [
     ("NaN voxel of float32", ph.cubical, (point(1, 1, NAN, "float32"),), {}, "NaN"),
     ("NaN value", ph.lower_star, ([0, NAN], [[0, 1]]), {}, "NaN"),
     ("NaN of a simplex", ph.filtered, ([(0,)], [NAN]), {}, "NaN"),
+    ("NaN in a kernel's diagram", ph.diagram_kernels, ([[[0, NAN]]],), {}, "row 0: found birth 0.0"),
+    ("infinity in it", ph.diagram_kernels, ([[[0, INF]]],), {}, "death inf, expected finite"),
+    ("NaN voxel of an Euler curve", ph.euler_curve, (point(1, 1, NAN),), {}, "row 1, column 1"),
+    ("a large voxel of it", ph.euler_curve, (point(3, 2, BIG, "int64"),), {}, "row 3, column 2"),
     ("NaN in a diagram", ph.bottleneck, ([[0, NAN]], [[0, 1]]), {}, "NaN"),
     ("NaN distance", ph.rips, (matrix((2, 1, NAN), (1, 2, NAN)),), pre,
      "row 1, column 2: found nan"),

@@ -57,6 +57,15 @@ assert_type(ph.barycentre([X, X]).converged, bool)
 assert_type(ph.p_values(bars, 1), NDArray[np.float64])
 assert_type(ph.confidence_band(X).mean, NDArray[np.float64])
 assert_type(ph.permutation_test(X, ["a", "b"]).p, float)
+assert_type(ph.diagram_kernels([X, X], sigma=2), NDArray[np.float64])
+assert_type(ph.euler_curve(X, threads=2), ph.StepFunction)
+assert_type(ph.euler_curve(X, range=(0, 1), superlevel=True), NDArray[np.float64])
+assert_type(bars.euler_curve()(X), NDArray[np.int64])
+assert_type(bars.betti_function(1)(0.5), int)
+assert_type(bars.exact_landscape(1), List[ph.PiecewiseLinear])
+assert_type(bars.exact_landscape(1)[0](0.5), float)
+assert_type(bars.statistics(1), Dict[str, float])
+assert_type(bars.silhouette(1, power=2), NDArray[np.float64])
 assert_type(ph.distance_to_measure(X, 3), NDArray[np.float64])
 assert_type(ph.merge_tree(X).values, NDArray[np.float64])
 scene = ph.segment(X, intrinsics=(1, 1, 0, 0), timeout=10)
@@ -84,6 +93,11 @@ bars.meta["field"] = 3                               # index: indexed assignment
 bars[0].death.append(1)                              # attr-defined: "float"
 ph.bottleneck(bars, bars, dim="1")                   # call-overload: "bottleneck"
 ph.wasserstein_matching(X, X, at_most=1)             # call-arg: "at_most"
+ph.euler_curve(X, field=3)                           # call-overload: "euler_curve"
+ph.diagram_kernels(X, sigma="1")                     # arg-type: "sigma" to "diagram_kernels"
+bars.silhouette(1, 2.0)                              # misc: "silhouette" of "Summaries"
+bars.statistics(1)["mean"].sum()                     # attr-defined: "float"
+bars.euler_curve().at = X                            # misc: "at"
 scene.cut(n="3")                                     # arg-type: "n" to "cut"
 scene.labels.sort(axes=0)                            # call-arg: "axes"
 '''
