@@ -37,7 +37,7 @@ def test_docstrings(name):
     assert doctest.testmod(module, globs=names, optionflags=FLAGS).failed == 0
 
 
-OPTIONAL = {"matplotlib", "open3d", "pandas", "scipy", "sklearn"}
+OPTIONAL = {"matplotlib", "open3d", "pandas", "scipy", "skimage", "sklearn"}
 # What a page needs without a word.
 NEEDED = {"docs/how-to/coming-from.md": {"sklearn", "scipy"}, "docs/how-to/scikit-learn.md": {"pandas"}}
 PAGES = [page.relative_to(SOURCE).as_posix() for page in sorted((SOURCE / "docs").rglob("*.md"))
@@ -75,13 +75,14 @@ def test_that_there_are_pages():
 
 @pytest.mark.parametrize("name, data", [
     ("cluster_moons", []), ("clouds_to_features", []), ("grow_loop", []), ("growing_discs", []),
-    ("sweeping_level", []),
+    ("sweeping_level", []), ("textures", []),
     ("delay_embedding", [SOURCE / "examples/data/pulse.csv"]),
     ("two_circles", [SOURCE / "examples/data/two_circles.csv"])])
 def test_examples(name, data, tmp_path):
-    for package in ("matplotlib", "sklearn"):
-        pytest.importorskip(package, reason=f"{package} is missing, which the examples need")
     example = SOURCE / f"python/examples/{name}.py"
+    for package in ("matplotlib", "sklearn", "skimage", "pandas"):
+        if package in example.read_text():
+            pytest.importorskip(package, reason=f"{package} is missing, which {name}.py needs")
     subprocess.run([sys.executable, example, *data, tmp_path / "picture.png"], check=True)
     assert (tmp_path / "picture.png").read_bytes()[:4] == b"\x89PNG"
 
