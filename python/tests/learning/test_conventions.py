@@ -146,21 +146,21 @@ def blurred(counts, sigma):
 
 
 def test_images_of_giotto(rng):
-    """Bars are counted by pixels, and the counts are blurred by pixels; the top row is the longest.
-    Of bars at centres that is the density times the area of a pixel, but for what lies beyond 4
+    """Bars are counted at points, both ends of a range among them, and the counts are blurred; the
+    top row is the longest. Of bars at points that is the density, but for what lies beyond 4
     sigma."""
-    n, sigma, width = 60, 3.0, 0.05
+    n, sigma, low, step = 60, 0.15, -1.0, 0.05
     places = rng.integers(20, 40, (12, 2))  # far from the border
     counts = np.zeros((n, n))
     for birth, length in places:
         counts[length, birth] += 1
-    expected = blurred(counts, sigma)[::-1]
-    births, lengths = (places + 0.5).T * width
-    image = PersistenceImage(sigma * width, n, (0, n * width), (0, n * width), weight_power=0,
-                             pixel="density", orientation="descending")
-    found = of(image, np.column_stack([births, births + lengths])).reshape(n, n) * width**2
+    expected = blurred(counts, sigma / step)[::-1] / step**2
+    births, lengths = low + places[:, 0] * step, places[:, 1] * step
+    image = PersistenceImage(sigma, n, (low - step / 2, low + (n - 0.5) * step),
+                             (-step / 2, (n - 0.5) * step), weight_power=0, pixel="density",
+                             orientation="descending")
+    found = of(image, np.column_stack([births, births + lengths])).reshape(n, n)
     assert np.abs(found - expected).max() < 5e-4 * expected.max()
-    assert found.sum() == pytest.approx(12, rel=1e-3)
 
 
 # ---- ATOL, kernels
@@ -197,6 +197,17 @@ def test_scale_space_kernel_of_gudhi(dgm):
     factor = 2 * (8 * math.pi * sigma) / (math.sqrt(2 * math.pi) * bandwidth)
     assert factor == pytest.approx(2 * math.sqrt(2 * math.pi) * bandwidth)
     assert ours * factor == pytest.approx(expected, rel=1e-12)
+
+
+def test_heat_of_persim(dgm):
+    """The distance that the kernel of Reininghaus et al. makes."""
+    def kernel(a, b):
+        return sum(math.exp(-math.dist(p, q)**2 / 3.2) - math.exp(-math.dist(p, q[::-1])**2 / 3.2)
+                   for p in a for q in b) / (3.2 * math.pi)
+    a, b = dgm, dgm[::2] + [0.03, 0.08]
+    expected = math.sqrt(kernel(a, a) + kernel(b, b) - 2 * kernel(a, b))
+    k = ph.diagram_kernels([a, b], sigma=0.4)
+    assert (k[0, 0] + k[1, 1] - 2 * k[0, 1])**0.5 == pytest.approx(expected, rel=1e-10)
 
 
 def test_weighted_gaussian_kernel_of_gudhi(dgm):
