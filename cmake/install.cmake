@@ -3,29 +3,36 @@
 # targets a library, so that a library asks for its own dependencies only.
 #
 # `cmake --install BUILD --component NAME` takes a part: `c`, what programs need that were linked
-# with ph::c; `dev`, what it takes to compile and link others; `pcl`, the same of ph::pcl;
-# `programs`; `python`; `doc`; `licence`. debian/rules makes a package of each.
+# with ph::c; `dev`, what it takes to compile and link others; `pcl` and `alpha`, the same of ph::pcl
+# and ph::alpha; `programs`; `python`; `doc`; `licence`. debian/rules makes a package of each.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/ph)
 
-foreach(library core c io plot segment report pcl)
+foreach(library core c io plot segment report pcl alpha)
   if(NOT TARGET ph_${library})
     continue()
   endif()
   set(component dev)
-  if(library STREQUAL "pcl")
-    set(component pcl)
+  if(library MATCHES "^(pcl|alpha)$")
+    set(component ${library})
   endif()
   set_target_properties(ph_${library} PROPERTIES EXPORT_NAME ${library})
   install(TARGETS ph_${library} EXPORT ph-${library}
-          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${component}
           LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT c NAMELINK_COMPONENT dev
           INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   install(EXPORT ph-${library} NAMESPACE ph:: DESTINATION ${package_dir} COMPONENT ${component})
 endforeach()
 
-install(DIRECTORY libph/include/ph DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
+install(DIRECTORY libph/include/ph DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev
+        REGEX "alpha(\\.hpp)?$" EXCLUDE)
+if(TARGET ph_alpha)
+  install(FILES libph/include/ph/alpha.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ph
+          COMPONENT alpha)
+  install(DIRECTORY libph/include/ph/detail/alpha
+          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ph/detail COMPONENT alpha)
+endif()
 foreach(library segment report)
   if(TARGET ph_${library})
     install(DIRECTORY lib${library}/include/ph DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)

@@ -7,7 +7,7 @@ build=(build-essential cmake ninja-build pkg-config ccache libeigen3-dev libfmt-
        zlib1g-dev libpng-dev libfreetype-dev fonts-dejavu-core libcli11-dev)
 demo=(python3-numpy python3-skimage libcgal-demo)
 # Peers and tools that tests compare with or look through.
-test=(libgtest-dev libbenchmark-dev libpcl-dev ripser python3-gudhi python3-numpy librsvg2-bin git
+test=(libgtest-dev libbenchmark-dev libpcl-dev libcgal-dev ripser python3-gudhi python3-numpy librsvg2-bin git
       locales zsh fish man-db groff mandoc abigail-tools)
 # The Python package, and what its tests compare with.
 python=(python3-dev pybind11-dev python3-numpy python3-scipy python3-sklearn python3-pandas

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "ph/explicit.hpp"
+#include "ph/persistence.hpp"
+#include "ph/points.hpp"
+
+// The library ph::alpha. It uses triangulations of CGAL, which are under the GNU General Public
+// License: so is a program that links it.
+
+namespace ph {
+
+namespace alpha {
+struct AlphaCells;
+}
+
+/// What an alpha complex is made of.
+struct AlphaOptions {
+  /// One for each point, or none: the square of a ball's radius where that is 0 at first. The power
+  /// distance |x - p|² - w takes the place of the square of the distance.
+  std::vector<double> weights = {};
+  /// What values are. Those of weighted points may be negative: `squared` only.
+  enum class Unit {
+    radius,   ///< the radius of the balls
+    squared,  ///< its square
+  } unit = Unit::radius;
+  double threshold = kInfinity;  ///< largest value that enters, inclusive
+};
+
+/// The alpha complex of points of R², R³ (or R¹): the simplices of their Delaunay triangulation. A
+/// simplex enters when the balls around its vertices, each cut to the Voronoi cell of its centre,
+/// meet. Its bars are those of the union of balls of that radius, which is why they are half as
+/// long as those of edges.
+///
+/// Any finite points will do. Coplanar and collinear ones have the triangulation of their affine
+/// hull. A copy is joined to the first of its kind by an edge of value 0, or hidden, of weighted
+/// points. Which simplices there are and which values are equal is decided exactly; values have an
+/// error of some last places, and no face has a larger one than a coface. Among cospherical points
+/// some triangulation is taken that depends on where they are alone, not on their order.
+///
+/// Holds the triangulation: about 110 bytes a tetrahedron. What generic engines need, each simplex
+/// by itself, is made once, by `prepare` or else when a cell is first asked for. Order: (value,
+/// dimension, vertices in an order of space, the last one first).
+class Alpha {
+ public:
+  using Cell = ExplicitComplex::Cell;
+  static constexpr bool first_equal_cofacet_is_oldest =
+      ExplicitComplex::first_equal_cofacet_is_oldest;
+
+  /// O(n log n) for points that lie evenly, O(n²) at worst. On threads, but for the triangulation.
+  /// @param context outlives the filtration.
+  /// @throws Error (usage) on points of R^4 or beyond, weights that are not one a point, and radii
+  ///         of weighted points; Error (bad_data) on numbers that are not finite and on coordinates
+  ///         whose magnitudes differ beyond what doubles can square; Error (resource, cancelled).
+  explicit Alpha(PointsView points, const AlphaOptions& options = {},
+                 const RunContext& context = default_context());
+
+  /// Points that have no part in the complex, ascending: other points with large weights outdo them
+  /// everywhere.
+  std::span<const std::uint32_t> hidden() const;
+  /// Copies of other points, ascending; empty if points are weighted.
+  std::vector<Index> copies() const;
+  /// Simplices by dimension, those beyond the threshold and edges of copies included.
+  std::vector<std::size_t> simplex_counts() const;
+
+  /// Makes every simplex, unless they are there. It takes about 600 bytes a point of R³ and stays
+  /// with the filtration. Thread-safe. @throws Error (resource) and (cancelled).
+  void prepare(const RunContext& context) const;
+  /// The same complex, simplex by simplex, as the other parts of libph take it. Made by `prepare`
+  /// or by the first call. Values are squares in units that are a power of two.
+  const ExplicitComplex& listed() const;
+
+  int top_dim() const { return top_dim_; }
+  double value(Cell c) const { return to_value(listed().value(c)); }
+  std::uint32_t key(Cell c) const { return listed().key(c); }
+  static bool precedes(Cell a, Cell b) { return ExplicitComplex::precedes(a, b); }
+  std::size_t slot_count() const { return listed().slot_count(); }
+  static std::size_t slot(Cell c) { return ExplicitComplex::slot(c); }
+  static bool edges_join_vertices() { return true; }
+  static CellKind cell_kind() { return CellKind::vertices; }
+  void append_input_cell(int dim, Cell cell, std::vector<Index>& numbers) const {
+    listed().append_input_cell(dim, cell, numbers);
+  }
+  template <class Visit>
+  void for_each_cell(int dim, Visit&& visit) const {
+    listed().for_each_cell(dim, visit);
+  }
+  template <class Visit>
+  void for_each_facet(int dim, Cell cell, Visit&& visit) const {
+    listed().for_each_facet(dim, cell, visit);
+  }
+  template <class Visit>
+  void for_each_cofacet(int dim, Cell cell, Visit&& visit) const {
+    listed().for_each_cofacet(dim, cell, visit);
+  }
+
+  /// For engines: the triangulation with its intervals.
+  const alpha::AlphaCells& cells() const { return *cells_; }
+  /// A squared radius of it as a value of this filtration.
+  double to_value(double squared_radius) const;
+  double threshold() const { return threshold_; }
+
+ private:
+  struct Lazy;
+
+  std::shared_ptr<const alpha::AlphaCells> cells_;
+  std::shared_ptr<Lazy> lazy_;
+  AlphaOptions::Unit unit_;
+  double threshold_;
+  int top_dim_ = -1;
+};
+
+/// The barcode of an alpha complex. @throws as persistence of other complexes.
+Barcode persistence(const Alpha& alpha, const Options& options = {},
+                    const RunContext& context = default_context());
+
+}  // namespace ph

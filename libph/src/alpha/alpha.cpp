@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "ph/alpha.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include "alpha/intervals/intervals.hpp"
+#include "alpha/listed_simplices.hpp"
+#include "ph/error.hpp"
+
+namespace ph {
+
+struct Alpha::Lazy {
+  explicit Lazy(const RunContext& made_with) : context(&made_with) {}
+  std::mutex mutex;
+  std::atomic<const ExplicitComplex*> ready{nullptr};
+  std::optional<ExplicitComplex> listed;
+  const RunContext* context;
+};
+
+Alpha::Alpha(PointsView points, const AlphaOptions& options, const RunContext& context)
+    : lazy_(std::make_shared<Lazy>(context)), unit_(options.unit), threshold_(options.threshold) {
+  if (std::isnan(threshold_))
+    throw Error(ErrorKind::usage, "threshold: found nan, expected a number");
+  if (!options.weights.empty() && unit_ == AlphaOptions::Unit::radius)
+    throw Error(ErrorKind::usage,
+                "alpha complex of weighted points: found the unit radius, expected squared, for "
+                "squares may be negative");
+  cells_ = std::make_shared<const alpha::AlphaCells>(
+      alpha::alpha_cells(points, options.weights, context));
+  top_dim_ = alpha::top_dim(*cells_, [&](double r) { return to_value(r) <= threshold_; });
+}
+
+double Alpha::to_value(double squared_radius) const {
+  const int exponent = cells_->sites.exponent;
+  const double value = unit_ == AlphaOptions::Unit::squared
+                           ? std::ldexp(squared_radius, 2 * exponent)
+                           : std::ldexp(std::sqrt(squared_radius), exponent);
+  return std::min(value, std::numeric_limits<double>::max());
+}
+
+std::span<const std::uint32_t> Alpha::hidden() const { return cells_->hidden; }
+
+std::vector<Index> Alpha::copies() const {
+  std::vector<Index> copies;
+  for (const auto& [copy, site] : cells_->sites.copies) copies.push_back(copy);
+  std::ranges::sort(copies);
+  return copies;
+}
+
+std::vector<std::size_t> Alpha::simplex_counts() const { return alpha::simplex_counts(*cells_); }
+
+void Alpha::prepare(const RunContext& context) const {
+  if (lazy_->ready.load(std::memory_order_acquire) != nullptr) return;
+  const std::lock_guard lock(lazy_->mutex);
+  if (lazy_->listed) return;
+  lazy_->listed.emplace(alpha::list_simplices(
+      *cells_, [&](double r) { return to_value(r) <= threshold_; }, context));
+  lazy_->ready.store(&*lazy_->listed, std::memory_order_release);
+}
+
+const ExplicitComplex& Alpha::listed() const {
+  prepare(*lazy_->context);
+  return *lazy_->ready.load(std::memory_order_acquire);
+}
+
+}  // namespace ph

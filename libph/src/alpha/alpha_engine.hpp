@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "alpha/pairs/pair_simplices.hpp"
+#include "ph/alpha.hpp"
+#include "ph/detail/core/barcode_builder.hpp"
+#include "ph/detail/core/engine.hpp"
+
+namespace ph {
+
+/// Alpha complexes, all dimensions, no zero-length pairs: simplices are paired inside their
+/// intervals, what is left by union-find from both ends and by reduction between them. With cycles,
+/// not with cocycles. See docs/explanation/engines/alpha.md.
+struct AlphaEngine {
+  static constexpr Engine id = Engine::gradient;
+  static bool can_run(const Alpha&, const Task& task) {
+    return !task.zero_length && (task.representatives == Representatives::none ||
+                                 task.representatives == Representatives::cycles);
+  }
+  static Suitability suitability(const Alpha&, const Task&) {
+    return {6, "an alpha complex is paired interval by interval"};
+  }
+  static constexpr int listed_dim(int) { return -1; }
+
+  template <Field K>
+  static void run(const Alpha& alpha, const K& field, BarcodeBuilder<Alpha>& bars,
+                  const RunContext& context) {
+    alpha::pair_simplices(alpha, field, bars, context);
+  }
+};
+
+}  // namespace ph

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#include <tuple>
+
+#include "alpha/alpha_engine.hpp"
+#include "ph/detail/alpha/alpha_engines.hpp"
+#include "ph/detail/facade/choose_engine.hpp"
+#include "ph/detail/facade/generic_engines.hpp"
+
+namespace ph {
+
+template <>
+std::vector<detail::EngineFor<Alpha>>& detail::engines<Alpha>() {
+  static auto list = [] {
+    auto engines = engines_of_list<Alpha>(static_cast<GenericEngines*>(nullptr));
+    engines.push_back(engine_for<AlphaEngine, Alpha>());
+    return engines;
+  }();
+  return list;
+}
+
+Barcode persistence(const Alpha& alpha, const Options& options, const RunContext& context) {
+  return detail::compute(alpha, options, context);
+}
+
+}  // namespace ph

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+// This folder is the only one that includes CGAL. What is linked with it falls under the GPL.
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "alpha/sites/sites.hpp"
+
+namespace ph::alpha {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+inline Kernel::Point_3 point_of(const Vector<double>& p) { return {p.x, p.y, p.z}; }
+
+/// Sites in the order of a biased randomised insertion (Amenta, Choi, Rote, Incremental
+/// constructions con BRIO, 2003): rounds of about eight times as many sites as the one before, each
+/// along the curve.
+std::pmr::vector<std::uint32_t> insertion_order(std::size_t sites,
+                                                std::pmr::memory_resource* memory);
+
+}  // namespace ph::alpha

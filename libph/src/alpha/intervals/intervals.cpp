@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "alpha/intervals/intervals.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace ph::alpha {
+
+const CriticalFacet* critical_facet(const AlphaCells& cells, std::uint32_t code) {
+  code = std::min(code, cells.across(code));  // kNone is larger than any
+  const auto at = std::ranges::lower_bound(cells.facets, code, {}, &CriticalFacet::code);
+  return at != cells.facets.end() && at->code == code ? &*at : nullptr;
+}
+
+double facet_value(const AlphaCells& cells, std::uint32_t code) {
+  return facet_value(cells, code, critical_facet(cells, code));
+}
+
+double facet_value(const AlphaCells& cells, std::uint32_t code, const CriticalFacet* critical) {
+  if (critical != nullptr) return critical->value;
+  const std::uint32_t other = cells.across(code);
+  if (cells.belongs_to(code)) return cells.cell_values[code >> 2];
+  if (other != kNone && cells.belongs_to(other)) return cells.cell_values[other >> 2];
+  // It is the upper end of its interval, which has a face one dimension lower.
+  if (cells.dim() == 2) {
+    const auto ends = cells.facet_vertices(code);
+    return cells.vertex_values[cells.vertex_up[ends[0]] == ends[1] ? ends[0] : ends[1]];
+  }
+  const auto& places = kFacetPlaces[code & 3];
+  for (unsigned i = 0; i < 3; ++i) {
+    const std::uint32_t e =
+        cells.edges.of_cell[code >> 2][kEdgeBetween[places[i]][places[(i + 1) % 3]]];
+    const std::uint32_t up = cells.edge_states[e].up;
+    if (up == code || (up == other && other != kNone)) return cells.edge_states[e].value;
+  }
+  return std::numeric_limits<double>::quiet_NaN();  // not reached
+}
+
+AlphaCells alpha_cells(PointsView points, std::span<const double> weights,
+                       const RunContext& context) {
+  std::pmr::memory_resource* const memory = &context.memory;
+  AlphaCells cells(sites_of(points, weights, context), memory);
+  cells.triangulation = triangulate(cells.sites, cells.hidden, context);
+  if (cells.dim() > 0) {
+    cells.cell_values.resize(cells.triangulation.size());
+    cells.beyond.resize(cells.triangulation.size());
+    if (cells.dim() == 3)
+      find_intervals_of_space(cells, context);
+    else
+      find_intervals_of_plane(cells, context);
+    make_monotone(cells, context);
+  } else if (cells.sites.is_weighted() && cells.dim() == 0) {
+    cells.vertex_values.assign(1, -cells.sites.weights[0] + 0.0);
+    cells.vertex_up.assign(1, kCritical);
+  }
+  return cells;
+}
+
+}  // namespace ph::alpha

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include <cassert>
+
+#include "alpha/intervals/intervals.hpp"
+#include "alpha/intervals/marks.hpp"
+#include "alpha/intervals/spheres.hpp"
+
+namespace ph::alpha {
+namespace {
+
+using std::uint32_t;
+
+/// Intervals of a triangulation of dimension 3, found at their upper ends: tetrahedra, then
+/// triangles, then edges with an empty smallest sphere. A facet is without one if the centre of a
+/// tetrahedron at it lies beyond it, an edge if that of a triangle at it does.
+class SpaceIntervals {
+ public:
+  SpaceIntervals(AlphaCells& cells, const RunContext& context)
+      : cells_(cells),
+        context_(context),
+        spheres_(cells.sites),
+        is_not_empty_(cells.edge_states.size(), &context.memory),
+        vertices_(cells, context),
+        critical_(cells.triangulation.size(), &context.memory) {}
+
+  void run() {
+    const std::size_t count = cells_.triangulation.size();
+    for_each_piece("tetrahedra", count, FacetPieces::kPiece, context_,
+                   [&](std::size_t from, std::size_t to) {
+                     for (std::size_t t = from; t < to; ++t) {
+                       const Sphere sphere = spheres_.of_tetrahedron(cells_.triangulation.cells[t]);
+                       cells_.cell_values[t] = sphere.squared_radius;
+                       cells_.beyond[t] = sphere.beyond;
+                     }
+                   });
+    for_each_piece("triangles", count, FacetPieces::kPiece, context_,
+                   [&](std::size_t from, std::size_t to) {
+                     for (std::size_t t = from; t < to; ++t)
+                       for (uint32_t k = 0; k < 4; ++k) {
+                         const auto code = static_cast<uint32_t>(4 * t) + k;
+                         const uint32_t other = cells_.triangulation.across[t][k];
+                         if (other == kNone || other > code) find_facet(code, other);
+                       }
+                   });
+    critical_.join(cells_.facets);
+    constexpr std::size_t piece = 1 << 14;
+    for_each_piece("edges", cells_.edge_states.size(), piece, context_,
+                   [&](std::size_t from, std::size_t to) {
+                     for (std::size_t e = from; e < to; ++e) find_edge(static_cast<uint32_t>(e));
+                   });
+    vertices_.finish();
+  }
+
+ private:
+  uint32_t edge_between(std::size_t cell, unsigned i, unsigned k) const {
+    return cells_.edges.of_cell[cell][kEdgeBetween[i][k]];
+  }
+  void pair_edge(uint32_t edge, uint32_t facet, double value) {
+    Edge& state = cells_.edge_states[edge];
+    assert(state.up == kUnknown);  // a simplex lies in one interval
+    state = {value, facet};
+  }
+  // An edge whose late vertex it lets in.
+  void pair_vertex(uint32_t vertex, uint32_t edge, double value, uint32_t facet = kNone) {
+    pair_edge(edge, kJoins, value);
+    vertices_.pair(vertex, edge, value, facet);
+  }
+
+  // @param code its usual name. @param other its other one.
+  void find_facet(uint32_t code, uint32_t other) {
+    const std::size_t cell = code >> 2;
+    const auto& places = kFacetPlaces[code & 3];
+    const auto& at = cells_.triangulation.cells[cell];
+    const uint32_t a = at[places[0]], b = at[places[1]], c = at[places[2]];
+    const unsigned beyond = spheres_.beyond_triangle(a, b, c);
+    for (unsigned left = beyond; left != 0; left &= left - 1) {
+      const unsigned i = lowest(left);
+      is_not_empty_.set(edge_between(cell, places[(i + 1) % 3], places[(i + 2) % 3]));
+    }
+    const bool is_in_first = cells_.belongs_to(code);
+    const bool is_in_second = other != kNone && cells_.belongs_to(other);
+    assert(!(is_in_first && is_in_second));  // the centres lie on one side
+    if (is_in_first || is_in_second) return give_to_tetrahedron(is_in_first ? code : other);
+    if (beyond == 0) {
+      critical_[cell].push_back({spheres_.triangle_radius(a, b, c), code});
+      return;
+    }
+    // The interval ends with this triangle.
+    const double value = spheres_.triangle_radius(a, b, c);
+    const unsigned first = lowest(beyond);
+    pair_edge(edge_between(cell, places[(first + 1) % 3], places[(first + 2) % 3]), code, value);
+    if (const unsigned rest = beyond & (beyond - 1); rest != 0) {
+      const unsigned vertex = 3 - first - lowest(rest);
+      pair_vertex(at[places[vertex]], edge_between(cell, places[vertex], places[first]), value,
+                  code);
+    }
+  }
+
+  // @param code of a facet in the interval of the tetrahedron that names it.
+  void give_to_tetrahedron(uint32_t code) {
+    const std::size_t cell = code >> 2;
+    const unsigned beyond = cells_.beyond[cell], first = lowest(beyond), k = code & 3;
+    const double value = cells_.cell_values[cell];
+    if (k != first) {  // paired with the edge that lacks both
+      const unsigned rest = 0b1111U & ~(1U << first) & ~(1U << k);
+      pair_edge(edge_between(cell, lowest(rest), lowest(rest & (rest - 1))), code, value);
+      return;
+    }
+    if (std::popcount(beyond) < 3) return;
+    const unsigned vertex = lowest(0b1111U & ~beyond);
+    pair_vertex(cells_.triangulation.cells[cell][vertex], edge_between(cell, vertex, first), value,
+                code);
+  }
+
+  void find_edge(uint32_t e) {
+    const auto [a, b] = cells_.edges.ends[e];
+    Edge& state = cells_.edge_states[e];
+    if (!cells_.sites.is_weighted() && is_not_empty_[e]) {
+      assert(state.up != kUnknown);  // it is the lower end of exactly one interval
+      return;
+    }
+    const Sphere sphere = spheres_.of_edge(a, b);
+    for (unsigned left = sphere.beyond; left != 0; left &= left - 1)
+      vertices_.set_late(lowest(left) == 0 ? b : a);
+    if (is_not_empty_[e]) {
+      assert(state.up != kUnknown);
+      return;
+    }
+    assert(state.up == kUnknown);
+    if (sphere.beyond == 0) {
+      state = {sphere.squared_radius, kCritical};
+      return;
+    }
+    pair_vertex(sphere.beyond == 1 ? b : a, e, sphere.squared_radius);
+  }
+
+  AlphaCells& cells_;
+  const RunContext& context_;
+  const Spheres spheres_;
+  Marks is_not_empty_;  // by edge: its smallest sphere
+  VertexIntervals vertices_;
+  FacetPieces critical_;
+};
+
+}  // namespace
+
+void find_intervals_of_space(AlphaCells& cells, const RunContext& context) {
+  cells.edges = number_edges(cells.triangulation, cells.sites.size(), context);
+  cells.edge_states.assign(cells.edges.ends.size(), Edge{0, kUnknown});
+  SpaceIntervals(cells, context).run();
+}
+
+}  // namespace ph::alpha

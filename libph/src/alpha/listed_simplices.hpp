@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <functional>
+
+#include "alpha/intervals/intervals.hpp"
+#include "ph/explicit.hpp"
+
+namespace ph::alpha {
+
+/// Whether a simplex of that squared radius enters.
+using Enters = std::function<bool(double)>;
+
+/// All simplices that enter, by dimension and then by vertices, the last one first. Values are
+/// squared radii in the units of the sites.
+ExplicitComplex list_simplices(const AlphaCells& cells, const Enters& enters,
+                               const RunContext& context);
+
+/// The highest dimension of a simplex that enters; -1: none does.
+int top_dim(const AlphaCells& cells, const Enters& enters);
+
+/// All simplices by dimension, edges of copies included.
+std::vector<std::size_t> simplex_counts(const AlphaCells& cells);
+
+}  // namespace ph::alpha

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <vector>
+
+#include "alpha/intervals/intervals.hpp"
+#include "ph/alpha.hpp"
+#include "ph/detail/core/barcode_builder.hpp"
+
+namespace ph::alpha {
+
+/// A simplex by its sites, in the order of the triangulation.
+struct Simplex {
+  std::array<std::uint32_t, 4> sites{kNone, kNone, kNone, kNone};
+  std::size_t size = 0;
+
+  static Simplex of(std::initializer_list<std::uint32_t> list) {
+    Simplex simplex;
+    for (const std::uint32_t site : list) simplex.sites[simplex.size++] = site;
+    return simplex;
+  }
+};
+
+inline Simplex edge_simplex(const AlphaCells& cells, std::uint32_t e) {
+  return Simplex::of({cells.edges.ends[e][0], cells.edges.ends[e][1]});
+}
+inline Simplex facet_simplex(const AlphaCells& cells, std::uint32_t code) {
+  const auto v = cells.facet_vertices(code);
+  return cells.dim() == 3 ? Simplex::of({v[0], v[1], v[2]}) : Simplex::of({v[0], v[1]});
+}
+inline Simplex cell_simplex(const AlphaCells& cells, std::uint32_t t) {
+  return {cells.triangulation.cells[t], static_cast<std::size_t>(cells.dim()) + 1};
+}
+
+/// Makes bars of pairs of simplices, and chains of sites chains of the input.
+class AlphaBars {
+ public:
+  AlphaBars(const Alpha& alpha, BarcodeBuilder<Alpha>& bars)
+      : alpha_(alpha), cells_(alpha.cells()), bars_(bars) {}
+
+  bool wants(int dim) const { return bars_.min_dim() <= dim && dim <= bars_.max_dim(); }
+  bool wants_cycles() const { return bars_.representatives() == Representatives::cycles; }
+  /// A class born with one simplex and killed by another, of those squared radii. @return whether
+  /// the bar is kept and wants a cycle.
+  bool pair(int dim, double birth, double death, const Simplex& born, const Simplex& killer) {
+    if (birth == death) return false;
+    Bar bar{dim, alpha_.to_value(birth), alpha_.to_value(death)};
+    if (bar.birth > alpha_.threshold()) return false;
+    if (bar.death > alpha_.threshold()) bar.death = kInfinity;
+    return add(bar, born, bar.is_infinite() ? Simplex() : killer);
+  }
+  bool essential(int dim, double birth, const Simplex& born) {
+    const Bar bar{dim, alpha_.to_value(birth), kInfinity};
+    return bar.birth <= alpha_.threshold() && add(bar, born, {});
+  }
+
+  /// The cycle of the bar that was kept last, simplex by simplex.
+  void add_term(const Simplex& simplex, std::int64_t coefficient) {
+    const bool is_odd = append(simplex, numbers_);
+    coefficients_.push_back(is_odd ? -coefficient : coefficient);
+  }
+  /// @param is_z2 whether coefficients have no sign.
+  void finish_cycle(bool is_z2) {
+    if (is_z2) std::ranges::fill(coefficients_, 1);
+    bars_.add_representative(numbers_, coefficients_);
+    numbers_.clear();
+    coefficients_.clear();
+  }
+
+ private:
+  /// Appends the points of the input, ascending. @return whether they are in an odd permutation.
+  bool append(const Simplex& simplex, std::vector<Index>& numbers) const {
+    const std::size_t begin = numbers.size();
+    bool is_odd = false;
+    for (std::size_t i = 0; i < simplex.size; ++i) {
+      numbers.push_back(cells_.sites.input[simplex.sites[i]]);
+      for (std::size_t k = numbers.size() - 1; k > begin && numbers[k - 1] > numbers[k]; --k) {
+        std::swap(numbers[k - 1], numbers[k]);
+        is_odd = !is_odd;
+      }
+    }
+    return is_odd;
+  }
+  bool add(const Bar& bar, const Simplex& born, const Simplex& killer) {
+    birth_.clear();
+    death_.clear();
+    if (bars_.wants_cells()) {
+      append(born, birth_);
+      append(killer, death_);
+    }
+    return bars_.add_bar(bar, birth_, death_) && wants_cycles();
+  }
+
+  const Alpha& alpha_;
+  const AlphaCells& cells_;
+  BarcodeBuilder<Alpha>& bars_;
+  std::vector<Index> birth_, death_, numbers_;
+  std::vector<std::int64_t> coefficients_;
+};
+
+}  // namespace ph::alpha

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "alpha/pairs/alpha_bars.hpp"
+#include "alpha/pairs/critical_simplices.hpp"
+#include "ph/detail/components/disjoint_sets.hpp"
+
+namespace ph::alpha {
+
+/// H0: Kruskal's algorithm on the critical edges, by the elder rule. The forest of least edges has
+/// no others: an edge in an interval with more than a vertex closes a triangle as it enters.
+/// @param joins to it are added the places in `edges` of those that join components.
+template <Field K>
+void pair_components(const AlphaCells& cells, const RankedSimplices& edges, const K& field,
+                     const RunContext& context, AlphaBars& bars, SimplexSet& joins) {
+  const auto sites = static_cast<std::uint32_t>(cells.sites.size());
+  DisjointSets sets(sites, &context.memory);
+  // A late vertex enters with an edge to an earlier one.
+  if (!cells.vertex_up.empty())
+    for (std::uint32_t v = 0; v < sites; ++v) {
+      std::uint32_t up = cells.vertex_up[v];
+      if (up == kCritical) continue;
+      if (cells.dim() == 3) {
+        const auto& ends = cells.edges.ends[up];
+        up = ends[0] == v ? ends[1] : ends[0];
+      }
+      sets.link(v, sets.find(up));
+    }
+  const auto is_older = [&](std::uint32_t u, std::uint32_t v) {
+    const double a = cells.vertex_value(u), b = cells.vertex_value(v);
+    return a != b ? a < b : u < v;
+  };
+  joins.assign(edges.size(), false);
+  Ticker ticker(context, "components", edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    ticker.tick();
+    const auto ends = ends_of(cells, edges[i].number);
+    std::uint32_t elder = sets.find(ends[0]), younger = sets.find(ends[1]);
+    if (elder == younger) continue;
+    if (is_older(younger, elder)) std::swap(elder, younger);
+    sets.link(younger, elder);
+    joins[i] = true;
+    if (!bars.wants(0)) continue;
+    const bool wants_cycle = bars.pair(0, cells.vertex_value(younger), edges[i].value,
+                                       Simplex::of({younger}), Simplex::of({ends[0], ends[1]}));
+    if (!wants_cycle) continue;
+    bars.add_term(Simplex::of({younger}), 1);
+    bars.add_term(Simplex::of({elder}), -1);
+    bars.finish_cycle(field.add(field.from_int(1), field.from_int(1)) == field.from_int(0));
+  }
+  if (!bars.wants(0)) return;
+  for (std::uint32_t v = 0; v < sites; ++v)
+    if (sets.find(v) == v && bars.essential(0, cells.vertex_value(v), Simplex::of({v}))) {
+      bars.add_term(Simplex::of({v}), 1);
+      bars.finish_cycle(false);
+    }
+}
+
+}  // namespace ph::alpha

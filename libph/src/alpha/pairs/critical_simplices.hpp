@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "alpha/intervals/intervals.hpp"
+#include "ph/detail/core/radix_sort.hpp"
+
+namespace ph::alpha {
+
+/// A critical simplex: its value, and its number among its kind.
+struct Ranked {
+  double value;
+  std::uint32_t number;
+};
+using RankedSimplices = std::pmr::vector<Ranked>;
+
+/// Critical facets by their place in AlphaCells::facets, from old to young.
+inline RankedSimplices ranked_facets(const AlphaCells& cells, const RunContext& context) {
+  RankedSimplices ranked(cells.facets.size(), &context.memory);
+  for (std::uint32_t i = 0; i < ranked.size(); ++i) ranked[i] = {cells.facets[i].value, i};
+  radix_sort_by_value(
+      ranked, [](const Ranked& r) { return r.value; }, context);
+  return ranked;
+}
+
+/// Critical edges, from old to young: by number, of dimension 2 by their place among the facets, of
+/// dimension 1 by cell.
+inline RankedSimplices ranked_edges(const AlphaCells& cells, const RunContext& context) {
+  if (cells.dim() == 2) return ranked_facets(cells, context);
+  RankedSimplices ranked(&context.memory);
+  if (cells.dim() == 3) {
+    std::size_t count = 0;
+    for (const Edge& edge : cells.edge_states) count += edge.up == kCritical ? 1 : 0;
+    ranked.reserve(count);
+    for (std::uint32_t e = 0; e < cells.edge_states.size(); ++e)
+      if (cells.edge_states[e].up == kCritical) ranked.push_back({cells.edge_states[e].value, e});
+  } else if (cells.dim() == 1) {
+    for (std::uint32_t t = 0; t < cells.triangulation.size(); ++t)
+      if (cells.beyond[t] == 0) ranked.push_back({cells.cell_values[t], t});
+  }
+  radix_sort_by_value(
+      ranked, [](const Ranked& r) { return r.value; }, context);
+  return ranked;
+}
+
+/// The ends of an edge by its number as above.
+inline std::array<std::uint32_t, 2> ends_of(const AlphaCells& cells, std::uint32_t edge) {
+  if (cells.dim() == 3) return cells.edges.ends[edge];
+  if (cells.dim() == 2) {
+    const auto ends = cells.facet_vertices(cells.facets[edge].code);
+    return {ends[0], ends[1]};
+  }
+  return {cells.triangulation.cells[edge][0], cells.triangulation.cells[edge][1]};
+}
+
+/// Marks of simplices by number.
+using SimplexSet = std::pmr::vector<bool>;
+
+}  // namespace ph::alpha

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <memory_resource>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "alpha/intervals/intervals.hpp"
+#include "alpha/pairs/critical_simplices.hpp"
+#include "ph/detail/core/chain.hpp"
+#include "ph/detail/core/field.hpp"
+
+namespace ph::alpha {
+
+/// An edge in the order of the filtration.
+struct EdgeName {
+  double value = 0;
+  std::uint32_t edge = 0;
+
+  friend bool operator==(const EdgeName& a, const EdgeName& b) { return a.edge == b.edge; }
+  friend bool operator<(const EdgeName& a, const EdgeName& b) {
+    return a.value != b.value ? a.value < b.value : a.edge < b.edge;
+  }
+};
+
+/// A chain of edges that is being reduced, in ascending order: columns are short, so that merging
+/// lists beats a heap. An edge that is paired with a triangle inside its interval is replaced by
+/// the rest of that triangle's boundary when it comes up. Edges that join components are left out:
+/// no cycle has its youngest edge there. Not for several threads at once.
+template <Field K>
+class EdgeColumn {
+ public:
+  using Element = typename K::Element;
+  using Term = Entry<EdgeName, K>;
+
+  /// @param joins by edge: whether it joins components.
+  EdgeColumn(const AlphaCells& cells, const SimplexSet& joins, const K& field,
+             const RunContext& context)
+      : cells_(cells),
+        joins_(joins),
+        field_(field),
+        context_(context),
+        terms_(&context.memory),
+        merged_(&context.memory) {}
+
+  /// Begins anew with the boundary of a facet.
+  void assign_boundary(std::uint32_t facet) {
+    terms_.clear();
+    add_boundary(facet, kNone, field_.from_int(1));
+  }
+  void assign(std::span<const Term> chain) { terms_.assign(chain.begin(), chain.end()); }
+  void add(Element scale, std::span<const Term> chain) {
+    count(terms_.size() + chain.size());
+    merged_.clear();
+    auto mine = terms_.begin();
+    auto theirs = chain.begin();
+    while (mine != terms_.end() && theirs != chain.end()) {
+      if (mine->cell == theirs->cell) {
+        const Element sum =
+            field_.add(mine->coefficient(), field_.multiply(scale, theirs->coefficient()));
+        if (!field_.is_zero(sum)) merged_.emplace_back(mine->cell, sum);
+        ++mine;
+        ++theirs;
+      } else if (mine->cell < theirs->cell) {
+        merged_.push_back(*mine++);
+      } else {
+        merged_.emplace_back(theirs->cell, field_.multiply(scale, theirs->coefficient()));
+        ++theirs;
+      }
+    }
+    merged_.insert(merged_.end(), mine, terms_.end());
+    for (; theirs != chain.end(); ++theirs)
+      merged_.emplace_back(theirs->cell, field_.multiply(scale, theirs->coefficient()));
+    terms_.swap(merged_);
+  }
+  /// Takes out the youngest edge that is in no interval with a triangle; nothing if none is left.
+  std::optional<Term> take_pivot() {
+    while (!terms_.empty()) {
+      const Term youngest = terms_.back();
+      terms_.pop_back();
+      const std::uint32_t facet = cells_.edge_states[youngest.cell.edge].up;
+      if (facet == kCritical) return youngest;
+      add_boundary(facet, youngest.cell.edge, youngest.coefficient());
+    }
+    return std::nullopt;
+  }
+  /// What it holds, each edge once.
+  std::span<const Term> consolidate() const { return terms_; }
+
+ private:
+  void count(std::size_t steps) {
+    constexpr std::size_t many = 4096;
+    if ((steps_ += steps + 1) < many) return;
+    steps_ = 0;
+    context_.poll();
+  }
+  /// Adds a multiple of the boundary of a facet: so much that it cancels `coefficient` times the
+  /// edge `without`, which is left out; or `coefficient` times all of it.
+  void add_boundary(std::uint32_t facet, std::uint32_t without, Element coefficient) {
+    count(1);
+    const auto& places = kFacetPlaces[facet & 3];
+    const auto& of_cell = cells_.edges.of_cell[facet >> 2];
+    const std::array<std::uint32_t, 3> edges{of_cell[kEdgeBetween[places[1]][places[2]]],
+                                             of_cell[kEdgeBetween[places[0]][places[2]]],
+                                             of_cell[kEdgeBetween[places[0]][places[1]]]};
+    // Their incidences are 1, -1 and 1.
+    bool is_negative = false;
+    if (without != kNone) is_negative = edges[1] != without;
+    for (std::size_t i = 0; i < 3; ++i)
+      if (edges[i] != without)
+        add(edges[i], is_negative != (i == 1) ? field_.negate(coefficient) : coefficient);
+  }
+  void add(std::uint32_t edge, Element coefficient) {
+    const Edge& state = cells_.edge_states[edge];
+    if (state.up == kJoins || joins_[edge]) return;
+    const EdgeName name{state.value, edge};
+    constexpr std::size_t few = 32;
+    auto at = terms_.end();
+    if (terms_.size() <= few) {
+      while (at != terms_.begin() && name < (at - 1)->cell) --at;
+    } else {
+      at = std::upper_bound(terms_.begin(), terms_.end(), name,
+                            [](const EdgeName& a, const Term& b) { return a < b.cell; });
+    }
+    if (at == terms_.begin() || !((at - 1)->cell == name)) {
+      terms_.insert(at, Term(name, coefficient));
+      return;
+    }
+    const Element sum = field_.add((at - 1)->coefficient(), coefficient);
+    if (field_.is_zero(sum))
+      terms_.erase(at - 1);
+    else
+      *(at - 1) = Term(name, sum);
+  }
+
+  const AlphaCells& cells_;
+  const SimplexSet& joins_;
+  const K& field_;
+  const RunContext& context_;
+  std::size_t steps_ = 0;  // since the last look at the stop token
+  std::pmr::vector<Term> terms_, merged_;
+};
+
+}  // namespace ph::alpha

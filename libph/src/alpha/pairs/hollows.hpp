@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <limits>
+#include <optional>
+
+#include "alpha/pairs/alpha_bars.hpp"
+#include "alpha/pairs/critical_simplices.hpp"
+#include "ph/detail/components/elder_rule.hpp"
+
+namespace ph::alpha {
+
+/// Homology one below the dimension: components of the cells and the outside, which join across
+/// facets from young to old (Delfinado & Edelsbrunner, An incremental algorithm for Betti numbers
+/// of simplicial complexes, 1995). A cell that is paired with a facet is joined to what lies across
+/// it from the start. Facets that join two components give birth to a class, which the oldest cell
+/// of the younger one kills.
+template <Field K>
+class Hollows {
+ public:
+  Hollows(const AlphaCells& cells, const K& field, const RunContext& context, AlphaBars& bars)
+      : cells_(cells),
+        field_(field),
+        context_(context),
+        bars_(bars),
+        outside_(static_cast<std::uint32_t>(cells.triangulation.size())),
+        sets_(outside_ + std::size_t{1}, &context.memory) {
+    if (bars.wants_cycles() && bars.wants(cells.dim() - 1))
+      rings_.emplace(outside_ + std::size_t{1}, &context.memory);
+    for (std::uint32_t t = 0; t < outside_; ++t)
+      if (const unsigned beyond = cells.beyond[t]; beyond != 0)
+        link(t, sets_.find(node_across(4 * t + lowest(beyond))));
+  }
+
+  /// @param facets critical ones, by their place in AlphaCells::facets.
+  /// @param use whether the facet at a place in `facets` is free.
+  /// @param on_join called with the place of a facet that joins.
+  template <class IsFree, class OnJoin>
+  void run(const RankedSimplices& facets, IsFree&& is_free, OnJoin&& on_join) {
+    Ticker ticker(context_, "hollows", facets.size());
+    for (std::size_t i = facets.size(); i-- > 0;) {
+      ticker.tick();
+      if (!is_free(i)) continue;
+      const std::uint32_t code = cells_.facets[facets[i].number].code;
+      std::uint32_t elder = sets_.find(code >> 2), younger = sets_.find(node_across(code));
+      if (elder == younger) continue;
+      if (enters_later(younger, elder)) std::swap(elder, younger);
+      on_join(i);
+      if (bars_.wants(cells_.dim() - 1)) report(facets[i].value, code, younger);
+      link(younger, elder);
+    }
+  }
+
+ private:
+  double value(std::uint32_t node) const {
+    return node == outside_ ? std::numeric_limits<double>::infinity() : cells_.cell_values[node];
+  }
+  // The dual goes from young to old.
+  bool enters_later(std::uint32_t a, std::uint32_t b) const {
+    const double x = value(a), y = value(b);
+    return x != y ? x > y : a > b;
+  }
+  std::uint32_t node_across(std::uint32_t code) const {
+    const std::uint32_t other = cells_.across(code);
+    return other == kNone ? outside_ : other >> 2;
+  }
+  void link(std::uint32_t child, std::uint32_t root) {
+    sets_.link(child, root);
+    if (rings_) rings_->join(child, root);
+  }
+  void report(double birth, std::uint32_t code, std::uint32_t killer) {
+    const bool wants_cycle = bars_.pair(cells_.dim() - 1, birth, value(killer),
+                                        facet_simplex(cells_, code), cell_simplex(cells_, killer));
+    if (!wants_cycle) return;
+    // The boundary of its cells, all of them with one orientation.
+    const std::int64_t sign = sign_of(code, killer);
+    rings_->for_each(killer, [&](std::uint32_t t) {
+      for (std::uint32_t k = 0; k <= static_cast<std::uint32_t>(cells_.dim()); ++k) {
+        const std::uint32_t facet = 4 * t + k;
+        if (sets_.find(node_across(facet)) != killer)
+          bars_.add_term(facet_simplex(cells_, facet), sign * incidence(facet));
+      }
+    });
+    bars_.finish_cycle(field_.is_zero(field_.from_int(2)));
+  }
+  /// Of a facet in the boundary of its cell, oriented as all cells are.
+  std::int64_t incidence(std::uint32_t facet) const {
+    const bool is_negative = (facet & 1) != 0;
+    return is_negative != (cells_.triangulation.is_reversed[facet >> 2] != 0) ? -1 : 1;
+  }
+  /// That with which the facet that gives birth has the coefficient 1.
+  std::int64_t sign_of(std::uint32_t code, std::uint32_t inside) {
+    return incidence(sets_.find(code >> 2) == inside ? code : cells_.across(code));
+  }
+
+  const AlphaCells& cells_;
+  const K& field_;
+  const RunContext& context_;
+  AlphaBars& bars_;
+  const std::uint32_t outside_;
+  DisjointSets sets_;
+  std::optional<ComponentRings> rings_;
+};
+
+}  // namespace ph::alpha

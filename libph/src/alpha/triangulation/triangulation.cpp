@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "alpha/triangulation/triangulation.hpp"
+
+#include <algorithm>
+
+#include "alpha/cgal/triangulations.hpp"
+
+namespace ph::alpha {
+namespace {
+
+/// Takes out the sites that no cell has.
+void remove_hidden(Sites& sites, Triangulation& triangulation,
+                   std::pmr::vector<std::uint32_t>& hidden) {
+  std::pmr::vector<std::uint32_t> number(sites.size(), kNone, hidden.get_allocator());
+  for (const auto& cell : triangulation.cells)
+    for (const std::uint32_t v : cell)
+      if (v != kNone) number[v] = 0;
+  std::uint32_t kept = 0;
+  for (std::uint32_t site = 0; site < number.size(); ++site) {
+    if (number[site] == kNone) {
+      hidden.push_back(sites.input[site]);
+      continue;
+    }
+    number[site] = kept;
+    sites.points[kept] = sites.points[site];
+    sites.weights[kept] = sites.weights[site];
+    sites.input[kept++] = sites.input[site];
+  }
+  sites.points.resize(kept);
+  sites.weights.resize(kept);
+  sites.input.resize(kept);
+  for (auto& cell : triangulation.cells)
+    for (std::uint32_t& v : cell)
+      if (v != kNone) v = number[v];
+}
+
+}  // namespace
+
+Triangulation triangulate(Sites& sites, std::pmr::vector<std::uint32_t>& hidden,
+                          const RunContext& context) {
+  if (sites.size() == 0) return Triangulation(&context.memory);
+  Triangulation result = sites.coordinates == 3 ? triangulate_space(sites, context)
+                                                : triangulate_plane(sites, context);
+  if (sites.is_weighted()) {
+    // Of copies the heaviest one hides the others.
+    for (const auto& [copy, site] : sites.copies) hidden.push_back(copy);
+    sites.copies.clear();
+    remove_hidden(sites, result, hidden);
+    std::ranges::sort(hidden);
+  }
+  return result;
+}
+
+}  // namespace ph::alpha

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+// The alpha complex of a few points from its definition, in exact numbers. Shares nothing with
+// libph but the type of the points.
+#include <algorithm>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "ph/points.hpp"
+
+namespace ph::test {
+
+using Rational = boost::multiprecision::cpp_rational;
+
+/// A simplex is a set of points, as bits. It has a value if the Voronoi cells (power cells) of its
+/// points meet: the least power of a point where they do to the points of the simplex. All such
+/// simplices are listed, so of cospherical points more than a triangulation has; balls cut to
+/// Voronoi cells have them for their nerve, whose homology is that of the union of the balls.
+class AlphaOracle {
+ public:
+  struct OracleBar {
+    int dim;
+    Rational birth;
+    std::optional<Rational> death;
+  };
+
+  AlphaOracle(PointsView points, const std::vector<double>& weights) {
+    for (Index i = 0; i < points.rows(); ++i) {
+      points_.emplace_back();
+      for (Index k = 0; k < points.cols(); ++k) points_.back().emplace_back(points(i, k));
+      weights_.emplace_back(weights.empty() ? 0.0 : weights[static_cast<std::size_t>(i)]);
+    }
+    find_spheres(static_cast<std::size_t>(points.cols()));
+    const unsigned all = 1U << points_.size();
+    for (unsigned simplex = 1; simplex < all; ++simplex)
+      for (const EmptySphere& sphere : spheres_) {
+        if ((simplex & ~sphere.on) != 0) continue;
+        const auto [at, is_new] = values_.emplace(simplex, sphere.squared_radius);
+        if (!is_new && sphere.squared_radius < at->second) at->second = sphere.squared_radius;
+      }
+  }
+
+  /// By simplex.
+  const std::map<unsigned, Rational>& values() const { return values_; }
+
+  /// Whether a point is nearer than all others to the centre of one of the spheres; a hidden one
+  /// is nowhere.
+  bool is_ever_alone(std::size_t point) const {
+    return std::ranges::any_of(spheres_, [&](const auto& s) { return s.on == 1U << point; });
+  }
+
+  /// Of positive length, over Z/p: the textbook's reduction.
+  std::vector<OracleBar> bars(int p) const {
+    std::vector<std::pair<Rational, unsigned>> order;
+    for (const auto& [simplex, value] : values_) order.emplace_back(value, simplex);
+    std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
+      if (a.first != b.first) return a.first < b.first;
+      const int m = __builtin_popcount(a.second), n = __builtin_popcount(b.second);
+      return m != n ? m < n : a.second < b.second;
+    });
+    std::map<unsigned, std::size_t> place;
+    std::vector<std::map<std::size_t, int>> columns(order.size());
+    std::map<std::size_t, std::size_t> column_of_pivot;
+    std::vector<bool> is_paired(order.size(), false);
+    std::vector<OracleBar> result;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const unsigned simplex = order[i].second;
+      place[simplex] = i;
+      auto& column = columns[i];
+      int sign = 1;
+      if (__builtin_popcount(simplex) > 1)
+        for (unsigned left = simplex; left != 0; left &= left - 1, sign = -sign)
+          column[place.at(simplex & ~(left & -left))] = (sign + p) % p;
+      while (!column.empty() && column_of_pivot.contains(column.rbegin()->first)) {
+        const auto& other = columns[column_of_pivot.at(column.rbegin()->first)];
+        int factor = 0;
+        while ((column.rbegin()->second + factor * other.rbegin()->second) % p != 0) ++factor;
+        for (const auto& [row, a] : other)
+          if ((column[row] = (column[row] + factor * a) % p) == 0) column.erase(row);
+      }
+      if (column.empty()) continue;
+      const std::size_t born = column.rbegin()->first;
+      column_of_pivot[born] = i;
+      is_paired[born] = is_paired[i] = true;
+      if (order[born].first < order[i].first)
+        result.push_back({dim_of(order[born].second), order[born].first, order[i].first});
+    }
+    for (std::size_t i = 0; i < order.size(); ++i)
+      if (!is_paired[i]) result.push_back({dim_of(order[i].second), order[i].first, std::nullopt});
+    return result;
+  }
+
+ private:
+  using Point = std::vector<Rational>;
+  struct EmptySphere {
+    Rational squared_radius;
+    unsigned on;  // the points on it
+  };
+  static int dim_of(unsigned simplex) { return __builtin_popcount(simplex) - 1; }
+  static Rational dot(const Point& a, const Point& b) {
+    Rational sum = 0;
+    for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
+    return sum;
+  }
+  static Point minus(Point a, const Point& b) {
+    for (std::size_t k = 0; k < a.size(); ++k) a[k] -= b[k];
+    return a;
+  }
+  Rational power(const Point& centre, std::size_t i) const {
+    const Point to = minus(points_[i], centre);
+    return dot(to, to) - weights_[i];
+  }
+
+  /// The point in the affine hull of a set that has equal powers to its members; nothing if they
+  /// are affinely dependent.
+  std::optional<Point> centre_of(unsigned set) const {
+    std::vector<std::size_t> members;
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if ((set >> i & 1) != 0) members.push_back(i);
+    const std::size_t m = members.size() - 1;
+    const Point& origin = points_[members[0]];
+    std::vector<Point> to;
+    for (std::size_t i = 1; i <= m; ++i) to.push_back(minus(points_[members[i]], origin));
+    // 2 <to_i, Σ x_j to_j> = |to_i|² - w_i + w_0, by Gauss.
+    std::vector<Point> rows(m, Point(m + 1));
+    for (std::size_t i = 0; i < m; ++i) {
+      for (std::size_t j = 0; j < m; ++j) rows[i][j] = 2 * dot(to[i], to[j]);
+      rows[i][m] = dot(to[i], to[i]) - weights_[members[i + 1]] + weights_[members[0]];
+    }
+    for (std::size_t i = 0; i < m; ++i) {
+      std::size_t pivot = i;
+      while (pivot < m && rows[pivot][i] == 0) ++pivot;
+      if (pivot == m) return std::nullopt;
+      std::swap(rows[i], rows[pivot]);
+      for (std::size_t j = 0; j < m; ++j) {
+        if (j == i) continue;
+        const Rational factor = rows[j][i] / rows[i][i];
+        for (std::size_t k = 0; k <= m; ++k) rows[j][k] -= factor * rows[i][k];
+      }
+    }
+    Point centre = origin;
+    for (std::size_t i = 0; i < m; ++i)
+      for (std::size_t k = 0; k < centre.size(); ++k)
+        centre[k] += rows[i][m] / rows[i][i] * to[i][k];
+    return centre;
+  }
+
+  /// Where the least power is attained the point is the centre of those that are nearest.
+  void find_spheres(std::size_t dim) {
+    for (unsigned set = 1; set < 1U << points_.size(); ++set) {
+      if (__builtin_popcount(set) > static_cast<int>(dim) + 1) continue;
+      const std::optional<Point> centre = centre_of(set);
+      if (!centre) continue;
+      const Rational radius = power(*centre, static_cast<std::size_t>(__builtin_ctz(set)));
+      unsigned on = 0;
+      bool is_empty = true;
+      for (std::size_t i = 0; i < points_.size() && is_empty; ++i) {
+        const Rational of_point = power(*centre, i);
+        if (of_point < radius) is_empty = false;
+        if (of_point == radius) on |= 1U << i;
+      }
+      if (is_empty) spheres_.push_back({radius, on});
+    }
+  }
+
+  std::vector<Point> points_;
+  std::vector<Rational> weights_;
+  std::vector<EmptySphere> spheres_;
+  std::map<unsigned, Rational> values_;
+};
+
+}  // namespace ph::test

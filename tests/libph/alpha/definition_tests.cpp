@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Values and bars against the definition in exact numbers.
+#include <gtest/gtest.h>
+
+#include "libph/alpha/alpha_oracle.hpp"
+#include "libph/alpha/alpha_support.hpp"
+#include "support/for_each_seed.hpp"
+
+namespace ph::test {
+namespace {
+
+/// What values may differ by: rounding, relative to the largest coordinates and weights.
+double tolerance(const Cloud& cloud) {
+  double most = largest_coordinate(cloud.points);
+  most *= most;
+  for (const double w : cloud.weights) most = std::max(most, std::abs(w));
+  return 1e-13 * most;
+}
+
+bool is_near(double found, const Rational& exact, double absolute) {
+  const auto expected = static_cast<double>(exact);
+  return std::abs(found - expected) <= absolute + 1e-12 * std::abs(expected);
+}
+
+/// Takes out one of the bars by one; what is left of those found must have no length.
+void expect_bars(const Barcode& found, const std::vector<AlphaOracle::OracleBar>& exact,
+                 double absolute) {
+  std::vector<Bar> left(found.begin(), found.end());
+  for (const auto& bar : exact) {
+    if (bar.death && static_cast<double>(*bar.death - bar.birth) <= 4 * absolute) continue;
+    const auto at = std::ranges::find_if(left, [&](const Bar& b) {
+      return b.dim == bar.dim && is_near(b.birth, bar.birth, absolute) &&
+             b.is_infinite() == !bar.death &&
+             (!bar.death || is_near(b.death, *bar.death, absolute));
+    });
+    ASSERT_NE(at, left.end()) << "H" << bar.dim << " [" << static_cast<double>(bar.birth) << ", "
+                              << (bar.death ? static_cast<double>(*bar.death) : kInfinity) << ")";
+    left.erase(at);
+  }
+  for (const Bar& bar : left)
+    EXPECT_LE(bar.persistence(), 8 * absolute + 1e-12 * std::abs(bar.death))
+        << "H" << bar.dim << " [" << bar.birth << ", " << bar.death << ")";
+}
+
+void check_definition(const Cloud& cloud) {
+  const AlphaOracle oracle(cloud.points, cloud.weights);
+  const Alpha alpha(cloud.points, cloud.options());
+  const double absolute = tolerance(cloud);
+  // Each simplex is one of the definition, with its value.
+  for (int dim = 0; dim <= alpha.top_dim(); ++dim)
+    alpha.for_each_cell(dim, [&](const Alpha::Cell& cell) {
+      std::vector<Index> numbers;
+      alpha.append_input_cell(dim, cell, numbers);
+      unsigned simplex = 0;
+      for (const Index v : numbers) simplex |= 1U << v;
+      const auto at = oracle.values().find(simplex);
+      ASSERT_NE(at, oracle.values().end()) << "no simplex: " << simplex;
+      EXPECT_TRUE(is_near(alpha.value(cell), at->second, absolute))
+          << alpha.value(cell) << " for " << static_cast<double>(at->second);
+    });
+  for (const int p : {2, 3})
+    expect_bars(persistence(alpha, {.field = p}), oracle.bars(p), absolute);
+  for (const std::uint32_t v : alpha.hidden())
+    EXPECT_FALSE(oracle.is_ever_alone(v)) << "point " << v << " is not hidden";
+}
+
+TEST(AlphaDefinition, AnyPoints) {
+  for_each_seed(400, [](Generator& random, bool, std::int64_t) {
+    const Cloud cloud = any_cloud(random, 9, false);
+    SCOPED_TRACE(cloud.name);
+    check_definition(cloud);
+  });
+}
+
+TEST(AlphaDefinition, AnyWeights) {
+  for_each_seed(400, [](Generator& random, bool, std::int64_t) {
+    const Cloud cloud = any_cloud(random, 9, true);
+    SCOPED_TRACE(cloud.name);
+    check_definition(cloud);
+  });
+}
+
+TEST(AlphaDefinition, TwelvePoints) {
+  for_each_seed(6, [](Generator& random, bool ties, std::int64_t) {
+    check_definition({"", random.points(12, 3, ties), {}});
+  });
+}
+
+}  // namespace
+}  // namespace ph::test
