@@ -22,7 +22,7 @@ MAY_INCLUDE = {
     "diagram": "core metric",
     "vectors": "core image complex diagram",
     "significance": "core metric",
-    "alpha": "core metric components reduction complex cubical facade",
+    "alpha": "core metric components reduction complex facade",
     "facade": "core metric image components reduction complex rips cubical",
     "loops": "core metric complex components reduction rips facade",
     "c": "core metric image complex rips cubical facade",

@@ -8,6 +8,7 @@
 
 #include "alpha/intervals/intervals.hpp"
 #include "alpha/listed_simplices.hpp"
+#include "alpha/sites/power_of_two.hpp"
 #include "ph/error.hpp"
 
 namespace ph {
@@ -35,9 +36,10 @@ Alpha::Alpha(PointsView points, const AlphaOptions& options, const RunContext& c
 
 double Alpha::to_value(double squared_radius) const {
   const int exponent = cells_->sites.exponent;
+  using alpha::times_power_of_two;
   const double value = unit_ == AlphaOptions::Unit::squared
-                           ? std::ldexp(squared_radius, 2 * exponent)
-                           : std::ldexp(std::sqrt(squared_radius), exponent);
+                           ? times_power_of_two(squared_radius, 2 * exponent)
+                           : times_power_of_two(std::sqrt(squared_radius), exponent);
   return std::min(value, std::numeric_limits<double>::max());
 }
 

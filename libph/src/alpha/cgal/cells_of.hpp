@@ -22,72 +22,102 @@ void insert_sites(std::size_t sites, const RunContext& context, Insert&& insert)
   }
 }
 
-/// Sorts the vertices of a cell, and with them what lies across. @return whether that is an odd
-/// permutation.
-template <class T>
-bool sort_cell(std::array<std::uint32_t, 4>& vertices, std::array<T, 4>& across, int dim) {
+/// Sorts the vertices of a cell, and with them what lies across; those that are none come last. Any
+/// order is equally likely, so there is no branch. @return whether that is an odd permutation.
+inline bool sort_cell(std::array<std::uint32_t, 4>& vertices,
+                      std::array<std::uint32_t, 4>& across) {
+  std::array<std::uint64_t, 4> both;
+  for (std::size_t k = 0; k < 4; ++k) both[k] = std::uint64_t{vertices[k]} << 32 | across[k];
   bool is_odd = false;
-  for (int i = 1; i <= dim; ++i)
-    for (int k = i; k > 0; --k) {
-      const auto at = static_cast<std::size_t>(k);
-      if (vertices[at - 1] < vertices[at]) break;
-      std::swap(vertices[at - 1], vertices[at]);
-      std::swap(across[at - 1], across[at]);
-      is_odd = !is_odd;
-    }
+  const auto order = [&](std::size_t i, std::size_t k) {
+    const std::uint64_t a = both[i], b = both[k];
+    const bool swaps = a >> 32 > b >> 32;
+    both[i] = swaps ? b : a;
+    both[k] = swaps ? a : b;
+    is_odd = is_odd != swaps;
+  };
+  order(0, 1);
+  order(2, 3);
+  order(0, 2);
+  order(1, 3);
+  order(1, 2);
+  for (std::size_t k = 0; k < 4; ++k) {
+    vertices[k] = static_cast<std::uint32_t>(both[k] >> 32);
+    across[k] = static_cast<std::uint32_t>(both[k]);
+  }
   return is_odd;
+}
+
+/// Makes names of facets of the numbers of the cells across.
+inline void name_facets(Triangulation& result) {
+  constexpr std::uint32_t named = std::uint32_t{1} << 31;  // by the cell across, which came before
+  auto& across = result.across;
+  for (std::uint32_t t = 0; t < across.size(); ++t)
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      std::uint32_t& other = across[t][k];
+      if (other == kNone) continue;
+      if ((other & named) != 0) {
+        other &= ~named;
+        continue;
+      }
+      auto& back = across[other];
+      const std::uint32_t place =
+          (back[1] == t ? 1U : 0U) + (back[2] == t ? 2U : 0U) + (back[3] == t ? 3U : 0U);
+      back[place] = named | (4 * t + k);
+      other = 4 * other + place;
+    }
 }
 
 /// Copies the cells of a triangulation of CGAL in the order of their smallest vertices, which is an
 /// order in space.
-/// @param for_each_cell calls a function with the handle of each finite cell. @tparam Handle to a
-/// cell, whose info() is free to use; that of a vertex is its site. That of an infinite cell is
-/// kNone.
+/// @tparam Handle to a cell, whose info() is free to use; that of a vertex is its site.
+/// @param for_each_cell calls a function with the handle of each cell and whether it is finite.
 template <class Handle, class ForEachCell>
-void copy_cells(Triangulation& result, std::size_t sites, std::size_t count,
-                ForEachCell&& for_each_cell, const RunContext& context) {
-  constexpr std::size_t most = std::size_t{1} << 30;
-  if (count >= most)
-    throw Error(ErrorKind::resource, "Delaunay triangulation: found 2^30 cells or more");
+void copy_cells(Triangulation& result, std::size_t sites, ForEachCell&& for_each_cell,
+                const RunContext& context) {
   const int dim = result.dim;
-  result.cells.resize(count);
-  result.across.resize(count);
-  result.is_reversed.resize(count);
   const auto smallest = [dim](Handle c) {
     std::uint32_t least = c->vertex(0)->info();
     for (int k = 1; k <= dim; ++k) least = std::min(least, c->vertex(k)->info());
     return least;
   };
+  // The infinite ones are known by kNone from here on, the finite ones by their smallest vertex.
   std::pmr::vector<std::uint32_t> next(sites + 1, 0, &context.memory);
-  for_each_cell([&](Handle c) { ++next[smallest(c)]; });
+  std::size_t count = 0;
+  for_each_cell([&](Handle c, auto&& is_finite) {
+    c->info() = kNone;
+    if (!is_finite()) return;
+    c->info() = smallest(c);
+    ++next[c->info()];
+    ++count;
+  });
+  constexpr std::size_t most = std::size_t{1} << 29;
+  if (count >= most)
+    throw Error(ErrorKind::resource, "Delaunay triangulation: found 2^29 cells or more");
+  context.poll();
+  result.cells.resize(count);
+  result.across.resize(count);
+  result.is_reversed.resize(count);
   std::uint32_t sum = 0;
   for (std::uint32_t& n : next) sum += std::exchange(n, sum);
-  for_each_cell([&](Handle c) { c->info() = next[smallest(c)]++; });
-  context.poll();
-  // The facets of a cell in the order of CGAL's vertices, then in that of the sorted ones.
-  std::pmr::vector<std::array<std::uint8_t, 4>> place(count, &context.memory);
-  for_each_cell([&](Handle c) {
-    const std::uint32_t t = c->info();
-    auto& vertices = result.cells[t];
-    vertices.fill(kNone);
-    std::array<std::uint8_t, 4> from{0, 1, 2, 3};
-    for (int k = 0; k <= dim; ++k) vertices[static_cast<std::size_t>(k)] = c->vertex(k)->info();
-    result.is_reversed[t] = sort_cell(vertices, from, dim);
-    for (std::uint8_t k = 0; k < 4; ++k) place[t][from[k]] = k;
+  for_each_cell([&](Handle c, auto&&) {
+    if (c->info() != kNone) c->info() = next[c->info()]++;
   });
   context.poll();
-  for_each_cell([&](Handle c) {
+  for_each_cell([&](Handle c, auto&&) {
     const std::uint32_t t = c->info();
-    auto& across = result.across[t];
+    if (t == kNone) return;
+    auto &vertices = result.cells[t], &across = result.across[t];
+    vertices.fill(kNone);
     across.fill(kNone);
     for (int k = 0; k <= dim; ++k) {
-      const Handle other = c->neighbor(k);
-      if (other->info() == kNone) continue;
-      const auto back = static_cast<std::size_t>(other->index(c));
-      across[place[t][static_cast<std::size_t>(k)]] =
-          4 * other->info() + place[other->info()][back];
+      vertices[static_cast<std::size_t>(k)] = c->vertex(k)->info();
+      across[static_cast<std::size_t>(k)] = c->neighbor(k)->info();
     }
+    result.is_reversed[t] = sort_cell(vertices, across);
   });
+  context.poll();
+  name_facets(result);
 }
 
 /// The edges between neighbours of collinear sites as cells of dimension 1.

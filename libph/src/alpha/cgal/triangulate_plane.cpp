@@ -36,15 +36,14 @@ Triangulation copy(Dt& dt, std::size_t sites, const RunContext& context) {
         add(e->first->vertex(dt.cw(e->second))->info(),
             e->first->vertex(dt.ccw(e->second))->info());
     });
-  if (result.dim == 2) {
-    for (auto f = dt.all_faces_begin(); f != dt.all_faces_end(); ++f) f->info() = kNone;
+  if (result.dim == 2)
     copy_cells<Face>(
-        result, sites, dt.number_of_faces(),
+        result, sites,
         [&](auto&& use) {
-          for (auto f = dt.finite_faces_begin(); f != dt.finite_faces_end(); ++f) use(f);
+          for (auto f = dt.all_faces_begin(); f != dt.all_faces_end(); ++f)
+            use(f, [&] { return !dt.is_infinite(f); });
         },
         context);
-  }
   return result;
 }
 

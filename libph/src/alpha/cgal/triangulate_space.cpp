@@ -38,28 +38,22 @@ Triangulation copy(Dt& dt, std::size_t sites, const RunContext& context) {
       for (auto e = dt.finite_edges_begin(); e != dt.finite_edges_end(); ++e)
         add(e->first->vertex(e->second)->info(), e->first->vertex(e->third)->info());
     });
-  if (result.dim == 2) {
-    for (auto f = dt.all_facets_begin(); f != dt.all_facets_end(); ++f) f->first->info() = kNone;
+  if (result.dim == 2)
     copy_cells<Cell>(
-        result, sites, dt.number_of_finite_facets(),
+        result, sites,
         [&](auto&& use) {
-          for (auto f = dt.finite_facets_begin(); f != dt.finite_facets_end(); ++f) use(f->first);
+          for (auto f = dt.all_facets_begin(); f != dt.all_facets_end(); ++f)
+            use(f->first, [&] { return !dt.is_infinite(*f); });
         },
         context);
-  }
-  if (result.dim == 3) {
-    std::size_t finite = 0;
-    for (auto c = dt.all_cells_begin(); c != dt.all_cells_end(); ++c) {
-      c->info() = kNone;
-      finite += dt.is_infinite(c) ? 0 : 1;
-    }
+  if (result.dim == 3)
     copy_cells<Cell>(
-        result, sites, finite,
+        result, sites,
         [&](auto&& use) {
-          for (auto c = dt.finite_cells_begin(); c != dt.finite_cells_end(); ++c) use(c);
+          for (auto c = dt.all_cells_begin(); c != dt.all_cells_end(); ++c)
+            use(c, [&] { return !dt.is_infinite(c); });
         },
         context);
-  }
   return result;
 }
 

@@ -2,7 +2,7 @@
 #include "alpha/intervals/edges.hpp"
 
 #include <algorithm>
-#include <atomic>
+#include <vector>
 
 #include "alpha/intervals/places.hpp"
 #include "ph/detail/core/parallel.hpp"
@@ -13,22 +13,24 @@ namespace {
 
 using std::uint32_t;
 
-/// An edge of a cell as its smaller vertex knows it.
-struct Slot {
-  uint32_t other;  // its larger vertex
-  uint32_t code;   // 8 * cell + edge
-};
+/// The edges of a cell that have one smaller vertex: 8 · cell + edge.
+using Slot = uint32_t;
 
-/// The slots of a vertex, those of one edge side by side. @return how many edges there are.
-uint32_t sort_slots(std::span<Slot> slots) {
-  std::ranges::sort(slots, [](const Slot& a, const Slot& b) {
-    return a.other != b.other ? a.other < b.other : a.code < b.code;
-  });
-  uint32_t count = 0;
-  for (std::size_t i = 0; i < slots.size(); ++i)
-    count += i == 0 || slots[i].other != slots[i - 1].other ? 1 : 0;
-  return count;
-}
+/// Where an edge was met before: by its larger vertex, the smaller one and a number.
+class MetEdges {
+ public:
+  MetEdges(std::size_t sites, std::pmr::memory_resource* memory)
+      : met_(sites, ~std::uint64_t{0}, memory) {}
+  /// @param next the number of a new edge.
+  uint32_t number(uint32_t smaller, uint32_t larger, uint32_t next) {
+    std::uint64_t& met = met_[larger];
+    if (met >> 32 != smaller) met = std::uint64_t{smaller} << 32 | next;
+    return static_cast<uint32_t>(met);
+  }
+
+ private:
+  std::pmr::vector<std::uint64_t> met_;
+};
 
 }  // namespace
 
@@ -37,9 +39,6 @@ NumberedEdges number_edges(const Triangulation& triangulation, std::size_t sites
   std::pmr::memory_resource* const memory = &context.memory;
   NumberedEdges edges(memory);
   const auto& cells = triangulation.cells;
-  constexpr std::size_t most = std::size_t{1} << 29;
-  if (cells.size() >= most)
-    throw Error(ErrorKind::resource, "alpha complex: found 2^29 tetrahedra or more");
   edges.of_cell.resize(cells.size());
 
   // Buckets by smaller vertex.
@@ -53,35 +52,47 @@ NumberedEdges number_edges(const Triangulation& triangulation, std::size_t sites
   context.poll();
   RawVector<Slot> slots(6 * cells.size(), memory);
   for (std::size_t t = cells.size(); t-- > 0;)
-    for (unsigned e = 6; e-- > 0;) {
-      const auto& ends = kEdgeEnds[e];
-      slots[--begin[cells[t][ends[0]]]] = {cells[t][ends[1]], static_cast<uint32_t>(8 * t + e)};
-    }
+    for (unsigned e = 6; e-- > 0;)
+      slots[--begin[cells[t][kEdgeEnds[e][0]]]] = static_cast<Slot>(8 * t + e);
 
-  constexpr std::size_t piece = 1 << 12;
-  const auto slots_of = [&](std::size_t v) {
-    const std::size_t end = v + 1 < begin.size() ? begin[v + 1] : slots.size();
-    return std::span(slots).subspan(begin[v], end - begin[v]);
+  // By pieces of vertices: numbers from 0, then from where the piece begins.
+  const std::size_t threads = thread_count(context);
+  const std::size_t piece = threads == 1 ? sites : std::max<std::size_t>(1, sites / (4 * threads));
+  const auto slots_of = [&](std::size_t from, std::size_t to) {
+    const std::size_t end = to < sites ? begin[to] : slots.size();
+    return std::span(slots).subspan(begin[from], end - begin[from]);
   };
-  std::pmr::vector<uint32_t> first((sites + piece - 1) / piece + 1, 0, memory);
+  const std::size_t pieces = (sites + piece - 1) / piece;
+  std::pmr::vector<std::pmr::vector<std::array<uint32_t, 2>>> ends(pieces, memory);
   for_each_piece("edges", sites, piece, context, [&](std::size_t from, std::size_t to) {
-    uint32_t count = 0;
-    for (std::size_t v = from; v < to; ++v) count += sort_slots(slots_of(v));
-    first[from / piece] = count;
-  });
-  sum = 0;
-  for (uint32_t& f : first) sum += std::exchange(f, sum);
-  edges.ends.resize(sum);
-  for_each_piece("edges", sites, piece, context, [&](std::size_t from, std::size_t to) {
-    uint32_t next = first[from / piece];
+    auto& of_piece = ends[from / piece];
+    of_piece.reserve(8 * (to - from));
+    MetEdges met(sites, memory);
     for (std::size_t v = from; v < to; ++v) {
-      uint32_t before = kNone;
-      for (const Slot& slot : slots_of(v)) {
-        if (slot.other != before) edges.ends[next++] = {static_cast<uint32_t>(v), slot.other};
-        before = slot.other;
-        edges.of_cell[slot.code >> 3][slot.code & 7] = next - 1;
+      const auto smaller = static_cast<uint32_t>(v);
+      for (const Slot slot : slots_of(v, v + 1)) {
+        const uint32_t larger = cells[slot >> 3][kEdgeEnds[slot & 7][1]];
+        const auto next = static_cast<uint32_t>(of_piece.size());
+        const uint32_t number = met.number(smaller, larger, next);
+        if (number == next) of_piece.push_back({smaller, larger});
+        edges.of_cell[slot >> 3][slot & 7] = number;
       }
     }
+  });
+  std::pmr::vector<uint32_t> first(pieces, 0, memory);
+  sum = 0;
+  for (std::size_t i = 0; i < pieces; ++i) {
+    first[i] = sum;
+    sum += static_cast<uint32_t>(ends[i].size());
+  }
+  edges.ends.resize(sum);
+  for_each_piece("edges", sites, piece, context, [&](std::size_t from, std::size_t to) {
+    auto& of_piece = ends[from / piece];
+    std::ranges::copy(of_piece, edges.ends.begin() + first[from / piece]);
+    of_piece = std::pmr::vector<std::array<uint32_t, 2>>(memory);
+    if (first[from / piece] == 0) return;
+    for (const Slot slot : slots_of(from, to))
+      edges.of_cell[slot >> 3][slot & 7] += first[from / piece];
   });
   return edges;
 }

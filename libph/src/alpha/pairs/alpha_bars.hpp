@@ -40,22 +40,33 @@ inline Simplex cell_simplex(const AlphaCells& cells, std::uint32_t t) {
 class AlphaBars {
  public:
   AlphaBars(const Alpha& alpha, BarcodeBuilder<Alpha>& bars)
-      : alpha_(alpha), cells_(alpha.cells()), bars_(bars) {}
+      : alpha_(alpha), cells_(alpha.cells()), bars_(bars) {
+    constexpr std::size_t many = 4096;
+    some_.reserve(many);
+  }
 
   bool wants(int dim) const { return bars_.min_dim() <= dim && dim <= bars_.max_dim(); }
   bool wants_cycles() const { return bars_.representatives() == Representatives::cycles; }
+  /// To be called last.
+  void flush() {
+    bars_.add_bars(some_);
+    some_.clear();
+  }
   /// A class born with one simplex and killed by another, of those squared radii. @return whether
   /// the bar is kept and wants a cycle.
-  bool pair(int dim, double birth, double death, const Simplex& born, const Simplex& killer) {
+  /// @param born, killer called for the simplices, if those are wanted.
+  template <class Born, class Killer>
+  bool pair(int dim, double birth, double death, Born&& born, Killer&& killer) {
     if (birth == death) return false;
     Bar bar{dim, alpha_.to_value(birth), alpha_.to_value(death)};
     if (bar.birth > alpha_.threshold()) return false;
     if (bar.death > alpha_.threshold()) bar.death = kInfinity;
-    return add(bar, born, bar.is_infinite() ? Simplex() : killer);
+    return add(bar, born, killer);
   }
-  bool essential(int dim, double birth, const Simplex& born) {
+  template <class Born>
+  bool essential(int dim, double birth, Born&& born) {
     const Bar bar{dim, alpha_.to_value(birth), kInfinity};
-    return bar.birth <= alpha_.threshold() && add(bar, born, {});
+    return bar.birth <= alpha_.threshold() && add(bar, born, [] { return Simplex(); });
   }
 
   /// The cycle of the bar that was kept last, simplex by simplex.
@@ -85,19 +96,25 @@ class AlphaBars {
     }
     return is_odd;
   }
-  bool add(const Bar& bar, const Simplex& born, const Simplex& killer) {
+  template <class Born, class Killer>
+  bool add(const Bar& bar, Born&& born, Killer&& killer) {
+    if (!bars_.wants_cells() && !wants_cycles()) {
+      some_.push_back(bar);
+      if (some_.size() == some_.capacity()) flush();
+      return false;
+    }
+    if (!bars_.wants_cells()) return bars_.add_bar(bar, {}, {});
     birth_.clear();
     death_.clear();
-    if (bars_.wants_cells()) {
-      append(born, birth_);
-      append(killer, death_);
-    }
+    append(born(), birth_);
+    if (!bar.is_infinite()) append(killer(), death_);
     return bars_.add_bar(bar, birth_, death_) && wants_cycles();
   }
 
   const Alpha& alpha_;
   const AlphaCells& cells_;
   BarcodeBuilder<Alpha>& bars_;
+  std::vector<Bar> some_;  // without cells, not handed over yet
   std::vector<Index> birth_, death_, numbers_;
   std::vector<std::int64_t> coefficients_;
 };

@@ -30,18 +30,29 @@ void pair_components(const AlphaCells& cells, const RankedSimplices& edges, cons
     return a != b ? a < b : u < v;
   };
   joins.assign(edges.size(), false);
+  std::size_t left = sites;  // components
+  for (const std::uint32_t up : cells.vertex_up) left -= up != kCritical ? 1 : 0;
   Ticker ticker(context, "components", edges.size());
-  for (std::size_t i = 0; i < edges.size(); ++i) {
+  for (std::size_t i = 0; i < edges.size() && left > 1; ++i) {
     ticker.tick();
+    constexpr std::size_t ahead = 8;
+    if (cells.dim() == 3 && i + 2 * ahead < edges.size()) {
+      __builtin_prefetch(&cells.edges.ends[edges[i + 2 * ahead].number]);
+      for (const std::uint32_t v : cells.edges.ends[edges[i + ahead].number]) sets.prefetch(v);
+    }
     const auto ends = ends_of(cells, edges[i].number);
     std::uint32_t elder = sets.find(ends[0]), younger = sets.find(ends[1]);
     if (elder == younger) continue;
     if (is_older(younger, elder)) std::swap(elder, younger);
     sets.link(younger, elder);
     joins[i] = true;
+    --left;
     if (!bars.wants(0)) continue;
-    const bool wants_cycle = bars.pair(0, cells.vertex_value(younger), edges[i].value,
-                                       Simplex::of({younger}), Simplex::of({ends[0], ends[1]}));
+    const bool wants_cycle = bars.pair(
+        0, cells.vertex_value(younger), edges[i].value, [&] { return Simplex::of({younger}); },
+        [&] {
+          return Simplex::of({ends[0], ends[1]});
+        });
     if (!wants_cycle) continue;
     bars.add_term(Simplex::of({younger}), 1);
     bars.add_term(Simplex::of({elder}), -1);
@@ -49,7 +60,8 @@ void pair_components(const AlphaCells& cells, const RankedSimplices& edges, cons
   }
   if (!bars.wants(0)) return;
   for (std::uint32_t v = 0; v < sites; ++v)
-    if (sets.find(v) == v && bars.essential(0, cells.vertex_value(v), Simplex::of({v}))) {
+    if (sets.find(v) == v &&
+        bars.essential(0, cells.vertex_value(v), [&] { return Simplex::of({v}); })) {
       bars.add_term(Simplex::of({v}), 1);
       bars.finish_cycle(false);
     }

@@ -12,13 +12,15 @@ namespace ph::alpha {
 struct Ranked {
   double value;
   std::uint32_t number;
+  std::uint32_t code = kNone;  ///< the name of a facet
 };
 using RankedSimplices = std::pmr::vector<Ranked>;
 
 /// Critical facets by their place in AlphaCells::facets, from old to young.
 inline RankedSimplices ranked_facets(const AlphaCells& cells, const RunContext& context) {
   RankedSimplices ranked(cells.facets.size(), &context.memory);
-  for (std::uint32_t i = 0; i < ranked.size(); ++i) ranked[i] = {cells.facets[i].value, i};
+  for (std::uint32_t i = 0; i < ranked.size(); ++i)
+    ranked[i] = {cells.facets[i].value, i, cells.facets[i].code};
   radix_sort_by_value(
       ranked, [](const Ranked& r) { return r.value; }, context);
   return ranked;

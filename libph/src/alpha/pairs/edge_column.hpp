@@ -50,7 +50,6 @@ class EdgeColumn {
     terms_.clear();
     add_boundary(facet, kNone, field_.from_int(1));
   }
-  void assign(std::span<const Term> chain) { terms_.assign(chain.begin(), chain.end()); }
   void add(Element scale, std::span<const Term> chain) {
     count(terms_.size() + chain.size());
     merged_.clear();
@@ -75,6 +74,7 @@ class EdgeColumn {
       merged_.emplace_back(theirs->cell, field_.multiply(scale, theirs->coefficient()));
     terms_.swap(merged_);
   }
+  std::span<const Term> terms() const { return terms_; }
   /// Takes out the youngest edge that is in no interval with a triangle; nothing if none is left.
   std::optional<Term> take_pivot() {
     while (!terms_.empty()) {
@@ -86,8 +86,6 @@ class EdgeColumn {
     }
     return std::nullopt;
   }
-  /// What it holds, each edge once.
-  std::span<const Term> consolidate() const { return terms_; }
 
  private:
   void count(std::size_t steps) {

@@ -39,8 +39,10 @@ class Hollows {
     Ticker ticker(context_, "hollows", facets.size());
     for (std::size_t i = facets.size(); i-- > 0;) {
       ticker.tick();
+      constexpr std::size_t ahead = 8;
+      if (i >= 2 * ahead) prefetch(facets[i - 2 * ahead].code, facets[i - ahead].code);
       if (!is_free(i)) continue;
-      const std::uint32_t code = cells_.facets[facets[i].number].code;
+      const std::uint32_t code = facets[i].code;
       std::uint32_t elder = sets_.find(code >> 2), younger = sets_.find(node_across(code));
       if (elder == younger) continue;
       if (enters_later(younger, elder)) std::swap(elder, younger);
@@ -63,13 +65,19 @@ class Hollows {
     const std::uint32_t other = cells_.across(code);
     return other == kNone ? outside_ : other >> 2;
   }
+  void prefetch(std::uint32_t later, std::uint32_t sooner) const {
+    __builtin_prefetch(&cells_.triangulation.across[later >> 2]);
+    sets_.prefetch(sooner >> 2);
+    sets_.prefetch(node_across(sooner));
+  }
   void link(std::uint32_t child, std::uint32_t root) {
     sets_.link(child, root);
     if (rings_) rings_->join(child, root);
   }
   void report(double birth, std::uint32_t code, std::uint32_t killer) {
-    const bool wants_cycle = bars_.pair(cells_.dim() - 1, birth, value(killer),
-                                        facet_simplex(cells_, code), cell_simplex(cells_, killer));
+    const bool wants_cycle = bars_.pair(
+        cells_.dim() - 1, birth, value(killer), [&] { return facet_simplex(cells_, code); },
+        [&] { return cell_simplex(cells_, killer); });
     if (!wants_cycle) return;
     // The boundary of its cells, all of them with one orientation.
     const std::int64_t sign = sign_of(code, killer);

@@ -1,23 +1,29 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <numeric>
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
 
 #include "alpha/pairs/alpha_bars.hpp"
+#include "alpha/pairs/column_store.hpp"
 #include "alpha/pairs/critical_simplices.hpp"
 #include "alpha/pairs/edge_column.hpp"
 #include "alpha/pairs/edge_forest.hpp"
-#include "cubical/columns/parallel_reduction.hpp"
+#include "ph/detail/core/parallel.hpp"
 
 namespace ph::alpha {
 
 /// H1 of dimension 3: the boundaries of the triangles that union-find has left over, reduced. They
 /// are begun in the order in which they lie in space, not by age, so that what a column needs is
-/// near; an older column takes a pivot over (see ParallelReduction).
+/// near. A column that comes to the pivot of a younger one takes it over, and goes on as the
+/// younger one (Morozov & Nigmetov, Towards lockfree persistent homology, 2020): only older columns
+/// are added to younger ones, as in the textbook.
 template <Field K>
 class Loops {
-  using Chain = EdgeColumn<K>;
-  using Reduction = cubical::ParallelReduction<K, Chain>;
-  using Column = typename Reduction::Column;
+  using Term = typename EdgeColumn<K>::Term;
+  using KeptColumn = Column<Term>;
 
  public:
   /// @param edges, facets critical ones. @param edge_joins, facet_joins by their places: whether
@@ -26,67 +32,95 @@ class Loops {
         const RankedSimplices& facets, const SimplexSet& facet_joins, const K& field,
         const RunContext& context)
       : cells_(cells),
-        edges_(edges),
-        edge_joins_(edge_joins),
         field_(field),
         context_(context),
         joins_(cells.edge_states.size(), false, &context.memory),
-        columns_(&context.memory),
         column_of_(cells.facets.size(), kNone, &context.memory),
         owners_(cells.edge_states.size(), nullptr, &context.memory) {
     for (std::size_t i = 0; i < edges.size(); ++i)
       if (edge_joins[i]) joins_[edges[i].number] = true;
-    for (std::size_t i = 0; i < facets.size(); ++i) {
-      if (facet_joins[i]) continue;
-      column_of_[facets[i].number] = static_cast<std::uint32_t>(columns_.size());
-      columns_.push_back(facets[i].number);
-    }
+    std::uint32_t columns = 0;
+    for (std::size_t i = 0; i < facets.size(); ++i)
+      if (!facet_joins[i]) column_of_[facets[i].number] = columns++;
   }
 
   void run(AlphaBars& bars) {
-    // Of several columns that end at one edge the content may depend on which came first, though
-    // their ends do not. Cycles are to be the same for any number of threads.
+    // What columns hold may depend on which thread came first, though their pivots do not. Cycles
+    // are to be the same for any number of threads.
     const bool in_turn = bars.wants_cycles();
-    Reduction reduction(columns_.size(), field_, context_, in_turn ? 1 : Reduction::kLanes);
-    constexpr std::size_t piece = 256;  // columns that a thread takes at a time
-    reduction.run(
-        "loops", in_turn ? std::max<std::size_t>(columns_.size(), 1) : piece,
-        [&] { return Chain(cells_, joins_, field_, context_); },
-        [&](Chain& chain, std::uint32_t i) { chain.assign_boundary(code_of(i)); },
-        [&](const EdgeName& pivot) -> const Column*& { return owners_[pivot.edge]; },
-        [&](const EdgeName& pivot) { __builtin_prefetch(&owners_[pivot.edge]); },
-        [&](std::span<std::uint32_t> round) { sort_in_space(round); });
+    const std::size_t count = column_of_.size();
+    constexpr std::size_t piece = 1 << 12;  // facets that a thread takes at a time
+    std::mutex mutex;
+    for_each_piece("loops", count, in_turn ? std::max<std::size_t>(count, 1) : piece, context_,
+                   [&](std::size_t from, std::size_t to) {
+                     Worker& worker = take_worker(mutex);
+                     for (std::size_t i = from; i < to; ++i)
+                       if (column_of_[i] != kNone)
+                         reduce(static_cast<std::uint32_t>(i), column_of_[i], worker);
+                     const std::lock_guard lock(mutex);
+                     idle_.push_back(&worker);
+                   });
     report(bars);
   }
 
  private:
-  std::uint32_t code_of(std::uint32_t column) const { return cells_.facets[columns_[column]].code; }
-  void sort_in_space(std::span<std::uint32_t> round) const {
-    if (round.size() < columns_.size()) {
-      std::ranges::sort(round, {}, [&](std::uint32_t column) { return columns_[column]; });
-      return;
+  /// What a thread has to itself.
+  struct Worker {
+    Worker(const Loops& loops)
+        : chain(loops.cells_, loops.joins_, loops.field_, loops.context_),
+          kept(&loops.context_.memory) {}
+    EdgeColumn<K> chain;
+    ColumnStore<Term> kept;
+  };
+  Worker& take_worker(std::mutex& mutex) {
+    const std::lock_guard lock(mutex);
+    if (idle_.empty())
+      idle_.push_back(workers_.emplace_back(std::make_unique<Worker>(*this)).get());
+    Worker& worker = *idle_.back();
+    idle_.pop_back();
+    return worker;
+  }
+
+  /// Reduces the boundary of a critical facet, whose column has that number by age.
+  void reduce(std::uint32_t facet, std::uint32_t column, Worker& worker) {
+    auto& chain = worker.chain;
+    chain.assign_boundary(cells_.facets[facet].code);
+    while (const std::optional<Term> pivot = chain.take_pivot()) {
+      const std::atomic_ref owner(owners_[pivot->cell.edge]);
+      const KeptColumn* other = owner.load(std::memory_order_acquire);
+      if (other == nullptr || column < other->number()) {
+        const KeptColumn* const kept =
+            worker.kept.keep(column, facet, pivot->coefficient(), chain.terms());
+        while ((other == nullptr || column < other->number()) &&
+               !owner.compare_exchange_weak(other, kept, std::memory_order_acq_rel)) {
+        }
+        if (other == nullptr) return;
+        if (column < other->number()) {  // it goes on as the younger one
+          column = other->number();
+          facet = other->facet();
+        }
+      }
+      chain.add(
+          field_.negate(field_.multiply(pivot->coefficient(), field_.inverse(other->pivot()))),
+          other->below());
     }
-    std::size_t next = 0;
-    for (const std::uint32_t column : column_of_)
-      if (column != kNone) round[next++] = column;
   }
   void report(AlphaBars& bars) {
     std::optional<EdgeForest<K>> forest;
     std::pmr::vector<EdgeTerm<K>> cycle(&context_.memory);
-    Ticker ticker(context_, {}, edges_.size());
-    for (std::size_t i = 0; i < edges_.size(); ++i) {
+    Ticker ticker(context_, {}, owners_.size());
+    for (std::uint32_t e = 0; e < owners_.size(); ++e) {
       ticker.tick();
-      if (edge_joins_[i]) continue;
-      const std::uint32_t e = edges_[i].number;
-      const Column* const column = owners_[e];
+      const KeptColumn* const column = owners_[e];
       if (column == nullptr) continue;
-      const CriticalFacet& killer = cells_.facets[columns_[column->number()]];
-      if (!bars.pair(1, edges_[i].value, killer.value, edge_simplex(cells_, e),
-                     facet_simplex(cells_, killer.code)))
-        continue;
+      const CriticalFacet& killer = cells_.facets[column->facet()];
+      const bool wants_cycle = bars.pair(
+          1, cells_.edge_states[e].value, killer.value, [&] { return edge_simplex(cells_, e); },
+          [&] { return facet_simplex(cells_, killer.code); });
+      if (!wants_cycle) continue;
       if (!forest) forest.emplace(cells_, joins_, field_, context_);
       cycle.clear();
-      const auto scale = field_.inverse(column->pivot().coefficient());
+      const auto scale = field_.inverse(column->pivot());
       cycle.push_back({e, field_.from_int(1)});
       for (const auto& term : column->below())
         cycle.push_back({term.cell.edge, field_.multiply(scale, term.coefficient())});
@@ -98,14 +132,13 @@ class Loops {
   }
 
   const AlphaCells& cells_;
-  const RankedSimplices& edges_;
-  const SimplexSet& edge_joins_;
   const K& field_;
   const RunContext& context_;
-  SimplexSet joins_;                           // by edge
-  std::pmr::vector<std::uint32_t> columns_;    // from old to young: their facets
-  std::pmr::vector<std::uint32_t> column_of_;  // by critical facet
-  std::pmr::vector<const Column*> owners_;     // by edge: the column with that pivot
+  SimplexSet joins_;                            // by edge
+  std::pmr::vector<std::uint32_t> column_of_;   // by critical facet: its column, by age
+  std::pmr::vector<const KeptColumn*> owners_;  // by edge: the column with that pivot
+  std::vector<std::unique_ptr<Worker>> workers_;
+  std::vector<Worker*> idle_;
 };
 
 }  // namespace ph::alpha

@@ -7,11 +7,10 @@
 
 namespace ph::alpha {
 
+namespace {
+
 template <Field K>
-void pair_simplices(const Alpha& alpha, const K& field, BarcodeBuilder<Alpha>& builder,
-                    const RunContext& context) {
-  const AlphaCells& cells = alpha.cells();
-  AlphaBars bars(alpha, builder);
+void pair_all(const AlphaCells& cells, const K& field, const RunContext& context, AlphaBars& bars) {
   const int dim = cells.dim();
   const bool wants_loops = dim == 3 && bars.wants(1);
   const bool wants_components = bars.wants(0) || (dim >= 2 && bars.wants(1));
@@ -32,6 +31,16 @@ void pair_simplices(const Alpha& alpha, const K& field, BarcodeBuilder<Alpha>& b
           facets, [](std::size_t) { return true; }, [&](std::size_t i) { facet_joins[i] = true; });
   if (wants_loops)
     Loops<K>(cells, edges, edge_joins, facets, facet_joins, field, context).run(bars);
+}
+
+}  // namespace
+
+template <Field K>
+void pair_simplices(const Alpha& alpha, const K& field, BarcodeBuilder<Alpha>& builder,
+                    const RunContext& context) {
+  AlphaBars bars(alpha, builder);
+  pair_all(alpha.cells(), field, context, bars);
+  bars.flush();
 }
 
 template void pair_simplices(const Alpha&, const Z2&, BarcodeBuilder<Alpha>&, const RunContext&);

@@ -6,6 +6,25 @@
 
 namespace ph::alpha {
 
+/// The bits of a number with N - 1 zeros before each.
+template <std::size_t N>
+std::uint64_t spread(std::uint64_t x) {
+  static_assert(N == 2 || N == 3);
+  if constexpr (N == 2) {
+    x = (x | x << 16) & 0x0000FFFF0000FFFF;
+    x = (x | x << 8) & 0x00FF00FF00FF00FF;
+    x = (x | x << 4) & 0x0F0F0F0F0F0F0F0F;
+    x = (x | x << 2) & 0x3333333333333333;
+    return (x | x << 1) & 0x5555555555555555;
+  } else {
+    x = (x | x << 32) & 0x001F00000000FFFF;
+    x = (x | x << 16) & 0x001F0000FF0000FF;
+    x = (x | x << 8) & 0x100F00F00F00F00F;
+    x = (x | x << 4) & 0x10C30C30C30C30C3;
+    return (x | x << 2) & 0x1249249249249249;
+  }
+}
+
 /// The place of a cell along the Hilbert curve of a grid of 2^bits cells a side, by the transform
 /// of Skilling, Programming the Hilbert curve, 2004. Precondition: N · bits <= 64.
 template <std::size_t N>
@@ -29,10 +48,8 @@ std::uint64_t hilbert_place(std::array<std::uint32_t, N> x, int bits) {
   for (std::uint32_t bit = 1U << (bits - 1); bit > 1; bit >>= 1)
     if ((x[N - 1] & bit) != 0) flip ^= bit - 1;
   for (std::uint32_t& v : x) v ^= flip;
-  // The bits of the coordinates, one after another.
   std::uint64_t place = 0;
-  for (int b = bits - 1; b >= 0; --b)
-    for (std::size_t i = 0; i < N; ++i) place = place << 1 | (x[i] >> b & 1U);
+  for (std::size_t i = 0; i < N; ++i) place = place << 1 | spread<N>(x[i]);
   return place;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "alpha/sites/hilbert.hpp"
+#include "alpha/sites/power_of_two.hpp"
 #include "ph/detail/core/radix_sort.hpp"
 #include "ph/error.hpp"
 
@@ -58,8 +59,8 @@ double largest_magnitude(PointsView points, std::span<const double> weights) {
 
 /// Times 2^-exponent. @throws Error (bad_data) unless that is exact.
 double scaled(double x, int exponent, Index point) {
-  const double result = std::ldexp(x, -exponent) + 0.0;  // -0 is 0
-  if (std::ldexp(result, exponent) != x)
+  const double result = times_power_of_two(x, -exponent) + 0.0;  // -0 is 0
+  if (times_power_of_two(result, exponent) != x)
     throw Error(ErrorKind::bad_data,
                 fmt::format("point {}: found {:g} beside numbers about 2^{} as large, expected "
                             "magnitudes that doubles can square",
