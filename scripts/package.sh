@@ -63,7 +63,7 @@ readme() {
 
 They run on any Linux of $(uname -m), and need nothing else. A first picture:
 
-    bin/ph-barcode examples/two_circles.csv --plot bars.svg --report loops.html --quiet
+    bin/ph-barcode examples/two_circles.csv --plot bars.svg --report loops.html --output-format none
 
 bars.svg and loops.html open in a browser. \`man -l share/man/man1/ph-barcode.1\` is the manual.
 libph is MIT (LICENSE). What else is in the programs, and under which licences, is in licences/ and
