@@ -62,7 +62,7 @@ class Run {
 
   void run() {
     if (!arguments_.groups.empty())
-      groups_ = read_groups(arguments_.groups, files_.size(), session_);
+      groups_ = read_groups(app::open_input(arguments_.groups, session_), files_.size());
     const app::StoredBarcodes stored(files_, session_);
     const std::vector<Barcode>& barcodes = stored.all();
     const std::vector<int> dims = dims_to_compare(barcodes);

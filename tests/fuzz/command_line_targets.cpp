@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "barcode/arguments/arguments.hpp"
+#include "distance/arguments/arguments.hpp"
 #include "segment/arguments/arguments.hpp"
 #include "targets.hpp"
 #include "vectorise/arguments/arguments.hpp"
@@ -44,6 +45,10 @@ void check(const std::vector<std::string>& words,
 
 void run_barcode_arguments(std::string_view bytes) {
   check(words_of(bytes, "ph-barcode"), &barcode::parse_arguments);
+}
+
+void run_distance_arguments(std::string_view bytes) {
+  check(words_of(bytes, "ph-distance"), &distance_program::parse_arguments);
 }
 
 void run_segment_arguments(std::string_view bytes) {

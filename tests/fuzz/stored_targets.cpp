@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
-// What the programs store for themselves: merge trees of scenes, fits of vectors.
+// What the programs store for themselves, and small files of their own: merge trees of scenes, fits
+// of vectors, groups of barcodes.
+#include <algorithm>
 #include <memory_resource>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "distance/data/groups.hpp"
 #include "ph/error.hpp"
 #include "targets.hpp"
 #include "tree/tree_file.hpp"
@@ -21,6 +25,26 @@ void run_tree(std::string_view bytes) {
   const std::uint32_t sum = segment::tree_sum(repaired);
   for (int shift = 0; shift < 32; shift += 8) repaired += static_cast<char>(sum >> shift & 0xFF);
   run_reader("tree", repaired);
+}
+
+void run_distance_groups(std::string_view bytes) {
+  const std::size_t count = bytes.empty() ? 0 : static_cast<unsigned char>(bytes[0] - '0') % 16U;
+  bytes.remove_prefix(std::min<std::size_t>(bytes.size(), 1));
+  try {
+    const auto groups = distance_program::read_groups(Input::view(bytes, "groups.txt"), count);
+    require(groups.of.size() == count, "a barcode has no group, or a group no barcode");
+    require(groups.names.size() >= 2, "there are no groups to be told apart");
+    for (std::size_t g = 0; g < groups.names.size(); ++g) {
+      require(std::cmp_equal(std::ranges::count(groups.of, static_cast<std::int64_t>(g)),
+                             groups.sizes[g]),
+              "the size of a group is not that of its members");
+      require(groups.sizes[g] >= 2, "a group has one member");
+    }
+  } catch (const Error& error) {
+    require(error.kind() == ErrorKind::bad_data, "groups are no bad data");
+    require(std::string_view(error.what()).find('\n') == std::string_view::npos,
+            "a message of several lines");
+  }
 }
 
 void run_vectorise_fit(std::string_view bytes) {

@@ -31,8 +31,11 @@ void run_png(std::string_view bytes);
 void run_tree(std::string_view bytes);
 /// The lines are the words of a command line.
 void run_barcode_arguments(std::string_view bytes);
+void run_distance_arguments(std::string_view bytes);
 void run_segment_arguments(std::string_view bytes);
 void run_vectorise_arguments(std::string_view bytes);
+/// What ph-distance --groups takes, after a digit: how many barcodes there are.
+void run_distance_groups(std::string_view bytes);
 /// What ph-vectorise --fitted takes; it is written and read again.
 void run_vectorise_fit(std::string_view bytes);
 /// Chooses a small filtration; all engines must agree with the oracle, and representatives be some.

@@ -7,12 +7,10 @@
 #include <map>
 
 #include "common/arguments/numbers.hpp"
-#include "common/files/barcode_files.hpp"
 
 namespace ph::distance_program {
 
-Groups read_groups(const std::string& path, std::size_t count, app::Session& session) {
-  const Input input = app::open_input(path, session);
+Groups read_groups(const Input& input, std::size_t count) {
   Groups groups;
   std::map<std::string, std::size_t, std::less<>> places;
   TextLines lines(input);
@@ -38,7 +36,7 @@ Groups read_groups(const std::string& path, std::size_t count, app::Session& ses
                 fmt::format("{}, one for each barcode in their order", count),
                 {}});
   if (groups.names.size() < 2)
-    input.fail({"groups", fmt::format("{} only", groups.names[0]), "at least 2 groups", {}});
+    input.fail({"groups", app::count_of(groups.names.size(), "group"), "at least 2", {}});
   for (std::size_t g = 0; g < groups.names.size(); ++g)
     if (groups.sizes[g] < 2)
       input.fail({"group " + groups.names[g], "1 barcode", "at least 2 in each group", {}});

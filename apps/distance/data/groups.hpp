@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "common/run/session.hpp"
+#include "ph/detail/io/reader.hpp"
 
 namespace ph::distance_program {
 
@@ -18,8 +18,8 @@ struct Groups {
 /// Reads a word a line; blank lines and comments, from # on, are skipped.
 /// @param count how many barcodes there are.
 /// @throws Error (bad_data) on a line of several words, another number of them, fewer than two
-///         groups, or one with a single barcode; Error as Input::open.
-Groups read_groups(const std::string& path, std::size_t count, app::Session& session);
+///         groups, or one with a single barcode.
+Groups read_groups(const Input& input, std::size_t count);
 
 /// "control 4, treated 5"
 std::string words_of(const Groups& groups);

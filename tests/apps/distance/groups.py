@@ -93,7 +93,7 @@ class GroupsTest(ProgramTest):
         self.assertEqual(run.stdout, expected)
         count = "expected 7, one for each barcode in their order"
         for text, words in (("\n".join(WORDS[1:]), ("found 6 words", count)),
-                            ("\n".join([*WORDS, "low"]), ("found 8 words", count)), ("", ("found 0 words",)), ("a\n" * 7, ("found a only", "expected at least 2 groups")),
+                            ("\n".join([*WORDS, "low"]), ("found 8 words", count)), ("", ("found 0 words",)), ("a\n" * 7, ("found 1 group", "expected at least 2")),
                             ("a\na\na\na\na\na\nb\n", ("group b", "found 1 barcode", "at least 2")),
                             ("a b\n" * 7, ("groups.txt:1:2", '"a b"', "one word on each line")),
                             ("group,n\n", ("groups.txt:1:6",))):
