@@ -12,6 +12,9 @@ endif()
 
 # For each of our programs. The map lists what was linked in, whose licences a copy comes with.
 function(ph_link_program program)
+  if(WIN32)
+    target_sources(${program} PRIVATE ${PROJECT_SOURCE_DIR}/apps/common/system/windows/utf8.rc)
+  endif()
   if(NOT PH_IS_STATIC)
     return()
   endif()

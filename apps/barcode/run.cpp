@@ -2,7 +2,6 @@
 #include "barcode/run.hpp"
 
 #include <fmt/format.h>
-#include <malloc.h>
 
 #include <algorithm>
 #include <chrono>
@@ -22,8 +21,10 @@
 #include "barcode/output/significance.hpp"
 #include "barcode/output/stored.hpp"
 #include "common/arguments/numbers.hpp"
+#include "common/system/process.hpp"
 #include "common/terminal/exit_code.hpp"
 #include "common/terminal/messages.hpp"
+#include "core/system/files.hpp"
 #include "facade/adjust.hpp"
 #include "ph/detail/report/shown_tree.hpp"
 #include "ph/estimate.hpp"
@@ -106,7 +107,7 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   if (app::is_typed({job.input, arguments.values, arguments.vertex_weights}))
     somebody_types.emplace(session);
   std::optional<Input> input(
-      Input::open(job.input, &session.context(), Input::Excess::stays_in_file));
+      Input::open(files::path_of(job.input), &session.context(), Input::Excess::stays_in_file));
   is_stored = arguments.stored || (arguments.format == Format::automatic && is_barcode(*input));
   if (is_stored) {
     app::require_in_scope(arguments.given, kBarcode, name_of(kBarcode));  // --dry-run is not
@@ -238,7 +239,7 @@ Outcome run(const Job& job, const Arguments& arguments, app::Session& session) {
     what = "out of memory";
   }
   // By now all that the run held has been given back; the heap keeps none of it.
-  malloc_trim(0);
+  app::give_back_freed_memory();
   session.loosen_heap_bound();
   const std::string peak = app::format_size(static_cast<double>(session.memory_taken()));
   if (is_stored)

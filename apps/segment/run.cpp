@@ -9,6 +9,7 @@
 #include <span>
 
 #include "common/terminal/exit_code.hpp"
+#include "core/system/files.hpp"
 #include "depth_scene.hpp"
 #include "notes.hpp"
 #include "ph/detail/io/output_file.hpp"
@@ -110,7 +111,7 @@ Result result_of(const Arguments& arguments, const Outputs& outputs, app::Sessio
     somebody_types.emplace(session);
   const DepthInput& image = arguments.image;
   std::optional<Input> input(
-      Input::open(image.depth.empty() ? arguments.input : image.depth, &context));
+      Input::open(files::path_of(image.depth.empty() ? arguments.input : image.depth), &context));
   const bool is_scene = arguments.is_depth_image() || !is_tree(*input);
   if (is_scene) require_input(arguments.given, arguments.is_depth_image() ? kDepthImage : kCloud);
   if (is_scene) require_method(arguments.given, arguments.options.method);

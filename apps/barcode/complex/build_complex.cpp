@@ -10,6 +10,7 @@
 
 #include "barcode/arguments/option_scopes.hpp"
 #include "complex/listed_cubes.hpp"
+#include "core/system/files.hpp"
 #include "ph/distance_to_measure.hpp"
 #include "ph/explicit.hpp"
 #include "ph/voxel_image.hpp"
@@ -263,7 +264,7 @@ class Builder {
   /// those left out among them.
   std::vector<double> read_weights(Index points) const {
     if (arguments_.vertex_weights.empty()) return {};
-    const Input input = Input::open(arguments_.vertex_weights, &context_);
+    const Input input = Input::open(files::path_of(arguments_.vertex_weights), &context_);
     const std::vector<double> all =
         read_values(input, static_cast<std::size_t>(points) + dropped_, arguments_.read, "point");
     for (std::size_t v = 0; v < all.size(); ++v)

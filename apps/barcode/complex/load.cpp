@@ -10,6 +10,7 @@
 #include "barcode/arguments/option_scopes.hpp"
 #include "common/arguments/numbers.hpp"
 #include "common/terminal/messages.hpp"
+#include "core/system/files.hpp"
 
 namespace ph::barcode {
 namespace {
@@ -80,9 +81,10 @@ bool may_be_bars(const ReadResult& read) {
   // A pipe cannot be read again.
   const bool is_guessed = error.kind() == ErrorKind::bad_data && format == Format::automatic;
   std::error_code ignored;
-  if (is_guessed && std::filesystem::is_regular_file(job.input, ignored)) {
+  if (is_guessed && std::filesystem::is_regular_file(files::path_of(job.input), ignored)) {
     try {
-      has_bars = read_stored_barcode(Input::open(job.input, &context)).bars.size() > 0;
+      has_bars =
+          read_stored_barcode(Input::open(files::path_of(job.input), &context)).bars.size() > 0;
     } catch (const std::exception&) {  // it cannot, either
     }
   }

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/system/files.hpp"
 #include "report/encoding/sha256.hpp"
 
 namespace ph::barcode {
@@ -31,7 +32,7 @@ NamedData read_input(const Input& input, const Arguments& arguments, const RunCo
   ReadOptions options = arguments.read;
   options.context = &context;
   options.dropped = &dropped;
-  ReadResult read = read_any(input, arguments.format, options, arguments.values);
+  ReadResult read = read_any(input, arguments.format, options, files::path_of(arguments.values));
   if (std::string note = note_on_mesh(read, arguments); !note.empty())
     read.notes.push_back(std::move(note));
   std::string sha256;

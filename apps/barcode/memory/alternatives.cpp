@@ -18,6 +18,7 @@
 #include "barcode/complex/build_complex.hpp"
 #include "barcode/complex/read_input.hpp"
 #include "common/arguments/numbers.hpp"
+#include "core/system/files.hpp"
 #include "ph/estimate.hpp"
 
 namespace ph::barcode {
@@ -265,7 +266,8 @@ class Alternatives {
 std::string alternatives(const Job& job, const Arguments& arguments, app::Session& session) {
   if (job.input == "-") return "";  // was read and is gone
   try {
-    const Input input = Input::open(job.input, &session.context(), Input::Excess::stays_in_file);
+    const Input input =
+        Input::open(files::path_of(job.input), &session.context(), Input::Excess::stays_in_file);
     const NamedData data = read_input(input, arguments, session.context());
     const auto found = Alternatives(data, arguments, session.context()).find();
     return fmt::format("{}", fmt::join(found, "; "));

@@ -12,6 +12,7 @@
 #include "barcode/output/stored.hpp"
 #include "common/distances/distance_choice.hpp"
 #include "common/terminal/exit_code.hpp"
+#include "core/system/files.hpp"
 #include "ph/report.hpp"
 #include "report/arrays/bar_arrays.hpp"
 #include "report/encoding/sha256.hpp"
@@ -142,7 +143,7 @@ int run_comparison(const Arguments& arguments, app::Session& session) try {
   meta.provenance.run.input = fmt::format("{}, {}", first, second);
   std::vector<Barcode> barcodes;
   for (const std::string& path : arguments.compare) {
-    const Input input = Input::open(path, &session.context());
+    const Input input = Input::open(files::path_of(path), &session.context());
     barcodes.push_back(read_barcode(input));
     meta.barcodes.push_back({report::title_of(path), barcodes.back().cell_kind()});
     meta.provenance.notes.emplace_back(

@@ -2,14 +2,13 @@
 #include "common/files/batch_names.hpp"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <filesystem>
 #include <map>
 #include <system_error>
 
+#include "core/system/files.hpp"
 #include "ph/detail/io/reader.hpp"
 #include "ph/error.hpp"
 
@@ -94,7 +93,7 @@ std::vector<std::string> files_in(const std::string& folder,
   };
   std::vector<std::string> files;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error))
+  for (const auto& entry : fs::directory_iterator(files::path_of(folder), error))
     if (is_known(entry.path().filename().string())) files.push_back(entry.path().string());
   if (error || files.empty())
     throw Error(ErrorKind::no_input,
@@ -105,17 +104,15 @@ std::vector<std::string> files_in(const std::string& folder,
 }
 
 bool is_folder(const std::string& path) {
-  struct stat status {};
-  return stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode);
+  std::error_code error;
+  return std::filesystem::is_directory(files::path_of(path), error);
 }
 
 void create_folder(const std::string& path) {
-  if (mkdir(path.c_str(), 0777) == 0) return;
-  const int error = errno;
-  if (is_folder(path)) return;
+  std::error_code error;
+  if (std::filesystem::create_directory(files::path_of(path), error) || is_folder(path)) return;
   throw Error(ErrorKind::cannot_create,
-              fmt::format("{}: cannot create the folder: {}", path,
-                          std::error_code(error, std::generic_category()).message()));
+              fmt::format("{}: cannot create the folder: {}", path, error.message()));
 }
 
 }  // namespace ph::app

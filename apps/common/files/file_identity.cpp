@@ -2,12 +2,11 @@
 #include "common/files/file_identity.hpp"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <system_error>
 
+#include "core/system/files.hpp"
 #include "ph/detail/io/reader.hpp"
 #include "ph/error.hpp"
 
@@ -16,41 +15,41 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::optional<FileIdentity> identity(const struct stat& status) {
+std::optional<FileIdentity> identity(const std::optional<files::Status>& status) {
   // A pipe, a terminal or /dev/null keeps nothing that could be lost.
-  if (!S_ISREG(status.st_mode)) return std::nullopt;
-  return FileIdentity{status.st_dev, status.st_ino, {}};
+  if (!status || status->kind != files::Kind::regular) return std::nullopt;
+  return FileIdentity{status->device, status->inode, {}};
 }
 
 std::optional<FileIdentity> identity_of(const std::string& path, int standard_descriptor) {
-  struct stat status {};
-  if (path == "-")
-    return fstat(standard_descriptor, &status) == 0 ? identity(status) : std::nullopt;
-  if (stat(path.c_str(), &status) == 0) return identity(status);
+  if (path == "-") return identity(files::status_of(standard_descriptor));
+  if (const auto status = files::status_of(files::path_of(path))) return identity(status);
   std::error_code error;
-  const fs::path absolute = fs::absolute(path, error);
+  const fs::path absolute = fs::absolute(files::path_of(path), error);
   const fs::path place = fs::weakly_canonical(absolute, error);
   if (error) return std::nullopt;
   // A batch creates folders later: the file is known by the nearest one that is there.
   fs::path folder = place.parent_path();
-  while (stat(folder.c_str(), &status) != 0) {
+  auto status = files::status_of(folder);
+  while (!status) {
     if (folder == folder.parent_path()) return std::nullopt;
     folder = folder.parent_path();
+    status = files::status_of(folder);
   }
-  return FileIdentity{status.st_dev, status.st_ino, place.lexically_relative(folder).string()};
+  return FileIdentity{status->device, status->inode, place.lexically_relative(folder).string()};
 }
 
 }  // namespace
 
 void InputFiles::add(const std::string& path) {
   if (path.empty()) return;
-  const std::string whole = split_member(path).first.string();
-  if (auto file = identity_of(whole, STDIN_FILENO); file && file->name.empty())
+  const std::string whole = split_member(files::path_of(path)).first.string();
+  if (auto file = identity_of(whole, files::kStandardInput); file && file->name.empty())
     paths_.emplace(std::move(*file), path);
 }
 
 const std::string* InputFiles::replaced_by(const std::string& output) const {
-  const auto file = identity_of(output, STDOUT_FILENO);
+  const auto file = identity_of(output, files::kStandardOutput);
   if (!file) return nullptr;
   const auto input = paths_.find(*file);
   return input == paths_.end() ? nullptr : &input->second;
@@ -85,7 +84,7 @@ void require_distinct(std::span<const Written> outputs) {
       if (standard) reject(output, *standard);
       standard = &output;
     }
-    auto file = identity_of(output.path, STDOUT_FILENO);
+    auto file = identity_of(output.path, files::kStandardOutput);
     if (!file) continue;
     const auto [other, is_new] = files.emplace(std::move(*file), &output);
     if (!is_new) reject(output, *other->second);

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/run/program.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <malloc.h>
-#include <signal.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <exception>
@@ -13,27 +9,13 @@
 #include <system_error>
 
 #include "common/run/signals.hpp"
+#include "common/system/process.hpp"
 #include "common/terminal/exit_code.hpp"
 #include "common/terminal/messages.hpp"
 #include "ph/detail/io/output_file.hpp"
 
 namespace ph::app {
 namespace {
-
-/// Occupies the standard descriptors that the caller closed, so that no file we open becomes
-/// "standard output" by accident. Opened the wrong way round: using them is an error, as it should.
-void occupy_standard_descriptors() {
-  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    if (fcntl(descriptor, F_GETFD) < 0)
-      static_cast<void>(open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY));
-}
-
-/// Freed blocks are kept for the next stage up to a size: to map and fault in each anew costs a short
-/// run a tenth of its time. Beyond it vectors that grow would leave holes that nobody counts.
-void keep_freed_memory() {
-  mallopt(M_MMAP_THRESHOLD, 4 << 20);
-  mallopt(M_TRIM_THRESHOLD, 256 << 20);
-}
 
 /// What report_current_exception does while there is memory for a message.
 int report_with_memory(std::string_view prefix, std::string_view memory_advice) {
@@ -88,10 +70,7 @@ int report_current_exception(const Program& program, std::string_view subject) {
 }
 
 int run_program(const Program& program, const std::function<int(std::stop_token)>& body) {
-  keep_freed_memory();
-  occupy_standard_descriptors();
-  signal(SIGPIPE, SIG_IGN);  // a write then fails with EPIPE
-  signal(SIGXFSZ, SIG_IGN);  // a write then fails with EFBIG
+  prepare_process();
   try {
     const SignalWatch signals;
     try {

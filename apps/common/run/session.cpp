@@ -2,7 +2,6 @@
 #include "common/run/session.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -71,14 +70,6 @@ void Output::commit() {
     file_.commit();
   }
   forget_temporary(std::exchange(slot_, -1));
-}
-
-std::uint64_t peak_memory() {
-  // Not what getrusage says: that includes the program that started this one.
-  if (const auto peak = status_bytes("VmHWM:")) return *peak;
-  rusage usage{};
-  return getrusage(RUSAGE_SELF, &usage) == 0 ? static_cast<std::uint64_t>(usage.ru_maxrss) * 1024
-                                             : 0;
 }
 
 }  // namespace ph::app

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <signal.h>
-
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -27,7 +25,6 @@ class SignalWatch {
   void watch();
 
   std::stop_source stop_;
-  int pipe_[2] = {-1, -1};
   std::thread thread_;
 };
 
@@ -39,9 +36,6 @@ class SignalsWait {
   ~SignalsWait();
   SignalsWait(const SignalsWait&) = delete;
   SignalsWait& operator=(const SignalsWait&) = delete;
-
- private:
-  sigset_t before_;
 };
 
 /// Has a file removed if a signal ends the process at once. @return a slot to forget it by; -1 if

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "common/terminal/messages.hpp"
 
-#include <unistd.h>
-
 #include <mutex>
 #include <string>
 
+#include "core/system/files.hpp"
 #include "ph/detail/io/reader.hpp"
 
 namespace ph::app {
@@ -20,7 +19,8 @@ bool status_is_shown = false;
 /// The caller holds the mutex.
 void write_all(std::string_view rest) {
   while (!rest.empty()) {
-    const ssize_t written = ::write(STDERR_FILENO, rest.data(), rest.size());
+    const std::ptrdiff_t written =
+        files::write_some(files::kStandardError, rest.data(), rest.size());
     if (written <= 0) return;
     rest.remove_prefix(static_cast<std::size_t>(written));
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/arguments/choices.hpp"
+#include "core/system/files.hpp"
 #include "depth_scene.hpp"
 #include "ph/error.hpp"
 
@@ -19,7 +20,7 @@ void load_camera(DepthInput& image, app::Session& session) {
   const Note note = [&session](const std::string& text) { session.note(text); };
   image.camera = camera_named(image.calibration, note);
   if (image.camera) return;
-  if (!std::filesystem::exists(image.calibration)) {
+  if (!std::filesystem::exists(files::path_of(image.calibration))) {
     std::vector<std::string_view> names;
     for (const CameraPreset& known : camera_presets()) names.push_back(known.name);
     const auto near = app::nearest_name(image.calibration, names);

@@ -9,6 +9,7 @@
 #include <iostream>
 
 #include "common/files/batch_names.hpp"
+#include "core/system/files.hpp"
 #include "ph/detail/io/reader.hpp"
 #include "ph/error.hpp"
 
@@ -44,7 +45,7 @@ FrameSource::FrameSource(const Arguments& a)
   if (has_files_) take_names();
   if (a.frames_from == "-") list_ = &std::cin;
   if (list_ || a.frames_from.empty()) return;
-  file_ = std::make_unique<std::ifstream>(a.frames_from);
+  file_ = std::make_unique<std::ifstream>(files::path_of(a.frames_from));
   list_ = file_.get();
   if (!*list_ || app::is_folder(a.frames_from))
     throw Error(ErrorKind::no_input,

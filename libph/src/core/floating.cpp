@@ -66,23 +66,12 @@ bool is_zero(std::string_view number) {
 }
 
 // A program of others may have set another locale, where a comma separates decimals.
-#ifdef _WIN32
-double strtod_in_c(const char* text, double) {
-  static const _locale_t c = _create_locale(LC_ALL, "C");
-  return _strtod_l(text, nullptr, c);
-}
-float strtod_in_c(const char* text, float) {
-  static const _locale_t c = _create_locale(LC_ALL, "C");
-  return _strtof_l(text, nullptr, c);
-}
-#else
 locale_t c_locale() {
   static const locale_t c = newlocale(LC_ALL_MASK, "C", nullptr);
   return c;
 }
 double strtod_in_c(const char* text, double) { return strtod_l(text, nullptr, c_locale()); }
 float strtod_in_c(const char* text, float) { return strtof_l(text, nullptr, c_locale()); }
-#endif
 
 template <class T>
 std::from_chars_result read(const char* first, const char* last, T& value) {

@@ -2,9 +2,10 @@
 #pragma once
 
 /// A function compiled for several instruction sets, the best of which is chosen when the program
-/// is loaded. Not under the sanitizers, where that does not work.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__) && !defined(__clang__)
+/// is loaded. Only what loads ELF files can choose. Not under the sanitizers, where that does not
+/// work.
+#if defined(__x86_64__) && defined(__ELF__) && defined(__GNUC__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(__clang__)
 #define PH_FOR_EACH_TARGET __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define PH_FOR_EACH_TARGET

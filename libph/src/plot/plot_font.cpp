@@ -17,17 +17,22 @@ extern "C" {
 extern const unsigned char kFontBegin[] __asm__("ph_plot_font_begin");
 extern const unsigned char kFontEnd[] __asm__("ph_plot_font_end");
 }
-__asm__(
-    ".pushsection .rodata\n"
-    ".globl ph_plot_font_begin\n"
-    ".globl ph_plot_font_end\n"
-    ".balign 16\n"
-    "ph_plot_font_begin:\n"
-    ".incbin \"" PH_PLOT_FONT
-    "\"\n"
-    "ph_plot_font_end:\n"
-    ".byte 0\n"
-    ".popsection\n");
+#ifdef __ELF__
+#define PH_READ_ONLY ".pushsection .rodata\n"
+#define PH_AS_BEFORE ".popsection\n"
+#else
+#define PH_READ_ONLY ".section .rdata,\"dr\"\n"
+#define PH_AS_BEFORE ".text\n"
+#endif
+__asm__(PH_READ_ONLY
+        ".globl ph_plot_font_begin\n"
+        ".globl ph_plot_font_end\n"
+        ".balign 16\n"
+        "ph_plot_font_begin:\n"
+        ".incbin \"" PH_PLOT_FONT
+        "\"\n"
+        "ph_plot_font_end:\n"
+        ".byte 0\n" PH_AS_BEFORE);
 
 namespace ph::plot {
 namespace {

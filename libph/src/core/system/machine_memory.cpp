@@ -46,9 +46,14 @@ std::optional<std::uint64_t> control_group_limit(std::istream& memberships,
   return least;
 }
 
+std::uint64_t physical_memory() {
+  const long pages = sysconf(_SC_PHYS_PAGES), page_size = sysconf(_SC_PAGESIZE);
+  if (pages <= 0 || page_size <= 0) return 0;
+  return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page_size);
+}
+
 std::size_t machine_memory() {
-  const auto pages = static_cast<std::uint64_t>(std::max(0L, sysconf(_SC_PHYS_PAGES)));
-  std::uint64_t bytes = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+  std::uint64_t bytes = physical_memory();
   std::ifstream memberships("/proc/self/cgroup");
   bytes = std::min(bytes, control_group_limit(memberships, "/sys/fs/cgroup").value_or(bytes));
   rlimit address_space{};

@@ -9,6 +9,9 @@
 
 namespace ph {
 
+/// All of the machine's, bytes; 0 where the system does not say.
+std::uint64_t physical_memory();
+
 /// What the machine, or the container we run in, has for us; nine tenths of it, so that a budget
 /// is met before the system kills the process.
 std::size_t machine_memory();

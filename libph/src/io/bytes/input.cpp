@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -13,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/system/files.hpp"
+#include "core/system/machine_memory.hpp"
 #include "io/bytes/unpack.hpp"
 #include "ph/detail/io/reader.hpp"
 
@@ -23,7 +20,6 @@ namespace {
 constexpr std::size_t kMapFrom = std::size_t{16} << 20;
 constexpr std::size_t kFirstChunk = std::size_t{64} << 10;
 constexpr std::size_t kNulProbe = std::size_t{1} << 20;  // of a stream: so many NULs are no data
-constexpr int kPollMilliseconds = 50;  // how soon a waiting read sees a stop request
 
 std::string reason(int error) { return std::generic_category().message(error); }
 
@@ -34,7 +30,7 @@ class Descriptor {
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   ~Descriptor() {
-    if (owned_ && number_ >= 0) ::close(number_);
+    if (owned_ && number_ >= 0) files::close(number_);
   }
   int get() const { return number_; }
 
@@ -52,10 +48,8 @@ std::string lower_extension(const std::filesystem::path& path) {
 }
 
 std::size_t half_of_memory() {
-  const long pages = ::sysconf(_SC_PHYS_PAGES);
-  const long page_size = ::sysconf(_SC_PAGESIZE);
-  if (pages <= 0 || page_size <= 0) return std::numeric_limits<std::size_t>::max();
-  return static_cast<std::size_t>(pages) / 2 * static_cast<std::size_t>(page_size);
+  const std::uint64_t all = physical_memory();
+  return all == 0 ? std::numeric_limits<std::size_t>::max() : static_cast<std::size_t>(all / 2);
 }
 
 // Length of a well-formed UTF-8 sequence at the start of `s`, 0 if there is none.
@@ -93,12 +87,13 @@ std::string message_of(const std::string& place, const Fault& fault) {
 }  // namespace
 
 std::pair<std::filesystem::path, std::string> split_member(const std::filesystem::path& path) {
-  const std::string& name = path.native();
+  const std::string name = path.string();
   std::error_code ignored;
   for (const std::string_view suffix : {".npz:", ".ply:"}) {
     const std::size_t mark = name.rfind(suffix);
     if (mark == std::string::npos || std::filesystem::exists(path, ignored)) continue;
-    return {name.substr(0, mark + suffix.size() - 1), name.substr(mark + suffix.size())};
+    return {files::path_of(name.substr(0, mark + suffix.size() - 1)),
+            name.substr(mark + suffix.size())};
   }
   return {path, {}};
 }
@@ -139,7 +134,7 @@ struct Input::Storage {
   Storage& operator=(const Storage&) = delete;
   ~Storage() {
     if (mapped) {
-      ::munmap(data, capacity);
+      files::unmap(data, capacity);
     } else if (data != nullptr) {
       memory->deallocate(data, capacity, alignof(std::max_align_t));
     }
@@ -201,39 +196,33 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
   std::filesystem::path path;
   std::tie(path, input.member_) = split_member(whole_path);
   const bool standard_input = path == "-";
-  input.name_ = standard_input ? "<stdin>" : printable(path.native());
+  input.name_ = standard_input ? "<stdin>" : printable(path.string());
   if (!standard_input) input.extension_ = lower_extension(path);
   input.context_ = context;
 
-  // Without O_NONBLOCK, opening a FIFO nobody writes to could not be stopped.
-  const Descriptor file(standard_input
-                            ? STDIN_FILENO
-                            : ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK),
+  if (standard_input) files::pass_bytes(files::kStandardInput);
+  const Descriptor file(standard_input ? files::kStandardInput : files::open_to_read(path),
                         !standard_input);
-  struct stat status {};
-  if (file.get() < 0 || ::fstat(file.get(), &status) != 0) {
+  const auto status = file.get() < 0 ? std::nullopt : files::status_of(file.get());
+  if (!status && errno != EISDIR)
     throw Error(ErrorKind::no_input, input.name_ + ": cannot open: " + reason(errno));
-  }
-  if (S_ISDIR(status.st_mode)) {
+  if (!status || status->kind == files::Kind::folder)
     throw Error(ErrorKind::no_input, input.name_ + ": cannot read: it is a directory");
-  }
 
   auto storage = std::make_shared<Storage>(
       context != nullptr ? static_cast<std::pmr::memory_resource*>(&context->memory)
                          : std::pmr::new_delete_resource());
-  const bool sized = S_ISREG(status.st_mode) && status.st_size > 0 &&
-                     (!standard_input || ::lseek(file.get(), 0, SEEK_CUR) == 0);
-  const auto file_size = sized ? static_cast<std::size_t>(status.st_size) : 0;
+  const bool sized = status->kind == files::Kind::regular && status->size > 0 &&
+                     (!standard_input || files::is_at_start(file.get()));
+  const auto file_size = sized ? static_cast<std::size_t>(status->size) : 0;
   const bool exceeds = excess == Excess::stays_in_file && context != nullptr &&
                        file_size > kFirstChunk && file_size > context->memory.left() / 3;
   if (file_size > kMapFrom || exceeds) {
     storage->exceeds = exceeds;
     // Its pages are taken from memory while they are read.
     if (context != nullptr && !exceeds) storage->claim.emplace(context->memory, file_size);
-    void* address = ::mmap(nullptr, file_size, PROT_READ, MAP_PRIVATE, file.get(), 0);
-    if (address != MAP_FAILED) {
-      ::madvise(address, file_size, MADV_SEQUENTIAL);
-      storage->data = static_cast<char*>(address);
+    if (char* const mapped = files::map_to_read(file.get(), file_size)) {
+      storage->data = mapped;
       storage->capacity = storage->used = file_size;
       storage->mapped = true;
     } else {
@@ -259,12 +248,10 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
       }
       storage->grow_to(more);
     }
-    pollfd waiting{file.get(), POLLIN, 0};
-    const int ready = ::poll(&waiting, 1, kPollMilliseconds);
-    if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
-    const ssize_t got = ::read(file.get(), storage->data + storage->used,
-                               std::min(storage->capacity - storage->used, std::size_t{1} << 24));
-    if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+    const std::ptrdiff_t got =
+        files::read_some(file.get(), storage->data + storage->used,
+                         std::min(storage->capacity - storage->used, std::size_t{1} << 24));
+    if (got < 0 && errno == EAGAIN) continue;
     if (got < 0) throw Error(ErrorKind::io, input.name_ + ": cannot read: " + reason(errno));
     if (got == 0) {
       if (!sized) break;

@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "ph/detail/io/output_file.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
-#include <sys/random.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <cerrno>
-#include <climits>
-#include <cstdlib>
-#include <memory>
-#include <new>
+#include <filesystem>
 #include <optional>
 #include <system_error>
 #include <utility>
 
+#include "core/system/files.hpp"
 #include "ph/detail/io/reader.hpp"
 
 namespace ph {
@@ -33,26 +26,16 @@ std::string words_for(int error) {
               fmt::format("{}: cannot create the output: {}", printable(path), why));
 }
 
-std::string folder_of(const std::string& path) {
-  const std::size_t slash = path.rfind('/');
-  if (slash == std::string::npos) return ".";
-  return slash == 0 ? "/" : path.substr(0, slash);
-}
-
-/// A name in `folder` that nobody else has. It does not contain the final name, which may be as
-/// long as names can be.
-std::string fresh_name(const std::string& folder) {
-  std::uint64_t random = 0;
-  // Never short for 8 bytes; a failure (an ancient kernel) leaves the process id to tell us apart.
-  if (getrandom(&random, sizeof random, 0) < 0) random = static_cast<std::uint64_t>(getpid());
-  return fmt::format("{}/.ph-{:016x}.tmp", folder, random);
+std::filesystem::path folder_of(const std::string& name) {
+  const auto path = files::path_of(name);
+  return path.has_parent_path() ? path.parent_path() : ".";
 }
 
 /// The descriptor that a name like /dev/stdout or /dev/fd/3 stands for. Opening such a name anew
 /// would write over what the descriptor's owner has written already.
 std::optional<int> descriptor_named(std::string_view path) {
-  if (path == "-" || path == "/dev/stdout") return STDOUT_FILENO;
-  if (path == "/dev/stderr") return STDERR_FILENO;
+  if (path == "-" || path == "/dev/stdout") return files::kStandardOutput;
+  if (path == "/dev/stderr") return files::kStandardError;
   for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {
     if (!path.starts_with(folder)) continue;
     const std::string_view digits = path.substr(folder.size());
@@ -67,42 +50,34 @@ std::optional<int> descriptor_named(std::string_view path) {
   return std::nullopt;
 }
 
-std::string resolved(const std::string& path) {
-  const std::unique_ptr<char, decltype(&std::free)> real(realpath(path.c_str(), nullptr),
-                                                         &std::free);
-  if (!real && errno == ENOMEM) throw std::bad_alloc();
-  return real ? std::string(real.get()) : path;
-}
-
 }  // namespace
 
 OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
   if (path_.empty()) fail_creating(path_, "the name is empty");
   if (const auto descriptor = descriptor_named(path_)) {
     descriptor_ = *descriptor;
+    files::pass_bytes(descriptor_);
     return;
   }
-  struct stat status {};
-  if (stat(path_.c_str(), &status) != 0) {
+  const auto status = files::status_of(files::path_of(path_));
+  if (!status) {
     if (errno != ENOENT) fail_creating(path_, words_for(errno));
-    if (path_.back() == '/') fail_creating(path_, "there is no such folder");
+    if (!files::path_of(path_).has_filename()) fail_creating(path_, "there is no such folder");
     target_ = path_;
-  } else if (S_ISDIR(status.st_mode)) {
+  } else if (status->kind == files::Kind::folder) {
     fail_creating(path_, "it is a folder");
-  } else if (S_ISREG(status.st_mode)) {
-    target_ = resolved(path_);
-    if (access(target_.c_str(), W_OK) != 0) fail_creating(path_, words_for(errno));
+  } else if (status->kind == files::Kind::regular) {
+    target_ = files::resolved(files::path_of(path_)).string();
+    if (!files::may_write(files::path_of(target_))) fail_creating(path_, words_for(errno));
   } else {
-    do {
-      descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
-    } while (descriptor_ < 0 && errno == EINTR);
+    descriptor_ = files::open_to_write(files::path_of(path_));
     if (descriptor_ < 0) fail_creating(path_, words_for(errno));
     owned_ = true;
     return;
   }
   open_regular();
   // The file that is replaced passes its mode on.
-  if (status.st_mode != 0 && fchmod(descriptor_, status.st_mode & 07777) != 0) {
+  if (status && !files::take_mode(descriptor_, files::path_of(target_))) {
     const int error = errno;
     discard();
     fail_creating(path_, words_for(error));
@@ -110,24 +85,11 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
 }
 
 void OutputFile::open_regular() {
-  const std::string folder = folder_of(target_);
   owned_ = true;
-  // A file without a name vanishes with the process, however that ends. Naming it later goes
-  // through /proc. Not all file systems have such files.
-  if (access("/proc/self/fd", X_OK) == 0) {
-    descriptor_ = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
-    if (descriptor_ >= 0) return;
-  }
-  for (int attempt = 0; attempt < 16; ++attempt) {
-    std::string name = fresh_name(folder);
-    descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor_ >= 0) {
-      temporary_ = std::move(name);
-      return;
-    }
-    if (errno != EEXIST) break;
-  }
-  fail_creating(path_, words_for(errno));
+  std::filesystem::path name;
+  descriptor_ = files::create_in(folder_of(target_), name);
+  if (descriptor_ < 0) fail_creating(path_, words_for(errno));
+  temporary_ = name.string();
 }
 
 OutputFile::~OutputFile() { discard(); }
@@ -153,9 +115,10 @@ OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
 }
 
 void OutputFile::discard() noexcept {
-  if (!temporary_.empty()) unlink(temporary_.c_str());
+  if (owned_ && descriptor_ >= 0) files::close(descriptor_);
+  // Open files cannot be removed everywhere.
+  if (!temporary_.empty()) files::remove(files::path_of(temporary_));
   temporary_.clear();
-  if (owned_ && descriptor_ >= 0) close(descriptor_);
   descriptor_ = -1;
   owned_ = false;
 }
@@ -168,16 +131,9 @@ void OutputFile::write(std::string_view bytes) {
 void OutputFile::flush() {
   std::string_view rest = buffer_;
   while (!rest.empty()) {
-    const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
-    if (written >= 0) {
-      rest.remove_prefix(static_cast<std::size_t>(written));
-    } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
-      // Somebody made our standard output non-blocking: wait until there is room.
-      pollfd room{descriptor_, POLLOUT, 0};
-      if (::poll(&room, 1, -1) < 0 && errno != EINTR) fail_writing(errno);
-    } else if (errno != EINTR) {
-      fail_writing(errno);
-    }
+    const std::ptrdiff_t written = files::write_some(descriptor_, rest.data(), rest.size());
+    if (written < 0) fail_writing(errno);
+    rest.remove_prefix(static_cast<std::size_t>(written));
   }
   buffer_.clear();
 }
@@ -185,37 +141,31 @@ void OutputFile::flush() {
 void OutputFile::sync() {
   flush();
   if (target_.empty()) return;
-  // Some file systems cannot sync; that is no reason to refuse them.
-  if (fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EROFS)
-    fail_writing(errno);
+  if (!files::sync(descriptor_)) fail_writing(errno);
 }
 
 void OutputFile::commit() {
   sync();
   if (target_.empty()) {
-    if (owned_ && close(std::exchange(descriptor_, -1)) != 0) fail_writing(errno);
+    if (owned_ && !files::close(std::exchange(descriptor_, -1))) fail_writing(errno);
     descriptor_ = -1;
     owned_ = false;
     return;
   }
-  const std::string folder = folder_of(target_);
+  const auto folder = folder_of(target_);
   if (temporary_.empty()) {
     // A link cannot replace a file, so it takes two steps: a temporary name, then the rename.
-    std::string name = fresh_name(folder);
-    const std::string unnamed = fmt::format("/proc/self/fd/{}", descriptor_);
-    if (linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) != 0)
-      fail_creating(path_, words_for(errno));
-    temporary_ = std::move(name);
+    temporary_ = files::name_in(descriptor_, folder).string();
+    if (temporary_.empty()) fail_creating(path_, words_for(errno));
   }
-  if (rename(temporary_.c_str(), target_.c_str()) != 0) fail_creating(path_, words_for(errno));
+  // Open files cannot be renamed everywhere. What they hold is on the disk already.
+  static_cast<void>(files::close(std::exchange(descriptor_, -1)));
+  if (!files::rename(files::path_of(temporary_), files::path_of(target_)))
+    fail_creating(path_, words_for(errno));
   temporary_.clear();
   discard();
   // The new name is safe once the folder is; a failure here leaves a complete file all the same.
-  const int folder_descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder_descriptor >= 0) {
-    static_cast<void>(fsync(folder_descriptor));
-    close(folder_descriptor);
-  }
+  files::sync_folder(folder);
 }
 
 void OutputFile::fail_writing(int error) const {

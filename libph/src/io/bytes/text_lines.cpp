@@ -51,7 +51,7 @@ bool looks_numeric(std::string_view cell) {
 // large: the sign of its decimal exponent tells.
 bool rounds_to_zero(std::string_view cell) {
   std::size_t i = !cell.empty() && (cell[0] == '-' || cell[0] == '+') ? 1 : 0;
-  long leading = 0;  // decimal exponent of the first digit that is not zero
+  std::int64_t leading = 0;  // decimal exponent of the first digit that is not zero
   bool point = false, found = false;
   for (; i < cell.size() && (is_digit(cell[i]) || cell[i] == '.'); ++i) {
     if (cell[i] == '.') {
@@ -71,10 +71,10 @@ bool rounds_to_zero(std::string_view cell) {
   ++i;
   const bool negative = i < cell.size() && cell[i] == '-';
   if (i < cell.size() && (cell[i] == '-' || cell[i] == '+')) ++i;
-  long exponent = 0;
+  std::int64_t exponent = 0;
   const auto [stop, error] = std::from_chars(cell.data() + i, cell.data() + cell.size(), exponent);
   if (error != std::errc{}) return negative;
-  exponent = std::min(exponent, 1L << 40);  // more than a line has digits
+  exponent = std::min(exponent, std::int64_t{1} << 40);  // more than a line has digits
   return (negative ? leading - exponent : leading + exponent) < 0;
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <array>
 #include <clocale>
@@ -10,6 +9,7 @@
 #include <sstream>
 
 #include "io/bytes/json_writer.hpp"
+#include "libph/io/read_support.hpp"
 #include "ph/io/write.hpp"
 
 namespace ph {
@@ -20,21 +20,14 @@ namespace fs = std::filesystem;
 /// A folder of its own for each test.
 class BarcodeIo : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "ph-test-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string path(const std::string& name) const { return folder_.file(name).string(); }
   std::string read(const std::string& name) const {
     std::ifstream file(path(name), std::ios::binary);
     return (std::ostringstream() << file.rdbuf()).str();
   }
   std::size_t file_count() const {
     return static_cast<std::size_t>(
-        std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+        std::distance(fs::directory_iterator(folder_.file("")), fs::directory_iterator()));
   }
   std::string text_of(const Barcode& barcode, BarcodeFormat format, const BarcodeInfo& info = {}) {
     OutputFile file(path("barcode"));
@@ -44,7 +37,7 @@ class BarcodeIo : public testing::Test {
   }
 
  private:
-  fs::path folder_;
+  test::TempDir folder_;
 };
 
 Barcode example() {

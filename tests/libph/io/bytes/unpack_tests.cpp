@@ -13,7 +13,7 @@ namespace ph::test {
 namespace {
 
 std::string gzipped(const std::string& bytes) {
-  std::string out(compressBound(bytes.size()) + 64, '\0');
+  std::string out(compressBound(static_cast<uLong>(bytes.size())) + 64, '\0');
   z_stream stream{};
   deflateInit2(&stream, 9, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY);
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));

@@ -43,7 +43,7 @@ std::string npy(const std::string& type, const std::vector<T>& values, bool fort
 }
 
 std::string gzipped(const std::string& bytes) {
-  std::string packed(compressBound(bytes.size()) + 64, '\0');
+  std::string packed(compressBound(static_cast<uLong>(bytes.size())) + 64, '\0');
   z_stream stream{};
   EXPECT_EQ(deflateInit2(&stream, 1, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY), Z_OK);
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));

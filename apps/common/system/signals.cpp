@@ -10,8 +10,9 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
-#include <cstring>
 #include <system_error>
+
+#include "common/system/temporaries.hpp"
 
 namespace ph::app {
 namespace {
@@ -19,14 +20,13 @@ namespace {
 // A handler may touch nothing but lock-free atomics and memory that does not move, hence the
 // globals; they belong to the process as signals do.
 constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
-constexpr std::size_t kSlots = 64;
-constexpr std::size_t kLongestName = 4096;
 
 std::atomic<int> first_signal{0};
 std::atomic<int> wake_descriptor{-1};
 std::atomic<bool> must_wait{false};
-std::array<std::array<char, kLongestName>, kSlots> temporary_names;
-std::array<std::atomic<int>, kSlots> slot_state;  // 0: free, 1: being filled, 2: in use
+// There is one watch at a time, and one that waits.
+int pipe_ends[2] = {-1, -1};
+sigset_t before;
 
 static_assert(std::atomic<int>::is_always_lock_free);
 
@@ -36,8 +36,7 @@ static_assert(std::atomic<int>::is_always_lock_free);
     const timespec millisecond{0, 1'000'000};
     nanosleep(&millisecond, nullptr);
   }
-  for (std::size_t i = 0; i < kSlots; ++i)
-    if (slot_state[i].load() == 2) unlink(temporary_names[i].data());
+  remove_temporaries();
   _exit(128 + signal);
 }
 
@@ -54,10 +53,10 @@ void on_signal(int signal) {
 }  // namespace
 
 SignalWatch::SignalWatch() {
-  if (pipe2(pipe_, O_CLOEXEC) == 0) {
+  if (pipe2(pipe_ends, O_CLOEXEC) == 0) {
     try {
       thread_ = std::thread([this] { watch(); });
-      wake_descriptor = pipe_[1];
+      wake_descriptor = pipe_ends[1];
     } catch (const std::system_error&) {
       // No room for a thread: without a descriptor to wake, the handler ends the process itself.
     }
@@ -67,9 +66,9 @@ SignalWatch::SignalWatch() {
   action.sa_flags = SA_RESTART;
   sigemptyset(&action.sa_mask);
   for (const int signal : kSignals) {
-    struct sigaction before {};
+    struct sigaction was {};
     // nohup and shells that put a job into the background ignore signals for us: leave it so.
-    if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
+    if (sigaction(signal, nullptr, &was) == 0 && was.sa_handler == SIG_IGN) continue;
     sigaction(signal, &action, nullptr);
   }
 }
@@ -77,7 +76,7 @@ SignalWatch::SignalWatch() {
 SignalWatch::~SignalWatch() {
   if (!thread_.joinable()) return;
   const char byte = 0;
-  static_cast<void>(!write(pipe_[1], &byte, 1));
+  static_cast<void>(!write(pipe_ends[1], &byte, 1));
   thread_.join();
   // The handler stays installed and may still write one byte: the pipe lives as long as the
   // process.
@@ -90,14 +89,14 @@ void SignalWatch::watch() {
   char byte = 0;
   ssize_t got = 0;
   do {
-    got = read(pipe_[0], &byte, 1);
+    got = read(pipe_ends[0], &byte, 1);
   } while (got < 0 && errno == EINTR);
   if (got != 1 || byte == 0) return;
   stop_.request_stop();
   // Unwinding normally takes a few milliseconds and ends with the byte 0 of the destructor. What
   // takes longer is cut short: returning gigabytes to the system takes time too, and the whole
   // must not take 0.2 s.
-  pollfd done{pipe_[0], POLLIN, 0};
+  pollfd done{pipe_ends[0], POLLIN, 0};
   int ready = 0;
   do {
     ready = poll(&done, 1, kGraceMilliseconds);
@@ -109,29 +108,13 @@ SignalsWait::SignalsWait() {
   sigset_t ours;
   sigemptyset(&ours);
   for (const int signal : kSignals) sigaddset(&ours, signal);
-  pthread_sigmask(SIG_BLOCK, &ours, &before_);
+  pthread_sigmask(SIG_BLOCK, &ours, &before);
   must_wait = true;
 }
 
 SignalsWait::~SignalsWait() {
   must_wait = false;
-  pthread_sigmask(SIG_SETMASK, &before_, nullptr);
-}
-
-int remember_temporary(const std::string& path) {
-  if (path.empty() || path.size() >= kLongestName) return -1;
-  for (std::size_t i = 0; i < kSlots; ++i) {
-    int free = 0;
-    if (!slot_state[i].compare_exchange_strong(free, 1)) continue;
-    std::memcpy(temporary_names[i].data(), path.c_str(), path.size() + 1);
-    slot_state[i] = 2;
-    return static_cast<int>(i);
-  }
-  return -1;
-}
-
-void forget_temporary(int slot) {
-  if (slot >= 0) slot_state[static_cast<std::size_t>(slot)] = 0;
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
 }  // namespace ph::app

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "common/system/process.hpp"
+
+#include <fcntl.h>
+#include <malloc.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "common/run/session.hpp"
+#include "core/system/machine_memory.hpp"
+
+namespace ph::app {
+namespace {
+
+/// Occupies the standard descriptors that the caller closed, so that no file we open becomes
+/// "standard output" by accident. Opened the wrong way round: using them is an error, as it should.
+void occupy_standard_descriptors() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(descriptor, F_GETFD) < 0)
+      static_cast<void>(open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY));
+}
+
+/// Freed blocks are kept for the next stage up to a size: to map and fault in each anew costs a
+/// short run a tenth of its time. Beyond it vectors that grow would leave holes that nobody counts.
+void keep_freed_memory() {
+  mallopt(M_MMAP_THRESHOLD, 4 << 20);
+  mallopt(M_TRIM_THRESHOLD, 256 << 20);
+}
+
+}  // namespace
+
+void prepare_process() {
+  keep_freed_memory();
+  occupy_standard_descriptors();
+  signal(SIGPIPE, SIG_IGN);  // a write then fails with EPIPE
+  signal(SIGXFSZ, SIG_IGN);  // a write then fails with EFBIG
+}
+
+void give_back_freed_memory() { malloc_trim(0); }
+
+std::uint64_t peak_memory() {
+  // Not what getrusage says: that includes the program that started this one.
+  if (const auto peak = status_bytes("VmHWM:")) return *peak;
+  rusage usage{};
+  return getrusage(RUSAGE_SELF, &usage) == 0 ? static_cast<std::uint64_t>(usage.ru_maxrss) * 1024
+                                             : 0;
+}
+
+}  // namespace ph::app

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "core/system/files.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/mman.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <new>
+
+namespace ph::files {
+namespace {
+
+constexpr int kPollMilliseconds = 50;  // how soon a waiting read sees a stop request
+
+Status from(const struct stat& status) {
+  return {S_ISREG(status.st_mode)   ? Kind::regular
+          : S_ISDIR(status.st_mode) ? Kind::folder
+                                    : Kind::other,
+          static_cast<std::uint64_t>(status.st_size), status.st_dev, status.st_ino};
+}
+
+/// A name in `folder` that nobody else has. It does not contain the final name, which may be as
+/// long as names can be.
+std::filesystem::path fresh_name(const std::filesystem::path& folder) {
+  std::uint64_t random = 0;
+  // Never short for 8 bytes; a failure (an ancient kernel) leaves the process id to tell us apart.
+  if (::getrandom(&random, sizeof random, 0) < 0) random = static_cast<std::uint64_t>(::getpid());
+  return folder / fmt::format(".ph-{:016x}.tmp", random);
+}
+
+}  // namespace
+
+std::optional<Status> status_of(const std::filesystem::path& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
+  return from(status);
+}
+
+std::optional<Status> status_of(int file) {
+  struct stat status {};
+  if (::fstat(file, &status) != 0) return std::nullopt;
+  return from(status);
+}
+
+bool close(int file) { return ::close(file) == 0; }
+
+int open_to_read(const std::filesystem::path& path) {
+  // Without O_NONBLOCK, opening a FIFO nobody writes to could not be stopped.
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
+  struct stat status {};
+  if (file < 0 || ::fstat(file, &status) != 0 || !S_ISDIR(status.st_mode)) return file;
+  ::close(file);
+  errno = EISDIR;
+  return -1;
+}
+
+void pass_bytes(int) {}
+
+bool is_at_start(int file) { return ::lseek(file, 0, SEEK_CUR) == 0; }
+
+std::ptrdiff_t read_some(int file, char* to, std::size_t most) {
+  pollfd waiting{file, POLLIN, 0};
+  const int ready = ::poll(&waiting, 1, kPollMilliseconds);
+  const ssize_t got = ready == 0 || (ready < 0 && errno == EINTR) ? -1 : ::read(file, to, most);
+  if (ready == 0 || (got < 0 && errno == EINTR)) errno = EAGAIN;
+  return got;
+}
+
+char* map_to_read(int file, std::size_t bytes) {
+  void* const address = ::mmap(nullptr, bytes, PROT_READ, MAP_PRIVATE, file, 0);
+  if (address == MAP_FAILED) return nullptr;
+  ::madvise(address, bytes, MADV_SEQUENTIAL);
+  return static_cast<char*>(address);
+}
+
+void unmap(char* data, std::size_t bytes) { ::munmap(data, bytes); }
+
+std::filesystem::path resolved(const std::filesystem::path& path) {
+  const std::unique_ptr<char, decltype(&std::free)> real(::realpath(path.c_str(), nullptr),
+                                                         &std::free);
+  if (!real && errno == ENOMEM) throw std::bad_alloc();
+  return real ? std::filesystem::path(real.get()) : path;
+}
+
+bool may_write(const std::filesystem::path& path) { return ::access(path.c_str(), W_OK) == 0; }
+
+int open_to_write(const std::filesystem::path& path) {
+  int file = -1;
+  do {
+    file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+  } while (file < 0 && errno == EINTR);
+  return file;
+}
+
+int create_in(const std::filesystem::path& folder, std::filesystem::path& name) {
+  // Naming it later goes through /proc. Not all file systems have such files.
+  if (::access("/proc/self/fd", X_OK) == 0) {
+    const int file = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+    if (file >= 0) return file;
+  }
+  for (int attempt = 0; attempt < 16; ++attempt) {
+    auto fresh = fresh_name(folder);
+    const int file = ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file >= 0) {
+      name = std::move(fresh);
+      return file;
+    }
+    if (errno != EEXIST) break;
+  }
+  return -1;
+}
+
+bool take_mode(int file, const std::filesystem::path& of) {
+  struct stat status {};
+  return ::stat(of.c_str(), &status) == 0 && ::fchmod(file, status.st_mode & 07777) == 0;
+}
+
+std::ptrdiff_t write_some(int file, const char* from, std::size_t most) {
+  for (;;) {
+    const ssize_t written = ::write(file, from, most);
+    if (written >= 0) return written;
+    if (errno == EAGAIN || errno == EWOULDBLOCK) {
+      // Somebody made our standard output non-blocking: wait until there is room.
+      pollfd room{file, POLLOUT, 0};
+      if (::poll(&room, 1, -1) < 0 && errno != EINTR) return -1;
+    } else if (errno != EINTR) {
+      return -1;
+    }
+  }
+}
+
+bool sync(int file) {
+  // Some file systems cannot sync; that is no reason to refuse them.
+  return ::fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS;
+}
+
+std::filesystem::path name_in(int file, const std::filesystem::path& folder) {
+  const std::string unnamed = fmt::format("/proc/self/fd/{}", file);
+  auto name = fresh_name(folder);
+  if (::linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) != 0)
+    return {};
+  return name;
+}
+
+bool rename(const std::filesystem::path& from, const std::filesystem::path& to) {
+  return ::rename(from.c_str(), to.c_str()) == 0;
+}
+
+void sync_folder(const std::filesystem::path& folder) {
+  const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return;
+  static_cast<void>(::fsync(file));
+  ::close(file);
+}
+
+void remove(const std::filesystem::path& path) { ::unlink(path.c_str()); }
+
+}  // namespace ph::files
