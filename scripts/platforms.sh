@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# platforms.sh [clang-libcxx|aarch64]…: builds libraries and programs for another C++ library or
-# another processor, and runs the tests of libph; without arguments: for each. Installs what is missing
-# first. The last line of each shows the counts. JOBS: how many at a time.
+# platforms.sh [clang-libcxx|aarch64|mingw]…: builds libraries and programs for another C++ library,
+# another processor or another system, and runs the tests of libph; without arguments: for each.
+# Installs what is missing first. The last line of each shows the counts. JOBS: how many at a time.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 jobs=${JOBS:-$(nproc)}
@@ -28,6 +28,40 @@ unpack_arm64() {
   touch "$root/complete"
 }
 
+# What is there as packages is unpacked, as above; libpng and FreeType are built of Debian's sources.
+unpack_mingw() {
+  local root=$PWD/build/mingw-root
+  [ -e "$root/complete" ] && return
+  rm -rf "$root"
+  mkdir -p "$root"/apt/{lists/partial,cache/archives/partial,sources}
+  sed 's/^Types: .*/Types: deb deb-src/' /etc/apt/sources.list.d/debian.sources >"$root/apt/sources/debian.sources"
+  local apt=(apt-get -qq -o Dir::State::Lists="$root/apt/lists" -o Dir::Cache="$root/apt/cache"
+             -o Dir::Etc::SourceList=/dev/null -o Dir::Etc::SourceParts="$root/apt/sources"
+             -o APT::Sandbox::User= -o Debug::NoLocking=1)
+  "${apt[@]}" update
+  local release
+  release=$(. /etc/os-release && echo "$VERSION_CODENAME")
+  (cd "$root/apt" && "${apt[@]}" download libeigen3-dev libcli11-dev libfmt-dev libz-mingw-w64-dev &&
+    "${apt[@]}" source --download-only "libpng1.6/$release" "freetype/$release")
+  local file
+  for file in "$root"/apt/*.deb; do dpkg -x "$file" "$root"; done
+  for file in "$root"/apt/*.dsc; do dpkg-source -x "$file" "${file%%_*}"; done
+  local here=$root/usr/x86_64-w64-mingw32
+  rm "$here/lib/libz.dll.a"  # programs need no library beside them
+  build_archive() {
+    local source=$1
+    shift
+    cmake -S "$source" -B "$source/build" -G Ninja -D CMAKE_TOOLCHAIN_FILE="$PWD/cmake/mingw-w64.cmake" \
+      -D CMAKE_BUILD_TYPE=Release -D CMAKE_INSTALL_PREFIX="$here" "$@"
+    cmake --build "$source/build" -j "$jobs"
+    cmake --install "$source/build"
+  }
+  build_archive "$root/apt/libpng1.6" -D PNG_SHARED=OFF -D PNG_TESTS=OFF
+  build_archive "$root/apt/freetype" -DFT_DISABLE_{HARFBUZZ,BROTLI,BZIP2,PNG}=ON -DFT_REQUIRE_ZLIB=ON
+  rm -r "$root/apt"
+  touch "$root/complete"
+}
+
 test_libph() {
   ctest --test-dir "build/$1/tests/libph" -j "$jobs" -LE quick --output-on-failure --no-tests=error \
     --output-junit "$PWD/build/$1/tests.xml"
@@ -43,7 +77,13 @@ compare_outputs() {
 run() {
   local platform=$1 status=0
   scripts/setup.sh build "$platform"
-  [ "$platform" != aarch64 ] || unpack_arm64
+  case $platform in
+    aarch64) unpack_arm64 ;;
+    mingw) unpack_mingw
+      export WINEPREFIX=$PWD/build/wine WINEDEBUG=-all
+      # Else programs that begin at once would each set it up.
+      [ -d "$WINEPREFIX" ] || /usr/lib/wine/wine64 wineboot --init >/dev/null 2>&1 ;;
+  esac
   cmake --preset "$platform"
   cmake --build --preset "$platform" -j "$jobs"
   case $platform in
@@ -52,7 +92,9 @@ run() {
     aarch64)  # instructions are translated: a tenth of the random inputs, ten times as long
       PH_TEST_SEEDS=0.1 PH_TEST_PATIENCE=10 test_libph "$platform" || status=$?
       compare_outputs "build/$platform" qemu-aarch64-static || status=$? ;;
-    *) echo "platforms.sh: found '$platform', expected clang-libcxx or aarch64" >&2; return 64 ;;
+    mingw) PH_TEST_SEEDS=0.1 PH_TEST_PATIENCE=10 test_libph "$platform" || status=$?
+      compare_outputs "build/$platform" /usr/lib/wine/wine64 || status=$? ;;
+    *) echo "platforms.sh: found '$platform', expected clang-libcxx, aarch64 or mingw" >&2; return 64 ;;
   esac
   awk -F'"' -v platform="$platform" '/^[ \t]*tests=/ { tests = $2 } /^[ \t]*failures=/ { failed = $2 }
     /^[ \t]*skipped=/ { skipped = $2 } /<testcase/ { exit }
@@ -61,7 +103,7 @@ run() {
   return "$status"
 }
 
-[ $# -gt 0 ] || set -- clang-libcxx aarch64
+[ $# -gt 0 ] || set -- clang-libcxx aarch64 mingw
 failed=0
 for platform; do run "$platform" || failed=1; done
 exit "$failed"

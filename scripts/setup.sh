@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Installs the Debian packages that are missing: setup.sh [build|page|demo|test|python|viewer|docs|packages|lint|fuzz|coverage|clang-libcxx|aarch64]…
+# Installs the Debian packages that are missing: setup.sh [build|page|demo|test|python|viewer|docs|packages|lint|fuzz|coverage|clang-libcxx|aarch64|mingw]…
 set -euo pipefail
 
 build=(build-essential cmake ninja-build pkg-config ccache libeigen3-dev libfmt-dev
@@ -29,6 +29,7 @@ coverage=(gcovr libgtest-dev)
 # Of scripts/platforms.sh; GoogleTest and fmt are compiled along.
 clang_libcxx=(clang-19 libc++-19-dev libc++abi-19-dev libunwind-19-dev googletest)
 aarch64=(g++-aarch64-linux-gnu qemu-user-static googletest)
+mingw=(g++-mingw-w64-x86-64-posix wine64 googletest dpkg-dev)
 
 wanted=()
 for set in "${@:-build}"; do
@@ -46,7 +47,8 @@ for set in "${@:-build}"; do
     coverage) wanted+=("${coverage[@]}") ;;
     clang-libcxx) wanted+=("${clang_libcxx[@]}") ;;
     aarch64) wanted+=("${aarch64[@]}") ;;
-    *) echo "setup.sh: found '$set', expected build, page, demo, test, python, viewer, docs, packages, lint, fuzz, coverage, clang-libcxx or aarch64" >&2; exit 64 ;;
+    mingw) wanted+=("${mingw[@]}") ;;
+    *) echo "setup.sh: found '$set', expected build, page, demo, test, python, viewer, docs, packages, lint, fuzz, coverage, clang-libcxx, aarch64 or mingw" >&2; exit 64 ;;
   esac
 done
 

@@ -26,6 +26,7 @@ def commands():
     yield [BARCODE, "two_circles.csv", "--representatives", "cycles", "-o", "out.json", "--loops", "tight"]
     yield [BARCODE, "two_circles.csv", "--plot", "out.svg", "--plot", "out.png", "-o", "out.csv"]
     yield [BARCODE, "two_circles.csv", "--dry-run"]
+    yield [BARCODE, "two_circles.csv", "-o", "out-größe-→.json", "--quiet"]
     for metric in ("manhattan", "chebyshev", "cosine", "hamming", "minkowski:3"):
         yield [BARCODE, "torus.csv", "--metric", metric, "--subsample", "60"]
     for engine in ("standard", "twist", "cohomology", "edge-links"):
@@ -60,7 +61,10 @@ def result_of(build, emulator, command):
     with tempfile.TemporaryDirectory() as folder:
         for file in DATA.iterdir():
             Path(folder, file.name).symlink_to(file)
-        run = subprocess.run([*emulator, str(build / command[0]), *command[1:]], cwd=folder,
+        program = build / command[0]
+        if not program.exists():  # for Windows
+            program = program.with_name(program.name + ".exe")
+        run = subprocess.run([*emulator, str(program), *command[1:]], cwd=folder,
                              capture_output=True, check=False)
         files = {path.name: path.read_bytes() for path in Path(folder).glob("out*")}
     return {"exit code": b"%d" % run.returncode, "standard output": run.stdout,

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "common/system/process.hpp"
+
+#include <fcntl.h>
+#include <io.h>
+#include <malloc.h>
+
+#include "common/run/memory_limit.hpp"
+#include "common/run/session.hpp"
+#include "core/system/machine_memory.hpp"
+
+namespace ph::app {
+
+void prepare_process() {
+  for (const int descriptor : {0, 1, 2}) _setmode(descriptor, _O_BINARY);
+}
+
+void give_back_freed_memory() { _heapmin(); }
+
+std::uint64_t peak_memory() { return status_bytes("VmHWM:").value_or(0); }
+
+// The system is asked for no bound: the budget counts large containers, and nothing else.
+HeapBound::HeapBound() = default;
+HeapBound::~HeapBound() = default;
+void HeapBound::bound(std::size_t) {}
+void HeapBound::loosen() {}
+
+}  // namespace ph::app

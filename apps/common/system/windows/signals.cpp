@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "common/run/signals.hpp"
+
+#include <windows.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdlib>
+#include <mutex>
+
+#include "common/system/temporaries.hpp"
+
+namespace ph::app {
+namespace {
+
+// Of the process, as what the console says to it is.
+std::atomic<int> first_signal{0};
+std::mutex mutex;
+std::stop_source* watched = nullptr;  // guarded by the mutex
+std::mutex may_end;                   // who holds it is waited for
+
+[[noreturn]] void end_at_once(int signal) {
+  const std::scoped_lock lock(may_end);
+  remove_temporaries();
+  TerminateProcess(GetCurrentProcess(), 128 + static_cast<unsigned>(signal));
+  std::abort();
+}
+
+bool request_stop() {
+  const std::scoped_lock lock(mutex);
+  return watched != nullptr && watched->request_stop();
+}
+
+/// Each call has a thread of its own.
+BOOL WINAPI on_control(DWORD what) {
+  constexpr DWORD kGraceMilliseconds = 60;
+  const int signal = what == CTRL_C_EVENT ? SIGINT : SIGTERM;
+  int none = 0;
+  if (!first_signal.compare_exchange_strong(none, signal) || !request_stop()) end_at_once(signal);
+  Sleep(kGraceMilliseconds);
+  {
+    const std::scoped_lock lock(mutex);
+    if (watched == nullptr) return TRUE;
+  }
+  end_at_once(signal);
+}
+
+}  // namespace
+
+SignalWatch::SignalWatch() {
+  const std::scoped_lock lock(mutex);
+  watched = &stop_;
+  SetConsoleCtrlHandler(on_control, TRUE);
+}
+
+SignalWatch::~SignalWatch() {
+  const std::scoped_lock lock(mutex);
+  watched = nullptr;
+}
+
+int SignalWatch::received() { return first_signal.load(); }
+
+SignalsWait::SignalsWait() { may_end.lock(); }
+SignalsWait::~SignalsWait() { may_end.unlock(); }
+
+}  // namespace ph::app

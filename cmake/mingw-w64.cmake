@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: MIT
+# Debian's cross compiler for 64-bit Windows; what it makes runs here under Wine.
+# scripts/platforms.sh unpacks headers into PH_MINGW_ROOT.
+set(CMAKE_SYSTEM_NAME Windows)
+set(CMAKE_SYSTEM_PROCESSOR x86_64)
+# The variant with threads of POSIX: the other one has no std::thread.
+set(CMAKE_C_COMPILER x86_64-w64-mingw32-gcc-posix)
+set(CMAKE_CXX_COMPILER x86_64-w64-mingw32-g++-posix)
+set(CMAKE_RC_COMPILER x86_64-w64-mingw32-windres)
+
+set(PH_MINGW_ROOT ${CMAKE_CURRENT_LIST_DIR}/../build/mingw-root
+    CACHE PATH "The folder that packages of headers were unpacked into")
+list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES PH_MINGW_ROOT)
+set(CMAKE_FIND_ROOT_PATH ${PH_MINGW_ROOT}/usr/x86_64-w64-mingw32 ${PH_MINGW_ROOT} /usr/x86_64-w64-mingw32)
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
+# Its headers are for any system; where the package has them depends on this one.
+file(GLOB fmt_DIR ${PH_MINGW_ROOT}/usr/lib/*/cmake/fmt)
+
+# No library of the compiler has to lie beside a program.
+set(CMAKE_EXE_LINKER_FLAGS_INIT -static)
+set(CMAKE_CROSSCOMPILING_EMULATOR /usr/lib/wine/wine64)

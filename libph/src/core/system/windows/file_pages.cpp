@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "ph/detail/core/file_pages.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <io.h>
+#include <share.h>
+#include <sys/stat.h>
+#include <windows.h>
+
+#include <filesystem>
+#include <random>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "ph/error.hpp"
+
+namespace ph {
+namespace {
+
+[[noreturn]] void refuse(const std::string& folder, std::size_t bytes, const std::string& why) {
+  throw Error(
+      ErrorKind::io,
+      fmt::format("{}: cannot hold a temporary file of {} MiB: {}; TMP names another folder",
+                  folder, bytes >> 20, why));
+}
+
+std::string last_error() {
+  return std::error_code(static_cast<int>(GetLastError()), std::system_category()).message();
+}
+
+std::filesystem::path temporary_folder() {
+  std::error_code error;
+  auto folder = std::filesystem::temp_directory_path(error);
+  if (error)
+    throw Error(ErrorKind::io,
+                "no folder for temporary files: " + error.message() + "; TMP names one");
+  return folder;
+}
+
+/// The file goes when it is closed, however the process ends.
+int open_temporary(const std::filesystem::path& folder) {
+  std::random_device random;
+  int file = -1, error = 0;
+  for (int attempt = 0; attempt < 16; ++attempt) {
+    const auto name = folder / fmt::format("ph-{:08x}{:08x}", random(), random());
+    error = _wsopen_s(&file, name.c_str(),
+                      _O_CREAT | _O_EXCL | _O_RDWR | _O_BINARY | _O_TEMPORARY | _O_NOINHERIT,
+                      _SH_DENYNO, _S_IREAD | _S_IWRITE);
+    if (error != EEXIST) break;
+  }
+  if (error != 0) refuse(folder.string(), 0, std::generic_category().message(error));
+  return file;
+}
+
+HANDLE handle_of(int file) { return reinterpret_cast<HANDLE>(_get_osfhandle(file)); }
+
+}  // namespace
+
+void forget_file_pages(const void* begin, std::size_t bytes) {
+  // Pages that are not locked leave the process's memory when they are unlocked.
+  if (bytes > 0) VirtualUnlock(const_cast<void*>(begin), bytes);
+}
+
+ScratchFile::ScratchFile(std::size_t bytes) : file_(open_temporary(temporary_folder())) {
+  try {
+    resize(bytes);
+  } catch (...) {
+    _close(file_);
+    throw;
+  }
+}
+
+ScratchFile::ScratchFile(ScratchFile&& other) noexcept
+    : file_(std::exchange(other.file_, -1)),
+      data_(std::exchange(other.data_, nullptr)),
+      size_(std::exchange(other.size_, 0)) {}
+
+ScratchFile& ScratchFile::operator=(ScratchFile&& other) noexcept {
+  std::swap(file_, other.file_);
+  std::swap(data_, other.data_);
+  std::swap(size_, other.size_);
+  return *this;
+}
+
+ScratchFile::~ScratchFile() {
+  if (data_ != nullptr) UnmapViewOfFile(data_);
+  if (file_ >= 0) _close(file_);
+}
+
+void ScratchFile::resize(std::size_t bytes) {
+  if (bytes == size_) return;
+  // A file that is mapped has a length that cannot change.
+  if (data_ != nullptr) UnmapViewOfFile(data_);
+  data_ = nullptr;
+  size_ = 0;
+  const errno_t error = _chsize_s(file_, static_cast<__int64>(bytes));
+  if (error != 0)
+    refuse(temporary_folder().string(), bytes, std::generic_category().message(error));
+  if (bytes == 0) return;
+  const HANDLE mapping =
+      CreateFileMappingW(handle_of(file_), nullptr, PAGE_READWRITE, 0, 0, nullptr);
+  if (mapping == nullptr) refuse(temporary_folder().string(), bytes, last_error());
+  void* const address = MapViewOfFile(mapping, FILE_MAP_ALL_ACCESS, 0, 0, bytes);
+  const std::string why = address == nullptr ? last_error() : "";
+  CloseHandle(mapping);  // the view keeps it
+  if (address == nullptr) refuse(temporary_folder().string(), bytes, why);
+  data_ = static_cast<char*>(address);
+  size_ = bytes;
+}
+
+// The system does not say how much of the working set is files.
+ResidentFiles::ResidentFiles() : file_(-1) {}
+ResidentFiles::~ResidentFiles() = default;
+std::size_t ResidentFiles::bytes() const { return 0; }
+
+}  // namespace ph
