@@ -82,7 +82,9 @@ run() {
     mingw) unpack_mingw
       export WINEPREFIX=$PWD/build/wine WINEDEBUG=-all
       # Else programs that begin at once would each set it up.
-      [ -d "$WINEPREFIX" ] || /usr/lib/wine/wine64 wineboot --init >/dev/null 2>&1 ;;
+      [ -d "$WINEPREFIX" ] || /usr/lib/wine/wine64 wineboot --init >/dev/null 2>&1
+      # Nor does a program begin while the server of the last one ends.
+      /usr/lib/wine/wineserver -p60 || true ;;
   esac
   cmake --preset "$platform"
   cmake --build --preset "$platform" -j "$jobs"
