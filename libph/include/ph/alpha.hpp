@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -118,5 +119,24 @@ class Alpha {
 /// The barcode of an alpha complex. @throws as persistence of other complexes.
 Barcode persistence(const Alpha& alpha, const Options& options = {},
                     const RunContext& context = default_context());
+
+/// Triangles on the surface of a set of simplices, each by its points.
+struct SurfaceMesh {
+  std::vector<std::array<Index, 3>> triangles;
+  /// The first so many have a tetrahedron on one side, and are counterclockwise as seen from the
+  /// other. Those behind, *singular* ones, have none on either side.
+  std::size_t regular = 0;
+};
+
+/// The surface of the simplices up to a value, in the unit of the complex: what the balls of that
+/// radius enclose, as a polyhedron. Of points in a plane all triangles up to it, counterclockwise
+/// if they are points of R². O(triangles · log). @throws Error (usage) on NaN.
+SurfaceMesh alpha_shape(const Alpha& alpha, double value);
+
+/// The same of the wrap complex (Edelsbrunner, Surface reconstruction by wrapping finite sets in
+/// space, 2003): the critical simplices up to a value with all that lies below them. It has the
+/// shape of the alpha complex, up to homotopy, and is a part of it without its frayed edges.
+/// O(tetrahedra). @throws Error (usage) on NaN; Error (resource, cancelled).
+SurfaceMesh wrap(const Alpha& alpha, double value, const RunContext& context = default_context());
 
 }  // namespace ph
