@@ -25,7 +25,14 @@ struct AlphaOptions {
   /// One for each point, or none: the square of a ball's radius where that is 0 at first. The power
   /// distance |x - p|² - w takes the place of the square of the distance.
   std::vector<double> weights = {};
-  /// What values are. Those of weighted points may be negative: `squared` only.
+  /// What is asked of a simplex of the triangulation, in radii.
+  enum class Value {
+    alpha,  ///< that its balls meet, each cut to its Voronoi cell
+    /// that its balls meet. The bars are those of `alpha`, the cells may be others.
+    delaunay_cech,
+    delaunay_rips,  ///< that each two of its balls meet: half its longest edge
+  } value = Value::alpha;
+  /// Of what values are. Those of weighted points may be negative: `squared` only.
   enum class Unit {
     radius,   ///< the radius of the balls
     squared,  ///< its square
@@ -44,6 +51,9 @@ struct AlphaOptions {
 /// error of some last places, and no face has a larger one than a coface. Among cospherical points
 /// some triangulation is taken that depends on where they are alone, not on their order.
 ///
+/// Other values than alpha are for points without weights, and are computed simplex by simplex, by
+/// engines for any filtration: they take several times as long.
+///
 /// Holds the triangulation: about 110 bytes a tetrahedron. What generic engines need, each simplex
 /// by itself, is made once, by `prepare` or else when a cell is first asked for. Order: (value,
 /// dimension, vertices in an order of space, the last one first).
@@ -56,8 +66,9 @@ class Alpha {
   /// O(n log n) for points that lie evenly, O(n²) at worst. On threads, but for the triangulation.
   /// @param context outlives the filtration.
   /// @throws Error (usage) on points of R^4 or beyond, weights that are not one a point, and radii
-  ///         of weighted points; Error (bad_data) on numbers that are not finite and on coordinates
-  ///         whose magnitudes differ beyond what doubles can square; Error (resource, cancelled).
+  ///         or other values of weighted points; Error (bad_data) on numbers that are not finite
+  ///         and on coordinates whose magnitudes differ beyond what doubles can square; Error
+  ///         (resource, cancelled).
   explicit Alpha(PointsView points, const AlphaOptions& options = {},
                  const RunContext& context = default_context());
 
@@ -105,6 +116,7 @@ class Alpha {
   /// A squared radius of it as a value of this filtration.
   double to_value(double squared_radius) const;
   double threshold() const { return threshold_; }
+  AlphaOptions::Value value_kind() const { return kind_; }
 
  private:
   struct Lazy;
@@ -112,6 +124,7 @@ class Alpha {
   std::shared_ptr<const alpha::AlphaCells> cells_;
   std::shared_ptr<Lazy> lazy_;
   AlphaOptions::Unit unit_;
+  AlphaOptions::Value kind_;
   double threshold_;
   int top_dim_ = -1;
 };
@@ -130,13 +143,14 @@ struct SurfaceMesh {
 
 /// The surface of the simplices up to a value, in the unit of the complex: what the balls of that
 /// radius enclose, as a polyhedron. Of points in a plane all triangles up to it, counterclockwise
-/// if they are points of R². O(triangles · log). @throws Error (usage) on NaN.
+/// if they are points of R². O(triangles · log). @throws Error (usage) on
+/// NaN and on values other than alpha.
 SurfaceMesh alpha_shape(const Alpha& alpha, double value);
 
 /// The same of the wrap complex (Edelsbrunner, Surface reconstruction by wrapping finite sets in
 /// space, 2003): the critical simplices up to a value with all that lies below them. It has the
 /// shape of the alpha complex, up to homotopy, and is a part of it without its frayed edges.
-/// O(tetrahedra). @throws Error (usage) on NaN; Error (resource, cancelled).
+/// O(tetrahedra). @throws Error (usage) as alpha_shape; Error (resource, cancelled).
 SurfaceMesh wrap(const Alpha& alpha, double value, const RunContext& context = default_context());
 
 }  // namespace ph

@@ -12,9 +12,10 @@ namespace ph {
 /// not with cocycles. See docs/explanation/engines/alpha.md.
 struct AlphaEngine {
   static constexpr Engine id = Engine::gradient;
-  static bool can_run(const Alpha&, const Task& task) {
-    return !task.zero_length && (task.representatives == Representatives::none ||
-                                 task.representatives == Representatives::cycles);
+  static bool can_run(const Alpha& alpha, const Task& task) {
+    return alpha.value_kind() == AlphaOptions::Value::alpha && !task.zero_length &&
+           (task.representatives == Representatives::none ||
+            task.representatives == Representatives::cycles);
   }
   static Suitability suitability(const Alpha&, const Task&) {
     return {6, "an alpha complex is paired interval by interval"};

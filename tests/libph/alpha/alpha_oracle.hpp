@@ -51,6 +51,20 @@ class AlphaOracle {
     return std::ranges::any_of(spheres_, [&](const auto& s) { return s.on == 1U << point; });
   }
 
+  /// The centres of the spheres through affinely independent points, whatever is inside, with
+  /// squared radii, rounded.
+  std::vector<std::pair<std::vector<double>, double>> centres() const {
+    std::vector<std::pair<std::vector<double>, double>> result;
+    for (unsigned set = 1; set < 1U << points_.size(); ++set)
+      if (const auto centre = centre_of(set)) {
+        std::vector<double> rounded;
+        for (const Rational& x : *centre) rounded.push_back(static_cast<double>(x));
+        const auto first = static_cast<std::size_t>(__builtin_ctz(set));
+        result.emplace_back(rounded, static_cast<double>(power(*centre, first)));
+      }
+    return result;
+  }
+
   /// Of positive length, over Z/p: the textbook's reduction.
   std::vector<OracleBar> bars(int p) const {
     std::vector<std::pair<Rational, unsigned>> order;

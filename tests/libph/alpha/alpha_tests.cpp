@@ -7,6 +7,7 @@
 #include <numeric>
 #include <thread>
 
+#include "libph/alpha/alpha_oracle.hpp"
 #include "libph/alpha/alpha_support.hpp"
 #include "ph/detail/alpha/alpha_engines.hpp"
 #include "support/conformance.hpp"
@@ -18,8 +19,8 @@ namespace ph::test {
 namespace {
 
 Points in_order(const Points& points, std::span<const Index> order) {
-  Points result(points.rows(), points.cols());
-  for (Index i = 0; i < points.rows(); ++i)
+  Points result(static_cast<Index>(order.size()), points.cols());
+  for (Index i = 0; i < result.rows(); ++i)
     for (Index k = 0; k < points.cols(); ++k)
       result(i, k) = points(order[static_cast<std::size_t>(i)], k);
   return result;
@@ -296,6 +297,70 @@ TEST(Alpha, Threshold) {
     for (int dim = 0; dim <= 3; ++dim) alpha.for_each_cell(dim, [&](const auto&) { top = dim; });
     EXPECT_EQ(alpha.top_dim(), top);
   });
+}
+
+// The least radius of a ball around points: through one of their subsets, and around all.
+double smallest_ball(const Points& points, const std::vector<Index>& simplex) {
+  const AlphaOracle oracle(in_order(points, simplex), {});
+  double least = kInfinity;
+  for (const auto& [centre, squared] : oracle.centres()) {
+    double farthest = 0;
+    for (const Index v : simplex) {
+      double sum = 0;
+      for (Index k = 0; k < points.cols(); ++k)
+        sum += (points(v, k) - centre[static_cast<std::size_t>(k)]) *
+               (points(v, k) - centre[static_cast<std::size_t>(k)]);
+      farthest = std::max(farthest, sum);
+    }
+    if (farthest <= squared * (1 + 1e-12)) least = std::min(least, farthest);
+  }
+  return least;
+}
+
+TEST(Alpha, OtherValues) {
+  for_each_seed(40, [](Generator& random, bool ties, std::int64_t) {
+    const Points points = random.points(20, random.integer(2, 3), ties);
+    AlphaOptions options{.unit = AlphaOptions::Unit::squared};
+    const Barcode alpha = persistence(Alpha(points, options));
+    options.value = AlphaOptions::Value::delaunay_cech;
+    const Alpha cech(points, options);
+    for (int dim = 1; dim <= cech.top_dim(); ++dim)
+      cech.for_each_cell(dim, [&](const Alpha::Cell& cell) {
+        std::vector<Index> simplex;
+        cech.append_input_cell(dim, cell, simplex);
+        EXPECT_NEAR(cech.value(cell), smallest_ball(points, simplex), 1e-10);
+      });
+    // Among ties rounding may make bars of some last places.
+    const auto lasting = [](const Barcode& bars) {
+      std::vector<Bar> result(bars.begin(), bars.end());
+      std::erase_if(result, [](const Bar& b) { return b.persistence() < 1e-9; });
+      return result;
+    };
+    const auto a = lasting(alpha), b = lasting(persistence(cech));
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i].birth, b[i].birth, 1e-9);
+    options.value = AlphaOptions::Value::delaunay_rips;
+    const Alpha rips(points, options);
+    for (int dim = 1; dim <= rips.top_dim(); ++dim)
+      rips.for_each_cell(dim, [&](const Alpha::Cell& cell) {
+        std::vector<Index> simplex;
+        rips.append_input_cell(dim, cell, simplex);
+        double longest = 0;
+        for (const Index u : simplex)
+          for (const Index v : simplex) {
+            double sum = 0;
+            for (Index k = 0; k < points.cols(); ++k)
+              sum += (points(u, k) - points(v, k)) * (points(u, k) - points(v, k));
+            longest = std::max(longest, sum);
+          }
+        EXPECT_NEAR(rips.value(cell), longest / 4, 1e-14);
+      });
+    EXPECT_EQ(first_difference(persistence(rips), persistence(rips, {.engine = Engine::standard})),
+              "");
+  });
+  AlphaOptions weighted{.weights = {1, 1}, .value = AlphaOptions::Value::delaunay_rips};
+  weighted.unit = AlphaOptions::Unit::squared;
+  expect_error(ErrorKind::usage, "other than alpha", [&] { Alpha(Points(2, 2), weighted); });
 }
 
 TEST(Alpha, ThreadsChangeNothing) {

@@ -16,7 +16,9 @@ namespace {
 
 using std::uint32_t;
 
-void check_value(double value, std::string_view what) {
+void check_values(const Alpha& alpha, double value, std::string_view what) {
+  if (alpha.value_kind() != AlphaOptions::Value::alpha)
+    throw Error(ErrorKind::usage, std::string(what) + ": found other values, expected alpha");
   if (!std::isnan(value)) return;
   throw Error(ErrorKind::usage, std::string(what) + ": found nan, expected a value");
 }
@@ -140,7 +142,7 @@ class Wrap {
 }  // namespace alpha
 
 SurfaceMesh alpha_shape(const Alpha& alpha, double value) {
-  alpha::check_value(value, "alpha shape");
+  alpha::check_values(alpha, value, "alpha shape");
   const alpha::AlphaCells& cells = alpha.cells();
   const auto enters = [&](double radius) { return alpha.to_value(radius) <= value; };
   return alpha::surface(
@@ -149,7 +151,7 @@ SurfaceMesh alpha_shape(const Alpha& alpha, double value) {
 }
 
 SurfaceMesh wrap(const Alpha& alpha, double value, const RunContext& context) {
-  alpha::check_value(value, "wrap");
+  alpha::check_values(alpha, value, "wrap");
   const alpha::AlphaCells& cells = alpha.cells();
   if (cells.dim() < 2) return {};
   alpha::Wrap wrap(cells, context);

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "alpha/other_values.hpp"
+
+#include <algorithm>
+
+#include "alpha/intervals/spheres.hpp"
+
+namespace ph::alpha {
+namespace {
+
+/// By point of the input: its site, or that of which it is a copy.
+std::pmr::vector<std::uint32_t> sites_by_point(const Sites& sites,
+                                               std::pmr::memory_resource* memory) {
+  std::pmr::vector<std::uint32_t> site_of(sites.size() + sites.copies.size(), kNone, memory);
+  for (std::uint32_t site = 0; site < sites.size(); ++site) site_of[sites.input[site]] = site;
+  for (const auto& [copy, site] : sites.copies) site_of[copy] = site;
+  return site_of;
+}
+
+/// The squared radius of the smallest ball around a simplex, if its circumsphere is the sphere of
+/// that ball; else 0: it is that of a face.
+double own_ball(const Spheres& spheres, const std::array<std::uint32_t, 4>& sites, int dim) {
+  if (dim == 1) return spheres.of_edge(sites[0], sites[1]).squared_radius;
+  if (dim == 2)
+    return spheres.beyond_triangle(sites[0], sites[1], sites[2]) == 0
+               ? spheres.triangle_radius(sites[0], sites[1], sites[2])
+               : 0;
+  const Sphere sphere = spheres.of_tetrahedron(sites);
+  return sphere.beyond == 0 ? sphere.squared_radius : 0;
+}
+
+}  // namespace
+
+ExplicitComplex list_with_other_values(const AlphaCells& cells, AlphaOptions::Value value,
+                                       const Enters& enters, const RunContext& context) {
+  const ExplicitComplex all = list_simplices(
+      cells, [](double) { return true; }, context);
+  const Spheres spheres(cells.sites);
+  const auto site_of = sites_by_point(cells.sites, &context.memory);
+  std::pmr::vector<double> values(all.size(), 0.0, &context.memory);
+  SimplexList list;
+  std::vector<Index> numbers;
+  Ticker ticker(context, "values", all.size());
+  for (int dim = 0; dim <= all.top_dim(); ++dim)
+    all.for_each_cell(dim, [&](const ExplicitComplex::Cell& cell) {
+      ticker.tick();
+      numbers.clear();
+      all.append_input_cell(dim, cell, numbers);
+      double& least = values[cell.id];
+      if (dim > 0)
+        all.for_each_facet(dim, cell, [&](const ExplicitComplex::Cell& facet, int) {
+          least = std::max(least, values[facet.id]);
+        });
+      std::array<std::uint32_t, 4> sites{kNone, kNone, kNone, kNone};
+      for (std::size_t i = 0; i < numbers.size(); ++i)
+        sites[i] = site_of[static_cast<std::size_t>(numbers[i])];
+      const bool is_own = dim == 1 || (dim > 1 && value == AlphaOptions::Value::delaunay_cech);
+      // A copy and its site have a ball of radius 0.
+      if (is_own && sites[0] != sites[1]) least = std::max(least, own_ball(spheres, sites, dim));
+      if (enters(least)) list.add(numbers, least);
+    });
+  return ExplicitComplex::from_simplices(std::move(list), {}, context);
+}
+
+}  // namespace ph::alpha
