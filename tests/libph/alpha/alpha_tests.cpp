@@ -427,6 +427,11 @@ TEST(Alpha, StopsAndKeepsToItsMemory) {
   RunContext small;
   small.memory.set_limit(10 << 20);
   expect_error(ErrorKind::resource, "memory limit", [&] { Alpha(points, {}, small); });
+  EXPECT_EQ(small.memory.used(), 0U);
+  // What CGAL holds counts as well: most of what is taken in the plane.
+  RunContext of_plane;
+  Alpha(uniform_points(20'000, 2, 11), {}, of_plane);
+  EXPECT_GT(of_plane.memory.peak(), 20'000U * 200);
 }
 
 }  // namespace

@@ -12,12 +12,17 @@ namespace ph::alpha {
 
 /// Inserts all sites, each beside the one before.
 /// @param insert called with (site, where to begin): gives where the next one is to begin.
-template <class Start, class Insert>
-void insert_sites(std::size_t sites, const RunContext& context, Insert&& insert) {
+/// @param bytes what CGAL holds, which the budget does not see by itself.
+template <class Start, class Insert, class Bytes>
+void insert_sites(std::size_t sites, const RunContext& context, MemoryClaim& claim, Insert&& insert,
+                  Bytes&& bytes) {
   Ticker ticker(context, "Delaunay triangulation", sites);
   Start start{};
+  constexpr std::size_t often = 256;
+  std::size_t inserted = 0;
   for (const std::uint32_t site : insertion_order(sites, &context.memory)) {
     start = insert(site, start);
+    if (++inserted % often == 0) claim.grow_to(bytes());
     ticker.tick();
   }
 }

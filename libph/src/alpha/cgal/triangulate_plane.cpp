@@ -51,10 +51,15 @@ template <class Dt, class PointOf>
 Triangulation build(const Sites& sites, PointOf&& point_of_site, const RunContext& context) {
   using Face = typename Dt::Face_handle;
   Dt dt;
-  insert_sites<Face>(sites.size(), context, [&](uint32_t site, Face start) {
+  MemoryClaim claim(context.memory, 0);
+  const auto insert = [&](uint32_t site, Face start) {
     const auto vertex = dt.insert(point_of_site(site), start);
     vertex->info() = site;
     return vertex->face();
+  };
+  insert_sites<Face>(sites.size(), context, claim, insert, [&] {
+    return dt.tds().faces().capacity() * sizeof(typename Dt::Face) +
+           dt.tds().vertices().capacity() * sizeof(typename Dt::Vertex);
   });
   return copy(dt, sites.size(), context);
 }

@@ -61,11 +61,16 @@ template <class Dt, class PointOf>
 Triangulation build(const Sites& sites, PointOf&& point_of_site, const RunContext& context) {
   using Cell = typename Dt::Cell_handle;
   Dt dt;
-  insert_sites<Cell>(sites.size(), context, [&](uint32_t site, Cell start) {
+  MemoryClaim claim(context.memory, 0);
+  const auto insert = [&](uint32_t site, Cell start) {
     const auto vertex = dt.insert(point_of_site(site), start);
     if (vertex == typename Dt::Vertex_handle()) return start;  // hidden: nothing has changed
     vertex->info() = site;
     return vertex->cell();
+  };
+  insert_sites<Cell>(sites.size(), context, claim, insert, [&] {
+    return dt.tds().cells().capacity() * sizeof(typename Dt::Cell) +
+           dt.tds().vertices().capacity() * sizeof(typename Dt::Vertex);
   });
   return copy(dt, sites.size(), context);
 }
