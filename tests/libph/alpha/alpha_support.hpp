@@ -19,14 +19,15 @@ struct Cloud {
 };
 
 /// A few points of some kind: anywhere; on a small grid, where many lie on one sphere, plane or
-/// line, or on one another; on a circle, a sphere or a line; in a plane of space.
+/// line, or on one another; on a circle, a sphere or a line; in a plane of space;
+/// on a grid that doubles cannot hold.
 inline Cloud any_cloud(Generator& random, Index most, bool weighted) {
   const Index dim = random.integer(1, 5) == 1 ? 1 : random.integer(2, 3);
   const Index n = random.integer(1, static_cast<int>(most));
   Cloud cloud{"", Points(n, dim), {}};
-  const int kind = random.integer(0, 6);
-  static constexpr const char* names[]{"anywhere", "grid",  "small grid",  "sphere",
-                                       "line",     "plane", "near a plane"};
+  const int kind = random.integer(0, 7);
+  static constexpr const char* names[]{"anywhere", "grid",  "small grid",   "sphere",
+                                       "line",     "plane", "near a plane", "decimals"};
   cloud.name = names[kind] + std::string(" in R^") + std::to_string(dim);
   for (Index i = 0; i < n; ++i) {
     std::vector<double> x(3);
@@ -35,6 +36,7 @@ inline Cloud any_cloud(Generator& random, Index most, bool weighted) {
       c = random.real();
       if (kind == 1) c = random.integer(0, 4);
       if (kind == 2) c = random.integer(0, 1);
+      if (kind == 7) c = random.integer(0, 4) * 0.1 + 0.3;  // nearly on spheres: rounded
     }
     if (kind == 3) {  // of integer points: exactly
       static constexpr int on_sphere[][3]{{9, 0, 0}, {0, 9, 0}, {0, 0, 9}, {4, 4, 7},
@@ -45,7 +47,7 @@ inline Cloud any_cloud(Generator& random, Index most, bool weighted) {
     }
     if (kind == 4) x = {s, 2 * s, -s};
     if (kind == 5) x = {s + t, s - t, 2 * t};
-    if (kind == 6) x = {s, t, random.integer(0, 2) * 0x1p-45};
+    if (kind == 6) x[2] = 0.3 * x[0] + 0.7 * x[1] + 1e-8 * x[2];
     for (Index k = 0; k < dim; ++k) cloud.points(i, k) = x[static_cast<std::size_t>(k)];
     if (weighted)
       cloud.weights.push_back(random.coin() ? random.integer(-1, 3) : random.real() / 4);
