@@ -29,11 +29,11 @@ def diagram_kernels(diagrams: Iterable[Barcode | ArrayLike],
     """A positive definite kernel of all pairs of diagrams, on all cores: the Gram matrix.
 
     "scale_space" is the persistence scale-space kernel [Reininghaus et al. 2015]: the sum of
-    exp(-|p - q|² / (8 sigma)) - exp(-|p - q'|² / (8 sigma)) over the bars p of one diagram and q of
-    the other, divided by 8 π sigma; q' is q with birth and death exchanged.
+    ``exp(-|p - q|² / (8 sigma)) - exp(-|p - q'|² / (8 sigma))`` over the bars p of one diagram and
+    q of the other, divided by 8 π sigma; q' is q with birth and death exchanged.
 
     "weighted_gaussian" is the persistence weighted Gaussian kernel [Kusano et al. 2016], the linear
-    one: the sum of w(p) w(q) exp(-|p - q|² / (2 sigma²)), with w = arctan(slope · length^power).
+    one: the sum of ``w(p) w(q) exp(-|p - q|² / (2 sigma²))``, with w = arctan(slope · length^power).
 
     Bars have to be finite.
 
