@@ -120,6 +120,8 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   require_loops(built, arguments);
   const auto taken = static_cast<double>(session.memory_taken());
   if (arguments.dry_run) {
+    if (arguments.significance)
+      session.note("--significance does nothing: --dry-run computes no bars");
     const Estimate estimated = estimate(built.complex, arguments.options, session.context());
     explain_slabs(built, estimated, arguments, session);
     const app::BarHold results_are_written(session);

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""named_options.py SOURCE_FOLDER PH_BARCODE PH_SEGMENT: each option that a message in the sources
-names is one of the program that prints it: a text in a folder of one program is that program's, and
-what both share names only what both have."""
+"""named_options.py SOURCE_FOLDER PROGRAM…: each option that a message in the sources names is one of
+the program that prints it: a text in a folder of one program is that program's, and what all share
+names only what all have. Programs are ph-barcode, ph-segment and others."""
 import os
 import re
 import sys
@@ -35,18 +35,24 @@ def sources(folder):
 
 def programs_of(path):
     """Which programs print what this file says."""
-    if path.startswith("apps/barcode/"):
-        return ("ph-barcode",)
+    own = re.match(r"apps/(barcode|vectorise|distance)/", path)
+    if own:
+        return ("ph-" + own[1],)
     if path.startswith(("apps/segment/", "libsegment/")) or DEPTH_AND_ARRAYS.search(path):
         return ("ph-segment",)
     if path.startswith("libph/") and not READERS_OF_CLOUDS.search(path) and "/io/" in path:
         return ("ph-barcode",)
+    if path.startswith("apps/common/distances/"):
+        return ("ph-distance",)
+    # Who draws pictures names their options.
+    if path.startswith("apps/common/") and "plot" not in path:
+        return ("ph-barcode", "ph-segment", "ph-vectorise", "ph-distance")
     return ("ph-barcode", "ph-segment")
 
 
 def main():
-    root, barcode, segment = sys.argv[1:4]
-    options = {"ph-barcode": options_of(barcode), "ph-segment": options_of(segment)}
+    root, *programs = sys.argv[1:]
+    options = {os.path.basename(program): options_of(program) for program in programs}
     os.chdir(root)
     looked_at = faults = 0
     for folder in ("apps", "libph", "libsegment"):

@@ -17,6 +17,8 @@ HAS = {
              r".*/cmake/ph/ph-config\.cmake"],
             r"include/ph/.*\.(hpp|h|ipp)|lib/([^/]+/)?(libph_\w+\.a|libph_c\.so|cmake/ph/ph-[\w-]+\.cmake)"),
     "pcl": ([], r"include/ph/pcl\.hpp|lib/(.*/)?cmake/ph/ph-pcl\.cmake"),
+    "alpha": ([], r"include/ph/(detail/alpha/\w+|alpha)\.hpp|lib/(.*/)?cmake/ph/ph-alpha(-\w+)?\.cmake|"
+                  r"lib/([^/]+/)?libph_alpha\.a"),
     "programs": ([], r"bin/ph-\w+|share/(man/man1|bash-completion|zsh|fish)/.*"),
     "python": ([], r"lib/python[^/]*/[^/]+/libph/.*\.(py|pyi|so|typed)"),
     "doc": ([r"share/doc/libph/README\.md", r"share/doc/libph/docs/index\.md",

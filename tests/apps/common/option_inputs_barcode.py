@@ -64,6 +64,7 @@ def rows(Row):
         "--min-persistence": Row("--min-persistence", "1e9"),
         "--representatives": Row("--representatives", "cycles", beside=["--output-format", "json"]),
         "--loops": Row("--loops", "none", beside=LOOPS),
+        "--significance": Row("--significance", unfit=POINTS),
         "--dry-run": Row("--dry-run"),
         "--output": Row("--output", "x.csv"),
         "--output-format": Row("--output-format", "json"),

@@ -26,8 +26,7 @@ std::string words_for(int error) {
               fmt::format("{}: cannot create the output: {}", printable(path), why));
 }
 
-std::filesystem::path folder_of(const std::string& name) {
-  const auto path = files::path_of(name);
+std::filesystem::path folder_of(const std::filesystem::path& path) {
   return path.has_parent_path() ? path.parent_path() : ".";
 }
 
@@ -63,12 +62,12 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
   if (!status) {
     if (errno != ENOENT) fail_creating(path_, words_for(errno));
     if (!files::path_of(path_).has_filename()) fail_creating(path_, "there is no such folder");
-    target_ = path_;
+    target_ = files::path_of(path_);
   } else if (status->kind == files::Kind::folder) {
     fail_creating(path_, "it is a folder");
   } else if (status->kind == files::Kind::regular) {
-    target_ = files::resolved(files::path_of(path_)).string();
-    if (!files::may_write(files::path_of(target_))) fail_creating(path_, words_for(errno));
+    target_ = files::resolved(files::path_of(path_));
+    if (!files::may_write(target_)) fail_creating(path_, words_for(errno));
   } else {
     descriptor_ = files::open_to_write(files::path_of(path_));
     if (descriptor_ < 0) fail_creating(path_, words_for(errno));
@@ -77,7 +76,7 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
   }
   open_regular();
   // The file that is replaced passes its mode on.
-  if (status && !files::take_mode(descriptor_, files::path_of(target_))) {
+  if (status && !files::take_mode(descriptor_, target_)) {
     const int error = errno;
     discard();
     fail_creating(path_, words_for(error));
@@ -86,10 +85,8 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
 
 void OutputFile::open_regular() {
   owned_ = true;
-  std::filesystem::path name;
-  descriptor_ = files::create_in(folder_of(target_), name);
+  descriptor_ = files::create_in(folder_of(target_), temporary_);
   if (descriptor_ < 0) fail_creating(path_, words_for(errno));
-  temporary_ = name.string();
 }
 
 OutputFile::~OutputFile() { discard(); }
@@ -117,7 +114,7 @@ OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
 void OutputFile::discard() noexcept {
   if (owned_ && descriptor_ >= 0) files::close(descriptor_);
   // Open files cannot be removed everywhere.
-  if (!temporary_.empty()) files::remove(files::path_of(temporary_));
+  if (!temporary_.empty()) files::remove(temporary_);
   temporary_.clear();
   descriptor_ = -1;
   owned_ = false;
@@ -155,13 +152,12 @@ void OutputFile::commit() {
   const auto folder = folder_of(target_);
   if (temporary_.empty()) {
     // A link cannot replace a file, so it takes two steps: a temporary name, then the rename.
-    temporary_ = files::name_in(descriptor_, folder).string();
+    temporary_ = files::name_in(descriptor_, folder);
     if (temporary_.empty()) fail_creating(path_, words_for(errno));
   }
   // Open files cannot be renamed everywhere. What they hold is on the disk already.
   static_cast<void>(files::close(std::exchange(descriptor_, -1)));
-  if (!files::rename(files::path_of(temporary_), files::path_of(target_)))
-    fail_creating(path_, words_for(errno));
+  if (!files::rename(temporary_, target_)) fail_creating(path_, words_for(errno));
   temporary_.clear();
   discard();
   // The new name is safe once the folder is; a failure here leaves a complete file all the same.

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <filesystem>
 #include <ostream>
 #include <span>
 #include <streambuf>
@@ -51,16 +52,17 @@ class OutputFile {
   const std::string& path() const { return path_; }
   /// The name that the file has until `commit`; empty where it has none. For whoever must end the
   /// process without unwinding.
-  const std::string& temporary_path() const { return temporary_; }
+  std::string temporary_path() const { return temporary_.string(); }
 
  private:
   void open_regular();
   void discard() noexcept;
   [[noreturn]] void fail_writing(int error) const;
 
-  std::string path_;       // as the user gave it
-  std::string target_;     // the regular file to become; empty: written directly
-  std::string temporary_;  // name until then; empty: none
+  std::string path_;  // as the user gave it
+  // Paths, not texts: to remove a file must need no memory.
+  std::filesystem::path target_;     // the regular file to become; empty: written directly
+  std::filesystem::path temporary_;  // name until then; empty: none
   std::string buffer_;
   int descriptor_ = -1;
   bool owned_ = false;  // whether to close the descriptor
