@@ -10,6 +10,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+DOC = "share/doc/libph(-doc)?"  # debian/rules has the longer name
 # What each has at least, and all that it may have, as regular expressions.
 HAS = {
     "c": ([r"lib/.*libph_c\.so\.1"], r"lib/([^/]+/)?libph_c\.so\.\d[\d.]*"),
@@ -21,9 +22,9 @@ HAS = {
                   r"lib/([^/]+/)?libph_alpha\.a"),
     "programs": ([], r"bin/ph-\w+|share/(man/man1|bash-completion|zsh|fish)/.*"),
     "python": ([], r"lib/python[^/]*/[^/]+/libph/.*\.(py|pyi|so|typed)"),
-    "doc": ([r"share/doc/libph/README\.md", r"share/doc/libph/docs/index\.md",
-             r"share/doc/libph/examples/01_points\.cpp"], r"share/doc/libph/.*"),
-    "licence": ([r"share/doc/libph/LICENSE"], r"share/doc/libph/LICENSE"),
+    "doc": ([rf"{DOC}/README\.md", rf"{DOC}/docs/index\.md", rf"{DOC}/examples/01_points\.cpp"],
+            rf"{DOC}/.*"),
+    "licence": ([rf"{DOC}/LICENSE"], rf"{DOC}/LICENSE"),
 }
 
 

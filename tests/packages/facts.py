@@ -206,8 +206,8 @@ def plant(root):
     missed = 0
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder, "libph")
-        shutil.copytree(root, copy, ignore=shutil.ignore_patterns(
-            "build", "build-*", "dist", "out", "node_modules", ".git", "corpus", "*.so"))
+        shutil.copytree(root, copy, symlinks=True, ignore=shutil.ignore_patterns(
+            "build", "build-*", "obj-*", "dist", "out", "node_modules", ".git", "corpus", "*.so"))
         before = set(faults_of(copy))
         for name, old, new, said in PLANTED:
             text = read(copy, name)
