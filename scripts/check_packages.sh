@@ -70,14 +70,15 @@ same() {
   fail "$1 and $2 differ: $work/diffoscope.txt"
 }
 
+# The other folder's name has no spaces: dpkg-buildflags would not map it to "." then.
 reproduce() {
   (
     umask 027
     export HOME=$work/nowhere TZ=Pacific/Kiritimati LANG=C.UTF-8 LC_ALL=C.UTF-8 USER=somebody
-    debs "$work/another/folder/with a longer name" nocheck
+    debs "$work/another/folder/with-a-longer-name" nocheck
   )
   for file in "$work"/one/*.deb "$work"/one/*.dsc "$work"/one/*.debian.tar.xz; do
-    same "$file" "$work/another/folder/with a longer name/$(basename "$file")"
+    same "$file" "$work/another/folder/with-a-longer-name/$(basename "$file")"
   done
   rm -rf "$work/clone" && git clone -q . "$work/clone"
   (umask 077; TZ=Asia/Tokyo LC_ALL=C.UTF-8 "$work/clone/scripts/package.sh" >/dev/null)
