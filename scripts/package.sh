@@ -53,7 +53,7 @@ make_source() {
   # The time is that of debian/changelog, as dpkg-buildpackage has it.
   rm -rf "$dist/debian" && mkdir "$dist/debian"
   cp "$dist/$name.tar.xz" "$dist/debian/libph_$version.orig.tar.xz"
-  git archive --prefix=debian/ HEAD:debian | tar -C "$work/source/$name" -x
+  git -c tar.umask=0022 archive --prefix=debian/ HEAD:debian | tar -C "$work/source/$name" -x
   (cd "$dist/debian" && unset SOURCE_DATE_EPOCH && dpkg-source -b "$work/source/$name" >/dev/null)
 }
 
