@@ -64,7 +64,8 @@ def is_of_source(word, root):
     if not match:
         return False
     folder, end = match.groups()
-    return end in OURS or bool(folder) and (end in SOURCES or (root / folder.split("/")[0]).is_dir())
+    top = folder.split("/")[0]  # out: what scripts/demo.sh writes
+    return end in OURS or bool(folder) and (end in SOURCES or top != "out" and (root / top).is_dir())
 
 
 def dead_paths(root, page, endings):
