@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Sphinx: how the pages of docs/ become a site. scripts/site.sh calls it."""
+import importlib.util
 import os
 import re
 import sys
@@ -42,6 +43,8 @@ napoleon_use_ivar = True
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
 autodoc_preserve_defaults = True
+# Its names are described without it, too.
+autodoc_mock_imports = [] if importlib.util.find_spec("torch") else ["torch"]
 python_use_unqualified_type_names = True
 
 # C++.

@@ -45,10 +45,12 @@ def python(app, *names):
         return fence("warning", "This copy of the site was built without the compiled module of "
                                 "libph: the reference of Python is left out.")
     import importlib
+    from sphinx.ext.autodoc.mock import mock
     made = []
     for name in names:
         module, _, attribute = name.rpartition(".")
-        thing = getattr(importlib.import_module(module), attribute)
+        with mock(app.config.autodoc_mock_imports):
+            thing = getattr(importlib.import_module(module), attribute)
         if isinstance(thing, type):
             made.append(rst(f".. autoclass:: {name}", f"   :members: {', '.join(members(thing))}"))
         else:
