@@ -25,14 +25,7 @@ foreach(library core c io plot segment report pcl alpha)
   install(EXPORT ph-${library} NAMESPACE ph:: DESTINATION ${package_dir} COMPONENT ${component})
 endforeach()
 
-install(DIRECTORY libph/include/ph DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev
-        REGEX "alpha(\\.hpp)?$" EXCLUDE)
-if(TARGET ph_alpha)
-  install(FILES libph/include/ph/alpha.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ph
-          COMPONENT alpha)
-  install(DIRECTORY libph/include/ph/detail/alpha
-          DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ph/detail COMPONENT alpha)
-endif()
+install(DIRECTORY libph/include/ph DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
 foreach(library segment report)
   if(TARGET ph_${library})
     install(DIRECTORY lib${library}/include/ph DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)

@@ -82,7 +82,7 @@ make_binary() {
   local build=$tree/build
   cmake -S "$tree" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
     "-DCMAKE_CXX_FLAGS=-ffile-prefix-map=$tree=." -DPH_UNITY=ON -DPH_WERROR=OFF \
-    -DPH_BUILD_TESTS=OFF -DPH_BUILD_EXAMPLES=OFF \
+    -DPH_BUILD_TESTS=OFF -DPH_BUILD_EXAMPLES=OFF -DPH_WITH_CGAL=OFF \
     -DPH_STATIC_PROGRAMS=ON -DPH_WITH_FREETYPE=ON -DPH_WITH_REPORT=ON >"$work/binary.log"
   cmake --build "$build" -j "${PH_JOBS:-$(nproc)}" >>"$work/binary.log" ||
     { tail -n 40 "$work/binary.log" >&2; fail "the build failed; all it said: $work/binary.log" 70; }

@@ -22,18 +22,18 @@ MAY_INCLUDE = {
     "diagram": "core metric",
     "vectors": "core image complex diagram",
     "significance": "core metric",
-    "alpha": "core metric components reduction complex facade",
-    "facade": "core metric image components reduction complex rips cubical",
-    "loops": "core metric complex components reduction rips facade",
+    "alpha": "core metric components reduction complex",
+    "facade": "core metric image components reduction complex rips cubical alpha",
+    "loops": "core metric complex components reduction rips alpha facade",
     "c": "core metric image complex rips cubical facade",
-    "io": "core metric image complex",
+    "io": "core metric image complex alpha",
     "plot": "core components io",
     "segment": "core metric image components reduction complex rips facade io plot",
-    "report": "core metric image components complex rips facade io plot segment",
+    "report": "core metric image components complex rips alpha facade io plot segment",
     "common": "core metric image complex rips facade diagram io plot report",
-    "barcode": "core metric image components complex rips cubical facade loops diagram significance io "
+    "barcode": "core metric image components complex rips cubical alpha facade loops diagram significance io "
                "plot report common",
-    "python": "core metric image complex rips facade loops diagram vectors significance io plot segment "
+    "python": "core metric image complex rips alpha facade loops diagram vectors significance io plot segment "
               "report",
     "distance": "core metric diagram significance io common",
     "vectorise": "core image complex vectors diagram io report common",

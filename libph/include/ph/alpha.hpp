@@ -5,20 +5,27 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "ph/barcode.hpp"
 #include "ph/explicit.hpp"
-#include "ph/persistence.hpp"
 #include "ph/points.hpp"
+#include "ph/run_context.hpp"
 
-// The library ph::alpha. It uses triangulations of CGAL, which are under the GNU General Public
-// License: so is a program that links it.
+// The constructor of Alpha is in a library of its own, ph::alpha. It uses triangulations of CGAL,
+// which are under the GNU General Public License: so is a program that links it. All else is in
+// ph::core.
 
 namespace ph {
 
 namespace alpha {
 struct AlphaCells;
 }
+
+/// What triangulates, by name and version; empty if nothing does: then the constructor of Alpha
+/// throws Error (not_built_in).
+std::string alpha_support();
 
 /// What an alpha complex is made of.
 struct AlphaOptions {
@@ -68,7 +75,7 @@ class Alpha {
   /// @throws Error (usage) on points of R^4 or beyond, weights that are not one a point, and radii
   ///         or other values of weighted points; Error (bad_data) on numbers that are not finite
   ///         and on coordinates whose magnitudes differ beyond what doubles can square; Error
-  ///         (resource, cancelled).
+  ///         (resource, cancelled, not_built_in).
   explicit Alpha(PointsView points, const AlphaOptions& options = {},
                  const RunContext& context = default_context());
 
@@ -117,6 +124,8 @@ class Alpha {
   double to_value(double squared_radius) const;
   double threshold() const { return threshold_; }
   AlphaOptions::Value value_kind() const { return kind_; }
+  AlphaOptions::Unit unit() const { return unit_; }
+  bool is_weighted() const;
 
  private:
   struct Lazy;
@@ -128,10 +137,6 @@ class Alpha {
   double threshold_;
   int top_dim_ = -1;
 };
-
-/// The barcode of an alpha complex. @throws as persistence of other complexes.
-Barcode persistence(const Alpha& alpha, const Options& options = {},
-                    const RunContext& context = default_context());
 
 /// Triangles on the surface of a set of simplices, each by its points.
 struct SurfaceMesh {

@@ -41,6 +41,8 @@ std::vector<BarLoops> loops(const Cubical& cubical, const Barcode& cycles,
 std::vector<BarLoops> loops(const ExplicitComplex& complex, const Barcode& cycles,
                             const Options& options = {}, bool tighten = true,
                             const RunContext& context = default_context());
+std::vector<BarLoops> loops(const Alpha& alpha, const Barcode& cycles, const Options& options = {},
+                            bool tighten = true, const RunContext& context = default_context());
 std::vector<BarLoops> loops(const AnyComplex& complex, const Barcode& cycles,
                             const Options& options = {}, bool tighten = true,
                             const RunContext& context = default_context());

@@ -12,6 +12,7 @@ namespace ph {
 
 class Rips;
 class Cubical;
+class Alpha;
 class ExplicitComplex;
 
 /// Two components become one. The elder lives on: the one born first; among equals the one whose
@@ -81,6 +82,7 @@ std::vector<LinkageRow> linkage(const MergeTree& tree);
 /// @throws Error (usage) on a Rips whose equal points were merged.
 MergeTree merge_tree(const Rips& rips, const RunContext& context = default_context());
 MergeTree merge_tree(const Cubical& cubical, const RunContext& context = default_context());
+MergeTree merge_tree(const Alpha& alpha, const RunContext& context = default_context());
 MergeTree merge_tree(const FilteredGraph& graph, const RunContext& context = default_context());
 /// @throws Error (usage) if an edge does not join two vertices.
 MergeTree merge_tree(const ExplicitComplex& complex, const RunContext& context = default_context());

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "ph/alpha.hpp"
 #include "ph/barcode.hpp"
 #include "ph/cubical.hpp"
 #include "ph/detail/complex/filtered_graph.hpp"
@@ -49,6 +50,8 @@ Barcode persistence(const Cubical& cubical, const Options& options = {},
                     const RunContext& context = default_context());
 Barcode persistence(const ExplicitComplex& complex, const Options& options = {},
                     const RunContext& context = default_context());
+Barcode persistence(const Alpha& alpha, const Options& options = {},
+                    const RunContext& context = default_context());
 Barcode persistence(const FilteredGraph& graph, const Options& options = {},
                     const RunContext& context = default_context());
 // For a complex of your own there is a template: ph/custom.hpp.
@@ -67,7 +70,7 @@ Barcode persistence(const Data&, const Options& = {}, const RunContext& = defaul
 }
 
 /// Any of the complexes above, for programs that learn at run time what they have.
-using AnyComplex = std::variant<Rips, Cubical, ExplicitComplex>;
+using AnyComplex = std::variant<Rips, Cubical, ExplicitComplex, Alpha>;
 Barcode persistence(const AnyComplex& complex, const Options& options = {},
                     const RunContext& context = default_context());
 

@@ -4,45 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <mutex>
 
+#include "alpha/alpha_lazy.hpp"
 #include "alpha/intervals/intervals.hpp"
 #include "alpha/listed_simplices.hpp"
-#include "alpha/other_values.hpp"
 #include "alpha/sites/power_of_two.hpp"
-#include "ph/error.hpp"
 
 namespace ph {
-
-struct Alpha::Lazy {
-  explicit Lazy(const RunContext& made_with) : context(&made_with) {}
-  std::mutex mutex;
-  std::atomic<const ExplicitComplex*> ready{nullptr};
-  std::optional<ExplicitComplex> listed;
-  const RunContext* context;
-};
-
-Alpha::Alpha(PointsView points, const AlphaOptions& options, const RunContext& context)
-    : lazy_(std::make_shared<Lazy>(context)),
-      unit_(options.unit),
-      kind_(options.value),
-      threshold_(options.threshold) {
-  if (std::isnan(threshold_))
-    throw Error(ErrorKind::usage, "threshold: found nan, expected a number");
-  if (!options.weights.empty() && unit_ == AlphaOptions::Unit::radius)
-    throw Error(ErrorKind::usage,
-                "alpha complex of weighted points: found the unit radius, expected squared, for "
-                "squares may be negative");
-  if (!options.weights.empty() && kind_ != AlphaOptions::Value::alpha)
-    throw Error(ErrorKind::usage,
-                "alpha complex of weighted points: found values other than alpha, which are for "
-                "points without weights");
-  cells_ = std::make_shared<const alpha::AlphaCells>(
-      alpha::alpha_cells(points, options.weights, context));
-  top_dim_ = kind_ == AlphaOptions::Value::alpha
-                 ? alpha::top_dim(*cells_, [&](double r) { return to_value(r) <= threshold_; })
-                 : listed().top_dim();
-}
 
 double Alpha::to_value(double squared_radius) const {
   const int exponent = cells_->sites.exponent;
@@ -52,6 +20,8 @@ double Alpha::to_value(double squared_radius) const {
                            : times_power_of_two(std::sqrt(squared_radius), exponent);
   return std::min(value, std::numeric_limits<double>::max());
 }
+
+bool Alpha::is_weighted() const { return cells_->sites.is_weighted(); }
 
 std::span<const std::uint32_t> Alpha::hidden() const { return cells_->hidden; }
 
@@ -68,11 +38,8 @@ void Alpha::prepare(const RunContext& context) const {
   if (lazy_->ready.load(std::memory_order_acquire) != nullptr) return;
   const std::lock_guard lock(lazy_->mutex);
   if (lazy_->listed) return;
-  const auto enters = [&](double r) { return to_value(r) <= threshold_; };
-  lazy_->listed.emplace(kind_ == AlphaOptions::Value::alpha
-                            ? alpha::list_simplices(*cells_, enters, context)
-                            : alpha::list_with_other_values(*cells_, kind_, enters, context));
-  lazy_->ready.store(&*lazy_->listed, std::memory_order_release);
+  lazy_->set(alpha::list_simplices(
+      *cells_, [&](double r) { return to_value(r) <= threshold_; }, context));
 }
 
 const ExplicitComplex& Alpha::listed() const {

@@ -46,6 +46,16 @@ double stored_bytes(const ExplicitComplex& complex, bool) {
   return 44 * static_cast<double>(complex.size()) + 16 * entries;
 }
 
+double stored_bytes(const Alpha& alpha, bool lists_cells) {
+  // A cell of the triangulation, and what generic engines take instead of it.
+  constexpr double bytes_of_top_cell = 110, bytes_of_listed_cell = 80;
+  const std::vector<std::size_t> counts = alpha.simplex_counts();
+  double all = 0;
+  for (const std::size_t count : counts) all += static_cast<double>(count);
+  const double held = counts.empty() ? 0 : bytes_of_top_cell * static_cast<double>(counts.back());
+  return held + (lists_cells ? bytes_of_listed_cell * all : 0);
+}
+
 detail::MemoryForecast forecast_voxels(const Cubical& cubical, double held,
                                        const cubical::BarRequest& wanted, bool with_representatives,
                                        const RunContext& context) {
@@ -78,6 +88,8 @@ Estimate estimate_one(const Complex& complex, const RunPlan& planned, const Opti
     if (listed_dim < 0)
       forecast = forecast_voxels(complex, e.bytes_held, {options.min_dim, e.max_dim},
                                  options.representatives != Representatives::none, context);
+  if constexpr (std::same_as<Complex, Alpha>)
+    if (listed_dim < 0) forecast = detail::forecast_intervals(e.bytes_held);
   e.counted_dims = static_cast<int>(e.cells.size());
   const auto [low, high] = forecast;
   e.bytes_low = low;

@@ -189,6 +189,11 @@ MemoryForecast forecast_voxels(double stored, double voxels, double cells,
           stored + bytes_per_cell * std::max(least_cells_per_voxel * voxels, cells) + kAlways};
 }
 
+MemoryForecast forecast_intervals(double stored) {
+  // Measured: critical simplices with their columns; next to none of a surface, many of noise.
+  return {stored, 1.8 * stored + kAlways};
+}
+
 MemoryForecast forecast_cells(double stored, std::span<const double> cells) {
   // A column with its place in the table of pivots and in the list to reduce, or the pair of a
   // cell; fill-in comes on top.

@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "ph/alpha.hpp"
 #include "ph/barcode.hpp"
 #include "ph/cubical.hpp"
 #include "ph/detail/complex/cubical_cells.hpp"
@@ -158,6 +159,11 @@ MergeTree merge_tree(const Rips& rips, const RunContext& context) {
 
 MergeTree merge_tree(const Cubical& cubical, const RunContext& context) {
   return tree_of(cubical, context);
+}
+
+MergeTree merge_tree(const Alpha& alpha, const RunContext& context) {
+  alpha.prepare(context);
+  return tree_of(alpha, context);
 }
 
 MergeTree merge_tree(const FilteredGraph& graph, const RunContext& context) {

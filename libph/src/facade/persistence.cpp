@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "facade/collapse_choice.hpp"
+#include "ph/detail/facade/alpha_engines.hpp"
 #include "ph/detail/rips/edge_collapse.hpp"
 #include "ph/detail/rips/rips_filtration.hpp"
 
@@ -47,6 +48,10 @@ Barcode persistence(const ExplicitComplex& complex, const Options& options,
                             options.field));
   }
   return detail::compute(complex, options, context);
+}
+
+Barcode persistence(const Alpha& alpha, const Options& options, const RunContext& context) {
+  return detail::compute(alpha, options, context);
 }
 
 Barcode persistence(const FilteredGraph& graph, const Options& options, const RunContext& context) {

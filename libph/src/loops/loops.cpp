@@ -55,6 +55,11 @@ std::vector<BarLoops> loops(const ExplicitComplex&, const Barcode& cycles, const
   return plain_loops(cycles, options, {}, context);
 }
 
+std::vector<BarLoops> loops(const Alpha&, const Barcode& cycles, const Options& options, bool,
+                            const RunContext& context) {
+  return plain_loops(cycles, options, {}, context);
+}
+
 std::vector<BarLoops> loops(const AnyComplex& complex, const Barcode& cycles,
                             const Options& options, bool tighten, const RunContext& context) {
   return std::visit([&](const auto& c) { return loops(c, cycles, options, tighten, context); },

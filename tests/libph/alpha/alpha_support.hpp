@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ph/alpha.hpp"
+#include "ph/persistence.hpp"
 #include "support/generators.hpp"
 
 namespace ph::test {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "ph/alpha.hpp"
 #include "ph/barcode.hpp"
 #include "ph/detail/core/loop.hpp"
 #include "ph/detail/io/output_file.hpp"
@@ -112,6 +113,19 @@ StoredBarcode read_stored_barcode(const Input& input,
 /// Whether a file is a barcode for certain: a header `dim,birth,death`, JSON, text of Ripser,
 /// DIPHA's diagram, or a name in .pers. Rows of numbers alone, in text or NPY, may be anything.
 bool is_barcode(const Input& input);
+
+/// The formats of a surface's file.
+enum class SurfaceFormat {
+  ply,  ///< binary; vertices with the number of their point, triangles with a mark `singular`
+  off,  ///< text; the singular triangles come last
+};
+/// The format that a file name's extension stands for (.ply, .off); nothing for an unknown one.
+std::optional<SurfaceFormat> surface_format_of_path(std::string_view path);
+/// Writes a surface with the points that it has, in their order; the caller commits the file.
+/// @param points of R², where the third coordinate is 0, or R³; the mesh is of them.
+/// @throws Error (usage) on points of another space; Error (io) as OutputFile.
+void write_surface(OutputFile& file, PointsView points, const SurfaceMesh& mesh,
+                   SurfaceFormat format);
 
 /// The shortest text that reads back to the same double; `inf`, `-inf`, `nan`; -0 as 0.
 std::string shortest(double value);

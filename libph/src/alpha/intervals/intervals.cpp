@@ -36,24 +36,4 @@ double facet_value(const AlphaCells& cells, std::uint32_t code, const CriticalFa
   return std::numeric_limits<double>::quiet_NaN();  // not reached
 }
 
-AlphaCells alpha_cells(PointsView points, std::span<const double> weights,
-                       const RunContext& context) {
-  std::pmr::memory_resource* const memory = &context.memory;
-  AlphaCells cells(sites_of(points, weights, context), memory);
-  cells.triangulation = triangulate(cells.sites, cells.hidden, context);
-  if (cells.dim() > 0) {
-    cells.cell_values.resize(cells.triangulation.size());
-    cells.beyond.resize(cells.triangulation.size());
-    if (cells.dim() == 3)
-      find_intervals_of_space(cells, context);
-    else
-      find_intervals_of_plane(cells, context);
-    make_monotone(cells, context);
-  } else if (cells.sites.is_weighted() && cells.dim() == 0) {
-    cells.vertex_values.assign(1, -cells.sites.weights[0] + 0.0);
-    cells.vertex_up.assign(1, kCritical);
-  }
-  return cells;
-}
-
 }  // namespace ph::alpha

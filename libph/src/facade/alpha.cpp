@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <tuple>
-
 #include "alpha/alpha_engine.hpp"
-#include "ph/detail/alpha/alpha_engines.hpp"
+#include "ph/detail/facade/alpha_engines.hpp"
 #include "ph/detail/facade/choose_engine.hpp"
 #include "ph/detail/facade/generic_engines.hpp"
 
@@ -16,10 +14,6 @@ std::vector<detail::EngineFor<Alpha>>& detail::engines<Alpha>() {
     return engines;
   }();
   return list;
-}
-
-Barcode persistence(const Alpha& alpha, const Options& options, const RunContext& context) {
-  return detail::compute(alpha, options, context);
 }
 
 }  // namespace ph

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <atomic>
+#include <mutex>
+#include <optional>
+
+#include "ph/alpha.hpp"
+
+namespace ph {
+
+/// What an alpha complex makes when it is first asked for.
+struct Alpha::Lazy {
+  explicit Lazy(const RunContext& made_with) : context(&made_with) {}
+  void set(ExplicitComplex complex) {
+    listed.emplace(std::move(complex));
+    ready.store(&*listed, std::memory_order_release);
+  }
+
+  std::mutex mutex;
+  std::atomic<const ExplicitComplex*> ready{nullptr};
+  std::optional<ExplicitComplex> listed;
+  const RunContext* context;
+};
+
+}  // namespace ph

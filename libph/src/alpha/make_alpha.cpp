@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// The constructor of an alpha complex, and all that it needs, is what the library ph::alpha has:
+// CGAL is used here and nowhere else. The rest of the folder belongs to ph::core.
+#include <cmath>
+
+#include "alpha/alpha_lazy.hpp"
+#include "alpha/intervals/intervals.hpp"
+#include "alpha/listed_simplices.hpp"
+#include "alpha/other_values.hpp"
+#include "ph/error.hpp"
+
+namespace ph {
+namespace alpha {
+
+AlphaCells alpha_cells(PointsView points, std::span<const double> weights,
+                       const RunContext& context) {
+  std::pmr::memory_resource* const memory = &context.memory;
+  AlphaCells cells(sites_of(points, weights, context), memory);
+  cells.triangulation = triangulate(cells.sites, cells.hidden, context);
+  if (cells.dim() > 0) {
+    cells.cell_values.resize(cells.triangulation.size());
+    cells.beyond.resize(cells.triangulation.size());
+    if (cells.dim() == 3)
+      find_intervals_of_space(cells, context);
+    else
+      find_intervals_of_plane(cells, context);
+    make_monotone(cells, context);
+  } else if (cells.sites.is_weighted() && cells.dim() == 0) {
+    cells.vertex_values.assign(1, -cells.sites.weights[0] + 0.0);
+    cells.vertex_up.assign(1, kCritical);
+  }
+  return cells;
+}
+
+}  // namespace alpha
+
+Alpha::Alpha(PointsView points, const AlphaOptions& options, const RunContext& context)
+    : lazy_(std::make_shared<Lazy>(context)),
+      unit_(options.unit),
+      kind_(options.value),
+      threshold_(options.threshold) {
+  if (std::isnan(threshold_))
+    throw Error(ErrorKind::usage, "threshold: found nan, expected a number");
+  if (!options.weights.empty() && unit_ == AlphaOptions::Unit::radius)
+    throw Error(ErrorKind::usage,
+                "alpha complex of weighted points: found the unit radius, expected squared, for "
+                "squares may be negative");
+  if (!options.weights.empty() && kind_ != AlphaOptions::Value::alpha)
+    throw Error(ErrorKind::usage,
+                "alpha complex of weighted points: found values other than alpha, which are for "
+                "points without weights");
+  cells_ = std::make_shared<const alpha::AlphaCells>(
+      alpha::alpha_cells(points, options.weights, context));
+  const auto enters = [&](double r) { return to_value(r) <= threshold_; };
+  if (kind_ != AlphaOptions::Value::alpha)
+    lazy_->set(alpha::list_with_other_values(*cells_, kind_, enters, context));
+  top_dim_ = lazy_->listed ? lazy_->listed->top_dim() : alpha::top_dim(*cells_, enters);
+}
+
+}  // namespace ph

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Stands in for the library ph::alpha where there is no CGAL.
+#include "alpha/alpha_lazy.hpp"
+#include "ph/error.hpp"
+
+namespace ph {
+
+std::string alpha_support() { return ""; }
+
+Alpha::Alpha(PointsView, const AlphaOptions&, const RunContext&) {
+  throw Error(
+      ErrorKind::not_built_in,
+      "alpha complexes are not built in: they need CGAL (Debian: libcgal-dev), and what has "
+      "them falls under the GPL");
+}
+
+}  // namespace ph
