@@ -31,6 +31,10 @@ std::optional<MergeTree> tree_of(const ExplicitComplex& complex, const RunContex
   return merge_tree(complex, context);
 }
 
+std::optional<MergeTree> tree_of(const Alpha& alpha, const RunContext& context) {
+  return merge_tree(alpha, context);
+}
+
 /// The vertex of the tree that gave birth to each bar of H0, as far as it is known.
 std::vector<std::uint32_t> birth_vertices(const Barcode& barcode, const Cubical* cubical) {
   std::vector<std::uint32_t> vertices;
@@ -95,6 +99,15 @@ double cut_in_gap(const ContractedTree& contracted, const MergeTree& tree, CutRu
   return cut.value_or(levels.back());
 }
 
+/// What the values are of a complex whose points enter together, which has clusters at a value.
+/// Else empty: minima lie at different depths.
+std::string_view label_of_values(const AnyComplex& complex) {
+  if (std::holds_alternative<Rips>(complex)) return "distance";
+  const auto* alpha = std::get_if<Alpha>(&complex);
+  if (!alpha || alpha->is_weighted()) return "";
+  return alpha->unit() == AlphaOptions::Unit::radius ? "radius" : "squared radius";
+}
+
 }  // namespace
 
 std::optional<MergeTree> whole_tree(const AnyComplex& complex, const RunContext& context) {
@@ -103,12 +116,11 @@ std::optional<MergeTree> whole_tree(const AnyComplex& complex, const RunContext&
 
 ShownTree shown_tree(MergeTree tree, const Barcode& barcode, const AnyComplex& complex,
                      const RunContext& context) {
-  const bool rips = std::holds_alternative<Rips>(complex);
+  const std::string_view clusters_at = label_of_values(complex);
   TreeMeta meta;
-  // Points enter together: clusters at a distance. Else minima lie at different depths.
-  meta.rule = rips ? CutRule::value : CutRule::persistence;
-  meta.label = rips ? "distance" : "persistence";
-  meta.what = rips ? "component" : "basin";
+  meta.rule = clusters_at.empty() ? CutRule::persistence : CutRule::value;
+  meta.label = clusters_at.empty() ? "persistence" : clusters_at;
+  meta.what = clusters_at.empty() ? "basin" : "component";
   meta.from = least_cut(tree, meta.rule, kMostMerges);
   ContractedTree made = contracted(tree, meta.rule, meta.from, 1, {}, context);
   meta.cut = cut_in_gap(made, tree, meta.rule, meta.from);

@@ -19,8 +19,10 @@ struct ValuedCell {
   friend auto operator<=>(const ValuedCell&, const ValuedCell&) = default;
 };
 
-/// The first cells of a dimension. @return the value from which on some are missing.
-std::optional<double> add_first(const ExplicitComplex& complex, int dim, std::size_t most,
+/// The first cells of a dimension of a complex that lists them.
+/// @return the value from which on some are missing.
+template <class Listed>
+std::optional<double> add_first(const Listed& complex, int dim, std::size_t most,
                                 const RunContext& context, std::vector<std::uint32_t>& numbers,
                                 std::vector<float>& values) {
   std::size_t count = 0;
@@ -52,8 +54,8 @@ std::optional<double> add_first(const ExplicitComplex& complex, int dim, std::si
   return missing_from;
 }
 
-ComplexArrays arrays_of(const ExplicitComplex& complex, std::size_t count,
-                        const RunContext& context) {
+template <class Listed>
+ComplexArrays arrays_of(const Listed& complex, std::size_t count, const RunContext& context) {
   ComplexArrays arrays;
   arrays.births.assign(count, std::numeric_limits<float>::quiet_NaN());
   std::vector<Index> vertex;
@@ -100,6 +102,10 @@ ComplexArrays complex_arrays(const AnyComplex& complex, std::size_t count,
   if (const auto* rips = std::get_if<Rips>(&complex)) return arrays_of(rips->graph(), count, ids);
   if (const auto* listed = std::get_if<ExplicitComplex>(&complex))
     return arrays_of(*listed, count, context);
+  if (const auto* alpha = std::get_if<Alpha>(&complex)) {
+    alpha->prepare(context);
+    return arrays_of(*alpha, count, context);
+  }
   return {};
 }
 

@@ -10,18 +10,18 @@ const kLeastPart = 0.02; // of the largest segment
 /// The ways to colour that a report has, the default first: an image as it is, a mesh by its values,
 /// segments where there are several, else one colour.
 export function colourModesOf(report: Report): [ColourMode, string][] {
-  const { elements, tree, cloud, image, triangles, meta } = report;
+  const { elements, tree, cloud, image, isMesh, meta } = report;
   const modes: [ColourMode, string][] = [];
   const told = !!tree && !!elements?.leaf;
   if (image) modes.push(["grey", "grey value"]);
-  if (triangles && elements?.birth) modes.push(["birth", "value"]);
+  if (isMesh && elements?.birth) modes.push(["birth", "value"]);
   if (told) modes.push(["segment", kindOfSegment(meta)]);
   if (elements?.rgb) modes.push(["rgb", "input colour"]);
   if (!image) modes.push(["plain", "one colour"]);
   if (elements?.truth) modes.push(["truth", "ground truth"]);
   if (elements?.normals) modes.push(["normal", "normal"]);
   if (cloud?.dims === 3) modes.push(["depth", meta.cloud?.viewpoint ? "depth" : "z"]);
-  if (!triangles && elements?.birth) modes.push(["birth", image ? "value" : "birth"]);
+  if (!isMesh && elements?.birth) modes.push(["birth", image ? "value" : "birth"]);
   if (told) modes.push(["persistence", "persistence"]);
   if (modes[0]?.[0] === "segment" && !hasParts(report) && modes.length > 1)
     modes.push(modes.shift()!);

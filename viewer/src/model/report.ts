@@ -59,6 +59,7 @@ export interface Report {
   voxels: VoxelSets | undefined;
   edges: { ends: Numbers; values: Numbers } | undefined;
   triangles: { corners: Numbers; values: Numbers } | undefined;
+  isMesh: boolean; // the triangles are the data; else they grow with the scale
   payloadBytes: number;
 }
 
@@ -159,8 +160,14 @@ export function reportOf(payload: Payload): Report {
     triangles: block("complex/triangles")
       ? { corners: need("complex/triangles"), values: need("complex/triangle_values") }
       : undefined,
+    isMesh: block("complex/triangles") !== undefined && !isTriangulated(meta),
     payloadBytes: payload.bytes,
   };
+}
+
+/// Whether simplices are those of a triangulation of the points.
+function isTriangulated({ provenance }: Meta): boolean {
+  return ["alpha", "delaunay-cech", "delaunay-rips"].includes(provenance.complex ?? "");
 }
 
 /// Positions relative to the least coordinates: those of a map do not fit float32.

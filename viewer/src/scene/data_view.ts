@@ -57,7 +57,7 @@ export class DataView {
     this.colouring = new Colouring(session);
     this.colouring.update();
     this.complex = new ShownComplex(report);
-    if (report.triangles) this.outside = this.complex.outside();
+    if (report.isMesh) this.outside = this.complex.outside();
     this.facing = session.sliceAxis;
     const pose = firstPose(report, session.sliceAxis);
     if (report.image) this.slice = new ImageSlice(report.image.shape, this.colouring.rgba);
@@ -139,7 +139,7 @@ export class DataView {
     if (report.image)
       return `Image of ${report.image.shape.filter((n, i) => n > 1 || i > 0).join(" × ")}`;
     const { count } = report.elements!;
-    if (!report.triangles) return `Cloud of ${counted(count, "point")}`;
+    if (!report.isMesh) return `Cloud of ${counted(count, "point")}`;
     return `Mesh of ${count === 1 ? "1 vertex" : `${grouped(count)} vertices`}`;
   }
 
@@ -231,8 +231,12 @@ export class DataView {
     }
     this.complexShape = undefined;
     // A mesh is seen as one; of a Rips complex all edges would hide everything.
-    const shown = scale ?? (report.triangles ? Infinity : undefined);
+    const shown = scale ?? (report.isMesh ? Infinity : undefined);
     const value = scale === undefined ? "all" : short(shownValue(report.meta, scale), 3);
+    if (shown === undefined) {
+      this.mesh?.show(0);
+      this.cloud?.showOnly(undefined);
+    }
     let text = scale === undefined ? value : `${value}   ${bettiInWords(report, scale)}`;
     if (this.complex.available && shown !== undefined) {
       const part = this.complex.upTo(shown);
@@ -298,9 +302,9 @@ export class DataView {
   }
 }
 
-function kindOf({ image, triangles }: Report): string {
+function kindOf({ image, isMesh }: Report): string {
   if (image) return image.shape[0]! > 1 ? "Volume" : "Image";
-  return triangles ? "Mesh" : "Point cloud";
+  return isMesh ? "Mesh" : "Point cloud";
 }
 
 function bettiInWords(report: Report, value: number): string {

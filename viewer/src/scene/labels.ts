@@ -35,7 +35,7 @@ export class Labels {
   ) {
     // On voxels or a surface letters are dark with a light edge, whatever the colours of the page.
     const { report } = session;
-    const isOnData = !!report.triangles || !!cloud?.isSurface || report.image?.shape[0] === 1;
+    const isOnData = report.isMesh || !!cloud?.isSurface || report.image?.shape[0] === 1;
     this.element.classList.toggle("on-data", isOnData);
     session.onChange((changes) => {
       const any = (["cut", "colour", "selection", "slice"] as const).some((c) => changes.has(c));

@@ -39,7 +39,7 @@ export function firstPose(report: Report, axis = 0): Pose {
   if (cloud!.dims < 3) return poseOf(sample, new Vector3(0, 0, 1), new Vector3(0, 1, 0), true);
   const eye = meta.cloud?.viewpoint;
   const known = meta.cloud?.up ?? (eye && [0, -1, 0]);
-  const up = known ? new Vector3(...(known as Triple)).normalize() : standing(sample, !!report.triangles);
+  const up = known ? new Vector3(...(known as Triple)).normalize() : standing(sample, report.isMesh);
   const around = poseOf(sample, broadside(sample, up), up, false);
   if (!eye) return around;
   const sensor = new Vector3(...(eye.map((c, k) => c - cloud!.origin[k]!) as Triple));
