@@ -30,7 +30,8 @@ BarcodeFormat format_of(const Arguments& arguments, app::Session& session) {
                             "--output-format says what else it is",
                             printable(arguments.output)));
   // Pictures of several inputs need no barcodes beside them.
-  const bool has_others = !arguments.plots.empty() || !arguments.report.empty();
+  const bool has_others =
+      !arguments.plots.empty() || !arguments.report.empty() || !arguments.surfaces.empty();
   if (arguments.is_batch() && arguments.output == "-" && has_others) return BarcodeFormat::none;
   if (arguments.is_batch() &&
       (arguments.output.ends_with('/') || !app::names_each(arguments.output)))
@@ -103,6 +104,8 @@ Job job_of(const std::string& input, const std::string& name, const Arguments& a
   job.plots = arguments.plots;
   for (app::Plot& plot : job.plots) plot.path = app::filled(plot.path, name, ".svg");
   job.report = app::filled(arguments.report, name, ".html");
+  job.surfaces = arguments.surfaces;
+  for (Surface& surface : job.surfaces) surface.path = app::filled(surface.path, name, ".ply");
   return job;
 }
 
@@ -110,7 +113,8 @@ Job job_of(const std::string& input, const std::string& name, const Arguments& a
 std::vector<Job> jobs_of(const Arguments& arguments, const std::vector<std::string>& inputs,
                          BarcodeFormat format) {
   if (!arguments.is_batch())
-    return {{inputs.front(), arguments.output, format, arguments.plots, arguments.report}};
+    return {{inputs.front(), arguments.output, format, arguments.plots, arguments.report,
+             arguments.surfaces}};
   const std::string& output = arguments.output;
   const bool is_place = app::names_each(output) || (output != "-" && app::is_folder(output));
   if (format != BarcodeFormat::none && !is_place && !arguments.dry_run)
@@ -118,8 +122,8 @@ std::vector<Job> jobs_of(const Arguments& arguments, const std::vector<std::stri
         ErrorKind::usage,
         fmt::format("--output: several inputs need a folder: -o FOLDER/, found '{}'", output));
   const std::vector<std::string> names = app::output_names(inputs);
-  const bool writes =
-      format != BarcodeFormat::none || !arguments.plots.empty() || !arguments.report.empty();
+  const bool writes = format != BarcodeFormat::none || !arguments.plots.empty() ||
+                      !arguments.report.empty() || !arguments.surfaces.empty();
   std::map<std::string, std::string> taken;
   std::vector<Job> jobs;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -137,6 +141,8 @@ void prepare_folders(const Arguments& arguments, BarcodeFormat format) {
   if (format != BarcodeFormat::none) app::prepare_outputs("--output", arguments.output);
   for (const app::Plot& plot : arguments.plots) app::prepare_outputs(plot.option, plot.path);
   app::prepare_outputs("--report", arguments.report);
+  for (const Surface& surface : arguments.surfaces)
+    app::prepare_outputs(surface.option(), surface.path);
 }
 
 /// No output replaces an input, or another output. @throws Error (usage).
@@ -159,10 +165,12 @@ void require_separate(const std::vector<Job>& jobs, const Arguments& arguments,
     if (job.format != BarcodeFormat::none) outputs.push_back({"--output", job.output});
     for (const app::Plot& plot : job.plots) outputs.push_back({plot.option, plot.path});
     if (!job.report.empty()) outputs.push_back({"--report", job.report});
+    for (const Surface& surface : job.surfaces) outputs.push_back({surface.option(), surface.path});
   }
   if (arguments.dry_run) outputs.push_back({"--dry-run", "-"});
   inputs.add(arguments.values);
   inputs.add(arguments.vertex_weights);
+  inputs.add(arguments.weights);
   require_separate(inputs, outputs, arguments, session);
 }
 
@@ -176,6 +184,8 @@ void explain_unwritten(const Arguments& arguments, BarcodeFormat format, app::Se
     for (const app::Plot& plot : arguments.plots)
       unwritten.push_back(plot.option + " " + plot.path);
     if (!arguments.report.empty()) unwritten.push_back("--report " + arguments.report);
+    for (const Surface& surface : arguments.surfaces)
+      unwritten.push_back(fmt::format("{} {}", surface.option(), surface.path));
     if (arguments.check) unwritten.emplace_back("--check");
     const Options& options = arguments.options;
     if (options.min_persistence > 0) unwritten.emplace_back("--min-persistence");

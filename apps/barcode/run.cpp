@@ -133,6 +133,11 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
     trees = pictures_of_tree(loaded, job, arguments, session.context());
     watch.lap("tree");
   }
+  if (!job.surfaces.empty()) {
+    outputs->write_surfaces(std::get<Alpha>(built.complex), *points_of(data->read),
+                            session.context());
+    watch.lap("surfaces");
+  }
   if (job.report.empty()) {
     data.reset();
     claim.reset();
@@ -192,7 +197,10 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   }
 
   const std::vector<double> p_values =
-      arguments.significance ? p_values_of(barcode) : std::vector<double>();
+      arguments.significance ? p_values_of(barcode, std::holds_alternative<Alpha>(built.complex)
+                                                        ? DistanceFiltration::cech
+                                                        : DistanceFiltration::rips)
+                             : std::vector<double>();
   BarcodeInfo info;
   info.program = app::program_and_version("ph-barcode");
   info.input = job.input;

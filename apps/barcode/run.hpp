@@ -21,6 +21,7 @@ struct Job {
   BarcodeFormat format = BarcodeFormat::csv;
   std::vector<app::Plot> plots = {};
   std::string report = {};  ///< empty: none
+  std::vector<Surface> surfaces = {};
 };
 
 /// What became of it.

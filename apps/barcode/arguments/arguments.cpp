@@ -10,6 +10,7 @@
 #include <functional>
 #include <string_view>
 
+#include "barcode/arguments/alpha_arguments.hpp"
 #include "barcode/arguments/computation_arguments.hpp"
 #include "barcode/arguments/image_arguments.hpp"
 #include "barcode/arguments/manual.hpp"
@@ -227,6 +228,7 @@ void check_together(Arguments& a) {
         "--collapse: found on, expected off or auto with --representatives cocycles: they are "
         "of all edges");
   check_rips_arguments(a);
+  check_alpha_arguments(a);
   check_image_arguments(a);
   check_table_arguments(a);
 }
@@ -239,17 +241,19 @@ bool Arguments::draws_tree() const {
 
 bool Arguments::is_batch() const {
   if (inputs.size() > 1 || app::names_each(output) || app::names_each(report) ||
-      std::ranges::any_of(plots, app::names_each, &app::Plot::path))
+      std::ranges::any_of(plots, app::names_each, &app::Plot::path) ||
+      std::ranges::any_of(surfaces, app::names_each, &Surface::path))
     return true;
   // A folder is a batch only if its results have a place; else it is an input that cannot be read.
   const auto takes_several = [](const std::string& path) {
     return path.empty() || app::is_folder(path);
   };
-  const bool has_others = !plots.empty() || !report.empty();
+  const bool has_others = !plots.empty() || !report.empty() || !surfaces.empty();
   const bool has_place = dry_run || output_format == BarcodeFormat::none ||
                          (output == "-" && has_others) || (output != "-" && takes_several(output));
   return has_place && takes_several(report) &&
-         std::ranges::all_of(plots, takes_several, &app::Plot::path) && !inputs.empty() &&
+         std::ranges::all_of(plots, takes_several, &app::Plot::path) &&
+         std::ranges::all_of(surfaces, takes_several, &Surface::path) && !inputs.empty() &&
          app::is_folder(inputs.front());
 }
 
@@ -265,6 +269,7 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv,
   add_complex_options(app, arguments);
   add_cubical_options(app, arguments);
   add_rips_options(app, arguments);
+  add_alpha_options(app, arguments);
   add_homology_options(app, arguments);
   add_output_options(app, arguments);
   add_picture_options(app, plots);

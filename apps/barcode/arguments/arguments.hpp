@@ -8,6 +8,7 @@
 #include "common/arguments/command_line.hpp"
 #include "common/arguments/option_scope.hpp"
 #include "common/arguments/plot_arguments.hpp"
+#include "ph/alpha.hpp"
 #include "ph/cubical.hpp"
 #include "ph/greedy_permutation.hpp"
 #include "ph/io/read.hpp"
@@ -19,10 +20,33 @@
 namespace ph::barcode {
 
 /// In the order of complex_names(); `own`: one that the program has added.
-enum class ComplexKind { automatic, rips, cubical, explicit_cells, lower_star, own };
+enum class ComplexKind {
+  automatic,
+  rips,
+  cubical,
+  explicit_cells,
+  lower_star,
+  alpha,
+  delaunay_cech,
+  delaunay_rips,
+  own
+};
+
+/// Whether it is made of a triangulation of points.
+constexpr bool is_triangulated(ComplexKind kind) {
+  return kind >= ComplexKind::alpha && kind <= ComplexKind::delaunay_rips;
+}
 
 /// Whether bars of H1 that come with cycles come with loops, too.
 enum class LoopChoice { tight, plain, none };
+
+/// The surface of an alpha complex at a value, as a file of triangles.
+struct Surface {
+  double value = 0;
+  std::string path;
+  bool is_wrap = false;  ///< of its wrap complex
+  std::string option() const { return is_wrap ? "--wrap" : "--alpha-shape"; }
+};
 
 /// Everything the command line says.
 struct Arguments {
@@ -43,6 +67,8 @@ struct Arguments {
   std::string vertex_weights;  // path; empty: none
   std::optional<Index> dtm;    // neighbours
   std::optional<WeightExponent> weight_exponent;
+  std::optional<AlphaOptions::Unit> alpha_unit;
+  std::string weights;  // path; empty: none
   CubicalOptions cubical;
   std::optional<double> voxel;  // of points, in their unit
   VoxelValue voxel_value = VoxelValue::distance;
@@ -58,7 +84,8 @@ struct Arguments {
   std::string output = "-";
   std::optional<BarcodeFormat> output_format;
   std::vector<app::Plot> plots;
-  PlotOptions look;                  // of the plots
+  PlotOptions look;  // of the plots
+  std::vector<Surface> surfaces;
   std::string report;                // path; empty: none
   bool stored = false;               // the inputs are barcodes: `ph-barcode plot BARS…`
   std::vector<std::string> compare;  // two barcode files; empty: a barcode is computed

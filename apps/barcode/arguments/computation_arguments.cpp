@@ -28,10 +28,6 @@ using Names = std::vector<std::string_view>;
 
 constexpr int kMostDimensions = 1'000'000;  // beyond any simplex that fits a memory
 
-[[noreturn]] void not_built_in(std::string_view what) {
-  throw Error(ErrorKind::not_built_in, fmt::format("{} not built in", what));
-}
-
 void take_metric(Arguments& a, const std::string& text) {
   static const Names names{"euclidean",   "manhattan", "chebyshev",
                            "minkowski:P", "cosine",    "hamming"};
@@ -54,11 +50,14 @@ void take_metric(Arguments& a, const std::string& text) {
 
 void take_complex(Arguments& a, const std::string& text) {
   const auto names = complex_names();
-  if (text == "alpha" && std::ranges::find(names, text) == names.end())
-    not_built_in("--complex alpha:");
   constexpr auto own = static_cast<std::size_t>(ComplexKind::own);
   const std::size_t place = choose("--complex", text, names);
   a.complex = static_cast<ComplexKind>(std::min(place, own));
+  if (is_triangulated(a.complex) && alpha_support().empty())
+    throw Error(ErrorKind::not_built_in,
+                fmt::format("--complex {}: not built in: it needs CGAL (Debian: libcgal-dev), and "
+                            "what has it falls under the GPL",
+                            text));
   a.own_complex = place < own ? nullptr : &own_complexes()[place - own];
 }
 
@@ -78,7 +77,9 @@ void add_complex_options(CLI::App& app, Arguments& a) {
   std::string what =
       "what is built of the input (default auto: rips for points and distances, cubical for "
       "images, "
-      "explicit for boundary matrices and simplices; points may be cubical, too: --voxel)";
+      "explicit for boundary matrices and simplices; points may be cubical, too: --voxel). Of "
+      "points in "
+      "one to three dimensions alpha is the fastest: it has the bars of growing balls";
   for (const OwnComplex& own : own_complexes()) what += fmt::format("; {}: {}", own.name, own.what);
   add_value(app, "--complex", fmt::format("{}", fmt::join(complex_names(), "|")), what,
             [&a](const std::string& text) { take_complex(a, text); });

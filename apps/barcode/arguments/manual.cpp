@@ -6,6 +6,7 @@
 #include <array>
 #include <string_view>
 
+#include "ph/alpha.hpp"
 #include "ph/io/read.hpp"
 #include "ph/io/write.hpp"
 #include "ph/persistence.hpp"
@@ -24,6 +25,7 @@ constexpr std::array kTopics{
     app::Topic{"raw", "Raw images: numbers without a header"},
     app::Topic{"complexes", "Complexes and distances"},
     app::Topic{"rips", "Rips complexes: fewer edges and points, weights"},
+    app::Topic{"alpha", "Alpha complexes: points of the plane and of space"},
     app::Topic{"cubical", "Cubical complexes: images, and points as voxels"},
     app::Topic{"engines", "Homology: dimensions, engines, representatives"},
     app::Topic{"output", "Output: barcodes, reports, comparisons"},
@@ -69,8 +71,12 @@ std::string built_in() {
     if (info.format != Format::automatic)
       (info.read ? read : missing) += fmt::format(" {}", info.name);
   for (const BarcodeFormatInfo& info : barcode_formats()) written += fmt::format(" {}", info.name);
-  return fmt::format("engines    {}\nreads      {}\n{}writes     {} svg\n", engines, read,
-                     missing.empty() ? "" : fmt::format("not read   {}\n", missing), written);
+  const std::string cgal = alpha_support();
+  return fmt::format(
+      "engines    {}\nreads      {}\n{}writes     {} svg\nalpha       {}\nlicence     {}\n",
+      engines, read, missing.empty() ? "" : fmt::format("not read   {}\n", missing), written,
+      cgal.empty() ? "not built in (alpha complexes need CGAL)" : cgal,
+      cgal.empty() ? "MIT" : "GPL 3 or later, since CGAL is linked; libph itself is MIT");
 }
 
 constexpr app::Manual kManual{

@@ -12,12 +12,13 @@ using app::OptionScope;
 constexpr app::Situations kAllPairs = kPoints | kMatrix | kTriangle, kRips = kAllPairs | kSomePairs,
                           kCubical = kImage | kVoxels,
                           kListed = kSimplices | kLowerStar | kBoundary | kMesh,
-                          kComputed = kRips | kCubical | kListed | kOwn;
+                          kComputed = kRips | kCubical | kListed | kOwn | kAlpha;
 
 constexpr std::string_view kOfRips = "Rips complexes of points and distances";
 constexpr std::string_view kOfAllPairs = "points and distance matrices";
 constexpr std::string_view kOfMatrices = "full distance matrices (--format distance)";
 constexpr std::string_view kOfDistances = "distances (--format distance)";
+constexpr std::string_view kOfAlpha = "points with --complex alpha";
 constexpr std::string_view kOfInputs = "a computation";
 
 constexpr std::array kScopes{
@@ -27,7 +28,7 @@ constexpr std::array kScopes{
     OptionScope{"symmetrise", kMatrix, kOfMatrices},
     OptionScope{"from-correlation", kMatrix | kTriangle | kSomePairs, kOfDistances},
     OptionScope{"diagonal", kMatrix, kOfMatrices},
-    OptionScope{"nan", kRips | kCubical | kOwn, "points, distances and images"},
+    OptionScope{"nan", kRips | kCubical | kOwn | kAlpha, "points, distances and images"},
     OptionScope{"raw-shape", kImage, "images"},
     OptionScope{"raw-type", kImage, "images"},
     OptionScope{"raw-big-endian", kImage, "images"},
@@ -51,6 +52,10 @@ constexpr std::array kScopes{
     OptionScope{"vertex-weights", kRips, kOfRips},
     OptionScope{"dtm", kAllPairs, kOfAllPairs},
     OptionScope{"weight-exponent", kRips, kOfRips},
+    OptionScope{"alpha-values", kAlpha, kOfAlpha},
+    OptionScope{"weights", kAlpha, kOfAlpha},
+    OptionScope{"alpha-shape", kAlpha, kOfAlpha},
+    OptionScope{"wrap", kAlpha, kOfAlpha},
     OptionScope{"max-dim", kComputed, kOfInputs},
     OptionScope{"min-dim", kComputed, kOfInputs},
     OptionScope{"field", kComputed, kOfInputs},
@@ -58,7 +63,8 @@ constexpr std::array kScopes{
     OptionScope{"check", kComputed, kOfInputs},
     OptionScope{"min-persistence", kComputed, kOfInputs},
     OptionScope{"representatives", kComputed, kOfInputs},
-    OptionScope{"significance", kAllPairs | kSomePairs, "Rips complexes of points and distances"},
+    OptionScope{"significance", kAllPairs | kSomePairs | kAlpha,
+                "Rips and alpha complexes of points and distances"},
     OptionScope{"dry-run", kComputed, kOfInputs},
     OptionScope{"plot", kComputed | kBarcode, "one barcode"},
     OptionScope{"plot-kind", kComputed | kBarcode, "one barcode"},
@@ -73,7 +79,7 @@ constexpr std::array kScopes{
 std::span<const OptionScope> option_scopes() { return kScopes; }
 
 std::string_view name_of(Situation situation) {
-  constexpr std::array<std::string_view, 13> kNames{"points",
+  constexpr std::array<std::string_view, 14> kNames{"points",
                                                     "a full distance matrix",
                                                     "a triangle without its diagonal",
                                                     "some distances only",
@@ -85,7 +91,8 @@ std::string_view name_of(Situation situation) {
                                                     "a mesh with values",
                                                     "points with another complex",
                                                     "a barcode",
-                                                    "two barcodes to compare"};
+                                                    "two barcodes to compare",
+                                                    "points with --complex alpha"};
   return kNames[static_cast<std::size_t>(std::countr_zero(app::Situations{situation}))];
 }
 

@@ -21,6 +21,7 @@ enum Situation : app::Situations {
   kOwn = 1 << 10,         ///< points with a complex that the program added
   kBarcode = 1 << 11,     ///< a stored one, computed earlier
   kComparison = 1 << 12,  ///< of two stored ones
+  kAlpha = 1 << 13,       ///< points with an alpha complex, or another of their triangulation
 };
 
 /// All options that do nothing in some of them.

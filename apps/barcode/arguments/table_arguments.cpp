@@ -63,8 +63,8 @@ void check_table_arguments(Arguments& a) {
         a.given, [&](const app::OptionScope* scope) { return (scope->where & ~kinds) == 0; });
   };
   const bool is_cubical = a.complex == ComplexKind::cubical;
-  if (a.format == Format::points || a.complex == ComplexKind::own || is_only_for(kPoints) ||
-      is_only_for(kVoxels))
+  if (a.format == Format::points || a.complex == ComplexKind::own || is_triangulated(a.complex) ||
+      is_only_for(kPoints) || is_only_for(kVoxels))
     meaning = ArrayMeaning::points;
   else if (a.complex == ComplexKind::rips ||
            (!is_cubical && is_only_for(kPoints | kMatrix | kTriangle | kSomePairs)))

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "barcode/arguments/option_scopes.hpp"
+#include "barcode/complex/build_alpha.hpp"
 #include "complex/listed_cubes.hpp"
 #include "core/system/files.hpp"
 #include "ph/distance_to_measure.hpp"
@@ -114,7 +115,13 @@ class Builder {
 
   BuiltComplex of_points(const Points& points, std::string_view data) const {
     const ComplexKind kind =
-        expect(data, {ComplexKind::rips, ComplexKind::cubical, ComplexKind::own});
+        expect(data, {ComplexKind::rips, ComplexKind::alpha, ComplexKind::delaunay_cech,
+                      ComplexKind::delaunay_rips, ComplexKind::cubical, ComplexKind::own});
+    if (is_triangulated(kind)) {
+      require_in_scope(kAlpha);
+      return build_alpha(points, values_by_point(arguments_.weights, points.rows()), ids_, name_,
+                         arguments_, context_);
+    }
     if (kind == ComplexKind::own) {
       require_in_scope(kOwn);
       const OwnComplex& own = *arguments_.own_complex;
@@ -171,7 +178,7 @@ class Builder {
                                                 "least 0",
                                                 *options.threshold));
     if (options.approximation) options.only_components = false;
-    std::vector<double> weights = read_weights(size_of(data));
+    std::vector<double> weights = read_births(size_of(data));
     // Data that no reader can know to be wrong: a point without direction, distances that overflow.
     try {
       BuiltComplex built = weighted_or_sampled(data, options, std::move(weights));
@@ -260,19 +267,24 @@ class Builder {
     return births;
   }
 
-  /// The births of --vertex-weights, if it is there: the file has one for each point of the input,
-  /// those left out among them.
-  std::vector<double> read_weights(Index points) const {
-    if (arguments_.vertex_weights.empty()) return {};
-    const Input input = Input::open(files::path_of(arguments_.vertex_weights), &context_);
+  /// The births of --vertex-weights, if it is there.
+  std::vector<double> read_births(Index points) const {
+    return values_by_point(arguments_.vertex_weights, points, 0, "a finite number >= 0");
+  }
+
+  /// Numbers from a file that has one for each point of the input, those left out among them.
+  /// @param path empty: none.
+  std::vector<double> values_by_point(const std::string& path, Index points,
+                                      double least = std::numeric_limits<double>::lowest(),
+                                      const char* expected = "a finite number") const {
+    if (path.empty()) return {};
+    const Input input = Input::open(files::path_of(path), &context_);
     const std::vector<double> all =
         read_values(input, static_cast<std::size_t>(points) + dropped_, arguments_.read, "point");
     for (std::size_t v = 0; v < all.size(); ++v)
-      if (!(all[v] >= 0 && std::isfinite(all[v])))
-        input.fail({"not a weight",
-                    fmt::format("{} for point {}", shortest(all[v]), v),
-                    "a finite number >= 0",
-                    {}});
+      if (!(all[v] >= least && std::isfinite(all[v])))
+        input.fail(
+            {"not a weight", fmt::format("{} for point {}", shortest(all[v]), v), expected, {}});
     if (ids_.empty()) return all;
     std::vector<double> kept;
     for (const Index id : ids_) kept.push_back(all[static_cast<std::size_t>(id)]);

@@ -10,7 +10,7 @@ namespace ph::barcode {
 /// A complex with what the user is told about it.
 struct BuiltComplex {
   AnyComplex complex;
-  std::string name;                 ///< "rips", "cubical", "explicit", "lower-star"
+  std::string name;                 ///< "rips", "cubical", "explicit", "lower-star", "alpha", …
   std::optional<double> threshold;  ///< that its values obey; nothing: all are there
   bool empty = false;               ///< there are no points or cells at all
   /// A threshold that has to be applied to the bars, because the complex holds larger values too.
@@ -19,6 +19,7 @@ struct BuiltComplex {
   std::optional<BarcodeInfo::Subsample> subsample = std::nullopt;
   std::optional<BarcodeInfo::VoxelGrid> voxels = std::nullopt;  ///< of points
   std::optional<std::string> promise = std::nullopt;  ///< what an approximation is worth, one line
+  std::optional<std::string> hidden = std::nullopt;   ///< points that have no part, one line
   /// The same complex made by another path, for the oracle of --check; null: there is none.
   std::function<AnyComplex(const RunContext& context)> by_definition = nullptr;
 };

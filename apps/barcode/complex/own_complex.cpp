@@ -17,7 +17,8 @@ std::vector<OwnComplex>& added() {
 }
 
 std::vector<std::string_view>& names() {
-  static std::vector<std::string_view> all{"auto", "rips", "cubical", "explicit", "lower-star"};
+  static std::vector<std::string_view> all{"auto",       "rips",  "cubical",       "explicit",
+                                           "lower-star", "alpha", "delaunay-cech", "delaunay-rips"};
   return all;
 }
 

@@ -40,4 +40,10 @@ NamedData read_input(const Input& input, const Arguments& arguments, const RunCo
   return {input.name(), std::move(read), dropped.size(), std::move(sha256)};
 }
 
+std::optional<PointsView> points_of(const ReadResult& read) {
+  if (const auto* mesh = std::get_if<Mesh>(&read.data)) return mesh->vertices;
+  if (const auto* points = std::get_if<Points>(&read.data)) return *points;
+  return std::nullopt;
+}
+
 }  // namespace ph::barcode

@@ -17,4 +17,7 @@ struct NamedData {
 /// @throws Error as the readers.
 NamedData read_input(const Input& input, const Arguments& arguments, const RunContext& context);
 
+/// Points, and the vertices of a mesh; nothing of other data.
+std::optional<PointsView> points_of(const ReadResult& read);
+
 }  // namespace ph::barcode

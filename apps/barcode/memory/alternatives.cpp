@@ -67,7 +67,8 @@ class Alternatives {
 
   std::vector<std::string> find() {
     const bool is_rips =
-        !arguments_.voxel && arguments_.complex != ComplexKind::own &&
+        !arguments_.voxel &&
+        (arguments_.complex == ComplexKind::automatic || arguments_.complex == ComplexKind::rips) &&
         std::visit([&](const auto& data) { return sample(data); }, data_.read.data);
     if (arguments_.options.engine != Engine::automatic) change_engine();
     if (arguments_.options.representatives != Representatives::none) drop_representatives();

@@ -8,7 +8,18 @@ namespace ph::barcode {
 Outputs::Outputs(const Job& job) : job_(job) {
   if (job.format != BarcodeFormat::none) barcode_.emplace(job.output);
   for (const app::Plot& plot : job.plots) plots_.emplace_back(plot.path);
+  for (const Surface& surface : job.surfaces) surfaces_.emplace_back(surface.path);
   if (!job.report.empty()) report_.emplace(job.report);
+}
+
+void Outputs::write_surfaces(const Alpha& alpha, PointsView points, const RunContext& context) {
+  for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+    const Surface& surface = job_.surfaces[i];
+    write_surface(
+        surfaces_[i].file(), points,
+        surface.is_wrap ? wrap(alpha, surface.value, context) : alpha_shape(alpha, surface.value),
+        surface_format_of_path(surface.path).value_or(SurfaceFormat::ply));
+  }
 }
 
 void Outputs::write(const Barcode& bars, const BarcodeInfo& info, const PlotOptions& look,
@@ -27,6 +38,7 @@ void Outputs::write(const Barcode& bars, const BarcodeInfo& info, const PlotOpti
     barcode_->commit();
   }
   for (app::Output& plot : plots_) plot.commit();
+  for (app::Output& surface : surfaces_) surface.commit();
 }
 
 PlotOptions look_of(PlotOptions look, bool superlevel) {

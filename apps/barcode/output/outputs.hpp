@@ -18,13 +18,15 @@ class Outputs {
   /// @param look of the plots. @param trees those of merge trees, in their order.
   void write(const Barcode& bars, const BarcodeInfo& info, const PlotOptions& look,
              std::span<const std::string> trees, const RunContext& context);
+  /// Writes the surfaces of an alpha complex; they are completed with the rest.
+  void write_surfaces(const Alpha& alpha, PointsView points, const RunContext& context);
   /// Precondition: the job has one.
   app::Output& report() { return *report_; }
 
  private:
   const Job& job_;
   std::optional<app::Output> barcode_, report_;
-  std::vector<app::Output> plots_;
+  std::vector<app::Output> plots_, surfaces_;
 };
 
 /// How plots look: those of superlevel sets name the values of the image.

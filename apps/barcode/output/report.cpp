@@ -28,12 +28,11 @@ constexpr std::size_t kMostComparedBars = 40'000;
 
 /// The points that the page shows; nothing where there are none, or where cells are those of a
 /// grid.
-std::optional<PointsView> points_of(const Shown& shown) {
+std::optional<PointsView> shown_points(const Shown& shown) {
   if (std::holds_alternative<Cubical>(shown.built.complex)) return std::nullopt;
-  if (const auto* mesh = std::get_if<Mesh>(&shown.data.read.data)) return mesh->vertices;
-  const auto* points = std::get_if<Points>(&shown.data.read.data);
+  const auto points = points_of(shown.data.read);
   if (!points || points->rows() == 0 || points->cols() == 0) return std::nullopt;
-  return *points;
+  return points;
 }
 
 /// Whether the first axis of an image is x: its format says so, or it was made of points.
@@ -60,6 +59,7 @@ report::Provenance provenance_of(const Shown& shown, const Arguments& arguments)
     notes.emplace_back("Assumed", fmt::format("{}", fmt::join(assumed, "; ")));
   if (!shown.info.vertex_weights.empty())
     notes.emplace_back("Vertices enter late", shown.info.vertex_weights);
+  if (shown.built.hidden) notes.emplace_back("Hidden", *shown.built.hidden);
   if (shown.built.promise) notes.emplace_back("Approximation", *shown.built.promise);
   return provenance;
 }
@@ -119,7 +119,7 @@ void write_report(OutputFile& file, const Shown& shown, const Arguments& argumen
                   app::Session& session) {
   const auto tree = tree_if_it_fits(shown, arguments, session);
   report::BarcodePage page{report::title_of(shown.info.input), shown.barcode, &shown.built.complex};
-  page.points = points_of(shown);
+  page.points = shown_points(shown);
   page.point_ids = shown.data.read.point_ids;
   page.is_euclidean = is_euclidean(shown, arguments);
   page.has_axes_of_space = has_axes_of_space(shown.data.read);

@@ -22,7 +22,10 @@ void require_significance(BarcodeFormat format, const Arguments& arguments) {
     reject(
         "--min-persistence, expected all bars: p compares each with the others; leave out those "
         "with a large p afterwards");
-  if (arguments.dtm || !arguments.vertex_weights.empty())
+  if (arguments.complex == ComplexKind::delaunay_rips)
+    reject(
+        "--complex delaunay-rips, expected rips, alpha or delaunay-cech, for which the law holds");
+  if (arguments.dtm || !arguments.vertex_weights.empty() || !arguments.weights.empty())
     reject(
         "vertices with weights, expected ones that are there from 0 on: ratios of death and "
         "birth are compared");
@@ -30,7 +33,7 @@ void require_significance(BarcodeFormat format, const Arguments& arguments) {
     reject("--max-dim 0, expected dimension 1 or above: components are born at 0");
 }
 
-std::vector<double> p_values_of(const Barcode& barcode) {
+std::vector<double> p_values_of(const Barcode& barcode, DistanceFiltration filtration) {
   std::vector<double> result(barcode.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t begin = 0; begin < barcode.size();) {
     std::size_t end = begin;
@@ -38,7 +41,7 @@ std::vector<double> p_values_of(const Barcode& barcode) {
     while (end < barcode.size() && barcode[end].dim == barcode[begin].dim)
       bars.push_back(barcode[end++]);
     if (barcode[begin].dim > 0)
-      std::ranges::copy(universal_p_values(bars, DistanceFiltration::rips).corrected,
+      std::ranges::copy(universal_p_values(bars, filtration).corrected,
                         result.begin() + static_cast<std::ptrdiff_t>(begin));
     begin = end;
   }

@@ -5,6 +5,7 @@
 #include "barcode/arguments/arguments.hpp"
 #include "ph/barcode.hpp"
 #include "ph/io/write.hpp"
+#include "ph/significance.hpp"
 
 namespace ph::barcode {
 
@@ -14,6 +15,7 @@ void require_significance(BarcodeFormat format, const Arguments& arguments);
 
 /// By bar its p-value, times the number of bars of its dimension that were tested; NaN of
 /// components and of bars that never die.
-std::vector<double> p_values_of(const Barcode& barcode);
+/// @param filtration what the bars are of.
+std::vector<double> p_values_of(const Barcode& barcode, DistanceFiltration filtration);
 
 }  // namespace ph::barcode

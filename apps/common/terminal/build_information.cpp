@@ -64,7 +64,6 @@ std::string build_information() {
   line("zlib", zlibVersion());
   line("PCL", fmt::format("{} (ph::pcl; the programs do without)", yes_or_no(PH_WITH_PCL)));
   line("reports", yes_or_no(!report::page_template().empty()));
-  line("CGAL", fmt::format("{} (alpha complexes)", yes_or_no(PH_WITH_CGAL)));
   return text;
 }
 

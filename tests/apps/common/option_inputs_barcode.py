@@ -5,6 +5,7 @@ import math
 import os
 import random
 import struct
+import subprocess
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../support"))
@@ -40,7 +41,7 @@ def rows(Row):
         "--raw-type": Row("--raw-type", "int16", unfit="for shape|found raw"),
         "--raw-big-endian": Row("--raw-big-endian"),
         "--raw-skip": Row("--raw-skip", "2", unfit="for shape|found raw"),
-        "--complex": Row("--complex", "cubical", unfit=IMAGE),
+        "--complex": Row("--complex", "cubical", unfit=IMAGE, alike=("alpha", "delaunay-cech")),
         "--threshold": Row("--threshold", "0.9"),
         "--metric": Row("--metric", "manhattan", unfit=POINTS),
         "--construction": Row("--construction", "cells", unfit=IMAGE, lost="read as an image"),
@@ -56,6 +57,10 @@ def rows(Row):
         "--vertex-weights": Row("--vertex-weights", "weights.txt", unfit="weights.txt|" + POINTS),
         "--dtm": Row("--dtm", "3", unfit=POINTS),
         "--weight-exponent": Row("--weight-exponent", "2"),
+        "--alpha-values": Row("--alpha-values", "squared"),
+        "--weights": Row("--weights", "weights.txt", unfit="weights.txt|" + POINTS),
+        "--alpha-shape": Row("--alpha-shape", "0.5=x.ply"),
+        "--wrap": Row("--wrap", "0.5=x.off"),
         "--max-dim": Row("--max-dim", "0"),
         "--min-dim": Row("--min-dim", "1"),
         "--field": Row("--field", "3", beside=["--output-format", "json"]),
@@ -100,6 +105,11 @@ def text(table):
 
 def square(distance, size):
     return [[distance(i, j) for j in range(size)] for i in range(size)]
+
+
+def said_of(program):
+    return subprocess.run([program, "--version", "--verbose"], check=True, text=True,
+                          stdout=subprocess.PIPE).stdout
 
 
 def inputs(Input, program):
@@ -178,6 +188,20 @@ def inputs(Input, program):
     add("voxels", ["p.csv", "--complex", "cubical", "--voxel", "0.25"], {"p.csv": text(points)},
         rows={"--complex": (("--complex", "explicit"), {}),
               "--threshold": (("--threshold", "0.1"), {})}, nan=text(with_nan))
+    if "alpha complexes need CGAL" in said_of(program):
+        print("skipped: alpha complexes are not built in", file=sys.stderr)
+    else:
+        add("alpha", ["p.csv", "--complex", "alpha"], {"p.csv": text(points)}, nan=text(with_nan),
+            empty=b"# none\n", rows={"--threshold": (("--threshold", "0.4"), {}),
+                                     "--complex": (("--complex", "explicit"), {}),
+                                     "--loops": (("--loops", "none"), {"beside": LOOPS})})
+        add("alpha with weights", ["p.csv", "--complex", "alpha", "--weights", "weights.txt"],
+            {"p.csv": text(points), "other.txt": "\n".join(map(str, range(size))).encode()},
+            nan=text(with_nan),
+            rows={"--threshold": (("--threshold", "-0.1"), {}),
+                  "--complex": (("--complex", "explicit"), {}),
+                  "--alpha-values": (("--alpha-values", "radius"), {}),
+                  "--weights": (("--weights", "other.txt"), {})})
     for name, arguments, make in (
             ("matrix", ["m.txt", "--format", "distance"], text),
             ("NPY matrix", ["m.npy", "--format", "distance"],

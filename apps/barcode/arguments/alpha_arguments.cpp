@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "barcode/arguments/alpha_arguments.hpp"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "common/arguments/choices.hpp"
+#include "common/arguments/numbers.hpp"
+#include "common/files/batch_names.hpp"
+
+namespace ph::barcode {
+namespace {
+
+/// "R=FILE", a file of triangles.
+Surface surface_of(const std::string& option, const std::string& text, bool is_wrap) {
+  const auto fail = [&] {
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: found '{}', expected R=FILE.ply or R=FILE.off", option, text));
+  };
+  const std::size_t equals = text.find('=');
+  if (equals == text.npos || equals + 1 == text.size()) fail();
+  Surface surface{app::parse_number(option, text.substr(0, equals)), text.substr(equals + 1),
+                  is_wrap};
+  const bool is_place = surface.path.ends_with('/') || app::is_folder(surface.path);
+  if (!is_place && !surface_format_of_path(surface.path)) fail();
+  return surface;
+}
+
+}  // namespace
+
+void add_alpha_options(CLI::App& app, Arguments& a) {
+  app.option_defaults()->group("alpha");
+  app::add_choice(
+      app, "--alpha-values", {"radius", "squared"},
+      "what values are: the radius of the balls, or its square (default radius; with "
+      "--weights squared)",
+      [&a](std::size_t i) {
+        constexpr std::array kUnits{AlphaOptions::Unit::radius, AlphaOptions::Unit::squared};
+        a.alpha_unit = kUnits[i];
+      });
+  app::add_path(app, "--weights", "FILE",
+                "the square of each ball's first radius, one number a point (default: all 0); of "
+                "complex alpha",
+                a.weights);
+  const auto add_surfaces = [&](const std::string& option, const std::string& what, bool is_wrap) {
+    app.add_option_function<std::vector<std::string>>(
+           option,
+           [&a, option, is_wrap](const std::vector<std::string>& all) {
+             for (const std::string& text : all)
+               a.surfaces.push_back(surface_of(option, text, is_wrap));
+           },
+           what)
+        ->type_name("R=FILE.ply|.off")
+        ->type_size(1)
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  };
+  add_surfaces("--alpha-shape",
+               "the surface of the complex at value R, as triangles in a file (repeatable)", false);
+  add_surfaces("--wrap",
+               "the same of what is left after all collapses: the wrap complex at R (repeatable)",
+               true);
+}
+
+void check_alpha_arguments(Arguments& a) {
+  const bool is_weighted = !a.weights.empty();
+  if (is_weighted && a.alpha_unit == AlphaOptions::Unit::radius)
+    throw Error(ErrorKind::usage,
+                "--alpha-values: found radius with --weights, expected squared: squares may be "
+                "negative");
+  const std::string_view name = complex_names()[static_cast<std::size_t>(a.complex)];
+  const bool is_alpha =
+      a.complex != ComplexKind::delaunay_cech && a.complex != ComplexKind::delaunay_rips;
+  if (is_weighted && !is_alpha)
+    throw Error(ErrorKind::usage,
+                fmt::format("--weights: found --complex {}, expected alpha", name));
+  if (!a.surfaces.empty() && !is_alpha)
+    throw Error(ErrorKind::usage, fmt::format("{}: found --complex {}, expected alpha",
+                                              a.surfaces[0].option(), name));
+  if (!a.alpha_unit)
+    a.alpha_unit = is_weighted ? AlphaOptions::Unit::squared : AlphaOptions::Unit::radius;
+  if (is_weighted && a.weights == "-" && std::ranges::count(a.inputs, "-") > 0)
+    throw Error(ErrorKind::usage, "--weights: standard input can be read once only");
+}
+
+}  // namespace ph::barcode

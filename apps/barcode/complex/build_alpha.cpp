@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "barcode/complex/build_alpha.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "common/arguments/numbers.hpp"
+
+namespace ph::barcode {
+namespace {
+
+AlphaOptions::Value value_of(ComplexKind kind) {
+  if (kind == ComplexKind::delaunay_cech) return AlphaOptions::Value::delaunay_cech;
+  if (kind == ComplexKind::delaunay_rips) return AlphaOptions::Value::delaunay_rips;
+  return AlphaOptions::Value::alpha;
+}
+
+/// The points that have no part in a complex, in words.
+std::optional<std::string> hidden_points(const Alpha& alpha, const std::vector<Index>& ids,
+                                         const std::string& name) {
+  constexpr std::size_t most_named = 10;
+  const auto hidden = alpha.hidden();
+  if (hidden.empty()) return std::nullopt;
+  std::vector<Index> named;
+  for (const std::uint32_t v : hidden.first(std::min(hidden.size(), most_named)))
+    named.push_back(ids.empty() ? Index{v} : ids[v]);
+  return fmt::format("{}: {} hidden by others with larger weights, and not in the complex: {}{}",
+                     name, app::count_of(hidden.size(), "point"), fmt::join(named, ", "),
+                     hidden.size() > most_named ? ", …" : "");
+}
+
+}  // namespace
+
+BuiltComplex build_alpha(const Points& points, std::vector<double> weights,
+                         const std::vector<Index>& ids, const std::string& name,
+                         const Arguments& arguments, const RunContext& context) {
+  const std::string_view kind = complex_names()[static_cast<std::size_t>(arguments.complex)];
+  constexpr Index most = 3;
+  if (points.cols() > most)
+    throw Error(ErrorKind::usage,
+                fmt::format("--complex {}: found points of R^{}, expected R^1 to R^{}; rips takes "
+                            "any",
+                            kind, points.cols(), most));
+  AlphaOptions options;
+  options.value = value_of(arguments.complex);
+  options.unit = *arguments.alpha_unit;
+  options.weights = std::move(weights);
+  options.threshold = arguments.threshold.value_or(kInfinity);
+  if (options.weights.empty() && options.threshold < 0)
+    throw Error(ErrorKind::usage, fmt::format("--threshold: found {}, expected a radius or its "
+                                              "square, at least 0",
+                                              options.threshold));
+  try {
+    const bool is_weighted = !options.weights.empty();
+    const Alpha alpha(points, options, context);
+    BuiltComplex built{alpha, std::string(kind), arguments.threshold, points.rows() == 0,
+                       std::nullopt};
+    if (is_weighted) built.vertex_weights = "squared radii of balls, from a file";
+    built.hidden = hidden_points(alpha, ids, name);
+    return built;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::bad_data) throw;
+    throw Error(error.kind(), fmt::format("{}: {}", name, error.what()));
+  }
+}
+
+}  // namespace ph::barcode
