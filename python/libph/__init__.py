@@ -38,7 +38,7 @@ except ModuleNotFoundError as _error:
 
 from . import gradients
 from ._barcodes import Bar, Barcode, Chain, Loop
-from ._compute import boundary, cubical, filtered, lower_star, rips
+from ._compute import alpha, boundary, cubical, filtered, lower_star, rips
 from ._distances import (Barycentre, Matching, barycentre, bottleneck, bottleneck_matching,
                          diagram_distances, sliced_wasserstein, wasserstein, wasserstein_matching)
 from ._errors import (Cancelled, DataError, Error, InternalError, MemoryLimitError,
@@ -52,6 +52,7 @@ from ._run import limits
 from ._scenes import Objects, Segment, Segmentation, Voxels, segment
 from ._significance import (Band, PermutationTest, confidence_band, confidence_radius, p_values,
                             permutation_test)
+from ._surfaces import Surface, alpha_shape
 from ._trees import MergeTree, merge_tree
 from ._vectors import PiecewiseLinear, StepFunction
 from ._vectors._euler import euler_curve
@@ -62,7 +63,8 @@ __all__ = [
     "Estimate", "InternalError", "Loop", "Matching", "MemoryLimitError", "MergeTree", "Mesh",
     "MissingInputError", "NotBuiltIn", "Objects", "OutputError", "PermutationTest",
     "PiecewiseLinear", "PointImage", "Report", "Segment", "Segmentation", "Simplices",
-    "StepFunction", "Subsample", "Timeout", "UsageError", "Voxels", "__version__", "barycentre",
+    "StepFunction", "Subsample", "Surface", "Timeout", "UsageError", "Voxels", "__version__",
+    "alpha", "alpha_shape", "barycentre",
     "bottleneck", "bottleneck_matching", "boundary", "collapse", "confidence_band",
     "confidence_radius", "cubical", "diagram_distances", "diagram_kernels", "distance_to_measure",
     "estimate", "euler_curve", "farthest_points", "filtered", "gradients", "limits", "lower_star",

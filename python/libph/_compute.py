@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _core
 from ._barcodes import Barcode
-from ._requests import (Request, boundary_request, cubical_request, filtered_request,
+from ._requests import (Request, alpha_request, boundary_request, cubical_request, filtered_request,
                         lower_star_request, rips_request)
 
 if TYPE_CHECKING:
@@ -117,6 +117,67 @@ def rips(X: Any, *, max_dim: int | None = 1, min_dim: int = 0, threshold: float 
            [0.  ,  inf]])
     """
     return _barcode(rips_request(locals()))
+
+
+def alpha(X: Any, *, values: str = "alpha", squared: bool | None = None,
+          weights: ArrayLike | None = None, threshold: float | None = None,
+          max_dim: int | None = None, min_dim: int = 0, field: int = 2,
+          representatives: str | None = None, loops: str | None = None,
+          min_persistence: float = 0.0, cells: bool = True, engine: str = "auto",
+          nan: str = "error", **run: Unpack[RunOptions]) -> Barcode:
+    """The barcode of growing balls around points of the plane or of space.
+
+    Of an alpha complex: the simplices of the Delaunay triangulation, each of which enters when the
+    balls around its vertices, cut to their Voronoi cells, meet. It has the bars of the union of the
+    balls, in all dimensions, and its simplices are few: a million points of space take seconds.
+    Values are radii, so that of H0 is half of that of `rips`. See
+    docs/explanation/engines/alpha.md.
+
+    Parameters
+    ----------
+    X : array_like
+        Points of R^1, R^2 or R^3, one a row. Copies and points in a plane or on a line will do.
+    values : {"alpha", "delaunay-cech", "delaunay-rips"}
+        When a simplex enters: as above; when its balls meet, which gives the same bars; when each
+        two of them do.
+    squared : bool, optional
+        Whether values are squares of radii, as in GUDHI. Default: of points with weights only.
+    weights : array_like, optional
+        The square of each ball's first radius: of an atom, of a grain. What is hidden in others is
+        named by ``bars.meta["hidden"]``.
+    threshold : float, optional
+        The largest value that enters.
+    max_dim : int, optional
+        The highest dimension of homology. Default: all.
+    min_dim, field, representatives, loops, min_persistence, cells, engine
+        As of `cubical`.
+    nan : {"error", "drop"}
+        What a NaN means: an error, or points are left out.
+    **run
+        `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
+
+    Returns
+    -------
+    Barcode
+
+    Raises
+    ------
+    NotBuiltIn
+        If CGAL was not there when libph was built. What has CGAL in it falls under the GPL.
+
+    Examples
+    --------
+    >>> square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+    >>> ph.alpha(square).dgm(1)
+    array([[0.5       , 0.70710678]])
+
+    Two balls of radius 1 and 2, which touch from the beginning on:
+
+    >>> ph.alpha([[0, 0, 0], [3, 0, 0]], weights=[1, 4]).dgm(0)
+    array([[-4., inf],
+           [-1.,  0.]])
+    """
+    return _barcode(alpha_request(locals()))
 
 
 def cubical(image: Any, *, construction: str = "vertices", superlevel: bool = False,

@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import _arrays, _core, _options
-from ._compute import cubical, rips
-from ._requests import PointImage, Request, cubical_request, rips_request
+from ._compute import alpha, cubical, rips
+from ._requests import PointImage, Request, alpha_request, cubical_request, rips_request
 from ._options import arguments_of
 
 
@@ -49,8 +49,10 @@ class Estimate(NamedTuple):
 
 
 def request_of(data: Any, complex: Any, options: dict[str, Any]) -> Request:
-    """What `rips` or `cubical` would compute of the data."""
-    _options.choice("complex", complex, [None, "rips", "cubical"])
+    """What `rips`, `cubical` or `alpha` would compute of the data."""
+    _options.choice("complex", complex, [None, "rips", "cubical", "alpha"])
+    if complex == "alpha":
+        return alpha_request(arguments_of(alpha, data, options))
     is_image = complex == "cubical" or (complex is None and (
         isinstance(data, PointImage) or (not _arrays.is_sparse(data) and _axes_of(data) > 2)))
     if is_image:
@@ -69,16 +71,16 @@ def _axes_of(data: Any) -> int:
 
 
 def estimate(data: Any, *, complex: str | None = None, **options: Any) -> Estimate:
-    """What `rips` or `cubical` will take: memory, cells, engine.
+    """What `rips`, `cubical` or `alpha` will take: memory, cells, engine.
 
     Takes a fraction of the time and memory of the computation.
 
     Parameters
     ----------
     data : array_like, sparse matrix or PointImage
-        As of `rips` or `cubical`.
-    complex : {None, "rips", "cubical"}
-        Which of the two. Default: cubical for three axes or more and for a PointImage, else rips.
+        As of `rips`, `cubical` or `alpha`.
+    complex : {None, "rips", "cubical", "alpha"}
+        Which of them. Default: cubical for three axes or more and for a PointImage, else rips.
     **options
         All keywords of that function.
 

@@ -13,7 +13,7 @@ from ._errors import DataError, NotBuiltIn, UsageError
 from ._estimate import request_of
 from ._files import Boundary, Mesh, Simplices, path_of
 from ._options import arguments_of
-from ._requests import (PointImage, Request, boundary_request, filtered_request,
+from ._requests import (ALPHA_VALUES, PointImage, Request, boundary_request, filtered_request,
                         lower_star_request, rips_request)
 from ._results import description_of
 
@@ -25,7 +25,8 @@ _HEIGHT = 720  # pixels of a frame in a notebook
 _KNOWN = {
     "rips": ("metric", "minkowski_p", "weights", "dtm_neighbors", "weight_exponent", "subsample",
              "subsample_radius", "approximation", "nan", "diagonal", "symmetrise"),
-    "cubical": ("construction", "superlevel", "periodic", "nan")}
+    "cubical": ("construction", "superlevel", "periodic", "nan"),
+    **dict.fromkeys(ALPHA_VALUES, ("squared", "weights", "nan"))}
 _OF_ALL = ("threshold", "field", "max_dim", "representatives")
 
 
@@ -83,9 +84,9 @@ def report(data: Any, *, complex: str | None = None, title: str = "", **options:
     Parameters
     ----------
     data : array_like, sparse matrix, PointImage, Mesh, Simplices or Boundary
-        As of `rips` or `cubical`; or what `read` gives of a file.
-    complex : {None, "rips", "cubical"}
-        Of arrays, which of the two. Default: cubical for three axes or more and for a PointImage,
+        As of `rips`, `cubical` or `alpha`; or what `read` gives of a file.
+    complex : {None, "rips", "cubical", "alpha"}
+        Of arrays, which of them. Default: cubical for three axes or more and for a PointImage,
         else rips.
     title : str
         Of the page. Default: what the data are.
@@ -161,6 +162,8 @@ def report_of_bars(bars: Barcode, X: Any, title: str, options: dict[str, Any]) -
         raise UsageError("subsample: found none, expected what the bars were computed with")
     if isinstance(X, PointImage):
         given.pop("nan", None)
+    if kind in ALPHA_VALUES:
+        given["values"], kind = kind, "alpha"
     source = _source_of(X, kind, {**given, **options})
     for name in ("points", "shape"):
         found, expected = source.request.meta.get(name), meta.get(name)

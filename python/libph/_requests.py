@@ -12,12 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _core, _options, _run
-from ._errors import DataError, MemoryLimitError, UsageError
+from ._errors import DataError, MemoryLimitError, NotBuiltIn, UsageError
 from ._simplices import joined_values, simplex_list
 from ._sources import Source, source_of
 
 _MOST_DIMENSIONS = 1_000_000  # beyond any simplex that fits a memory
 _EXPONENTS = {1: "one", 2: "two", math.inf: "infinity"}
+ALPHA_VALUES = ["alpha", "delaunay-cech", "delaunay-rips"]
 _NUMBERS = {name: number for number, name in _EXPONENTS.items()}
 _Result = TypeVar("_Result")
 
@@ -217,6 +218,46 @@ def _weights(o: dict[str, Any], source: Source
     if number not in _EXPONENTS:
         raise _options.refuse("weight_exponent", exponent, "1, 2 or inf")
     return births, neighbours, _EXPONENTS[number]
+
+
+def alpha_request(o: dict[str, Any]) -> Request:
+    """Of all keywords of `alpha`, and X."""
+    _run.check_names("alpha", o["run"], o)
+    value = _options.choice("values", o["values"], ALPHA_VALUES)
+    recipe, squared, source = alpha_recipe(o, value, _threshold(o))
+    meta = _meta(value, o, points=source.points, coordinates=source.coordinates,
+                 squared=squared, weights=None if o["weights"] is None else "given",
+                 nan=None if o["nan"] == "error" else o["nan"])
+    return Request(recipe, _task_of(o, _loops_of(o, "plain")), o["run"], meta)
+
+
+def alpha_recipe(o: dict[str, Any], value: str = "alpha", threshold: float | None = None
+                 ) -> tuple[_core.AlphaRecipe, bool, Source]:
+    """With whether values are squares, and the points."""
+    if not _core.alpha_support():
+        raise NotBuiltIn("alpha: alpha complexes are not in this libph, for CGAL was not there when "
+                         "it was built. Install it (Debian: apt install libcgal-dev), then install "
+                         "libph again (pip install .); what has CGAL in it falls under the GPL")
+    source = source_of(o["X"], nan=o["nan"])
+    dims = source.coordinates
+    if dims is not None and not 1 <= dims <= 3 and source.points:
+        raise UsageError(f"X: found points of R^{dims}, expected R^1 to R^3; ph.rips takes any")
+    weights = o["weights"]
+    squared = weights is not None if o["squared"] is None else _options.flag("squared", o["squared"])
+    if weights is not None:
+        weights = _arrays.as_values(weights, "weights", source.points, "point")
+        if not squared:
+            raise UsageError("squared: found False with weights, expected True: squares may be "
+                             "negative")
+        if value != "alpha":
+            raise UsageError(f"weights: found values={value!r}, expected 'alpha'")
+        if source.ids is not None:
+            weights = weights[source.ids]
+    elif threshold is not None and threshold < 0:
+        raise _options.refuse("threshold", threshold, "a radius or its square, at least 0")
+    recipe = _core.AlphaRecipe(source.space, value, squared, weights,
+                               math.inf if threshold is None else threshold, source.ids)
+    return recipe, squared, source
 
 
 def cubical_request(o: dict[str, Any]) -> Request:

@@ -13,6 +13,7 @@ from ._errors import DataError, UsageError
 from ._vectors import as_diagram
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from typing_extensions import Unpack
 
     from ._run import RunOptions
@@ -37,7 +38,7 @@ def p_values(bars: Barcode | ArrayLike, dim: int | None = None, *, filtration: s
         Of a barcode: the dimension, at least 1.
     filtration : {"rips", "cech"}, optional
         What the bars are of; "cech" also for alpha complexes. Default: "rips" for barcodes of
-        `rips`.
+        `rips`, "cech" for those of `alpha`.
     corrected : bool
         Whether p is multiplied by the number of bars, at most 1 (Bonferroni): then all bars with p
         at most 0.05 are real with a probability of 95 %.
@@ -60,6 +61,8 @@ def p_values(bars: Barcode | ArrayLike, dim: int | None = None, *, filtration: s
             raise UsageError("dim: found None, expected the dimension of the bars, at least 1")
         rows = bars.dgm(_options.whole("dim", dim, 1))
         kind = bars.meta.get("complex")
+        if filtration is None and kind in ("alpha", "delaunay-cech"):
+            filtration = "cech"
         if filtration is None and kind != "rips":
             raise UsageError(f"filtration: found None, expected 'rips' or 'cech' for bars of "
                              f"complex {kind!r}; images have no such test")
@@ -137,6 +140,40 @@ class Band(NamedTuple):
     mean: NDArray[np.float64]
     lower: NDArray[np.float64]
     upper: NDArray[np.float64]
+
+    def plot(self, ax: Axes | None = None, *, grid: ArrayLike | None = None, layer: int = 0,
+             **options: Any) -> Axes:
+        """Draws the mean as a line in its band. Needs matplotlib.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where. Default: a new figure.
+        grid : array_like, optional
+            Where the functions were evaluated. Default: 0, 1, 2, …
+        layer : int
+            Which row, of landscapes with several layers.
+        **options
+            Of the line, as `Axes.plot` takes them: `color`, `label`, …
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+        """
+        if np.ndim(self.mean) > 2:
+            raise UsageError(f"plot: found functions of shape {np.shape(self.mean)}, expected rows "
+                             "of numbers, one for each point of a grid")
+        mean, lower, upper = (np.atleast_2d(part) for part in self)
+        row = _options.whole("layer", layer, 0, len(mean) - 1)
+        places = np.arange(mean.shape[1]) if grid is None else \
+            _arrays.as_values(grid, "grid", mean.shape[1])
+        if ax is None:
+            import matplotlib.pyplot
+            _, ax = matplotlib.pyplot.subplots()
+        line, = ax.plot(places, mean[row], **options)
+        ax.fill_between(places, lower[row], upper[row], color=line.get_color(), alpha=0.25,
+                        linewidth=0)
+        return ax
 
 
 def confidence_band(functions: ArrayLike, *, alpha: float = 0.05, repetitions: int = 1000,

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 _RIPS_OPTIONS = ("threshold", "metric", "minkowski_p", "weights", "dtm_neighbors",
                  "weight_exponent", "diagonal", "symmetrise")
 _CUBICAL_OPTIONS = ("threshold", "construction", "superlevel", "periodic", "nan")
+_ALPHA_OPTIONS = ("threshold", "values", "squared", "weights", "nan")
 _RUN_OPTIONS = ("threads", "memory_limit", "progress", "timeout", "stop")
 
 
@@ -89,13 +90,14 @@ def merge_tree(data: Any, *, complex: str | None = None, **options: Any) -> Merg
     Parameters
     ----------
     data : array_like, sparse matrix or PointImage
-        As of `rips` or `cubical`.
-    complex : {None, "rips", "cubical"}
-        Which of the two. Default: cubical for three axes or more and for a PointImage, else rips.
+        As of `rips`, `cubical` or `alpha`.
+    complex : {None, "rips", "cubical", "alpha"}
+        Which of them. Default: cubical for three axes or more and for a PointImage, else rips.
     **options
         As of `rips`: `threshold`, `metric`, `minkowski_p`, `weights`, `dtm_neighbors`,
         `weight_exponent`, `diagonal`, `symmetrise`. As of `cubical`: `threshold`, `construction`,
-        `superlevel`, `periodic`, `nan`. And `threads`, `memory_limit`, `progress`, `timeout`,
+        `superlevel`, `periodic`, `nan`. As of `alpha`: `threshold`, `values`, `squared`, `weights`,
+        `nan`. And `threads`, `memory_limit`, `progress`, `timeout`,
         `stop`.
 
     Returns
@@ -113,8 +115,8 @@ def merge_tree(data: Any, *, complex: str | None = None, **options: Any) -> Merg
            [4., 5., 9., 4.]])
     """
     request = request_of(data, complex, options)
-    is_rips = request.meta["complex"] == "rips"
-    allowed = (_RIPS_OPTIONS if is_rips else _CUBICAL_OPTIONS) + _RUN_OPTIONS
+    kind = {"rips": _RIPS_OPTIONS, "cubical": _CUBICAL_OPTIONS}
+    allowed = kind.get(request.meta["complex"], _ALPHA_OPTIONS) + _RUN_OPTIONS
     for name in options:
         if name not in allowed:
             raise UsageError(f"{name}: does nothing for a merge tree of {request.meta['complex']}, "

@@ -14,6 +14,7 @@ void bind_arrays(py::module_& m);
 void bind_metric_spaces(py::module_& m);
 void bind_bars(py::module_& m);
 void bind_complexes(py::module_& m);
+void bind_alpha(py::module_& m);
 void bind_computations(py::module_& m);
 void bind_distances(py::module_& m);
 void bind_significance(py::module_& m);

@@ -13,6 +13,7 @@ PYBIND11_MODULE(_core, m) {
   bind_metric_spaces(m);
   bind_bars(m);
   bind_complexes(m);
+  bind_alpha(m);
   bind_computations(m);
   bind_distances(m);
   bind_significance(m);

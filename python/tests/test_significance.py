@@ -79,6 +79,26 @@ def test_a_circle_is_told_from_noise(rng):
 # ---- bands
 
 
+def test_band_is_drawn(rng):
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    samples = rng.normal(size=(20, 3, 10))
+    band = ph.confidence_band(samples)
+    axes = band.plot(grid=np.linspace(0, 1, 10), layer=2, color="red", label="mean")
+    line, = axes.get_lines()
+    assert np.array_equal(line.get_ydata(), band.mean[2])
+    assert (line.get_color(), line.get_label()) == ("red", "mean")
+    ends = axes.collections[0].get_paths()[0].vertices
+    assert np.isclose(ends[:, 1].min(), band.lower[2].min())
+    assert np.isclose(ends[:, 1].max(), band.upper[2].max())
+    assert ph.confidence_band(samples[:, 0]).plot(axes) is axes
+    pyplot.close("all")
+    for wrong in ({"layer": 3}, {"grid": [0, 1]}):
+        with pytest.raises(ph.UsageError, match=next(iter(wrong))):
+            band.plot(**wrong)
+    with pytest.raises(ph.UsageError, match="expected rows"):
+        ph.confidence_band(samples[..., None]).plot()
+
+
 def test_confidence_band(rng):
     samples = rng.normal(5, 2, (80, 3, 4))
     band = ph.confidence_band(samples)

@@ -87,6 +87,7 @@ class Barcode(Cells, Summaries, Sequence[Bar]):
         known = {"max_dim": facts.max_dim, "threshold": facts.threshold, "engine": facts.engine,
                  "collapsed": facts.collapses or None, "vertices": facts.vertices,
                  "edges": facts.edges, "covering_radius": facts.covering_radius,
+                 "hidden": facts.hidden or None,
                  "version": _core.version}
         return cls._made(bars, {**meta, **{k: v for k, v in known.items() if v is not None}})
 

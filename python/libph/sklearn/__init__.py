@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Persistent homology in pipelines of scikit-learn.
 
-Of lists of point clouds, distances or images: `RipsPersistence`, `CubicalPersistence`. Of lists of
+Of lists of point clouds, distances or images: `RipsPersistence`, `AlphaPersistence`, `CubicalPersistence`. Of
+lists of
 diagrams: `Statistics`, `PersistenceImage`, `Landscape`, `Silhouette`, `BettiCurve`, `LifeEntropy`,
 `Entropy`, `Lengths`, `Atol`, `DiagramDistances`, `DiagramKernels`. Of lists of images, without their
 bars: `EulerCurve`. Of one cloud, a row a sample: `PersistenceClustering`, `DistanceToMeasure`,
@@ -25,10 +26,10 @@ from ._distances import DiagramDistances, DiagramKernels
 from ._euler import EulerCurve
 from ._images import PersistenceImage
 from ._numbers import Entropy, Lengths, Statistics
-from ._persistence import CubicalPersistence, RipsPersistence
+from ._persistence import AlphaPersistence, CubicalPersistence, RipsPersistence
 from ._points import DistanceToMeasure, FarthestPoints
 
-__all__ = ["Atol", "BettiCurve", "CubicalPersistence", "DiagramDistances", "DiagramKernels",
+__all__ = ["AlphaPersistence", "Atol", "BettiCurve", "CubicalPersistence", "DiagramDistances", "DiagramKernels",
            "DistanceToMeasure", "Entropy", "EulerCurve", "FarthestPoints", "Landscape", "Lengths",
            "LifeEntropy", "PersistenceClustering", "PersistenceImage", "RipsPersistence",
            "Silhouette", "Statistics"]

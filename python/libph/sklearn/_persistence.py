@@ -15,7 +15,7 @@ from sklearn.base import TransformerMixin
 
 from .. import _arrays, _options
 from .._barcodes import Barcode
-from .._compute import cubical, rips
+from .._compute import alpha, cubical, rips
 from .._errors import Cancelled, DataError, MemoryLimitError, UsageError
 from .._vectors import checked_infinity, settled
 from ._base import MakesTables, TakesLists
@@ -251,6 +251,53 @@ class RipsPersistence(_Persistence):
                     dtm_neighbors=self.dtm_neighbors, field=self.field, collapse=self.collapse,
                     subsample=self.subsample, approximation=self.approximation,
                     min_persistence=self.min_persistence, **how)
+
+
+class AlphaPersistence(_Persistence):
+    """The barcodes of point clouds of the plane or of space, as of `libph.alpha`.
+
+    Samples are point clouds, which may have different numbers of points. Values are radii of balls.
+
+    Parameters
+    ----------
+    homology_dimensions : int or tuple of int
+        The dimensions. With one number a sample becomes one diagram, otherwise a list of them.
+    values, squared, threshold, field
+        As of `libph.alpha`.
+    min_persistence : float
+        Bars with death - birth <= this are left out.
+    output, infinity, reduced, n_jobs
+        As of `RipsPersistence`.
+
+    Examples
+    --------
+    >>> square = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    >>> ph.sklearn.AlphaPersistence(homology_dimensions=1).fit_transform([square])
+    [array([[0.5       , 0.70710678]])]
+    """
+
+    def __init__(self, homology_dimensions: Any = (0, 1), values: str = "alpha",
+                 squared: bool = False, threshold: float | None = None, field: int = 2,
+                 min_persistence: float = 0.0, output: str = "list", infinity: Any = None,
+                 reduced: bool = False, n_jobs: int | None = None) -> None:
+        self.homology_dimensions = homology_dimensions
+        self.values = values
+        self.squared = squared
+        self.threshold = threshold
+        self.field = field
+        self.min_persistence = min_persistence
+        self.output = output
+        self.infinity = infinity
+        self.reduced = reduced
+        self.n_jobs = n_jobs
+
+    def _samples(self, X: Any) -> Sequence[Any]:
+        return list_of(X, "clouds", 2)
+
+    def _barcode(self, sample: Any, max_dim: int, **how: Any) -> Barcode:
+        return alpha(sample, max_dim=max_dim, values=self.values, squared=self.squared,
+                     threshold=self.threshold, field=self.field,
+                     min_persistence=self.min_persistence, **how)
 
 
 class CubicalPersistence(_Persistence):

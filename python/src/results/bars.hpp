@@ -19,6 +19,7 @@ struct Facts {
   std::optional<Index> vertices;    ///< of a Rips complex
   std::optional<std::size_t> edges;
   std::optional<double> covering_radius;  ///< of a subsample
+  std::vector<Index> hidden = {};         ///< points that have no part in an alpha complex
 };
 
 /// A barcode with what belongs to it.

@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: MIT
+"""ph.alpha: bars against a triangulation of SciPy that is valued by the definition, weights, surfaces,
+what is refused."""
+import itertools
+import pickle
+
+import libph as ph
+import numpy as np
+import pytest
+from libph import _core
+from numpy.testing import assert_allclose, assert_array_equal
+
+needs_cgal = pytest.mark.skipif(not _core.alpha_support(), reason="CGAL is not built in")
+
+
+def by_definition(points):
+    """Simplices of the Delaunay triangulation with squared alpha values: the least squared radius of
+    an empty sphere through the vertices. A simplex has its smallest sphere if no point is inside, else
+    the least value of its cofaces."""
+    from scipy.spatial import Delaunay
+    cells = [tuple(sorted(cell)) for cell in Delaunay(points).simplices.tolist()]
+    dim = points.shape[1]
+    values = {}
+    for size in range(dim + 1, 0, -1):
+        for simplex in {s for cell in cells for s in itertools.combinations(cell, size)}:
+            corners = points[list(simplex)]
+            edges = corners[1:] - corners[0]
+            weights = np.linalg.solve(edges @ edges.T, (edges**2).sum(1) / 2) if size > 1 else []
+            centre = corners[0] + (weights @ edges if size > 1 else 0)
+            radius = ((corners[0] - centre)**2).sum()
+            others = np.delete(points, simplex, axis=0)
+            if len(others) and (((others - centre)**2).sum(1) < radius * (1 - 1e-12)).any():
+                radius = min(value for other, value in values.items()
+                             if len(other) == size + 1 and set(simplex) < set(other))
+            values[simplex] = radius
+    # A face is no later than its cofaces, up to rounding.
+    for simplex in sorted(values, key=len, reverse=True):
+        for face in itertools.combinations(simplex, len(simplex) - 1):
+            if face:
+                values[face] = min(values[face], values[simplex])
+    return list(values), np.array(list(values.values()))
+
+
+@needs_cgal
+@pytest.mark.parametrize("dim", [2, 3])
+@pytest.mark.parametrize("field", [2, 3])
+def test_bars_are_those_of_the_definition(dim, field):
+    pytest.importorskip("scipy")
+    for seed in range(3):
+        points = np.random.default_rng(seed).normal(size=(40, dim))
+        expected = ph.filtered(*by_definition(points), field=field)
+        found = ph.alpha(points, squared=True, field=field)
+        for k in range(dim):
+            longer = expected.dgm(k)
+            longer = longer[longer[:, 1] - longer[:, 0] > 1e-9]
+            bars = found.dgm(k)
+            assert_allclose(bars[bars[:, 1] - bars[:, 0] > 1e-9], longer, rtol=1e-9)
+        radii = ph.alpha(points, field=field)
+        for k in range(dim):
+            assert_allclose(radii.dgm(k)**2, found.dgm(k), rtol=1e-12)
+            cech = ph.alpha(points, values="delaunay-cech", field=field).dgm(k)
+            assert_allclose(cech, radii.dgm(k), rtol=1e-12)
+
+
+@needs_cgal
+def test_components_are_half_those_of_rips():
+    points = np.random.default_rng(1).normal(size=(200, 3))
+    assert_array_equal(2 * ph.alpha(points).dgm(0), ph.rips(points, max_dim=0).dgm(0))
+    tree = ph.merge_tree(points, complex="alpha")
+    assert_array_equal(2 * tree.values, ph.merge_tree(points).values)
+
+
+@needs_cgal
+def test_weights_and_hidden_points():
+    bars = ph.alpha([[0, 0, 0], [3, 0, 0], [0.5, 0, 0]], weights=[1, 4, -9])
+    assert_array_equal(bars.dgm(0), [[-4, np.inf], [-1, 0]])
+    assert bars.meta["hidden"] == (2,)
+    assert bars.meta["squared"] is True
+    assert pickle.loads(pickle.dumps(bars)) == bars
+    # Equal weights shift what is squared.
+    points = np.random.default_rng(2).normal(size=(50, 2))
+    shifted = ph.alpha(points, weights=np.full(50, 0.25)).dgm(1)
+    assert_allclose(shifted + 0.25, ph.alpha(points, squared=True).dgm(1), rtol=1e-9)
+
+
+@needs_cgal
+def test_points_that_are_left_out_keep_their_numbers():
+    points = np.array([[np.nan, 0], [0, 0], [1, 0], [1, 1], [0, 1]])
+    bars = ph.alpha(points, nan="drop", representatives="cycles", weights=[7, 0, 0, 0, 0])
+    chain = bars.representative([bar.dim for bar in bars].index(1))
+    assert sorted(map(sorted, chain.cells.tolist())) == [[1, 2], [1, 4], [2, 3], [3, 4]]
+    surface = ph.alpha_shape(points, 1, nan="drop")
+    assert sorted(set(surface.triangles.ravel().tolist())) == [1, 2, 3, 4]
+
+
+@needs_cgal
+def test_surfaces(tmp_path):
+    points = np.random.default_rng(3).normal(size=(100, 3))
+    points /= np.linalg.norm(points, axis=1)[:, None]
+    surface = ph.alpha_shape(points, 10)
+    assert_array_equal(surface.vertices, points)
+    a, b, c = (points[surface.triangles[:, k]] for k in range(3))
+    volume = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
+    assert 3 < volume < 4 * np.pi / 3
+    assert len(surface.triangles) == 2 * len(points) - 4  # all on the hull
+    assert not surface.singular.any()
+    for name in ("a.ply", "a.off"):
+        surface.save(tmp_path / name)
+        mesh = ph.read(tmp_path / name)
+        assert_array_equal(mesh.vertices, points)
+        assert_array_equal(mesh.triangles, surface.triangles)
+    # Three points of space have a triangle and no tetrahedron.
+    flat = ph.alpha_shape([[0, 0, 0], [1, 0, 0], [0, 1, 0]], 1)
+    assert len(flat.triangles) == 1
+    assert len(ph.alpha_shape(points, 1e-6).triangles) == 0
+    assert len(ph.alpha_shape(points, 10, wrap=True).triangles) > 0
+
+
+@needs_cgal
+@pytest.mark.parametrize("data", [np.empty((0, 3)), [[1.0, 2.0]], [[1.0], [2.0], [2.0]],
+                                  [[0, 0, 0]] * 3, [[k, k, k] for k in range(5)],
+                                  [[x, y, 5] for x in range(3) for y in range(3)]])
+def test_degenerate_points(data):
+    bars = ph.alpha(data)
+    endless = int(np.isinf(bars.deaths).sum())
+    assert endless == min(1, len(data))
+    assert (bars.deaths > bars.births).all()
+
+
+@needs_cgal
+def test_estimates_and_pages():
+    points = np.random.default_rng(4).normal(size=(60, 3))
+    estimate = ph.estimate(points, complex="alpha")
+    assert estimate.engine == "gradient" and 0 < estimate.bytes_low <= estimate.bytes_high
+    try:
+        page = ph.alpha(points, values="delaunay-cech", representatives="cycles").report(points).html
+    except ph.NotBuiltIn:
+        pytest.skip("reports are not built in")
+    assert "complex/triangles" in page and "Radius" in page
+    assert "complex/triangles" in ph.report(points, complex="alpha").html
+
+
+@needs_cgal
+@pytest.mark.parametrize("how, message", [
+    ({"X": np.zeros((3, 4))}, r"X: found points of R\^4, expected R\^1 to R\^3"),
+    ({"values": "cech"}, "values: found 'cech'"),
+    ({"weights": [1, 2]}, "weights"),
+    ({"weights": [0] * 4, "squared": False}, "squared: found False with weights"),
+    ({"weights": [0] * 4, "values": "delaunay-rips"}, "weights: found values='delaunay-rips'"),
+    ({"weights": [0, 0, 0, np.inf]}, "weight"),
+    ({"threshold": -1}, "threshold: found -1"),
+    ({"representatives": "cocycle"}, "representatives"),
+    ({"loops": "tight", "representatives": "cycles"}, "loops"),
+    ({"squared": "yes"}, "squared: found 'yes'")])
+def test_refused(how, message):
+    options = {"X": [[0, 0], [1, 0], [1, 1], [0, 1]], **how}
+    with pytest.raises((ph.UsageError, ph.DataError), match=message):
+        ph.alpha(options.pop("X"), **options)
+
+
+@needs_cgal
+def test_other_things_are_refused(tmp_path):
+    square = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    with pytest.raises(ph.DataError, match="nan='drop'"):
+        ph.alpha([[0, np.nan]])
+    with pytest.raises(TypeError, match="max_scale"):
+        ph.alpha(square, max_scale=1)
+    with pytest.raises(ph.UsageError, match=r"\.ply or \.off"):
+        ph.alpha_shape(square, 1).save(tmp_path / "a.stl")
+    with pytest.raises(ph.UsageError, match="value"):
+        ph.alpha_shape(square, "far")
+    with pytest.raises(ph.UsageError, match="max_dim: does nothing"):
+        ph.merge_tree(square, complex="alpha", max_dim=1)
+
+
+@pytest.mark.skipif(bool(_core.alpha_support()), reason="CGAL is built in")
+def test_without_cgal():
+    with pytest.raises(ph.NotBuiltIn, match="libcgal-dev"):
+        ph.alpha([[0, 0]])
+    with pytest.raises(ph.NotBuiltIn, match="libcgal-dev"):
+        ph.alpha_shape([[0, 0]], 1)
