@@ -11,7 +11,7 @@ test=(libgtest-dev libbenchmark-dev libpcl-dev libcgal-dev ripser python3-gudhi 
       locales zsh fish man-db groff mandoc abigail-tools)
 # The Python package, and what its tests compare with.
 python=(python3-dev pybind11-dev python3-numpy python3-scipy python3-sklearn python3-pandas
-        python3-matplotlib python3-skimage python3-pytest python3-mypy python3-venv python3-nbclient
+        python3-matplotlib python3-skimage pymol-data python3-pytest python3-mypy python3-venv python3-nbclient
         python3-ipykernel)
 # What bundles the page of the reports; Node may be there from elsewhere.
 page=()

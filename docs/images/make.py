@@ -23,7 +23,7 @@ from commands_in_pages import commands_of, pages_with_commands, pictures_of  # n
 EXAMPLES = {"cluster_moons": ["cluster-moons"], "grow_loop": ["grow-loop"],
             "clouds_to_features": ["clouds-to-features"],
             "two_circles": ["two-circles", ROOT / "examples/data/two_circles.csv"],
-            "textures": ["textures"], "growing_discs": ["growing-discs"],
+            "textures": ["textures"], "molecule": ["molecule"], "growing_discs": ["growing-discs"],
             "noise_band": ["noise-band"], "sweeping_level": ["sweeping-level"],
             "delay_embedding": ["delay-embedding", ROOT / "examples/data/pulse.csv"]}
 CHROMIUM = ["--headless", "--no-sandbox", "--hide-scrollbars", "--use-gl=angle", "--use-angle=swiftshader",
