@@ -55,8 +55,10 @@ struct AlphaOptions {
 /// Any finite points will do. Coplanar and collinear ones have the triangulation of their affine
 /// hull. A copy is joined to the first of its kind by an edge of value 0, or hidden, of weighted
 /// points. Which simplices there are and which values are equal is decided exactly; values have an
-/// error of some last places, and no face has a larger one than a coface. Among cospherical points
-/// some triangulation is taken that depends on where they are alone, not on their order.
+/// error of some last places, and no face has a larger one than a coface. (Radii below
+/// 1e-150 or beyond 1e150 times the largest coordinate are less precise.) Among
+/// cospherical points some triangulation is taken that depends on where they are alone, not on
+/// their order.
 ///
 /// Other values than alpha are for points without weights, and are computed simplex by simplex, by
 /// engines for any filtration: they take several times as long.
@@ -73,9 +75,10 @@ class Alpha {
   /// O(n log n) for points that lie evenly, O(n²) at worst. On threads, but for the triangulation.
   /// @param context outlives the filtration.
   /// @throws Error (usage) on points of R^4 or beyond, weights that are not one a point, and radii
-  ///         or other values of weighted points; Error (bad_data) on numbers that are not finite
-  ///         and on coordinates whose magnitudes differ beyond what doubles can square; Error
-  ///         (resource, cancelled, not_built_in).
+  ///         or other values of weighted points; Error (bad_data) on numbers that are not finite,
+  ///         on coordinates whose magnitudes differ beyond what doubles can square, and of squared
+  ///         values on coordinates of which no double can be the square; Error (resource,
+  ///         cancelled, not_built_in).
   explicit Alpha(PointsView points, const AlphaOptions& options = {},
                  const RunContext& context = default_context());
 

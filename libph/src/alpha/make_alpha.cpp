@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The constructor of an alpha complex, and all that it needs, is what the library ph::alpha has:
 // CGAL is used here and nowhere else. The rest of the folder belongs to ph::core.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "alpha/alpha_lazy.hpp"
@@ -34,6 +36,21 @@ AlphaCells alpha_cells(PointsView points, std::span<const double> weights,
 
 }  // namespace alpha
 
+namespace {
+
+/// @throws Error (bad_data) unless squares of coordinates below 2^exponent are doubles, those of
+/// their last places included.
+void check_squares(int exponent) {
+  constexpr int most = 511, least = -458;  // 2^-916, and 106 binary places more
+  if (exponent >= least && exponent <= most) return;
+  throw Error(ErrorKind::bad_data,
+              fmt::format("alpha complex: found coordinates of about 2^{}, expected 2^{} to 2^{} "
+                          "for squared values; take radii",
+                          exponent, least, most));
+}
+
+}  // namespace
+
 Alpha::Alpha(PointsView points, const AlphaOptions& options, const RunContext& context)
     : lazy_(std::make_shared<Lazy>(context)),
       unit_(options.unit),
@@ -51,6 +68,7 @@ Alpha::Alpha(PointsView points, const AlphaOptions& options, const RunContext& c
                 "points without weights");
   cells_ = std::make_shared<const alpha::AlphaCells>(
       alpha::alpha_cells(points, options.weights, context));
+  if (unit_ == AlphaOptions::Unit::squared) check_squares(cells_->sites.exponent);
   const auto enters = [&](double r) { return to_value(r) <= threshold_; };
   if (kind_ != AlphaOptions::Value::alpha)
     lazy_->set(alpha::list_with_other_values(*cells_, kind_, enters, context));

@@ -13,6 +13,59 @@
 namespace ph::test {
 
 using Rational = boost::multiprecision::cpp_rational;
+using RationalPoint = std::vector<Rational>;
+
+inline Rational dot(const RationalPoint& a, const RationalPoint& b) {
+  Rational sum = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
+  return sum;
+}
+inline RationalPoint minus(RationalPoint a, const RationalPoint& b) {
+  for (std::size_t k = 0; k < a.size(); ++k) a[k] -= b[k];
+  return a;
+}
+
+/// The smallest sphere through points, or orthogonal to them, of weights.
+struct ExactSphere {
+  RationalPoint centre;
+  std::vector<Rational> barycentric;  ///< the centre, by point
+  Rational squared_radius;
+};
+
+/// Nothing if the points are affinely dependent.
+inline std::optional<ExactSphere> exact_sphere(const std::vector<RationalPoint>& points,
+                                               const std::vector<Rational>& weights) {
+  const std::size_t m = points.size() - 1;
+  std::vector<RationalPoint> to;
+  for (std::size_t i = 1; i <= m; ++i) to.push_back(minus(points[i], points[0]));
+  // 2 <to_i, Σ x_j to_j> = |to_i|² - w_i + w_0, by Gauss.
+  std::vector<RationalPoint> rows(m, RationalPoint(m + 1));
+  for (std::size_t i = 0; i < m; ++i) {
+    for (std::size_t j = 0; j < m; ++j) rows[i][j] = 2 * dot(to[i], to[j]);
+    rows[i][m] = dot(to[i], to[i]) - weights[i + 1] + weights[0];
+  }
+  for (std::size_t i = 0; i < m; ++i) {
+    std::size_t pivot = i;
+    while (pivot < m && rows[pivot][i] == 0) ++pivot;
+    if (pivot == m) return std::nullopt;
+    std::swap(rows[i], rows[pivot]);
+    for (std::size_t j = 0; j < m; ++j) {
+      if (j == i) continue;
+      const Rational factor = rows[j][i] / rows[i][i];
+      for (std::size_t k = 0; k <= m; ++k) rows[j][k] -= factor * rows[i][k];
+    }
+  }
+  ExactSphere sphere{points[0], {1}, 0};
+  for (std::size_t i = 0; i < m; ++i) {
+    const Rational x = rows[i][m] / rows[i][i];
+    sphere.barycentric.push_back(x);
+    sphere.barycentric[0] -= x;
+    for (std::size_t k = 0; k < sphere.centre.size(); ++k) sphere.centre[k] += x * to[i][k];
+  }
+  const RationalPoint radius = minus(sphere.centre, points[0]);
+  sphere.squared_radius = dot(radius, radius) - weights[0];
+  return sphere;
+}
 
 /// A simplex is a set of points, as bits. It has a value if the Voronoi cells (power cells) of its
 /// points meet: the least power of a point where they do to the points of the simplex. All such
@@ -107,65 +160,33 @@ class AlphaOracle {
   }
 
  private:
-  using Point = std::vector<Rational>;
   struct EmptySphere {
     Rational squared_radius;
     unsigned on;  // the points on it
   };
   static int dim_of(unsigned simplex) { return __builtin_popcount(simplex) - 1; }
-  static Rational dot(const Point& a, const Point& b) {
-    Rational sum = 0;
-    for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
-    return sum;
-  }
-  static Point minus(Point a, const Point& b) {
-    for (std::size_t k = 0; k < a.size(); ++k) a[k] -= b[k];
-    return a;
-  }
-  Rational power(const Point& centre, std::size_t i) const {
-    const Point to = minus(points_[i], centre);
+  Rational power(const RationalPoint& centre, std::size_t i) const {
+    const RationalPoint to = minus(points_[i], centre);
     return dot(to, to) - weights_[i];
   }
 
-  /// The point in the affine hull of a set that has equal powers to its members; nothing if they
-  /// are affinely dependent.
-  std::optional<Point> centre_of(unsigned set) const {
-    std::vector<std::size_t> members;
-    for (std::size_t i = 0; i < points_.size(); ++i)
-      if ((set >> i & 1) != 0) members.push_back(i);
-    const std::size_t m = members.size() - 1;
-    const Point& origin = points_[members[0]];
-    std::vector<Point> to;
-    for (std::size_t i = 1; i <= m; ++i) to.push_back(minus(points_[members[i]], origin));
-    // 2 <to_i, Σ x_j to_j> = |to_i|² - w_i + w_0, by Gauss.
-    std::vector<Point> rows(m, Point(m + 1));
-    for (std::size_t i = 0; i < m; ++i) {
-      for (std::size_t j = 0; j < m; ++j) rows[i][j] = 2 * dot(to[i], to[j]);
-      rows[i][m] = dot(to[i], to[i]) - weights_[members[i + 1]] + weights_[members[0]];
+  std::optional<RationalPoint> centre_of(unsigned set) const {
+    std::vector<RationalPoint> members;
+    std::vector<Rational> weights;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if ((set >> i & 1) == 0) continue;
+      members.push_back(points_[i]);
+      weights.push_back(weights_[i]);
     }
-    for (std::size_t i = 0; i < m; ++i) {
-      std::size_t pivot = i;
-      while (pivot < m && rows[pivot][i] == 0) ++pivot;
-      if (pivot == m) return std::nullopt;
-      std::swap(rows[i], rows[pivot]);
-      for (std::size_t j = 0; j < m; ++j) {
-        if (j == i) continue;
-        const Rational factor = rows[j][i] / rows[i][i];
-        for (std::size_t k = 0; k <= m; ++k) rows[j][k] -= factor * rows[i][k];
-      }
-    }
-    Point centre = origin;
-    for (std::size_t i = 0; i < m; ++i)
-      for (std::size_t k = 0; k < centre.size(); ++k)
-        centre[k] += rows[i][m] / rows[i][i] * to[i][k];
-    return centre;
+    const auto sphere = exact_sphere(members, weights);
+    return sphere ? std::optional(sphere->centre) : std::nullopt;
   }
 
   /// Where the least power is attained the point is the centre of those that are nearest.
   void find_spheres(std::size_t dim) {
     for (unsigned set = 1; set < 1U << points_.size(); ++set) {
       if (__builtin_popcount(set) > static_cast<int>(dim) + 1) continue;
-      const std::optional<Point> centre = centre_of(set);
+      const std::optional<RationalPoint> centre = centre_of(set);
       if (!centre) continue;
       const Rational radius = power(*centre, static_cast<std::size_t>(__builtin_ctz(set)));
       unsigned on = 0;
@@ -179,7 +200,7 @@ class AlphaOracle {
     }
   }
 
-  std::vector<Point> points_;
+  std::vector<RationalPoint> points_;
   std::vector<Rational> weights_;
   std::vector<EmptySphere> spheres_;
   std::map<unsigned, Rational> values_;

@@ -21,12 +21,13 @@ struct Cloud {
 
 /// A few points of some kind: anywhere; on a small grid, where many lie on one sphere, plane or
 /// line, or on one another; on a circle, a sphere or a line; in a plane of space;
-/// on a grid that doubles cannot hold.
+/// on a grid that doubles cannot hold. Of some of each kind there are copies.
 inline Cloud any_cloud(Generator& random, Index most, bool weighted) {
   const Index dim = random.integer(1, 5) == 1 ? 1 : random.integer(2, 3);
   const Index n = random.integer(1, static_cast<int>(most));
   Cloud cloud{"", Points(n, dim), {}};
   const int kind = random.integer(0, 7);
+  const bool has_copies = random.integer(0, 3) == 0;
   static constexpr const char* names[]{"anywhere", "grid",  "small grid",   "sphere",
                                        "line",     "plane", "near a plane", "decimals"};
   cloud.name = names[kind] + std::string(" in R^") + std::to_string(dim);
@@ -48,12 +49,22 @@ inline Cloud any_cloud(Generator& random, Index most, bool weighted) {
     }
     if (kind == 4) x = {s, 2 * s, -s};
     if (kind == 5) x = {s + t, s - t, 2 * t};
-    if (kind == 6) x[2] = 0.3 * x[0] + 0.7 * x[1] + 1e-8 * x[2];
+    if (kind == 6) x[2] = 0.3 * x[0] + 0.7 * x[1] + (i % 2 == 0 ? 1e-8 : 1e-15) * x[2];
     for (Index k = 0; k < dim; ++k) cloud.points(i, k) = x[static_cast<std::size_t>(k)];
+    if (has_copies && i > 0 && random.integer(0, 2) == 0) {
+      const Index of = random.integer(0, static_cast<int>(i) - 1);
+      for (Index k = 0; k < dim; ++k) cloud.points(i, k) = cloud.points(of, k);
+    }
     if (weighted)
       cloud.weights.push_back(random.coin() ? random.integer(-1, 3) : random.real() / 4);
   }
   return cloud;
+}
+
+inline Points times(const Points& points, double factor) {
+  Points result = points;
+  for (double& x : result.coordinates()) x *= factor;
+  return result;
 }
 
 /// Evenly in the unit cube.

@@ -26,12 +26,6 @@ Points in_order(const Points& points, std::span<const Index> order) {
   return result;
 }
 
-Points times(const Points& points, double factor) {
-  Points result = points;
-  for (double& x : result.coordinates()) x *= factor;
-  return result;
-}
-
 TEST(Alpha, EveryEngineFindsTheBarsOfTheOracle) {
   for_each_seed(200, [](Generator& random, bool weighted, std::int64_t field) {
     const Cloud cloud = any_cloud(random, 30, weighted);
@@ -61,54 +55,6 @@ TEST(Alpha, CellsAreThoseOfTheOracle) {
     for (Index i = 0; weighted && i < 25; ++i) cloud.weights.push_back(random.real() / 8);
     check(Alpha(cloud.points, cloud.options()), 3, {field});
   });
-}
-
-TEST(Alpha, ValuesWithinAnIntervalAgreeThoughPointsAreCospherical) {
-  // All points nearly on a sphere: rounding puts many simplices out of order.
-  Generator random(5);
-  Points points(400, 3);
-  for (Index i = 0; i < points.rows(); ++i) {
-    double x[3], norm = 0;
-    for (double& c : x) {
-      c = random.real() - 0.5;
-      norm += c * c;
-    }
-    for (Index k = 0; k < 3; ++k) points(i, k) = x[k] / std::sqrt(norm);
-  }
-  const Alpha alpha(points);
-  check_contract(alpha, 3, 2);
-  const Barcode bars = persistence(alpha);
-  EXPECT_EQ(first_difference(bars, persistence(alpha, {.engine = Engine::cohomology})), "");
-  EXPECT_EQ(bars.bars(2).size(), 1U);
-}
-
-// Eight corners of a cube are on a sphere, but for rounding: signs are those of what is rounded.
-TEST(Alpha, GridsThatDoublesCannotHold) {
-  for (const double step : {0.1, 1.0 / 3, 0.7}) {
-    Points grid(343, 3);
-    for (Index i = 0; i < grid.rows(); ++i)
-      for (Index k = 0; k < 3; ++k)
-        grid(i, k) = 0.3 + step * static_cast<double>(i / (k == 0 ? 49 : k == 1 ? 7 : 1) % 7);
-    const Alpha alpha(grid);
-    check_contract(alpha, 3, 2);
-    EXPECT_EQ(first_difference(persistence(alpha), persistence(alpha, {.engine = Engine::twist})),
-              "");
-  }
-}
-
-// An explicit complex refuses a face that is later than a coface.
-TEST(Alpha, ManySimplicesOfNearlyOneValueAreInOrder) {
-  Generator random(6);
-  Points points(20'000, 3);
-  for (Index i = 0; i < points.rows(); ++i) {
-    double x[3], norm = 0;
-    for (double& c : x) {
-      c = random.real() - 0.5;
-      norm += c * c;
-    }
-    for (Index k = 0; k < 3; ++k) points(i, k) = x[k] / std::sqrt(norm);
-  }
-  EXPECT_NO_THROW(Alpha(points).listed());
 }
 
 TEST(Alpha, CyclesAreCycles) {
@@ -184,20 +130,6 @@ TEST(Alpha, UnitsArePowersOfTwoExactly) {
     for (std::size_t i = 0; i < bars.size(); ++i)
       ASSERT_EQ(scaled[i], (Bar{bars[i].dim, bars[i].birth * unit, bars[i].death * unit}));
   }
-}
-
-TEST(Alpha, ExtremeMagnitudes) {
-  for (const double unit : {1e150, 1e-150, 1e300, 1e-290}) {
-    const Points points = times(uniform_points(60, 3, 2), unit);
-    const Barcode bars = persistence(Alpha(points)),
-                  of_ones = persistence(Alpha(times(points, 1 / unit)));
-    ASSERT_EQ(bars.size(), of_ones.size());
-    for (std::size_t i = 0; i < bars.size(); ++i)
-      EXPECT_NEAR(bars[i].birth / unit, of_ones[i].birth, 1e-12);
-  }
-  expect_error(ErrorKind::bad_data, "magnitudes", [] {
-    Alpha(Points{{1e300, 0, 0}, {1e-300, 0, 0}});
-  });
 }
 
 TEST(Alpha, TranslationOfAGridIsExact) {

@@ -3,6 +3,7 @@
 #include <CGAL/number_utils.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 
 #include "alpha/cgal/kernel.hpp"
@@ -50,8 +51,12 @@ double exact_squared_radius(std::span<const WeightedSite> sites) {
     points[i] = {Number(p.x), Number(p.y), Number(p.z)};
     weights[i] = Number(sites[i].weight);
   }
-  return CGAL::to_double(
-      squared_radius<Number>(std::span(points).first(sites.size()), std::span(weights)));
+  const Number radius =
+      squared_radius<Number>(std::span(points).first(sites.size()), std::span(weights));
+  // What is infinite would never enter.
+  constexpr double largest = std::numeric_limits<double>::max();
+  if (radius > Number(largest)) return largest;
+  return CGAL::to_double(radius);
 }
 
 std::pmr::vector<std::uint32_t> insertion_order(std::size_t sites,

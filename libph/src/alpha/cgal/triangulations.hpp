@@ -25,7 +25,8 @@ struct WeightedSite {
 bool is_inside(std::span<const WeightedSite> others, const WeightedSite& site);
 
 /// The squared radius of the smallest sphere through two to four sites, or orthogonal to them, of
-/// weights. Correctly rounded but for the last bit, however flat they lie.
+/// weights. Correctly rounded but for the last bit, however flat they lie; at most
+/// the largest double.
 double exact_squared_radius(std::span<const WeightedSite> sites);
 
 }  // namespace ph::alpha

@@ -17,6 +17,8 @@ using std::uint32_t;
 
 // Below it a product may have lost bits to underflow.
 constexpr double kTiny = 1e-280;
+// The same of a product of two such.
+constexpr double kSmall = 1e-140;
 
 }  // namespace
 
@@ -63,11 +65,12 @@ double Spheres::careful_radius(const Faces& face, std::size_t count) const {
     points[i] = {scaled(p.x, origin.x), scaled(p.y, origin.y), scaled(p.z, origin.z)};
     weights[i] = DoubleDouble(std::ldexp(sites_.weight(face[i]), -2 * exponent));
   }
-  // How flat it is: what is left of 106 bits must be enough for a double.
+  // How flat it is, or how small beside its weights: what is left of 106 bits must be enough for a
+  // double.
   const Vector<DoubleDouble> u = points[0], v = points[1], normal = cross(u, v);
   const double size = count == 4   ? std::abs(dot(normal, points[2]).high())
                       : count == 3 ? std::sqrt(dot(normal, normal).high())
-                                   : 1;
+                                   : std::sqrt(dot(u, u).high());
   constexpr double flattest = 0x1p-40;
   if (size > flattest) {
     const DoubleDouble radius = squared_radius<DoubleDouble>(
@@ -93,8 +96,8 @@ Sphere Spheres::of_edge(uint32_t a, uint32_t b) const {
   const double bound = 1e-15 * (squared + std::abs(difference)) + kTiny;
   Sphere sphere;
   sphere.beyond = signs<2>({at_a, at_b}, bound, {a, b});
-  sphere.squared_radius =
-      squared > kTiny ? at_b * at_b / (4 * squared) - sites_.weights[a] : careful_radius({a, b}, 2);
+  sphere.squared_radius = squared > kSmall ? at_b * at_b / (4 * squared) - sites_.weights[a]
+                                           : careful_radius({a, b}, 2);
   return sphere;
 }
 
@@ -126,15 +129,16 @@ double Spheres::triangle_radius(uint32_t a, uint32_t b, uint32_t c) const {
   const double longest = std::max(uu, vv);
   // Its error is that of the area, relative to itself.
   constexpr double flat = 0x1p-20;
-  if (area < flat * longest * longest || area < kTiny) return careful_radius({a, b, c}, 3);
+  if (area < flat * longest * longest || area < kSmall) return careful_radius({a, b, c}, 3);
   if (!sites_.is_weighted()) {
     const P w = r - q;
     return uu * vv * dot(w, w) / (4 * area);
   }
-  const double uv = dot(u, v);
   const double U = uu + (sites_.weights[a] - sites_.weights[b]);
   const double V = vv + (sites_.weights[a] - sites_.weights[c]);
-  return (U * (U * vv - V * uv) + V * (V * uu - U * uv)) / (4 * area) - sites_.weights[a];
+  // By differences of vectors: those of numbers as large as U² vv would leave too few places.
+  const P n = U * v - V * u;
+  return dot(n, n) / (4 * area) - sites_.weights[a];
 }
 
 Sphere Spheres::of_tetrahedron(const std::array<uint32_t, 4>& cell) const {
@@ -166,7 +170,7 @@ Sphere Spheres::of_tetrahedron(const std::array<uint32_t, 4>& cell) const {
   Sphere sphere;
   sphere.beyond = signs<4>({at_a, at_b, at_c, at_d}, bound, cell);
   constexpr double flat = 0x1p-20;
-  if (det2 < flat * longest * longest * longest || det2 < kTiny)
+  if (det2 < flat * longest * longest * longest || det2 < kSmall)
     sphere.squared_radius = careful_radius(cell, 4);
   else
     sphere.squared_radius = dot(n, n) / (4 * det2) - weight;

@@ -18,14 +18,13 @@ T squared_radius(std::span<const Vector<T>> points, std::span<const T> weights) 
     return dot(to, to) - weights[i] + weight;
   };
   const Vector<T> u = points[0] - origin;
-  const T a = lifted(0, u), uu = dot(u, u);
-  if (points.size() == 2) return a * a / (T(4) * uu) - weight;
+  const T a = lifted(0, u);
+  if (points.size() == 2) return a * a / (T(4) * dot(u, u)) - weight;
   const Vector<T> v = points[1] - origin;
   const T b = lifted(1, v);
   if (points.size() == 3) {
-    const Vector<T> normal = cross(u, v);
-    const T uv = dot(u, v), vv = dot(v, v);
-    return (a * (a * vv - b * uv) + b * (b * uu - a * uv)) / (T(4) * dot(normal, normal)) - weight;
+    const Vector<T> normal = cross(u, v), n = a * v - b * u;
+    return dot(n, n) / (T(4) * dot(normal, normal)) - weight;
   }
   const Vector<T> w = points[2] - origin;
   const T c = lifted(2, w);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "alpha/sites/hilbert.hpp"
 #include "alpha/sites/power_of_two.hpp"
@@ -81,7 +82,8 @@ void place_along_curve(std::span<const Vector<double>> points, std::span<Placed>
   const Vector<double> size = high - low;
   const double side = std::max({size.x, size.y, size.z});
   constexpr double cells = static_cast<double>((std::uint32_t{1} << bits) - 1);
-  const double scale = side > 0 ? cells / side : 0;
+  // Beside weights the cube may be so small that the quotient overflows.
+  const double scale = side > 0 ? std::min(cells / side, std::numeric_limits<double>::max()) : 0;
   const auto cell = [&](double x) {
     return static_cast<std::uint32_t>(std::clamp(x * scale, 0.0, cells));
   };
