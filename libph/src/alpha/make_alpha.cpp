@@ -7,6 +7,7 @@
 
 #include "alpha/alpha_lazy.hpp"
 #include "alpha/intervals/intervals.hpp"
+#include "alpha/intervals/lemmas.hpp"
 #include "alpha/listed_simplices.hpp"
 #include "alpha/other_values.hpp"
 #include "ph/error.hpp"
@@ -31,6 +32,7 @@ AlphaCells alpha_cells(PointsView points, std::span<const double> weights,
     cells.vertex_values.assign(1, -cells.sites.weights[0] + 0.0);
     cells.vertex_up.assign(1, kCritical);
   }
+  check_lemmas(cells);
   return cells;
 }
 
