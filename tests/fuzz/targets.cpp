@@ -24,6 +24,10 @@ const std::vector<Target>& targets() {
     list.push_back({"vectorise_arguments", &run_vectorise_arguments});
     list.push_back({"vectorise_fit", &run_vectorise_fit});
     list.push_back({"engines", &run_engines});
+#ifdef PH_FUZZ_ALPHA
+    list.push_back({"alpha", &run_alpha});
+    list.push_back({"alpha_signs", &run_alpha_signs});
+#endif
     return list;
   }();
   return all;

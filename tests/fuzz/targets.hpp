@@ -40,5 +40,10 @@ void run_distance_groups(std::string_view bytes);
 void run_vectorise_fit(std::string_view bytes);
 /// Chooses a small filtration; all engines must agree with the oracle, and representatives be some.
 void run_engines(std::string_view bytes);
+// Where there are alpha complexes:
+/// Chooses points, of any doubles; bars and simplices must have the properties of an alpha complex.
+void run_alpha(std::string_view bytes);
+/// Chooses points; the signs and radii of their spheres must be those of rationals.
+void run_alpha_signs(std::string_view bytes);
 
 }  // namespace ph::fuzz
