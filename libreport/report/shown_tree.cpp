@@ -32,6 +32,7 @@ std::optional<MergeTree> tree_of(const ExplicitComplex& complex, const RunContex
 }
 
 std::optional<MergeTree> tree_of(const Alpha& alpha, const RunContext& context) {
+  if (alpha.is_periodic()) return std::nullopt;
   return merge_tree(alpha, context);
 }
 

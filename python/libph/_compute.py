@@ -2,6 +2,7 @@
 """Barcodes of points, distances, images, meshes and filtered complexes."""
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _core
@@ -120,7 +121,8 @@ def rips(X: Any, *, max_dim: int | None = 1, min_dim: int = 0, threshold: float 
 
 
 def alpha(X: Any, *, values: str = "alpha", squared: bool | None = None,
-          weights: ArrayLike | None = None, threshold: float | None = None,
+          weights: ArrayLike | None = None,
+          period: float | Sequence[float | None] | None = None, threshold: float | None = None,
           max_dim: int | None = None, min_dim: int = 0, field: int = 2,
           representatives: str | None = None, loops: str | None = None,
           min_persistence: float = 0.0, cells: bool = True, engine: str = "auto",
@@ -145,6 +147,10 @@ def alpha(X: Any, *, values: str = "alpha", squared: bool | None = None,
     weights : array_like, optional
         The square of each ball's first radius: of an atom, of a grain. What is hidden in others is
         named by ``bars.meta["hidden"]``.
+    period : float or sequence of float, optional
+        Of a periodic space, as a crystal or a simulated box: the length after which each axis
+        closes up, one for all or one an axis; 0 or None where it does not. Only for
+        ``values="alpha"``.
     threshold : float, optional
         The largest value that enters.
     max_dim : int, optional
@@ -176,6 +182,12 @@ def alpha(X: Any, *, values: str = "alpha", squared: bool | None = None,
     >>> ph.alpha([[0, 0, 0], [3, 0, 0]], weights=[1, 4]).dgm(0)
     array([[-4., inf],
            [-1.,  0.]])
+
+    One point of a periodic plane: its ball meets itself along both axes, then fills all.
+
+    >>> bars = ph.alpha([[0, 0]], period=2)
+    >>> bars.births.tolist()
+    [0.0, 1.0, 1.0, 1.4142135623730951]
     """
     return _barcode(alpha_request(locals()))
 

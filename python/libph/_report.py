@@ -26,7 +26,7 @@ _KNOWN = {
     "rips": ("metric", "minkowski_p", "weights", "dtm_neighbors", "weight_exponent", "subsample",
              "subsample_radius", "approximation", "nan", "diagonal", "symmetrise"),
     "cubical": ("construction", "superlevel", "periodic", "nan"),
-    **dict.fromkeys(ALPHA_VALUES, ("squared", "weights", "nan"))}
+    **dict.fromkeys(ALPHA_VALUES, ("squared", "weights", "period", "nan"))}
 _OF_ALL = ("threshold", "field", "max_dim", "representatives")
 
 

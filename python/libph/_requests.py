@@ -225,8 +225,10 @@ def alpha_request(o: dict[str, Any]) -> Request:
     _run.check_names("alpha", o["run"], o)
     value = _options.choice("values", o["values"], ALPHA_VALUES)
     recipe, squared, source = alpha_recipe(o, value, _threshold(o))
+    period = _period(o["period"], source.coordinates or 0)
     meta = _meta(value, o, points=source.points, coordinates=source.coordinates,
                  squared=squared, weights=None if o["weights"] is None else "given",
+                 period=tuple(period) if any(period) else None,
                  nan=None if o["nan"] == "error" else o["nan"])
     return Request(recipe, _task_of(o, _loops_of(o, "plain")), o["run"], meta)
 
@@ -255,9 +257,25 @@ def alpha_recipe(o: dict[str, Any], value: str = "alpha", threshold: float | Non
             weights = weights[source.ids]
     elif threshold is not None and threshold < 0:
         raise _options.refuse("threshold", threshold, "a radius or its square, at least 0")
-    recipe = _core.AlphaRecipe(source.space, value, squared, weights,
+    period = _period(o.get("period"), dims or 0)
+    if any(period) and value != "alpha":
+        raise UsageError(f"period: found values={value!r}, expected 'alpha'")
+    recipe = _core.AlphaRecipe(source.space, value, squared, weights, period,
                                math.inf if threshold is None else threshold, source.ids)
     return recipe, squared, source
+
+
+def _period(period: Any, axes: int) -> list[float]:
+    """A length for each axis, 0 where none closes up; empty: none does."""
+    if period is None:
+        return []
+    expected = f"a length, or one for each of {axes} axes, 0 or None where it does not close up"
+    if isinstance(period, (str, bytes)) or np.ndim(period) > 1:
+        raise _options.refuse("period", period, expected)
+    given = [period] * axes if np.ndim(period) == 0 else list(period)
+    if len(given) != axes:
+        raise _options.refuse("period", period, expected)
+    return [0.0 if length is None else _finite("period", length) for length in given]
 
 
 def cubical_request(o: dict[str, Any]) -> Request:

@@ -41,11 +41,13 @@ AlphaOptions::Value value_named(const std::string& name) {
 
 std::unique_ptr<AlphaRecipe> recipe_of(std::shared_ptr<MetricSpace> space, const std::string& value,
                                        bool squared, const std::optional<py::buffer>& weights,
-                                       double threshold, const std::optional<py::buffer>& ids) {
+                                       std::vector<double> period, double threshold,
+                                       const std::optional<py::buffer>& ids) {
   AlphaOptions options;
   options.value = value_named(value);
   options.unit = squared ? AlphaOptions::Unit::squared : AlphaOptions::Unit::radius;
   if (weights) options.weights = vector_of<double>(*weights);
+  options.period = std::move(period);
   options.threshold = threshold;
   return std::make_unique<AlphaRecipe>(std::move(space), std::move(options),
                                        ids ? vector_of<Index>(*ids) : std::vector<Index>());
@@ -90,7 +92,7 @@ void write_surface_file(const std::string& path, const py::buffer& points, Index
 void bind_alpha(py::module_& m) {
   py::class_<AlphaRecipe, Recipe>(m, "AlphaRecipe")
       .def(py::init(&recipe_of), py::arg("space"), py::arg("value"), py::arg("squared"),
-           py::arg("weights"), py::arg("threshold"), py::arg("ids"));
+           py::arg("weights"), py::arg("period"), py::arg("threshold"), py::arg("ids"));
   m.def("alpha_support", &alpha_support);
   m.def("surface", &surface_of, py::arg("recipe"), py::arg("value"), py::arg("is_wrap"),
         py::arg("run"));

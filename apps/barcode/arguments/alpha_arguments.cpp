@@ -46,6 +46,18 @@ void add_alpha_options(CLI::App& app, Arguments& a) {
                 "the square of each ball's first radius, one number a point (default: all 0); of "
                 "complex alpha",
                 a.weights);
+  app::add_value(app, "--period", "L|L,L,…",
+                 "points of a periodic space: the length after which each axis closes up, one for "
+                 "all or one an axis; 0: it does not",
+                 [&a](const std::string& text) {
+                   a.period = app::parse_numbers("--period", text);
+                   for (const double length : a.period)
+                     if (!(length >= 0 && std::isfinite(length)))
+                       throw Error(ErrorKind::usage,
+                                   fmt::format("--period: found '{}', expected finite numbers of "
+                                               "at least 0",
+                                               text));
+                 });
   const auto add_surfaces = [&](const std::string& option, const std::string& what, bool is_wrap) {
     app.add_option_function<std::vector<std::string>>(
            option,
@@ -81,6 +93,14 @@ void check_alpha_arguments(Arguments& a) {
   if (!a.surfaces.empty() && !is_alpha)
     throw Error(ErrorKind::usage, fmt::format("{}: found --complex {}, expected alpha",
                                               a.surfaces[0].option(), name));
+  const bool is_periodic = std::ranges::any_of(a.period, [](double length) { return length > 0; });
+  if (is_periodic && !is_alpha)
+    throw Error(ErrorKind::usage,
+                fmt::format("--period: found --complex {}, expected alpha", name));
+  if (is_periodic && !a.surfaces.empty())
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: found --period, expected a space that does not close up",
+                            a.surfaces[0].option()));
   if (!a.alpha_unit)
     a.alpha_unit = is_weighted ? AlphaOptions::Unit::squared : AlphaOptions::Unit::radius;
   if (is_weighted && a.weights == "-" && std::ranges::count(a.inputs, "-") > 0)

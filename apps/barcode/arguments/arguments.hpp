@@ -68,7 +68,8 @@ struct Arguments {
   std::optional<Index> dtm;    // neighbours
   std::optional<WeightExponent> weight_exponent;
   std::optional<AlphaOptions::Unit> alpha_unit;
-  std::string weights;  // path; empty: none
+  std::string weights;         // path; empty: none
+  std::vector<double> period;  // one for all axes, or one an axis; empty: none closes up
   CubicalOptions cubical;
   std::optional<double> voxel;  // of points, in their unit
   VoxelValue voxel_value = VoxelValue::distance;

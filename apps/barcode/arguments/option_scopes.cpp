@@ -54,6 +54,7 @@ constexpr std::array kScopes{
     OptionScope{"weight-exponent", kRips, kOfRips},
     OptionScope{"alpha-values", kAlpha, kOfAlpha},
     OptionScope{"weights", kAlpha, kOfAlpha},
+    OptionScope{"period", kAlpha, kOfAlpha},
     OptionScope{"alpha-shape", kAlpha, kOfAlpha},
     OptionScope{"wrap", kAlpha, kOfAlpha},
     OptionScope{"max-dim", kComputed, kOfInputs},

@@ -47,6 +47,14 @@ BuiltComplex build_alpha(const Points& points, std::vector<double> weights,
   options.value = value_of(arguments.complex);
   options.unit = *arguments.alpha_unit;
   options.weights = std::move(weights);
+  options.period = arguments.period;
+  if (options.period.size() == 1)
+    options.period.assign(static_cast<std::size_t>(points.cols()), options.period[0]);
+  if (!options.period.empty() && std::ssize(options.period) != points.cols())
+    throw Error(ErrorKind::usage,
+                fmt::format("--period: found {} numbers for {} axes, expected one for all, or one "
+                            "an axis",
+                            options.period.size(), points.cols()));
   options.threshold = arguments.threshold.value_or(kInfinity);
   if (options.weights.empty() && options.threshold < 0)
     throw Error(ErrorKind::usage, fmt::format("--threshold: found {}, expected a radius or its "

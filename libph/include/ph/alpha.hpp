@@ -32,6 +32,9 @@ struct AlphaOptions {
   /// One for each point, or none: the square of a ball's radius where that is 0 at first. The power
   /// distance |x - p|² - w takes the place of the square of the distance.
   std::vector<double> weights = {};
+  /// Of a periodic space: the length of each axis after which it closes up, or 0 of one that does
+  /// not. None: no axis does. Points may lie anywhere; coordinates are taken modulo the lengths.
+  std::vector<double> period = {};
   /// What is asked of a simplex of the triangulation, in radii.
   enum class Value {
     alpha,  ///< that its balls meet, each cut to its Voronoi cell
@@ -63,6 +66,15 @@ struct AlphaOptions {
 /// Other values than alpha are for points without weights, and are computed simplex by simplex, by
 /// engines for any filtration: they take several times as long.
 ///
+/// In a periodic space the balls grow around a torus, or around a cylinder if not all axes close
+/// up. Any number of points will do, one as well. A cell is known by its points all the same,
+/// though it may have one of them several times (an edge of a point with its own image is [v, v])
+/// and two cells may have the same ones. Coordinates of axes that close up, and their lengths, are
+/// rounded to multiples of a power of two, at most 2^-50 of the diagonal of the box, so that
+/// translates are the same to the last bit; numbers that are such multiples stay what they are.
+/// Points that are the same modulo the lengths are copies. On a torus the complex ends with the
+/// Betti numbers 1, 3, 3, 1, in the plane 1, 2, 1.
+///
 /// Holds the triangulation: about 110 bytes a tetrahedron. What generic engines need, each simplex
 /// by itself, is made once, by `prepare` or else when a cell is first asked for. Order: (value,
 /// dimension, vertices in an order of space, the last one first).
@@ -75,9 +87,10 @@ class Alpha {
   /// O(n log n) for points that lie evenly, O(n²) at worst. On threads, but for the triangulation.
   /// @param context outlives the filtration.
   /// @throws Error (usage) on points of R^4 or beyond, weights that are not one a point, and radii
-  ///         or other values of weighted points; Error (bad_data) on numbers that are not finite,
-  ///         on coordinates whose magnitudes differ beyond what doubles can square, and of squared
-  ///         values on coordinates of which no double can be the square; Error (resource,
+  ///         or other values of weighted points; on lengths that are not one an axis, negative or
+  ///         not finite, and other values in a periodic space; Error (bad_data) on numbers that are
+  ///         not finite, on coordinates whose magnitudes differ beyond what doubles can square, and
+  ///         of squared values on coordinates of which no double can be the square; Error (resource,
   ///         cancelled, not_built_in).
   explicit Alpha(PointsView points, const AlphaOptions& options = {},
                  const RunContext& context = default_context());
@@ -103,11 +116,11 @@ class Alpha {
   static bool precedes(Cell a, Cell b) { return ExplicitComplex::precedes(a, b); }
   std::size_t slot_count() const { return listed().slot_count(); }
   static std::size_t slot(Cell c) { return ExplicitComplex::slot(c); }
-  static bool edges_join_vertices() { return true; }
+  /// Not in a periodic space: an edge may be a loop.
+  bool edges_join_vertices() const { return !is_periodic_; }
   static CellKind cell_kind() { return CellKind::vertices; }
-  void append_input_cell(int dim, Cell cell, std::vector<Index>& numbers) const {
-    listed().append_input_cell(dim, cell, numbers);
-  }
+  /// In a periodic space a point may come several times.
+  void append_input_cell(int dim, Cell cell, std::vector<Index>& numbers) const;
   template <class Visit>
   void for_each_cell(int dim, Visit&& visit) const {
     listed().for_each_cell(dim, visit);
@@ -129,6 +142,8 @@ class Alpha {
   AlphaOptions::Value value_kind() const { return kind_; }
   AlphaOptions::Unit unit() const { return unit_; }
   bool is_weighted() const;
+  /// Whether an axis closes up.
+  bool is_periodic() const { return is_periodic_; }
 
  private:
   struct Lazy;
@@ -138,6 +153,7 @@ class Alpha {
   AlphaOptions::Unit unit_;
   AlphaOptions::Value kind_;
   double threshold_;
+  bool is_periodic_;
   int top_dim_ = -1;
 };
 
@@ -152,7 +168,8 @@ struct SurfaceMesh {
 /// The surface of the simplices up to a value, in the unit of the complex: what the balls of that
 /// radius enclose, as a polyhedron. Of points in a plane all triangles up to it, counterclockwise
 /// if they are points of R². O(triangles · log). @throws Error (usage) on
-/// NaN and on values other than alpha.
+/// NaN, on values other than alpha, and in a periodic space: a triangle across a face of the box
+/// has no points for its corners.
 SurfaceMesh alpha_shape(const Alpha& alpha, double value);
 
 /// The same of the wrap complex (Edelsbrunner, Surface reconstruction by wrapping finite sets in

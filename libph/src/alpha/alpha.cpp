@@ -38,13 +38,24 @@ void Alpha::prepare(const RunContext& context) const {
   if (lazy_->ready.load(std::memory_order_acquire) != nullptr) return;
   const std::lock_guard lock(lazy_->mutex);
   if (lazy_->listed) return;
-  lazy_->set(alpha::list_simplices(
-      *cells_, [&](double r) { return to_value(r) <= threshold_; }, context));
+  const auto enters = [&](double r) { return to_value(r) <= threshold_; };
+  lazy_->set(cells_->is_periodic
+                 ? alpha::list_cells(*cells_, enters, lazy_->vertices, context)
+                 : alpha::list_simplices(*cells_, enters, context));
 }
 
 const ExplicitComplex& Alpha::listed() const {
   prepare(*lazy_->context);
   return *lazy_->ready.load(std::memory_order_acquire);
+}
+
+void Alpha::append_input_cell(int dim, Cell cell, std::vector<Index>& numbers) const {
+  const ExplicitComplex& all = listed();
+  all.append_input_cell(dim, cell, numbers);
+  if (!cells_->is_periodic) return;
+  const auto vertices = lazy_->vertices.simplex(static_cast<std::size_t>(numbers.back()));
+  numbers.pop_back();
+  numbers.insert(numbers.end(), vertices.begin(), vertices.end());
 }
 
 }  // namespace ph

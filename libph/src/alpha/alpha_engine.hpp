@@ -15,7 +15,7 @@ struct AlphaEngine {
   static bool can_run(const Alpha& alpha, const Task& task) {
     return alpha.value_kind() == AlphaOptions::Value::alpha && !task.zero_length &&
            (task.representatives == Representatives::none ||
-            task.representatives == Representatives::cycles);
+            (task.representatives == Representatives::cycles && !alpha.is_periodic()));
   }
   static Suitability suitability(const Alpha&, const Task&) {
     return {6, "an alpha complex is paired interval by interval"};

@@ -19,6 +19,7 @@ struct Alpha::Lazy {
   std::mutex mutex;
   std::atomic<const ExplicitComplex*> ready{nullptr};
   std::optional<ExplicitComplex> listed;
+  SimplexList vertices;  ///< by cell as listed, of a periodic space
   const RunContext* context;
 };
 

@@ -76,6 +76,118 @@ ExplicitComplex list_simplices(const AlphaCells& cells, const Enters& enters,
   return ExplicitComplex::from_simplices(std::move(list), {}, context);
 }
 
+namespace {
+
+/// Cells of a Delta-complex with their boundaries.
+class CellList {
+ public:
+  CellList(const AlphaCells& cells, const Enters& enters, SimplexList& vertices,
+           const RunContext& context)
+      : cells_(cells),
+        enters_(enters),
+        vertices_(vertices),
+        ticker_(context, "cells"),
+        vertex_rows_(cells.sites.size(), kMissing, &context.memory),
+        edge_rows_(cells.edge_states.size(), kMissing, &context.memory),
+        facet_rows_(4 * cells.triangulation.size(), kMissing, &context.memory) {}
+
+  BoundaryMatrix run() {
+    for (uint32_t v = 0; v < cells_.sites.size(); ++v)
+      vertex_rows_[v] = add({&v, 1}, cells_.vertex_value(v), {});
+    add_copies();
+    add_edges();
+    if (cells_.dim() > 1) add_facets();
+    for (uint32_t t = 0; t < cells_.triangulation.size(); ++t) {
+      const auto size = static_cast<std::size_t>(cells_.dim()) + 1;
+      const auto& cell = cells_.triangulation.cells[t];
+      auto boundary = size == 2 ? boundary_of_edge(cell) : std::array<Index, 4>();
+      for (uint32_t k = 0; size > 2 && k < size; ++k) boundary[k] = facet_row(4 * t + k);
+      add(std::span(cell).first(size), cells_.cell_values[t], std::span(boundary).first(size));
+    }
+    return std::move(matrix_);
+  }
+
+ private:
+  static constexpr Index kMissing = -1;
+
+  /// @param boundary its facets, in the order of the vertices that they lack. @return its row.
+  Index add(std::span<const uint32_t> sites, double value, std::span<const Index> boundary) {
+    if (!enters_(value)) return kMissing;
+    ticker_.tick();
+    const auto row = static_cast<Index>(matrix_.dims.size());
+    matrix_.dims.push_back(static_cast<int>(sites.size()) - 1);
+    matrix_.values.push_back(value);
+    const bool is_loop = boundary.size() == 2 && boundary[0] == boundary[1];
+    for (std::size_t k = 0; k < boundary.size() && !is_loop; ++k) {
+      matrix_.rows.push_back(boundary[k]);
+      matrix_.incidences.push_back(k % 2 == 0 ? 1 : -1);
+    }
+    matrix_.offsets.push_back(matrix_.rows.size());
+    std::array<Index, 4> numbers{};
+    for (std::size_t i = 0; i < sites.size(); ++i) numbers[i] = cells_.sites.input[sites[i]];
+    std::sort(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(sites.size()));
+    vertices_.add(std::span(numbers).first(sites.size()), value);
+    return row;
+  }
+  void add_copies() {
+    if (!enters_(0)) return;
+    for (const auto& [copy, site] : cells_.sites.copies) {
+      const Index row = add({&site, 1}, 0, {});
+      vertices_.vertices.back() = Index{copy};
+      const std::array both{site, site};
+      add(both, 0, std::array{row, vertex_rows_[site]});
+      vertices_.vertices.back() = std::max(Index{copy}, Index{cells_.sites.input[site]});
+      *(vertices_.vertices.end() - 2) = std::min(Index{copy}, Index{cells_.sites.input[site]});
+    }
+  }
+  template <class Ends>
+  std::array<Index, 4> boundary_of_edge(const Ends& ends) const {
+    return {vertex_rows_[ends[1]], vertex_rows_[ends[0]]};
+  }
+  void add_edges() {
+    for (std::size_t e = 0; e < cells_.edge_states.size(); ++e) {
+      const auto& ends = cells_.edges.ends[e];
+      const auto boundary = boundary_of_edge(ends);
+      edge_rows_[e] = add(ends, cells_.edge_states[e].value, std::span(boundary).first(2));
+    }
+  }
+  void add_facets() {
+    const auto size = static_cast<std::size_t>(cells_.dim());
+    for (uint32_t code = 0; code < facet_rows_.size(); ++code) {
+      if ((code & 3) > size || cells_.across(code) < code) continue;  // kNone is larger than any
+      const auto v = cells_.facet_vertices(code);
+      auto boundary = size == 2 ? boundary_of_edge(v) : std::array<Index, 4>();
+      if (size == 3) {
+        const auto& places = kFacetPlaces[code & 3];
+        for (unsigned i = 0; i < 3; ++i)
+          boundary[i] =
+              edge_rows_[cells_.edges.of_cell[code >> 2][kEdgeBetween[places[(i + 1) % 3]]
+                                                                     [places[(i + 2) % 3]]]];
+      }
+      facet_rows_[code] =
+          add(std::span(v).first(size), facet_value(cells_, code), std::span(boundary).first(size));
+    }
+  }
+  Index facet_row(uint32_t code) const { return facet_rows_[std::min(code, cells_.across(code))]; }
+
+  const AlphaCells& cells_;
+  const Enters& enters_;
+  SimplexList& vertices_;
+  Ticker ticker_;
+  BoundaryMatrix matrix_;
+  // By site, by edge, and by the usual name of a facet.
+  std::pmr::vector<Index> vertex_rows_, edge_rows_, facet_rows_;
+};
+
+}  // namespace
+
+ExplicitComplex list_cells(const AlphaCells& cells, const Enters& enters, SimplexList& vertices,
+                           const RunContext& context) {
+  vertices = {};
+  const BoundaryMatrix matrix = CellList(cells, enters, vertices, context).run();
+  return ExplicitComplex::from_boundary(matrix, {}, context);
+}
+
 int top_dim(const AlphaCells& cells, const Enters& enters) {
   for (int dim = cells.dim(); dim >= 0; --dim) {
     bool is_there = dim == 1 && !cells.sites.copies.empty() && enters(0);

@@ -15,6 +15,11 @@ using Enters = std::function<bool(double)>;
 ExplicitComplex list_simplices(const AlphaCells& cells, const Enters& enters,
                                const RunContext& context);
 
+/// The same of a periodic space, whose cells are not known by their vertices.
+/// @param vertices gets those of each cell, ascending.
+ExplicitComplex list_cells(const AlphaCells& cells, const Enters& enters, SimplexList& vertices,
+                           const RunContext& context);
+
 /// The highest dimension of a simplex that enters; -1: none does.
 int top_dim(const AlphaCells& cells, const Enters& enters);
 

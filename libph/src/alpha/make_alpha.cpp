@@ -3,36 +3,69 @@
 // CGAL is used here and nowhere else. The rest of the folder belongs to ph::core.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "alpha/alpha_lazy.hpp"
+#include "alpha/intervals/frames.hpp"
 #include "alpha/intervals/intervals.hpp"
 #include "alpha/intervals/lemmas.hpp"
 #include "alpha/listed_simplices.hpp"
 #include "alpha/other_values.hpp"
+#include "alpha/periodic/triangulate_periodic.hpp"
 #include "ph/error.hpp"
 
 namespace ph {
 namespace alpha {
+namespace {
 
-AlphaCells alpha_cells(PointsView points, std::span<const double> weights,
-                       const RunContext& context) {
-  std::pmr::memory_resource* const memory = &context.memory;
-  AlphaCells cells(sites_of(points, weights, context), memory);
-  cells.triangulation = triangulate(cells.sites, cells.hidden, context);
+void find_intervals(AlphaCells& cells, Images* images, const RunContext& context) {
   if (cells.dim() > 0) {
     cells.cell_values.resize(cells.triangulation.size());
     cells.beyond.resize(cells.triangulation.size());
     if (cells.dim() == 3)
-      find_intervals_of_space(cells, context);
+      cells.edges = number_edges(cells.triangulation, cells.sites.size(), images, context);
+    const Frames frames(cells, images);
+    if (cells.dim() == 3)
+      find_intervals_of_space(cells, frames, context);
     else
-      find_intervals_of_plane(cells, context);
-    make_monotone(cells, context);
+      find_intervals_of_plane(cells, frames, context);
+    make_monotone(cells, frames, context);
   } else if (cells.sites.is_weighted() && cells.dim() == 0) {
     cells.vertex_values.assign(1, -cells.sites.weights[0] + 0.0);
     cells.vertex_up.assign(1, kCritical);
   }
-  check_lemmas(cells);
+}
+
+}  // namespace
+
+AlphaCells alpha_cells(PointsView points, std::span<const double> weights,
+                       std::span<const double> period, const RunContext& context) {
+  const bool is_periodic = std::ranges::any_of(period, [](double length) { return length != 0; });
+  std::optional<Folded> folded;
+  double largest = 0;
+  if (is_periodic) {
+    folded = fold_points(points, weights, period);
+    points = folded->points;
+    largest = folded->box.size;
+  }
+  std::pmr::memory_resource* const memory = &context.memory;
+  AlphaCells cells(sites_of(points, weights, context, largest), memory);
+  cells.is_periodic = is_periodic && cells.sites.size() > 0;
+  std::optional<Images> images;
+  if (cells.is_periodic) {
+    auto periodic = triangulate_periodic(
+        cells.sites, folded->box.times_power_of_two(-cells.sites.exponent), context);
+    cells.triangulation = std::move(periodic.triangulation);
+    images.emplace(std::move(periodic.images));
+  } else {
+    cells.triangulation = triangulate(cells.sites, context);
+  }
+  folded.reset();
+  if (cells.sites.is_weighted()) remove_hidden(cells.sites, cells.triangulation, cells.hidden);
+  find_intervals(cells, images ? &*images : nullptr, context);
+  if (!images) check_lemmas(cells);
   return cells;
 }
 
@@ -57,7 +90,8 @@ Alpha::Alpha(PointsView points, const AlphaOptions& options, const RunContext& c
     : lazy_(std::make_shared<Lazy>(context)),
       unit_(options.unit),
       kind_(options.value),
-      threshold_(options.threshold) {
+      threshold_(options.threshold),
+      is_periodic_(std::ranges::any_of(options.period, [](double l) { return l != 0; })) {
   if (std::isnan(threshold_))
     throw Error(ErrorKind::usage, "threshold: found nan, expected a number");
   if (!options.weights.empty() && unit_ == AlphaOptions::Unit::radius)
@@ -68,8 +102,12 @@ Alpha::Alpha(PointsView points, const AlphaOptions& options, const RunContext& c
     throw Error(ErrorKind::usage,
                 "alpha complex of weighted points: found values other than alpha, which are for "
                 "points without weights");
+  if (is_periodic_ && kind_ != AlphaOptions::Value::alpha)
+    throw Error(ErrorKind::usage,
+                "alpha complex of a periodic space: found values other than alpha, which are for "
+                "spaces that do not close up");
   cells_ = std::make_shared<const alpha::AlphaCells>(
-      alpha::alpha_cells(points, options.weights, context));
+      alpha::alpha_cells(points, options.weights, options.period, context));
   if (unit_ == AlphaOptions::Unit::squared) check_squares(cells_->sites.exponent);
   const auto enters = [&](double r) { return to_value(r) <= threshold_; };
   if (kind_ != AlphaOptions::Value::alpha)

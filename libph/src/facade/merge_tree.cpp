@@ -162,6 +162,8 @@ MergeTree merge_tree(const Cubical& cubical, const RunContext& context) {
 }
 
 MergeTree merge_tree(const Alpha& alpha, const RunContext& context) {
+  if (alpha.is_periodic())
+    throw Error(ErrorKind::usage, "merge tree: found a periodic space, expected one that is not");
   alpha.prepare(context);
   return tree_of(alpha, context);
 }

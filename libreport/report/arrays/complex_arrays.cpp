@@ -102,7 +102,8 @@ ComplexArrays complex_arrays(const AnyComplex& complex, std::size_t count,
   if (const auto* rips = std::get_if<Rips>(&complex)) return arrays_of(rips->graph(), count, ids);
   if (const auto* listed = std::get_if<ExplicitComplex>(&complex))
     return arrays_of(*listed, count, context);
-  if (const auto* alpha = std::get_if<Alpha>(&complex)) {
+  // Edges that go round a periodic space would be drawn across it.
+  if (const auto* alpha = std::get_if<Alpha>(&complex); alpha && !alpha->is_periodic()) {
     alpha->prepare(context);
     return arrays_of(*alpha, count, context);
   }

@@ -59,6 +59,7 @@ def rows(Row):
         "--weight-exponent": Row("--weight-exponent", "2"),
         "--alpha-values": Row("--alpha-values", "squared"),
         "--weights": Row("--weights", "weights.txt", unfit="weights.txt|" + POINTS),
+        "--period": Row("--period", "3"),
         "--alpha-shape": Row("--alpha-shape", "0.5=x.ply"),
         "--wrap": Row("--wrap", "0.5=x.off"),
         "--max-dim": Row("--max-dim", "0"),

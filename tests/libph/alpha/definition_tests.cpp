@@ -5,6 +5,7 @@
 
 #include "libph/alpha/alpha_oracle.hpp"
 #include "libph/alpha/alpha_support.hpp"
+#include "libph/alpha/expect_bars.hpp"
 #include "support/for_each_seed.hpp"
 
 namespace ph::test {
@@ -16,31 +17,6 @@ double tolerance(const Cloud& cloud) {
   most *= most;
   for (const double w : cloud.weights) most = std::max(most, std::abs(w));
   return 1e-13 * most;
-}
-
-bool is_near(double found, const Rational& exact, double absolute) {
-  const auto expected = static_cast<double>(exact);
-  return std::abs(found - expected) <= absolute + 1e-12 * std::abs(expected);
-}
-
-/// Takes out one of the bars by one; what is left of those found must have no length.
-void expect_bars(const Barcode& found, const std::vector<AlphaOracle::OracleBar>& exact,
-                 double absolute) {
-  std::vector<Bar> left(found.begin(), found.end());
-  for (const auto& bar : exact) {
-    if (bar.death && static_cast<double>(*bar.death - bar.birth) <= 4 * absolute) continue;
-    const auto at = std::ranges::find_if(left, [&](const Bar& b) {
-      return b.dim == bar.dim && is_near(b.birth, bar.birth, absolute) &&
-             b.is_infinite() == !bar.death &&
-             (!bar.death || is_near(b.death, *bar.death, absolute));
-    });
-    ASSERT_NE(at, left.end()) << "H" << bar.dim << " [" << static_cast<double>(bar.birth) << ", "
-                              << (bar.death ? static_cast<double>(*bar.death) : kInfinity) << ")";
-    left.erase(at);
-  }
-  for (const Bar& bar : left)
-    EXPECT_LE(bar.persistence(), 8 * absolute + 1e-12 * std::abs(bar.death))
-        << "H" << bar.dim << " [" << bar.birth << ", " << bar.death << ")";
 }
 
 void check_definition(const Cloud& cloud) {

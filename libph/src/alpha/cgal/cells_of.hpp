@@ -14,9 +14,9 @@ namespace ph::alpha {
 /// @param insert called with (site, where to begin): gives where the next one is to begin.
 /// @param bytes what CGAL holds, which the budget does not see by itself.
 template <class Start, class Insert, class Bytes>
-void insert_sites(std::size_t sites, const RunContext& context, MemoryClaim& claim, Insert&& insert,
-                  Bytes&& bytes) {
-  Ticker ticker(context, "Delaunay triangulation", sites);
+void insert_sites(const Sites& sites, const RunContext& context, MemoryClaim& claim,
+                  Insert&& insert, Bytes&& bytes) {
+  Ticker ticker(context, "Delaunay triangulation", sites.size());
   Start start{};
   constexpr std::size_t often = 256;
   std::size_t inserted = 0;

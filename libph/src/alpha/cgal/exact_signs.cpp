@@ -42,6 +42,10 @@ bool is_inside(std::span<const WeightedSite> others, const WeightedSite& site) {
   return found == CGAL::ON_BOUNDED_SIDE;
 }
 
+bool are_collinear(const std::array<Vector<double>, 3>& points) {
+  return CGAL::collinear(point_of(points[0]), point_of(points[1]), point_of(points[2]));
+}
+
 double exact_squared_radius(std::span<const WeightedSite> sites) {
   using Number = CGAL::Exact_rational;
   std::array<Vector<Number>, 4> points;
@@ -59,20 +63,20 @@ double exact_squared_radius(std::span<const WeightedSite> sites) {
   return CGAL::to_double(radius);
 }
 
-std::pmr::vector<std::uint32_t> insertion_order(std::size_t sites,
+std::pmr::vector<std::uint32_t> insertion_order(const Sites& sites,
                                                 std::pmr::memory_resource* memory) {
   constexpr std::size_t few = 512;  // of the first round
   int rounds = 1;
-  for (std::size_t left = sites; left > few; left /= 8) ++rounds;
+  for (std::size_t left = sites.size(); left > few; left /= 8) ++rounds;
   std::mt19937_64 random(7);  // the same for all
-  std::pmr::vector<std::uint8_t> round(sites, memory);
+  std::pmr::vector<std::uint8_t> round(sites.size(), memory);
   for (std::uint8_t& r : round)
     for (r = 0; r + 1 < rounds && (random() & 7) == 0;) ++r;
   std::pmr::vector<std::uint32_t> order(memory);
-  order.reserve(sites);
+  order.reserve(sites.size());
   for (int r = rounds - 1; r >= 0; --r)
-    for (std::uint32_t site = 0; site < sites; ++site)
-      if (round[site] == r) order.push_back(site);
+    for (std::uint32_t i = 0; i < sites.size(); ++i)
+      if (round[i] == r) order.push_back(sites.path.empty() ? i : sites.path[i]);
   return order;
 }
 

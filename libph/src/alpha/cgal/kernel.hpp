@@ -17,8 +17,8 @@ inline Kernel::Point_3 point_of(const Vector<double>& p) { return {p.x, p.y, p.z
 
 /// Sites in the order of a biased randomised insertion (Amenta, Choi, Rote, Incremental
 /// constructions con BRIO, 2003): rounds of about eight times as many sites as the one before, each
-/// along the curve.
-std::pmr::vector<std::uint32_t> insertion_order(std::size_t sites,
+/// along their path.
+std::pmr::vector<std::uint32_t> insertion_order(const Sites& sites,
                                                 std::pmr::memory_resource* memory);
 
 }  // namespace ph::alpha

@@ -57,7 +57,7 @@ Triangulation build(const Sites& sites, PointOf&& point_of_site, const RunContex
     vertex->info() = site;
     return vertex->face();
   };
-  insert_sites<Face>(sites.size(), context, claim, insert, [&] {
+  insert_sites<Face>(sites, context, claim, insert, [&] {
     return dt.tds().faces().capacity() * sizeof(typename Dt::Face) +
            dt.tds().vertices().capacity() * sizeof(typename Dt::Vertex);
   });

@@ -68,7 +68,7 @@ Triangulation build(const Sites& sites, PointOf&& point_of_site, const RunContex
     vertex->info() = site;
     return vertex->cell();
   };
-  insert_sites<Cell>(sites.size(), context, claim, insert, [&] {
+  insert_sites<Cell>(sites, context, claim, insert, [&] {
     return dt.tds().cells().capacity() * sizeof(typename Dt::Cell) +
            dt.tds().vertices().capacity() * sizeof(typename Dt::Vertex);
   });

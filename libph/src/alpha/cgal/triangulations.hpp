@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <array>
 #include <memory_resource>
 #include <span>
 #include <vector>
@@ -23,6 +24,9 @@ struct WeightedSite {
 /// affinely independent. With weights: has a negative power to the smallest sphere that is
 /// orthogonal to them. Exact.
 bool is_inside(std::span<const WeightedSite> others, const WeightedSite& site);
+
+/// Whether three points lie on one line. Exact.
+bool are_collinear(const std::array<Vector<double>, 3>& points);
 
 /// The squared radius of the smallest sphere through two to four sites, or orthogonal to them, of
 /// weights. Correctly rounded but for the last bit, however flat they lie; at most

@@ -16,16 +16,45 @@ using std::uint32_t;
 /// The edges of a cell that have one smaller vertex: 8 · cell + edge.
 using Slot = uint32_t;
 
+/// The edges of a piece of the vertices, by number from 0.
+struct PieceOfEdges {
+  using Ends = std::array<uint32_t, 2>;
+  using allocator_type = std::pmr::polymorphic_allocator<>;
+  explicit PieceOfEdges(allocator_type memory) : ends(memory), frames(memory) {}
+  PieceOfEdges(PieceOfEdges&& other, allocator_type memory)
+      : ends(std::move(other.ends), memory), frames(std::move(other.frames), memory) {}
+
+  /// The edge of which one is a translate: most likely `candidate`, else one from `first` on; the
+  /// next number if there is none.
+  uint32_t translate_of(const Ends& frame, uint32_t larger, uint32_t candidate, uint32_t first,
+                        const Images& images) const {
+    const auto translation = [&](const Ends& e) {
+      return images.translation[e[1]] - images.translation[e[0]];
+    };
+    if (translation(frames[candidate]) == translation(frame)) return candidate;
+    auto number = static_cast<uint32_t>(ends.size());
+    for (uint32_t e = first; e < ends.size(); ++e)
+      if (ends[e][1] == larger && translation(frames[e]) == translation(frame)) number = e;
+    return number;
+  }
+
+  std::pmr::vector<Ends> ends;
+  std::pmr::vector<Ends> frames;  // of a periodic space: where they are
+};
+
 /// Where an edge was met before: by its larger vertex, the smaller one and a number.
 class MetEdges {
  public:
   MetEdges(std::size_t sites, std::pmr::memory_resource* memory)
       : met_(sites, ~std::uint64_t{0}, memory) {}
   /// @param next the number of a new edge.
-  uint32_t number(uint32_t smaller, uint32_t larger, uint32_t next) {
+  /// @param find called with the number of one that has the same ends: gives that of this edge.
+  template <class Find>
+  uint32_t number(uint32_t smaller, uint32_t larger, uint32_t next, Find&& find) {
     std::uint64_t& met = met_[larger];
-    if (met >> 32 != smaller) met = std::uint64_t{smaller} << 32 | next;
-    return static_cast<uint32_t>(met);
+    const uint32_t number = met >> 32 == smaller ? find(static_cast<uint32_t>(met)) : next;
+    met = std::uint64_t{smaller} << 32 | number;
+    return number;
   }
 
  private:
@@ -34,7 +63,7 @@ class MetEdges {
 
 }  // namespace
 
-NumberedEdges number_edges(const Triangulation& triangulation, std::size_t sites,
+NumberedEdges number_edges(const Triangulation& triangulation, std::size_t sites, Images* images,
                            const RunContext& context) {
   std::pmr::memory_resource* const memory = &context.memory;
   NumberedEdges edges(memory);
@@ -63,19 +92,32 @@ NumberedEdges number_edges(const Triangulation& triangulation, std::size_t sites
     return std::span(slots).subspan(begin[from], end - begin[from]);
   };
   const std::size_t pieces = (sites + piece - 1) / piece;
-  std::pmr::vector<std::pmr::vector<std::array<uint32_t, 2>>> ends(pieces, memory);
+  std::pmr::vector<PieceOfEdges> of_pieces(pieces, memory);
   for_each_piece("edges", sites, piece, context, [&](std::size_t from, std::size_t to) {
-    auto& of_piece = ends[from / piece];
-    of_piece.reserve(8 * (to - from));
+    PieceOfEdges& of_piece = of_pieces[from / piece];
+    of_piece.ends.reserve(8 * (to - from));
     MetEdges met(sites, memory);
     for (std::size_t v = from; v < to; ++v) {
       const auto smaller = static_cast<uint32_t>(v);
+      const auto first = static_cast<uint32_t>(of_piece.ends.size());
       for (const Slot slot : slots_of(v, v + 1)) {
-        const uint32_t larger = cells[slot >> 3][kEdgeEnds[slot & 7][1]];
-        const auto next = static_cast<uint32_t>(of_piece.size());
-        const uint32_t number = met.number(smaller, larger, next);
-        if (number == next) of_piece.push_back({smaller, larger});
+        const auto& places = kEdgeEnds[slot & 7];
+        const uint32_t larger = cells[slot >> 3][places[1]];
+        const auto next = static_cast<uint32_t>(of_piece.ends.size());
+        std::array<uint32_t, 2> frame{};
+        if (images != nullptr) {
+          const auto& cell = images->of_cell[slot >> 3];
+          frame = {cell[places[0]], cell[places[1]]};
+        }
+        const uint32_t number = met.number(smaller, larger, next, [&](uint32_t candidate) {
+          return images == nullptr
+                     ? candidate
+                     : of_piece.translate_of(frame, larger, candidate, first, *images);
+        });
         edges.of_cell[slot >> 3][slot & 7] = number;
+        if (number != next) continue;
+        of_piece.ends.push_back({smaller, larger});
+        if (images != nullptr) of_piece.frames.push_back(frame);
       }
     }
   });
@@ -83,13 +125,16 @@ NumberedEdges number_edges(const Triangulation& triangulation, std::size_t sites
   sum = 0;
   for (std::size_t i = 0; i < pieces; ++i) {
     first[i] = sum;
-    sum += static_cast<uint32_t>(ends[i].size());
+    sum += static_cast<uint32_t>(of_pieces[i].ends.size());
   }
   edges.ends.resize(sum);
+  if (images != nullptr) images->of_edge.resize(sum);
   for_each_piece("edges", sites, piece, context, [&](std::size_t from, std::size_t to) {
-    auto& of_piece = ends[from / piece];
-    std::ranges::copy(of_piece, edges.ends.begin() + first[from / piece]);
-    of_piece = std::pmr::vector<std::array<uint32_t, 2>>(memory);
+    PieceOfEdges& of_piece = of_pieces[from / piece];
+    std::ranges::copy(of_piece.ends, edges.ends.begin() + first[from / piece]);
+    if (images != nullptr)
+      std::ranges::copy(of_piece.frames, images->of_edge.begin() + first[from / piece]);
+    of_piece = PieceOfEdges(memory);
     if (first[from / piece] == 0) return;
     for (const Slot slot : slots_of(from, to))
       edges.of_cell[slot >> 3][slot & 7] += first[from / piece];

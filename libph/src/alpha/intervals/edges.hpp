@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 
+#include "alpha/periodic/images.hpp"
 #include "alpha/triangulation/triangulation.hpp"
 
 namespace ph::alpha {
@@ -12,11 +13,12 @@ struct NumberedEdges {
   explicit NumberedEdges(std::pmr::memory_resource* memory) : of_cell(memory), ends(memory) {}
 
   RawVector<std::array<std::uint32_t, 6>> of_cell;  ///< by cell, in the order of kEdgeEnds
-  RawVector<std::array<std::uint32_t, 2>> ends;     ///< ascending
+  RawVector<std::array<std::uint32_t, 2>> ends;     ///< ascending; the same twice: a loop
 };
 
-/// O(cells), but for vertices of many edges, where they are sorted. On threads.
-NumberedEdges number_edges(const Triangulation& triangulation, std::size_t sites,
+/// O(cells). On threads.
+/// @param images of a periodic space, or null. Gets the frames of the edges.
+NumberedEdges number_edges(const Triangulation& triangulation, std::size_t sites, Images* images,
                            const RunContext& context);
 
 }  // namespace ph::alpha

@@ -27,6 +27,13 @@ struct CriticalFacet {
   std::uint32_t code = 0;  ///< its usual name
 };
 
+/// The vertices of a facet of a cell, ascending; as many as the dimension says.
+inline std::array<std::uint32_t, 3> facet_of(const std::array<std::uint32_t, 4>& cell,
+                                             std::uint32_t facet, int dim) {
+  const auto& places = kFacetPlaces[facet];
+  return {cell[places[0]], cell[places[1]], dim == 3 ? cell[places[2]] : kNone};
+}
+
 /// The alpha filtration of a triangulation, with the pairs of its intervals.
 ///
 /// The simplices of one alpha value that belong together form an interval [L, U]: U has an empty
@@ -67,12 +74,11 @@ struct AlphaCells {
   }
   /// The vertices of a facet, ascending; as many as the dimension says.
   std::array<std::uint32_t, 3> facet_vertices(std::uint32_t code) const {
-    const auto& cell = triangulation.cells[code >> 2];
-    const auto& places = kFacetPlaces[code & 3];
-    return {cell[places[0]], cell[places[1]], dim() == 3 ? cell[places[2]] : kNone};
+    return facet_of(triangulation.cells[code >> 2], code & 3, dim());
   }
 
   Sites sites;
+  bool is_periodic = false;                ///< the triangulation is a Delta-complex
   std::pmr::vector<std::uint32_t> hidden;  ///< points of the input that belong to no cell
   Triangulation triangulation;
   RawVector<double> cell_values;           ///< by cell of the triangulation
@@ -91,9 +97,10 @@ struct AlphaCells {
 };
 
 /// The triangulation of the points with values and intervals, on threads.
-/// @throws Error as sites_of; (resource, cancelled).
+/// @param period one an axis, or none; 0: the axis does not close up.
+/// @throws Error as sites_of and fold_points; (resource, cancelled).
 AlphaCells alpha_cells(PointsView points, std::span<const double> weights,
-                       const RunContext& context);
+                       std::span<const double> period, const RunContext& context);
 
 /// The value of a facet, by either of its names. O(log of critical facets).
 double facet_value(const AlphaCells& cells, std::uint32_t code);
@@ -102,12 +109,14 @@ double facet_value(const AlphaCells& cells, std::uint32_t code, const CriticalFa
 /// The critical facet of that name, or null.
 const CriticalFacet* critical_facet(const AlphaCells& cells, std::uint32_t code);
 
-/// Values and intervals: by dimension of the triangulation.
-void find_intervals_of_space(AlphaCells& cells, const RunContext& context);
-void find_intervals_of_plane(AlphaCells& cells, const RunContext& context);
+class Frames;
+
+/// Values and intervals: by dimension of the triangulation. Edges are numbered by then.
+void find_intervals_of_space(AlphaCells& cells, const Frames& frames, const RunContext& context);
+void find_intervals_of_plane(AlphaCells& cells, const Frames& frames, const RunContext& context);
 
 /// Raises intervals that have a smaller value than a face of theirs, which rounding may do, to the
 /// value of that face, until there are none.
-void make_monotone(AlphaCells& cells, const RunContext& context);
+void make_monotone(AlphaCells& cells, const Frames& frames, const RunContext& context);
 
 }  // namespace ph::alpha

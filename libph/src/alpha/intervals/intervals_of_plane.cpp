@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <cassert>
 
-#include "alpha/intervals/intervals.hpp"
+#include "alpha/intervals/frames.hpp"
 #include "alpha/intervals/marks.hpp"
 #include "alpha/intervals/spheres.hpp"
 
@@ -13,10 +13,11 @@ using std::uint32_t;
 /// Intervals of a triangulation of dimension 1 or 2, found at their upper ends.
 class PlaneIntervals {
  public:
-  PlaneIntervals(AlphaCells& cells, const RunContext& context)
+  PlaneIntervals(AlphaCells& cells, const Frames& frames, const RunContext& context)
       : cells_(cells),
+        frames_(frames),
         context_(context),
-        spheres_(cells.sites),
+        spheres_(frames.places()),
         vertices_(cells, context),
         critical_(cells.triangulation.size(), &context.memory) {}
 
@@ -33,7 +34,8 @@ class PlaneIntervals {
   // Of collinear sites: edges are cells.
   void find_last_edge(std::size_t t) {
     const auto& ends = cells_.triangulation.cells[t];
-    const Sphere sphere = spheres_.of_edge(ends[0], ends[1]);
+    const auto& at = frames_.of_cell(t);
+    const Sphere sphere = spheres_.of_edge(at[0], at[1]);
     cells_.cell_values[t] = sphere.squared_radius;
     cells_.beyond[t] = sphere.beyond;
     if (sphere.beyond == 0) return;
@@ -47,7 +49,7 @@ class PlaneIntervals {
     for_each_piece("triangles", count, FacetPieces::kPiece, context_,
                    [&](std::size_t from, std::size_t to) {
                      for (std::size_t t = from; t < to; ++t) {
-                       const auto& at = cells_.triangulation.cells[t];
+                       const auto& at = frames_.of_cell(t);
                        cells_.cell_values[t] = spheres_.triangle_radius(at[0], at[1], at[2]);
                        cells_.beyond[t] = spheres_.beyond_triangle(at[0], at[1], at[2]);
                      }
@@ -71,7 +73,8 @@ class PlaneIntervals {
     assert(!(is_in_first && is_in_second));  // the centres lie on one side
     const bool is_empty = !is_in_first && !is_in_second;
     if (is_empty || cells_.sites.is_weighted()) {
-      const Sphere sphere = spheres_.of_edge(ends[0], ends[1]);
+      const auto at = frames_.of_facet(code);
+      const Sphere sphere = spheres_.of_edge(at[0], at[1]);
       for (unsigned left = sphere.beyond; left != 0; left &= left - 1)
         vertices_.set_late(lowest(left) == 0 ? ends[1] : ends[0]);
       if (is_empty) {
@@ -93,6 +96,7 @@ class PlaneIntervals {
   }
 
   AlphaCells& cells_;
+  const Frames& frames_;
   const RunContext& context_;
   const Spheres spheres_;
   VertexIntervals vertices_;
@@ -101,8 +105,8 @@ class PlaneIntervals {
 
 }  // namespace
 
-void find_intervals_of_plane(AlphaCells& cells, const RunContext& context) {
-  PlaneIntervals(cells, context).run();
+void find_intervals_of_plane(AlphaCells& cells, const Frames& frames, const RunContext& context) {
+  PlaneIntervals(cells, frames, context).run();
 }
 
 }  // namespace ph::alpha

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <cassert>
 
-#include "alpha/intervals/intervals.hpp"
+#include "alpha/intervals/frames.hpp"
 #include "alpha/intervals/marks.hpp"
 #include "alpha/intervals/spheres.hpp"
 
@@ -15,10 +15,11 @@ using std::uint32_t;
 /// tetrahedron at it lies beyond it, an edge if that of a triangle at it does.
 class SpaceIntervals {
  public:
-  SpaceIntervals(AlphaCells& cells, const RunContext& context)
+  SpaceIntervals(AlphaCells& cells, const Frames& frames, const RunContext& context)
       : cells_(cells),
+        frames_(frames),
         context_(context),
-        spheres_(cells.sites),
+        spheres_(frames.places()),
         is_not_empty_(cells.edge_states.size(), &context.memory),
         vertices_(cells, context),
         critical_(cells.triangulation.size(), &context.memory) {}
@@ -28,7 +29,7 @@ class SpaceIntervals {
     for_each_piece("tetrahedra", count, FacetPieces::kPiece, context_,
                    [&](std::size_t from, std::size_t to) {
                      for (std::size_t t = from; t < to; ++t) {
-                       const Sphere sphere = spheres_.of_tetrahedron(cells_.triangulation.cells[t]);
+                       const Sphere sphere = spheres_.of_tetrahedron(frames_.of_cell(t));
                        cells_.cell_values[t] = sphere.squared_radius;
                        cells_.beyond[t] = sphere.beyond;
                      }
@@ -70,8 +71,7 @@ class SpaceIntervals {
   void find_facet(uint32_t code, uint32_t other) {
     const std::size_t cell = code >> 2;
     const auto& places = kFacetPlaces[code & 3];
-    const auto& at = cells_.triangulation.cells[cell];
-    const uint32_t a = at[places[0]], b = at[places[1]], c = at[places[2]];
+    const auto [a, b, c] = frames_.of_facet(code);
     const unsigned beyond = spheres_.beyond_triangle(a, b, c);
     for (unsigned left = beyond; left != 0; left &= left - 1) {
       const unsigned i = lowest(left);
@@ -91,8 +91,8 @@ class SpaceIntervals {
     pair_edge(edge_between(cell, places[(first + 1) % 3], places[(first + 2) % 3]), code, value);
     if (const unsigned rest = beyond & (beyond - 1); rest != 0) {
       const unsigned vertex = 3 - first - lowest(rest);
-      pair_vertex(at[places[vertex]], edge_between(cell, places[vertex], places[first]), value,
-                  code);
+      pair_vertex(cells_.triangulation.cells[cell][places[vertex]],
+                  edge_between(cell, places[vertex], places[first]), value, code);
     }
   }
 
@@ -119,7 +119,8 @@ class SpaceIntervals {
       assert(state.up != kUnknown);  // it is the lower end of exactly one interval
       return;
     }
-    const Sphere sphere = spheres_.of_edge(a, b);
+    const auto& at = frames_.of_edge(e);
+    const Sphere sphere = spheres_.of_edge(at[0], at[1]);
     for (unsigned left = sphere.beyond; left != 0; left &= left - 1)
       vertices_.set_late(lowest(left) == 0 ? b : a);
     if (is_not_empty_[e]) {
@@ -135,6 +136,7 @@ class SpaceIntervals {
   }
 
   AlphaCells& cells_;
+  const Frames& frames_;
   const RunContext& context_;
   const Spheres spheres_;
   Marks is_not_empty_;  // by edge: its smallest sphere
@@ -144,10 +146,9 @@ class SpaceIntervals {
 
 }  // namespace
 
-void find_intervals_of_space(AlphaCells& cells, const RunContext& context) {
-  cells.edges = number_edges(cells.triangulation, cells.sites.size(), context);
+void find_intervals_of_space(AlphaCells& cells, const Frames& frames, const RunContext& context) {
   cells.edge_states.assign(cells.edges.ends.size(), Edge{0, kUnknown});
-  SpaceIntervals(cells, context).run();
+  SpaceIntervals(cells, frames, context).run();
 }
 
 }  // namespace ph::alpha

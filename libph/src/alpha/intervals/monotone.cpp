@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <mutex>
 
-#include "alpha/intervals/intervals.hpp"
+#include "alpha/intervals/frames.hpp"
 #include "alpha/intervals/marks.hpp"
 #include "alpha/intervals/spheres.hpp"
 
@@ -85,8 +85,12 @@ class PlaneRepair {
 /// Of dimension 3: from each interval that is raised on to its cofaces.
 class SpaceRepair {
  public:
-  SpaceRepair(AlphaCells& cells, const RunContext& context)
-      : cells_(cells), context_(context), spheres_(cells.sites), raised_(&context.memory) {}
+  SpaceRepair(AlphaCells& cells, const Frames& frames, const RunContext& context)
+      : cells_(cells),
+        frames_(frames),
+        context_(context),
+        spheres_(frames.places()),
+        raised_(&context.memory) {}
 
   void run() {
     do {
@@ -213,7 +217,7 @@ class SpaceRepair {
     for (const uint32_t name : {code, across(code)})
       if (name != kNone && cells_.belongs_to(name))
         return raise({name >> 2, 0b1111, cells_.beyond[name >> 2]}, value);
-    const auto at = cells_.facet_vertices(code);
+    const auto at = frames_.of_facet(code);
     const unsigned beyond = spheres_.beyond_triangle(at[0], at[1], at[2]);
     unsigned places = 0;
     for (unsigned i = 0; i < 3; ++i)
@@ -261,6 +265,7 @@ class SpaceRepair {
   }
 
   AlphaCells& cells_;
+  const Frames& frames_;
   const RunContext& context_;
   const Spheres spheres_;
   std::pmr::vector<Interval> raised_;
@@ -269,9 +274,9 @@ class SpaceRepair {
 
 }  // namespace
 
-void make_monotone(AlphaCells& cells, const RunContext& context) {
+void make_monotone(AlphaCells& cells, const Frames& frames, const RunContext& context) {
   if (cells.dim() == 3)
-    SpaceRepair(cells, context).run();
+    SpaceRepair(cells, frames, context).run();
   else
     PlaneRepair(cells, context).run();
 }

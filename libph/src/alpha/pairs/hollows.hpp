@@ -14,6 +14,9 @@ namespace ph::alpha {
 /// of simplicial complexes, 1995). A cell that is paired with a facet is joined to what lies across
 /// it from the start. Facets that join two components give birth to a class, which the oldest cell
 /// of the younger one kills.
+///
+/// Where nothing leads outside, in a periodic space that closes up in all its dimensions, the cell
+/// that enters last gives birth to a class of that dimension.
 template <Field K>
 class Hollows {
  public:
@@ -50,6 +53,8 @@ class Hollows {
       if (bars_.wants(cells_.dim() - 1)) report(facets[i].value, code, younger);
       link(younger, elder);
     }
+    const std::uint32_t last = sets_.find(0);
+    if (last != sets_.find(outside_) && bars_.wants(cells_.dim())) report_last(last);
   }
 
  private:
@@ -90,10 +95,20 @@ class Hollows {
     });
     bars_.finish_cycle(field_.is_zero(field_.from_int(2)));
   }
+  void report_last(std::uint32_t cell) {
+    if (!bars_.essential(cells_.dim(), value(cell), [&] { return cell_simplex(cells_, cell); }))
+      return;
+    for (std::uint32_t t = 0; t < outside_; ++t)
+      bars_.add_term(cell_simplex(cells_, t), sign(t) * sign(cell));
+    bars_.finish_cycle(field_.is_zero(field_.from_int(2)));
+  }
   /// Of a facet in the boundary of its cell, oriented as all cells are.
   std::int64_t incidence(std::uint32_t facet) const {
     const bool is_negative = (facet & 1) != 0;
-    return is_negative != (cells_.triangulation.is_reversed[facet >> 2] != 0) ? -1 : 1;
+    return is_negative ? -sign(facet >> 2) : sign(facet >> 2);
+  }
+  std::int64_t sign(std::uint32_t cell) const {
+    return cells_.triangulation.is_reversed[cell] != 0 ? -1 : 1;
   }
   /// That with which the facet that gives birth has the coefficient 1.
   std::int64_t sign_of(std::uint32_t code, std::uint32_t inside) {

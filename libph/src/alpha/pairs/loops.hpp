@@ -20,6 +20,9 @@ namespace ph::alpha {
 /// near. A column that comes to the pivot of a younger one takes it over, and goes on as the
 /// younger one (Morozov & Nigmetov, Towards lockfree persistent homology, 2020): only older columns
 /// are added to younger ones, as in the textbook.
+///
+/// In a periodic space some boundaries are reduced to zero, and some edges are left over: they give
+/// birth to the classes of H2, and of H1, that never die.
 template <Field K>
 class Loops {
   using Term = typename EdgeColumn<K>::Term;
@@ -36,7 +39,8 @@ class Loops {
         context_(context),
         joins_(cells.edge_states.size(), false, &context.memory),
         column_of_(cells.facets.size(), kNone, &context.memory),
-        owners_(cells.edge_states.size(), nullptr, &context.memory) {
+        owners_(cells.edge_states.size(), nullptr, &context.memory),
+        essential_(&context.memory) {
     for (std::size_t i = 0; i < edges.size(); ++i)
       if (edge_joins[i]) joins_[edges[i].number] = true;
     std::uint32_t columns = 0;
@@ -60,7 +64,8 @@ class Loops {
                      const std::lock_guard lock(mutex);
                      idle_.push_back(&worker);
                    });
-    report(bars);
+    if (bars.wants(1)) report(bars);
+    if (bars.wants(2)) report_essential_facets(bars);
   }
 
  private:
@@ -104,6 +109,8 @@ class Loops {
           field_.negate(field_.multiply(pivot->coefficient(), field_.inverse(other->pivot()))),
           other->below());
     }
+    const std::lock_guard lock(mutex_);
+    essential_.push_back(facet);
   }
   void report(AlphaBars& bars) {
     std::optional<EdgeForest<K>> forest;
@@ -112,7 +119,10 @@ class Loops {
     for (std::uint32_t e = 0; e < owners_.size(); ++e) {
       ticker.tick();
       const KeptColumn* const column = owners_[e];
-      if (column == nullptr) continue;
+      if (column == nullptr) {
+        if (cells_.is_periodic) report_essential_edge(e, bars);
+        continue;
+      }
       const CriticalFacet& killer = cells_.facets[column->facet()];
       const bool wants_cycle = bars.pair(
           1, cells_.edge_states[e].value, killer.value, [&] { return edge_simplex(cells_, e); },
@@ -131,12 +141,25 @@ class Loops {
     }
   }
 
+  void report_essential_edge(std::uint32_t e, AlphaBars& bars) {
+    if (cells_.edge_states[e].up != kCritical || joins_[e]) return;
+    bars.essential(1, cells_.edge_states[e].value, [&] { return edge_simplex(cells_, e); });
+  }
+  void report_essential_facets(AlphaBars& bars) {
+    std::ranges::sort(essential_);
+    for (const std::uint32_t facet : essential_)
+      bars.essential(2, cells_.facets[facet].value,
+                     [&] { return facet_simplex(cells_, cells_.facets[facet].code); });
+  }
+
   const AlphaCells& cells_;
   const K& field_;
   const RunContext& context_;
   SimplexSet joins_;                            // by edge
   std::pmr::vector<std::uint32_t> column_of_;   // by critical facet: its column, by age
   std::pmr::vector<const KeptColumn*> owners_;  // by edge: the column with that pivot
+  std::mutex mutex_;
+  std::pmr::vector<std::uint32_t> essential_;  // critical facets whose boundaries are reduced to 0
   std::vector<std::unique_ptr<Worker>> workers_;
   std::vector<Worker*> idle_;
 };

@@ -9,21 +9,43 @@ namespace ph::alpha {
 
 namespace {
 
+/// H1 of dimension 1 and 2 that never dies: what an edge closes that joins neither components nor
+/// hollows. In a periodic space only.
+void report_essential_edges(const AlphaCells& cells, const RankedSimplices& edges,
+                            const SimplexSet& joins, AlphaBars& bars) {
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    if (!joins[i])
+      bars.essential(1, edges[i].value, [&] {
+        const auto ends = ends_of(cells, edges[i].number);
+        return Simplex::of({ends[0], ends[1]});
+      });
+}
+
 template <Field K>
 void pair_all(const AlphaCells& cells, const K& field, const RunContext& context, AlphaBars& bars) {
   const int dim = cells.dim();
-  const bool wants_loops = dim == 3 && bars.wants(1);
-  const bool wants_components = bars.wants(0) || (dim >= 2 && bars.wants(1));
+  // In a periodic space the highest dimension may have a class, and that below has classes that
+  // never die.
+  const bool wants_top = cells.is_periodic && bars.wants(dim);
+  const bool wants_loops = dim == 3 && (bars.wants(1) || (cells.is_periodic && bars.wants(2)));
+  const bool wants_components =
+      bars.wants(0) || (dim < 3 && cells.is_periodic) || (dim >= 2 && bars.wants(1)) || wants_loops;
   const RankedSimplices edges =
       wants_components ? ranked_edges(cells, context) : RankedSimplices(&context.memory);
   SimplexSet edge_joins(&context.memory);
   if (wants_components) pair_components(cells, edges, field, context, bars, edge_joins);
-  if (dim == 2 && bars.wants(1))
-    // What joins no components closes a loop: each joins hollows.
+  if (dim == 2 && (bars.wants(1) || wants_top)) {
+    // What joins no components closes a loop: it joins hollows.
+    SimplexSet joins = edge_joins;
     Hollows<K>(cells, field, context, bars)
         .run(
-            edges, [&](std::size_t i) { return !edge_joins[i]; }, [](std::size_t) {});
-  if (dim < 3 || !(wants_loops || bars.wants(2))) return;
+            edges, [&](std::size_t i) { return !edge_joins[i]; },
+            [&](std::size_t i) { joins[i] = true; });
+    edge_joins.swap(joins);
+  }
+  if (dim < 3 && cells.is_periodic && bars.wants(1))
+    report_essential_edges(cells, edges, edge_joins, bars);
+  if (dim < 3 || !(wants_loops || wants_top || bars.wants(2))) return;
   const RankedSimplices facets = ranked_facets(cells, context);
   SimplexSet facet_joins(facets.size(), false, &context.memory);
   Hollows<K>(cells, field, context, bars)

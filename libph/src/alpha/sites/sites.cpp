@@ -100,15 +100,16 @@ void place_along_curve(std::span<const Vector<double>> points, std::span<Placed>
 
 }  // namespace
 
-Sites sites_of(PointsView points, std::span<const double> weights, const RunContext& context) {
+Sites sites_of(PointsView points, std::span<const double> weights, const RunContext& context,
+               double largest) {
   check_sizes(points, weights);
   std::pmr::memory_resource* const memory = &context.memory;
   Sites sites(memory);
   sites.coordinates = static_cast<int>(points.cols());
   const auto count = static_cast<std::size_t>(points.rows());
   if (count == 0) return sites;
-  if (const double largest = largest_magnitude(points, weights); largest > 0)
-    sites.exponent = std::ilogb(largest) + 1;
+  largest = std::max(largest, largest_magnitude(points, weights));
+  if (largest > 0) sites.exponent = std::ilogb(largest) + 1;
 
   RawVector<Vector<double>> scaled_points(count, memory);
   for (std::size_t i = 0; i < count; ++i) {

@@ -20,7 +20,7 @@ inline constexpr std::uint32_t kNone = UINT32_MAX;
 /// scaled by a power of two, which keeps squares and products in range and is exact.
 struct Sites {
   explicit Sites(std::pmr::memory_resource* memory)
-      : points(memory), weights(memory), input(memory), copies(memory) {}
+      : points(memory), weights(memory), input(memory), copies(memory), path(memory) {}
 
   bool is_weighted() const { return !weights.empty(); }
   double weight(std::uint32_t site) const { return is_weighted() ? weights[site] : 0.0; }
@@ -33,6 +33,8 @@ struct Sites {
   std::pmr::vector<std::uint32_t> input;  ///< by site: the point of the input, of copies the first
   /// The other copies: the point of the input, and the site.
   std::pmr::vector<std::array<std::uint32_t, 2>> copies;
+  /// All sites, so that neighbours in this list are neighbours in space; empty: by number.
+  std::pmr::vector<std::uint32_t> path;
 };
 
 /// @param points of R¹, R² or R³. @param weights one a point, or none; of copies that differ in
@@ -40,6 +42,8 @@ struct Sites {
 /// @throws Error (usage) on points of another space and weights that are not one a point; Error
 ///         (bad_data) on what is not finite, and on coordinates that differ too much in magnitude;
 ///         Error (resource, cancelled).
-Sites sites_of(PointsView points, std::span<const double> weights, const RunContext& context);
+/// @param largest a magnitude that has to be in range as well.
+Sites sites_of(PointsView points, std::span<const double> weights, const RunContext& context,
+               double largest = 0);
 
 }  // namespace ph::alpha

@@ -6,11 +6,18 @@
 #include "alpha/cgal/triangulations.hpp"
 
 namespace ph::alpha {
-namespace {
 
-/// Takes out the sites that no cell has.
+Triangulation triangulate(const Sites& sites, const RunContext& context) {
+  if (sites.size() == 0) return Triangulation(&context.memory);
+  return sites.coordinates == 3 ? triangulate_space(sites, context)
+                                : triangulate_plane(sites, context);
+}
+
 void remove_hidden(Sites& sites, Triangulation& triangulation,
                    std::pmr::vector<std::uint32_t>& hidden) {
+  // Of copies the heaviest one hides the others.
+  for (const auto& [copy, site] : sites.copies) hidden.push_back(copy);
+  sites.copies.clear();
   std::pmr::vector<std::uint32_t> number(sites.size(), kNone, hidden.get_allocator());
   for (const auto& cell : triangulation.cells)
     for (const std::uint32_t v : cell)
@@ -32,23 +39,7 @@ void remove_hidden(Sites& sites, Triangulation& triangulation,
   for (auto& cell : triangulation.cells)
     for (std::uint32_t& v : cell)
       if (v != kNone) v = number[v];
-}
-
-}  // namespace
-
-Triangulation triangulate(Sites& sites, std::pmr::vector<std::uint32_t>& hidden,
-                          const RunContext& context) {
-  if (sites.size() == 0) return Triangulation(&context.memory);
-  Triangulation result = sites.coordinates == 3 ? triangulate_space(sites, context)
-                                                : triangulate_plane(sites, context);
-  if (sites.is_weighted()) {
-    // Of copies the heaviest one hides the others.
-    for (const auto& [copy, site] : sites.copies) hidden.push_back(copy);
-    sites.copies.clear();
-    remove_hidden(sites, result, hidden);
-    std::ranges::sort(hidden);
-  }
-  return result;
+  std::ranges::sort(hidden);
 }
 
 }  // namespace ph::alpha

@@ -19,6 +19,10 @@ namespace ph::alpha {
 ///
 /// The vertices of a cell ascend, so a face has its vertices in the same order in each cell: signs
 /// of boundaries are known from places.
+///
+/// In a periodic space it is a Delta-complex: a cell may have a vertex several times, and its other
+/// faces once each; those with the same vertices may be different ones. Equal vertices are in an
+/// order of their own (periodic/images.hpp), again the same in each cell.
 struct Triangulation {
   explicit Triangulation(std::pmr::memory_resource* memory)
       : cells(memory), across(memory), is_reversed(memory) {}
@@ -32,10 +36,12 @@ struct Triangulation {
   RawVector<std::uint8_t> is_reversed;
 };
 
-/// @param sites those that belong to no cell are taken out (hidden points, of weights).
-/// @param hidden to it are added the points of the input that those are.
 /// @throws Error (resource, cancelled).
-Triangulation triangulate(Sites& sites, std::pmr::vector<std::uint32_t>& hidden,
-                          const RunContext& context);
+Triangulation triangulate(const Sites& sites, const RunContext& context);
+
+/// Of weights: takes out the sites that belong to no cell.
+/// @param hidden to it are added the points of the input that those are.
+void remove_hidden(Sites& sites, Triangulation& triangulation,
+                   std::pmr::vector<std::uint32_t>& hidden);
 
 }  // namespace ph::alpha

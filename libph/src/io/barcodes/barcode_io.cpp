@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "ph/io/write.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <string>
 

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "alpha/intervals/intervals.hpp"
+#include "alpha/periodic/images.hpp"
+
+namespace ph::alpha {
+
+/// Where the vertices of a cell are, for computing with it: at their sites or, in a periodic space,
+/// at images of them that are near each other. So are those of its facets and edges. All frames of
+/// a simplex are translates of each other, and differences of coordinates are exact.
+class Frames {
+ public:
+  /// @param images null: the space is not periodic. Both outlive the frames.
+  Frames(const AlphaCells& cells, const Images* images) : cells_(cells), images_(images) {}
+
+  const Sites& places() const { return images_ == nullptr ? cells_.sites : images_->places; }
+  const std::array<std::uint32_t, 4>& of_cell(std::size_t t) const {
+    return images_ == nullptr ? cells_.triangulation.cells[t] : images_->of_cell[t];
+  }
+  std::array<std::uint32_t, 3> of_facet(std::uint32_t code) const {
+    return facet_of(of_cell(code >> 2), code & 3, cells_.dim());
+  }
+  const std::array<std::uint32_t, 2>& of_edge(std::uint32_t e) const {
+    return images_ == nullptr ? cells_.edges.ends[e] : images_->of_edge[e];
+  }
+
+ private:
+  const AlphaCells& cells_;
+  const Images* images_;
+};
+
+}  // namespace ph::alpha

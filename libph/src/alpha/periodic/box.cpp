@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "alpha/periodic/box.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "ph/barcode.hpp"
+#include "ph/error.hpp"
+
+namespace ph::alpha {
+namespace {
+
+/// From the least to the largest of some numbers; infinite ones are left to others to find.
+class Extent {
+ public:
+  void add(double x) {
+    if (!std::isfinite(x)) return;
+    low_ = std::min(low_, x);
+    high_ = std::max(high_, x);
+  }
+  double size() const { return low_ < high_ ? high_ - low_ : 0; }
+
+ private:
+  double low_ = kInfinity, high_ = -kInfinity;
+};
+
+void check_periods(PointsView points, std::span<const double> period) {
+  if (period.size() != static_cast<std::size_t>(points.cols()))
+    throw Error(ErrorKind::usage, fmt::format("period: found {} lengths, expected one for each of "
+                                              "{} axes, 0 for one that does not close up",
+                                              period.size(), points.cols()));
+  for (std::size_t axis = 0; axis < period.size(); ++axis)
+    if (!(period[axis] >= 0) || !std::isfinite(period[axis]))
+      throw Error(ErrorKind::usage,
+                  fmt::format("period of axis {}: found {}, expected a finite length, or 0 if it "
+                              "does not close up",
+                              axis, period[axis]));
+}
+
+/// A power of two, of which a multiple of that size has 51 bits.
+double unit_of(double size) {
+  constexpr int bits = 51, least = -1074;
+  return std::ldexp(1.0, std::max(std::ilogb(size) + 1 - bits, least));
+}
+double rounded(double x, double unit) { return std::nearbyint(x / unit) * unit; }
+
+}  // namespace
+
+Folded fold_points(PointsView points, std::span<const double> weights,
+                   std::span<const double> period) {
+  check_periods(points, period);
+  const auto axes = static_cast<std::size_t>(points.cols());
+  Folded folded{Points(points), {}};
+  Box& box = folded.box;
+  Extent of_weights;
+  for (const double w : weights) of_weights.add(w);
+  box.size = std::sqrt(of_weights.size());
+  for (std::size_t axis = 0; axis < axes; ++axis) {
+    Extent extent;
+    for (Index i = 0; i < points.rows(); ++i) extent.add(points(i, static_cast<Index>(axis)));
+    box.size = std::hypot(box.size, period[axis] > 0 ? period[axis] : extent.size());
+  }
+  if (!std::isfinite(box.size))
+    throw Error(ErrorKind::bad_data, "alpha complex: found a box beyond what doubles can hold");
+  const double unit = unit_of(box.size);
+  for (std::size_t axis = 0; axis < axes; ++axis) {
+    if (period[axis] == 0) continue;
+    const double length = box.period[axis] = rounded(period[axis], unit);
+    if (length == 0)
+      throw Error(ErrorKind::bad_data,
+                  fmt::format("period of axis {}: found {:g} in a box of size {:g}, expected one "
+                              "that is not rounded to 0",
+                              axis, period[axis], box.size));
+    for (Index i = 0; i < points.rows(); ++i) {
+      double& x = folded.points(i, static_cast<Index>(axis));
+      if (!std::isfinite(x)) continue;
+      x = rounded(std::fmod(x, length), unit);  // std::fmod is exact
+      if (x < 0) x += length;
+      if (x >= length) x -= length;
+    }
+  }
+  return folded;
+}
+
+}  // namespace ph::alpha

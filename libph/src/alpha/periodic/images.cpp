@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "alpha/periodic/images.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ph/error.hpp"
+
+namespace ph::alpha {
+namespace {
+
+struct Range {
+  std::int64_t from = 0, to = 0;
+};
+
+/// The numbers of periods that leave a coordinate inside the margin.
+Range periods_within(double x, double period, double margin) {
+  if (period == 0) return {};
+  const double before = std::floor((margin + x) / period);
+  const double behind = std::floor((margin + period - x) / period);
+  constexpr auto most = static_cast<double>(kMostPeriods);
+  if (!(before < most && behind < most))
+    throw Error(ErrorKind::resource,
+                "alpha complex: found points so far apart along open axes that more than 2^18 "
+                "images of each are wanted along a closed one");
+  return {-static_cast<std::int64_t>(before), static_cast<std::int64_t>(behind)};
+}
+
+}  // namespace
+
+Images images_within(const Sites& sites, const Box& box, double margin, const RunContext& context) {
+  Images images(&context.memory);
+  Sites& places = images.places;
+  places.coordinates = sites.coordinates;
+  places.exponent = sites.exponent;
+  images.begin.reserve(sites.size() + 1);
+  Ticker ticker(context, "images", sites.size());
+  for (std::uint32_t site = 0; site < sites.size(); ++site) {
+    ticker.tick();
+    images.begin.push_back(static_cast<std::uint32_t>(places.size()));
+    const Vector<double>& p = sites.points[site];
+    const Range x = periods_within(p.x, box.period[0], margin);
+    const Range y = periods_within(p.y, box.period[1], margin);
+    const Range z = periods_within(p.z, box.period[2], margin);
+    for (std::int64_t i = x.from; i <= x.to; ++i)
+      for (std::int64_t j = y.from; j <= y.to; ++j)
+        for (std::int64_t k = z.from; k <= z.to; ++k) {
+          places.points.push_back({p.x + static_cast<double>(i) * box.period[0],
+                                   p.y + static_cast<double>(j) * box.period[1],
+                                   p.z + static_cast<double>(k) * box.period[2]});
+          if (sites.is_weighted()) places.weights.push_back(sites.weights[site]);
+          images.site.push_back(site);
+          images.translation.push_back(translation_by({i, j, k}));
+          if (places.size() >= kNone / 4)
+            throw Error(ErrorKind::resource, "alpha complex: found too many images of points");
+          ticker.work();
+        }
+  }
+  images.begin.push_back(static_cast<std::uint32_t>(places.size()));
+
+  // In space: the box, then what is displaced by each translation in turn.
+  places.path.reserve(places.size());
+  for (std::uint32_t place = 0; place < places.size(); ++place)
+    if (images.translation[place] == 0) places.path.push_back(place);
+  for (std::uint32_t place = 0; place < places.size(); ++place)
+    if (images.translation[place] != 0) places.path.push_back(place);
+  std::sort(places.path.begin() + static_cast<std::ptrdiff_t>(sites.size()), places.path.end(),
+            [&](std::uint32_t a, std::uint32_t b) {
+              const Translation s = images.translation[a], t = images.translation[b];
+              return s != t ? s < t : a < b;
+            });
+  return images;
+}
+
+}  // namespace ph::alpha

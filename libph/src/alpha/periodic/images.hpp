@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "alpha/periodic/box.hpp"
+#include "alpha/sites/sites.hpp"
+#include "ph/detail/core/raw_vector.hpp"
+
+namespace ph::alpha {
+
+/// A translation by whole periods, of all axes in one number: sums, differences and the order, x
+/// first, are those of the numbers.
+using Translation = std::int64_t;
+inline constexpr int kBitsOfAxis = 21;
+inline constexpr std::int64_t kMostPeriods = std::int64_t{1} << (kBitsOfAxis - 3);
+
+constexpr Translation translation_by(const std::array<std::int64_t, 3>& periods) {
+  constexpr std::int64_t base = std::int64_t{1} << kBitsOfAxis;
+  return (periods[0] * base + periods[1]) * base + periods[2];
+}
+/// Its inverse.
+constexpr std::array<std::int64_t, 3> periods_of(Translation translation) {
+  constexpr std::int64_t base = std::int64_t{1} << kBitsOfAxis, half = base / 2;
+  std::array<std::int64_t, 3> periods{};
+  for (std::size_t axis = 3; axis-- > 0;) {
+    periods[axis] = ((translation + half) & (base - 1)) - half;
+    translation = (translation - periods[axis]) / base;
+  }
+  return periods;
+}
+
+/// What a periodic space looks like around its box when it is unrolled: the sites and their images,
+/// each at its *place*. Places are numbered by site and then by translation, an order that no
+/// translation changes.
+struct Images {
+  explicit Images(std::pmr::memory_resource* memory)
+      : places(memory),
+        site(memory),
+        translation(memory),
+        begin(memory),
+        of_cell(memory),
+        of_edge(memory) {}
+
+  Sites places;                               ///< as sites of a space without periods
+  std::pmr::vector<std::uint32_t> site;       ///< by place
+  std::pmr::vector<Translation> translation;  ///< by place
+  std::pmr::vector<std::uint32_t> begin;      ///< by site, and behind the last: its first place
+  /// By cell of the quotient, and by edge of dimension 3: the places of the vertices in a frame of
+  /// its own, where they are near each other.
+  RawVector<std::array<std::uint32_t, 4>> of_cell;
+  RawVector<std::array<std::uint32_t, 2>> of_edge;
+
+  /// The place of an image; kNone: there is none.
+  std::uint32_t place_of(std::uint32_t its_site, Translation its_translation) const {
+    for (std::uint32_t place = begin[its_site]; place < begin[its_site + 1]; ++place)
+      if (translation[place] == its_translation) return place;
+    return kNone;
+  }
+};
+
+/// The images of sites up to a margin beyond the closed faces of their box.
+/// @throws Error (resource) if they are too many; (cancelled).
+Images images_within(const Sites& sites, const Box& box, double margin, const RunContext& context);
+
+}  // namespace ph::alpha
