@@ -58,17 +58,7 @@ Images images_within(const Sites& sites, const Box& box, double margin, const Ru
   }
   images.begin.push_back(static_cast<std::uint32_t>(places.size()));
 
-  // In space: the box, then what is displaced by each translation in turn.
-  places.path.reserve(places.size());
-  for (std::uint32_t place = 0; place < places.size(); ++place)
-    if (images.translation[place] == 0) places.path.push_back(place);
-  for (std::uint32_t place = 0; place < places.size(); ++place)
-    if (images.translation[place] != 0) places.path.push_back(place);
-  std::sort(places.path.begin() + static_cast<std::ptrdiff_t>(sites.size()), places.path.end(),
-            [&](std::uint32_t a, std::uint32_t b) {
-              const Translation s = images.translation[a], t = images.translation[b];
-              return s != t ? s < t : a < b;
-            });
+  order_path(places, context);
   return images;
 }
 

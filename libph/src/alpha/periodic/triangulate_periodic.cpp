@@ -12,8 +12,8 @@ namespace {
 
 std::array<double, 3> coordinates(const Vector<double>& p) { return {p.x, p.y, p.z}; }
 
-/// A margin that is likely to do: the radius of the largest empty sphere, were the sites anywhere
-/// with the same chance.
+/// A margin that is likely to do, were the sites anywhere with the same chance: the radius of the
+/// largest empty sphere, and as much as cells of usual size beyond it.
 double likely_margin(const Sites& sites, const Box& box) {
   std::array<double, 3> low = coordinates(sites.points[0]), high = low;
   for (const auto& p : sites.points)
@@ -31,8 +31,8 @@ double likely_margin(const Sites& sites, const Box& box) {
     measure *= extent;
     ++dim;
   }
-  constexpr double few = 8;  // more than all spheres of a site are empty by chance
-  return std::min(around, std::pow(measure / count * (std::log(count) + few) / 3, 1.0 / dim));
+  constexpr double few = 8;  // found by trial: less than one in many runs has to begin anew
+  return std::min(around, std::pow(measure / count * (std::log(count) + few), 1.0 / dim));
 }
 
 /// The least margin with which a site has an image along each closed axis: without one the images

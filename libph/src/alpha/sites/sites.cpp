@@ -98,6 +98,19 @@ void place_along_curve(std::span<const Vector<double>> points, std::span<Placed>
   }
 }
 
+/// The points as they lie along the curve, but for those whose places agree in the first 53 bits.
+std::pmr::vector<Placed> along_curve(std::span<const Vector<double>> points, int coordinates,
+                                     Ticker& ticker, const RunContext& context) {
+  std::pmr::vector<Placed> order(points.size(), &context.memory);
+  if (coordinates == 3)
+    place_along_curve<3>(points, order, ticker);
+  else
+    place_along_curve<2>(points, order, ticker);
+  radix_sort_by_value(
+      order, [](const Placed& p) { return static_cast<double>(p.place >> 11); }, context);
+  return order;
+}
+
 }  // namespace
 
 Sites sites_of(PointsView points, std::span<const double> weights, const RunContext& context,
@@ -124,13 +137,7 @@ Sites sites_of(PointsView points, std::span<const double> weights, const RunCont
   };
 
   Ticker ticker(context, "spatial order", count);
-  std::pmr::vector<Placed> order(count, memory);
-  if (points.cols() == 3)
-    place_along_curve<3>(scaled_points, order, ticker);
-  else
-    place_along_curve<2>(scaled_points, order, ticker);
-  radix_sort_by_value(
-      order, [](const Placed& p) { return static_cast<double>(p.place >> 11); }, context);
+  auto order = along_curve(scaled_points, sites.coordinates, ticker, context);
   // What lies in the same cell of the curve goes by coordinates, copies by weight and number.
   const auto precedes = [&](const Placed& a, const Placed& b) {
     if (a.place != b.place) return a.place < b.place;
@@ -161,6 +168,14 @@ Sites sites_of(PointsView points, std::span<const double> weights, const RunCont
     if (!weights.empty()) sites.weights.push_back(weight_of(placed.point));
   }
   return sites;
+}
+
+void order_path(Sites& sites, const RunContext& context) {
+  Ticker ticker(context, "spatial order", sites.size());
+  sites.path.clear();
+  sites.path.reserve(sites.size());
+  for (const Placed& placed : along_curve(sites.points, sites.coordinates, ticker, context))
+    sites.path.push_back(placed.point);
 }
 
 }  // namespace ph::alpha

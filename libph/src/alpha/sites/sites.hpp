@@ -46,4 +46,7 @@ struct Sites {
 Sites sites_of(PointsView points, std::span<const double> weights, const RunContext& context,
                double largest = 0);
 
+/// Orders the path along a curve, for sites that are numbered in another way.
+void order_path(Sites& sites, const RunContext& context);
+
 }  // namespace ph::alpha
