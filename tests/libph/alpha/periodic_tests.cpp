@@ -5,6 +5,7 @@
 
 #include <numeric>
 
+#include "alpha/periodic/quotient.hpp"
 #include "libph/alpha/alpha_support.hpp"
 #include "libph/alpha/expect_bars.hpp"
 #include "libph/alpha/periodic_oracle.hpp"
@@ -369,6 +370,21 @@ TEST(Periodic, UnitsArePowersOfTwoExactly) {
     ASSERT_EQ(other.size(), bars.size());
     for (std::size_t i = 0; i < bars.size(); ++i)
       ASSERT_EQ(other[i], (Bar{bars[i].dim, bars[i].birth * unit, bars[i].death * unit}));
+  }
+}
+
+// Sites far from the faces of their box have no images there: what lies outside is not the end.
+TEST(Periodic, TooFewImagesAreNoticed) {
+  const RunContext context;
+  const Points points = uniform_points(30, 3, 12);
+  const alpha::Sites sites = alpha::sites_of(points, {}, context);
+  for (const double length : {3.0, 1.5}) {
+    const alpha::Box box{{length, 0, 0}, 4};
+    for (const double margin : {0.0, 2.0}) {
+      alpha::Images images = alpha::images_within(sites, box, margin, context);
+      alpha::Triangulation triangulation = alpha::triangulate(images.places, context);
+      EXPECT_EQ(alpha::take_quotient(triangulation, images, box, context), margin > 0);
+    }
   }
 }
 
