@@ -84,6 +84,35 @@ def test_weights_and_hidden_points():
 
 
 @needs_cgal
+def test_periodic_spaces():
+    rng = np.random.default_rng(5)
+    points = rng.random((60, 3))
+    bars = ph.alpha(points, period=1, squared=True)
+    assert np.bincount(bars.dims[np.isinf(bars.deaths)]).tolist() == [1, 3, 3, 1]
+    assert bars.meta["period"] == (1.0, 1.0, 1.0)
+    # Moved around the torus, by what is exact.
+    moved = ph.alpha(np.round(points * 2**20) / 2**20 + [0.5, 0.25, 3], period=[1, 1, 1])
+    still = ph.alpha(np.round(points * 2**20) / 2**20, period=1)
+    for dim in range(4):
+        assert_allclose(moved.dgm(dim), still.dgm(dim), rtol=1e-14)
+    # A cylinder; and no axis that closes up.
+    cylinder = ph.alpha(points, period=[1, None, 0])
+    assert np.bincount(cylinder.dims[np.isinf(cylinder.deaths)]).tolist() == [1, 1]
+    assert ph.alpha(points, period=[0, 0, 0]) == ph.alpha(points)
+    # Components by definition: a minimum spanning tree of the distances around the torus.
+    apart = np.abs(points[:, None] - points)
+    distances = np.sqrt((np.minimum(apart, 1 - apart)**2).sum(axis=2))
+    tree = ph.rips(distances, metric="precomputed", max_dim=0)
+    assert_allclose(np.sqrt(bars.dgm(0)), tree.dgm(0) / 2, rtol=1e-9)
+    for how in ({"period": [1, 1]}, {"period": -1}, {"period": "1"}, {"period": [1, 1, np.inf]},
+                {"period": 1, "values": "delaunay-rips"}):
+        with pytest.raises(ph.UsageError, match="period: found"):
+            ph.alpha(points, **how)
+    with pytest.raises(ph.UsageError, match="period"):
+        ph.merge_tree(points, complex="alpha", period=1)
+
+
+@needs_cgal
 def test_points_that_are_left_out_keep_their_numbers():
     points = np.array([[np.nan, 0], [0, 0], [1, 0], [1, 1], [0, 1]])
     bars = ph.alpha(points, nan="drop", representatives="cycles", weights=[7, 0, 0, 0, 0])

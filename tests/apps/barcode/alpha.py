@@ -156,6 +156,24 @@ class Alpha(ProgramTest):
         self.assertEqual((document["complex"], document["vertex_weights"]),
                          ("alpha", "squared radii of balls, from a file"))
 
+    def test_period(self):
+        self.write("one.txt", "0.5 0.25 0\n")
+        one = ["one.txt", "--complex", "alpha", "--alpha-values", "squared"]
+        # A cubic lattice: cubes with edges, squares, and one body.
+        self.assertEqual(self.bars(*one, "--period", "2"),
+                         [(0, 0, math.inf), *[(1, 1, math.inf)] * 3, *[(2, 2, math.inf)] * 3, (3, 3, math.inf)])
+        self.assertEqual(self.bars(*one, "--period", "2,0,4"),
+                         [(0, 0, math.inf), (1, 1, math.inf), (1, 4, math.inf), (2, 5, math.inf)])
+        self.assertEqual(self.bars(*one, "--period", "2", "--check", "--field", "3"),
+                         self.bars(*one, "--period", "2"))
+        for arguments, words in ((["--period", "1,2"], "found 2 numbers for 3 axes"),
+                                 (["--period", "-1"], "--period: found '-1'"),
+                                 (["--period", "2", "--wrap", "1=x.ply"], "expected a space that does not close up"),
+                                 (["--period", "2", "--plot", "x.svg", "--plot-kind", "tree"], "no merge tree")):
+            self.assertIn(words, self.expect(64, *one, *arguments).stderr)
+        self.assertIn("expected alpha", self.expect(64, "one.txt", "--complex", "delaunay-rips", "--period",
+                                                    "2").stderr)
+
     def test_points_that_were_left_out_keep_numbers(self):
         self.write("gap.txt", "nan 0\n" + UNIT_SQUARE)
         self.write("weights.txt", "7\n0\n0\n0\n0\n")
