@@ -380,8 +380,9 @@ TEST(Periodic, TooFewImagesAreNoticed) {
   const alpha::Sites sites = alpha::sites_of(points, {}, context);
   for (const double length : {3.0, 1.5}) {
     const alpha::Box box{{length, 0, 0}, 4};
-    for (const double margin : {0.0, 2.0}) {
-      alpha::Images images = alpha::images_within(sites, box, margin, context);
+    for (const double margin : {0.0, 4.0}) {
+      alpha::Images images = alpha::images_within(
+          sites, box, [&](const auto&) { return margin; }, context);
       alpha::Triangulation triangulation = alpha::triangulate(images.places, context);
       EXPECT_EQ(alpha::take_quotient(triangulation, images, box, context), margin > 0);
     }

@@ -28,7 +28,8 @@ Range periods_within(double x, double period, double margin) {
 
 }  // namespace
 
-Images images_within(const Sites& sites, const Box& box, double margin, const RunContext& context) {
+Images images_within(const Sites& sites, const Box& box, const Margin& margin_of,
+                     const RunContext& context) {
   Images images(&context.memory);
   Sites& places = images.places;
   places.coordinates = sites.coordinates;
@@ -39,6 +40,7 @@ Images images_within(const Sites& sites, const Box& box, double margin, const Ru
     ticker.tick();
     images.begin.push_back(static_cast<std::uint32_t>(places.size()));
     const Vector<double>& p = sites.points[site];
+    const double margin = margin_of(p);
     const Range x = periods_within(p.x, box.period[0], margin);
     const Range y = periods_within(p.y, box.period[1], margin);
     const Range z = periods_within(p.z, box.period[2], margin);

@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory_resource>
 #include <vector>
 
@@ -61,8 +62,12 @@ struct Images {
   }
 };
 
-/// The images of sites up to a margin beyond the closed faces of their box.
+/// How far beyond the closed faces of the box images of a point are wanted.
+using Margin = std::function<double(const Vector<double>&)>;
+
+/// The images of sites up to their margins.
 /// @throws Error (resource) if they are too many; (cancelled).
-Images images_within(const Sites& sites, const Box& box, double margin, const RunContext& context);
+Images images_within(const Sites& sites, const Box& box, const Margin& margin_of,
+                     const RunContext& context);
 
 }  // namespace ph::alpha

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "alpha/periodic/quotient.hpp"
 #include "ph/error.hpp"
@@ -12,28 +13,52 @@ namespace {
 
 std::array<double, 3> coordinates(const Vector<double>& p) { return {p.x, p.y, p.z}; }
 
-/// A margin that is likely to do, were the sites anywhere with the same chance: the radius of the
-/// largest empty sphere, and as much as cells of usual size beyond it.
-double likely_margin(const Sites& sites, const Box& box) {
-  std::array<double, 3> low = coordinates(sites.points[0]), high = low;
-  for (const auto& p : sites.points)
+/// What is likely to do, were the sites anywhere with the same chance. Inside it is the radius of
+/// the largest empty sphere, and as much as cells of usual size beyond it. Near an open end the
+/// empty spheres are caps, which are the wider the flatter they are, up to the lengths that close
+/// up.
+class LikelyMargin {
+ public:
+  LikelyMargin(const Sites& sites, const Box& box) : box_(box) {
+    low_ = high_ = coordinates(sites.points[0]);
+    for (const auto& p : sites.points)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        low_[axis] = std::min(low_[axis], coordinates(p)[axis]);
+        high_[axis] = std::max(high_[axis], coordinates(p)[axis]);
+      }
+    const auto count = static_cast<double>(sites.size());
+    double measure = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], coordinates(p)[axis]);
-      high[axis] = std::max(high[axis], coordinates(p)[axis]);
+      const double extent = box.is_closed(axis) ? box.period[axis] : high_[axis] - low_[axis];
+      around_ = std::hypot(around_, box.period[axis]);
+      if (extent == 0) continue;
+      measure *= extent;
+      ++dim_;
     }
-  const auto count = static_cast<double>(sites.size());
-  double measure = 1, around = 0;
-  int dim = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double extent = box.is_closed(axis) ? box.period[axis] : high[axis] - low[axis];
-    around = std::hypot(around, box.period[axis]);
-    if (extent == 0) continue;
-    measure *= extent;
-    ++dim;
+    constexpr double few = 8;  // found by trial: less than one in many runs has to begin anew
+    inside_ = std::min(around_, std::pow(measure / count * (std::log(count) + few), 1.0 / dim_));
   }
-  constexpr double few = 8;  // found by trial: less than one in many runs has to begin anew
-  return std::min(around, std::pow(measure / count * (std::log(count) + few), 1.0 / dim));
-}
+  double inside() const { return inside_; }
+  void set_inside(double margin) { inside_ = margin; }
+
+  double operator()(const Vector<double>& p) const {
+    double depth = inside_;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (!box_.is_closed(axis) && low_[axis] < high_[axis])
+        depth = std::min(
+            {depth, coordinates(p)[axis] - low_[axis], high_[axis] - coordinates(p)[axis]});
+    if (depth == inside_ || inside_ >= around_) return inside_;
+    const double flat = inside_ / depth;  // as many sites as in a sphere inside
+    return std::min(around_, inside_ * std::pow(flat, 1.0 / (dim_ - 1)));
+  }
+
+ private:
+  const Box& box_;
+  std::array<double, 3> low_, high_;
+  double around_ = 0;  // the diagonal of the closed axes
+  double inside_ = 0;
+  int dim_ = 0;
+};
 
 /// The least margin with which a site has an image along each closed axis: without one the images
 /// may have a smaller affine hull than all have.
@@ -57,16 +82,18 @@ PeriodicTriangulation triangulate_periodic(const Sites& sites, const Box& box,
                                            const RunContext& context) {
   constexpr double more = 1 + 1e-9;  // than rounding takes away
   const double most = 2 * more * box.size;
-  double margin = std::max(likely_margin(sites, box), more * least_margin(sites, box));
+  LikelyMargin margin(sites, box);
+  const double least = more * least_margin(sites, box);
+  margin.set_inside(std::max(margin.inside(), least));
   for (;;) {
-    margin = std::min(margin, most);
-    Images images = images_within(sites, box, margin, context);
+    margin.set_inside(std::min(margin.inside(), most));
+    Images images = images_within(sites, box, std::cref(margin), context);
     Triangulation triangulation = triangulate(images.places, context);
     if (take_quotient(triangulation, images, box, context))
       return {std::move(triangulation), std::move(images)};
-    if (margin == most)
+    if (margin.inside() == most)
       throw Error(ErrorKind::internal, "alpha complex: cells around a periodic box do not fit");
-    margin *= 2;
+    margin.set_inside(2 * margin.inside());
   }
 }
 
