@@ -13,6 +13,7 @@
 
 #include "ph/alpha.hpp"
 #include "ph/persistence.hpp"
+#include "ph/persistence.hpp"
 #include "support/generators.hpp"
 
 namespace ph::test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Alpha complexes of any doubles.
 #include "libph/alpha/alpha_oracle.hpp"
-#include "ph/alpha.hpp"
+#include "ph/persistence.hpp"
 #include "sites_of_bytes.hpp"
 #include "targets.hpp"
 #include "violation.hpp"
