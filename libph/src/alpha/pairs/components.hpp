@@ -36,11 +36,11 @@ void pair_components(const AlphaCells& cells, const RankedSimplices& edges, cons
   for (std::size_t i = 0; i < edges.size() && left > 1; ++i) {
     ticker.tick();
     constexpr std::size_t ahead = 8;
-    if (cells.dim() == 3 && i + 2 * ahead < edges.size()) {
-      __builtin_prefetch(&cells.edges.ends[edges[i + 2 * ahead].number]);
-      for (const std::uint32_t v : cells.edges.ends[edges[i + ahead].number]) sets.prefetch(v);
+    if (i + 2 * ahead < edges.size()) {
+      prefetch_ends(cells, edges[i + 2 * ahead]);
+      for (const std::uint32_t v : ends_of(cells, edges[i + ahead])) sets.prefetch(v);
     }
-    const auto ends = ends_of(cells, edges[i].number);
+    const auto ends = ends_of(cells, edges[i]);
     std::uint32_t elder = sets.find(ends[0]), younger = sets.find(ends[1]);
     if (elder == younger) continue;
     if (is_older(younger, elder)) std::swap(elder, younger);

@@ -46,14 +46,21 @@ inline RankedSimplices ranked_edges(const AlphaCells& cells, const RunContext& c
   return ranked;
 }
 
-/// The ends of an edge by its number as above.
-inline std::array<std::uint32_t, 2> ends_of(const AlphaCells& cells, std::uint32_t edge) {
-  if (cells.dim() == 3) return cells.edges.ends[edge];
+/// The ends of an edge.
+inline std::array<std::uint32_t, 2> ends_of(const AlphaCells& cells, const Ranked& edge) {
+  if (cells.dim() == 3) return cells.edges.ends[edge.number];
   if (cells.dim() == 2) {
-    const auto ends = cells.facet_vertices(cells.facets[edge].code);
+    const auto ends = cells.facet_vertices(edge.code);
     return {ends[0], ends[1]};
   }
-  return {cells.triangulation.cells[edge][0], cells.triangulation.cells[edge][1]};
+  return {cells.triangulation.cells[edge.number][0], cells.triangulation.cells[edge.number][1]};
+}
+/// Some time before `ends_of`.
+inline void prefetch_ends(const AlphaCells& cells, const Ranked& edge) {
+  if (cells.dim() == 3)
+    __builtin_prefetch(&cells.edges.ends[edge.number]);
+  else
+    __builtin_prefetch(&cells.triangulation.cells[cells.dim() == 2 ? edge.code >> 2 : edge.number]);
 }
 
 /// Marks of simplices by number.

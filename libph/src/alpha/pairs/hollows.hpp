@@ -43,7 +43,8 @@ class Hollows {
     for (std::size_t i = facets.size(); i-- > 0;) {
       ticker.tick();
       constexpr std::size_t ahead = 8;
-      if (i >= 2 * ahead) prefetch(facets[i - 2 * ahead].code, facets[i - ahead].code);
+      if (i >= 3 * ahead)
+        prefetch(facets[i - 3 * ahead].code, facets[i - 2 * ahead].code, facets[i - ahead].code);
       if (!is_free(i)) continue;
       const std::uint32_t code = facets[i].code;
       std::uint32_t elder = sets_.find(code >> 2), younger = sets_.find(node_across(code));
@@ -70,10 +71,13 @@ class Hollows {
     const std::uint32_t other = cells_.across(code);
     return other == kNone ? outside_ : other >> 2;
   }
-  void prefetch(std::uint32_t later, std::uint32_t sooner) const {
-    __builtin_prefetch(&cells_.triangulation.across[later >> 2]);
+  /// What facets need that come soon, sooner and next: one access leads to another.
+  void prefetch(std::uint32_t soon, std::uint32_t sooner, std::uint32_t next) const {
+    __builtin_prefetch(&cells_.triangulation.across[soon >> 2]);
     sets_.prefetch(sooner >> 2);
     sets_.prefetch(node_across(sooner));
+    sets_.prefetch_parent(next >> 2);
+    sets_.prefetch_parent(node_across(next));
   }
   void link(std::uint32_t child, std::uint32_t root) {
     sets_.link(child, root);

@@ -16,7 +16,7 @@ void report_essential_edges(const AlphaCells& cells, const RankedSimplices& edge
   for (std::size_t i = 0; i < edges.size(); ++i)
     if (!joins[i])
       bars.essential(1, edges[i].value, [&] {
-        const auto ends = ends_of(cells, edges[i].number);
+        const auto ends = ends_of(cells, edges[i]);
         return Simplex::of({ends[0], ends[1]});
       });
 }
