@@ -24,7 +24,7 @@ docs=(python3-sphinx python3-myst-parser furo python3-breathe python3-sphinx-cop
 packages=(debhelper dh-python fakeroot xz-utils git libgtest-dev libpcl-dev lintian diffoscope-minimal
           debootstrap autopkgtest busybox-static)
 lint=(clang-format-14 clang-tidy-19)
-fuzz=(clang-19 libclang-rt-19-dev libgtest-dev)
+fuzz=(clang-19 libclang-rt-19-dev libgtest-dev libcgal-dev)
 coverage=(gcovr libgtest-dev)
 # Of scripts/platforms.sh; GoogleTest and fmt are compiled along.
 clang_libcxx=(clang-19 libc++-19-dev libc++abi-19-dev libunwind-19-dev googletest)

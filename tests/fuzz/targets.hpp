@@ -43,7 +43,7 @@ void run_engines(std::string_view bytes);
 // Where there are alpha complexes:
 /// Chooses points, of any doubles; bars and simplices must have the properties of an alpha complex.
 void run_alpha(std::string_view bytes);
-/// Chooses points; the signs and radii of their spheres must be those of rationals.
+/// Chooses points; the signs and radii of their spheres must be those of exact numbers.
 void run_alpha_signs(std::string_view bytes);
 
 }  // namespace ph::fuzz

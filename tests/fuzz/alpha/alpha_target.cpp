@@ -80,6 +80,17 @@ void check_definition(const Alpha& alpha, PointsView points, const std::vector<d
     });
 }
 
+/// Fractions of others take seconds.
+bool is_of_few_digits(PointsView points, std::vector<double> numbers) {
+  for (Index i = 0; i < points.rows(); ++i)
+    for (Index k = 0; k < points.cols(); ++k) numbers.push_back(points(i, k));
+  std::erase(numbers, 0);
+  if (numbers.empty()) return true;
+  const auto [low, high] = std::ranges::minmax(numbers, {}, [](double x) { return std::ilogb(x); });
+  constexpr int few = 100;
+  return std::ilogb(high) - std::ilogb(low) <= few;
+}
+
 }  // namespace
 
 void run_alpha(std::string_view bytes) {
@@ -100,7 +111,8 @@ void run_alpha(std::string_view bytes) {
             "each point is a vertex or hidden");
     require(check_simplices(alpha) == (count > 0), "points make simplices");
     check_bars(alpha, vertices);
-    if (count > 0 && count <= 5) check_definition(alpha, points, options.weights, squared);
+    if (count > 0 && count <= 5 && is_of_few_digits(points, options.weights))
+      check_definition(alpha, points, options.weights, squared);
   } catch (const Error& error) {
     require(error.kind() == ErrorKind::bad_data, "numbers are refused as bad data");
   }
