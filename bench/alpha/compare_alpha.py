@@ -20,7 +20,7 @@ from pathlib import Path
 PEER = """
 import sys, numpy, gudhi
 points = numpy.load(sys.argv[1])
-weights = numpy.load(sys.argv[3]) if len(sys.argv) > 3 else None
+weights = numpy.load(sys.argv[3]).tolist() if len(sys.argv) > 3 else None
 tree = gudhi.AlphaComplex(points=points, weights=weights, precision=sys.argv[2]).create_simplex_tree()
 tree.compute_persistence(homology_coeff_field=2, persistence_dim_max=True)
 for dim in range(points.shape[1]):
