@@ -39,7 +39,8 @@ class SitesOfBytes {
   int signed_byte() { return static_cast<signed char>(next()); }
   /// The double so many places further.
   static double moved(double x, int places) {
-    const double result = std::bit_cast<double>(std::bit_cast<std::int64_t>(x) + places);
+    const double result =
+        std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) + static_cast<std::uint64_t>(places));
     return std::isfinite(result) ? result : x;
   }
   double number() {
