@@ -197,6 +197,19 @@ TEST(AlphaAdverse, WeightedPointsNearlyOnASphere) {
   EXPECT_TRUE(is_enough(late, 100)) << late;
 }
 
+// Edges and the late vertices in them have one value, but for rounding.
+TEST(AlphaAdverse, WeightedDecimals) {
+  for_each_seed(60, [&](Generator& random, bool, std::int64_t) {
+    Points points(12, 3);
+    for (double& x : points.coordinates()) x = 0.1 * random.integer(0, 4);
+    AlphaOptions options{.unit = AlphaOptions::Unit::squared};
+    for (int i = 0; i < 12; ++i) options.weights.push_back(0.01 * random.integer(0, 4));
+    const Alpha alpha(points, options);
+    EXPECT_EQ(first_difference(persistence(alpha), persistence(alpha, {.engine = Engine::twist})),
+              "");
+  });
+}
+
 // Squares of distances underflow here, or all but vanish beside weights.
 TEST(AlphaAdverse, PointsThatAreCloseBesideTheirWeights) {
   for (const double distance : {1e-9, 1e-155, 1e-170, 1e-305}) {
