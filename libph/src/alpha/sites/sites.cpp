@@ -21,7 +21,7 @@ struct Placed {
 };
 
 void check_sizes(PointsView points, std::span<const double> weights) {
-  if (points.cols() < 1 || points.cols() > 3)
+  if (points.rows() > 0 && (points.cols() < 1 || points.cols() > 3))
     throw Error(ErrorKind::usage,
                 fmt::format("alpha complex: found points of R^{}, expected R^1 to R^3; a Rips "
                             "complex takes any",
