@@ -65,8 +65,7 @@ Metadata metadata_of(const BarcodePage& page, const std::optional<CubicalImage>&
   const bool of_values = page.complex ? image.has_value() : meta.negated;
   meta.value_label = complex_as<Rips>(page) ? "Distance" : of_values ? "Value" : "Filtration value";
   if (const auto* alpha = complex_as<Alpha>(page))
-    meta.value_label =
-        alpha->unit() == AlphaOptions::Unit::radius ? "Radius" : "Squared radius";
+    meta.value_label = alpha->unit() == AlphaOptions::Unit::radius ? "Radius" : "Squared radius";
   meta.barcodes.push_back({meta.title, page.barcode.cell_kind(), page.barcode.representatives()});
   if (page.points) meta.cloud = cloud_meta(page);
   if (image) {

@@ -13,7 +13,6 @@
 
 #include "ph/alpha.hpp"
 #include "ph/persistence.hpp"
-#include "ph/persistence.hpp"
 #include "support/generators.hpp"
 
 namespace ph::test {

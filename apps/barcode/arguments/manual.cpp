@@ -73,8 +73,8 @@ std::string built_in() {
   for (const BarcodeFormatInfo& info : barcode_formats()) written += fmt::format(" {}", info.name);
   const std::string cgal = alpha_support();
   return fmt::format(
-      "engines    {}\nreads      {}\n{}writes     {} svg\nCGAL       {}\nlicence    {}\n",
-      engines, read, missing.empty() ? "" : fmt::format("not read   {}\n", missing), written,
+      "engines    {}\nreads      {}\n{}writes     {} svg\nCGAL       {}\nlicence    {}\n", engines,
+      read, missing.empty() ? "" : fmt::format("not read   {}\n", missing), written,
       cgal.empty() ? "not built in (alpha complexes need it)" : "built in (" + cgal + ")",
       cgal.empty() ? "MIT" : "GPL 3 or later, since CGAL is linked; libph itself is MIT");
 }

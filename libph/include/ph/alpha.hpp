@@ -90,8 +90,8 @@ class Alpha {
   ///         or other values of weighted points; on lengths that are not one an axis, negative or
   ///         not finite, and other values in a periodic space; Error (bad_data) on numbers that are
   ///         not finite, on coordinates whose magnitudes differ beyond what doubles can square, and
-  ///         of squared values on coordinates of which no double can be the square; Error (resource,
-  ///         cancelled, not_built_in).
+  ///         of squared values on coordinates of which no double can be the square; Error
+  ///         (resource, cancelled, not_built_in).
   explicit Alpha(PointsView points, const AlphaOptions& options = {},
                  const RunContext& context = default_context());
 

@@ -39,9 +39,8 @@ void Alpha::prepare(const RunContext& context) const {
   const std::lock_guard lock(lazy_->mutex);
   if (lazy_->listed) return;
   const auto enters = [&](double r) { return to_value(r) <= threshold_; };
-  lazy_->set(cells_->is_periodic
-                 ? alpha::list_cells(*cells_, enters, lazy_->vertices, context)
-                 : alpha::list_simplices(*cells_, enters, context));
+  lazy_->set(cells_->is_periodic ? alpha::list_cells(*cells_, enters, lazy_->vertices, context)
+                                 : alpha::list_simplices(*cells_, enters, context));
 }
 
 const ExplicitComplex& Alpha::listed() const {

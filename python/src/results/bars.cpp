@@ -136,7 +136,8 @@ void bind_bars(py::module_& m) {
       .def_readonly("vertices", &Facts::vertices)
       .def_readonly("edges", &Facts::edges)
       .def_readonly("covering_radius", &Facts::covering_radius)
-      .def_property_readonly("hidden", [](const Facts& f) { return py::tuple(py::cast(f.hidden)); });
+      .def_property_readonly("hidden",
+                             [](const Facts& f) { return py::tuple(py::cast(f.hidden)); });
   py::class_<Bars>(m, "Bars", py::buffer_protocol())
       .def_buffer(&bytes_of_bars)
       .def("__len__", [](const Bars& bars) { return bars.barcode.size(); })
