@@ -134,7 +134,7 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
     watch.lap("tree");
   }
   if (!job.surfaces.empty()) {
-    outputs->write_surfaces(std::get<Alpha>(built.complex), *points_of(data->read),
+    outputs->write_surfaces(std::get<Alpha>(built.complex), *points_of(data->read), point_ids,
                             session.context());
     watch.lap("surfaces");
   }
@@ -212,6 +212,7 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
   info.vertex_weights = built.vertex_weights;
   info.subsample = built.subsample;
   info.voxels = built.voxels;
+  info.alpha = built.alpha;
   if (const auto* cubical = std::get_if<Cubical>(&built.complex))
     info.superlevel = cubical->cubical_image().superlevel;
   info.approximation = arguments.rips.approximation;

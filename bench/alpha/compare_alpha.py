@@ -5,7 +5,7 @@ compare_alpha.py BUILD [--gudhi-python PYTHON] [--million] [ROW…]
 
 Whole programs, one thread, reading included: CPU seconds, the least of three runs (of long ones: one), and
 peak memory. Of GUDHI the fastest of its modes `safe` and `exact`; `fast` promises nothing. Bars are
-compared: as many, of the same total length. Prints a table in Markdown."""
+compared by their total length in each dimension. Prints a table in Markdown."""
 import argparse
 import math
 import os
@@ -112,7 +112,7 @@ def bars_of(path):
 
 
 def agree(ours, peers):
-    """GUDHI counts no bars of length 0, but may have some of a last place."""
+    """Numbers of bars differ: GUDHI may have some of a last place, where ours have length 0."""
     for dim, line in enumerate(peers.splitlines()):
         length = float(line.split()[1])
         if not math.isclose(ours.get(dim, (0, 0.0))[1], length, rel_tol=1e-6, abs_tol=1e-9):

@@ -224,8 +224,8 @@ def alpha_request(o: dict[str, Any]) -> Request:
     """Of all keywords of `alpha`, and X."""
     _run.check_names("alpha", o["run"], o)
     value = _options.choice("values", o["values"], ALPHA_VALUES)
-    recipe, squared, source = alpha_recipe(o, value, _threshold(o))
-    period = _period(o["period"], source.coordinates or 0)
+    source = source_of(o["X"], nan=o["nan"])
+    recipe, squared, period = alpha_recipe(o, source, value, _threshold(o))
     meta = _meta(value, o, points=source.points, coordinates=source.coordinates,
                  squared=squared, weights=None if o["weights"] is None else "given",
                  period=tuple(period) if any(period) else None,
@@ -233,14 +233,13 @@ def alpha_request(o: dict[str, Any]) -> Request:
     return Request(recipe, _task_of(o, _loops_of(o, "plain")), o["run"], meta)
 
 
-def alpha_recipe(o: dict[str, Any], value: str = "alpha", threshold: float | None = None
-                 ) -> tuple[_core.AlphaRecipe, bool, Source]:
-    """With whether values are squares, and the points."""
+def alpha_recipe(o: dict[str, Any], source: Source, value: str = "alpha",
+                 threshold: float | None = None) -> tuple[_core.AlphaRecipe, bool, list[float]]:
+    """With whether values are squares, and the lengths of axes that close up."""
     if not _core.alpha_support():
         raise NotBuiltIn("alpha: alpha complexes are not in this libph, for CGAL was not there when "
                          "it was built. Install it (Debian: apt install libcgal-dev), then install "
                          "libph again (pip install .); what has CGAL in it falls under the GPL")
-    source = source_of(o["X"], nan=o["nan"])
     dims = source.coordinates
     if dims is not None and not 1 <= dims <= 3 and source.points:
         raise UsageError(f"X: found points of R^{dims}, expected R^1 to R^3; ph.rips takes any")
@@ -262,7 +261,7 @@ def alpha_recipe(o: dict[str, Any], value: str = "alpha", threshold: float | Non
         raise UsageError(f"period: found values={value!r}, expected 'alpha'")
     recipe = _core.AlphaRecipe(source.space, value, squared, weights, period,
                                math.inf if threshold is None else threshold, source.ids)
-    return recipe, squared, source
+    return recipe, squared, period
 
 
 def _period(period: Any, axes: int) -> list[float]:

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays, _core, _options, _run
 from ._files import path_of
 from ._requests import alpha_recipe
+from ._sources import source_of
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -86,7 +87,7 @@ def alpha_shape(X: Any, value: float, *, wrap: bool = False, squared: bool | Non
     options: dict[str, Any] = dict(run)
     _run.check_names("alpha_shape", options, {"X", "value", "wrap", "squared", "weights", "nan"})
     at = _options.real("value", value)
-    recipe, _, _ = alpha_recipe({"X": X, "squared": squared, "weights": weights, "nan": nan})
+    recipe = alpha_recipe({"squared": squared, "weights": weights}, source_of(X, nan=nan))[0]
     corners, regular = _run.run(_core.surface, recipe, at, _options.flag("wrap", wrap),
                                 options=options)
     triangles = np.asarray(corners).reshape(-1, 3)

@@ -71,12 +71,15 @@ def test_components_are_half_those_of_rips():
 
 
 @needs_cgal
-def test_weights_and_hidden_points():
+def test_weights_and_hidden_points(tmp_path):
     bars = ph.alpha([[0, 0, 0], [3, 0, 0], [0.5, 0, 0]], weights=[1, 4, -9])
     assert_array_equal(bars.dgm(0), [[-4, np.inf], [-1, 0]])
     assert bars.meta["hidden"] == (2,)
     assert bars.meta["squared"] is True
     assert pickle.loads(pickle.dumps(bars)) == bars
+    bars.save(tmp_path / "bars.json")
+    assert ph.read_barcode(tmp_path / "bars.json").meta["hidden"] == (2,)
+    assert ph.read_barcode(tmp_path / "bars.json").meta["squared"] is True
     # Equal weights shift what is squared.
     points = np.random.default_rng(2).normal(size=(50, 2))
     shifted = ph.alpha(points, weights=np.full(50, 0.25)).dgm(1)

@@ -143,10 +143,6 @@ WEIGHTS = [
     ("nothing", b"", "weights.txt"),
 ]
 
-NOT_BUILT_IN = [
-    (["--complex", "alpha"], "alpha"),
-]
-
 FINE = [["--subsample", "4"], ["--subsample-radius", "0"], ["--dtm", "1"], 
         ["--collapse", "auto"], ["--collapse", "on"], ["--collapse", "off"], ["--representatives", "none"],
         ["--threads", "1"], ["--threads=2"], ["--memory-limit", "1GiB"], ["--memory-limit", "1e9"],
@@ -199,9 +195,6 @@ def entries():
     for row, file, content, options, words in BARCODE_FILES:
         yield Entry(row, f"{file} {' '.join(options)}", "ph-barcode", (file, *options), 64, ".", words,
                     {file: content})
-    for options, words in NOT_BUILT_IN:
-        yield Entry(49, " ".join(options), "ph-barcode", ("square.txt", *options), 69, ".", words,
-                    SQUARE_FILE)
     for row, options, words in SEGMENT:
         yield Entry(row, "ph-segment " + " ".join(options), "ph-segment", ("cloud.xyz", *options), 64,
                     ".", words, CLOUD)

@@ -159,16 +159,16 @@ test("a mesh stands along y, a relief along z, either on a flat base if it has o
     const positions = Float32Array.from({ length: 3000 }, (_, i) => size[i % 3] * next());
     return firstPose({ meta: {}, cloud: { dims: 3, origin: [0, 0, 0], positions }, ...more }).up;
   };
-  const triangles = { corners: [], values: [] };
-  assert.deepEqual(upOf([1, 1.2, 0.9], { triangles }).toArray(), [0, 1, 0]);
-  assert.deepEqual(upOf([1, 1.2, 0.2], { triangles }).toArray(), [0, 0, 1]);
+  const isMesh = true;
+  assert.deepEqual(upOf([1, 1.2, 0.9], { isMesh }).toArray(), [0, 1, 0]);
+  assert.deepEqual(upOf([1, 1.2, 0.2], { isMesh }).toArray(), [0, 0, 1]);
   assert.deepEqual(upOf([1, 1.2, 0.9]).toArray(), [0, 0, 1], "points");
   // A fifth of the vertices lie right at the lower end of x.
   const positions = Float32Array.from({ length: 3000 }, (_, i) =>
     i % 15 === 0 ? 0 : next(),
   );
   const cloud = { dims: 3, origin: [0, 0, 0], positions };
-  assert.deepEqual(firstPose({ meta: {}, cloud, triangles }).up.toArray(), [1, 0, 0]);
+  assert.deepEqual(firstPose({ meta: {}, cloud, isMesh }).up.toArray(), [1, 0, 0]);
 });
 
 test("numbers keep apart, larger ones more", () => {

@@ -145,6 +145,30 @@ test("reports of the programs", { timeout: 300_000 }, async (t) => {
     });
   });
 
+  await t.test("ph-barcode: an alpha complex is a cloud at first, and a surface at a radius", async (t) => {
+    writeFileSync(
+      join(folder, "cube.csv"),
+      [0, 1, 2, 3, 4, 5, 6, 7].map((i) => `${i & 1} ${(i >> 1) & 1} ${i >> 2}`).join("\n"),
+    );
+    if (execFileSync(barcode, ["--version", "--verbose"]).toString().includes("alpha complexes need it")) {
+      t.skip("CGAL is not built in");
+      return;
+    }
+    run(barcode, "cube.csv", "--complex", "alpha", "--min-persistence", "-1", "-o", "cube.json",
+      "--report", "cube.html");
+    await look(browser, "cube.html", [...kCharts, ".stage"], async (page) => {
+      const words = () => page.textContent(".scrubber output");
+      assert.equal(await words(), "all");
+      assert.equal(await page.textContent(".data h2"), "Point cloud");
+      await page.evaluate(() => (location.hash = "scale=0.5"));
+      await frame(page);
+      assert.match(await words(), /β₀ 1 .* 12 edges$/);
+      await page.evaluate(() => (location.hash = "scale=2"));
+      await frame(page);
+      assert.match(await words(), /β₀ 1 .* edges, 1\d triangles$/);
+    });
+  });
+
   await t.test("ph-barcode: two barcodes, a hostile name, no points", async () => {
     const name = "<script>alert(1)<img>.csv";
     writeFileSync(join(folder, name), "dim,birth,death\n0,0,1\n0,0,inf\n1,0.5,2\n");

@@ -101,6 +101,10 @@ void check_alpha_arguments(Arguments& a) {
     throw Error(ErrorKind::usage,
                 fmt::format("{}: found --period, expected a space that does not close up",
                             a.surfaces[0].option()));
+  for (const Surface& surface : a.surfaces)
+    if (a.threshold && surface.value > *a.threshold)
+      throw Error(ErrorKind::usage, fmt::format("{}: found {}, expected at most --threshold, {}",
+                                                surface.option(), surface.value, *a.threshold));
   if (!a.alpha_unit)
     a.alpha_unit = is_weighted ? AlphaOptions::Unit::squared : AlphaOptions::Unit::radius;
   if (is_weighted && a.weights == "-" && std::ranges::count(a.inputs, "-") > 0)

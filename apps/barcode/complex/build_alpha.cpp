@@ -2,11 +2,6 @@
 #include "barcode/complex/build_alpha.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <algorithm>
-
-#include "common/arguments/numbers.hpp"
 
 namespace ph::barcode {
 namespace {
@@ -15,20 +10,6 @@ AlphaOptions::Value value_of(ComplexKind kind) {
   if (kind == ComplexKind::delaunay_cech) return AlphaOptions::Value::delaunay_cech;
   if (kind == ComplexKind::delaunay_rips) return AlphaOptions::Value::delaunay_rips;
   return AlphaOptions::Value::alpha;
-}
-
-/// The points that have no part in a complex, in words.
-std::optional<std::string> hidden_points(const Alpha& alpha, const std::vector<Index>& ids,
-                                         const std::string& name) {
-  constexpr std::size_t most_named = 10;
-  const auto hidden = alpha.hidden();
-  if (hidden.empty()) return std::nullopt;
-  std::vector<Index> named;
-  for (const std::uint32_t v : hidden.first(std::min(hidden.size(), most_named)))
-    named.push_back(ids.empty() ? Index{v} : ids[v]);
-  return fmt::format("{}: {} hidden by others with larger weights, and not in the complex: {}{}",
-                     name, app::count_of(hidden.size(), "point"), fmt::join(named, ", "),
-                     hidden.size() > most_named ? ", …" : "");
 }
 
 }  // namespace
@@ -66,7 +47,11 @@ BuiltComplex build_alpha(const Points& points, std::vector<double> weights,
     BuiltComplex built{alpha, std::string(kind), arguments.threshold, points.rows() == 0,
                        std::nullopt};
     if (is_weighted) built.vertex_weights = "squared radii of balls, from a file";
-    built.hidden = hidden_points(alpha, ids, name);
+    auto& values = built.alpha.emplace();
+    values.squared = options.unit == AlphaOptions::Unit::squared;
+    if (alpha.is_periodic()) values.period = options.period;
+    for (const std::uint32_t v : alpha.hidden())
+      values.hidden.push_back(ids.empty() ? Index{v} : ids[v]);
     return built;
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::bad_data) throw;

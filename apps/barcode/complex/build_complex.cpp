@@ -2,6 +2,7 @@
 #include "barcode/complex/build_complex.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +11,7 @@
 
 #include "barcode/arguments/option_scopes.hpp"
 #include "barcode/complex/build_alpha.hpp"
+#include "common/arguments/numbers.hpp"
 #include "complex/listed_cubes.hpp"
 #include "core/system/files.hpp"
 #include "ph/distance_to_measure.hpp"
@@ -372,6 +374,16 @@ class Builder {
 };
 
 }  // namespace
+
+std::optional<std::string> hidden_points(const BuiltComplex& built) {
+  constexpr std::size_t most_named = 10;
+  if (!built.alpha || built.alpha->hidden.empty()) return std::nullopt;
+  const std::span<const Index> hidden(built.alpha->hidden);
+  return fmt::format("{} hidden by others with larger weights, and not in the complex: {}{}",
+                     app::count_of(hidden.size(), "point"),
+                     fmt::join(hidden.first(std::min(hidden.size(), most_named)), ", "),
+                     hidden.size() > most_named ? ", …" : "");
+}
 
 BuiltComplex build_complex(ReadResult&& input, const std::string& name, std::size_t dropped,
                            const Arguments& arguments, const RunContext& context) {

@@ -19,10 +19,13 @@ struct BuiltComplex {
   std::optional<BarcodeInfo::Subsample> subsample = std::nullopt;
   std::optional<BarcodeInfo::VoxelGrid> voxels = std::nullopt;  ///< of points
   std::optional<std::string> promise = std::nullopt;  ///< what an approximation is worth, one line
-  std::optional<std::string> hidden = std::nullopt;   ///< points that have no part, one line
+  std::optional<BarcodeInfo::AlphaValues> alpha = std::nullopt;
   /// The same complex made by another path, for the oracle of --check; null: there is none.
   std::function<AnyComplex(const RunContext& context)> by_definition = nullptr;
 };
+
+/// The points of an alpha complex that have no part in it, one line; nothing if all have.
+std::optional<std::string> hidden_points(const BuiltComplex& built);
 
 /// Builds the complex that the arguments ask for, or the one that suits the data.
 /// @param name of the input, for messages. @param dropped how many points were left out of it.

@@ -143,7 +143,7 @@ Loaded load(const Job& job, std::optional<Input>& input, const Arguments& argume
       arguments.options.representatives == Representatives::none)
     session.note("--construction does nothing: of one axis both have the same bars");
   if (built.promise) session.note(*built.promise);
-  if (built.hidden) session.note(*built.hidden);
+  if (const auto hidden = hidden_points(built)) session.note(fmt::format("{}: {}", name, *hidden));
   if (built.empty && !arguments.read.allow_empty)
     throw Error(ErrorKind::bad_data,
                 fmt::format("{}: no points; --allow-empty accepts that", name));

@@ -12,13 +12,14 @@ Outputs::Outputs(const Job& job) : job_(job) {
   if (!job.report.empty()) report_.emplace(job.report);
 }
 
-void Outputs::write_surfaces(const Alpha& alpha, PointsView points, const RunContext& context) {
+void Outputs::write_surfaces(const Alpha& alpha, PointsView points, std::span<const Index> ids,
+                             const RunContext& context) {
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
     const Surface& surface = job_.surfaces[i];
     write_surface(
         surfaces_[i].file(), points,
         surface.is_wrap ? wrap(alpha, surface.value, context) : alpha_shape(alpha, surface.value),
-        surface_format_of_path(surface.path).value_or(SurfaceFormat::ply));
+        surface_format_of_path(surface.path).value_or(SurfaceFormat::ply), ids);
   }
 }
 

@@ -19,7 +19,9 @@ class Outputs {
   void write(const Barcode& bars, const BarcodeInfo& info, const PlotOptions& look,
              std::span<const std::string> trees, const RunContext& context);
   /// Writes the surfaces of an alpha complex; they are completed with the rest.
-  void write_surfaces(const Alpha& alpha, PointsView points, const RunContext& context);
+  /// @param ids the numbers of the points in the input; empty: their own.
+  void write_surfaces(const Alpha& alpha, PointsView points, std::span<const Index> ids,
+                      const RunContext& context);
   /// Precondition: the job has one.
   app::Output& report() { return *report_; }
 

@@ -59,7 +59,7 @@ report::Provenance provenance_of(const Shown& shown, const Arguments& arguments)
     notes.emplace_back("Assumed", fmt::format("{}", fmt::join(assumed, "; ")));
   if (!shown.info.vertex_weights.empty())
     notes.emplace_back("Vertices enter late", shown.info.vertex_weights);
-  if (shown.built.hidden) notes.emplace_back("Hidden", *shown.built.hidden);
+  if (const auto hidden = hidden_points(shown.built)) notes.emplace_back("Hidden", *hidden);
   if (shown.built.promise) notes.emplace_back("Approximation", *shown.built.promise);
   return provenance;
 }

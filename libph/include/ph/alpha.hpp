@@ -13,9 +13,9 @@
 #include "ph/points.hpp"
 #include "ph/run_context.hpp"
 
-// The constructor of Alpha is in a library of its own, ph::alpha. It uses triangulations of CGAL,
-// which are under the GNU General Public License: so is a program that links it. All else is in
-// ph::core.
+// The constructor of Alpha, and alpha_support, are in a library of their own, ph::alpha. It uses
+// triangulations of CGAL, which are under the GNU General Public License: so is a program that
+// links it. All else is in ph::core.
 
 namespace ph {
 
@@ -117,7 +117,7 @@ class Alpha {
   std::size_t slot_count() const { return listed().slot_count(); }
   static std::size_t slot(Cell c) { return ExplicitComplex::slot(c); }
   /// Not in a periodic space: an edge may be a loop.
-  bool edges_join_vertices() const { return !is_periodic_; }
+  bool edges_join_vertices() const { return !is_periodic(); }
   static CellKind cell_kind() { return CellKind::vertices; }
   /// In a periodic space a point may come several times.
   void append_input_cell(int dim, Cell cell, std::vector<Index>& numbers) const;
@@ -143,7 +143,7 @@ class Alpha {
   AlphaOptions::Unit unit() const { return unit_; }
   bool is_weighted() const;
   /// Whether an axis closes up.
-  bool is_periodic() const { return is_periodic_; }
+  bool is_periodic() const;
 
  private:
   struct Lazy;
@@ -153,7 +153,6 @@ class Alpha {
   AlphaOptions::Unit unit_;
   AlphaOptions::Value kind_;
   double threshold_;
-  bool is_periodic_;
   int top_dim_ = -1;
 };
 
@@ -165,11 +164,11 @@ struct SurfaceMesh {
   std::size_t regular = 0;
 };
 
-/// The surface of the simplices up to a value, in the unit of the complex: what the balls of that
-/// radius enclose, as a polyhedron. Of points in a plane all triangles up to it, counterclockwise
-/// if they are points of R². O(triangles · log). @throws Error (usage) on
-/// NaN, on values other than alpha, and in a periodic space: a triangle across a face of the box
-/// has no points for its corners.
+/// The surface of the simplices up to a value, in the unit of the complex, whatever its threshold:
+/// what the balls of that radius enclose, as a polyhedron. Of points in a plane all triangles up to
+/// it, counterclockwise if they are points of R². O(triangles · log). @throws Error (usage) on NaN,
+/// on values other than alpha, and in a periodic space: a triangle across a face of the box has no
+/// points for its corners.
 SurfaceMesh alpha_shape(const Alpha& alpha, double value);
 
 /// The same of the wrap complex (Edelsbrunner, Surface reconstruction by wrapping finite sets in

@@ -23,6 +23,8 @@ double Alpha::to_value(double squared_radius) const {
 
 bool Alpha::is_weighted() const { return cells_->sites.is_weighted(); }
 
+bool Alpha::is_periodic() const { return cells_->is_periodic; }
+
 std::span<const std::uint32_t> Alpha::hidden() const { return cells_->hidden; }
 
 std::vector<Index> Alpha::copies() const {

@@ -20,6 +20,11 @@ namespace ph {
 namespace alpha {
 namespace {
 
+/// Whether some axis does.
+bool closes_up(std::span<const double> period) {
+  return std::ranges::any_of(period, [](double length) { return length != 0; });
+}
+
 void find_intervals(AlphaCells& cells, Images* images, const RunContext& context) {
   if (cells.dim() > 0) {
     cells.cell_values.resize(cells.triangulation.size());
@@ -42,7 +47,7 @@ void find_intervals(AlphaCells& cells, Images* images, const RunContext& context
 
 AlphaCells alpha_cells(PointsView points, std::span<const double> weights,
                        std::span<const double> period, const RunContext& context) {
-  const bool is_periodic = std::ranges::any_of(period, [](double length) { return length != 0; });
+  const bool is_periodic = closes_up(period);
   std::optional<Folded> folded;
   double largest = 0;
   if (is_periodic) {
@@ -90,8 +95,7 @@ Alpha::Alpha(PointsView points, const AlphaOptions& options, const RunContext& c
     : lazy_(std::make_shared<Lazy>(context)),
       unit_(options.unit),
       kind_(options.value),
-      threshold_(options.threshold),
-      is_periodic_(std::ranges::any_of(options.period, [](double l) { return l != 0; })) {
+      threshold_(options.threshold) {
   if (std::isnan(threshold_))
     throw Error(ErrorKind::usage, "threshold: found nan, expected a number");
   if (!options.weights.empty() && unit_ == AlphaOptions::Unit::radius)
@@ -102,7 +106,7 @@ Alpha::Alpha(PointsView points, const AlphaOptions& options, const RunContext& c
     throw Error(ErrorKind::usage,
                 "alpha complex of weighted points: found values other than alpha, which are for "
                 "points without weights");
-  if (is_periodic_ && kind_ != AlphaOptions::Value::alpha)
+  if (alpha::closes_up(options.period) && kind_ != AlphaOptions::Value::alpha)
     throw Error(ErrorKind::usage,
                 "alpha complex of a periodic space: found values other than alpha, which are for "
                 "spaces that do not close up");

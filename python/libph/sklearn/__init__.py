@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: MIT
 """Persistent homology in pipelines of scikit-learn.
 
-Of lists of point clouds, distances or images: `RipsPersistence`, `AlphaPersistence`, `CubicalPersistence`. Of
-lists of
-diagrams: `Statistics`, `PersistenceImage`, `Landscape`, `Silhouette`, `BettiCurve`, `LifeEntropy`,
-`Entropy`, `Lengths`, `Atol`, `DiagramDistances`, `DiagramKernels`. Of lists of images, without their
-bars: `EulerCurve`. Of one cloud, a row a sample: `PersistenceClustering`, `DistanceToMeasure`,
-`FarthestPoints`.
+Of lists of point clouds, distances or images: `RipsPersistence`, `AlphaPersistence`,
+`CubicalPersistence`. Of lists of diagrams: `Statistics`, `PersistenceImage`, `Landscape`,
+`Silhouette`, `BettiCurve`, `LifeEntropy`, `Entropy`, `Lengths`, `Atol`, `DiagramDistances`,
+`DiagramKernels`. Of lists of images, without their bars: `EulerCurve`. Of one cloud, a row a sample:
+`PersistenceClustering`, `DistanceToMeasure`, `FarthestPoints`.
 
 >>> import libph.sklearn
 >>> from sklearn.pipeline import make_pipeline
@@ -29,8 +28,8 @@ from ._numbers import Entropy, Lengths, Statistics
 from ._persistence import AlphaPersistence, CubicalPersistence, RipsPersistence
 from ._points import DistanceToMeasure, FarthestPoints
 
-__all__ = ["AlphaPersistence", "Atol", "BettiCurve", "CubicalPersistence", "DiagramDistances", "DiagramKernels",
-           "DistanceToMeasure", "Entropy", "EulerCurve", "FarthestPoints", "Landscape", "Lengths",
+__all__ = ["AlphaPersistence", "Atol", "BettiCurve", "CubicalPersistence", "DiagramDistances",
+           "DiagramKernels", "DistanceToMeasure", "Entropy", "EulerCurve", "FarthestPoints", "Landscape", "Lengths",
            "LifeEntropy", "PersistenceClustering", "PersistenceImage", "RipsPersistence",
            "Silhouette", "Statistics"]
 

@@ -33,6 +33,12 @@ BarcodeInfo info_of(const py::dict& meta) {
     take("points", info.subsample->of);
     take("covering_radius", info.subsample->covering_radius);
   }
+  if (meta.contains("squared")) {
+    info.alpha.emplace();
+    take("squared", info.alpha->squared);
+    take("period", info.alpha->period);
+    take("hidden", info.alpha->hidden);
+  }
   return info;
 }
 
@@ -52,6 +58,11 @@ py::dict meta_of(const BarcodeInfo& info) {
     put("vertices", info.subsample->points);
     put("points", info.subsample->of);
     put("covering_radius", info.subsample->covering_radius);
+  }
+  if (info.alpha) {
+    put("squared", info.alpha->squared);
+    if (!info.alpha->period.empty()) put("period", py::tuple(py::cast(info.alpha->period)));
+    if (!info.alpha->hidden.empty()) put("hidden", py::tuple(py::cast(info.alpha->hidden)));
   }
   return meta;
 }

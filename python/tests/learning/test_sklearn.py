@@ -19,12 +19,16 @@ from sklearn.model_selection import GridSearchCV  # noqa: E402
 from sklearn.pipeline import make_pipeline  # noqa: E402
 from sklearn.utils import estimator_checks  # noqa: E402
 
-from libph.sklearn import (Atol, BettiCurve, CubicalPersistence, DiagramDistances,  # noqa: E402
-                           DiagramKernels, DistanceToMeasure, Entropy, EulerCurve, FarthestPoints,
-                           Landscape, Lengths, LifeEntropy, PersistenceClustering,
-                           PersistenceImage, RipsPersistence, Silhouette, Statistics)
+from libph import _core  # noqa: E402
+from libph.sklearn import (AlphaPersistence, Atol, BettiCurve,  # noqa: E402
+                           CubicalPersistence, DiagramDistances, DiagramKernels,
+                           DistanceToMeasure, Entropy, EulerCurve, FarthestPoints, Landscape,
+                           Lengths, LifeEntropy, PersistenceClustering, PersistenceImage,
+                           RipsPersistence, Silhouette, Statistics)
 
 OF_LISTS = [RipsPersistence, CubicalPersistence]
+if _core.alpha_support():
+    OF_LISTS.append(AlphaPersistence)
 OF_DIAGRAMS = [PersistenceImage, Landscape, BettiCurve, Entropy, Lengths, Statistics, Silhouette,
                LifeEntropy, Atol, DiagramDistances, DiagramKernels, EulerCurve]
 OF_POINTS = [PersistenceClustering, DistanceToMeasure, FarthestPoints]
@@ -70,6 +74,8 @@ def inputs_of(kind, clouds, dgms):
         return np.vstack(clouds)
     if kind in (CubicalPersistence, EulerCurve):
         return [cloud @ cloud.T for cloud in clouds]
+    if kind is AlphaPersistence:
+        return [cloud[:, :3] for cloud in clouds]
     return clouds if kind is RipsPersistence else dgms
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""RipsPersistence and CubicalPersistence: lists of clouds and images in, lists of diagrams out."""
+"""The estimators that compute persistence: lists of clouds and images in, of diagrams out."""
 import os
 import signal
 import threading
@@ -14,9 +14,10 @@ import libph as ph
 from samples import of_class, same
 
 pytest.importorskip("sklearn", reason="scikit-learn is missing: nothing of libph.sklearn is tested")
-from libph.sklearn import CubicalPersistence, RipsPersistence  # noqa: E402
+from libph import _core  # noqa: E402
+from libph.sklearn import AlphaPersistence, CubicalPersistence, RipsPersistence  # noqa: E402
 
-OF_LISTS = [RipsPersistence, CubicalPersistence]
+OF_LISTS = [RipsPersistence, AlphaPersistence, CubicalPersistence]
 
 
 def test_rips(clouds):
@@ -59,6 +60,17 @@ def test_cubical(rng, how):
     images = rng.random((3, 6, 7))
     found = CubicalPersistence(**how).fit_transform(images)
     assert same(found, [[ph.cubical(i, **how).dgm(d) for d in (0, 1)] for i in images])
+
+
+@pytest.mark.skipif(not _core.alpha_support(), reason="CGAL is not built in")
+@pytest.mark.parametrize("how", [
+    {}, {"values": "delaunay-rips", "threshold": 0.2}, {"squared": True, "field": 3}])
+def test_alpha(rng, how):
+    clouds = [rng.random((n, 2)) for n in (20, 31)]
+    found = AlphaPersistence(**how, n_jobs=2).fit_transform(clouds)
+    assert same(found, [[ph.alpha(c, **how).dgm(d) for d in (0, 1)] for c in clouds])
+    with pytest.raises(ph.UsageError, match="sample 0: X: found points of R.4"):
+        AlphaPersistence().fit_transform([rng.random((5, 4))])
 
 
 def test_an_image_with_holes(rng):

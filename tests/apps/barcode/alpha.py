@@ -153,8 +153,11 @@ class Alpha(ProgramTest):
         self.assertIn("not in the complex: 2", done.stderr)
         self.expect(0, "two.txt", "--complex", "alpha", "--weights", "weights.txt", "-o", "bars.json")
         document = json.loads(self.read("bars.json"))
-        self.assertEqual((document["complex"], document["vertex_weights"]),
-                         ("alpha", "squared radii of balls, from a file"))
+        self.assertEqual((document["complex"], document["vertex_weights"], document["alpha"]),
+                         ("alpha", "squared radii of balls, from a file", {"squared": True, "hidden": [2]}))
+        # What is known of it stays when the bars are written again.
+        self.expect(0, "bars.json", "-o", "again.json", "--quiet")
+        self.assertEqual(json.loads(self.read("again.json"))["alpha"], document["alpha"])
 
     def test_period(self):
         self.write("one.txt", "0.5 0.25 0\n")
@@ -164,6 +167,8 @@ class Alpha(ProgramTest):
                          [(0, 0, math.inf), *[(1, 1, math.inf)] * 3, *[(2, 2, math.inf)] * 3, (3, 3, math.inf)])
         self.assertEqual(self.bars(*one, "--period", "2,0,4"),
                          [(0, 0, math.inf), (1, 1, math.inf), (1, 4, math.inf), (2, 5, math.inf)])
+        self.expect(0, *one, "--period", "2,0,4", "-o", "bars.json", "--quiet")
+        self.assertEqual(json.loads(self.read("bars.json"))["alpha"], {"squared": True, "period": [2, 0, 4]})
         self.assertEqual(self.bars(*one, "--period", "2", "--check", "--field", "3"),
                          self.bars(*one, "--period", "2"))
         for arguments, words in ((["--period", "1,2"], "found 2 numbers for 3 axes"),
@@ -179,7 +184,11 @@ class Alpha(ProgramTest):
         self.write("weights.txt", "7\n0\n0\n0\n0\n")
         for how in ([], ["--weights", "weights.txt"]):
             self.expect(0, "gap.txt", "--nan", "drop", "--complex", "alpha", "--alpha-values", "squared", *how, "-o",
-                        "bars.json", "--representatives", "cycles", "--loops", "plain", "--quiet")
+                        "bars.json", "--representatives", "cycles", "--loops", "plain", "--quiet",
+                        "--alpha-shape", "1=shape.ply")
+            with open(self.path("shape.ply"), "rb") as file:
+                _, numbers, triangles, _ = read_ply(file.read())
+            self.assertEqual((numbers, len(triangles)), ([1, 2, 3, 4], 2))
             loop = json.loads(self.read("bars.json"))["bars"][-1]
             self.assertEqual((loop["birth"], loop["death"]), (0.25, 0.5))
             self.assertEqual(sorted(sorted(term["vertices"]) for term in loop["representative"]),
@@ -251,6 +260,8 @@ class Alpha(ProgramTest):
                 (64, [*alpha, "--alpha-shape", "x.ply"], "expected R=FILE.ply"),
                 (64, [*alpha, "--alpha-shape", "1=x.stl"], "expected R=FILE.ply"),
                 (64, [*alpha, "--wrap", "far=x.ply"], "--wrap"),
+                (64, [*alpha, "--threshold", "0.5", "--wrap", "0.6=x.ply"],
+                 "--wrap: found 0.6, expected at most --threshold, 0.5"),
                 (64, [*alpha, "--loops", "tight", "--representatives", "cycles", "--output-format",
                       "json"], "--loops plain"),
                 (64, ["unit.txt", "--wrap", "1=x.ply"], "--wrap: makes sense for points with --complex alpha")):

@@ -90,6 +90,12 @@ def test_barcodes(t):
     t.check_bars(blobs, "--representatives", "cycles", "--construction", "cells")
     t.check_bars("mesh.simplices", "--representatives", "cycles")
     t.check_bars("matrix.phat")
+    if "alpha complexes need it" not in t.run(t.barcode, "--version", "--verbose").stdout:
+        (t.folder / "weights.txt").write_text("1\n1\n1\n-9\n")
+        weighted = t.check_bars("square.csv", "--complex", "alpha", "--weights", "weights.txt")
+        assert weighted["alpha"]["squared"]
+        assert t.check_bars("square.csv", "--complex", "alpha", "--period", "3,0")["alpha"]["period"] == [3, 0]
+        t.check_bars("square.csv", "--complex", "delaunay-rips", "--representatives", "cycles")
     assert "row" in t.check_bars("matrix.phat")["bars"][0]["birth_cell"]
     t.run(t.barcode, "square.csv", "-o", "square.pers", "--quiet")
     assert "complex" not in t.check_bars("square.pers")

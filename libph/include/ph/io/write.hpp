@@ -34,7 +34,7 @@ struct BarcodeInfo {
   std::string program;            ///< name and version
   std::string input;              ///< path of the input
   std::string input_description;  ///< "1024 points in R^3, CSV"
-  std::string complex;            ///< "rips", "cubical", "explicit", "lower-star"
+  std::string complex;            ///< "rips", "cubical", "explicit", "lower-star", "alpha", …
   std::int64_t field = 2;
   int max_dim = 0;
   std::optional<double> threshold;
@@ -53,6 +53,13 @@ struct BarcodeInfo {
     std::string value;          ///< "distance", "occupancy" or "density"
   };
   std::optional<VoxelGrid> voxels;
+  /// Of an alpha complex, or another of the Delaunay triangulation.
+  struct AlphaValues {
+    bool squared = false;        ///< values are squares of radii
+    std::vector<double> period;  ///< of each axis, 0: it does not close up; empty: none does
+    std::vector<Index> hidden;   ///< points that have no part in it
+  };
+  std::optional<AlphaValues> alpha;
   bool superlevel = false;              ///< values are minus those of the image
   std::optional<double> approximation;  ///< epsilon of a sparse Rips filtration
   /// By bar of the barcode that is written, as ph::loops gives them: they stand beside the cycles.
@@ -123,9 +130,10 @@ enum class SurfaceFormat {
 std::optional<SurfaceFormat> surface_format_of_path(std::string_view path);
 /// Writes a surface with the points that it has, in their order; the caller commits the file.
 /// @param points of R², where the third coordinate is 0, or R³; the mesh is of them.
+/// @param ids the numbers that points have in the input; empty: their own.
 /// @throws Error (usage) on points of another space; Error (io) as OutputFile.
 void write_surface(OutputFile& file, PointsView points, const SurfaceMesh& mesh,
-                   SurfaceFormat format);
+                   SurfaceFormat format, std::span<const Index> ids = {});
 
 /// The shortest text that reads back to the same double; `inf`, `-inf`, `nan`; -0 as 0.
 std::string shortest(double value);

@@ -152,7 +152,7 @@ std::string json_heading(const Barcode& barcode, const BarcodeInfo& info) {
   const auto value = [](const std::optional<double>& x) { return x ? json_value(*x) : ""; };
   const bool has_complex = !info.complex.empty();
   const bool has_chains = barcode.representatives() != Representatives::none;
-  std::string subsample, voxels;
+  std::string subsample, voxels, alpha;
   if (info.subsample)
     subsample = json::object({{"points", json::integer(info.subsample->points)},
                               {"of", json::integer(info.subsample->of)},
@@ -161,6 +161,13 @@ std::string json_heading(const Barcode& barcode, const BarcodeInfo& info) {
     voxels = json::object({{"edge", json_value(info.voxels->voxel)},
                            {"first", json::array(info.voxels->first, json_value)},
                            {"value", json::string(info.voxels->value)}});
+  if (info.alpha) {
+    const auto& [squared, period, hidden] = *info.alpha;
+    alpha =
+        json::object({{"squared", squared ? "true" : "false"},
+                      {"period", period.empty() ? "" : json::array(period, json_value)},
+                      {"hidden", hidden.empty() ? "" : json::array(hidden, json::integer<Index>)}});
+  }
   std::string heading;
   json::add_members(
       heading,
@@ -178,6 +185,7 @@ std::string json_heading(const Barcode& barcode, const BarcodeInfo& info) {
        {"vertex_weights", text(info.vertex_weights)},
        {"subsample", subsample},
        {"voxels", voxels},
+       {"alpha", alpha},
        {"superlevel", info.superlevel ? "true" : ""},
        {"approximation", value(info.approximation)},
        {"engine", text(info.engine)},

@@ -61,6 +61,8 @@ class InfoReader {
       read_subsample();
     } else if (name == "voxels") {
       read_voxels();
+    } else if (name == "alpha") {
+      read_alpha();
     } else if (name == "superlevel") {
       info_.superlevel = json_.boolean();
     } else if (name == "approximation") {
@@ -105,6 +107,24 @@ class InfoReader {
         sample.covering_radius = number().value_or(kInfinity);
       else
         json_.skip_value();
+    });
+  }
+
+  void read_alpha() {
+    if (json_.accept_null()) return;
+    auto& alpha = info_.alpha.emplace();
+    for_each_member(json_, [&](const std::string& member) {
+      if (member == "squared") {
+        alpha.squared = json_.boolean();
+      } else if (member == "period") {
+        json_.expect('[');
+        for (bool first = true; json_.next_element(first);) alpha.period.push_back(json_.number());
+      } else if (member == "hidden") {
+        json_.expect('[');
+        for (bool first = true; json_.next_element(first);) alpha.hidden.push_back(count());
+      } else {
+        json_.skip_value();
+      }
     });
   }
 

@@ -69,7 +69,7 @@ std::optional<SurfaceFormat> surface_format_of_path(std::string_view path) {
 }
 
 void write_surface(OutputFile& file, PointsView points, const SurfaceMesh& mesh,
-                   SurfaceFormat format) {
+                   SurfaceFormat format, std::span<const Index> ids) {
   if (points.cols() > 3)
     throw Error(ErrorKind::usage,
                 fmt::format("surface: found points of R^{}, expected R^2 or R^3", points.cols()));
@@ -99,7 +99,8 @@ void write_surface(OutputFile& file, PointsView points, const SurfaceMesh& mesh,
                   used.size(), triangles));
   for (const Index point : used) {
     for (const double x : coordinates_of(points, point)) to.add_bytes(x);
-    to.add_bytes(static_cast<std::uint32_t>(point));
+    to.add_bytes(
+        static_cast<std::uint32_t>(ids.empty() ? point : ids[static_cast<std::size_t>(point)]));
   }
   for (std::size_t i = 0; i < triangles; ++i) {
     to.add_bytes(std::uint8_t{3});
