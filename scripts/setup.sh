@@ -21,7 +21,7 @@ viewer=("${page[@]}" chromium)  # its tests in a browser, too
 docs=(python3-sphinx python3-myst-parser furo python3-breathe python3-sphinx-copybutton doxygen git
       python3-jsonschema hunspell hunspell-en-gb)
 # What makes Debian packages, and what tries them.
-packages=(debhelper dh-python fakeroot xz-utils git libgtest-dev libpcl-dev lintian diffoscope-minimal
+packages=(debhelper dh-python fakeroot xz-utils git libgtest-dev libpcl-dev libcgal-dev lintian diffoscope-minimal
           debootstrap autopkgtest busybox-static)
 lint=(clang-format-14 clang-tidy-19)
 fuzz=(clang-19 libclang-rt-19-dev libgtest-dev libcgal-dev)

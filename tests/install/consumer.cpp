@@ -11,6 +11,9 @@
 #include <ph/report.hpp>
 #include <ph/scene_report.hpp>
 #endif
+#ifdef WITH_ALPHA
+#include <ph/alpha.hpp>
+#endif
 #ifdef WITH_PCL
 #include <ph/pcl.hpp>
 #endif
@@ -31,6 +34,10 @@ int main(int argc, char** argv) try {
   const ph::Barcode bars = ph::persistence(ph::Rips(points));
   std::printf("%d points, %d loops\n", static_cast<int>(points.rows()),
               static_cast<int>(bars.bars(1).size()));
+#ifdef WITH_ALPHA
+  const ph::Alpha alpha(points);
+  std::printf("%d loops of balls\n", static_cast<int>(ph::persistence(alpha).bars(1).size()));
+#endif
 #ifdef WITH_SEGMENT
   const float xyz[] = {0, 0, 1, 0, 0, 1.001F, 0, 0, 1.002F};
   const auto parts = ph::segment::segment({xyz, {}}, {.min_size = 1, .plane = false});

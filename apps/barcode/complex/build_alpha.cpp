@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "common/system/process.hpp"
+
 namespace ph::barcode {
 namespace {
 
@@ -44,6 +46,8 @@ BuiltComplex build_alpha(const Points& points, std::vector<double> weights,
   try {
     const bool is_weighted = !options.weights.empty();
     const Alpha alpha(points, options, context);
+    // A triangulation is many blocks, each too small to go back to the system by itself.
+    app::give_back_freed_memory();
     BuiltComplex built{alpha, std::string(kind), arguments.threshold, points.rows() == 0,
                        std::nullopt};
     if (is_weighted) built.vertex_weights = "squared radii of balls, from a file";

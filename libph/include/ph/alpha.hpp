@@ -103,7 +103,7 @@ class Alpha {
   /// Simplices by dimension, those beyond the threshold and edges of copies included.
   std::vector<std::size_t> simplex_counts() const;
 
-  /// Makes every simplex, unless they are there. It takes about 600 bytes a point of R³ and stays
+  /// Makes every simplex, unless they are there. It takes about 5 kB a point of R³ and stays
   /// with the filtration. Thread-safe. @throws Error (resource) and (cancelled).
   void prepare(const RunContext& context) const;
   /// The same complex, simplex by simplex, as the other parts of libph take it. Made by `prepare`

@@ -158,11 +158,8 @@ class CellList {
       const auto v = cells_.facet_vertices(code);
       auto boundary = size == 2 ? boundary_of_edge(v) : std::array<Index, 4>();
       if (size == 3) {
-        const auto& places = kFacetPlaces[code & 3];
-        for (unsigned i = 0; i < 3; ++i)
-          boundary[i] =
-              edge_rows_[cells_.edges.of_cell[code >> 2][kEdgeBetween[places[(i + 1) % 3]]
-                                                                     [places[(i + 2) % 3]]]];
+        const auto edges = cells_.facet_edges(code);
+        for (std::size_t i = 0; i < 3; ++i) boundary[i] = edge_rows_[edges[i]];
       }
       facet_rows_[code] =
           add(std::span(v).first(size), facet_value(cells_, code), std::span(boundary).first(size));

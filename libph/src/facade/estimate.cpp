@@ -48,7 +48,7 @@ double stored_bytes(const ExplicitComplex& complex, bool) {
 
 double stored_bytes(const Alpha& alpha, bool lists_cells) {
   // A cell of the triangulation, and what generic engines take instead of it.
-  constexpr double bytes_of_top_cell = 110, bytes_of_listed_cell = 80;
+  constexpr double bytes_of_top_cell = 90, bytes_of_listed_cell = 160;
   const std::vector<std::size_t> counts = alpha.simplex_counts();
   double all = 0;
   for (const std::size_t count : counts) all += static_cast<double>(count);
@@ -89,7 +89,8 @@ Estimate estimate_one(const Complex& complex, const RunPlan& planned, const Opti
       forecast = forecast_voxels(complex, e.bytes_held, {options.min_dim, e.max_dim},
                                  options.representatives != Representatives::none, context);
   if constexpr (std::same_as<Complex, Alpha>)
-    if (listed_dim < 0) forecast = detail::forecast_intervals(e.bytes_held);
+    if (listed_dim < 0) forecast = detail::forecast_intervals(
+          e.bytes_held, options.representatives != Representatives::none);
   e.counted_dims = static_cast<int>(e.cells.size());
   const auto [low, high] = forecast;
   e.bytes_low = low;

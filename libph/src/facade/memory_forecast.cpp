@@ -189,9 +189,10 @@ MemoryForecast forecast_voxels(double stored, double voxels, double cells,
           stored + bytes_per_cell * std::max(least_cells_per_voxel * voxels, cells) + kAlways};
 }
 
-MemoryForecast forecast_intervals(double stored) {
-  // Measured: critical simplices with their columns; next to none of a surface, many of noise.
-  return {stored, 1.8 * stored + kAlways};
+MemoryForecast forecast_intervals(double stored, bool with_representatives) {
+  // Measured: critical simplices with their columns, next to none of a surface, many of noise; and
+  // cycles.
+  return {stored, (with_representatives ? 5.5 : 2.0) * stored + kAlways};
 }
 
 MemoryForecast forecast_cells(double stored, std::span<const double> cells) {

@@ -27,7 +27,7 @@ MemoryForecast forecast_voxels(double stored, double voxels, double cells,
                                bool with_representatives);
 
 /// The same for an alpha complex that is paired by its intervals.
-MemoryForecast forecast_intervals(double stored);
+MemoryForecast forecast_intervals(double stored, bool with_representatives);
 
 /// The same for a complex that numbers or stores its cells, from the size of its parts alone.
 MemoryForecast forecast_cells(double stored, std::span<const double> cells);

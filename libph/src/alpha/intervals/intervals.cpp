@@ -26,10 +26,7 @@ double facet_value(const AlphaCells& cells, std::uint32_t code, const CriticalFa
     const auto ends = cells.facet_vertices(code);
     return cells.vertex_values[cells.vertex_up[ends[0]] == ends[1] ? ends[0] : ends[1]];
   }
-  const auto& places = kFacetPlaces[code & 3];
-  for (unsigned i = 0; i < 3; ++i) {
-    const std::uint32_t e =
-        cells.edges.of_cell[code >> 2][kEdgeBetween[places[i]][places[(i + 1) % 3]]];
+  for (const std::uint32_t e : cells.facet_edges(code)) {
     const std::uint32_t up = cells.edge_states[e].up;
     if (up == code || (up == other && other != kNone)) return cells.edge_states[e].value;
   }

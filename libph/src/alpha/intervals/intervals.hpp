@@ -72,6 +72,14 @@ struct AlphaCells {
   std::uint32_t across(std::uint32_t code) const {
     return triangulation.across[code >> 2][code & 3];
   }
+  /// Of dimension 3: the edge between two places of a cell.
+  std::uint32_t edge_between(std::size_t cell, unsigned i, unsigned k) const {
+    return edges.between(triangulation, cell, i, k);
+  }
+  /// Of dimension 3: the edges of a facet, each opposite the vertex at its place.
+  std::array<std::uint32_t, 3> facet_edges(std::uint32_t code) const {
+    return edges.of_facet(triangulation, code);
+  }
   /// The vertices of a facet, ascending; as many as the dimension says.
   std::array<std::uint32_t, 3> facet_vertices(std::uint32_t code) const {
     return facet_of(triangulation.cells[code >> 2], code & 3, dim());

@@ -53,9 +53,6 @@ class SpaceIntervals {
   }
 
  private:
-  uint32_t edge_between(std::size_t cell, unsigned i, unsigned k) const {
-    return cells_.edges.of_cell[cell][kEdgeBetween[i][k]];
-  }
   void pair_edge(uint32_t edge, uint32_t facet, double value) {
     Edge& state = cells_.edge_states[edge];
     assert(state.up == kUnknown);  // a simplex lies in one interval
@@ -69,13 +66,13 @@ class SpaceIntervals {
 
   // @param code its usual name. @param other its other one.
   void find_facet(uint32_t code, uint32_t other) {
-    const std::size_t cell = code >> 2;
+    const uint32_t cell = code >> 2;
     const auto& places = kFacetPlaces[code & 3];
     const auto [a, b, c] = frames_.of_facet(code);
     const unsigned beyond = spheres_.beyond_triangle(a, b, c);
     for (unsigned left = beyond; left != 0; left &= left - 1) {
       const unsigned i = lowest(left);
-      is_not_empty_.set(edge_between(cell, places[(i + 1) % 3], places[(i + 2) % 3]));
+      is_not_empty_.set(cells_.edge_between(cell, places[(i + 1) % 3], places[(i + 2) % 3]));
     }
     const bool is_in_first = cells_.belongs_to(code);
     const bool is_in_second = other != kNone && cells_.belongs_to(other);
@@ -88,28 +85,29 @@ class SpaceIntervals {
     // The interval ends with this triangle.
     const double value = spheres_.triangle_radius(a, b, c);
     const unsigned first = lowest(beyond);
-    pair_edge(edge_between(cell, places[(first + 1) % 3], places[(first + 2) % 3]), code, value);
+    pair_edge(cells_.edge_between(cell, places[(first + 1) % 3], places[(first + 2) % 3]), code,
+              value);
     if (const unsigned rest = beyond & (beyond - 1); rest != 0) {
       const unsigned vertex = 3 - first - lowest(rest);
       pair_vertex(cells_.triangulation.cells[cell][places[vertex]],
-                  edge_between(cell, places[vertex], places[first]), value, code);
+                  cells_.edge_between(cell, places[vertex], places[first]), value, code);
     }
   }
 
   // @param code of a facet in the interval of the tetrahedron that names it.
   void give_to_tetrahedron(uint32_t code) {
-    const std::size_t cell = code >> 2;
+    const uint32_t cell = code >> 2;
     const unsigned beyond = cells_.beyond[cell], first = lowest(beyond), k = code & 3;
     const double value = cells_.cell_values[cell];
     if (k != first) {  // paired with the edge that lacks both
       const unsigned rest = 0b1111U & ~(1U << first) & ~(1U << k);
-      pair_edge(edge_between(cell, lowest(rest), lowest(rest & (rest - 1))), code, value);
+      pair_edge(cells_.edge_between(cell, lowest(rest), lowest(rest & (rest - 1))), code, value);
       return;
     }
     if (std::popcount(beyond) < 3) return;
     const unsigned vertex = lowest(0b1111U & ~beyond);
-    pair_vertex(cells_.triangulation.cells[cell][vertex], edge_between(cell, vertex, first), value,
-                code);
+    pair_vertex(cells_.triangulation.cells[cell][vertex], cells_.edge_between(cell, vertex, first),
+                value, code);
   }
 
   void find_edge(uint32_t e) {

@@ -80,7 +80,7 @@ class Lemmas {
     if (size == top) return cells_.cell_values[t];
     if (size == top - 1) return facet_value(cells_, 4 * t + lowest(~places));
     const unsigned first = lowest(places), second = lowest(places & (places - 1));
-    return cells_.edge_states[cells_.edges.of_cell[t][kEdgeBetween[first][second]]].value;
+    return cells_.edge_states[cells_.edge_between(t, first, second)].value;
   }
 
   void find_inside() {

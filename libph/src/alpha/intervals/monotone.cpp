@@ -111,7 +111,7 @@ class SpaceRepair {
 
   uint32_t edge_at(std::size_t cell, unsigned places) const {
     const unsigned i = lowest(places), k = lowest(places & (places - 1));
-    return cells_.edges.of_cell[cell][kEdgeBetween[i][k]];
+    return cells_.edge_between(cell, i, k);
   }
   static unsigned facet_places(uint32_t code) { return 0b1111U & ~(1U << (code & 3)); }
   uint32_t across(uint32_t code) const { return cells_.across(code); }
@@ -121,32 +121,28 @@ class SpaceRepair {
   std::vector<uint32_t> facets_out_of_order() const {
     std::mutex mutex;
     std::vector<uint32_t> found;
-    for_each_piece(
-        "order of values", cells_.triangulation.size(), FacetPieces::kPiece, context_,
-        [&](std::size_t from, std::size_t to) {
-          auto next = std::ranges::lower_bound(cells_.facets, static_cast<uint32_t>(4 * from), {},
-                                               &CriticalFacet::code);
-          for (std::size_t t = from; t < to; ++t)
-            for (uint32_t k = 0; k < 4; ++k) {
-              const auto code = static_cast<uint32_t>(4 * t) + k;
-              const uint32_t other = cells_.triangulation.across[t][k];
-              if (other != kNone && other < code) continue;
-              const bool is_critical = next != cells_.facets.end() && next->code == code;
-              const double value =
-                  alpha::facet_value(cells_, code, is_critical ? &*next++ : nullptr);
-              const auto& places = kFacetPlaces[k];
-              bool is_ordered = value <= cells_.cell_values[t] &&
-                                (other == kNone || value <= cells_.cell_values[other >> 2]);
-              for (unsigned i = 0; i < 3; ++i) {
-                const uint32_t e =
-                    cells_.edges.of_cell[t][kEdgeBetween[places[i]][places[(i + 1) % 3]]];
-                is_ordered = is_ordered && cells_.edge_states[e].value <= value;
-              }
-              if (is_ordered) continue;
-              const std::lock_guard lock(mutex);
-              found.push_back(code);
-            }
-        });
+    for_each_piece("order of values", cells_.triangulation.size(), FacetPieces::kPiece, context_,
+                   [&](std::size_t from, std::size_t to) {
+                     auto next = std::ranges::lower_bound(
+                         cells_.facets, static_cast<uint32_t>(4 * from), {}, &CriticalFacet::code);
+                     for (std::size_t t = from; t < to; ++t)
+                       for (uint32_t k = 0; k < 4; ++k) {
+                         const auto code = static_cast<uint32_t>(4 * t) + k;
+                         const uint32_t other = cells_.triangulation.across[t][k];
+                         if (other != kNone && other < code) continue;
+                         const bool is_critical = next != cells_.facets.end() && next->code == code;
+                         const double value =
+                             alpha::facet_value(cells_, code, is_critical ? &*next++ : nullptr);
+                         bool is_ordered =
+                             value <= cells_.cell_values[t] &&
+                             (other == kNone || value <= cells_.cell_values[other >> 2]);
+                         for (const uint32_t e : cells_.facet_edges(code))
+                           is_ordered = is_ordered && cells_.edge_states[e].value <= value;
+                         if (is_ordered) continue;
+                         const std::lock_guard lock(mutex);
+                         found.push_back(code);
+                       }
+                   });
     return found;
   }
 

@@ -47,6 +47,10 @@ class AlphaBars {
 
   bool wants(int dim) const { return bars_.min_dim() <= dim && dim <= bars_.max_dim(); }
   bool wants_cycles() const { return bars_.representatives() == Representatives::cycles; }
+  /// Says that so many bars may come: a hint.
+  void expect(std::size_t count) {
+    if (!bars_.wants_cells() && !wants_cycles()) bars_.expect(some_.size() + count);
+  }
   /// To be called last.
   void flush() {
     bars_.add_bars(some_);

@@ -8,16 +8,19 @@
 #include <span>
 #include <vector>
 
+#include "ph/detail/core/chain.hpp"
 #include "ph/detail/core/field.hpp"
 #include "ph/detail/core/raw_vector.hpp"
 
 namespace ph::alpha {
 
-/// A reduced column: its pivot's coefficient, and what is below the pivot, behind it in memory.
-template <class Term>
+/// A reduced column: its pivot's coefficient, and what is below the pivot, behind it in memory:
+/// edges by number.
+template <Field K>
 class Column {
  public:
-  using Element = decltype(Term().coefficient());
+  using Element = typename K::Element;
+  using Term = Entry<std::uint32_t, K>;
 
   Column(std::uint32_t number, std::uint32_t facet, Element pivot, std::uint32_t size)
       : number_(number), facet_(facet), size_(size), pivot_(pivot) {}
@@ -28,25 +31,29 @@ class Column {
   std::span<const Term> below() const { return {reinterpret_cast<const Term*>(this + 1), size_}; }
 
  private:
-  alignas(8) std::uint32_t number_;
+  std::uint32_t number_;
   std::uint32_t facet_, size_;
   Element pivot_;
 };
 
 /// Columns of one thread. They stay where they are: others read them.
-template <class Term>
+template <Field K>
 class ColumnStore {
-  using Unit = std::uint64_t;
-  static_assert(sizeof(Column<Term>) % sizeof(Unit) == 0 && sizeof(Term) % sizeof(Unit) == 0 &&
+  using Term = typename Column<K>::Term;
+  using Unit = std::uint32_t;
+  static_assert(alignof(Column<K>) == sizeof(Unit) && alignof(Term) == sizeof(Unit) &&
+                sizeof(Column<K>) % sizeof(Unit) == 0 && sizeof(Term) % sizeof(Unit) == 0 &&
                 std::is_trivially_copyable_v<Term>);
 
  public:
   explicit ColumnStore(std::pmr::memory_resource* memory) : blocks_(memory) {}
 
-  const Column<Term>* keep(std::uint32_t number, std::uint32_t facet,
-                           typename Column<Term>::Element pivot, std::span<const Term> below) {
-    constexpr std::size_t block = 1 << 17;
-    const std::size_t units = (sizeof(Column<Term>) + below.size_bytes()) / sizeof(Unit);
+  /// @param below its terms, whose cells are EdgeNames.
+  template <class Terms>
+  const Column<K>* keep(std::uint32_t number, std::uint32_t facet, typename K::Element pivot,
+                        const Terms& below) {
+    constexpr std::size_t block = 1 << 18;
+    const std::size_t units = (sizeof(Column<K>) + below.size() * sizeof(Term)) / sizeof(Unit);
     if (blocks_.empty() || blocks_.back().capacity() - blocks_.back().size() < units) {
       blocks_.emplace_back();
       blocks_.back().reserve(std::max(block, units));
@@ -54,8 +61,9 @@ class ColumnStore {
     auto& into = blocks_.back();
     into.resize(into.size() + units);
     auto* const column = new (into.data() + into.size() - units)
-        Column<Term>(number, facet, pivot, static_cast<std::uint32_t>(below.size()));
-    std::uninitialized_copy(below.begin(), below.end(), reinterpret_cast<Term*>(column + 1));
+        Column<K>(number, facet, pivot, static_cast<std::uint32_t>(below.size()));
+    auto* to = reinterpret_cast<Term*>(column + 1);
+    for (const auto& term : below) new (to++) Term(term.cell.edge, term.coefficient());
     return column;
   }
 

@@ -8,10 +8,10 @@ namespace ph::alpha {
 
 /// H0: Kruskal's algorithm on the critical edges, by the elder rule. The forest of least edges has
 /// no others: an edge in an interval with more than a vertex closes a triangle as it enters.
-/// @param joins to it are added the places in `edges` of those that join components.
-template <Field K>
+/// @param on_join called with the places in `edges` of those that join components.
+template <Field K, class OnJoin>
 void pair_components(const AlphaCells& cells, const RankedSimplices& edges, const K& field,
-                     const RunContext& context, AlphaBars& bars, SimplexSet& joins) {
+                     const RunContext& context, AlphaBars& bars, OnJoin&& on_join) {
   const auto sites = static_cast<std::uint32_t>(cells.sites.size());
   DisjointSets sets(sites, &context.memory);
   // A late vertex enters with an edge to an earlier one.
@@ -29,7 +29,6 @@ void pair_components(const AlphaCells& cells, const RankedSimplices& edges, cons
     const double a = cells.vertex_value(u), b = cells.vertex_value(v);
     return a != b ? a < b : u < v;
   };
-  joins.assign(edges.size(), false);
   std::size_t left = sites;  // components
   for (const std::uint32_t up : cells.vertex_up) left -= up != kCritical ? 1 : 0;
   Ticker ticker(context, "components", edges.size());
@@ -45,7 +44,7 @@ void pair_components(const AlphaCells& cells, const RankedSimplices& edges, cons
     if (elder == younger) continue;
     if (is_older(younger, elder)) std::swap(elder, younger);
     sets.link(younger, elder);
-    joins[i] = true;
+    on_join(i);
     --left;
     if (!bars.wants(0)) continue;
     const bool wants_cycle = bars.pair(

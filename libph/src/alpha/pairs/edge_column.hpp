@@ -50,28 +50,32 @@ class EdgeColumn {
     terms_.clear();
     add_boundary(facet, kNone, field_.from_int(1));
   }
-  void add(Element scale, std::span<const Term> chain) {
+  /// @param chain ascending.
+  void add(Element scale, std::span<const Entry<std::uint32_t, K>> chain) {
     count(terms_.size() + chain.size());
+    const auto name = [&](std::uint32_t edge) {
+      return EdgeName{cells_.edge_states[edge].value, edge};
+    };
     merged_.clear();
     auto mine = terms_.begin();
     auto theirs = chain.begin();
     while (mine != terms_.end() && theirs != chain.end()) {
-      if (mine->cell == theirs->cell) {
+      if (mine->cell.edge == theirs->cell) {
         const Element sum =
             field_.add(mine->coefficient(), field_.multiply(scale, theirs->coefficient()));
         if (!field_.is_zero(sum)) merged_.emplace_back(mine->cell, sum);
         ++mine;
         ++theirs;
-      } else if (mine->cell < theirs->cell) {
+      } else if (mine->cell < name(theirs->cell)) {
         merged_.push_back(*mine++);
       } else {
-        merged_.emplace_back(theirs->cell, field_.multiply(scale, theirs->coefficient()));
+        merged_.emplace_back(name(theirs->cell), field_.multiply(scale, theirs->coefficient()));
         ++theirs;
       }
     }
     merged_.insert(merged_.end(), mine, terms_.end());
     for (; theirs != chain.end(); ++theirs)
-      merged_.emplace_back(theirs->cell, field_.multiply(scale, theirs->coefficient()));
+      merged_.emplace_back(name(theirs->cell), field_.multiply(scale, theirs->coefficient()));
     terms_.swap(merged_);
   }
   std::span<const Term> terms() const { return terms_; }
@@ -98,11 +102,7 @@ class EdgeColumn {
   /// edge `without`, which is left out; or `coefficient` times all of it.
   void add_boundary(std::uint32_t facet, std::uint32_t without, Element coefficient) {
     count(1);
-    const auto& places = kFacetPlaces[facet & 3];
-    const auto& of_cell = cells_.edges.of_cell[facet >> 2];
-    const std::array<std::uint32_t, 3> edges{of_cell[kEdgeBetween[places[1]][places[2]]],
-                                             of_cell[kEdgeBetween[places[0]][places[2]]],
-                                             of_cell[kEdgeBetween[places[0]][places[1]]]};
+    const std::array<std::uint32_t, 3> edges = cells_.facet_edges(facet);
     // Their incidences are 1, -1 and 1.
     bool is_negative = false;
     if (without != kNone) is_negative = edges[1] != without;

@@ -26,27 +26,21 @@ namespace ph::alpha {
 template <Field K>
 class Loops {
   using Term = typename EdgeColumn<K>::Term;
-  using KeptColumn = Column<Term>;
+  using KeptColumn = Column<K>;
 
  public:
-  /// @param edges, facets critical ones. @param edge_joins, facet_joins by their places: whether
-  /// they join components, or hollows.
-  Loops(const AlphaCells& cells, const RankedSimplices& edges, const SimplexSet& edge_joins,
-        const RankedSimplices& facets, const SimplexSet& facet_joins, const K& field,
-        const RunContext& context)
+  /// @param joins by edge: whether it is critical and joins components.
+  /// @param column_of by critical facet: its place in the order of the filtration; kNone: it joins
+  /// hollows. Both outlive the loops.
+  Loops(const AlphaCells& cells, const SimplexSet& joins, std::span<const std::uint32_t> column_of,
+        const K& field, const RunContext& context)
       : cells_(cells),
         field_(field),
         context_(context),
-        joins_(cells.edge_states.size(), false, &context.memory),
-        column_of_(cells.facets.size(), kNone, &context.memory),
+        joins_(joins),
+        column_of_(column_of),
         owners_(cells.edge_states.size(), nullptr, &context.memory),
-        essential_(&context.memory) {
-    for (std::size_t i = 0; i < edges.size(); ++i)
-      if (edge_joins[i]) joins_[edges[i].number] = true;
-    std::uint32_t columns = 0;
-    for (std::size_t i = 0; i < facets.size(); ++i)
-      if (!facet_joins[i]) column_of_[facets[i].number] = columns++;
-  }
+        essential_(&context.memory) {}
 
   void run(AlphaBars& bars) {
     // What columns hold may depend on which thread came first, though their pivots do not. Cycles
@@ -75,7 +69,7 @@ class Loops {
         : chain(loops.cells_, loops.joins_, loops.field_, loops.context_),
           kept(&loops.context_.memory) {}
     EdgeColumn<K> chain;
-    ColumnStore<Term> kept;
+    ColumnStore<K> kept;
   };
   Worker& take_worker(std::mutex& mutex) {
     const std::lock_guard lock(mutex);
@@ -112,28 +106,42 @@ class Loops {
     const std::lock_guard lock(mutex_);
     essential_.push_back(facet);
   }
+  /// By edge: the critical facet that kills its class; kNone: it has none that dies.
+  std::pmr::vector<std::uint32_t> killers() const {
+    std::pmr::vector<std::uint32_t> facets(owners_.size(), kNone, &context_.memory);
+    for (std::size_t e = 0; e < owners_.size(); ++e)
+      if (owners_[e] != nullptr) facets[e] = owners_[e]->facet();
+    return facets;
+  }
+  void drop_columns() {
+    decltype(owners_)(owners_.get_allocator()).swap(owners_);
+    workers_.clear();
+  }
   void report(AlphaBars& bars) {
+    const std::pmr::vector<std::uint32_t> killer_of = killers();
+    if (!bars.wants_cycles()) drop_columns();
+    bars.expect(killer_of.size() - static_cast<std::size_t>(std::ranges::count(killer_of, kNone)));
     std::optional<EdgeForest<K>> forest;
     std::pmr::vector<EdgeTerm<K>> cycle(&context_.memory);
-    Ticker ticker(context_, {}, owners_.size());
-    for (std::uint32_t e = 0; e < owners_.size(); ++e) {
+    Ticker ticker(context_, {}, killer_of.size());
+    for (std::uint32_t e = 0; e < killer_of.size(); ++e) {
       ticker.tick();
-      const KeptColumn* const column = owners_[e];
-      if (column == nullptr) {
+      if (killer_of[e] == kNone) {
         if (cells_.is_periodic) report_essential_edge(e, bars);
         continue;
       }
-      const CriticalFacet& killer = cells_.facets[column->facet()];
+      const CriticalFacet& killer = cells_.facets[killer_of[e]];
       const bool wants_cycle = bars.pair(
           1, cells_.edge_states[e].value, killer.value, [&] { return edge_simplex(cells_, e); },
           [&] { return facet_simplex(cells_, killer.code); });
       if (!wants_cycle) continue;
       if (!forest) forest.emplace(cells_, joins_, field_, context_);
       cycle.clear();
+      const KeptColumn* const column = owners_[e];
       const auto scale = field_.inverse(column->pivot());
       cycle.push_back({e, field_.from_int(1)});
       for (const auto& term : column->below())
-        cycle.push_back({term.cell.edge, field_.multiply(scale, term.coefficient())});
+        cycle.push_back({term.cell, field_.multiply(scale, term.coefficient())});
       forest->close(cycle);
       for (const EdgeTerm<K>& term : cycle)
         bars.add_term(edge_simplex(cells_, term.edge), field_.to_int(term.coefficient));
@@ -155,8 +163,8 @@ class Loops {
   const AlphaCells& cells_;
   const K& field_;
   const RunContext& context_;
-  SimplexSet joins_;                            // by edge
-  std::pmr::vector<std::uint32_t> column_of_;   // by critical facet: its column, by age
+  const SimplexSet& joins_;
+  const std::span<const std::uint32_t> column_of_;
   std::pmr::vector<const KeptColumn*> owners_;  // by edge: the column with that pivot
   std::mutex mutex_;
   std::pmr::vector<std::uint32_t> essential_;  // critical facets whose boundaries are reduced to 0

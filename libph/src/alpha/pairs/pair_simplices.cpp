@@ -9,50 +9,56 @@ namespace ph::alpha {
 
 namespace {
 
-/// H1 of dimension 1 and 2 that never dies: what an edge closes that joins neither components nor
-/// hollows. In a periodic space only.
-void report_essential_edges(const AlphaCells& cells, const RankedSimplices& edges,
-                            const SimplexSet& joins, AlphaBars& bars) {
+/// Dimension 1 and 2: edges join components, from old to young, and of dimension 2 also hollows,
+/// from young to old. In a periodic space some do neither, and the highest dimension may have a
+/// class.
+template <Field K>
+void pair_plane(const AlphaCells& cells, const K& field, const RunContext& context,
+                AlphaBars& bars) {
+  const int dim = cells.dim();
+  const bool wants_hollows = dim == 2 && (bars.wants(1) || (cells.is_periodic && bars.wants(2)));
+  if (!wants_hollows && !bars.wants(0) && !cells.is_periodic) return;
+  const RankedSimplices edges = ranked_edges(cells, context);
+  SimplexSet is_paired(edges.size(), false, &context.memory);
+  pair_components(cells, edges, field, context, bars, [&](std::size_t i) { is_paired[i] = true; });
+  if (wants_hollows)
+    Hollows<K>(cells, field, context, bars)
+        .run(
+            edges, [&](std::size_t i) { return !is_paired[i]; },
+            [&](std::size_t i) { is_paired[i] = true; });
+  if (!cells.is_periodic || !bars.wants(1)) return;
   for (std::size_t i = 0; i < edges.size(); ++i)
-    if (!joins[i])
+    if (!is_paired[i])
       bars.essential(1, edges[i].value, [&] {
         const auto ends = ends_of(cells, edges[i]);
         return Simplex::of({ends[0], ends[1]});
       });
 }
 
+/// Dimension 3: edges join components, triangles join hollows, and what is left of both are loops.
+/// Of lists no more is there at a time than is needed.
 template <Field K>
-void pair_all(const AlphaCells& cells, const K& field, const RunContext& context, AlphaBars& bars) {
-  const int dim = cells.dim();
-  // In a periodic space the highest dimension may have a class, and that below has classes that
-  // never die.
-  const bool wants_top = cells.is_periodic && bars.wants(dim);
-  const bool wants_loops = dim == 3 && (bars.wants(1) || (cells.is_periodic && bars.wants(2)));
-  const bool wants_components =
-      bars.wants(0) || (dim < 3 && cells.is_periodic) || (dim >= 2 && bars.wants(1)) || wants_loops;
-  const RankedSimplices edges =
-      wants_components ? ranked_edges(cells, context) : RankedSimplices(&context.memory);
-  SimplexSet edge_joins(&context.memory);
-  if (wants_components) pair_components(cells, edges, field, context, bars, edge_joins);
-  if (dim == 2 && (bars.wants(1) || wants_top)) {
-    // What joins no components closes a loop: it joins hollows.
-    SimplexSet joins = edge_joins;
+void pair_space(const AlphaCells& cells, const K& field, const RunContext& context,
+                AlphaBars& bars) {
+  const bool wants_loops = bars.wants(1) || (cells.is_periodic && bars.wants(2));
+  const bool wants_hollows = wants_loops || bars.wants(2) || (cells.is_periodic && bars.wants(3));
+  SimplexSet joins(cells.edge_states.size(), false, &context.memory);  // by edge
+  if (wants_loops || bars.wants(0)) {
+    const RankedSimplices edges = ranked_edges(cells, context);
+    pair_components(cells, edges, field, context, bars,
+                    [&](std::size_t i) { joins[edges[i].number] = true; });
+  }
+  if (!wants_hollows) return;
+  std::pmr::vector<std::uint32_t> column_of(cells.facets.size(), kNone, &context.memory);
+  {
+    const RankedSimplices facets = ranked_facets(cells, context);
+    for (std::uint32_t i = 0; i < facets.size(); ++i) column_of[facets[i].number] = i;
     Hollows<K>(cells, field, context, bars)
         .run(
-            edges, [&](std::size_t i) { return !edge_joins[i]; },
-            [&](std::size_t i) { joins[i] = true; });
-    edge_joins.swap(joins);
+            facets, [](std::size_t) { return true; },
+            [&](std::size_t i) { column_of[facets[i].number] = kNone; });
   }
-  if (dim < 3 && cells.is_periodic && bars.wants(1))
-    report_essential_edges(cells, edges, edge_joins, bars);
-  if (dim < 3 || !(wants_loops || wants_top || bars.wants(2))) return;
-  const RankedSimplices facets = ranked_facets(cells, context);
-  SimplexSet facet_joins(facets.size(), false, &context.memory);
-  Hollows<K>(cells, field, context, bars)
-      .run(
-          facets, [](std::size_t) { return true; }, [&](std::size_t i) { facet_joins[i] = true; });
-  if (wants_loops)
-    Loops<K>(cells, edges, edge_joins, facets, facet_joins, field, context).run(bars);
+  if (wants_loops) Loops<K>(cells, joins, column_of, field, context).run(bars);
 }
 
 }  // namespace
@@ -61,7 +67,10 @@ template <Field K>
 void pair_simplices(const Alpha& alpha, const K& field, BarcodeBuilder<Alpha>& builder,
                     const RunContext& context) {
   AlphaBars bars(alpha, builder);
-  pair_all(alpha.cells(), field, context, bars);
+  if (alpha.cells().dim() == 3)
+    pair_space(alpha.cells(), field, context, bars);
+  else
+    pair_plane(alpha.cells(), field, context, bars);
   bars.flush();
 }
 

@@ -109,10 +109,7 @@ class Wrap {
     for (const uint32_t name : {code, cells_.across(code)})
       if (name != kNone && cells_.belongs_to(name)) add_cell(name >> 2);
     if (cells_.dim() < 3) return;
-    const auto& places = kFacetPlaces[code & 3];
-    for (unsigned i = 0; i < 3; ++i)
-      left_.push_back(
-          {cells_.edges.of_cell[code >> 2][kEdgeBetween[places[i]][places[(i + 1) % 3]]], false});
+    for (const uint32_t e : cells_.facet_edges(code)) left_.push_back({e, false});
   }
   void add_edge(uint32_t e) {
     if (has_edge_[e]) return;
