@@ -98,8 +98,19 @@ std::array<std::uint32_t, 2> TopGraph::seam(bool after) const {
   return {layer * stride_[axis], stride_[axis]};
 }
 
+bool TopGraph::is_cell(std::uint32_t node) const {
+  for (int a = 2; a >= 0; --a) {
+    const std::uint32_t rest = by_extent_[a].divide(node), low = node - rest * extent_[a];
+    if (grid_.has_axis(a) && border_[a] == 0 && !grid_.is_periodic(a) && low + 1 == extent_[a])
+      return false;
+    node = rest;
+  }
+  return true;
+}
+
 std::optional<double> TopGraph::seam_value(std::uint32_t node) const {
   std::optional<double> youngest;
+  if (!is_cell(node)) return youngest;
   for_each_corner(node, [&](std::uint32_t v, const Direction&) {
     // In the T-construction what never enters has always been there.
     if (grid_.enters(v) || !grid_.is_t_construction())

@@ -84,6 +84,8 @@ class TopGraph {
     return low >= first && low < n && n - low > 2 - border_[axis] && !grid_.is_wrapped(axis, low) &&
            !grid_.is_wrapped(axis, low + 1);
   }
+  /// Whether a node is a cell: behind the last voxels of an axis that has ends there is none.
+  bool is_cell(std::uint32_t node) const;
   /// Calls `use(voxel, direction from it)` for the corners of a top cell until it returns true.
   template <class Use>
   void for_each_corner(std::uint32_t node, Use&& use) const;

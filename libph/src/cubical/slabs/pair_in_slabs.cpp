@@ -12,7 +12,7 @@
 #include "cubical/graphs/top_graph.hpp"
 #include "cubical/graphs/two_graphs.hpp"
 #include "cubical/graphs/voxel_graph.hpp"
-#include "cubical/slabs/slab_components.hpp"
+#include "cubical/slabs/slab_basins.hpp"
 #include "cubical/slabs/slab_loops.hpp"
 #include "ph/error.hpp"
 
@@ -41,6 +41,11 @@ void with_loops(const GridFrame& frame, Run&& run) {
   }
 }
 
+/// A cell of a grid of fewer than 2^32 voxels.
+NumberedCell numbered(const GridCell& cell) {
+  return {static_cast<std::uint32_t>(cell.voxel()), cell.number()};
+}
+
 /// The edges of two axes that neither graph takes: around a torus two classes live for ever. Each
 /// edge that is handed over by the graph of voxels as one that joins nothing is met by the graph of
 /// top cells sooner or later, as one that joins something if it is in a pair.
@@ -58,6 +63,31 @@ class EdgesInNeither {
 
  private:
   std::pmr::map<std::pair<std::uint32_t, std::uint32_t>, double> met_once_;
+};
+
+/// The components of one of the two graphs, slab by slab.
+template <class Graph>
+class SlabComponents {
+ public:
+  explicit SlabComponents(const RunContext& context) : context_(context) {}
+
+  /// One more slab. @param first, cells as SlabBasins has them. @param use called with the forest
+  /// of all that has been seen: settles it.
+  template <class Use>
+  void add(const StarGrid& grid, const Graph& graph, std::uint64_t first,
+           const CriticalCells& cells, Use&& use) {
+    auto own = SlabBasins<Graph>(grid, graph, first, context_).forest(cells);
+    if (forest_)
+      forest_->join(std::move(own));
+    else
+      forest_.emplace(std::move(own));
+    if (grid.slab().is_last && grid.slab().is_in_ring) forest_->close_ring();
+    use(*forest_);
+  }
+
+ private:
+  const RunContext& context_;
+  std::optional<SeamForest<Graph::kBackwards>> forest_;
 };
 
 }  // namespace
@@ -82,61 +112,63 @@ void pair_in_slabs(Slabs& slabs, const K& field, const BarRequest& wanted,
 
   const auto add_slab = [&](std::uint32_t slab) {
     const StarGrid grid = slabs.stars(slab);
-    const std::uint32_t first = slabs.first_voxel(slab);
+    const std::uint64_t first = slabs.first_voxel(slab);
     std::optional<CriticalCells> edges;
     const auto edges_of_slab = [&]() -> const CriticalCells& {
       if (!edges) edges.emplace(critical_cells(grid, 1, context));
       return *edges;
     };
     if (has_vertices) {
-      using Place = SlabComponents<VoxelGraph>::Place;
-      const auto cell = [](const Place& edge) {
-        return StarCell{edge.cell.voxel, kEdges[edge.cell.number], edge.value};
+      const auto cell = [](const SeamBridge& edge) {
+        return StarCell{numbered(edge.cell).voxel, kEdges[edge.cell.number()], edge.value};
       };
-      const auto voxel = [](const SlabRoot& root) {
-        return StarCell{root.cell.voxel, {}, root.value};
+      const auto voxel = [](const SeamRoot& root) {
+        return StarCell{numbered(root.cell).voxel, {}, root.value};
       };
-      vertices.add(
-          grid, VoxelGraph(grid), first, edges_of_slab(),
-          [&](const Place& edge, const SlabRoot* dies) {
-            if (dies == nullptr)
-              pairs.essential(1, cell(edge));
-            else
-              pairs.pair(0, voxel(*dies), cell(edge));
-          },
-          [&](const Place& edge) {
-            if (loops) loops->add_edge(edge.cell);
-            if (around) around->meet(edge.value, edge.cell);
-          },
-          [&](const SlabRoot& root) { pairs.essential(0, voxel(root)); });
+      vertices.add(grid, VoxelGraph(grid), first, edges_of_slab(), [&](auto& forest) {
+        forest.settle(
+            [&](const SeamBridge& edge, const SeamRoot* dies) {
+              if (dies == nullptr)
+                pairs.essential(1, cell(edge));
+              else
+                pairs.pair(0, voxel(*dies), cell(edge));
+            },
+            [&](const SeamBridge& edge) {
+              if (loops) loops->add_edge(numbered(edge.cell));
+              if (around) around->meet(edge.value, numbered(edge.cell));
+            },
+            [&](const SeamRoot& root) { pairs.essential(0, voxel(root)); });
+      });
     }
     if (has_tops) {
-      using Place = SlabComponents<TopGraph>::Place;
       const TopGraph graph(grid);
-      const auto cell = [&](const Place& facet) {
-        return StarCell{facet.cell.voxel, graph.bridge_direction(facet.cell.number), facet.value};
+      const auto cell = [&](const SeamBridge& facet) {
+        return StarCell{numbered(facet.cell).voxel, graph.bridge_direction(facet.cell.number()),
+                        facet.value};
       };
-      const auto top_cell = [&](const SlabRoot& root) {
-        return StarCell{root.cell.voxel, graph.root_direction(root.cell.number), root.value};
+      const auto top_cell = [&](const SeamRoot& root) {
+        return StarCell{numbered(root.cell).voxel, graph.root_direction(root.cell.number()),
+                        root.value};
       };
       if (top == 3) edges.reset();
       const CriticalCells squares =
           top == 3 ? critical_cells(grid, 2, context) : CriticalCells(&context.memory);
-      tops.add(
-          grid, graph, first, top == 3 ? squares : edges_of_slab(),
-          [&](const Place& facet, const SlabRoot* dies) {
-            if (around) around->meet(facet.value, facet.cell);
-            if (dies == nullptr)
-              pairs.essential(top - 1, cell(facet));
-            else
-              pairs.pair(top - 1, cell(facet), top_cell(*dies));
-          },
-          [&](const Place& facet) {
-            if (loops) loops->add_square(facet.value, facet.cell);
-          },
-          [&](const SlabRoot& root) { pairs.essential(top, top_cell(root)); });
+      tops.add(grid, graph, first, top == 3 ? squares : edges_of_slab(), [&](auto& forest) {
+        forest.settle(
+            [&](const SeamBridge& facet, const SeamRoot* dies) {
+              if (around) around->meet(facet.value, numbered(facet.cell));
+              if (dies == nullptr)
+                pairs.essential(top - 1, cell(facet));
+              else
+                pairs.pair(top - 1, cell(facet), top_cell(*dies));
+            },
+            [&](const SeamBridge& facet) {
+              if (loops) loops->add_square(facet.value, numbered(facet.cell));
+            },
+            [&](const SeamRoot& root) { pairs.essential(top, top_cell(root)); });
+      });
     }
-    if (loops) loops->add_stars(grid, first);
+    if (loops) loops->add_stars(grid, static_cast<std::uint32_t>(first));
     slabs.forget(slab);
   };
   for (std::uint32_t slab = 0; slab < slabs.count(); ++slab) {

@@ -32,9 +32,9 @@ class Slabs {
   const GridFrame& frame() const { return frame_; }
   std::uint32_t count() const { return (depth() - 1) / layers_ + 1; }
   /// The first voxel of the grid of a slab, ghosts included; of the first slab of a ring it would
-  /// be one layer before zero (modulo 2^32).
-  std::uint32_t first_voxel(std::uint32_t slab) const {
-    return (is_first_of_ring(slab) ? std::uint32_t{0} - 1 : begin(slab)) * frame_.layer_size();
+  /// be one layer before zero (modulo 2^64).
+  std::uint64_t first_voxel(std::uint32_t slab) const {
+    return (is_first_of_ring(slab) ? std::uint64_t{0} - 1 : begin(slab)) * frame_.layer_size();
   }
   /// The stars of a slab, with the layers beside it as ghosts, until it is forgotten.
   StarGrid stars(std::uint32_t slab) {

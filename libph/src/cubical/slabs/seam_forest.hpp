@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <memory_resource>
+#include <ranges>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "cubical/graphs/elder_forest.hpp"
+#include "ph/detail/components/disjoint_sets.hpp"
+#include "ph/error.hpp"
+
+namespace ph::cubical {
+
+/// A cell of the whole grid, by the star that it is in: a voxel, and the number of its direction
+/// there.
+class GridCell {
+ public:
+  GridCell() = default;
+  GridCell(std::uint64_t voxel, std::uint32_t number) : both_(voxel << kBits | number) {}
+  std::uint64_t voxel() const { return both_ >> kBits; }
+  std::uint32_t number() const { return static_cast<std::uint32_t>(both_ & ((1U << kBits) - 1)); }
+
+ private:
+  static constexpr unsigned kBits = 4;  // no star has more cells of a dimension than 12
+  std::uint64_t both_ = 0;
+};
+
+/// What arrows end at: a component that is still to be joined with others.
+struct SeamRoot {
+  enum class Kind : std::uint32_t {
+    outer,        ///< has always been there; it has no cell
+    critical,     ///< a critical cell
+    open_before,  ///< a node of the seam before the layers from where the arrows go on beyond it
+    open_after,   ///< the same of the seam after them
+  };
+  double value;   ///< in the order of the stars; not of what has always been there
+  GridCell cell;  ///< of a critical cell
+  Kind kind;
+};
+
+/// A critical cell that joins two roots.
+struct SeamBridge {
+  double value;  ///< in the order of the stars
+  GridCell cell;
+  std::uint32_t from, to;
+};
+
+/// The nodes that some layers share with those beside them, by place: the layer on either side.
+struct Seam {
+  static constexpr std::uint32_t kNone = UINT32_MAX;
+
+  explicit Seam(std::pmr::memory_resource* memory) : roots(memory), values(memory) {}
+  bool is_open() const { return !roots.empty(); }
+  void close() { *this = Seam(roots.get_allocator().resource()); }
+
+  std::pmr::vector<std::uint32_t> roots;  ///< kNone: it never counts
+  std::pmr::vector<double> values;        ///< in the order of the stars
+};
+
+/// The persistent components of one of the two graphs of a grid, as far as some layers that follow
+/// each other tell. What is kept is what the layers beside them may still change: the components
+/// that reach a seam, and of the cells that join them those of a minimum spanning forest.
+///
+/// To join two is associative: pairs are the same, and what is kept, however layers are grouped.
+/// @tparam backwards whether the graph is that of the top cells.
+template <bool backwards>
+class SeamForest {
+ public:
+  explicit SeamForest(const RunContext& context)
+      : roots(&context.memory),
+        before(&context.memory),
+        after(&context.memory),
+        bridges(&context.memory),
+        context_(context) {}
+
+  /// Joins what comes right after. Nothing is final until `settle`.
+  /// @throws Error (bad_data) if the seams differ.
+  void join(SeamForest next) {
+    if (!after.is_open() || after.values != next.before.values) refuse();
+    const auto shift = static_cast<std::uint32_t>(roots.size());
+    const std::size_t count = std::size_t{shift} + next.roots.size();
+    if (count >= Seam::kNone) throw Error(ErrorKind::resource, "image: found too many components");
+    DisjointSets same(count, &context_.memory);
+    const Kind resolved_here = Kind::open_after, resolved_there = Kind::open_before;
+    roots.reserve(count);
+    roots.insert(roots.end(), next.roots.begin(), next.roots.end());
+    next.roots = decltype(roots)(roots.get_allocator());
+    const auto is_resolved = [&](std::uint32_t root) {
+      return roots[root].kind == (root < shift ? resolved_here : resolved_there);
+    };
+    const auto shifted = [&](std::uint32_t root) {
+      return root == Seam::kNone ? root : root + shift;
+    };
+    for (const std::size_t part : {0U, 1U})
+      unite(same, outside[part], shifted(next.outside[part]), is_resolved);
+    unite_seams(same, after.roots, next.before.roots, shifted, is_resolved);
+
+    const auto moved = [shift](SeamBridge bridge) {
+      bridge.from += shift;
+      bridge.to += shift;
+      return bridge;
+    };
+    std::pmr::vector<SeamBridge> all(&context_.memory);
+    all.reserve(bridges.size() + next.bridges.size());
+    // Of equal ones those of the layers before come first, as in the grid.
+    std::ranges::merge(bridges, next.bridges | std::views::transform(moved),
+                       std::back_inserter(all), {}, &SeamBridge::value, &SeamBridge::value);
+    bridges.swap(all);
+    next.bridges = decltype(bridges)(bridges.get_allocator());
+    after = std::move(next.after);
+    for (std::uint32_t& root : after.roots) root = shifted(root);
+    identify(same);
+  }
+  /// Joins the end with the beginning: the layers are all there are of a periodic axis.
+  /// @throws Error as `join`.
+  void close_ring() {
+    if (!after.is_open() || after.values != before.values) refuse();
+    DisjointSets same(roots.size(), &context_.memory);
+    unite_seams(
+        same, after.roots, before.roots, [](std::uint32_t root) { return root; },
+        [&](std::uint32_t root) { return roots[root].kind >= Kind::open_before; });
+    before.close();
+    after.close();
+    identify(same);
+  }
+  /// Hands over what other layers cannot change any more. Without seams that is all.
+  /// @param on_merge called with (bridge, root that dies; null if both have always been there).
+  /// @param on_cycle called with each bridge that joins nothing.
+  /// @param on_survivor called with each root that never dies.
+  template <class OnMerge, class OnCycle, class OnSurvivor>
+  void settle(OnMerge&& on_merge, OnCycle&& on_cycle, OnSurvivor&& on_survivor) {
+    const bool is_whole = !before.is_open() && !after.is_open();
+    const auto outer_count =
+        static_cast<std::uint32_t>(std::ranges::count(roots, Kind::outer, &SeamRoot::kind));
+    ElderForest<backwards> forest(
+        outer_count, roots.size() - outer_count,
+        [&](std::size_t i) { return roots[outer_count + i].value; }, context_);
+    std::pmr::vector<double> reached = when_reached();
+    // Roots that are one for all that comes: (the root that stands for it).
+    DisjointSets merged(roots.size(), &context_.memory);
+    // Whether a component may have been joined with another one in other layers by then.
+    const auto may_change = [&](std::uint32_t root, double by) {
+      return !is_whole && (backwards ? reached[root] >= finite(by) : reached[root] <= finite(by));
+    };
+    Ticker ticker(context_, {});
+    std::size_t kept = 0;
+    const auto place = [&](std::size_t i) { return backwards ? bridges.size() - 1 - i : i; };
+    for (std::size_t i = 0; i < bridges.size(); ++i) {
+      ticker.work();
+      const SeamBridge bridge = bridges[place(i)];
+      const std::uint32_t a = forest.find(bridge.from), b = forest.find(bridge.to);
+      if (a == b) {
+        on_cycle(bridge);
+        continue;
+      }
+      const std::uint32_t dies = forest.join(a, b), stays = dies == a ? b : a;
+      // Two that have always been there are equals: it is enough that one is closed.
+      const bool is_closed = !may_change(dies, bridge.value);
+      const bool is_certain = is_closed || (dies < outer_count && !may_change(stays, bridge.value));
+      reached[stays] = earlier(reached[stays], reached[dies]);
+      if (!is_certain) {
+        bridges[place(kept++)] = bridge;
+        continue;
+      }
+      // The closed one has been merged into one root; from now on it is where the bridge leads.
+      const auto [closed, other] = (dies == a) == is_closed ? std::pair{bridge.from, bridge.to}
+                                                            : std::pair{bridge.to, bridge.from};
+      merged.link(merged.find(closed), merged.find(other));
+      on_merge(bridge, dies < outer_count ? nullptr : &roots[dies]);
+    }
+    for (std::uint32_t i = outer_count; i < roots.size(); ++i)
+      if (forest.is_root(i) && (is_whole || reached[i] == kNever)) on_survivor(roots[i]);
+    keep(kept);
+    for (SeamBridge& bridge : bridges) {
+      bridge.from = merged.find(bridge.from);
+      bridge.to = merged.find(bridge.to);
+    }
+    for_each_in_seams([&](std::uint32_t& root) { root = merged.find(root); });
+    forget_closed();
+  }
+
+  /// What has always been there comes first, then critical cells in the order of the grid, and what
+  /// is open: nothing is taken for younger than that on account of its number.
+  std::pmr::vector<SeamRoot> roots;
+  std::array<std::uint32_t, 2> outside{};  ///< those that are the parts of the outside
+  Seam before, after;                      ///< not open where the grid ends
+  std::pmr::vector<SeamBridge> bridges;    ///< ascending, of equal ones as in the grid
+
+ private:
+  using Kind = SeamRoot::Kind;
+  static constexpr double kNever = backwards ? -std::numeric_limits<double>::infinity()
+                                             : std::numeric_limits<double>::infinity();
+
+  [[noreturn]] static void refuse() {
+    throw Error(ErrorKind::bad_data,
+                "parts of an image: found seams that differ, expected layers that follow each "
+                "other");
+  }
+  // kNever is no value of a cell.
+  static double finite(double value) {
+    constexpr double most = std::numeric_limits<double>::max();
+    return std::clamp(value, -most, most);
+  }
+  static double earlier(double a, double b) { return backwards ? std::max(a, b) : std::min(a, b); }
+
+  // What has always been there stands for all else, then a critical cell, then what is open still,
+  // last what is resolved. Of two that have always been there the first one.
+  template <class IsResolved>
+  void unite(DisjointSets& same, std::uint32_t a, std::uint32_t b, IsResolved&& is_resolved) {
+    a = same.find(a);
+    b = same.find(b);
+    if (a == b) return;
+    const auto rank = [&](std::uint32_t root) {
+      return std::tuple(is_resolved(root), roots[root].kind, root);
+    };
+    const bool a_stays = rank(a) < rank(b);
+    same.link(a_stays ? b : a, a_stays ? a : b);
+  }
+  template <class Shift, class IsResolved>
+  void unite_seams(DisjointSets& same, std::span<const std::uint32_t> ends,
+                   std::span<const std::uint32_t> begins, Shift&& shift, IsResolved&& is_resolved) {
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+      if ((ends[k] == Seam::kNone) != (begins[k] == Seam::kNone)) refuse();
+      if (ends[k] != Seam::kNone) unite(same, ends[k], shift(begins[k]), is_resolved);
+    }
+  }
+  // Leaves out roots that turned out to be others, and puts the rest in order.
+  void identify(DisjointSets& same) {
+    std::pmr::vector<std::uint32_t> number(roots.size(), Seam::kNone, &context_.memory);
+    keep_roots(number, [&](std::uint32_t i) { return same.find(i) == i; });
+    for (std::uint32_t i = 0; i < number.size(); ++i) number[i] = number[same.find(i)];
+    renumber(number);
+    if (std::ranges::is_sorted(roots, {}, &SeamRoot::kind)) return;
+    number.resize(roots.size());
+    std::pmr::vector<SeamRoot> sorted(&context_.memory);
+    sorted.reserve(roots.size());
+    for (const Kind kind : {Kind::outer, Kind::critical, Kind::open_before, Kind::open_after})
+      for (std::uint32_t i = 0; i < roots.size(); ++i)
+        if (roots[i].kind == kind) {
+          number[i] = static_cast<std::uint32_t>(sorted.size());
+          sorted.push_back(roots[i]);
+        }
+    roots.swap(sorted);
+    renumber(number);
+  }
+  // @param number receives the new ones of those that are kept.
+  template <class IsKept>
+  void keep_roots(std::span<std::uint32_t> number, IsKept&& is_kept) {
+    std::uint32_t count = 0;
+    for (std::uint32_t i = 0; i < roots.size(); ++i)
+      if (is_kept(i)) {
+        roots[count] = roots[i];
+        number[i] = count++;
+      }
+    roots.resize(count);
+  }
+  void renumber(std::span<const std::uint32_t> number) {
+    for (SeamBridge& bridge : bridges) {
+      bridge.from = number[bridge.from];
+      bridge.to = number[bridge.to];
+    }
+    for_each_in_seams([&](std::uint32_t& root) { root = number[root]; });
+    for (std::uint32_t& part : outside) part = number[part];
+  }
+  // By root: the value from which on it hangs together with a node that other layers share.
+  std::pmr::vector<double> when_reached() const {
+    std::pmr::vector<double> reached(roots.size(), kNever, &context_.memory);
+    for (const Seam* const seam : {&before, &after})
+      for (std::size_t k = 0; k < seam->roots.size(); ++k) {
+        const std::uint32_t root = seam->roots[k];
+        if (root == Seam::kNone) continue;
+        const bool always = roots[root].kind == Kind::outer;
+        reached[root] = earlier(reached[root], always ? -kNever : finite(seam->values[k]));
+      }
+    for (const std::uint32_t part : outside) reached[part] = -kNever;
+    return reached;
+  }
+  // Calls `use(root)` for the roots of the nodes that other layers share.
+  template <class Use>
+  void for_each_in_seams(Use&& use) {
+    for (Seam* const seam : {&before, &after})
+      for (std::uint32_t& root : seam->roots)
+        if (root != Seam::kNone) use(root);
+  }
+  // The bridges that were looked at first and are still needed.
+  void keep(std::size_t count) {
+    if (backwards)
+      bridges.erase(bridges.begin(), bridges.end() - static_cast<std::ptrdiff_t>(count));
+    else
+      bridges.resize(count);
+    bridges.shrink_to_fit();
+  }
+  // Keeps what a seam or a bridge names, and the outside.
+  void forget_closed() {
+    std::pmr::vector<std::uint32_t> number(roots.size(), Seam::kNone, &context_.memory);
+    for (const std::uint32_t part : outside) number[part] = 0;
+    for (const SeamBridge& bridge : bridges) number[bridge.from] = number[bridge.to] = 0;
+    for_each_in_seams([&](std::uint32_t root) { number[root] = 0; });
+    keep_roots(number, [&](std::uint32_t i) { return number[i] != Seam::kNone; });
+    roots.shrink_to_fit();
+    renumber(number);
+  }
+
+  const RunContext& context_;
+};
+
+}  // namespace ph::cubical
