@@ -4,14 +4,14 @@
 #include <vector>
 
 #include "cubical/bar_blocks.hpp"
-#include "cubical/stars/grid_frame.hpp"
+#include "cubical/stars/grid_shape.hpp"
 
 namespace ph::cubical {
 
 /// Turns pairs of the stars' grid into bars of the input.
 class PairSink {
  public:
-  PairSink(const GridFrame& grid, bool wants_cells, const BarSink& bars)
+  PairSink(const GridShape& grid, bool wants_cells, const BarSink& bars)
       : grid_(grid), bars_(bars), blocks_(grid.loop_count(), wants_cells, bars) {}
 
   /// Else cells need a value only.
@@ -19,8 +19,9 @@ class PairSink {
   /// Says that so many pairs may come next.
   void expect(std::size_t count) const { bars_.expect(count); }
   /// A class of dimension `dim` born with a cell, killed by a cell one dimension higher: a bar
-  /// unless both have the same value.
-  void pair(int dim, const StarCell& birth, const StarCell& death) {
+  /// unless both have the same value. @tparam Cell as StarCell, its voxel of any width.
+  template <class Cell>
+  void pair(int dim, const Cell& birth, const Cell& death) {
     if (birth.value == death.value) return;
     if (grid_.is_t_construction())  // turned around
       add({grid_.top_dim() - dim - 1, value(death), value(birth)}, death, &birth);
@@ -28,26 +29,32 @@ class PairSink {
       add({dim, value(birth), value(death)}, birth, &death);
   }
   /// A class that never dies.
-  void essential(int dim, const StarCell& birth) {
+  template <class Cell>
+  void essential(int dim, const Cell& birth) {
     add({grid_.is_t_construction() ? grid_.top_dim() - dim : dim, value(birth), kInfinity}, birth,
-        nullptr);
+        static_cast<const Cell*>(nullptr));
   }
   /// Hands over what it still holds.
   void finish() { blocks_.finish(); }
 
  private:
-  double value(const StarCell& cell) const {
+  template <class Cell>
+  double value(const Cell& cell) const {
     return (grid_.is_t_construction() ? -cell.value : cell.value) + 0.0;
   }
-  void add(const Bar& bar, const StarCell& birth, const StarCell* death) {
+  template <class Cell>
+  void add(const Bar& bar, const Cell& birth, const Cell* death) {
     blocks_.add(bar,
                 [&](unsigned loops, std::vector<Index>& of_birth, std::vector<Index>& of_death) {
-                  grid_.append_numbers(birth, loops, of_birth);
-                  if (death != nullptr) grid_.append_numbers(*death, loops, of_death);
+                  const auto append = [&](const Cell& cell, std::vector<Index>& numbers) {
+                    grid_.append_numbers(cell.voxel, cell.direction, loops, numbers);
+                  };
+                  append(birth, of_birth);
+                  if (death != nullptr) append(*death, of_death);
                 });
   }
 
-  const GridFrame& grid_;
+  const GridShape& grid_;
   const BarSink& bars_;
   BarBlocks blocks_;
 };

@@ -44,7 +44,7 @@ double least_bytes_to_pair_voxels(const CubicalImage& grid) {
 bool can_pair_by_layers(const CubicalImage& grid, const BarRequest& wanted) {
   if (!GridFrame::can_hold(grid)) return false;
   const GridFrame frame(grid);
-  return may_be_cut(frame) && !wants_loops(frame, wanted);
+  return may_be_cut(frame) && !wants_loops(frame.shape(), wanted);
 }
 
 namespace {
@@ -59,7 +59,7 @@ void pair_all_of_three_axes(StarGrid& grid, const K& field, const RunContext& co
                      i == 0 ? edges = critical_cells(grid, 1, context)
                             : squares = critical_cells(grid, 2, context);
                  });
-  PairSink top_pairs(grid, pairs.wants_cells(), sink);
+  PairSink top_pairs(grid.shape(), pairs.wants_cells(), sink);
   pair_in_both_graphs(grid, edges, squares, context, pairs, top_pairs);
   top_pairs.finish();
   mark_paired(grid, edges);
@@ -71,25 +71,26 @@ void pair_all_of_three_axes(StarGrid& grid, const K& field, const RunContext& co
 void pair_by_components(const StarGrid& grid, const BarRequest& wanted, const RunContext& context,
                         PairSink& pairs) {
   if (grid.top_dim() == 3) {
-    if (wants_vertices(grid, wanted)) {
+    if (wants_vertices(grid.shape(), wanted)) {
       CriticalCells edges = critical_cells(grid, 1, context);
       pair_vertices_with_edges(grid, edges, context, pairs);
     }
-    if (wants_top_cells(grid, wanted)) {
+    if (wants_top_cells(grid.shape(), wanted)) {
       CriticalCells squares = critical_cells(grid, 2, context);
       pair_facets_with_top_cells(grid, squares, context, pairs);
     }
     return;
   }
   CriticalCells edges = critical_cells(grid, 1, context);
-  if (grid.top_dim() < 2 || wants_vertices(grid, wanted))
+  if (grid.top_dim() < 2 || wants_vertices(grid.shape(), wanted))
     pair_vertices_with_edges(grid, edges, context, pairs);
-  if (grid.top_dim() == 2 && wants_top_cells(grid, wanted))
+  if (grid.top_dim() == 2 && wants_top_cells(grid.shape(), wanted))
     pair_facets_with_top_cells(grid, edges, context, pairs);
   // What neither graph takes lives for ever: loops around periodic axes.
   if (grid.top_dim() < 2 || wanted.max_dim > 0)
     for (const auto& [value, cell] : edges.order)
-      pairs.essential(1, {edges.cells[cell].voxel, kEdges[edges.cells[cell].number], value});
+      pairs.essential(1,
+                      StarCell{edges.cells[cell].voxel, kEdges[edges.cells[cell].number], value});
 }
 
 // Whether all fits into memory at a time: by what some layers take if that is not clear.
@@ -117,14 +118,6 @@ bool fits(const CubicalImage& voxels, const GridFrame& frame, const RunContext& 
   constexpr double margin = 1.3;  // other layers may have more
   return margin * frame.size() * (least + per_cell * cells / seen) < left;
 }
-// So many that a quarter of the memory holds a slab whatever is in it.
-std::uint32_t layers_that_fit(const GridFrame& frame, const RunContext& context) {
-  constexpr double bytes = 128;  // a voxel
-  const double layers =
-      static_cast<double>(context.memory.left()) / 4 / (bytes * frame.layer_size());
-  return static_cast<std::uint32_t>(std::clamp(layers, 1.0, static_cast<double>(frame.size())));
-}
-
 }  // namespace
 
 template <Field K>
@@ -150,18 +143,16 @@ void pair_voxels(const CubicalImage& voxels, const K& field, const BarRequest& w
     return;
   }
   const GridFrame frame(voxels);
-  PairSink pairs(frame, wanted.cells, sink);
+  PairSink pairs(frame.shape(), wanted.cells, sink);
   if (context.slab_layers > 0 ? Slabs::can_cut(frame)
                               : may_be_cut(frame) && !fits(voxels, frame, context)) {
-    const auto layers = context.slab_layers > 0 ? static_cast<std::uint32_t>(context.slab_layers)
-                                                : layers_that_fit(frame, context);
-    Slabs slabs(frame, layers, context);
+    Slabs slabs(frame, Slabs::layers_that_fit(frame, context), context);
     pair_in_slabs(slabs, field, wanted, context, pairs);
     return;
   }
   const VoxelsInUse voxels_are_read(voxels, context);
   StarGrid grid(voxels, context);
-  if (wants_loops(frame, wanted))
+  if (wants_loops(frame.shape(), wanted))
     pair_all_of_three_axes(grid, field, context, sink, pairs);
   else
     pair_by_components(grid, wanted, context, pairs);

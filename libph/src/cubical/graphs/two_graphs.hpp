@@ -8,27 +8,27 @@
 namespace ph::cubical {
 
 /// The lowest dimension of pairs that a bar may come from: periodic axes of one voxel raise it.
-inline int lowest_dim(const GridFrame& frame, const BarRequest& wanted) {
-  return wanted.min_dim - static_cast<int>(frame.loop_count());
+inline int lowest_dim(const GridShape& grid, const BarRequest& wanted) {
+  return wanted.min_dim - static_cast<int>(grid.loop_count());
 }
 /// Whether bars of three axes are wanted that come from neither graph.
-inline bool wants_loops(const GridFrame& frame, const BarRequest& wanted) {
+inline bool wants_loops(const GridShape& grid, const BarRequest& wanted) {
   // Around periodic axes classes of all dimensions may live for ever.
-  return frame.top_dim() == 3 && wanted.max_dim > 0 &&
-         (lowest_dim(frame, wanted) <= 1 || frame.any_periodic());
+  return grid.top_dim() == 3 && wanted.max_dim > 0 &&
+         (lowest_dim(grid, wanted) <= 1 || grid.any_periodic());
 }
 /// Whether bars are wanted that come from the graph that knows H0: of all others than three axes
 /// any bars.
-inline bool wants_lowest(const GridFrame& frame, const BarRequest& wanted) {
-  return lowest_dim(frame, wanted) <= 0 || frame.top_dim() < 3;
+inline bool wants_lowest(const GridShape& grid, const BarRequest& wanted) {
+  return lowest_dim(grid, wanted) <= 0 || grid.top_dim() < 3;
 }
 /// Whether bars are wanted that come from the graph of voxels: H0; turned around the highest ones.
-inline bool wants_vertices(const GridFrame& frame, const BarRequest& wanted) {
-  return frame.is_t_construction() ? wanted.max_dim > 0 : wants_lowest(frame, wanted);
+inline bool wants_vertices(const GridShape& grid, const BarRequest& wanted) {
+  return grid.is_t_construction() ? wanted.max_dim > 0 : wants_lowest(grid, wanted);
 }
 /// The same for the graph of top cells.
-inline bool wants_top_cells(const GridFrame& frame, const BarRequest& wanted) {
-  return frame.is_t_construction() ? wants_lowest(frame, wanted) : wanted.max_dim > 0;
+inline bool wants_top_cells(const GridShape& grid, const BarRequest& wanted) {
+  return grid.is_t_construction() ? wants_lowest(grid, wanted) : wanted.max_dim > 0;
 }
 
 /// How many of two tasks a thread takes: both where a thread would cost more than it saves.

@@ -32,14 +32,14 @@ class RepresentedPairs {
         kind_(kind),
         sink_(sink),
         claim_(context.memory, 0),
-        pairs_(grid, true, bars_) {}
+        pairs_(grid.shape(), true, bars_) {}
   RepresentedPairs(const RepresentedPairs&) = delete;
   RepresentedPairs& operator=(const RepresentedPairs&) = delete;
 
   bool wants_sets() const { return kind_ == Representatives::voxels; }
   /// Whether hollows are wanted as sets. Where an axis of one voxel closes up, whatever surrounds
   /// something goes around that axis, too: a set would not say so.
-  bool wants_hollows() const { return wants_sets() && grid_.loop_count() == 0; }
+  bool wants_hollows() const { return wants_sets() && grid_.shape().loop_count() == 0; }
   /// See PairSink. @param fill is called for a set, for a chain, for both or never.
   void pair(int dim, const StarCell& birth, const StarCell& death, const Fill& fill) {
     begin(grid_.is_t_construction() ? death : birth, grid_.is_t_construction() ? &birth : &death,
@@ -75,7 +75,7 @@ class RepresentedPairs {
     coefficients_.clear();
     for (const auto& term : found_->chain) {
       const std::size_t before = numbers_.size();
-      grid_.append_numbers(term.cell, loops, numbers_);
+      grid_.shape().append_numbers(term.cell.voxel, term.cell.direction, loops, numbers_);
       const bool turns = loops != 0 && is_turned(std::span(numbers_).subspan(before), loops);
       const auto a = term.coefficient();
       coefficients_.push_back(field_.to_int(turns ? field_.negate(a) : a));
@@ -95,9 +95,9 @@ class RepresentedPairs {
   // axis that the cell spans behind one of them does.
   bool is_turned(std::span<const Index> cell, unsigned loops) const {
     bool result = false, is_odd = false;  // the number of axes gone around so far
-    std::size_t i = grid_.loop_count();
+    std::size_t i = grid_.shape().loop_count();
     for (std::size_t k = 0; k < cell.size(); ++k) {
-      if (i > 0 && grid_.loop_axis(i - 1) == k) {
+      if (i > 0 && grid_.shape().loop_axis(i - 1) == k) {
         if ((loops >> --i & 1U) != 0) is_odd = !is_odd;
       } else if (cell[k] % 2 != 0 && is_odd) {
         result = !result;
@@ -106,7 +106,7 @@ class RepresentedPairs {
     return result;
   }
   void append_coordinates(std::uint32_t voxel, std::vector<Index>& numbers) const {
-    grid_.append_numbers({voxel, {}, 0}, 0, numbers);
+    grid_.shape().append_numbers(voxel, {}, 0, numbers);
     for (Index& x : numbers) x /= 2;
   }
 

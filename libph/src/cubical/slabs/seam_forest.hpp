@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <iterator>
 #include <limits>
@@ -26,6 +27,7 @@ class GridCell {
   GridCell(std::uint64_t voxel, std::uint32_t number) : both_(voxel << kBits | number) {}
   std::uint64_t voxel() const { return both_ >> kBits; }
   std::uint32_t number() const { return static_cast<std::uint32_t>(both_ & ((1U << kBits) - 1)); }
+  friend auto operator<=>(const GridCell&, const GridCell&) = default;
 
  private:
   static constexpr unsigned kBits = 4;  // no star has more cells of a dimension than 12
@@ -186,18 +188,25 @@ class SeamForest {
     forget_closed();
   }
 
-  /// What has always been there comes first, then critical cells in the order of the grid, and what
-  /// is open: nothing is taken for younger than that on account of its number.
+  /// What has always been there comes first, then critical cells in the order of the grid. What is
+  /// open counts as the youngest of its value, and comes behind or before these: nothing dies in
+  /// its favour on account of its number.
   std::pmr::vector<SeamRoot> roots;
   std::array<std::uint32_t, 2> outside{};  ///< those that are the parts of the outside
   Seam before, after;                      ///< not open where the grid ends
   std::pmr::vector<SeamBridge> bridges;    ///< ascending, of equal ones as in the grid
+
+  bool is_in_order() const { return std::ranges::is_sorted(roots, {}, &SeamForest::age_of); }
 
  private:
   using Kind = SeamRoot::Kind;
   static constexpr double kNever = backwards ? -std::numeric_limits<double>::infinity()
                                              : std::numeric_limits<double>::infinity();
 
+  static int age_of(const SeamRoot& root) {
+    if (root.kind == Kind::outer) return 0;
+    return (root.kind == Kind::critical) == backwards ? 2 : 1;
+  }
   [[noreturn]] static void refuse() {
     throw Error(ErrorKind::bad_data,
                 "parts of an image: found seams that differ, expected layers that follow each "
@@ -237,13 +246,13 @@ class SeamForest {
     keep_roots(number, [&](std::uint32_t i) { return same.find(i) == i; });
     for (std::uint32_t i = 0; i < number.size(); ++i) number[i] = number[same.find(i)];
     renumber(number);
-    if (std::ranges::is_sorted(roots, {}, &SeamRoot::kind)) return;
+    if (is_in_order()) return;
     number.resize(roots.size());
     std::pmr::vector<SeamRoot> sorted(&context_.memory);
     sorted.reserve(roots.size());
-    for (const Kind kind : {Kind::outer, Kind::critical, Kind::open_before, Kind::open_after})
+    for (const int kinds : {0, 1, 2})
       for (std::uint32_t i = 0; i < roots.size(); ++i)
-        if (roots[i].kind == kind) {
+        if (age_of(roots[i]) == kinds) {
           number[i] = static_cast<std::uint32_t>(sorted.size());
           sorted.push_back(roots[i]);
         }

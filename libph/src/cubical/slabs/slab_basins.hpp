@@ -14,8 +14,8 @@
 
 namespace ph::cubical {
 
-/// The trees that the arrows make in one slab of a grid. Roots have numbers: first what has always
-/// been there, then critical cells in the order of the grid, and what is open.
+/// The trees that the arrows make in one slab of a grid. Roots have numbers, in the order of
+/// SeamForest.
 template <class Graph>
 class SlabBasins {
  public:
@@ -33,9 +33,10 @@ class SlabBasins {
     for (const std::uint32_t part : {0U, 1U})
       forest_.set_root(graph.outside(static_cast<int>(part)), add({0, {}, Kind::outer}));
     if (graph.has_outer_nodes()) join_outer_nodes();
-    add_critical();
+    if (!Graph::kBackwards) add_critical();
     if (grid.slab().has_ghost_before()) add_open(false);
     if (grid.slab().has_ghost_after()) add_open(true);
+    if (Graph::kBackwards) add_critical();
   }
 
   /// What is known of the slab alone.

@@ -15,17 +15,31 @@
 
 namespace ph::cubical {
 
-/// A grid in slabs of some layers each; the last one may have fewer. If the slowest axis is
-/// periodic, slabs make a ring: there are two at least, and the first and the last one are
-/// neighbours, too.
+/// A grid, or some layers of one, in slabs of some layers each; the last one may have fewer. If the
+/// slowest axis of a whole grid is periodic, slabs make a ring: there are two at least, and the
+/// first and the last one are neighbours, too.
 class Slabs {
  public:
   static bool can_cut(const GridFrame& frame) { return frame.top_dim() >= 2; }
+  /// As many layers as the context asks for, else so many that a quarter of the memory holds a slab
+  /// whatever is in it.
+  static std::uint32_t layers_that_fit(const GridFrame& frame, const RunContext& context) {
+    if (context.slab_layers > 0) return static_cast<std::uint32_t>(context.slab_layers);
+    constexpr double bytes = 128;  // a voxel
+    const double layers =
+        static_cast<double>(context.memory.left()) / 4 / (bytes * frame.layer_size());
+    return static_cast<std::uint32_t>(std::clamp(layers, 1.0, static_cast<double>(frame.size())));
+  }
   /// Precondition: can_cut(frame), layers > 0.
-  Slabs(const GridFrame& frame, std::uint32_t layers, const RunContext& context)
+  /// @param part where the frame lies, if it is a part of a grid: it has ghosts at its ends.
+  /// @param first its first voxel in the whole grid, ghosts included (modulo 2^64).
+  Slabs(const GridFrame& frame, std::uint32_t layers, const RunContext& context,
+        const SlabPlace& part = {}, std::uint64_t first = 0)
       : frame_(frame),
+        part_(part),
+        first_(first),
         layers_(std::min(layers, is_ring() ? depth() - 1 : depth())),
-        cube_pairs_(cube_pair_memos(frame, context)),
+        cube_pairs_(cube_pair_memos(frame, part.is_in_ring, context)),
         around_(&context.memory),
         context_(context) {}
 
@@ -34,7 +48,8 @@ class Slabs {
   /// The first voxel of the grid of a slab, ghosts included; of the first slab of a ring it would
   /// be one layer before zero (modulo 2^64).
   std::uint64_t first_voxel(std::uint32_t slab) const {
-    return (is_first_of_ring(slab) ? std::uint64_t{0} - 1 : begin(slab)) * frame_.layer_size();
+    return first_ +
+           (is_first_of_ring(slab) ? std::uint64_t{0} - 1 : begin(slab)) * frame_.layer_size();
   }
   /// The stars of a slab, with the layers beside it as ghosts, until it is forgotten.
   StarGrid stars(std::uint32_t slab) {
@@ -43,9 +58,9 @@ class Slabs {
     read_.emplace(context_.memory, part.is_in_file ? part.size() * bytes_of(part.type) : 0);
     return {part,
             context_,
-            {.is_first = slab == 0,
-             .is_last = slab + 1 == count(),
-             .is_in_ring = is_ring(),
+            {.is_first = part_.is_first && slab == 0,
+             .is_last = part_.is_last && slab + 1 == count(),
+             .is_in_ring = part_.is_in_ring || is_ring(),
              .cube_pairs = cube_pairs_}};
   }
   /// What was read of the image for a slab may leave the memory.
@@ -55,7 +70,7 @@ class Slabs {
     if (part.is_in_file) {
       // The system maps what lies around a page that is read, too: pages of slabs that are done.
       constexpr std::ptrdiff_t kMappedAround = 64 << 10;
-      const CubicalImage all = frame_.layers(0, depth());
+      const CubicalImage all = frame_.layers(0, extent());
       const auto* const begin_of_all = static_cast<const char*>(all.voxels);
       const auto* const voxels = static_cast<const char*>(part.voxels);
       const auto bytes = [](const CubicalImage& image) {
@@ -73,13 +88,18 @@ class Slabs {
   bool is_ring() const { return frame_.is_periodic(frame_.layer_axis()); }
   bool is_first_of_ring(std::uint32_t slab) const { return is_ring() && slab == 0; }
   bool is_last_of_ring(std::uint32_t slab) const { return is_ring() && slab + 1 == count(); }
-  std::uint32_t depth() const { return frame_.extent(frame_.layer_axis()); }
+  std::uint32_t ghosts_before() const { return part_.has_ghost_before() ? 1 : 0; }
+  std::uint32_t extent() const { return frame_.extent(frame_.layer_axis()); }
+  // Without ghosts.
+  std::uint32_t depth() const {
+    return extent() - ghosts_before() - (part_.has_ghost_after() ? 1U : 0U);
+  }
   // Layers that follow each other.
   std::uint32_t begin(std::uint32_t slab) const {
-    return std::max(slab * layers_, std::uint32_t{1}) - 1;
+    return slab == 0 ? 0 : ghosts_before() + slab * layers_ - 1;
   }
   std::uint32_t end(std::uint32_t slab) const {
-    return slab + 1 == count() ? depth() : (slab + 1) * layers_ + 1;
+    return slab + 1 == count() ? extent() : ghosts_before() + (slab + 1) * layers_ + 1;
   }
   // At the ends of a ring what lies together there does not do so in the image: it is copied.
   CubicalImage image(std::uint32_t slab) {
@@ -88,7 +108,7 @@ class Slabs {
     struct Part {
       std::uint32_t begin, end;
     };
-    const Part own{begin(slab), end(slab)}, first{0, 1}, last{depth() - 1, depth()};
+    const Part own{begin(slab), end(slab)}, first{0, 1}, last{extent() - 1, extent()};
     std::array<Part, 2> parts{goes_before ? last : own, goes_before ? own : first};
     if (frame_.is_t_construction()) std::swap(parts[0], parts[1]);  // as they lie in memory
     around_.clear();
@@ -104,6 +124,8 @@ class Slabs {
   }
 
   const GridFrame& frame_;
+  SlabPlace part_;
+  std::uint64_t first_;
   std::uint32_t layers_;
   CubePairMemos cube_pairs_;
   std::pmr::vector<std::byte> around_;

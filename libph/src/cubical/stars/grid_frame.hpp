@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cubical/stars/grid_shape.hpp"
 #include "cubical/stars/star_tables.hpp"
 #include "ph/detail/image/cubical_image.hpp"
 
@@ -32,8 +33,7 @@ class Divisor {
   std::uint64_t factor_ = 0;
 };
 
-/// Where the voxels of an image are that has at most three axes. Axes of one voxel are left out;
-/// what a periodic one of them adds is put back by `PairSink`.
+/// Where the voxels of an image are that has at most three axes, as GridShape counts them.
 ///
 /// Both constructions are seen as one. The T-construction of f is the V-construction of -f turned
 /// around: reversed in value, with all axes running backwards, a border of voxels that have always
@@ -47,7 +47,8 @@ class GridFrame {
   /// Precondition: can_hold(grid).
   explicit GridFrame(const CubicalImage& grid);
 
-  int top_dim() const { return top_dim_; }  ///< of the stars' grid
+  const GridShape& shape() const { return shape_; }
+  int top_dim() const { return shape_.top_dim(); }  ///< of the stars' grid
   bool is_t_construction() const { return is_t_construction_; }
   std::uint32_t size() const { return size_; }  ///< voxels
   bool has_axis(int axis) const { return axes_[axis].exists; }
@@ -64,7 +65,7 @@ class GridFrame {
     return static_cast<int>(std::ranges::count(axes_, true, &Axis::has_ends));
   }
   /// The slowest axis. A layer is what lies at one place of it.
-  int layer_axis() const { return 3 - top_dim_; }
+  int layer_axis() const { return shape_.layer_axis(); }
   std::uint32_t layer_size() const { return stride(layer_axis()); }
 
   /// The value in the order of the stars.
@@ -113,15 +114,6 @@ class GridFrame {
     return sign > 0 ? v + axes_[axis].stride : v - axes_[axis].stride;
   }
 
-  /// How many periodic axes of one voxel there are: each makes a copy of every cell, one dimension
-  /// up.
-  std::size_t loop_count() const { return loops_.size(); }
-  /// One of them as an axis of the input; descending.
-  std::size_t loop_axis(std::size_t i) const { return loops_[i]; }
-  /// Appends the coordinates of a cell in the input's doubled grid. @param loops which of the axes
-  /// of one voxel the copy goes around, as bits.
-  void append_numbers(const StarCell& cell, unsigned loops, std::vector<Index>& numbers) const;
-
   /// The image of some layers, as these count them: the T-construction counts from the other end.
   /// Its slowest axis is not periodic.
   CubicalImage layers(std::uint32_t begin, std::uint32_t end) const;
@@ -159,10 +151,8 @@ class GridFrame {
   bool is_t_construction_ = false, any_periodic_ = false;
 
  private:
+  GridShape shape_;
   const StarTables& plain_tables_ = star_tables(0);
-  std::array<int, 3> input_axis_{};  // the axis of the input
-  std::vector<std::size_t> loops_;   // periodic axes of the input with one voxel
-  int top_dim_ = 0;
 };
 
 }  // namespace ph::cubical

@@ -40,7 +40,7 @@ StarGrid::StarGrid(const CubicalImage& grid, const RunContext& context, const Sl
       cube_pairs_(slab.cube_pairs),
       critical_(&context.memory) {
   if (slab.is_in_ring) be_part_of_ring(slab.is_first ? 1 : UINT32_MAX);
-  if (cube_pairs_ == nullptr) cube_pairs_ = cube_pair_memos(*this, context);
+  if (cube_pairs_ == nullptr) cube_pairs_ = cube_pair_memos(*this, slab.is_in_ring, context);
   stars_.resize(size_);
   with_voxels(grid.type, grid.voxels, [&]<class T>(const T* voxels) {
     // The T-construction runs backwards.
@@ -53,10 +53,10 @@ StarGrid::StarGrid(const CubicalImage& grid, const RunContext& context, const Sl
   });
 }
 
-CubePairMemos cube_pair_memos(const GridFrame& frame, const RunContext& context) {
+CubePairMemos cube_pair_memos(const GridFrame& frame, bool is_in_ring, const RunContext& context) {
   auto memos = std::make_shared<std::pmr::vector<CubePairMemo>>(&context.memory);
   if (frame.top_dim() == 3)
-    for (unsigned wraps = 0; wraps < (frame.any_periodic() ? 8U : 1U); ++wraps)
+    for (unsigned wraps = 0; wraps < (frame.any_periodic() || is_in_ring ? 8U : 1U); ++wraps)
       memos->emplace_back(star_tables(wraps), &context.memory);
   return memos;
 }

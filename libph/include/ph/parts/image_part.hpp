@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "ph/barcode.hpp"
+#include "ph/cubical.hpp"
+#include "ph/image.hpp"
+#include "ph/run_context.hpp"
+
+namespace ph {
+
+/// What is wanted of an image that is computed in parts: the same of all of them.
+struct ImagePartOptions {
+  CubicalOptions cubical = {};
+  int min_dim = 0;
+  std::optional<int> max_dim = std::nullopt;  ///< default: all
+  bool cells = true;                          ///< else bars have none
+};
+
+/// The barcode of some layers of an image, as far as it is known without the others: its own pairs
+/// that no other layer can change, and what can change at its ends. Parts are computed apart, by
+/// any processes on any machines, and joined in any grouping: the bars are those of the whole
+/// image. See docs/explanation/engines/slabs.md.
+///
+/// Images of two and three axes that have more than one voxel, of any size; a part has fewer than
+/// about 2^31 voxels. Of three axes bars of dimension 1 are refused, for they need all layers.
+class ImagePart {
+ public:
+  /// Layers n · part / parts up to n · (part + 1) / parts of the n of the slowest axis. Looks at
+  /// the voxels of these and of the layer on either side, and at no others.
+  /// @param part from 0 on. @param parts at most one a layer.
+  /// @throws Error (usage) on options and parts that are none, (bad_data) and (resource) as
+  ///         Cubical, (cancelled).
+  ImagePart(const Image& image, int part, int parts, const ImagePartOptions& options = {},
+            const RunContext& context = default_context());
+  ImagePart(ImagePart&&) noexcept;
+  ImagePart& operator=(ImagePart&&) noexcept;
+  ~ImagePart();
+
+  /// Which of how many parts it covers: those from first() to last().
+  int first() const;
+  int last() const;
+  int parts() const;
+  bool is_whole() const { return first() == 0 && last() + 1 == parts(); }
+  /// Takes in the parts right after it.
+  /// @throws Error (bad_data) if they are not, or of another image, or of other options.
+  void join(ImagePart next, const RunContext& context = default_context());
+  /// The bars of positive length. Precondition: is_whole().
+  Barcode barcode(const RunContext& context = default_context()) const;
+
+  /// What it consists of, as bytes: the same on every machine.
+  std::vector<std::byte> bytes() const;
+  /// @throws Error (bad_data) on what `bytes` has not made.
+  static ImagePart of_bytes(std::span<const std::byte> bytes,
+                            const RunContext& context = default_context());
+
+ private:
+  struct State;
+  explicit ImagePart(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace ph

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "cubical/slabs/layer_pairs.hpp"
+
+#include <utility>
+
+#include "cubical/graphs/top_graph.hpp"
+#include "cubical/graphs/voxel_graph.hpp"
+#include "cubical/slabs/slab_basins.hpp"
+
+namespace ph::cubical {
+namespace {
+
+/// A StarCell of the whole grid.
+struct WholeCell {
+  std::uint64_t voxel;
+  Direction direction;
+  double value;
+};
+
+NumberedCell numbered(const GridCell& cell) {
+  return {static_cast<std::uint32_t>(cell.voxel()), cell.number()};
+}
+
+}  // namespace
+
+LayerPairs::LayerPairs(const GridShape& grid, const Graphs& graphs, const RunContext& context)
+    : around(&context.memory),
+      grid_(grid),
+      graphs_(graphs),
+      may_have_neither_(grid.top_dim() == 2 && grid.open_axes() == 0 && graphs.vertices &&
+                        graphs.tops),
+      context_(context) {}
+
+template <class Forest>
+void LayerPairs::take(std::optional<Forest>& all, Forest next, bool comes_before) {
+  if (all && comes_before) {
+    next.join(std::move(*all));
+    all.emplace(std::move(next));
+  } else if (all) {
+    all->join(std::move(next));
+  } else {
+    all.emplace(std::move(next));
+  }
+  if (is_ring() && has_begin && has_end) all->close_ring();
+}
+
+void LayerPairs::add(const StarGrid& slab, std::uint64_t first, PairSink& pairs, SlabLoops* loops) {
+  has_begin = has_begin || slab.slab().is_first;
+  has_end = has_end || slab.slab().is_last;
+  std::optional<CriticalCells> edges;
+  const auto edges_of_slab = [&]() -> const CriticalCells& {
+    if (!edges) edges.emplace(critical_cells(slab, 1, context_));
+    return *edges;
+  };
+  if (graphs_.vertices) {
+    const VoxelGraph graph(slab);
+    auto forest = SlabBasins(slab, graph, first, context_).forest(edges_of_slab());
+    take(vertices, std::move(forest));
+    settle_vertices(pairs, loops);
+  }
+  if (graphs_.tops) {
+    const TopGraph graph(slab);
+    if (grid_.top_dim() == 3) edges.reset();
+    const CriticalCells squares =
+        grid_.top_dim() == 3 ? critical_cells(slab, 2, context_) : CriticalCells(&context_.memory);
+    auto forest = SlabBasins(slab, graph, first, context_)
+                      .forest(grid_.top_dim() == 3 ? squares : edges_of_slab());
+    take(tops, std::move(forest));
+    settle_tops(pairs, loops);
+  }
+}
+
+void LayerPairs::join(LayerPairs others, bool come_before, PairSink& pairs) {
+  has_begin = has_begin || others.has_begin;
+  has_end = has_end || others.has_end;
+  around.join(others.around);
+  if (graphs_.vertices) {
+    take(vertices, std::move(*others.vertices), come_before);
+    settle_vertices(pairs, nullptr);
+  }
+  if (graphs_.tops) {
+    take(tops, std::move(*others.tops), come_before);
+    settle_tops(pairs, nullptr);
+  }
+}
+
+void LayerPairs::finish(PairSink& pairs) const {
+  for (const auto& [edge, value] : around.met_once)
+    pairs.essential(1, WholeCell{edge.voxel(), kEdges[edge.number()], value});
+}
+
+void LayerPairs::settle_vertices(PairSink& pairs, SlabLoops* loops) {
+  const auto edge = [](const SeamBridge& bridge) {
+    return WholeCell{bridge.cell.voxel(), kEdges[bridge.cell.number()], bridge.value};
+  };
+  const auto voxel = [](const SeamRoot& root) {
+    return WholeCell{root.cell.voxel(), {}, root.value};
+  };
+  vertices->settle(
+      [&](const SeamBridge& bridge, const SeamRoot* dies) {
+        if (dies == nullptr)
+          pairs.essential(1, edge(bridge));
+        else
+          pairs.pair(0, voxel(*dies), edge(bridge));
+      },
+      [&](const SeamBridge& bridge) {
+        if (loops != nullptr) loops->add_edge(numbered(bridge.cell));
+        if (may_have_neither_) around.meet(bridge.value, bridge.cell);
+      },
+      [&](const SeamRoot& root) { pairs.essential(0, voxel(root)); });
+}
+
+void LayerPairs::settle_tops(PairSink& pairs, SlabLoops* loops) {
+  const int top = grid_.top_dim();
+  const auto facet = [top](const SeamBridge& bridge) {
+    const std::uint32_t n = bridge.cell.number();
+    return WholeCell{bridge.cell.voxel(), top == 3 ? kSquares[n] : kEdges[n], bridge.value};
+  };
+  const auto top_cell = [top](const SeamRoot& root) {
+    const std::uint32_t n = root.cell.number();
+    return WholeCell{root.cell.voxel(), top == 3 ? kCubes[n] : kSquares[n], root.value};
+  };
+  tops->settle(
+      [&](const SeamBridge& bridge, const SeamRoot* dies) {
+        if (may_have_neither_) around.meet(bridge.value, bridge.cell);
+        if (dies == nullptr)
+          pairs.essential(top - 1, facet(bridge));
+        else
+          pairs.pair(top - 1, facet(bridge), top_cell(*dies));
+      },
+      [&](const SeamBridge& bridge) {
+        if (loops != nullptr) loops->add_square(bridge.value, numbered(bridge.cell));
+      },
+      [&](const SeamRoot& root) { pairs.essential(top, top_cell(root)); });
+}
+
+}  // namespace ph::cubical

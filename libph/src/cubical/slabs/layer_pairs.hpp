@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <map>
+#include <memory_resource>
+#include <optional>
+
+#include "cubical/pair_sink.hpp"
+#include "cubical/slabs/seam_forest.hpp"
+#include "cubical/slabs/slab_loops.hpp"
+#include "cubical/stars/star_grid.hpp"
+
+namespace ph::cubical {
+
+/// The edges of two axes that neither graph takes: around a torus two classes live for ever. Each
+/// edge that is handed over by the graph of voxels as one that joins nothing is met by the graph of
+/// top cells sooner or later, as one that joins something if it is in a pair.
+class EdgesInNeither {
+ public:
+  explicit EdgesInNeither(std::pmr::memory_resource* memory) : met_once(memory) {}
+  void meet(double value, const GridCell& edge) {
+    const auto [at, is_new] = met_once.try_emplace(edge, value);
+    if (!is_new) met_once.erase(at);
+  }
+  void join(const EdgesInNeither& others) {
+    for (const auto& [edge, value] : others.met_once) meet(value, edge);
+  }
+
+  std::pmr::map<GridCell, double> met_once;
+};
+
+/// The pairs of a grid but for loops of three axes, as its layers come: components of its two
+/// graphs. Hands over pairs as soon as no other layers can change them.
+class LayerPairs {
+ public:
+  /// Which of the graphs are looked at.
+  struct Graphs {
+    bool vertices, tops;
+    friend bool operator==(const Graphs&, const Graphs&) = default;
+  };
+  /// @param grid the whole one; outlives the pairs.
+  LayerPairs(const GridShape& grid, const Graphs& graphs, const RunContext& context);
+
+  /// The slab right after those that have come; there may be none.
+  /// @param first its first voxel in the whole grid, ghosts included (modulo 2^64).
+  /// @param loops receives the cells of three axes that neither graph takes; may be null.
+  void add(const StarGrid& slab, std::uint64_t first, PairSink& pairs, SlabLoops* loops = nullptr);
+  /// What is known of the layers right after those that have come, or right before them.
+  /// @throws Error (bad_data) if seams differ.
+  void join(LayerPairs others, bool come_before, PairSink& pairs);
+  /// Once all layers have come: hands over what neither graph takes.
+  void finish(PairSink& pairs) const;
+
+  bool wants_vertices() const { return graphs_.vertices; }
+  bool wants_tops() const { return graphs_.tops; }
+
+  /// Whether the layers begin and end where the grid does.
+  bool has_begin = false, has_end = false;
+  std::optional<SeamForest<false>> vertices;
+  std::optional<SeamForest<true>> tops;
+  EdgesInNeither around;  ///< of a torus of two axes
+
+ private:
+  bool is_ring() const { return grid_.axis(grid_.layer_axis()).periodic; }
+  template <class Forest>
+  void take(std::optional<Forest>& all, Forest next, bool comes_before = false);
+  void settle_vertices(PairSink& pairs, SlabLoops* loops);
+  void settle_tops(PairSink& pairs, SlabLoops* loops);
+
+  const GridShape& grid_;
+  Graphs graphs_;
+  bool may_have_neither_;
+  const RunContext& context_;
+};
+
+}  // namespace ph::cubical

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "cubical/stars/star_tables.hpp"
+#include "ph/detail/image/cubical_image.hpp"
+
+namespace ph::cubical {
+
+/// The axes of an image of any size as the stars see them: those of one voxel are left out, and
+/// what a periodic one of them adds is put back by `PairSink`. See GridFrame.
+class GridShape {
+ public:
+  struct Axis {
+    std::uint64_t extent = 1, stride = 1;
+    bool exists = false, periodic = false;
+    int of_input = 0;
+  };
+
+  /// Whether an axis of the input is not left out.
+  static bool keeps_axis(const CubicalImage& image, std::size_t k) {
+    return image.extents[k] > 1 || (!image.voxels_are_vertices && !image.periodic[k]);
+  }
+  /// How many axes are not.
+  static int count_axes(const CubicalImage& image);
+  /// Precondition: count_axes(image) <= 3. Voxels are not looked at.
+  explicit GridShape(const CubicalImage& image);
+
+  int top_dim() const { return top_dim_; }  ///< of the stars' grid
+  bool is_t_construction() const { return is_t_construction_; }
+  /// The last one is the fastest.
+  const Axis& axis(int a) const { return axes_[static_cast<std::size_t>(a)]; }
+  bool any_periodic() const { return std::ranges::any_of(axes_, &Axis::periodic); }
+  /// How many axes have two ends.
+  int open_axes() const {
+    return static_cast<int>(
+        std::ranges::count_if(axes_, [](const Axis& a) { return a.exists && !a.periodic; }));
+  }
+  /// The slowest axis. A layer is what lies at one place of it.
+  int layer_axis() const { return 3 - top_dim_; }
+  /// How many periodic axes of one voxel there are: each makes a copy of every cell, one dimension
+  /// up.
+  std::size_t loop_count() const { return loops_.size(); }
+  /// One of them as an axis of the input; descending.
+  std::size_t loop_axis(std::size_t i) const { return loops_[i]; }
+  /// Appends the coordinates of a cell in the input's doubled grid. @param loops which of the axes
+  /// of one voxel the copy goes around, as bits.
+  void append_numbers(std::uint64_t voxel, const Direction& direction, unsigned loops,
+                      std::vector<Index>& numbers) const;
+
+ private:
+  std::array<Axis, 3> axes_;
+  std::vector<std::size_t> loops_;
+  std::size_t input_axes_;
+  int top_dim_ = 0;
+  bool is_t_construction_;
+};
+
+}  // namespace ph::cubical

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT
+// A part as bytes, little endian: the image, which parts, bars, forests with their seams. What is
+// read is checked, so that no number leads out of a list.
+#include <fmt/format.h>
+
+#include <bit>
+#include <concepts>
+#include <cstring>
+#include <utility>
+
+#include "facade/parts/part_state.hpp"
+#include "ph/error.hpp"
+
+namespace ph {
+namespace {
+
+using cubical::GridCell;
+using cubical::Seam;
+using cubical::SeamBridge;
+using cubical::SeamForest;
+using cubical::SeamRoot;
+using cubical::WholeImage;
+
+static_assert(std::endian::native == std::endian::little, "bytes are put as they are in memory");
+
+class Bytes {
+ public:
+  template <class T>
+  requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) void put(T value) {
+    const auto* const first = reinterpret_cast<const std::byte*>(&value);
+    bytes_.insert(bytes_.end(), first, first + sizeof(T));
+  }
+  void put(bool value) { put(static_cast<std::uint8_t>(value ? 1 : 0)); }
+  template <class List, class Put>
+  void put_list(const List& list, Put&& put_one) {
+    put(std::uint64_t{list.size()});
+    for (const auto& one : list) put_one(one);
+  }
+  std::vector<std::byte> take() { return std::move(bytes_); }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+[[noreturn]] void refuse(const char* what) {
+  throw Error(ErrorKind::bad_data, fmt::format("part of an image: found a damaged {}", what));
+}
+
+class Reader {
+ public:
+  explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+  template <class T>
+  T get(const char* what) {
+    if (bytes_.size() - at_ < sizeof(T)) refuse(what);
+    T value;
+    std::memcpy(&value, bytes_.data() + at_, sizeof(T));
+    at_ += sizeof(T);
+    return value;
+  }
+  bool flag(const char* what) {
+    const auto value = get<std::uint8_t>(what);
+    if (value > 1) refuse(what);
+    return value != 0;
+  }
+  /// Of things that take that many bytes each, at least.
+  std::size_t count(std::size_t bytes_each, const char* what) {
+    const auto count = get<std::uint64_t>(what);
+    if (count > (bytes_.size() - at_) / bytes_each) refuse(what);
+    return static_cast<std::size_t>(count);
+  }
+  void expect_end() const {
+    if (at_ != bytes_.size()) refuse("end");
+  }
+
+ private:
+  std::span<const std::byte> bytes_;
+  std::size_t at_ = 0;
+};
+
+void put_whole(Bytes& to, const WholeImage& whole) {
+  to.put_list(whole.extents, [&](Index n) { to.put(std::int64_t{n}); });
+  for (const bool periodic : whole.periodic) to.put(periodic);
+  to.put(static_cast<std::uint8_t>(whole.type));
+  to.put(whole.voxels_are_vertices);
+  to.put(whole.superlevel);
+  to.put(whole.limit);
+  for (const int n : {whole.parts, whole.min_dim, whole.max_dim}) to.put(std::int32_t{n});
+  to.put(whole.cells);
+}
+
+WholeImage get_whole(Reader& from) {
+  WholeImage whole{};
+  const std::size_t axes = from.count(sizeof(std::int64_t), "extents");
+  double voxels = 1;
+  for (std::size_t k = 0; k < axes; ++k) {
+    whole.extents.push_back(static_cast<Index>(from.get<std::int64_t>("extents")));
+    if (whole.extents[k] < 1) refuse("extents");
+    voxels *= static_cast<double>(whole.extents[k]);
+  }
+  constexpr double most = 1e18;
+  if (voxels > most) refuse("extents");
+  for (std::size_t k = 0; k < axes; ++k) whole.periodic.push_back(from.flag("axis"));
+  whole.type = static_cast<VoxelType>(from.get<std::uint8_t>("type"));
+  if (whole.type > VoxelType::float64) refuse("type");
+  whole.voxels_are_vertices = from.flag("construction");
+  whole.superlevel = from.flag("sign");
+  whole.limit = from.get<double>("threshold");
+  for (int* const n : {&whole.parts, &whole.min_dim, &whole.max_dim})
+    *n = from.get<std::int32_t>("number");
+  whole.cells = from.flag("flag of cells");
+  const CubicalImage image = whole.image();
+  if (cubical::GridShape::count_axes(image) > 3) refuse("number of axes");
+  const cubical::GridShape shape(image);
+  if (shape.top_dim() < 2 || whole.parts < 1 ||
+      static_cast<std::uint64_t>(whole.parts) > shape.axis(shape.layer_axis()).extent)
+    refuse("number of parts");
+  return whole;
+}
+
+void put_seam(Bytes& to, const Seam& seam) {
+  to.put_list(seam.roots, [&](std::uint32_t root) { to.put(root); });
+  for (const double value : seam.values) to.put(value);
+}
+
+template <bool backwards>
+void put_forest(Bytes& to, const SeamForest<backwards>& forest) {
+  to.put_list(forest.roots, [&](const SeamRoot& root) {
+    to.put(root.value);
+    to.put(root.cell.voxel());
+    to.put(root.cell.number());
+    to.put(static_cast<std::uint32_t>(root.kind));
+  });
+  for (const std::uint32_t part : forest.outside) to.put(part);
+  put_seam(to, forest.before);
+  put_seam(to, forest.after);
+  to.put_list(forest.bridges, [&](const SeamBridge& bridge) {
+    to.put(bridge.value);
+    to.put(bridge.cell.voxel());
+    to.put(bridge.cell.number());
+    to.put(bridge.from);
+    to.put(bridge.to);
+  });
+}
+
+GridCell get_cell(Reader& from) {
+  const auto voxel = from.get<std::uint64_t>("cell");
+  const auto number = from.get<std::uint32_t>("cell");
+  constexpr std::uint32_t most = 12;  // cells of a dimension in a star
+  if (number >= most || voxel >> 60 != 0) refuse("cell");
+  return {voxel, number};
+}
+
+template <bool backwards>
+SeamForest<backwards> get_forest(Reader& from, const RunContext& context) {
+  SeamForest<backwards> forest(context);
+  constexpr std::size_t bytes_of_root = 24, bytes_of_bridge = 28, bytes_of_node = 4;
+  forest.roots.resize(from.count(bytes_of_root, "roots"));
+  for (SeamRoot& root : forest.roots) {
+    root.value = from.get<double>("root");
+    root.cell = get_cell(from);
+    const auto kind = from.get<std::uint32_t>("root");
+    if (kind > static_cast<std::uint32_t>(SeamRoot::Kind::open_after)) refuse("root");
+    root.kind = static_cast<SeamRoot::Kind>(kind);
+  }
+  if (!forest.is_in_order()) refuse("order of roots");
+  const auto root = [&] {
+    const auto number = from.get<std::uint32_t>("root");
+    if (number >= forest.roots.size()) refuse("root");
+    return number;
+  };
+  for (std::uint32_t& part : forest.outside) part = root();
+  for (Seam* const seam : {&forest.before, &forest.after}) {
+    seam->roots.resize(from.count(bytes_of_node, "seam"));
+    for (std::uint32_t& node : seam->roots) {
+      node = from.get<std::uint32_t>("seam");
+      if (node != Seam::kNone && node >= forest.roots.size()) refuse("seam");
+    }
+    seam->values.resize(seam->roots.size());
+    for (double& value : seam->values) value = from.get<double>("seam");
+  }
+  forest.bridges.resize(from.count(bytes_of_bridge, "bridges"));
+  for (SeamBridge& bridge : forest.bridges) {
+    bridge.value = from.get<double>("bridge");
+    bridge.cell = get_cell(from);
+    bridge.from = root();
+    bridge.to = root();
+  }
+  if (!std::ranges::is_sorted(forest.bridges, {}, &SeamBridge::value)) refuse("order of bridges");
+  return forest;
+}
+
+void put_bars(Bytes& to, const Barcode& bars) {
+  to.put(std::uint64_t{bars.size()});
+  for (std::size_t i = 0; i < bars.size(); ++i) {
+    to.put(std::int32_t{bars[i].dim});
+    to.put(bars[i].birth);
+    to.put(bars[i].death);
+    const auto death = bars.death_cell(i);
+    const auto put_numbers = [&](std::span<const Index> numbers) {
+      to.put(static_cast<std::uint8_t>(numbers.size()));
+      for (const Index n : numbers) to.put(std::int64_t{n});
+    };
+    put_numbers(bars.birth_cell(i).numbers);
+    put_numbers(death ? death->numbers : std::span<const Index>());
+  }
+}
+
+void get_bars(Reader& from, Barcode& bars) {
+  constexpr std::size_t bytes_of_bar = 22;
+  const std::size_t count = from.count(bytes_of_bar, "bars");
+  std::vector<Index> birth, death;
+  const auto get_numbers = [&](std::vector<Index>& numbers) {
+    numbers.resize(from.get<std::uint8_t>("bar"));
+    for (Index& n : numbers) n = static_cast<Index>(from.get<std::int64_t>("bar"));
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    Bar bar;
+    bar.dim = from.get<std::int32_t>("bar");
+    bar.birth = from.get<double>("bar");
+    bar.death = from.get<double>("bar");
+    get_numbers(birth);
+    get_numbers(death);
+    bars.add(bar, birth, death);
+  }
+}
+
+}  // namespace
+
+std::vector<std::byte> ImagePart::bytes() const {
+  Bytes to;
+  put_whole(to, state_->whole);
+  to.put(std::int32_t{state_->first});
+  to.put(std::int32_t{state_->last});
+  const cubical::LayerPairs& pairs = state_->pairs;
+  to.put(pairs.vertices.has_value());
+  if (pairs.vertices) put_forest(to, *pairs.vertices);
+  to.put(pairs.tops.has_value());
+  if (pairs.tops) put_forest(to, *pairs.tops);
+  to.put(std::uint64_t{pairs.around.met_once.size()});
+  for (const auto& [edge, value] : pairs.around.met_once) {
+    to.put(edge.voxel());
+    to.put(edge.number());
+    to.put(value);
+  }
+  Barcode bars = state_->bars;
+  bars.sort(state_->context);
+  put_bars(to, bars);
+  return to.take();
+}
+
+ImagePart ImagePart::of_bytes(std::span<const std::byte> bytes, const RunContext& context) {
+  Reader from(bytes);
+  auto state = std::make_unique<State>(get_whole(from), context);
+  state->first = from.get<std::int32_t>("number");
+  state->last = from.get<std::int32_t>("number");
+  if (state->first < 0 || state->last < state->first || state->last >= state->whole.parts)
+    refuse("number");
+  const bool from_end = state->shape.is_t_construction();
+  const bool is_first = state->first == 0, is_last = state->last + 1 == state->whole.parts;
+  cubical::LayerPairs& pairs = state->pairs;
+  pairs.has_begin = from_end ? is_last : is_first;
+  pairs.has_end = from_end ? is_first : is_last;
+  if (from.flag("forest") != pairs.wants_vertices()) refuse("forest");
+  if (pairs.wants_vertices()) pairs.vertices.emplace(get_forest<false>(from, context));
+  if (from.flag("forest") != pairs.wants_tops()) refuse("forest");
+  if (pairs.wants_tops()) pairs.tops.emplace(get_forest<true>(from, context));
+  constexpr std::size_t bytes_of_edge = 20;
+  for (std::size_t left = from.count(bytes_of_edge, "edges"); left > 0; --left) {
+    const GridCell edge = get_cell(from);
+    pairs.around.met_once.emplace(edge, from.get<double>("edge"));
+  }
+  get_bars(from, state->bars);
+  state->claim.grow_to(state->bars.bytes());
+  from.expect_end();
+  return ImagePart(std::move(state));
+}
+
+}  // namespace ph

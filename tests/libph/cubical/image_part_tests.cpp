@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+// Images in parts that know nothing of each other, joined in random groups, against the same images
+// as one: any number of parts, both constructions, holes, infinities, ties, axes that close up.
+#include "ph/parts/image_part.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/conformance.hpp"
+#include "support/for_each_seed.hpp"
+#include "support/generators.hpp"
+
+namespace ph::test {
+namespace {
+
+using Construction = CubicalOptions::Construction;
+
+/// Joins neighbours in a random order until one part is left. Now and then a part becomes bytes and
+/// comes back.
+ImagePart joined(Generator& random, std::vector<ImagePart> parts) {
+  while (parts.size() > 1) {
+    const auto i = static_cast<std::size_t>(random.integer(0, static_cast<int>(parts.size()) - 2));
+    if (random.integer(0, 2) == 0) {
+      const auto bytes = parts[i].bytes();
+      parts[i] = ImagePart::of_bytes(bytes);
+      EXPECT_EQ(parts[i].bytes(), bytes);
+    }
+    parts[i].join(std::move(parts[i + 1]));
+    parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+  }
+  return std::move(parts[0]);
+}
+
+std::vector<ImagePart> parts_of(const Image& image, int count, const ImagePartOptions& options,
+                                const RunContext& context = default_context()) {
+  std::vector<ImagePart> parts;
+  for (int i = 0; i < count; ++i) parts.emplace_back(image, i, count, options, context);
+  return parts;
+}
+
+struct Case {
+  Image image;
+  ImagePartOptions options;
+  int layers;
+};
+Case random_case(Generator& random) {
+  const int axes = random.integer(2, 3), most = axes == 2 ? 9 : 5;
+  Case result{{}, {}, 0};
+  std::vector<Index> extents;
+  for (int k = 0; k < axes; ++k) extents.push_back(random.integer(2, most));
+  result.layers = static_cast<int>(extents[0]);
+  if (random.coin()) extents.insert(extents.begin() + random.integer(0, axes), 1);
+  CubicalOptions& cubical = result.options.cubical;
+  cubical = random.cubical_options(static_cast<int>(extents.size()));
+  if (random.coin()) cubical.periodic[extents[0] == 1 ? 1 : 0] = true;
+  result.image = random.image(extents, random.coin());
+  if (random.integer(0, 3) == 0) cubical.threshold = random.integer(-2, 3);
+  // An axis of one voxel is one of the T-construction's, if it has ends.
+  int kept = 0;
+  for (std::size_t k = 0; k < extents.size(); ++k) {
+    const bool is_kept =
+        extents[k] > 1 || (cubical.construction == Construction::cells && !cubical.periodic[k]);
+    if (is_kept && kept++ == 0) result.layers = static_cast<int>(extents[k]);
+  }
+  if (kept == 3) {
+    if (random.coin())
+      result.options.max_dim = 0;
+    else
+      result.options.min_dim = 2;
+  }
+  return result;
+}
+
+/// Whether a volume has bars of dimension 1 among all that are wanted.
+bool is_refused(const Case& c) {
+  try {
+    ImagePart(c.image, 0, 1, c.options);
+    return false;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage) << error.what();
+    return true;
+  }
+}
+
+TEST(ImagePart, AgreesWithTheOracleCellByCell) {
+  std::size_t bars = 0, refused = 0;
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(seeds(2000)); ++seed) {
+    SCOPED_TRACE(seed);
+    Generator random(seed);
+    const Case c = random_case(random);
+    if (is_refused(c)) {
+      ++refused;
+      continue;
+    }
+    const Options oracle{.max_dim = c.options.max_dim.value_or(c.image.dim()),
+                         .min_dim = c.options.min_dim,
+                         .engine = Engine::standard};
+    const auto expected = pairs_of(persistence(Cubical(c.image, c.options.cubical), oracle));
+    for (int count = 1; count <= c.layers; ++count) {
+      const ImagePart whole = joined(random, parts_of(c.image, count, c.options));
+      ASSERT_TRUE(whole.is_whole());
+      ASSERT_EQ(pairs_of(whole.barcode()), expected) << count << " parts";
+    }
+    bars += expected.size();
+  }
+  EXPECT_TRUE(is_enough(bars, std::size_t{3000})) << bars;
+  EXPECT_TRUE(is_enough(bars, refused)) << refused;
+}
+
+// But for holes: of two that have always been there one is closed first, sooner or later.
+TEST(ImagePart, WhatIsKeptDoesNotDependOnGroups) {
+  int compared = 0;
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+    SCOPED_TRACE(seed);
+    Generator random(seed);
+    const Case c = random_case(random);
+    const auto is_hole = [&](double v) {
+      return std::isinf(v) ||
+             (c.options.cubical.threshold &&
+              (c.options.cubical.superlevel ? -v : v) > *c.options.cubical.threshold);
+    };
+    if (is_refused(c) || std::ranges::any_of(c.image.values, is_hole)) continue;
+    ++compared;
+    // Of four parts the first three, in both groupings.
+    if (c.layers < 4) continue;
+    auto left = parts_of(c.image, 4, c.options), right = parts_of(c.image, 4, c.options);
+    left[0].join(std::move(left[1]));
+    left[0].join(std::move(left[2]));
+    right[1].join(std::move(right[2]));
+    right[0].join(std::move(right[1]));
+    ASSERT_TRUE(left[0].bytes() == right[0].bytes());
+  }
+  EXPECT_GT(compared, 20);
+}
+
+TEST(ImagePart, SlabsInsideDoNotMatter) {
+  Generator random(5);
+  const Image image = random.image({12, 7, 9}, false);
+  const ImagePartOptions options{.cubical = {.periodic = {true, false, false}}, .max_dim = 0};
+  const auto expected = joined(random, parts_of(image, 3, options)).barcode();
+  for (int layers = 1; layers <= 5; ++layers) {
+    RunContext context;
+    context.slab_layers = layers;
+    EXPECT_EQ(pairs_of(joined(random, parts_of(image, 3, options, context)).barcode()),
+              pairs_of(expected));
+  }
+}
+
+TEST(ImagePart, RefusesWhatDoesNotBelongTogether) {
+  Generator random(1);
+  const Image image = random.image({8, 6}, false), other = random.image({8, 6}, false);
+  const auto refused = [](ImagePart& a, ImagePart b, const char* why) {
+    try {
+      a.join(std::move(b));
+      ADD_FAILURE() << why;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::bad_data);
+      EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+    }
+  };
+  ImagePart first(image, 0, 3);
+  refused(first, ImagePart(image, 2, 3), "found part 3 behind part 1");
+  refused(first, ImagePart(image, 0, 3), "found part 1 behind part 1");
+  refused(first, ImagePart(image, 1, 4), "other extents, types or options");
+  refused(first, ImagePart(image, 1, 3, {.max_dim = 0}), "other extents, types or options");
+  ImagePart of_image(image, 0, 3);
+  refused(of_image, ImagePart(other, 1, 3), "seams that differ");
+}
+
+TEST(ImagePart, RefusesPartsAndImagesThatAreNone) {
+  Generator random(2);
+  const Image image = random.image({4, 5}, false);
+  const auto refused = [](const Image& of, int part, int parts, const char* why) {
+    try {
+      ImagePart(of, part, parts);
+      ADD_FAILURE() << why;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::usage);
+      EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+    }
+  };
+  refused(image, 0, 5, "found 5, expected 1 to 4");
+  refused(image, 0, 0, "found 0, expected 1 to 4");
+  refused(image, 3, 3, "found number 4 of 3");
+  refused(image, -1, 3, "found number 0 of 3");
+  refused(random.image({7}, false), 0, 1, "expected two or three");
+  refused(random.image({2, 2, 2, 2}, false), 0, 1, "expected two or three");
+  refused(random.image({3, 3, 3}, false), 0, 1, "bars of dimension 1");
+}
+
+TEST(ImagePart, RefusesDamagedBytes) {
+  Generator random(3);
+  const Image image = random.image({6, 7}, false);
+  const std::vector<std::byte> bytes = ImagePart(image, 1, 3).bytes();
+  std::size_t refused = 0;
+  const auto is_refused = [](std::span<const std::byte> damaged) {
+    try {
+      ImagePart::of_bytes(damaged);
+      return false;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::bad_data) << error.what();
+      return true;
+    }
+  };
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    ASSERT_TRUE(is_refused(std::span(bytes).first(size))) << size;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    auto damaged = bytes;
+    damaged[i] ^= std::byte{0x84};
+    refused += is_refused(damaged) ? 1 : 0;  // a value may be another one; a list may not
+  }
+  EXPECT_GT(refused, bytes.size() / 4);
+}
+
+}  // namespace
+}  // namespace ph::test
