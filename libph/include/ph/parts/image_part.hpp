@@ -33,6 +33,7 @@ class ImagePart {
   /// Layers n · part / parts up to n · (part + 1) / parts of the n of the slowest axis. Looks at
   /// the voxels of these and of the layer on either side, and at no others.
   /// @param part from 0 on. @param parts at most one a layer.
+  /// @param context outlives the part.
   /// @throws Error (usage) on options and parts that are none, (bad_data) and (resource) as
   ///         Cubical, (cancelled).
   ImagePart(const Image& image, int part, int parts, const ImagePartOptions& options = {},
@@ -47,7 +48,9 @@ class ImagePart {
   int parts() const;
   bool is_whole() const { return first() == 0 && last() + 1 == parts(); }
   /// Takes in the parts right after it.
-  /// @throws Error (bad_data) if they are not, or of another image, or of other options.
+  /// @throws Error (bad_data) if they are not, or of another image, or of other options; nothing
+  /// has
+  ///         changed then.
   void join(ImagePart next, const RunContext& context = default_context());
   /// The bars of positive length. Precondition: is_whole().
   Barcode barcode(const RunContext& context = default_context()) const;

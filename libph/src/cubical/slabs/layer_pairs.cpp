@@ -6,6 +6,7 @@
 #include "cubical/graphs/top_graph.hpp"
 #include "cubical/graphs/voxel_graph.hpp"
 #include "cubical/slabs/slab_basins.hpp"
+#include "ph/error.hpp"
 
 namespace ph::cubical {
 namespace {
@@ -70,7 +71,21 @@ void LayerPairs::add(const StarGrid& slab, std::uint64_t first, PairSink& pairs,
   }
 }
 
+void LayerPairs::check_seams(const LayerPairs& others, bool come_before) const {
+  const bool closes = is_ring() && (has_begin || others.has_begin) && (has_end || others.has_end);
+  const auto agree = [&](const auto& mine, const auto& theirs) {
+    if (!mine) return true;
+    const auto &first = come_before ? *theirs : *mine, &last = come_before ? *mine : *theirs;
+    return first.is_before(last) && (!closes || last.is_before(first));
+  };
+  if (!agree(vertices, others.vertices) || !agree(tops, others.tops))
+    throw Error(ErrorKind::bad_data,
+                "parts of an image: found seams that differ, expected layers that follow each "
+                "other");
+}
+
 void LayerPairs::join(LayerPairs others, bool come_before, PairSink& pairs) {
+  check_seams(others, come_before);
   has_begin = has_begin || others.has_begin;
   has_end = has_end || others.has_end;
   around.join(others.around);

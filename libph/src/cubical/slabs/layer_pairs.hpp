@@ -46,7 +46,7 @@ class LayerPairs {
   /// @param loops receives the cells of three axes that neither graph takes; may be null.
   void add(const StarGrid& slab, std::uint64_t first, PairSink& pairs, SlabLoops* loops = nullptr);
   /// What is known of the layers right after those that have come, or right before them.
-  /// @throws Error (bad_data) if seams differ.
+  /// @throws Error (bad_data) if seams differ; nothing has changed then.
   void join(LayerPairs others, bool come_before, PairSink& pairs);
   /// Once all layers have come: hands over what neither graph takes.
   void finish(PairSink& pairs) const;
@@ -61,6 +61,7 @@ class LayerPairs {
   EdgesInNeither around;  ///< of a torus of two axes
 
  private:
+  void check_seams(const LayerPairs& others, bool come_before) const;
   bool is_ring() const { return grid_.axis(grid_.layer_axis()).periodic; }
   template <class Forest>
   void take(std::optional<Forest>& all, Forest next, bool comes_before = false);

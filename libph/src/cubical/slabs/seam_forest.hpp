@@ -82,10 +82,14 @@ class SeamForest {
         bridges(&context.memory),
         context_(context) {}
 
-  /// Joins what comes right after. Nothing is final until `settle`.
-  /// @throws Error (bad_data) if the seams differ.
+  /// Whether what comes right after may be that: seams say the same of their nodes.
+  bool is_before(const SeamForest& next) const {
+    const auto counts = [](std::uint32_t root) { return root != Seam::kNone; };
+    return after.is_open() && after.values == next.before.values &&
+           std::ranges::equal(after.roots, next.before.roots, {}, counts, counts);
+  }
+  /// Joins what comes right after. Nothing is final until `settle`. Precondition: is_before(next).
   void join(SeamForest next) {
-    if (!after.is_open() || after.values != next.before.values) refuse();
     const auto shift = static_cast<std::uint32_t>(roots.size());
     const std::size_t count = std::size_t{shift} + next.roots.size();
     if (count >= Seam::kNone) throw Error(ErrorKind::resource, "image: found too many components");
@@ -121,9 +125,8 @@ class SeamForest {
     identify(same);
   }
   /// Joins the end with the beginning: the layers are all there are of a periodic axis.
-  /// @throws Error as `join`.
+  /// Precondition: is_before(*this).
   void close_ring() {
-    if (!after.is_open() || after.values != before.values) refuse();
     DisjointSets same(roots.size(), &context_.memory);
     unite_seams(
         same, after.roots, before.roots, [](std::uint32_t root) { return root; },
@@ -207,11 +210,6 @@ class SeamForest {
     if (root.kind == Kind::outer) return 0;
     return (root.kind == Kind::critical) == backwards ? 2 : 1;
   }
-  [[noreturn]] static void refuse() {
-    throw Error(ErrorKind::bad_data,
-                "parts of an image: found seams that differ, expected layers that follow each "
-                "other");
-  }
   // kNever is no value of a cell.
   static double finite(double value) {
     constexpr double most = std::numeric_limits<double>::max();
@@ -236,7 +234,6 @@ class SeamForest {
   void unite_seams(DisjointSets& same, std::span<const std::uint32_t> ends,
                    std::span<const std::uint32_t> begins, Shift&& shift, IsResolved&& is_resolved) {
     for (std::size_t k = 0; k < ends.size(); ++k) {
-      if ((ends[k] == Seam::kNone) != (begins[k] == Seam::kNone)) refuse();
       if (ends[k] != Seam::kNone) unite(same, ends[k], shift(begins[k]), is_resolved);
     }
   }

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <cstring>
+#include <limits>
 #include <utility>
 
 #include "cubical/slabs/slabs.hpp"
@@ -137,7 +137,7 @@ ImagePart::ImagePart(const Image& image, int part, int parts, const ImagePartOpt
   const std::uint64_t begin = from_end ? axis.extent - layers.end : layers.begin;
   cubical::Slabs slabs(frame, cubical::Slabs::layers_that_fit(frame, context), context, place,
                        (begin - (place.has_ghost_before() ? 1 : 0)) * axis.stride);
-  const cubical::BarSink sink = state_->sink();
+  const cubical::BarSink sink = state_->sink(state_->bars);
   cubical::PairSink pairs(shape, options.cells, sink);
   for (std::uint32_t slab = 0; slab < slabs.count(); ++slab) {
     context.report({"slabs", slab, slabs.count()});
@@ -146,6 +146,7 @@ ImagePart::ImagePart(const Image& image, int part, int parts, const ImagePartOpt
       state_->pairs.add(grid, slabs.first_voxel(slab), pairs);
     }
     slabs.forget(slab);
+    state_->claim.grow_to(state_->bars.bytes());
   }
   pairs.finish();
 }
@@ -168,31 +169,25 @@ void ImagePart::join(ImagePart next, const RunContext& context) {
                 fmt::format("parts of an image: found part {} behind part {}, expected part {}",
                             next.first() + 1, last() + 1, last() + 2));
   context.poll();
-  for (std::size_t i = 0; i < next.state_->bars.size(); ++i) {
-    const auto death = next.state_->bars.death_cell(i);
-    state_->bars.add(next.state_->bars[i], next.state_->bars.birth_cell(i).numbers,
+  // The T-construction is seen from the other end.
+  const bool come_before = state_->shape.is_t_construction();
+  const cubical::BarSink sink = state_->sink(state_->bars);
+  cubical::PairSink pairs(state_->shape, state_->whole.cells, sink);
+  state_->pairs.join(std::move(next.state_->pairs), come_before, pairs);
+  pairs.finish();
+  const Barcode& bars = next.state_->bars;
+  for (std::size_t i = 0; i < bars.size(); ++i) {
+    const auto death = bars.death_cell(i);
+    state_->bars.add(bars[i], bars.birth_cell(i).numbers,
                      death ? death->numbers : std::span<const Index>());
   }
+  state_->claim.grow_to(state_->bars.bytes());
   state_->last = next.last();
-  const cubical::BarSink sink = state_->sink();
-  cubical::PairSink pairs(state_->shape, state_->whole.cells, sink);
-  // The T-construction is seen from the other end.
-  state_->pairs.join(std::move(next.state_->pairs), state_->shape.is_t_construction(), pairs);
-  pairs.finish();
 }
 
 Barcode ImagePart::barcode(const RunContext& context) const {
   Barcode all = state_->bars;
-  const cubical::BarSink sink{
-      [&](const Bar& bar, std::span<const Index> birth, std::span<const Index> death) {
-        if (state_->whole.min_dim <= bar.dim && bar.dim <= state_->whole.max_dim)
-          all.add(bar, birth, death);
-      },
-      [&](std::span<const Bar> some) {
-        for (const Bar& bar : some)
-          if (state_->whole.min_dim <= bar.dim && bar.dim <= state_->whole.max_dim) all.add(bar);
-      },
-      [](std::size_t) {}};
+  const cubical::BarSink sink = state_->sink(all);
   cubical::PairSink pairs(state_->shape, state_->whole.cells, sink);
   state_->pairs.finish(pairs);
   pairs.finish();

@@ -3,9 +3,11 @@
 // read is checked, so that no number leads out of a list.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
-#include <concepts>
-#include <cstring>
+#include <cstddef>
+#include <type_traits>
 #include <utility>
 
 #include "facade/parts/part_state.hpp"
@@ -21,14 +23,19 @@ using cubical::SeamForest;
 using cubical::SeamRoot;
 using cubical::WholeImage;
 
-static_assert(std::endian::native == std::endian::little, "bytes are put as they are in memory");
+/// The bytes of a number, the low one first.
+template <class T>
+std::array<std::byte, sizeof(T)> in_order(std::array<std::byte, sizeof(T)> bytes) {
+  if constexpr (std::endian::native == std::endian::big) std::ranges::reverse(bytes);
+  return bytes;
+}
 
 class Bytes {
  public:
   template <class T>
   requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) void put(T value) {
-    const auto* const first = reinterpret_cast<const std::byte*>(&value);
-    bytes_.insert(bytes_.end(), first, first + sizeof(T));
+    const auto bytes = in_order<T>(std::bit_cast<std::array<std::byte, sizeof(T)>>(value));
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
   }
   void put(bool value) { put(static_cast<std::uint8_t>(value ? 1 : 0)); }
   template <class List, class Put>
@@ -52,10 +59,10 @@ class Reader {
   template <class T>
   T get(const char* what) {
     if (bytes_.size() - at_ < sizeof(T)) refuse(what);
-    T value;
-    std::memcpy(&value, bytes_.data() + at_, sizeof(T));
+    std::array<std::byte, sizeof(T)> bytes;
+    std::ranges::copy(bytes_.subspan(at_, sizeof(T)), bytes.begin());
     at_ += sizeof(T);
-    return value;
+    return std::bit_cast<T>(in_order<T>(bytes));
   }
   bool flag(const char* what) {
     const auto value = get<std::uint8_t>(what);

@@ -51,21 +51,18 @@ struct ImagePart::State {
         bars(CellKind::grid),
         claim(run_context.memory, 0) {}
 
-  /// Receives bars that are final, of the dimensions wanted.
-  cubical::BarSink sink() {
+  /// Puts bars of the dimensions wanted into a barcode.
+  cubical::BarSink sink(Barcode& into) const {
     const auto wants = [this](const Bar& bar) {
       return whole.min_dim <= bar.dim && bar.dim <= whole.max_dim && bar.birth < kInfinity;
     };
     return {
-        [this, wants](const Bar& bar, std::span<const Index> birth, std::span<const Index> death) {
-          if (!wants(bar)) return;
-          bars.add(bar, birth, death);
-          claim.grow_to(bars.bytes());
+        [&into, wants](const Bar& bar, std::span<const Index> birth, std::span<const Index> death) {
+          if (wants(bar)) into.add(bar, birth, death);
         },
-        [this, wants](std::span<const Bar> some) {
+        [&into, wants](std::span<const Bar> some) {
           for (const Bar& bar : some)
-            if (wants(bar)) bars.add(bar);
-          claim.grow_to(bars.bytes());
+            if (wants(bar)) into.add(bar);
         },
         [](std::size_t) {}};
   }
