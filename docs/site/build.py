@@ -30,7 +30,8 @@ ELSEWHERE = {"CHANGELOG.md": "reference/changes.md", "CONTRIBUTING.md": "develop
              "CODE_OF_CONDUCT.md": "development/conduct.md", "SECURITY.md": "development/security.md",
              "viewer/README.md": "development/viewer.md"}
 PROGRAMS = 4  # all of them, or none
-HEADERS = ["libph/include/ph", "libph/include/ph/io", "libsegment/include/ph", "libsegment/pcl/include/ph",
+HEADERS = ["libph/include/ph", "libph/include/ph/io", "libph/include/ph/parts",
+           "libsegment/include/ph", "libsegment/pcl/include/ph",
            "libreport/include/ph", "libreport/include/ph/detail/report"]
 # What public headers declare elsewhere and a reader has to know.
 DETAIL = ["components/branch", "complex/filtered_graph", "core/engine", "core/loop", "io/camera",

@@ -201,9 +201,13 @@ TEST(ImagePart, RefusesDamagedBytes) {
   const Image image = random.image({6, 7}, false);
   const std::vector<std::byte> bytes = ImagePart(image, 1, 3).bytes();
   std::size_t refused = 0;
-  const auto is_refused = [](std::span<const std::byte> damaged) {
+  // What is taken for a part is joined: no number leads out of a list.
+  const auto is_refused = [&](std::span<const std::byte> damaged) {
     try {
-      ImagePart::of_bytes(damaged);
+      ImagePart whole(image, 0, 3);
+      whole.join(ImagePart::of_bytes(damaged));
+      whole.join(ImagePart(image, 2, 3));
+      whole.barcode();
       return false;
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::bad_data) << error.what();
@@ -212,11 +216,12 @@ TEST(ImagePart, RefusesDamagedBytes) {
   };
   for (std::size_t size = 0; size < bytes.size(); ++size)
     ASSERT_TRUE(is_refused(std::span(bytes).first(size))) << size;
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    auto damaged = bytes;
-    damaged[i] ^= std::byte{0x84};
-    refused += is_refused(damaged) ? 1 : 0;  // a value may be another one; a list may not
-  }
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+    for (const std::byte flipped : {std::byte{1}, std::byte{4}, std::byte{0x84}}) {
+      auto damaged = bytes;
+      damaged[i] ^= flipped;
+      refused += is_refused(damaged) ? 1 : 0;  // a value may be another one; a list may not
+    }
   EXPECT_GT(refused, bytes.size() / 4);
 }
 

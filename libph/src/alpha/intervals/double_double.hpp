@@ -2,6 +2,8 @@
 #pragma once
 #include <cmath>
 
+#include "alpha/sites/power_of_two.hpp"
+
 namespace ph::alpha {
 
 /// The unevaluated sum of two doubles, the second at most half a last place of the first: about 106
@@ -12,7 +14,7 @@ class DoubleDouble {
   double high() const { return high_; }
   /// Exact unless it underflows.
   DoubleDouble times_power_of_two(int exponent) const {
-    return {std::ldexp(high_, exponent), std::ldexp(low_, exponent)};
+    return {alpha::times_power_of_two(high_, exponent), alpha::times_power_of_two(low_, exponent)};
   }
 
   friend DoubleDouble operator+(const DoubleDouble& a, const DoubleDouble& b) {

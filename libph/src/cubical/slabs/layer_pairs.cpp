@@ -55,7 +55,9 @@ void LayerPairs::add(const StarGrid& slab, std::uint64_t first, PairSink& pairs,
   };
   if (graphs_.vertices) {
     const VoxelGraph graph(slab);
-    auto forest = SlabBasins(slab, graph, first, context_).forest(edges_of_slab());
+    if (vertices) vertices->after.forget_values();
+    auto forest =
+        SlabBasins(slab, graph, first, vertices.has_value(), context_).forest(edges_of_slab());
     take(vertices, std::move(forest));
     settle_vertices(pairs, loops);
   }
@@ -64,7 +66,8 @@ void LayerPairs::add(const StarGrid& slab, std::uint64_t first, PairSink& pairs,
     if (grid_.top_dim() == 3) edges.reset();
     const CriticalCells squares =
         grid_.top_dim() == 3 ? critical_cells(slab, 2, context_) : CriticalCells(&context_.memory);
-    auto forest = SlabBasins(slab, graph, first, context_)
+    if (tops) tops->after.forget_values();
+    auto forest = SlabBasins(slab, graph, first, tops.has_value(), context_)
                       .forest(grid_.top_dim() == 3 ? squares : edges_of_slab());
     take(tops, std::move(forest));
     settle_tops(pairs, loops);

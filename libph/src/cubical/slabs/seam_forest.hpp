@@ -61,6 +61,8 @@ struct Seam {
   explicit Seam(std::pmr::memory_resource* memory) : roots(memory), values(memory) {}
   bool is_open() const { return !roots.empty(); }
   void close() { *this = Seam(roots.get_allocator().resource()); }
+  /// Of a seam that is going to be joined: nobody asks for them any more.
+  void forget_values() { decltype(values)(values.get_allocator()).swap(values); }
 
   std::pmr::vector<std::uint32_t> roots;  ///< kNone: it never counts
   std::pmr::vector<double> values;        ///< in the order of the stars
@@ -70,7 +72,7 @@ struct Seam {
 /// each other tell. What is kept is what the layers beside them may still change: the components
 /// that reach a seam, and of the cells that join them those of a minimum spanning forest.
 ///
-/// To join two is associative: pairs are the same, and what is kept, however layers are grouped.
+/// To join two is associative: the pairs are the same however layers are grouped.
 /// @tparam backwards whether the graph is that of the top cells.
 template <bool backwards>
 class SeamForest {
@@ -91,22 +93,24 @@ class SeamForest {
   /// Joins what comes right after. Nothing is final until `settle`. Precondition: is_before(next).
   void join(SeamForest next) {
     const auto shift = static_cast<std::uint32_t>(roots.size());
-    const std::size_t count = std::size_t{shift} + next.roots.size();
+    const std::size_t count = roots.size() + next.roots.size() + next.resolved;
     if (count >= Seam::kNone) throw Error(ErrorKind::resource, "image: found too many components");
     DisjointSets same(count, &context_.memory);
-    const Kind resolved_here = Kind::open_after, resolved_there = Kind::open_before;
-    roots.reserve(count);
-    roots.insert(roots.end(), next.roots.begin(), next.roots.end());
-    next.roots = decltype(roots)(roots.get_allocator());
-    const auto is_resolved = [&](std::uint32_t root) {
-      return roots[root].kind == (root < shift ? resolved_here : resolved_there);
-    };
     const auto shifted = [&](std::uint32_t root) {
       return root == Seam::kNone ? root : root + shift;
     };
+    const auto rank = [&](std::uint32_t root) {
+      const bool is_here = root < shift;
+      const std::size_t there = is_here ? 0 : root - shift;
+      const Kind kind = is_here                     ? roots[root].kind
+                        : there < next.roots.size() ? next.roots[there].kind
+                                                    : Kind::open_before;
+      const bool is_resolved = kind == (is_here ? Kind::open_after : Kind::open_before);
+      return std::tuple(is_resolved, kind, root);
+    };
     for (const std::size_t part : {0U, 1U})
-      unite(same, outside[part], shifted(next.outside[part]), is_resolved);
-    unite_seams(same, after.roots, next.before.roots, shifted, is_resolved);
+      unite(same, outside[part], shifted(next.outside[part]), rank);
+    unite_seams(same, after.roots, next.before.roots, shifted, rank);
 
     const auto moved = [shift](SeamBridge bridge) {
       bridge.from += shift;
@@ -122,7 +126,7 @@ class SeamForest {
     next.bridges = decltype(bridges)(bridges.get_allocator());
     after = std::move(next.after);
     for (std::uint32_t& root : after.roots) root = shifted(root);
-    identify(same);
+    identify(same, count, next.roots);
   }
   /// Joins the end with the beginning: the layers are all there are of a periodic axis.
   /// Precondition: is_before(*this).
@@ -130,10 +134,13 @@ class SeamForest {
     DisjointSets same(roots.size(), &context_.memory);
     unite_seams(
         same, after.roots, before.roots, [](std::uint32_t root) { return root; },
-        [&](std::uint32_t root) { return roots[root].kind >= Kind::open_before; });
+        [&](std::uint32_t root) {
+          const Kind kind = roots[root].kind;
+          return std::tuple(kind >= Kind::open_before, kind, root);
+        });
     before.close();
     after.close();
-    identify(same);
+    identify(same, roots.size(), {});
   }
   /// Hands over what other layers cannot change any more. Without seams that is all.
   /// @param on_merge called with (bridge, root that dies; null if both have always been there).
@@ -195,6 +202,9 @@ class SeamForest {
   /// open counts as the youngest of its value, and comes behind or before these: nothing dies in
   /// its favour on account of its number.
   std::pmr::vector<SeamRoot> roots;
+  /// Of what is to be joined with what is right before it: so many roots behind the others are open
+  /// before. They turn out to be something else then, and nothing need be known of them.
+  std::uint32_t resolved = 0;
   std::array<std::uint32_t, 2> outside{};  ///< those that are the parts of the outside
   Seam before, after;                      ///< not open where the grid ends
   std::pmr::vector<SeamBridge> bridges;    ///< ascending, of equal ones as in the grid
@@ -219,41 +229,39 @@ class SeamForest {
 
   // What has always been there stands for all else, then a critical cell, then what is open still,
   // last what is resolved. Of two that have always been there the first one.
-  template <class IsResolved>
-  void unite(DisjointSets& same, std::uint32_t a, std::uint32_t b, IsResolved&& is_resolved) {
+  template <class Rank>
+  static void unite(DisjointSets& same, std::uint32_t a, std::uint32_t b, Rank&& rank) {
     a = same.find(a);
     b = same.find(b);
     if (a == b) return;
-    const auto rank = [&](std::uint32_t root) {
-      return std::tuple(is_resolved(root), roots[root].kind, root);
-    };
     const bool a_stays = rank(a) < rank(b);
     same.link(a_stays ? b : a, a_stays ? a : b);
   }
-  template <class Shift, class IsResolved>
-  void unite_seams(DisjointSets& same, std::span<const std::uint32_t> ends,
-                   std::span<const std::uint32_t> begins, Shift&& shift, IsResolved&& is_resolved) {
-    for (std::size_t k = 0; k < ends.size(); ++k) {
-      if (ends[k] != Seam::kNone) unite(same, ends[k], shift(begins[k]), is_resolved);
-    }
+  template <class Shift, class Rank>
+  static void unite_seams(DisjointSets& same, std::span<const std::uint32_t> ends,
+                          std::span<const std::uint32_t> begins, Shift&& shift, Rank&& rank) {
+    for (std::size_t k = 0; k < ends.size(); ++k)
+      if (ends[k] != Seam::kNone) unite(same, ends[k], shift(begins[k]), rank);
   }
   // Leaves out roots that turned out to be others, and puts the rest in order.
-  void identify(DisjointSets& same) {
-    std::pmr::vector<std::uint32_t> number(roots.size(), Seam::kNone, &context_.memory);
-    keep_roots(number, [&](std::uint32_t i) { return same.find(i) == i; });
-    for (std::uint32_t i = 0; i < number.size(); ++i) number[i] = number[same.find(i)];
-    renumber(number);
-    if (is_in_order()) return;
-    number.resize(roots.size());
-    std::pmr::vector<SeamRoot> sorted(&context_.memory);
-    sorted.reserve(roots.size());
-    for (const int kinds : {0, 1, 2})
-      for (std::uint32_t i = 0; i < roots.size(); ++i)
-        if (age_of(roots[i]) == kinds) {
-          number[i] = static_cast<std::uint32_t>(sorted.size());
-          sorted.push_back(roots[i]);
-        }
-    roots.swap(sorted);
+  // @param count of all numbers. @param others behind the roots.
+  void identify(DisjointSets& same, std::size_t count, std::span<const SeamRoot> others) {
+    std::pmr::vector<std::uint32_t> number(count, Seam::kNone, &context_.memory);
+    std::pmr::vector<SeamRoot> left(&context_.memory);
+    const std::size_t stored = roots.size() + others.size();
+    const auto stays = [&](std::size_t i) { return same.find(static_cast<std::uint32_t>(i)) == i; };
+    std::size_t size = 0;
+    for (std::size_t i = 0; i < stored; ++i) size += stays(i) ? 1 : 0;
+    left.reserve(size);
+    for (const int age : {0, 1, 2})
+      for (std::size_t i = 0; i < stored; ++i) {
+        const SeamRoot& root = i < roots.size() ? roots[i] : others[i - roots.size()];
+        if (age_of(root) != age || !stays(i)) continue;
+        number[i] = static_cast<std::uint32_t>(left.size());
+        left.push_back(root);
+      }
+    roots.swap(left);
+    for (std::uint32_t i = 0; i < count; ++i) number[i] = number[same.find(i)];
     renumber(number);
   }
   // @param number receives the new ones of those that are kept.

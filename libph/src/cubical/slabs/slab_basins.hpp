@@ -20,11 +20,13 @@ template <class Graph>
 class SlabBasins {
  public:
   /// @param first the slab's first voxel in the whole grid, ghosts included (modulo 2^64).
-  SlabBasins(const StarGrid& grid, const Graph& graph, std::uint64_t first,
+  /// @param is_next whether it is to be joined with what is right before it.
+  SlabBasins(const StarGrid& grid, const Graph& graph, std::uint64_t first, bool is_next,
              const RunContext& context)
       : grid_(grid),
         graph_(graph),
         first_(first),
+        is_next_(is_next),
         context_(context),
         forest_(graph, context),
         roots_(&context.memory),
@@ -34,9 +36,10 @@ class SlabBasins {
       forest_.set_root(graph.outside(static_cast<int>(part)), add({0, {}, Kind::outer}));
     if (graph.has_outer_nodes()) join_outer_nodes();
     if (!Graph::kBackwards) add_critical();
-    if (grid.slab().has_ghost_before()) add_open(false);
+    if (grid.slab().has_ghost_before() && !is_next) add_open(false);
     if (grid.slab().has_ghost_after()) add_open(true);
     if (Graph::kBackwards) add_critical();
+    if (is_next) add_open(false);
   }
 
   /// What is known of the slab alone.
@@ -58,9 +61,10 @@ class SlabBasins {
       bridge.from = same_.find(bridge.from);
       bridge.to = same_.find(bridge.to);
     }
-    if (grid_.slab().has_ghost_before()) result.before = seam(false);
-    if (grid_.slab().has_ghost_after()) result.after = seam(true);
+    if (grid_.slab().has_ghost_before()) result.before = seam(false, !is_next_);
+    if (grid_.slab().has_ghost_after()) result.after = seam(true, true);
     result.outside = {same_.find(0), same_.find(1)};
+    result.resolved = resolved_;
     result.roots = std::move(roots_);
     return result;
   }
@@ -110,23 +114,32 @@ class SlabBasins {
   void add_open(bool after) {
     const auto [begin, count] = graph_.seam(after);
     const Kind kind = after ? Kind::open_after : Kind::open_before;
+    const bool is_stored = after || !is_next_;
+    const auto is_known = [&](std::uint32_t node) {
+      return forest_.is_known(node) || graph_.is_known_here(node);
+    };
+    std::size_t most = 0;
+    for (std::uint32_t k = 0; is_stored && k < count; ++k) most += is_known(begin + k) ? 0 : 1;
+    roots_.reserve(roots_.size() + most);
     for (std::uint32_t k = 0; k < count; ++k) {
       const std::uint32_t node = begin + k;
-      if (forest_.is_known(node) || graph_.is_known_here(node)) continue;
-      if (const auto value = graph_.seam_value(node))
-        forest_.set_root(node, add({*value, {}, kind}));
+      if (is_known(node)) continue;
+      const auto value = graph_.seam_value(node);
+      if (!value) continue;
+      if (!is_stored) ++resolved_;
+      forest_.set_root(node, is_stored ? add({*value, {}, kind}) : same_.add());
     }
   }
   // The nodes shared with what comes before it or after it.
-  Seam seam(bool after) {
+  Seam seam(bool after, bool with_values) {
     const auto [begin, count] = graph_.seam(after);
     Seam seam(&context_.memory);
     seam.roots.assign(count, Seam::kNone);
-    seam.values.assign(count, 0);
+    if (with_values) seam.values.assign(count, 0);
     for (std::uint32_t k = 0; k < count; ++k)
       if (const auto value = graph_.seam_value(begin + k)) {
         seam.roots[k] = same_.find(number_of(begin + k));
-        seam.values[k] = *value;
+        if (with_values) seam.values[k] = *value;
       }
     return seam;
   }
@@ -134,10 +147,12 @@ class SlabBasins {
   const StarGrid& grid_;
   const Graph& graph_;
   const std::uint64_t first_;
+  const bool is_next_;
   const RunContext& context_;
   ArrowForest<Graph> forest_;
   std::pmr::vector<SeamRoot> roots_;
-  DisjointSets same_;  // of roots
+  std::uint32_t resolved_ = 0;  // numbers behind them
+  DisjointSets same_;           // of roots
 };
 
 }  // namespace ph::cubical

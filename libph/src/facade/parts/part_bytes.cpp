@@ -149,22 +149,26 @@ void put_forest(Bytes& to, const SeamForest<backwards>& forest) {
   });
 }
 
-GridCell get_cell(Reader& from) {
+/// @param in_star how many cells of the dimension a star has.
+GridCell get_cell(Reader& from, std::size_t in_star) {
   const auto voxel = from.get<std::uint64_t>("cell");
   const auto number = from.get<std::uint32_t>("cell");
-  constexpr std::uint32_t most = 12;  // cells of a dimension in a star
-  if (number >= most || voxel >> 60 != 0) refuse("cell");
+  if (number >= in_star || voxel >> 60 != 0) refuse("cell");
   return {voxel, number};
 }
 
 template <bool backwards>
-SeamForest<backwards> get_forest(Reader& from, const RunContext& context) {
+SeamForest<backwards> get_forest(Reader& from, int top_dim, const RunContext& context) {
+  using namespace cubical;
+  const std::size_t roots_in_star =
+      !backwards ? 1 : (top_dim == 3 ? kCubes.size() : kSquares.size());
+  const std::size_t bridges_in_star = backwards && top_dim == 3 ? kSquares.size() : kEdges.size();
   SeamForest<backwards> forest(context);
   constexpr std::size_t bytes_of_root = 24, bytes_of_bridge = 28, bytes_of_node = 4;
   forest.roots.resize(from.count(bytes_of_root, "roots"));
   for (SeamRoot& root : forest.roots) {
     root.value = from.get<double>("root");
-    root.cell = get_cell(from);
+    root.cell = get_cell(from, roots_in_star);
     const auto kind = from.get<std::uint32_t>("root");
     if (kind > static_cast<std::uint32_t>(SeamRoot::Kind::open_after)) refuse("root");
     root.kind = static_cast<SeamRoot::Kind>(kind);
@@ -188,7 +192,7 @@ SeamForest<backwards> get_forest(Reader& from, const RunContext& context) {
   forest.bridges.resize(from.count(bytes_of_bridge, "bridges"));
   for (SeamBridge& bridge : forest.bridges) {
     bridge.value = from.get<double>("bridge");
-    bridge.cell = get_cell(from);
+    bridge.cell = get_cell(from, bridges_in_star);
     bridge.from = root();
     bridge.to = root();
   }
@@ -267,13 +271,14 @@ ImagePart ImagePart::of_bytes(std::span<const std::byte> bytes, const RunContext
   cubical::LayerPairs& pairs = state->pairs;
   pairs.has_begin = from_end ? is_last : is_first;
   pairs.has_end = from_end ? is_first : is_last;
+  const int top = state->shape.top_dim();
   if (from.flag("forest") != pairs.wants_vertices()) refuse("forest");
-  if (pairs.wants_vertices()) pairs.vertices.emplace(get_forest<false>(from, context));
+  if (pairs.wants_vertices()) pairs.vertices.emplace(get_forest<false>(from, top, context));
   if (from.flag("forest") != pairs.wants_tops()) refuse("forest");
-  if (pairs.wants_tops()) pairs.tops.emplace(get_forest<true>(from, context));
+  if (pairs.wants_tops()) pairs.tops.emplace(get_forest<true>(from, top, context));
   constexpr std::size_t bytes_of_edge = 20;
   for (std::size_t left = from.count(bytes_of_edge, "edges"); left > 0; --left) {
-    const GridCell edge = get_cell(from);
+    const GridCell edge = get_cell(from, cubical::kEdges.size());
     pairs.around.met_once.emplace(edge, from.get<double>("edge"));
   }
   get_bars(from, state->bars);
