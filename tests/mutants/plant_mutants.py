@@ -63,7 +63,8 @@ def write_build(tree, programs):
                         libraries=" ".join(libraries + ["-lpthread"] + ["-lmpfr -lgmp"] * HAS_CGAL))
     library = []
     sources = [p.relative_to(tree) for f in SOURCES
-               for p in (tree / "libph/src" / f).rglob("*.cpp") if p.name != "estimate.cpp"]
+               for p in (tree / "libph/src" / f).rglob("*.cpp")
+               if p.name != "estimate.cpp" and p.parent.name != "windows"]
     for source in sorted(sources):
         library.append(f"o/{source.parent.name}_{source.stem}.o")
         text += f"build {library[-1]}: compile {source}\n"
