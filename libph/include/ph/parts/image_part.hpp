@@ -33,7 +33,7 @@ class ImagePart {
   /// Layers n · part / parts up to n · (part + 1) / parts of the n of the slowest axis. Looks at
   /// the voxels of these and of the layer on either side, and at no others.
   /// @param part from 0 on. @param parts at most one a layer.
-  /// @param context outlives the part.
+  /// @param context outlives the part, and what it is joined with; so does that of `of_bytes`.
   /// @throws Error (usage) on options and parts that are none, (bad_data) and (resource) as
   ///         Cubical, (cancelled).
   ImagePart(const Image& image, int part, int parts, const ImagePartOptions& options = {},

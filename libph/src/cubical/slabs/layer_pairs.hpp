@@ -36,7 +36,6 @@ class LayerPairs {
   /// Which of the graphs are looked at.
   struct Graphs {
     bool vertices, tops;
-    friend bool operator==(const Graphs&, const Graphs&) = default;
   };
   /// @param grid the whole one; outlives the pairs.
   LayerPairs(const GridShape& grid, const Graphs& graphs, const RunContext& context);
