@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <limits>
 #include <mutex>
 
 #include "alpha/intervals/frames.hpp"
@@ -118,6 +119,13 @@ class SpaceRepair {
 
   double facet_value(uint32_t code) const { return alpha::facet_value(cells_, code); }
 
+  /// Facets that have a smaller value than an edge of theirs, or a larger one than a cell at them.
+  ///
+  /// Edges are looked at in facets alone that lie in no cell's interval. Let facet f lie in that of
+  /// cell t, and let g be the other facet of t at an edge e of f. If g lies in the interval, too,
+  /// then so does e, and has the value of f; else f has the value of t, which g must not exceed. So
+  /// it is enough that e does not exceed g, for which the same holds. Radii fall strictly from f to
+  /// g, so that this way around e ends.
   std::vector<uint32_t> facets_out_of_order() const {
     std::mutex mutex;
     std::vector<uint32_t> found;
@@ -131,19 +139,23 @@ class SpaceRepair {
                          const uint32_t other = cells_.triangulation.across[t][k];
                          if (other != kNone && other < code) continue;
                          const bool is_critical = next != cells_.facets.end() && next->code == code;
-                         const double value =
-                             alpha::facet_value(cells_, code, is_critical ? &*next++ : nullptr);
-                         bool is_ordered =
-                             value <= cells_.cell_values[t] &&
-                             (other == kNone || value <= cells_.cell_values[other >> 2]);
-                         for (const uint32_t e : cells_.facet_edges(code))
-                           is_ordered = is_ordered && cells_.edge_states[e].value <= value;
-                         if (is_ordered) continue;
+                         if (is_ordered(code, other, is_critical ? &*next++ : nullptr)) continue;
                          const std::lock_guard lock(mutex);
                          found.push_back(code);
                        }
                    });
     return found;
+  }
+  bool is_ordered(uint32_t code, uint32_t other, const CriticalFacet* critical) const {
+    const double here = cells_.cell_values[code >> 2];
+    const double there =
+        other != kNone ? cells_.cell_values[other >> 2] : std::numeric_limits<double>::infinity();
+    if (cells_.belongs_to(code)) return here <= there;
+    if (other != kNone && cells_.belongs_to(other)) return there <= here;
+    const double value = alpha::facet_value(cells_, code, critical);
+    return value <= here && value <= there &&
+           std::ranges::all_of(cells_.facet_edges(code),
+                               [&](uint32_t e) { return cells_.edge_states[e].value <= value; });
   }
 
   void look_at_vertices() {

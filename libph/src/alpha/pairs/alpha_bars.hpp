@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "alpha/intervals/intervals.hpp"
+#include "alpha/pairs/critical_simplices.hpp"
 #include "ph/alpha.hpp"
 #include "ph/detail/core/barcode_builder.hpp"
 
@@ -50,6 +51,14 @@ class AlphaBars {
   /// Says that so many bars may come: a hint.
   void expect(std::size_t count) {
     if (!bars_.wants_cells() && !wants_cycles()) bars_.expect(some_.size() + count);
+  }
+  /// The same of at most so many: no more than there are simplices up to the threshold, of some
+  /// from old to young.
+  void expect(std::size_t most, const RankedSimplices& simplices) {
+    const auto beyond = std::ranges::partition_point(simplices, [&](const Ranked& simplex) {
+      return alpha_.to_value(simplex.value) <= alpha_.threshold();
+    });
+    expect(std::min(most, static_cast<std::size_t>(beyond - simplices.begin())));
   }
   /// To be called last.
   void flush() {

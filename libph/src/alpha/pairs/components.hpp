@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include "alpha/pairs/alpha_bars.hpp"
-#include "alpha/pairs/critical_simplices.hpp"
 #include "ph/detail/components/disjoint_sets.hpp"
 
 namespace ph::alpha {
@@ -31,6 +30,7 @@ void pair_components(const AlphaCells& cells, const RankedSimplices& edges, cons
   };
   std::size_t left = sites;  // components
   for (const std::uint32_t up : cells.vertex_up) left -= up != kCritical ? 1 : 0;
+  if (bars.wants(0)) bars.expect(left, edges);
   Ticker ticker(context, "components", edges.size());
   for (std::size_t i = 0; i < edges.size() && left > 1; ++i) {
     ticker.tick();

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <limits>
 #include <optional>
 
 #include "alpha/pairs/alpha_bars.hpp"
-#include "alpha/pairs/critical_simplices.hpp"
 #include "ph/detail/components/elder_rule.hpp"
 
 namespace ph::alpha {
@@ -39,6 +39,8 @@ class Hollows {
   /// @param on_join called with the place of a facet that joins.
   template <class IsFree, class OnJoin>
   void run(const RankedSimplices& facets, IsFree&& is_free, OnJoin&& on_join) {
+    if (bars_.wants(cells_.dim() - 1))
+      bars_.expect(static_cast<std::size_t>(std::ranges::count(cells_.beyond, 0)), facets);
     Ticker ticker(context_, "hollows", facets.size());
     for (std::size_t i = facets.size(); i-- > 0;) {
       ticker.tick();
