@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
+#include "core/bytes/crc32.hpp"
+#include "core/bytes/sealed_part.hpp"
 #include "support/conformance.hpp"
 #include "support/for_each_seed.hpp"
 #include "support/generators.hpp"
@@ -193,7 +196,7 @@ TEST(ImagePart, RefusesPartsAndImagesThatAreNone) {
   refused(image, -1, 3, "found number 0 of 3");
   refused(random.image({7}, false), 0, 1, "expected two or three");
   refused(random.image({2, 2, 2, 2}, false), 0, 1, "expected two or three");
-  refused(random.image({3, 3, 3}, false), 0, 1, "bars of dimension 1");
+  refused(random.image({3, 3, 3}, false), 0, 1, "dimension 0 alone, or 2 alone");
 }
 
 TEST(ImagePart, RefusesDamagedBytes) {
@@ -216,13 +219,31 @@ TEST(ImagePart, RefusesDamagedBytes) {
   };
   for (std::size_t size = 0; size < bytes.size(); ++size)
     ASSERT_TRUE(is_refused(std::span(bytes).first(size))) << size;
+  const auto content = content_of_part(bytes, "image");
   for (std::size_t i = 0; i < bytes.size(); ++i)
     for (const std::byte flipped : {std::byte{1}, std::byte{4}, std::byte{0x84}}) {
       auto damaged = bytes;
       damaged[i] ^= flipped;
-      refused += is_refused(damaged) ? 1 : 0;  // a value may be another one; a list may not
+      ASSERT_TRUE(is_refused(damaged)) << i;
     }
-  EXPECT_GT(refused, bytes.size() / 4);
+  // With a checksum that fits: a value may be another one, a list may not.
+  for (std::size_t i = 0; i < content.size(); ++i)
+    for (const std::byte flipped : {std::byte{1}, std::byte{4}, std::byte{0x84}}) {
+      std::vector<std::byte> damaged(content.begin(), content.end());
+      damaged[i] ^= flipped;
+      refused += is_refused(sealed_part("image", damaged)) ? 1 : 0;
+    }
+  EXPECT_GT(refused, content.size() / 4);
+  EXPECT_TRUE(is_refused(sealed_part("inputs", content)));
+}
+
+// The check value of the catalogue of CRCs (Cook), of the digits 1 to 9.
+TEST(Crc32, HasTheKnownValue) {
+  std::vector<std::byte> digits;
+  for (const char digit : std::string_view("123456789"))
+    digits.push_back(static_cast<std::byte>(digit));
+  EXPECT_EQ(crc32(digits), 0xCBF43926U);
+  EXPECT_EQ(crc32({}), 0U);
 }
 
 }  // namespace

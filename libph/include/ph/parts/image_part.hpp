@@ -47,15 +47,21 @@ class ImagePart {
   int last() const;
   int parts() const;
   bool is_whole() const { return first() == 0 && last() + 1 == parts(); }
+  /// Of the whole image.
+  const std::vector<Index>& extents() const;
+  VoxelType type() const;
+  const ImagePartOptions& options() const;
+  /// Whether it is part `part` alone of `parts` of an image of that shape and type, with those
+  /// options: else it is not what the constructor would make. The voxels are not looked at.
+  bool is_of(const Image& image, int part, int parts, const ImagePartOptions& options) const;
   /// Takes in the parts right after it.
   /// @throws Error (bad_data) if they are not, or of another image, or of other options; nothing
-  /// has
-  ///         changed then.
+  ///         has changed then.
   void join(ImagePart next, const RunContext& context = default_context());
   /// The bars of positive length. Precondition: is_whole().
   Barcode barcode(const RunContext& context = default_context()) const;
 
-  /// What it consists of, as bytes: the same on every machine.
+  /// What it consists of, as bytes with a checksum: the same on every machine.
   std::vector<std::byte> bytes() const;
   /// @throws Error (bad_data) on what `bytes` has not made.
   static ImagePart of_bytes(std::span<const std::byte> bytes,

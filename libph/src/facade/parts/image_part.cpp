@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -52,8 +53,11 @@ void check(const WholeImage& whole, const GridShape& shape, int part) {
                 fmt::format("part of an image: found number {} of {}", part + 1, whole.parts));
   if (cubical::wants_loops(shape, whole.wanted()))
     throw Error(ErrorKind::usage,
-                "parts of a volume: found bars of dimension 1 wanted, which need all layers at "
-                "once; expected max_dim 0, or min_dim 2");
+                fmt::format("parts of a volume: found loops wanted, which need all layers at once; "
+                            "expected dimension 0 alone{}",
+                            std::ranges::find(whole.periodic, true) == whole.periodic.end()
+                                ? ", or 2 alone"
+                                : " where an axis closes up"));
 }
 
 /// Some layers of the slowest axis with those beside them.
@@ -159,6 +163,13 @@ ImagePart::~ImagePart() = default;
 int ImagePart::first() const { return state_->first; }
 int ImagePart::last() const { return state_->last; }
 int ImagePart::parts() const { return state_->whole.parts; }
+const std::vector<Index>& ImagePart::extents() const { return state_->whole.extents; }
+VoxelType ImagePart::type() const { return state_->whole.type; }
+const ImagePartOptions& ImagePart::options() const { return state_->options; }
+bool ImagePart::is_of(const Image& image, int part, int parts,
+                      const ImagePartOptions& options) const {
+  return first() == part && last() == part && state_->whole == whole_image(image, parts, options);
+}
 
 void ImagePart::join(ImagePart next, const RunContext& context) {
   if (next.state_->whole != state_->whole)

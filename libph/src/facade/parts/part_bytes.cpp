@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A part as bytes, little endian: the image, which parts, bars, forests with their seams. What is
+// A part as bytes: the image, which parts, bars, forests with their seams. What is
 // read is checked, so that no number leads out of a list.
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cstddef>
-#include <type_traits>
+#include <string_view>
 #include <utility>
 
+#include "core/bytes/byte_reader.hpp"
+#include "core/bytes/byte_writer.hpp"
+#include "core/bytes/sealed_part.hpp"
 #include "facade/parts/part_state.hpp"
-#include "ph/error.hpp"
 
 namespace ph {
 namespace {
@@ -23,68 +21,9 @@ using cubical::SeamForest;
 using cubical::SeamRoot;
 using cubical::WholeImage;
 
-/// The bytes of a number, the low one first.
-template <class T>
-std::array<std::byte, sizeof(T)> in_order(std::array<std::byte, sizeof(T)> bytes) {
-  if constexpr (std::endian::native == std::endian::big) std::ranges::reverse(bytes);
-  return bytes;
-}
+constexpr std::string_view kKind = "image";
 
-class Bytes {
- public:
-  template <class T>
-  requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) void put(T value) {
-    const auto bytes = in_order<T>(std::bit_cast<std::array<std::byte, sizeof(T)>>(value));
-    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
-  }
-  void put(bool value) { put(static_cast<std::uint8_t>(value ? 1 : 0)); }
-  template <class List, class Put>
-  void put_list(const List& list, Put&& put_one) {
-    put(std::uint64_t{list.size()});
-    for (const auto& one : list) put_one(one);
-  }
-  std::vector<std::byte> take() { return std::move(bytes_); }
-
- private:
-  std::vector<std::byte> bytes_;
-};
-
-[[noreturn]] void refuse(const char* what) {
-  throw Error(ErrorKind::bad_data, fmt::format("part of an image: found a damaged {}", what));
-}
-
-class Reader {
- public:
-  explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
-  template <class T>
-  T get(const char* what) {
-    if (bytes_.size() - at_ < sizeof(T)) refuse(what);
-    std::array<std::byte, sizeof(T)> bytes;
-    std::ranges::copy(bytes_.subspan(at_, sizeof(T)), bytes.begin());
-    at_ += sizeof(T);
-    return std::bit_cast<T>(in_order<T>(bytes));
-  }
-  bool flag(const char* what) {
-    const auto value = get<std::uint8_t>(what);
-    if (value > 1) refuse(what);
-    return value != 0;
-  }
-  /// Of things that take that many bytes each, at least.
-  std::size_t count(std::size_t bytes_each, const char* what) {
-    const auto count = get<std::uint64_t>(what);
-    if (count > (bytes_.size() - at_) / bytes_each) refuse(what);
-    return static_cast<std::size_t>(count);
-  }
-  void expect_end() const {
-    if (at_ != bytes_.size()) refuse("end");
-  }
-
- private:
-  std::span<const std::byte> bytes_;
-  std::size_t at_ = 0;
-};
-
-void put_whole(Bytes& to, const WholeImage& whole) {
+void put_whole(ByteWriter& to, const WholeImage& whole) {
   to.put_list(whole.extents, [&](Index n) { to.put(std::int64_t{n}); });
   for (const bool periodic : whole.periodic) to.put(periodic);
   to.put(static_cast<std::uint8_t>(whole.type));
@@ -95,20 +34,20 @@ void put_whole(Bytes& to, const WholeImage& whole) {
   to.put(whole.cells);
 }
 
-WholeImage get_whole(Reader& from) {
+WholeImage get_whole(ByteReader& from) {
   WholeImage whole{};
   const std::size_t axes = from.count(sizeof(std::int64_t), "extents");
   double voxels = 1;
   for (std::size_t k = 0; k < axes; ++k) {
     whole.extents.push_back(static_cast<Index>(from.get<std::int64_t>("extents")));
-    if (whole.extents[k] < 1) refuse("extents");
+    if (whole.extents[k] < 1) from.refuse("extents");
     voxels *= static_cast<double>(whole.extents[k]);
   }
   constexpr double most = 1e18;
-  if (voxels > most) refuse("extents");
+  if (voxels > most) from.refuse("extents");
   for (std::size_t k = 0; k < axes; ++k) whole.periodic.push_back(from.flag("axis"));
   whole.type = static_cast<VoxelType>(from.get<std::uint8_t>("type"));
-  if (whole.type > VoxelType::float64) refuse("type");
+  if (whole.type > VoxelType::float64) from.refuse("type");
   whole.voxels_are_vertices = from.flag("construction");
   whole.superlevel = from.flag("sign");
   whole.limit = from.get<double>("threshold");
@@ -116,21 +55,21 @@ WholeImage get_whole(Reader& from) {
     *n = from.get<std::int32_t>("number");
   whole.cells = from.flag("flag of cells");
   const CubicalImage image = whole.image();
-  if (cubical::GridShape::count_axes(image) > 3) refuse("number of axes");
+  if (cubical::GridShape::count_axes(image) > 3) from.refuse("number of axes");
   const cubical::GridShape shape(image);
   if (shape.top_dim() < 2 || whole.parts < 1 ||
       static_cast<std::uint64_t>(whole.parts) > shape.axis(shape.layer_axis()).extent)
-    refuse("number of parts");
+    from.refuse("number of parts");
   return whole;
 }
 
-void put_seam(Bytes& to, const Seam& seam) {
+void put_seam(ByteWriter& to, const Seam& seam) {
   to.put_list(seam.roots, [&](std::uint32_t root) { to.put(root); });
   for (const double value : seam.values) to.put(value);
 }
 
 template <bool backwards>
-void put_forest(Bytes& to, const SeamForest<backwards>& forest) {
+void put_forest(ByteWriter& to, const SeamForest<backwards>& forest) {
   to.put_list(forest.roots, [&](const SeamRoot& root) {
     to.put(root.value);
     to.put(root.cell.voxel());
@@ -150,15 +89,15 @@ void put_forest(Bytes& to, const SeamForest<backwards>& forest) {
 }
 
 /// @param in_star how many cells of the dimension a star has.
-GridCell get_cell(Reader& from, std::size_t in_star) {
+GridCell get_cell(ByteReader& from, std::size_t in_star) {
   const auto voxel = from.get<std::uint64_t>("cell");
   const auto number = from.get<std::uint32_t>("cell");
-  if (number >= in_star || voxel >> 60 != 0) refuse("cell");
+  if (number >= in_star || voxel >> 60 != 0) from.refuse("cell");
   return {voxel, number};
 }
 
 template <bool backwards>
-SeamForest<backwards> get_forest(Reader& from, int top_dim, const RunContext& context) {
+SeamForest<backwards> get_forest(ByteReader& from, int top_dim, const RunContext& context) {
   using namespace cubical;
   const std::size_t roots_in_star =
       !backwards ? 1 : (top_dim == 3 ? kCubes.size() : kSquares.size());
@@ -170,13 +109,13 @@ SeamForest<backwards> get_forest(Reader& from, int top_dim, const RunContext& co
     root.value = from.get<double>("root");
     root.cell = get_cell(from, roots_in_star);
     const auto kind = from.get<std::uint32_t>("root");
-    if (kind > static_cast<std::uint32_t>(SeamRoot::Kind::open_after)) refuse("root");
+    if (kind > static_cast<std::uint32_t>(SeamRoot::Kind::open_after)) from.refuse("root");
     root.kind = static_cast<SeamRoot::Kind>(kind);
   }
-  if (!forest.is_in_order()) refuse("order of roots");
+  if (!forest.is_in_order()) from.refuse("order of roots");
   const auto root = [&] {
     const auto number = from.get<std::uint32_t>("root");
-    if (number >= forest.roots.size()) refuse("root");
+    if (number >= forest.roots.size()) from.refuse("root");
     return number;
   };
   for (std::uint32_t& part : forest.outside) part = root();
@@ -184,7 +123,7 @@ SeamForest<backwards> get_forest(Reader& from, int top_dim, const RunContext& co
     seam->roots.resize(from.count(bytes_of_node, "seam"));
     for (std::uint32_t& node : seam->roots) {
       node = from.get<std::uint32_t>("seam");
-      if (node != Seam::kNone && node >= forest.roots.size()) refuse("seam");
+      if (node != Seam::kNone && node >= forest.roots.size()) from.refuse("seam");
     }
     seam->values.resize(seam->roots.size());
     for (double& value : seam->values) value = from.get<double>("seam");
@@ -196,11 +135,12 @@ SeamForest<backwards> get_forest(Reader& from, int top_dim, const RunContext& co
     bridge.from = root();
     bridge.to = root();
   }
-  if (!std::ranges::is_sorted(forest.bridges, {}, &SeamBridge::value)) refuse("order of bridges");
+  if (!std::ranges::is_sorted(forest.bridges, {}, &SeamBridge::value))
+    from.refuse("order of bridges");
   return forest;
 }
 
-void put_bars(Bytes& to, const Barcode& bars) {
+void put_bars(ByteWriter& to, const Barcode& bars) {
   to.put(std::uint64_t{bars.size()});
   for (std::size_t i = 0; i < bars.size(); ++i) {
     to.put(std::int32_t{bars[i].dim});
@@ -216,7 +156,7 @@ void put_bars(Bytes& to, const Barcode& bars) {
   }
 }
 
-void get_bars(Reader& from, Barcode& bars) {
+void get_bars(ByteReader& from, Barcode& bars) {
   constexpr std::size_t bytes_of_bar = 22;
   const std::size_t count = from.count(bytes_of_bar, "bars");
   std::vector<Index> birth, death;
@@ -238,7 +178,7 @@ void get_bars(Reader& from, Barcode& bars) {
 }  // namespace
 
 std::vector<std::byte> ImagePart::bytes() const {
-  Bytes to;
+  ByteWriter to;
   put_whole(to, state_->whole);
   to.put(std::int32_t{state_->first});
   to.put(std::int32_t{state_->last});
@@ -256,25 +196,25 @@ std::vector<std::byte> ImagePart::bytes() const {
   Barcode bars = state_->bars;
   bars.sort(state_->context);
   put_bars(to, bars);
-  return to.take();
+  return sealed_part(kKind, to.take());
 }
 
 ImagePart ImagePart::of_bytes(std::span<const std::byte> bytes, const RunContext& context) {
-  Reader from(bytes);
+  ByteReader from(content_of_part(bytes, kKind), "part of an image");
   auto state = std::make_unique<State>(get_whole(from), context);
   state->first = from.get<std::int32_t>("number");
   state->last = from.get<std::int32_t>("number");
   if (state->first < 0 || state->last < state->first || state->last >= state->whole.parts)
-    refuse("number");
+    from.refuse("number");
   const bool from_end = state->shape.is_t_construction();
   const bool is_first = state->first == 0, is_last = state->last + 1 == state->whole.parts;
   cubical::LayerPairs& pairs = state->pairs;
   pairs.has_begin = from_end ? is_last : is_first;
   pairs.has_end = from_end ? is_first : is_last;
   const int top = state->shape.top_dim();
-  if (from.flag("forest") != pairs.wants_vertices()) refuse("forest");
+  if (from.flag("forest") != pairs.wants_vertices()) from.refuse("forest");
   if (pairs.wants_vertices()) pairs.vertices.emplace(get_forest<false>(from, top, context));
-  if (from.flag("forest") != pairs.wants_tops()) refuse("forest");
+  if (from.flag("forest") != pairs.wants_tops()) from.refuse("forest");
   if (pairs.wants_tops()) pairs.tops.emplace(get_forest<true>(from, top, context));
   constexpr std::size_t bytes_of_edge = 20;
   for (std::size_t left = from.count(bytes_of_edge, "edges"); left > 0; --left) {

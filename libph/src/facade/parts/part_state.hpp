@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -35,6 +36,16 @@ struct WholeImage {
     return image;
   }
   BarRequest wanted() const { return {min_dim, max_dim, cells}; }
+  ImagePartOptions options() const {
+    using Construction = CubicalOptions::Construction;
+    ImagePartOptions options{.min_dim = min_dim, .max_dim = max_dim, .cells = cells};
+    options.cubical.construction =
+        voxels_are_vertices ? Construction::vertices : Construction::cells;
+    options.cubical.superlevel = superlevel;
+    options.cubical.periodic = periodic;
+    if (limit < std::numeric_limits<double>::max()) options.cubical.threshold = limit;
+    return options;
+  }
 };
 
 }  // namespace cubical
@@ -42,6 +53,7 @@ struct WholeImage {
 struct ImagePart::State {
   State(cubical::WholeImage whole_image, const RunContext& run_context)
       : whole(std::move(whole_image)),
+        options(whole.options()),
         context(run_context),
         shape(whole.image()),
         pairs(shape,
@@ -68,6 +80,7 @@ struct ImagePart::State {
   }
 
   cubical::WholeImage whole;
+  ImagePartOptions options;
   const RunContext& context;
   cubical::GridShape shape;
   int first = 0, last = 0;
