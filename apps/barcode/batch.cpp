@@ -24,30 +24,6 @@
 namespace ph::barcode {
 namespace {
 
-BarcodeFormat format_of(const Arguments& arguments, app::Session& session) {
-  if (arguments.output_format) return *arguments.output_format;
-  if (const app::Plot picture{.path = arguments.output, .kind = {}};
-      picture.is_svg() || picture.is_png())
-    throw Error(ErrorKind::usage,
-                fmt::format("--output: found '{0}', expected a barcode; --plot {0} draws it, "
-                            "--output-format says what else it is",
-                            printable(arguments.output)));
-  // Pictures of several inputs need no barcodes beside them.
-  const bool has_others =
-      !arguments.plots.empty() || !arguments.report.empty() || !arguments.surfaces.empty();
-  if (arguments.is_batch() && arguments.output == "-" && has_others) return BarcodeFormat::none;
-  if (arguments.is_batch() &&
-      (arguments.output.ends_with('/') || !app::names_each(arguments.output)))
-    return BarcodeFormat::csv;
-  if (const auto format = barcode_format_of_path(arguments.output)) return *format;
-  const std::string& path = arguments.output;
-  const std::size_t name = path.rfind('/') == path.npos ? 0 : path.rfind('/') + 1;
-  // A leading dot hides a file; it starts no extension.
-  if (path.find('.', name + 1) != path.npos && !path.ends_with(".."))
-    session.note(fmt::format("{}: the extension names no format, writing csv", path));
-  return BarcodeFormat::csv;
-}
-
 /// Only JSON and the report have room for representatives, and only JSON for loops.
 /// @throws Error (usage).
 void require_room(BarcodeFormat format, const Arguments& arguments) {
@@ -216,6 +192,30 @@ int run_one(const Job& job, const Arguments& arguments, app::Session& session) {
 
 }  // namespace
 
+BarcodeFormat output_format(const Arguments& arguments, app::Session& session) {
+  if (arguments.output_format) return *arguments.output_format;
+  if (const app::Plot picture{.path = arguments.output, .kind = {}};
+      picture.is_svg() || picture.is_png())
+    throw Error(ErrorKind::usage,
+                fmt::format("--output: found '{0}', expected a barcode; --plot {0} draws it, "
+                            "--output-format says what else it is",
+                            printable(arguments.output)));
+  // Pictures of several inputs need no barcodes beside them.
+  const bool has_others =
+      !arguments.plots.empty() || !arguments.report.empty() || !arguments.surfaces.empty();
+  if (arguments.is_batch() && arguments.output == "-" && has_others) return BarcodeFormat::none;
+  if (arguments.is_batch() &&
+      (arguments.output.ends_with('/') || !app::names_each(arguments.output)))
+    return BarcodeFormat::csv;
+  if (const auto format = barcode_format_of_path(arguments.output)) return *format;
+  const std::string& path = arguments.output;
+  const std::size_t name = path.rfind('/') == path.npos ? 0 : path.rfind('/') + 1;
+  // A leading dot hides a file; it starts no extension.
+  if (path.find('.', name + 1) != path.npos && !path.ends_with(".."))
+    session.note(fmt::format("{}: the extension names no format, writing csv", path));
+  return BarcodeFormat::csv;
+}
+
 int run_all(const Arguments& given, app::Session& session) {
   for (const std::string& note : given.notes) session.note(note);
   if (!given.compare.empty()) {
@@ -233,7 +233,7 @@ int run_all(const Arguments& given, app::Session& session) {
   if (given.part) return run_part(given, session);
   if (given.joins && is_part_path(given.output))
     return run_join(given, BarcodeFormat::none, session);
-  const BarcodeFormat format = format_of(given, session);
+  const BarcodeFormat format = output_format(given, session);
   if (given.joins) return run_join(given, format, session);
   Arguments arguments = given;
   // JSON and the report show them.

@@ -13,7 +13,7 @@ import tempfile
 import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from slurm import volume  # noqa: E402
+from volume import volume  # noqa: E402
 
 PARTS = 4
 

@@ -15,6 +15,9 @@ import sys
 import tempfile
 import time
 
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from volume import volume  # noqa: E402
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs/how-to/scale-out.md"
 SKIPPED = 77
@@ -105,16 +108,6 @@ def scripts_of_page():
     blocks = re.findall(r"^```sh\n(.*?)^```", section, re.M | re.S)
     assert len(blocks) == 3, f"{PAGE}: found {len(blocks)} blocks on SLURM, expected 3"
     return blocks
-
-
-def volume(path, extents=(24, 20, 16)):
-    """A NumPy file of pseudo-random bytes."""
-    count, state, values = extents[0] * extents[1] * extents[2], 1, bytearray()
-    for _ in range(count):
-        state = (state * 1103515245 + 12345) % (1 << 31)
-        values.append(state >> 16 & 63)
-    header = f"{{'descr': '|u1', 'fortran_order': False, 'shape': {extents!r}, }}".ljust(117) + "\n"
-    path.write_bytes(b"\x93NUMPY\x01\x00" + len(header).to_bytes(2, "little") + header.encode() + values)
 
 
 def main():

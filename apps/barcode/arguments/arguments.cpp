@@ -242,11 +242,11 @@ bool Arguments::draws_tree() const {
 }
 
 bool Arguments::wants_image_part() const {
-  return part && inputs.size() == 1 && !app::is_folder(inputs.front());
+  return (part || on_ranks) && inputs.size() == 1 && !app::is_folder(inputs.front());
 }
 
 bool Arguments::is_batch() const {
-  if (part || joins) return false;
+  if (part || joins || on_ranks) return false;
   if (inputs.size() > 1 || app::names_each(output) || app::names_each(report) ||
       std::ranges::any_of(plots, app::names_each, &app::Plot::path) ||
       std::ranges::any_of(surfaces, app::names_each, &Surface::path))

@@ -86,6 +86,7 @@ struct Arguments {
     int number, of;  // numbers from 0 on
   };
   std::optional<Part> part;
+  bool on_ranks = false;                   // the program has several processes
   bool joins = false;                      // the inputs are parts
   bool resumes = false;                    // a part that is there already is kept
   bool keeps_cells = false;                // of bars, in a part
@@ -107,7 +108,7 @@ struct Arguments {
 
   /// Whether the merge tree is asked for by itself.
   bool draws_tree() const;
-  /// Whether a part of one image is asked for; else of several inputs.
+  /// Whether a part of one image is asked for, or all parts on ranks; else of several inputs.
   bool wants_image_part() const;
   /// Whether each input has files of its own, in folders.
   bool is_batch() const;

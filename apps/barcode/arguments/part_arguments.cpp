@@ -43,6 +43,19 @@ void add_part_options(CLI::App& app, Arguments& a) {
 
 void check_part_arguments(const Arguments& a) {
   const auto reject = [](const std::string& what) { throw Error(ErrorKind::usage, what); };
+  if (a.on_ranks) {
+    if (a.part || a.joins) reject("--part and --join: found on ranks, which do both");
+    if (a.keeps_cells) reject("--keep-cells: found on ranks; JSON has them");
+    if (!a.report.empty())
+      reject("--report: found on ranks; `ph-barcode plot BARS --report` makes one");
+    if (!a.compare.empty()) reject("--compare: found on ranks");
+    if (a.stored) reject("plot: found on ranks");
+    if (a.options.min_persistence < 0)
+      reject("--min-persistence: found a negative one: parts keep no bars of length 0");
+    if (a.resumes && a.output == "-")
+      reject("--resume: needs -o FILE, beside which the ranks keep their parts");
+    return;
+  }
   if (!a.part && !a.joins) {
     if (a.resumes) reject("--resume: found without --part, whose output it looks at");
     if (a.keeps_cells) reject("--keep-cells: found without --part");
@@ -58,6 +71,11 @@ void check_part_arguments(const Arguments& a) {
                     "the bars",
                     option));
   if (a.joins && a.resumes) reject("--resume: makes sense with --part only");
+  if (a.options.min_persistence < 0 && (a.joins || a.wants_image_part()))
+    reject(
+        fmt::format("--min-persistence: found a negative one beside {}: parts keep no bars of "
+                    "length 0",
+                    option));
   if (a.joins && a.keeps_cells) reject("--keep-cells: makes sense with --part only");
   if (a.part && a.output_format)
     reject("--output-format: found beside --part, which writes a part file; --join has formats");

@@ -10,17 +10,13 @@
 #include <utility>
 
 #include "barcode/arguments/option_scopes.hpp"
-#include "barcode/complex/build_complex.hpp"
-#include "barcode/complex/read_input.hpp"
-#include "barcode/output/outputs.hpp"
 #include "barcode/parts/part_files.hpp"
+#include "barcode/parts/part_input.hpp"
 #include "common/arguments/numbers.hpp"
 #include "common/files/batch_names.hpp"
 #include "common/files/file_identity.hpp"
 #include "common/system/process.hpp"
 #include "common/terminal/exit_code.hpp"
-#include "core/system/files.hpp"
-#include "ph/parts/image_part.hpp"
 
 namespace ph::barcode {
 namespace {
@@ -38,24 +34,6 @@ ImagePart of_file(const PartFile& file, const RunContext& context) {
   } catch (const Error& error) {
     throw Error(error.kind(), fmt::format("{}: {}", file.path, error.what()));
   }
-}
-
-/// Whether the output is that part already. A file that is another is computed anew.
-bool is_there(const std::string& path, const std::string& input, const Image& image,
-              const ImagePartOptions& options, const Arguments& arguments, app::Session& session) {
-  const auto bytes = kept_part_file(path, std::span(&input, 1), session);
-  if (!bytes) return false;
-  const auto [part, parts] = *arguments.part;
-  std::string why = "is another part";
-  try {
-    if (ImagePart::of_bytes(*bytes, session.context()).is_of(image, part, parts, options))
-      return true;
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::bad_data) throw;
-    why = error.what();
-  }
-  session.note(fmt::format("--resume: {}: {}: computed again", path, why));
-  return false;
 }
 
 /// Joins, with the names of the files in what is said of parts that do not belong together.
@@ -81,12 +59,12 @@ Barcode longer_than(double length, const Barcode& bars) {
   return kept;
 }
 
-BarcodeInfo info_of(const ImagePart& part, const Job& job, std::size_t files) {
+BarcodeInfo info_of(const ImagePart& part, const std::string& description,
+                    const std::string& input) {
   BarcodeInfo info;
   info.program = app::program_and_version("ph-barcode");
-  info.input = job.input;
-  info.input_description = fmt::format("image {}, {}", fmt::join(part.extents(), " x "),
-                                       app::count_of(files, "part file"));
+  info.input = input;
+  info.input_description = description;
   info.complex = "cubical";
   info.max_dim =
       std::min(part.options().max_dim.value_or(0), static_cast<int>(part.extents().size()));
@@ -99,47 +77,39 @@ BarcodeInfo info_of(const ImagePart& part, const Job& job, std::size_t files) {
 
 }  // namespace
 
+std::optional<ImagePart> kept_image_part(const std::string& path, const std::string& input,
+                                         const PartInput& image, int part, int parts,
+                                         app::Session& session) {
+  const auto bytes = kept_part_file(path, std::span(&input, 1), session);
+  if (!bytes) return std::nullopt;
+  std::string why = "is another part";
+  try {
+    ImagePart kept = ImagePart::of_bytes(*bytes, session.context());
+    if (kept.is_of(image.image, part, parts, image.options)) return kept;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::bad_data) throw;
+    why = error.what();
+  }
+  session.note(fmt::format("--resume: {}: {}: computed again", path, why));
+  return std::nullopt;
+}
+
 Outcome run_image_part(const std::string& input, const Arguments& arguments,
                        app::Session& session) {
   const auto [part, parts] = *arguments.part;
   const std::string path =
       part_path(arguments.output, app::output_names({input}).front(), part, parts);
   app::require_in_scope(arguments.given, kImagePart, name_of(kImagePart));
-  if (arguments.complex != ComplexKind::automatic && arguments.complex != ComplexKind::cubical)
-    throw Error(ErrorKind::usage,
-                "--complex: found another, expected cubical with --part of one "
-                "input; of several inputs each may be of any kind");
-  const Input opened =
-      Input::open(files::path_of(input), &session.context(), Input::Excess::is_expected);
-  if (arguments.format == Format::automatic && is_barcode(opened))
-    throw Error(ErrorKind::usage,
-                fmt::format("--part: {} is a barcode, expected an image", opened.name()));
-  const NamedData data = read_input(opened, arguments, session.context());
-  const std::string& description = data.read.description;
-  const auto* const image = std::get_if<Image>(&data.read.data);
-  if (image == nullptr)
-    throw Error(ErrorKind::usage, fmt::format("--part: found {}, expected an image", description));
-  session.explain(fmt::format("read {}: {}", data.name, description));
-  if (arguments.read.allow_empty)
-    session.explain("--allow-empty: not needed, the input is not empty");
-  for (const std::string& note : data.read.notes)
-    session.note(fmt::format("{}: {}", data.name, note));
-  const ImagePartOptions options{.cubical = cubical_options(arguments, *image, data.read.periodic),
-                                 .min_dim = arguments.options.min_dim,
-                                 .max_dim = arguments.options.max_dim,
-                                 .cells = arguments.keeps_cells};
-  if (arguments.resumes && is_there(path, input, *image, options, arguments, session))
+  const PartInput read = read_part_input(input, arguments.keeps_cells, arguments, session);
+  if (arguments.resumes && kept_image_part(path, input, read, part, parts, session))
     return {app::kOk, fmt::format("{}: it is there already", path)};
   app::InputFiles inputs;
   inputs.add(input);
   app::require_separate(inputs, std::array{app::Written{"--output", path}}, arguments.common.force);
-  if (const int layers = arguments.common.slab_layers; layers > 0)
-    session.explain(
-        fmt::format("slabs of {}", app::count_of(static_cast<std::size_t>(layers), "layer")));
   app::Output output(path);
   const ImagePart made = [&] {
     try {
-      return ImagePart(*image, part, parts, options, session.context());
+      return ImagePart(read.image, part, parts, read.options, session.context());
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::usage) throw;
       throw Error(error.kind(), fmt::format("--part: {}", error.what()));
@@ -150,7 +120,7 @@ Outcome run_image_part(const std::string& input, const Arguments& arguments,
   const app::BarHold results_are_written(session);
   output.file().write(bytes);
   output.commit();
-  return {app::kOk, fmt::format("{}, {}: {}", description, words_of(made),
+  return {app::kOk, fmt::format("{}, {}: {}", read.description, words_of(made),
                                 app::format_size(static_cast<double>(bytes.size())))};
 }
 
@@ -188,16 +158,23 @@ Outcome join_image_parts(std::vector<PartFile> files, const Job& job, const Argu
     throw Error(ErrorKind::usage,
                 "--output-format: found json, which shows the cells of bars; --part with "
                 "--keep-cells stores them");
-  const BarcodeInfo info = info_of(all, job, parts.size());
   Outputs outputs(job);
-  Barcode bars = all.barcode(context);
+  return write_bars(all,
+                    fmt::format("image {}, {}", fmt::join(all.extents(), " x "),
+                                app::count_of(parts.size(), "part file")),
+                    outputs, job.input, arguments, session);
+}
+
+Outcome write_bars(const ImagePart& whole, const std::string& description, Outputs& outputs,
+                   const std::string& input, const Arguments& arguments, app::Session& session) {
+  Barcode bars = whole.barcode(session.context());
   if (arguments.options.min_persistence > 0)
     bars = longer_than(arguments.options.min_persistence, bars);
+  const BarcodeInfo info = info_of(whole, description, input);
   note_absent_dims(bars, arguments.look, session);
   const app::BarHold results_are_written(session);
-  outputs.write(bars, info, look_of(arguments.look, info.superlevel), {}, context);
-  return {app::kOk,
-          fmt::format("{}: {}", info.input_description, app::count_of(bars.size(), "bar"))};
+  outputs.write(bars, info, look_of(arguments.look, info.superlevel), {}, session.context());
+  return {app::kOk, fmt::format("{}: {}", description, app::count_of(bars.size(), "bar"))};
 }
 
 }  // namespace ph::barcode

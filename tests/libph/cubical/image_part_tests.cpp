@@ -14,11 +14,10 @@
 #include "support/conformance.hpp"
 #include "support/for_each_seed.hpp"
 #include "support/generators.hpp"
+#include "support/image_cases.hpp"
 
 namespace ph::test {
 namespace {
-
-using Construction = CubicalOptions::Construction;
 
 /// Joins neighbours in a random order until one part is left. Now and then a part becomes bytes and
 /// comes back.
@@ -43,56 +42,12 @@ std::vector<ImagePart> parts_of(const Image& image, int count, const ImagePartOp
   return parts;
 }
 
-struct Case {
-  Image image;
-  ImagePartOptions options;
-  int layers;
-};
-Case random_case(Generator& random) {
-  const int axes = random.integer(2, 3), most = axes == 2 ? 9 : 5;
-  Case result{{}, {}, 0};
-  std::vector<Index> extents;
-  for (int k = 0; k < axes; ++k) extents.push_back(random.integer(2, most));
-  result.layers = static_cast<int>(extents[0]);
-  if (random.coin()) extents.insert(extents.begin() + random.integer(0, axes), 1);
-  CubicalOptions& cubical = result.options.cubical;
-  cubical = random.cubical_options(static_cast<int>(extents.size()));
-  if (random.coin()) cubical.periodic[extents[0] == 1 ? 1 : 0] = true;
-  result.image = random.image(extents, random.coin());
-  if (random.integer(0, 3) == 0) cubical.threshold = random.integer(-2, 3);
-  // An axis of one voxel is one of the T-construction's, if it has ends.
-  int kept = 0;
-  for (std::size_t k = 0; k < extents.size(); ++k) {
-    const bool is_kept =
-        extents[k] > 1 || (cubical.construction == Construction::cells && !cubical.periodic[k]);
-    if (is_kept && kept++ == 0) result.layers = static_cast<int>(extents[k]);
-  }
-  if (kept == 3) {
-    if (random.coin())
-      result.options.max_dim = 0;
-    else
-      result.options.min_dim = 2;
-  }
-  return result;
-}
-
-/// Whether a volume has bars of dimension 1 among all that are wanted.
-bool is_refused(const Case& c) {
-  try {
-    ImagePart(c.image, 0, 1, c.options);
-    return false;
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::usage) << error.what();
-    return true;
-  }
-}
-
 TEST(ImagePart, AgreesWithTheOracleCellByCell) {
   std::size_t bars = 0, refused = 0;
   for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(seeds(2000)); ++seed) {
     SCOPED_TRACE(seed);
     Generator random(seed);
-    const Case c = random_case(random);
+    const ImageCase c = random_image_case(random);
     if (is_refused(c)) {
       ++refused;
       continue;
@@ -118,7 +73,7 @@ TEST(ImagePart, WhatIsKeptDoesNotDependOnGroups) {
   for (std::uint64_t seed = 0; seed < 1000; ++seed) {
     SCOPED_TRACE(seed);
     Generator random(seed);
-    const Case c = random_case(random);
+    const ImageCase c = random_image_case(random);
     const auto is_hole = [&](double v) {
       return std::isinf(v) ||
              (c.options.cubical.threshold &&
@@ -171,7 +126,7 @@ TEST(ImagePart, RefusesWhatDoesNotBelongTogether) {
   ImagePart of_image(image, 0, 3);
   refused(of_image, ImagePart(other, 1, 3), "seams that differ");
   EXPECT_EQ(of_image.bytes(), ImagePart(image, 0, 3).bytes());
-  const ImagePartOptions cells{.cubical = {.construction = Construction::cells}};
+  const ImagePartOptions cells{.cubical = {.construction = CubicalOptions::Construction::cells}};
   ImagePart turned(image, 0, 3, cells);
   const auto before = turned.bytes();
   refused(turned, ImagePart(other, 1, 3, cells), "seams that differ");

@@ -38,6 +38,9 @@ class ImagePart {
   ///         Cubical, (cancelled).
   ImagePart(const Image& image, int part, int parts, const ImagePartOptions& options = {},
             const RunContext& context = default_context());
+  /// How many parts there may be: one a layer.
+  /// @throws Error (usage) on images that have no parts.
+  static int most_parts(const Image& image, const CubicalOptions& options = {});
   ImagePart(ImagePart&&) noexcept;
   ImagePart& operator=(ImagePart&&) noexcept;
   ~ImagePart();

@@ -38,12 +38,25 @@ WholeImage whole_image(const Image& image, int parts, const ImagePartOptions& op
           options.cells};
 }
 
-void check(const WholeImage& whole, const GridShape& shape, int part) {
+/// @throws Error (usage) if it has too many axes.
+GridShape shape_of(const WholeImage& whole) {
+  if (GridShape::count_axes(whole.image()) > 3)
+    throw Error(ErrorKind::usage,
+                "parts of an image: found more than three axes with more than "
+                "one voxel, expected two or three");
+  return GridShape(whole.image());
+}
+
+std::uint64_t layers_of(const GridShape& shape) {
   if (shape.top_dim() < 2)
     throw Error(ErrorKind::usage,
                 "parts of an image: found one axis or none with more than one "
                 "voxel, expected two or three");
-  const auto layers = shape.axis(shape.layer_axis()).extent;
+  return shape.axis(shape.layer_axis()).extent;
+}
+
+void check(const WholeImage& whole, const GridShape& shape, int part) {
+  const std::uint64_t layers = layers_of(shape);
   if (whole.parts < 1 || static_cast<std::uint64_t>(whole.parts) > layers)
     throw Error(ErrorKind::usage, fmt::format("parts of an image: found {}, expected 1 to {}, the "
                                               "layers of its slowest axis",
@@ -99,10 +112,7 @@ Voxels voxels_of(const Image& image, const Layers& layers, std::size_t depth,
 ImagePart::ImagePart(const Image& image, int part, int parts, const ImagePartOptions& options,
                      const RunContext& context) {
   WholeImage whole = whole_image(image, parts, options);
-  if (GridShape::count_axes(whole.image()) > 3)
-    throw Error(ErrorKind::usage,
-                "parts of an image: found more than three axes with more than "
-                "one voxel, expected two or three");
+  shape_of(whole);
   state_ = std::make_unique<State>(std::move(whole), context);
   const GridShape& shape = state_->shape;
   check(state_->whole, shape, part);
@@ -159,6 +169,11 @@ ImagePart::ImagePart(std::unique_ptr<State> state) : state_(std::move(state)) {}
 ImagePart::ImagePart(ImagePart&&) noexcept = default;
 ImagePart& ImagePart::operator=(ImagePart&&) noexcept = default;
 ImagePart::~ImagePart() = default;
+
+int ImagePart::most_parts(const Image& image, const CubicalOptions& options) {
+  const std::uint64_t layers = layers_of(shape_of(whole_image(image, 1, {.cubical = options})));
+  return static_cast<int>(std::min<std::uint64_t>(layers, std::numeric_limits<int>::max()));
+}
 
 int ImagePart::first() const { return state_->first; }
 int ImagePart::last() const { return state_->last; }
