@@ -89,7 +89,7 @@ def check_kills(mpi, one_process, kills, seed):
     start = time.monotonic()
     assert mpi.run(4, *command)[0] == 0
     usual = time.monotonic() - start
-    killed, slowest = 0, 0.0
+    killed, stuck, slowest = 0, 0, 0.0
     while killed < kills:
         output.unlink(missing_ok=True)
         process = mpi.start(4, *command, "--resume")
@@ -98,7 +98,16 @@ def check_kills(mpi, one_process, kills, seed):
         if ranks:
             os.kill(rng.choice(ranks), signal.SIGKILL)
         start = time.monotonic()
-        _, err = process.communicate(timeout=60)
+        try:
+            process.communicate(timeout=2 * MOST_SECONDS)
+        except subprocess.TimeoutExpired:
+            # Open MPI 4.1.4: where a rank dies as it starts, one time in a hundred mpirun waits for a
+            # lock of its own (PMIx) after all ranks have ended.
+            assert "openmpi" in mpi.mpirun and not mpi.ranks("killed.csv"), "ranks hang"
+            process.kill()
+            process.communicate()
+            stuck += 1
+            start = time.monotonic()
         if process.returncode == 0:  # it was done, or had not begun
             assert output.read_text() == expected
             continue
@@ -115,6 +124,8 @@ def check_kills(mpi, one_process, kills, seed):
         assert output.read_text() == expected, "other bytes after --resume"
         left = [path.name for path in mpi.folder.glob("killed.csv.*")]
         assert not left, left
+    if stuck:
+        print(f"mpirun itself, not its ranks, had to be ended {stuck} times")
     return killed, slowest
 
 
