@@ -4,6 +4,18 @@
 # name, file, text that occurs exactly once, what replaces it, targets to build, what must notice: a test program that is one
 # of the targets, or the name of a test
 MUTANTS = [
+    ("parts: the age of the input plays no part", "apps/barcode/parts/part_files.cpp",
+     "if (!error && changed <= written) continue;", "continue;", ["ph-barcode"], "ph_barcode_parts"),
+    ("parts: part 1 is the second", "apps/barcode/arguments/part_arguments.cpp",
+     "text.substr(0, slash), 1, parts)) - 1", "text.substr(0, slash), 1, parts)) % parts",
+     ["ph-barcode"], "ph_barcode_parts"),
+    ("parts: a part that is there twice is taken twice", "apps/barcode/parts/inputs_part.cpp",
+     "if (std::ranges::binary_search(numbers_, number))",
+     "if (std::ranges::binary_search(numbers_, number) && number < 0)",
+     ["ph-barcode"], "ph_barcode_parts"),
+    ("parts: an input that failed is not told of", "apps/barcode/parts/batch_parts.cpp",
+     "return failed == results.end() ? app::kOk : failed->code;", "return app::kOk;",
+     ["ph-barcode"], "ph_barcode_parts"),
     ("perseus: what is not listed is infinite, not absent", "libph/src/io/images/perseus.cpp",
      "std::vector<double> values(*count, kAbsent);", "std::vector<double> values(*count, kInfinity);",
      ["ph-barcode"], "ph_barcode_masks"),

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Parts that processes send each other or leave in files. A checksum stops every change before
+// anything else looks at it, so the bytes are what a part says, and get one that is right.
+#include <utility>
+#include <vector>
+
+#include "barcode/parts/inputs_part.hpp"
+#include "core/bytes/sealed_part.hpp"
+#include "ph/error.hpp"
+#include "ph/parts/image_part.hpp"
+#include "targets.hpp"
+#include "violation.hpp"
+
+namespace ph::fuzz {
+namespace {
+
+std::span<const std::byte> as_bytes(std::string_view text) {
+  return std::as_bytes(std::span(text.data(), text.size()));
+}
+
+/// Runs what may refuse its bytes. @return whether it did not.
+template <class Run>
+bool is_taken(Run&& run) {
+  try {
+    run();
+    return true;
+  } catch (const Error& error) {
+    require(error.kind() == ErrorKind::bad_data || error.kind() == ErrorKind::resource,
+            "a part is neither bad nor too large");
+    require(std::string_view(error.what()).find('\n') == std::string_view::npos,
+            "a message of several lines");
+    return false;
+  }
+}
+
+}  // namespace
+
+void run_image_part(std::string_view bytes) {
+  RunContext context;
+  context.memory.set_limit(std::size_t{16} << 20);
+  is_taken([&] { kind_of_part(as_bytes(bytes)); });
+  const std::vector<std::byte> sealed = sealed_part("image", as_bytes(bytes));
+  require(kind_of_part(sealed) == "image", "a part that is sealed is of another kind");
+  is_taken([&] {
+    ImagePart part = ImagePart::of_bytes(sealed, context);
+    const std::vector<std::byte> again = part.bytes();
+    ImagePart same = ImagePart::of_bytes(again, context);
+    require(same.bytes() == again, "a part is not read as it was written");
+    require(!is_taken([&] { part.join(std::move(same), context); }), "a part is behind itself");
+    require(part.bytes() == again, "a join that was refused has changed a part");
+    if (part.is_whole()) part.barcode(context);
+  });
+}
+
+void run_inputs_part(std::string_view bytes) {
+  using barcode::InputsPart;
+  is_taken([&] {
+    const std::vector<std::byte> sealed = sealed_part(barcode::kInputsKind, as_bytes(bytes));
+    InputsPart part = InputsPart::of_bytes(sealed);
+    const std::vector<std::byte> again = part.bytes();
+    require(again == sealed, "a part is not read as it was written");
+    require(!is_taken([&] { part.join(InputsPart::of_bytes(again)); }), "a part is there twice");
+    require(part.bytes() == again, "a join that was refused has changed a part");
+  });
+}
+
+}  // namespace ph::fuzz
