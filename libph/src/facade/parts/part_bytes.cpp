@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: MIT
 // A part as bytes, little endian: the image, which parts, bars, forests with their seams. What is
 // read is checked, so that no number leads out of a list.
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cstddef>
-#include <type_traits>
 #include <utility>
 
+#include "facade/parts/bytes.hpp"
 #include "facade/parts/part_state.hpp"
-#include "ph/error.hpp"
 
 namespace ph {
 namespace {
@@ -22,67 +17,12 @@ using cubical::SeamBridge;
 using cubical::SeamForest;
 using cubical::SeamRoot;
 using cubical::WholeImage;
+using parts::Bytes;
+using parts::Reader;
 
-/// The bytes of a number, the low one first.
-template <class T>
-std::array<std::byte, sizeof(T)> in_order(std::array<std::byte, sizeof(T)> bytes) {
-  if constexpr (std::endian::native == std::endian::big) std::ranges::reverse(bytes);
-  return bytes;
-}
+constexpr const char* kWhole = "part of an image";
 
-class Bytes {
- public:
-  template <class T>
-  requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) void put(T value) {
-    const auto bytes = in_order<T>(std::bit_cast<std::array<std::byte, sizeof(T)>>(value));
-    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
-  }
-  void put(bool value) { put(static_cast<std::uint8_t>(value ? 1 : 0)); }
-  template <class List, class Put>
-  void put_list(const List& list, Put&& put_one) {
-    put(std::uint64_t{list.size()});
-    for (const auto& one : list) put_one(one);
-  }
-  std::vector<std::byte> take() { return std::move(bytes_); }
-
- private:
-  std::vector<std::byte> bytes_;
-};
-
-[[noreturn]] void refuse(const char* what) {
-  throw Error(ErrorKind::bad_data, fmt::format("part of an image: found a damaged {}", what));
-}
-
-class Reader {
- public:
-  explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
-  template <class T>
-  T get(const char* what) {
-    if (bytes_.size() - at_ < sizeof(T)) refuse(what);
-    std::array<std::byte, sizeof(T)> bytes;
-    std::ranges::copy(bytes_.subspan(at_, sizeof(T)), bytes.begin());
-    at_ += sizeof(T);
-    return std::bit_cast<T>(in_order<T>(bytes));
-  }
-  bool flag(const char* what) {
-    const auto value = get<std::uint8_t>(what);
-    if (value > 1) refuse(what);
-    return value != 0;
-  }
-  /// Of things that take that many bytes each, at least.
-  std::size_t count(std::size_t bytes_each, const char* what) {
-    const auto count = get<std::uint64_t>(what);
-    if (count > (bytes_.size() - at_) / bytes_each) refuse(what);
-    return static_cast<std::size_t>(count);
-  }
-  void expect_end() const {
-    if (at_ != bytes_.size()) refuse("end");
-  }
-
- private:
-  std::span<const std::byte> bytes_;
-  std::size_t at_ = 0;
-};
+[[noreturn]] void refuse(const char* what) { Reader({}, kWhole).refuse(what); }
 
 void put_whole(Bytes& to, const WholeImage& whole) {
   to.put_list(whole.extents, [&](Index n) { to.put(std::int64_t{n}); });
@@ -260,7 +200,7 @@ std::vector<std::byte> ImagePart::bytes() const {
 }
 
 ImagePart ImagePart::of_bytes(std::span<const std::byte> bytes, const RunContext& context) {
-  Reader from(bytes);
+  Reader from(bytes, kWhole);
   auto state = std::make_unique<State>(get_whole(from), context);
   state->first = from.get<std::int32_t>("number");
   state->last = from.get<std::int32_t>("number");

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// A part of a cloud as bytes, little endian: the cloud, which parts, their points, edges, claims,
+// a sum of all that. What is read is checked, so that no number leads out of a list.
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "facade/parts/bytes.hpp"
+#include "facade/parts/cloud_state.hpp"
+#include "ph/detail/components/disjoint_sets.hpp"
+#include "ph/detail/metric/spanning_forest.hpp"
+
+namespace ph {
+namespace {
+
+using parts::Bytes;
+using parts::Reader;
+
+constexpr std::uint64_t kFormat = 0x3174726150636850;  // "PhcPart1"
+
+std::uint64_t sum_of(std::span<const std::byte> bytes) {
+  std::uint64_t sum = bytes.size();
+  const auto add = [&](std::uint64_t next) {
+    sum = (sum ^ next) * 0x9E3779B97F4A7C15U;
+    sum ^= sum >> 32;
+  };
+  std::size_t i = 0;
+  for (; i + 8 <= bytes.size(); i += 8) {
+    std::array<std::byte, 8> eight;
+    std::ranges::copy(bytes.subspan(i, 8), eight.begin());
+    add(std::bit_cast<std::uint64_t>(parts::in_order<std::uint64_t>(eight)));
+  }
+  for (; i < bytes.size(); ++i) add(std::to_integer<std::uint64_t>(bytes[i]));
+  return sum;
+}
+
+void put_edges(Bytes& to, const FlagEdges& edges) {
+  to.put_list(edges, [&](const FlagEdge& e) {
+    to.put(e.value);
+    to.put(e.u);
+    to.put(e.v);
+  });
+}
+
+FlagEdges get_edges(Reader& from, std::size_t points, double limit, const char* what,
+                    const RunContext& context) {
+  constexpr std::size_t bytes_of_edge = 16;
+  FlagEdges edges(&context.memory);
+  edges.resize(from.count(bytes_of_edge, what));
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    FlagEdge& e = edges[i];
+    e.value = from.get<double>(what);
+    e.u = from.get<std::uint32_t>(what);
+    e.v = from.get<std::uint32_t>(what);
+    const bool is_edge = e.value >= 0 && !std::signbit(e.value) && e.value <= limit &&
+                         std::isfinite(e.value) && e.v < e.u && e.u < points;
+    if (!is_edge || (i > 0 && !precedes(edges[i - 1], e))) from.refuse(what);
+  }
+  return edges;
+}
+
+WholeCloud get_whole_cloud(Reader& from) {
+  WholeCloud whole{};
+  for (Index* const n : {&whole.points, &whole.axes, &whole.sample})
+    *n = static_cast<Index>(from.get<std::int64_t>("size"));
+  for (int* const n : {&whole.parts, &whole.blocks}) *n = from.get<std::int32_t>("number of parts");
+  whole.limit = from.get<double>("threshold");
+  whole.fingerprint = from.get<std::uint64_t>("fingerprint");
+  constexpr Index most_points = Index{1} << 60, most_axes = 8;
+  if (whole.points < 0 || whole.points > most_points || whole.axes < 0 || whole.axes > most_axes ||
+      whole.sample < 0 || whole.sample > whole.points)
+    from.refuse("size");
+  if (whole.parts < 1 || whole.blocks < 1) from.refuse("number of parts");
+  if (!(whole.limit >= 0)) from.refuse("threshold");
+  return whole;
+}
+
+}  // namespace
+
+std::vector<std::byte> CloudPart::bytes() const {
+  const NumberedForest& forest = state_->forest;
+  Bytes to;
+  to.reserve(256 + 4 * state_->present.size() + 2 * forest.numbers.size() +
+             16 * (forest.edges.size() + forest.claims.size()));
+  to.put(kFormat);
+  const WholeCloud& whole = state_->whole;
+  for (const Index n : {whole.points, whole.axes, whole.sample}) to.put(std::int64_t{n});
+  for (const int n : {whole.parts, whole.blocks}) to.put(std::int32_t{n});
+  to.put(whole.limit);
+  to.put(whole.fingerprint);
+  to.put_list(state_->present, [&](int part) { to.put(std::int32_t{part}); });
+  to.put(std::int64_t{state_->size});
+  Index next = 0;
+  to.put_list(forest.numbers, [&](Index number) {
+    to.put_short(static_cast<std::uint64_t>(number - next));
+    next = number + 1;
+  });
+  put_edges(to, forest.edges);
+  put_edges(to, forest.claims);
+  to.put(sum_of(to.view()));
+  return to.take();
+}
+
+CloudPart CloudPart::of_bytes(std::span<const std::byte> bytes, const RunContext& context) {
+  Reader from(bytes, "part of a cloud");
+  if (from.get<std::uint64_t>("begin") != kFormat) from.refuse("begin");
+  constexpr std::size_t bytes_of_sum = 8;
+  if (bytes.size() < 2 * bytes_of_sum) from.refuse("end");
+  const std::span<const std::byte> all = bytes.first(bytes.size() - bytes_of_sum);
+  if (Reader(bytes.last(bytes_of_sum), "part of a cloud").get<std::uint64_t>("sum") != sum_of(all))
+    from.refuse("sum");
+
+  auto state = std::make_unique<State>(get_whole_cloud(from), context);
+  const WholeCloud& whole = state->whole;
+  state->present.resize(from.count(sizeof(std::int32_t), "part"));
+  if (state->present.empty()) from.refuse("part");
+  int last = -1;
+  for (int& part : state->present) {
+    part = from.get<std::int32_t>("part");
+    if (part <= last || part >= whole.parts) from.refuse("part");
+    last = part;
+  }
+  state->size = static_cast<Index>(from.get<std::int64_t>("number of points"));
+  if (state->size < 0 || state->size > whole.points) from.refuse("number of points");
+
+  NumberedForest& forest = state->forest;
+  forest.numbers.resize(from.count(1, "points"));
+  if (forest.numbers.size() >= UINT32_MAX) from.refuse("points");
+  std::uint64_t next = 0;
+  for (Index& number : forest.numbers) {
+    const std::uint64_t skipped = from.get_short("point");
+    const auto left = static_cast<std::uint64_t>(whole.points) - next;
+    if (skipped >= left) from.refuse("point");
+    number = static_cast<Index>(next + skipped);
+    next += skipped + 1;
+  }
+  forest.edges = get_edges(from, forest.numbers.size(), whole.limit, "edge", context);
+  forest.claims = get_edges(from, forest.numbers.size(), whole.limit, "claim", context);
+  if (from.get<std::uint64_t>("sum") != sum_of(all)) from.refuse("sum");
+  from.expect_end();
+  DisjointSets sets(forest.numbers.size(), &context.memory);
+  for (const FlagEdge& e : forest.edges) {
+    const std::uint32_t u = sets.find(e.u), v = sets.find(e.v);
+    if (u == v) from.refuse("forest");
+    sets.link(u, v);
+  }
+  return CloudPart(std::move(state));
+}
+
+}  // namespace ph
