@@ -7,11 +7,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <tuple>
 
+#include "facade/parts/bytes.hpp"
+#include "metric/blocks/numbered_forest.hpp"
 #include "ph/merge_tree.hpp"
 #include "support/conformance.hpp"
 #include "support/expect_error.hpp"
@@ -149,6 +153,8 @@ TEST(CloudPart, HasTheComponentsOfAllPairs) {
     const Rips rips = whole.rips();
     const Barcode found = persistence(rips, {.max_dim = 0});
     ASSERT_EQ(deaths_of(found), expected);
+    const Barcode without_cells = whole.barcode();
+    ASSERT_TRUE(std::ranges::equal(without_cells, found));
     ASSERT_EQ(pairs_of(found), pairs_of(bars));
     ASSERT_EQ(all_pairs(rips), pairs);  // those of no length, too
     const MergeTree found_tree = merge_tree(rips);
@@ -303,6 +309,60 @@ TEST(CloudPart, StopsAndKeepsToItsMemory) {
   RunContext small;
   small.memory.set_limit(500000);
   expect_error(ErrorKind::resource, "memory", [&] { CloudPart(points, 0, 2, {}, small); });
+}
+
+// A part of another cloud that says it is of this one: it joins less, or other points.
+TEST(CloudPart, FindsEdgesThatAreMissing) {
+  constexpr std::ptrdiff_t fingerprint = 48, bytes_of_it = 8;
+  int found = 0, counted = 0, all = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(seed);
+    Generator random(seed);
+    const Points points = random.points(60, 2, false);
+    Points other = points;
+    for (Index i = 0; i < 60; i += 3) other(i, 0) += 0.2 * random.real();
+    const CloudPartOptions options{.threshold = seed % 2 == 0 ? std::nullopt : std::optional(9.0),
+                                   .sample = 12};
+    auto parts = parts_of(points, 3, options);
+    const auto own = parts[1].bytes();
+    auto bytes = CloudPart(other, 1, 3, options).bytes();
+    std::copy_n(own.begin() + fingerprint, bytes_of_it, bytes.begin() + fingerprint);
+    bytes.resize(bytes.size() - bytes_of_it);
+    const auto sum = std::bit_cast<std::array<std::byte, 8>>(parts::sum_of(bytes));
+    bytes.insert(bytes.end(), sum.begin(), sum.end());
+    parts[1] = CloudPart::of_bytes(bytes);
+    try {
+      joined(random, std::move(parts)).barcode();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::bad_data);
+      const std::string what = error.what();
+      const bool is_about_edges = what.find("not joined as the parts say") != std::string::npos;
+      EXPECT_TRUE(is_about_edges || what.find("more points than the 60") != std::string::npos);
+      ++(is_about_edges ? found : counted);
+    }
+    ++all;
+  }
+  EXPECT_GT(found + counted, all / 10 * 9);
+  EXPECT_GT(found, all / 4);
+}
+
+TEST(NumberedForest, KeepsClaimsThatAreOpen) {
+  const RunContext& context = default_context();
+  NumberedForest forest(context), other(context);
+  forest.numbers = {1, 5, 9};
+  forest.edges = {{2, 1, 0}};
+  forest.claims = {{1, 1, 0}, {2, 1, 0}, {4, 2, 0}};
+  forest.reduce(context);
+  ASSERT_EQ(forest.claims.size(), 2U);  // by an edge of length 2 nothing is joined at 1
+  EXPECT_EQ(forest.claims[0].value, 1);
+  EXPECT_EQ(forest.claims[1].value, 4);
+  other.numbers = {5, 7, 9};
+  other.edges = {{1, 1, 0}, {4, 2, 1}};
+  forest.join(std::move(other), context);
+  EXPECT_EQ(forest.numbers, (std::pmr::vector<Index>{1, 5, 7, 9}));
+  EXPECT_EQ(forest.edges.size(), 3U);
+  ASSERT_EQ(forest.claims.size(), 1U);
+  EXPECT_EQ(forest.claims[0].value, 1);
 }
 
 // Every flipped bit is found.

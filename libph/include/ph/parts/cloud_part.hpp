@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "ph/barcode.hpp"
 #include "ph/detail/metric/metric.hpp"
 #include "ph/points.hpp"
 #include "ph/rips.hpp"
@@ -58,10 +59,13 @@ class CloudPart {
   ///         already; nothing has changed then. Error (resource, cancelled): neither can be used.
   void join(CloudPart other, const RunContext& context = default_context());
 
-  /// The filtration of the whole cloud, of which only the minimum spanning forest is held: for
-  /// `persistence` with max_dim 0, and for `merge_tree`. Precondition: is_whole().
+  /// The bars of H0 of positive length, without cells: 24 bytes each. Precondition: is_whole().
   /// @throws Error (bad_data) if the parts do not have all edges of the forest: every part says
-  ///         what has to be joined, and by edges of which length; (resource) as Rips.
+  ///         what has to be joined, and by edges of which length.
+  Barcode barcode(const RunContext& context = default_context()) const;
+  /// The filtration of the whole cloud, of which only the minimum spanning forest is held: for
+  /// `persistence` with max_dim 0 and cells, and for `merge_tree`. Precondition: is_whole().
+  /// @throws Error (bad_data) as barcode, (resource) as Rips.
   Rips rips(const RunContext& context = default_context()) const&;
   /// Leaves a part that can only be assigned to.
   Rips rips(const RunContext& context = default_context()) &&;

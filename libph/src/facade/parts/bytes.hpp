@@ -23,6 +23,23 @@ std::array<std::byte, sizeof(T)> in_order(std::array<std::byte, sizeof(T)> bytes
   return bytes;
 }
 
+/// Changes with any bit.
+inline std::uint64_t sum_of(std::span<const std::byte> bytes) {
+  std::uint64_t sum = bytes.size();
+  const auto add = [&](std::uint64_t next) {
+    sum = (sum ^ next) * 0x9E3779B97F4A7C15U;
+    sum ^= sum >> 32;
+  };
+  std::size_t i = 0;
+  for (; i + 8 <= bytes.size(); i += 8) {
+    std::array<std::byte, 8> eight;
+    std::ranges::copy(bytes.subspan(i, 8), eight.begin());
+    add(std::bit_cast<std::uint64_t>(in_order<std::uint64_t>(eight)));
+  }
+  for (; i < bytes.size(); ++i) add(std::to_integer<std::uint64_t>(bytes[i]));
+  return sum;
+}
+
 /// A part as bytes, little endian.
 class Bytes {
  public:

@@ -2,7 +2,6 @@
 // A part of a cloud as bytes, little endian: the cloud, which parts, their points, edges, claims,
 // a sum of all that. What is read is checked, so that no number leads out of a list.
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 #include "facade/parts/bytes.hpp"
@@ -15,24 +14,9 @@ namespace {
 
 using parts::Bytes;
 using parts::Reader;
+using parts::sum_of;
 
 constexpr std::uint64_t kFormat = 0x3174726150636850;  // "PhcPart1"
-
-std::uint64_t sum_of(std::span<const std::byte> bytes) {
-  std::uint64_t sum = bytes.size();
-  const auto add = [&](std::uint64_t next) {
-    sum = (sum ^ next) * 0x9E3779B97F4A7C15U;
-    sum ^= sum >> 32;
-  };
-  std::size_t i = 0;
-  for (; i + 8 <= bytes.size(); i += 8) {
-    std::array<std::byte, 8> eight;
-    std::ranges::copy(bytes.subspan(i, 8), eight.begin());
-    add(std::bit_cast<std::uint64_t>(parts::in_order<std::uint64_t>(eight)));
-  }
-  for (; i < bytes.size(); ++i) add(std::to_integer<std::uint64_t>(bytes[i]));
-  return sum;
-}
 
 void put_edges(Bytes& to, const FlagEdges& edges) {
   to.put_list(edges, [&](const FlagEdge& e) {

@@ -116,6 +116,10 @@ void CloudPart::join(CloudPart other, const RunContext& context) {
     throw Error(ErrorKind::bad_data,
                 fmt::format("parts of a cloud: found part {} twice", twice[0] + 1));
   std::ranges::merge(state_->present, others, std::back_inserter(present));
+  if (other.state_->size > state_->whole.points - state_->size)
+    throw Error(ErrorKind::bad_data,
+                fmt::format("parts of a cloud: found more points than the {} that it has",
+                            state_->whole.points));
   context.poll();
   state_->forest.join(std::move(other.state_->forest), state_->context);
   state_->present = std::move(present);
@@ -132,18 +136,37 @@ Rips CloudPart::rips(const RunContext& context) const& {
   return CloudPart(std::move(copy)).rips(context);
 }
 
-Rips CloudPart::rips(const RunContext& context) && {
-  const WholeCloud& whole = state_->whole;
-  RipsGraph::check_size(whole.points);
-  NumberedForest forest = std::move(state_->forest);
-  // Each part was told by hops that the whole forest has to have, too.
+// Each part left edges out because of hops that the whole forest has to have, too.
+void CloudPart::State::check_joined() const {
   const bool is_spanning =
       whole.limit < kInfinity ||
       forest.edges.size() + 1 == static_cast<std::size_t>(std::max<Index>(whole.points, 1));
-  if (state_->size != whole.points || !forest.claims.empty() || !is_spanning)
+  if (size != whole.points || !forest.claims.empty() || !is_spanning)
     throw Error(ErrorKind::bad_data,
                 "parts of a cloud: found points that are not joined as the parts say they are; "
                 "expected parts of one cloud that did not change meanwhile");
+}
+
+// Each edge of the forest kills one of the components, which are all born at 0.
+Barcode CloudPart::barcode(const RunContext& context) const {
+  state_->check_joined();
+  const FlagEdges& edges = state_->forest.edges;
+  const auto first = std::ranges::upper_bound(edges, 0.0, {}, &FlagEdge::value);
+  const auto immortal = static_cast<std::size_t>(state_->whole.points) - edges.size();
+  const std::size_t count = static_cast<std::size_t>(edges.end() - first) + immortal;
+  const MemoryClaim claim(context.memory, count * sizeof(Bar));
+  Barcode bars;
+  bars.reserve_more(count);
+  for (auto edge = first; edge != edges.end(); ++edge) bars.add({0, 0, edge->value});
+  for (std::size_t i = 0; i < immortal; ++i) bars.add({0, 0, kInfinity});
+  return bars;
+}
+
+Rips CloudPart::rips(const RunContext& context) && {
+  const WholeCloud& whole = state_->whole;
+  RipsGraph::check_size(whole.points);
+  state_->check_joined();
+  NumberedForest forest = std::move(state_->forest);
   if (forest.numbers.size() < static_cast<std::size_t>(whole.points))
     for (FlagEdge& e : forest.edges)
       e = {e.value, static_cast<std::uint32_t>(forest.numbers[e.u]),

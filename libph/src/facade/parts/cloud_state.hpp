@@ -21,6 +21,8 @@ struct WholeCloud {
 struct CloudPart::State {
   State(const WholeCloud& whole_cloud, const RunContext& run_context)
       : whole(whole_cloud), context(run_context), forest(run_context) {}
+  /// @throws Error (bad_data) unless this is the forest of the whole cloud.
+  void check_joined() const;
 
   WholeCloud whole;
   const RunContext& context;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "metric/blocks/near_points.hpp"
 
+#include <algorithm>
 #include <array>
+#include <utility>
 
 namespace ph {
 namespace {
@@ -37,12 +39,14 @@ void CellRegions::add(const SampleTree& tree, SampleTree::Node node, std::vector
   for (const bool is_right : {false, true}) {
     const SampleTree::Node child = is_right ? tree.right(node) : tree.left(node);
     if (tree.cells(child).size() == 0) continue;
-    const bool is_split = tree.cells(child).size() < tree.cells(node).size();
-    double& end = box[side + (is_right ? 0 : 1)];
-    const double before = end;
-    if (is_split) end = tree.value(node);
-    add(tree, child, box);
-    end = before;
+    if (tree.cells(child).size() == tree.cells(node).size()) {
+      add(tree, child, box);
+    } else {
+      double& end = box[side + (is_right ? 0 : 1)];
+      const double before = std::exchange(end, tree.value(node));
+      add(tree, child, box);
+      end = before;
+    }
     boxes_.add(node, boxes_, child);
   }
 }
