@@ -120,8 +120,7 @@ void CloudPart::join(CloudPart other, const RunContext& context) {
     throw Error(ErrorKind::bad_data,
                 fmt::format("parts of a cloud: found more points than the {} that it has",
                             state_->whole.points));
-  context.poll();
-  state_->forest.join(std::move(other.state_->forest), state_->context);
+  state_->forest.join(std::move(other.state_->forest), context);
   state_->present = std::move(present);
   state_->size += other.state_->size;
 }

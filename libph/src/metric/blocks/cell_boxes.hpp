@@ -12,25 +12,21 @@
 
 namespace ph {
 
-/// Squares of lengths by which points are told to be far: what they say is true of the distances
-/// that are computed, rounded as they are.
-namespace far {
+// Squares of lengths say what is far: in a way that is true of the distances that PointMetric
+// computes, rounded as they are.
 
-/// At least the square of the distance of two points, as that is computed; 1e-280 is added where
-/// squares may have lost digits.
-inline double square(const double* x, const double* y, Index axes) {
+inline double squared_distance(const double* x, const double* y, Index axes) {
   double sum = 0;
   for (Index k = 0; k < axes; ++k) sum += (x[k] - y[k]) * (x[k] - y[k]);
   return sum;
 }
-/// The square that nothing within `square` of lengths exceeds. Sums of squares have errors of
-/// (axes + 2) · 2^-53 each; there is no need to be close.
-inline double reach(double square) {
+/// No two points have a distance of at most the root of `square` if the square of a gap between
+/// them, as computed, is larger than this. Sums of squares have relative errors of (axes + 2) ·
+/// 2^-53, and below 1e-280 any: there is no need to be close.
+inline double reach_of(double square) {
   constexpr double slack = 1 + 1e-12, least = 4 * kSmallestPlain * kSmallestPlain;
   return std::max(square, least) * slack;
 }
-
-}  // namespace far
 
 /// The points of a cell, or of some: the box around them, and how far they are from the points of
 /// the sample in their cells.
@@ -44,6 +40,7 @@ class CellBoxes {
       sides_[i + 1] = -std::numeric_limits<double>::infinity();
     }
   }
+  /// @param square of its distance to the sample.
   void add_point(std::size_t i, const double* x, double square) {
     double* const box = sides_.data() + i * box_size();
     for (Index k = 0; k < axes_; ++k) {
@@ -67,7 +64,8 @@ class CellBoxes {
   }
   /// The square of the largest distance to the sample.
   double square(std::size_t i) const { return squares_[i]; }
-  /// The square of the gap between a box and another one, or a point.
+  /// The square of the gap to another box, whose coordinates are `stride` apart; of a point `low`
+  /// and `high` are the same.
   double gap(std::size_t i, const double* low, const double* high, Index stride) const {
     const double* const box = sides_.data() + i * box_size();
     double sum = 0;

@@ -88,7 +88,8 @@ void CloudBlocks::scan(SampleTree::Range mine, const RunContext& context) {
     while (!tree_.is_leaf(node) && is_mine()) node = tree_.child(node, x);
     if (!is_mine()) continue;
     const SampleTree::Cell cell = tree_.cells(node).begin;
-    boxes_.add_point(cell - first_cell_, x, far::square(x, tree_.points().row(Index{cell}), axes));
+    boxes_.add_point(cell - first_cell_, x,
+                     squared_distance(x, tree_.points().row(Index{cell}), axes));
     ++sizes_[tree_.blocks(node).begin - first_block_];
     ++size_;
   }

@@ -33,7 +33,7 @@ class CloudBlocks {
   NumberedForest forest(std::uint32_t block, double limit, const RunContext& context) const;
 
  private:
-  /// A point of the block, or near it.
+  /// The points of a block, and those near it.
   struct Members;
   void scan(SampleTree::Range mine, const RunContext& context);
   SampleTree::Range cells_of(std::uint32_t block) const {

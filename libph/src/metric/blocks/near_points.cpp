@@ -30,7 +30,7 @@ void CellRegions::add(const SampleTree& tree, SampleTree::Node node, std::vector
       high.push_back(box[2 * k + 1]);
       farthest.push_back(s[k] - low[k] > high[k] - s[k] ? low[k] : high[k]);
     }
-    const double square = far::square(s, farthest.data(), axes);
+    const double square = squared_distance(s, farthest.data(), axes);
     boxes_.add_point(node, low.data(), square);
     boxes_.add_point(node, high.data(), square);
     return;
@@ -75,10 +75,12 @@ NearPoints::NearPoints(const SampleTree& tree, const Bottlenecks& bottlenecks,
   mark(SampleTree::kRoot, regions);
 }
 
+// Half of those ahead, around a circle; of opposite ones every other one.
 bool NearPoints::looks_for(std::uint32_t block, std::uint32_t other, std::uint32_t blocks) {
   if (block == other) return false;
-  const std::uint32_t ahead = (other + blocks - block) % blocks;
-  return 2 * std::uint64_t{ahead} != blocks ? 2 * std::uint64_t{ahead} < blocks : block < other;
+  const std::uint64_t ahead = (std::uint64_t{other} + blocks - block) % blocks;
+  if (2 * ahead != blocks) return 2 * ahead < blocks;
+  return (std::min(block, other) % 2 == 0) == (block < other);
 }
 
 /// @return whether anything below is not hopeless.
@@ -109,11 +111,11 @@ bool NearPoints::mark(Node node, const CellRegions& regions) {
 double NearPoints::reach(Node own, double square, double within, SampleTree::Cell cell,
                          double gap) const {
   const double least =
-      far::reach(std::min(limit_, std::max({boxes_.square(own - own_), square, squared(within),
-                                            squared(bottlenecks_.within(own))})));
-  if (gap <= least || gap > far::reach(longest_)) return least;
+      reach_of(std::min(limit_, std::max({boxes_.square(own - own_), square, squared(within),
+                                          squared(bottlenecks_.within(own))})));
+  if (gap <= least || gap > reach_of(longest_)) return least;
   const double between = bottlenecks_.between(tree_.cells(own).begin, cell);
-  return std::max(least, far::reach(std::min(limit_, squared(between))));
+  return std::max(least, reach_of(std::min(limit_, squared(between))));
 }
 
 bool NearPoints::may_be_near(Node node, const CellRegions& regions) const {
@@ -132,7 +134,7 @@ bool NearPoints::may_be_near(Node node, const CellRegions& regions) const {
 }
 
 bool NearPoints::is_near(const double* x, SampleTree::Cell cell) const {
-  const double square = far::square(x, tree_.points().row(Index{cell}), tree_.points().cols());
+  const double square = squared_distance(x, tree_.points().row(Index{cell}), tree_.points().cols());
   std::array<Node, 64> stack;  // as deep as the tree at most
   std::size_t height = 0;
   for (Node own = own_;;) {

@@ -25,9 +25,9 @@ struct Merged {
 };
 Merged merged(const std::pmr::vector<Index>& a, const std::pmr::vector<Index>& b,
               const RunContext& context) {
-  std::pmr::memory_resource* const memory = &context.memory;
-  Merged all{std::pmr::vector<Index>(memory),
-             {std::pmr::vector<std::uint32_t>(memory), std::pmr::vector<std::uint32_t>(memory)}};
+  using Places = std::pmr::vector<std::uint32_t>;
+  Merged all{std::pmr::vector<Index>(a.get_allocator()),
+             {Places(&context.memory), Places(&context.memory)}};
   std::size_t size = a.size() + b.size();
   {
     std::size_t i = 0, j = 0;
@@ -68,20 +68,21 @@ FlagEdges merged(FlagEdges& a, FlagEdges& b, const Merged& all, const RunContext
   renumber(a, all.places[0]);
   renumber(b, all.places[1]);
   context.poll();
-  FlagEdges both(&context.memory);
+  FlagEdges both(a.get_allocator());
   both.reserve(a.size() + b.size());
   std::ranges::merge(a, b, std::back_inserter(both), precedes);
-  a = FlagEdges(&context.memory);
-  b = FlagEdges(&context.memory);
+  a = FlagEdges(a.get_allocator());
+  b = FlagEdges(b.get_allocator());
   return both;
 }
 
 }  // namespace
 
 void NumberedForest::join(NumberedForest other, const RunContext& context) {
+  context.poll();
   Merged all = merged(numbers, other.numbers, context);
   numbers = std::move(all.numbers);
-  other.numbers = std::pmr::vector<Index>(&context.memory);
+  other.numbers = std::pmr::vector<Index>(other.numbers.get_allocator());
   edges = merged(edges, other.edges, all, context);
   claims = merged(claims, other.claims, all, context);
   all.places[0] = all.places[1] = std::pmr::vector<std::uint32_t>(&context.memory);

@@ -21,7 +21,8 @@ struct NumberedForest {
   /// already are left out.
   FlagEdges claims;
 
-  /// Takes in another one. @throws Error (resource) if they have 2^32 - 1 points or more.
+  /// Takes in another one. @param context of what is needed meanwhile.
+  /// @throws Error (resource) if they have 2^32 - 1 points or more.
   void join(NumberedForest other, const RunContext& context);
   /// Leaves the edges that Kruskal's algorithm takes, and the claims that are still open.
   void reduce(const RunContext& context);
