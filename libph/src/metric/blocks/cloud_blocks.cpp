@@ -49,12 +49,17 @@ CloudBlocks::CloudBlocks(PointsView points, std::size_t sample, std::uint32_t bl
     : points_(points),
       tree_(points, sample, blocks, context),
       first_cell_(cells_of(mine.begin).begin),
-      boxes_(cell_count(tree_, mine), points.cols(), context),
+      boxes_(2 * std::size_t{cell_count(tree_, mine)}, points.cols(), context),
       sizes_(mine.size()),
       first_block_(mine.begin) {
-  scan(mine, context);
   if (tree_.cell_count() == 0) return;
-  bottlenecks_.emplace(tree_, largest_, context);
+  // To the last bit they depend on whether squares of the whole cloud are plain.
+  bottlenecks_.emplace(tree_, 0, context);
+  scan(mine, context);
+  const auto is_plain = [&](double largest) {
+    return PointMetric(tree_.points(), PointDistance::euclidean, 2, largest).is_plain_euclidean();
+  };
+  if (is_plain(0) != is_plain(largest_)) bottlenecks_.emplace(tree_, largest_, context);
   regions_.emplace(tree_, box_, context);
 }
 
@@ -88,9 +93,13 @@ void CloudBlocks::scan(SampleTree::Range mine, const RunContext& context) {
     while (!tree_.is_leaf(node) && is_mine()) node = tree_.child(node, x);
     if (!is_mine()) continue;
     const SampleTree::Cell cell = tree_.cells(node).begin;
-    boxes_.add_point(cell - first_cell_, x,
-                     squared_distance(x, tree_.points().row(Index{cell}), axes));
-    ++sizes_[tree_.blocks(node).begin - first_block_];
+    const std::uint32_t block = tree_.blocks(node).begin;
+    NearSample sample{cell, squared_distance(x, tree_.points().row(Index{cell}), axes)};
+    const auto is_far = [&] { return sample.square > bottlenecks_->square_around(sample.cell); };
+    if (is_far()) sample = nearest_sample(tree_, block, x, sample);
+    boxes_.add_point(2 * std::size_t{sample.cell - first_cell_} + (is_far() ? 1 : 0), x,
+                     sample.square);
+    ++sizes_[block - first_block_];
     ++size_;
   }
   for (const double x : box_) largest_ = std::max(largest_, std::abs(x));

@@ -44,7 +44,7 @@ class CloudBlocks {
   PointsView points_;
   SampleTree tree_;
   SampleTree::Cell first_cell_;
-  CellBoxes boxes_;  // by cell, from first_cell_ on
+  CellBoxes boxes_;  // two by cell, from first_cell_ on, as NearPoints takes them
   std::vector<Index> sizes_;
   std::uint32_t first_block_;
   double largest_ = 0;

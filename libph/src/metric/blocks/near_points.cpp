@@ -52,7 +52,7 @@ void CellRegions::add(const SampleTree& tree, SampleTree::Node node, std::vector
 }
 
 NearPoints::NearPoints(const SampleTree& tree, const Bottlenecks& bottlenecks,
-                       const CellRegions& regions, const CellBoxes& boxes, std::size_t first_box,
+                       const CellRegions& regions, const CellBoxes& boxes, std::size_t first_cell,
                        std::uint32_t block, double limit, const RunContext& context)
     : tree_(tree),
       bottlenecks_(bottlenecks),
@@ -60,15 +60,17 @@ NearPoints::NearPoints(const SampleTree& tree, const Bottlenecks& bottlenecks,
       own_(tree.node_of_block(block)),
       limit_(squared(limit)),
       longest_(squared(bottlenecks.within(SampleTree::kRoot))),
+      cell_boxes_(boxes),
+      first_cell_(first_cell),
       boxes_(tree.end_below(own_) - own_, tree.points().cols(), context),
       kinds_(tree.node_count(), Kind::hopeless, &context.memory) {
-  const SampleTree::Cell first = tree.cells(own_).begin;
   for (Node node = tree.end_below(own_); node-- > own_;) {
     if (!tree.is_leaf(node)) {
       boxes_.add(node - own_, boxes_, tree.left(node) - own_);
       boxes_.add(node - own_, boxes_, tree.right(node) - own_);
     } else if (tree.cells(node).size() > 0) {
-      boxes_.add(node - own_, boxes, first_box + (tree.cells(node).begin - first));
+      boxes_.add(node - own_, boxes, box_of(node));
+      boxes_.add(node - own_, boxes, box_of(node) + 1);
     }
   }
   context.poll();
@@ -110,9 +112,8 @@ bool NearPoints::mark(Node node, const CellRegions& regions) {
 // clear without.
 double NearPoints::reach(Node own, double square, double within, SampleTree::Cell cell,
                          double gap) const {
-  const double least =
-      reach_of(std::min(limit_, std::max({boxes_.square(own - own_), square, squared(within),
-                                          squared(bottlenecks_.within(own))})));
+  const double least = reach_of(
+      std::min(limit_, std::max({square, squared(within), squared(bottlenecks_.within(own))})));
   if (gap <= least || gap > reach_of(longest_)) return least;
   const double between = bottlenecks_.between(tree_.cells(own).begin, cell);
   return std::max(least, reach_of(std::min(limit_, squared(between))));
@@ -125,7 +126,8 @@ bool NearPoints::may_be_near(Node node, const CellRegions& regions) const {
   const auto search = [&](const auto& self, Node own) -> bool {
     if (tree_.cells(own).size() == 0) return false;
     const double gap = boxes_.gap(own - own_, box, box + 1, 2);
-    if (gap > reach(own, square, within, cells.begin, gap)) return false;
+    const double farthest = std::max(boxes_.square(own - own_), square);
+    if (gap > reach(own, farthest, within, cells.begin, gap)) return false;
     // Smaller ones than the node itself are for those below it.
     if (tree_.is_leaf(own) || tree_.cells(own).size() <= cells.size()) return true;
     return self(self, tree_.left(own)) || self(self, tree_.right(own));
@@ -133,17 +135,32 @@ bool NearPoints::may_be_near(Node node, const CellRegions& regions) const {
   return search(search, own_);
 }
 
-bool NearPoints::is_near(const double* x, SampleTree::Cell cell) const {
-  const double square = squared_distance(x, tree_.points().row(Index{cell}), tree_.points().cols());
+bool NearPoints::is_near(const double* x, Node leaf) const {
+  const SampleTree::Cell cell = tree_.cells(leaf).begin;
+  const std::uint32_t block = tree_.blocks(leaf).begin;
+  NearSample sample{cell,
+                    squared_distance(x, tree_.points().row(Index{cell}), tree_.points().cols())};
+  bool is_nearest = false;
+  const auto is_beyond = [&](Node own, const CellBoxes& boxes, std::size_t i) {
+    const double gap = boxes.gap(i, x, x, 1);
+    return gap > reach(own, std::max(boxes.square(i), sample.square), 0, sample.cell, gap);
+  };
   std::array<Node, 64> stack;  // as deep as the tree at most
   std::size_t height = 0;
   for (Node own = own_;;) {
-    const double gap = boxes_.gap(own - own_, x, x, 1);
-    if (gap <= reach(own, square, 0, cell, gap)) {
-      if (tree_.is_leaf(own)) return true;
-      stack[height++] = tree_.right(own);
-      own = tree_.left(own);
-      continue;
+    if (!is_beyond(own, boxes_, own - own_)) {
+      if (!is_nearest && sample.square > bottlenecks_.square_around(sample.cell)) {
+        is_nearest = true;
+        sample = nearest_sample(tree_, block, x, sample);
+        continue;
+      }
+      if (!tree_.is_leaf(own)) {
+        stack[height++] = tree_.right(own);
+        own = tree_.left(own);
+        continue;
+      }
+      const std::size_t i = box_of(own);
+      if (!is_beyond(own, cell_boxes_, i) || !is_beyond(own, cell_boxes_, i + 1)) return true;
     }
     if (height == 0) return false;
     own = stack[--height];

@@ -25,17 +25,19 @@ class CellRegions {
 };
 
 /// Which points of other blocks may have an edge to a block in the minimum spanning tree of the
-/// whole cloud. An edge (u, x) is none of it if hops that are all shorter lead from u to the sample
-/// in its cell, on through the sample to the one in the cell of x, and to x. So x is left out if
-/// that is so for all u; see docs/explanation/engines/cloud-parts.md.
+/// whole cloud. An edge (u, x) is none of it if hops that are all shorter lead from u to a point of
+/// the sample in its block, on through the sample to one in the block of x, and to x. So x is left
+/// out if that is so for all u; see docs/explanation/engines/cloud-parts.md.
 class NearPoints {
  public:
   using Node = SampleTree::Node;
 
-  /// @param boxes by cell: of all its points. @param first_box that of the first cell of the block.
+  /// @param boxes two by cell: of the points whose nearest one of the sample it has, first those
+  /// nearby (Bottlenecks::square_around), then the others. They outlive this.
+  /// @param first_cell of the block: its place in them.
   /// @param block one that is not empty. @param limit longer edges are not wanted.
   NearPoints(const SampleTree& tree, const Bottlenecks& bottlenecks, const CellRegions& regions,
-             const CellBoxes& boxes, std::size_t first_box, std::uint32_t block, double limit,
+             const CellBoxes& boxes, std::size_t first_cell, std::uint32_t block, double limit,
              const RunContext& context);
 
   enum class Place { elsewhere, near, inside };
@@ -45,8 +47,7 @@ class NearPoints {
     while (kinds_[node] == Kind::mixed) node = tree_.child(node, x);
     if (kinds_[node] == Kind::own) return Place::inside;
     if (kinds_[node] == Kind::hopeless) return Place::elsewhere;
-    const SampleTree::Cell cell = tree_.cells(node).begin;
-    return is_near(x, cell) ? Place::near : Place::elsewhere;
+    return is_near(x, node) ? Place::near : Place::elsewhere;
   }
 
   /// Whether `block` is the one that looks for edges between the two: each has half of the others.
@@ -56,15 +57,21 @@ class NearPoints {
   enum class Kind : std::uint8_t { hopeless, mixed, cell, own };
   bool mark(Node node, const CellRegions& regions);
   bool may_be_near(Node node, const CellRegions& regions) const;
-  bool is_near(const double* x, SampleTree::Cell cell) const;
-  /// The square of the longest edge that a node of the block may have to a point or node.
+  bool is_near(const double* x, Node leaf) const;
+  /// The square of the longest edge that points of a node of the block may have to another node, or
+  /// a point. @param square of the distances of all of them to the sample, at most.
   double reach(Node own, double square, double within, SampleTree::Cell cell, double gap) const;
+  std::size_t box_of(Node own_leaf) const {
+    return 2 * (first_cell_ + (tree_.cells(own_leaf).begin - tree_.cells(own_).begin));
+  }
 
   const SampleTree& tree_;
   const Bottlenecks& bottlenecks_;
   const std::uint32_t block_;
   const Node own_;
   const double limit_, longest_;
+  const CellBoxes& cell_boxes_;
+  const std::size_t first_cell_;
   CellBoxes boxes_;  // by node below own_
   std::pmr::vector<Kind> kinds_;
 };

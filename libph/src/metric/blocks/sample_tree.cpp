@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "core/random.hpp"
+#include "metric/blocks/cell_boxes.hpp"
 #include "ph/detail/metric/spanning_forest.hpp"
 #include "ph/error.hpp"
 
@@ -147,9 +149,38 @@ void SampleTree::split(Range cells, Range blocks, std::span<std::uint32_t> order
   this->split({middle, cells.end}, {is_block ? blocks.begin : middle_block, blocks.end}, order);
 }
 
+NearSample nearest_sample(const SampleTree& tree, std::uint32_t block, const double* x,
+                          NearSample known) {
+  struct Entry {
+    SampleTree::Node node;
+    double gap;  // the square of a distance to it: no more than the true one
+  };
+  std::array<Entry, 64> stack;  // one a level, and few points are that many times halved
+  std::size_t height = 0;
+  stack[height++] = {tree.node_of_block(block), 0};
+  while (height > 0) {
+    auto [node, gap] = stack[--height];
+    if (gap >= known.square) continue;
+    while (!tree.is_leaf(node)) {
+      const double to_split = x[tree.axis(node)] - tree.value(node);
+      const SampleTree::Node child = tree.child(node, x);
+      const bool is_left = child == tree.left(node);
+      stack[height++] = {is_left ? tree.right(node) : tree.left(node),
+                         std::max(gap, to_split * to_split)};
+      node = child;
+    }
+    if (tree.cells(node).size() == 0) continue;
+    const SampleTree::Cell cell = tree.cells(node).begin;
+    const double square = squared_distance(x, tree.points().row(Index{cell}), tree.points().cols());
+    if (square < known.square) known = {cell, square};
+  }
+  return known;
+}
+
 Bottlenecks::Bottlenecks(const SampleTree& tree, double largest, const RunContext& context)
     : parent_(tree.cell_count(), &context.memory),
       length_(tree.cell_count(), std::numeric_limits<double>::infinity(), &context.memory),
+      first_(length_, &context.memory),
       within_(tree.node_count(), 0.0, &context.memory),
       edges_(&context.memory) {
   FlagEdges forest = spanning_forest(tree.points(), PointDistance::euclidean, 2,
@@ -165,6 +196,7 @@ Bottlenecks::Bottlenecks(const SampleTree& tree, double largest, const RunContex
   // By size: paths to roots are short without being shortened.
   for (const FlagEdge& e : forest) {
     edges_.push_back({e.value, e.u, e.v});
+    for (const SampleTree::Cell cell : {e.u, e.v}) first_[cell] = std::min(first_[cell], e.value);
     std::uint32_t small = root(e.u), large = root(e.v);
     if (size[small] > size[large]) std::swap(small, large);
     parent_[small] = large;

@@ -84,6 +84,15 @@ class SampleTree {
   std::vector<Node> block_nodes_;
 };
 
+/// A point of the sample, and the square of the distance to it.
+struct NearSample {
+  SampleTree::Cell cell;
+  double square;
+};
+/// The nearest one to x in a block. @param known one of the block.
+NearSample nearest_sample(const SampleTree& tree, std::uint32_t block, const double* x,
+                          NearSample known);
+
 /// How near the points of a sample are by way of others. The bottleneck of two points is the least
 /// number r such that hops of length at most r within the sample lead from the one to the other:
 /// the longest edge between them in a minimum spanning tree.
@@ -102,6 +111,12 @@ class Bottlenecks {
     }
     return longest;
   }
+  /// The square of twice the least one between a cell and another one: points no farther from the
+  /// sample than its root have no longer edges for that.
+  double square_around(SampleTree::Cell cell) const {
+    const double twice = 2 * first_[cell];
+    return twice * twice;
+  }
   /// The largest one between two cells of a node.
   double within(SampleTree::Node node) const { return within_[node]; }
 
@@ -115,6 +130,7 @@ class Bottlenecks {
  private:
   std::pmr::vector<std::uint32_t> parent_;
   std::pmr::vector<double> length_;  // of the edge by which a set joined that of its parent
+  std::pmr::vector<double> first_;   // the shortest edge of a cell
   std::pmr::vector<double> within_;
   std::pmr::vector<Edge> edges_;
 };
