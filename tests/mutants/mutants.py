@@ -469,7 +469,7 @@ MUTANTS = [
      "2, limit, context, largest_);", "2, limit, context, 0);", ["cloud_part_tests"]),
     ("cloud parts: ties of coordinates are all on the right",
      "libph/src/metric/blocks/sample_tree.hpp",
-     ": precedes(x, split);", ": false;", ["cloud_part_tests"]),
+     ": precedes(x, split);", ": false;", ["cloud_blocks_tests"]),
     ("voxels: what goes around a circle of one voxel is a set", "libph/src/cubical/representatives/represented_pairs.hpp",
      "return wants_sets() && grid_.shape().loop_count() == 0;",
      "return wants_sets();",
