@@ -21,6 +21,7 @@ GROUPS = "libph/include/ph/detail/rips/rips_groups.hpp"
 WEIGHTS = "libph/src/rips/vertex_weights.cpp"
 COLLAPSE = "libph/src/rips/collapse/edge_collapse.cpp"
 COLLAPSE_ROWS = "libph/src/rips/collapse/collapse_rows.hpp"
+NEAR_POINTS = "libph/src/metric/blocks/near_points.cpp"
 COLLAPSE_LISTS = "libph/src/rips/collapse/collapse_lists.hpp"
 
 # name, file, text that occurs exactly once, what replaces it, test programs that must notice
@@ -454,6 +455,30 @@ MUTANTS = [
      "if (rank + width < parts) {", "if (rank + width + 1 < parts) {", ["ranks_tests"]),
     ("parts: cells behind the last voxels have seams", "libph/src/cubical/graphs/top_graph.cpp",
      "if (!is_cell(node)) return youngest;", "", ["image_part_tests"]),
+    ("cloud parts: no hop through the sample is long", NEAR_POINTS,
+     "return std::max(least, reach_of(std::min(limit_, squared(between))));", "return least;",
+     ["cloud_part_tests"]),
+    ("cloud parts: points of a block are all near the sample", NEAR_POINTS,
+     "std::max(boxes.square(i), sample.square)", "sample.square", ["cloud_part_tests"]),
+    ("cloud parts: a nearer point of the sample is none of the block's", "libph/src/metric/blocks/sample_tree.cpp",
+     "if (square < known.square) known = {cell, square};", "known = {cell, known.square / 2};",
+     ["cloud_part_tests"]),
+    ("cloud parts: opposite blocks do not look for each other", NEAR_POINTS,
+     "return (std::min(block, other) % 2 == 0) == (block < other);", "return false;",
+     ["cloud_part_tests"]),
+    ("cloud parts: a region keeps the side of another one", NEAR_POINTS,
+     "      end = before;\n", "", ["cloud_part_tests"]),
+    ("cloud parts: claims are looked at before edges of their length",
+     "libph/src/metric/blocks/numbered_forest.cpp",
+     "next->value < below", "next->value <= below", ["cloud_part_tests"]),
+    ("cloud parts: what has to be joined may not be", "libph/src/facade/parts/cloud_part.cpp",
+     "|| !forest.claims.empty()", "", ["cloud_part_tests"]),
+    ("cloud parts: each block has a size of coordinates of its own",
+     "libph/src/metric/blocks/cloud_blocks.cpp",
+     "2, limit, context, largest_);", "2, limit, context, 0);", ["cloud_part_tests"]),
+    ("cloud parts: ties of coordinates are all on the right",
+     "libph/src/metric/blocks/sample_tree.hpp",
+     ": precedes(x, split);", ": false;", ["cloud_blocks_tests"]),
     ("voxels: what goes around a circle of one voxel is a set", "libph/src/cubical/representatives/represented_pairs.hpp",
      "return wants_sets() && grid_.shape().loop_count() == 0;",
      "return wants_sets();",

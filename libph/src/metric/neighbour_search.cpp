@@ -232,7 +232,7 @@ std::unique_ptr<NeighbourSearch> NeighbourSearch::make(const KdTree& tree,
   const bool is_euclidean = distance == PointDistance::euclidean;
   if (distance == PointDistance::manhattan) return make_search<ManhattanGaps>(tree, metric, false);
   if (are_squares_plain && (is_euclidean || (distance == PointDistance::minkowski && p <= 2)))
-    return make_search<EuclideanGaps>(tree, metric, is_euclidean);
+    return make_search<EuclideanGaps>(tree, metric, metric.is_plain_euclidean());
   return make_search<ChebyshevGaps>(tree, metric, false);
 }
 

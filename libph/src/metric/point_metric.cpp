@@ -61,7 +61,7 @@ class Direction {
 
 }  // namespace
 
-PointMetric::PointMetric(PointsView points, PointDistance distance, double p)
+PointMetric::PointMetric(PointsView points, PointDistance distance, double p, double largest)
     : points_(points), distance_(distance), p_(p) {
   points = points_.view();
   const auto is_zero = [&](Index i) {
@@ -71,7 +71,6 @@ PointMetric::PointMetric(PointsView points, PointDistance distance, double p)
   if (distance == PointDistance::minkowski && !(p >= 1)) {
     throw Error(ErrorKind::usage, fmt::format("Minkowski exponent: found {}, expected >= 1", p));
   }
-  double largest = 0;
   for (Index i = 0; i < points.rows(); ++i) {
     for (Index k = 0; k < points.cols(); ++k) {
       if (!std::isfinite(points(i, k))) {

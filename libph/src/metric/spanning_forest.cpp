@@ -225,7 +225,7 @@ bool has_fast_spanning_forest(PointsView points, PointDistance distance) {
 }
 
 FlagEdges spanning_forest(PointsView points, PointDistance distance, double p, double limit,
-                          const RunContext& context) {
+                          const RunContext& context, double largest) {
   const PointMetric checked(points, distance, p);
   points = checked.points();  // whose rows are whole
   FlagEdges forest(&context.memory);
@@ -236,7 +236,7 @@ FlagEdges spanning_forest(PointsView points, PointDistance distance, double p, d
   const std::pmr::vector<std::uint32_t> distinct = distinct_points(first_equal, context);
   if (distinct.size() > 1) {
     const KdTree tree(points, distinct, context);
-    const PointMetric metric(tree.points(), distance, p);
+    const PointMetric metric(tree.points(), distance, p, largest);
     const auto search = NeighbourSearch::make(tree, metric, distance, p);
     Boruvka(tree, *search, metric, limit, context).run(forest);
   }

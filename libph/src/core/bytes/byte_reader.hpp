@@ -36,6 +36,16 @@ class ByteReader {
     at_ += sizeof(T);
     return std::bit_cast<T>(little_endian(bytes));
   }
+  std::uint64_t get_short(std::string_view what) {
+    for (std::uint64_t value = 0, shift = 0; shift < 64; shift += 7) {
+      const auto byte = get<std::uint8_t>(what);
+      const std::uint64_t bits = byte & 0x7FU;
+      if (bits << shift >> shift != bits) refuse(what);
+      value |= bits << shift;
+      if (byte < 0x80) return value;
+    }
+    refuse(what);
+  }
   bool flag(std::string_view what) {
     const auto value = get<std::uint8_t>(what);
     if (value > 1) refuse(what);

@@ -28,6 +28,12 @@ class ByteWriter {
     bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
   }
   void put(bool value) { put(static_cast<std::uint8_t>(value ? 1 : 0)); }
+  /// Seven bits a byte, the low ones first: for numbers that are small as a rule.
+  void put_short(std::uint64_t value) {
+    constexpr std::uint64_t more = 0x80;
+    for (; value >= more; value >>= 7) put(static_cast<std::uint8_t>(value | more));
+    put(static_cast<std::uint8_t>(value));
+  }
   /// Its length first.
   void put(std::string_view text) {
     put(std::uint64_t{text.size()});
@@ -40,6 +46,7 @@ class ByteWriter {
     put(std::uint64_t{list.size()});
     for (const auto& one : list) put_one(one);
   }
+  void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
   std::vector<std::byte> take() { return std::move(bytes_); }
 
  private:

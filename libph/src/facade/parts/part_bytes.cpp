@@ -21,7 +21,7 @@ using cubical::SeamForest;
 using cubical::SeamRoot;
 using cubical::WholeImage;
 
-constexpr std::string_view kKind = "image";
+constexpr std::string_view kImageKind = "image";
 
 void put_whole(ByteWriter& to, const WholeImage& whole) {
   to.put_list(whole.extents, [&](Index n) { to.put(std::int64_t{n}); });
@@ -196,11 +196,11 @@ std::vector<std::byte> ImagePart::bytes() const {
   Barcode bars = state_->bars;
   bars.sort(state_->context);
   put_bars(to, bars);
-  return sealed_part(kKind, to.take());
+  return sealed_part(kImageKind, to.take());
 }
 
 ImagePart ImagePart::of_bytes(std::span<const std::byte> bytes, const RunContext& context) {
-  ByteReader from(content_of_part(bytes, kKind), "part of an image");
+  ByteReader from(content_of_part(bytes, kImageKind), "part of an image");
   auto state = std::make_unique<State>(get_whole(from), context);
   state->first = from.get<std::int32_t>("number");
   state->last = from.get<std::int32_t>("number");

@@ -58,10 +58,12 @@ enum class PointDistance {
 class PointMetric {
  public:
   /// @param points one point a row, finite coordinates. @param p exponent of `minkowski`.
+  /// @param largest the largest absolute coordinate of the cloud that these are some points of,
+  ///        whose distances they have to the last bit; 0: they are all.
   /// @throws Error (bad_data) on a coordinate that is not finite or a zero row with `cosine`;
   ///         Error (usage) if p < 1.
   explicit PointMetric(PointsView points, PointDistance distance = PointDistance::euclidean,
-                       double p = 2);
+                       double p = 2, double largest = 0);
 
   Index size() const { return points().rows(); }
   /// @throws Error (bad_data) if the distance exceeds the largest double.

@@ -70,9 +70,10 @@ bool has_fast_spanning_forest(PointsView points, PointDistance distance);
 /// component (March, Ram, Gray, "Fast Euclidean minimum spanning tree", 2010): O(n log n) as a rule
 /// in a space of few dimensions, never more than O(n^2 log n). O(n) memory.
 /// @param points one point a row. @param p exponent of PointDistance::minkowski.
+/// @param largest as for PointMetric: of some points of a cloud.
 /// Precondition: has_fast_spanning_forest(points, distance).
 /// @throws Error (bad_data) as PointMetric.
 FlagEdges spanning_forest(PointsView points, PointDistance distance, double p, double limit,
-                          const RunContext& context);
+                          const RunContext& context, double largest = 0);
 
 }  // namespace ph

@@ -64,6 +64,10 @@ class RipsGraph {
                                    std::optional<double> threshold, const RunContext& context,
                                    const VertexWeights& weights = {});
 
+  /// @param forest the one that spanning_forest gives, in any order.
+  static RipsGraph of_forest(Index size, double limit, FlagEdges&& forest,
+                             const RunContext& context, std::span<const double> births = {});
+
   /// @throws Error (resource) if there are too many points for a Rips filtration.
   static void check_size(Index size);
   /// @return the distance, without the sign of a zero. @throws Error (bad_data) on a negative or
@@ -121,8 +125,6 @@ class RipsGraph {
   };
   RipsGraph(Index size, double threshold, BinnedEdges&& edges, const RunContext& context,
             std::span<const double> births = {});
-  static RipsGraph of_forest(Index size, double limit, FlagEdges&& forest,
-                             const RunContext& context, std::span<const double> births = {});
   static void check_arguments(Index size, std::optional<double> threshold);
   /// Rows of a triangle in ranges of equally many pairs: where range r of so many begins.
   static Index range_begin(Index rows, std::size_t r, std::size_t ranges);

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "ph/parts/cloud_part.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "facade/parts/cloud_state.hpp"
+#include "metric/blocks/cloud_blocks.hpp"
+#include "ph/barcode.hpp"
+#include "ph/detail/metric/spanning_forest.hpp"
+#include "ph/detail/rips/rips_graph.hpp"
+#include "ph/error.hpp"
+
+namespace ph {
+namespace {
+
+/// How many points to draw, unless the user says so. More cost time in each part, fewer make more
+/// points be near a block: of a cloud that fills three dimensions a share of (blocks / sample)^1/3.
+/// Rounded the same everywhere, so that all parts draw the same.
+Index points_to_draw(Index points, double blocks) {
+  constexpr double least_a_block = 64, most = 1 << 28;
+  const double n = static_cast<double>(points);
+  const double balanced = std::sqrt(n * std::sqrt(n)) / std::sqrt(blocks);
+  return static_cast<Index>(std::min({n, std::max(balanced, least_a_block * blocks), most}));
+}
+
+void check(PointsView points, int part, int parts, const CloudPartOptions& options) {
+  const auto refuse = [](const std::string& what) {
+    throw Error(ErrorKind::usage, "parts of a cloud: " + what);
+  };
+  if (options.distance != PointDistance::euclidean)
+    refuse("found another distance, expected the Euclidean one");
+  if (!has_fast_spanning_forest(points, options.distance))
+    refuse(fmt::format("found {} coordinates, expected at most 8", points.cols()));
+  if (options.threshold && !(*options.threshold >= 0))
+    refuse(fmt::format("found threshold {}, expected a number >= 0", *options.threshold));
+  if (parts < 1) refuse(fmt::format("found {}, expected at least 1", parts));
+  if (part < 0 || part >= parts) refuse(fmt::format("found number {} of {}", part + 1, parts));
+  if (options.blocks < 0 || options.blocks > (1 << 30) / parts)
+    refuse(fmt::format("found {} blocks in each of {}, expected 2^30 in all at most",
+                       options.blocks, parts));
+  if (options.sample < 0 || options.sample > points.rows() || options.sample > Index{1} << 30)
+    refuse(fmt::format("found a sample of {}, expected at most the {} points", options.sample,
+                       points.rows()));
+}
+
+WholeCloud whole_cloud(PointsView points, int parts, const CloudPartOptions& options) {
+  constexpr Index points_of_block = 1 << 22;
+  const Index n = points.rows();
+  WholeCloud whole{
+      n,     points.cols(),  options.sample,
+      parts, options.blocks, options.threshold.value_or(std::numeric_limits<double>::infinity()),
+      0};
+  if (whole.blocks == 0)
+    whole.blocks = static_cast<int>(std::clamp<Index>(
+        (n / parts + points_of_block - 1) / points_of_block, 1, (1 << 30) / parts));
+  if (whole.sample == 0)
+    whole.sample =
+        points_to_draw(n, static_cast<double>(whole.blocks) * static_cast<double>(parts));
+  if (n > 0 && whole.sample == 0) whole.sample = 1;
+  return whole;
+}
+
+}  // namespace
+
+CloudPart::CloudPart(PointsView points, int part, int parts, const CloudPartOptions& options,
+                     const RunContext& context) {
+  check(points, part, parts, options);
+  state_ = std::make_unique<State>(whole_cloud(points, parts, options), context);
+  WholeCloud& whole = state_->whole;
+  state_->present = {part};
+  const auto blocks_of = static_cast<std::uint32_t>(whole.blocks);
+  const std::uint32_t first = static_cast<std::uint32_t>(part) * blocks_of;
+  const CloudBlocks blocks(points, static_cast<std::size_t>(whole.sample),
+                           static_cast<std::uint32_t>(parts) * blocks_of,
+                           {first, first + blocks_of}, context);
+  whole.fingerprint = blocks.fingerprint();
+  state_->size = blocks.size();
+  for (std::uint32_t b = first; b < first + blocks_of; ++b) {
+    context.report({"blocks", b - first, blocks_of});
+    state_->forest.join(blocks.forest(b, whole.limit, context), context);
+  }
+}
+
+CloudPart::CloudPart(std::unique_ptr<State> state) : state_(std::move(state)) {}
+CloudPart::CloudPart(CloudPart&&) noexcept = default;
+CloudPart& CloudPart::operator=(CloudPart&&) noexcept = default;
+CloudPart::~CloudPart() = default;
+
+int CloudPart::parts() const { return state_->whole.parts; }
+
+std::vector<int> CloudPart::missing() const {
+  std::vector<int> missing;
+  auto next = state_->present.begin();
+  for (int part = 0; part < parts(); ++part) {
+    if (next != state_->present.end() && *next == part)
+      ++next;
+    else
+      missing.push_back(part);
+  }
+  return missing;
+}
+
+void CloudPart::join(CloudPart other, const RunContext& context) {
+  if (other.state_->whole != state_->whole)
+    throw Error(ErrorKind::bad_data,
+                "parts of clouds: found other points or options, expected parts of one");
+  const std::vector<int>& others = other.state_->present;
+  std::vector<int> present, twice;
+  std::ranges::set_intersection(state_->present, others, std::back_inserter(twice));
+  if (!twice.empty())
+    throw Error(ErrorKind::bad_data,
+                fmt::format("parts of a cloud: found part {} twice", twice[0] + 1));
+  std::ranges::merge(state_->present, others, std::back_inserter(present));
+  if (other.state_->size > state_->whole.points - state_->size)
+    throw Error(ErrorKind::bad_data,
+                fmt::format("parts of a cloud: found more points than the {} that it has",
+                            state_->whole.points));
+  state_->forest.join(std::move(other.state_->forest), context);
+  state_->present = std::move(present);
+  state_->size += other.state_->size;
+}
+
+Rips CloudPart::rips(const RunContext& context) const& {
+  auto copy = std::make_unique<State>(state_->whole, context);
+  copy->present = state_->present;
+  copy->size = state_->size;
+  copy->forest.numbers = state_->forest.numbers;
+  copy->forest.edges = state_->forest.edges;
+  copy->forest.claims = state_->forest.claims;
+  return CloudPart(std::move(copy)).rips(context);
+}
+
+// Each part left edges out because of hops that the whole forest has to have, too.
+void CloudPart::State::check_joined() const {
+  const bool is_spanning =
+      whole.limit < kInfinity ||
+      forest.edges.size() + 1 == static_cast<std::size_t>(std::max<Index>(whole.points, 1));
+  if (size != whole.points || !forest.claims.empty() || !is_spanning)
+    throw Error(ErrorKind::bad_data,
+                "parts of a cloud: found points that are not joined as the parts say they are; "
+                "expected parts of one cloud that did not change meanwhile");
+}
+
+// Each edge of the forest kills one of the components, which are all born at 0.
+Barcode CloudPart::barcode(const RunContext& context) const {
+  state_->check_joined();
+  const FlagEdges& edges = state_->forest.edges;
+  const auto first = std::ranges::upper_bound(edges, 0.0, {}, &FlagEdge::value);
+  const auto immortal = static_cast<std::size_t>(state_->whole.points) - edges.size();
+  const std::size_t count = static_cast<std::size_t>(edges.end() - first) + immortal;
+  const MemoryClaim claim(context.memory, count * sizeof(Bar));
+  Barcode bars;
+  bars.reserve_more(count);
+  for (auto edge = first; edge != edges.end(); ++edge) bars.add({0, 0, edge->value});
+  for (std::size_t i = 0; i < immortal; ++i) bars.add({0, 0, kInfinity});
+  return bars;
+}
+
+Rips CloudPart::rips(const RunContext& context) && {
+  const WholeCloud& whole = state_->whole;
+  RipsGraph::check_size(whole.points);
+  state_->check_joined();
+  NumberedForest forest = std::move(state_->forest);
+  if (forest.numbers.size() < static_cast<std::size_t>(whole.points))
+    for (FlagEdge& e : forest.edges)
+      e = {e.value, static_cast<std::uint32_t>(forest.numbers[e.u]),
+           static_cast<std::uint32_t>(forest.numbers[e.v])};
+  forest.numbers = std::pmr::vector<Index>(&context.memory);
+  return Rips(RipsGraph::of_forest(whole.points, whole.limit, std::move(forest.edges), context));
+}
+
+}  // namespace ph

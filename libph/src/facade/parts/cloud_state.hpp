@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "metric/blocks/numbered_forest.hpp"
+#include "ph/parts/cloud_part.hpp"
+
+namespace ph {
+
+/// What all parts of a cloud have in common.
+struct WholeCloud {
+  Index points, axes, sample;
+  int parts, blocks;  // blocks of each part
+  double limit;       // infinite: none
+  std::uint64_t fingerprint;
+
+  friend bool operator==(const WholeCloud&, const WholeCloud&) = default;
+};
+
+struct CloudPart::State {
+  State(const WholeCloud& whole_cloud, const RunContext& run_context)
+      : whole(whole_cloud), context(run_context), forest(run_context) {}
+  /// @throws Error (bad_data) unless this is the forest of the whole cloud.
+  void check_joined() const;
+
+  WholeCloud whole;
+  const RunContext& context;
+  std::vector<int> present;  // ascending
+  Index size = 0;            // points of the parts that are present
+  NumberedForest forest;
+};
+
+}  // namespace ph

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "metric/blocks/sample_tree.hpp"
+#include "metric/plain_squares.hpp"
+
+namespace ph {
+
+// Squares of lengths say what is far: in a way that is true of the distances that PointMetric
+// computes, rounded as they are.
+
+inline double squared_distance(const double* x, const double* y, Index axes) {
+  double sum = 0;
+  for (Index k = 0; k < axes; ++k) sum += (x[k] - y[k]) * (x[k] - y[k]);
+  return sum;
+}
+/// No two points have a distance of at most the root of `square` if the square of a gap between
+/// them, as computed, is larger than this. Sums of squares have relative errors of (axes + 2) ·
+/// 2^-53, and below 1e-280 any: there is no need to be close.
+inline double reach_of(double square) {
+  constexpr double slack = 1 + 1e-12, least = 4 * kSmallestPlain * kSmallestPlain;
+  return std::max(square, least) * slack;
+}
+
+/// The points of a cell, or of some: the box around them, and how far they are from the points of
+/// the sample in their cells.
+class CellBoxes {
+ public:
+  /// @param count how many cells, of whatever kind.
+  CellBoxes(std::size_t count, Index axes, const RunContext& context)
+      : axes_(axes), sides_(count * box_size(), &context.memory), squares_(count, &context.memory) {
+    for (std::size_t i = 0; i < sides_.size(); i += 2) {
+      sides_[i] = std::numeric_limits<double>::infinity();
+      sides_[i + 1] = -std::numeric_limits<double>::infinity();
+    }
+  }
+  /// @param square of its distance to the sample.
+  void add_point(std::size_t i, const double* x, double square) {
+    double* const box = sides_.data() + i * box_size();
+    for (Index k = 0; k < axes_; ++k) {
+      box[2 * k] = std::min(box[2 * k], x[k]);
+      box[2 * k + 1] = std::max(box[2 * k + 1], x[k]);
+    }
+    squares_[i] = std::max(squares_[i], square);
+  }
+  void add(std::size_t i, const CellBoxes& others, std::size_t j) {
+    double* const box = sides_.data() + i * box_size();
+    const double* const other = others.sides_.data() + j * box_size();
+    for (Index k = 0; k < axes_; ++k) {
+      box[2 * k] = std::min(box[2 * k], other[2 * k]);
+      box[2 * k + 1] = std::max(box[2 * k + 1], other[2 * k + 1]);
+    }
+    squares_[i] = std::max(squares_[i], others.squares_[j]);
+  }
+  /// Least and largest coordinate, axis by axis; infinite where there are no points.
+  std::span<const double> box(std::size_t i) const {
+    return {sides_.data() + i * box_size(), box_size()};
+  }
+  /// The square of the largest distance to the sample.
+  double square(std::size_t i) const { return squares_[i]; }
+  /// The square of the gap to another box, whose coordinates are `stride` apart; of a point `low`
+  /// and `high` are the same.
+  double gap(std::size_t i, const double* low, const double* high, Index stride) const {
+    const double* const box = sides_.data() + i * box_size();
+    double sum = 0;
+    for (Index k = 0; k < axes_; ++k) {
+      const double gap =
+          std::max({box[2 * k] - high[k * stride], low[k * stride] - box[2 * k + 1], 0.0});
+      sum += gap * gap;
+    }
+    return sum;
+  }
+
+ private:
+  std::size_t box_size() const { return 2 * static_cast<std::size_t>(axes_); }
+
+  Index axes_;
+  std::pmr::vector<double> sides_;
+  std::pmr::vector<double> squares_;
+};
+
+}  // namespace ph

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "ph/points.hpp"
+#include "ph/run_context.hpp"
+
+namespace ph {
+
+/// A cut of space into blocks of about equally many points of a cloud, and of blocks into cells: a
+/// k-d tree (Bentley 1975) over a sample of the cloud, whose leaves, the cells, have one point of
+/// the sample each. Only comparisons decide, so that whoever knows the cloud has the same cut. A
+/// point lies in one cell, copies of it lie there, too, and a point of the sample lies in its own.
+///
+/// Cells are numbered from side to side, and so are blocks: a block is some cells in a row.
+class SampleTree {
+ public:
+  using Node = std::uint32_t;
+  using Cell = std::uint32_t;
+  static constexpr Node kRoot = 0, kNone = UINT32_MAX;
+  struct Range {
+    std::uint32_t begin, end;
+    std::uint32_t size() const { return end - begin; }
+  };
+
+  /// @param points one a row. @param sample how many to draw: at most as many as there are, fewer
+  /// than 2^31. @param blocks at least one; more than points that differ leave some empty.
+  /// @throws Error (bad_data) on a coordinate that is not finite, if it meets one.
+  SampleTree(PointsView points, std::size_t sample, std::uint32_t blocks,
+             const RunContext& context);
+
+  std::uint32_t cell_count() const { return static_cast<std::uint32_t>(numbers_.size()); }
+  /// By cell: its point of the sample; the points differ.
+  PointsView points() const { return points_; }
+  /// By cell: which point of the cloud that is.
+  Index number(Cell cell) const { return numbers_[cell]; }
+
+  /// Children come after their parent, the left one right after it; all below a node are in a row.
+  std::uint32_t node_count() const { return static_cast<std::uint32_t>(splits_.size()); }
+  bool is_leaf(Node node) const { return splits_[node].right == 0; }
+  Node left(Node node) const { return node + 1; }
+  Node right(Node node) const { return splits_[node].right; }
+  /// The first node that is not below `node`. Precondition: it has one block only.
+  Node end_below(Node node) const {
+    return cells(node).size() == 0 ? node + 1 : node + 2 * cells(node).size() - 1;
+  }
+  /// What a node has. A leaf has one cell, or none if nothing lies there.
+  Range cells(Node node) const { return cells_[node]; }
+  Range blocks(Node node) const { return blocks_[node]; }
+  /// The node that has the block and no other one.
+  Node node_of_block(std::uint32_t block) const { return block_nodes_[block]; }
+  /// Both sides of a split that is in the way: coordinates on the left are not larger, those on the
+  /// right not smaller. -infinity: all is on the right.
+  std::uint32_t axis(Node node) const { return splits_[node].axis; }
+  double value(Node node) const { return splits_[node].value; }
+
+  /// The child of an inner node in which a point lies.
+  Node child(Node node, const double* x) const {
+    const Split& split = splits_[node];
+    const double at = x[split.axis];
+    const bool is_left = at != split.value ? at < split.value : precedes(x, split);
+    return is_left ? node + 1 : split.right;
+  }
+
+ private:
+  struct Split {
+    double value;
+    Node right;  // 0: a leaf
+    std::uint32_t axis;
+    std::uint32_t point;  // first on the right; its row in drawn_, later its cell
+  };
+  /// By its coordinates from the axis of the split on, then those before it.
+  bool precedes(const double* x, const Split& split) const;
+  void draw(PointsView points, std::size_t sample, const RunContext& context);
+  void split(Range cells, Range blocks, std::span<std::uint32_t> order);
+
+  Points points_;
+  std::vector<Index> numbers_;
+  std::pmr::vector<Split> splits_;
+  std::pmr::vector<Range> cells_, blocks_;
+  std::vector<Node> block_nodes_;
+};
+
+/// A point of the sample, and the square of the distance to it.
+struct NearSample {
+  SampleTree::Cell cell;
+  double square;
+};
+/// The nearest one to x in a block. @param known one of the block.
+NearSample nearest_sample(const SampleTree& tree, std::uint32_t block, const double* x,
+                          NearSample known);
+
+/// How near the points of a sample are by way of others. The bottleneck of two points is the least
+/// number r such that hops of length at most r within the sample lead from the one to the other:
+/// the longest edge between them in a minimum spanning tree.
+class Bottlenecks {
+ public:
+  /// @param largest of the cloud, as for PointMetric.
+  Bottlenecks(const SampleTree& tree, double largest, const RunContext& context);
+
+  /// O(log cells).
+  double between(SampleTree::Cell a, SampleTree::Cell b) const {
+    double longest = 0;
+    while (a != b) {
+      std::uint32_t& from = length_[a] <= length_[b] ? a : b;
+      longest = length_[from];
+      from = parent_[from];
+    }
+    return longest;
+  }
+  /// The square of twice the least one between a cell and another one: points no farther from the
+  /// sample than its root have no longer edges for that.
+  double square_around(SampleTree::Cell cell) const {
+    const double twice = 2 * first_[cell];
+    return twice * twice;
+  }
+  /// The largest one between two cells of a node.
+  double within(SampleTree::Node node) const { return within_[node]; }
+
+  struct Edge {
+    double length;
+    SampleTree::Cell a, b;
+  };
+  /// Those of the minimum spanning tree, the shortest first.
+  std::span<const Edge> edges() const { return edges_; }
+
+ private:
+  std::pmr::vector<std::uint32_t> parent_;
+  std::pmr::vector<double> length_;  // of the edge by which a set joined that of its parent
+  std::pmr::vector<double> first_;   // the shortest edge of a cell
+  std::pmr::vector<double> within_;
+  std::pmr::vector<Edge> edges_;
+};
+
+}  // namespace ph

@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: MIT
+// Clouds in parts that know nothing of each other, joined in random groups and orders, against all
+// pairs of points (Prim's algorithm, here) and against the same cloud as one: any number of parts,
+// blocks and points of the sample, ties, copies, lattices, lines, clusters far apart, thresholds.
+#include "ph/parts/cloud_part.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+#include "core/bytes/sealed_part.hpp"
+#include "ph/merge_tree.hpp"
+#include "support/conformance.hpp"
+#include "support/expect_error.hpp"
+#include "support/for_each_seed.hpp"
+#include "support/generators.hpp"
+#include "support/points.hpp"
+
+namespace ph::test {
+namespace {
+
+/// Joins any two in any order until one is left. Now and then a part becomes bytes and comes back.
+CloudPart joined(Generator& random, std::vector<CloudPart> parts) {
+  const auto any = [&] {
+    return static_cast<std::size_t>(random.integer(0, static_cast<int>(parts.size()) - 1));
+  };
+  for (;;) {
+    const std::size_t i = any();
+    if (random.integer(0, 2) == 0) {
+      const auto bytes = parts[i].bytes();
+      parts[i] = CloudPart::of_bytes(bytes);
+      EXPECT_EQ(parts[i].bytes(), bytes);
+    }
+    if (parts.size() == 1) return std::move(parts[0]);
+    const std::size_t j = any();
+    if (i == j) continue;
+    parts[i].join(std::move(parts[j]));
+    parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(j));
+  }
+}
+
+std::vector<CloudPart> parts_of(PointsView points, int count, const CloudPartOptions& options,
+                                const RunContext& context = default_context()) {
+  std::vector<CloudPart> parts;
+  for (int i = 0; i < count; ++i) parts.emplace_back(points, i, count, options, context);
+  return parts;
+}
+
+/// Deaths of the components, by all pairs and nothing of libph.
+std::vector<double> deaths_by_all_pairs(const Points& points, double limit) {
+  const auto n = static_cast<std::size_t>(points.rows());
+  std::vector<double> nearest(n, std::numeric_limits<double>::infinity()), deaths;
+  std::vector<bool> is_in(n);
+  for (std::size_t step = 0; step < n; ++step) {
+    std::size_t next = n;
+    for (std::size_t i = 0; i < n; ++i)
+      if (!is_in[i] && (next == n || nearest[i] < nearest[next])) next = i;
+    is_in[next] = true;
+    const double d = nearest[next];
+    deaths.push_back(d <= limit ? d : std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < n; ++i) {
+      double sum = 0;
+      for (Index k = 0; k < points.cols(); ++k) {
+        const double gap = points(static_cast<Index>(i), k) - points(static_cast<Index>(next), k);
+        sum += gap * gap;
+      }
+      nearest[i] = std::min(nearest[i], std::sqrt(sum));
+    }
+  }
+  std::erase(deaths, 0.0);
+  std::ranges::sort(deaths);
+  return deaths;
+}
+
+std::vector<double> deaths_of(const Barcode& bars) {
+  std::vector<double> deaths;
+  for (const Bar& bar : bars) deaths.push_back(bar.death);
+  std::ranges::sort(deaths);
+  return deaths;
+}
+
+std::vector<Pair> all_pairs(const Rips& rips) {
+  return pairs_of(persistence(rips, {.max_dim = 0, .min_persistence = -1}));
+}
+
+Points random_cloud(Generator& random, Index most, bool ties) {
+  Points points =
+      random.points(random.integer(1, static_cast<int>(most)), random.integer(1, 4), ties);
+  const Index n = points.rows(), d = points.cols();
+  switch (random.integer(0, 6)) {
+    case 0:  // a lattice, perhaps with gaps
+      for (double& x : points.coordinates()) x = std::round(5 * x);
+      break;
+    case 1:  // clusters far apart, and clusters of these
+      for (Index i = 0; i < n; ++i) {
+        const double size = std::ldexp(1, -random.integer(0, 30));
+        const Index of = random.integer(0, 3) % n;
+        for (Index k = 0; k < d; ++k) points(i, k) = points(i, k) * size + 100.0 * points(of, k);
+      }
+      break;
+    case 2:  // a line
+      for (Index i = 0; i < n; ++i)
+        for (Index k = 1; k < d; ++k) points(i, k) = points(i, 0);
+      break;
+    case 3:  // copies
+      for (Index i = 1; i < n; ++i)
+        if (random.coin())
+          copy_point(points, random.integer(0, static_cast<int>(i) - 1), points, i);
+      break;
+    case 4:  // one dense place, and few elsewhere
+      for (Index i = 0; i < n; ++i)
+        if (random.integer(0, 9) > 0) scale(points.row(i), 1e-3);
+      break;
+    default:
+      break;
+  }
+  return points;
+}
+
+CloudPartOptions random_options(Generator& random, Index points, bool ties) {
+  CloudPartOptions options{.blocks = random.integer(0, 3)};
+  if (random.integer(0, 2) > 0)
+    options.sample = random.integer(1, static_cast<int>(std::max<Index>(points, 1)));
+  if (random.integer(0, 3) == 0) options.threshold = random.value(ties) * random.integer(0, 2);
+  return options;
+}
+
+TEST(CloudPart, HasTheComponentsOfAllPairs) {
+  std::size_t parts = 0;
+  for_each_seed(6000, [&](Generator& random, bool ties, std::int64_t) {
+    const Points points = random_cloud(random, 60, ties);
+    const CloudPartOptions options = random_options(random, points.rows(), ties);
+    const RipsOptions as_one{.threshold = options.threshold};
+    const auto expected = deaths_by_all_pairs(points, options.threshold.value_or(kInfinity));
+    const Barcode bars = persistence(Rips(points, as_one), {.max_dim = 0});
+    RipsOptions as_forest = as_one;
+    as_forest.only_components = true;
+    const Rips forest(points, as_forest);
+    const auto pairs = all_pairs(forest);
+    const MergeTree tree = merge_tree(forest);
+    ASSERT_EQ(deaths_of(bars), expected);
+    const int count = random.integer(1, 9);
+    parts += static_cast<std::size_t>(count);
+    const CloudPart whole = joined(random, parts_of(points, count, options));
+    ASSERT_TRUE(whole.is_whole());
+    const Rips rips = whole.rips();
+    const Barcode found = persistence(rips, {.max_dim = 0});
+    ASSERT_EQ(deaths_of(found), expected);
+    const Barcode without_cells = whole.barcode();
+    ASSERT_TRUE(std::ranges::equal(without_cells, found));
+    ASSERT_EQ(pairs_of(found), pairs_of(bars));
+    ASSERT_EQ(all_pairs(rips), pairs);  // those of no length, too
+    const MergeTree found_tree = merge_tree(rips);
+    ASSERT_EQ(found_tree.births, tree.births);
+    ASSERT_EQ(found_tree.merges, tree.merges);
+  });
+  EXPECT_TRUE(is_enough(parts, std::size_t{20000})) << parts;
+}
+
+// Enough points that most of a cloud is far from a block: what is left out matters.
+TEST(CloudPart, OfManyPoints) {
+  for_each_seed(40, [&](Generator& random, bool ties, std::int64_t) {
+    Points points = random_cloud(random, 20000, false);
+    if (ties)
+      for (double& x : points.coordinates()) x = std::round(50 * x) / 50;
+    CloudPartOptions options;
+    if (random.coin()) options.blocks = random.integer(1, 3);
+    if (random.coin()) options.sample = std::max<Index>(1, points.rows() / random.integer(2, 500));
+    if (random.integer(0, 3) == 0) options.threshold = random.real() / 10;
+    const RipsOptions as_one{.threshold = options.threshold, .only_components = true};
+    const auto expected = all_pairs(Rips(points, as_one));
+    const CloudPart whole = joined(random, parts_of(points, random.integer(1, 9), options));
+    ASSERT_EQ(all_pairs(whole.rips()), expected);
+  });
+}
+
+// A part is what it is by itself: it holds its block and what is near.
+TEST(CloudPart, LeavesOutWhatIsFar) {
+  Generator random(1);
+  const Points points = random.points(200000, 2, false);
+  RunContext of_one, of_part;
+  const Rips one(points, {.only_components = true}, of_one);
+  const CloudPart part(points, 3, 16, {}, of_part);
+  EXPECT_LT(of_part.memory.peak(), of_one.memory.peak() / 6);
+  // About 16 bytes and a little for each of its points.
+  EXPECT_LT(part.bytes().size(), 200000 / 16 * 27);
+}
+
+// Of a size whose squares no double holds, all or only those of a part.
+TEST(CloudPart, OfCoordinatesOfAnySize) {
+  for_each_seed(600, [&](Generator& random, bool ties, std::int64_t) {
+    Points points = random_cloud(random, 40, ties);
+    const int exponents[] = {600, -500, -480, -465, -440};
+    for (Index i = 0; i < points.rows(); ++i)
+      scale(points.row(i), std::ldexp(1, exponents[random.integer(0, 4)]));
+    if (random.coin()) points(0, 0) = 1;
+    const auto expected = all_pairs(Rips(points, {.only_components = true}));
+    const auto options = CloudPartOptions{.sample = random.integer(1, int(points.rows()))};
+    const int count = random.integer(1, 5);
+    ASSERT_EQ(all_pairs(joined(random, parts_of(points, count, options)).rips()), expected);
+  });
+}
+
+TEST(CloudPart, OfRowsThatAreNotSideBySide) {
+  Generator random(3);
+  const Points points = random.points(300, 3, false);
+  std::vector<double> columns;
+  for (Index k = 0; k < 3; ++k)
+    for (Index i = 0; i < 300; ++i) columns.push_back(points(i, k));
+  const PointsView view(columns.data(), 300, 3, 1, 300);
+  for (int i = 0; i < 4; ++i)
+    EXPECT_EQ(CloudPart(view, i, 4).bytes(), CloudPart(points, i, 4).bytes());
+}
+
+TEST(CloudPart, OfFewOrNone) {
+  Generator random(4);
+  for (const Index n : {0, 1, 2, 3})
+    for (const Index d : {0, 1, 8})
+      for (const int count : {1, 2, 7}) {
+        const Points points = random.points(n, d, false);
+        const CloudPart whole = joined(random, parts_of(points, count, {}));
+        EXPECT_EQ(all_pairs(whole.rips()), all_pairs(Rips(points, {.only_components = true})));
+      }
+}
+
+TEST(CloudPart, WhatIsKeptDoesNotDependOnGroupsAndThreads) {
+  for_each_seed(300, [](Generator& random, bool ties, std::int64_t) {
+    const Points points = random_cloud(random, 200, ties);
+    const CloudPartOptions options = random_options(random, points.rows(), ties);
+    const int count = random.integer(3, 7);
+    const auto some = [&](const RunContext& context) {
+      auto parts = parts_of(points, count, options, context);
+      parts.erase(parts.begin() + 1);  // of all but the second
+      return joined(random, std::move(parts)).bytes();
+    };
+    RunContext threads;
+    threads.threads = 3;
+    const auto bytes = some(default_context());
+    ASSERT_EQ(some(threads), bytes);
+    CloudPart part = CloudPart::of_bytes(bytes);
+    ASSERT_EQ(part.missing(), std::vector<int>{1});
+    part.join(CloudPart(points, 1, count, options));
+    ASSERT_TRUE(part.is_whole());
+    const auto joined_again = joined(random, parts_of(points, count, options)).bytes();
+    ASSERT_EQ(part.bytes(), joined_again);
+  });
+}
+
+TEST(CloudPart, RefusesWhatDoesNotBelongTogether) {
+  Generator random(5);
+  const Points points = random.points(50, 2, false);
+  Points other = points;
+  other(49, 1) += 1;
+  CloudPart first(points, 0, 3);
+  const auto bytes = first.bytes();
+  const auto refused = [&](CloudPart part, const char* why) {
+    expect_error(ErrorKind::bad_data, why, [&] { first.join(std::move(part)); });
+    EXPECT_EQ(first.bytes(), bytes);
+  };
+  refused(CloudPart(other, 1, 3), "other points or options");
+  refused(CloudPart(points, 1, 4), "other points or options");
+  refused(CloudPart(points, 1, 3, {.threshold = 1}), "other points or options");
+  refused(CloudPart(points, 1, 3, {.blocks = 2}), "other points or options");
+  refused(CloudPart(points, 1, 3, {.sample = 7}), "other points or options");
+  refused(CloudPart(points, 0, 3), "found part 1 twice");
+  first.join(CloudPart(points, 2, 3));
+  EXPECT_EQ(first.missing(), std::vector<int>{1});
+  EXPECT_FALSE(first.is_whole());
+}
+
+TEST(CloudPart, RefusesPartsAndCloudsThatAreNone) {
+  Generator random(6);
+  Points points = random.points(9, 2, false);
+  const auto refused = [&](PointsView of, int part, int parts, const CloudPartOptions& options,
+                           const char* why) {
+    expect_error(ErrorKind::usage, why, [&] { CloudPart(of, part, parts, options); });
+  };
+  refused(points, 0, 0, {}, "found 0, expected at least 1");
+  refused(points, 3, 3, {}, "found number 4 of 3");
+  refused(points, -1, 3, {}, "found number 0 of 3");
+  refused(points, 0, 1, {.threshold = -1}, "threshold -1");
+  refused(points, 0, 1, {.threshold = std::nan("")}, "threshold nan");
+  refused(points, 0, 1, {.distance = PointDistance::manhattan}, "expected the Euclidean one");
+  refused(points, 0, 1, {.blocks = -1}, "found -1 blocks");
+  refused(points, 0, 1, {.sample = 10}, "found a sample of 10, expected at most the 9 points");
+  refused(Points(2, 9), 0, 1, {}, "found 9 coordinates, expected at most 8");
+  for (Index i = 0; i < 9; ++i) {
+    Points bad = points;
+    bad(i, 1) = kInfinity;
+    expect_error(ErrorKind::bad_data, "coordinate 1: found inf", [&] { CloudPart(bad, 0, 2); });
+  }
+}
+
+TEST(CloudPart, StopsAndKeepsToItsMemory) {
+  Generator random(7);
+  const Points points = random.points(20000, 3, false);
+  RunContext stopped;
+  std::stop_source source;
+  stopped.stop = source.get_token();
+  source.request_stop();
+  expect_error(ErrorKind::cancelled, "", [&] { CloudPart(points, 0, 2, {}, stopped); });
+  RunContext small;
+  small.memory.set_limit(500000);
+  expect_error(ErrorKind::resource, "memory", [&] { CloudPart(points, 0, 2, {}, small); });
+}
+
+// A part of another cloud that says it is of this one: it joins less, or other points.
+TEST(CloudPart, FindsEdgesThatAreMissing) {
+  constexpr std::size_t fingerprint = 40, bytes_of_it = 8;
+  int found = 0, counted = 0, all = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(seed);
+    Generator random(seed);
+    const Points points = random.points(60, 2, false);
+    Points other = points;
+    for (Index i = 0; i < 60; i += 3) other(i, 0) += 0.2 * random.real();
+    const CloudPartOptions options{.threshold = seed % 2 == 0 ? std::nullopt : std::optional(9.0),
+                                   .sample = 12};
+    auto parts = parts_of(points, 3, options);
+    const auto own = parts[1].bytes();
+    const auto bytes = CloudPart(other, 1, 3, options).bytes();
+    const auto said = content_of_part(bytes, "cloud");
+    std::vector<std::byte> content(said.begin(), said.end());
+    std::ranges::copy(content_of_part(own, "cloud").subspan(fingerprint, bytes_of_it),
+                      content.begin() + fingerprint);
+    parts[1] = CloudPart::of_bytes(sealed_part("cloud", content));
+    try {
+      joined(random, std::move(parts)).barcode();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::bad_data);
+      const std::string what = error.what();
+      const bool is_about_edges = what.find("not joined as the parts say") != std::string::npos;
+      EXPECT_TRUE(is_about_edges || what.find("more points than the 60") != std::string::npos);
+      ++(is_about_edges ? found : counted);
+    }
+    ++all;
+  }
+  EXPECT_GT(found + counted, all / 10 * 9);
+  EXPECT_GT(found, all / 4);
+}
+
+// Every flipped bit is found.
+TEST(CloudPart, RefusesDamagedBytes) {
+  Generator random(8);
+  const Points points = random.points(40, 2, true);
+  const std::vector<std::byte> bytes = CloudPart(points, 1, 3).bytes();
+  const auto is_refused = [&](std::span<const std::byte> damaged) {
+    try {
+      CloudPart::of_bytes(damaged);
+      return false;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::bad_data) << error.what();
+      return true;
+    }
+  };
+  EXPECT_FALSE(is_refused(bytes));
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    ASSERT_TRUE(is_refused(std::span(bytes).first(size))) << size;
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+    for (int bit = 0; bit < 8; ++bit) {
+      auto damaged = bytes;
+      damaged[i] ^= std::byte(1 << bit);
+      ASSERT_TRUE(is_refused(damaged)) << i;
+    }
+  auto longer = bytes;
+  longer.push_back(std::byte{0});
+  EXPECT_TRUE(is_refused(longer));
+}
+
+}  // namespace
+}  // namespace ph::test
