@@ -39,6 +39,14 @@ void mark_paired(StarGrid& grid, const CriticalCells& edges) {
   }
 }
 
+void mark_all_but(StarGrid& grid, const FreeEdges& free) {
+  for (const std::uint32_t v : grid.critical()) {
+    const StarTables& tables = grid.tables(v);
+    tables.edge_order().for_each(tables.critical_edges(grid.star(v)) & ~free.edges(v),
+                                 [&](int edge) { grid.mark(v, tables.taken_mark(edge)); });
+  }
+}
+
 FreeEdges free_edges(const StarGrid& grid, const RunContext& context) {
   FreeEdges free(grid, context);
   for (const std::uint32_t v : grid.critical())

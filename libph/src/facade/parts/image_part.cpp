@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "cubical/rounds/part_layout.hpp"
 #include "cubical/slabs/slabs.hpp"
 #include "facade/parts/part_state.hpp"
 #include "ph/error.hpp"
@@ -15,7 +16,6 @@ namespace {
 
 using cubical::GridFrame;
 using cubical::GridShape;
-using cubical::SlabPlace;
 using cubical::WholeImage;
 
 WholeImage whole_image(const Image& image, int parts, const ImagePartOptions& options) {
@@ -34,10 +34,11 @@ WholeImage whole_image(const Image& image, int parts, const ImagePartOptions& op
           parts,
           options.min_dim,
           options.max_dim.value_or(static_cast<int>(axes)),
-          options.cells};
+          options.cells,
+          false};
 }
 
-void check(const WholeImage& whole, const GridShape& shape, int part) {
+void check(const WholeImage& whole, const GridShape& shape, int part, bool may_have_loops) {
   if (shape.top_dim() < 2)
     throw Error(ErrorKind::usage,
                 "parts of an image: found one axis or none with more than one "
@@ -50,10 +51,10 @@ void check(const WholeImage& whole, const GridShape& shape, int part) {
   if (part < 0 || part >= whole.parts)
     throw Error(ErrorKind::usage,
                 fmt::format("part of an image: found number {} of {}", part + 1, whole.parts));
-  if (cubical::wants_loops(shape, whole.wanted()))
+  if (whole.loops && !may_have_loops)
     throw Error(ErrorKind::usage,
-                "parts of a volume: found bars of dimension 1 wanted, which need all layers at "
-                "once; expected max_dim 0, or min_dim 2");
+                "parts of a volume: found bars of dimension 1 wanted, which joined parts do not "
+                "tell; expected max_dim 0, min_dim 2, or option loops and ImageLoops");
 }
 
 /// Some layers of the slowest axis with those beside them.
@@ -99,19 +100,18 @@ ImagePart::ImagePart(const Image& image, int part, int parts, const ImagePartOpt
     throw Error(ErrorKind::usage,
                 "parts of an image: found more than three axes with more than "
                 "one voxel, expected two or three");
+  whole.loops = cubical::wants_loops(GridShape(whole.image()), whole.wanted());
   state_ = std::make_unique<State>(std::move(whole), context);
   const GridShape& shape = state_->shape;
-  check(state_->whole, shape, part);
+  check(state_->whole, shape, part, options.loops);
   state_->first = state_->last = part;
 
   const GridShape::Axis& axis = shape.axis(shape.layer_axis());
   if (image.values.size() != axis.extent * axis.stride)
     throw Error(ErrorKind::bad_data, fmt::format("image: found {} voxels, its extents say {}",
                                                  image.values.size(), axis.extent * axis.stride));
-  const auto cut = [&](int i) {
-    return axis.extent * static_cast<std::size_t>(i) / static_cast<std::size_t>(parts);
-  };
-  Layers layers{cut(part), cut(part + 1), false, false};
+  const cubical::PartLayout layout(shape, parts);
+  Layers layers{layout.first_layer(part), layout.end_layer(part), false, false};
   layers.has_before = axis.periodic || part > 0;
   layers.has_after = axis.periodic || part + 1 < parts;
   Image own{image.extents, voxels_of(image, layers, axis.extent, axis.stride), image.masked};
@@ -128,22 +128,17 @@ ImagePart::ImagePart(const Image& image, int part, int parts, const ImagePartOpt
                                                  voxels.size()));
   const GridFrame frame(voxels);
 
-  // The T-construction is seen from the other end.
-  const bool from_end = shape.is_t_construction();
-  SlabPlace place;
-  place.is_first = from_end ? part + 1 == parts : part == 0;
-  place.is_last = from_end ? part == 0 : part + 1 == parts;
-  place.is_in_ring = axis.periodic;
-  const std::uint64_t begin = from_end ? axis.extent - layers.end : layers.begin;
-  cubical::Slabs slabs(frame, cubical::Slabs::layers_that_fit(frame, context), context, place,
-                       (begin - (place.has_ghost_before() ? 1 : 0)) * axis.stride);
+  cubical::Slabs slabs(frame, cubical::Slabs::layers_that_fit(frame, context), context,
+                       layout.place(part), layout.first_with_ghosts(part));
+  if (state_->whole.loops) state_->own.emplace(cubical, cubical::FreeCells(&context.memory));
+  cubical::FreeCells* const free = state_->own ? &state_->own->free : nullptr;
   const cubical::BarSink sink = state_->sink(state_->bars);
   cubical::PairSink pairs(shape, options.cells, sink);
   for (std::uint32_t slab = 0; slab < slabs.count(); ++slab) {
     context.report({"slabs", slab, slabs.count()});
     {
       const cubical::StarGrid grid = slabs.stars(slab);
-      state_->pairs.add(grid, slabs.first_voxel(slab), pairs);
+      state_->pairs.add(grid, slabs.first_voxel(slab), pairs, free);
     }
     slabs.forget(slab);
     state_->claim.grow_to(state_->bars.bytes());
@@ -173,8 +168,11 @@ void ImagePart::join(ImagePart next, const RunContext& context) {
   const bool come_before = state_->shape.is_t_construction();
   const cubical::BarSink sink = state_->sink(state_->bars);
   cubical::PairSink pairs(state_->shape, state_->whole.cells, sink);
-  state_->pairs.join(std::move(next.state_->pairs), come_before, pairs);
+  state_->pairs.join(std::move(next.state_->pairs), come_before, pairs,
+                     state_->whole.loops ? &state_->freed : nullptr);
   pairs.finish();
+  state_->freed.add(next.state_->freed);
+  state_->own.reset();
   const Barcode& bars = next.state_->bars;
   for (std::size_t i = 0; i < bars.size(); ++i) {
     const auto death = bars.death_cell(i);

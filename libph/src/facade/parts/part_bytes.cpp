@@ -4,12 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <cstddef>
-#include <type_traits>
 #include <utility>
 
+#include "core/little_endian.hpp"
 #include "facade/parts/part_state.hpp"
 #include "ph/error.hpp"
 
@@ -23,68 +20,11 @@ using cubical::SeamForest;
 using cubical::SeamRoot;
 using cubical::WholeImage;
 
-/// The bytes of a number, the low one first.
-template <class T>
-std::array<std::byte, sizeof(T)> in_order(std::array<std::byte, sizeof(T)> bytes) {
-  if constexpr (std::endian::native == std::endian::big) std::ranges::reverse(bytes);
-  return bytes;
-}
-
-class Bytes {
- public:
-  template <class T>
-  requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) void put(T value) {
-    const auto bytes = in_order<T>(std::bit_cast<std::array<std::byte, sizeof(T)>>(value));
-    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
-  }
-  void put(bool value) { put(static_cast<std::uint8_t>(value ? 1 : 0)); }
-  template <class List, class Put>
-  void put_list(const List& list, Put&& put_one) {
-    put(std::uint64_t{list.size()});
-    for (const auto& one : list) put_one(one);
-  }
-  std::vector<std::byte> take() { return std::move(bytes_); }
-
- private:
-  std::vector<std::byte> bytes_;
-};
-
 [[noreturn]] void refuse(const char* what) {
   throw Error(ErrorKind::bad_data, fmt::format("part of an image: found a damaged {}", what));
 }
 
-class Reader {
- public:
-  explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
-  template <class T>
-  T get(const char* what) {
-    if (bytes_.size() - at_ < sizeof(T)) refuse(what);
-    std::array<std::byte, sizeof(T)> bytes;
-    std::ranges::copy(bytes_.subspan(at_, sizeof(T)), bytes.begin());
-    at_ += sizeof(T);
-    return std::bit_cast<T>(in_order<T>(bytes));
-  }
-  bool flag(const char* what) {
-    const auto value = get<std::uint8_t>(what);
-    if (value > 1) refuse(what);
-    return value != 0;
-  }
-  /// Of things that take that many bytes each, at least.
-  std::size_t count(std::size_t bytes_each, const char* what) {
-    const auto count = get<std::uint64_t>(what);
-    if (count > (bytes_.size() - at_) / bytes_each) refuse(what);
-    return static_cast<std::size_t>(count);
-  }
-  void expect_end() const {
-    if (at_ != bytes_.size()) refuse("end");
-  }
-
- private:
-  std::span<const std::byte> bytes_;
-  std::size_t at_ = 0;
-};
-
-void put_whole(Bytes& to, const WholeImage& whole) {
+void put_whole(ByteWriter& to, const WholeImage& whole) {
   to.put_list(whole.extents, [&](Index n) { to.put(std::int64_t{n}); });
   for (const bool periodic : whole.periodic) to.put(periodic);
   to.put(static_cast<std::uint8_t>(whole.type));
@@ -93,9 +33,10 @@ void put_whole(Bytes& to, const WholeImage& whole) {
   to.put(whole.limit);
   for (const int n : {whole.parts, whole.min_dim, whole.max_dim}) to.put(std::int32_t{n});
   to.put(whole.cells);
+  to.put(whole.loops);
 }
 
-WholeImage get_whole(Reader& from) {
+WholeImage get_whole(ByteReader& from) {
   WholeImage whole{};
   const std::size_t axes = from.count(sizeof(std::int64_t), "extents");
   double voxels = 1;
@@ -115,22 +56,33 @@ WholeImage get_whole(Reader& from) {
   for (int* const n : {&whole.parts, &whole.min_dim, &whole.max_dim})
     *n = from.get<std::int32_t>("number");
   whole.cells = from.flag("flag of cells");
+  whole.loops = from.flag("flag of loops");
   const CubicalImage image = whole.image();
   if (cubical::GridShape::count_axes(image) > 3) refuse("number of axes");
   const cubical::GridShape shape(image);
   if (shape.top_dim() < 2 || whole.parts < 1 ||
       static_cast<std::uint64_t>(whole.parts) > shape.axis(shape.layer_axis()).extent)
     refuse("number of parts");
+  if (cubical::wants_loops(shape, whole.wanted()) != whole.loops) refuse("flag of loops");
   return whole;
 }
 
-void put_seam(Bytes& to, const Seam& seam) {
+/// In order, so that bytes do not depend on who was joined first.
+void put_cells(ByteWriter& to, std::pmr::vector<GridCell> cells) {
+  std::ranges::sort(cells);
+  to.put_list(cells, [&](const GridCell& cell) {
+    to.put(cell.voxel());
+    to.put(cell.number());
+  });
+}
+
+void put_seam(ByteWriter& to, const Seam& seam) {
   to.put_list(seam.roots, [&](std::uint32_t root) { to.put(root); });
   for (const double value : seam.values) to.put(value);
 }
 
 template <bool backwards>
-void put_forest(Bytes& to, const SeamForest<backwards>& forest) {
+void put_forest(ByteWriter& to, const SeamForest<backwards>& forest) {
   to.put_list(forest.roots, [&](const SeamRoot& root) {
     to.put(root.value);
     to.put(root.cell.voxel());
@@ -150,15 +102,21 @@ void put_forest(Bytes& to, const SeamForest<backwards>& forest) {
 }
 
 /// @param in_star how many cells of the dimension a star has.
-GridCell get_cell(Reader& from, std::size_t in_star) {
+GridCell get_cell(ByteReader& from, std::size_t in_star) {
   const auto voxel = from.get<std::uint64_t>("cell");
   const auto number = from.get<std::uint32_t>("cell");
   if (number >= in_star || voxel >> 60 != 0) refuse("cell");
   return {voxel, number};
 }
 
+void get_cells(ByteReader& from, std::size_t in_star, std::pmr::vector<GridCell>& cells) {
+  constexpr std::size_t bytes_of_cell = 12;
+  cells.resize(from.count(bytes_of_cell, "cells"));
+  for (GridCell& cell : cells) cell = get_cell(from, in_star);
+}
+
 template <bool backwards>
-SeamForest<backwards> get_forest(Reader& from, int top_dim, const RunContext& context) {
+SeamForest<backwards> get_forest(ByteReader& from, int top_dim, const RunContext& context) {
   using namespace cubical;
   const std::size_t roots_in_star =
       !backwards ? 1 : (top_dim == 3 ? kCubes.size() : kSquares.size());
@@ -200,7 +158,7 @@ SeamForest<backwards> get_forest(Reader& from, int top_dim, const RunContext& co
   return forest;
 }
 
-void put_bars(Bytes& to, const Barcode& bars) {
+void put_bars(ByteWriter& to, const Barcode& bars) {
   to.put(std::uint64_t{bars.size()});
   for (std::size_t i = 0; i < bars.size(); ++i) {
     to.put(std::int32_t{bars[i].dim});
@@ -216,7 +174,7 @@ void put_bars(Bytes& to, const Barcode& bars) {
   }
 }
 
-void get_bars(Reader& from, Barcode& bars) {
+void get_bars(ByteReader& from, Barcode& bars) {
   constexpr std::size_t bytes_of_bar = 22;
   const std::size_t count = from.count(bytes_of_bar, "bars");
   std::vector<Index> birth, death;
@@ -237,8 +195,17 @@ void get_bars(Reader& from, Barcode& bars) {
 
 }  // namespace
 
+std::uint64_t cubical::WholeImage::hash() const {
+  ByteWriter to;
+  put_whole(to, *this);
+  std::uint64_t hash = 0xcbf29ce484222325;  // Fowler, Noll, Vo: FNV-1a
+  for (const std::byte byte : to.bytes())
+    hash = (hash ^ std::to_integer<unsigned>(byte)) * 0x100000001b3;
+  return hash;
+}
+
 std::vector<std::byte> ImagePart::bytes() const {
-  Bytes to;
+  ByteWriter to;
   put_whole(to, state_->whole);
   to.put(std::int32_t{state_->first});
   to.put(std::int32_t{state_->last});
@@ -253,6 +220,8 @@ std::vector<std::byte> ImagePart::bytes() const {
     to.put(edge.number());
     to.put(value);
   }
+  put_cells(to, state_->freed.edges);
+  put_cells(to, state_->freed.squares);
   Barcode bars = state_->bars;
   bars.sort(state_->context);
   put_bars(to, bars);
@@ -260,7 +229,7 @@ std::vector<std::byte> ImagePart::bytes() const {
 }
 
 ImagePart ImagePart::of_bytes(std::span<const std::byte> bytes, const RunContext& context) {
-  Reader from(bytes);
+  ByteReader from(bytes, "part of an image");
   auto state = std::make_unique<State>(get_whole(from), context);
   state->first = from.get<std::int32_t>("number");
   state->last = from.get<std::int32_t>("number");
@@ -281,6 +250,8 @@ ImagePart ImagePart::of_bytes(std::span<const std::byte> bytes, const RunContext
     const GridCell edge = get_cell(from, cubical::kEdges.size());
     pairs.around.met_once.emplace(edge, from.get<double>("edge"));
   }
+  get_cells(from, cubical::kEdges.size(), state->freed.edges);
+  get_cells(from, cubical::kSquares.size(), state->freed.squares);
   get_bars(from, state->bars);
   state->claim.grow_to(state->bars.bytes());
   from.expect_end();

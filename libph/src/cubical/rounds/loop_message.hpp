@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/little_endian.hpp"
+#include "cubical/columns/ordered_cell.hpp"
+#include "cubical/stars/star_tables.hpp"
+#include "ph/detail/core/chain.hpp"
+#include "ph/detail/core/field.hpp"
+
+namespace ph::cubical {
+
+/// What parts of a grid tell each other while they reduce columns, as bytes: stars of the layer
+/// that is a ghost for the other one, and columns whose pivots are the other's.
+template <Field K>
+class LoopMessage {
+ public:
+  using Term = Entry<LoopEdge, K>;
+
+  /// Two parts of one image and a field have the same.
+  struct Header {
+    std::uint64_t image;
+    std::int32_t from, to;
+    friend bool operator==(const Header&, const Header&) = default;
+  };
+  struct Layer {
+    bool is_after;  ///< for the part that it is told
+    std::vector<std::uint32_t> stars;
+  };
+  struct Column {
+    LoopSquare square;        ///< whose boundary it was
+    std::vector<Term> terms;  ///< from young to old
+  };
+
+  /// What is to be sent to one part.
+  class Writer {
+   public:
+    bool is_empty() const { return layers_ == 0 && columns_ == 0; }
+    void add_layer(bool is_after, std::span<const std::uint32_t> stars) {
+      ++layers_;
+      layer_bytes_.put(is_after);
+      layer_bytes_.put_list(stars, [&](std::uint32_t star) { layer_bytes_.put(star); });
+    }
+    void add_column(const LoopSquare& square, const Term& pivot, std::span<const Term> below) {
+      ++columns_;
+      put(square);
+      column_bytes_.put(std::uint64_t{below.size() + 1});
+      put(pivot);
+      for (const Term& term : below) put(term);
+    }
+    std::vector<std::byte> take(const Header& header) {
+      ByteWriter all;
+      all.put(header.image);
+      all.put(header.from);
+      all.put(header.to);
+      all.put(std::exchange(layers_, 0));
+      all.put_bytes(layer_bytes_.take());
+      all.put(std::exchange(columns_, 0));
+      all.put_bytes(column_bytes_.take());
+      return all.take();
+    }
+
+   private:
+    template <unsigned bits>
+    void put(const OrderedCell<bits>& cell) {
+      column_bytes_.put(cell.key);
+      column_bytes_.put(cell.name);
+    }
+    void put(const Term& term) {
+      put(term.cell);
+      if constexpr (!std::same_as<K, Z2>) column_bytes_.put(term.coefficient());
+    }
+
+    std::uint32_t layers_ = 0;
+    std::uint64_t columns_ = 0;
+    ByteWriter layer_bytes_, column_bytes_;
+  };
+
+  std::vector<Layer> layers;
+  std::vector<Column> columns;
+
+  /// @param voxels of the whole grid. @throws Error (bad_data) on what Writer has not made, or for
+  /// another part.
+  LoopMessage(std::span<const std::byte> bytes, const K& field, std::uint64_t image, int to,
+              int parts, std::uint64_t voxels)
+      : field_(field), voxels_(voxels), from_(bytes, "loops of another part") {
+    if (from_.get<std::uint64_t>("image") != image) from_.refuse("image, field or option");
+    const auto sender = from_.get<std::int32_t>("sender"), receiver = from_.get<std::int32_t>("to");
+    if (sender < 0 || sender >= parts || sender == to) from_.refuse("sender");
+    if (receiver != to) from_.refuse("receiver");
+    for (auto left = from_.get<std::uint32_t>("count"); left > 0; --left) {
+      Layer& layer = layers.emplace_back();
+      layer.is_after = from_.flag("side");
+      layer.stars.resize(from_.count(sizeof(std::uint32_t), "layer"));
+      for (std::uint32_t& star : layer.stars) star = from_.get<std::uint32_t>("star");
+    }
+    constexpr std::size_t bytes_of_cell = 16;
+    columns.resize(from_.count(2 * bytes_of_cell, "columns"));
+    for (Column& column : columns) {
+      column.square = get_cell<LoopSquare>(kSquareCount);
+      column.terms.resize(from_.count(bytes_of_cell, "column"));
+      if (column.terms.empty()) from_.refuse("column");
+      for (std::size_t i = 0; i < column.terms.size(); ++i) {
+        column.terms[i] = get_term();
+        if (i > 0 && !LoopEdge::precedes(column.terms[i].cell, column.terms[i - 1].cell))
+          from_.refuse("order");
+      }
+    }
+    from_.expect_end();
+  }
+
+ private:
+  template <class Cell>
+  Cell get_cell(int in_star) {
+    Cell cell{};
+    cell.key = from_.get<std::uint64_t>("cell");
+    cell.name = from_.get<std::uint64_t>("cell");
+    const double value = cell.value();
+    if (cell.voxel() >= voxels_ || cell.rank() >= in_star || value != value) from_.refuse("cell");
+    return cell;
+  }
+  Term get_term() {
+    const auto cell = get_cell<LoopEdge>(kEdgeCount);
+    if constexpr (std::same_as<K, Z2>) {
+      return {cell, true};
+    } else {
+      const auto a = from_.get<typename K::Element>("coefficient");
+      if (field_.is_zero(a) || a >= static_cast<std::uint64_t>(field_.characteristic()))
+        from_.refuse("coefficient");
+      return {cell, a};
+    }
+  }
+
+  const K& field_;
+  std::uint64_t voxels_;
+  ByteReader from_;
+};
+
+}  // namespace ph::cubical
