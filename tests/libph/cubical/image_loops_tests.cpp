@@ -6,6 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <iostream>
 #include <limits>
@@ -138,21 +142,33 @@ Outcome run_in_parts(Generator& random, const Case& c, int count, Schedule sched
   return run;
 }
 
+/// Memory that parts give back is theirs again at once: to ask the system for it each time would
+/// take most of the time of these tests.
+void keep_memory() {
+#ifdef __GLIBC__
+  constexpr int much = 1 << 30;
+  mallopt(M_MMAP_THRESHOLD, much);
+  mallopt(M_TRIM_THRESHOLD, much);
+#endif
+}
+
 TEST(ImageLoops, AgreeWithTheOracleCellByCell) {
+  keep_memory();
   std::size_t runs = 0, loops = 0, sent = 0;
   for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(seeds(2500)); ++seed) {
     SCOPED_TRACE(seed);
     Generator random(seed);
     const Case c = random_case(random);
-    const auto expected =
-        pairs_of(persistence(Cubical(c.image, c.options.cubical),
-                             {.max_dim = c.image.dim(), .field = c.field, .engine = Engine::standard}));
+    const auto expected = pairs_of(
+        persistence(Cubical(c.image, c.options.cubical),
+                    {.max_dim = c.image.dim(), .field = c.field, .engine = Engine::standard}));
     for (const Pair& pair : expected) loops += pair.bar.dim == 1 ? 1 : 0;
     for (int count = 1; count <= c.layers; ++count)
       for (const Schedule schedule : {Schedule::rounds, Schedule::random, Schedule::one_at_a_time,
                                       Schedule::last_message_first}) {
         const Outcome run = run_in_parts(random, c, count, schedule);
-        ASSERT_EQ(run.pairs, expected) << count << " parts, schedule " << static_cast<int>(schedule);
+        ASSERT_EQ(run.pairs, expected)
+            << count << " parts, schedule " << static_cast<int>(schedule);
         ASSERT_EQ(run.traffic.columns_sent, run.traffic.columns_received);
         ASSERT_EQ(run.traffic.messages_sent, run.traffic.messages_received);
         sent += run.traffic.columns_sent;

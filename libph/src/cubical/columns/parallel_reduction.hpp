@@ -160,7 +160,8 @@ class ParallelReduction {
 
     const Column* keep(const Term& pivot, std::uint32_t number, std::span<const Term> below,
                        std::pmr::memory_resource* memory) {
-      constexpr std::size_t block = 1 << 15;
+      constexpr std::size_t least = 1 << 10, most = 1 << 15;
+      const std::size_t block = kept.empty() ? least : std::min(2 * kept.back().capacity(), most);
       const std::size_t units = (sizeof(Column) + below.size_bytes()) / sizeof(Unit);
       if (kept.empty() || kept.back().capacity() - kept.back().size() < units)
         kept.emplace_back(memory).reserve(std::max(block, units));

@@ -16,7 +16,7 @@ namespace {
 }  // namespace
 
 template <Field K>
-PartLoops<K>::PartLoops(const CubicalImage& voxels, const GridShape& whole,
+PartLoops<K>::PartLoops(const CubicalImage& voxels, const SlabPlace& place, const GridShape& whole,
                         const PartLayout& layout, int part, std::uint64_t image, const K& field,
                         const RunContext& context)
     : whole_(whole),
@@ -26,7 +26,7 @@ PartLoops<K>::PartLoops(const CubicalImage& voxels, const GridShape& whole,
       field_(field),
       context_(context),
       voxels_are_read_(voxels, context),
-      grid_(voxels, layout, part, context),
+      grid_(voxels, layout, part, place, context),
       ghosts_missing_((grid_.has_ghost(false) ? 1U : 0U) | (grid_.has_ghost(true) ? 2U : 0U)),
       free_(grid_, context),
       squares_(&context.memory),

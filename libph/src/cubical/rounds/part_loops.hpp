@@ -40,10 +40,12 @@ class PartLoops {
  public:
   using Term = typename Reduction::Term;
 
-  /// @param voxels those of the part and its ghosts. @param whole outlives this, as voxels do.
+  /// @param voxels those of the part and its ghosts. @param place where they lie.
+  /// @param whole outlives this, as voxels do.
   /// @param image tells images, fields and options from others.
-  PartLoops(const CubicalImage& voxels, const GridShape& whole, const PartLayout& layout, int part,
-            std::uint64_t image, const K& field, const RunContext& context);
+  PartLoops(const CubicalImage& voxels, const SlabPlace& place, const GridShape& whole,
+            const PartLayout& layout, int part, std::uint64_t image, const K& field,
+            const RunContext& context);
   PartLoops(const PartLoops&) = delete;
   PartLoops& operator=(const PartLoops&) = delete;
 

@@ -12,10 +12,10 @@ namespace ph::cubical {
 /// them. Cells have the names that they have in the whole grid, so that chains may go anywhere.
 class PartStars : public StarGrid {
  public:
-  /// @param voxels those of the part and its ghosts.
-  PartStars(const CubicalImage& voxels, const PartLayout& layout, int part,
+  /// @param voxels those of the part and its ghosts. @param place where they lie.
+  PartStars(const CubicalImage& voxels, const PartLayout& layout, int part, const SlabPlace& place,
             const RunContext& context)
-      : StarGrid(voxels, context, layout.place(part)),
+      : StarGrid(voxels, context, place),
         whole_(layout.size()),
         begin_(layout.first_voxel(part)),
         count_(layout.end_voxel(part) - begin_),

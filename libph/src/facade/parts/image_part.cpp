@@ -128,9 +128,13 @@ ImagePart::ImagePart(const Image& image, int part, int parts, const ImagePartOpt
                                                  voxels.size()));
   const GridFrame frame(voxels);
 
-  cubical::Slabs slabs(frame, cubical::Slabs::layers_that_fit(frame, context), context,
-                       layout.place(part), layout.first_with_ghosts(part));
-  if (state_->whole.loops) state_->own.emplace(cubical, cubical::FreeCells(&context.memory));
+  cubical::SlabPlace place = layout.place(part);
+  cubical::Slabs slabs(frame, cubical::Slabs::layers_that_fit(frame, context), context, place,
+                       layout.first_with_ghosts(part));
+  if (state_->whole.loops) {
+    place.cube_pairs = slabs.cube_pairs();
+    state_->own.emplace(cubical, std::move(place), cubical::FreeCells(&context.memory));
+  }
   cubical::FreeCells* const free = state_->own ? &state_->own->free : nullptr;
   const cubical::BarSink sink = state_->sink(state_->bars);
   cubical::PairSink pairs(shape, options.cells, sink);

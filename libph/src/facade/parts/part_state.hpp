@@ -62,7 +62,8 @@ struct WholeImage {
 /// What the loops of a part begin with.
 struct OwnLayers {
   Cubical cubical;  ///< of the part with its ghosts
-  FreeCells free;   ///< as far as the part alone tells
+  SlabPlace place;
+  FreeCells free;  ///< as far as the part alone tells
 };
 
 }  // namespace cubical
