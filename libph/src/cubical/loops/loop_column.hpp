@@ -44,18 +44,18 @@ class LoopColumn {
         terms.emplace_back(term.cell, field_.multiply(scale, term.coefficient()));
     });
   }
-  /// Takes out the youngest edge that is in no pair inside its star, or whose star is in another
-  /// part of the grid; nothing if none is left.
+  /// Takes out the youngest edge that is in no pair inside its star, or whose pair is not seen from
+  /// this part of the grid; nothing if none is left.
   std::optional<Term> take_pivot() {
     while (const std::optional<Term> youngest = heap_.take()) {
       count(1);
       if (const Term* const next = heap_.next()) expect_star(*next);
-      if (!grid_.owns(youngest->cell.voxel())) return youngest;
+      if (!grid_.sees(youngest->cell.voxel())) return youngest;
       const std::uint32_t u = grid_.here(youngest->cell.voxel());
       const StarTables& tables = grid_.tables(u);
       const int edge = tables.edge_order().at(youngest->cell.rank());
       const int s = tables.square_of(grid_.star(u), edge);
-      if (s < 0) return youngest;
+      if (s < 0 || !grid_.sees_square(u, s)) return youngest;
       const auto [first, second] = kEdgesOfSquare[s];
       const int incidence =
           edge == second ? -kSquares[s][axis_of_edge(first)] : kSquares[s][axis_of_edge(second)];
@@ -79,7 +79,7 @@ class LoopColumn {
   }
   void expect_star(const Term& term) const {
     const std::uint64_t voxel = term.cell.voxel();
-    if (grid_.owns(voxel)) grid_.expect_star(grid_.here(voxel));
+    if (grid_.sees(voxel)) grid_.expect_star(grid_.here(voxel));
   }
   Element times(Element scale, int sign) const { return sign > 0 ? scale : field_.negate(scale); }
 

@@ -14,8 +14,8 @@
 
 namespace ph::cubical {
 
-/// What parts of a grid tell each other while they reduce columns, as bytes: stars of the layer
-/// that is a ghost for the other one, and columns whose pivots are the other's.
+/// What parts of a grid tell each other while they reduce columns, as bytes: stars of the layers
+/// that the other one sees, and columns whose pivots are the other's.
 template <Field K>
 class LoopMessage {
  public:
@@ -28,7 +28,7 @@ class LoopMessage {
     friend bool operator==(const Header&, const Header&) = default;
   };
   struct Layer {
-    bool is_after;  ///< for the part that it is told
+    std::uint64_t layer;  ///< of the stars' grid
     std::vector<std::uint32_t> stars;
   };
   struct Column {
@@ -40,9 +40,9 @@ class LoopMessage {
   class Writer {
    public:
     bool is_empty() const { return layers_ == 0 && columns_ == 0; }
-    void add_layer(bool is_after, std::span<const std::uint32_t> stars) {
+    void add_layer(std::uint64_t layer, std::span<const std::uint32_t> stars) {
       ++layers_;
-      layer_bytes_.put(is_after);
+      layer_bytes_.put(layer);
       layer_bytes_.put_list(stars, [&](std::uint32_t star) { layer_bytes_.put(star); });
     }
     void add_column(const LoopSquare& square, const Term& pivot, std::span<const Term> below) {
@@ -94,7 +94,7 @@ class LoopMessage {
     if (receiver != to) from_.refuse("receiver");
     for (auto left = from_.get<std::uint32_t>("count"); left > 0; --left) {
       Layer& layer = layers.emplace_back();
-      layer.is_after = from_.flag("side");
+      layer.layer = from_.get<std::uint64_t>("layer");
       layer.stars.resize(from_.count(sizeof(std::uint32_t), "layer"));
       for (std::uint32_t& star : layer.stars) star = from_.get<std::uint32_t>("star");
     }

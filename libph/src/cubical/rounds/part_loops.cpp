@@ -5,7 +5,6 @@
 #include <numeric>
 #include <utility>
 
-#include "cubical/stars/critical_cells.hpp"
 #include "ph/error.hpp"
 
 namespace ph::cubical {
@@ -16,9 +15,9 @@ namespace {
 }  // namespace
 
 template <Field K>
-PartLoops<K>::PartLoops(const CubicalImage& voxels, const SlabPlace& place, const GridShape& whole,
-                        const PartLayout& layout, int part, std::uint64_t image, const K& field,
-                        const RunContext& context)
+PartLoops<K>::PartLoops(const CubicalImage& voxels, const CubePairMemos& cube_pairs,
+                        const GridShape& whole, const PartLayout& layout, int part,
+                        std::uint64_t image, const K& field, const RunContext& context)
     : whole_(whole),
       layout_(layout),
       part_(part),
@@ -26,8 +25,7 @@ PartLoops<K>::PartLoops(const CubicalImage& voxels, const SlabPlace& place, cons
       field_(field),
       context_(context),
       voxels_are_read_(voxels, context),
-      grid_(voxels, layout, part, place, context),
-      ghosts_missing_((grid_.has_ghost(false) ? 1U : 0U) | (grid_.has_ghost(true) ? 2U : 0U)),
+      grid_(voxels, layout, part, cube_pairs, context),
       free_(grid_, context),
       squares_(&context.memory),
       queue_(&context.memory) {}
@@ -57,7 +55,7 @@ void PartLoops<K>::take_edges(std::pmr::vector<GridCell>& edges) {
   }
   free_.finish();
   edges = std::pmr::vector<GridCell>(edges.get_allocator());
-  mark_all_but(grid_, free_);
+  grid_.mark_own(free_);
 }
 
 template <Field K>
@@ -82,15 +80,19 @@ void PartLoops<K>::take_squares(const std::pmr::vector<GridCell>& squares) {
 
 template <Field K>
 void PartLoops<K>::tell_layers() {
-  for (const bool after : {false, true}) {
-    if (!grid_.has_ghost(after)) continue;
-    const int to = layout_.beside(part_, after);
-    if (to == part_) {
-      grid_.set_ghost(!after, grid_.end_layer(after));
-      ghosts_missing_ = 0;
-    } else {
-      outbox_[to].add_layer(!after, grid_.end_layer(after));
-    }
+  std::vector<std::uint64_t> layers;
+  for (int to = 0; to < layout_.parts(); ++to) {
+    layers.clear();
+    layout_.for_each_beside(to, [&](std::uint64_t layer) {
+      if (to == part_) ++layers_missing_;
+      if (layout_.part_of(layer) == part_ && std::ranges::find(layers, layer) == layers.end())
+        layers.push_back(layer);
+    });
+    for (const std::uint64_t layer : layers)
+      if (to == part_)  // a ghost at the other end of a ring
+        layers_missing_ -= *grid_.hear(layer, grid_.layer(layer));
+      else
+        outbox_[to].add_layer(layer, grid_.layer(layer));
   }
 }
 
@@ -108,7 +110,7 @@ bool PartLoops<K>::is_free(const LoopEdge& edge) const {
 template <Field K>
 void PartLoops<K>::check(const Message& message) const {
   for (const auto& layer : message.layers)
-    if (!grid_.has_ghost(layer.is_after) || layer.stars.size() != grid_.layer_size())
+    if (layer.stars.size() != grid_.layer_size())
       refuse("loops of another part: found a layer of another image");
   for (const auto& column : message.columns)
     for (const Term& term : column.terms)
@@ -125,9 +127,10 @@ void PartLoops<K>::receive(std::span<const std::byte> bytes) {
   Message message(bytes, field_, image_, part_, layout_.parts(), layout_.size());
   check(message);
   for (const auto& layer : message.layers) {
-    if (!grid_.set_ghost(layer.is_after, layer.stars))
+    const auto count = grid_.hear(layer.layer, layer.stars);
+    if (!count || *count > layers_missing_)
       refuse("loops of another part: found a layer of another image");
-    ghosts_missing_ &= layer.is_after ? 1U : 2U;
+    layers_missing_ -= *count;
   }
   for (auto& column : message.columns) {
     queue_.push_back(static_cast<std::uint32_t>(squares_.size()));
@@ -155,7 +158,8 @@ bool PartLoops<K>::is_done(std::uint32_t i, const std::optional<Term>& pivot, Ch
   const std::span<const Term> below = pivot ? chain.consolidate() : std::span<const Term>();
   const std::lock_guard lock(mutex_);
   if (pivot) {
-    outbox_[layout_.part_of(pivot->cell.voxel())].add_column(squares_[i], *pivot, below);
+    const int to = layout_.part_of(pivot->cell.voxel() / layout_.layer_size());
+    outbox_[to].add_column(squares_[i], *pivot, below);
     ++columns_sent;
   } else {
     zero_.push_back(squares_[i]);

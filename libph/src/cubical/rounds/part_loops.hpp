@@ -40,10 +40,10 @@ class PartLoops {
  public:
   using Term = typename Reduction::Term;
 
-  /// @param voxels those of the part and its ghosts. @param place where they lie.
+  /// @param voxels those that the part sees, with ghosts. @param cube_pairs may be null.
   /// @param whole outlives this, as voxels do.
   /// @param image tells images, fields and options from others.
-  PartLoops(const CubicalImage& voxels, const SlabPlace& place, const GridShape& whole,
+  PartLoops(const CubicalImage& voxels, const CubePairMemos& cube_pairs, const GridShape& whole,
             const PartLayout& layout, int part, std::uint64_t image, const K& field,
             const RunContext& context);
   PartLoops(const PartLoops&) = delete;
@@ -72,7 +72,7 @@ class PartLoops {
   std::uint64_t columns_sent = 0, columns_received = 0;
 
  private:
-  bool is_ready() const { return reduction_.has_value() && ghosts_missing_ == 0; }
+  bool is_ready() const { return reduction_.has_value() && layers_missing_ == 0; }
   void take_edges(std::pmr::vector<GridCell>& edges);
   void take_squares(const std::pmr::vector<GridCell>& squares);
   void tell_layers();
@@ -90,7 +90,7 @@ class PartLoops {
   const RunContext& context_;
   const VoxelsInUse voxels_are_read_;
   PartStars grid_;
-  unsigned ghosts_missing_;
+  std::size_t layers_missing_ = 0;             // that it sees and has not heard of
   std::vector<std::vector<std::byte>> early_;  // came before it began
 
   FreeEdges free_;

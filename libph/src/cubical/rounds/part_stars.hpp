@@ -1,31 +1,44 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "cubical/rounds/part_layout.hpp"
+#include "cubical/stars/critical_cells.hpp"
 #include "cubical/stars/star_grid.hpp"
 
 namespace ph::cubical {
 
-/// The stars of a part of a grid, and those of the layers beside it once their parts have told
-/// them. Cells have the names that they have in the whole grid, so that chains may go anywhere.
+/// The stars of a part of a grid and of some layers beside it, whose parts tell which of their
+/// edges kill. Cells have the names that they have in the whole grid, so that chains may go
+/// anywhere.
 class PartStars : public StarGrid {
  public:
-  /// @param voxels those of the part and its ghosts. @param place where they lie.
-  PartStars(const CubicalImage& voxels, const PartLayout& layout, int part, const SlabPlace& place,
-            const RunContext& context)
-      : StarGrid(voxels, context, place),
+  /// @param voxels those that the part sees, with ghosts. @param cube_pairs may be null.
+  PartStars(const CubicalImage& voxels, const PartLayout& layout, int part,
+            const CubePairMemos& cube_pairs, const RunContext& context)
+      : StarGrid(voxels, context, place(layout, part, cube_pairs)),
         whole_(layout.size()),
-        begin_(layout.first_voxel(part)),
-        count_(layout.end_voxel(part) - begin_),
-        first_(layout.first_with_ghosts(part)) {}
+        first_(layout.first_voxel(layout.seen(part))),
+        begin_(layout.own(part).begin * layer_size()),
+        count_(layout.own(part).count() * layer_size()) {}
 
-  /// Whether the part has a voxel of the whole grid; as a ghost it has not.
+  /// Whether the part has a voxel of the whole grid: it has no others than its own.
   bool owns(std::uint64_t voxel) const { return voxel - begin_ < count_; }
-  /// Where a voxel of the whole grid is in the part. Precondition: owns(voxel).
+  /// Whether it sees one where it is.
+  bool sees(std::uint64_t voxel) const { return voxel - first_ < size(); }
+  /// Where it sees it. Precondition: sees(voxel).
   std::uint32_t here(std::uint64_t voxel) const {
     return static_cast<std::uint32_t>(voxel - first_);
+  }
+  /// Whether it knows the stars of all voxels of a square in the star of one that it sees: those
+  /// of ghosts may lead further out.
+  bool sees_square(std::uint32_t v, int square) const {
+    if (!is_ghost(v)) return true;
+    const int away = kSquares[square][layer_axis()];
+    return is_before(v) ? away >= 0 : away <= 0;
   }
   std::uint64_t in_whole(std::uint32_t v) const {
     const std::uint64_t voxel = first_ + v;  // modulo 2^64
@@ -39,30 +52,39 @@ class PartStars : public StarGrid {
     return StarGrid::tables(v);
   }
 
-  /// The stars of the layer at an end, which is a ghost for the part beside it.
-  std::span<const std::uint32_t> end_layer(bool after) const {
-    const std::uint32_t n = layer_size();
-    return after ? stars().subspan(size() - n - (slab().has_ghost_after() ? n : 0), n)
-                 : stars().subspan(slab().has_ghost_before() ? n : 0, n);
+  /// The stars of one of its own layers.
+  std::span<const std::uint32_t> layer(std::uint64_t of_whole) const {
+    return stars().subspan(here(of_whole * layer_size()), layer_size());
   }
-  bool has_ghost(bool after) const {
-    return after ? slab().has_ghost_after() : slab().has_ghost_before();
+  /// Marks the critical edges of its own that are not free.
+  void mark_own(const FreeEdges& free) {
+    mark_all_but(*this, free, here(begin_), here(begin_ + count_));
   }
-  /// Takes in what the part beside says of its end layer.
-  /// @return whether the same voxels enter there as here; nothing has changed if not.
-  bool set_ghost(bool after, std::span<const std::uint32_t> stars) {
-    const std::uint32_t first = after ? size() - layer_size() : 0;
-    for (std::uint32_t i = 0; i < layer_size(); ++i)
-      if (enters(first + i) != (stars[i] != kAbsent)) return false;
-    for (std::uint32_t i = 0; i < layer_size(); ++i) mark(first + i, stars[i]);
-    return true;
+  /// Takes in what another part says of one of its layers, wherever it is seen.
+  /// @return how often that is, or nothing if other voxels enter there.
+  std::optional<std::size_t> hear(std::uint64_t of_whole, std::span<const std::uint32_t> stars) {
+    std::size_t count = 0;
+    for (std::uint32_t first = 0; first < size(); first += layer_size()) {
+      const std::uint64_t voxel = in_whole(first);
+      if (voxel != of_whole * layer_size() || (owns(voxel) && !is_ghost(first))) continue;
+      for (std::uint32_t i = 0; i < layer_size(); ++i)
+        if (enters(first + i) != (stars[i] != kAbsent)) return std::nullopt;
+      for (std::uint32_t i = 0; i < layer_size(); ++i) mark(first + i, stars[i]);
+      ++count;
+    }
+    return count;
   }
 
  private:
+  static SlabPlace place(const PartLayout& layout, int part, const CubePairMemos& cube_pairs) {
+    SlabPlace place = layout.place(layout.seen(part));
+    place.cube_pairs = cube_pairs;
+    return place;
+  }
   // Of a ghost: whether it is the one before.
   bool is_before(std::uint32_t v) const { return slab().has_ghost_before() && v < layer_size(); }
 
-  std::uint64_t whole_, begin_, count_, first_;
+  std::uint64_t whole_, first_, begin_, count_;
 };
 
 }  // namespace ph::cubical

@@ -16,7 +16,6 @@ namespace ph {
 
 using cubical::FreeCells;
 using cubical::GridCell;
-using cubical::PartLayout;
 using cubical::PartLoops;
 
 struct ImageLoops::State {
@@ -29,7 +28,7 @@ struct ImageLoops::State {
         own(std::move(layers)) {
     detail::with_field(field, [&]<Field K>(const K& k) {
       loops.template emplace<std::unique_ptr<PartLoops<K>>>(std::make_unique<PartLoops<K>>(
-          own.cubical.cubical_image(), own.place, shape, PartLayout(shape, whole.parts), part,
+          own.seen.cubical_image(), own.cube_pairs, shape, whole.layout(shape), part,
           whole.hash() + static_cast<std::uint64_t>(field), k, context));
     });
   }
@@ -127,14 +126,14 @@ ImageLoops::Traffic ImageLoops::traffic() const {
 bool ImagePart::has_loops() const { return state_->whole.loops; }
 
 std::vector<std::byte> ImagePart::told_to_loops(int part) const {
-  const PartLayout layout(state_->shape, state_->whole.parts);
+  const cubical::PartLayout layout = state_->whole.layout(state_->shape);
   ByteWriter to;
   to.put(state_->whole.hash());
   to.put(std::int32_t{part});
   for (const auto* const cells : {&state_->freed.edges, &state_->freed.squares}) {
     std::vector<GridCell> some;
     for (const GridCell& cell : *cells)
-      if (layout.part_of(cell.voxel()) == part) some.push_back(cell);
+      if (layout.part_of(cell.voxel() / layout.layer_size()) == part) some.push_back(cell);
     std::ranges::sort(some);
     to.put_list(some, [&](const GridCell& cell) {
       to.put(cell.voxel());

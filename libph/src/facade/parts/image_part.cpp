@@ -16,6 +16,7 @@ namespace {
 
 using cubical::GridFrame;
 using cubical::GridShape;
+using cubical::PartLayout;
 using cubical::WholeImage;
 
 WholeImage whole_image(const Image& image, int parts, const ImagePartOptions& options) {
@@ -34,6 +35,7 @@ WholeImage whole_image(const Image& image, int parts, const ImagePartOptions& op
           parts,
           options.min_dim,
           options.max_dim.value_or(static_cast<int>(axes)),
+          options.overlap,
           options.cells,
           false};
 }
@@ -48,6 +50,9 @@ void check(const WholeImage& whole, const GridShape& shape, int part, bool may_h
     throw Error(ErrorKind::usage, fmt::format("parts of an image: found {}, expected 1 to {}, the "
                                               "layers of its slowest axis",
                                               whole.parts, layers));
+  if (whole.overlap < 1)
+    throw Error(ErrorKind::usage,
+                fmt::format("overlap of parts: found {}, expected 1 or more", whole.overlap));
   if (part < 0 || part >= whole.parts)
     throw Error(ErrorKind::usage,
                 fmt::format("part of an image: found number {} of {}", part + 1, whole.parts));
@@ -57,38 +62,42 @@ void check(const WholeImage& whole, const GridShape& shape, int part, bool may_h
                 "tell; expected max_dim 0, min_dim 2, or option loops and ImageLoops");
 }
 
-/// Some layers of the slowest axis with those beside them.
-struct Layers {
-  std::size_t begin, end;
-  bool has_before, has_after;
-};
-
-/// Voxels of layers, copied only where a periodic axis begins again.
-Voxels voxels_of(const Image& image, const Layers& layers, std::size_t depth,
-                 std::size_t layer_size) {
+/// Voxels of layers and the one on either side, copied only where a periodic axis begins again.
+Voxels voxels_of(const Image& image, const PartLayout::Layers& layers,
+                 const GridShape::Axis& axis) {
   const auto owner = std::make_shared<const Voxels>(image.values);
-  const std::size_t bytes = bytes_of(owner->type()) * layer_size;
+  const std::size_t layer_size = axis.stride, bytes = bytes_of(owner->type()) * layer_size;
   const auto* const data = static_cast<const std::byte*>(owner->data());
-  const std::size_t count =
-      layers.end - layers.begin + (layers.has_before ? 1 : 0) + (layers.has_after ? 1 : 0);
-  const bool wraps_before = layers.has_before && layers.begin == 0;
-  const bool wraps_after = layers.has_after && layers.end == depth;
-  if (!wraps_before && !wraps_after)
-    return Voxels(BorrowedVoxels{owner->type(),
-                                 data + (layers.begin - (layers.has_before ? 1 : 0)) * bytes,
-                                 count * layer_size, owner, owner->is_in_file()});
+  const bool is_at_begin = layers.begin == 0, is_at_end = layers.end == axis.extent;
+  const std::size_t begin = is_at_begin ? 0 : layers.begin - 1;
+  const std::size_t end = is_at_end ? layers.end : layers.end + 1;
+  if (!axis.periodic || (!is_at_begin && !is_at_end))
+    return Voxels(BorrowedVoxels{owner->type(), data + begin * bytes, (end - begin) * layer_size,
+                                 owner, owner->is_in_file()});
   return with_voxels(owner->type(), data, [&]<class T>(const T* all) {
     std::vector<T> copy;
-    copy.reserve(count * layer_size);
+    copy.reserve((end - begin + 2) * layer_size);
     const auto append = [&](std::size_t from, std::size_t to) {
       copy.insert(copy.end(), all + from * layer_size, all + to * layer_size);
     };
-    if (layers.has_before)
-      append(wraps_before ? depth - 1 : layers.begin - 1, wraps_before ? depth : layers.begin);
-    append(layers.begin, layers.end);
-    if (layers.has_after) append(wraps_after ? 0 : layers.end, wraps_after ? 1 : layers.end + 1);
+    if (is_at_begin) append(axis.extent - 1, axis.extent);
+    append(begin, end);
+    if (is_at_end) append(0, 1);
     return Voxels(std::move(copy));
   });
+}
+
+Image image_of(const Image& image, const PartLayout::Layers& layers, const GridShape::Axis& axis) {
+  Image part{image.extents, voxels_of(image, layers, axis), image.masked};
+  part.extents[static_cast<std::size_t>(axis.of_input)] =
+      static_cast<Index>(part.values.size() / axis.stride);
+  return part;
+}
+
+[[noreturn]] void refuse_size(std::size_t voxels) {
+  throw Error(ErrorKind::resource, fmt::format("part of an image: found {} voxels, expected "
+                                               "fewer than about 2^31; more parts have fewer",
+                                               voxels));
 }
 
 }  // namespace
@@ -110,30 +119,22 @@ ImagePart::ImagePart(const Image& image, int part, int parts, const ImagePartOpt
   if (image.values.size() != axis.extent * axis.stride)
     throw Error(ErrorKind::bad_data, fmt::format("image: found {} voxels, its extents say {}",
                                                  image.values.size(), axis.extent * axis.stride));
-  const cubical::PartLayout layout(shape, parts);
-  Layers layers{layout.first_layer(part), layout.end_layer(part), false, false};
-  layers.has_before = axis.periodic || part > 0;
-  layers.has_after = axis.periodic || part + 1 < parts;
-  Image own{image.extents, voxels_of(image, layers, axis.extent, axis.stride), image.masked};
+  const PartLayout layout = state_->whole.layout(shape);
+  const PartLayout::Layers own = layout.own(part);
   CubicalOptions own_options = options.cubical;
   own_options.periodic = state_->whole.periodic;
-  const auto k = static_cast<std::size_t>(axis.of_input);
-  own_options.periodic[k] = false;
-  own.extents[k] = static_cast<Index>(own.values.size() / axis.stride);
-  const Cubical cubical(own, own_options, context);
+  own_options.periodic[static_cast<std::size_t>(axis.of_input)] = false;
+  const Cubical cubical(image_of(image, layout.turned(own), axis), own_options, context);
   const CubicalImage voxels = cubical.cubical_image();
-  if (!GridFrame::can_hold(voxels))
-    throw Error(ErrorKind::resource, fmt::format("part of an image: found {} voxels, expected "
-                                                 "fewer than about 2^31; more parts have fewer",
-                                                 voxels.size()));
+  if (!GridFrame::can_hold(voxels)) refuse_size(voxels.size());
   const GridFrame frame(voxels);
-
-  cubical::SlabPlace place = layout.place(part);
-  cubical::Slabs slabs(frame, cubical::Slabs::layers_that_fit(frame, context), context, place,
-                       layout.first_with_ghosts(part));
+  cubical::Slabs slabs(frame, cubical::Slabs::layers_that_fit(frame, context), context,
+                       layout.place(own), layout.first_voxel(own));
   if (state_->whole.loops) {
-    place.cube_pairs = slabs.cube_pairs();
-    state_->own.emplace(cubical, std::move(place), cubical::FreeCells(&context.memory));
+    const Cubical seen(image_of(image, layout.turned(layout.seen(part)), axis), own_options,
+                       context);
+    if (!GridFrame::can_hold(seen.cubical_image())) refuse_size(seen.cubical_image().size());
+    state_->own.emplace(seen, slabs.cube_pairs(), cubical::FreeCells(&context.memory));
   }
   cubical::FreeCells* const free = state_->own ? &state_->own->free : nullptr;
   const cubical::BarSink sink = state_->sink(state_->bars);

@@ -8,6 +8,7 @@
 
 #include "cubical/graphs/two_graphs.hpp"
 #include "cubical/pair_sink.hpp"
+#include "cubical/rounds/part_layout.hpp"
 #include "cubical/slabs/free_cells.hpp"
 #include "cubical/slabs/layer_pairs.hpp"
 #include "ph/parts/image_part.hpp"
@@ -23,7 +24,7 @@ struct WholeImage {
   VoxelType type;
   bool voxels_are_vertices, superlevel;
   double limit;
-  int parts, min_dim, max_dim;
+  int parts, min_dim, max_dim, overlap;
   bool cells;
   bool loops;  ///< whether bars are wanted that come from neither graph
 
@@ -55,14 +56,15 @@ struct WholeImage {
         },
         [](std::size_t) {}};
   }
+  PartLayout layout(const GridShape& shape) const { return {shape, parts, overlap}; }
   /// Tells images and options apart, most likely.
   std::uint64_t hash() const;
 };
 
 /// What the loops of a part begin with.
 struct OwnLayers {
-  Cubical cubical;  ///< of the part with its ghosts
-  SlabPlace place;
+  Cubical seen;  ///< its layers and those beside it that loops look at
+  CubePairMemos cube_pairs;
   FreeCells free;  ///< as far as the part alone tells
 };
 
