@@ -31,12 +31,7 @@ struct Case {
   std::int64_t field;
 };
 Case random_case(Generator& random) {
-  Case result{{},
-              {.loops = true, .overlap = random.coin() ? 1 : random.integer(1, 4)},
-              0,
-              random.coin()   ? 2
-              : random.coin() ? 3
-                              : 5};
+  Case result{{}, {.loops = true}, 0, random.coin() ? 2 : random.coin() ? 3 : 5};
   const bool is_long = random.integer(0, 3) == 0;
   std::vector<Index> extents{random.integer(2, is_long ? 9 : 5), random.integer(2, is_long ? 3 : 4),
                              random.integer(2, is_long ? 3 : 4)};

@@ -21,9 +21,6 @@ struct ImagePartOptions {
   bool cells = true;                          ///< else bars have none
   /// Whether a volume's bars that need all layers may be wanted: ImageLoops finds them.
   bool loops = false;
-  /// For loops: at how many layers on either side of its own a part looks. With more of them parts
-  /// send each other less, for paths along a border stay inside; with one they need least memory.
-  int overlap = 8;
 };
 
 /// The barcode of some layers of an image, as far as it is known without the others: its own pairs
@@ -37,8 +34,7 @@ struct ImagePartOptions {
 class ImagePart {
  public:
   /// Layers n · part / parts up to n · (part + 1) / parts of the n of the slowest axis. Looks at
-  /// the voxels of these and of the layer on either side, for loops of `overlap` layers, and at no
-  /// others.
+  /// the voxels of these and of the layer on either side, and at no others.
   /// @param part from 0 on. @param parts at most one a layer.
   /// @param context outlives the part, and what it is joined with; so does that of `of_bytes`.
   /// @throws Error (usage) on options and parts that are none, (bad_data) and (resource) as

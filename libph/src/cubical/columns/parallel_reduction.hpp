@@ -87,7 +87,7 @@ class ParallelReduction {
   }
   /// Some columns.
   /// @param is_done called with (column, pivot, chain) when a pivot was looked for: whether nothing
-  /// is left to do here, because it is zero or goes somewhere else.
+  /// is left to do here, because it is zero or goes somewhere else. May look further.
   template <class MakeChain, class AssignBoundary, class OwnerOf, class ExpectOwner, class Arrange,
             class IsDone>
   void run_some(std::pmr::vector<std::uint32_t> round, std::string_view stage, std::size_t piece,

@@ -27,7 +27,11 @@ class LoopColumn {
   using Term = Entry<LoopEdge, K>;
 
   LoopColumn(const Stars& grid, const K& field, const RunContext& context)
-      : grid_(grid), field_(field), context_(context), heap_(field, &context.memory) {}
+      : grid_(grid),
+        field_(field),
+        context_(context),
+        heap_(field, &context.memory),
+        stay_(&context.memory) {}
 
   /// Begins anew with the boundary of a square.
   void assign_boundary(std::uint32_t v, int square) {
@@ -50,26 +54,49 @@ class LoopColumn {
     while (const std::optional<Term> youngest = heap_.take()) {
       count(1);
       if (const Term* const next = heap_.next()) expect_star(*next);
-      if (!grid_.sees(youngest->cell.voxel())) return youngest;
-      const std::uint32_t u = grid_.here(youngest->cell.voxel());
-      const StarTables& tables = grid_.tables(u);
-      const int edge = tables.edge_order().at(youngest->cell.rank());
-      const int s = tables.square_of(grid_.star(u), edge);
-      if (s < 0 || !grid_.sees_square(u, s)) return youngest;
-      const auto [first, second] = kEdgesOfSquare[s];
-      const int incidence =
-          edge == second ? -kSquares[s][axis_of_edge(first)] : kSquares[s][axis_of_edge(second)];
-      const Element scale = field_.negate(times(youngest->coefficient(), incidence));
-      heap_.add([&](Terms& terms) { append_boundary(u, s, scale, edge, terms); });
+      if (!replace(*youngest)) return youngest;
     }
     return std::nullopt;
   }
+  /// Puts a pivot back and replaces edges below it as if they had come up, the youngest ones first,
+  /// so many at most. A chain that leaves this part of the grid does so once then, and not each
+  /// time that an edge of another part comes up between two of its own.
+  void follow(const Term& pivot, std::size_t most) {
+    stay_.assign(1, pivot);
+    while (most > 0) {
+      const std::optional<Term> youngest = heap_.take();
+      if (!youngest) break;
+      count(1);
+      if (replace(*youngest))
+        --most;
+      else
+        stay_.push_back(*youngest);
+    }
+    heap_.add([&](Terms& terms) { terms.insert(terms.end(), stay_.begin(), stay_.end()); });
+  }
+  std::size_t size() const { return heap_.size(); }
   /// What it holds, each edge once; to be assigned before it is used again.
   std::span<const Term> consolidate() { return heap_.consolidate(); }
 
  private:
   using Terms = std::pmr::vector<Term>;
 
+  // Adds the rest of the boundary of the square that an edge is paired with inside its star, in
+  // place of the edge that was taken. @return whether that is seen, and there is one.
+  bool replace(const Term& term) {
+    if (!grid_.sees(term.cell.voxel())) return false;
+    const std::uint32_t u = grid_.here(term.cell.voxel());
+    const StarTables& tables = grid_.tables(u);
+    const int edge = tables.edge_order().at(term.cell.rank());
+    const int s = tables.square_of(grid_.star(u), edge);
+    if (s < 0 || !grid_.sees_square(u, s)) return false;
+    const auto [first, second] = kEdgesOfSquare[s];
+    const int incidence =
+        edge == second ? -kSquares[s][axis_of_edge(first)] : kSquares[s][axis_of_edge(second)];
+    const Element scale = field_.negate(times(term.coefficient(), incidence));
+    heap_.add([&](Terms& terms) { append_boundary(u, s, scale, edge, terms); });
+    return true;
+  }
   void count(std::size_t steps) {
     constexpr std::size_t many = 64;
     if ((steps_ += steps) < many) return;
@@ -132,7 +159,8 @@ class LoopColumn {
   const K& field_;
   const RunContext& context_;
   ChainHeap<K, Term, &LoopEdge::precedes> heap_;
-  std::size_t steps_ = 0;  // since the last look at the stop token
+  std::pmr::vector<Term> stay_;  // see `follow`
+  std::size_t steps_ = 0;        // since the last look at the stop token
 };
 
 }  // namespace ph::cubical

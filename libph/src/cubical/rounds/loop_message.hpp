@@ -3,7 +3,9 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <memory_resource>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/little_endian.hpp"
@@ -15,7 +17,7 @@
 namespace ph::cubical {
 
 /// What parts of a grid tell each other while they reduce columns, as bytes: stars of the layers
-/// that the other one sees, and columns whose pivots are the other's.
+/// that are ghosts of the other one, and columns whose pivots are the other's.
 template <Field K>
 class LoopMessage {
  public:
@@ -32,8 +34,8 @@ class LoopMessage {
     std::vector<std::uint32_t> stars;
   };
   struct Column {
-    LoopSquare square;        ///< whose boundary it was
-    std::vector<Term> terms;  ///< from young to old
+    LoopSquare square;             ///< whose boundary it was
+    std::pmr::vector<Term> terms;  ///< from young to old
   };
 
   /// What is to be sent to one part.
@@ -83,10 +85,10 @@ class LoopMessage {
   std::vector<Layer> layers;
   std::vector<Column> columns;
 
-  /// @param voxels of the whole grid. @throws Error (bad_data) on what Writer has not made, or for
-  /// another part.
+  /// @param voxels of the whole grid. @param memory of columns. @throws Error (bad_data) on what
+  /// Writer has not made, or for another part.
   LoopMessage(std::span<const std::byte> bytes, const K& field, std::uint64_t image, int to,
-              int parts, std::uint64_t voxels)
+              int parts, std::uint64_t voxels, std::pmr::memory_resource* memory)
       : field_(field), voxels_(voxels), from_(bytes, "loops of another part") {
     if (from_.get<std::uint64_t>("image") != image) from_.refuse("image, field or option");
     const auto sender = from_.get<std::int32_t>("sender"), receiver = from_.get<std::int32_t>("to");
@@ -99,9 +101,11 @@ class LoopMessage {
       for (std::uint32_t& star : layer.stars) star = from_.get<std::uint32_t>("star");
     }
     constexpr std::size_t bytes_of_cell = 16;
-    columns.resize(from_.count(2 * bytes_of_cell, "columns"));
-    for (Column& column : columns) {
-      column.square = get_cell<LoopSquare>(kSquareCount);
+    const std::size_t count = from_.count(2 * bytes_of_cell, "columns");
+    columns.reserve(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      columns.push_back({get_cell<LoopSquare>(kSquareCount), std::pmr::vector<Term>(memory)});
+      Column& column = columns.back();
       column.terms.resize(from_.count(bytes_of_cell, "column"));
       if (column.terms.empty()) from_.refuse("column");
       for (std::size_t i = 0; i < column.terms.size(); ++i) {

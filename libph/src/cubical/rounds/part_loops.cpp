@@ -28,6 +28,7 @@ PartLoops<K>::PartLoops(const CubicalImage& voxels, const CubePairMemos& cube_pa
       grid_(voxels, layout, part, cube_pairs, context),
       free_(grid_, context),
       squares_(&context.memory),
+      arrived_(&context.memory),
       queue_(&context.memory) {}
 
 template <Field K>
@@ -80,19 +81,17 @@ void PartLoops<K>::take_squares(const std::pmr::vector<GridCell>& squares) {
 
 template <Field K>
 void PartLoops<K>::tell_layers() {
-  std::vector<std::uint64_t> layers;
+  layers_missing_ = layout_.ghosts(part_).size();
   for (int to = 0; to < layout_.parts(); ++to) {
-    layers.clear();
-    layout_.for_each_beside(to, [&](std::uint64_t layer) {
-      if (to == part_) ++layers_missing_;
-      if (layout_.part_of(layer) == part_ && std::ranges::find(layers, layer) == layers.end())
-        layers.push_back(layer);
-    });
-    for (const std::uint64_t layer : layers)
-      if (to == part_)  // a ghost at the other end of a ring
+    auto layers = layout_.ghosts(to);
+    layers.erase(std::unique(layers.begin(), layers.end()), layers.end());
+    for (const std::uint64_t layer : layers) {
+      if (layout_.part_of(layer) != part_) continue;
+      if (to == part_)  // the other end of a ring
         layers_missing_ -= *grid_.hear(layer, grid_.layer(layer));
       else
         outbox_[to].add_layer(layer, grid_.layer(layer));
+    }
   }
 }
 
@@ -124,8 +123,10 @@ void PartLoops<K>::receive(std::span<const std::byte> bytes) {
     early_.emplace_back(bytes.begin(), bytes.end());
     return;
   }
-  Message message(bytes, field_, image_, part_, layout_.parts(), layout_.size());
+  Message message(bytes, field_, image_, part_, layout_.parts(), layout_.size(), &context_.memory);
   check(message);
+  if (squares_.size() + message.columns.size() > UINT32_MAX)
+    throw Error(ErrorKind::resource, "loops of a part: found 2^32 columns or more");
   for (const auto& layer : message.layers) {
     const auto count = grid_.hear(layer.layer, layer.stars);
     if (!count || *count > layers_missing_)
@@ -144,7 +145,7 @@ void PartLoops<K>::receive(std::span<const std::byte> bytes) {
 template <Field K>
 void PartLoops<K>::assign(Chain& chain, std::uint32_t i) {
   if (i >= own_) {
-    const std::vector<Term> terms = std::exchange(arrived_[i - own_], {});
+    const std::pmr::vector<Term> terms = std::move(arrived_[i - own_]);
     chain.assign(terms);
     return;
   }
@@ -153,8 +154,15 @@ void PartLoops<K>::assign(Chain& chain, std::uint32_t i) {
 }
 
 template <Field K>
-bool PartLoops<K>::is_done(std::uint32_t i, const std::optional<Term>& pivot, Chain& chain) {
-  if (pivot && grid_.owns(pivot->cell.voxel())) return false;
+bool PartLoops<K>::is_done(std::uint32_t i, std::optional<Term>& pivot, Chain& chain) {
+  const auto is_here = [&] { return pivot && grid_.owns(pivot->cell.voxel()); };
+  if (pivot && !is_here()) {
+    // What it sees costs about as much as to send the rest; no column may take for ever.
+    constexpr std::size_t few = 64, times = 4;
+    chain.follow(*pivot, times * (chain.size() + few));
+    pivot = chain.take_pivot();
+  }
+  if (is_here()) return false;
   const std::span<const Term> below = pivot ? chain.consolidate() : std::span<const Term>();
   const std::lock_guard lock(mutex_);
   if (pivot) {
@@ -187,7 +195,7 @@ void PartLoops<K>::work(std::size_t most) {
       [&](Chain& chain, std::uint32_t i) { assign(chain, i); },
       [&](const LoopEdge& pivot) -> const Column*& { return owners_->of(pivot); },
       [&](const LoopEdge& pivot) { owners_->expect(pivot); }, [](std::span<std::uint32_t>) {},
-      [&](std::uint32_t i, const std::optional<Term>& pivot, Chain& chain) {
+      [&](std::uint32_t i, std::optional<Term>& pivot, Chain& chain) {
         return is_done(i, pivot, chain);
       });
 }

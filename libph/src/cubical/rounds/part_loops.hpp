@@ -40,7 +40,7 @@ class PartLoops {
  public:
   using Term = typename Reduction::Term;
 
-  /// @param voxels those that the part sees, with ghosts. @param cube_pairs may be null.
+  /// @param voxels those of the part and its ghosts. @param cube_pairs may be null.
   /// @param whole outlives this, as voxels do.
   /// @param image tells images, fields and options from others.
   PartLoops(const CubicalImage& voxels, const CubePairMemos& cube_pairs, const GridShape& whole,
@@ -79,7 +79,7 @@ class PartLoops {
   void check(const Message& message) const;
   bool is_free(const LoopEdge& edge) const;
   void assign(Chain& chain, std::uint32_t i);
-  bool is_done(std::uint32_t i, const std::optional<Term>& pivot, Chain& chain);
+  bool is_done(std::uint32_t i, std::optional<Term>& pivot, Chain& chain);
   WholeCell cell(const LoopSquare& square) const;
 
   const GridShape& whole_;
@@ -90,13 +90,14 @@ class PartLoops {
   const RunContext& context_;
   const VoxelsInUse voxels_are_read_;
   PartStars grid_;
-  std::size_t layers_missing_ = 0;             // that it sees and has not heard of
+  std::size_t layers_missing_ = 0;             // ghosts that it has not heard of
   std::vector<std::vector<std::byte>> early_;  // came before it began
 
   FreeEdges free_;
   std::pmr::vector<LoopSquare> squares_;  // of columns; its own come first, from old to young
   std::size_t own_ = 0;
-  std::vector<std::vector<Term>> arrived_;  // columns behind these, until they are reduced here
+  std::pmr::vector<std::pmr::vector<Term>>
+      arrived_;  // columns behind these, until they are reduced here
   std::pmr::vector<std::uint32_t> queue_;
   std::size_t next_ = 0;  // in the queue
   std::optional<LoopOwners<PartStars, Column>> owners_;

@@ -11,30 +11,29 @@
 
 namespace ph::cubical {
 
-/// The stars of a part of a grid and of some layers beside it, whose parts tell which of their
-/// edges kill. Cells have the names that they have in the whole grid, so that chains may go
-/// anywhere.
+/// The stars of a part of a grid, and those of its ghosts once their parts have told them. Cells
+/// have the names that they have in the whole grid, so that chains may go anywhere.
 class PartStars : public StarGrid {
  public:
-  /// @param voxels those that the part sees, with ghosts. @param cube_pairs may be null.
+  /// @param voxels those of the part and its ghosts. @param cube_pairs may be null.
   PartStars(const CubicalImage& voxels, const PartLayout& layout, int part,
             const CubePairMemos& cube_pairs, const RunContext& context)
       : StarGrid(voxels, context, place(layout, part, cube_pairs)),
         whole_(layout.size()),
-        first_(layout.first_voxel(layout.seen(part))),
+        first_(layout.first_voxel(part)),
         begin_(layout.own(part).begin * layer_size()),
         count_(layout.own(part).count() * layer_size()) {}
 
   /// Whether the part has a voxel of the whole grid: it has no others than its own.
   bool owns(std::uint64_t voxel) const { return voxel - begin_ < count_; }
-  /// Whether it sees one where it is.
+  /// Whether it sees one where it is: its own, and ghosts but those around a ring.
   bool sees(std::uint64_t voxel) const { return voxel - first_ < size(); }
   /// Where it sees it. Precondition: sees(voxel).
   std::uint32_t here(std::uint64_t voxel) const {
     return static_cast<std::uint32_t>(voxel - first_);
   }
-  /// Whether it knows the stars of all voxels of a square in the star of one that it sees: those
-  /// of ghosts may lead further out.
+  /// Whether it sees all of a square in the star of a voxel that it sees: those of ghosts may lead
+  /// further out.
   bool sees_square(std::uint32_t v, int square) const {
     if (!is_ghost(v)) return true;
     const int away = kSquares[square][layer_axis()];
@@ -60,13 +59,12 @@ class PartStars : public StarGrid {
   void mark_own(const FreeEdges& free) {
     mark_all_but(*this, free, here(begin_), here(begin_ + count_));
   }
-  /// Takes in what another part says of one of its layers, wherever it is seen.
+  /// Takes in what the part says that has a layer, where it is a ghost.
   /// @return how often that is, or nothing if other voxels enter there.
   std::optional<std::size_t> hear(std::uint64_t of_whole, std::span<const std::uint32_t> stars) {
     std::size_t count = 0;
-    for (std::uint32_t first = 0; first < size(); first += layer_size()) {
-      const std::uint64_t voxel = in_whole(first);
-      if (voxel != of_whole * layer_size() || (owns(voxel) && !is_ghost(first))) continue;
+    for (const std::uint32_t first : {0U, size() - layer_size()}) {
+      if (!is_ghost(first) || in_whole(first) != of_whole * layer_size()) continue;
       for (std::uint32_t i = 0; i < layer_size(); ++i)
         if (enters(first + i) != (stars[i] != kAbsent)) return std::nullopt;
       for (std::uint32_t i = 0; i < layer_size(); ++i) mark(first + i, stars[i]);
@@ -77,7 +75,7 @@ class PartStars : public StarGrid {
 
  private:
   static SlabPlace place(const PartLayout& layout, int part, const CubePairMemos& cube_pairs) {
-    SlabPlace place = layout.place(layout.seen(part));
+    SlabPlace place = layout.place(part);
     place.cube_pairs = cube_pairs;
     return place;
   }

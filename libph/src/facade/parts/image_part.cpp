@@ -35,7 +35,6 @@ WholeImage whole_image(const Image& image, int parts, const ImagePartOptions& op
           parts,
           options.min_dim,
           options.max_dim.value_or(static_cast<int>(axes)),
-          options.overlap,
           options.cells,
           false};
 }
@@ -50,9 +49,6 @@ void check(const WholeImage& whole, const GridShape& shape, int part, bool may_h
     throw Error(ErrorKind::usage, fmt::format("parts of an image: found {}, expected 1 to {}, the "
                                               "layers of its slowest axis",
                                               whole.parts, layers));
-  if (whole.overlap < 1)
-    throw Error(ErrorKind::usage,
-                fmt::format("overlap of parts: found {}, expected 1 or more", whole.overlap));
   if (part < 0 || part >= whole.parts)
     throw Error(ErrorKind::usage,
                 fmt::format("part of an image: found number {} of {}", part + 1, whole.parts));
@@ -94,12 +90,6 @@ Image image_of(const Image& image, const PartLayout::Layers& layers, const GridS
   return part;
 }
 
-[[noreturn]] void refuse_size(std::size_t voxels) {
-  throw Error(ErrorKind::resource, fmt::format("part of an image: found {} voxels, expected "
-                                               "fewer than about 2^31; more parts have fewer",
-                                               voxels));
-}
-
 }  // namespace
 
 ImagePart::ImagePart(const Image& image, int part, int parts, const ImagePartOptions& options,
@@ -120,22 +110,21 @@ ImagePart::ImagePart(const Image& image, int part, int parts, const ImagePartOpt
     throw Error(ErrorKind::bad_data, fmt::format("image: found {} voxels, its extents say {}",
                                                  image.values.size(), axis.extent * axis.stride));
   const PartLayout layout = state_->whole.layout(shape);
-  const PartLayout::Layers own = layout.own(part);
   CubicalOptions own_options = options.cubical;
   own_options.periodic = state_->whole.periodic;
   own_options.periodic[static_cast<std::size_t>(axis.of_input)] = false;
-  const Cubical cubical(image_of(image, layout.turned(own), axis), own_options, context);
+  const Cubical cubical(image_of(image, layout.turned(layout.own(part)), axis), own_options,
+                        context);
   const CubicalImage voxels = cubical.cubical_image();
-  if (!GridFrame::can_hold(voxels)) refuse_size(voxels.size());
+  if (!GridFrame::can_hold(voxels))
+    throw Error(ErrorKind::resource, fmt::format("part of an image: found {} voxels, expected "
+                                                 "fewer than about 2^31; more parts have fewer",
+                                                 voxels.size()));
   const GridFrame frame(voxels);
   cubical::Slabs slabs(frame, cubical::Slabs::layers_that_fit(frame, context), context,
-                       layout.place(own), layout.first_voxel(own));
-  if (state_->whole.loops) {
-    const Cubical seen(image_of(image, layout.turned(layout.seen(part)), axis), own_options,
-                       context);
-    if (!GridFrame::can_hold(seen.cubical_image())) refuse_size(seen.cubical_image().size());
-    state_->own.emplace(seen, slabs.cube_pairs(), cubical::FreeCells(&context.memory));
-  }
+                       layout.place(part), layout.first_voxel(part));
+  if (state_->whole.loops)
+    state_->own.emplace(cubical, slabs.cube_pairs(), cubical::FreeCells(&context.memory));
   cubical::FreeCells* const free = state_->own ? &state_->own->free : nullptr;
   const cubical::BarSink sink = state_->sink(state_->bars);
   cubical::PairSink pairs(shape, options.cells, sink);

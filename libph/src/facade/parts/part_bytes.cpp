@@ -31,8 +31,7 @@ void put_whole(ByteWriter& to, const WholeImage& whole) {
   to.put(whole.voxels_are_vertices);
   to.put(whole.superlevel);
   to.put(whole.limit);
-  for (const int n : {whole.parts, whole.min_dim, whole.max_dim, whole.overlap})
-    to.put(std::int32_t{n});
+  for (const int n : {whole.parts, whole.min_dim, whole.max_dim}) to.put(std::int32_t{n});
   to.put(whole.cells);
   to.put(whole.loops);
 }
@@ -54,14 +53,14 @@ WholeImage get_whole(ByteReader& from) {
   whole.voxels_are_vertices = from.flag("construction");
   whole.superlevel = from.flag("sign");
   whole.limit = from.get<double>("threshold");
-  for (int* const n : {&whole.parts, &whole.min_dim, &whole.max_dim, &whole.overlap})
+  for (int* const n : {&whole.parts, &whole.min_dim, &whole.max_dim})
     *n = from.get<std::int32_t>("number");
   whole.cells = from.flag("flag of cells");
   whole.loops = from.flag("flag of loops");
   const CubicalImage image = whole.image();
   if (cubical::GridShape::count_axes(image) > 3) refuse("number of axes");
   const cubical::GridShape shape(image);
-  if (shape.top_dim() < 2 || whole.parts < 1 || whole.overlap < 1 ||
+  if (shape.top_dim() < 2 || whole.parts < 1 ||
       static_cast<std::uint64_t>(whole.parts) > shape.axis(shape.layer_axis()).extent)
     refuse("number of parts");
   if (cubical::wants_loops(shape, whole.wanted()) != whole.loops) refuse("flag of loops");

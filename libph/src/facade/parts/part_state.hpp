@@ -24,7 +24,7 @@ struct WholeImage {
   VoxelType type;
   bool voxels_are_vertices, superlevel;
   double limit;
-  int parts, min_dim, max_dim, overlap;
+  int parts, min_dim, max_dim;
   bool cells;
   bool loops;  ///< whether bars are wanted that come from neither graph
 
@@ -56,14 +56,14 @@ struct WholeImage {
         },
         [](std::size_t) {}};
   }
-  PartLayout layout(const GridShape& shape) const { return {shape, parts, overlap}; }
+  PartLayout layout(const GridShape& shape) const { return {shape, parts}; }
   /// Tells images and options apart, most likely.
   std::uint64_t hash() const;
 };
 
 /// What the loops of a part begin with.
 struct OwnLayers {
-  Cubical seen;  ///< its layers and those beside it that loops look at
+  Cubical cubical;  ///< of the part with its ghosts
   CubePairMemos cube_pairs;
   FreeCells free;  ///< as far as the part alone tells
 };
