@@ -23,6 +23,14 @@ std::array<std::byte, sizeof(T)> in_order(std::array<std::byte, sizeof(T)> bytes
   return bytes;
 }
 
+/// Tells bytes from others that are not made to deceive (Fowler, Noll, Vo: FNV-1a).
+inline std::uint64_t hash_of(std::span<const std::byte> bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const std::byte byte : bytes)
+    hash = (hash ^ std::to_integer<std::uint64_t>(byte)) * 0x100000001b3;
+  return hash;
+}
+
 /// Numbers as bytes, the same on every machine.
 class ByteWriter {
  public:
@@ -75,9 +83,10 @@ class ByteReader {
     if (count > (bytes_.size() - at_) / bytes_each) refuse(what);
     return static_cast<std::size_t>(count);
   }
-  bool is_at_end() const { return at_ == bytes_.size(); }
+  /// So many bytes have been read.
+  std::size_t at() const { return at_; }
   void expect_end() const {
-    if (!is_at_end()) refuse("end");
+    if (at_ != bytes_.size()) refuse("end");
   }
 
  private:

@@ -14,6 +14,9 @@
 #include <iostream>
 #include <limits>
 #include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "support/conformance.hpp"
 #include "support/for_each_seed.hpp"
@@ -178,7 +181,134 @@ TEST(ImageLoops, AgreeWithTheOracleCellByCell) {
   EXPECT_TRUE(is_enough(runs, std::size_t{50000})) << runs;
   EXPECT_TRUE(is_enough(loops, std::size_t{3000})) << loops;
   EXPECT_TRUE(is_enough(sent, std::size_t{10000})) << sent;
+  // For those who look for more by hand.
   std::cout << runs << " runs, " << loops << " loops, " << sent << " columns sent\n";
+}
+
+/// The loops of all parts of an image when all have begun, and what they say first.
+struct Begun {
+  std::vector<ImageLoops> loops;
+  std::vector<ImageLoops::Message> messages;
+};
+Begun begun(const Image& image, int count, const ImagePartOptions& options, std::int64_t field = 2,
+            const RunContext& context = default_context()) {
+  Begun all;
+  std::optional<ImagePart> whole;
+  for (int i = 0; i < count; ++i) {
+    ImagePart part(image, i, count, options, context);
+    all.loops.emplace_back(part, field, context);
+    if (whole)
+      whole->join(std::move(part));
+    else
+      whole.emplace(std::move(part));
+  }
+  for (ImageLoops& part : all.loops) {
+    part.begin(whole->told_to_loops(part.part()));
+    for (auto& message : part.take_messages()) all.messages.push_back(std::move(message));
+  }
+  return all;
+}
+
+/// Rounds until nothing is on its way. @return the bars of all parts.
+std::vector<Pair> finished(Begun all) {
+  while (!all.messages.empty()) {
+    for (const auto& message : std::exchange(all.messages, {}))
+      all.loops[static_cast<std::size_t>(message.to)].receive(message.bytes);
+    for (ImageLoops& part : all.loops) {
+      part.work();
+      for (auto& message : part.take_messages()) all.messages.push_back(std::move(message));
+    }
+  }
+  std::vector<Pair> pairs;
+  for (const ImageLoops& part : all.loops) {
+    const auto more = pairs_of(part.barcode());
+    pairs.insert(pairs.end(), more.begin(), more.end());
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+// Enough columns for several threads, and rounds in which they take pivots from each other.
+TEST(ImageLoops, ThreadsDoNotMatter) {
+  for (const Construction construction : {Construction::vertices, Construction::cells}) {
+    Generator random(7);
+    const Image image = random.image({24, 25, 26}, false);
+    const ImagePartOptions options{
+        .cubical = {.construction = construction, .periodic = {true, false, false}},
+        .min_dim = 1,
+        .max_dim = 1,
+        .loops = true};
+    RunContext context;
+    context.threads = 4;
+    const auto pairs = finished(begun(image, 3, options, 3, context));
+    EXPECT_EQ(pairs, pairs_of(persistence(
+                         Cubical(image, options.cubical),
+                         {.max_dim = 1, .min_dim = 1, .field = 3, .engine = Engine::gradient})));
+    EXPECT_GT(pairs.size(), 1000U);
+  }
+}
+
+TEST(ImageLoops, RefuseDamagedMessages) {
+  Generator random(3);
+  const Image image = random.image({8, 9, 9}, false);
+  Begun all = begun(image, 2, {.loops = true});
+  for (const auto& message : std::exchange(all.messages, {}))
+    all.loops[static_cast<std::size_t>(message.to)].receive(message.bytes);
+  all.loops[0].work();
+  const auto messages = all.loops[0].take_messages();
+  ASSERT_EQ(messages.size(), 1U);
+  ASSERT_EQ(messages[0].to, 1);
+  const std::vector<std::byte>& bytes = messages[0].bytes;
+  const auto is_refused = [](ImageLoops& part, std::span<const std::byte> message) {
+    try {
+      part.receive(message);
+      return false;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::bad_data) << error.what();
+      return true;
+    }
+  };
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    ASSERT_TRUE(is_refused(all.loops[1], std::span(bytes).first(size))) << size;
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+    for (const std::byte flipped : {std::byte{1}, std::byte{0x84}}) {
+      auto damaged = bytes;
+      damaged[i] ^= flipped;
+      ASSERT_TRUE(is_refused(all.loops[1], damaged)) << i;
+    }
+  EXPECT_TRUE(is_refused(all.loops[0], bytes)) << "a message for another part";
+  EXPECT_TRUE(is_refused(begun(image, 2, {.loops = true}, 3).loops[1], bytes)) << "another field";
+  EXPECT_TRUE(is_refused(begun(image, 3, {.loops = true}).loops[1], bytes)) << "other parts";
+  EXPECT_FALSE(is_refused(all.loops[1], bytes));
+  EXPECT_TRUE(is_refused(all.loops[1], bytes)) << "a message that has come before";
+}
+
+TEST(ImageLoops, RefuseWhatTheyCannotBeginWith) {
+  Generator random(4);
+  const Image image = random.image({4, 4, 4}, false);
+  const auto kind_of = [](auto&& run) -> std::optional<ErrorKind> {
+    try {
+      run();
+      return std::nullopt;
+    } catch (const Error& error) {
+      return error.kind();
+    }
+  };
+  ImagePart first(image, 0, 2, {.loops = true}), second(image, 1, 2, {.loops = true});
+  EXPECT_TRUE(first.has_loops());
+  EXPECT_EQ(kind_of([&] { ImageLoops(first, 4); }), ErrorKind::usage) << "no field";
+  ImageLoops loops(first);
+  EXPECT_EQ(kind_of([&] { ImageLoops again(first); }), ErrorKind::usage) << "used";
+  ImagePart of_bytes = ImagePart::of_bytes(second.bytes());
+  EXPECT_EQ(kind_of([&] { ImageLoops none(of_bytes); }), ErrorKind::usage) << "only bytes";
+  ImagePart without(image, 0, 2, {.max_dim = 0, .loops = true});
+  EXPECT_FALSE(without.has_loops());
+  EXPECT_EQ(kind_of([&] { ImageLoops none(without); }), ErrorKind::usage) << "not wanted";
+  first.join(std::move(second));
+  EXPECT_EQ(kind_of([&] { loops.begin(first.told_to_loops(1)); }), ErrorKind::bad_data);
+  const auto told = first.told_to_loops(0);
+  EXPECT_EQ(kind_of([&] { loops.begin(std::span(told).first(told.size() - 1)); }),
+            ErrorKind::bad_data);
 }
 
 }  // namespace

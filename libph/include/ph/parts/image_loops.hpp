@@ -42,7 +42,8 @@ class ImageLoops {
   /// @param told what `ImagePart::told_to_loops` says of this part. @throws Error (bad_data).
   void begin(std::span<const std::byte> told);
   /// Takes in a message for this part; also before it begins. Each must come once, in any order.
-  /// @throws Error (bad_data) if it is damaged; nothing has changed then.
+  /// @throws Error (bad_data) if it is damaged, or has come before; what is found from then on is
+  ///         of no use.
   void receive(std::span<const std::byte> message);
   /// Whether there is nothing to do until something is received.
   bool is_idle() const;

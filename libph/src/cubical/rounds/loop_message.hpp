@@ -23,11 +23,10 @@ class LoopMessage {
  public:
   using Term = Entry<LoopEdge, K>;
 
-  /// Two parts of one image and a field have the same.
   struct Header {
-    std::uint64_t image;
+    std::uint64_t image;  ///< tells images, fields and options from others
     std::int32_t from, to;
-    friend bool operator==(const Header&, const Header&) = default;
+    std::uint64_t number;  ///< among those from the one to the other
   };
   struct Layer {
     std::uint64_t layer;  ///< of the stars' grid
@@ -54,15 +53,18 @@ class LoopMessage {
       put(pivot);
       for (const Term& term : below) put(term);
     }
-    std::vector<std::byte> take(const Header& header) {
+    /// What has been added since the last call.
+    std::vector<std::byte> take(std::uint64_t image, std::int32_t from, std::int32_t to) {
       ByteWriter all;
-      all.put(header.image);
-      all.put(header.from);
-      all.put(header.to);
+      all.put(image);
+      all.put(from);
+      all.put(to);
+      all.put(number_++);
       all.put(std::exchange(layers_, 0));
       all.put_bytes(layer_bytes_.take());
       all.put(std::exchange(columns_, 0));
       all.put_bytes(column_bytes_.take());
+      all.put(hash_of(all.bytes()));
       return all.take();
     }
 
@@ -78,22 +80,26 @@ class LoopMessage {
     }
 
     std::uint32_t layers_ = 0;
-    std::uint64_t columns_ = 0;
+    std::uint64_t columns_ = 0, number_ = 0;
     ByteWriter layer_bytes_, column_bytes_;
   };
 
+  Header header;
   std::vector<Layer> layers;
   std::vector<Column> columns;
 
-  /// @param voxels of the whole grid. @param memory of columns. @throws Error (bad_data) on what
+  /// @param voxels of the whole grid. @param memory for columns. @throws Error (bad_data) on what
   /// Writer has not made, or for another part.
   LoopMessage(std::span<const std::byte> bytes, const K& field, std::uint64_t image, int to,
               int parts, std::uint64_t voxels, std::pmr::memory_resource* memory)
       : field_(field), voxels_(voxels), from_(bytes, "loops of another part") {
-    if (from_.get<std::uint64_t>("image") != image) from_.refuse("image, field or option");
-    const auto sender = from_.get<std::int32_t>("sender"), receiver = from_.get<std::int32_t>("to");
-    if (sender < 0 || sender >= parts || sender == to) from_.refuse("sender");
-    if (receiver != to) from_.refuse("receiver");
+    header.image = from_.get<std::uint64_t>("image");
+    if (header.image != image) from_.refuse("image, field or option");
+    header.from = from_.get<std::int32_t>("sender");
+    if (header.from < 0 || header.from >= parts || header.from == to) from_.refuse("sender");
+    header.to = from_.get<std::int32_t>("receiver");
+    if (header.to != to) from_.refuse("receiver");
+    header.number = from_.get<std::uint64_t>("number");
     for (auto left = from_.get<std::uint32_t>("count"); left > 0; --left) {
       Layer& layer = layers.emplace_back();
       layer.layer = from_.get<std::uint64_t>("layer");
@@ -114,6 +120,8 @@ class LoopMessage {
           from_.refuse("order");
       }
     }
+    const std::uint64_t hash = hash_of(bytes.first(from_.at()));
+    if (from_.get<std::uint64_t>("hash") != hash) from_.refuse("byte");
     from_.expect_end();
   }
 

@@ -53,7 +53,7 @@ class PartLoops {
   /// @throws Error (bad_data) if they are not that.
   void begin(FreeCells free);
   /// Takes in what another part has sent; also before it begins.
-  /// @throws Error (bad_data) if that is damaged; nothing has changed then.
+  /// @throws Error (bad_data) if that is damaged, or has come before.
   void receive(std::span<const std::byte> message);
   /// Whether there is nothing to do until something is received.
   bool is_idle() const { return !is_ready() || next_ == queue_.size(); }
@@ -63,7 +63,7 @@ class PartLoops {
   template <class Use>
   void send(Use&& use) {
     for (auto& [to, writer] : outbox_)
-      if (!writer.is_empty()) use(to, writer.take({image_, part_, to}));
+      if (!writer.is_empty()) use(to, writer.take(image_, part_, to));
   }
   /// Hands over the pairs whose edges are here, and the classes that never die of what is here.
   /// Precondition: all parts are idle, and all that was sent has been received.
@@ -76,7 +76,7 @@ class PartLoops {
   void take_edges(std::pmr::vector<GridCell>& edges);
   void take_squares(const std::pmr::vector<GridCell>& squares);
   void tell_layers();
-  void check(const Message& message) const;
+  void check(const Message& message);
   bool is_free(const LoopEdge& edge) const;
   void assign(Chain& chain, std::uint32_t i);
   bool is_done(std::uint32_t i, std::optional<Term>& pivot, Chain& chain);
@@ -92,6 +92,7 @@ class PartLoops {
   PartStars grid_;
   std::size_t layers_missing_ = 0;             // ghosts that it has not heard of
   std::vector<std::vector<std::byte>> early_;  // came before it began
+  std::map<int, std::vector<bool>> heard_;     // by sender, by number of the message
 
   FreeEdges free_;
   std::pmr::vector<LoopSquare> squares_;  // of columns; its own come first, from old to young

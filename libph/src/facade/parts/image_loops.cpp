@@ -65,7 +65,7 @@ void ImageLoops::begin(std::span<const std::byte> told) {
   ByteReader from(told, "what is told to loops");
   if (from.get<std::uint64_t>("image") != state_->whole.hash()) from.refuse("image or option");
   if (from.get<std::int32_t>("part") != state_->part) from.refuse("number of a part");
-  FreeCells free = std::move(state_->own.free);
+  FreeCells free(&state_->context.memory);
   const auto get = [&](std::pmr::vector<GridCell>& cells, std::size_t in_star) {
     constexpr std::size_t bytes_of_cell = 12;
     for (std::size_t left = from.count(bytes_of_cell, "cells"); left > 0; --left) {
@@ -78,6 +78,8 @@ void ImageLoops::begin(std::span<const std::byte> told) {
   get(free.edges, cubical::kEdges.size());
   get(free.squares, cubical::kSquares.size());
   from.expect_end();
+  free.add(state_->own.free);
+  state_->own.free = FreeCells(&state_->context.memory);
   state_->with_loops([&](auto& loops) { loops.begin(std::move(free)); });
 }
 

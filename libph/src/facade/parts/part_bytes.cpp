@@ -198,10 +198,7 @@ void get_bars(ByteReader& from, Barcode& bars) {
 std::uint64_t cubical::WholeImage::hash() const {
   ByteWriter to;
   put_whole(to, *this);
-  std::uint64_t hash = 0xcbf29ce484222325;  // Fowler, Noll, Vo: FNV-1a
-  for (const std::byte byte : to.bytes())
-    hash = (hash ^ std::to_integer<unsigned>(byte)) * 0x100000001b3;
-  return hash;
+  return hash_of(to.bytes());
 }
 
 std::vector<std::byte> ImagePart::bytes() const {
