@@ -97,8 +97,8 @@ class PartLoops {
   FreeEdges free_;
   std::pmr::vector<LoopSquare> squares_;  // of columns; its own come first, from old to young
   std::size_t own_ = 0;
-  std::pmr::vector<std::pmr::vector<Term>>
-      arrived_;  // columns behind these, until they are reduced here
+  // What came of the others, until they are reduced here.
+  std::pmr::vector<std::pmr::vector<Term>> arrived_;
   std::pmr::vector<std::uint32_t> queue_;
   std::size_t next_ = 0;  // in the queue
   std::optional<LoopOwners<PartStars, Column>> owners_;
