@@ -52,8 +52,7 @@ class ImagePart {
   bool is_whole() const { return first() == 0 && last() + 1 == parts(); }
   /// Takes in the parts right after it.
   /// @throws Error (bad_data) if they are not, or of another image, or of other options; nothing
-  /// has
-  ///         changed then.
+  ///         has changed then.
   void join(ImagePart next, const RunContext& context = default_context());
   /// The bars of positive length, without those of ImageLoops. Precondition: is_whole().
   Barcode barcode(const RunContext& context = default_context()) const;
