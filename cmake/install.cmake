@@ -4,7 +4,7 @@
 #
 # `cmake --install BUILD --component NAME` takes a part: `c`, what programs need that were linked
 # with ph::c; `dev`, what it takes to compile and link others; `pcl` and `alpha`, the same of ph::pcl
-# and ph::alpha; `programs`; `python`; `doc`; `licence`. debian/rules makes a package of each.
+# and ph::alpha; `programs`; `mpi`; `python`; `doc`; `licence`. debian/rules makes a package of each.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/ph)
@@ -37,6 +37,9 @@ endif()
 if(PH_BUILD_APPS)
   install(TARGETS ph-barcode ph-distance ph-segment ph-vectorise
           RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
+endif()
+if(TARGET ph-barcode-mpi)
+  install(TARGETS ph-barcode-mpi RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT mpi)
 endif()
 # Links between pages hold: they lie as in the repository.
 install(FILES README.md CHANGELOG.md CITATION.cff CODE_OF_CONDUCT.md CONTRIBUTING.md SECURITY.md

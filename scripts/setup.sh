@@ -8,11 +8,12 @@ build=(build-essential cmake ninja-build pkg-config ccache libeigen3-dev libfmt-
 demo=(python3-numpy python3-skimage libcgal-demo)
 # Peers and tools that tests compare with or look through.
 test=(libgtest-dev libbenchmark-dev libpcl-dev libcgal-dev ripser python3-gudhi python3-numpy librsvg2-bin git
-      locales zsh fish man-db groff mandoc abigail-tools)
+      locales zsh fish man-db groff mandoc abigail-tools slurm-wlm
+      libopenmpi-dev openmpi-bin libmpich-dev mpich)
 # The Python package, and what its tests compare with.
 python=(python3-dev pybind11-dev python3-numpy python3-scipy python3-sklearn python3-pandas
         python3-matplotlib python3-skimage pymol-data python3-pytest python3-mypy python3-venv python3-nbclient
-        python3-ipykernel)
+        python3-ipykernel python3-distributed)
 # What bundles the page of the reports; Node may be there from elsewhere.
 page=()
 command -v npm >/dev/null || page=(nodejs npm)

@@ -10,8 +10,11 @@
 #include <string_view>
 
 #include "barcode/arguments/option_scopes.hpp"
+#include "barcode/batch_inputs.hpp"
 #include "barcode/output/report.hpp"
 #include "barcode/output/significance.hpp"
+#include "barcode/parts/part_files.hpp"
+#include "barcode/parts/run_parts.hpp"
 #include "barcode/run.hpp"
 #include "common/files/batch_names.hpp"
 #include "common/files/file_identity.hpp"
@@ -20,30 +23,6 @@
 
 namespace ph::barcode {
 namespace {
-
-BarcodeFormat format_of(const Arguments& arguments, app::Session& session) {
-  if (arguments.output_format) return *arguments.output_format;
-  if (const app::Plot picture{.path = arguments.output, .kind = {}};
-      picture.is_svg() || picture.is_png())
-    throw Error(ErrorKind::usage,
-                fmt::format("--output: found '{0}', expected a barcode; --plot {0} draws it, "
-                            "--output-format says what else it is",
-                            printable(arguments.output)));
-  // Pictures of several inputs need no barcodes beside them.
-  const bool has_others =
-      !arguments.plots.empty() || !arguments.report.empty() || !arguments.surfaces.empty();
-  if (arguments.is_batch() && arguments.output == "-" && has_others) return BarcodeFormat::none;
-  if (arguments.is_batch() &&
-      (arguments.output.ends_with('/') || !app::names_each(arguments.output)))
-    return BarcodeFormat::csv;
-  if (const auto format = barcode_format_of_path(arguments.output)) return *format;
-  const std::string& path = arguments.output;
-  const std::size_t name = path.rfind('/') == path.npos ? 0 : path.rfind('/') + 1;
-  // A leading dot hides a file; it starts no extension.
-  if (path.find('.', name + 1) != path.npos && !path.ends_with(".."))
-    session.note(fmt::format("{}: the extension names no format, writing csv", path));
-  return BarcodeFormat::csv;
-}
 
 /// Only JSON and the report have room for representatives, and only JSON for loops.
 /// @throws Error (usage).
@@ -61,37 +40,6 @@ void require_room(BarcodeFormat format, const Arguments& arguments) {
               fmt::format("--representatives: found output format {}, expected json; "
                           "--output-format json or -o FILE.json holds them",
                           barcode_format_name(format)));
-}
-
-// Of what ph-barcode reads, compressed or not; a folder may have other files beside them.
-constexpr std::array<std::string_view, 26> kExtensions{
-    ".csv",  ".tsv", ".txt",       ".dat",    ".xyz", ".xyzrgb",  ".pts", ".npy",   ".npz",
-    ".png",  ".pgm", ".nii",       ".off",    ".ply", ".pcd",     ".bin", ".dipha", ".complex",
-    ".phat", ".coo", ".simplices", ".sparse", ".cub", ".perseus", ".raw", ".json"};
-constexpr std::array<std::string_view, 9> kBarcodeExtensions{
-    ".csv", ".json", ".txt", ".ripser", ".pers", ".dipha", ".diagram", ".npy", ".dat"};
-
-/// The files that a folder among the inputs stands for.
-std::vector<std::string> with_files_of_folders(const Arguments& arguments) {
-  std::vector<std::string_view> extensions;
-  if (arguments.stored)
-    extensions.assign(kBarcodeExtensions.begin(), kBarcodeExtensions.end());
-  else
-    extensions.assign(kExtensions.begin(), kExtensions.end());
-  std::vector<std::string> packed;
-  for (const std::string_view extension : extensions)
-    packed.push_back(std::string(extension) + ".gz");
-  extensions.insert(extensions.end(), packed.begin(), packed.end());
-  std::vector<std::string> inputs;
-  for (const std::string& input : arguments.inputs) {
-    if (!app::is_folder(input)) {
-      inputs.push_back(input);
-      continue;
-    }
-    for (std::string& file : app::files_in(input, extensions, "a file of a known format"))
-      inputs.push_back(std::move(file));
-  }
-  return inputs;
 }
 
 /// What each input of a batch has, in place of folders and `*`.
@@ -244,6 +192,30 @@ int run_one(const Job& job, const Arguments& arguments, app::Session& session) {
 
 }  // namespace
 
+BarcodeFormat output_format(const Arguments& arguments, app::Session& session) {
+  if (arguments.output_format) return *arguments.output_format;
+  if (const app::Plot picture{.path = arguments.output, .kind = {}};
+      picture.is_svg() || picture.is_png())
+    throw Error(ErrorKind::usage,
+                fmt::format("--output: found '{0}', expected a barcode; --plot {0} draws it, "
+                            "--output-format says what else it is",
+                            printable(arguments.output)));
+  // Pictures of several inputs need no barcodes beside them.
+  const bool has_others =
+      !arguments.plots.empty() || !arguments.report.empty() || !arguments.surfaces.empty();
+  if (arguments.is_batch() && arguments.output == "-" && has_others) return BarcodeFormat::none;
+  if (arguments.is_batch() &&
+      (arguments.output.ends_with('/') || !app::names_each(arguments.output)))
+    return BarcodeFormat::csv;
+  if (const auto format = barcode_format_of_path(arguments.output)) return *format;
+  const std::string& path = arguments.output;
+  const std::size_t name = path.rfind('/') == path.npos ? 0 : path.rfind('/') + 1;
+  // A leading dot hides a file; it starts no extension.
+  if (path.find('.', name + 1) != path.npos && !path.ends_with(".."))
+    session.note(fmt::format("{}: the extension names no format, writing csv", path));
+  return BarcodeFormat::csv;
+}
+
 int run_all(const Arguments& given, app::Session& session) {
   for (const std::string& note : given.notes) session.note(note);
   if (!given.compare.empty()) {
@@ -258,7 +230,11 @@ int run_all(const Arguments& given, app::Session& session) {
     explain_unwritten(given, format, session);
     return run_comparison(given, session);
   }
-  const BarcodeFormat format = format_of(given, session);
+  if (given.part) return run_part(given, session);
+  if (given.joins && is_part_path(given.output))
+    return run_join(given, BarcodeFormat::none, session);
+  const BarcodeFormat format = output_format(given, session);
+  if (given.joins) return run_join(given, format, session);
   Arguments arguments = given;
   // JSON and the report show them.
   arguments.options.cells = format == BarcodeFormat::json || !arguments.report.empty();

@@ -24,6 +24,7 @@
 #include "common/system/process.hpp"
 #include "common/terminal/exit_code.hpp"
 #include "common/terminal/messages.hpp"
+#include "core/bytes/sealed_part.hpp"
 #include "core/system/files.hpp"
 #include "facade/adjust.hpp"
 #include "ph/detail/report/shown_tree.hpp"
@@ -108,8 +109,15 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
     somebody_types.emplace(session);
   std::optional<Input> input(
       Input::open(files::path_of(job.input), &session.context(), Input::Excess::stays_in_file));
+  if (is_sealed_part(input->bytes()))
+    throw Error(ErrorKind::bad_data, fmt::format("{}: found a part of a result, expected data; "
+                                                 "--join makes bars of all parts",
+                                                 input->name()));
   is_stored = arguments.stored || (arguments.format == Format::automatic && is_barcode(*input));
   if (is_stored) {
+    if (job.bars != nullptr)
+      throw Error(ErrorKind::bad_data,
+                  fmt::format("{}: found a barcode, expected data", input->name()));
     app::require_in_scope(arguments.given, kBarcode, name_of(kBarcode));  // --dry-run is not
     return run_stored(job, *input, *outputs, arguments, session);
   }
@@ -233,7 +241,9 @@ Outcome run_once(const Job& job, const Arguments& arguments, app::Session& sessi
     write_report(outputs->report().file(), shown, arguments, session);
     outputs->report().commit();
   }
-  return {code, fmt::format("{}: {}", description, app::count_of(barcode.size(), "bar"))};
+  std::string summary = fmt::format("{}: {}", description, app::count_of(barcode.size(), "bar"));
+  if (job.bars != nullptr) *job.bars = std::move(barcode);
+  return {code, std::move(summary)};
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ struct Job {
   std::vector<app::Plot> plots = {};
   std::string report = {};  ///< empty: none
   std::vector<Surface> surfaces = {};
+  Barcode* bars = nullptr;  ///< receives them, if it is there
 };
 
 /// What became of it.

@@ -16,6 +16,7 @@ void bind_bars(py::module_& m);
 void bind_complexes(py::module_& m);
 void bind_alpha(py::module_& m);
 void bind_computations(py::module_& m);
+void bind_parts(py::module_& m);
 void bind_distances(py::module_& m);
 void bind_significance(py::module_& m);
 void bind_vectors(py::module_& m);

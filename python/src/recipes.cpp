@@ -257,6 +257,7 @@ void bind_complexes(py::module_& m) {
            py::arg("space"), py::arg("threshold"), py::arg("births"), py::arg("dtm_neighbours"),
            py::arg("weight_exponent"), py::arg("subsample"), py::arg("subsample_radius"),
            py::arg("approximation"), py::arg("merge_equal_points"), py::arg("ids"));
+  py::class_<CubicalRecipe, Recipe>(m, "CubicalRecipe");
   using Construction = CubicalOptions::Construction;
   m.def(
       "cubical_recipe",

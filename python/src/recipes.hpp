@@ -96,10 +96,10 @@ class CubicalRecipe final : public Recipe {
 
   Built build(const Options& options, const RunContext& context) const override;
   bool is_short(const Options& options) const override;
+  Image image(const RunContext& context) const;
+  const CubicalOptions& options() const { return options_; }
 
  private:
-  Image image(const RunContext& context) const;
-
   py::buffer_info array_;
   VoxelType type_;
   bool is_masked_, is_file_;

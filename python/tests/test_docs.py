@@ -42,13 +42,15 @@ def test_docstrings(name):
     assert runner.summarize(verbose=False).failed == 0
 
 
-OPTIONAL = {"matplotlib", "open3d", "pandas", "scipy", "skimage", "sklearn"}
+OPTIONAL = {"distributed", "matplotlib", "open3d", "pandas", "scipy", "skimage", "sklearn"}
 # What a page needs without a word.
 NEEDED = {"docs/how-to/coming-from.md": {"sklearn", "scipy"}, "docs/how-to/scikit-learn.md": {"pandas"}}
 PAGES = [page.relative_to(SOURCE).as_posix() for page in sorted((SOURCE / "docs").rglob("*.md"))
          if ">>> " in page.read_text()]
 
 
+# Dask of Debian 12 starts the loop of its Tornado in the old way.
+@pytest.mark.filterwarnings("ignore:make_current is deprecated:DeprecationWarning")
 @pytest.mark.parametrize("name", PAGES)
 def test_pages(name, monkeypatch):
     """Each in the root of the sources. What a page imports has to be there."""

@@ -21,6 +21,7 @@ HAS = {
     "alpha": ([], r"include/ph/(detail/alpha/\w+|alpha)\.hpp|lib/(.*/)?cmake/ph/ph-alpha(-\w+)?\.cmake|"
                   r"lib/([^/]+/)?libph_alpha\.a"),
     "programs": ([], r"bin/ph-\w+|share/(man/man1|bash-completion|zsh|fish)/.*"),
+    "mpi": ([], r"bin/ph-barcode-mpi"),
     "python": ([], r"lib/python[^/]*/[^/]+/libph/.*\.(py|pyi|so|typed)"),
     "doc": ([rf"{DOC}/README\.md", rf"{DOC}/docs/index\.md", rf"{DOC}/examples/01_points\.cpp"],
             rf"{DOC}/.*"),

@@ -22,7 +22,9 @@ from pathlib import Path
 FINDS = {"Eigen3": "libeigen3-dev", "fmt": "libfmt-dev", "ZLIB": "zlib1g-dev", "PNG": "libpng-dev",
          "Freetype": "libfreetype-dev", "CLI11": "libcli11-dev", "pybind11": "pybind11-dev",
          "PCL": "libpcl-dev", "GTest": "libgtest-dev", "Python3": "python3-dev", "Threads": None,
-         "CGAL": "libcgal-dev", "benchmark": None}  # PH_BUILD_BENCHMARKS is off
+         "CGAL": "libcgal-dev", "benchmark": None, "MPI": None}  # the last two are off in debian/rules
+# Components that are in no package: each cluster has an MPI of its own.
+OF_NO_PACKAGE = {"licence", "mpi"}
 # Folders whose targets a package is not built of.
 NOT_PACKAGED = {"bench", "violations", "build", "install", "node_modules"}
 # Of debian/control alone, or of scripts/setup.sh alone: a compiler is always there.
@@ -170,7 +172,7 @@ def packages(root):
     if listed != set(made):
         yield f"debian/rules: found other packages than debian/control: {sorted(listed ^ set(made))}"
     text = read(root, "cmake/install.cmake") + read(root, "python/CMakeLists.txt")
-    components = set(re.findall(r"COMPONENT (\w+)", text)) - {"licence"}
+    components = set(re.findall(r"COMPONENT (\w+)", text)) - OF_NO_PACKAGE
     components |= set(found_in(r'if\(library MATCHES "\^\(([\w|]+)\)\$"\)', text,
                                "cmake/install.cmake").split("|"))
     for component in sorted(components ^ set(made.values())):

@@ -15,6 +15,7 @@
 #include "barcode/arguments/image_arguments.hpp"
 #include "barcode/arguments/manual.hpp"
 #include "barcode/arguments/option_scopes.hpp"
+#include "barcode/arguments/part_arguments.hpp"
 #include "barcode/arguments/rips_arguments.hpp"
 #include "barcode/arguments/table_arguments.hpp"
 #include "common/arguments/numbers.hpp"
@@ -193,6 +194,7 @@ void check_together(Arguments& a) {
   if (a.report == "-" && a.output == "-" && a.output_format != BarcodeFormat::none)
     reject(fmt::format("--report: standard output has the {}; -o FILE or --output-format none",
                        a.compare.empty() ? "barcode" : "distances"));
+  check_part_arguments(a);
   if (!a.compare.empty()) {
     if (!a.inputs.empty())
       reject(fmt::format("--compare: found INPUT '{}' beside it, expected two barcode files only",
@@ -239,7 +241,12 @@ bool Arguments::draws_tree() const {
   return std::ranges::any_of(plots, [](const app::Plot& plot) { return plot.kind == "tree"; });
 }
 
+bool Arguments::wants_image_part() const {
+  return (part || on_ranks) && inputs.size() == 1 && !app::is_folder(inputs.front());
+}
+
 bool Arguments::is_batch() const {
+  if (part || joins || on_ranks) return false;
   if (inputs.size() > 1 || app::names_each(output) || app::names_each(report) ||
       std::ranges::any_of(plots, app::names_each, &app::Plot::path) ||
       std::ranges::any_of(surfaces, app::names_each, &Surface::path))
@@ -271,6 +278,7 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv,
   add_rips_options(app, arguments);
   add_alpha_options(app, arguments);
   add_homology_options(app, arguments);
+  add_part_options(app, arguments);
   add_output_options(app, arguments);
   add_picture_options(app, plots);
   app::add_common_options(app, arguments.common);
@@ -284,7 +292,10 @@ std::optional<std::string> parse_arguments(int argc, const char* const* argv,
   for (const app::Plot& plot : arguments.plots) app::require_known_format(plot);
   arguments.given = app::given_scopes(app, option_scopes());
   check_together(arguments);
-  if (arguments.compare.empty() && !arguments.is_batch() && app::is_folder(arguments.inputs[0]))
+  constexpr std::array<std::string_view, 3> kNotOfResults{"part", "resume", "output"};
+  if (arguments.part) arguments.typed_options = app::given_options(app, kNotOfResults);
+  if (arguments.compare.empty() && !arguments.is_batch() && !arguments.part && !arguments.joins &&
+      app::is_folder(arguments.inputs[0]))
     throw Error(ErrorKind::no_input,
                 fmt::format("{}: it is a directory, a batch: give a folder for its results, -o "
                             "FOLDER/, --plot FOLDER/ or --report FOLDER/",

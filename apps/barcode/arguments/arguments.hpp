@@ -81,6 +81,17 @@ struct Arguments {
   bool significance = false;  // a p-value for each bar
   bool dry_run = false;
 
+  // Which part of it, on which machine.
+  struct Part {
+    int number, of;  // numbers from 0 on
+  };
+  std::optional<Part> part;
+  bool on_ranks = false;                   // the program has several processes
+  bool joins = false;                      // the inputs are parts
+  bool resumes = false;                    // a part that is there already is kept
+  bool keeps_cells = false;                // of bars, in a part
+  std::vector<std::string> typed_options;  // with --part: what results depend on, as it was typed
+
   // Where it goes.
   std::string output = "-";
   std::optional<BarcodeFormat> output_format;
@@ -97,6 +108,8 @@ struct Arguments {
 
   /// Whether the merge tree is asked for by itself.
   bool draws_tree() const;
+  /// Whether a part of one image is asked for, or all parts on ranks; else of several inputs.
+  bool wants_image_part() const;
   /// Whether each input has files of its own, in folders.
   bool is_batch() const;
 };

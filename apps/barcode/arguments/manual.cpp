@@ -16,8 +16,8 @@ namespace {
 
 using Name = std::string_view;
 
-constexpr std::array<Name, 3> kUsages{"[OPTION...] INPUT...", "plot BARCODE... -o FILE.svg|.png",
-                                      "--compare FILE FILE"};
+constexpr std::array<Name, 4> kUsages{"[OPTION...] INPUT...", "plot BARCODE... -o FILE.svg|.png",
+                                      "--join PART... -o FILE", "--compare FILE FILE"};
 constexpr std::array<Name, 1> kCommands{"plot"};
 
 constexpr std::array kTopics{
@@ -28,6 +28,7 @@ constexpr std::array kTopics{
     app::Topic{"alpha", "Alpha complexes: points of the plane and of space"},
     app::Topic{"cubical", "Cubical complexes: images, and points as voxels"},
     app::Topic{"engines", "Homology: dimensions, engines, representatives"},
+    app::Topic{"parts", "Parts: several machines, and what exceeds one"},
     app::Topic{"output", "Output: barcodes, reports, comparisons"},
     app::Topic{"pictures", "Pictures: barcodes, diagrams, trees"},
     app::kLimitsTopic,

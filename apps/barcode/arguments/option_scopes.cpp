@@ -14,6 +14,8 @@ constexpr app::Situations kAllPairs = kPoints | kMatrix | kTriangle, kRips = kAl
                           kListed = kSimplices | kLowerStar | kBoundary | kMesh,
                           kComputed = kRips | kCubical | kListed | kOwn | kAlpha;
 
+constexpr app::Situations kSomeLayers = kImagePart | kRanks;
+
 constexpr std::string_view kOfRips = "Rips complexes of points and distances";
 constexpr std::string_view kOfAllPairs = "points and distance matrices";
 constexpr std::string_view kOfMatrices = "full distance matrices (--format distance)";
@@ -22,27 +24,28 @@ constexpr std::string_view kOfAlpha = "points with --complex alpha";
 constexpr std::string_view kOfInputs = "a computation";
 
 constexpr std::array kScopes{
-    OptionScope{"format", kComputed, kOfInputs},
+    OptionScope{"format", kComputed | kSomeLayers, kOfInputs},
     OptionScope{"values", kComputed, kOfInputs},  // the readers know better
     OptionScope{"allow-empty", kComputed, kOfInputs},
     OptionScope{"symmetrise", kMatrix, kOfMatrices},
     OptionScope{"from-correlation", kMatrix | kTriangle | kSomePairs, kOfDistances},
     OptionScope{"diagonal", kMatrix, kOfMatrices},
-    OptionScope{"nan", kRips | kCubical | kOwn | kAlpha, "points, distances and images"},
-    OptionScope{"raw-shape", kImage, "images"},
-    OptionScope{"raw-type", kImage, "images"},
-    OptionScope{"raw-big-endian", kImage, "images"},
-    OptionScope{"raw-skip", kImage, "images"},
+    OptionScope{"nan", kRips | kCubical | kOwn | kAlpha | kSomeLayers,
+                "points, distances and images"},
+    OptionScope{"raw-shape", kImage | kSomeLayers, "images"},
+    OptionScope{"raw-type", kImage | kSomeLayers, "images"},
+    OptionScope{"raw-big-endian", kImage | kSomeLayers, "images"},
+    OptionScope{"raw-skip", kImage | kSomeLayers, "images"},
     OptionScope{"columns", kComputed, kOfInputs},  // the readers know better
-    OptionScope{"channel", kComputed, kOfInputs},
+    OptionScope{"channel", kComputed | kSomeLayers, kOfInputs},
     OptionScope{"loops", kComputed, kOfInputs},
-    OptionScope{"complex", kComputed, kOfInputs},
-    OptionScope{"threshold", kComputed, kOfInputs},
+    OptionScope{"complex", kComputed | kSomeLayers, kOfInputs},
+    OptionScope{"threshold", kComputed | kSomeLayers, kOfInputs},
     OptionScope{"metric", kPoints, "Rips complexes of points"},
-    OptionScope{"construction", kCubical, "images"},
-    OptionScope{"superlevel", kCubical, "images"},
-    OptionScope{"periodic", kCubical, "images"},
-    OptionScope{"slab-layers", kCubical, "images"},
+    OptionScope{"construction", kCubical | kSomeLayers, "images"},
+    OptionScope{"superlevel", kCubical | kSomeLayers, "images"},
+    OptionScope{"periodic", kCubical | kSomeLayers, "images"},
+    OptionScope{"slab-layers", kCubical | kSomeLayers, "images"},
     OptionScope{"voxel", kVoxels, "points with --complex cubical"},
     OptionScope{"voxel-value", kVoxels, "points with --complex cubical"},
     OptionScope{"collapse", kRips, kOfRips},
@@ -57,22 +60,22 @@ constexpr std::array kScopes{
     OptionScope{"period", kAlpha, kOfAlpha},
     OptionScope{"alpha-shape", kAlpha, kOfAlpha},
     OptionScope{"wrap", kAlpha, kOfAlpha},
-    OptionScope{"max-dim", kComputed, kOfInputs},
-    OptionScope{"min-dim", kComputed, kOfInputs},
+    OptionScope{"max-dim", kComputed | kSomeLayers, kOfInputs},
+    OptionScope{"min-dim", kComputed | kSomeLayers, kOfInputs},
     OptionScope{"field", kComputed, kOfInputs},
     OptionScope{"engine", kComputed, kOfInputs},
     OptionScope{"check", kComputed, kOfInputs},
-    OptionScope{"min-persistence", kComputed, kOfInputs},
+    OptionScope{"min-persistence", kComputed | kParts | kRanks, kOfInputs},
     OptionScope{"representatives", kComputed, kOfInputs},
     OptionScope{"significance", kAllPairs | kSomePairs | kAlpha,
                 "Rips and alpha complexes of points and distances"},
     OptionScope{"dry-run", kComputed, kOfInputs},
-    OptionScope{"plot", kComputed | kBarcode, "one barcode"},
-    OptionScope{"plot-kind", kComputed | kBarcode, "one barcode"},
-    OptionScope{"dims", kComputed | kBarcode, "one barcode"},
-    OptionScope{"title", kComputed | kBarcode, "one barcode"},
-    OptionScope{"size", kComputed | kBarcode, "one barcode"},
-    OptionScope{"axis", kComputed | kBarcode, "one barcode"},
+    OptionScope{"plot", kComputed | kBarcode | kParts | kRanks, "one barcode"},
+    OptionScope{"plot-kind", kComputed | kBarcode | kParts | kRanks, "one barcode"},
+    OptionScope{"dims", kComputed | kBarcode | kParts | kRanks, "one barcode"},
+    OptionScope{"title", kComputed | kBarcode | kParts | kRanks, "one barcode"},
+    OptionScope{"size", kComputed | kBarcode | kParts | kRanks, "one barcode"},
+    OptionScope{"axis", kComputed | kBarcode | kParts | kRanks, "one barcode"},
 };
 
 }  // namespace
@@ -80,7 +83,7 @@ constexpr std::array kScopes{
 std::span<const OptionScope> option_scopes() { return kScopes; }
 
 std::string_view name_of(Situation situation) {
-  constexpr std::array<std::string_view, 14> kNames{"points",
+  constexpr std::array<std::string_view, 17> kNames{"points",
                                                     "a full distance matrix",
                                                     "a triangle without its diagonal",
                                                     "some distances only",
@@ -93,7 +96,10 @@ std::string_view name_of(Situation situation) {
                                                     "points with another complex",
                                                     "a barcode",
                                                     "two barcodes to compare",
-                                                    "points with --complex alpha"};
+                                                    "points with --complex alpha",
+                                                    "a part of an image (--part)",
+                                                    "parts to join (--join)",
+                                                    "an image on several ranks"};
   return kNames[static_cast<std::size_t>(std::countr_zero(app::Situations{situation}))];
 }
 

@@ -22,6 +22,9 @@ enum Situation : app::Situations {
   kBarcode = 1 << 11,     ///< a stored one, computed earlier
   kComparison = 1 << 12,  ///< of two stored ones
   kAlpha = 1 << 13,       ///< points with an alpha complex, or another of their triangulation
+  kImagePart = 1 << 14,   ///< some layers of an image
+  kRanks = 1 << 16,       ///< an image on several ranks
+  kParts = 1 << 15,       ///< parts to join
 };
 
 /// All options that do nothing in some of them.

@@ -69,7 +69,8 @@ void check_table_arguments(Arguments& a) {
   else if (a.complex == ComplexKind::rips ||
            (!is_cubical && is_only_for(kPoints | kMatrix | kTriangle | kSomePairs)))
     meaning = ArrayMeaning::rips;
-  else if (is_cubical || is_only_for(kImage | kVoxels))
+  else if (is_cubical || is_only_for(kImage | kVoxels | kImagePart | kRanks) ||
+           a.wants_image_part())
     meaning = ArrayMeaning::image;
 }
 

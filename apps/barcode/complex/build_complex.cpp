@@ -145,16 +145,7 @@ class Builder {
   }
 
   BuiltComplex cubical(const Image& image) const {
-    CubicalOptions options = arguments_.cubical;
-    options.threshold = arguments_.threshold;
-    if (options.periodic.empty()) options.periodic = periodic_;
-    const auto axes = static_cast<std::size_t>(image.dim());
-    const bool all = options.periodic.size() == static_cast<std::size_t>(Cubical::kMaxDim) &&
-                     std::ranges::all_of(options.periodic, [](bool on) { return on; });
-    if (all) options.periodic.assign(axes, true);
-    if (options.periodic.size() > axes)
-      throw Error(ErrorKind::usage, fmt::format("--periodic: found axis {}, expected 0 to {}",
-                                                options.periodic.size() - 1, axes - 1));
+    const CubicalOptions options = cubical_options(arguments_, image, periodic_);
     BuiltComplex built{Cubical(image, options, context_), "cubical", arguments_.threshold,
                        image.values.empty(), std::nullopt};
     if (arguments_.check)
@@ -383,6 +374,21 @@ std::optional<std::string> hidden_points(const BuiltComplex& built) {
                      app::count_of(hidden.size(), "point"),
                      fmt::join(hidden.first(std::min(hidden.size(), most_named)), ", "),
                      hidden.size() > most_named ? ", …" : "");
+}
+
+CubicalOptions cubical_options(const Arguments& arguments, const Image& image,
+                               const std::vector<bool>& periodic) {
+  CubicalOptions options = arguments.cubical;
+  options.threshold = arguments.threshold;
+  if (options.periodic.empty()) options.periodic = periodic;
+  const auto axes = static_cast<std::size_t>(image.dim());
+  const bool all = options.periodic.size() == static_cast<std::size_t>(Cubical::kMaxDim) &&
+                   std::ranges::all_of(options.periodic, [](bool on) { return on; });
+  if (all) options.periodic.assign(axes, true);
+  if (options.periodic.size() > axes)
+    throw Error(ErrorKind::usage, fmt::format("--periodic: found axis {}, expected 0 to {}",
+                                              options.periodic.size() - 1, axes - 1));
+  return options;
 }
 
 BuiltComplex build_complex(ReadResult&& input, const std::string& name, std::size_t dropped,

@@ -7,6 +7,7 @@ import random
 import struct
 import subprocess
 import sys
+import tempfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../support"))
 from program import files  # noqa: E402
@@ -72,6 +73,10 @@ def rows(Row):
         "--loops": Row("--loops", "none", beside=LOOPS),
         "--significance": Row("--significance", unfit=POINTS),
         "--dry-run": Row("--dry-run"),
+        "--part": Row("--part", "1/2", unfit=IMAGE),
+        "--join": Row("--join", unfit='expected "ph part"'),
+        "--resume": Row("--resume"),
+        "--keep-cells": Row("--keep-cells"),
         "--output": Row("--output", "x.csv"),
         "--output-format": Row("--output-format", "json"),
         "--plot": Row("--plot", "x.svg"),
@@ -111,6 +116,20 @@ def square(distance, size):
 def said_of(program):
     return subprocess.run([program, "--version", "--verbose"], check=True, text=True,
                           stdout=subprocess.PIPE).stdout
+
+
+def parts_of(program, floats):
+    """The files of an image in two parts, with cells."""
+    parts = {}
+    with tempfile.TemporaryDirectory() as folder:
+        with open(os.path.join(folder, "i.npy"), "wb") as file:
+            file.write(files.array((5, 6), floats))
+        for number, name in enumerate(("a.ph", "b.ph"), 1):
+            subprocess.run([program, "i.npy", "--part", f"{number}/2", "-o", name, "--keep-cells",
+                            "--quiet"], cwd=folder, check=True)
+            with open(os.path.join(folder, name), "rb") as file:
+                parts[name] = file.read()
+    return parts
 
 
 def inputs(Input, program):
@@ -319,6 +338,19 @@ def inputs(Input, program):
               "--plot-kind": (("--plot-kind", "betti"), {}), "--dims": (("--dims", "9"), {}),
               "--title": (("--title", "Loops"), {}), "--size": (("--size", "300x200"), {}),
               "--axis": (("--axis", "0.25,0.5"), {})})
+    # A part has no format and no picture.
+    of_part = {option: ((option, value) if value else (option,), {}) for option, value in (
+        ("--part", "2/2"), ("--output", "x.ph"), ("--field", "3"), ("--representatives", "cycles"),
+        ("--loops", "none"), ("--plot-kind", "betti"), ("--title", "Loops"), ("--size", "300x200"),
+        ("--axis", "0.25,0.5"), ("--dims", "9"))}
+    of_part["--complex"] = (("--complex", "rips"), {"default": ["--complex", "cubical"]})
+    of_part["--force"] = (("--force",), {"beside": ["-o", "@input"]})
+    add("a part of an image", ["i.npy", "--part", "1/2", "-o", "y.ph"],
+        {"i.npy": files.array((5, 6), floats)}, 4, nan=files.array((5, 6), one_nan), rows=of_part)
+    add("a part of a folder", ["in", "--part", "1/2", "-o", "y.ph"],
+        {"in/a.csv": text(points), "in/b.csv": text(points)}, rows=of_part)
+    add("parts", ["--join", "a.ph", "b.ph", "-o", "y.csv"], parts_of(program, floats),
+        rows={"--output": (("--output", "x.csv"), {}), "--loops": (("--loops", "none"), {})})
     add("a folder", ["in", "-o", "out/"], {"in/a.csv": text(points), "in/b.csv": text(points)},
         nan=text(with_nan),
         rows={"--force": (("--force",), {"sign": "--force: not needed"}),

@@ -7,15 +7,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
+#include "core/bytes/crc32.hpp"
+#include "core/bytes/sealed_part.hpp"
 #include "support/conformance.hpp"
 #include "support/for_each_seed.hpp"
 #include "support/generators.hpp"
+#include "support/image_cases.hpp"
 
 namespace ph::test {
 namespace {
-
-using Construction = CubicalOptions::Construction;
 
 /// Joins neighbours in a random order until one part is left. Now and then a part becomes bytes and
 /// comes back.
@@ -40,56 +42,12 @@ std::vector<ImagePart> parts_of(const Image& image, int count, const ImagePartOp
   return parts;
 }
 
-struct Case {
-  Image image;
-  ImagePartOptions options;
-  int layers;
-};
-Case random_case(Generator& random) {
-  const int axes = random.integer(2, 3), most = axes == 2 ? 9 : 5;
-  Case result{{}, {}, 0};
-  std::vector<Index> extents;
-  for (int k = 0; k < axes; ++k) extents.push_back(random.integer(2, most));
-  result.layers = static_cast<int>(extents[0]);
-  if (random.coin()) extents.insert(extents.begin() + random.integer(0, axes), 1);
-  CubicalOptions& cubical = result.options.cubical;
-  cubical = random.cubical_options(static_cast<int>(extents.size()));
-  if (random.coin()) cubical.periodic[extents[0] == 1 ? 1 : 0] = true;
-  result.image = random.image(extents, random.coin());
-  if (random.integer(0, 3) == 0) cubical.threshold = random.integer(-2, 3);
-  // An axis of one voxel is one of the T-construction's, if it has ends.
-  int kept = 0;
-  for (std::size_t k = 0; k < extents.size(); ++k) {
-    const bool is_kept =
-        extents[k] > 1 || (cubical.construction == Construction::cells && !cubical.periodic[k]);
-    if (is_kept && kept++ == 0) result.layers = static_cast<int>(extents[k]);
-  }
-  if (kept == 3) {
-    if (random.coin())
-      result.options.max_dim = 0;
-    else
-      result.options.min_dim = 2;
-  }
-  return result;
-}
-
-/// Whether a volume has bars of dimension 1 among all that are wanted.
-bool is_refused(const Case& c) {
-  try {
-    ImagePart(c.image, 0, 1, c.options);
-    return false;
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::usage) << error.what();
-    return true;
-  }
-}
-
 TEST(ImagePart, AgreesWithTheOracleCellByCell) {
   std::size_t bars = 0, refused = 0;
   for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(seeds(2000)); ++seed) {
     SCOPED_TRACE(seed);
     Generator random(seed);
-    const Case c = random_case(random);
+    const ImageCase c = random_image_case(random);
     if (is_refused(c)) {
       ++refused;
       continue;
@@ -115,7 +73,7 @@ TEST(ImagePart, WhatIsKeptDoesNotDependOnGroups) {
   for (std::uint64_t seed = 0; seed < 1000; ++seed) {
     SCOPED_TRACE(seed);
     Generator random(seed);
-    const Case c = random_case(random);
+    const ImageCase c = random_image_case(random);
     const auto is_hole = [&](double v) {
       return std::isinf(v) ||
              (c.options.cubical.threshold &&
@@ -168,7 +126,7 @@ TEST(ImagePart, RefusesWhatDoesNotBelongTogether) {
   ImagePart of_image(image, 0, 3);
   refused(of_image, ImagePart(other, 1, 3), "seams that differ");
   EXPECT_EQ(of_image.bytes(), ImagePart(image, 0, 3).bytes());
-  const ImagePartOptions cells{.cubical = {.construction = Construction::cells}};
+  const ImagePartOptions cells{.cubical = {.construction = CubicalOptions::Construction::cells}};
   ImagePart turned(image, 0, 3, cells);
   const auto before = turned.bytes();
   refused(turned, ImagePart(other, 1, 3, cells), "seams that differ");
@@ -193,7 +151,7 @@ TEST(ImagePart, RefusesPartsAndImagesThatAreNone) {
   refused(image, -1, 3, "found number 0 of 3");
   refused(random.image({7}, false), 0, 1, "expected two or three");
   refused(random.image({2, 2, 2, 2}, false), 0, 1, "expected two or three");
-  refused(random.image({3, 3, 3}, false), 0, 1, "bars of dimension 1");
+  refused(random.image({3, 3, 3}, false), 0, 1, "dimension 0 alone, or 2 alone");
 }
 
 TEST(ImagePart, RefusesDamagedBytes) {
@@ -216,13 +174,31 @@ TEST(ImagePart, RefusesDamagedBytes) {
   };
   for (std::size_t size = 0; size < bytes.size(); ++size)
     ASSERT_TRUE(is_refused(std::span(bytes).first(size))) << size;
+  const auto content = content_of_part(bytes, "image");
   for (std::size_t i = 0; i < bytes.size(); ++i)
     for (const std::byte flipped : {std::byte{1}, std::byte{4}, std::byte{0x84}}) {
       auto damaged = bytes;
       damaged[i] ^= flipped;
-      refused += is_refused(damaged) ? 1 : 0;  // a value may be another one; a list may not
+      ASSERT_TRUE(is_refused(damaged)) << i;
     }
-  EXPECT_GT(refused, bytes.size() / 4);
+  // With a checksum that fits: a value may be another one, a list may not.
+  for (std::size_t i = 0; i < content.size(); ++i)
+    for (const std::byte flipped : {std::byte{1}, std::byte{4}, std::byte{0x84}}) {
+      std::vector<std::byte> damaged(content.begin(), content.end());
+      damaged[i] ^= flipped;
+      refused += is_refused(sealed_part("image", damaged)) ? 1 : 0;
+    }
+  EXPECT_GT(refused, content.size() / 4);
+  EXPECT_TRUE(is_refused(sealed_part("inputs", content)));
+}
+
+// The check value of the catalogue of CRCs (Cook), of the digits 1 to 9.
+TEST(Crc32, HasTheKnownValue) {
+  std::vector<std::byte> digits;
+  for (const char digit : std::string_view("123456789"))
+    digits.push_back(static_cast<std::byte>(digit));
+  EXPECT_EQ(crc32(digits), 0xCBF43926U);
+  EXPECT_EQ(crc32({}), 0U);
 }
 
 }  // namespace

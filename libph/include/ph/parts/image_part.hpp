@@ -41,6 +41,9 @@ class ImagePart {
   ///         Cubical, (cancelled).
   ImagePart(const Image& image, int part, int parts, const ImagePartOptions& options = {},
             const RunContext& context = default_context());
+  /// How many parts there may be: one a layer.
+  /// @throws Error (usage) on images that have no parts.
+  static int most_parts(const Image& image, const CubicalOptions& options = {});
   ImagePart(ImagePart&&) noexcept;
   ImagePart& operator=(ImagePart&&) noexcept;
   ~ImagePart();
@@ -50,6 +53,13 @@ class ImagePart {
   int last() const;
   int parts() const;
   bool is_whole() const { return first() == 0 && last() + 1 == parts(); }
+  /// Of the whole image.
+  const std::vector<Index>& extents() const;
+  VoxelType type() const;
+  const ImagePartOptions& options() const;
+  /// Whether it is part `part` alone of `parts` of an image of that shape and type, with those
+  /// options: else it is not what the constructor would make. The voxels are not looked at.
+  bool is_of(const Image& image, int part, int parts, const ImagePartOptions& options) const;
   /// Takes in the parts right after it.
   /// @throws Error (bad_data) if they are not, or of another image, or of other options; nothing
   ///         has changed then.
@@ -63,7 +73,7 @@ class ImagePart {
   /// has_loops().
   std::vector<std::byte> told_to_loops(int part) const;
 
-  /// What it consists of, as bytes: the same on every machine.
+  /// What it consists of, as bytes with a checksum: the same on every machine.
   std::vector<std::byte> bytes() const;
   /// @throws Error (bad_data) on what `bytes` has not made.
   static ImagePart of_bytes(std::span<const std::byte> bytes,

@@ -8,7 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/little_endian.hpp"
+#include "core/bytes/byte_reader.hpp"
+#include "core/bytes/byte_writer.hpp"
+#include "core/bytes/crc32.hpp"
 #include "cubical/columns/ordered_cell.hpp"
 #include "cubical/stars/star_tables.hpp"
 #include "ph/detail/core/chain.hpp"
@@ -64,7 +66,7 @@ class LoopMessage {
       all.put_bytes(layer_bytes_.take());
       all.put(std::exchange(columns_, 0));
       all.put_bytes(column_bytes_.take());
-      all.put(hash_of(all.bytes()));
+      all.put(crc32(all.bytes()));
       return all.take();
     }
 
@@ -120,8 +122,8 @@ class LoopMessage {
           from_.refuse("order");
       }
     }
-    const std::uint64_t hash = hash_of(bytes.first(from_.at()));
-    if (from_.get<std::uint64_t>("hash") != hash) from_.refuse("byte");
+    const std::uint32_t checksum = crc32(bytes.first(from_.at()));
+    if (from_.get<std::uint32_t>("checksum") != checksum) from_.refuse("byte");
     from_.expect_end();
   }
 

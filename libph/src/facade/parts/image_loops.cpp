@@ -6,7 +6,8 @@
 #include <utility>
 #include <variant>
 
-#include "core/little_endian.hpp"
+#include "core/bytes/byte_reader.hpp"
+#include "core/bytes/byte_writer.hpp"
 #include "cubical/rounds/part_loops.hpp"
 #include "facade/parts/part_state.hpp"
 #include "ph/detail/core/field.hpp"

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -39,12 +40,25 @@ WholeImage whole_image(const Image& image, int parts, const ImagePartOptions& op
           false};
 }
 
-void check(const WholeImage& whole, const GridShape& shape, int part, bool may_have_loops) {
+/// @throws Error (usage) if it has too many axes.
+GridShape shape_of(const WholeImage& whole) {
+  if (GridShape::count_axes(whole.image()) > 3)
+    throw Error(ErrorKind::usage,
+                "parts of an image: found more than three axes with more than "
+                "one voxel, expected two or three");
+  return GridShape(whole.image());
+}
+
+std::uint64_t layers_of(const GridShape& shape) {
   if (shape.top_dim() < 2)
     throw Error(ErrorKind::usage,
                 "parts of an image: found one axis or none with more than one "
                 "voxel, expected two or three");
-  const auto layers = shape.axis(shape.layer_axis()).extent;
+  return shape.axis(shape.layer_axis()).extent;
+}
+
+void check(const WholeImage& whole, const GridShape& shape, int part, bool may_have_loops) {
+  const std::uint64_t layers = layers_of(shape);
   if (whole.parts < 1 || static_cast<std::uint64_t>(whole.parts) > layers)
     throw Error(ErrorKind::usage, fmt::format("parts of an image: found {}, expected 1 to {}, the "
                                               "layers of its slowest axis",
@@ -53,9 +67,13 @@ void check(const WholeImage& whole, const GridShape& shape, int part, bool may_h
     throw Error(ErrorKind::usage,
                 fmt::format("part of an image: found number {} of {}", part + 1, whole.parts));
   if (whole.loops && !may_have_loops)
-    throw Error(ErrorKind::usage,
-                "parts of a volume: found bars of dimension 1 wanted, which joined parts do not "
-                "tell; expected max_dim 0, min_dim 2, or option loops and ImageLoops");
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("parts of a volume: found loops wanted, which joined parts do not tell; "
+                    "expected dimension 0 alone{}, or option loops and ImageLoops",
+                    std::ranges::find(whole.periodic, true) == whole.periodic.end()
+                        ? ", or 2 alone"
+                        : " where an axis closes up"));
 }
 
 /// Voxels of layers and the one on either side, copied only where a periodic axis begins again.
@@ -95,11 +113,7 @@ Image image_of(const Image& image, const PartLayout::Layers& layers, const GridS
 ImagePart::ImagePart(const Image& image, int part, int parts, const ImagePartOptions& options,
                      const RunContext& context) {
   WholeImage whole = whole_image(image, parts, options);
-  if (GridShape::count_axes(whole.image()) > 3)
-    throw Error(ErrorKind::usage,
-                "parts of an image: found more than three axes with more than "
-                "one voxel, expected two or three");
-  whole.loops = cubical::wants_loops(GridShape(whole.image()), whole.wanted());
+  whole.loops = cubical::wants_loops(shape_of(whole), whole.wanted());
   state_ = std::make_unique<State>(std::move(whole), context);
   const GridShape& shape = state_->shape;
   check(state_->whole, shape, part, options.loops);
@@ -145,9 +159,21 @@ ImagePart::ImagePart(ImagePart&&) noexcept = default;
 ImagePart& ImagePart::operator=(ImagePart&&) noexcept = default;
 ImagePart::~ImagePart() = default;
 
+int ImagePart::most_parts(const Image& image, const CubicalOptions& options) {
+  const std::uint64_t layers = layers_of(shape_of(whole_image(image, 1, {.cubical = options})));
+  return static_cast<int>(std::min<std::uint64_t>(layers, std::numeric_limits<int>::max()));
+}
+
 int ImagePart::first() const { return state_->first; }
 int ImagePart::last() const { return state_->last; }
 int ImagePart::parts() const { return state_->whole.parts; }
+const std::vector<Index>& ImagePart::extents() const { return state_->whole.extents; }
+VoxelType ImagePart::type() const { return state_->whole.type; }
+const ImagePartOptions& ImagePart::options() const { return state_->options; }
+bool ImagePart::is_of(const Image& image, int part, int parts,
+                      const ImagePartOptions& options) const {
+  return first() == part && last() == part && state_->whole == whole_image(image, parts, options);
+}
 
 void ImagePart::join(ImagePart next, const RunContext& context) {
   if (next.state_->whole != state_->whole)

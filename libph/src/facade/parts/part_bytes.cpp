@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// A part as bytes, little endian: the image, which parts, bars, forests with their seams. What is
+// A part as bytes: the image, which parts, bars, forests with their seams. What is
 // read is checked, so that no number leads out of a list.
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <cstddef>
+#include <string_view>
 #include <utility>
 
-#include "core/little_endian.hpp"
+#include "core/bytes/byte_reader.hpp"
+#include "core/bytes/byte_writer.hpp"
+#include "core/bytes/crc32.hpp"
+#include "core/bytes/sealed_part.hpp"
 #include "facade/parts/part_state.hpp"
-#include "ph/error.hpp"
 
 namespace ph {
 namespace {
@@ -20,9 +22,7 @@ using cubical::SeamForest;
 using cubical::SeamRoot;
 using cubical::WholeImage;
 
-[[noreturn]] void refuse(const char* what) {
-  throw Error(ErrorKind::bad_data, fmt::format("part of an image: found a damaged {}", what));
-}
+constexpr std::string_view kKind = "image";
 
 void put_whole(ByteWriter& to, const WholeImage& whole) {
   to.put_list(whole.extents, [&](Index n) { to.put(std::int64_t{n}); });
@@ -42,14 +42,14 @@ WholeImage get_whole(ByteReader& from) {
   double voxels = 1;
   for (std::size_t k = 0; k < axes; ++k) {
     whole.extents.push_back(static_cast<Index>(from.get<std::int64_t>("extents")));
-    if (whole.extents[k] < 1) refuse("extents");
+    if (whole.extents[k] < 1) from.refuse("extents");
     voxels *= static_cast<double>(whole.extents[k]);
   }
   constexpr double most = 1e18;
-  if (voxels > most) refuse("extents");
+  if (voxels > most) from.refuse("extents");
   for (std::size_t k = 0; k < axes; ++k) whole.periodic.push_back(from.flag("axis"));
   whole.type = static_cast<VoxelType>(from.get<std::uint8_t>("type"));
-  if (whole.type > VoxelType::float64) refuse("type");
+  if (whole.type > VoxelType::float64) from.refuse("type");
   whole.voxels_are_vertices = from.flag("construction");
   whole.superlevel = from.flag("sign");
   whole.limit = from.get<double>("threshold");
@@ -58,12 +58,12 @@ WholeImage get_whole(ByteReader& from) {
   whole.cells = from.flag("flag of cells");
   whole.loops = from.flag("flag of loops");
   const CubicalImage image = whole.image();
-  if (cubical::GridShape::count_axes(image) > 3) refuse("number of axes");
+  if (cubical::GridShape::count_axes(image) > 3) from.refuse("number of axes");
   const cubical::GridShape shape(image);
   if (shape.top_dim() < 2 || whole.parts < 1 ||
       static_cast<std::uint64_t>(whole.parts) > shape.axis(shape.layer_axis()).extent)
-    refuse("number of parts");
-  if (cubical::wants_loops(shape, whole.wanted()) != whole.loops) refuse("flag of loops");
+    from.refuse("number of parts");
+  if (cubical::wants_loops(shape, whole.wanted()) != whole.loops) from.refuse("flag of loops");
   return whole;
 }
 
@@ -105,7 +105,7 @@ void put_forest(ByteWriter& to, const SeamForest<backwards>& forest) {
 GridCell get_cell(ByteReader& from, std::size_t in_star) {
   const auto voxel = from.get<std::uint64_t>("cell");
   const auto number = from.get<std::uint32_t>("cell");
-  if (number >= in_star || voxel >> 60 != 0) refuse("cell");
+  if (number >= in_star || voxel >> 60 != 0) from.refuse("cell");
   return {voxel, number};
 }
 
@@ -128,13 +128,13 @@ SeamForest<backwards> get_forest(ByteReader& from, int top_dim, const RunContext
     root.value = from.get<double>("root");
     root.cell = get_cell(from, roots_in_star);
     const auto kind = from.get<std::uint32_t>("root");
-    if (kind > static_cast<std::uint32_t>(SeamRoot::Kind::open_after)) refuse("root");
+    if (kind > static_cast<std::uint32_t>(SeamRoot::Kind::open_after)) from.refuse("root");
     root.kind = static_cast<SeamRoot::Kind>(kind);
   }
-  if (!forest.is_in_order()) refuse("order of roots");
+  if (!forest.is_in_order()) from.refuse("order of roots");
   const auto root = [&] {
     const auto number = from.get<std::uint32_t>("root");
-    if (number >= forest.roots.size()) refuse("root");
+    if (number >= forest.roots.size()) from.refuse("root");
     return number;
   };
   for (std::uint32_t& part : forest.outside) part = root();
@@ -142,7 +142,7 @@ SeamForest<backwards> get_forest(ByteReader& from, int top_dim, const RunContext
     seam->roots.resize(from.count(bytes_of_node, "seam"));
     for (std::uint32_t& node : seam->roots) {
       node = from.get<std::uint32_t>("seam");
-      if (node != Seam::kNone && node >= forest.roots.size()) refuse("seam");
+      if (node != Seam::kNone && node >= forest.roots.size()) from.refuse("seam");
     }
     seam->values.resize(seam->roots.size());
     for (double& value : seam->values) value = from.get<double>("seam");
@@ -154,7 +154,8 @@ SeamForest<backwards> get_forest(ByteReader& from, int top_dim, const RunContext
     bridge.from = root();
     bridge.to = root();
   }
-  if (!std::ranges::is_sorted(forest.bridges, {}, &SeamBridge::value)) refuse("order of bridges");
+  if (!std::ranges::is_sorted(forest.bridges, {}, &SeamBridge::value))
+    from.refuse("order of bridges");
   return forest;
 }
 
@@ -198,7 +199,7 @@ void get_bars(ByteReader& from, Barcode& bars) {
 std::uint64_t cubical::WholeImage::hash() const {
   ByteWriter to;
   put_whole(to, *this);
-  return hash_of(to.bytes());
+  return crc32(to.bytes());
 }
 
 std::vector<std::byte> ImagePart::bytes() const {
@@ -222,25 +223,25 @@ std::vector<std::byte> ImagePart::bytes() const {
   Barcode bars = state_->bars;
   bars.sort(state_->context);
   put_bars(to, bars);
-  return to.take();
+  return sealed_part(kKind, to.take());
 }
 
 ImagePart ImagePart::of_bytes(std::span<const std::byte> bytes, const RunContext& context) {
-  ByteReader from(bytes, "part of an image");
+  ByteReader from(content_of_part(bytes, kKind), "part of an image");
   auto state = std::make_unique<State>(get_whole(from), context);
   state->first = from.get<std::int32_t>("number");
   state->last = from.get<std::int32_t>("number");
   if (state->first < 0 || state->last < state->first || state->last >= state->whole.parts)
-    refuse("number");
+    from.refuse("number");
   const bool from_end = state->shape.is_t_construction();
   const bool is_first = state->first == 0, is_last = state->last + 1 == state->whole.parts;
   cubical::LayerPairs& pairs = state->pairs;
   pairs.has_begin = from_end ? is_last : is_first;
   pairs.has_end = from_end ? is_first : is_last;
   const int top = state->shape.top_dim();
-  if (from.flag("forest") != pairs.wants_vertices()) refuse("forest");
+  if (from.flag("forest") != pairs.wants_vertices()) from.refuse("forest");
   if (pairs.wants_vertices()) pairs.vertices.emplace(get_forest<false>(from, top, context));
-  if (from.flag("forest") != pairs.wants_tops()) refuse("forest");
+  if (from.flag("forest") != pairs.wants_tops()) from.refuse("forest");
   if (pairs.wants_tops()) pairs.tops.emplace(get_forest<true>(from, top, context));
   constexpr std::size_t bytes_of_edge = 20;
   for (std::size_t left = from.count(bytes_of_edge, "edges"); left > 0; --left) {

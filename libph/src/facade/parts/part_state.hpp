@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -41,6 +42,17 @@ struct WholeImage {
     return image;
   }
   BarRequest wanted() const { return {min_dim, max_dim, cells}; }
+  ImagePartOptions options() const {
+    using Construction = CubicalOptions::Construction;
+    ImagePartOptions options{
+        .min_dim = min_dim, .max_dim = max_dim, .cells = cells, .loops = loops};
+    options.cubical.construction =
+        voxels_are_vertices ? Construction::vertices : Construction::cells;
+    options.cubical.superlevel = superlevel;
+    options.cubical.periodic = periodic;
+    if (limit < std::numeric_limits<double>::max()) options.cubical.threshold = limit;
+    return options;
+  }
   /// Puts bars of the dimensions wanted into a barcode.
   BarSink sink(Barcode& into) const {
     const auto wants = [this](const Bar& bar) {
@@ -73,6 +85,7 @@ struct OwnLayers {
 struct ImagePart::State {
   State(cubical::WholeImage whole_image, const RunContext& run_context)
       : whole(std::move(whole_image)),
+        options(whole.options()),
         context(run_context),
         shape(whole.image()),
         pairs(shape,
@@ -86,6 +99,7 @@ struct ImagePart::State {
   cubical::BarSink sink(Barcode& into) const { return whole.sink(into); }
 
   cubical::WholeImage whole;
+  ImagePartOptions options;
   const RunContext& context;
   cubical::GridShape shape;
   int first = 0, last = 0;

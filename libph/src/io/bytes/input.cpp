@@ -215,8 +215,11 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
   const bool sized = status->kind == files::Kind::regular && status->size > 0 &&
                      (!standard_input || files::is_at_start(file.get()));
   const auto file_size = sized ? static_cast<std::size_t>(status->size) : 0;
-  const bool exceeds = excess == Excess::stays_in_file && context != nullptr &&
-                       file_size > kFirstChunk && file_size > context->memory.left() / 3;
+  const auto is_too_large = [&](std::size_t bytes) {
+    if (excess == Excess::refused || context == nullptr) return false;
+    return excess == Excess::is_expected || bytes > context->memory.left() / 3;
+  };
+  const bool exceeds = file_size > kFirstChunk && is_too_large(file_size);
   if (file_size > kMapFrom || exceeds) {
     storage->exceeds = exceeds;
     // Its pages are taken from memory while they are read.
@@ -274,8 +277,7 @@ Input Input::open(const std::filesystem::path& whole_path, const RunContext* con
   const std::size_t most = context != nullptr && context->memory.limit() != MemoryBudget::kUnlimited
                                ? context->memory.limit()
                                : half_of_memory();
-  const bool is_large = excess == Excess::stays_in_file && context != nullptr &&
-                        detail::stated_size(input.text()) > context->memory.left() / 3;
+  const bool is_large = is_too_large(detail::stated_size(input.text()));
   Input unpacked = is_large ? hold(detail::gunzip_to_file(input), {}, context)
                             : hold(detail::gunzip(input, most), {}, context);
   unpacked.name_ = input.name_;

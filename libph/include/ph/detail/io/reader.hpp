@@ -49,6 +49,7 @@ class Input {
   enum class Excess {
     refused,
     stays_in_file,  ///< mapped, what was unpacked from a temporary file, and not counted
+    is_expected,    ///< the same of any file but a small one: only some of it will be looked at
   };
 
   /// @param path a file, a FIFO, or "-" for standard input; a part of one: see split_member.

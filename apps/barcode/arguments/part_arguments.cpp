@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "barcode/arguments/part_arguments.hpp"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <string_view>
+
+#include "common/arguments/choices.hpp"
+#include "common/arguments/numbers.hpp"
+
+namespace ph::barcode {
+namespace {
+
+void take_part(Arguments& a, const std::string& text) {
+  const std::size_t slash = text.find('/');
+  if (slash == text.npos)
+    throw Error(ErrorKind::usage,
+                fmt::format("--part: found '{}', expected I/P, such as 1/8", text));
+  constexpr std::int64_t most = std::int64_t{1} << 30;
+  const std::int64_t parts = app::parse_integer("--part", text.substr(slash + 1), 1, most);
+  a.part = {static_cast<int>(app::parse_integer("--part", text.substr(0, slash), 1, parts)) - 1,
+            static_cast<int>(parts)};
+}
+
+}  // namespace
+
+void add_part_options(CLI::App& app, Arguments& a) {
+  app.option_defaults()->group("parts");
+  app::add_value(app, "--part", "I/P",
+                 "compute part I (from 1 on) of P, on any machine, and write it as a part file: of "
+                 "an image some of its layers, of several inputs some of them",
+                 [&a](const std::string& text) { take_part(a, text); });
+  app.add_flag("--join", a.joins,
+               "the inputs are part files, in any order: bars if all are there, else, with -o "
+               "FILE.ph, one part");
+  app.add_flag("--resume", a.resumes,
+               "with --part: nothing is done if the output is that part already, whole, and not "
+               "older than the input");
+  app.add_flag("--keep-cells", a.keeps_cells,
+               "with --part of an image: keep the cells of bars, which JSON shows");
+}
+
+void check_part_arguments(const Arguments& a) {
+  const auto reject = [](const std::string& what) { throw Error(ErrorKind::usage, what); };
+  if (a.on_ranks) {
+    if (a.part || a.joins) reject("--part and --join: found on ranks, which do both");
+    if (a.keeps_cells) reject("--keep-cells: found on ranks; JSON has them");
+    if (!a.report.empty())
+      reject("--report: found on ranks; `ph-barcode plot BARS --report` makes one");
+    if (!a.compare.empty()) reject("--compare: found on ranks");
+    if (a.stored) reject("plot: found on ranks");
+    if (a.options.min_persistence < 0)
+      reject("--min-persistence: found a negative one: parts keep no bars of length 0");
+    if (a.resumes && a.output == "-")
+      reject("--resume: needs -o FILE, beside which the ranks keep their parts");
+    return;
+  }
+  if (!a.part && !a.joins) {
+    if (a.resumes) reject("--resume: found without --part, whose output it looks at");
+    if (a.keeps_cells) reject("--keep-cells: found without --part");
+    return;
+  }
+  if (a.part && a.joins) reject("--join: found beside --part; parts are computed first");
+  const std::string_view option = a.part ? "--part" : "--join";
+  if (!a.compare.empty()) reject(fmt::format("{}: found beside --compare", option));
+  if (a.stored) reject(fmt::format("{}: found beside the word plot", option));
+  if (!a.report.empty())
+    reject(
+        fmt::format("--report: found beside {}; `ph-barcode plot BARS --report` makes one of "
+                    "the bars",
+                    option));
+  if (a.joins && a.resumes) reject("--resume: makes sense with --part only");
+  if (a.options.min_persistence < 0 && (a.joins || a.wants_image_part()))
+    reject(
+        fmt::format("--min-persistence: found a negative one beside {}: parts keep no bars of "
+                    "length 0",
+                    option));
+  if (a.joins && a.keeps_cells) reject("--keep-cells: makes sense with --part only");
+  if (a.part && a.output_format)
+    reject("--output-format: found beside --part, which writes a part file; --join has formats");
+  for (const app::Plot& plot : a.plots)
+    if (!plot.shows_bars())
+      reject(fmt::format("--plot-kind: found {} beside {}, expected a plot of bars", plot.kind,
+                         option));
+}
+
+}  // namespace ph::barcode

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "barcode/batch_inputs.hpp"
+
+#include <array>
+#include <string_view>
+
+#include "common/files/batch_names.hpp"
+
+namespace ph::barcode {
+namespace {
+
+// Of what ph-barcode reads, compressed or not; a folder may have other files beside them.
+constexpr std::array<std::string_view, 26> kExtensions{
+    ".csv",  ".tsv", ".txt",       ".dat",    ".xyz", ".xyzrgb",  ".pts", ".npy",   ".npz",
+    ".png",  ".pgm", ".nii",       ".off",    ".ply", ".pcd",     ".bin", ".dipha", ".complex",
+    ".phat", ".coo", ".simplices", ".sparse", ".cub", ".perseus", ".raw", ".json"};
+constexpr std::array<std::string_view, 9> kBarcodeExtensions{
+    ".csv", ".json", ".txt", ".ripser", ".pers", ".dipha", ".diagram", ".npy", ".dat"};
+
+}  // namespace
+
+std::vector<std::string> with_files_of_folders(const Arguments& arguments) {
+  std::vector<std::string_view> extensions;
+  if (arguments.stored)
+    extensions.assign(kBarcodeExtensions.begin(), kBarcodeExtensions.end());
+  else
+    extensions.assign(kExtensions.begin(), kExtensions.end());
+  std::vector<std::string> packed;
+  for (const std::string_view extension : extensions)
+    packed.push_back(std::string(extension) + ".gz");
+  extensions.insert(extensions.end(), packed.begin(), packed.end());
+  std::vector<std::string> inputs;
+  for (const std::string& input : arguments.inputs) {
+    if (!app::is_folder(input)) {
+      inputs.push_back(input);
+      continue;
+    }
+    for (std::string& file : app::files_in(input, extensions, "a file of a known format"))
+      inputs.push_back(std::move(file));
+  }
+  return inputs;
+}
+
+}  // namespace ph::barcode

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "barcode/mpi/run_ranks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "barcode/arguments/option_scopes.hpp"
+#include "barcode/batch.hpp"
+#include "barcode/parts/image_parts.hpp"
+#include "barcode/parts/part_input.hpp"
+#include "common/arguments/numbers.hpp"
+#include "common/files/file_identity.hpp"
+#include "core/system/files.hpp"
+#include "facade/parts/join_ranks.hpp"
+
+namespace ph::barcode {
+namespace {
+
+/// The part of this rank: computed, or with --resume taken from its file. Else with --resume it is
+/// written there.
+ImagePart own_part(const PartInput& input, int rank, int parts, const std::string& kept,
+                   const Arguments& arguments, app::Session& session) {
+  if (arguments.resumes) {
+    if (auto there = kept_image_part(kept, arguments.inputs.front(), input, rank, parts, session)) {
+      session.explain(fmt::format("rank {}: {} is there already", rank, kept));
+      return std::move(*there);
+    }
+  }
+  ImagePart part(input.image, rank, parts, input.options, session.context());
+  if (arguments.resumes) {
+    app::Output output(kept);
+    output.file().write(part.bytes());
+    output.commit();
+  }
+  return part;
+}
+
+}  // namespace
+
+int run_ranks(const Arguments& arguments, Transport& transport,
+              const std::function<void()>& wait_for_all, app::Session& session) {
+  const int rank = transport.rank(), size = transport.size();
+  app::require_in_scope(arguments.given, kRanks, name_of(kRanks));
+  if (!arguments.wants_image_part())
+    throw Error(ErrorKind::usage, "INPUT: found several or a folder, expected one image");
+  const std::string& path = arguments.inputs.front();
+  const BarcodeFormat format = output_format(arguments, session);
+  const Job job{path, arguments.output, format, arguments.plots};
+  app::InputFiles inputs;
+  inputs.add(path);
+  std::vector<app::Written> written{{"--output", job.output}};
+  for (const app::Plot& plot : job.plots) written.push_back({plot.option, plot.path});
+  app::require_separate(inputs, written, arguments.common.force);
+  // What cannot be created is said first.
+  std::optional<Outputs> outputs;
+  if (rank == 0) outputs.emplace(job);
+
+  const PartInput input = read_part_input(path, format == BarcodeFormat::json, arguments, session);
+  const int parts = std::min(size, ImagePart::most_parts(input.image, input.options.cubical));
+  if (parts < size)
+    session.note(fmt::format("{} have nothing to do: the image has {}",
+                             app::count_of(static_cast<std::size_t>(size - parts), "rank"),
+                             app::count_of(static_cast<std::size_t>(parts), "layer")));
+  const std::string kept = fmt::format("{}.{}of{}.ph", arguments.output, rank + 1, parts);
+  std::optional<ImagePart> own;
+  if (rank < parts) own.emplace(own_part(input, rank, parts, kept, arguments, session));
+  Post post(transport);
+  const std::optional<ImagePart> whole = join_ranks(std::move(own), post, session.context());
+  session.explain(fmt::format("rank {}: memory {}, sent {}", rank,
+                              app::format_size(static_cast<double>(session.memory_taken())),
+                              app::format_size(static_cast<double>(post.bytes_sent()))));
+  int code = 0;
+  if (whole) {
+    const Outcome outcome =
+        write_bars(*whole,
+                   fmt::format("{}, {}", input.description,
+                               app::count_of(static_cast<std::size_t>(parts), "rank")),
+                   *outputs, path, arguments, session);
+    session.note(outcome.summary);
+    code = outcome.code;
+  }
+  // Parts are kept until the result is there.
+  wait_for_all();
+  std::error_code ignored;
+  if (arguments.resumes && rank < parts) std::filesystem::remove(files::path_of(kept), ignored);
+  return code;
+}
+
+}  // namespace ph::barcode

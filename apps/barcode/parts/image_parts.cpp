@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+#include "barcode/parts/image_parts.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "barcode/arguments/option_scopes.hpp"
+#include "barcode/parts/part_files.hpp"
+#include "barcode/parts/part_input.hpp"
+#include "common/arguments/numbers.hpp"
+#include "common/files/batch_names.hpp"
+#include "common/files/file_identity.hpp"
+#include "common/system/process.hpp"
+#include "common/terminal/exit_code.hpp"
+
+namespace ph::barcode {
+namespace {
+
+/// "part 3 of 8", "parts 2 to 4 of 8"
+std::string words_of(const ImagePart& part) {
+  if (part.first() == part.last())
+    return fmt::format("part {} of {}", part.first() + 1, part.parts());
+  return fmt::format("parts {} to {} of {}", part.first() + 1, part.last() + 1, part.parts());
+}
+
+ImagePart of_file(const PartFile& file, const RunContext& context) {
+  try {
+    return ImagePart::of_bytes(file.bytes, context);
+  } catch (const Error& error) {
+    throw Error(error.kind(), fmt::format("{}: {}", file.path, error.what()));
+  }
+}
+
+/// Joins, with the names of the files in what is said of parts that do not belong together.
+void join(ImagePart& all, ImagePart next, const std::string& before, const std::string& path,
+          const RunContext& context) {
+  try {
+    all.join(std::move(next), context);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::bad_data) throw;
+    throw Error(error.kind(), fmt::format("{}: {}; joined with {}", path, error.what(), before));
+  }
+}
+
+/// Bars longer than what the user wants to see.
+Barcode longer_than(double length, const Barcode& bars) {
+  Barcode kept(bars.cell_kind());
+  for (std::size_t i = 0; i < bars.size(); ++i) {
+    if (!bars[i].is_infinite() && !(bars[i].persistence() > length)) continue;
+    const auto death = bars.death_cell(i);
+    kept.add(bars[i], bars.birth_cell(i).numbers,
+             death ? death->numbers : std::span<const Index>());
+  }
+  return kept;
+}
+
+BarcodeInfo info_of(const ImagePart& part, const std::string& description,
+                    const std::string& input) {
+  BarcodeInfo info;
+  info.program = app::program_and_version("ph-barcode");
+  info.input = input;
+  info.input_description = description;
+  info.complex = "cubical";
+  info.max_dim =
+      std::min(part.options().max_dim.value_or(0), static_cast<int>(part.extents().size()));
+  info.threshold = part.options().cubical.threshold;
+  info.superlevel = part.options().cubical.superlevel;
+  info.engine = Engine(Engine::gradient).name();
+  info.peak_memory = app::peak_memory();
+  return info;
+}
+
+}  // namespace
+
+std::optional<ImagePart> kept_image_part(const std::string& path, const std::string& input,
+                                         const PartInput& image, int part, int parts,
+                                         app::Session& session) {
+  const auto bytes = kept_part_file(path, std::span(&input, 1), session);
+  if (!bytes) return std::nullopt;
+  std::string why = "is another part";
+  try {
+    ImagePart kept = ImagePart::of_bytes(*bytes, session.context());
+    if (kept.is_of(image.image, part, parts, image.options)) return kept;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::bad_data) throw;
+    why = error.what();
+  }
+  session.note(fmt::format("--resume: {}: {}: computed again", path, why));
+  return std::nullopt;
+}
+
+Outcome run_image_part(const std::string& input, const Arguments& arguments,
+                       app::Session& session) {
+  const auto [part, parts] = *arguments.part;
+  const std::string path =
+      part_path(arguments.output, app::output_names({input}).front(), part, parts);
+  app::require_in_scope(arguments.given, kImagePart, name_of(kImagePart));
+  const PartInput read = read_part_input(input, arguments.keeps_cells, arguments, session);
+  if (arguments.resumes && kept_image_part(path, input, read, part, parts, session))
+    return {app::kOk, fmt::format("{}: it is there already", path)};
+  app::InputFiles inputs;
+  inputs.add(input);
+  app::require_separate(inputs, std::array{app::Written{"--output", path}}, arguments.common.force);
+  app::Output output(path);
+  const ImagePart made = [&] {
+    try {
+      return ImagePart(read.image, part, parts, read.options, session.context());
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::usage) throw;
+      throw Error(error.kind(), fmt::format("--part: {}", error.what()));
+    }
+  }();
+  const std::vector<std::byte> bytes = made.bytes();
+  session.explain("memory " + app::format_size(static_cast<double>(session.memory_taken())));
+  const app::BarHold results_are_written(session);
+  output.file().write(bytes);
+  output.commit();
+  return {app::kOk, fmt::format("{}, {}: {}", read.description, words_of(made),
+                                app::format_size(static_cast<double>(bytes.size())))};
+}
+
+Outcome join_image_parts(std::vector<PartFile> files, const Job& job, const Arguments& arguments,
+                         app::Session& session) {
+  const RunContext& context = session.context();
+  std::vector<std::pair<ImagePart, std::string>> parts;
+  for (PartFile& file : files) {
+    parts.emplace_back(of_file(file, context), file.path);
+    file.bytes = {};
+  }
+  std::ranges::stable_sort(parts, {}, [](const auto& part) { return part.first.first(); });
+  ImagePart all = std::move(parts.front().first);
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    auto& [next, path] = parts[i];
+    const std::string& before = parts[i - 1].second;
+    if (next.parts() == all.parts() && next.first() <= all.last())
+      throw Error(ErrorKind::bad_data,
+                  fmt::format("{}: {} is there twice, in {}, too", path, words_of(next), before));
+    join(all, std::move(next), before, path, context);
+  }
+  if (is_part_path(job.output)) {
+    app::Output output(job.output);
+    const std::vector<std::byte> bytes = all.bytes();
+    output.file().write(bytes);
+    output.commit();
+    return {app::kOk, fmt::format("{}: {}", words_of(all),
+                                  app::format_size(static_cast<double>(bytes.size())))};
+  }
+  if (!all.is_whole())
+    throw Error(
+        ErrorKind::bad_data,
+        fmt::format("--join: found {}, expected all; -o FILE.ph joins some", words_of(all)));
+  if (job.format == BarcodeFormat::json && !all.options().cells)
+    throw Error(ErrorKind::usage,
+                "--output-format: found json, which shows the cells of bars; --part with "
+                "--keep-cells stores them");
+  Outputs outputs(job);
+  return write_bars(all,
+                    fmt::format("image {}, {}", fmt::join(all.extents(), " x "),
+                                app::count_of(parts.size(), "part file")),
+                    outputs, job.input, arguments, session);
+}
+
+Outcome write_bars(const ImagePart& whole, const std::string& description, Outputs& outputs,
+                   const std::string& input, const Arguments& arguments, app::Session& session) {
+  Barcode bars = whole.barcode(session.context());
+  if (arguments.options.min_persistence > 0)
+    bars = longer_than(arguments.options.min_persistence, bars);
+  const BarcodeInfo info = info_of(whole, description, input);
+  note_absent_dims(bars, arguments.look, session);
+  const app::BarHold results_are_written(session);
+  outputs.write(bars, info, look_of(arguments.look, info.superlevel), {}, session.context());
+  return {app::kOk, fmt::format("{}: {}", description, app::count_of(bars.size(), "bar"))};
+}
+
+}  // namespace ph::barcode

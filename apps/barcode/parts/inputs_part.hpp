@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "ph/barcode.hpp"
+
+namespace ph::barcode {
+
+/// The barcodes of some of several inputs, computed apart from the others.
+class InputsPart {
+ public:
+  /// What all parts have in common.
+  struct Whole {
+    std::vector<std::string> inputs, options;  ///< options as they were typed
+    int parts = 1;
+    friend bool operator==(const Whole&, const Whole&) = default;
+  };
+  struct Result {
+    std::size_t input = 0;  ///< its number
+    int code = 0;           ///< what the program would exit with
+    std::string failure;    ///< why there are no bars; empty: they are there
+    Barcode bars;
+  };
+
+  InputsPart(Whole whole, int part) : whole_(std::move(whole)), numbers_{part} {}
+
+  const Whole& whole() const { return whole_; }
+  /// Which parts it has, ascending.
+  std::span<const int> numbers() const { return numbers_; }
+  bool is_whole() const { return numbers_.size() == static_cast<std::size_t>(whole_.parts); }
+  /// By input, ascending.
+  std::span<const Result> results() const { return results_; }
+  /// Of which part an input is. Neighbours, which are often alike, are dealt out in turn.
+  static int part_of(std::size_t input, int parts) {
+    return static_cast<int>(input % static_cast<std::size_t>(parts));
+  }
+
+  /// Inputs come ascending.
+  void add(Result result) { results_.push_back(std::move(result)); }
+  /// @throws Error (bad_data) if the other is not of the same inputs and options, or has a part
+  /// that
+  ///         this one has; nothing has changed then.
+  void join(InputsPart other);
+
+  std::vector<std::byte> bytes() const;
+  /// @throws Error (bad_data) on what `bytes` has not made.
+  static InputsPart of_bytes(std::span<const std::byte> bytes);
+
+ private:
+  Whole whole_;
+  std::vector<int> numbers_;
+  std::vector<Result> results_;
+};
+
+/// The kind of such a part; see core/bytes/sealed_part.hpp.
+inline constexpr std::string_view kInputsKind = "inputs";
+
+}  // namespace ph::barcode

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/run/session.hpp"
+
+namespace ph::barcode {
+
+/// A part that was read, and where it came from.
+struct PartFile {
+  std::string path;
+  std::vector<std::byte> bytes;
+};
+
+/// Whether a path is to hold a part: it ends in .ph.
+bool is_part_path(const std::string& path);
+
+/// Where part I of P of an input goes: a folder, which is created, gets a file of that name.
+/// @param part from 0 on. @throws Error (cannot_create).
+std::string part_path(const std::string& output, const std::string& name, int part, int parts);
+
+/// All of a part file. @throws Error as Input::open.
+std::vector<std::byte> read_part_file(const std::string& path, app::Session& session);
+
+/// What --resume may keep: all of a part file that is there, if no input is younger.
+std::optional<std::vector<std::byte>> kept_part_file(const std::string& path,
+                                                     std::span<const std::string> inputs,
+                                                     app::Session& session);
+
+}  // namespace ph::barcode

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "barcode/parts/part_input.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "barcode/complex/build_complex.hpp"
+#include "barcode/complex/read_input.hpp"
+#include "common/arguments/numbers.hpp"
+#include "core/system/files.hpp"
+
+namespace ph::barcode {
+
+PartInput read_part_input(const std::string& input, bool keeps_cells, const Arguments& arguments,
+                          app::Session& session) {
+  const std::string_view why = arguments.part ? "--part" : "several ranks";
+  if (arguments.complex != ComplexKind::automatic && arguments.complex != ComplexKind::cubical)
+    throw Error(ErrorKind::usage,
+                fmt::format("--complex: found another, expected cubical with {}", why));
+  const Input opened =
+      Input::open(files::path_of(input), &session.context(), Input::Excess::is_expected);
+  if (arguments.format == Format::automatic && is_barcode(opened))
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: {} is a barcode, expected an image", why, opened.name()));
+  const NamedData data = read_input(opened, arguments, session.context());
+  const auto* const image = std::get_if<Image>(&data.read.data);
+  if (image == nullptr)
+    throw Error(ErrorKind::usage,
+                fmt::format("{}: found {}, expected an image", why, data.read.description));
+  session.explain(fmt::format("read {}: {}", data.name, data.read.description));
+  if (arguments.read.allow_empty)
+    session.explain("--allow-empty: not needed, the input is not empty");
+  for (const std::string& note : data.read.notes)
+    session.note(fmt::format("{}: {}", data.name, note));
+  if (const int layers = arguments.common.slab_layers; layers > 0)
+    session.explain(
+        fmt::format("slabs of {}", app::count_of(static_cast<std::size_t>(layers), "layer")));
+  const ImagePartOptions options{.cubical = cubical_options(arguments, *image, data.read.periodic),
+                                 .min_dim = arguments.options.min_dim,
+                                 .max_dim = arguments.options.max_dim,
+                                 .cells = keeps_cells};
+  return {*image, options, data.read.description};
+}
+
+}  // namespace ph::barcode

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <string>
+
+#include "barcode/arguments/arguments.hpp"
+#include "common/run/session.hpp"
+#include "ph/parts/image_part.hpp"
+
+namespace ph::barcode {
+
+/// An image of which some layers will be looked at, and what is wanted of them.
+struct PartInput {
+  Image image;
+  ImagePartOptions options;
+  std::string description;  ///< "image of 64 x 96 voxels, PGM"
+};
+
+/// @param input stays in its file where it lies there as in memory. @param keeps_cells of bars.
+/// @throws Error (usage) on anything but an image, and on options that are not for one.
+PartInput read_part_input(const std::string& input, bool keeps_cells, const Arguments& arguments,
+                          app::Session& session);
+
+}  // namespace ph::barcode

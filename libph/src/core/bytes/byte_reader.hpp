@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/bytes/byte_writer.hpp"
+#include "ph/error.hpp"
+
+namespace ph {
+
+/// Reads what a ByteWriter has written, and trusts none of it: no count leads to more memory than
+/// the bytes themselves take.
+class ByteReader {
+ public:
+  /// @param of what it is, for messages: "part of an image".
+  ByteReader(std::span<const std::byte> bytes, std::string_view of) : bytes_(bytes), of_(of) {}
+
+  /// @throws Error (bad_data): "part of an image: found a damaged seam".
+  [[noreturn]] void refuse(std::string_view what) const {
+    throw Error(ErrorKind::bad_data, fmt::format("{}: found a damaged {}", of_, what));
+  }
+  /// @throws Error (bad_data) as refuse, if there are fewer bytes.
+  template <class T>
+  T get(std::string_view what) {
+    if (bytes_.size() - at_ < sizeof(T)) refuse(what);
+    std::array<std::byte, sizeof(T)> bytes;
+    std::ranges::copy(bytes_.subspan(at_, sizeof(T)), bytes.begin());
+    at_ += sizeof(T);
+    return std::bit_cast<T>(little_endian(bytes));
+  }
+  bool flag(std::string_view what) {
+    const auto value = get<std::uint8_t>(what);
+    if (value > 1) refuse(what);
+    return value != 0;
+  }
+  /// Of things that take that many bytes each, at least.
+  std::size_t count(std::size_t bytes_each, std::string_view what) {
+    const auto count = get<std::uint64_t>(what);
+    if (count > (bytes_.size() - at_) / bytes_each) refuse(what);
+    return static_cast<std::size_t>(count);
+  }
+  std::string text(std::string_view what) {
+    const std::size_t size = count(1, what);
+    const auto* const data = reinterpret_cast<const char*>(bytes_.data() + at_);
+    at_ += size;
+    return {data, size};
+  }
+  /// So many bytes have been read.
+  std::size_t at() const { return at_; }
+  void expect_end() const {
+    if (at_ != bytes_.size()) refuse("end");
+  }
+
+ private:
+  std::span<const std::byte> bytes_;
+  std::string_view of_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace ph

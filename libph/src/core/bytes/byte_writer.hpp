@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace ph {
+
+/// The bytes of a number, the low one first: from this machine's order, or to it.
+template <std::size_t n>
+std::array<std::byte, n> little_endian(std::array<std::byte, n> bytes) {
+  if constexpr (std::endian::native == std::endian::big) std::ranges::reverse(bytes);
+  return bytes;
+}
+
+/// Numbers, one after another, as bytes that are the same on every machine.
+class ByteWriter {
+ public:
+  template <class T>
+  requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) void put(T value) {
+    const auto bytes = little_endian(std::bit_cast<std::array<std::byte, sizeof(T)>>(value));
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+  }
+  void put(bool value) { put(static_cast<std::uint8_t>(value ? 1 : 0)); }
+  /// Its length first.
+  void put(std::string_view text) {
+    put(std::uint64_t{text.size()});
+    const auto* const data = reinterpret_cast<const std::byte*>(text.data());
+    bytes_.insert(bytes_.end(), data, data + text.size());
+  }
+  /// Its size first. @param put_one puts one of them.
+  template <class List, class Put>
+  void put_list(const List& list, Put&& put_one) {
+    put(std::uint64_t{list.size()});
+    for (const auto& one : list) put_one(one);
+  }
+  void put_bytes(std::span<const std::byte> bytes) {
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+  }
+  std::span<const std::byte> bytes() const { return bytes_; }
+  std::vector<std::byte> take() { return std::exchange(bytes_, {}); }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+}  // namespace ph

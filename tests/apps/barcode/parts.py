@@ -1,0 +1,268 @@
+# SPDX-License-Identifier: MIT
+"""Parts that processes compute apart, and what --join makes of them, against one process."""
+import csv
+import io
+import json
+import os
+import random
+import struct
+import sys
+import time
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../support"))
+from program import SQUARE, ProgramTest, main  # noqa: E402
+
+
+def npy(shape, values, code, kind):
+    """The bytes of a NumPy file: version 1, C order."""
+    header = f"{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape!r}, }}"
+    header += " " * (63 - (10 + len(header)) % 64) + "\n"
+    return (b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode() +
+            struct.pack(f"<{len(values)}{code}", *values))
+
+
+class Parts(ProgramTest):
+    def image(self, rng, name, shape):
+        count = 1
+        for n in shape:
+            count *= n
+        if rng.random() < 0.5:
+            return self.write(name, npy(shape, [rng.randrange(6) for _ in range(count)], "B", "|u1"))
+        inf = float("inf")
+        values = [rng.choice((inf, -inf, 1.5, 0.25, rng.random())) for _ in range(count)]
+        return self.write(name, npy(shape, values, "f", "<f4"))
+
+    def parts(self, image, count, *options, prefix="p"):
+        names = [f"{prefix}{i}.ph" for i in range(1, count + 1)]
+        for i, name in enumerate(names, 1):
+            self.expect(0, image, "--part", f"{i}/{count}", "-o", name, "--quiet", *options)
+        return names
+
+    def join(self, rng, names):
+        """Joins neighbours in random groups, until few are left, in a random order."""
+        names = list(names)
+        while len(names) > 1 and rng.random() < 0.6:
+            i = rng.randrange(len(names) - 1)
+            size = rng.randint(2, len(names) - i)
+            group = names[i:i + size]
+            rng.shuffle(group)
+            together = f"{group[0]}-{len(names)}.ph"
+            self.expect(0, "--join", *group, "-o", together, "--quiet")
+            names[i:i + size] = [together]
+        rng.shuffle(names)
+        return names
+
+    def test_the_same_bytes_as_one_process(self):
+        rng = random.Random(1)
+        bars = 0
+        for trial in range(25):
+            dim = rng.choice((2, 2, 3))
+            shape = tuple(rng.randint(2, 7) for _ in range(dim))
+            image = self.image(rng, "image.npy", shape)
+            options = ["--construction", rng.choice(("vertices", "cells"))]
+            if rng.random() < 0.3:
+                options.append("--superlevel")
+            if rng.random() < 0.4:
+                options += ["--periodic", rng.choice(("0", "all", str(dim - 1)))]
+            if rng.random() < 0.3:
+                options += ["--threshold", "2"]
+            if dim == 3:
+                is_closed = "--periodic" in options
+                options += ["--max-dim", "0"] if is_closed or rng.random() < 0.5 else ["--min-dim", "2"]
+            whole = self.expect(0, image, "--quiet", *options).stdout
+            bars += whole.count("\n") - 1
+            joined = self.join(rng, self.parts(image, rng.randint(1, shape[0]), *options))
+            self.assertEqual(self.expect(0, "--join", *joined, "--quiet").stdout, whole,
+                             (shape, options))
+        self.assertGreater(bars, 100)
+
+    def test_cells_and_lengths(self):
+        rng = random.Random(2)
+        image = self.image(rng, "image.npy", (9, 8))
+        names = self.parts(image, 3, "--keep-cells")
+        self.expect(0, image, "-o", "whole.json", "--quiet")
+        self.expect(0, "--join", *names, "-o", "joined.json", "--quiet")
+        whole, joined = json.loads(self.read("whole.json")), json.loads(self.read("joined.json"))
+        self.assertGreater(len(whole["bars"]), 5)
+        for key in ("bars", "complex", "max_dim", "field", "format", "version", "threshold"):
+            self.assertEqual(whole.get(key), joined.get(key), key)
+        self.assertEqual(joined["input"]["path"], " ".join(names))
+        long = ("--min-persistence", "1", "--quiet")
+        self.assertEqual(self.expect(0, image, *long).stdout,
+                         self.expect(0, "--join", *names, *long).stdout)
+        plain = self.parts(image, 3, prefix="q")
+        self.assertIn("--keep-cells", self.expect(64, "--join", *plain, "-o", "x.json").stderr)
+        self.assertFalse(os.path.exists(self.path("x.json")))
+
+    def test_a_part_is_the_same_bytes_whoever_computes_it(self):
+        rng = random.Random(3)
+        image = self.image(rng, "image.npy", (12, 9, 8))
+        first = self.parts(image, 2, "--max-dim", "0", "--threads", "1")
+        second = self.parts(image, 2, "--max-dim", "0", "--slab-layers", "2", "--threads", "2",
+                            "--memory-limit", "64MiB", prefix="q")
+        for a, b in zip(first, second):
+            with open(self.path(a), "rb") as x, open(self.path(b), "rb") as y:
+                self.assertEqual(x.read(), y.read())
+
+    def test_what_does_not_belong_together_is_refused(self):
+        rng = random.Random(4)
+        image = self.image(rng, "image.npy", (8, 7))
+        other = self.image(rng, "other.npy", (8, 7))
+        p = self.parts(image, 4)
+        refused = {
+            "missing": (p[:3], "parts 1 to 3 of 4"),
+            "a gap": ([p[0], p[2], p[3]], "part 3 behind part 1"),
+            "twice": ([*p, p[1]], "twice"),
+            "another image": ([p[0], self.parts(other, 4, prefix="o")[1], *p[2:]], "o2.ph"),
+            "other options": ([p[0], self.parts(image, 4, "--superlevel", prefix="s")[1], *p[2:]],
+                              "options"),
+            "other parts": ([p[0], *self.parts(image, 2, prefix="t")], "of other extents|options"),
+            "no part": ([*p, "image.npy"], "expected \"ph part\""),
+        }
+        for what, (names, word) in refused.items():
+            with self.subTest(what):
+                run = self.expect(65, "--join", *names, "-o", "bars.csv", "--quiet")
+                self.assertRegex(run.stderr, word)
+                self.assertFalse(os.path.exists(self.path("bars.csv")))
+        self.assertIn("no such", self.expect(66, "--join", p[0], "none.ph").stderr.lower())
+        self.assertIn("--join", self.expect(65, p[0]).stderr)
+
+    def test_damage_is_found_wherever_it_is(self):
+        rng = random.Random(5)
+        image = self.image(rng, "image.npy", (4, 3))
+        p = self.parts(image, 2)
+        with open(self.path(p[0]), "rb") as file:
+            whole = file.read()
+        places = sorted(rng.sample(range(len(whole)), 40)) + [len(whole) - 1]
+        for at in places:
+            broken = bytearray(whole)
+            broken[at] ^= 1 << rng.randrange(8)
+            self.write("broken.ph", bytes(broken))
+            self.expect(65, "--join", "broken.ph", p[1], "--quiet")
+        for size in [0, 1, 8, 27, 31, *rng.sample(range(len(whole)), 20)]:
+            self.write("short.ph", whole[:size])
+            self.expect(65, "--join", "short.ph", p[1], "--quiet")
+        self.write("long.ph", whole + b"\0")
+        self.expect(65, "--join", "long.ph", p[1], "--quiet")
+
+    def test_resume_takes_what_is_there(self):
+        rng = random.Random(6)
+        image = self.image(rng, "image.npy", (6, 5))
+        old = time.time() - 1000
+        os.utime(self.path(image), (old, old))
+        part = self.path("p.ph")
+
+        def resume(*options):
+            before = os.stat(part).st_ino if os.path.exists(part) else None
+            said = self.expect(0, image, "--part", "1/2", "-o", "p.ph", "--resume", *options).stderr
+            return os.stat(part).st_ino != before, said
+        self.assertTrue(resume()[0])
+        is_new, said = resume()
+        self.assertFalse(is_new)
+        self.assertIn("there already", said)
+        self.assertTrue(resume("--superlevel")[0])
+        is_new, said = resume()
+        self.assertTrue(is_new)
+        self.assertIn("another part", said)
+        with open(part, "rb") as file:
+            whole = file.read()
+        self.write("p.ph", whole[:-1] + bytes([whole[-1] ^ 1]))
+        is_new, said = resume()
+        self.assertTrue(is_new)
+        self.assertIn("checksum", said)
+        with open(part, "rb") as file:
+            self.assertEqual(file.read(), whole)
+        os.utime(part, (old - 10, old - 10))
+        self.assertIn("is older than image.npy", resume()[1])
+
+    def test_options_have_a_place(self):
+        rng = random.Random(7)
+        image = self.image(rng, "image.npy", (6, 5))
+        volume = self.image(rng, "volume.npy", (6, 5, 4))
+        p = self.parts(image, 2)
+        for arguments, word in (
+                ((image, "--part", "0/2"), "from 1 to 2"), ((image, "--part", "3/2"), "from 1 to 2"),
+                ((image, "--part", "2"), "1/8"), ((image, "--part", "1/7"), "expected 1 to 6"),
+                ((volume, "--part", "1/2"), "dimension 0 alone, or 2 alone"), ((image, "--resume"), "--part"),
+                ((image, "--keep-cells"), "--part"), ((image, "--part", "1/2", "--join"), "beside"),
+                (("square.txt", "--part", "1/2"), "expected an image"),
+                ((image, "--part", "1/2", "--field", "3"), "--field"),
+                ((image, "--part", "1/2", "--output-format", "json"), "--output-format"),
+                ((image, "--part", "1/2", "-o", image), "is an input"),
+                (("--join", *p, "-o", p[0]), "is an input"),
+                (("--join", *p, "--max-dim", "0"), "--max-dim"),
+                (("--join", *p, "--resume"), "--resume"), (("--join", *p, "--report", "x.html"), "plot")):
+            with self.subTest(" ".join(arguments)):
+                self.assertIn(word, self.expect(64, *arguments).stderr)
+        self.expect(0, "--join", *p, "--plot", "x.svg", "--plot-kind", "diagram", "-o", "y.csv")
+        self.assertIn("<svg", self.read("x.svg"))
+        self.expect(0, image, "--part", "2/2", "-o", "folder/", "--quiet")
+        self.assertEqual(os.listdir(self.path("folder")), ["image.2of2.ph"])
+
+
+class Batches(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        rng = random.Random(8)
+        os.mkdir(self.path("in"))
+        for k in range(7):
+            self.write(f"in/{k}.csv", "".join(f"{rng.random()!r},{rng.random()!r}\n" for _ in range(9)))
+        self.write("in/a,b.txt", SQUARE)
+
+    def parts(self, count, *options, code=0, prefix="p"):
+        names = [f"{prefix}{i}.ph" for i in range(1, count + 1)]
+        codes = {self.run_program("in", "--part", f"{i}/{count}", "-o", name, "--quiet", *options)
+                 .returncode for i, name in enumerate(names, 1)}
+        self.assertEqual(codes, {0, code})
+        return names
+
+    def test_one_table_of_all(self):
+        expected = [("input", "dim", "birth", "death")]
+        for name in sorted(os.listdir(self.path("in"))):
+            lines = self.expect(0, f"in/{name}", "--quiet", "--max-dim", "1").stdout.splitlines()[1:]
+            expected += [(f"in/{name}", *line.split(",")) for line in lines]
+        for count in (1, 2, 3, 8, 11):
+            names = self.parts(count, "--max-dim", "1")
+            random.Random(count).shuffle(names)
+            if count > 2:
+                self.expect(0, "--join", *names[:2], "-o", "some.ph", "--quiet")
+                names[:2] = ["some.ph"]
+            table = self.expect(0, "--join", *names, "--quiet").stdout
+            self.assertEqual([tuple(row) for row in csv.reader(io.StringIO(table))], expected)
+
+    def test_what_fails_is_named_and_does_not_stop_the_others(self):
+        self.write("in/bad.csv", "1,2\n3,x\n")
+        names = self.parts(2, code=65)
+        run = self.run_program("--join", *names, "-o", "table.csv")
+        self.assertEqual(run.returncode, 65)
+        self.assertIn("in/bad.csv:2:3", run.stderr)
+        self.assertIn("9 inputs, 1 of them failed", run.stderr)
+        inputs = {row["input"] for row in csv.DictReader(io.StringIO(self.read("table.csv")))}
+        self.assertEqual(len(inputs), 8)
+        self.assertNotIn("in/bad.csv", inputs)
+
+    def test_what_does_not_belong_together_is_refused(self):
+        p = self.parts(3)
+        for names, word in ((p[:2], "missing are 3"), ([*p, p[0]], "part 1 of 3 is there twice"),
+                            ([p[0], self.parts(3, "--max-dim", "0", prefix="q")[1], p[2]], "options")):
+            run = self.expect(65, "--join", *names, "-o", "table.csv", "--quiet")
+            self.assertIn(word, run.stderr)
+            self.assertFalse(os.path.exists(self.path("table.csv")))
+        self.assertIn("--plot", self.expect(64, "in", "--part", "1/3", "--plot", "x.svg").stderr)
+        self.assertIn("csv", self.expect(64, "--join", *p, "-o", "x.json").stderr)
+        self.write("in/z.csv", "dim,birth,death\n0,0,1\n")
+        self.assertEqual(self.run_program("in", "--part", "3/3", "-o", "z.ph", "--quiet").returncode, 65)
+
+    def test_resume(self):
+        name, = self.parts(1)
+        before = os.stat(self.path(name)).st_ino
+        run = self.expect(0, "in", "--part", "1/1", "-o", name, "--resume")
+        self.assertIn("there already", run.stderr)
+        self.assertEqual(os.stat(self.path(name)).st_ino, before)
+        self.write("in/new.csv", SQUARE.replace(" ", ","))
+        self.expect(0, "in", "--part", "1/1", "-o", name, "--resume")
+        self.assertNotEqual(os.stat(self.path(name)).st_ino, before)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Images on several ranks, which are threads here and talk in messages, against one process; and
+// messages that are lost, come twice, in another order, or changed.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "facade/parts/join_ranks.hpp"
+#include "support/conformance.hpp"
+#include "support/for_each_seed.hpp"
+#include "support/image_cases.hpp"
+#include "support/thread_ranks.hpp"
+
+namespace ph::test {
+namespace {
+
+/// What rank 0 gets.
+Barcode bars_of_ranks(const ImageCase& c, ThreadRanks& ranks) {
+  std::optional<ImagePart> whole;
+  ranks.run([&](Transport& transport) {
+    Post post(transport);
+    const int rank = post.rank(), parts = std::min(post.size(), c.layers);
+    std::optional<ImagePart> own;
+    if (rank < parts) own.emplace(c.image, rank, parts, c.options);
+    std::optional<ImagePart> joined = join_ranks(std::move(own), post, default_context());
+    EXPECT_EQ(joined.has_value(), rank == 0);
+    if (joined) whole = std::move(joined);
+  });
+  return whole.value().barcode();
+}
+
+TEST(Ranks, AgreeWithOneProcess) {
+  std::mt19937 delays(7);
+  std::size_t bars = 0;
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(seeds(1500)); ++seed) {
+    SCOPED_TRACE(seed);
+    Generator random(seed);
+    const ImageCase c = random_image_case(random);
+    if (is_refused(c)) continue;
+    ASSERT_EQ(ImagePart::most_parts(c.image, c.options.cubical), c.layers);
+    const Barcode expected = ImagePart(c.image, 0, 1, c.options).barcode();
+    ThreadRanks ranks(random.integer(1, 9), random.coin() ? &delays : nullptr);
+    ASSERT_EQ(pairs_of(bars_of_ranks(c, ranks)), pairs_of(expected));
+    bars += expected.size();
+  }
+  EXPECT_TRUE(is_enough(bars, std::size_t{2000})) << bars;
+}
+
+class Mishaps : public testing::TestWithParam<Mishap> {};
+
+TEST_P(Mishaps, AreSeen) {
+  int happened = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    Generator random(seed);
+    const ImageCase c{random.image({9, 5}, false), {}, 9};
+    ThreadRanks ranks(9, nullptr);
+    ranks.plan(GetParam(), static_cast<int>(seed) % 8);
+    try {
+      const Barcode bars = bars_of_ranks(c, ranks);
+      // The second of two that are the same stays unread: nobody asks for it.
+      EXPECT_TRUE(GetParam() == Mishap::doubled || !ranks.has_happened());
+      EXPECT_EQ(pairs_of(bars), pairs_of(ImagePart(c.image, 0, 1).barcode()));
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::io) << error.what();
+    }
+    happened += ranks.has_happened() ? 1 : 0;
+  }
+  EXPECT_EQ(happened, 12);
+}
+INSTANTIATE_TEST_SUITE_P(All, Mishaps,
+                         testing::Values(Mishap::lost, Mishap::doubled, Mishap::swapped,
+                                         Mishap::changed));
+
+/// Sends three messages from rank 1 to rank 0 and reads as many.
+void three_messages(ThreadRanks& ranks) {
+  ranks.run([](Transport& transport) {
+    Post post(transport);
+    for (int i = 0; i < 3; ++i) {
+      const std::vector<std::byte> message(static_cast<std::size_t>(i), std::byte{7});
+      if (post.rank() == 1) post.send(0, message);
+      if (post.rank() == 0) {
+        EXPECT_EQ(post.receive(1), message);
+      }
+    }
+    if (post.rank() == 1) {
+      EXPECT_EQ(post.bytes_sent(), 3U * 12 + 3);
+    }
+  });
+}
+
+TEST(Post, KnowsItsMessages) {
+  ThreadRanks calm(2, nullptr);
+  three_messages(calm);
+  for (const Mishap mishap : {Mishap::lost, Mishap::doubled, Mishap::swapped, Mishap::changed})
+    for (int message = 0; message < 2; ++message) {
+      ThreadRanks ranks(2, nullptr);
+      ranks.plan(mishap, message);
+      try {
+        three_messages(ranks);
+        ADD_FAILURE() << static_cast<int>(mishap);
+      } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::io);
+        EXPECT_NE(std::string(error.what()).find("rank 0: message from rank 1: found"),
+                  std::string::npos)
+            << error.what();
+      }
+    }
+}
+
+}  // namespace
+}  // namespace ph::test

@@ -1,0 +1,13 @@
+# SPDX-License-Identifier: MIT
+"""An image to compute, without NumPy."""
+import math
+
+
+def volume(path, extents=(24, 20, 16)):
+    """A NumPy file of pseudo-random bytes."""
+    state, values = 1, bytearray()
+    for _ in range(math.prod(extents)):
+        state = (state * 1103515245 + 12345) % (1 << 31)
+        values.append(state >> 16 & 63)
+    header = f"{{'descr': '|u1', 'fortran_order': False, 'shape': {extents!r}, }}".ljust(117) + "\n"
+    path.write_bytes(b"\x93NUMPY\x01\x00" + len(header).to_bytes(2, "little") + header.encode() + values)
