@@ -67,13 +67,12 @@ void check(const WholeImage& whole, const GridShape& shape, int part, bool may_h
     throw Error(ErrorKind::usage,
                 fmt::format("part of an image: found number {} of {}", part + 1, whole.parts));
   if (whole.loops && !may_have_loops)
-    throw Error(
-        ErrorKind::usage,
-        fmt::format("parts of a volume: found loops wanted, which joined parts do not tell; "
-                    "expected dimension 0 alone{}, or option loops and ImageLoops",
-                    std::ranges::find(whole.periodic, true) == whole.periodic.end()
-                        ? ", or 2 alone"
-                        : " where an axis closes up"));
+    throw Error(ErrorKind::usage,
+                fmt::format("parts of a volume: found loops wanted, which need all layers at once; "
+                            "expected dimension 0 alone{}",
+                            std::ranges::find(whole.periodic, true) == whole.periodic.end()
+                                ? ", or 2 alone"
+                                : " where an axis closes up"));
 }
 
 /// Voxels of layers and the one on either side, copied only where a periodic axis begins again.
