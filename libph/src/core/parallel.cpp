@@ -62,7 +62,10 @@ void for_each_piece(std::string_view stage, std::size_t count, std::size_t piece
                     const std::function<void(std::size_t, std::size_t)>& work) {
   Pieces pieces(count, piece, context, work);
   Ticker ticker(context, stage, count);
-  const std::size_t others = std::min(thread_count(context), (count + piece - 1) / piece);
+  const std::size_t pieces_left = (count + piece - 1) / piece;
+  // To ask the system how many threads there may be takes longer than one small piece.
+  const std::size_t others =
+      pieces_left > 1 ? std::min(thread_count(context), pieces_left) : pieces_left;
   std::vector<std::jthread> threads;
   threads.reserve(others);
   for (std::size_t i = 1; i < others; ++i) {

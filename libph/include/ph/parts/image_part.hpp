@@ -19,6 +19,8 @@ struct ImagePartOptions {
   int min_dim = 0;
   std::optional<int> max_dim = std::nullopt;  ///< default: all
   bool cells = true;                          ///< else bars have none
+  /// Whether a volume's bars that need all layers may be wanted: ImageLoops finds them.
+  bool loops = false;
 };
 
 /// The barcode of some layers of an image, as far as it is known without the others: its own pairs
@@ -27,7 +29,8 @@ struct ImagePartOptions {
 /// image. See docs/explanation/engines/slabs.md.
 ///
 /// Images of two and three axes that have more than one voxel, of any size; a part has fewer than
-/// about 2^31 voxels. Of three axes bars of dimension 1 are refused, for they need all layers.
+/// about 2^31 voxels. Of three axes bars of dimension 1 need all layers: they are refused unless
+/// option `loops` says that ImageLoops will find them.
 class ImagePart {
  public:
   /// Layers n · part / parts up to n · (part + 1) / parts of the n of the slowest axis. Looks at
@@ -61,8 +64,14 @@ class ImagePart {
   /// @throws Error (bad_data) if they are not, or of another image, or of other options; nothing
   ///         has changed then.
   void join(ImagePart next, const RunContext& context = default_context());
-  /// The bars of positive length. Precondition: is_whole().
+  /// The bars of positive length, without those of ImageLoops. Precondition: is_whole().
   Barcode barcode(const RunContext& context = default_context()) const;
+
+  /// Whether ImageLoops has bars that are wanted.
+  bool has_loops() const;
+  /// What the joins have found out for the loops of one part, as bytes. Precondition: is_whole(),
+  /// has_loops().
+  std::vector<std::byte> told_to_loops(int part) const;
 
   /// What it consists of, as bytes with a checksum: the same on every machine.
   std::vector<std::byte> bytes() const;
@@ -71,6 +80,7 @@ class ImagePart {
                             const RunContext& context = default_context());
 
  private:
+  friend class ImageLoops;
   struct State;
   explicit ImagePart(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;

@@ -63,6 +63,8 @@ class ByteReader {
     at_ += size;
     return {data, size};
   }
+  /// So many bytes have been read.
+  std::size_t at() const { return at_; }
   void expect_end() const {
     if (at_ != bytes_.size()) refuse("end");
   }

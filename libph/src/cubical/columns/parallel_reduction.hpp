@@ -20,13 +20,19 @@
 
 namespace ph::cubical {
 
+/// Columns whose numbers go from old to young.
+struct NumberedByAge {
+  static bool is_older(std::uint32_t a, std::uint32_t b) { return a < b; }
+};
+
 /// Columns of a boundary matrix, reduced by adding older ones only. Several threads reduce columns
 /// at a time; who has an older column's pivot takes it, and the younger column is reduced further
 /// in the next round (Morozov & Nigmetov, Towards lockfree persistent homology, 2020). The pairs do
 /// not depend on who comes first. Each step of a column reads memory anywhere, so a thread works on
 /// some columns in turns and asks for what the next step will read.
 /// @tparam Chain a working column, such as BoundaryColumn.
-template <Field K, class Chain>
+/// @tparam Ages `is_older(a, b)`: which one of two columns is older, by their numbers.
+template <Field K, class Chain, class Ages = NumberedByAge>
 class ParallelReduction {
  public:
   using Term = typename Chain::Term;
@@ -47,13 +53,21 @@ class ParallelReduction {
 
   static constexpr std::size_t kLanes = 8;
 
-  /// @param size columns, from old to young.
+  /// @param size columns.
   /// @param lanes columns that a thread works on in turns. With one, and one piece, columns hold
   /// what the textbook's do.
   ParallelReduction(std::size_t size, const K& field, const RunContext& context,
-                    std::size_t lanes = kLanes)
-      : field_(field), context_(context), lanes_(lanes), columns_(size, nullptr, &context.memory) {}
+                    std::size_t lanes = kLanes, const Ages& ages = {})
+      : field_(field),
+        context_(context),
+        lanes_(lanes),
+        ages_(ages),
+        columns_(size, nullptr, &context.memory) {}
 
+  /// Takes in so many columns more.
+  void grow(std::size_t by) { columns_.resize(columns_.size() + by, nullptr); }
+
+  /// All columns, as they were numbered.
   /// @param piece columns that a thread takes at a time.
   /// @param make_chain called for a working column.
   /// @param assign_boundary called with (chain, column): makes it the boundary of the column's
@@ -67,8 +81,21 @@ class ParallelReduction {
            Arrange&& arrange) {
     std::pmr::vector<std::uint32_t> round(columns_.size(), &context_.memory);
     std::iota(round.begin(), round.end(), 0U);
+    run_some(std::move(round), stage, piece, make_chain, assign_boundary, owner_of, expect_owner,
+             arrange,
+             [](std::uint32_t, const std::optional<Term>& pivot, Chain&) { return !pivot; });
+  }
+  /// Some columns.
+  /// @param is_done called with (column, pivot, chain) when a pivot was looked for: whether nothing
+  /// is left to do here, because it is zero or goes somewhere else. May look further.
+  template <class MakeChain, class AssignBoundary, class OwnerOf, class ExpectOwner, class Arrange,
+            class IsDone>
+  void run_some(std::pmr::vector<std::uint32_t> round, std::string_view stage, std::size_t piece,
+                MakeChain&& make_chain, AssignBoundary&& assign_boundary, OwnerOf&& owner_of,
+                ExpectOwner&& expect_owner, Arrange&& arrange, IsDone&& is_done) {
     const auto take_pivot = [&](Lane& lane) {
       lane.pivot = lane.chain.take_pivot();
+      if (is_done(lane.column, lane.pivot, lane.chain)) return false;
       return expect(lane, expect_owner);
     };
     const auto begin_with = [&](Lane& lane, std::uint32_t i) {
@@ -102,7 +129,7 @@ class ParallelReduction {
         round.insert(round.end(), worker->again.begin(), worker->again.end());
         worker->again.clear();
       }
-      std::ranges::sort(round);
+      std::ranges::sort(round, [&](auto a, auto b) { return ages_.is_older(a, b); });
     }
   }
 
@@ -133,7 +160,8 @@ class ParallelReduction {
 
     const Column* keep(const Term& pivot, std::uint32_t number, std::span<const Term> below,
                        std::pmr::memory_resource* memory) {
-      constexpr std::size_t block = 1 << 15;
+      constexpr std::size_t least = 1 << 10, most = 1 << 15;
+      const std::size_t block = kept.empty() ? least : std::min(2 * kept.back().capacity(), most);
       const std::size_t units = (sizeof(Column) + below.size_bytes()) / sizeof(Unit);
       if (kept.empty() || kept.back().capacity() - kept.back().size() < units)
         kept.emplace_back(memory).reserve(std::max(block, units));
@@ -158,10 +186,9 @@ class ParallelReduction {
     return worker;
   }
 
-  // Whether the column has a pivot, for which to look.
+  // To look for the column that has the pivot comes next.
   template <class ExpectOwner>
   static bool expect(Lane& lane, ExpectOwner&& expect_owner) {
-    if (!lane.pivot) return false;
     expect_owner(lane.pivot->cell);
     lane.next = Lane::Step::find_owner;
     return true;
@@ -183,7 +210,7 @@ class ParallelReduction {
       return true;
     }
     const auto has_older = [&] {
-      return lane.older != nullptr && lane.older->number() < lane.column;
+      return lane.older != nullptr && ages_.is_older(lane.older->number(), lane.column);
     };
     if (!has_older()) {
       const Column* const kept =
@@ -207,6 +234,7 @@ class ParallelReduction {
   const K& field_;
   const RunContext& context_;
   const std::size_t lanes_;
+  const Ages ages_;
   std::pmr::vector<const Column*> columns_;
   std::mutex mutex_;  // for what follows
   std::vector<std::unique_ptr<Worker>> workers_;

@@ -8,26 +8,17 @@
 #include <vector>
 
 #include "cubical/columns/chain_heap.hpp"
+#include "cubical/columns/ordered_cell.hpp"
 #include "cubical/stars/critical_cells.hpp"
 #include "cubical/stars/facet_search.hpp"
 #include "ph/detail/core/chain.hpp"
 #include "ph/detail/core/field.hpp"
-#include "ph/detail/core/radix_sort.hpp"
 
 namespace ph::cubical {
 
-/// An edge of the T-construction: a square of the stars' grid, ordered as there, by value, voxel,
-/// rank of the direction.
-struct DualEdge {
-  std::uint64_t key, name;
-  std::uint32_t voxel() const { return static_cast<std::uint32_t>(name >> 4); }
-  int rank() const { return static_cast<int>(name & 15); }
-  friend bool operator==(const DualEdge& a, const DualEdge& b) { return a.name == b.name; }
-  /// The youngest edge of T is the oldest square.
-  static bool is_later(const DualEdge& a, const DualEdge& b) {
-    return a.key != b.key ? a.key > b.key : a.name > b.name;
-  }
-};
+/// An edge of the T-construction: a square of the stars' grid. The youngest one is the oldest
+/// square.
+using DualEdge = LoopSquare;
 
 /// The edges of T that may give birth to loops: critical squares in no pair of the two graphs.
 class FreeDualEdges {
@@ -40,7 +31,7 @@ class FreeDualEdges {
   }
   /// The place of one among the critical squares. Precondition: it is critical.
   std::uint32_t number(const DualEdge& edge) const {
-    const std::uint32_t v = edge.voxel();
+    const std::uint32_t v = grid_.here(edge.voxel());
     const int square = grid_.tables(v).square_order().at(edge.rank());
     auto at = std::ranges::lower_bound(squares_.cells, v, {}, &NumberedCell::voxel);
     while (at->number != static_cast<std::uint32_t>(square)) ++at;
@@ -85,7 +76,7 @@ class DualLoopColumn {
   std::optional<Term> take_pivot() {
     while (const std::optional<Term> term = heap_.take()) {
       count(1);
-      const std::uint32_t v = term->cell.voxel();
+      const std::uint32_t v = grid_.here(term->cell.voxel());
       const std::uint32_t star = grid_.star(v);
       const StarTables& tables = grid_.tables(v);
       const int square = tables.square_order().at(term->cell.rank());
@@ -142,8 +133,7 @@ class DualLoopColumn {
     const std::uint32_t v = square.voxel;
     const int number = number_of(square.direction);
     if ((grid_.pair_cubes(v).squares() >> number & 1U) != 0) return;
-    const auto rank = static_cast<std::uint64_t>(grid_.tables(v).square_order().rank(number));
-    terms.emplace_back(DualEdge{ordered_bits(square.value + 0.0), std::uint64_t{v} << 4 | rank},
+    terms.emplace_back(DualEdge::of(square.value, v, grid_.tables(v).square_order().rank(number)),
                        coefficient);
   }
 
@@ -151,7 +141,7 @@ class DualLoopColumn {
   const FreeDualEdges& free_;
   const K& field_;
   const RunContext& context_;
-  ChainHeap<K, Term, &DualEdge::is_later> heap_;
+  ChainHeap<K, Term, &DualEdge::follows> heap_;
   std::size_t steps_ = 0;  // since the last look at the stop token
 };
 

@@ -59,7 +59,7 @@ class DualLoopReduction {
         on_loop(StarCell{squares_.cells[cell].voxel, kSquares[squares_.cells[cell].number], value});
   }
   StarCell cell(const DualEdge& square) const {
-    const std::uint32_t v = square.voxel();
+    const std::uint32_t v = grid_.here(square.voxel());
     return {v, kSquares[grid_.tables(v).square_order().at(square.rank())], grid_.value(v)};
   }
 

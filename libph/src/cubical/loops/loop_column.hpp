@@ -7,34 +7,19 @@
 #include <vector>
 
 #include "cubical/columns/chain_heap.hpp"
+#include "cubical/columns/ordered_cell.hpp"
 #include "cubical/stars/star_grid.hpp"
 #include "ph/detail/core/chain.hpp"
 #include "ph/detail/core/field.hpp"
-#include "ph/detail/core/radix_sort.hpp"
 #include "ph/run_context.hpp"
 
 namespace ph::cubical {
-
-/// An edge, ordered as in the filtration: by the value of its star, then by name.
-struct LoopEdge {
-  std::uint64_t key;   ///< orders as the value does
-  std::uint64_t name;  ///< (the voxel, the rank of the direction in its star)
-
-  std::uint32_t voxel() const { return static_cast<std::uint32_t>(name >> 3); }
-  double value() const { return from_ordered_bits(key); }
-  int rank() const { return static_cast<int>(name & 7); }
-  friend bool operator==(const LoopEdge& a, const LoopEdge& b) { return a.name == b.name; }
-  static bool precedes(const LoopEdge& a, const LoopEdge& b) {
-    __extension__ using Wide = unsigned __int128;
-    return (Wide{a.key} << 64 | a.name) < (Wide{b.key} << 64 | b.name);
-  }
-};
 
 /// A chain of edges that is being reduced. An edge that is paired inside its star is replaced by
 /// the rest of the boundary of its square when it comes up, so a chain is followed only as far down
 /// as its pivot; edges that kill a component are left out (no column has its pivot there). Not for
 /// several threads at once.
-/// @tparam Stars StarGrid, or StoredStars.
+/// @tparam Stars StarGrid, StoredStars, or PartStars.
 template <Field K, class Stars>
 class LoopColumn {
  public:
@@ -42,7 +27,11 @@ class LoopColumn {
   using Term = Entry<LoopEdge, K>;
 
   LoopColumn(const Stars& grid, const K& field, const RunContext& context)
-      : grid_(grid), field_(field), context_(context), heap_(field, &context.memory) {}
+      : grid_(grid),
+        field_(field),
+        context_(context),
+        heap_(field, &context.memory),
+        stay_(&context.memory) {}
 
   /// Begins anew with the boundary of a square.
   void assign_boundary(std::uint32_t v, int square) {
@@ -53,42 +42,71 @@ class LoopColumn {
   void assign(std::span<const Term> chain) { heap_.assign(chain); }
   void add(Element scale, std::span<const Term> chain) {
     count(chain.size());
-    for (const Term& term : chain) grid_.expect_star(term.cell.voxel());
+    for (const Term& term : chain) expect_star(term);
     heap_.add([&](Terms& terms) {
       for (const Term& term : chain)
         terms.emplace_back(term.cell, field_.multiply(scale, term.coefficient()));
     });
   }
-  /// Takes out the youngest edge that is in no pair inside its star; nothing if none is left.
+  /// Takes out the youngest edge that is in no pair inside its star, or whose pair is not seen from
+  /// this part of the grid; nothing if none is left.
   std::optional<Term> take_pivot() {
     while (const std::optional<Term> youngest = heap_.take()) {
       count(1);
-      if (const Term* const next = heap_.next()) grid_.expect_star(next->cell.voxel());
-      const std::uint32_t u = youngest->cell.voxel();
-      const StarTables& tables = grid_.tables(u);
-      const int edge = tables.edge_order().at(youngest->cell.rank());
-      const int s = tables.square_of(grid_.star(u), edge);
-      if (s < 0) return youngest;
-      const auto [first, second] = kEdgesOfSquare[s];
-      const int incidence =
-          edge == second ? -kSquares[s][axis_of_edge(first)] : kSquares[s][axis_of_edge(second)];
-      const Element scale = field_.negate(times(youngest->coefficient(), incidence));
-      heap_.add([&](Terms& terms) { append_boundary(u, s, scale, edge, terms); });
+      if (const Term* const next = heap_.next()) expect_star(*next);
+      if (!replace(*youngest)) return youngest;
     }
     return std::nullopt;
   }
+  /// Puts a pivot back and replaces edges below it as if they had come up, the youngest ones first,
+  /// so many at most. A chain that leaves this part of the grid does so once then, and not each
+  /// time that an edge of another part comes up between two of its own.
+  void follow(const Term& pivot, std::size_t most) {
+    stay_.assign(1, pivot);
+    while (most > 0) {
+      const std::optional<Term> youngest = heap_.take();
+      if (!youngest) break;
+      count(1);
+      if (replace(*youngest))
+        --most;
+      else
+        stay_.push_back(*youngest);
+    }
+    heap_.add([&](Terms& terms) { terms.insert(terms.end(), stay_.begin(), stay_.end()); });
+  }
+  std::size_t size() const { return heap_.size(); }
   /// What it holds, each edge once; to be assigned before it is used again.
   std::span<const Term> consolidate() { return heap_.consolidate(); }
 
  private:
   using Terms = std::pmr::vector<Term>;
 
+  // Adds the rest of the boundary of the square that an edge is paired with inside its star, in
+  // place of the edge that was taken. @return whether that is seen, and there is one.
+  bool replace(const Term& term) {
+    if (!grid_.sees(term.cell.voxel())) return false;
+    const std::uint32_t u = grid_.here(term.cell.voxel());
+    const StarTables& tables = grid_.tables(u);
+    const int edge = tables.edge_order().at(term.cell.rank());
+    const int s = tables.square_of(grid_.star(u), edge);
+    if (s < 0 || !grid_.sees_square(u, s)) return false;
+    const auto [first, second] = kEdgesOfSquare[s];
+    const int incidence =
+        edge == second ? -kSquares[s][axis_of_edge(first)] : kSquares[s][axis_of_edge(second)];
+    const Element scale = field_.negate(times(term.coefficient(), incidence));
+    heap_.add([&](Terms& terms) { append_boundary(u, s, scale, edge, terms); });
+    return true;
+  }
   void count(std::size_t steps) {
     constexpr std::size_t many = 64;
     if ((steps_ += steps) < many) return;
     steps_ = 0;
     context_.poll();
     grid_.tidy();
+  }
+  void expect_star(const Term& term) const {
+    const std::uint64_t voxel = term.cell.voxel();
+    if (grid_.sees(voxel)) grid_.expect_star(grid_.here(voxel));
   }
   Element times(Element scale, int sign) const { return sign > 0 ? scale : field_.negate(scale); }
 
@@ -97,9 +115,9 @@ class LoopColumn {
     const std::uint32_t star = grid_.star(v);
     const StarTables& tables = grid_.tables(v);
     if (tables.arrow(star) == edge || (star & tables.taken_mark(edge)) != 0) return;
-    const std::uint64_t name =
-        std::uint64_t{v} << 3 | static_cast<std::uint64_t>(tables.edge_order().rank(edge));
-    terms.emplace_back(LoopEdge{ordered_bits(grid_.value(v) + 0.0), name}, coefficient);
+    terms.emplace_back(
+        LoopEdge::of(grid_.value(v), grid_.in_whole(v), tables.edge_order().rank(edge)),
+        coefficient);
   }
   // Appends `scale` times the boundary of a square, without the edge `skip` of its voxel if it is
   // not negative. Incidences as in ph/detail/complex/cubical_cells.hpp.
@@ -141,7 +159,8 @@ class LoopColumn {
   const K& field_;
   const RunContext& context_;
   ChainHeap<K, Term, &LoopEdge::precedes> heap_;
-  std::size_t steps_ = 0;  // since the last look at the stop token
+  std::pmr::vector<Term> stay_;  // see `follow`
+  std::size_t steps_ = 0;        // since the last look at the stop token
 };
 
 }  // namespace ph::cubical

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <algorithm>
-#include <bit>
 #include <concepts>
 #include <cstdint>
 #include <memory_resource>
@@ -10,9 +9,9 @@
 
 #include "cubical/columns/parallel_reduction.hpp"
 #include "cubical/loops/loop_column.hpp"
+#include "cubical/loops/loop_owners.hpp"
 #include "cubical/pair_sink.hpp"
 #include "cubical/stars/critical_cells.hpp"
-#include "cubical/stars/free_edges.hpp"
 
 namespace ph::cubical {
 
@@ -33,11 +32,10 @@ class LoopReduction {
   LoopReduction(const Stars& grid, const FreeEdges& free, const CriticalCells& squares,
                 const K& field, const RunContext& context)
       : grid_(grid),
-        free_(free),
         squares_(squares),
         field_(field),
         context_(context),
-        owners_(free.count(), nullptr, &context.memory),
+        owners_(grid, free, context),
         reduction_(squares.order.size(), field, context) {}
 
   void run(PairSink& sink) {
@@ -69,25 +67,18 @@ class LoopReduction {
           const auto [v, square] = squares_.cells[squares_.order[i].cell];
           column.assign_boundary(v, static_cast<int>(square));
         },
-        [&](const LoopEdge& pivot) -> const Column*& {
-          return owners_[free_.number(pivot.voxel(), edge_of(pivot))];
-        },
-        [&](const LoopEdge& pivot) { free_.prefetch(pivot.voxel()); },
+        [&](const LoopEdge& pivot) -> const Column*& { return owners_.of(pivot); },
+        [&](const LoopEdge& pivot) { owners_.expect(pivot); },
         [&](std::span<std::uint32_t> round) {
           if (kInFile) std::ranges::sort(round, {}, [&](auto i) { return squares_.order[i].cell; });
         });
   }
-  int edge_of(const LoopEdge& edge) const {
-    return grid_.tables(edge.voxel()).edge_order().at(edge.rank());
-  }
-
   const Stars& grid_;
-  const FreeEdges& free_;
   const CriticalCells& squares_;
   const K& field_;
   const RunContext& context_;
-  std::pmr::vector<const Column*> owners_;  // by free edge that is a pivot
-  Reduction reduction_;                     // columns in the order of the squares
+  LoopOwners<Stars, Column> owners_;
+  Reduction reduction_;  // columns in the order of the squares
 };
 
 template <Field K, class Stars>
@@ -101,19 +92,15 @@ void LoopReduction<K, Stars>::for_each_class(OnPair&& on_pair, OnSurface&& on_su
     const auto [value, cell] = squares_.order[i];
     const StarCell square{squares_.cells[cell].voxel, kSquares[squares_.cells[cell].number], value};
     if (const Column* const column = columns[i]) {
-      const LoopEdge& edge = column->pivot().cell;
-      on_pair(StarCell{edge.voxel(), kEdges[edge_of(edge)], edge.value()}, square, column->pivot(),
-              column->below());
+      on_pair(owners_.cell(column->pivot().cell), square, column->pivot(), column->below());
     } else {
       on_surface(square);
     }
   }
   // Free edges that nobody has: loops that never die.
-  auto owner = owners_.begin();
-  free_.for_each([&](std::uint32_t v, unsigned edges) {
+  owners_.for_each([&](const StarCell& edge, const Column* owner) {
     ticker.work();
-    for (; edges != 0; edges &= edges - 1, ++owner)
-      if (*owner == nullptr) on_loop(StarCell{v, kEdges[std::countr_zero(edges)], grid_.value(v)});
+    if (owner == nullptr) on_loop(edge);
   });
 }
 

@@ -275,7 +275,7 @@ class Representing {
     Reduction reduction(grid_, free, squares, field_, context_);
     reduction.reduce_in_order();
     const auto cell_of = [&](const typename Reduction::Term& term) {
-      const std::uint32_t v = term.cell.voxel();
+      const std::uint32_t v = grid_.here(term.cell.voxel());
       return StarCell{v, kEdges[grid_.tables(v).edge_order().at(term.cell.rank())], 0};
     };
     add_classes(tree, reduction, cell_of, 2);

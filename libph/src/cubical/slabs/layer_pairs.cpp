@@ -9,21 +9,6 @@
 #include "ph/error.hpp"
 
 namespace ph::cubical {
-namespace {
-
-/// A StarCell of the whole grid.
-struct WholeCell {
-  std::uint64_t voxel;
-  Direction direction;
-  double value;
-};
-
-NumberedCell numbered(const GridCell& cell) {
-  return {static_cast<std::uint32_t>(cell.voxel()), cell.number()};
-}
-
-}  // namespace
-
 LayerPairs::LayerPairs(const GridShape& grid, const Graphs& graphs, const RunContext& context)
     : around(&context.memory),
       grid_(grid),
@@ -45,7 +30,8 @@ void LayerPairs::take(std::optional<Forest>& all, Forest next, bool comes_before
   if (is_ring() && has_begin && has_end) all->close_ring();
 }
 
-void LayerPairs::add(const StarGrid& slab, std::uint64_t first, PairSink& pairs, SlabLoops* loops) {
+void LayerPairs::add(const StarGrid& slab, std::uint64_t first, PairSink& pairs,
+                     FreeCellSink* free) {
   has_begin = has_begin || slab.slab().is_first;
   has_end = has_end || slab.slab().is_last;
   std::optional<CriticalCells> edges;
@@ -59,7 +45,7 @@ void LayerPairs::add(const StarGrid& slab, std::uint64_t first, PairSink& pairs,
     auto forest =
         SlabBasins(slab, graph, first, vertices.has_value(), context_).forest(edges_of_slab());
     take(vertices, std::move(forest));
-    settle_vertices(pairs, loops);
+    settle_vertices(pairs, free);
   }
   if (graphs_.tops) {
     const TopGraph graph(slab);
@@ -70,7 +56,7 @@ void LayerPairs::add(const StarGrid& slab, std::uint64_t first, PairSink& pairs,
     auto forest = SlabBasins(slab, graph, first, tops.has_value(), context_)
                       .forest(grid_.top_dim() == 3 ? squares : edges_of_slab());
     take(tops, std::move(forest));
-    settle_tops(pairs, loops);
+    settle_tops(pairs, free);
   }
 }
 
@@ -87,18 +73,18 @@ void LayerPairs::check_seams(const LayerPairs& others, bool come_before) const {
                 "other");
 }
 
-void LayerPairs::join(LayerPairs others, bool come_before, PairSink& pairs) {
+void LayerPairs::join(LayerPairs others, bool come_before, PairSink& pairs, FreeCellSink* free) {
   check_seams(others, come_before);
   has_begin = has_begin || others.has_begin;
   has_end = has_end || others.has_end;
   around.join(others.around);
   if (graphs_.vertices) {
     take(vertices, std::move(*others.vertices), come_before);
-    settle_vertices(pairs, nullptr);
+    settle_vertices(pairs, free);
   }
   if (graphs_.tops) {
     take(tops, std::move(*others.tops), come_before);
-    settle_tops(pairs, nullptr);
+    settle_tops(pairs, free);
   }
 }
 
@@ -107,7 +93,7 @@ void LayerPairs::finish(PairSink& pairs) const {
     pairs.essential(1, WholeCell{edge.voxel(), kEdges[edge.number()], value});
 }
 
-void LayerPairs::settle_vertices(PairSink& pairs, SlabLoops* loops) {
+void LayerPairs::settle_vertices(PairSink& pairs, FreeCellSink* free) {
   const auto edge = [](const SeamBridge& bridge) {
     return WholeCell{bridge.cell.voxel(), kEdges[bridge.cell.number()], bridge.value};
   };
@@ -122,13 +108,13 @@ void LayerPairs::settle_vertices(PairSink& pairs, SlabLoops* loops) {
           pairs.pair(0, voxel(*dies), edge(bridge));
       },
       [&](const SeamBridge& bridge) {
-        if (loops != nullptr) loops->add_edge(numbered(bridge.cell));
+        if (free != nullptr) free->add_edge(bridge.cell);
         if (may_have_neither_) around.meet(bridge.value, bridge.cell);
       },
       [&](const SeamRoot& root) { pairs.essential(0, voxel(root)); });
 }
 
-void LayerPairs::settle_tops(PairSink& pairs, SlabLoops* loops) {
+void LayerPairs::settle_tops(PairSink& pairs, FreeCellSink* free) {
   const int top = grid_.top_dim();
   const auto facet = [top](const SeamBridge& bridge) {
     const std::uint32_t n = bridge.cell.number();
@@ -147,7 +133,7 @@ void LayerPairs::settle_tops(PairSink& pairs, SlabLoops* loops) {
           pairs.pair(top - 1, facet(bridge), top_cell(*dies));
       },
       [&](const SeamBridge& bridge) {
-        if (loops != nullptr) loops->add_square(bridge.value, numbered(bridge.cell));
+        if (free != nullptr) free->add_square(bridge.value, bridge.cell);
       },
       [&](const SeamRoot& root) { pairs.essential(top, top_cell(root)); });
 }

@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "cubical/pair_sink.hpp"
+#include "cubical/slabs/free_cells.hpp"
 #include "cubical/slabs/seam_forest.hpp"
-#include "cubical/slabs/slab_loops.hpp"
 #include "cubical/stars/star_grid.hpp"
 
 namespace ph::cubical {
@@ -42,11 +42,13 @@ class LayerPairs {
 
   /// The slab right after those that have come; there may be none.
   /// @param first its first voxel in the whole grid, ghosts included (modulo 2^64).
-  /// @param loops receives the cells of three axes that neither graph takes; may be null.
-  void add(const StarGrid& slab, std::uint64_t first, PairSink& pairs, SlabLoops* loops = nullptr);
+  /// @param free receives the cells of three axes that neither graph takes; may be null.
+  void add(const StarGrid& slab, std::uint64_t first, PairSink& pairs,
+           FreeCellSink* free = nullptr);
   /// What is known of the layers right after those that have come, or right before them.
   /// @throws Error (bad_data) if seams differ; nothing has changed then.
-  void join(LayerPairs others, bool come_before, PairSink& pairs);
+  /// @param free as in `add`, of all layers.
+  void join(LayerPairs others, bool come_before, PairSink& pairs, FreeCellSink* free = nullptr);
   /// Once all layers have come: hands over what neither graph takes.
   void finish(PairSink& pairs) const;
 
@@ -64,8 +66,8 @@ class LayerPairs {
   bool is_ring() const { return grid_.axis(grid_.layer_axis()).periodic; }
   template <class Forest>
   void take(std::optional<Forest>& all, Forest next, bool comes_before = false);
-  void settle_vertices(PairSink& pairs, SlabLoops* loops);
-  void settle_tops(PairSink& pairs, SlabLoops* loops);
+  void settle_vertices(PairSink& pairs, FreeCellSink* free);
+  void settle_tops(PairSink& pairs, FreeCellSink* free);
 
   const GridShape& grid_;
   Graphs graphs_;

@@ -2,7 +2,6 @@
 #pragma once
 #include <algorithm>
 #include <array>
-#include <compare>
 #include <cstdint>
 #include <iterator>
 #include <limits>
@@ -14,25 +13,11 @@
 #include <vector>
 
 #include "cubical/graphs/elder_forest.hpp"
+#include "cubical/slabs/free_cells.hpp"
 #include "ph/detail/components/disjoint_sets.hpp"
 #include "ph/error.hpp"
 
 namespace ph::cubical {
-
-/// A cell of the whole grid, by the star that it is in: a voxel, and the number of its direction
-/// there.
-class GridCell {
- public:
-  GridCell() = default;
-  GridCell(std::uint64_t voxel, std::uint32_t number) : both_(voxel << kBits | number) {}
-  std::uint64_t voxel() const { return both_ >> kBits; }
-  std::uint32_t number() const { return static_cast<std::uint32_t>(both_ & ((1U << kBits) - 1)); }
-  friend auto operator<=>(const GridCell&, const GridCell&) = default;
-
- private:
-  static constexpr unsigned kBits = 4;  // no star has more cells of a dimension than 12
-  std::uint64_t both_ = 0;
-};
 
 /// What arrows end at: a component that is still to be joined with others.
 struct SeamRoot {

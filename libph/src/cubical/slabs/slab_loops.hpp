@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cubical/loops/loop_reduction.hpp"
+#include "cubical/slabs/free_cells.hpp"
 #include "cubical/stars/stored_stars.hpp"
 #include "ph/detail/core/radix_sort.hpp"
 
@@ -14,14 +15,16 @@ namespace ph::cubical {
 
 /// What is kept of slabs of three axes for loops: the stars, and the critical edges and squares
 /// that neither graph takes, as they come.
-class SlabLoops {
+class SlabLoops final : public FreeCellSink {
  public:
   SlabLoops(const GridFrame& frame, const RunContext& context)
       : context_(context), stars_(frame), edges_(&context.memory), squares_(&context.memory) {}
 
   void add_stars(const StarGrid& slab, std::uint32_t first) { stars_.add(slab, first); }
-  void add_edge(const NumberedCell& edge) { edges_.push_back(edge); }
-  void add_square(double value, const NumberedCell& square) { squares_.push_back({value, square}); }
+  void add_edge(const GridCell& edge) override { edges_.push_back(numbered(edge)); }
+  void add_square(double value, const GridCell& square) override {
+    squares_.push_back({value, numbered(square)});
+  }
   /// The bars of loops, when all slabs have come. @throws Error (resource) if columns do not fit.
   template <Field K>
   void pair(const K& field, PairSink& pairs) {
@@ -40,6 +43,9 @@ class SlabLoops {
     NumberedCell cell;
   };
 
+  static NumberedCell numbered(const GridCell& cell) {
+    return {static_cast<std::uint32_t>(cell.voxel()), cell.number()};
+  }
   FreeEdges free_edges() {
     std::ranges::sort(edges_, {}, &NumberedCell::voxel);
     FreeEdges free(stars_, context_);

@@ -44,6 +44,7 @@ class Slabs {
         context_(context) {}
 
   const GridFrame& frame() const { return frame_; }
+  const CubePairMemos& cube_pairs() const { return cube_pairs_; }
   std::uint32_t count() const { return (depth() - 1) / layers_ + 1; }
   /// The first voxel of the grid of a slab, ghosts included; of the first slab of a ring it would
   /// be one layer before zero (modulo 2^64).

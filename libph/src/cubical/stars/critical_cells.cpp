@@ -39,6 +39,15 @@ void mark_paired(StarGrid& grid, const CriticalCells& edges) {
   }
 }
 
+void mark_all_but(StarGrid& grid, const FreeEdges& free, std::uint32_t begin, std::uint32_t end) {
+  for (const std::uint32_t v : grid.critical()) {
+    if (v < begin || v >= end) continue;
+    const StarTables& tables = grid.tables(v);
+    tables.edge_order().for_each(tables.critical_edges(grid.star(v)) & ~free.edges(v),
+                                 [&](int edge) { grid.mark(v, tables.taken_mark(edge)); });
+  }
+}
+
 FreeEdges free_edges(const StarGrid& grid, const RunContext& context) {
   FreeEdges free(grid, context);
   for (const std::uint32_t v : grid.critical())

@@ -31,6 +31,8 @@ struct CriticalCells {
 CriticalCells critical_cells(const StarGrid& grid, int dim, const RunContext& context);
 /// Marks in the stars of three axes the edges that are no longer in the order.
 void mark_paired(StarGrid& grid, const CriticalCells& edges);
+/// Marks the critical edges of some voxels that are not free.
+void mark_all_but(StarGrid& grid, const FreeEdges& free, std::uint32_t begin, std::uint32_t end);
 /// Those of the stars whose other edges are marked.
 FreeEdges free_edges(const StarGrid& grid, const RunContext& context);
 

@@ -72,6 +72,11 @@ class GridFrame {
   double value(std::uint32_t v) const {
     return is_t_construction_ ? -grid_.value(size_ - 1 - v) : grid_.value(v);
   }
+  // As PartStars has them: of a whole grid all voxels are here.
+  static constexpr bool sees(std::uint64_t) { return true; }
+  static constexpr bool sees_square(std::uint32_t, int) { return true; }
+  static std::uint32_t here(std::uint64_t voxel) { return static_cast<std::uint32_t>(voxel); }
+  static std::uint64_t in_whole(std::uint32_t v) { return v; }
   /// Where a voxel is in the input.
   std::uint32_t place(std::uint32_t v) const { return is_t_construction_ ? size_ - 1 - v : v; }
   std::uint32_t coordinate(std::uint32_t v, int axis) const {

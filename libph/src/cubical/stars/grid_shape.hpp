@@ -42,6 +42,13 @@ class GridShape {
   }
   /// The slowest axis. A layer is what lies at one place of it.
   int layer_axis() const { return 3 - top_dim_; }
+  /// Of which periodic axes a voxel is the first one, as bits: see StarTables.
+  unsigned wrapped(std::uint64_t voxel) const {
+    unsigned result = 0;
+    for (std::size_t a = 0; a < axes_.size(); ++a)
+      if (axes_[a].periodic && voxel / axes_[a].stride % axes_[a].extent == 0) result |= 1U << a;
+    return result;
+  }
   /// How many periodic axes of one voxel there are: each makes a copy of every cell, one dimension
   /// up.
   std::size_t loop_count() const { return loops_.size(); }

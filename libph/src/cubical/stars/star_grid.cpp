@@ -55,9 +55,12 @@ StarGrid::StarGrid(const CubicalImage& grid, const RunContext& context, const Sl
 
 CubePairMemos cube_pair_memos(const GridFrame& frame, bool is_in_ring, const RunContext& context) {
   auto memos = std::make_shared<std::pmr::vector<CubePairMemo>>(&context.memory);
-  if (frame.top_dim() == 3)
-    for (unsigned wraps = 0; wraps < (frame.any_periodic() || is_in_ring ? 8U : 1U); ++wraps)
-      memos->emplace_back(star_tables(wraps), &context.memory);
+  if (frame.top_dim() != 3) return memos;
+  unsigned may_wrap = is_in_ring ? 1U << frame.layer_axis() : 0;
+  for (int a = 0; a < 3; ++a)
+    if (frame.is_periodic(a)) may_wrap |= 1U << a;
+  for (unsigned wraps = 0; wraps <= may_wrap; ++wraps)
+    memos->emplace_back(star_tables(wraps), (wraps & ~may_wrap) == 0, &context.memory);
   return memos;
 }
 

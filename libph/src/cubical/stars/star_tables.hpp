@@ -258,8 +258,9 @@ const StarTables& star_tables(unsigned wrapped);
 /// For several threads at a time.
 class CubePairMemo {
  public:
-  CubePairMemo(const StarTables& tables, std::pmr::memory_resource* memory)
-      : tables_(&tables), words_(tables.cube_place_count(), memory) {}
+  /// @param is_used else nothing is asked of it.
+  CubePairMemo(const StarTables& tables, bool is_used, std::pmr::memory_resource* memory)
+      : tables_(&tables), words_(is_used ? tables.cube_place_count() : 0, memory) {}
   CubePairs pair_cubes(std::uint32_t star) const {
     if (StarTables::cubes(star) == 0) return {};
     std::atomic<std::uint64_t>& kept = words_[tables_->cube_place(star)];

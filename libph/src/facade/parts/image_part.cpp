@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "cubical/rounds/part_layout.hpp"
 #include "cubical/slabs/slabs.hpp"
 #include "facade/parts/part_state.hpp"
 #include "ph/error.hpp"
@@ -16,7 +17,7 @@ namespace {
 
 using cubical::GridFrame;
 using cubical::GridShape;
-using cubical::SlabPlace;
+using cubical::PartLayout;
 using cubical::WholeImage;
 
 WholeImage whole_image(const Image& image, int parts, const ImagePartOptions& options) {
@@ -35,7 +36,8 @@ WholeImage whole_image(const Image& image, int parts, const ImagePartOptions& op
           parts,
           options.min_dim,
           options.max_dim.value_or(static_cast<int>(axes)),
-          options.cells};
+          options.cells,
+          false};
 }
 
 /// @throws Error (usage) if it has too many axes.
@@ -55,7 +57,7 @@ std::uint64_t layers_of(const GridShape& shape) {
   return shape.axis(shape.layer_axis()).extent;
 }
 
-void check(const WholeImage& whole, const GridShape& shape, int part) {
+void check(const WholeImage& whole, const GridShape& shape, int part, bool may_have_loops) {
   const std::uint64_t layers = layers_of(shape);
   if (whole.parts < 1 || static_cast<std::uint64_t>(whole.parts) > layers)
     throw Error(ErrorKind::usage, fmt::format("parts of an image: found {}, expected 1 to {}, the "
@@ -64,7 +66,7 @@ void check(const WholeImage& whole, const GridShape& shape, int part) {
   if (part < 0 || part >= whole.parts)
     throw Error(ErrorKind::usage,
                 fmt::format("part of an image: found number {} of {}", part + 1, whole.parts));
-  if (cubical::wants_loops(shape, whole.wanted()))
+  if (whole.loops && !may_have_loops)
     throw Error(ErrorKind::usage,
                 fmt::format("parts of a volume: found loops wanted, which need all layers at once; "
                             "expected dimension 0 alone{}",
@@ -73,38 +75,36 @@ void check(const WholeImage& whole, const GridShape& shape, int part) {
                                 : " where an axis closes up"));
 }
 
-/// Some layers of the slowest axis with those beside them.
-struct Layers {
-  std::size_t begin, end;
-  bool has_before, has_after;
-};
-
-/// Voxels of layers, copied only where a periodic axis begins again.
-Voxels voxels_of(const Image& image, const Layers& layers, std::size_t depth,
-                 std::size_t layer_size) {
+/// Voxels of layers and the one on either side, copied only where a periodic axis begins again.
+Voxels voxels_of(const Image& image, const PartLayout::Layers& layers,
+                 const GridShape::Axis& axis) {
   const auto owner = std::make_shared<const Voxels>(image.values);
-  const std::size_t bytes = bytes_of(owner->type()) * layer_size;
+  const std::size_t layer_size = axis.stride, bytes = bytes_of(owner->type()) * layer_size;
   const auto* const data = static_cast<const std::byte*>(owner->data());
-  const std::size_t count =
-      layers.end - layers.begin + (layers.has_before ? 1 : 0) + (layers.has_after ? 1 : 0);
-  const bool wraps_before = layers.has_before && layers.begin == 0;
-  const bool wraps_after = layers.has_after && layers.end == depth;
-  if (!wraps_before && !wraps_after)
-    return Voxels(BorrowedVoxels{owner->type(),
-                                 data + (layers.begin - (layers.has_before ? 1 : 0)) * bytes,
-                                 count * layer_size, owner, owner->is_in_file()});
+  const bool is_at_begin = layers.begin == 0, is_at_end = layers.end == axis.extent;
+  const std::size_t begin = is_at_begin ? 0 : layers.begin - 1;
+  const std::size_t end = is_at_end ? layers.end : layers.end + 1;
+  if (!axis.periodic || (!is_at_begin && !is_at_end))
+    return Voxels(BorrowedVoxels{owner->type(), data + begin * bytes, (end - begin) * layer_size,
+                                 owner, owner->is_in_file()});
   return with_voxels(owner->type(), data, [&]<class T>(const T* all) {
     std::vector<T> copy;
-    copy.reserve(count * layer_size);
+    copy.reserve((end - begin + 2) * layer_size);
     const auto append = [&](std::size_t from, std::size_t to) {
       copy.insert(copy.end(), all + from * layer_size, all + to * layer_size);
     };
-    if (layers.has_before)
-      append(wraps_before ? depth - 1 : layers.begin - 1, wraps_before ? depth : layers.begin);
-    append(layers.begin, layers.end);
-    if (layers.has_after) append(wraps_after ? 0 : layers.end, wraps_after ? 1 : layers.end + 1);
+    if (is_at_begin) append(axis.extent - 1, axis.extent);
+    append(begin, end);
+    if (is_at_end) append(0, 1);
     return Voxels(std::move(copy));
   });
+}
+
+Image image_of(const Image& image, const PartLayout::Layers& layers, const GridShape::Axis& axis) {
+  Image part{image.extents, voxels_of(image, layers, axis), image.masked};
+  part.extents[static_cast<std::size_t>(axis.of_input)] =
+      static_cast<Index>(part.values.size() / axis.stride);
+  return part;
 }
 
 }  // namespace
@@ -112,52 +112,40 @@ Voxels voxels_of(const Image& image, const Layers& layers, std::size_t depth,
 ImagePart::ImagePart(const Image& image, int part, int parts, const ImagePartOptions& options,
                      const RunContext& context) {
   WholeImage whole = whole_image(image, parts, options);
-  shape_of(whole);
+  whole.loops = cubical::wants_loops(shape_of(whole), whole.wanted());
   state_ = std::make_unique<State>(std::move(whole), context);
   const GridShape& shape = state_->shape;
-  check(state_->whole, shape, part);
+  check(state_->whole, shape, part, options.loops);
   state_->first = state_->last = part;
 
   const GridShape::Axis& axis = shape.axis(shape.layer_axis());
   if (image.values.size() != axis.extent * axis.stride)
     throw Error(ErrorKind::bad_data, fmt::format("image: found {} voxels, its extents say {}",
                                                  image.values.size(), axis.extent * axis.stride));
-  const auto cut = [&](int i) {
-    return axis.extent * static_cast<std::size_t>(i) / static_cast<std::size_t>(parts);
-  };
-  Layers layers{cut(part), cut(part + 1), false, false};
-  layers.has_before = axis.periodic || part > 0;
-  layers.has_after = axis.periodic || part + 1 < parts;
-  Image own{image.extents, voxels_of(image, layers, axis.extent, axis.stride), image.masked};
+  const PartLayout layout = state_->whole.layout(shape);
   CubicalOptions own_options = options.cubical;
   own_options.periodic = state_->whole.periodic;
-  const auto k = static_cast<std::size_t>(axis.of_input);
-  own_options.periodic[k] = false;
-  own.extents[k] = static_cast<Index>(own.values.size() / axis.stride);
-  const Cubical cubical(own, own_options, context);
+  own_options.periodic[static_cast<std::size_t>(axis.of_input)] = false;
+  const Cubical cubical(image_of(image, layout.turned(layout.own(part)), axis), own_options,
+                        context);
   const CubicalImage voxels = cubical.cubical_image();
   if (!GridFrame::can_hold(voxels))
     throw Error(ErrorKind::resource, fmt::format("part of an image: found {} voxels, expected "
                                                  "fewer than about 2^31; more parts have fewer",
                                                  voxels.size()));
   const GridFrame frame(voxels);
-
-  // The T-construction is seen from the other end.
-  const bool from_end = shape.is_t_construction();
-  SlabPlace place;
-  place.is_first = from_end ? part + 1 == parts : part == 0;
-  place.is_last = from_end ? part == 0 : part + 1 == parts;
-  place.is_in_ring = axis.periodic;
-  const std::uint64_t begin = from_end ? axis.extent - layers.end : layers.begin;
-  cubical::Slabs slabs(frame, cubical::Slabs::layers_that_fit(frame, context), context, place,
-                       (begin - (place.has_ghost_before() ? 1 : 0)) * axis.stride);
+  cubical::Slabs slabs(frame, cubical::Slabs::layers_that_fit(frame, context), context,
+                       layout.place(part), layout.first_voxel(part));
+  if (state_->whole.loops)
+    state_->own.emplace(cubical, slabs.cube_pairs(), cubical::FreeCells(&context.memory));
+  cubical::FreeCells* const free = state_->own ? &state_->own->free : nullptr;
   const cubical::BarSink sink = state_->sink(state_->bars);
   cubical::PairSink pairs(shape, options.cells, sink);
   for (std::uint32_t slab = 0; slab < slabs.count(); ++slab) {
     context.report({"slabs", slab, slabs.count()});
     {
       const cubical::StarGrid grid = slabs.stars(slab);
-      state_->pairs.add(grid, slabs.first_voxel(slab), pairs);
+      state_->pairs.add(grid, slabs.first_voxel(slab), pairs, free);
     }
     slabs.forget(slab);
     state_->claim.grow_to(state_->bars.bytes());
@@ -199,8 +187,11 @@ void ImagePart::join(ImagePart next, const RunContext& context) {
   const bool come_before = state_->shape.is_t_construction();
   const cubical::BarSink sink = state_->sink(state_->bars);
   cubical::PairSink pairs(state_->shape, state_->whole.cells, sink);
-  state_->pairs.join(std::move(next.state_->pairs), come_before, pairs);
+  state_->pairs.join(std::move(next.state_->pairs), come_before, pairs,
+                     state_->whole.loops ? &state_->freed : nullptr);
   pairs.finish();
+  state_->freed.add(next.state_->freed);
+  state_->own.reset();
   const Barcode& bars = next.state_->bars;
   for (std::size_t i = 0; i < bars.size(); ++i) {
     const auto death = bars.death_cell(i);

@@ -8,6 +8,7 @@
 
 #include "core/bytes/byte_reader.hpp"
 #include "core/bytes/byte_writer.hpp"
+#include "core/bytes/crc32.hpp"
 #include "core/bytes/sealed_part.hpp"
 #include "facade/parts/part_state.hpp"
 
@@ -32,6 +33,7 @@ void put_whole(ByteWriter& to, const WholeImage& whole) {
   to.put(whole.limit);
   for (const int n : {whole.parts, whole.min_dim, whole.max_dim}) to.put(std::int32_t{n});
   to.put(whole.cells);
+  to.put(whole.loops);
 }
 
 WholeImage get_whole(ByteReader& from) {
@@ -54,13 +56,24 @@ WholeImage get_whole(ByteReader& from) {
   for (int* const n : {&whole.parts, &whole.min_dim, &whole.max_dim})
     *n = from.get<std::int32_t>("number");
   whole.cells = from.flag("flag of cells");
+  whole.loops = from.flag("flag of loops");
   const CubicalImage image = whole.image();
   if (cubical::GridShape::count_axes(image) > 3) from.refuse("number of axes");
   const cubical::GridShape shape(image);
   if (shape.top_dim() < 2 || whole.parts < 1 ||
       static_cast<std::uint64_t>(whole.parts) > shape.axis(shape.layer_axis()).extent)
     from.refuse("number of parts");
+  if (cubical::wants_loops(shape, whole.wanted()) != whole.loops) from.refuse("flag of loops");
   return whole;
+}
+
+/// In order, so that bytes do not depend on who was joined first.
+void put_cells(ByteWriter& to, std::pmr::vector<GridCell> cells) {
+  std::ranges::sort(cells);
+  to.put_list(cells, [&](const GridCell& cell) {
+    to.put(cell.voxel());
+    to.put(cell.number());
+  });
 }
 
 void put_seam(ByteWriter& to, const Seam& seam) {
@@ -94,6 +107,12 @@ GridCell get_cell(ByteReader& from, std::size_t in_star) {
   const auto number = from.get<std::uint32_t>("cell");
   if (number >= in_star || voxel >> 60 != 0) from.refuse("cell");
   return {voxel, number};
+}
+
+void get_cells(ByteReader& from, std::size_t in_star, std::pmr::vector<GridCell>& cells) {
+  constexpr std::size_t bytes_of_cell = 12;
+  cells.resize(from.count(bytes_of_cell, "cells"));
+  for (GridCell& cell : cells) cell = get_cell(from, in_star);
 }
 
 template <bool backwards>
@@ -177,6 +196,12 @@ void get_bars(ByteReader& from, Barcode& bars) {
 
 }  // namespace
 
+std::uint64_t cubical::WholeImage::hash() const {
+  ByteWriter to;
+  put_whole(to, *this);
+  return crc32(to.bytes());
+}
+
 std::vector<std::byte> ImagePart::bytes() const {
   ByteWriter to;
   put_whole(to, state_->whole);
@@ -193,6 +218,8 @@ std::vector<std::byte> ImagePart::bytes() const {
     to.put(edge.number());
     to.put(value);
   }
+  put_cells(to, state_->freed.edges);
+  put_cells(to, state_->freed.squares);
   Barcode bars = state_->bars;
   bars.sort(state_->context);
   put_bars(to, bars);
@@ -221,6 +248,8 @@ ImagePart ImagePart::of_bytes(std::span<const std::byte> bytes, const RunContext
     const GridCell edge = get_cell(from, cubical::kEdges.size());
     pairs.around.met_once.emplace(edge, from.get<double>("edge"));
   }
+  get_cells(from, cubical::kEdges.size(), state->freed.edges);
+  get_cells(from, cubical::kSquares.size(), state->freed.squares);
   get_bars(from, state->bars);
   state->claim.grow_to(state->bars.bytes());
   from.expect_end();

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "cubical/graphs/two_graphs.hpp"
 #include "cubical/pair_sink.hpp"
+#include "cubical/rounds/part_layout.hpp"
+#include "cubical/slabs/free_cells.hpp"
 #include "cubical/slabs/layer_pairs.hpp"
 #include "ph/parts/image_part.hpp"
 
@@ -22,6 +27,7 @@ struct WholeImage {
   double limit;
   int parts, min_dim, max_dim;
   bool cells;
+  bool loops;  ///< whether bars are wanted that come from neither graph
 
   friend bool operator==(const WholeImage&, const WholeImage&) = default;
   /// Without voxels.
@@ -38,7 +44,8 @@ struct WholeImage {
   BarRequest wanted() const { return {min_dim, max_dim, cells}; }
   ImagePartOptions options() const {
     using Construction = CubicalOptions::Construction;
-    ImagePartOptions options{.min_dim = min_dim, .max_dim = max_dim, .cells = cells};
+    ImagePartOptions options{
+        .min_dim = min_dim, .max_dim = max_dim, .cells = cells, .loops = loops};
     options.cubical.construction =
         voxels_are_vertices ? Construction::vertices : Construction::cells;
     options.cubical.superlevel = superlevel;
@@ -46,27 +53,10 @@ struct WholeImage {
     if (limit < std::numeric_limits<double>::max()) options.cubical.threshold = limit;
     return options;
   }
-};
-
-}  // namespace cubical
-
-struct ImagePart::State {
-  State(cubical::WholeImage whole_image, const RunContext& run_context)
-      : whole(std::move(whole_image)),
-        options(whole.options()),
-        context(run_context),
-        shape(whole.image()),
-        pairs(shape,
-              {.vertices = cubical::wants_vertices(shape, whole.wanted()),
-               .tops = cubical::wants_top_cells(shape, whole.wanted())},
-              run_context),
-        bars(CellKind::grid),
-        claim(run_context.memory, 0) {}
-
   /// Puts bars of the dimensions wanted into a barcode.
-  cubical::BarSink sink(Barcode& into) const {
+  BarSink sink(Barcode& into) const {
     const auto wants = [this](const Bar& bar) {
-      return whole.min_dim <= bar.dim && bar.dim <= whole.max_dim && bar.birth < kInfinity;
+      return min_dim <= bar.dim && bar.dim <= max_dim && bar.birth < kInfinity;
     };
     return {
         [&into, wants](const Bar& bar, std::span<const Index> birth, std::span<const Index> death) {
@@ -78,6 +68,35 @@ struct ImagePart::State {
         },
         [](std::size_t) {}};
   }
+  PartLayout layout(const GridShape& shape) const { return {shape, parts}; }
+  /// Tells images and options apart, most likely.
+  std::uint64_t hash() const;
+};
+
+/// What the loops of a part begin with.
+struct OwnLayers {
+  Cubical cubical;  ///< of the part with its ghosts
+  CubePairMemos cube_pairs;
+  FreeCells free;  ///< as far as the part alone tells
+};
+
+}  // namespace cubical
+
+struct ImagePart::State {
+  State(cubical::WholeImage whole_image, const RunContext& run_context)
+      : whole(std::move(whole_image)),
+        options(whole.options()),
+        context(run_context),
+        shape(whole.image()),
+        pairs(shape,
+              {.vertices = whole.loops || cubical::wants_vertices(shape, whole.wanted()),
+               .tops = whole.loops || cubical::wants_top_cells(shape, whole.wanted())},
+              run_context),
+        freed(&run_context.memory),
+        bars(CellKind::grid),
+        claim(run_context.memory, 0) {}
+
+  cubical::BarSink sink(Barcode& into) const { return whole.sink(into); }
 
   cubical::WholeImage whole;
   ImagePartOptions options;
@@ -85,7 +104,10 @@ struct ImagePart::State {
   cubical::GridShape shape;
   int first = 0, last = 0;
   cubical::LayerPairs pairs;
-  Barcode bars;  // in no order yet
+  cubical::FreeCells
+      freed;  // what joins found, of all parts; what parts found themselves is theirs
+  std::optional<cubical::OwnLayers> own;  // of one part, until its loops take it
+  Barcode bars;                           // in no order yet
   MemoryClaim claim;
 };
 

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+
+#include "ph/detail/core/radix_sort.hpp"
+
+namespace ph::cubical {
+
+/// A cell of one dimension, ordered as in the stars' grid: by the value of its star, then by name.
+/// Cells of any two parts of a grid compare.
+/// @tparam rank_bits enough for the rank of a direction in a star.
+template <unsigned rank_bits>
+struct OrderedCell {
+  std::uint64_t key;   ///< orders as the value does
+  std::uint64_t name;  ///< (the voxel in the whole grid, the rank of the direction in its star)
+
+  static OrderedCell of(double value, std::uint64_t voxel, int rank) {
+    return {ordered_bits(value + 0.0), voxel << rank_bits | static_cast<std::uint64_t>(rank)};
+  }
+  std::uint64_t voxel() const { return name >> rank_bits; }
+  int rank() const { return static_cast<int>(name & ((1U << rank_bits) - 1)); }
+  double value() const { return from_ordered_bits(key); }
+  friend bool operator==(const OrderedCell& a, const OrderedCell& b) { return a.name == b.name; }
+  static bool precedes(const OrderedCell& a, const OrderedCell& b) {
+    __extension__ using Wide = unsigned __int128;
+    return (Wide{a.key} << 64 | a.name) < (Wide{b.key} << 64 | b.name);
+  }
+  static bool follows(const OrderedCell& a, const OrderedCell& b) { return precedes(b, a); }
+};
+
+using LoopEdge = OrderedCell<3>;
+using LoopSquare = OrderedCell<4>;
+
+}  // namespace ph::cubical

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <bit>
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "cubical/columns/ordered_cell.hpp"
+#include "cubical/stars/free_edges.hpp"
+#include "cubical/stars/grid_frame.hpp"
+
+namespace ph::cubical {
+
+/// By free edge the column that has its pivot there; null: none has.
+/// @tparam Stars as in LoopColumn.
+template <class Stars, class Column>
+class LoopOwners {
+ public:
+  LoopOwners(const Stars& grid, const FreeEdges& free, const RunContext& context)
+      : grid_(grid), free_(free), owners_(free.count(), nullptr, &context.memory) {}
+
+  /// Where the column of a pivot is noted.
+  const Column*& of(const LoopEdge& pivot) {
+    const std::uint32_t v = grid_.here(pivot.voxel());
+    return owners_[free_.number(v, grid_.tables(v).edge_order().at(pivot.rank()))];
+  }
+  /// Asks for what `of` will read.
+  void expect(const LoopEdge& pivot) const { free_.prefetch(grid_.here(pivot.voxel())); }
+  StarCell cell(const LoopEdge& edge) const {
+    const std::uint32_t v = grid_.here(edge.voxel());
+    return {v, kEdges[grid_.tables(v).edge_order().at(edge.rank())], edge.value()};
+  }
+  /// Calls `use(edge, column)` for all free edges.
+  template <class Use>
+  void for_each(Use&& use) const {
+    auto owner = owners_.begin();
+    free_.for_each([&](std::uint32_t v, unsigned edges) {
+      for (; edges != 0; edges &= edges - 1, ++owner)
+        use(StarCell{v, kEdges[std::countr_zero(edges)], grid_.value(v)}, *owner);
+    });
+  }
+
+ private:
+  const Stars& grid_;
+  const FreeEdges& free_;
+  std::pmr::vector<const Column*> owners_;  // by number of the edge
+};
+
+}  // namespace ph::cubical

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "cubical/stars/grid_shape.hpp"
+#include "cubical/stars/star_grid.hpp"
+
+namespace ph::cubical {
+
+/// Which layers of a grid each of its parts has: n · p / parts up to n · (p + 1) / parts of the n
+/// of the slowest axis, as the input counts them. The stars' grid of the T-construction counts from
+/// the other end: so do all layers and voxels here.
+class PartLayout {
+ public:
+  /// Layers that follow each other.
+  struct Layers {
+    std::uint64_t begin, end;
+    std::uint64_t count() const { return end - begin; }
+  };
+
+  /// Precondition: 0 < parts <= layers of the slowest axis.
+  PartLayout(const GridShape& grid, int parts)
+      : layers_(grid.axis(grid.layer_axis()).extent),
+        layer_size_(grid.axis(grid.layer_axis()).stride),
+        parts_(static_cast<std::uint64_t>(parts)),
+        is_ring_(grid.axis(grid.layer_axis()).periodic),
+        from_end_(grid.is_t_construction()) {}
+
+  int parts() const { return static_cast<int>(parts_); }
+  std::uint64_t layer_size() const { return layer_size_; }
+  /// Voxels of the whole grid.
+  std::uint64_t size() const { return layers_ * layer_size_; }
+  Layers own(int part) const {
+    const auto cut = [&](int i) { return layers_ * static_cast<std::uint64_t>(i) / parts_; };
+    return turned({cut(part), cut(part + 1)});
+  }
+  /// The part that has a layer.
+  int part_of(std::uint64_t layer) const {
+    const std::uint64_t of_input = from_end_ ? layers_ - 1 - layer : layer;
+    return static_cast<int>(((of_input + 1) * parts_ - 1) / layers_);
+  }
+  /// Layers of the stars' grid as the input counts them, and the other way around.
+  Layers turned(const Layers& layers) const {
+    return from_end_ ? Layers{layers_ - layers.end, layers_ - layers.begin} : layers;
+  }
+
+  SlabPlace place(int part) const {
+    SlabPlace place;
+    place.is_first = own(part).begin == 0;
+    place.is_last = own(part).end == layers_;
+    place.is_in_ring = is_ring_;
+    return place;
+  }
+  /// The first voxel of a part, ghosts included (modulo 2^64).
+  std::uint64_t first_voxel(int part) const {
+    return (own(part).begin - (place(part).has_ghost_before() ? 1 : 0)) * layer_size_;
+  }
+  /// The layers that are ghosts of a part; in a ring of two layers both may be one.
+  std::vector<std::uint64_t> ghosts(int part) const {
+    std::vector<std::uint64_t> layers;
+    if (place(part).has_ghost_before()) layers.push_back((own(part).begin + layers_ - 1) % layers_);
+    if (place(part).has_ghost_after()) layers.push_back(own(part).end % layers_);
+    return layers;
+  }
+
+ private:
+  std::uint64_t layers_, layer_size_, parts_;
+  bool is_ring_, from_end_;
+};
+
+}  // namespace ph::cubical

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory_resource>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cubical/columns/parallel_reduction.hpp"
+#include "cubical/loops/loop_column.hpp"
+#include "cubical/loops/loop_owners.hpp"
+#include "cubical/pair_sink.hpp"
+#include "cubical/rounds/loop_message.hpp"
+#include "cubical/rounds/part_stars.hpp"
+#include "cubical/slabs/free_cells.hpp"
+#include "cubical/stars/free_edges.hpp"
+#include "image/voxels_in_use.hpp"
+
+namespace ph::cubical {
+
+/// H1 of three axes in one part of a grid. What LoopReduction does, but that a column is where its
+/// pivot's star is: if the pivot turns out to be in another part, the column goes there. So columns
+/// are added here only, and nobody waits for an answer. See docs/explanation/engines/slabs.md.
+template <Field K>
+class PartLoops {
+  using Chain = LoopColumn<K, PartStars>;
+  struct Ages {
+    const std::pmr::vector<LoopSquare>* squares;
+    bool is_older(std::uint32_t a, std::uint32_t b) const {
+      return LoopSquare::precedes((*squares)[a], (*squares)[b]);
+    }
+  };
+  using Reduction = ParallelReduction<K, Chain, Ages>;
+  using Column = typename Reduction::Column;
+  using Message = LoopMessage<K>;
+
+ public:
+  using Term = typename Reduction::Term;
+
+  /// @param voxels those of the part and its ghosts. @param cube_pairs may be null.
+  /// @param whole outlives this, as voxels do.
+  /// @param image tells images, fields and options from others.
+  PartLoops(const CubicalImage& voxels, const CubePairMemos& cube_pairs, const GridShape& whole,
+            const PartLayout& layout, int part, std::uint64_t image, const K& field,
+            const RunContext& context);
+  PartLoops(const PartLoops&) = delete;
+  PartLoops& operator=(const PartLoops&) = delete;
+
+  /// @param free the part's cells that neither graph takes.
+  /// @throws Error (bad_data) if they are not that.
+  void begin(FreeCells free);
+  /// Takes in what another part has sent; also before it begins.
+  /// @throws Error (bad_data) if that is damaged, or has come before.
+  void receive(std::span<const std::byte> message);
+  /// Whether there is nothing to do until something is received.
+  bool is_idle() const { return !is_ready() || next_ == queue_.size(); }
+  /// Reduces some columns as far as this part can.
+  void work(std::size_t most);
+  /// Calls `use(part, bytes)` with what is to be sent since the last call.
+  template <class Use>
+  void send(Use&& use) {
+    for (auto& [to, writer] : outbox_)
+      if (!writer.is_empty()) use(to, writer.take(image_, part_, to));
+  }
+  /// Hands over the pairs whose edges are here, and the classes that never die of what is here.
+  /// Precondition: all parts are idle, and all that was sent has been received.
+  void finish(PairSink& pairs) const;
+
+  std::uint64_t columns_sent = 0, columns_received = 0;
+
+ private:
+  bool is_ready() const { return reduction_.has_value() && layers_missing_ == 0; }
+  void take_edges(std::pmr::vector<GridCell>& edges);
+  void take_squares(const std::pmr::vector<GridCell>& squares);
+  void tell_layers();
+  void check(const Message& message);
+  bool is_free(const LoopEdge& edge) const;
+  void assign(Chain& chain, std::uint32_t i);
+  bool is_done(std::uint32_t i, std::optional<Term>& pivot, Chain& chain);
+  WholeCell cell(const LoopSquare& square) const;
+
+  const GridShape& whole_;
+  const PartLayout layout_;
+  const int part_;
+  const std::uint64_t image_;
+  const K field_;
+  const RunContext& context_;
+  const VoxelsInUse voxels_are_read_;
+  PartStars grid_;
+  std::size_t layers_missing_ = 0;             // ghosts that it has not heard of
+  std::vector<std::vector<std::byte>> early_;  // came before it began
+  std::map<int, std::vector<bool>> heard_;     // by sender, by number of the message
+
+  FreeEdges free_;
+  std::pmr::vector<LoopSquare> squares_;  // of columns; its own come first, from old to young
+  std::size_t own_ = 0;
+  // What came of the others, until they are reduced here.
+  std::pmr::vector<std::pmr::vector<Term>> arrived_;
+  std::pmr::vector<std::uint32_t> queue_;
+  std::size_t next_ = 0;  // in the queue
+  std::optional<LoopOwners<PartStars, Column>> owners_;
+  std::optional<Reduction> reduction_;
+
+  std::mutex mutex_;  // for what follows
+  std::vector<LoopSquare> zero_;
+  std::map<int, typename Message::Writer> outbox_;
+};
+
+}  // namespace ph::cubical

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "cubical/rounds/part_layout.hpp"
+#include "cubical/stars/critical_cells.hpp"
+#include "cubical/stars/star_grid.hpp"
+
+namespace ph::cubical {
+
+/// The stars of a part of a grid, and those of its ghosts once their parts have told them. Cells
+/// have the names that they have in the whole grid, so that chains may go anywhere.
+class PartStars : public StarGrid {
+ public:
+  /// @param voxels those of the part and its ghosts. @param cube_pairs may be null.
+  PartStars(const CubicalImage& voxels, const PartLayout& layout, int part,
+            const CubePairMemos& cube_pairs, const RunContext& context)
+      : StarGrid(voxels, context, place(layout, part, cube_pairs)),
+        whole_(layout.size()),
+        first_(layout.first_voxel(part)),
+        begin_(layout.own(part).begin * layer_size()),
+        count_(layout.own(part).count() * layer_size()) {}
+
+  /// Whether the part has a voxel of the whole grid: it has no others than its own.
+  bool owns(std::uint64_t voxel) const { return voxel - begin_ < count_; }
+  /// Whether it sees one where it is: its own, and ghosts but those around a ring.
+  bool sees(std::uint64_t voxel) const { return voxel - first_ < size(); }
+  /// Where it sees it. Precondition: sees(voxel).
+  std::uint32_t here(std::uint64_t voxel) const {
+    return static_cast<std::uint32_t>(voxel - first_);
+  }
+  /// Whether it sees all of a square in the star of a voxel that it sees: those of ghosts may lead
+  /// further out.
+  bool sees_square(std::uint32_t v, int square) const {
+    if (!is_ghost(v)) return true;
+    const int away = kSquares[square][layer_axis()];
+    return is_before(v) ? away >= 0 : away <= 0;
+  }
+  std::uint64_t in_whole(std::uint32_t v) const {
+    const std::uint64_t voxel = first_ + v;  // modulo 2^64
+    if (voxel < whole_) return voxel;
+    return is_before(v) ? voxel + whole_ : voxel - whole_;  // a ghost at an end of a ring
+  }
+  const StarTables& tables(std::uint32_t v) const {
+    // The first layer of a ring may be a ghost here.
+    if (slab().is_in_ring && is_ghost(v) && in_whole(v) < layer_size())
+      return star_tables(wrapped(v) | 1U << layer_axis());
+    return StarGrid::tables(v);
+  }
+
+  /// The stars of one of its own layers.
+  std::span<const std::uint32_t> layer(std::uint64_t of_whole) const {
+    return stars().subspan(here(of_whole * layer_size()), layer_size());
+  }
+  /// Marks the critical edges of its own that are not free.
+  void mark_own(const FreeEdges& free) {
+    mark_all_but(*this, free, here(begin_), here(begin_ + count_));
+  }
+  /// Takes in what the part says that has a layer, where it is a ghost.
+  /// @return how often that is, or nothing if other voxels enter there.
+  std::optional<std::size_t> hear(std::uint64_t of_whole, std::span<const std::uint32_t> stars) {
+    std::size_t count = 0;
+    for (const std::uint32_t first : {0U, size() - layer_size()}) {
+      if (!is_ghost(first) || in_whole(first) != of_whole * layer_size()) continue;
+      for (std::uint32_t i = 0; i < layer_size(); ++i)
+        if (enters(first + i) != (stars[i] != kAbsent)) return std::nullopt;
+      for (std::uint32_t i = 0; i < layer_size(); ++i) mark(first + i, stars[i]);
+      ++count;
+    }
+    return count;
+  }
+
+ private:
+  static SlabPlace place(const PartLayout& layout, int part, const CubePairMemos& cube_pairs) {
+    SlabPlace place = layout.place(part);
+    place.cube_pairs = cube_pairs;
+    return place;
+  }
+  // Of a ghost: whether it is the one before.
+  bool is_before(std::uint32_t v) const { return slab().has_ghost_before() && v < layer_size(); }
+
+  std::uint64_t whole_, first_, begin_, count_;
+};
+
+}  // namespace ph::cubical

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <compare>
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "cubical/stars/star_tables.hpp"
+
+namespace ph::cubical {
+
+/// A cell of the whole grid, by the star that it is in: a voxel, and the number of its direction
+/// there.
+class GridCell {
+ public:
+  GridCell() = default;
+  GridCell(std::uint64_t voxel, std::uint32_t number) : both_(voxel << kBits | number) {}
+  std::uint64_t voxel() const { return both_ >> kBits; }
+  std::uint32_t number() const { return static_cast<std::uint32_t>(both_ & ((1U << kBits) - 1)); }
+  friend auto operator<=>(const GridCell&, const GridCell&) = default;
+
+ private:
+  static constexpr unsigned kBits = 4;  // no star has more cells of a dimension than 12
+  std::uint64_t both_ = 0;
+};
+
+/// A StarCell of the whole grid.
+struct WholeCell {
+  std::uint64_t voxel;
+  Direction direction;
+  double value;
+};
+
+/// Receives the critical edges and squares of three axes that neither graph takes, each once, as
+/// soon as they are known to be that: what loops are made of.
+class FreeCellSink {
+ public:
+  virtual ~FreeCellSink() = default;
+  virtual void add_edge(const GridCell& edge) = 0;
+  /// @param value in the order of the stars.
+  virtual void add_square(double value, const GridCell& square) = 0;
+};
+
+/// Keeps them.
+struct FreeCells final : FreeCellSink {
+  explicit FreeCells(std::pmr::memory_resource* memory) : edges(memory), squares(memory) {}
+  void add_edge(const GridCell& edge) override { edges.push_back(edge); }
+  void add_square(double, const GridCell& square) override { squares.push_back(square); }
+  void add(const FreeCells& others) {
+    edges.insert(edges.end(), others.edges.begin(), others.edges.end());
+    squares.insert(squares.end(), others.squares.begin(), others.squares.end());
+  }
+
+  std::pmr::vector<GridCell> edges, squares;
+};
+
+}  // namespace ph::cubical
