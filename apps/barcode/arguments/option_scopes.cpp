@@ -62,7 +62,7 @@ constexpr std::array kScopes{
     OptionScope{"wrap", kAlpha, kOfAlpha},
     OptionScope{"max-dim", kComputed | kSomeLayers, kOfInputs},
     OptionScope{"min-dim", kComputed | kSomeLayers, kOfInputs},
-    OptionScope{"field", kComputed, kOfInputs},
+    OptionScope{"field", kComputed | kRanks, kOfInputs},
     OptionScope{"engine", kComputed, kOfInputs},
     OptionScope{"check", kComputed, kOfInputs},
     OptionScope{"min-persistence", kComputed | kParts | kRanks, kOfInputs},

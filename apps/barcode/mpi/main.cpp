@@ -29,13 +29,13 @@ of ph-barcode, to the last byte.
 
 Options are those of ph-barcode for images: --format, --raw-..., --channel,
 --nan, --construction, --superlevel, --periodic, --threshold, --max-dim,
---min-dim, --slab-layers; --output, --output-format, --min-persistence, --plot
-and how it looks. See ph-barcode --help all. --threads and --memory-limit are
-those of a rank. Of volumes there are components (--max-dim 0), and hollows
-(--min-dim 2) unless an axis closes up.
+--min-dim, --field, --slab-layers; --output, --output-format, --min-persistence,
+--plot and how it looks. See ph-barcode --help all. --threads and --memory-limit
+are those of a rank.
 
   --resume   keep the part of each rank beside the output until all is done, and
-             take those that are there: a run that died goes on
+             take those that are there: a run that died goes on. Loops of volumes
+             are computed anew
   --verbose  also what each rank took and sent
 )";
 

@@ -16,23 +16,28 @@
 #include "common/arguments/numbers.hpp"
 #include "common/files/file_identity.hpp"
 #include "core/system/files.hpp"
+#include "facade/parts/bar_bytes.hpp"
 #include "facade/parts/join_ranks.hpp"
+#include "facade/parts/loops_of_ranks.hpp"
 
 namespace ph::barcode {
 namespace {
 
 /// The part of this rank: computed, or with --resume taken from its file. Else with --resume it is
-/// written there.
+/// written there. Loops of volumes need voxels, which no file of a part has.
 ImagePart own_part(const PartInput& input, int rank, int parts, const std::string& kept,
                    const Arguments& arguments, app::Session& session) {
   if (arguments.resumes) {
-    if (auto there = kept_image_part(kept, arguments.inputs.front(), input, rank, parts, session)) {
+    auto there = kept_image_part(kept, arguments.inputs.front(), input, rank, parts, session);
+    if (there && !there->has_loops()) {
       session.explain(fmt::format("rank {}: {} is there already", rank, kept));
       return std::move(*there);
     }
   }
   ImagePart part(input.image, rank, parts, input.options, session.context());
-  if (arguments.resumes) {
+  if (arguments.resumes && part.has_loops()) {
+    session.note("--resume does nothing for loops of volumes: they are computed anew");
+  } else if (arguments.resumes) {
     app::Output output(kept);
     output.file().write(part.bytes());
     output.commit();
@@ -60,7 +65,8 @@ int run_ranks(const Arguments& arguments, Transport& transport,
   std::optional<Outputs> outputs;
   if (rank == 0) outputs.emplace(job);
 
-  const PartInput input = read_part_input(path, format == BarcodeFormat::json, arguments, session);
+  PartInput input = read_part_input(path, format == BarcodeFormat::json, arguments, session);
+  input.options.loops = true;
   const int parts = std::min(size, ImagePart::most_parts(input.image, input.options.cubical));
   if (parts < size)
     session.note(fmt::format("{} have nothing to do: the image has {}",
@@ -69,18 +75,27 @@ int run_ranks(const Arguments& arguments, Transport& transport,
   const std::string kept = fmt::format("{}.{}of{}.ph", arguments.output, rank + 1, parts);
   std::optional<ImagePart> own;
   if (rank < parts) own.emplace(own_part(input, rank, parts, kept, arguments, session));
+  std::optional<ImageLoops> loops;
+  if (own && own->has_loops()) loops.emplace(*own, arguments.options.field, session.context());
   Post post(transport);
+  const bool has_loops = own && own->has_loops();
   const std::optional<ImagePart> whole = join_ranks(std::move(own), post, session.context());
+  Barcode found(CellKind::grid);
+  if (has_loops)
+    found =
+        loops_of_ranks(std::move(loops), parts, whole ? &*whole : nullptr, post, session.context());
   session.explain(fmt::format("rank {}: memory {}, sent {}", rank,
                               app::format_size(static_cast<double>(session.memory_taken())),
                               app::format_size(static_cast<double>(post.bytes_sent()))));
   int code = 0;
   if (whole) {
+    Barcode bars = whole->barcode(session.context());
+    add_bars(bars, found);
+    bars.sort(session.context());
+    const std::string description = fmt::format(
+        "{}, {}", input.description, app::count_of(static_cast<std::size_t>(parts), "rank"));
     const Outcome outcome =
-        write_bars(*whole,
-                   fmt::format("{}, {}", input.description,
-                               app::count_of(static_cast<std::size_t>(parts), "rank")),
-                   *outputs, path, arguments, session);
+        write_bars(std::move(bars), *whole, description, *outputs, path, arguments, session);
     session.note(outcome.summary);
     code = outcome.code;
   }

@@ -59,13 +59,14 @@ Barcode longer_than(double length, const Barcode& bars) {
   return kept;
 }
 
-BarcodeInfo info_of(const ImagePart& part, const std::string& description,
-                    const std::string& input) {
+BarcodeInfo info_of(const ImagePart& part, const std::string& description, const std::string& input,
+                    std::int64_t field) {
   BarcodeInfo info;
   info.program = app::program_and_version("ph-barcode");
   info.input = input;
   info.input_description = description;
   info.complex = "cubical";
+  info.field = field;
   info.max_dim =
       std::min(part.options().max_dim.value_or(0), static_cast<int>(part.extents().size()));
   info.threshold = part.options().cubical.threshold;
@@ -159,18 +160,18 @@ Outcome join_image_parts(std::vector<PartFile> files, const Job& job, const Argu
                 "--output-format: found json, which shows the cells of bars; --part with "
                 "--keep-cells stores them");
   Outputs outputs(job);
-  return write_bars(all,
+  return write_bars(all.barcode(context), all,
                     fmt::format("image {}, {}", fmt::join(all.extents(), " x "),
                                 app::count_of(parts.size(), "part file")),
                     outputs, job.input, arguments, session);
 }
 
-Outcome write_bars(const ImagePart& whole, const std::string& description, Outputs& outputs,
-                   const std::string& input, const Arguments& arguments, app::Session& session) {
-  Barcode bars = whole.barcode(session.context());
+Outcome write_bars(Barcode bars, const ImagePart& whole, const std::string& description,
+                   Outputs& outputs, const std::string& input, const Arguments& arguments,
+                   app::Session& session) {
   if (arguments.options.min_persistence > 0)
     bars = longer_than(arguments.options.min_persistence, bars);
-  const BarcodeInfo info = info_of(whole, description, input);
+  const BarcodeInfo info = info_of(whole, description, input, arguments.options.field);
   note_absent_dims(bars, arguments.look, session);
   const app::BarHold results_are_written(session);
   outputs.write(bars, info, look_of(arguments.look, info.superlevel), {}, session.context());

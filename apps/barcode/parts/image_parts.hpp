@@ -28,7 +28,8 @@ Outcome join_image_parts(std::vector<PartFile> files, const Job& job, const Argu
                          app::Session& session);
 
 /// Writes the bars of an image that is whole again. @param description, input for the JSON.
-Outcome write_bars(const ImagePart& whole, const std::string& description, Outputs& outputs,
-                   const std::string& input, const Arguments& arguments, app::Session& session);
+Outcome write_bars(Barcode bars, const ImagePart& whole, const std::string& description,
+                   Outputs& outputs, const std::string& input, const Arguments& arguments,
+                   app::Session& session);
 
 }  // namespace ph::barcode

@@ -5,7 +5,9 @@
 
 #include <random>
 
+#include "facade/parts/bar_bytes.hpp"
 #include "facade/parts/join_ranks.hpp"
+#include "facade/parts/loops_of_ranks.hpp"
 #include "support/conformance.hpp"
 #include "support/for_each_seed.hpp"
 #include "support/image_cases.hpp"
@@ -15,35 +17,57 @@ namespace ph::test {
 namespace {
 
 /// What rank 0 gets.
-Barcode bars_of_ranks(const ImageCase& c, ThreadRanks& ranks) {
-  std::optional<ImagePart> whole;
+Barcode bars_of_ranks(const ImageCase& c, ThreadRanks& ranks, std::int64_t field = 2) {
+  Barcode bars(CellKind::grid);
   ranks.run([&](Transport& transport) {
     Post post(transport);
+    const RunContext& context = default_context();
     const int rank = post.rank(), parts = std::min(post.size(), c.layers);
     std::optional<ImagePart> own;
+    std::optional<ImageLoops> loops;
     if (rank < parts) own.emplace(c.image, rank, parts, c.options);
-    std::optional<ImagePart> joined = join_ranks(std::move(own), post, default_context());
-    EXPECT_EQ(joined.has_value(), rank == 0);
-    if (joined) whole = std::move(joined);
+    const bool has_loops = own && own->has_loops();
+    if (has_loops) loops.emplace(*own, field, context);
+    const std::optional<ImagePart> whole = join_ranks(std::move(own), post, context);
+    EXPECT_EQ(whole.has_value(), rank == 0);
+    Barcode found(CellKind::grid);
+    if (has_loops)
+      found = loops_of_ranks(std::move(loops), parts, whole ? &*whole : nullptr, post, context);
+    if (!whole) return;
+    bars = whole->barcode();
+    add_bars(bars, found);
+    bars.sort(context);
   });
-  return whole.value().barcode();
+  return bars;
 }
 
-TEST(Ranks, AgreeWithOneProcess) {
+TEST(Ranks, AgreeWithTheOracle) {
   std::mt19937 delays(7);
-  std::size_t bars = 0;
+  std::size_t bars = 0, loops = 0;
   for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(seeds(1500)); ++seed) {
     SCOPED_TRACE(seed);
     Generator random(seed);
-    const ImageCase c = random_image_case(random);
-    if (is_refused(c)) continue;
+    ImageCase c = random_image_case(random);
+    c.options.loops = true;
+    if (random.coin()) {
+      c.options.min_dim = 0;
+      c.options.max_dim = std::nullopt;
+    }
+    if (is_refused(c)) continue;  // more axes
+    const std::int64_t field = random.coin() ? 2 : 3;
     ASSERT_EQ(ImagePart::most_parts(c.image, c.options.cubical), c.layers);
-    const Barcode expected = ImagePart(c.image, 0, 1, c.options).barcode();
+    const Options oracle{.max_dim = c.options.max_dim.value_or(c.image.dim()),
+                         .min_dim = c.options.min_dim,
+                         .field = field,
+                         .engine = Engine::standard};
+    const auto expected = pairs_of(persistence(Cubical(c.image, c.options.cubical), oracle));
     ThreadRanks ranks(random.integer(1, 9), random.coin() ? &delays : nullptr);
-    ASSERT_EQ(pairs_of(bars_of_ranks(c, ranks)), pairs_of(expected));
+    ASSERT_EQ(pairs_of(bars_of_ranks(c, ranks, field)), expected);
     bars += expected.size();
+    loops += c.image.dim() == 3 && !c.options.max_dim ? 1 : 0;
   }
   EXPECT_TRUE(is_enough(bars, std::size_t{2000})) << bars;
+  EXPECT_TRUE(is_enough(loops, std::size_t{200})) << loops;
 }
 
 class Mishaps : public testing::TestWithParam<Mishap> {};

@@ -9,6 +9,7 @@
 
 #include "cubical/rounds/part_layout.hpp"
 #include "cubical/slabs/slabs.hpp"
+#include "facade/parts/bar_bytes.hpp"
 #include "facade/parts/part_state.hpp"
 #include "ph/error.hpp"
 
@@ -192,12 +193,7 @@ void ImagePart::join(ImagePart next, const RunContext& context) {
   pairs.finish();
   state_->freed.add(next.state_->freed);
   state_->own.reset();
-  const Barcode& bars = next.state_->bars;
-  for (std::size_t i = 0; i < bars.size(); ++i) {
-    const auto death = bars.death_cell(i);
-    state_->bars.add(bars[i], bars.birth_cell(i).numbers,
-                     death ? death->numbers : std::span<const Index>());
-  }
+  add_bars(state_->bars, next.state_->bars);
   state_->claim.grow_to(state_->bars.bytes());
   state_->last = next.last();
 }
