@@ -241,7 +241,7 @@ bool Arguments::draws_tree() const {
   return std::ranges::any_of(plots, [](const app::Plot& plot) { return plot.kind == "tree"; });
 }
 
-bool Arguments::wants_image_part() const {
+bool Arguments::wants_part_of_one() const {
   return (part || on_ranks) && inputs.size() == 1 && !app::is_folder(inputs.front());
 }
 

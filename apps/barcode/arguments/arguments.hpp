@@ -108,8 +108,10 @@ struct Arguments {
 
   /// Whether the merge tree is asked for by itself.
   bool draws_tree() const;
-  /// Whether a part of one image is asked for, or all parts on ranks; else of several inputs.
-  bool wants_image_part() const;
+  /// Whether a part of one input is asked for, or all parts on ranks; else of several inputs. It is
+  /// an image unless --complex rips says that it is points.
+  bool wants_part_of_one() const;
+  bool wants_image_part() const { return wants_part_of_one() && complex != ComplexKind::rips; }
   /// Whether each input has files of its own, in folders.
   bool is_batch() const;
 };

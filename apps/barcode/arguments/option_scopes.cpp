@@ -24,24 +24,24 @@ constexpr std::string_view kOfAlpha = "points with --complex alpha";
 constexpr std::string_view kOfInputs = "a computation";
 
 constexpr std::array kScopes{
-    OptionScope{"format", kComputed | kSomeLayers, kOfInputs},
+    OptionScope{"format", kComputed | kSomeLayers | kCloudPart, kOfInputs},
     OptionScope{"values", kComputed, kOfInputs},  // the readers know better
     OptionScope{"allow-empty", kComputed, kOfInputs},
     OptionScope{"symmetrise", kMatrix, kOfMatrices},
     OptionScope{"from-correlation", kMatrix | kTriangle | kSomePairs, kOfDistances},
     OptionScope{"diagonal", kMatrix, kOfMatrices},
-    OptionScope{"nan", kRips | kCubical | kOwn | kAlpha | kSomeLayers,
+    OptionScope{"nan", kRips | kCubical | kOwn | kAlpha | kSomeLayers | kCloudPart,
                 "points, distances and images"},
     OptionScope{"raw-shape", kImage | kSomeLayers, "images"},
     OptionScope{"raw-type", kImage | kSomeLayers, "images"},
     OptionScope{"raw-big-endian", kImage | kSomeLayers, "images"},
     OptionScope{"raw-skip", kImage | kSomeLayers, "images"},
-    OptionScope{"columns", kComputed, kOfInputs},  // the readers know better
+    OptionScope{"columns", kComputed | kCloudPart, kOfInputs},  // the readers know better
     OptionScope{"channel", kComputed | kSomeLayers, kOfInputs},
     OptionScope{"loops", kComputed, kOfInputs},
-    OptionScope{"complex", kComputed | kSomeLayers, kOfInputs},
-    OptionScope{"threshold", kComputed | kSomeLayers, kOfInputs},
-    OptionScope{"metric", kPoints, "Rips complexes of points"},
+    OptionScope{"complex", kComputed | kSomeLayers | kCloudPart, kOfInputs},
+    OptionScope{"threshold", kComputed | kSomeLayers | kCloudPart, kOfInputs},
+    OptionScope{"metric", kPoints | kCloudPart, "Rips complexes of points"},
     OptionScope{"construction", kCubical | kSomeLayers, "images"},
     OptionScope{"superlevel", kCubical | kSomeLayers, "images"},
     OptionScope{"periodic", kCubical | kSomeLayers, "images"},
@@ -60,7 +60,7 @@ constexpr std::array kScopes{
     OptionScope{"period", kAlpha, kOfAlpha},
     OptionScope{"alpha-shape", kAlpha, kOfAlpha},
     OptionScope{"wrap", kAlpha, kOfAlpha},
-    OptionScope{"max-dim", kComputed | kSomeLayers, kOfInputs},
+    OptionScope{"max-dim", kComputed | kSomeLayers | kCloudPart, kOfInputs},
     OptionScope{"min-dim", kComputed | kSomeLayers, kOfInputs},
     OptionScope{"field", kComputed | kRanks, kOfInputs},
     OptionScope{"engine", kComputed, kOfInputs},
@@ -83,7 +83,7 @@ constexpr std::array kScopes{
 std::span<const OptionScope> option_scopes() { return kScopes; }
 
 std::string_view name_of(Situation situation) {
-  constexpr std::array<std::string_view, 17> kNames{"points",
+  constexpr std::array<std::string_view, 18> kNames{"points",
                                                     "a full distance matrix",
                                                     "a triangle without its diagonal",
                                                     "some distances only",
@@ -99,7 +99,8 @@ std::string_view name_of(Situation situation) {
                                                     "points with --complex alpha",
                                                     "a part of an image (--part)",
                                                     "parts to join (--join)",
-                                                    "an image on several ranks"};
+                                                    "an image on several ranks",
+                                                    "a part of a cloud (--part)"};
   return kNames[static_cast<std::size_t>(std::countr_zero(app::Situations{situation}))];
 }
 

@@ -29,7 +29,8 @@ void add_part_options(CLI::App& app, Arguments& a) {
   app.option_defaults()->group("parts");
   app::add_value(app, "--part", "I/P",
                  "compute part I (from 1 on) of P, on any machine, and write it as a part file: of "
-                 "an image some of its layers, of several inputs some of them",
+                 "an image some of its layers, of points (--complex rips --max-dim 0) some "
+                 "blocks of them, of several inputs some of them",
                  [&a](const std::string& text) { take_part(a, text); });
   app.add_flag("--join", a.joins,
                "the inputs are part files, in any order: bars if all are there, else, with -o "
@@ -70,8 +71,10 @@ void check_part_arguments(const Arguments& a) {
         fmt::format("--report: found beside {}; `ph-barcode plot BARS --report` makes one of "
                     "the bars",
                     option));
+  if (a.keeps_cells && a.wants_part_of_one() && !a.wants_image_part())
+    reject("--keep-cells: makes sense for images; parts of points have them");
   if (a.joins && a.resumes) reject("--resume: makes sense with --part only");
-  if (a.options.min_persistence < 0 && (a.joins || a.wants_image_part()))
+  if (a.options.min_persistence < 0 && (a.joins || a.wants_part_of_one()))
     reject(
         fmt::format("--min-persistence: found a negative one beside {}: parts keep no bars of "
                     "length 0",

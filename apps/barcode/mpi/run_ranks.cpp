@@ -39,10 +39,42 @@ ImagePart own_part(const PartInput& input, int rank, int parts, const std::strin
     session.note("--resume does nothing for loops of volumes: they are computed anew");
   } else if (arguments.resumes) {
     app::Output output(kept);
-    output.file().write(part.bytes());
-    output.commit();
+    write_part_file(output, part.bytes());
   }
   return part;
+}
+
+/// The image once all ranks have joined it, and its bars.
+struct Whole {
+  ImagePart part;
+  Barcode bars;
+};
+
+/// Computes the part of this rank and joins it with the others. @return what rank 0 has then.
+std::optional<Whole> computed(const PartInput& input, int parts, const std::string& kept,
+                              const Arguments& arguments, Transport& transport,
+                              app::Session& session) {
+  const RunContext& context = session.context();
+  const int rank = transport.rank();
+  std::optional<ImagePart> own;
+  if (rank < parts) own.emplace(own_part(input, rank, parts, kept, arguments, session));
+  const bool has_loops = own && own->has_loops();
+  std::optional<ImageLoops> loops;  // they take voxels from the part before it goes away
+  if (has_loops) loops.emplace(*own, arguments.options.field, context);
+
+  Post post(transport);
+  std::optional<ImagePart> whole = join_ranks(std::move(own), post, context);
+  Barcode found(CellKind::grid);
+  if (has_loops)
+    found = loops_of_ranks(std::move(loops), parts, whole ? &*whole : nullptr, post, context);
+  session.explain(fmt::format("memory {}, sent {}",
+                              app::format_size(static_cast<double>(session.memory_taken())),
+                              app::format_size(static_cast<double>(post.bytes_sent()))));
+  if (!whole) return std::nullopt;
+  Barcode bars = whole->barcode(context);
+  add_bars(bars, found);
+  bars.sort(context);
+  return Whole{std::move(*whole), std::move(bars)};
 }
 
 }  // namespace
@@ -73,29 +105,13 @@ int run_ranks(const Arguments& arguments, Transport& transport,
                              app::count_of(static_cast<std::size_t>(size - parts), "rank"),
                              app::count_of(static_cast<std::size_t>(parts), "layer")));
   const std::string kept = fmt::format("{}.{}of{}.ph", arguments.output, rank + 1, parts);
-  std::optional<ImagePart> own;
-  if (rank < parts) own.emplace(own_part(input, rank, parts, kept, arguments, session));
-  std::optional<ImageLoops> loops;
-  if (own && own->has_loops()) loops.emplace(*own, arguments.options.field, session.context());
-  Post post(transport);
-  const bool has_loops = own && own->has_loops();
-  const std::optional<ImagePart> whole = join_ranks(std::move(own), post, session.context());
-  Barcode found(CellKind::grid);
-  if (has_loops)
-    found =
-        loops_of_ranks(std::move(loops), parts, whole ? &*whole : nullptr, post, session.context());
-  session.explain(fmt::format("rank {}: memory {}, sent {}", rank,
-                              app::format_size(static_cast<double>(session.memory_taken())),
-                              app::format_size(static_cast<double>(post.bytes_sent()))));
+  std::optional<Whole> whole = computed(input, parts, kept, arguments, transport, session);
   int code = 0;
   if (whole) {
-    Barcode bars = whole->barcode(session.context());
-    add_bars(bars, found);
-    bars.sort(session.context());
     const std::string description = fmt::format(
         "{}, {}", input.description, app::count_of(static_cast<std::size_t>(parts), "rank"));
-    const Outcome outcome =
-        write_bars(std::move(bars), *whole, description, *outputs, path, arguments, session);
+    const BarcodeInfo info = info_of(whole->part, description, path, arguments.options.field);
+    const Outcome outcome = write_bars(std::move(whole->bars), info, *outputs, arguments, session);
     session.note(outcome.summary);
     code = outcome.code;
   }

@@ -84,11 +84,6 @@ int code_of(std::span<const InputsPart::Result> results) {
   return failed == results.end() ? app::kOk : failed->code;
 }
 
-void write_part(const InputsPart& part, app::Output& output) {
-  output.file().write(part.bytes());
-  output.commit();
-}
-
 }  // namespace
 
 Outcome run_batch_part(const std::vector<std::string>& inputs, const Arguments& arguments,
@@ -109,7 +104,7 @@ Outcome run_batch_part(const std::vector<std::string>& inputs, const Arguments& 
   InputsPart done(whole, part);
   for (std::size_t i = 0; i < inputs.size(); ++i)
     if (InputsPart::part_of(i, parts) == part) done.add(run_one(i, inputs[i], arguments, session));
-  write_part(done, output);
+  write_part_file(output, done.bytes());
   return {code_of(done.results()), fmt::format("part {} of {}: {}", part + 1, parts,
                                                app::count_of(done.results().size(), "input"))};
 }
@@ -132,7 +127,7 @@ Outcome join_batch_parts(const std::vector<PartFile>& files, const Job& job,
       fmt::format("{} of {} parts", all->numbers().size(), all->whole().parts);
   if (is_part_path(job.output)) {
     app::Output output(job.output);
-    write_part(*all, output);
+    write_part_file(output, all->bytes());
     return {app::kOk, parts};
   }
   if (!all->is_whole()) {

@@ -47,17 +47,7 @@ void join(ImagePart& all, ImagePart next, const std::string& before, const std::
   }
 }
 
-/// Bars longer than what the user wants to see.
-Barcode longer_than(double length, const Barcode& bars) {
-  Barcode kept(bars.cell_kind());
-  for (std::size_t i = 0; i < bars.size(); ++i) {
-    if (!bars[i].is_infinite() && !(bars[i].persistence() > length)) continue;
-    const auto death = bars.death_cell(i);
-    kept.add(bars[i], bars.birth_cell(i).numbers,
-             death ? death->numbers : std::span<const Index>());
-  }
-  return kept;
-}
+}  // namespace
 
 BarcodeInfo info_of(const ImagePart& part, const std::string& description, const std::string& input,
                     std::int64_t field) {
@@ -75,8 +65,6 @@ BarcodeInfo info_of(const ImagePart& part, const std::string& description, const
   info.peak_memory = app::peak_memory();
   return info;
 }
-
-}  // namespace
 
 std::optional<ImagePart> kept_image_part(const std::string& path, const std::string& input,
                                          const PartInput& image, int part, int parts,
@@ -116,13 +104,10 @@ Outcome run_image_part(const std::string& input, const Arguments& arguments,
       throw Error(error.kind(), fmt::format("--part: {}", error.what()));
     }
   }();
-  const std::vector<std::byte> bytes = made.bytes();
   session.explain("memory " + app::format_size(static_cast<double>(session.memory_taken())));
   const app::BarHold results_are_written(session);
-  output.file().write(bytes);
-  output.commit();
   return {app::kOk, fmt::format("{}, {}: {}", read.description, words_of(made),
-                                app::format_size(static_cast<double>(bytes.size())))};
+                                write_part_file(output, made.bytes()))};
 }
 
 Outcome join_image_parts(std::vector<PartFile> files, const Job& job, const Arguments& arguments,
@@ -145,11 +130,7 @@ Outcome join_image_parts(std::vector<PartFile> files, const Job& job, const Argu
   }
   if (is_part_path(job.output)) {
     app::Output output(job.output);
-    const std::vector<std::byte> bytes = all.bytes();
-    output.file().write(bytes);
-    output.commit();
-    return {app::kOk, fmt::format("{}: {}", words_of(all),
-                                  app::format_size(static_cast<double>(bytes.size())))};
+    return {app::kOk, fmt::format("{}: {}", words_of(all), write_part_file(output, all.bytes()))};
   }
   if (!all.is_whole())
     throw Error(
@@ -160,22 +141,11 @@ Outcome join_image_parts(std::vector<PartFile> files, const Job& job, const Argu
                 "--output-format: found json, which shows the cells of bars; --part with "
                 "--keep-cells stores them");
   Outputs outputs(job);
-  return write_bars(all.barcode(context), all,
-                    fmt::format("image {}, {}", fmt::join(all.extents(), " x "),
-                                app::count_of(parts.size(), "part file")),
-                    outputs, job.input, arguments, session);
-}
-
-Outcome write_bars(Barcode bars, const ImagePart& whole, const std::string& description,
-                   Outputs& outputs, const std::string& input, const Arguments& arguments,
-                   app::Session& session) {
-  if (arguments.options.min_persistence > 0)
-    bars = longer_than(arguments.options.min_persistence, bars);
-  const BarcodeInfo info = info_of(whole, description, input, arguments.options.field);
-  note_absent_dims(bars, arguments.look, session);
-  const app::BarHold results_are_written(session);
-  outputs.write(bars, info, look_of(arguments.look, info.superlevel), {}, session.context());
-  return {app::kOk, fmt::format("{}: {}", description, app::count_of(bars.size(), "bar"))};
+  const BarcodeInfo info = info_of(all,
+                                   fmt::format("image {}, {}", fmt::join(all.extents(), " x "),
+                                               app::count_of(parts.size(), "part file")),
+                                   job.input, arguments.options.field);
+  return write_bars(all.barcode(context), info, outputs, arguments, session);
 }
 
 }  // namespace ph::barcode

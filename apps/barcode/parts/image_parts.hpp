@@ -27,9 +27,8 @@ std::optional<ImagePart> kept_image_part(const std::string& path, const std::str
 Outcome join_image_parts(std::vector<PartFile> files, const Job& job, const Arguments& arguments,
                          app::Session& session);
 
-/// Writes the bars of an image that is whole again. @param description, input for the JSON.
-Outcome write_bars(Barcode bars, const ImagePart& whole, const std::string& description,
-                   Outputs& outputs, const std::string& input, const Arguments& arguments,
-                   app::Session& session);
+/// What the JSON format says of an image that is whole again.
+BarcodeInfo info_of(const ImagePart& whole, const std::string& description,
+                    const std::string& input, std::int64_t field);
 
 }  // namespace ph::barcode

@@ -4,12 +4,30 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <utility>
 
+#include "common/arguments/numbers.hpp"
 #include "common/files/batch_names.hpp"
+#include "common/terminal/exit_code.hpp"
 #include "core/system/files.hpp"
 #include "ph/detail/io/reader.hpp"
 
 namespace ph::barcode {
+namespace {
+
+/// Bars longer than what the user wants to see.
+Barcode longer_than(double length, const Barcode& bars) {
+  Barcode kept(bars.cell_kind());
+  for (std::size_t i = 0; i < bars.size(); ++i) {
+    if (!bars[i].is_infinite() && !(bars[i].persistence() > length)) continue;
+    const auto death = bars.death_cell(i);
+    kept.add(bars[i], bars.birth_cell(i).numbers,
+             death ? death->numbers : std::span<const Index>());
+  }
+  return kept;
+}
+
+}  // namespace
 
 bool is_part_path(const std::string& path) { return path.ends_with(".ph"); }
 
@@ -41,6 +59,23 @@ std::optional<std::vector<std::byte>> kept_part_file(const std::string& path,
     return std::nullopt;
   }
   return read_part_file(path, session);
+}
+
+std::string write_part_file(app::Output& output, std::span<const std::byte> bytes) {
+  output.file().write(bytes);
+  output.commit();
+  return app::format_size(static_cast<double>(bytes.size()));
+}
+
+Outcome write_bars(Barcode bars, const BarcodeInfo& info, Outputs& outputs,
+                   const Arguments& arguments, app::Session& session) {
+  if (arguments.options.min_persistence > 0)
+    bars = longer_than(arguments.options.min_persistence, bars);
+  note_absent_dims(bars, arguments.look, session);
+  const app::BarHold results_are_written(session);
+  outputs.write(bars, info, look_of(arguments.look, info.superlevel), {}, session.context());
+  return {app::kOk,
+          fmt::format("{}: {}", info.input_description, app::count_of(bars.size(), "bar"))};
 }
 
 }  // namespace ph::barcode

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "barcode/output/outputs.hpp"
+#include "barcode/run.hpp"
 #include "common/run/session.hpp"
 
 namespace ph::barcode {
@@ -30,5 +32,12 @@ std::vector<std::byte> read_part_file(const std::string& path, app::Session& ses
 std::optional<std::vector<std::byte>> kept_part_file(const std::string& path,
                                                      std::span<const std::string> inputs,
                                                      app::Session& session);
+
+/// Writes a part, which appears when it is complete. @return its size, for people.
+std::string write_part_file(app::Output& output, std::span<const std::byte> bytes);
+
+/// Writes bars that are whole again, without those that the user does not want to see.
+Outcome write_bars(Barcode bars, const BarcodeInfo& info, Outputs& outputs,
+                   const Arguments& arguments, app::Session& session);
 
 }  // namespace ph::barcode

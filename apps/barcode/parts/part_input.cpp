@@ -26,8 +26,10 @@ PartInput read_part_input(const std::string& input, bool keeps_cells, const Argu
   const NamedData data = read_input(opened, arguments, session.context());
   const auto* const image = std::get_if<Image>(&data.read.data);
   if (image == nullptr)
-    throw Error(ErrorKind::usage,
-                fmt::format("{}: found {}, expected an image", why, data.read.description));
+    throw Error(
+        ErrorKind::usage,
+        fmt::format("{}: found {}, expected an image (--complex cubical){}", why,
+                    data.read.description, arguments.part ? "; points need --complex rips" : ""));
   session.explain(fmt::format("read {}: {}", data.name, data.read.description));
   if (arguments.read.allow_empty)
     session.explain("--allow-empty: not needed, the input is not empty");

@@ -7,6 +7,7 @@
 #include "barcode/arguments/option_scopes.hpp"
 #include "barcode/batch_inputs.hpp"
 #include "barcode/parts/batch_parts.hpp"
+#include "barcode/parts/cloud_parts.hpp"
 #include "barcode/parts/image_parts.hpp"
 #include "barcode/parts/inputs_part.hpp"
 #include "barcode/parts/part_files.hpp"
@@ -30,9 +31,11 @@ void require_separate(const Job& job, const Arguments& arguments) {
 }  // namespace
 
 int run_part(const Arguments& arguments, app::Session& session) {
+  const std::string& input = arguments.inputs.front();
   const Outcome outcome =
-      arguments.wants_image_part()
-          ? run_image_part(arguments.inputs.front(), arguments, session)
+      arguments.wants_image_part() ? run_image_part(input, arguments, session)
+      : arguments.wants_part_of_one()
+          ? run_cloud_part(input, arguments, session)
           : run_batch_part(with_files_of_folders(arguments), arguments, session);
   session.note(outcome.summary);
   return outcome.code;
@@ -62,8 +65,9 @@ int run_join(const Arguments& arguments, BarcodeFormat format, app::Session& ses
   const Job job{fmt::format("{}", fmt::join(arguments.inputs, " ")), arguments.output, format,
                 arguments.plots};
   require_separate(job, arguments);
-  const Outcome outcome = kind == kInputsKind
-                              ? join_batch_parts(files, job, session)
+  const Outcome outcome = kind == kInputsKind ? join_batch_parts(files, job, session)
+                          : kind == "cloud"
+                              ? join_cloud_parts(files, job, arguments, session)
                               : join_image_parts(std::move(files), job, arguments, session);
   session.note(outcome.summary);
   return outcome.code;

@@ -200,6 +200,64 @@ class Parts(ProgramTest):
         self.assertEqual(os.listdir(self.path("folder")), ["image.2of2.ph"])
 
 
+class Clouds(ProgramTest):
+    OPTIONS = ("--complex", "rips", "--max-dim", "0")
+
+    def cloud(self, rng, name, count, dim):
+        ties = rng.random() < 0.5
+        rows = [[rng.randrange(4) if ties else rng.random() for _ in range(dim)] for _ in range(count)]
+        return self.write(name, "".join(",".join(map(repr, row)) + "\n" for row in rows))
+
+    def parts(self, cloud, count, *options, prefix="p"):
+        names = [f"{prefix}{i}.ph" for i in range(1, count + 1)]
+        for i, name in enumerate(names, 1):
+            self.expect(0, cloud, *self.OPTIONS, "--part", f"{i}/{count}", "-o", name, "--quiet", *options)
+        return names
+
+    def test_the_same_bytes_as_one_process(self):
+        rng = random.Random(11)
+        for trial in range(12):
+            cloud = self.cloud(rng, "cloud.csv", rng.randint(1, 60), rng.randint(1, 3))
+            options = ["--threshold", "0.4"] if rng.random() < 0.3 else []
+            whole = self.expect(0, cloud, *self.OPTIONS, "--quiet", *options).stdout
+            names = self.parts(cloud, rng.randint(1, 6), *options)
+            rng.shuffle(names)
+            if len(names) > 2:
+                self.expect(0, "--join", *names[:2], "-o", "two.ph", "--quiet")
+                names[:2] = ["two.ph"]
+            self.assertEqual(self.expect(0, "--join", *names, "--quiet").stdout, whole)
+        self.expect(0, cloud, *self.OPTIONS, "-o", "whole.json", "--quiet", *options)
+        self.expect(0, "--join", *names, "-o", "joined.json", "--quiet")
+        whole, joined = json.loads(self.read("whole.json")), json.loads(self.read("joined.json"))
+        for key in ("complex", "max_dim", "field", "format", "version"):
+            self.assertEqual(whole[key], joined[key], key)
+        self.assertEqual([(bar["birth"], bar["death"]) for bar in whole["bars"]],
+                         [(bar["birth"], bar["death"]) for bar in joined["bars"]])
+
+    def test_refusals_and_resume(self):
+        rng = random.Random(12)
+        cloud, other = (self.cloud(rng, name, 40, 2) for name in ("cloud.csv", "other.csv"))
+        p = self.parts(cloud, 3)
+        o = self.parts(other, 3, prefix="o")
+        for names, word in ((p[:2], "missing is part 3"), ([p[0], p[0], p[2]], "twice"),
+                            ([p[0], o[1], p[2]], "other points or options"),
+                            ([*p, "cloud.csv"], 'expected "ph part"')):
+            run = self.expect(65, "--join", *names, "-o", "bars.csv", "--quiet")
+            self.assertIn(word, run.stderr)
+            self.assertFalse(os.path.exists(self.path("bars.csv")))
+        for options, word in ((("--complex", "rips"), "--max-dim 0"),
+                              ((*self.OPTIONS, "--metric", "manhattan"), "euclidean"),
+                              ((*self.OPTIONS, "--superlevel"), "--superlevel")):
+            self.assertIn(word, self.expect(64, cloud, "--part", "1/2", *options).stderr)
+        again = (cloud, *self.OPTIONS, "--part", "1/3", "-o", p[0], "--resume")
+        old = time.time() - 1000
+        os.utime(self.path(cloud), (old, old))
+        self.assertIn("there already", self.expect(0, *again).stderr)
+        self.assertIn("another part", self.expect(0, *again, "--threshold", "3").stderr)
+        self.write(p[0], b"ph part\n")
+        self.assertIn("computed again", self.expect(0, *again).stderr)
+
+
 class Batches(ProgramTest):
     def setUp(self):
         super().setUp()

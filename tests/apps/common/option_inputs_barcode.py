@@ -347,6 +347,10 @@ def inputs(Input, program):
     of_part["--force"] = (("--force",), {"beside": ["-o", "@input"]})
     add("a part of an image", ["i.npy", "--part", "1/2", "-o", "y.ph"],
         {"i.npy": files.array((5, 6), floats)}, 4, nan=files.array((5, 6), one_nan), rows=of_part)
+    of_cloud = {**of_part, "--complex": (("--complex", "rips"), {}),
+                "--max-dim": (("--max-dim", "0"), {}), "--threshold": (("--threshold", "0.3"), {})}
+    add("a part of a cloud", ["p.csv", "--complex", "rips", "--max-dim", "0", "--part", "1/2", "-o", "y.ph"],
+        {"p.csv": text(points)}, nan=text(with_nan), rows=of_cloud)
     add("a part of a folder", ["in", "--part", "1/2", "-o", "y.ph"],
         {"in/a.csv": text(points), "in/b.csv": text(points)}, rows=of_part)
     add("parts", ["--join", "a.ph", "b.ph", "-o", "y.csv"], parts_of(program, floats),

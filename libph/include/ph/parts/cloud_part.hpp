@@ -54,6 +54,12 @@ class CloudPart {
   /// The parts that are not in it yet, ascending.
   std::vector<int> missing() const;
   bool is_whole() const { return missing().empty(); }
+  /// Of the whole cloud.
+  Index points() const;
+  std::optional<double> threshold() const;
+  /// Whether it is part `part` alone of `parts` of a cloud of that many points and axes, with those
+  /// options. The coordinates are not looked at.
+  bool is_of(PointsView points, int part, int parts, const CloudPartOptions& options) const;
   /// Takes in other parts of the same cloud.
   /// @throws Error (bad_data) if they are of another cloud, or of other options, or one is in it
   ///         already; nothing has changed then. Error (resource, cancelled): neither can be used.

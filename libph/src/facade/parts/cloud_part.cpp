@@ -93,6 +93,18 @@ CloudPart::~CloudPart() = default;
 
 int CloudPart::parts() const { return state_->whole.parts; }
 
+Index CloudPart::points() const { return state_->whole.points; }
+std::optional<double> CloudPart::threshold() const {
+  const double limit = state_->whole.limit;
+  return limit < kInfinity ? std::optional(limit) : std::nullopt;
+}
+bool CloudPart::is_of(PointsView points, int part, int parts,
+                      const CloudPartOptions& options) const {
+  WholeCloud whole = whole_cloud(points, parts, options);
+  whole.fingerprint = state_->whole.fingerprint;
+  return state_->whole == whole && state_->present == std::vector{part};
+}
+
 std::vector<int> CloudPart::missing() const {
   std::vector<int> missing;
   auto next = state_->present.begin();
