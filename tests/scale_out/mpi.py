@@ -73,6 +73,8 @@ def check_bytes(mpi, one_process):
 def check_refusals(mpi):
     volume(mpi.folder / "image.npy", (24, 20, 16))
     volume(mpi.folder / "large.npy", (48, 96, 96))
+    code, out, _ = mpi.run(1, "--help")
+    assert code == 0 and out.startswith("mpirun -n RANKS ph-barcode-mpi"), out
     for arguments, word, code in (
             (["image.npy", "--metric", "cosine"], "--metric", 64),
             (["none.npy", "--max-dim", "0"], "none.npy", 66), (["image.npy", "--part", "1/2"], "--part", 64),

@@ -11,6 +11,7 @@
 
 #include "barcode/arguments/option_scopes.hpp"
 #include "barcode/complex/build_alpha.hpp"
+#include "barcode/complex/cubical_options.hpp"
 #include "common/arguments/numbers.hpp"
 #include "complex/listed_cubes.hpp"
 #include "core/system/files.hpp"
@@ -374,21 +375,6 @@ std::optional<std::string> hidden_points(const BuiltComplex& built) {
                      app::count_of(hidden.size(), "point"),
                      fmt::join(hidden.first(std::min(hidden.size(), most_named)), ", "),
                      hidden.size() > most_named ? ", …" : "");
-}
-
-CubicalOptions cubical_options(const Arguments& arguments, const Image& image,
-                               const std::vector<bool>& periodic) {
-  CubicalOptions options = arguments.cubical;
-  options.threshold = arguments.threshold;
-  if (options.periodic.empty()) options.periodic = periodic;
-  const auto axes = static_cast<std::size_t>(image.dim());
-  const bool all = options.periodic.size() == static_cast<std::size_t>(Cubical::kMaxDim) &&
-                   std::ranges::all_of(options.periodic, [](bool on) { return on; });
-  if (all) options.periodic.assign(axes, true);
-  if (options.periodic.size() > axes)
-    throw Error(ErrorKind::usage, fmt::format("--periodic: found axis {}, expected 0 to {}",
-                                              options.periodic.size() - 1, axes - 1));
-  return options;
 }
 
 BuiltComplex build_complex(ReadResult&& input, const std::string& name, std::size_t dropped,

@@ -27,11 +27,6 @@ struct BuiltComplex {
 /// The points of an alpha complex that have no part in it, one line; nothing if all have.
 std::optional<std::string> hidden_points(const BuiltComplex& built);
 
-/// What the arguments say of images, for one. @param periodic the axes that its file says close up.
-/// @throws Error (usage) if there are not so many axes.
-CubicalOptions cubical_options(const Arguments& arguments, const Image& image,
-                               const std::vector<bool>& periodic);
-
 /// Builds the complex that the arguments ask for, or the one that suits the data.
 /// @param name of the input, for messages. @param dropped how many points were left out of it.
 /// @throws Error (usage) if an option does not fit the data; Error (bad_data) "name: …".

@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-#include "barcode/complex/build_complex.hpp"
+#include "barcode/complex/cubical_options.hpp"
 #include "barcode/complex/read_input.hpp"
 #include "common/arguments/numbers.hpp"
 #include "core/system/files.hpp"
