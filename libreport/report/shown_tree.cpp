@@ -8,6 +8,7 @@
 
 #include "core/floating.hpp"
 #include "ph/detail/rips/rips_graph.hpp"
+#include "report/arrays/tree_arrays.hpp"
 
 namespace ph::report {
 namespace {
