@@ -23,9 +23,9 @@ enum Situation : app::Situations {
   kComparison = 1 << 12,  ///< of two stored ones
   kAlpha = 1 << 13,       ///< points with an alpha complex, or another of their triangulation
   kImagePart = 1 << 14,   ///< some layers of an image
-  kCloudPart = 1 << 17,   ///< some blocks of a point cloud
-  kRanks = 1 << 16,       ///< an image on several ranks
   kParts = 1 << 15,       ///< parts to join
+  kRanks = 1 << 16,       ///< an image on several ranks
+  kCloudPart = 1 << 17,   ///< some blocks of a point cloud
 };
 
 /// All options that do nothing in some of them.
