@@ -58,23 +58,15 @@ InputsPart::Result run_one(std::size_t number, const std::string& input, const A
 
 bool is_there(const std::string& path, const InputsPart::Whole& whole, int part,
               std::span<const std::string> own, app::Session& session) {
-  const auto bytes = kept_part_file(path, own, session);
-  if (!bytes) return false;
-  std::string why = "is another part, or of other inputs or options";
-  try {
-    const InputsPart kept = InputsPart::of_bytes(*bytes);
-    const bool is_same =
-        kept.whole() == whole && std::ranges::equal(kept.numbers(), std::array{part});
-    const bool is_complete = std::ranges::all_of(
-        kept.results(), [](const auto& result) { return result.failure.empty(); });
-    if (is_same && is_complete) return true;
-    if (is_same) why = "has inputs that failed";
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::bad_data) throw;
-    why = error.what();
-  }
-  session.note(fmt::format("--resume: {}: {}: computed again", path, why));
-  return false;
+  const auto kept =
+      kept_part(path, own, session, &InputsPart::of_bytes, [&](const InputsPart& there) {
+        if (there.whole() != whole || !std::ranges::equal(there.numbers(), std::array{part}))
+          return "is another part, or of other inputs or options";
+        const bool is_complete = std::ranges::all_of(
+            there.results(), [](const auto& result) { return result.failure.empty(); });
+        return is_complete ? "" : "has inputs that failed";
+      });
+  return kept.has_value();
 }
 
 /// Of several failures the first one's code.

@@ -24,19 +24,16 @@ namespace {
 /// Whether the output is that part already. A file that is another is computed anew.
 bool is_there(const std::string& path, const std::string& input, PointsView points,
               const CloudPartOptions& options, const Arguments& arguments, app::Session& session) {
-  const auto bytes = kept_part_file(path, std::span(&input, 1), session);
-  if (!bytes) return false;
   const auto [part, parts] = *arguments.part;
-  std::string why = "is another part";
-  try {
-    if (CloudPart::of_bytes(*bytes, session.context()).is_of(points, part, parts, options))
-      return true;
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::bad_data) throw;
-    why = error.what();
-  }
-  session.note(fmt::format("--resume: {}: {}: computed again", path, why));
-  return false;
+  const auto kept = kept_part(
+      path, std::span(&input, 1), session,
+      [&](std::span<const std::byte> bytes) {
+        return CloudPart::of_bytes(bytes, session.context());
+      },
+      [&, number = part, of = parts](const CloudPart& there) {
+        return there.is_of(points, number, of, options) ? "" : "is another part";
+      });
+  return kept.has_value();
 }
 
 }  // namespace

@@ -69,18 +69,14 @@ BarcodeInfo info_of(const ImagePart& part, const std::string& description, const
 std::optional<ImagePart> kept_image_part(const std::string& path, const std::string& input,
                                          const PartInput& image, int part, int parts,
                                          app::Session& session) {
-  const auto bytes = kept_part_file(path, std::span(&input, 1), session);
-  if (!bytes) return std::nullopt;
-  std::string why = "is another part";
-  try {
-    ImagePart kept = ImagePart::of_bytes(*bytes, session.context());
-    if (kept.is_of(image.image, part, parts, image.options)) return kept;
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::bad_data) throw;
-    why = error.what();
-  }
-  session.note(fmt::format("--resume: {}: {}: computed again", path, why));
-  return std::nullopt;
+  return kept_part(
+      path, std::span(&input, 1), session,
+      [&](std::span<const std::byte> bytes) {
+        return ImagePart::of_bytes(bytes, session.context());
+      },
+      [&](const ImagePart& kept) {
+        return kept.is_of(image.image, part, parts, image.options) ? "" : "is another part";
+      });
 }
 
 Outcome run_image_part(const std::string& input, const Arguments& arguments,
