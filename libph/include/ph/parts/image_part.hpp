@@ -21,6 +21,24 @@ struct ImagePartOptions {
   bool cells = true;                          ///< else bars have none
   /// Whether a volume's bars that need all layers may be wanted: ImageLoops finds them.
   bool loops = false;
+  /// The first layer of each part, ascending from 0 on; default: parts of about equal size.
+  std::vector<Index> first_layers = {};
+};
+
+/// What parts of an image will take, foreseen from a sample of its voxels.
+struct ImagePartForecast {
+  /// ImagePartOptions::first_layers with which no part takes much longer than the others.
+  std::vector<Index> first_layers;
+  /// How much longer the longest of parts of equal size takes than their mean.
+  double longest = 1;
+  /// Bytes, at least and at most.
+  struct Bytes {
+    double low = 0, high = 0;
+  };
+  Bytes memory;  ///< of the part that takes most; voxels of a mapped file are counted
+  Bytes file;    ///< of the largest part, as ImagePart::bytes
+  Bytes join;    ///< memory to join all of them
+  Bytes sent;    ///< by all ranks together, if each has a part; with ImageLoops
 };
 
 /// The barcode of some layers of an image, as far as it is known without the others: its own pairs
@@ -33,8 +51,9 @@ struct ImagePartOptions {
 /// option `loops` says that ImageLoops will find them.
 class ImagePart {
  public:
-  /// Layers n · part / parts up to n · (part + 1) / parts of the n of the slowest axis. Looks at
-  /// the voxels of these and of the layer on either side, and at no others.
+  /// Layers n · part / parts up to n · (part + 1) / parts of the n of the slowest axis, or those
+  /// that the options say. Looks at the voxels of these and of the layer on either side, and at no
+  /// others.
   /// @param part from 0 on. @param parts at most one a layer.
   /// @param context outlives the part, and what it is joined with; so does that of `of_bytes`.
   /// @throws Error (usage) on options and parts that are none, (bad_data) and (resource) as
@@ -44,6 +63,10 @@ class ImagePart {
   /// How many parts there may be: one a layer.
   /// @throws Error (usage) on images that have no parts.
   static int most_parts(const Image& image, const CubicalOptions& options = {});
+  /// Looks at about one voxel in twenty.
+  /// @throws Error (usage, bad_data) as the constructor.
+  static ImagePartForecast forecast(const Image& image, int parts,
+                                    const ImagePartOptions& options = {});
   ImagePart(ImagePart&&) noexcept;
   ImagePart& operator=(ImagePart&&) noexcept;
   ~ImagePart();

@@ -44,22 +44,12 @@ class BoundaryColumn {
   }
   /// Takes out the youngest cell that is in no pair inside its star; nothing if none is left.
   std::optional<Term> take_pivot() {
-    while (const std::optional<Term> youngest = heap_.take()) {
-      const std::uint32_t cell = CellGrid::cell(youngest->cell);
-      const CellMark mark = grid_.mark(cell);
-      if (!mark.is_killed()) return youngest;
-      CellGrid::Coordinates x = grid_.coordinates(cell);
-      const int direction = mark.direction();
-      const auto axis = static_cast<std::size_t>(direction / 2);
-      // The incidence of the cell in its killer, of which it is the lower end if that lies above.
-      bool is_negative = direction % 2 != 0;
-      for (std::size_t k = 0; k < axis; ++k) is_negative = is_negative != (x[k] % 2 != 0);
-      const std::uint32_t killer = grid_.beside(cell, x[axis], direction);
-      x[axis] = grid_.next(x[axis], direction);
-      const Element a = youngest->coefficient();
-      add_boundary(killer, x, cell, is_negative ? a : field_.negate(a));
-    }
-    return std::nullopt;
+    return heap_.take_pivot([this](const Term& term) { return replace(term); });
+  }
+  /// Before it is kept: replaces cells below its pivot, about as many as it has. What it is added
+  /// to need not do so again, and much cancels out. @return the pivot; all that is left is older.
+  std::optional<Term> settle(const Term& pivot) {
+    return heap_.follow(pivot, heap_.size(), [this](const Term& term) { return replace(term); });
   }
   /// What it holds, each cell once; to be assigned before it is used again.
   std::span<const Term> consolidate() { return heap_.consolidate(); }
@@ -67,6 +57,24 @@ class BoundaryColumn {
  private:
   using Terms = std::pmr::vector<Term>;
 
+  // Adds the rest of the boundary of its killer in place of a cell that was taken. @return whether
+  // there is one.
+  bool replace(const Term& term) {
+    const std::uint32_t cell = CellGrid::cell(term.cell);
+    const CellMark mark = grid_.mark(cell);
+    if (!mark.is_killed()) return false;
+    CellGrid::Coordinates x = grid_.coordinates(cell);
+    const int direction = mark.direction();
+    const auto axis = static_cast<std::size_t>(direction / 2);
+    // The incidence of the cell in its killer, of which it is the lower end if that lies above.
+    bool is_negative = direction % 2 != 0;
+    for (std::size_t k = 0; k < axis; ++k) is_negative = is_negative != (x[k] % 2 != 0);
+    const std::uint32_t killer = grid_.beside(cell, x[axis], direction);
+    x[axis] = grid_.next(x[axis], direction);
+    const Element a = term.coefficient();
+    add_boundary(killer, x, cell, is_negative ? a : field_.negate(a));
+    return true;
+  }
   static bool precedes(CellGrid::Name a, CellGrid::Name b) { return a < b; }
   void count(std::size_t steps) {
     constexpr std::size_t many = 4096;

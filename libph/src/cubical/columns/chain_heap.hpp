@@ -17,7 +17,8 @@ namespace ph::cubical {
 template <Field K, class Term, auto precedes>
 class ChainHeap {
  public:
-  ChainHeap(const K& field, std::pmr::memory_resource* memory) : field_(field), terms_(memory) {}
+  ChainHeap(const K& field, std::pmr::memory_resource* memory)
+      : field_(field), terms_(memory), stay_(memory) {}
 
   std::size_t size() const { return terms_.size(); }
   void clear() { terms_.clear(); }
@@ -43,6 +44,31 @@ class ChainHeap {
       if (!field_.is_zero(sum)) return Term(first.cell, sum);
     }
     return std::nullopt;
+  }
+  /// Takes the youngest cell that stays what it is; nothing if there is none.
+  /// @param replace called with a term: whether it has added to this what the term stands for.
+  template <class Replace>
+  std::optional<Term> take_pivot(Replace&& replace) {
+    std::optional<Term> youngest = take();
+    while (youngest && replace(*youngest)) youngest = take();
+    return youngest;
+  }
+  /// Replaces cells below a pivot that was taken out as if they had come up, the youngest first, so
+  /// many at most. What replaces a cell may be younger for a while, so the pivot is taken again.
+  /// @return the pivot; all that is left is older.
+  template <class Replace>
+  std::optional<Term> follow(const Term& pivot, std::size_t most, Replace&& replace) {
+    stay_.assign(1, pivot);
+    while (most > 0) {
+      const std::optional<Term> youngest = take();
+      if (!youngest) break;
+      if (replace(*youngest))
+        --most;
+      else
+        stay_.push_back(*youngest);
+    }
+    add([&](auto& terms) { terms.insert(terms.end(), stay_.begin(), stay_.end()); });
+    return take_pivot(replace);
   }
   /// What it holds, each cell once, from young to old; to be assigned before it is used again.
   std::span<const Term> consolidate() {
@@ -101,6 +127,7 @@ class ChainHeap {
 
   const K& field_;
   std::pmr::vector<Term> terms_;
+  std::pmr::vector<Term> stay_;  // see `follow`
 };
 
 }  // namespace ph::cubical

@@ -30,7 +30,8 @@ struct NumberedByAge {
 /// in the next round (Morozov & Nigmetov, Towards lockfree persistent homology, 2020). The pairs do
 /// not depend on who comes first. Each step of a column reads memory anywhere, so a thread works on
 /// some columns in turns and asks for what the next step will read.
-/// @tparam Chain a working column, such as BoundaryColumn.
+/// @tparam Chain a working column, such as BoundaryColumn. `settle(pivot)`, if it has that, is
+/// called before it is kept, and returns the pivot.
 /// @tparam Ages `is_older(a, b)`: which one of two columns is older, by their numbers.
 template <Field K, class Chain, class Ages = NumberedByAge>
 class ParallelReduction {
@@ -213,6 +214,8 @@ class ParallelReduction {
       return lane.older != nullptr && ages_.is_older(lane.older->number(), lane.column);
     };
     if (!has_older()) {
+      if constexpr (requires { lane.chain.settle(*lane.pivot); })
+        lane.pivot = lane.chain.settle(*lane.pivot);
       const Column* const kept =
           worker.keep(*lane.pivot, lane.column, lane.chain.consolidate(), &context_.memory);
       const std::atomic_ref owner(*lane.owner);

@@ -26,12 +26,13 @@ class LoopColumn {
   using Element = typename K::Element;
   using Term = Entry<LoopEdge, K>;
 
-  LoopColumn(const Stars& grid, const K& field, const RunContext& context)
+  /// @param is_cycle whether it is to stay the cycle that it is when it is kept.
+  LoopColumn(const Stars& grid, const K& field, const RunContext& context, bool is_cycle = false)
       : grid_(grid),
         field_(field),
         context_(context),
-        heap_(field, &context.memory),
-        stay_(&context.memory) {}
+        is_cycle_(is_cycle),
+        heap_(field, &context.memory) {}
 
   /// Begins anew with the boundary of a square.
   void assign_boundary(std::uint32_t v, int square) {
@@ -51,28 +52,19 @@ class LoopColumn {
   /// Takes out the youngest edge that is in no pair inside its star, or whose pair is not seen from
   /// this part of the grid; nothing if none is left.
   std::optional<Term> take_pivot() {
-    while (const std::optional<Term> youngest = heap_.take()) {
-      count(1);
-      if (const Term* const next = heap_.next()) expect_star(*next);
-      if (!replace(*youngest)) return youngest;
-    }
-    return std::nullopt;
+    return heap_.take_pivot([this](const Term& term) { return replace(term); });
   }
-  /// Puts a pivot back and replaces edges below it as if they had come up, the youngest ones first,
-  /// so many at most. A chain that leaves this part of the grid does so once then, and not each
-  /// time that an edge of another part comes up between two of its own.
-  void follow(const Term& pivot, std::size_t most) {
-    stay_.assign(1, pivot);
-    while (most > 0) {
-      const std::optional<Term> youngest = heap_.take();
-      if (!youngest) break;
-      count(1);
-      if (replace(*youngest))
-        --most;
-      else
-        stay_.push_back(*youngest);
-    }
-    heap_.add([&](Terms& terms) { terms.insert(terms.end(), stay_.begin(), stay_.end()); });
+  /// Replaces edges below a pivot that was taken out as if they had come up, the youngest ones
+  /// first, so many at most. A chain that leaves this part of the grid does so once then, and not
+  /// each time that an edge of another part comes up between two of its own.
+  /// @return the pivot; all that is left is older.
+  std::optional<Term> follow(const Term& pivot, std::size_t most) {
+    return heap_.follow(pivot, most, [this](const Term& term) { return replace(term); });
+  }
+  /// Before it is kept: as `follow`. What it is added to need not do so again, and much cancels
+  /// out.
+  std::optional<Term> settle(const Term& pivot) {
+    return is_cycle_ ? pivot : follow(pivot, size());
   }
   std::size_t size() const { return heap_.size(); }
   /// What it holds, each edge once; to be assigned before it is used again.
@@ -84,6 +76,8 @@ class LoopColumn {
   // Adds the rest of the boundary of the square that an edge is paired with inside its star, in
   // place of the edge that was taken. @return whether that is seen, and there is one.
   bool replace(const Term& term) {
+    count(1);
+    if (const Term* const next = heap_.next()) expect_star(*next);
     if (!grid_.sees(term.cell.voxel())) return false;
     const std::uint32_t u = grid_.here(term.cell.voxel());
     const StarTables& tables = grid_.tables(u);
@@ -158,9 +152,9 @@ class LoopColumn {
   const Stars& grid_;
   const K& field_;
   const RunContext& context_;
+  const bool is_cycle_;
   ChainHeap<K, Term, &LoopEdge::precedes> heap_;
-  std::pmr::vector<Term> stay_;  // see `follow`
-  std::size_t steps_ = 0;        // since the last look at the stop token
+  std::size_t steps_ = 0;  // since the last look at the stop token
 };
 
 }  // namespace ph::cubical

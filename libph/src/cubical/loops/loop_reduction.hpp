@@ -41,15 +41,15 @@ class LoopReduction {
   void run(PairSink& sink) {
     // Threads that come and go would take longer than a few columns do.
     constexpr std::size_t few = 1024, piece = 64;
-    reduce_all(squares_.order.size() < few ? few : piece);
+    reduce_all(squares_.order.size() < few ? few : piece, false);
     for_each_class([&](const StarCell& edge, const StarCell& square, const Term&,
                        std::span<const Term>) { sink.pair(1, edge, square); },
                    [&](const StarCell& square) { sink.essential(2, square); },
                    [&](const StarCell& edge) { sink.essential(1, edge); });
   }
 
-  /// Reduces by one thread, so that what columns hold does not depend on who came first.
-  void reduce_in_order() { reduce_all(std::max<std::size_t>(1, squares_.order.size())); }
+  /// Reduces by one thread, so that the cycles do not depend on who came first.
+  void reduce_to_cycles() { reduce_all(std::max<std::size_t>(1, squares_.order.size()), true); }
   /// Calls `on_pair(edge, square, pivot, rest of the cycle)` for each loop that dies,
   /// `on_surface(square)` for each column that is zero, `on_loop(edge)` for each loop that never
   /// dies.
@@ -60,9 +60,9 @@ class LoopReduction {
   static constexpr bool kInFile = !std::same_as<Stars, StarGrid>;
 
   // @param piece columns that a thread takes at a time.
-  void reduce_all(std::size_t piece) {
+  void reduce_all(std::size_t piece, bool to_cycles) {
     reduction_.run(
-        "loops", piece, [&] { return Chain(grid_, field_, context_); },
+        "loops", piece, [&] { return Chain(grid_, field_, context_, to_cycles); },
         [&](Chain& column, std::uint32_t i) {
           const auto [v, square] = squares_.cells[squares_.order[i].cell];
           column.assign_boundary(v, static_cast<int>(square));

@@ -273,7 +273,7 @@ class Representing {
     using Reduction = LoopReduction<K, StarGrid>;
     const FreeEdges free = free_edges(grid_, context_);
     Reduction reduction(grid_, free, squares, field_, context_);
-    reduction.reduce_in_order();
+    reduction.reduce_to_cycles();
     const auto cell_of = [&](const typename Reduction::Term& term) {
       const std::uint32_t v = grid_.here(term.cell.voxel());
       return StarCell{v, kEdges[grid_.tables(v).edge_order().at(term.cell.rank())], 0};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -8,9 +9,9 @@
 
 namespace ph::cubical {
 
-/// Which layers of a grid each of its parts has: n · p / parts up to n · (p + 1) / parts of the n
-/// of the slowest axis, as the input counts them. The stars' grid of the T-construction counts from
-/// the other end: so do all layers and voxels here.
+/// Which layers of a grid each of its parts has, as the input counts them: those that it is told,
+/// else n · p / parts up to n · (p + 1) / parts of the n of the slowest axis. The stars' grid of
+/// the T-construction counts from the other end: so do all layers and voxels here.
 class PartLayout {
  public:
   /// Layers that follow each other.
@@ -20,10 +21,12 @@ class PartLayout {
   };
 
   /// Precondition: 0 < parts <= layers of the slowest axis.
-  PartLayout(const GridShape& grid, int parts)
+  /// @param first_layers none, or those of the parts, ascending from 0 on.
+  PartLayout(const GridShape& grid, int parts, const std::vector<Index>& first_layers = {})
       : layers_(grid.axis(grid.layer_axis()).extent),
         layer_size_(grid.axis(grid.layer_axis()).stride),
         parts_(static_cast<std::uint64_t>(parts)),
+        first_layers_(first_layers.begin(), first_layers.end()),
         is_ring_(grid.axis(grid.layer_axis()).periodic),
         from_end_(grid.is_t_construction()) {}
 
@@ -32,13 +35,20 @@ class PartLayout {
   /// Voxels of the whole grid.
   std::uint64_t size() const { return layers_ * layer_size_; }
   Layers own(int part) const {
-    const auto cut = [&](int i) { return layers_ * static_cast<std::uint64_t>(i) / parts_; };
-    return turned({cut(part), cut(part + 1)});
+    const auto cut = [&](std::uint64_t i) {
+      if (i == parts_) return layers_;
+      return first_layers_.empty() ? layers_ * i / parts_ : first_layers_[i];
+    };
+    const auto i = static_cast<std::uint64_t>(part);
+    return turned({cut(i), cut(i + 1)});
   }
   /// The part that has a layer.
   int part_of(std::uint64_t layer) const {
     const std::uint64_t of_input = from_end_ ? layers_ - 1 - layer : layer;
-    return static_cast<int>(((of_input + 1) * parts_ - 1) / layers_);
+    if (first_layers_.empty()) return static_cast<int>(((of_input + 1) * parts_ - 1) / layers_);
+    return static_cast<int>(std::ranges::upper_bound(first_layers_, of_input) -
+                            first_layers_.begin()) -
+           1;
   }
   /// Layers of the stars' grid as the input counts them, and the other way around.
   Layers turned(const Layers& layers) const {
@@ -66,6 +76,7 @@ class PartLayout {
 
  private:
   std::uint64_t layers_, layer_size_, parts_;
+  std::vector<std::uint64_t> first_layers_;
   bool is_ring_, from_end_;
 };
 

@@ -15,17 +15,15 @@ namespace {
 }  // namespace
 
 template <Field K>
-PartLoops<K>::PartLoops(const CubicalImage& voxels, const CubePairMemos& cube_pairs,
-                        const GridShape& whole, const PartLayout& layout, int part,
-                        std::uint64_t image, const K& field, const RunContext& context)
+PartLoops<K>::PartLoops(PartStars& stars, const GridShape& whole, const PartLayout& layout,
+                        int part, std::uint64_t image, const K& field, const RunContext& context)
     : whole_(whole),
       layout_(layout),
       part_(part),
       image_(image),
       field_(field),
       context_(context),
-      voxels_are_read_(voxels, context),
-      grid_(voxels, layout, part, cube_pairs, context),
+      grid_(stars),
       free_(grid_, context),
       squares_(&context.memory),
       arrived_(&context.memory),
@@ -163,12 +161,10 @@ void PartLoops<K>::assign(Chain& chain, std::uint32_t i) {
 template <Field K>
 bool PartLoops<K>::is_done(std::uint32_t i, std::optional<Term>& pivot, Chain& chain) {
   const auto is_here = [&] { return pivot && grid_.owns(pivot->cell.voxel()); };
-  if (pivot && !is_here()) {
-    // What it sees costs about as much as to send the rest; no column may take for ever.
-    constexpr std::size_t few = 64, times = 4;
-    chain.follow(*pivot, times * (chain.size() + few));
-    pivot = chain.take_pivot();
-  }
+  // What it sees costs about as much as to send the rest; no column may take for ever. An edge that
+  // was not seen to be in a pair may make way for one that is here.
+  constexpr std::size_t few = 64, times = 4;
+  if (pivot && !is_here()) pivot = chain.follow(*pivot, times * (chain.size() + few));
   if (is_here()) return false;
   const std::span<const Term> below = pivot ? chain.consolidate() : std::span<const Term>();
   const std::lock_guard lock(mutex_);

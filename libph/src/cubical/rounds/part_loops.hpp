@@ -17,7 +17,6 @@
 #include "cubical/rounds/part_stars.hpp"
 #include "cubical/slabs/free_cells.hpp"
 #include "cubical/stars/free_edges.hpp"
-#include "image/voxels_in_use.hpp"
 
 namespace ph::cubical {
 
@@ -40,12 +39,10 @@ class PartLoops {
  public:
   using Term = typename Reduction::Term;
 
-  /// @param voxels those of the part and its ghosts. @param cube_pairs may be null.
-  /// @param whole outlives this, as voxels do.
+  /// @param stars of the part; they and the whole outlive this.
   /// @param image tells images, fields and options from others.
-  PartLoops(const CubicalImage& voxels, const CubePairMemos& cube_pairs, const GridShape& whole,
-            const PartLayout& layout, int part, std::uint64_t image, const K& field,
-            const RunContext& context);
+  PartLoops(PartStars& stars, const GridShape& whole, const PartLayout& layout, int part,
+            std::uint64_t image, const K& field, const RunContext& context);
   PartLoops(const PartLoops&) = delete;
   PartLoops& operator=(const PartLoops&) = delete;
 
@@ -88,8 +85,7 @@ class PartLoops {
   const std::uint64_t image_;
   const K field_;
   const RunContext& context_;
-  const VoxelsInUse voxels_are_read_;
-  PartStars grid_;
+  PartStars& grid_;
   std::size_t layers_missing_ = 0;             // ghosts that it has not heard of
   std::vector<std::vector<std::byte>> early_;  // came before it began
   std::map<int, std::vector<bool>> heard_;     // by sender, by number of the message

@@ -15,10 +15,10 @@ namespace ph::cubical {
 /// have the names that they have in the whole grid, so that chains may go anywhere.
 class PartStars : public StarGrid {
  public:
-  /// @param voxels those of the part and its ghosts. @param cube_pairs may be null.
+  /// @param voxels those of the part and its ghosts.
   PartStars(const CubicalImage& voxels, const PartLayout& layout, int part,
-            const CubePairMemos& cube_pairs, const RunContext& context)
-      : StarGrid(voxels, context, place(layout, part, cube_pairs)),
+            const RunContext& context)
+      : StarGrid(voxels, context, layout.place(part)),
         whole_(layout.size()),
         first_(layout.first_voxel(part)),
         begin_(layout.own(part).begin * layer_size()),
@@ -74,11 +74,6 @@ class PartStars : public StarGrid {
   }
 
  private:
-  static SlabPlace place(const PartLayout& layout, int part, const CubePairMemos& cube_pairs) {
-    SlabPlace place = layout.place(part);
-    place.cube_pairs = cube_pairs;
-    return place;
-  }
   // Of a ghost: whether it is the one before.
   bool is_before(std::uint32_t v) const { return slab().has_ghost_before() && v < layer_size(); }
 

@@ -29,7 +29,7 @@ struct ImageLoops::State {
         own(std::move(layers)) {
     detail::with_field(field, [&]<Field K>(const K& k) {
       loops.template emplace<std::unique_ptr<PartLoops<K>>>(std::make_unique<PartLoops<K>>(
-          own.cubical.cubical_image(), own.cube_pairs, shape, whole.layout(shape), part,
+          own.stars, shape, whole.layout(shape), part,
           whole.hash() + static_cast<std::uint64_t>(field), k, context));
     });
   }

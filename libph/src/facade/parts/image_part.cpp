@@ -2,6 +2,7 @@
 #include "ph/parts/image_part.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>
@@ -38,7 +39,8 @@ WholeImage whole_image(const Image& image, int parts, const ImagePartOptions& op
           options.min_dim,
           options.max_dim.value_or(static_cast<int>(axes)),
           options.cells,
-          false};
+          false,
+          options.first_layers};
 }
 
 /// @throws Error (usage) if it has too many axes.
@@ -56,24 +58,6 @@ std::uint64_t layers_of(const GridShape& shape) {
                 "parts of an image: found one axis or none with more than one "
                 "voxel, expected two or three");
   return shape.axis(shape.layer_axis()).extent;
-}
-
-void check(const WholeImage& whole, const GridShape& shape, int part, bool may_have_loops) {
-  const std::uint64_t layers = layers_of(shape);
-  if (whole.parts < 1 || static_cast<std::uint64_t>(whole.parts) > layers)
-    throw Error(ErrorKind::usage, fmt::format("parts of an image: found {}, expected 1 to {}, the "
-                                              "layers of its slowest axis",
-                                              whole.parts, layers));
-  if (part < 0 || part >= whole.parts)
-    throw Error(ErrorKind::usage,
-                fmt::format("part of an image: found number {} of {}", part + 1, whole.parts));
-  if (whole.loops && !may_have_loops)
-    throw Error(ErrorKind::usage,
-                fmt::format("parts of a volume: found loops wanted, which need all layers at once; "
-                            "expected dimension 0 alone{}",
-                            std::ranges::find(whole.periodic, true) == whole.periodic.end()
-                                ? ", or 2 alone"
-                                : " where an axis closes up"));
 }
 
 /// Voxels of layers and the one on either side, copied only where a periodic axis begins again.
@@ -110,19 +94,44 @@ Image image_of(const Image& image, const PartLayout::Layers& layers, const GridS
 
 }  // namespace
 
-ImagePart::ImagePart(const Image& image, int part, int parts, const ImagePartOptions& options,
-                     const RunContext& context) {
+WholeImage cubical::checked_whole(const Image& image, int parts, const ImagePartOptions& options) {
   WholeImage whole = whole_image(image, parts, options);
-  whole.loops = cubical::wants_loops(shape_of(whole), whole.wanted());
-  state_ = std::make_unique<State>(std::move(whole), context);
-  const GridShape& shape = state_->shape;
-  check(state_->whole, shape, part, options.loops);
-  state_->first = state_->last = part;
-
+  const GridShape shape = shape_of(whole);
+  const std::uint64_t layers = layers_of(shape);
+  if (parts < 1 || static_cast<std::uint64_t>(parts) > layers)
+    throw Error(ErrorKind::usage, fmt::format("parts of an image: found {}, expected 1 to {}, the "
+                                              "layers of its slowest axis",
+                                              parts, layers));
+  if (!whole.has_layers(shape))
+    throw Error(ErrorKind::usage,
+                fmt::format("first layers of parts: found {}, expected one for each of {} parts, "
+                            "ascending from 0 on, below {}",
+                            fmt::join(whole.first_layers, ", "), parts, layers));
+  whole.loops = wants_loops(shape, whole.wanted());
+  if (whole.loops && !options.loops)
+    throw Error(ErrorKind::usage,
+                fmt::format("parts of a volume: found loops wanted, which need all layers at once; "
+                            "expected dimension 0 alone{}",
+                            std::ranges::find(whole.periodic, true) == whole.periodic.end()
+                                ? ", or 2 alone"
+                                : " where an axis closes up"));
   const GridShape::Axis& axis = shape.axis(shape.layer_axis());
   if (image.values.size() != axis.extent * axis.stride)
     throw Error(ErrorKind::bad_data, fmt::format("image: found {} voxels, its extents say {}",
                                                  image.values.size(), axis.extent * axis.stride));
+  return whole;
+}
+
+ImagePart::ImagePart(const Image& image, int part, int parts, const ImagePartOptions& options,
+                     const RunContext& context) {
+  state_ = std::make_unique<State>(cubical::checked_whole(image, parts, options), context);
+  if (part < 0 || part >= parts)
+    throw Error(ErrorKind::usage,
+                fmt::format("part of an image: found number {} of {}", part + 1, parts));
+  const GridShape& shape = state_->shape;
+  const GridShape::Axis& axis = shape.axis(shape.layer_axis());
+  state_->first = state_->last = part;
+
   const PartLayout layout = state_->whole.layout(shape);
   CubicalOptions own_options = options.cubical;
   own_options.periodic = state_->whole.periodic;
@@ -134,23 +143,27 @@ ImagePart::ImagePart(const Image& image, int part, int parts, const ImagePartOpt
     throw Error(ErrorKind::resource, fmt::format("part of an image: found {} voxels, expected "
                                                  "fewer than about 2^31; more parts have fewer",
                                                  voxels.size()));
-  const GridFrame frame(voxels);
-  cubical::Slabs slabs(frame, cubical::Slabs::layers_that_fit(frame, context), context,
-                       layout.place(part), layout.first_voxel(part));
-  if (state_->whole.loops)
-    state_->own.emplace(cubical, slabs.cube_pairs(), cubical::FreeCells(&context.memory));
-  cubical::FreeCells* const free = state_->own ? &state_->own->free : nullptr;
   const cubical::BarSink sink = state_->sink(state_->bars);
   cubical::PairSink pairs(shape, options.cells, sink);
-  for (std::uint32_t slab = 0; slab < slabs.count(); ++slab) {
-    context.report({"slabs", slab, slabs.count()});
-    {
-      const cubical::StarGrid grid = slabs.stars(slab);
-      state_->pairs.add(grid, slabs.first_voxel(slab), pairs, free);
+  if (state_->whole.loops) {
+    // They need the stars of all layers at once: so these are found once, for all bars.
+    auto& own = state_->own.emplace(cubical, layout, part, context);
+    state_->pairs.add(own.stars, layout.first_voxel(part), pairs, &own.free);
+  } else {
+    const GridFrame frame(voxels);
+    cubical::Slabs slabs(frame, cubical::Slabs::layers_that_fit(frame, context), context,
+                         layout.place(part), layout.first_voxel(part));
+    for (std::uint32_t slab = 0; slab < slabs.count(); ++slab) {
+      context.report({"slabs", slab, slabs.count()});
+      {
+        const cubical::StarGrid grid = slabs.stars(slab);
+        state_->pairs.add(grid, slabs.first_voxel(slab), pairs);
+      }
+      slabs.forget(slab);
+      state_->claim.grow_to(state_->bars.bytes());
     }
-    slabs.forget(slab);
-    state_->claim.grow_to(state_->bars.bytes());
   }
+  state_->claim.grow_to(state_->bars.bytes());
   pairs.finish();
 }
 

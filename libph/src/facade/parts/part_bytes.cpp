@@ -35,6 +35,7 @@ void put_whole(ByteWriter& to, const WholeImage& whole) {
   for (const int n : {whole.parts, whole.min_dim, whole.max_dim}) to.put(std::int32_t{n});
   to.put(whole.cells);
   to.put(whole.loops);
+  to.put_list(whole.first_layers, [&](Index layer) { to.put(std::int64_t{layer}); });
 }
 
 WholeImage get_whole(ByteReader& from) {
@@ -65,6 +66,10 @@ WholeImage get_whole(ByteReader& from) {
       static_cast<std::uint64_t>(whole.parts) > shape.axis(shape.layer_axis()).extent)
     from.refuse("number of parts");
   if (cubical::wants_loops(shape, whole.wanted()) != whole.loops) from.refuse("flag of loops");
+  whole.first_layers.resize(from.count(sizeof(std::int64_t), "layers"));
+  for (Index& layer : whole.first_layers)
+    layer = static_cast<Index>(from.get<std::int64_t>("layer"));
+  if (!whole.has_layers(shape)) from.refuse("layers of parts");
   return whole;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -10,8 +12,10 @@
 #include "cubical/graphs/two_graphs.hpp"
 #include "cubical/pair_sink.hpp"
 #include "cubical/rounds/part_layout.hpp"
+#include "cubical/rounds/part_stars.hpp"
 #include "cubical/slabs/free_cells.hpp"
 #include "cubical/slabs/layer_pairs.hpp"
+#include "image/voxels_in_use.hpp"
 #include "ph/parts/image_part.hpp"
 
 namespace ph {
@@ -27,7 +31,8 @@ struct WholeImage {
   double limit;
   int parts, min_dim, max_dim;
   bool cells;
-  bool loops;  ///< whether bars are wanted that come from neither graph
+  bool loops;                            ///< whether bars are wanted that come from neither graph
+  std::vector<Index> first_layers = {};  ///< of the parts; none: parts of equal size
 
   friend bool operator==(const WholeImage&, const WholeImage&) = default;
   /// Without voxels.
@@ -44,8 +49,11 @@ struct WholeImage {
   BarRequest wanted() const { return {min_dim, max_dim, cells}; }
   ImagePartOptions options() const {
     using Construction = CubicalOptions::Construction;
-    ImagePartOptions options{
-        .min_dim = min_dim, .max_dim = max_dim, .cells = cells, .loops = loops};
+    ImagePartOptions options{.min_dim = min_dim,
+                             .max_dim = max_dim,
+                             .cells = cells,
+                             .loops = loops,
+                             .first_layers = first_layers};
     options.cubical.construction =
         voxels_are_vertices ? Construction::vertices : Construction::cells;
     options.cubical.superlevel = superlevel;
@@ -68,15 +76,32 @@ struct WholeImage {
         },
         [](std::size_t) {}};
   }
-  PartLayout layout(const GridShape& shape) const { return {shape, parts}; }
+  /// Whether each part has layers of its own, all together all of them.
+  bool has_layers(const GridShape& shape) const {
+    if (first_layers.empty()) return true;
+    return static_cast<std::uint64_t>(parts) == first_layers.size() && first_layers.front() == 0 &&
+           std::ranges::adjacent_find(first_layers, std::greater_equal<>()) == first_layers.end() &&
+           static_cast<std::uint64_t>(first_layers.back()) < shape.axis(shape.layer_axis()).extent;
+  }
+  PartLayout layout(const GridShape& shape) const { return {shape, parts, first_layers}; }
   /// Tells images and options apart, most likely.
   std::uint64_t hash() const;
 };
 
+/// @throws Error (usage) if it is cut into no such parts, (bad_data) if voxels are missing.
+WholeImage checked_whole(const Image& image, int parts, const ImagePartOptions& options);
+
 /// What the loops of a part begin with.
 struct OwnLayers {
-  Cubical cubical;  ///< of the part with its ghosts
-  CubePairMemos cube_pairs;
+  OwnLayers(const Cubical& cubical, const PartLayout& layout, int part, const RunContext& context)
+      : voxels(cubical),
+        in_use(std::make_unique<VoxelsInUse>(voxels.cubical_image(), context)),
+        stars(voxels.cubical_image(), layout, part, context),
+        free(&context.memory) {}
+
+  Cubical voxels;  ///< of the part with its ghosts
+  std::unique_ptr<VoxelsInUse> in_use;
+  PartStars stars;
   FreeCells free;  ///< as far as the part alone tells
 };
 
