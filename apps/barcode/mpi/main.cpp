@@ -37,6 +37,8 @@ are those of a rank.
              take those that are there: a run that died goes on. Loops of volumes
              are computed anew
   --verbose  also what each rank took and sent
+  --dry-run  say what the ranks will take and send, and compute nothing
+  --progress json  lines of all ranks, with their numbers
 )";
 
 bool is_asked(int argc, char** argv, std::string_view option) {
@@ -75,7 +77,11 @@ int main(int argc, char** argv) {
     const bool is_first = transport.rank() == 0;
     // Notes come once; another rank that wants to be heard has to fail, or be asked to speak.
     arguments.common.quiet = arguments.common.quiet || (!is_first && !arguments.common.verbose);
-    if (!is_first) arguments.common.progress = ph::app::ProgressMode::none;
+    // A bar is that of the first rank; lines of JSON say whose they are.
+    if (arguments.common.progress == ph::app::ProgressMode::json)
+      arguments.common.rank = transport.rank();
+    else if (!is_first)
+      arguments.common.progress = ph::app::ProgressMode::none;
     const std::string name = is_first ? std::string(kProgram.name)
                                       : fmt::format("{}: rank {}", kProgram.name, transport.rank());
     ph::app::Session session(name, arguments.common, stop);

@@ -15,6 +15,31 @@ constexpr int kTag = 1;
 // Counts of MPI are ints: a message goes in pieces of at most so many bytes.
 constexpr std::size_t kMostAtOnce = std::size_t{1} << 30;
 
+/// Waits for what was begun, and sleeps meanwhile, longer and longer: MPI itself would take all of
+/// a core, which another rank may need.
+void wait_for(MPI_Request& request) {
+  using std::chrono::microseconds;
+  constexpr int kBusy = 200;  // times that it asks at once
+  constexpr microseconds kMost(1000);
+  int is_done = 0;
+  for (int i = 0; i < kBusy && is_done == 0; ++i) MPI_Test(&request, &is_done, MPI_STATUS_IGNORE);
+  for (microseconds pause(20); is_done == 0; pause = std::min(2 * pause, kMost)) {
+    std::this_thread::sleep_for(pause);
+    MPI_Test(&request, &is_done, MPI_STATUS_IGNORE);
+  }
+}
+
+void send_piece(const void* data, std::size_t bytes, int to) {
+  MPI_Request request;
+  MPI_Isend(data, static_cast<int>(bytes), MPI_BYTE, to, kTag, MPI_COMM_WORLD, &request);
+  wait_for(request);
+}
+void receive_piece(void* data, std::size_t bytes, int from) {
+  MPI_Request request;
+  MPI_Irecv(data, static_cast<int>(bytes), MPI_BYTE, from, kTag, MPI_COMM_WORLD, &request);
+  wait_for(request);
+}
+
 }  // namespace
 
 MpiTransport::MpiTransport(int* argc, char*** argv) {
@@ -30,26 +55,27 @@ MpiTransport::MpiTransport(int* argc, char*** argv) {
 
 void MpiTransport::send(int to, std::span<const std::byte> message) {
   const std::uint64_t size = message.size();
-  MPI_Send(&size, 1, MPI_UINT64_T, to, kTag, MPI_COMM_WORLD);
+  send_piece(&size, sizeof(size), to);
   for (std::size_t at = 0; at < message.size(); at += kMostAtOnce) {
     const auto piece = message.subspan(at, std::min(kMostAtOnce, message.size() - at));
-    MPI_Send(piece.data(), static_cast<int>(piece.size()), MPI_BYTE, to, kTag, MPI_COMM_WORLD);
+    send_piece(piece.data(), piece.size(), to);
   }
 }
 
 std::vector<std::byte> MpiTransport::receive(int from) {
   std::uint64_t size = 0;
-  MPI_Recv(&size, 1, MPI_UINT64_T, from, kTag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+  receive_piece(&size, sizeof(size), from);
   std::vector<std::byte> message(static_cast<std::size_t>(size));
-  for (std::size_t at = 0; at < message.size(); at += kMostAtOnce) {
-    const std::size_t piece = std::min(kMostAtOnce, message.size() - at);
-    MPI_Recv(message.data() + at, static_cast<int>(piece), MPI_BYTE, from, kTag, MPI_COMM_WORLD,
-             MPI_STATUS_IGNORE);
-  }
+  for (std::size_t at = 0; at < message.size(); at += kMostAtOnce)
+    receive_piece(message.data() + at, std::min(kMostAtOnce, message.size() - at), from);
   return message;
 }
 
-void MpiTransport::wait_for_all() { MPI_Barrier(MPI_COMM_WORLD); }
+void MpiTransport::wait_for_all() {
+  MPI_Request request;
+  MPI_Ibarrier(MPI_COMM_WORLD, &request);
+  wait_for(request);
+}
 
 int MpiTransport::finish(int code) {
   if (code != 0) {

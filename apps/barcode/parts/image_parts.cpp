@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "barcode/arguments/option_scopes.hpp"
+#include "barcode/memory/forecast_text.hpp"
 #include "barcode/parts/part_files.hpp"
 #include "barcode/parts/part_input.hpp"
 #include "common/arguments/numbers.hpp"
@@ -17,6 +18,7 @@
 #include "common/files/file_identity.hpp"
 #include "common/system/process.hpp"
 #include "common/terminal/exit_code.hpp"
+#include "ph/io/write.hpp"
 
 namespace ph::barcode {
 namespace {
@@ -79,6 +81,12 @@ std::optional<ImagePart> kept_image_part(const std::string& path, const std::str
       });
 }
 
+Outcome foresee(const PartInput& read, int parts, bool on_ranks) {
+  const ImagePartForecast forecast = ImagePart::forecast(read.image, parts, read.options);
+  write_file("-", forecast_text(forecast, read.description, parts, on_ranks));
+  return {app::kOk, read.description};
+}
+
 Outcome run_image_part(const std::string& input, const Arguments& arguments,
                        app::Session& session) {
   const auto [part, parts] = *arguments.part;
@@ -86,6 +94,7 @@ Outcome run_image_part(const std::string& input, const Arguments& arguments,
       part_path(arguments.output, app::output_names({input}).front(), part, parts);
   app::require_in_scope(arguments.given, kImagePart, name_of(kImagePart));
   const PartInput read = read_part_input(input, arguments.keeps_cells, arguments, session);
+  if (arguments.dry_run) return foresee(read, parts, false);
   if (arguments.resumes && kept_image_part(path, input, read, part, parts, session))
     return {app::kOk, fmt::format("{}: it is there already", path)};
   app::InputFiles inputs;

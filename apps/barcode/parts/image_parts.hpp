@@ -12,6 +12,9 @@
 
 namespace ph::barcode {
 
+/// Says what an image in parts will take, and computes nothing.
+Outcome foresee(const PartInput& read, int parts, bool on_ranks);
+
 /// Computes a part of an image and writes it. Precondition: arguments.part.
 /// @throws Error (usage) if the input is no image.
 Outcome run_image_part(const std::string& input, const Arguments& arguments, app::Session& session);

@@ -21,6 +21,7 @@ struct CommonOptions {
   std::optional<std::uint64_t> memory_limit;  ///< bytes; default: what the machine has
   int slab_layers = 0;                        ///< of images, as RunContext has it
   ProgressMode progress = ProgressMode::automatic;
+  std::optional<int> rank;  ///< of one of several processes: lines of progress say it
   bool quiet = false;
   bool verbose = false;
   bool force = false;               ///< an output may replace an input

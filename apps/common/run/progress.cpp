@@ -25,8 +25,8 @@ ProgressMode decided(ProgressMode mode, bool quiet) {
 
 }  // namespace
 
-ProgressReporter::ProgressReporter(ProgressMode mode, bool quiet)
-    : mode_(decided(mode, quiet)), start_(Clock::now()), last_shown_(start_) {
+ProgressReporter::ProgressReporter(ProgressMode mode, bool quiet, std::optional<int> rank)
+    : mode_(decided(mode, quiet)), rank_(rank), start_(Clock::now()), last_shown_(start_) {
   if (!active()) return;
   try {
     repeater_ = std::jthread([this](const std::stop_token& stop) { repeat(stop); });
@@ -65,10 +65,14 @@ void ProgressReporter::show() {
   last_shown_ = Clock::now();
   if (mode_ == ProgressMode::json) {
     const double seconds = std::chrono::duration<double>(last_shown_ - start_).count();
-    print_line(json::object({{"stage", json::string(last_.stage)},
-                             {"done", json::integer(last_.done)},
-                             {"total", last_.total == 0 ? "null" : json::integer(last_.total)},
-                             {"seconds", fmt::format("{:.3f}", seconds)}}));
+    std::string members;
+    json::add_members(members, {{"stage", json::string(last_.stage)},
+                                {"done", json::integer(last_.done)},
+                                {"total", last_.total == 0 ? "null" : json::integer(last_.total)},
+                                {"seconds", fmt::format("{:.3f}", seconds)}});
+    if (rank_)
+      json::add_members(members, {{"rank", json::integer(static_cast<std::uint64_t>(*rank_))}});
+    print_line("{" + members + "}");
   } else if (mode_ == ProgressMode::bar && has_report_ && holds_ == 0 &&
              last_shown_ - start_ >= kPatience) {
     draw_bar();

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <string_view>
 #include <thread>
@@ -19,7 +20,8 @@ namespace ph::app {
 /// Lines of JSON come so from the start, and are never held back.
 class ProgressReporter {
  public:
-  explicit ProgressReporter(ProgressMode mode, bool quiet);
+  /// @param rank of one of several processes that compute together.
+  ProgressReporter(ProgressMode mode, bool quiet, std::optional<int> rank);
   ~ProgressReporter();
 
   bool active() const { return mode_ == ProgressMode::bar || mode_ == ProgressMode::json; }
@@ -37,6 +39,7 @@ class ProgressReporter {
   void repeat(const std::stop_token& stop);
 
   ProgressMode mode_;
+  std::optional<int> rank_;
   Clock::time_point start_;
   std::mutex mutex_;  // of what follows
   Progress last_{"start", 0, 0};

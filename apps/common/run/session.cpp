@@ -16,7 +16,7 @@ namespace ph::app {
 Session::Session(std::string_view program, const CommonOptions& options, std::stop_token stop)
     : program_(program),
       options_(options),
-      progress_(options.progress, options.quiet),
+      progress_(options.progress, options.quiet, options.rank),
       memory_at_start_(peak_memory()) {
   context_.stop = std::move(stop);
   context_.threads = options.threads;

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <string>
+
+#include "ph/parts/image_part.hpp"
+
+namespace ph::barcode {
+
+/// What --dry-run says of an image in parts: one fact a line.
+/// @param on_ranks whether each part is that of a rank, so that they send each other what is
+/// known.
+std::string forecast_text(const ImagePartForecast& forecast, const std::string& description,
+                          int parts, bool on_ranks);
+
+/// Whether layers are to be shared out by what is in them: else a rank would take twice the mean.
+inline bool is_unequal(const ImagePartForecast& forecast) {
+  constexpr double most = 2;
+  return forecast.longest >= most;
+}
+
+}  // namespace ph::barcode
