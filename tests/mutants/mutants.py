@@ -451,7 +451,7 @@ MUTANTS = [
      "if (number != expected)", "if (number > expected)", ["ranks_tests"]),
     ("ranks: messages are not checked", "libph/src/facade/parts/post.cpp",
      "!= expected_checksum)", "== expected_checksum + 1)", ["ranks_tests"]),
-    ("ranks: the last of an odd number waits for nobody", "libph/src/facade/parts/join_ranks.cpp",
+    ("ranks: the last of an odd number waits for nobody", "libph/src/facade/parts/join_ranks.hpp",
      "if (rank + width < parts) {", "if (rank + width + 1 < parts) {", ["ranks_tests"]),
     ("loops in parts: what came last is older", "libph/src/cubical/rounds/part_loops.hpp",
      "return LoopSquare::precedes((*squares)[a], (*squares)[b]);", "return a < b;",

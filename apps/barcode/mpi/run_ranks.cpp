@@ -11,6 +11,7 @@
 
 #include "barcode/arguments/option_scopes.hpp"
 #include "barcode/batch.hpp"
+#include "barcode/mpi/cloud_ranks.hpp"
 #include "barcode/parts/image_parts.hpp"
 #include "barcode/parts/part_input.hpp"
 #include "common/arguments/numbers.hpp"
@@ -44,47 +45,54 @@ ImagePart own_part(const PartInput& input, int rank, int parts, const std::strin
   return part;
 }
 
-/// The image once all ranks have joined it, and its bars.
-struct Whole {
-  ImagePart part;
-  Barcode bars;
-};
-
-/// Computes the part of this rank and joins it with the others. @return what rank 0 has then.
-std::optional<Whole> computed(const PartInput& input, int parts, const std::string& kept,
-                              const Arguments& arguments, Transport& transport,
-                              app::Session& session) {
+/// Computes an image on all ranks.
+RankResult image_of_ranks(const Job& job, const Arguments& arguments, Transport& transport,
+                          app::Session& session) {
   const RunContext& context = session.context();
-  const int rank = transport.rank();
+  const int rank = transport.rank(), size = transport.size();
+  PartInput input =
+      read_part_input(job.input, job.format == BarcodeFormat::json, arguments, session);
+  input.options.loops = true;
+  const int parts = std::min(size, ImagePart::most_parts(input.image, input.options.cubical));
+  if (parts < size)
+    session.note(fmt::format("{} have nothing to do: the image has {}",
+                             app::count_of(static_cast<std::size_t>(size - parts), "rank"),
+                             app::count_of(static_cast<std::size_t>(parts), "layer")));
+  RankResult result;
   std::optional<ImagePart> own;
-  if (rank < parts) own.emplace(own_part(input, rank, parts, kept, arguments, session));
+  if (rank < parts) {
+    result.kept = kept_path(arguments, rank, parts);
+    own.emplace(own_part(input, rank, parts, result.kept, arguments, session));
+  }
   const bool has_loops = own && own->has_loops();
   std::optional<ImageLoops> loops;  // they take voxels from the part before it goes away
   if (has_loops) loops.emplace(*own, arguments.options.field, context);
 
   Post post(transport);
-  std::optional<ImagePart> whole = join_ranks(std::move(own), post, context);
+  const std::optional<ImagePart> whole = join_ranks(std::move(own), post, context);
   Barcode found(CellKind::grid);
   if (has_loops)
     found = loops_of_ranks(std::move(loops), parts, whole ? &*whole : nullptr, post, context);
-  session.explain(fmt::format("memory {}, sent {}",
-                              app::format_size(static_cast<double>(session.memory_taken())),
-                              app::format_size(static_cast<double>(post.bytes_sent()))));
-  if (!whole) return std::nullopt;
-  Barcode bars = whole->barcode(context);
-  add_bars(bars, found);
-  bars.sort(context);
-  return Whole{std::move(*whole), std::move(bars)};
+  explain_costs(post, session);
+  if (!whole) return result;
+  const std::string description = fmt::format(
+      "{}, {}", input.description, app::count_of(static_cast<std::size_t>(parts), "rank"));
+  result.bars.emplace(RankBars{whole->barcode(context),
+                               info_of(*whole, description, job.input, arguments.options.field)});
+  add_bars(result.bars->bars, found);
+  result.bars->bars.sort(context);
+  return result;
 }
 
 }  // namespace
 
 int run_ranks(const Arguments& arguments, Transport& transport,
               const std::function<void()>& wait_for_all, app::Session& session) {
-  const int rank = transport.rank(), size = transport.size();
-  app::require_in_scope(arguments.given, kRanks, name_of(kRanks));
-  if (!arguments.wants_image_part())
-    throw Error(ErrorKind::usage, "INPUT: found several or a folder, expected one image");
+  if (!arguments.wants_part_of_one())
+    throw Error(ErrorKind::usage, "INPUT: found several or a folder, expected one image or cloud");
+  const bool is_image = arguments.wants_image_part();
+  const Situation situation = is_image ? kRanks : kCloudRanks;
+  app::require_in_scope(arguments.given, situation, name_of(situation));
   const std::string& path = arguments.inputs.front();
   const BarcodeFormat format = output_format(arguments, session);
   const Job job{path, arguments.output, format, arguments.plots};
@@ -95,30 +103,22 @@ int run_ranks(const Arguments& arguments, Transport& transport,
   app::require_separate(inputs, written, arguments.common.force);
   // What cannot be created is said first.
   std::optional<Outputs> outputs;
-  if (rank == 0) outputs.emplace(job);
+  if (transport.rank() == 0) outputs.emplace(job);
 
-  PartInput input = read_part_input(path, format == BarcodeFormat::json, arguments, session);
-  input.options.loops = true;
-  const int parts = std::min(size, ImagePart::most_parts(input.image, input.options.cubical));
-  if (parts < size)
-    session.note(fmt::format("{} have nothing to do: the image has {}",
-                             app::count_of(static_cast<std::size_t>(size - parts), "rank"),
-                             app::count_of(static_cast<std::size_t>(parts), "layer")));
-  const std::string kept = fmt::format("{}.{}of{}.ph", arguments.output, rank + 1, parts);
-  std::optional<Whole> whole = computed(input, parts, kept, arguments, transport, session);
+  RankResult result = is_image ? image_of_ranks(job, arguments, transport, session)
+                               : cloud_of_ranks(job, arguments, transport, session);
   int code = 0;
-  if (whole) {
-    const std::string description = fmt::format(
-        "{}, {}", input.description, app::count_of(static_cast<std::size_t>(parts), "rank"));
-    const BarcodeInfo info = info_of(whole->part, description, path, arguments.options.field);
-    const Outcome outcome = write_bars(std::move(whole->bars), info, *outputs, arguments, session);
+  if (result.bars) {
+    const Outcome outcome =
+        write_bars(std::move(result.bars->bars), result.bars->info, *outputs, arguments, session);
     session.note(outcome.summary);
     code = outcome.code;
   }
   // Parts are kept until the result is there.
   wait_for_all();
   std::error_code ignored;
-  if (arguments.resumes && rank < parts) std::filesystem::remove(files::path_of(kept), ignored);
+  if (arguments.resumes && !result.kept.empty())
+    std::filesystem::remove(files::path_of(result.kept), ignored);
   return code;
 }
 
