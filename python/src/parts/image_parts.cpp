@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Parts of an image, as bytes: what travels between processes and what lies in a file.
+// Parts of an image, as bytes.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <optional>
-#include <span>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "bindings.hpp"
+#include "facade/parts/bar_bytes.hpp"
+#include "parts/image_loops.hpp"
+#include "parts/part_bytes.hpp"
 #include "ph/parts/image_part.hpp"
 #include "recipes.hpp"
 #include "run.hpp"
@@ -17,28 +19,25 @@
 namespace ph::python {
 namespace {
 
-using PartBytes = std::vector<std::byte>;
-
-py::bytes to_python(const PartBytes& bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-/// As long as Python holds them.
-std::span<const std::byte> view_of(const py::bytes& bytes) {
-  const std::string_view text = bytes;
-  return std::as_bytes(std::span(text));
-}
-
-py::bytes image_part(const CubicalRecipe& recipe, int part, int parts, int min_dim,
-                     std::optional<int> max_dim, bool cells, const RunOptions& options) {
-  return to_python(run(options, false, [&](const RunContext& context) {
-    const ImagePartOptions wanted{recipe.options(), min_dim, max_dim, cells};
-    return ImagePart(recipe.image(context), part, parts, wanted, context).bytes();
-  }));
+/// @param recipe a CubicalRecipe. @return the bytes; the part itself if it has loops, or None.
+py::tuple image_part(const py::object& recipe, int part, int parts, int min_dim,
+                     std::optional<int> max_dim, bool cells, bool loops,
+                     const RunOptions& options) {
+  const auto& cubical = recipe.cast<const CubicalRecipe&>();
+  std::vector<std::byte> bytes;
+  std::shared_ptr<HeldPart> held;
+  run_task(options, false, [&](const SharedContext& context) {
+    const ImagePartOptions wanted{cubical.options(), min_dim, max_dim, cells, loops};
+    ImagePart made(cubical.image(*context), part, parts, wanted, *context);
+    bytes = made.bytes();
+    if (made.has_loops()) held = std::make_shared<HeldPart>(context, std::move(made));
+  });
+  if (held) held->recipe = recipe;
+  return py::make_tuple(to_python(bytes), held);
 }
 
-py::bytes join_parts(const std::vector<py::bytes>& parts, const RunOptions& options) {
-  std::vector<std::span<const std::byte>> views;
-  for (const py::bytes& part : parts) views.push_back(view_of(part));
+py::bytes join_image_parts(const std::vector<py::bytes>& parts, const RunOptions& options) {
+  const auto views = views_of(parts);
   return to_python(run(options, false, [&](const RunContext& context) {
     std::vector<ImagePart> all;
     for (const auto view : views) all.push_back(ImagePart::of_bytes(view, context));
@@ -48,24 +47,44 @@ py::bytes join_parts(const std::vector<py::bytes>& parts, const RunOptions& opti
   }));
 }
 
-Bars part_bars(const py::bytes& bytes, const RunOptions& options) {
+ImagePart whole_of(std::span<const std::byte> bytes, const RunContext& context) {
+  ImagePart part = ImagePart::of_bytes(bytes, context);
+  if (!part.is_whole())
+    throw Error(ErrorKind::bad_data, fmt::format("parts of an image: found {} of {}, expected all",
+                                                 part.last() - part.first() + 1, part.parts()));
+  return part;
+}
+
+/// @param loops the bars of all parts that the joined ones do not have.
+Bars image_part_bars(const py::bytes& bytes, const std::vector<const Bars*>& loops,
+                     std::int64_t field, const RunOptions& options) {
   const auto view = view_of(bytes);
   return run(options, false, [&](const RunContext& context) {
-    const ImagePart part = ImagePart::of_bytes(view, context);
-    if (!part.is_whole())
-      throw Error(ErrorKind::bad_data,
-                  fmt::format("parts of an image: found {} of {}, expected all",
-                              part.last() - part.first() + 1, part.parts()));
+    const ImagePart part = whole_of(view, context);
     Bars bars{part.barcode(context)};
-    bars.facts.engine = Engine(Engine::gradient).name();
-    bars.facts.threshold = part.options().cubical.threshold;
-    bars.facts.max_dim =
-        std::min(part.options().max_dim.value_or(0), static_cast<int>(part.extents().size()) - 1);
+    for (const Bars* some : loops) add_bars(bars.barcode, some->barcode);
+    if (!loops.empty()) bars.barcode.sort(context);
+    bars.facts = facts_of(part);
+    bars.field = field;
     return bars;
   });
 }
 
-py::dict part_facts(const py::bytes& bytes) {
+/// What is told to the loops of each part.
+py::list told_to_loops(const py::bytes& bytes, const RunOptions& options) {
+  const auto view = view_of(bytes);
+  const auto all = run(options, false, [&](const RunContext& context) {
+    const ImagePart part = whole_of(view, context);
+    std::vector<std::vector<std::byte>> told;
+    for (int i = 0; i < part.parts(); ++i) told.push_back(part.told_to_loops(i));
+    return told;
+  });
+  py::list told;
+  for (const auto& some : all) told.append(to_python(some));
+  return told;
+}
+
+py::dict image_part_facts(const py::bytes& bytes) {
   const ImagePart part = ImagePart::of_bytes(view_of(bytes));
   const ImagePartOptions& options = part.options();
   py::dict facts;
@@ -77,17 +96,21 @@ py::dict part_facts(const py::bytes& bytes) {
       options.cubical.construction == CubicalOptions::Construction::vertices ? "vertices" : "cells";
   facts["superlevel"] = options.cubical.superlevel;
   facts["periodic"] = options.cubical.periodic;
+  facts["threshold"] = options.cubical.threshold;
+  facts["has_loops"] = part.has_loops();
   return facts;
 }
 
 }  // namespace
 
-void bind_parts(py::module_& m) {
+void bind_image_parts(py::module_& m) {
   m.def("image_part", &image_part, py::arg("recipe"), py::arg("part"), py::arg("parts"),
-        py::arg("min_dim"), py::arg("max_dim"), py::arg("cells"), py::arg("run"));
-  m.def("join_parts", &join_parts, py::arg("parts"), py::arg("run"));
-  m.def("part_bars", &part_bars, py::arg("part"), py::arg("run"));
-  m.def("part_facts", &part_facts, py::arg("part"));
+        py::arg("min_dim"), py::arg("max_dim"), py::arg("cells"), py::arg("loops"), py::arg("run"));
+  m.def("join_image_parts", &join_image_parts, py::arg("parts"), py::arg("run"));
+  m.def("image_part_bars", &image_part_bars, py::arg("part"), py::arg("loops"), py::arg("field"),
+        py::arg("run"));
+  m.def("told_to_loops", &told_to_loops, py::arg("part"), py::arg("run"));
+  m.def("image_part_facts", &image_part_facts, py::arg("part"));
 }
 
 }  // namespace ph::python
