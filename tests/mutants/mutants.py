@@ -489,6 +489,8 @@ MUTANTS = [
      "next->value < below", "next->value <= below", ["cloud_part_tests"]),
     ("cloud parts: what has to be joined may not be", "libph/src/facade/parts/cloud_part.cpp",
      "|| !forest.claims.empty()", "", ["cloud_part_tests"]),
+    ("cloud parts: some of them are all", "libph/include/ph/parts/cloud_part.hpp",
+     "== static_cast<std::size_t>(parts())", "> 0", ["cloud_part_tests"]),
     ("cloud parts: each block has a size of coordinates of its own",
      "libph/src/metric/blocks/cloud_blocks.cpp",
      "2, limit, context, largest_);", "2, limit, context, 0);", ["cloud_part_tests"]),

@@ -2,6 +2,7 @@
 #include "parts/image_loops.hpp"
 
 #include <algorithm>
+#include <string>
 
 #include "bindings.hpp"
 #include "parts/part_bytes.hpp"
@@ -73,10 +74,14 @@ auto RunningLoops::changed(const RunContext& call, Use&& use) {
   return true;
 }
 
+void RunningLoops::require_sound() const {
+  if (is_broken_) refuse("found that a call has failed, expected to begin with a new part");
+}
+
 void RunningLoops::begin(std::span<const std::byte> told, const RunOptions& options) {
   run(options, false, [&](const RunContext& call) {
     const std::lock_guard lock(mutex_);
-    if (is_broken_) refuse("found that a call has failed, expected to begin with a new part");
+    require_sound();
     if (has_begun_) refuse("found that they have begun, expected to begin once");
     return changed(call, [&] {
       loops_->begin(told);
@@ -87,7 +92,7 @@ void RunningLoops::begin(std::span<const std::byte> told, const RunOptions& opti
 
 void RunningLoops::receive(std::span<const std::byte> message) {
   locked([&] {
-    if (is_broken_) refuse("found that a call has failed, expected to begin with a new part");
+    require_sound();
     return changed(default_context(), [&] { loops_->receive(message); });
   });
 }
@@ -99,7 +104,7 @@ bool RunningLoops::is_idle() {
 void RunningLoops::work(std::size_t most, const RunOptions& options) {
   run(options, false, [&](const RunContext& call) {
     const std::lock_guard lock(mutex_);
-    if (is_broken_) refuse("found that a call has failed, expected to begin with a new part");
+    require_sound();
     if (loops_->is_idle()) return true;
     return changed(call, [&] { loops_->work(most); });
   });
@@ -107,6 +112,7 @@ void RunningLoops::work(std::size_t most, const RunOptions& options) {
 
 std::vector<ImageLoops::Message> RunningLoops::take_messages() {
   return locked([&] {
+    require_sound();
     has_news_ = false;
     return loops_->take_messages();
   });
@@ -115,7 +121,7 @@ std::vector<ImageLoops::Message> RunningLoops::take_messages() {
 Bars RunningLoops::bars(const RunOptions& options) {
   return run(options, false, [&](const RunContext&) {
     const std::lock_guard lock(mutex_);
-    if (is_broken_) refuse("found that a call has failed, expected to begin with a new part");
+    require_sound();
     if (!has_begun_) refuse("found that they have not begun, expected bars when all is done");
     if (!loops_->is_idle()) refuse("found work to do, expected bars when all is done");
     if (has_news_) refuse("found messages that were not taken, expected bars when all is done");

@@ -30,7 +30,7 @@ struct HeldPart {
 };
 
 /// ImageLoops with a budget of their own, which each call may stop. Calls from several threads come
-/// one after another. Once a call has failed the state is lost, and all others fail.
+/// one after another. Once a call has failed the state is lost, and what needs it fails.
 class RunningLoops {
  public:
   /// Takes the voxels. With the GIL, as the destructor.
@@ -50,6 +50,7 @@ class RunningLoops {
   auto locked(Use&& use);
   template <class Use>
   auto changed(const RunContext& call, Use&& use);
+  void require_sound() const;
 
   py::object recipe_;
   SharedContext of_part_;

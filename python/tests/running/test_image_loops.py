@@ -230,8 +230,9 @@ def test_damage_is_seen():
     for some, what in zip(fresh, (told[1], told[0][:-1], b"", told[0] + b"0")):
         with pytest.raises(ph.DataError):
             some.begin(what)
-        with pytest.raises(ph.UsageError, match="a call has failed"):
-            some.work()
+        for call in (some.work, some.take_messages, some.barcode, lambda: some.receive(b"")):
+            with pytest.raises(ph.UsageError, match="a call has failed"):
+                call()
     other = ph.join_parts([ph.image_part(VOLUME[::-1].copy(), i, 3, loops=True, superlevel=True)
                            for i in range(3)])
     with pytest.raises(ph.DataError):
