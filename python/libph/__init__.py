@@ -45,7 +45,7 @@ from ._errors import (Cancelled, DataError, Error, InternalError, MemoryLimitErr
                       MissingInputError, NotBuiltIn, OutputError, Timeout, UsageError)
 from ._estimate import Estimate, estimate
 from ._files import Boundary, Mesh, Simplices, read, read_barcode
-from ._parts import ImagePart, image_part, join_parts
+from ._parts import CloudPart, ImageLoops, ImagePart, cloud_part, image_part, join_parts
 from ._points import Subsample, collapse, distance_to_measure, farthest_points, point_image
 from ._report import Report, report
 from ._requests import PointImage
@@ -60,13 +60,14 @@ from ._vectors._euler import euler_curve
 from ._vectors._kernels import diagram_kernels
 
 __all__ = [
-    "Band", "Bar", "Barcode", "Barycentre", "Boundary", "Cancelled", "Chain", "DataError", "Error",
-    "Estimate", "ImagePart", "InternalError", "Loop", "Matching", "MemoryLimitError", "MergeTree", "Mesh",
-    "MissingInputError", "NotBuiltIn", "Objects", "OutputError", "PermutationTest",
-    "PiecewiseLinear", "PointImage", "Report", "Segment", "Segmentation", "Simplices",
-    "StepFunction", "Subsample", "Surface", "Timeout", "UsageError", "Voxels", "__version__",
+    "Band", "Bar", "Barcode", "Barycentre", "Boundary", "Cancelled", "Chain", "CloudPart",
+    "DataError", "Error", "Estimate", "ImageLoops", "ImagePart", "InternalError", "Loop", "Matching",
+    "MemoryLimitError", "MergeTree", "Mesh", "MissingInputError", "NotBuiltIn", "Objects",
+    "OutputError", "PermutationTest", "PiecewiseLinear", "PointImage", "Report", "Segment",
+    "Segmentation", "Simplices", "StepFunction", "Subsample", "Surface", "Timeout", "UsageError",
+    "Voxels", "__version__",
     "alpha", "alpha_shape", "barycentre",
-    "bottleneck", "bottleneck_matching", "boundary", "collapse", "confidence_band",
+    "bottleneck", "bottleneck_matching", "boundary", "cloud_part", "collapse", "confidence_band",
     "confidence_radius", "cubical", "diagram_distances", "diagram_kernels", "distance_to_measure",
     "estimate", "euler_curve", "farthest_points", "filtered", "gradients", "image_part",
     "join_parts", "limits", "lower_star",

@@ -15,7 +15,9 @@ PYBIND11_MODULE(_core, m) {
   bind_complexes(m);
   bind_alpha(m);
   bind_computations(m);
-  bind_parts(m);
+  bind_image_loops(m);
+  bind_image_parts(m);
+  bind_cloud_parts(m);
   bind_distances(m);
   bind_significance(m);
   bind_vectors(m);

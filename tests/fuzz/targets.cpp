@@ -24,6 +24,7 @@ const std::vector<Target>& targets() {
     list.push_back({"vectorise_arguments", &run_vectorise_arguments});
     list.push_back({"vectorise_fit", &run_vectorise_fit});
     list.push_back({"image_part", &run_image_part});
+    list.push_back({"cloud_part", &run_cloud_part});
     list.push_back({"inputs_part", &run_inputs_part});
     list.push_back({"engines", &run_engines});
 #ifdef PH_FUZZ_ALPHA

@@ -38,8 +38,9 @@ void run_vectorise_arguments(std::string_view bytes);
 void run_distance_groups(std::string_view bytes);
 /// What ph-vectorise --fitted takes; it is written and read again.
 void run_vectorise_fit(std::string_view bytes);
-/// What a part of an image says, or a part of several inputs.
+/// What a part of an image says, of a cloud, or of several inputs.
 void run_image_part(std::string_view bytes);
+void run_cloud_part(std::string_view bytes);
 void run_inputs_part(std::string_view bytes);
 /// Chooses a small filtration; all engines must agree with the oracle, and representatives be some.
 void run_engines(std::string_view bytes);

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""mpi.py PH_BARCODE PH_BARCODE_MPI MPIRUN [KILLS [SEED]]: one image on 1 to 8 ranks of an MPI.
+"""mpi.py PH_BARCODE PH_BARCODE_MPI MPIRUN [KILLS [SEED]]: an image, or points, on 1 to 8 ranks of an
+MPI.
 
 The bytes are those of one process. Ranks that are killed at random times end all others within
 seconds, with a code that is not 0 and no output; the same command with --resume then makes the same
 bytes. What cannot be computed is said, and ends all ranks."""
+import json
 import os
 import pathlib
 import random
@@ -21,8 +23,8 @@ MOST_SECONDS = 5  # from the death of a rank to the end of all
 
 
 class Mpi:
-    def __init__(self, program, mpirun, folder):
-        self.program, self.mpirun, self.folder = program, mpirun, folder
+    def __init__(self, barcode, program, mpirun, folder):
+        self.barcode, self.program, self.mpirun, self.folder = barcode, program, mpirun, folder
         self.more = ["--oversubscribe"] if "openmpi" in mpirun else []
 
     def start(self, ranks, *arguments):
@@ -70,15 +72,90 @@ def check_bytes(mpi, one_process):
     return tried
 
 
+def points(path, count, axes, seed=1):
+    """Clusters of points, some of them twice, one a line."""
+    rng = random.Random(seed)
+    rows = [[rng.choice((0, 0, 5)) + rng.gauss(0, 1) for _ in range(axes)] for _ in range(count)]
+    rows += rows[:count // 10]
+    path.write_text("".join(",".join(map(repr, row)) + "\n" for row in rows))
+
+
+H0 = ["--complex", "rips", "--max-dim", "0"]
+
+
+def check_clouds(mpi, one_process):
+    tried = 0
+    for count, axes, options in ((400, 3, []), (300, 2, ["--threshold", "0.4"]),
+                                 (90, 8, ["--min-persistence", "0.5"]), (2, 2, []),
+                                 (200, 3, ["--output-format", "npy"])):
+        points(mpi.folder / "points.csv", count, axes)
+        if "npy" in options:
+            one_process("points.csv", *H0, *options, "-o", "one.npy")
+            for ranks in (1, 3):
+                code, _, err = mpi.run(ranks, "points.csv", *H0, *options, "-o", "ranks.npy", "--quiet")
+                assert (code, err) == (0, ""), (code, err)
+                assert (mpi.folder / "ranks.npy").read_bytes() == (mpi.folder / "one.npy").read_bytes()
+                tried += 1
+            continue
+        expected = one_process("points.csv", *H0, *options)
+        assert expected.count("\n") > 1
+        for ranks in range(1, 5):
+            code, out, err = mpi.run(ranks, "points.csv", *H0, *options, "--quiet")
+            assert (code, err) == (0, ""), (code, err)
+            assert out == expected, f"{ranks} ranks, {count} points: other bytes than one process"
+            tried += 1
+    # JSON has cells, and says of how many ranks it is.
+    code, out, err = mpi.run(3, "points.csv", *H0, "--output-format", "json", "--quiet")
+    assert (code, err) == (0, ""), (code, err)
+    ours, theirs = json.loads(out), json.loads(one_process("points.csv", *H0, "--output-format", "json"))
+    assert ours.pop("input")["description"] == theirs.pop("input")["description"] + ", 3 ranks"
+    differ = [name for name in {**ours, **theirs} if ours.get(name) != theirs.get(name)]
+    assert set(differ) <= {"timings", "peak_memory"}, differ
+    return tried + 1
+
+
+def check_resumed_clouds(mpi, one_process):
+    """A part that is kept is taken; one that is damaged, or of other points, is computed anew."""
+    points(mpi.folder / "points.csv", 300, 3)
+    command = ["points.csv", *H0, "-o", "resumed.csv"]
+    for part in (1, 2, 3):
+        subprocess.run([mpi.barcode, "points.csv", *H0, "--part", f"{part}/3", "--quiet", "-o",
+                        f"resumed.csv.{part}of3.ph"], cwd=mpi.folder, check=True)
+    damaged = mpi.folder / "resumed.csv.2of3.ph"
+    damaged.write_bytes(damaged.read_bytes()[:-1])
+    code, _, err = mpi.run(3, *command, "--resume", "--verbose")
+    assert code == 0, err
+    assert err.count("is there already") == 2 and err.count("computed again") == 1, err
+    assert (mpi.folder / "resumed.csv").read_text() == one_process("points.csv", *H0)
+    assert not list(mpi.folder.glob("resumed.csv.*"))
+
+
 def check_refusals(mpi):
     volume(mpi.folder / "image.npy", (24, 20, 16))
     volume(mpi.folder / "large.npy", (48, 96, 96))
+    points(mpi.folder / "points.csv", 60, 3)
+    points(mpi.folder / "wide.csv", 20, 9)
+    points(mpi.folder / "many.csv", 20_000, 3)
+    (mpi.folder / "far.csv").write_text("0,1\n1,0\n")
+    (mpi.folder / "holes.csv").write_text("1,2\nnan,3\n4,5\n")
     code, out, _ = mpi.run(1, "--help")
     assert code == 0 and out.startswith("mpirun -n RANKS ph-barcode-mpi"), out
     for arguments, word, code in (
             (["image.npy", "--metric", "cosine"], "--metric", 64),
             (["none.npy", "--max-dim", "0"], "none.npy", 66), (["image.npy", "--part", "1/2"], "--part", 64),
             (["image.npy", "--max-dim", "0", "-o", "image.npy"], "is an input", 64),
+            (["points.csv", "--complex", "rips"], "expected --max-dim 0", 64),
+            (["points.csv", "--complex", "rips", "--max-dim", "1"], "expected --max-dim 0", 64),
+            (["points.csv"], "points need --complex rips --max-dim 0", 64),
+            (["points.csv", "--complex", "alpha", "--max-dim", "0"], "or rips with --max-dim 0", 64),
+            (["points.csv", *H0, "--metric", "manhattan"], "expected euclidean", 64),
+            (["points.csv", *H0, "--subsample", "9"], "--subsample", 64),
+            (["points.csv", *H0, "--superlevel"], "--superlevel", 64),
+            (["points.csv", "points.csv", *H0], "expected one image or cloud", 64),
+            (["image.npy", *H0], "not a set of points", 65), (["wide.csv", *H0], "at most 8", 64),
+            (["far.csv", "--format", "distance", *H0], "expected points", 64),
+            (["holes.csv", *H0], "nan", 65), (["points.csv", *H0, "-o", "points.csv"], "is an input", 64),
+            (["many.csv", *H0, "--memory-limit", "1MiB"], "memory", 75),
             (["large.npy", "--max-dim", "0", "--memory-limit", "1MiB"], "memory", 75)):
         found, _, err = mpi.run(3, *arguments)
         assert found == code and word in err, (arguments, found, err)
@@ -138,12 +215,14 @@ def main():
     kills = int(sys.argv[4]) if len(sys.argv) > 4 else 200
     seed = int(sys.argv[5]) if len(sys.argv) > 5 else 1
     with tempfile.TemporaryDirectory() as name:
-        mpi = Mpi(str(pathlib.Path(program).resolve()), mpirun, pathlib.Path(name))
+        mpi = Mpi(*(str(pathlib.Path(path).resolve()) for path in (barcode, program)), mpirun,
+                  pathlib.Path(name))
 
         def one_process(*arguments):
-            return subprocess.run([str(pathlib.Path(barcode).resolve()), *arguments, "--quiet"], cwd=name,
+            return subprocess.run([mpi.barcode, *arguments, "--quiet"], cwd=name,
                                   check=True, capture_output=True, text=True).stdout
-        tried = check_bytes(mpi, one_process)
+        tried = check_bytes(mpi, one_process) + check_clouds(mpi, one_process)
+        check_resumed_clouds(mpi, one_process)
         check_refusals(mpi)
         killed, slowest = check_kills(mpi, one_process, kills, seed)
     print(f"{tried} runs with the bytes of one process; {killed} ranks killed, all others ended within "

@@ -24,24 +24,24 @@ constexpr std::string_view kOfAlpha = "points with --complex alpha";
 constexpr std::string_view kOfInputs = "a computation";
 
 constexpr std::array kScopes{
-    OptionScope{"format", kComputed | kSomeLayers | kCloudPart, kOfInputs},
+    OptionScope{"format", kComputed | kSomeLayers | kSomeBlocks, kOfInputs},
     OptionScope{"values", kComputed, kOfInputs},  // the readers know better
     OptionScope{"allow-empty", kComputed, kOfInputs},
     OptionScope{"symmetrise", kMatrix, kOfMatrices},
     OptionScope{"from-correlation", kMatrix | kTriangle | kSomePairs, kOfDistances},
     OptionScope{"diagonal", kMatrix, kOfMatrices},
-    OptionScope{"nan", kRips | kCubical | kOwn | kAlpha | kSomeLayers | kCloudPart,
+    OptionScope{"nan", kRips | kCubical | kOwn | kAlpha | kSomeLayers | kSomeBlocks,
                 "points, distances and images"},
     OptionScope{"raw-shape", kImage | kSomeLayers, "images"},
     OptionScope{"raw-type", kImage | kSomeLayers, "images"},
     OptionScope{"raw-big-endian", kImage | kSomeLayers, "images"},
     OptionScope{"raw-skip", kImage | kSomeLayers, "images"},
-    OptionScope{"columns", kComputed | kCloudPart, kOfInputs},  // the readers know better
+    OptionScope{"columns", kComputed | kSomeBlocks, kOfInputs},  // the readers know better
     OptionScope{"channel", kComputed | kSomeLayers, kOfInputs},
     OptionScope{"loops", kComputed, kOfInputs},
-    OptionScope{"complex", kComputed | kSomeLayers | kCloudPart, kOfInputs},
-    OptionScope{"threshold", kComputed | kSomeLayers | kCloudPart, kOfInputs},
-    OptionScope{"metric", kPoints | kCloudPart, "Rips complexes of points"},
+    OptionScope{"complex", kComputed | kSomeLayers | kSomeBlocks, kOfInputs},
+    OptionScope{"threshold", kComputed | kSomeLayers | kSomeBlocks, kOfInputs},
+    OptionScope{"metric", kPoints | kSomeBlocks, "Rips complexes of points"},
     OptionScope{"construction", kCubical | kSomeLayers, "images"},
     OptionScope{"superlevel", kCubical | kSomeLayers, "images"},
     OptionScope{"periodic", kCubical | kSomeLayers, "images"},
@@ -60,22 +60,22 @@ constexpr std::array kScopes{
     OptionScope{"period", kAlpha, kOfAlpha},
     OptionScope{"alpha-shape", kAlpha, kOfAlpha},
     OptionScope{"wrap", kAlpha, kOfAlpha},
-    OptionScope{"max-dim", kComputed | kSomeLayers | kCloudPart, kOfInputs},
+    OptionScope{"max-dim", kComputed | kSomeLayers | kSomeBlocks, kOfInputs},
     OptionScope{"min-dim", kComputed | kSomeLayers, kOfInputs},
     OptionScope{"field", kComputed | kRanks, kOfInputs},
     OptionScope{"engine", kComputed, kOfInputs},
     OptionScope{"check", kComputed, kOfInputs},
-    OptionScope{"min-persistence", kComputed | kParts | kRanks, kOfInputs},
+    OptionScope{"min-persistence", kComputed | kParts | kRanks | kCloudRanks, kOfInputs},
     OptionScope{"representatives", kComputed, kOfInputs},
     OptionScope{"significance", kAllPairs | kSomePairs | kAlpha,
                 "Rips and alpha complexes of points and distances"},
     OptionScope{"dry-run", kComputed | kSomeLayers, kOfInputs},
-    OptionScope{"plot", kComputed | kBarcode | kParts | kRanks, "one barcode"},
-    OptionScope{"plot-kind", kComputed | kBarcode | kParts | kRanks, "one barcode"},
-    OptionScope{"dims", kComputed | kBarcode | kParts | kRanks, "one barcode"},
-    OptionScope{"title", kComputed | kBarcode | kParts | kRanks, "one barcode"},
-    OptionScope{"size", kComputed | kBarcode | kParts | kRanks, "one barcode"},
-    OptionScope{"axis", kComputed | kBarcode | kParts | kRanks, "one barcode"},
+    OptionScope{"plot", kComputed | kBarcode | kParts | kRanks | kCloudRanks, "one barcode"},
+    OptionScope{"plot-kind", kComputed | kBarcode | kParts | kRanks | kCloudRanks, "one barcode"},
+    OptionScope{"dims", kComputed | kBarcode | kParts | kRanks | kCloudRanks, "one barcode"},
+    OptionScope{"title", kComputed | kBarcode | kParts | kRanks | kCloudRanks, "one barcode"},
+    OptionScope{"size", kComputed | kBarcode | kParts | kRanks | kCloudRanks, "one barcode"},
+    OptionScope{"axis", kComputed | kBarcode | kParts | kRanks | kCloudRanks, "one barcode"},
 };
 
 }  // namespace
@@ -83,7 +83,7 @@ constexpr std::array kScopes{
 std::span<const OptionScope> option_scopes() { return kScopes; }
 
 std::string_view name_of(Situation situation) {
-  constexpr std::array<std::string_view, 18> kNames{"points",
+  constexpr std::array<std::string_view, 19> kNames{"points",
                                                     "a full distance matrix",
                                                     "a triangle without its diagonal",
                                                     "some distances only",
@@ -100,7 +100,8 @@ std::string_view name_of(Situation situation) {
                                                     "a part of an image (--part)",
                                                     "parts to join (--join)",
                                                     "an image on several ranks",
-                                                    "a part of a cloud (--part)"};
+                                                    "a part of a cloud (--part)",
+                                                    "points on several ranks"};
   return kNames[static_cast<std::size_t>(std::countr_zero(app::Situations{situation}))];
 }
 

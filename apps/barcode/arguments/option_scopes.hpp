@@ -26,7 +26,9 @@ enum Situation : app::Situations {
   kParts = 1 << 15,       ///< parts to join
   kRanks = 1 << 16,       ///< an image on several ranks
   kCloudPart = 1 << 17,   ///< some blocks of a point cloud
+  kCloudRanks = 1 << 18,  ///< a point cloud on several ranks
 };
+constexpr app::Situations kSomeBlocks = kCloudPart | kCloudRanks;
 
 /// All options that do nothing in some of them.
 std::span<const app::OptionScope> option_scopes();

@@ -64,10 +64,10 @@ void check_table_arguments(Arguments& a) {
   };
   const bool is_cubical = a.complex == ComplexKind::cubical;
   if (a.format == Format::points || a.complex == ComplexKind::own || is_triangulated(a.complex) ||
-      is_only_for(kPoints | kCloudPart) || is_only_for(kVoxels))
+      is_only_for(kPoints | kSomeBlocks) || is_only_for(kVoxels))
     meaning = ArrayMeaning::points;
   else if (a.complex == ComplexKind::rips ||
-           (!is_cubical && is_only_for(kPoints | kMatrix | kTriangle | kSomePairs | kCloudPart)))
+           (!is_cubical && is_only_for(kPoints | kMatrix | kTriangle | kSomePairs | kSomeBlocks)))
     meaning = ArrayMeaning::rips;
   else if (is_cubical || is_only_for(kImage | kVoxels | kImagePart | kRanks) ||
            a.wants_image_part())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// ph-barcode-mpi: the barcode of one image on all ranks of MPI.
+// ph-barcode-mpi: the barcode of one image, or of points, on all ranks of MPI.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,16 +22,18 @@ constexpr ph::app::Program kProgram{
 
 constexpr std::string_view kHelp =
     R"(mpirun -n RANKS ph-barcode-mpi [OPTION...] IMAGE -o BARS
+mpirun -n RANKS ph-barcode-mpi --complex rips --max-dim 0 [OPTION...] POINTS
 
 The barcode of one image of two or three axes, computed by all ranks, each of
-which looks at some layers. All ranks have to see the file. The bars are those
-of ph-barcode, to the last byte.
+which looks at some layers; or the components of points of up to eight
+coordinates, of which each rank has some blocks. All ranks have to see the
+file. The bars are those of ph-barcode, to the last byte.
 
-Options are those of ph-barcode for images: --format, --raw-..., --channel,
---nan, --construction, --superlevel, --periodic, --threshold, --max-dim,
---min-dim, --field, --slab-layers; --output, --output-format, --min-persistence,
---plot and how it looks. See ph-barcode --help all. --threads and --memory-limit
-are those of a rank.
+Options are those of ph-barcode. For images: --raw-..., --channel,
+--construction, --superlevel, --periodic, --max-dim, --min-dim, --field,
+--slab-layers. For points: --columns. For both: --format, --nan, --threshold;
+--output, --output-format, --min-persistence, --plot and how it looks. See
+ph-barcode --help all. --threads and --memory-limit are those of a rank.
 
   --resume   keep the part of each rank beside the output until all is done, and
              take those that are there: a run that died goes on. Loops of volumes

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "barcode/parts/part_files.hpp"
+#include "ph/parts/cloud_part.hpp"
 
 namespace ph::barcode {
 
@@ -15,5 +16,12 @@ Outcome run_cloud_part(const std::string& input, const Arguments& arguments, app
 /// files, if they do not belong together or some are missing.
 Outcome join_cloud_parts(const std::vector<PartFile>& files, const Job& job,
                          const Arguments& arguments, app::Session& session);
+
+/// The bars of a cloud that is whole again, with cells if a format shows them.
+Barcode bars_of(CloudPart whole, BarcodeFormat format, const RunContext& context);
+
+/// What the JSON format says of such a cloud.
+BarcodeInfo info_of(const CloudPart& whole, const std::string& description,
+                    const std::string& input);
 
 }  // namespace ph::barcode

@@ -17,7 +17,9 @@ PartInput read_part_input(const std::string& input, bool keeps_cells, const Argu
   const std::string_view why = arguments.part ? "--part" : "several ranks";
   if (arguments.complex != ComplexKind::automatic && arguments.complex != ComplexKind::cubical)
     throw Error(ErrorKind::usage,
-                fmt::format("--complex: found another, expected cubical with {}", why));
+                fmt::format("--complex: found another, expected cubical, or rips with --max-dim 0, "
+                            "with {}",
+                            why));
   const Input opened =
       Input::open(files::path_of(input), &session.context(), Input::Excess::is_expected);
   if (arguments.format == Format::automatic && is_barcode(opened))
@@ -28,8 +30,9 @@ PartInput read_part_input(const std::string& input, bool keeps_cells, const Argu
   if (image == nullptr)
     throw Error(
         ErrorKind::usage,
-        fmt::format("{}: found {}, expected an image (--complex cubical){}", why,
-                    data.read.description, arguments.part ? "; points need --complex rips" : ""));
+        fmt::format("{}: found {}, expected an image (--complex cubical); points need --complex "
+                    "rips --max-dim 0",
+                    why, data.read.description));
   session.explain(fmt::format("read {}: {}", data.name, data.read.description));
   if (arguments.read.allow_empty)
     session.explain("--allow-empty: not needed, the input is not empty");

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Parts that processes send each other or leave in files. A checksum stops every change before
 // anything else looks at it, so the bytes are what a part says, and get one that is right.
+#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "barcode/parts/inputs_part.hpp"
 #include "core/bytes/sealed_part.hpp"
 #include "ph/error.hpp"
+#include "ph/parts/cloud_part.hpp"
 #include "ph/parts/image_part.hpp"
+#include "ph/persistence.hpp"
 #include "targets.hpp"
 #include "violation.hpp"
 
@@ -49,6 +52,28 @@ void run_image_part(std::string_view bytes) {
     require(!is_taken([&] { part.join(std::move(same), context); }), "a part is behind itself");
     require(part.bytes() == again, "a join that was refused has changed a part");
     if (part.is_whole()) part.barcode(context);
+  });
+}
+
+void run_cloud_part(std::string_view bytes) {
+  RunContext context;
+  context.memory.set_limit(std::size_t{16} << 20);
+  is_taken([&] { kind_of_part(as_bytes(bytes)); });
+  const std::vector<std::byte> sealed = sealed_part("cloud", as_bytes(bytes));
+  is_taken([&] {
+    CloudPart part = CloudPart::of_bytes(sealed, context);
+    const std::vector<std::byte> again = part.bytes();
+    require(CloudPart::of_bytes(again, context).bytes() == again,
+            "a part is not read as it was written");
+    require(!is_taken([&] { part.join(CloudPart::of_bytes(again, context), context); }),
+            "a part is there twice");
+    require(part.bytes() == again, "a join that was refused has changed a part");
+    if (!part.is_whole()) return;
+    is_taken([&] {
+      const Barcode bars = part.barcode(context);
+      const Barcode same = persistence(part.rips(context), {.max_dim = 0}, context);
+      require(std::ranges::equal(bars, same), "the forest has other bars than the part");
+    });
   });
 }
 

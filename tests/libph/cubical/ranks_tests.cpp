@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Images on several ranks, which are threads here and talk in messages, against one process; and
-// messages that are lost, come twice, in another order, or changed.
+// Images and clouds on several ranks, which are threads here and talk in messages, against one
+// process; and messages that are lost, come twice, in another order, or changed.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -8,6 +8,7 @@
 #include "facade/parts/bar_bytes.hpp"
 #include "facade/parts/join_ranks.hpp"
 #include "facade/parts/loops_of_ranks.hpp"
+#include "ph/parts/cloud_part.hpp"
 #include "support/conformance.hpp"
 #include "support/for_each_seed.hpp"
 #include "support/image_cases.hpp"
@@ -68,6 +69,25 @@ TEST(Ranks, AgreeWithTheOracle) {
   }
   EXPECT_TRUE(is_enough(bars, std::size_t{2000})) << bars;
   EXPECT_TRUE(is_enough(loops, std::size_t{200})) << loops;
+}
+
+TEST(Ranks, JoinClouds) {
+  std::mt19937 delays(8);
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(seeds(200)); ++seed) {
+    SCOPED_TRACE(seed);
+    Generator random(seed);
+    const Points points = random.points(random.integer(0, 60), random.integer(1, 4), random.coin());
+    ThreadRanks ranks(random.integer(1, 9), &delays);
+    Barcode bars;
+    ranks.run([&](Transport& transport) {
+      Post post(transport);
+      CloudPart own(points, post.rank(), post.size());
+      const auto whole = join_ranks(std::optional(std::move(own)), post, default_context());
+      EXPECT_EQ(whole.has_value(), post.rank() == 0);
+      if (whole) bars = whole->barcode();
+    });
+    EXPECT_TRUE(std::ranges::equal(bars, persistence(Rips(points), {.max_dim = 0})));
+  }
 }
 
 class Mishaps : public testing::TestWithParam<Mishap> {};

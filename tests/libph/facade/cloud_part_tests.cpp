@@ -271,6 +271,8 @@ TEST(CloudPart, RefusesWhatDoesNotBelongTogether) {
   refused(CloudPart(points, 0, 3), "found part 1 twice");
   first.join(CloudPart(points, 2, 3));
   EXPECT_EQ(first.missing(), std::vector<int>{1});
+  EXPECT_EQ(first.present(), (std::vector<int>{0, 2}));
+  EXPECT_EQ(std::pair(first.points(), first.coordinates()), std::pair(Index{50}, Index{2}));
   EXPECT_FALSE(first.is_whole());
 }
 
@@ -281,7 +283,8 @@ TEST(CloudPart, RefusesPartsAndCloudsThatAreNone) {
                            const char* why) {
     expect_error(ErrorKind::usage, why, [&] { CloudPart(of, part, parts, options); });
   };
-  refused(points, 0, 0, {}, "found 0, expected at least 1");
+  refused(points, 0, 0, {}, "found 0, expected 1 to 2^30");
+  refused(points, 0, (1 << 30) + 1, {}, "found 1073741825, expected 1 to 2^30");
   refused(points, 3, 3, {}, "found number 4 of 3");
   refused(points, -1, 3, {}, "found number 0 of 3");
   refused(points, 0, 1, {.threshold = -1}, "threshold -1");

@@ -51,11 +51,13 @@ class CloudPart {
 
   /// Of how many parts it has some.
   int parts() const;
-  /// The parts that are not in it yet, ascending.
+  /// The parts that are in it, ascending, and those that are not yet.
+  const std::vector<int>& present() const;
   std::vector<int> missing() const;
-  bool is_whole() const { return missing().empty(); }
-  /// Of the whole cloud.
+  bool is_whole() const { return present().size() == static_cast<std::size_t>(parts()); }
+  /// Of the whole cloud: how many points, of how many coordinates each.
   Index points() const;
+  Index coordinates() const;
   std::optional<double> threshold() const;
   /// Whether it is part `part` alone of `parts` of a cloud of that many points and axes, with those
   /// options. The coordinates are not looked at.

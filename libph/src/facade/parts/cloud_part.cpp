@@ -38,7 +38,7 @@ void check(PointsView points, int part, int parts, const CloudPartOptions& optio
     refuse(fmt::format("found {} coordinates, expected at most 8", points.cols()));
   if (options.threshold && !(*options.threshold >= 0))
     refuse(fmt::format("found threshold {}, expected a number >= 0", *options.threshold));
-  if (parts < 1) refuse(fmt::format("found {}, expected at least 1", parts));
+  if (parts < 1 || parts > 1 << 30) refuse(fmt::format("found {}, expected 1 to 2^30", parts));
   if (part < 0 || part >= parts) refuse(fmt::format("found number {} of {}", part + 1, parts));
   if (options.blocks < 0 || options.blocks > (1 << 30) / parts)
     refuse(fmt::format("found {} blocks in each of {}, expected 2^30 in all at most",
@@ -94,6 +94,7 @@ CloudPart::~CloudPart() = default;
 int CloudPart::parts() const { return state_->whole.parts; }
 
 Index CloudPart::points() const { return state_->whole.points; }
+Index CloudPart::coordinates() const { return state_->whole.axes; }
 std::optional<double> CloudPart::threshold() const {
   const double limit = state_->whole.limit;
   return limit < kInfinity ? std::optional(limit) : std::nullopt;
@@ -105,6 +106,7 @@ bool CloudPart::is_of(PointsView points, int part, int parts,
   return state_->whole == whole && state_->present == std::vector{part};
 }
 
+const std::vector<int>& CloudPart::present() const { return state_->present; }
 std::vector<int> CloudPart::missing() const {
   std::vector<int> missing;
   auto next = state_->present.begin();

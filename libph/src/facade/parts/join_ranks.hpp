@@ -1,18 +1,48 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <concepts>
+#include <cstddef>
 #include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "facade/parts/post.hpp"
-#include "ph/parts/image_part.hpp"
+#include "ph/run_context.hpp"
 
 namespace ph {
 
+/// What ranks can join: ImagePart, CloudPart.
+template <class P>
+concept JoinablePart = std::movable<P> &&
+    requires(P part, std::span<const std::byte> bytes, const RunContext& run) {
+  { part.parts() } -> std::same_as<int>;
+  { part.bytes() } -> std::same_as<std::vector<std::byte>>;
+  { P::of_bytes(bytes, run) } -> std::same_as<P>;
+  part.join(std::move(part), run);
+};
+
 /// Joins the parts of all ranks along a binary tree, in log2 steps. Each rank calls it.
-/// @param own part `rank` of the image, or nothing where there are more ranks than parts; those
+/// @param own part `rank` of the whole, or nothing where there are more ranks than parts; those
 ///        have the highest numbers.
 /// @return the whole on rank 0, nothing on the others.
-/// @throws Error as ImagePart::join and Post::receive.
-std::optional<ImagePart> join_ranks(std::optional<ImagePart> own, Post& post,
-                                    const RunContext& context);
+/// @throws Error as the part's join and Post::receive.
+template <JoinablePart Part>
+std::optional<Part> join_ranks(std::optional<Part> own, Post& post, const RunContext& context) {
+  if (!own) return std::nullopt;
+  const int rank = post.rank(), parts = own->parts();
+  // Before a step of that width a rank has the parts from its own on, so many.
+  for (int width = 1; width < parts; width *= 2) {
+    if (rank % (2 * width) == width) {
+      post.send(rank - width, own->bytes());
+      return std::nullopt;
+    }
+    if (rank + width < parts) {
+      const std::vector<std::byte> bytes = post.receive(rank + width);
+      own->join(Part::of_bytes(bytes, context), context);
+    }
+  }
+  return own;
+}
 
 }  // namespace ph

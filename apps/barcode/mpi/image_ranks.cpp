@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "barcode/mpi/image_ranks.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "barcode/memory/forecast_text.hpp"
+#include "barcode/parts/image_parts.hpp"
+#include "barcode/parts/part_input.hpp"
+#include "common/arguments/numbers.hpp"
+#include "core/bytes/byte_reader.hpp"
+#include "core/bytes/byte_writer.hpp"
+#include "facade/parts/bar_bytes.hpp"
+#include "facade/parts/join_ranks.hpp"
+#include "facade/parts/loops_of_ranks.hpp"
+
+namespace ph::barcode {
+namespace {
+
+/// The first layers of all parts if layers are shared out by what is in them: rank 0 looks at a
+/// sample of the image, and tells the others.
+std::vector<Index> shared_out(const PartInput& input, int parts, Post& post,
+                              app::Session& session) {
+  std::vector<Index> layers;
+  if (post.rank() != 0) {
+    const std::vector<std::byte> bytes = post.receive(0);
+    ByteReader from(bytes, "layers of ranks");
+    layers.resize(from.count(sizeof(std::int64_t), "layers"));
+    for (Index& layer : layers) layer = static_cast<Index>(from.get<std::int64_t>("layer"));
+    return layers;
+  }
+  const ImagePartForecast forecast = ImagePart::forecast(input.image, parts, input.options);
+  if (is_unequal(forecast)) {
+    layers = forecast.first_layers;
+    session.explain(
+        fmt::format("ranks begin with layers {}: else one would take {:.1f} times the "
+                    "mean",
+                    fmt::join(layers, ", "), forecast.longest));
+  }
+  ByteWriter to;
+  to.put_list(layers, [&](Index layer) { to.put(std::int64_t{layer}); });
+  const std::vector<std::byte> bytes = to.take();
+  for (int other = 1; other < post.size(); ++other) post.send(other, bytes);
+  return layers;
+}
+
+/// The part of this rank: computed, or with --resume taken from its file. Else with --resume it is
+/// written there. Loops of volumes need voxels, which no file of a part has.
+ImagePart own_part(const PartInput& input, int rank, int parts, const std::string& kept,
+                   const Arguments& arguments, app::Session& session) {
+  if (arguments.resumes) {
+    auto there = kept_image_part(kept, arguments.inputs.front(), input, rank, parts, session);
+    if (there && !there->has_loops()) {
+      session.explain(fmt::format("rank {}: {} is there already", rank, kept));
+      return std::move(*there);
+    }
+  }
+  ImagePart part(input.image, rank, parts, input.options, session.context());
+  if (arguments.resumes && part.has_loops()) {
+    session.note("--resume does nothing for loops of volumes: they are computed anew");
+  } else if (arguments.resumes) {
+    app::Output output(kept);
+    write_part_file(output, part.bytes());
+  }
+  return part;
+}
+
+}  // namespace
+
+RankResult image_of_ranks(const Job& job, const Arguments& arguments, Transport& transport,
+                          app::Session& session) {
+  const RunContext& context = session.context();
+  const int rank = transport.rank(), size = transport.size();
+  PartInput input =
+      read_part_input(job.input, job.format == BarcodeFormat::json, arguments, session);
+  input.options.loops = true;
+  const int parts = std::min(size, ImagePart::most_parts(input.image, input.options.cubical));
+  if (parts < size)
+    session.note(fmt::format("{} have nothing to do: the image has {}",
+                             app::count_of(static_cast<std::size_t>(size - parts), "rank"),
+                             app::count_of(static_cast<std::size_t>(parts), "layer")));
+  RankResult result;
+  if (arguments.dry_run) {
+    if (rank == 0) foresee(input, parts, true);
+    return result;
+  }
+  Post post(transport);
+  input.options.first_layers = shared_out(input, parts, post, session);
+  std::optional<ImagePart> own;
+  if (rank < parts) {
+    result.kept = kept_path(arguments, rank, parts);
+    own.emplace(own_part(input, rank, parts, result.kept, arguments, session));
+  }
+  const bool has_loops = own && own->has_loops();
+  std::optional<ImageLoops> loops;  // they take voxels from the part before it goes away
+  if (has_loops) loops.emplace(*own, arguments.options.field, context);
+
+  const std::optional<ImagePart> whole = join_ranks(std::move(own), post, context);
+  Barcode found(CellKind::grid);
+  if (has_loops)
+    found = loops_of_ranks(std::move(loops), parts, whole ? &*whole : nullptr, post, context);
+  explain_costs(post, session);
+  if (!whole) return result;
+  const std::string description = fmt::format(
+      "{}, {}", input.description, app::count_of(static_cast<std::size_t>(parts), "rank"));
+  result.bars.emplace(RankBars{whole->barcode(context),
+                               info_of(*whole, description, job.input, arguments.options.field)});
+  add_bars(result.bars->bars, found);
+  result.bars->bars.sort(context);
+  return result;
+}
+
+}  // namespace ph::barcode

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#include "barcode/mpi/rank_result.hpp"
+
+#include <fmt/format.h>
+
+#include "common/arguments/numbers.hpp"
+
+namespace ph::barcode {
+
+std::string kept_path(const Arguments& arguments, int rank, int parts) {
+  return fmt::format("{}.{}of{}.ph", arguments.output, rank + 1, parts);
+}
+
+void explain_costs(const Post& post, app::Session& session) {
+  session.explain(fmt::format("memory {}, sent {}",
+                              app::format_size(static_cast<double>(session.memory_taken())),
+                              app::format_size(static_cast<double>(post.bytes_sent()))));
+}
+
+}  // namespace ph::barcode

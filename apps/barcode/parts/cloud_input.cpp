@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "barcode/parts/cloud_input.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+#include <utility>
+
+#include "barcode/parts/part_files.hpp"
+#include "core/system/files.hpp"
+
+namespace ph::barcode {
+
+CloudInput read_cloud_input(const std::string& input, const Arguments& arguments,
+                            app::Session& session) {
+  const std::string_view why = arguments.part ? "--part" : "several ranks";
+  if (arguments.options.max_dim != 0)
+    throw Error(ErrorKind::usage,
+                fmt::format("{} with --complex rips: there are components alone, expected "
+                            "--max-dim 0",
+                            why));
+  if (arguments.rips.distance != PointDistance::euclidean)
+    throw Error(ErrorKind::usage,
+                fmt::format("--metric: found another one, expected euclidean with {}", why));
+  NamedData data = read_input(Input::open(files::path_of(input), &session.context()), arguments,
+                              session.context());
+  const std::string& description = data.read.description;
+  const std::optional<PointsView> points = points_of(data.read);
+  if (!points)
+    throw Error(ErrorKind::usage, fmt::format("{}: found {}, expected points", why, description));
+  session.explain(fmt::format("read {}: {}", data.name, description));
+  for (const std::string& note : data.read.notes)
+    session.note(fmt::format("{}: {}", data.name, note));
+  CloudInput cloud{std::move(data), {}, {.threshold = arguments.threshold}};
+  cloud.points = *points_of(cloud.data.read);
+  return cloud;
+}
+
+std::optional<CloudPart> kept_cloud_part(const std::string& path, const std::string& input,
+                                         const CloudInput& cloud, int part, int parts,
+                                         app::Session& session) {
+  return kept_part(
+      path, std::span(&input, 1), session,
+      [&](std::span<const std::byte> bytes) {
+        return CloudPart::of_bytes(bytes, session.context());
+      },
+      [&](const CloudPart& kept) {
+        return kept.is_of(cloud.points, part, parts, cloud.options) ? "" : "is another part";
+      });
+}
+
+}  // namespace ph::barcode

@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: MIT
+"""Parts of the barcode of an image."""
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+from .. import _core, _options, _run
+from .._barcodes import Barcode
+from .._errors import DataError, UsageError
+from .._requests import cubical_request
+from ._part import Part, checked_numbers
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from .._run import RunOptions
+
+
+class ImagePart(Part):
+    """What is known of an image's barcode from some of its layers; see `image_part`.
+
+    It can be pickled, and sent to another process. Two are equal if they are the same bytes.
+
+    Attributes
+    ----------
+    first, last : int
+        Which parts it covers, from 0 on.
+    parts : int
+        How many there are in all.
+    shape : tuple of int
+        Of the whole image.
+    has_loops : bool
+        Whether `ImageLoops` have bars that are wanted.
+    """
+
+    def __init__(self, data: bytes) -> None:
+        facts = _core.image_part_facts(data)
+        super().__init__(data)
+        self._facts = facts
+        self._held: _core.HeldPart | None = None  # until its loops take it
+        self.first: int = facts["first"]
+        self.last: int = facts["last"]
+        self.parts: int = facts["parts"]
+        self._present = range(self.first, self.last + 1)
+        self.shape: tuple[int, ...] = facts["shape"]
+        self.has_loops: bool = facts["has_loops"]
+
+    def told_to_loops(self, **run: Unpack[RunOptions]) -> list[bytes]:
+        """What the joins have found out for the loops of each part: what they begin with.
+
+        Raises
+        ------
+        DataError
+            If parts are missing.
+        UsageError
+            If it has no loops.
+        """
+        _run.check_names("told_to_loops", run)
+        if not self.has_loops:
+            raise UsageError("told_to_loops: found a part without loops, expected one of a volume "
+                             "that was computed with loops=True")
+        return _run.run(_core.told_to_loops, self._bytes, options=dict(run))
+
+    def barcode(self, *, loops: Iterable[Barcode] | None = None,
+                **run: Unpack[RunOptions]) -> Barcode:
+        """The barcode of the image, the same as `cubical` gives.
+
+        Parameters
+        ----------
+        loops : iterable of Barcode, optional
+            What `ImageLoops.barcode` gives of each part, in any order, if the part has loops.
+        **run
+            `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
+
+        Raises
+        ------
+        DataError
+            If parts are missing, or loops of parts, or messages between them.
+        """
+        _run.check_names("barcode", run, self.barcode)
+        meta, given = self._meta(), [] if loops is None else list(loops)
+        self._check_loops(given)
+        field = given[0].meta["field"] if given else 2
+        bars = _run.run(_core.image_part_bars, self._bytes, [bars._bars for bars in given], field,
+                        options=dict(run))
+        return Barcode._of(bars, {**meta, "field": field})
+
+    def _meta(self) -> dict[str, Any]:
+        facts = self._facts
+        return {"complex": "cubical", "shape": self.shape, "construction": facts["construction"],
+                "superlevel": facts["superlevel"],
+                "periodic": tuple(k for k, closes in enumerate(facts["periodic"]) if closes)}
+
+    def _check_loops(self, loops: list[Barcode]) -> None:
+        """That they are of this image, one of each part, and that no message was lost."""
+        for bars in loops:
+            if not isinstance(bars, Barcode) or "messages_sent" not in bars.meta:
+                raise UsageError(f"loops: found {type(bars).__name__}, expected what "
+                                 "ImageLoops.barcode gives")
+        if not self.has_loops:
+            if loops:
+                raise UsageError("loops: found some, of an image that has none")
+            return
+        found = sorted(bars.meta["part"] for bars in loops)
+        if found != list(range(self.parts)):
+            raise DataError(f"loops: found those of {len(set(found))} of {self.parts} parts in "
+                            f"{len(found)} barcodes, expected one of each part")
+        expected = {**self._meta(), "parts": self.parts, "field": loops[0].meta["field"],
+                    "threshold": self._facts["threshold"]}
+        for bars in loops:
+            for name, value in expected.items():
+                if bars.meta.get(name) != value:
+                    raise DataError(f"loops: found those of another image, field or option: {name} "
+                                    f"is {bars.meta.get(name)!r}, expected {value!r}")
+        sent, received = (sum(bars.meta[name] for bars in loops)
+                          for name in ("messages_sent", "messages_received"))
+        if sent != received:
+            raise DataError(f"loops: found {received} messages received, expected the {sent} that "
+                            "were sent")
+
+    def __repr__(self) -> str:
+        return f"ImagePart({self._words()}, shape={self.shape}, {len(self._bytes)} bytes)"
+
+
+def image_part(image: Any, part: int, parts: int, *, construction: str = "vertices",
+               superlevel: bool = False, periodic: Any = (), threshold: float | None = None,
+               max_dim: int | None = None, min_dim: int = 0, cells: bool = True,
+               loops: bool = False, nan: str = "error", slab_layers: int | None = None,
+               **run: Unpack[RunOptions]) -> ImagePart:
+    """Computes one of several parts of an image's barcode: some layers of its first axis.
+
+    Only the voxels of these layers, and of one on either side, are looked at. So the image may be a
+    memory map, ``numpy.load(path, mmap_mode="r")``, that no machine could hold.
+
+    Parameters
+    ----------
+    image : array_like
+        As of `cubical`, of 2 or 3 axes.
+    part : int
+        Which one, from 0 on.
+    parts : int
+        How many there are: at most one a layer.
+    construction, superlevel, periodic, threshold, nan, slab_layers
+        As of `cubical`. All parts need the same.
+    max_dim, min_dim : int, optional
+        As of `cubical`. Volumes have ``max_dim=0``, or, if no axis closes up, ``min_dim=2``, unless
+        `loops` is true: loops need all layers at once.
+    cells : bool
+        Whether bars know the cells of their birth and death.
+    loops : bool
+        Whether `ImageLoops` will find bars of a volume that need all layers at once. The part holds
+        the voxels until they take it.
+    **run
+        `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`.
+
+    Returns
+    -------
+    ImagePart
+
+    Examples
+    --------
+    >>> image = np.random.default_rng(0).random((8, 9))
+    >>> parts = [ph.image_part(image, i, 3) for i in range(3)]
+    >>> ph.join_parts(parts).barcode() == ph.cubical(image)
+    True
+    """
+    options = {"image": image, "construction": construction, "superlevel": superlevel,
+               "periodic": periodic, "threshold": threshold, "max_dim": max_dim,
+               "min_dim": min_dim, "cells": cells, "nan": nan, "slab_layers": slab_layers,
+               "field": 2, "engine": "auto", "representatives": None, "loops": None,
+               "min_persistence": 0.0, "run": run}
+    _run.check_names("image_part", run, image_part)
+    request = cubical_request(options)
+    number, count = checked_numbers(part, parts)
+    highest = None if max_dim is None else _options.whole("max_dim", max_dim, 0)
+    lowest = _options.whole("min_dim", min_dim, 0)
+    data, held = _run.run(_core.image_part, request.recipe, number, count, lowest, highest,
+                          _options.flag("cells", cells), _options.flag("loops", loops),
+                          options=request.options, slab_layers=request.slab_layers)
+    made = ImagePart(data)
+    made._held = held
+    return made

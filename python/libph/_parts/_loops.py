@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: MIT
+"""Loops of volumes, which parts find together, in messages."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from .. import _core, _options, _run
+from .._barcodes import Barcode
+from .._errors import UsageError
+from ._image import ImagePart
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from .._run import RunOptions
+
+
+def _as_bytes(name: str, data: Any) -> bytes:
+    if not isinstance(data, (bytes, bytearray, memoryview)):
+        raise UsageError(f"{name}: found {type(data).__name__}, expected bytes")
+    return bytes(data)
+
+
+class ImageLoops:
+    """The bars of a volume that need all layers at once, as far as they belong to one part: loops.
+
+    The parts work side by side, in any processes on any machines, and send each other messages
+    until nothing is on its way. Who works when, and in which order messages arrive, is all the
+    same. It stays in its process. Once a call has failed, or was stopped, nothing can be made of
+    it; a new part can.
+
+    Parameters
+    ----------
+    part : ImagePart
+        Right from ``image_part(…, loops=True)``, in the same process. It lends its voxels, once.
+        The image must not change until all is done.
+    field : int
+        Coefficients are in Z/p for this prime p. All parts need the same.
+    **run
+        `threads`, `memory_limit`, `progress`, `timeout`, `stop`; see `libph`. The first two are
+        those of all that is done.
+
+    Attributes
+    ----------
+    part, parts : int
+        Which part it is, from 0 on, of how many.
+
+    Raises
+    ------
+    UsageError
+        If the part has no loops, was sent or joined, or has lent its voxels already.
+
+    Examples
+    --------
+    Three parts in one process. `letters` is what is on its way, each with the part that it is for:
+
+    >>> volume = np.random.default_rng(0).random((9, 8, 7))
+    >>> parts = [ph.image_part(volume, i, 3, loops=True) for i in range(3)]
+    >>> whole = ph.join_parts(parts)
+    >>> loops = [ph.ImageLoops(part) for part in parts]
+    >>> for i, told in enumerate(whole.told_to_loops()):
+    ...     loops[i].begin(told)
+    >>> while True:
+    ...     letters = []
+    ...     for some in loops:
+    ...         some.work()
+    ...         letters += some.take_messages()
+    ...     if not letters:
+    ...         break
+    ...     for to, message in letters:
+    ...         loops[to].receive(message)
+    >>> bars = whole.barcode(loops=[some.barcode() for some in loops])
+    >>> bars == ph.cubical(volume)
+    True
+    """
+
+    def __init__(self, part: ImagePart, *, field: int = 2, **run: Unpack[RunOptions]) -> None:
+        _run.check_names("ImageLoops", run, ["field"])
+        if not isinstance(part, ImagePart):
+            raise UsageError(f"part: found {type(part).__name__}, expected ImagePart")
+        self._field = _options.whole("field", field, 2, 2**31 - 1)
+        held, part._held = part._held, None
+        if held is None:
+            found = "one that has lent its voxels, or was sent or joined" if part.has_loops else \
+                "one without loops"
+            raise UsageError(f"part: found {found}, expected one right from "
+                             "image_part(…, loops=True) of a volume")
+        try:
+            self._loops = _run.run(_core.RunningLoops, held, self._field, options=dict(run))
+        except UsageError:
+            part._held = held  # it was not looked at
+            raise
+        self._meta = part._meta()
+        self.part: int = self._loops.part
+        self.parts: int = part.parts
+
+    def begin(self, told: bytes, **run: Unpack[RunOptions]) -> None:
+        """Begins, once, with what `ImagePart.told_to_loops` of the whole says of this part.
+
+        Raises
+        ------
+        DataError
+            If that is damaged, or of another part or image.
+        """
+        _run.check_names("begin", run, ["told"])
+        _run.run(self._loops.begin, _as_bytes("told", told), options=dict(run))
+
+    def receive(self, message: bytes) -> None:
+        """Takes in a message for this part, also before it begins. Each must come once.
+
+        Raises
+        ------
+        DataError
+            If it is damaged, is for another part, or has come before.
+        """
+        self._loops.receive(_as_bytes("message", message))
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether there is nothing to do until something is received."""
+        return self._loops.is_idle
+
+    def work(self, most: int | None = None, **run: Unpack[RunOptions]) -> None:
+        """Works until all is done or waits for others; on `most` columns, if that is given."""
+        _run.check_names("work", run, ["most"])
+        count = None if most is None else _options.whole("most", most, 1)
+        _run.run(self._loops.work, count, options=dict(run))
+
+    def take_messages(self) -> list[tuple[int, bytes]]:
+        """What is to be sent since the last call: for which part, and the message."""
+        return self._loops.take_messages()
+
+    @property
+    def messages_sent(self) -> int:
+        """How many messages were taken so far."""
+        return self._loops.traffic[0]
+
+    @property
+    def messages_received(self) -> int:
+        """How many messages were received so far.
+
+        Nothing is on its way once all parts together have received as many as they have sent. If
+        they are idle then, too, and there are no messages to take, all is done.
+        """
+        return self._loops.traffic[1]
+
+    @property
+    def bytes_sent(self) -> int:
+        """The bytes of all messages that were taken so far."""
+        return self._loops.traffic[4]
+
+    def barcode(self, **run: Unpack[RunOptions]) -> Barcode:
+        """The bars of this part, for ``ImagePart.barcode(loops=…)``, once all parts are done.
+
+        Raises
+        ------
+        UsageError
+            If there is work to do, or there are messages to take.
+        """
+        _run.check_names("barcode", run)
+        bars = _run.run(self._loops.bars, options=dict(run))
+        sent, received = self._loops.traffic[:2]
+        return Barcode._of(bars, {**self._meta, "field": self._field, "part": self.part,
+                                  "parts": self.parts, "messages_sent": sent,
+                                  "messages_received": received})
+
+    def __reduce__(self) -> Any:
+        raise TypeError("ImageLoops stay in the process that computed their part")
+
+    def __repr__(self) -> str:
+        return f"ImageLoops({self.part} of {self.parts}, shape={self._meta['shape']})"

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: MIT
+"""What parts of images and of clouds have in common."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, TypeVar
+
+from .. import _options
+from .._errors import UsageError
+
+_MOST_PARTS = 2**30
+_P = TypeVar("_P", bound="Part")
+
+
+class Part:
+    """A part, as its bytes, and what they say of it."""
+
+    parts: int
+    _present: Sequence[int]  # ascending
+
+    def __init__(self, data: bytes) -> None:
+        self._bytes = data
+
+    @classmethod
+    def from_bytes(cls: type[_P], data: bytes) -> _P:
+        """The part that `to_bytes` stored, or ``ph-barcode --part`` in a file.
+
+        Raises
+        ------
+        DataError
+            If it is no such part, or damaged: a part has a checksum.
+        """
+        if not isinstance(data, (bytes, bytearray, memoryview)):
+            raise UsageError(f"data: found {type(data).__name__}, expected bytes")
+        return cls(bytes(data))
+
+    def to_bytes(self) -> bytes:
+        """The part as bytes, the same on every machine: what a file of it has.
+
+        ``ph-barcode --join`` takes such a file.
+        """
+        return self._bytes
+
+    @property
+    def missing(self) -> tuple[int, ...]:
+        """The parts that it does not have, from 0 on, ascending."""
+        present = set(self._present)
+        return tuple(i for i in range(self.parts) if i not in present)
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether it has all parts."""
+        return len(self._present) == self.parts
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Part) or type(other) is not type(self):
+            return NotImplemented
+        return self._bytes == other._bytes
+
+    def __hash__(self) -> int:
+        return hash(self._bytes)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (type(self), (self._bytes,))
+
+    def _words(self) -> str:
+        """Which parts it has, for people: "2 of 8", "1 to 3 of 8", "3 parts of 8"."""
+        first, last, count = self._present[0], self._present[-1], len(self._present)
+        if count == 1:
+            return f"{first} of {self.parts}"
+        if last - first == count - 1:
+            return f"{first} to {last} of {self.parts}"
+        return f"{count} parts of {self.parts}"
+
+
+def checked_numbers(part: Any, parts: Any) -> tuple[int, int]:
+    """Which part of how many."""
+    count = _options.whole("parts", parts, 1, _MOST_PARTS)
+    return _options.whole("part", part, 0, count - 1), count

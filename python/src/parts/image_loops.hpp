@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+// Loops of a part of a volume, which live from call to call.
+#include <pybind11/pybind11.h>
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "ph/parts/image_loops.hpp"
+#include "results/bars.hpp"
+#include "run.hpp"
+
+namespace ph::python {
+
+/// What is known of the bars of a part before they are there.
+Facts facts_of(const ImagePart& part);
+
+/// A part of a volume with the voxels of its array, until its loops take them.
+struct HeldPart {
+  HeldPart(SharedContext of, ImagePart its_part)
+      : context(std::move(of)), part(std::move(its_part)) {}
+
+  py::object recipe;  ///< keeps the array
+  SharedContext context;
+  ImagePart part;
+};
+
+/// ImageLoops with a budget of their own, which each call may stop. Calls from several threads come
+/// one after another. Once a call has failed the state is lost, and what needs it fails.
+class RunningLoops {
+ public:
+  /// Takes the voxels. With the GIL, as the destructor.
+  RunningLoops(HeldPart& held, std::int64_t field, const RunOptions& options);
+
+  int part() const { return loops_->part(); }
+  void begin(std::span<const std::byte> told, const RunOptions& options);
+  void receive(std::span<const std::byte> message);
+  bool is_idle();
+  void work(std::size_t most, const RunOptions& options);
+  std::vector<ImageLoops::Message> take_messages();
+  Bars bars(const RunOptions& options);
+  ImageLoops::Traffic traffic();
+
+ private:
+  template <class Use>
+  auto locked(Use&& use);
+  template <class Use>
+  auto changed(const RunContext& call, Use&& use);
+  void require_sound() const;
+
+  py::object recipe_;
+  SharedContext of_part_;
+  Facts facts_;
+  std::int64_t field_;
+  RunContext context_;
+  std::optional<ImageLoops> loops_;
+
+  std::mutex mutex_;  // for all that follows, and the loops
+  bool has_begun_ = false, is_broken_ = false;
+  bool has_news_ = false;  // there may be messages that nobody took
+};
+
+}  // namespace ph::python
