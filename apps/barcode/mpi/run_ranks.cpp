@@ -10,6 +10,8 @@
 #include "barcode/batch.hpp"
 #include "barcode/mpi/cloud_ranks.hpp"
 #include "barcode/mpi/image_ranks.hpp"
+#include "barcode/output/outputs.hpp"
+#include "barcode/parts/part_files.hpp"
 #include "common/files/file_identity.hpp"
 #include "core/system/files.hpp"
 
