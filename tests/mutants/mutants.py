@@ -469,7 +469,7 @@ MUTANTS = [
     ("loops in parts: no work waits for ghosts", "libph/src/cubical/rounds/part_loops.hpp",
      "reduction_.has_value() && layers_missing_ == 0", "reduction_.has_value()",
      ["image_loops_tests"]),
-    ("parts: cells behind the last voxels have seams", "libph/src/cubical/graphs/top_graph.cpp",
+    ("parts: cells behind the last voxels have seams", "libph/src/cubical/graphs/top_nodes.hpp",
      "if (!is_cell(node)) return youngest;", "", ["image_part_tests"]),
     ("cloud parts: no hop through the sample is long", NEAR_POINTS,
      "return std::max(least, reach_of(std::min(limit_, squared(between))));", "return least;",
