@@ -111,7 +111,7 @@ def image_part(image: Any, part: int, parts: int, *, construction: str = "vertic
     Parameters
     ----------
     image : array_like
-        As of `cubical`, of 2 or 3 axes.
+        As of `cubical`, of 2 axes or more.
     part : int
         Which one, from 0 on.
     parts : int
@@ -120,7 +120,7 @@ def image_part(image: Any, part: int, parts: int, *, construction: str = "vertic
         As of `cubical`. All parts need the same.
     max_dim, min_dim : int, optional
         As of `cubical`. Volumes have ``max_dim=0``, or, if no axis closes up, ``min_dim=2``: loops
-        need all layers at once.
+        need all layers at once. So it is of more axes: the last dimension is their number less 1.
     cells : bool
         Whether bars know the cells of their birth and death.
     **run
