@@ -55,7 +55,7 @@ class Parts(ProgramTest):
     def test_the_same_bytes_as_one_process(self):
         rng = random.Random(1)
         bars = 0
-        for trial in range(25):
+        for trial in range(36):
             dim = rng.choice((2, 2, 3, 4))
             shape = tuple(rng.randint(2, 7 if dim < 4 else 4) for _ in range(dim))
             image = self.image(rng, "image.npy", shape)
