@@ -131,7 +131,6 @@ void get_cells(ByteReader& from, int axes, int dim, std::pmr::vector<GridCell>& 
 
 template <bool backwards>
 SeamForest<backwards> get_forest(ByteReader& from, int top_dim, const RunContext& context) {
-  using namespace cubical;
   const int root_dim = backwards ? top_dim : 0, bridge_dim = backwards ? top_dim - 1 : 1;
   SeamForest<backwards> forest(context);
   constexpr std::size_t bytes_of_root = 24, bytes_of_bridge = 28, bytes_of_node = 4;
