@@ -77,6 +77,25 @@ TEST(ManyAxesPart, AgreesOnLargerImages) {
   EXPECT_GT(bars, 1000U);
 }
 
+TEST(ManyAxesPart, AgreesUpToEightAxes) {
+  std::size_t bars = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(seed);
+    Generator random(seed);
+    const int axes = random.integer(6, 8);
+    std::vector<Index> extents{random.integer(2, 4)};
+    while (static_cast<int>(extents.size()) < axes) extents.push_back(random.integer(1, 2));
+    ImageCase c{random.image(extents, true), {.max_dim = 0}, static_cast<int>(extents[0])};
+    c.options.cubical = random.cubical_options(axes);
+    if (kept_axes(extents, c.options.cubical).count < 2) continue;
+    const auto expected = pairs_of_one_process(c, Engine::gradient);
+    for (int count = 1; count <= c.layers; ++count)
+      ASSERT_EQ(pairs_of(joined(random, parts_of(c.image, count, c.options)).barcode()), expected);
+    bars += expected.size();
+  }
+  EXPECT_GT(bars, 200U);
+}
+
 // What lies between needs all layers: no part says less than was asked for.
 TEST(ManyAxesPart, SaysWhatCanBeHad) {
   const auto refused = [](std::vector<Index> extents, ImagePartOptions options, const char* why) {
